@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# One gtest program per room; `test/support` is shared by all.
+file(GLOB support_sources CONFIGURE_DEPENDS test/support/*.cpp)
+add_library(ergotic_test_support STATIC ${support_sources})
+target_include_directories(ergotic_test_support PUBLIC test src)
+target_compile_definitions(ergotic_test_support PUBLIC
+  ERGOTIC_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ERGOTIC_BINARY_DIR="${CMAKE_BINARY_DIR}")
+target_link_libraries(ergotic_test_support
+  PUBLIC ergotic_audio GTest::gtest GTest::gmock PkgConfig::SNDFILE PRIVATE ergotic_flags)
+
+include(GoogleTest)
+foreach(room rt scene physics tgr station audio golden)
+  file(GLOB room_tests CONFIGURE_DEPENDS test/${room}/*_test.cpp)
+  if(room_tests)
+    add_executable(ergotic_${room}_test ${room_tests})
+    target_link_libraries(ergotic_${room}_test
+      PRIVATE ergotic_test_support GTest::gtest_main ergotic_flags)
+    gtest_discover_tests(ergotic_${room}_test
+      TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${room})
+  endif()
+endforeach()

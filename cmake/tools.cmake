@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Command-line tools: src/tools/<name>.cpp is `rosrun ergotic <name>`; other sources are shared.
+set(ergotic_tools "")
+file(GLOB tool_library_sources CONFIGURE_DEPENDS src/tools/lib/*.cpp)
+if(tool_library_sources)
+  add_library(ergotic_tool_support STATIC ${tool_library_sources})
+  target_include_directories(ergotic_tool_support PUBLIC src)
+  target_link_libraries(ergotic_tool_support
+    PUBLIC ergotic_audio CLI11::CLI11 PRIVATE ergotic_flags)
+endif()
+file(GLOB tool_sources CONFIGURE_DEPENDS src/tools/*.cpp)
+foreach(source ${tool_sources})
+  get_filename_component(tool ${source} NAME_WE)
+  add_executable(${tool} ${source})
+  target_link_libraries(${tool} PRIVATE ergotic_tool_support CLI11::CLI11 ergotic_flags)
+  list(APPEND ergotic_tools ${tool})
+endforeach()

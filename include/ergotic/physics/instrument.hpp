@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ergotic/physics/rates.hpp"
+#include "ergotic/scene/scene.hpp"
+
+namespace ergotic::physics {
+
+enum class Precision { kFloat, kDouble };
+
+/// What one tick takes and gives. All arrays belong to the caller; R frames, frame-major.
+struct TickIo {
+  const double* positions = nullptr;  ///< [ports] slice positions, m, in the model
+  double* forces = nullptr;           ///< [ports] force on each slice, N, overwritten
+  const double* inputs = nullptr;     ///< [R][input channels]
+  double* outputs = nullptr;          ///< [R][output channels], overwritten
+};
+
+/// Every number of an instrument that parameters can change; made outside, switched by pointer.
+class Coefficients {
+ public:
+  virtual ~Coefficients() = default;
+};
+
+/// One entry of the state arena.
+struct StateEntry {
+  std::string name;
+  std::size_t offset = 0;  ///< bytes
+  std::size_t size = 0;    ///< bytes
+};
+
+/// The instrument: flat arrays and one `tick`.
+///
+/// A tick of index n, all sections explicit (CORDIS-ANIMA):
+///   slices take their positions x[n]; each audio frame r = 0...R-1 then
+///   1. inputs arrive, masses of the sections due move (x += d, by the forces of their last step),
+///   2. outputs are taken,
+///   3. links of the sections due give forces from the new positions.
+/// The forces on the slices after the last frame are F[n], a function of x[n]: they wait for the
+/// next exchange with the device. Links across two rates run at the faster one, the slower end is
+/// held and receives the mean force (docs/physics.md, "Two rates").
+class Instrument {
+ public:
+  virtual ~Instrument() = default;
+
+  /// Realtime: yes. Cost: O(modules * R).
+  virtual void tick(const TickIo& io) noexcept = 0;
+
+  /// Coefficients for these parameter values (one per Scene::parameters).
+  /// Realtime: no.
+  /// \throws Exception if a value is outside its range, naming parameter, value and range
+  virtual std::unique_ptr<Coefficients> prepare(const std::vector<double>& values) const = 0;
+
+  /// Takes other coefficients from the next tick on, gives back those used so far.
+  /// Realtime: yes. \pre made by `prepare` of this instrument
+  virtual std::unique_ptr<Coefficients> exchange(std::unique_ptr<Coefficients> next) noexcept = 0;
+
+  /// The whole mutable state is one block of `stateSize()` bytes, described by `stateEntries()`.
+  virtual std::size_t stateSize() const noexcept = 0;
+  virtual std::vector<StateEntry> stateEntries() const = 0;
+  /// Realtime: yes.
+  virtual void saveState(void* to) const noexcept = 0;
+  /// Realtime: yes. \pre saved by an instrument compiled from the same scene, rates and precision
+  virtual void loadState(const void* from) noexcept = 0;
+
+  /// Displacement from rest of every module, m, in the order of Scene::mats.
+  /// Realtime: yes.
+  virtual void readDisplacements(float* to) const noexcept = 0;
+
+  /// True if every displacement is a finite number. Realtime: yes.
+  virtual bool isFinite() const noexcept = 0;
+
+  const scene::Scene& scene() const noexcept { return scene_; }
+  const Rates& rates() const noexcept { return rates_; }
+  Precision precision() const noexcept { return precision_; }
+  int ports() const noexcept { return static_cast<int>(scene_.ports.size()); }
+  int inputChannels() const noexcept { return input_channels_; }
+  int outputChannels() const noexcept { return output_channels_; }
+
+ protected:
+  Instrument(scene::Scene scene, const Rates& rates, Precision precision)
+      : scene_(std::move(scene)),
+        rates_(rates),
+        precision_(precision),
+        input_channels_(scene_.inputChannels()),
+        output_channels_(scene_.outputChannels()) {}
+
+ private:
+  scene::Scene scene_;
+  Rates rates_;
+  Precision precision_;
+  int input_channels_;
+  int output_channels_;
+};
+
+/// Turns a valid scene into arrays. Does not certify.
+/// \throws Exception if the scene needs something that these rates do not allow
+std::unique_ptr<Instrument> compile(const scene::Scene& scene,
+                                    const Rates& rates,
+                                    Precision precision);
+
+}  // namespace ergotic::physics

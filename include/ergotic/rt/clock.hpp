@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+namespace ergotic::rt {
+
+/// CLOCK_MONOTONIC, ns. Realtime: yes (vDSO).
+std::int64_t monotonicNs() noexcept;
+
+/// Sleeps until an absolute CLOCK_MONOTONIC time; the only system call of a waiting tick.
+void sleepUntilNs(std::int64_t deadline_ns) noexcept;
+
+/// One reading of an audio clock: frame `frames` began at `time_ns`.
+struct FrameTime {
+  std::int64_t frames = 0;
+  std::int64_t time_ns = 0;
+};
+
+/// Second-order delay-locked loop from audio frame times to CLOCK_MONOTONIC.
+///
+/// Source: F. Adriaensen, "Using a DLL to filter time", Linux Audio Conference 2005.
+class FrameClock {
+ public:
+  /// \param frame_rate  nominal, Hz
+  /// \param bandwidth   of the loop, Hz
+  FrameClock(double frame_rate, double bandwidth) noexcept;
+
+  /// Forgets the past; the next update sets the phase at once.
+  void reset() noexcept;
+
+  /// Takes a reading. Readings less than one update apart in frames are ignored; a phase error of
+  /// more than `kRelockNs` re-locks at once and counts in `relocks()`. Realtime: yes
+  void update(const FrameTime& reading) noexcept;
+
+  bool isLocked() const noexcept { return locked_; }
+  std::int64_t relocks() const noexcept { return relocks_; }
+  double frameRateHz() const noexcept;  ///< as measured
+
+  /// Filtered time at which a frame begins, extrapolated. Realtime: yes
+  std::int64_t timeOf(std::int64_t frame) const noexcept;
+  /// Frame (with its fraction) at a time, extrapolated. Realtime: yes
+  double frameAt(std::int64_t time_ns) const noexcept;
+
+  static constexpr std::int64_t kRelockNs = 20'000'000;
+
+ private:
+  double nominal_ns_per_frame_;
+  double bandwidth_;
+  double ns_per_frame_;
+  std::int64_t frame_ = 0;  // of the last update
+  double time_ns_ = 0.0;    // filtered time of frame_, relative to origin_ns_
+  std::int64_t origin_ns_ = 0;
+  std::int64_t relocks_ = 0;
+  bool locked_ = false;
+};
+
+}  // namespace ergotic::rt

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "ergotic/physics/instrument.hpp"
+#include "ergotic/tgr/driver.hpp"
+
+/// What crosses between the real-time thread and the others: plain structs only.
+namespace ergotic::station {
+
+/// State of the force output. Force never comes back by itself.
+enum class ForceState : std::uint8_t {
+  kDisconnected,  ///< no driver open
+  kReady,         ///< running, forces held at zero until `engage`
+  kEngaging,      ///< ramping in
+  kPlaying,       ///< forces reach the hand
+  kFault,         ///< latched at zero; see the event with its reason; `engage` clears it
+};
+const char* toString(ForceState state);
+
+/// An instrument ready to play and what its ports need, made outside, owned by whoever holds it.
+struct Performer;
+
+/// From operators to the tick, taken at a tick boundary.
+struct Command {
+  enum class Type : std::uint8_t {
+    kEngage,     ///< ramp force in
+    kStop,       ///< force to zero at once, state Ready
+    kSwap,       ///< take `performer`, hand the old one back
+    kParameter,  ///< take `coefficients`; index and value are for the record
+    kKeyframe,   ///< copy the state for a recording that starts now
+  };
+  Type type = Type::kStop;
+  int index = 0;
+  double value = 0.0;
+  Performer* performer = nullptr;
+  physics::Coefficients* coefficients = nullptr;
+};
+
+/// From the tick to everyone, in order, stamped with the tick at which it took effect.
+struct Event {
+  enum class Type : std::uint8_t {
+    kEngaged,  ///< value: ramp, s
+    kPlaying,  ///< the ramp is over
+    kStopped,
+    kSwapped,       ///< performer: the old one, to be freed by the receiver
+    kParameter,     ///< index, value; coefficients: the old ones, to be freed
+    kKeyframe,      ///< the state is in Station::keyframe() until the next request
+    kFault,         ///< index: FaultReason; value: slice
+    kLateTick,      ///< index: LateCause; value: lateness, s
+    kStall,         ///< index: ticks caught up; value: length, s
+    kUnderrun,      ///< frame: first missing station frame; index: frames; value: JACK frame time
+    kAudioStarted,  ///< frame: station frame; value: JACK frame time at which it sounds
+    kAudioStopped,
+  };
+  Type type = Type::kStopped;
+  std::int64_t tick = 0;
+  std::int64_t frame = 0;
+  std::int64_t index = 0;
+  double value = 0.0;
+  Performer* performer = nullptr;
+  physics::Coefficients* coefficients = nullptr;
+};
+
+enum class LateCause : std::uint8_t { kWakeUp, kDevice, kCompute };
+
+enum class FaultReason : std::uint8_t {
+  kNone,
+  kDeviceLost,
+  kMissingSamples,
+  kBadPosition,  ///< NaN or beyond the range of a slice
+  kModelBlowUp,  ///< NaN or infinite force or displacement
+  kStall,        ///< longer than max_stall
+  kMadeSafe,     ///< by a signal or a watchdog
+};
+const char* toString(FaultReason reason);
+
+/// One tick as recorded: enough, with the scene, to play it again bit for bit.
+struct GestureTick {
+  enum Flag : std::uint32_t {
+    kCatchUp = 1U << 0U,  ///< run after a stall, position interpolated, force muted
+    kHeld = 1U << 1U,     ///< a position was missing or rejected and held
+  };
+  std::int64_t tick = 0;
+  std::uint32_t flags = 0;
+  std::uint32_t slices = 0;
+  std::array<double, tgr::kMaxSlices> position{};  ///< m, validated, as given to the instrument
+  std::array<float, tgr::kMaxSlices> force{};      ///< N, as sent to the device after this tick
+};
+
+/// Counters, latest value.
+struct Counters {
+  std::int64_t ticks = 0;
+  std::int64_t late_wake_up = 0;
+  std::int64_t late_device = 0;
+  std::int64_t late_compute = 0;
+  std::int64_t stalls = 0;
+  std::int64_t catch_up_ticks = 0;
+  std::int64_t underruns = 0;
+  std::int64_t underrun_frames = 0;
+  std::int64_t xruns = 0;
+  std::int64_t dropped_records = 0;  ///< gesture ticks or events that found their ring full
+  double peak_force_n = 0.0;
+  double load_mean = 0.0;  ///< compute time over tick period, smoothed over about a second
+  double load_peak = 0.0;
+};
+
+/// What displays see, 30-60 times a second.
+struct Snapshot {
+  std::int64_t tick = 0;
+  ForceState state = ForceState::kDisconnected;
+  FaultReason fault = FaultReason::kNone;
+  bool audio_running = false;
+  bool clock_locked = false;
+  Counters counters;
+  std::array<double, tgr::kMaxSlices> slice_position{};  ///< m
+  std::array<double, tgr::kMaxSlices> slice_velocity{};  ///< m/s
+  std::array<double, tgr::kMaxSlices> slice_force{};     ///< N, as sent
+  int slices = 0;
+};
+
+}  // namespace ergotic::station

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "ergotic/tgr/driver.hpp"
+
+namespace ergotic::tgr {
+
+struct SafetyConfig {
+  double force_limit_n = 20.0;    ///< per slice, 0...kAbsoluteForceLimitN
+  double ramp_s = 2.0;            ///< from zero to full gain after engage, 0.1...10
+  double position_limit_m = 0.1;  ///< |x| of a slice beyond this is a bad sample, 0.001...1
+  int max_missing = 20;           ///< ticks a missing sample is held before a Fault, 0...1000
+};
+
+enum class SafetyFault : std::uint8_t {
+  kNone,
+  kDeviceLost,
+  kMissingSamples,
+  kBadPosition,
+  kBadForce
+};
+
+/// The last word on every force, between the instrument and the driver.
+///
+/// Step 1 of every tick: `validate` the positions. Step 2: `limit` the forces: detectors, gate and
+/// ramp, force limit. Whatever happens |F| may fall at once; it grows again only after `engage`.
+/// Realtime: yes, all but the constructor. Thread: tick
+class SafetyChain {
+ public:
+  /// \throws Exception if a setting is outside its range
+  SafetyChain(const SafetyConfig& config, int slices, double tick_s);
+
+  /// Opens the gate with a ramp from zero; clears a fault. No effect while already open.
+  void engage() noexcept;
+  /// Closes the gate at once.
+  void disengage() noexcept;
+  /// Closes the gate at once and ramps in again from zero (after a stall). No effect if closed.
+  void restartRamp() noexcept;
+
+  /// Replaces bad or missing positions by the last good ones.
+  /// \param[in,out] positions  [slices] m
+  /// \param flags  ExchangeFlag bits of the driver
+  /// \return slices held, a bit each; a fault if a slice is bad, or missing for too long
+  std::uint64_t validate(double* positions, std::uint32_t flags) noexcept;
+
+  /// \param[in,out] forces  [slices] N; afterwards finite and within the limit, 0 if gate closed
+  void limit(double* forces) noexcept;
+
+  bool isOpen() const noexcept { return open_; }
+  double gain() const noexcept { return gain_; }  ///< 0...1, of the ramp
+  SafetyFault fault() const noexcept { return fault_; }
+  int faultSlice() const noexcept { return fault_slice_; }
+
+ private:
+  void raise(SafetyFault fault, int slice) noexcept;
+
+  SafetyConfig config_;
+  int slices_;
+  double gain_step_;
+  bool open_ = false;
+  double gain_ = 0.0;
+  int missing_ = 0;
+  SafetyFault fault_ = SafetyFault::kNone;
+  int fault_slice_ = -1;
+  std::array<double, kMaxSlices> last_good_{};
+};
+
+}  // namespace ergotic::tgr

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ergotic/tgr/driver.hpp"
+
+namespace ergotic::tgr {
+
+/// Mechanics of one virtual slice and of the hand that holds it.
+///
+///   (m + m_hand) x'' = F + k_hand (target - x) + b_hand (target' - x') - b x' - dry(x')
+///
+/// The defaults are plausible, not measured on a TGR.
+struct VirtualSliceConfig {
+  double mass = 0.3;            ///< kg, moving part
+  double damping = 2.0;         ///< N s/m
+  double dry_friction = 0.1;    ///< N
+  double stop = 0.03;           ///< m, end stops at +-stop (stiff, lossy)
+  double quantum = 1e-6;        ///< m, sensor resolution
+  double noise_rms = 0.5e-6;    ///< m, sensor noise before quantisation
+  double force_limit = 200.0;   ///< N, the actuator saturates
+  double hand_mass = 0.1;       ///< kg
+  double hand_stiffness = 500;  ///< N/m
+  double hand_damping = 5.0;    ///< N s/m
+};
+
+struct VirtualDriverConfig {
+  int slices = 12;
+  VirtualSliceConfig slice;
+  std::string gesture_file;  ///< CSV `time_s,slice,target_m`; empty: targets by setTarget only
+  std::uint64_t seed = 1;    ///< of the sensor noise
+  int extra_delay_ticks = 0;
+  /// Name of a shared-memory segment of a device process (`virtual_tgr`); empty: the device lives
+  /// inside the driver and is stepped by exchange, deterministically.
+  std::string shared_memory;
+};
+
+/// The virtual TGR. Its targets can be moved from one other thread while it runs.
+class VirtualDriver : public Driver {
+ public:
+  /// Where the virtual hand wants slice `slice`, m, from now on (overrides the gesture file for
+  /// that slice). Thread: one, any
+  /// \return false if the slice does not exist, the target is not within +-0.1 m, or the ring of
+  ///         pending targets is full
+  virtual bool setTarget(int slice, double target_m) noexcept = 0;
+};
+
+/// \throws TextError from the gesture file, Exception if a setting is outside its range
+std::unique_ptr<VirtualDriver> makeVirtualDriver(const VirtualDriverConfig& config);
+
+}  // namespace ergotic::tgr

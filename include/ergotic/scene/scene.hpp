@@ -101,9 +101,13 @@ struct Lia {
   Value damping{};          ///< Z, kg/time_unit
   Value nonlinearity{};     ///< Q, kg/(m time_unit^2) or kg/(m^2 time_unit^2)
   Value stiffness_limit{};  ///< K_limit, kg/time_unit^2
-  /// Contact: threshold, m. Pluck: width of the plectrum, m. Bow: width of the friction curve,
+  Value limit_damping{};    ///< extra damping beyond the tipping point, kg/time_unit
+  /// Contacts: threshold, m. Pluck: width of the plectrum, m. Bow: width of the friction curve,
   /// m/time_unit.
   Value width{};
+  /// Clipped cubic laws: |e| at which the slope K_limit takes over, m. `.mdl` files mean
+  /// sqrt(K_limit - K) / Q, YAML sqrt((K_limit - K) / Q), where the force is continuous.
+  double tipping_point = 0.0;
   double rest_length = 0.0;  ///< m, along x; not for contacts
   /// Points of a force law, sorted by the first: (e, force) for a pluck, (v, force) for a bow;
   /// straight lines between, 0 outside.

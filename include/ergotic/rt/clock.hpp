@@ -29,28 +29,31 @@ class FrameClock {
   /// Forgets the past; the next update sets the phase at once.
   void reset() noexcept;
 
-  /// Takes a reading. Readings less than one update apart in frames are ignored; a phase error of
-  /// more than `kRelockNs` re-locks at once and counts in `relocks()`. Realtime: yes
+  /// Takes a reading. One of a frame that is not after the last is ignored; a phase error of more
+  /// than `kRelockNs` (lost cycles, another server) re-locks at once, keeps the measured rate and
+  /// counts in `relocks()`. Realtime: yes
   void update(const FrameTime& reading) noexcept;
 
   bool isLocked() const noexcept { return locked_; }
   std::int64_t relocks() const noexcept { return relocks_; }
   double frameRateHz() const noexcept;  ///< as measured
 
-  /// Filtered time at which a frame begins, extrapolated. Realtime: yes
+  /// Filtered time at which a frame begins, extrapolated. \pre isLocked(). Realtime: yes
   std::int64_t timeOf(std::int64_t frame) const noexcept;
-  /// Frame (with its fraction) at a time, extrapolated. Realtime: yes
+  /// Frame (with its fraction) at a time, extrapolated. \pre isLocked(). Realtime: yes
   double frameAt(std::int64_t time_ns) const noexcept;
 
   static constexpr std::int64_t kRelockNs = 20'000'000;
 
  private:
+  void lock(const FrameTime& reading) noexcept;
+
   double nominal_ns_per_frame_;
   double bandwidth_;
   double ns_per_frame_;
-  std::int64_t frame_ = 0;  // of the last update
-  double time_ns_ = 0.0;    // filtered time of frame_, relative to origin_ns_
-  std::int64_t origin_ns_ = 0;
+  std::int64_t frame_ = 0;    // of the last update
+  std::int64_t time_ns_ = 0;  // filtered time of frame_, whole part
+  double fraction_ns_ = 0.0;  // and the rest, 0...1
   std::int64_t relocks_ = 0;
   bool locked_ = false;
 };

@@ -11,7 +11,8 @@ struct Outcome {
   std::string message;  ///< why not, and what to do about it; empty if ok
 };
 
-/// Locks present and future pages of the process into memory (mlockall).
+/// Locks present and future pages of the process into memory (mlockall). Refuses while the process
+/// has a memory-lock limit, since later allocations would fail at that limit.
 /// Realtime: no. Thread: any
 Outcome lockMemory();
 
@@ -19,7 +20,11 @@ Outcome lockMemory();
 /// Realtime: no
 Outcome makeRealtime(int priority);
 
-/// Touches the next `bytes` of the calling thread's stack so that they are resident.
+/// Bytes of stack that `prefaultStack` makes resident.
+constexpr int kPrefaultBytes = 1 << 18;
+
+/// Touches the next `kPrefaultBytes` of the calling thread's stack so that they are resident.
+/// Realtime: no
 void prefaultStack() noexcept;
 
 /// Denormals become zero in the calling thread while the object lives (FTZ and DAZ on x86,

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/mdl_simulator.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <functional>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+
+#include "support/mdl_elements.hpp"
+
+namespace ergotic::test {
+namespace {
+
+/// Value of an expression: numbers, names, + - * / ( ), sqrt, exp, pow, abs, sin, cos.
+class Expression {
+ public:
+  using Lookup = std::function<double(const std::string&)>;
+  Expression(const std::string& text, const Lookup& lookup) : text_(text), lookup_(lookup) {}
+
+  double value() {
+    const double result = sum();
+    if (peek() != '\0') {
+      throw std::runtime_error("expression '" + text_ + "'");
+    }
+    return result;
+  }
+
+ private:
+  char peek() {
+    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])) != 0) {
+      ++at_;
+    }
+    return at_ < text_.size() ? text_[at_] : '\0';
+  }
+  bool take(char wanted) {
+    if (peek() != wanted) {
+      return false;
+    }
+    ++at_;
+    return true;
+  }
+  double sum() {
+    double result = product();
+    while (true) {
+      if (take('+')) {
+        result += product();
+      } else if (take('-')) {
+        result -= product();
+      } else {
+        return result;
+      }
+    }
+  }
+  double product() {
+    double result = factor();
+    while (true) {
+      if (take('*')) {
+        result *= factor();
+      } else if (take('/')) {
+        result /= factor();
+      } else {
+        return result;
+      }
+    }
+  }
+  double factor() {
+    if (take('-')) {
+      return -factor();
+    }
+    if (take('(')) {
+      const double result = sum();
+      take(')');
+      return result;
+    }
+    const char c = peek();
+    if (std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.') {
+      std::size_t used = 0;
+      const double result = std::stod(text_.substr(at_), &used);
+      at_ += used;
+      return result;
+    }
+    return named();
+  }
+  double named() {
+    std::string name;
+    while (std::isalnum(static_cast<unsigned char>(peek())) != 0 || peek() == '_') {
+      name += text_[at_++];
+    }
+    return take('(') ? function(name) : lookup_(name);
+  }
+  double function(const std::string& name) {
+    const double first = sum();
+    const double second = take(',') ? sum() : 0.0;
+    take(')');
+    if (name == "pow")
+      return std::pow(first, second);
+    if (name == "sqrt")
+      return std::sqrt(first);
+    if (name == "exp")
+      return std::exp(first);
+    if (name == "abs")
+      return std::abs(first);
+    if (name == "sin")
+      return std::sin(first);
+    if (name == "cos")
+      return std::cos(first);
+    throw std::runtime_error("function '" + name + "'");
+  }
+
+  const std::string& text_;
+  const Lookup& lookup_;
+  std::size_t at_ = 0;
+};
+
+/// One line: `@name keyword arguments...`; brackets are taken off their arguments.
+struct Line {
+  std::string name;
+  std::string keyword;
+  std::vector<std::string> arguments;
+};
+
+std::vector<std::string> tokens(const std::string& line) {
+  std::vector<std::string> result;
+  std::size_t i = 0;
+  while (i < line.size() && line[i] != '#') {
+    if (line[i] == '[') {
+      const std::size_t end = line.find(']', i);
+      result.push_back(line.substr(i + 1, end - i - 1));
+      i = end + 1;
+    } else if (std::isspace(static_cast<unsigned char>(line[i])) != 0) {
+      ++i;
+    } else {
+      const std::size_t end = std::min(line.find_first_of(" \t\r[#", i), line.size());
+      result.push_back(line.substr(i, end - i));
+      i = end;
+    }
+  }
+  return result;
+}
+
+std::vector<Line> readLines(const std::string& text) {
+  std::vector<Line> lines;
+  std::istringstream stream(text);
+  for (std::string raw; std::getline(stream, raw);) {
+    const std::vector<std::string> words = tokens(raw);
+    if (words.size() >= 2 && words[0][0] == '@') {
+      lines.push_back({words[0].substr(1), words[1], {words.begin() + 2, words.end()}});
+    }
+  }
+  return lines;
+}
+
+/// `3` is 3, `1 2 3` is 3: only z moves.
+double lastNumber(const std::string& vector) {
+  std::istringstream stream(vector);
+  double value = 0.0;
+  while (stream >> value) {
+  }
+  return value;
+}
+
+/// k of `in<k>` or `out<k>`, from 0.
+std::size_t channelOf(const std::string& name) {
+  return std::stoul(name.substr(name.find_first_of("0123456789"))) - 1;
+}
+
+class Model {
+ public:
+  Model(const std::vector<Line>& lines, const std::map<std::string, double>& params)
+      : lines_(lines), given_(params) {
+    for (const Line& line : lines_) {
+      addMaterial(line);
+    }
+    for (const Line& line : lines_) {
+      addLink(line);
+      addTap(line);
+    }
+  }
+
+  Channels play(const Channels& inputs, std::size_t frames) {
+    Channels outputs;
+    for (const Tap& tap : outputs_) {
+      outputs.resize(std::max(outputs.size(), tap.channel + 1));
+    }
+    for (std::vector<double>& channel : outputs) {
+      channel.assign(frames, 0.0);
+    }
+    for (std::size_t n = 0; n < frames; ++n) {
+      step(inputs, n, outputs);
+    }
+    return outputs;
+  }
+
+ private:
+  struct Tap {
+    std::size_t channel;
+    Material* material;
+    bool force;
+  };
+  struct Drive {
+    std::size_t channel;
+    DrivenPoint* point;
+  };
+
+  static double at(const Channels& inputs, std::size_t channel, std::size_t n) {
+    return channel < inputs.size() && n < inputs[channel].size() ? inputs[channel][n] : 0.0;
+  }
+
+  void step(const Channels& inputs, std::size_t n, Channels& outputs) {
+    for (const Drive& drive : drives_) {
+      drive.point->target = at(inputs, drive.channel, n);
+    }
+    for (const auto& material : materials_) {
+      material.second->move();
+    }
+    for (const auto& link : links_) {
+      link->apply();
+    }
+    for (const Tap& tap : forces_) {
+      tap.material->force += at(inputs, tap.channel, n);
+    }
+    for (const Tap& tap : outputs_) {
+      outputs[tap.channel][n] = tap.force ? tap.material->force : tap.material->x;
+    }
+  }
+
+  double number(const std::string& text) const {
+    const Expression::Lookup lookup = [this](const std::string& name) { return param(name); };
+    return Expression(text, lookup).value();
+  }
+  double param(const std::string& name) const {
+    const auto given = given_.find(name);
+    if (given != given_.end()) {
+      return given->second;
+    }
+    for (const Line& line : lines_) {
+      if (line.keyword == "param" && line.name == name) {
+        return number(line.arguments.at(0));
+      }
+    }
+    throw std::runtime_error("no param '" + name + "'");
+  }
+  Material& material(const std::string& reference) const {
+    return *materials_.at(reference.substr(1));
+  }
+
+  void addMaterial(const Line& line) {
+    const auto& a = line.arguments;
+    const std::size_t n = a.size();
+    std::unique_ptr<Material>& made = materials_[line.name];
+    if (line.keyword == "mass") {
+      made = std::make_unique<Inertia>(number(a.at(0)), 0.0, 0.0, n == 4 ? number(a[1]) : 0.0,
+                                       lastNumber(a.at(n - 2)), lastNumber(a.at(n - 1)));
+    } else if (line.keyword == "osc") {
+      made = std::make_unique<Inertia>(number(a.at(0)), number(a.at(1)), number(a.at(2)),
+                                       n == 6 ? number(a[3]) : 0.0, lastNumber(a.at(n - 2)),
+                                       lastNumber(a.at(n - 1)));
+    } else if (line.keyword == "ground") {
+      made = std::make_unique<FixedPoint>(lastNumber(a.at(0)));
+    } else if (line.keyword == "posInput") {
+      auto point = std::make_unique<DrivenPoint>(lastNumber(a.at(0)));
+      drives_.push_back({channelOf(line.name), point.get()});
+      made = std::move(point);
+    } else {
+      materials_.erase(line.name);
+    }
+  }
+
+  void addLink(const Line& line) {
+    std::vector<double> v;
+    const auto value = [&v](std::size_t i) { return i < v.size() ? v[i] : 0.0; };
+    const std::string& kind = line.keyword;
+    if (line.arguments.size() < 3 || line.arguments[0][0] != '@') {
+      return;
+    }
+    for (std::size_t i = 2; i < line.arguments.size(); ++i) {
+      v.push_back(number(line.arguments[i]));
+    }
+    Material& m1 = material(line.arguments[0]);
+    Material& m2 = material(line.arguments[1]);
+    const auto polynomial = [&](double k, double p, double q, double z) {
+      links_.push_back(std::make_unique<PolynomialLink>(m1, m2, k, p, q, z));
+    };
+    if (kind == "spring") {
+      polynomial(value(0), 0.0, 0.0, 0.0);
+    } else if (kind == "damper") {
+      polynomial(0.0, 0.0, 0.0, value(0));
+    } else if (kind == "springDamper") {
+      polynomial(value(0), 0.0, 0.0, value(1));
+    } else if (kind == "nlSpring2") {
+      polynomial(value(0), value(1), 0.0, value(2));
+    } else if (kind == "nlSpring3") {
+      polynomial(value(0), 0.0, value(1), value(2));
+    } else if (kind == "contact") {
+      links_.push_back(std::make_unique<ContactLink>(m1, m2, value(0), value(1), value(2)));
+    } else if (kind == "nlSpringDamper") {
+      links_.push_back(
+          std::make_unique<ClippedLink>(m1, m2, value(0), value(1), value(2), value(3)));
+    } else if (kind == "nlContact") {
+      links_.push_back(std::make_unique<ClippedContactLink>(m1, m2, value(0), value(1), value(2),
+                                                            value(3), value(4)));
+    } else if (kind == "nlPluck") {
+      links_.push_back(std::make_unique<PluckLink>(m1, m2, value(0), value(1), value(2)));
+    } else if (kind == "nlBow") {
+      links_.push_back(std::make_unique<BowLink>(m1, m2, value(0), value(1), value(2) > 0.0));
+    } else {
+      throw std::runtime_error("keyword '" + kind + "'");
+    }
+  }
+
+  void addTap(const Line& line) {
+    if (line.keyword == "frcInput") {
+      forces_.push_back({channelOf(line.name), &material(line.arguments.at(0)), true});
+    } else if (line.keyword == "posOutput" || line.keyword == "frcOutput") {
+      outputs_.push_back(
+          {channelOf(line.name), &material(line.arguments.at(0)), line.keyword == "frcOutput"});
+    }
+  }
+
+  const std::vector<Line>& lines_;
+  const std::map<std::string, double>& given_;
+  std::map<std::string, std::unique_ptr<Material>> materials_;
+  std::vector<std::unique_ptr<Link>> links_;
+  std::vector<Drive> drives_;
+  std::vector<Tap> forces_;
+  std::vector<Tap> outputs_;
+};
+
+}  // namespace
+
+Channels simulateMdl(const std::string& text,
+                     const std::map<std::string, double>& params,
+                     const Channels& inputs,
+                     std::size_t frames) {
+  const std::vector<Line> lines = readLines(text);
+  return Model(lines, params).play(inputs, frames);
+}
+
+}  // namespace ergotic::test

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace ergotic::test {
+
+constexpr double kMdlSampleRate = 44100.0;  ///< Hz, of every `.mdl` model
+
+/// Samples of some audio channels, [channels][frames].
+using Channels = std::vector<std::vector<double>>;
+
+/// Plays a MIMS `.mdl` text (dialect D2, no macros) in double precision at 44.1 kHz, one object per
+/// element and none of the product's code: what the product's reader, compiler and kernels are
+/// measured against.
+///
+/// Conventions, at sample n:
+///   x[n] = A x[n-1] + B x[n-2] + (F[n-1] - g / 44100) / M, F[-1] = 0,
+///   x[-1] = pos, x[-2] = pos - vel / 44100; a posInput is where its input is, pos before that;
+///   then F[n] = sum of the link forces at x[n] and v[n] = x[n] - x[n-1], and of frcInputs.
+///
+/// \param params  values in place of those of the text's `param` lines
+/// \param inputs  [k-1] is heard by `@in<k>`; missing channels and frames are 0
+/// \return [k-1] is what `@out<k>` gives
+/// \throws std::runtime_error naming the line that is not understood
+Channels simulateMdl(const std::string& text,
+                     const std::map<std::string, double>& params,
+                     const Channels& inputs,
+                     std::size_t frames);
+
+}  // namespace ergotic::test

@@ -1,1 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# The layout of a catkin install space, with or without ROS: rosrun and roslaunch find their way.
+set(ergotic_libraries ergotic_core ergotic_audio)
+foreach(library ergotic_bag ergotic_ros)
+  if(TARGET ${library})
+    list(APPEND ergotic_libraries ${library})
+  endif()
+endforeach()
+set_target_properties(${ergotic_libraries} PROPERTIES INSTALL_RPATH "$ORIGIN")
+install(TARGETS ${ergotic_libraries} LIBRARY DESTINATION lib)
+if(ergotic_tools)
+  set_target_properties(${ergotic_tools} PROPERTIES INSTALL_RPATH "$ORIGIN/..")
+  install(TARGETS ${ergotic_tools} RUNTIME DESTINATION lib/ergotic)
+endif()
+
+install(DIRECTORY include/ergotic DESTINATION include FILES_MATCHING PATTERN "*.hpp")
+install(DIRECTORY launch models rviz urdf DESTINATION share/ergotic)
+install(FILES nodelet_plugins.xml DESTINATION share/ergotic)

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Messages, the nodelet, and what the tools need of rosbag. Works from catkin_make, as a plain CMake
+# project, and from an install space.
+set(CATKIN_ENABLE_TESTING OFF CACHE BOOL "The tests of ergotic run under ctest")
+set(ergotic_ros_packages
+  diagnostic_updater geometry_msgs nodelet pluginlib rosbag_storage roscpp sensor_msgs std_msgs
+  std_srvs visualization_msgs)
+find_package(catkin REQUIRED COMPONENTS ${ergotic_ros_packages} message_generation)
+
+file(GLOB ergotic_messages RELATIVE ${CMAKE_SOURCE_DIR}/msg CONFIGURE_DEPENDS msg/*.msg)
+file(GLOB ergotic_services RELATIVE ${CMAKE_SOURCE_DIR}/srv CONFIGURE_DEPENDS srv/*.srv)
+add_message_files(FILES ${ergotic_messages})
+add_service_files(FILES ${ergotic_services})
+generate_messages(DEPENDENCIES geometry_msgs std_msgs)
+catkin_package(
+  INCLUDE_DIRS include
+  LIBRARIES ergotic_core ergotic_audio
+  CATKIN_DEPENDS geometry_msgs message_runtime nodelet roscpp sensor_msgs std_msgs std_srvs
+                 visualization_msgs)
+
+# These were made before catkin said where its devel space is.
+set_target_properties(ergotic_core ergotic_audio PROPERTIES
+  LIBRARY_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib)
+foreach(tool ${ergotic_tools})
+  set_target_properties(${tool} PROPERTIES
+    RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/ergotic)
+endforeach()
+
+# Headers of others are no business of our warnings. Debian's nodelet does not name the include
+# folders of pluginlib; pluginlib itself does.
+add_library(ergotic_messages INTERFACE)
+add_dependencies(ergotic_messages ergotic_generate_messages_cpp)
+target_include_directories(ergotic_messages SYSTEM INTERFACE
+  ${CATKIN_DEVEL_PREFIX}/include ${catkin_INCLUDE_DIRS} ${pluginlib_INCLUDE_DIRS})
+
+file(GLOB bag_sources CONFIGURE_DEPENDS src/bag/*.cpp)
+if(bag_sources)
+  add_library(ergotic_bag SHARED ${bag_sources})
+  target_include_directories(ergotic_bag PUBLIC src)
+  target_link_libraries(ergotic_bag
+    PUBLIC ergotic_core ergotic_messages ${rosbag_storage_LIBRARIES} ${roscpp_LIBRARIES}
+    PRIVATE ergotic_flags)
+  target_link_libraries(ergotic_tool_support PUBLIC ergotic_bag)
+  target_compile_definitions(ergotic_tool_support PUBLIC ERGOTIC_HAVE_BAG)
+endif()
+
+file(GLOB ros_sources CONFIGURE_DEPENDS src/ros/*.cpp)
+add_library(ergotic_ros SHARED ${ros_sources})
+target_include_directories(ergotic_ros PUBLIC src)
+target_compile_definitions(ergotic_ros PRIVATE ERGOTIC_VERSION="${ergotic_VERSION}")
+target_link_libraries(ergotic_ros
+  PUBLIC ergotic_core ergotic_audio ergotic_messages ${catkin_LIBRARIES}
+  PRIVATE ergotic_flags yaml-cpp)

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/convert.hpp"
+
+#include <sstream>
+
+#include "ros/geometry.hpp"
+#include "ros/model_loader.hpp"
+
+namespace ergotic::node {
+namespace {
+
+using EventType = station::Event::Type;
+
+// Messages carry the numbers of our enumerations.
+template <class T>
+constexpr std::uint8_t number(T value) {
+  return static_cast<std::uint8_t>(value);
+}
+static_assert(ModelStructure::SLICE == number(scene::MatType::kSlice));
+static_assert(ModelStructure::SMOOTH_BOW == number(scene::LiaType::kSmoothBow));
+static_assert(Event::AUDIO_STOPPED == number(EventType::kAudioStopped));
+static_assert(Event::FAULT == number(EventType::kFault));
+static_assert(Status::FAULT == number(station::ForceState::kFault));
+static_assert(Status::FAULT_MADE_SAFE == number(station::FaultReason::kMadeSafe));
+
+const char* toString(station::LateCause cause) {
+  switch (cause) {
+    case station::LateCause::kWakeUp: return "the thread was woken late";
+    case station::LateCause::kDevice: return "the device was slow";
+    case station::LateCause::kCompute: return "the computation took too long";
+  }
+  return "";
+}
+
+std::string textOf(const station::Event& event, const scene::Scene* scene) {
+  std::ostringstream text;
+  const auto milliseconds = [](double seconds) { return seconds * 1e3; };
+  switch (event.type) {
+    case EventType::kEngaged: text << "force ramps in over " << event.value << " s"; break;
+    case EventType::kPlaying: text << "full force"; break;
+    case EventType::kStopped: text << "force is zero"; break;
+    case EventType::kSwapped: text << (event.index != 0 ? "another model plays" : "a model was overtaken by a newer one");
+      break;
+    case EventType::kParameter: {
+      const auto index = static_cast<std::size_t>(event.index);
+      const bool known = scene != nullptr && index < scene->parameters.size();
+      text << (known ? scene->parameters[index].name : "parameter") << " = " << event.value;
+      break;
+    }
+    case EventType::kKeyframe: 
+      text << (event.index != 0 ? "keyframe" : "the state is too large for a keyframe");
+      break;
+    case EventType::kFault:
+      text << "force latched at zero: "
+           << station::toString(static_cast<station::FaultReason>(event.index)) << ", slice "
+           << event.value;
+      break;
+    case EventType::kLateTick:
+      text << "tick " << milliseconds(event.value)
+           << " ms late: " << toString(static_cast<station::LateCause>(event.index));
+      break;
+    case EventType::kStall:
+      text << "stall of " << milliseconds(event.value) << " ms, " << event.index
+           << " ticks caught up";
+      break;
+    case EventType::kTicksLost: text << event.index << " ticks never ran"; break;
+    case EventType::kUnderrun:
+      text << "underrun: " << event.index << " frames of silence from frame " << event.frame;
+      break;
+    case EventType::kAudioSkipped:
+      text << "JACK left out " << event.index << " frames from frame " << event.frame;
+      break;
+    case EventType::kAudioStarted: text << "sound from frame " << event.frame; break;
+    case EventType::kAudioStopped: text << "no sound: the audio server is gone"; break;
+  }
+  return text.str();
+}
+
+void addSections(const scene::Scene& scene, const physics::Rates& rates, ModelStructure& message) {
+  for (const scene::Section& section : scene.sections) {
+    message.section_names.push_back(section.name);
+    message.section_rates.push_back(rates.audio_hz / physics::divisorOf(section, rates));
+    const Eigen::Vector3d axis = axisOf(section);
+    message.section_axes.emplace_back();
+    message.section_axes.back().x = axis.x();
+    message.section_axes.back().y = axis.y();
+    message.section_axes.back().z = axis.z();
+  }
+}
+
+}  // namespace
+
+ModelStructure toModelStructure(const scene::Scene& scene, const physics::Rates& rates) {
+  ModelStructure message;
+  message.header.frame_id = "model";
+  message.name = scene.name;
+  message.scene_hash = textHash(scene.text);
+  addSections(scene, rates, message);
+  for (const scene::Mat& mat : scene.mats) {
+    message.module_names.push_back(mat.name);
+    message.module_types.push_back(number(mat.type));
+    message.module_sections.push_back(static_cast<std::uint32_t>(mat.section));
+    const Eigen::Vector3f rest = restOf(scene, mat).cast<float>();
+    message.rest_positions.insert(message.rest_positions.end(), rest.data(), rest.data() + 3);
+  }
+  for (const scene::Lia& lia : scene.lias) {
+    message.links.push_back(static_cast<std::uint32_t>(lia.a));
+    message.links.push_back(static_cast<std::uint32_t>(lia.b));
+    message.link_types.push_back(number(lia.type));
+  }
+  for (const scene::StringInfo& string : scene.strings) {
+    message.string_names.push_back(string.name);
+    message.string_first.push_back(static_cast<std::uint32_t>(string.first));
+    message.string_count.push_back(static_cast<std::uint32_t>(string.count));
+  }
+  return message;
+}
+
+Event toEvent(const station::Event& event, const scene::Scene* scene) {
+  Event message;
+  message.tick = event.tick;
+  message.type = number(event.type);
+  message.text = textOf(event, scene);
+  message.index = event.index;
+  message.value = event.value;
+  message.frame = event.frame;
+  return message;
+}
+
+sensor_msgs::JointState toJointState(const station::Snapshot& snapshot) {
+  sensor_msgs::JointState message;
+  message.header.frame_id = "tgr_base";
+  for (std::size_t i = 0; i < static_cast<std::size_t>(snapshot.slices); ++i) {
+    message.name.push_back("slice_" + std::to_string(i));
+    message.position.push_back(snapshot.slice_position[i]);
+    message.velocity.push_back(snapshot.slice_velocity[i]);
+    message.effort.push_back(snapshot.slice_force[i]);
+  }
+  return message;
+}
+
+void fillStatus(const station::Snapshot& snapshot, Status& status) {
+  const station::Counters& counters = snapshot.counters;
+  status.state = number(snapshot.state);
+  status.fault = number(snapshot.fault);
+  status.state_text = station::toString(snapshot.state);
+  if (snapshot.fault != station::FaultReason::kNone) {
+    status.state_text += std::string(": ") + station::toString(snapshot.fault);
+  }
+  status.slices = static_cast<std::uint32_t>(snapshot.slices);
+  status.audio_running = snapshot.audio_running;
+  status.clock_locked = snapshot.clock_locked;
+  status.ticks = counters.ticks;
+  status.late_wake_up = counters.late_wake_up;
+  status.late_device = counters.late_device;
+  status.late_compute = counters.late_compute;
+  status.stalls = counters.stalls;
+  status.catch_up_ticks = counters.catch_up_ticks;
+  status.lost_ticks = counters.lost_ticks;
+  status.underruns = counters.underruns;
+  status.underrun_frames = counters.underrun_frames;
+  status.xruns = counters.xruns;
+  status.dropped_records = counters.dropped_records;
+  status.load_mean = counters.load_mean;
+  status.load_peak = counters.load_peak;
+  status.peak_force = counters.peak_force_n;
+}
+
+void fillStatus(const physics::Instrument& instrument, Status& status) {
+  const scene::Scene& scene = instrument.scene();
+  status.model = scene.name;
+  status.audio_rate = instrument.rates().audio_hz;
+  status.gestural_rate = instrument.rates().gesturalHz();
+  status.ratio = static_cast<std::uint32_t>(instrument.rates().ratio);
+  status.precision = instrument.precision() == physics::Precision::kDouble ? "double" : "float";
+  status.modules = static_cast<std::uint32_t>(scene.mats.size());
+  status.links = static_cast<std::uint32_t>(scene.lias.size());
+}
+
+Keyframe toKeyframe(const station::Keyframe& keyframe,
+                    const physics::Instrument& instrument,
+                    std::uint32_t slices) {
+  const scene::Scene& scene = instrument.scene();
+  Keyframe message;
+  message.tick = keyframe.tick;
+  message.scene = scene.text;
+  message.scene_name = scene.file;
+  message.scene_hash = textHash(scene.text);
+  message.audio_rate = instrument.rates().audio_hz;
+  message.ratio = static_cast<std::uint32_t>(instrument.rates().ratio);
+  message.precision = instrument.precision() == physics::Precision::kDouble ? "double" : "float";
+  message.slices = slices;
+  message.state = keyframe.state;
+  for (const scene::Parameter& parameter : scene.parameters) {
+    message.parameter_names.push_back(parameter.name);
+  }
+  message.parameter_values = keyframe.parameters;
+  return message;
+}
+
+}  // namespace ergotic::node

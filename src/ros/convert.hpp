@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ergotic/Event.h>
+#include <ergotic/Keyframe.h>
+#include <ergotic/ModelStructure.h>
+#include <ergotic/Status.h>
+#include <sensor_msgs/JointState.h>
+
+#include "ergotic/physics/instrument.hpp"
+#include "ergotic/station/messages.hpp"
+#include "ergotic/station/station.hpp"
+
+/// From our plain structs to messages. Stamps are the caller's.
+namespace ergotic::node {
+
+ModelStructure toModelStructure(const scene::Scene& scene, const physics::Rates& rates);
+
+/// \param scene  the one that plays, for names of parameters; null: none
+Event toEvent(const station::Event& event, const scene::Scene* scene);
+
+/// Joints `slice_<i>`: m, m/s, N.
+sensor_msgs::JointState toJointState(const station::Snapshot& snapshot);
+
+/// Fills state, fault and counters of `status`.
+void fillStatus(const station::Snapshot& snapshot, Status& status);
+
+/// Fills name, rates and sizes of `status`.
+void fillStatus(const physics::Instrument& instrument, Status& status);
+
+Keyframe toKeyframe(const station::Keyframe& keyframe,
+                    const physics::Instrument& instrument,
+                    std::uint32_t slices);
+
+}  // namespace ergotic::node

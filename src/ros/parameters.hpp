@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include <ros/node_handle.h>
+
+#include "ergotic/physics/instrument.hpp"
+
+/// The room `ros`. Its namespace is `node`, for generated messages live in `ergotic` and mean
+/// `::ros` when they say `ros`.
+namespace ergotic::node {
+
+enum class Realtime {
+  kTry,      ///< warn where it is not permitted
+  kRequire,  ///< refuse to play where it is not permitted
+  kOff,
+};
+
+/// Private parameters of the nodelet, read once; docs/ros.md says the same with more words.
+struct Parameters {
+  std::string model;                  ///< path of a scene, or its YAML text; empty: wait for one
+  std::string driver = "virtual";     ///< of the device
+  std::string gesture;                ///< CSV that the virtual hand follows; empty: none
+  std::string virtual_shared_memory;  ///< segment of a `virtual_tgr`; empty: device inside
+  double audio_rate = 44100.0;        ///< Hz, without a JACK server
+  double gestural_rate = 0.0;         ///< Hz; 0: as the model wishes
+  physics::Precision precision = physics::Precision::kDouble;
+  bool jack = true;                ///< false: no sound card, ticks follow the system clock
+  std::string jack_name = "ergotic";  ///< of the JACK client
+  double jack_wait = 2.0;          ///< s, for a server to appear before the first model plays
+  double ring_depth = 0.0;         ///< s of sound computed ahead; 0: chosen by the audio bridge
+  double force_limit = 20.0;       ///< N, per slice
+  double ramp = 2.0;               ///< s, from zero to full force
+  double max_stall = 0.05;         ///< s, longer stalls are a fault
+  int priority = 60;               ///< SCHED_FIFO priority of the tick
+  Realtime realtime = Realtime::kTry;
+  bool allow_unproven = false;     ///< play what the certificate cannot prove to be stable
+  bool autoengage = false;         ///< engage once the first model plays
+  double display_rate = 30.0;      ///< Hz, of model_state and markers
+  double display_scale = 10.0;     ///< factor on displacements in markers
+};
+
+/// \throws Exception naming parameter, value and allowed range
+Parameters readParameters(const ::ros::NodeHandle& node);
+
+/// The same as YAML, for recordings.
+std::string toYaml(const Parameters& parameters);
+
+}  // namespace ergotic::node

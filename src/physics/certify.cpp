@@ -120,6 +120,7 @@ class Certifier {
  private:
   int divisor(int section) const { return divisorOf(scene_.sections[at(section)], rates_); }
   const scene::Mat& mat(int m) const { return scene_.mats[at(m)]; }
+  int divisorOfMat(int m) const { return divisor(mat(m).section); }
 
   /// Mass of an end as the network sees it; 0: it does not move by forces.
   double massOf(int m) const {
@@ -137,8 +138,6 @@ class Certifier {
     result_.verdict = std::max(result_.verdict, verdict);
     result_.findings.push_back(text);
   }
-
-  int divisorOfMat(int m) const { return divisor(mat(m).section); }
 
   /// Nodes of the network being built, by module.
   using Nodes = std::unordered_map<int, int>;
@@ -298,8 +297,7 @@ class Certifier {
 
   /// A stiffness that switches pumps energy: by little if it is soft for the step.
   void judgeSwitching(const scene::Lia& lia, const Slopes& slopes) {
-    const StepUnits units(scene_, rates_,
-                          std::min(divisor(mat(lia.a).section), divisor(mat(lia.b).section)));
+    const StepUnits units(scene_, rates_, std::min(divisorOfMat(lia.a), divisorOfMat(lia.b)));
     double kappa = 0.0;
     for (const int end : {lia.a, lia.b}) {
       const bool is_free = massOf(end) > 0.0;

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ergotic/physics/instrument.hpp"
+
+namespace ergotic::test {
+
+/// Scenes made in code, in SI units: sections "audio" (0) and "gestural" (1).
+class SceneBuilder {
+ public:
+  static constexpr int kAudio = 0;
+  static constexpr int kGestural = 1;
+
+  SceneBuilder();
+
+  /// Each gives the index of the new module.
+  int mass(double kg, double x = 0.0, double v = 0.0, int section = kAudio);
+  int cell(double kg, double k, double z, double x = 0.0, double v = 0.0, int section = kAudio);
+  int ground(double x = 0.0, int section = kAudio);
+  int slice(int slice_index);
+  int driven(int channel);
+
+  /// Gives the index of the new link.
+  int link(scene::LiaType type, int a, int b, double k, double z = 0.0);
+  int spring(int a, int b, double k, double z = 0.0) {
+    return link(scene::LiaType::kSpringDamper, a, b, k, z);
+  }
+
+  /// Fixed ends and `masses` masses between; gives the index of the first fixed end.
+  int chain(int masses, double kg, double k, double z = 0.0);
+
+  void hear(int mat, int channel = 0, scene::Quantity quantity = scene::Quantity::kPosition);
+
+  scene::Scene scene;
+
+ private:
+  int add(scene::MatType type, double kg, double x, double v, int section);
+};
+
+/// Ticks an instrument and keeps every output frame. `positions` is held, or empty for no port.
+class Player {
+ public:
+  explicit Player(std::unique_ptr<physics::Instrument> instrument);
+  Player(const scene::Scene& scene,
+         const physics::Rates& rates,
+         physics::Precision precision = physics::Precision::kDouble)
+      : Player(physics::compile(scene, rates, precision)) {}
+
+  void tick();
+  void ticks(int count) {
+    for (int n = 0; n < count; ++n) {
+      tick();
+    }
+  }
+
+  std::unique_ptr<physics::Instrument> instrument;
+  std::vector<double> positions;           ///< [ports] for the next ticks
+  std::vector<double> forces;              ///< [ports] of the last tick
+  std::vector<double> inputs;              ///< [R][input channels] for the next ticks
+  std::vector<std::vector<double>> heard;  ///< [output channels][frames]
+
+ private:
+  std::vector<double> outputs_;
+};
+
+}  // namespace ergotic::test

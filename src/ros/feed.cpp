@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/feed.hpp"
+
+#include <utility>
+
+#include "ergotic/rt/build_id.hpp"
+#include "ergotic/rt/clock.hpp"
+
+namespace ergotic::node {
+namespace {
+
+constexpr std::uint32_t kQueue = 100;
+// A second of blocks at the highest rate: a recorder that is late loses nothing.
+constexpr std::uint32_t kGestureQueue = 1000;
+constexpr std::uint32_t kEventQueue = 10000;
+constexpr std::int64_t kStatusPeriodNs = 1'000'000'000;
+constexpr bool kLatched = true;
+
+}  // namespace
+
+Feed::Feed(::ros::NodeHandle& node,
+           const Parameters& parameters,
+           std::function<void()> on_gesture_subscriber)
+    : station_config_(toYaml(parameters)),
+      display_scale_(parameters.display_scale),
+      motion_period_ns_(static_cast<std::int64_t>(1e9 / parameters.display_rate)) {
+  joint_states_ = node.advertise<sensor_msgs::JointState>("joint_states", kQueue);
+  model_structure_ = node.advertise<ModelStructure>("model_structure", 1, kLatched);
+  model_state_ = node.advertise<ModelState>("model_state", kQueue);
+  markers_topic_ = node.advertise<visualization_msgs::MarkerArray>("markers", 2);
+  keyframe_ = node.advertise<Keyframe>("keyframe", kQueue, kLatched);
+  events_ = node.advertise<Event>("events", kEventQueue);
+  status_topic_ = node.advertise<Status>("status", 1, kLatched);
+  gesture_ = node.advertise<GestureBlock>(
+      "gesture",
+      kGestureQueue,
+      [asked = std::move(on_gesture_subscriber)](const ::ros::SingleSubscriberPublisher&) {
+        asked();
+      });
+  status_.driver = parameters.driver;
+  status_.state_text = station::toString(station::ForceState::kDisconnected);
+}
+
+void Feed::showModel(const station::Performer& performer, const std::string& note) {
+  const physics::Instrument& instrument = *performer.instrument;
+  fillStatus(instrument, status_);
+  status_.verdict = physics::toString(performer.certificate.verdict);
+  status_.message = note;
+  sendStatus();
+
+  ModelStructure structure = toModelStructure(instrument.scene(), instrument.rates());
+  structure.header.stamp = ::ros::Time::now();
+  model_structure_.publish(structure);
+
+  markers_topic_.publish(Markers::eraseAll());
+  markers_.emplace(instrument.scene(), display_scale_);
+  if (!blocks_) {  // the rates hold for the whole run
+    blocks_.emplace(instrument.rates().gesturalHz());
+  }
+}
+
+void Feed::showSilence(const std::string& message) {
+  status_.state = Status::DISCONNECTED;
+  status_.state_text = station::toString(station::ForceState::kDisconnected);
+  status_.audio_running = 0U;
+  status_.message = message;
+  markers_.reset();
+  blocks_.reset();
+  sendStatus();
+}
+
+void Feed::show(const station::Event& event, const scene::Scene* scene) {
+  Event message = toEvent(event, scene);
+  message.stamp = ::ros::Time::now();
+  events_.publish(message);
+}
+
+void Feed::show(const station::GestureTick* ticks, std::size_t count) {
+  if (count == 0 || !blocks_) {
+    return;
+  }
+  const ::ros::Time now = ::ros::Time::now();
+  const std::int64_t newest = ticks[count - 1].tick;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (auto block = blocks_->add(ticks[i])) {
+      const auto age = static_cast<double>(newest - block->first_tick);
+      block->header.stamp = now - ::ros::Duration(age / block->tick_rate_hz);
+      gesture_.publish(*block);
+    }
+  }
+}
+
+void Feed::show(const station::Snapshot& snapshot) {
+  sensor_msgs::JointState joints = toJointState(snapshot);
+  joints.header.stamp = ::ros::Time::now();
+  joint_states_.publish(joints);
+
+  const Status before = status_;
+  fillStatus(snapshot, status_);
+  if (before.state != status_.state || before.fault != status_.fault ||
+      before.audio_running != status_.audio_running) {
+    sendStatus();
+  }
+}
+
+void Feed::show(const station::MotionFrame& motion) {
+  const std::int64_t now_ns = rt::monotonicNs();  // ROS time may jump
+  if (now_ns < motion_due_ns_ || !markers_) {
+    return;
+  }
+  motion_due_ns_ = now_ns + motion_period_ns_;
+  const ::ros::Time now = ::ros::Time::now();
+  if (model_state_.getNumSubscribers() > 0) {
+    ModelState message;
+    message.header.stamp = now;
+    message.header.frame_id = "model";
+    message.tick = motion.tick;
+    message.displacement = motion.displacement;
+    model_state_.publish(message);
+  }
+  if (markers_topic_.getNumSubscribers() > 0) {
+    markers_topic_.publish(markers_->draw(motion.displacement, now));
+  }
+}
+
+void Feed::show(const station::Keyframe& keyframe, const physics::Instrument& instrument) {
+  Keyframe message = toKeyframe(keyframe, instrument, status_.slices);
+  message.header.stamp = ::ros::Time::now();
+  message.build = std::string(ERGOTIC_VERSION " ") + rt::buildId();
+  message.station_config = station_config_;
+  keyframe_.publish(message);
+}
+
+void Feed::refresh() {
+  if (rt::monotonicNs() >= status_due_ns_) {
+    sendStatus();
+  }
+}
+
+void Feed::sendStatus() {
+  status_due_ns_ = rt::monotonicNs() + kStatusPeriodNs;
+  status_.header.stamp = ::ros::Time::now();
+  status_topic_.publish(status_);
+}
+
+}  // namespace ergotic::node

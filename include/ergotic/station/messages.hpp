@@ -29,7 +29,8 @@ struct Command {
     kEngage,     ///< ramp force in
     kStop,       ///< force to zero at once, state Ready
     kSwap,       ///< take `performer`, hand the old one back
-    kParameter,  ///< take `coefficients`; index and value are for the record
+    kParameter,  ///< take `coefficients`, prepared by the performer submitted last; index and value
+                 ///< say which parameter got which value, for the record
     kKeyframe,   ///< copy the state for a recording that starts now
   };
   Type type = Type::kStop;
@@ -45,13 +46,17 @@ struct Event {
     kEngaged,  ///< value: ramp, s
     kPlaying,  ///< the ramp is over
     kStopped,
-    kSwapped,       ///< performer: the old one, to be freed by the receiver
-    kParameter,     ///< index, value; coefficients: the old ones, to be freed
-    kKeyframe,      ///< the state is in Station::keyframe() until the next request
-    kFault,         ///< index: FaultReason; value: slice
-    kLateTick,      ///< index: LateCause; value: lateness, s
-    kStall,         ///< index: ticks caught up; value: length, s
-    kUnderrun,      ///< frame: first missing station frame; index: frames; value: JACK frame time
+    kSwapped,    ///< performer: to be freed by the receiver; index: 1 it was replaced at this tick,
+                 ///< 0 it never played, because a newer one was submitted in time
+    kParameter,  ///< index, value; coefficients: the old ones, to be freed
+    kKeyframe,   ///< index: 1 the state is in Station::keyframe() until the next request, 0 it is
+                 ///< larger than the configuration allows
+    kFault,      ///< index: FaultReason; value: slice
+    kLateTick,   ///< index: LateCause; value: lateness, s
+    kStall,      ///< index: ticks caught up; value: length, s
+    kTicksLost,  ///< index: ticks that never ran, beyond max_stall, from `tick` on
+    kUnderrun,   ///< frame: first missing station frame; index: frames; value: JACK frame time
+    kAudioSkipped,  ///< as kUnderrun, but the host itself left these frames out: nothing sounded
     kAudioStarted,  ///< frame: station frame; value: JACK frame time at which it sounds
     kAudioStopped,
   };
@@ -82,6 +87,8 @@ struct GestureTick {
   enum Flag : std::uint32_t {
     kCatchUp = 1U << 0U,  ///< run after a stall, position interpolated, force muted
     kHeld = 1U << 1U,     ///< a position was missing or rejected and held
+    /// Live audio entered the instrument: a replay from positions alone is not exact.
+    kAudioInput = 1U << 2U,
   };
   std::int64_t tick = 0;
   std::uint32_t flags = 0;
@@ -98,6 +105,7 @@ struct Counters {
   std::int64_t late_compute = 0;
   std::int64_t stalls = 0;
   std::int64_t catch_up_ticks = 0;
+  std::int64_t lost_ticks = 0;  ///< beyond max_stall: counted in the tick index, never run
   std::int64_t underruns = 0;
   std::int64_t underrun_frames = 0;
   std::int64_t xruns = 0;

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "ergotic/rt/mailbox.hpp"
+#include "ergotic/rt/realtime.hpp"
 #include "ergotic/rt/ring.hpp"
+#include "ergotic/station/frame_port.hpp"
 #include "ergotic/station/messages.hpp"
 #include "ergotic/station/performer.hpp"
+#include "ergotic/station/swap_fade.hpp"
 #include "ergotic/tgr/driver.hpp"
 #include "ergotic/tgr/safety_chain.hpp"
 
@@ -17,25 +23,14 @@ namespace ergotic::station {
 struct StationConfig {
   physics::Rates rates;
   int output_channels = 24;  ///< audio channels out; a model's higher channels are dropped
-  int input_channels = 12;
+  int input_channels = 12;   ///< audio channels in; a model's higher channels get silence
   tgr::SafetyConfig safety;
-  double max_stall_s = 0.05;               ///< longer ones are a Fault
+  double max_stall_s = 0.05;               ///< longer ones are a Fault, 0.001...1
   double display_hz = 60.0;                ///< how often snapshots and motion are published
   std::size_t record_ring = 1U << 15U;     ///< gesture ticks
-  std::size_t event_ring = 1U << 12U;      ///< events
+  std::size_t event_ring = 1U << 12U;      ///< events, beside those that hand something back
   std::size_t command_ring = 1U << 8U;     ///< commands
   std::size_t keyframe_bytes = 1U << 24U;  ///< largest state that a keyframe can hold
-};
-
-/// Where the audio of a tick goes and comes from. Realtime: yes. Thread: tick
-class FramePort {
- public:
-  virtual ~FramePort() = default;
-  /// \param frames  [nframes][output channels of the station], station frame `first` onwards
-  virtual void push(std::int64_t first, const float* frames, int nframes) noexcept = 0;
-  /// Fills [nframes][input channels of the station]; silence where there is none.
-  /// \return false if all of it is silence
-  virtual bool pull(std::int64_t first, float* frames, int nframes) noexcept = 0;
 };
 
 /// State of an instrument at the start of a recording.
@@ -50,52 +45,155 @@ struct Keyframe {
 ///
 /// Tick n: driver.exchange(F[n-1]) -> x[n]; validate; commands; instrument.tick(x[n]) -> F[n], R
 /// frames; safety chain; records. F[n] goes out with the exchange that reads x[n+1].
+///
+/// Tick n makes the station frames n R ... n R + R - 1, always: ticks that never ran (a stall
+/// beyond max_stall) still count in the tick index, and their frames are never pushed.
 class Station {
  public:
-  /// Opens the driver. Realtime: no.
-  /// \throws DeviceError from the driver, Exception if the performer's rates are not the config's
+  /// Opens the driver. Realtime: no. Thread: setup
+  /// \throws DeviceError from the driver, Exception if a setting is outside its range or the
+  ///         performer does not fit (rates, slices)
   Station(const StationConfig& config,
           std::unique_ptr<tgr::Driver> driver,
           std::unique_ptr<Performer> performer);
-  ~Station();  ///< forces to zero, driver closed
+  /// Forces to zero, driver closed; frees what was submitted and never handed back.
+  /// Realtime: no. \pre no tick is running
+  ~Station();
   Station(const Station&) = delete;
   Station& operator=(const Station&) = delete;
 
-  /// Where audio goes; null: nowhere. \pre no tick is running
+  /// Where audio goes; null: nowhere. \pre no tick is running. Realtime: no. Thread: setup
   void setFramePort(FramePort* port) noexcept { frame_port_ = port; }
 
-  /// How late a tick began and what it was waiting for, told by the tick source.
+  /// How late a tick began, told by the tick source.
   struct Timing {
     std::int64_t late_ns = 0;  ///< after its due time
+    bool freewheel = false;    ///< no clock drives the ticks, so none of them can be late
   };
   /// One tick. Realtime: yes. Thread: tick
-  void cycle(const Timing& timing) noexcept;
+  ERGOTIC_REALTIME void cycle(const Timing& timing) noexcept;
 
-  /// `ticks` ticks at once after a stall: positions interpolated to the new sample, force muted,
-  /// then ramped in again. Beyond max_stall: Fault. Realtime: yes. Thread: tick
-  void catchUp(int ticks, std::int64_t stall_ns) noexcept;
+  /// The `ticks` ticks that are due after a stall: one exchange with zero force, then the ticks
+  /// with positions interpolated to the new sample, force muted, recorded as kCatchUp; the force
+  /// then ramps in again. Beyond max_stall: Fault kStall; the oldest ticks are lost (kTicksLost),
+  /// so that the work is bounded by max_stall's worth of ticks. The model's time stands still over
+  /// lost ticks; the tick index, and with it the station frame and the clock, does not. Realtime:
+  /// yes. Thread: tick
+  ERGOTIC_REALTIME void catchUp(std::int64_t ticks, std::int64_t stall_ns) noexcept;
 
-  /// Compute time of a tick is measured against this. \pre no tick is running
+  /// Force gate closed and zero force sent: the last act of a tick source. A later source must
+  /// engage again. Realtime: yes. Thread: tick
+  ERGOTIC_REALTIME void rest() noexcept;
+
+  /// Index of the tick that runs next. Realtime: yes. Thread: tick
+  std::int64_t nextTick() const noexcept { return tick_; }
+
+  /// Realtime: yes. Thread: any
   const StationConfig& config() const noexcept { return config_; }
+
+  /// Ticks from the one that takes a kSwap while no other swap is under way to the one at which the
+  /// new performer plays. Realtime: yes. Thread: any
+  int swapDelayTicks() const noexcept { return fade_.ticks() + 1; }
 
   // Any thread:
   /// Forces to zero at once, latched (Fault kMadeSafe): for signals and watchdogs.
+  /// Realtime: as the driver's. Thread: any
   void makeSafe() noexcept;
 
   // Operator:
-  /// \return false if the ring is full (nothing is taken)
-  bool submit(const Command& command) noexcept { return commands_.push(command); }
-  bool poll(Event& event) noexcept { return events_.pop(event); }
+  /// Hands a command over. An engage also re-arms the driver. What a command points to belongs to
+  /// the station from here on, and comes back through exactly one event.
+  /// \return false if the ring is full, or too many swaps and parameters wait for `poll`; nothing
+  ///         is taken then
+  /// \throws Exception if a performer does not fit this station (nothing is taken)
+  /// Realtime: no. Thread: operator
+  bool submit(const Command& command);
+  /// \return false if there is no event. Realtime: yes. Thread: operator
+  bool poll(Event& event) noexcept;
+  /// \return number of gesture ticks given out. Realtime: yes. Thread: operator
   std::size_t pollGestures(GestureTick* to, std::size_t count) noexcept {
     return gestures_.pop(to, count);
   }
-  /// Newest snapshot, if there is one not yet seen.
+  /// Newest snapshot, if there is one not yet seen, else null. Realtime: yes. Thread: operator
   const Snapshot* snapshot() noexcept {
     return snapshots_.refresh() ? &snapshots_.latest() : nullptr;
   }
-  /// Valid from an Event::kKeyframe to the next Command::kKeyframe.
+  /// Valid from an Event::kKeyframe to the next Command::kKeyframe. Thread: operator
   const Keyframe& keyframe() const noexcept { return keyframe_; }
+  /// Thread: operator
   tgr::Driver& driver() noexcept { return *driver_; }
+  /// Can this be swapped in? Realtime: no. Thread: any
+  /// \throws Exception saying what does not fit
+  void checkFits(const Performer& performer) const;
+
+ private:
+  using Slices = std::array<double, tgr::kMaxSlices>;
+
+  // One tick, step by step (station.cpp).
+  std::uint32_t accept(Slices& positions, std::uint32_t exchange_flags) noexcept;
+  void runTick(const Slices& positions, std::uint32_t flags) noexcept;
+  bool pullInputs() noexcept;
+  void tickInstrument(const Slices& positions) noexcept;
+  void pushFrames() noexcept;
+  void updateForces(bool muted) noexcept;
+  void record(const Slices& positions, std::uint32_t flags) noexcept;
+  void publish() noexcept;
+  void relayAudioEvents() noexcept;
+  void classify(const Timing& timing, std::int64_t exchange_ns, std::int64_t compute_ns) noexcept;
+  void late(LateCause cause, std::int64_t& counter, std::int64_t ns) noexcept;
+
+  // What operators ask for (commands.cpp).
+  void drainCommands() noexcept;
+  void obey(const Command& command) noexcept;
+  void engage() noexcept;
+  void stop() noexcept;
+  void takeSwap(Performer* next) noexcept;
+  void advanceSwap() noexcept;
+  void takeCoefficients(const Command& command) noexcept;
+  void takeKeyframe() noexcept;
+
+  void fault(FaultReason reason, int slice) noexcept;
+  void blowUp() noexcept;
+  void restartRamp() noexcept;
+  Event event(Event::Type type) const noexcept;
+  void tell(const Event& event) noexcept;
+  void handBack(const Event& event) noexcept;
+
+  // Set-up, constant while ticking.
+  StationConfig config_;
+  double tick_ns_;
+  std::int64_t max_catch_up_;
+  std::int64_t display_ticks_;
+  std::unique_ptr<tgr::Driver> driver_;
+  int slices_;
+  FramePort* frame_port_ = nullptr;
+
+  // The tick's own.
+  tgr::SafetyChain chain_;
+  SwapFade fade_;
+  std::unique_ptr<Performer> performer_;
+  std::unique_ptr<Performer> incoming_;  // waits for the fade-out
+  std::int64_t tick_ = 0;
+  ForceState state_ = ForceState::kReady;
+  FaultReason fault_ = FaultReason::kNone;
+  bool blown_up_ = false;
+  Slices force_{};     // N, of the last tick, for the next exchange
+  Slices position_{};  // m, of the last tick
+  Slices velocity_{};  // m/s
+  std::vector<float> frames_out_;
+  std::vector<float> frames_in_;
+  Counters counters_;
+
+  // Shared.
+  std::atomic<bool> make_safe_{false};
+  rt::Ring<Command> commands_;
+  rt::Ring<Event> events_;
+  rt::Ring<GestureTick> gestures_;
+  rt::Mailbox<Snapshot> snapshots_;
+  Keyframe keyframe_;
+
+  // The operator's own.
+  std::size_t owed_ = 0;  // swaps and parameters submitted whose event was not yet polled
 };
 
 }  // namespace ergotic::station

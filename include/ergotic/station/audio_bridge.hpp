@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "ergotic/physics/rates.hpp"
+#include "ergotic/rt/block_io.hpp"
+#include "ergotic/rt/clock.hpp"
+#include "ergotic/rt/mailbox.hpp"
+#include "ergotic/rt/realtime.hpp"
+#include "ergotic/rt/ring.hpp"
+#include "ergotic/station/frame_fifo.hpp"
+#include "ergotic/station/frame_port.hpp"
+
+namespace ergotic::station {
+
+struct AudioBridgeConfig {
+  physics::Rates rates;
+  int output_channels = 24;  ///< as StationConfig
+  int input_channels = 12;   ///< as StationConfig
+  /// Ring depth: host frames from the due time of a tick to the sound of its first frame,
+  /// 1...kMaxLatencyFrames. Raised when a host starts whose period needs more.
+  int latency_frames = 3 * 256;
+};
+
+/// The only place where ticks and audio periods meet: index arithmetic, nothing else.
+///
+/// While a host is connected, station frame f sounds at host frame f + offset, and tick n is due
+/// when host frame n R + offset - latency begins. `offset` is chosen once per connection so that
+/// the tick due next stays due when it was (to half a frame): haptics do not feel the host come or
+/// go. What the ring does not hold when the host asks becomes zeros, reported as underrun; what
+/// comes late is discarded; the relation never shifts.
+///
+/// Capture goes the other way under the same rule: station frame f takes host frame
+/// f + offset - latency - (period + R), the newest that is always there.
+///
+/// Four kinds of thread: the host's set-up thread (audioStarted), any (audioStopped, xrun), the
+/// host's real-time thread (process), the tick (everything else).
+class AudioBridge : public rt::BlockProcessor, public FramePort {
+ public:
+  static constexpr int kMaxLatencyFrames = 1 << 14;
+  /// Frames by which the latency exceeds a period and a tick at least: room for a late wake-up.
+  static constexpr int kMarginFrames = 64;
+
+  /// Realtime: no. Thread: setup
+  /// \throws Exception if a setting is outside its range
+  explicit AudioBridge(const AudioBridgeConfig& config);
+
+  // The host:
+  /// Realtime: no. Thread: host
+  /// \throws Exception if the host's rate is not the station's, or its period needs a ring deeper
+  ///         than kMaxLatencyFrames
+  void audioStarted(double sample_rate_hz, std::uint32_t period_frames) override;
+  /// Realtime: yes. Thread: any
+  void audioStopped() noexcept override;
+  /// Realtime: yes. Thread: host RT
+  ERGOTIC_REALTIME void process(const rt::Block& block) noexcept override;
+  /// Realtime: yes. Thread: any
+  void xrun() noexcept override;
+
+  // The tick:
+  /// Realtime: yes. Thread: tick
+  ERGOTIC_REALTIME void push(std::int64_t first,
+                             const float* frames,
+                             int nframes) noexcept override;
+  /// Realtime: yes. Thread: tick
+  ERGOTIC_REALTIME bool pull(std::int64_t first, float* frames, int nframes) noexcept override;
+  /// Realtime: yes. Thread: tick
+  bool popEvent(Event& event) noexcept override;
+  /// Realtime: yes. Thread: any
+  AudioStatus status() const noexcept override;
+
+  /// Takes news of the host: connects, disconnects, follows its clock. Before each tick.
+  /// \param tick    the tick that runs next
+  /// \param due_ns  when it is due as things stand, CLOCK_MONOTONIC
+  /// Realtime: yes. Thread: tick
+  ERGOTIC_REALTIME void track(std::int64_t tick, std::int64_t due_ns) noexcept;
+  /// True while a host's clock says when ticks are due. Realtime: yes. Thread: tick
+  bool isMaster() const noexcept { return connected_; }
+  /// When a tick is due by the host's clock. \pre isMaster(). Realtime: yes. Thread: tick
+  std::int64_t dueNs(std::int64_t tick) const noexcept;
+
+  /// No more ticks will come for now: silence until `track` connects again, without underruns.
+  /// Realtime: yes. Thread: tick
+  void disconnect() noexcept;
+
+  /// Ring depth of the present connection. Realtime: yes. Thread: any
+  int latencyFrames() const noexcept { return latency_.load(std::memory_order_relaxed); }
+  /// What operators should know (a raised latency); each is given once. Realtime: no. Thread: any
+  std::vector<std::string> takeWarnings();
+
+ private:
+  /// The connection as the tick chose it, told to the host's thread.
+  struct Relation {
+    std::uint32_t connection = 0;  // 0: none
+    std::int64_t offset = 0;       // host frame - station frame
+    std::int64_t first = 0;        // first station frame that is pushed
+  };
+  struct Reading {
+    std::uint32_t connection = 0;
+    rt::FrameTime start;
+  };
+  /// Frames that did not sound, told to the tick.
+  struct Loss {
+    Event::Type type = Event::Type::kUnderrun;
+    std::int64_t first = 0;
+    std::int64_t frames = 0;
+    std::int64_t host_frame = 0;
+  };
+
+  void capture(const rt::Block& block) noexcept;
+  void play(const rt::Block& block, const Relation& relation) noexcept;
+  void noteSkipped(const rt::Block& block, const Relation& relation) noexcept;
+  void tellLoss(const Loss& loss) noexcept;
+  void noteUnderrun(const Relation& relation, std::int64_t first, std::int64_t end) noexcept;
+  void connect(std::int64_t tick, std::int64_t due_ns) noexcept;
+  void announce(Event::Type type, std::int64_t station_frame) noexcept;
+  bool hostRuns(std::uint32_t connection) const noexcept;
+
+  AudioBridgeConfig config_;
+
+  // Shared.
+  std::atomic<bool> running_{false};
+  std::atomic<std::uint32_t> connection_{0};  // counts audioStarted
+  std::atomic<int> latency_;
+  std::atomic<int> input_lag_{0};
+  std::atomic<std::int64_t> underruns_{0};
+  std::atomic<std::int64_t> underrun_frames_{0};
+  std::atomic<std::int64_t> xruns_{0};
+  std::atomic<std::int64_t> dropped_records_{0};
+  std::atomic<bool> clock_locked_{false};
+  FrameFifo to_host_;
+  FrameFifo from_host_;
+  rt::Mailbox<Reading> readings_;    // host RT -> tick
+  rt::Mailbox<Relation> relations_;  // tick -> host RT
+  rt::Ring<Loss> losses_;            // host RT -> tick
+  std::mutex warnings_mutex_;        // set-up threads only
+  std::vector<std::string> warnings_;
+
+  // The host's real-time thread.
+  std::vector<float> capture_frame_;
+  std::int64_t expected_ = 0;      // host frame after the last block
+  std::int64_t underrun_end_ = 0;  // station frame after the last missing one
+  std::uint32_t played_ = 0;       // connection of the last block played
+
+  // The tick.
+  rt::FrameClock clock_;
+  std::uint32_t followed_ = 0;  // connection whose readings feed the clock
+  int readings_seen_ = 0;
+  bool connected_ = false;
+  Relation relation_;
+  std::int64_t next_frame_ = 0;  // after the last one pushed
+  Event announced_;
+  bool has_announced_ = false;
+};
+
+}  // namespace ergotic::station

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ergotic/station/performer.hpp"
+
+#include <utility>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/scene/scene.hpp"
+
+namespace ergotic::station {
+namespace {
+
+MotionFrame emptyMotion(const physics::Instrument& instrument) {
+  MotionFrame frame;
+  frame.displacement.resize(instrument.scene().mats.size());
+  return frame;
+}
+
+std::size_t samples(const physics::Instrument& instrument, int channels) {
+  return static_cast<std::size_t>(instrument.rates().ratio) * static_cast<std::size_t>(channels);
+}
+
+void checkSlices(const scene::Scene& scene, int slices) {
+  for (const scene::Port& port : scene.ports) {
+    if (port.slice >= slices) {
+      throw TextError(scene.file, port.place.line, port.place.column,
+                      "port '" + port.name + "' needs slice " + std::to_string(port.slice) +
+                          ", the device has 0..." + std::to_string(slices - 1));
+    }
+  }
+}
+
+bool isAllowed(physics::Verdict verdict, const PerformerPolicy& policy) {
+  switch (verdict) {
+    case physics::Verdict::kPassive:
+    case physics::Verdict::kBounded:
+      return true;
+    case physics::Verdict::kUnproven:
+      return policy.allow_unproven || policy.allow_unstable;
+    case physics::Verdict::kUnstable:
+      return policy.allow_unstable;
+  }
+  return false;
+}
+
+[[noreturn]] void refuse(const scene::Scene& scene, const physics::Certificate& certificate) {
+  std::string text = "scene '" + scene.name + "' is refused: " + toString(certificate.verdict);
+  for (const std::string& finding : certificate.findings) {
+    text += "\n" + finding;
+  }
+  throw Exception(text);
+}
+
+/// Every page of the state becomes resident; its content stays.
+void warm(Performer& performer) {
+  physics::Instrument& instrument = *performer.instrument;
+  std::vector<unsigned char> state(instrument.stateSize());
+  instrument.saveState(state.data());
+  instrument.loadState(state.data());
+  instrument.readDisplacements(performer.motion.draft().displacement.data());
+  performer.motion.publish();
+}
+
+}  // namespace
+
+Performer::Performer(std::unique_ptr<physics::Instrument> made)
+    : instrument(std::move(made)),
+      positions(instrument->scene().ports.size()),
+      forces(instrument->scene().ports.size()),
+      inputs(samples(*instrument, instrument->inputChannels())),
+      outputs(samples(*instrument, instrument->outputChannels())),
+      motion(emptyMotion(*instrument)) {
+  for (const scene::Port& port : instrument->scene().ports) {
+    slice_of_port.push_back(port.slice);
+  }
+  for (const scene::Parameter& parameter : instrument->scene().parameters) {
+    parameters.push_back(parameter.value);
+  }
+}
+
+std::unique_ptr<Performer> makePerformer(const scene::Scene& scene,
+                                         const physics::Rates& rates,
+                                         physics::Precision precision,
+                                         const PerformerPolicy& policy) {
+  scene::validate(scene);
+  checkSlices(scene, policy.slices);
+  physics::Certificate certificate = physics::certify(scene, rates);
+  if (!isAllowed(certificate.verdict, policy)) {
+    refuse(scene, certificate);
+  }
+  auto performer = std::make_unique<Performer>(physics::compile(scene, rates, precision));
+  performer->warnings = scene.warnings;
+  performer->warnings.insert(performer->warnings.end(), certificate.findings.begin(),
+                             certificate.findings.end());
+  performer->certificate = std::move(certificate);
+  warm(*performer);
+  return performer;
+}
+
+}  // namespace ergotic::station

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a tick tells: records, snapshots, lateness, events.
+#include <algorithm>
+
+#include "ergotic/station/station.hpp"
+
+namespace ergotic::station {
+
+void Station::record(const Slices& positions, std::uint32_t flags) noexcept {
+  GestureTick gesture;
+  gesture.tick = tick_;
+  gesture.flags = flags;
+  gesture.slices = static_cast<std::uint32_t>(slices_);
+  for (std::size_t s = 0; s < gesture.slices; ++s) {
+    gesture.position[s] = positions[s];
+    gesture.force[s] = static_cast<float>(force_[s]);
+  }
+  if (!gestures_.push(gesture)) {
+    ++counters_.dropped_records;
+  }
+}
+
+void Station::publish() noexcept {
+  Snapshot& s = snapshots_.draft();
+  const AudioStatus audio = frame_port_ != nullptr ? frame_port_->status() : AudioStatus{};
+  s.tick = tick_;
+  s.state = state_;
+  s.fault = fault_;
+  s.audio_running = audio.running;
+  s.clock_locked = audio.clock_locked;
+  s.counters = counters_;
+  s.counters.underruns = audio.underruns;
+  s.counters.underrun_frames = audio.underrun_frames;
+  s.counters.xruns = audio.xruns;
+  s.counters.dropped_records += audio.dropped_records;
+  s.slice_position = position_;
+  s.slice_velocity = velocity_;
+  s.slice_force = force_;
+  s.slices = slices_;
+  snapshots_.publish();
+  if (!blown_up_) {
+    MotionFrame& motion = performer_->motion.draft();
+    motion.tick = tick_;
+    performer_->instrument->readDisplacements(motion.displacement.data());
+    performer_->motion.publish();
+  }
+}
+
+void Station::relayAudioEvents() noexcept {
+  constexpr int kAudioEventsPerTick = 4;
+  Event audio;
+  for (int i = 0; i < kAudioEventsPerTick && frame_port_ != nullptr; ++i) {
+    if (!frame_port_->popEvent(audio)) {
+      return;
+    }
+    tell(audio);
+  }
+}
+
+void Station::classify(const Timing& timing,
+                       std::int64_t exchange_ns,
+                       std::int64_t compute_ns) noexcept {
+  const double load = static_cast<double>(compute_ns) / tick_ns_;
+  counters_.load_mean += (load - counters_.load_mean) * 1e-9 * tick_ns_;  // over about a second
+  counters_.load_peak = std::max(counters_.load_peak, load);
+  if (timing.freewheel) {
+    return;
+  }
+  late(LateCause::kWakeUp, counters_.late_wake_up, timing.late_ns);
+  late(LateCause::kDevice, counters_.late_device, exchange_ns);
+  late(LateCause::kCompute, counters_.late_compute, compute_ns);
+}
+
+void Station::late(LateCause cause, std::int64_t& counter, std::int64_t ns) noexcept {
+  if (static_cast<double>(ns) <= tick_ns_) {
+    return;
+  }
+  ++counter;
+  Event told = event(Event::Type::kLateTick);
+  told.tick = tick_ - 1;  // the one that just ran
+  told.index = static_cast<std::int64_t>(cause);
+  told.value = 1e-9 * static_cast<double>(ns);
+  tell(told);
+}
+
+Event Station::event(Event::Type type) const noexcept {
+  Event told;
+  told.type = type;
+  told.tick = tick_;
+  told.frame = tick_ * config_.rates.ratio;
+  return told;
+}
+
+/// Tells what may be lost if nobody listens, counted; leaves room for what may not.
+void Station::tell(const Event& event) noexcept {
+  if (events_.writable() <= config_.command_ring || !events_.push(event)) {
+    ++counters_.dropped_records;
+  }
+}
+
+/// Never fails: `submit` admits only as many owning commands as `tell` leaves places for.
+void Station::handBack(const Event& event) noexcept {
+  events_.push(event);
+}
+
+}  // namespace ergotic::station

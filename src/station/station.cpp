@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ergotic/station/station.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/rt/clock.hpp"
+
+namespace ergotic::station {
+namespace {
+
+constexpr double kSwapFadeS = 0.005;
+constexpr std::size_t kMaxKeyframeParameters = 1U << 12U;
+
+void checkRange(const char* what, double value, double low, double high) {
+  if (!(value >= low && value <= high)) {
+    throw Exception(std::string(what) + " is " + std::to_string(value) + ", allowed " +
+                    std::to_string(low) + "..." + std::to_string(high));
+  }
+}
+
+const StationConfig& checked(const StationConfig& config) {
+  checkRange("audio rate (Hz)", config.rates.audio_hz, 8000.0, 192000.0);
+  checkRange("frames per tick", config.rates.ratio, 1, physics::kMaxRatio);
+  checkRange("output channels", config.output_channels, 1, 256);
+  checkRange("input channels", config.input_channels, 0, 256);
+  checkRange("max_stall (s)", config.max_stall_s, 0.001, 1.0);
+  checkRange("display rate (Hz)", config.display_hz, 1.0, 1000.0);
+  return config;
+}
+
+int openDriver(tgr::Driver& driver, double tick_rate_hz) {
+  driver.open(tick_rate_hz);
+  return driver.slices();
+}
+
+std::int64_t atLeastOne(double value) {
+  return std::max<std::int64_t>(1, std::llround(value));
+}
+
+std::size_t samples(int frames, int channels) {
+  return static_cast<std::size_t>(frames) * static_cast<std::size_t>(channels);
+}
+
+FaultReason reasonOf(tgr::SafetyFault fault) noexcept {
+  switch (fault) {
+    case tgr::SafetyFault::kNone:
+      return FaultReason::kNone;
+    case tgr::SafetyFault::kDeviceLost:
+      return FaultReason::kDeviceLost;
+    case tgr::SafetyFault::kMissingSamples:
+      return FaultReason::kMissingSamples;
+    case tgr::SafetyFault::kBadPosition:
+      return FaultReason::kBadPosition;
+    case tgr::SafetyFault::kBadForce:
+      return FaultReason::kModelBlowUp;
+  }
+  return FaultReason::kNone;
+}
+
+}  // namespace
+
+Station::Station(const StationConfig& config,
+                 std::unique_ptr<tgr::Driver> driver,
+                 std::unique_ptr<Performer> performer)
+    : config_(checked(config)),
+      tick_ns_(1e9 / config.rates.gesturalHz()),
+      max_catch_up_(atLeastOne(config.max_stall_s * config.rates.gesturalHz())),
+      display_ticks_(atLeastOne(config.rates.gesturalHz() / config.display_hz)),
+      driver_(std::move(driver)),
+      slices_(openDriver(*driver_, config.rates.gesturalHz())),
+      chain_(config.safety, slices_, 1e-9 * tick_ns_),
+      fade_(static_cast<int>(std::ceil(kSwapFadeS * config.rates.gesturalHz())),
+            config.rates.ratio),
+      performer_(std::move(performer)),
+      frames_out_(samples(config.rates.ratio, config.output_channels)),
+      frames_in_(samples(config.rates.ratio, config.input_channels)),
+      commands_(config.command_ring),
+      events_(config.event_ring + config.command_ring),
+      gestures_(config.record_ring) {
+  checkFits(*performer_);
+  keyframe_.state.reserve(config.keyframe_bytes);
+  keyframe_.parameters.reserve(kMaxKeyframeParameters);
+}
+
+Station::~Station() {
+  driver_->close();
+  Command command;
+  while (commands_.pop(command)) {
+    std::unique_ptr<Performer> performer(command.performer);
+    std::unique_ptr<physics::Coefficients> coefficients(command.coefficients);
+  }
+  Event event;
+  while (events_.pop(event)) {
+    std::unique_ptr<Performer> performer(event.performer);
+    std::unique_ptr<physics::Coefficients> coefficients(event.coefficients);
+  }
+}
+
+void Station::checkFits(const Performer& performer) const {
+  const physics::Rates& rates = performer.instrument->rates();
+  if (rates.ratio != config_.rates.ratio || rates.audio_hz != config_.rates.audio_hz) {
+    throw Exception("the model is compiled for " + std::to_string(rates.audio_hz) + " Hz, " +
+                    std::to_string(rates.ratio) + " frames per tick; the station runs at " +
+                    std::to_string(config_.rates.audio_hz) + " Hz, " +
+                    std::to_string(config_.rates.ratio));
+  }
+  for (const scene::Port& port : performer.instrument->scene().ports) {
+    if (port.slice < 0 || port.slice >= slices_) {
+      throw Exception("port '" + port.name + "' needs slice " + std::to_string(port.slice) +
+                      ", the device has 0..." + std::to_string(slices_ - 1));
+    }
+  }
+}
+
+void Station::cycle(const Timing& timing) noexcept {
+  const std::int64_t begin = rt::monotonicNs();
+  Slices positions{};
+  const std::uint32_t met = driver_->exchange(force_.data(), positions.data());
+  const std::int64_t exchanged = rt::monotonicNs();
+  const std::uint32_t flags = accept(positions, met);
+  runTick(positions, flags);
+  classify(timing, exchanged - begin, rt::monotonicNs() - exchanged);
+}
+
+void Station::catchUp(std::int64_t ticks, std::int64_t stall_ns) noexcept {
+  if (ticks < 1) {
+    return;
+  }
+  force_.fill(0.0);
+  Slices target{};
+  const std::uint32_t met = driver_->exchange(force_.data(), target.data());
+  const std::uint32_t flags = accept(target, met) | GestureTick::kCatchUp;
+  const std::int64_t run = std::min(ticks, max_catch_up_);
+  Event stalled = event(Event::Type::kStall);
+  stalled.index = run;
+  stalled.value = 1e-9 * static_cast<double>(stall_ns);
+  tell(stalled);
+  ++counters_.stalls;
+  counters_.catch_up_ticks += run;
+  if (run < ticks) {
+    Event lost = event(Event::Type::kTicksLost);
+    lost.index = ticks - run;
+    tell(lost);
+    counters_.lost_ticks += ticks - run;
+    tick_ += ticks - run;
+    fault(FaultReason::kStall, -1);
+  }
+  restartRamp();
+  const Slices origin = position_;
+  for (std::int64_t i = 1; i < run; ++i) {
+    const double part = static_cast<double>(i) / static_cast<double>(run);
+    Slices between{};
+    for (std::size_t s = 0; s < static_cast<std::size_t>(slices_); ++s) {
+      between[s] = origin[s] + part * (target[s] - origin[s]);
+    }
+    runTick(between, flags);
+  }
+  runTick(target, flags);
+}
+
+void Station::rest() noexcept {
+  chain_.disengage();
+  force_.fill(0.0);
+  if (state_ != ForceState::kFault) {
+    state_ = ForceState::kReady;
+  }
+  Slices positions{};
+  driver_->exchange(force_.data(), positions.data());
+}
+
+void Station::makeSafe() noexcept {
+  driver_->makeSafe();
+  make_safe_.store(true, std::memory_order_release);
+}
+
+std::uint32_t Station::accept(Slices& positions, std::uint32_t exchange_flags) noexcept {
+  const std::uint64_t held = chain_.validate(positions.data(), exchange_flags);
+  const bool made_safe = make_safe_.exchange(false, std::memory_order_acq_rel) ||
+                         (exchange_flags & tgr::kMadeSafe) != 0;
+  if (state_ != ForceState::kFault) {
+    if (made_safe) {
+      fault(FaultReason::kMadeSafe, -1);
+    } else if (chain_.fault() != tgr::SafetyFault::kNone) {
+      fault(reasonOf(chain_.fault()), chain_.faultSlice());
+    }
+  }
+  return held != 0 ? GestureTick::kHeld : 0U;
+}
+
+void Station::runTick(const Slices& positions, std::uint32_t flags) noexcept {
+  advanceSwap();
+  drainCommands();
+  if (pullInputs()) {
+    flags |= GestureTick::kAudioInput;
+  }
+  tickInstrument(positions);
+  pushFrames();
+  updateForces((flags & GestureTick::kCatchUp) != 0);
+  record(positions, flags);
+  relayAudioEvents();
+  fade_.advance();
+  if (tick_ % display_ticks_ == 0) {
+    publish();
+  }
+  ++tick_;
+  ++counters_.ticks;
+}
+
+/// \return true if live sound entered the instrument
+bool Station::pullInputs() noexcept {
+  const int model_channels = performer_->instrument->inputChannels();
+  if (model_channels == 0) {
+    return false;
+  }
+  const int ratio = config_.rates.ratio;
+  const bool sound = frame_port_ != nullptr && config_.input_channels > 0 &&
+                     frame_port_->pull(tick_ * ratio, frames_in_.data(), ratio);
+  std::fill(performer_->inputs.begin(), performer_->inputs.end(), 0.0);
+  if (!sound) {
+    return false;
+  }
+  const int shared = std::min(model_channels, config_.input_channels);
+  for (int r = 0; r < ratio; ++r) {
+    const float* from = frames_in_.data() + samples(r, config_.input_channels);
+    std::copy_n(from, shared, performer_->inputs.data() + samples(r, model_channels));
+  }
+  return true;
+}
+
+void Station::tickInstrument(const Slices& positions) noexcept {
+  for (std::size_t s = 0; s < static_cast<std::size_t>(slices_); ++s) {
+    velocity_[s] = (positions[s] - position_[s]) * config_.rates.gesturalHz();
+  }
+  position_ = positions;
+  if (blown_up_) {
+    return;
+  }
+  Performer& p = *performer_;
+  const std::vector<scene::Port>& ports = p.instrument->scene().ports;
+  for (std::size_t i = 0; i < ports.size(); ++i) {
+    const double hand = positions[static_cast<std::size_t>(p.slice_of_port[i])];
+    p.positions[i] = (hand - ports[i].offset) / ports[i].position_scale;
+  }
+  p.instrument->tick({p.positions.data(), p.forces.data(), p.inputs.data(), p.outputs.data()});
+  const auto finite = [](double f) { return std::isfinite(f); };
+  const bool look_inside = tick_ % display_ticks_ == 0;
+  if (!std::all_of(p.forces.begin(), p.forces.end(), finite) ||
+      (look_inside && !p.instrument->isFinite())) {
+    blowUp();
+  }
+}
+
+void Station::pushFrames() noexcept {
+  std::fill(frames_out_.begin(), frames_out_.end(), 0.0F);
+  const int model_channels = performer_->instrument->outputChannels();
+  const int shared = std::min(model_channels, config_.output_channels);
+  bool finite = true;
+  for (int r = 0; r < config_.rates.ratio && !blown_up_; ++r) {
+    const double gain = fade_.gainAt(r);
+    const double* from = performer_->outputs.data() + samples(r, model_channels);
+    float* to = frames_out_.data() + samples(r, config_.output_channels);
+    for (int c = 0; c < shared; ++c) {
+      to[c] = static_cast<float>(gain * from[c]);
+      finite = finite && std::isfinite(to[c]);
+    }
+  }
+  if (!finite) {
+    blowUp();
+    std::fill(frames_out_.begin(), frames_out_.end(), 0.0F);
+  }
+  if (frame_port_ != nullptr) {
+    frame_port_->push(tick_ * config_.rates.ratio, frames_out_.data(), config_.rates.ratio);
+  }
+}
+
+void Station::updateForces(bool muted) noexcept {
+  force_.fill(0.0);
+  if (muted || blown_up_) {
+    return;
+  }
+  const Performer& p = *performer_;
+  const double gain = fade_.isFadingOut() ? fade_.gainAt(config_.rates.ratio - 1) : 1.0;
+  const std::vector<scene::Port>& ports = p.instrument->scene().ports;
+  for (std::size_t i = 0; i < ports.size(); ++i) {
+    force_[static_cast<std::size_t>(p.slice_of_port[i])] +=
+        gain * ports[i].force_scale * p.forces[i];
+  }
+  chain_.limit(force_.data());
+  if (chain_.fault() != tgr::SafetyFault::kNone && state_ != ForceState::kFault) {
+    fault(reasonOf(chain_.fault()), chain_.faultSlice());
+  }
+  for (std::size_t s = 0; s < static_cast<std::size_t>(slices_); ++s) {
+    counters_.peak_force_n = std::max(counters_.peak_force_n, std::abs(force_[s]));
+  }
+  if (state_ == ForceState::kEngaging && chain_.gain() >= 1.0) {
+    state_ = ForceState::kPlaying;
+    tell(event(Event::Type::kPlaying));
+  }
+}
+
+void Station::fault(FaultReason reason, int slice) noexcept {
+  chain_.disengage();
+  force_.fill(0.0);
+  state_ = ForceState::kFault;
+  fault_ = reason;
+  Event told = event(Event::Type::kFault);
+  told.index = static_cast<std::int64_t>(reason);
+  told.value = slice;
+  tell(told);
+}
+
+void Station::blowUp() noexcept {
+  blown_up_ = true;
+  fault(FaultReason::kModelBlowUp, -1);
+}
+
+void Station::restartRamp() noexcept {
+  chain_.restartRamp();
+  if (state_ == ForceState::kPlaying) {
+    state_ = ForceState::kEngaging;
+  }
+}
+
+}  // namespace ergotic::station

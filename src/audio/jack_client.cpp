@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ergotic/audio/jack_client.hpp"
+
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+#include "audio/jack_session.hpp"
+#include "audio/semaphore.hpp"
+#include "ergotic/exception.hpp"
+
+namespace ergotic::audio {
+
+namespace {
+
+constexpr std::int64_t kRetryNs = 1'000'000'000;
+constexpr std::size_t kMaxNameLength = 60;  // JACK's 64 less its terminator and the number it adds
+
+void requirePorts(int count, const char* what) {
+  if (count < 0 || count > kMaxPorts) {
+    throw Exception(std::string("JACK ") + what + ": " + std::to_string(count) +
+                    " ports, allowed: 0..." + std::to_string(kMaxPorts));
+  }
+}
+
+void validate(const JackConfig& config) {
+  requirePorts(config.inputs, "inputs");
+  requirePorts(config.outputs, "outputs");
+  if (config.name.empty() || config.name.size() > kMaxNameLength ||
+      config.name.find(':') != std::string::npos) {
+    throw Exception("JACK client name `" + config.name + "`, allowed: 1..." +
+                    std::to_string(kMaxNameLength) + " characters, no colon");
+  }
+}
+
+}  // namespace
+
+struct JackHost::Impl {
+  Impl(const JackConfig& host_config, rt::BlockProcessor& block_processor)
+      : config(host_config), processor(block_processor) {
+    supervisor = std::thread([this] { supervise(); });
+  }
+  ~Impl() {
+    quit = true;
+    wake->post();
+    supervisor.join();
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  void supervise();
+  void step();
+  void start();
+  void follow();
+  void updateStatus();
+  void say(const std::string& message);
+
+  const JackConfig config;
+  rt::BlockProcessor& processor;
+  std::shared_ptr<Semaphore> wake = std::make_shared<Semaphore>();
+  std::atomic<bool> quit{false};
+  std::unique_ptr<JackSession> session;  // the supervisor's
+  mutable std::mutex mutex;              // of status
+  JackStatus status;
+  std::thread supervisor;
+};
+
+void JackHost::Impl::supervise() {
+  while (!quit) {
+    try {
+      step();
+    } catch (const std::exception& error) {
+      session.reset();
+      say(error.what());
+    }
+    updateStatus();
+    wake->waitFor(kRetryNs);
+  }
+  session.reset();
+}
+
+/// One look at the server. What throws here ends the session; the next look tries again.
+void JackHost::Impl::step() {
+  if (!session) {
+    start();
+  } else if (session->isLost()) {
+    throw DeviceError("the JACK server went away; waiting for it to come back");
+  } else if (session->takeChange()) {
+    follow();
+  }
+}
+
+void JackHost::Impl::start() {
+  session = std::make_unique<JackSession>(config.server, config.name, wake);
+  session->registerPorts(config.inputs, config.outputs, config.latency_frames);
+  session->activate(processor);
+  follow();
+  if (config.connect) {
+    try {
+      session->connectToPlayback();
+    } catch (const DeviceError& error) {
+      say(error.what());  // it can still be connected by hand
+    }
+  }
+}
+
+/// Begins anew with the period that the server has now, or waits while it freewheels.
+void JackHost::Impl::follow() {
+  session->pause();
+  if (session->isFreewheeling()) {
+    say("the JACK server freewheels; silent until it is back in real time");
+    return;
+  }
+  session->resume();
+  say("");
+  const std::lock_guard<std::mutex> lock(mutex);
+  ++status.starts;
+}
+
+void JackHost::Impl::updateStatus() {
+  const std::lock_guard<std::mutex> lock(mutex);
+  status.running = session && session->isFlowing();
+  status.freewheeling = session && session->isFreewheeling();
+  status.client = session ? session->clientName() : "";
+  if (session) {
+    status.xruns += session->takeXruns();
+    status.sample_rate_hz = session->sampleRate();
+    status.period_frames = session->periodFrames();
+  }
+}
+
+void JackHost::Impl::say(const std::string& message) {
+  const std::lock_guard<std::mutex> lock(mutex);
+  status.message = message;
+}
+
+JackHost::JackHost(const JackConfig& config, rt::BlockProcessor& processor) {
+  validate(config);
+  impl_ = std::make_unique<Impl>(config, processor);
+}
+
+JackHost::~JackHost() = default;
+
+JackStatus JackHost::status() const {
+  const std::lock_guard<std::mutex> lock(impl_->mutex);
+  return impl_->status;
+}
+
+}  // namespace ergotic::audio

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+
+/// What libjack keeps once per process.
+namespace ergotic::audio::jack_library {
+
+/// Keeps libjack's messages off the terminal. Thread: any
+void silence();
+
+/// The last message of libjack, empty if there was none since the last call. Thread: any
+std::string takeMessage();
+
+/// Runs a call that libjack may never return from, on a thread of its own, and waits at most two
+/// seconds for it. \return whether it came back. Thread: any
+bool callPatiently(std::function<void()> call);
+
+/// A call above has not come back: libjack holds its lock, no client can be opened. Thread: any
+bool isStuck();
+
+}  // namespace ergotic::audio::jack_library

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "audio/jack_session.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <utility>
+
+#include <jack/jack.h>
+
+#include "audio/frame_counter.hpp"
+#include "audio/gate.hpp"
+#include "audio/jack_library.hpp"
+#include "ergotic/exception.hpp"
+#include "ergotic/rt/thread.hpp"
+
+namespace ergotic::audio {
+
+namespace {
+
+constexpr std::int64_t kNsPerUs = 1000;
+
+/// JACK's clock minus CLOCK_MONOTONIC, ns; 0 if they agree as far as can be told.
+std::int64_t jackClockOffset() {
+  std::int64_t offset = 0;
+  std::int64_t narrowest = INT64_MAX;
+  for (int i = 0; i < 16; ++i) {
+    const std::int64_t before = rt::monotonicNs();
+    const auto jack_ns = static_cast<std::int64_t>(jack_get_time()) * kNsPerUs;
+    const std::int64_t after = rt::monotonicNs();
+    if (after - before < narrowest) {
+      narrowest = after - before;
+      offset = jack_ns - (before + narrowest / 2);
+    }
+  }
+  // jack_get_time truncates to a microsecond.
+  return std::abs(offset) <= kNsPerUs + narrowest ? 0 : offset;
+}
+
+struct FreePorts {
+  void operator()(const char** ports) const { jack_free(static_cast<void*>(ports)); }
+};
+using PortNames = std::unique_ptr<const char*, FreePorts>;
+
+std::vector<std::string> namesOf(const PortNames& ports) {
+  std::vector<std::string> names;
+  for (const char** port = ports.get(); port != nullptr && *port != nullptr; ++port) {
+    names.emplace_back(*port);
+  }
+  return names;
+}
+
+[[noreturn]] void fail(const std::string& what) {
+  const std::string reason = jack_library::takeMessage();
+  throw DeviceError("JACK: " + what + (reason.empty() ? "" : ": " + reason));
+}
+
+}  // namespace
+
+/// What callbacks touch. It outlives the session if libjack does not come back from a close.
+struct JackSession::Core {
+  jack_client_t* client = nullptr;
+  std::shared_ptr<Semaphore> wake;
+  rt::BlockProcessor* processor = nullptr;
+  std::vector<jack_port_t*> inputs, outputs;
+  std::uint32_t latency_frames = 0;
+
+  // Written while the gate is closed, read inside it.
+  std::vector<const float*> input_buffers;
+  std::vector<float*> output_buffers;
+  std::int64_t clock_offset_ns = 0;
+  FrameCounter counter;
+
+  Gate gate;
+  std::atomic<std::uint32_t> period{0};
+  std::atomic<bool> lost{false};
+  std::atomic<bool> changed{false};
+  std::atomic<bool> freewheeling{false};
+  std::atomic<std::int64_t> xruns{0};
+
+  void noteChange() noexcept {
+    if (!changed.exchange(true)) {
+      wake->post();
+    }
+  }
+
+  void silence(jack_nframes_t nframes) noexcept {
+    for (jack_port_t* port : outputs) {
+      auto* buffer = static_cast<float*>(jack_port_get_buffer(port, nframes));
+      std::fill_n(buffer, nframes, 0.0F);
+    }
+  }
+
+  rt::FrameTime startOfCycle() noexcept {
+    jack_nframes_t frame = 0;
+    jack_time_t start_us = 0;
+    jack_time_t next_us = 0;
+    float period_us = 0.0F;
+    if (jack_get_cycle_times(client, &frame, &start_us, &next_us, &period_us) != 0) {
+      // The server's own loop has not settled yet.
+      return {counter.extend(jack_last_frame_time(client)), rt::monotonicNs()};
+    }
+    return {counter.extend(frame),
+            static_cast<std::int64_t>(start_us) * kNsPerUs - clock_offset_ns};
+  }
+
+  void processInside(jack_nframes_t nframes) noexcept {
+    const rt::FlushDenormals flush;
+    rt::Block block;
+    block.nframes = nframes;
+    block.start = startOfCycle();
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      input_buffers[i] = static_cast<const float*>(jack_port_get_buffer(inputs[i], nframes));
+    }
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+      output_buffers[i] = static_cast<float*>(jack_port_get_buffer(outputs[i], nframes));
+    }
+    block.inputs = input_buffers.data();
+    block.outputs = output_buffers.data();
+    block.input_channels = static_cast<int>(inputs.size());
+    block.output_channels = static_cast<int>(outputs.size());
+    processor->process(block);
+  }
+
+  static int onProcess(jack_nframes_t nframes, void* self) {
+    auto& core = *static_cast<Core*>(self);
+    if (!core.gate.enter()) {
+      core.silence(nframes);
+      return 0;
+    }
+    if (nframes == core.period && !core.freewheeling) {
+      core.processInside(nframes);
+    } else {
+      core.silence(nframes);
+      core.noteChange();
+    }
+    core.gate.leave();
+    return 0;
+  }
+
+  static int onXrun(void* self) {
+    auto& core = *static_cast<Core*>(self);
+    ++core.xruns;
+    if (core.gate.enter()) {
+      core.processor->xrun();
+      core.gate.leave();
+    }
+    return 0;
+  }
+
+  static int onBufferSize(jack_nframes_t nframes, void* self) {
+    auto& core = *static_cast<Core*>(self);
+    if (nframes != core.period) {
+      core.noteChange();
+    }
+    return 0;
+  }
+
+  static void onFreewheel(int starting, void* self) {
+    auto& core = *static_cast<Core*>(self);
+    core.freewheeling = starting != 0;
+    core.noteChange();
+  }
+
+  static void onShutdown(void* self) {
+    auto& core = *static_cast<Core*>(self);
+    core.lost = true;
+    core.wake->post();
+  }
+
+  /// What arrives at our inputs (or leaves from our outputs) is our latency older (younger) at the
+  /// other side.
+  static void onLatency(jack_latency_callback_mode_t mode, void* self) {
+    auto& core = *static_cast<Core*>(self);
+    const bool capture = mode == JackCaptureLatency;
+    const auto& from = capture ? core.inputs : core.outputs;
+    const auto& to = capture ? core.outputs : core.inputs;
+    jack_latency_range_t total{0, 0};
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      jack_latency_range_t range{};
+      jack_port_get_latency_range(from[i], mode, &range);
+      total.min = i == 0 ? range.min : std::min(total.min, range.min);
+      total.max = std::max(total.max, range.max);
+    }
+    total.min += core.latency_frames;
+    total.max += core.latency_frames;
+    for (jack_port_t* port : to) {
+      jack_port_set_latency_range(port, mode, &total);
+    }
+  }
+
+  jack_port_t* registerPort(const std::string& name, unsigned long flags) {
+    jack_port_t* port = jack_port_register(client, name.c_str(), JACK_DEFAULT_AUDIO_TYPE, flags, 0);
+    if (port == nullptr) {
+      fail("port " + name + " cannot be registered");
+    }
+    return port;
+  }
+
+  void setCallbacks() {
+    const bool ok = jack_set_process_callback(client, onProcess, this) == 0 &&
+                    jack_set_xrun_callback(client, onXrun, this) == 0 &&
+                    jack_set_buffer_size_callback(client, onBufferSize, this) == 0 &&
+                    jack_set_freewheel_callback(client, onFreewheel, this) == 0 &&
+                    jack_set_latency_callback(client, onLatency, this) == 0;
+    if (!ok) {
+      fail("callbacks are refused");
+    }
+    jack_on_shutdown(client, onShutdown, this);
+  }
+};
+
+JackSession::JackSession(const std::string& server,
+                         const std::string& name,
+                         std::shared_ptr<Semaphore> wake)
+    : core_(std::make_shared<Core>()) {
+  if (jack_library::isStuck()) {
+    throw DeviceError("JACK: libjack has not come back from closing the last client; waiting");
+  }
+  core_->wake = std::move(wake);
+  jack_library::silence();
+  jack_library::takeMessage();
+  jack_status_t status{};
+  if (server.empty()) {
+    core_->client = jack_client_open(name.c_str(), JackNoStartServer, &status);
+  } else {
+    const auto options = static_cast<jack_options_t>(JackNoStartServer | JackServerName);
+    core_->client = jack_client_open(name.c_str(), options, &status, server.c_str());
+  }
+  if (core_->client == nullptr) {
+    if ((status & JackServerFailed) != 0) {
+      const std::string which = server.empty() ? "" : " `" + server + "`";
+      throw DeviceError("no JACK server" + which + " is running; start one, e.g. with qjackctl");
+    }
+    fail("client `" + name + "` cannot be opened, status " + std::to_string(status));
+  }
+}
+
+JackSession::~JackSession() {
+  pause();
+  jack_library::callPatiently([core = core_] { jack_client_close(core->client); });
+}
+
+void JackSession::registerPorts(int inputs, int outputs, std::uint32_t latency_frames) {
+  for (int i = 1; i <= inputs; ++i) {
+    core_->inputs.push_back(core_->registerPort("in_" + std::to_string(i), JackPortIsInput));
+  }
+  for (int i = 1; i <= outputs; ++i) {
+    core_->outputs.push_back(core_->registerPort("out_" + std::to_string(i), JackPortIsOutput));
+  }
+  core_->input_buffers.resize(core_->inputs.size());
+  core_->output_buffers.resize(core_->outputs.size());
+  core_->latency_frames = latency_frames;
+}
+
+void JackSession::activate(rt::BlockProcessor& processor) {
+  core_->processor = &processor;
+  core_->setCallbacks();
+  if (jack_activate(core_->client) != 0) {
+    fail("the client cannot be activated");
+  }
+}
+
+void JackSession::resume() {
+  core_->clock_offset_ns = jackClockOffset();
+  core_->period = jack_get_buffer_size(core_->client);
+  core_->processor->audioStarted(sampleRate(), core_->period);
+  flowing_ = true;
+  core_->gate.open();
+}
+
+void JackSession::pause() noexcept {
+  if (flowing_) {
+    core_->gate.close();
+    flowing_ = false;
+    core_->processor->audioStopped();
+  }
+}
+
+bool JackSession::isLost() const noexcept {
+  return core_->lost;
+}
+bool JackSession::isFreewheeling() const noexcept {
+  return core_->freewheeling;
+}
+bool JackSession::takeChange() noexcept {
+  return core_->changed.exchange(false);
+}
+std::int64_t JackSession::takeXruns() noexcept {
+  return core_->xruns.exchange(0);
+}
+
+std::string JackSession::clientName() const {
+  return jack_get_client_name(core_->client);
+}
+double JackSession::sampleRate() const noexcept {
+  return jack_get_sample_rate(core_->client);
+}
+std::uint32_t JackSession::periodFrames() const noexcept {
+  return core_->period;
+}
+
+std::vector<std::string> JackSession::findSources(const std::string& regex) const {
+  return namesOf(PortNames(
+      jack_get_ports(core_->client, regex.c_str(), JACK_DEFAULT_AUDIO_TYPE, JackPortIsOutput)));
+}
+
+bool JackSession::isSource(const std::string& exact) const {
+  const jack_port_t* port = jack_port_by_name(core_->client, exact.c_str());
+  return port != nullptr && (jack_port_flags(port) & JackPortIsOutput) != 0;
+}
+
+void JackSession::connectInput(int input, const std::string& source) {
+  const char* own = jack_port_name(core_->inputs[static_cast<std::size_t>(input)]);
+  if (jack_connect(core_->client, source.c_str(), own) != 0) {
+    fail(source + " cannot be connected to " + own);
+  }
+}
+
+void JackSession::connectToPlayback() {
+  const auto sinks = namesOf(PortNames(jack_get_ports(
+      core_->client, nullptr, JACK_DEFAULT_AUDIO_TYPE, JackPortIsInput | JackPortIsPhysical)));
+  for (std::size_t i = 0; i < std::min(sinks.size(), core_->outputs.size()); ++i) {
+    if (jack_connect(core_->client, jack_port_name(core_->outputs[i]), sinks[i].c_str()) != 0) {
+      fail(std::string(jack_port_name(core_->outputs[i])) + " cannot be connected to " + sinks[i]);
+    }
+  }
+}
+
+}  // namespace ergotic::audio

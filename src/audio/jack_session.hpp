@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "audio/semaphore.hpp"
+#include "ergotic/rt/block_io.hpp"
+
+namespace ergotic::audio {
+
+/// One life of a JACK client: from a server that is there until it goes.
+///
+/// The order of calls is constructor, registerPorts, activate, then any number of pause and resume.
+/// Realtime: no. Thread: one
+class JackSession {
+ public:
+  /// \param wake  posted when `isLost` or `takeChange` has something to tell; shared, for libjack
+  ///              may call back even after the session
+  /// \throws DeviceError if there is no server or it takes no client
+  JackSession(const std::string& server, const std::string& name, std::shared_ptr<Semaphore> wake);
+  ~JackSession();  ///< the processor is not called any more; gives up on libjack after a while
+  JackSession(const JackSession&) = delete;
+  JackSession& operator=(const JackSession&) = delete;
+
+  /// \throws DeviceError
+  void registerPorts(int inputs, int outputs, std::uint32_t latency_frames);
+
+  /// Callbacks begin, silent until `resume`. \throws DeviceError
+  void activate(rt::BlockProcessor& processor);
+
+  /// audioStarted, then blocks flow. \throws what audioStarted throws; stays paused then
+  void resume();
+  /// Blocks stop, then audioStopped. No effect while paused.
+  void pause() noexcept;
+  bool isFlowing() const noexcept { return flowing_; }
+
+  bool isLost() const noexcept;          ///< the server went away or threw us out
+  bool isFreewheeling() const noexcept;  ///< of the server
+  /// Whether period or freewheeling changed since the last call.
+  bool takeChange() noexcept;
+  std::int64_t takeXruns() noexcept;  ///< since the last call
+
+  std::string clientName() const;
+  double sampleRate() const noexcept;           ///< Hz
+  std::uint32_t periodFrames() const noexcept;  ///< as last resumed
+
+  /// Full names of audio ports that give sound and match the regular expression (POSIX extended),
+  /// or whose name is `exact`.
+  std::vector<std::string> findSources(const std::string& regex) const;
+  bool isSource(const std::string& exact) const;
+  /// \param input  index of our port. \throws DeviceError
+  void connectInput(int input, const std::string& source);
+  /// out_i to the i-th physical playback port; what is connected there stays.
+  void connectToPlayback();
+
+ private:
+  struct Core;
+  std::shared_ptr<Core> core_;
+  bool flowing_ = false;
+};
+
+}  // namespace ergotic::audio

@@ -12,10 +12,22 @@ namespace ergotic::scene {
 using Overrides = std::map<std::string, double>;
 
 /// Reads a scene file; `.mdl` selects the MIMS reader, anything else is YAML.
-/// \throws TextError with file:line:col; Exception if the file cannot be read
+///
+/// All readers give a whole valid scene or throw. `Scene::text` is the text as it was given,
+/// without the overrides: `readScene(scene.text, scene.file, overrides)` with the same overrides
+/// gives the same scene again.
+///
+/// Overrides replace the value of a parameter (YAML: within its range; `.mdl`: a `param`), or
+/// `gestural_rate`, Hz, before anything is computed from it.
+/// Realtime: no. Thread: any.
+/// \throws TextError with file:line:col; Exception if the file cannot be read, or if an override is
+///         unknown or out of range
 Scene readSceneFile(const std::string& path, const Overrides& overrides = {});
 
-/// Reads YAML text; `name` stands for the file in messages.
+/// Reads text by the ending of its name, as readSceneFile does.
+Scene readScene(const std::string& text, const std::string& name, const Overrides& overrides = {});
+
+/// Reads YAML text (docs/scene.md); `name` stands for the file in messages.
 Scene readYaml(const std::string& text, const std::string& name, const Overrides& overrides = {});
 
 /// Reads MIMS `.mdl` text, dialect D2 (the one with `[x y z]` vectors), without macros.

@@ -79,7 +79,7 @@ struct Mat {
 
 enum class LiaType {
   kSpringDamper,  ///< (RES, FRO, REF) f = K e + Z v
-  kContact,       ///< (BUT) the same while x2 - x1 < threshold, else 0; `e` counted from there
+  kContact,       ///< (BUT) f = K e + Z v while x_b - x_a < threshold, e = x_a - x_b + threshold
   kQuadratic,     ///< f = K e + Q sgn(e) e^2 + Z v
   kCubic,         ///< f = K e + Q e^3 + Z v
   kClippedCubic,  ///< cubic up to the tipping point, slope K_limit beyond

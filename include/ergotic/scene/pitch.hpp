@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "ergotic/scene/scene.hpp"
+
+namespace ergotic::scene {
+
+/// Fundamental of a generated string as it sounds under the explicit scheme, closed form, with the
+/// parameters at their present values.
+///
+/// With N moving masses M, links (K, Z), loss Y to the ground and step h, the lowest mode has
+/// s = 4 sin^2(pi/(2(N+1))), kappa = s K h^2/M, zeta = (s Z + Y) h/M, and moves as lambda^n with
+/// lambda^2 - (2 - kappa - zeta) lambda + (1 - zeta) = 0.
+/// \param rate_hz  rate at which the string's section is stepped, > 0
+/// \return         arg(lambda)/(2 pi h), Hz; NaN if the mode does not oscillate (overdamped or
+///                 unstable)
+/// Realtime: no. Thread: any.
+double stringPitchHz(const Scene& scene, const StringInfo& string, double rate_hz);
+
+}  // namespace ergotic::scene

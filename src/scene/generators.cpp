@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/generators.hpp"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace ergotic::scene {
+namespace {
+
+/// Height of a string held at `at` (0...1), at the place `u` (0...1).
+double triangle(double u, double at, double height) {
+  return height * (u <= at ? u / at : (1.0 - u) / (1.0 - at));
+}
+
+Mat stringMat(const StringSpec& spec, int index) {
+  const double u = static_cast<double>(index) / (spec.masses + 1);
+  const Eigen::Vector2d at = (1.0 - u) * spec.from + u * spec.to;
+  Mat mat;
+  mat.name = spec.name + "." + std::to_string(index);
+  mat.section = spec.section;
+  mat.y = at.x();
+  mat.z = at.y();
+  mat.place = spec.place;
+  if (index == 0 || index == spec.masses + 1) {
+    mat.type = MatType::kGround;
+    return mat;
+  }
+  mat.type = spec.loss ? MatType::kCell : MatType::kMass;
+  mat.mass = spec.mass;
+  mat.damping = spec.loss.value_or(Value{});
+  mat.position = spec.pluck ? triangle(u, spec.pluck->x(), spec.pluck->y()) : 0.0;
+  return mat;
+}
+
+Lia generatedLink(const std::string& name, int index, int a, int b, Place place) {
+  Lia lia;
+  lia.name = name + ".link." + std::to_string(index);
+  lia.a = a;
+  lia.b = b;
+  lia.place = place;
+  return lia;
+}
+
+}  // namespace
+
+Value stringStiffness(int masses, const Value& mass, double frequency_hz) {
+  const double root = M_PI * frequency_hz / std::sin(M_PI / (2.0 * (masses + 1)));
+  return root * root * mass;
+}
+
+void addString(SceneBuilder& builder, const StringSpec& spec) {
+  const int count = spec.masses + 2;
+  builder.reserve(static_cast<std::size_t>(count), static_cast<std::size_t>(count - 1), spec.place);
+  const int first = static_cast<int>(builder.scene().mats.size());
+  for (int i = 0; i < count; ++i) {
+    builder.add(stringMat(spec, i));
+  }
+  for (int i = 0; i + 1 < count; ++i) {
+    Lia lia = generatedLink(spec.name, i, first + i, first + i + 1, spec.place);
+    lia.stiffness = spec.stiffness;
+    lia.damping = spec.damping;
+    builder.add(std::move(lia));
+  }
+  StringInfo info;
+  info.name = spec.name;
+  info.first = first;
+  info.count = count;
+  info.mass = spec.mass;
+  info.stiffness = spec.stiffness;
+  info.damping = spec.damping;
+  info.loss = spec.loss.value_or(Value{});
+  builder.add(std::move(info));
+}
+
+void addChaplet(SceneBuilder& builder, const ChapletSpec& spec) {
+  // C2 of docs/scene.md: stiffness in m wN^2, damping in m wN, mass in m (link 0: from the
+  // carrier).
+  constexpr std::array<double, 2> kStiffness{0.0083, 0.0705};
+  constexpr std::array<double, 2> kDamping{0.2237, 0.0};
+  constexpr std::array<double, 2> kMass{0.4475, 0.5525};
+  const double nyquist = M_PI * builder.scene().gestural_rate_hz;  // wN, rad/s
+  const Mat carrier = builder.scene().mats[static_cast<std::size_t>(spec.from)];
+
+  int previous = spec.from;
+  for (int i = 0; i < 2; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    Mat mat;
+    mat.name = spec.name + "." + std::to_string(i);
+    mat.section = spec.section;
+    mat.mass = kMass[k] * spec.mass;
+    mat.rest_x = carrier.rest_x;
+    mat.position = carrier.position;
+    mat.y = spec.at.x();
+    mat.z = spec.at.y();
+    mat.place = spec.place;
+    const int index = builder.add(std::move(mat));
+    Lia lia = generatedLink(spec.name, i, previous, index, spec.place);
+    lia.stiffness = kStiffness[k] * nyquist * nyquist * spec.mass;
+    lia.damping = kDamping[k] * nyquist * spec.mass;
+    builder.add(std::move(lia));
+    previous = index;
+  }
+}
+
+}  // namespace ergotic::scene

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/names.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace ergotic::scene {
+namespace {
+
+constexpr std::size_t kLongestQuote = 48;
+constexpr std::size_t kLongestCompared = 64;  // bounds the cost of a suggestion
+constexpr std::size_t kMostListed = 16;
+
+/// Letters to add, drop or replace to get from one word to the other (Levenshtein).
+std::size_t editDistance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+int NameTable::add(const std::string& name, int index) {
+  const auto [entry, is_new] = indices_.emplace(name, index);
+  return is_new ? -1 : entry->second;
+}
+
+int NameTable::find(const std::string& name) const {
+  const auto entry = indices_.find(name);
+  return entry == indices_.end() ? -1 : entry->second;
+}
+
+std::vector<std::string> NameTable::names() const {
+  std::vector<std::string> all;
+  all.reserve(indices_.size());
+  for (const auto& entry : indices_) {
+    all.push_back(entry.first);
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+std::string quoted(const std::string& text) {
+  if (text.size() <= kLongestQuote) {
+    return "'" + text + "'";
+  }
+  std::size_t end = kLongestQuote;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
+    --end;  // not in the middle of a UTF-8 character
+  }
+  return "'" + text.substr(0, end) + "...'";
+}
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
+  std::string best;
+  if (word.size() <= kLongestCompared) {
+    std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
+    for (const std::string& candidate : known) {
+      const std::size_t shorter = std::min(word.size(), candidate.size());
+      if (std::max(word.size(), candidate.size()) - shorter >= best_distance) {
+        continue;
+      }
+      const std::size_t distance = editDistance(word, candidate);
+      if (distance < best_distance) {
+        best_distance = distance;
+        best = candidate;
+      }
+    }
+  }
+  if (!best.empty()) {
+    return "; did you mean " + quoted(best) + "?";
+  }
+  if (known.empty() || known.size() > kMostListed) {
+    return "";
+  }
+  std::string list = "; known: ";
+  for (const std::string& name : known) {
+    list += (&name == &known.front() ? "" : ", ") + name;
+  }
+  return list;
+}
+
+}  // namespace ergotic::scene

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace ergotic::scene {
+
+/// A decimal number, the whole text: `3`, `-0.5`, `.5`, `1e-3`. Nothing for text that is anything
+/// else, and for what a double cannot hold (infinite, not a number, 1e999, 1e-999).
+/// Does not depend on the locale.
+std::optional<double> parseNumber(std::string_view text);
+
+/// A decimal whole number, the whole text.
+std::optional<int> parseInteger(std::string_view text);
+
+/// Without blanks at either end.
+std::string trimmed(std::string_view text);
+
+}  // namespace ergotic::scene

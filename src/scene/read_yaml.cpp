@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/scene/read_scene.hpp"
+#include "scene/overrides.hpp"
+#include "scene/source_text.hpp"
+#include "scene/yaml_elements.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+constexpr int kFormatVersion = 1;
+
+YAML::Node parse(const SceneBuilder& builder, const std::string& text) {
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.empty() || documents.front().IsNull()) {
+      builder.fail({1, 1}, "the scene is empty, allowed: a map that begins with 'ergotic: 1'");
+    }
+    if (documents.size() > 1) {
+      builder.fail(placeOf(documents[1], {1, 1}), "a second document, allowed: one in each file");
+    }
+    return documents.front();
+  } catch (const YAML::Exception& e) {
+    builder.fail({std::max(e.mark.line, 0) + 1, std::max(e.mark.column, 0) + 1},
+                 "not valid YAML: " + e.msg);
+  }
+}
+
+void readHead(SceneBuilder& builder, const YamlMap& top, const Overrides& overrides) {
+  const int version = top.integer("ergotic", {});
+  if (version != kFormatVersion) {
+    top.fail("ergotic", "format version " + std::to_string(version) +
+                            " is not known, allowed: " + std::to_string(kFormatVersion));
+  }
+  Scene& scene = builder.scene();
+  scene.name = top.has("name") ? top.word("name") : stemOf(scene.file);
+  scene.gestural_rate_hz = overrideGesturalRate(
+      overrides, top.number("gestural_rate", kGesturalRateLimits, scene.gestural_rate_hz),
+      scene.file);
+}
+
+void readParameters(SceneBuilder& builder, const YamlMap& top) {
+  forEachElement(
+      builder, top, "parameters", "parameter", [&](const std::string& name, const YamlMap& map) {
+        map.allow({"value", "range"});
+        if (name == kGesturalRateName) {
+          builder.fail(map.place(), "parameter name 'gestural_rate' is reserved");
+        }
+        map.at("range");
+        const std::vector<double> range = map.vector("range", 2, {});
+        if (range[0] > range[1]) {
+          map.fail("range", "range of " + map.what() + " is [" + numberText(range[0]) + ", " +
+                                numberText(range[1]) + "], allowed: [lowest, highest]");
+        }
+        Parameter parameter;
+        parameter.name = name;
+        parameter.value = map.number("value", {"", range[0], range[1]});
+        parameter.minimum = range[0];
+        parameter.maximum = range[1];
+        parameter.place = map.place();
+        builder.add(std::move(parameter));
+      });
+}
+
+void overrideParameters(SceneBuilder& builder, const Overrides& overrides) {
+  Scene& scene = builder.scene();
+  std::vector<std::string> names;
+  for (const Parameter& parameter : scene.parameters) {
+    names.push_back(parameter.name);
+  }
+  checkOverrides(overrides, names, scene.file);
+  for (Parameter& parameter : scene.parameters) {
+    const auto found = overrides.find(parameter.name);
+    if (found == overrides.end()) {
+      continue;
+    }
+    const Limits limits{"", parameter.minimum, parameter.maximum};
+    if (!limits.hold(found->second)) {
+      throw Exception(scene.file + ": error: override " +
+                      outOfRange(quoted(parameter.name), found->second, limits));
+    }
+    parameter.value = found->second;
+  }
+}
+
+void readRate(const YamlMap& map, Section& section) {
+  if (!map.has("rate")) {
+    return;
+  }
+  if (map.at("rate").IsMap()) {
+    const YamlMap rate = map.map("rate");
+    rate.allow({"divisor"});
+    section.divisor = rate.integer("divisor", kDivisorLimits);
+    return;
+  }
+  section.gestural = map.choice("rate", {"audio", "gestural"}) == 1;
+}
+
+Eigen::Isometry3d readPose(const YamlMap& pose) {
+  pose.allow({"position", "rotation"});
+  const std::vector<double> position = pose.vector("position", 3, kMetreLimits);
+  const std::vector<double> rotation = pose.vector("rotation", 3, kAngleLimits);
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  result.translate(Eigen::Vector3d(position[0], position[1], position[2]));
+  result.rotate(Eigen::AngleAxisd(rotation[2], Eigen::Vector3d::UnitZ()) *
+                Eigen::AngleAxisd(rotation[1], Eigen::Vector3d::UnitY()) *
+                Eigen::AngleAxisd(rotation[0], Eigen::Vector3d::UnitX()));
+  return result;
+}
+
+void readSections(SceneBuilder& builder, const YamlMap& top) {
+  top.at("sections");
+  forEachElement(builder, top, "sections", "section",
+                 [&](const std::string& name, const YamlMap& map) {
+                   map.allow({"rate", "pose", "gravity"});
+                   Section section;
+                   section.name = name;
+                   section.place = map.place();
+                   readRate(map, section);
+                   section.gravity = map.number("gravity", kGravityLimits, 0.0);
+                   if (map.has("pose")) {
+                     section.pose = readPose(map.map("pose"));
+                   }
+                   builder.add(std::move(section));
+                 });
+  if (builder.scene().sections.empty()) {
+    top.fail("sections", "the scene has no section, allowed: at least one");
+  }
+}
+
+/// What is legal but hardly meant.
+void warnOfLooseEnds(SceneBuilder& builder) {
+  Scene& scene = builder.scene();
+  std::vector<bool> used(scene.mats.size(), false);
+  for (const Port& port : scene.ports) {
+    used[static_cast<std::size_t>(port.mat)] = true;
+  }
+  for (const Input& input : scene.inputs) {
+    used[static_cast<std::size_t>(input.mat)] = true;
+  }
+  for (std::size_t i = 0; i < scene.mats.size(); ++i) {
+    const Mat& mat = scene.mats[i];
+    if (mat.type == MatType::kSlice && !used[i]) {
+      builder.warn(mat.place, "no port moves slice " + quoted(mat.name) + ": it stays at rest");
+    }
+    if (mat.type == MatType::kDriven && !used[i]) {
+      builder.warn(mat.place, "no input moves module " + quoted(mat.name) + ": it stays at rest");
+    }
+  }
+}
+
+}  // namespace
+
+void forEachElement(const SceneBuilder& builder,
+                    const YamlMap& top,
+                    const std::string& part,
+                    const std::string& kind,
+                    const ElementReader& element) {
+  if (!top.has(part)) {
+    return;
+  }
+  forEachEntry(builder, top.at(part), "'" + part + "'", top.keyPlaceAt(part),
+               [&](const std::string& name, Place place, const YAML::Node& node) {
+                 checkName(builder, name, place);
+                 element(name, YamlMap(builder, node, kind + " " + quoted(name), place));
+               });
+}
+
+Scene readYaml(const std::string& text, const std::string& name, const Overrides& overrides) {
+  checkBytes(text, name, Bytes::kUtf8);
+  SceneBuilder builder(name, text);
+  const YAML::Node root = parse(builder, text);
+  const YamlMap top(builder, root, "the scene", {1, 1});
+  top.allow({"ergotic", "name", "gestural_rate", "parameters", "sections", "mats", "generators",
+             "lias", "ports", "inputs", "outputs"});
+  readHead(builder, top, overrides);
+  readParameters(builder, top);
+  overrideParameters(builder, overrides);
+  readSections(builder, top);
+  readMats(builder, top);
+  readGenerators(builder, top);
+  readLias(builder, top);
+  readPorts(builder, top);
+  readInputs(builder, top);
+  readOutputs(builder, top);
+  warnOfLooseEnds(builder);
+  return builder.finish();
+}
+
+}  // namespace ergotic::scene

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "ergotic/scene/scene.hpp"
+#include "scene/names.hpp"
+
+namespace ergotic::scene {
+
+/// A scene while it is being read: adds elements, finds them by name, says what is wrong where.
+class SceneBuilder {
+ public:
+  SceneBuilder(const std::string& file, const std::string& text);
+
+  Scene& scene() noexcept { return scene_; }
+  const Scene& scene() const noexcept { return scene_; }
+  /// The whole valid scene. \throws TextError from `validate`
+  Scene finish();
+
+  /// \return the index of what was added
+  /// \throws TextError if the name is taken, or if there are too many modules
+  int add(Parameter parameter);
+  int add(Section section);
+  int add(Mat mat);
+  int add(Lia lia);
+  int add(StringInfo string);
+  /// Makes room for that many modules and links more.
+  /// \throws TextError if that would be more than kMaxMats modules
+  void reserve(std::size_t mats, std::size_t lias, Place place);
+
+  /// \return index of what was defined under that name
+  /// \throws TextError naming the nearest that exists
+  int parameter(const std::string& name, Place place) const;
+  int section(const std::string& name, Place place) const;
+  int mat(const std::string& name, Place place) const;
+  int string(const std::string& name, Place place) const;
+
+  [[noreturn]] void fail(Place place, const std::string& what) const;
+  void warn(Place place, const std::string& what);
+
+ private:
+  int find(const NameTable& table, const char* kind, const std::string& name, Place place) const;
+  template <class T>
+  int append(std::vector<T>& list, NameTable& table, const char* kind, T item);
+
+  Scene scene_;
+  NameTable parameters_;
+  NameTable sections_;
+  NameTable mats_;
+  NameTable lias_;
+  NameTable strings_;
+};
+
+}  // namespace ergotic::scene

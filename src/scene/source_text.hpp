@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "ergotic/scene/scene.hpp"
+
+namespace ergotic::scene {
+
+/// Which bytes a text may hold.
+enum class Bytes {
+  kUtf8,  ///< UTF-8 everywhere
+  kAny,   ///< anything but control characters: old files have Latin-1 comments
+};
+
+/// Refuses what no scene text may hold: more than 64 MB, NUL and other control characters (tab and
+/// line ends excepted), and bytes that are not UTF-8 if these are not allowed.
+/// \throws TextError at the first such byte
+void checkBytes(const std::string& text, const std::string& file, Bytes allowed);
+
+/// Offset of the first byte that is not part of a well-formed UTF-8 character, npos if there is
+/// none.
+std::size_t findNonUtf8(const std::string& text);
+
+/// Line and column (in bytes) of an offset, both from 1.
+Place placeAt(const std::string& text, std::size_t offset);
+
+/// Length of the UTF-8 byte order mark at the start of the text, 0 if there is none.
+std::size_t byteOrderMark(const std::string& text);
+
+/// `dir/harp.mdl` -> `harp`
+std::string stemOf(const std::string& file);
+
+}  // namespace ergotic::scene

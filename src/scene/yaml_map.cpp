@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/yaml_map.hpp"
+
+#include <algorithm>
+#include <unordered_set>
+#include <utility>
+
+#include "scene/number.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+const char* kindOf(const YAML::Node& node) {
+  switch (node.Type()) {
+    case YAML::NodeType::Scalar:
+      return "a single value";
+    case YAML::NodeType::Sequence:
+      return "a list";
+    case YAML::NodeType::Map:
+      return "a map";
+    default:
+      return "empty";
+  }
+}
+
+bool isLetter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+bool isNameCharacter(char c) {
+  return isLetter(c) || (c >= '0' && c <= '9') || c == '.' || c == '-';
+}
+
+}  // namespace
+
+Place placeOf(const YAML::Node& node, Place fallback) {
+  const YAML::Mark mark = node.Mark();
+  return mark.is_null() ? fallback : Place{mark.line + 1, mark.column + 1};
+}
+
+std::string wordOf(const SceneBuilder& builder,
+                   const YAML::Node& node,
+                   const std::string& what,
+                   Place fallback) {
+  if (!node.IsScalar()) {
+    builder.fail(placeOf(node, fallback),
+                 what + " is " + kindOf(node) + ", allowed: a single value");
+  }
+  return node.Scalar();
+}
+
+double numberOf(const SceneBuilder& builder,
+                const YAML::Node& node,
+                const std::string& what,
+                const Limits& limits,
+                Place fallback) {
+  return numberIn(builder, wordOf(builder, node, what, fallback), what, limits,
+                  placeOf(node, fallback));
+}
+
+double numberIn(const SceneBuilder& builder,
+                const std::string& text,
+                const std::string& what,
+                const Limits& limits,
+                Place place) {
+  if (text.find('$') != std::string::npos) {
+    builder.fail(place, what + " = " + quoted(text) +
+                            " cannot follow a parameter, allowed: a constant, " + limits.text());
+  }
+  const std::optional<double> number = parseNumber(text);
+  if (!number) {
+    builder.fail(
+        place, what + " = " + quoted(text) + " is not a finite number, allowed: " + limits.text());
+  }
+  if (!limits.hold(*number)) {
+    builder.fail(place, outOfRange(what, *number, limits));
+  }
+  return *number;
+}
+
+void forEachEntry(const SceneBuilder& builder,
+                  const YAML::Node& node,
+                  const std::string& what,
+                  Place fallback,
+                  const MapEntry& entry) {
+  if (!node.IsMap()) {
+    builder.fail(placeOf(node, fallback), what + " is " + kindOf(node) + ", allowed: a map");
+  }
+  std::unordered_set<std::string> seen;
+  for (const auto& pair : node) {
+    const Place place = placeOf(pair.first, fallback);
+    const std::string key = wordOf(builder, pair.first, "a key of " + what, fallback);
+    if (!seen.insert(key).second) {
+      builder.fail(place, "key " + quoted(key) + " of " + what + " comes twice");
+    }
+    entry(key, place, pair.second);
+  }
+}
+
+void checkName(const SceneBuilder& builder, const std::string& name, Place place) {
+  if (name.empty() || name.size() > kMaxNameBytes || !isLetter(name.front()) ||
+      !std::all_of(name.begin(), name.end(), isNameCharacter)) {
+    builder.fail(place, "name " + quoted(name) + " is not legal, allowed: a letter or '_', then " +
+                            "letters, digits, '_', '.', '-', at most " +
+                            std::to_string(kMaxNameBytes));
+  }
+}
+
+YamlMap::YamlMap(const SceneBuilder& builder, const YAML::Node& node, std::string what, Place place)
+    : builder_(builder), what_(std::move(what)), place_(place) {
+  forEachEntry(builder, node, what_, place,
+               [this](const std::string& key, Place key_place, const YAML::Node& value) {
+                 entries_.push_back({key, key_place, value});
+               });
+}
+
+void YamlMap::allow(const std::vector<std::string>& keys) const {
+  for (const Entry& entry : entries_) {
+    if (std::find(keys.begin(), keys.end(), entry.key) == keys.end()) {
+      builder_.fail(entry.place, "unknown key " + named(entry.key) + suggestion(entry.key, keys));
+    }
+  }
+}
+
+const YamlMap::Entry* YamlMap::find(const std::string& key) const {
+  const auto entry = std::find_if(entries_.begin(), entries_.end(),
+                                  [&key](const Entry& e) { return e.key == key; });
+  return entry == entries_.end() ? nullptr : &*entry;
+}
+
+const YamlMap::Entry& YamlMap::require(const std::string& key) const {
+  const Entry* entry = find(key);
+  if (entry == nullptr) {
+    builder_.fail(place_, "missing key " + named(key));
+  }
+  return *entry;
+}
+
+std::string YamlMap::named(const std::string& key) const {
+  return quoted(key) + " of " + what_;
+}
+
+const YAML::Node& YamlMap::at(const std::string& key) const {
+  return require(key).value;
+}
+
+Place YamlMap::placeAt(const std::string& key) const {
+  const Entry& entry = require(key);
+  return placeOf(entry.value, entry.place);
+}
+
+Place YamlMap::keyPlaceAt(const std::string& key) const {
+  return require(key).place;
+}
+
+void YamlMap::fail(const std::string& key, const std::string& message) const {
+  builder_.fail(placeAt(key), message);
+}
+
+std::string YamlMap::word(const std::string& key) const {
+  const Entry& entry = require(key);
+  return wordOf(builder_, entry.value, named(key), entry.place);
+}
+
+std::size_t YamlMap::choice(const std::string& key, const std::vector<std::string>& words) const {
+  const std::string text = word(key);
+  const auto found = std::find(words.begin(), words.end(), text);
+  if (found == words.end()) {
+    fail(key, "unknown " + key + " " + named(text) + suggestion(text, words));
+  }
+  return static_cast<std::size_t>(found - words.begin());
+}
+
+double YamlMap::number(const std::string& key, const Limits& limits) const {
+  const Entry& entry = require(key);
+  return numberOf(builder_, entry.value, named(key), limits, entry.place);
+}
+
+double YamlMap::number(const std::string& key, const Limits& limits, double otherwise) const {
+  return has(key) ? number(key, limits) : otherwise;
+}
+
+int YamlMap::integer(const std::string& key, const Limits& limits) const {
+  const std::string text = word(key);
+  const std::optional<int> whole = parseInteger(text);
+  if (!whole) {
+    number(key, limits);  // says it if this is no number at all, or out of range
+    fail(key,
+         named(key) + " = " + quoted(text) + " is not a whole number, allowed: " + limits.text());
+  }
+  if (!limits.hold(*whole)) {
+    fail(key, outOfRange(named(key), *whole, limits));
+  }
+  return *whole;
+}
+
+std::vector<double> YamlMap::vector(const std::string& key,
+                                    std::size_t count,
+                                    const Limits& limits) const {
+  std::vector<double> numbers(count, 0.0);
+  if (!has(key)) {
+    return numbers;
+  }
+  const YAML::Node& list = at(key);
+  if (!list.IsSequence() || list.size() != count) {
+    const std::string found =
+        list.IsSequence() ? "a list of " + std::to_string(list.size()) : std::string(kindOf(list));
+    fail(key, named(key) + " is " + found + ", allowed: a list of " + std::to_string(count) +
+                  " numbers");
+  }
+  std::size_t i = 0;
+  for (const YAML::Node& item : list) {
+    numbers[i++] = numberOf(builder_, item, named(key), limits, placeAt(key));
+  }
+  return numbers;
+}
+
+Value YamlMap::value(const std::string& key, const Limits& limits) const {
+  const std::string text = word(key);
+  const std::size_t dollar = text.find('$');
+  if (dollar == std::string::npos) {
+    return {number(key, limits), -1};
+  }
+  // `$name` or `number*$name`
+  double factor = 1.0;
+  if (dollar > 0) {
+    const std::size_t end = text.find_last_not_of(' ', dollar - 1);
+    const bool product = end != std::string::npos && text[end] == '*';
+    const std::optional<double> number =
+        product ? parseNumber(trimmed(text.substr(0, end))) : std::nullopt;
+    if (!number) {
+      fail(key, named(key) + " = " + quoted(text) +
+                    " is not understood, allowed: a number, $name or number*$name");
+    }
+    factor = *number;
+  }
+  const int index = builder_.parameter(trimmed(text.substr(dollar + 1)), placeAt(key));
+  const Parameter& parameter = builder_.scene().parameters[static_cast<std::size_t>(index)];
+  for (const double end : {parameter.minimum, parameter.maximum}) {
+    if (!limits.hold(factor * end)) {
+      fail(key, outOfRange(named(key) + " at " + quoted(parameter.name) + " = " + numberText(end),
+                           factor * end, limits));
+    }
+  }
+  return {factor, index};
+}
+
+Value YamlMap::value(const std::string& key, const Limits& limits, const Value& otherwise) const {
+  return has(key) ? value(key, limits) : otherwise;
+}
+
+YamlMap YamlMap::map(const std::string& key) const {
+  const Entry& entry = require(key);
+  return YamlMap(builder_, entry.value, named(key), entry.place);
+}
+
+}  // namespace ergotic::scene

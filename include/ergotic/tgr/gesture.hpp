@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace ergotic::tgr {
+
+/// Recorded positions of the slices, tick by tick.
+class GestureSource {
+ public:
+  virtual ~GestureSource() = default;
+  /// Slices per tick, 1...kMaxSlices, constant.
+  virtual int slices() const noexcept = 0;
+  /// Gives the next tick. Realtime: as its maker says; `readPositionsCsv`: yes.
+  /// \param[out] positions  [slices] m; untouched at the end
+  /// \return false at the end, then and ever after
+  virtual bool next(double* positions) noexcept = 0;
+};
+
+/// Where the positions of a performance go. Realtime: no.
+class PerformanceSink {
+ public:
+  virtual ~PerformanceSink() = default;
+  /// Ticks come in order, without gaps.
+  /// \param positions  [slices] m, as given to the instrument
+  /// \throws Exception if they cannot be stored
+  virtual void write(std::int64_t tick, const double* positions) = 0;
+};
+
+/// Reads a CSV of positions per tick into memory: a line `tick,x0,x1,...` and one line of numbers
+/// per tick, positions in metres, ticks counting up by one; `#` starts a comment line.
+/// \throws TextError with file:line:col; Exception if the file cannot be read
+std::unique_ptr<GestureSource> readPositionsCsv(const std::string& path);
+
+/// Writes the same format, so that every double comes back bit for bit.
+/// \throws Exception if the file cannot be written
+std::unique_ptr<PerformanceSink> writePositionsCsv(const std::string& path, int slices);
+
+/// The two kinds of gesture files.
+enum class GestureKind {
+  kTargets,   ///< `time_s,slice,target_m`: where a virtual hand wants to be, for a VirtualDriver
+  kPositions  ///< `tick,x0,...`: where the slices were, for `readPositionsCsv`
+};
+
+/// Tells the kinds apart by the first line that is not a comment; what does not start with `tick`
+/// is taken for targets.
+/// \throws Exception if the file cannot be read
+GestureKind gestureKindOf(const std::string& path);
+
+}  // namespace ergotic::tgr

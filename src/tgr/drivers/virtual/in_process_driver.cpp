@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tgr/drivers/virtual/in_process_driver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ergotic/rt/realtime.hpp"
+#include "tgr/require.hpp"
+
+namespace ergotic::tgr {
+
+InProcessDriver::InProcessDriver(const VirtualDriverConfig& config)
+    : bank_({config.slices, config.slice, config.gesture_file, config.seed}),
+      extra_delay_ticks_(config.extra_delay_ticks) {
+  requireWithin("extra_delay_ticks", extra_delay_ticks_, 0, kMaxExtraDelayTicks, "ticks");
+}
+
+void InProcessDriver::open(double tick_rate_hz) {
+  bank_.start(1.0 / tick_rate_hz);
+  for (Forces& forces : queue_) {
+    forces.fill(0.0);
+  }
+  head_ = 0;
+  last_positions_.fill(0.0);
+  open_ = true;
+}
+
+ERGOTIC_REALTIME std::uint32_t InProcessDriver::exchange(const double* forces,
+                                                         double* positions) noexcept {
+  const bool safe = safe_;
+  const std::uint32_t made_safe = safe ? kMadeSafe : kExchangeOk;
+  if (!open_) {
+    std::copy_n(last_positions_.begin(), slices(), positions);
+    return made_safe | kDeviceLost;
+  }
+  if (safe) {  // also what is under way
+    for (Forces& queued : queue_) {
+      queued.fill(0.0);
+    }
+  }
+  takeTargets();
+  Forces& oldest = queue_[head_];
+  bank_.step(oldest.data());
+  bank_.read(last_positions_.data());
+  if (!safe) {
+    std::copy_n(forces, slices(), oldest.begin());
+  }
+  head_ = (head_ + 1) % static_cast<std::size_t>(extra_delay_ticks_ + 1);
+  std::copy_n(last_positions_.begin(), slices(), positions);
+  return made_safe;
+}
+
+ERGOTIC_REALTIME void InProcessDriver::takeTargets() noexcept {
+  std::array<Target, kPendingTargets> pending;
+  const std::size_t count = targets_.pop(pending.data(), pending.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    bank_.setTarget(pending[i].slice, pending[i].target_m);
+  }
+}
+
+bool InProcessDriver::setTarget(int slice, double target_m) noexcept {
+  const bool valid = slice >= 0 && slice < slices() && std::abs(target_m) <= kMaxTargetM;
+  return valid && targets_.push({slice, target_m});
+}
+
+}  // namespace ergotic::tgr

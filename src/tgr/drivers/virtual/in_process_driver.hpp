@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <atomic>
+
+#include "ergotic/rt/ring.hpp"
+#include "ergotic/tgr/virtual_driver.hpp"
+#include "tgr/drivers/virtual/slice_bank.hpp"
+
+namespace ergotic::tgr {
+
+/// A virtual device that lives in the driver and moves on by one tick per exchange.
+///
+/// As on a real device, the forces of an exchange act from there to the next one, so the positions
+/// that this exchange reads do not know them yet. Same settings, file and forces: same bits.
+class InProcessDriver final : public VirtualDriver {
+ public:
+  /// \throws as makeVirtualDriver
+  explicit InProcessDriver(const VirtualDriverConfig& config);
+
+  void open(double tick_rate_hz) override;
+  void close() noexcept override { open_ = false; }
+  int slices() const noexcept override { return bank_.slices(); }
+  std::uint32_t exchange(const double* forces, double* positions) noexcept override;
+  void makeSafe() noexcept override { safe_ = true; }
+  void rearm() noexcept override { safe_ = false; }
+  int extraDelayTicks() const noexcept override { return extra_delay_ticks_; }
+  bool setTarget(int slice, double target_m) noexcept override;
+
+  static constexpr int kMaxExtraDelayTicks = 16;
+
+ private:
+  struct Target {
+    int slice;
+    double target_m;
+  };
+  static constexpr std::size_t kPendingTargets = 256;
+  using Forces = std::array<double, kMaxSlices>;
+
+  void takeTargets() noexcept;
+
+  SliceBank bank_;
+  int extra_delay_ticks_;
+  std::array<Forces, kMaxExtraDelayTicks + 1> queue_{};  // forces under way, oldest at head_
+  std::size_t head_ = 0;
+  Forces last_positions_{};
+  rt::Ring<Target> targets_{kPendingTargets};
+  std::atomic<bool> open_{false};
+  std::atomic<bool> safe_{false};
+};
+
+}  // namespace ergotic::tgr

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tgr/drivers/virtual/shared_memory_driver.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/rt/clock.hpp"
+#include "ergotic/rt/realtime.hpp"
+#include "tgr/drivers/virtual/target_gesture.hpp"
+#include "tgr/require.hpp"
+
+namespace ergotic::tgr {
+namespace {
+
+constexpr std::array<double, kMaxSlices> kNoForce{};
+
+/// A device that is started together with the station may need a moment.
+SharedSegment attachPatiently(const std::string& name) {
+  constexpr std::int64_t kPatienceNs = 1'000'000'000;
+  constexpr std::int64_t kPauseNs = 20'000'000;
+  const std::int64_t deadline = rt::monotonicNs() + kPatienceNs;
+  while (true) {
+    try {
+      return SharedSegment::attach(name);
+    } catch (const DeviceError&) {
+      const std::int64_t now = rt::monotonicNs();
+      if (now >= deadline) {
+        throw;
+      }
+      rt::sleepUntilNs(now + kPauseNs);
+    }
+  }
+}
+
+}  // namespace
+
+SharedMemoryDriver::SharedMemoryDriver(const VirtualDriverConfig& config)
+    : name_(config.shared_memory), slices_(config.slices) {
+  requireWithin("slices", slices_, 1, kMaxSlices, "");
+  if (!config.gesture_file.empty() || config.extra_delay_ticks != 0) {
+    throw Exception("virtual device " + name_ +
+                    ": gesture_file and extra_delay_ticks are settings of a device inside the "
+                    "driver; give the gesture to virtual_tgr instead");
+  }
+}
+
+SharedMemoryDriver::~SharedMemoryDriver() {
+  close();
+}
+
+void SharedMemoryDriver::open(double tick_rate_hz) {
+  close();
+  SharedSegment segment = attachPatiently(name_);
+  if (segment->slices != slices_) {
+    throw DeviceError("virtual device " + name_ + ": has " + std::to_string(segment->slices) +
+                      " slices, not the " + std::to_string(slices_) + " that were asked for");
+  }
+  takeOver(*segment.get(), name_);
+  constexpr double kStepsOfDelay = 2.0;
+  extra_delay_ticks_ =
+      static_cast<int>(std::ceil(kStepsOfDelay * tick_rate_hz / segment->step_rate_hz));
+  segments_.push_back(std::move(segment));
+  SharedDevice* const device = segments_.back().get();
+  device_ = device;
+  if (safe_) {  // a makeSafe that came before the device was known
+    device->safe = 1;
+  }
+  open_ = true;
+}
+
+void SharedMemoryDriver::takeOver(SharedDevice& device, const std::string& name) {
+  std::int32_t owner = device.driver_pid;
+  if (processLives(owner)) {
+    throw DeviceError("virtual device " + name + ": process " + std::to_string(owner) +
+                      " has it open");
+  }
+  if (!device.driver_pid.compare_exchange_strong(owner, ::getpid())) {
+    throw DeviceError("virtual device " + name + ": another driver opens it at the same moment");
+  }
+  device.forces.write(kNoForce.data(), slices_);
+  for (std::atomic<double>& target : device.targets) {
+    target = std::numeric_limits<double>::quiet_NaN();
+  }
+  device.exchanges = 0;
+  device.safe = 0;
+  ++device.session;
+}
+
+void SharedMemoryDriver::close() noexcept {
+  if (open_.exchange(false)) {
+    SharedDevice& device = *device_.load();
+    device.forces.write(kNoForce.data(), slices_);
+    device.driver_pid = 0;
+  }
+}
+
+ERGOTIC_REALTIME std::uint32_t SharedMemoryDriver::exchange(const double* forces,
+                                                            double* positions) noexcept {
+  std::uint32_t flags = safe_ ? kMadeSafe : kExchangeOk;
+  if (!open_) {
+    flags |= kDeviceLost;
+  } else {
+    SharedDevice& device = *device_.load();
+    if (device.safe != 0) {  // also set by the device's watchdog
+      flags |= kMadeSafe;
+    }
+    const bool safe = (flags & kMadeSafe) != 0;
+    device.forces.write(safe ? kNoForce.data() : forces, slices_);
+    device.exchanges.fetch_add(1, std::memory_order_release);
+    const std::int64_t age = rt::monotonicNs() - device.heartbeat_ns;
+    if (device.device_pid == 0 || age > kLostNs) {
+      flags |= kDeviceLost;
+    } else if (!device.positions.read(last_positions_.data(), slices_) || age > kMissingNs) {
+      flags |= kMissingSample;
+    }
+  }
+  std::copy_n(last_positions_.begin(), slices_, positions);
+  return flags;
+}
+
+void SharedMemoryDriver::makeSafe() noexcept {
+  safe_ = true;
+  if (SharedDevice* const device = device_; device != nullptr) {
+    device->safe = 1;
+  }
+}
+
+void SharedMemoryDriver::rearm() noexcept {
+  safe_ = false;
+  if (SharedDevice* const device = device_; device != nullptr) {
+    device->safe = 0;
+  }
+}
+
+bool SharedMemoryDriver::setTarget(int slice, double target_m) noexcept {
+  const bool valid = slice >= 0 && slice < slices_ && std::abs(target_m) <= kMaxTargetM;
+  if (!valid || !open_) {
+    return false;
+  }
+  device_.load()->targets[static_cast<std::size_t>(slice)] = target_m;
+  return true;
+}
+
+}  // namespace ergotic::tgr

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tgr/drivers/virtual/target_gesture.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/rt/realtime.hpp"
+#include "tgr/csv.hpp"
+
+namespace ergotic::tgr {
+namespace {
+
+constexpr double kMaxTimeS = 1e6;
+
+bool isHeader(const CsvReader& csv) {
+  if (csv.text(0) != "time_s") {
+    return false;
+  }
+  csv.requireSize(3);
+  if (csv.text(1) != "slice" || csv.text(2) != "target_m") {
+    csv.fail(1, "header, expected time_s,slice,target_m");
+  }
+  return true;
+}
+
+}  // namespace
+
+TargetGesture::TargetGesture(std::istream& in, const std::string& name, int slices)
+    : TargetGesture(slices) {
+  CsvReader csv(in, name);
+  for (bool first = true; csv.nextRow(); first = false) {
+    if (first && isHeader(csv)) {
+      continue;
+    }
+    csv.requireSize(3);
+    const double t_s = csv.number(0, "time_s", 0.0, kMaxTimeS);
+    const auto slice = static_cast<std::size_t>(csv.integer(1, "slice", 0, slices - 1));
+    const double target_m = csv.number(2, "target_m", -kMaxTargetM, kMaxTargetM);
+    std::vector<Knot>& knots = knots_[slice];
+    if (!knots.empty() && t_s <= knots.back().t_s) {
+      csv.fail(0,
+               "time_s '" + std::string(csv.text(0)) + "' is not after the slice's row before it");
+    }
+    knots.push_back({t_s, target_m});
+  }
+}
+
+ERGOTIC_REALTIME HandTarget TargetGesture::at(int slice, double t_s) const noexcept {
+  const std::vector<Knot>& knots = knots_[static_cast<std::size_t>(slice)];
+  if (knots.empty()) {
+    return {};
+  }
+  const auto next = std::upper_bound(knots.begin(), knots.end(), t_s,
+                                     [](double t, const Knot& knot) { return t < knot.t_s; });
+  if (next == knots.begin()) {
+    return {knots.front().target_m, 0.0};
+  }
+  const Knot& last = *(next - 1);
+  if (next == knots.end()) {
+    return {last.target_m, 0.0};
+  }
+  const double velocity = (next->target_m - last.target_m) / (next->t_s - last.t_s);
+  return {last.target_m + (t_s - last.t_s) * velocity, velocity};
+}
+
+TargetGesture readTargetGesture(const std::string& path, int slices) {
+  if (path.empty()) {
+    return TargetGesture(slices);
+  }
+  std::ifstream in(path);
+  if (!in) {
+    throw Exception(path + ": cannot be read: " + std::strerror(errno));
+  }
+  return {in, path, slices};
+}
+
+}  // namespace ergotic::tgr

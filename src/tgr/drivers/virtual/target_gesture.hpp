@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <istream>
+#include <string>
+#include <vector>
+
+#include "tgr/drivers/virtual/virtual_slice.hpp"
+
+namespace ergotic::tgr {
+
+constexpr double kMaxTargetM = 0.1;  ///< a hand does not want to be further from rest
+
+/// Where the virtual hands want to be over time: a CSV `time_s,slice,target_m` (that line may stand
+/// on top; `#` starts a comment line). Between the rows of a slice the target moves on a straight
+/// line; before its first row it is the first row's, after its last row the last one's; a slice
+/// without rows rests at 0. The rows of a slice come in increasing time; slices may interleave.
+class TargetGesture {
+ public:
+  /// All slices rest at 0.
+  explicit TargetGesture(int slices) : knots_(static_cast<std::size_t>(slices)) {}
+
+  /// \param name  of the file, for messages
+  /// \throws TextError with file:line:col
+  TargetGesture(std::istream& in, const std::string& name, int slices);
+
+  /// \param t_s  from the start of the gesture. Realtime: yes (binary search)
+  HandTarget at(int slice, double t_s) const noexcept;
+
+ private:
+  struct Knot {
+    double t_s;
+    double target_m;
+  };
+  std::vector<std::vector<Knot>> knots_;  // [slices]
+};
+
+/// An empty path stands for hands that rest at 0.
+/// \throws TextError; Exception if the file cannot be read
+TargetGesture readTargetGesture(const std::string& path, int slices);
+
+}  // namespace ergotic::tgr

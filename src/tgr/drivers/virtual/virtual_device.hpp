@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <ostream>
+#include <string>
+
+#include "ergotic/rt/ring.hpp"
+#include "tgr/drivers/virtual/shared_device.hpp"
+#include "tgr/drivers/virtual/slice_bank.hpp"
+
+namespace ergotic::tgr {
+
+struct VirtualDeviceConfig {
+  std::string shared_memory;  ///< name of the segment
+  SliceBankConfig bank;
+  double rate_hz = 4000.0;    ///< of the mechanics, 100...50000
+  double watchdog_s = 0.010;  ///< longest time between exchanges, 0.001...10
+};
+
+/// A change of the force that a slice feels.
+struct ForceRecord {
+  std::int64_t time_ns = 0;  ///< CLOCK_MONOTONIC of the mechanics' step
+  std::int32_t slice = 0;
+  double force_n = 0.0;
+};
+
+/// A virtual device that outlives its driver: mechanics on a clock of its own, met through shared
+/// memory, with a watchdog. Force needs a driver that is open, armed, and exchanging: when it was
+/// not heard of for `watchdog_s`, there is none until it exchanges again and re-arms. The gesture
+/// starts anew with every driver that opens.
+class VirtualDevice {
+ public:
+  /// \throws DeviceError from the segment; TextError and Exception as SliceBank
+  explicit VirtualDevice(const VirtualDeviceConfig& config);
+
+  /// One step of the mechanics, which `now_ns` is the time of. Realtime: yes. Thread: one
+  void step(std::int64_t now_ns) noexcept;
+
+  /// Steps at absolute times until `stop`. After a gap of more than `kMaxBehindNs` the steps that
+  /// were missed are dropped. Realtime: yes, but the sleep. Thread: the one that steps
+  void run(const std::atomic<bool>& stop) noexcept;
+
+  /// \return false if there is no record. Thread: one, any
+  bool pollForce(ForceRecord& record) noexcept { return records_.pop(record); }
+  /// Records that found their ring full.
+  std::int64_t droppedRecords() const noexcept { return dropped_records_; }
+
+  static constexpr std::int64_t kMaxBehindNs = 50'000'000;
+
+ private:
+  bool mayPush(std::int64_t now_ns) noexcept;
+  void takeForces(std::int64_t now_ns) noexcept;
+
+  VirtualDeviceConfig config_;
+  SliceBank bank_;
+  SharedSegment shared_;
+  std::int64_t watchdog_ns_;
+  std::uint32_t session_ = 0;
+  std::uint64_t exchanges_ = 0;
+  std::int64_t last_exchange_ns_ = 0;
+  bool heard_ = false;                       // exchanges come, and none has been late since
+  std::array<double, kMaxSlices> forces_{};  // N, as felt
+  rt::Ring<ForceRecord> records_{1U << 17U};
+  std::atomic<std::int64_t> dropped_records_{0};
+};
+
+/// Writes the records that wait as CSV rows `time_ns,slice,force_n`.
+void drainForces(VirtualDevice& device, std::ostream& out);
+
+}  // namespace ergotic::tgr

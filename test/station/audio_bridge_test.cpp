@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ergotic/station/audio_bridge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/station/tick_schedule.hpp"
+#include "support/audio_host.hpp"
+
+namespace ergotic::station {
+namespace {
+
+constexpr double kRate = 44100.0;
+constexpr int kRatio = 14;
+constexpr std::uint32_t kPeriod = 256;
+constexpr double kTickNs = 1e9 * kRatio / kRate;
+
+AudioBridgeConfig smallConfig() {
+  AudioBridgeConfig config;
+  config.rates = {kRate, kRatio};
+  config.output_channels = 2;
+  config.input_channels = 1;
+  return config;
+}
+
+/// A bridge between a host and a tick thread that are both driven by hand, on a clock of the test.
+/// Station frame f carries the sample f + 1, so that no pushed sample is zero.
+struct Rig {
+  explicit Rig(const AudioBridgeConfig& config = smallConfig())
+      : bridge(config), host(bridge, 2, 1, kRate), schedule(kTickNs, 5'000'000) {}
+
+  /// All ticks due before the next block begins, then the block.
+  std::vector<float> step(float input = 0.0F) {
+    runTicksUntil(host.timeOf(host.nextFrame()));
+    return hear(input);
+  }
+
+  void runTicksUntil(std::int64_t now_ns) {
+    while (schedule.dueNs() < now_ns) {
+      bridge.track(tick, schedule.dueNs());
+      if (bridge.isMaster()) {
+        schedule.follow(bridge.dueNs(tick));
+      }
+      runTick();
+      schedule.advance(1);
+    }
+  }
+
+  void runTick() {
+    std::vector<float> in(kRatio, -1.0F);
+    heard = bridge.pull(tick * kRatio, in.data(), kRatio);
+    for (int i = 0; i < kRatio; ++i) {
+      pulled[tick * kRatio + i] = in[static_cast<std::size_t>(i)];
+    }
+    std::vector<float> frames;
+    for (int i = 0; i < kRatio; ++i) {
+      frames.insert(frames.end(), 2, static_cast<float>(tick * kRatio + i + 1));
+    }
+    bridge.push(tick * kRatio, frames.data(), kRatio);
+    ++tick;
+    takeEvents();
+  }
+
+  std::vector<float> hear(float input = 0.0F) {
+    const std::int64_t first = host.nextFrame();
+    const std::vector<float> out = host.block(input);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      sounded[first + static_cast<std::int64_t>(i)] = out[i];
+    }
+    return out;
+  }
+
+  void takeEvents() {
+    Event event;
+    while (bridge.popEvent(event)) {
+      events.push_back(event);
+    }
+  }
+
+  /// Blocks until the bridge is connected and sounding.
+  void settle() {
+    for (int i = 0; i < 20; ++i) {
+      step();
+    }
+    ASSERT_TRUE(bridge.isMaster());
+  }
+
+  const Event& started() const {
+    return *std::find_if(events.begin(), events.end(),
+                         [](const Event& e) { return e.type == Event::Type::kAudioStarted; });
+  }
+  std::int64_t offset() const {
+    return static_cast<std::int64_t>(started().value) - started().frame;
+  }
+
+  /// Every host frame since the start of audio carries its own station frame, but for exactly those
+  /// that were reported missing, which are zero.
+  void expectExactExceptReported() {
+    takeEvents();
+    std::map<std::int64_t, bool> reported;
+    for (const Event& e : events) {
+      for (std::int64_t i = 0; e.type == Event::Type::kUnderrun && i < e.index; ++i) {
+        EXPECT_EQ(static_cast<std::int64_t>(e.value), e.frame + offset());
+        EXPECT_FALSE(reported[e.frame + i + offset()]) << "reported twice";
+        reported[e.frame + i + offset()] = true;
+      }
+    }
+    for (const auto& [frame, sample] : sounded) {
+      const std::int64_t station_frame = frame - offset();
+      const bool silent = station_frame < started().frame || reported.count(frame) != 0;
+      ASSERT_EQ(sample, silent ? 0.0F : static_cast<float>(station_frame + 1)) << "at " << frame;
+    }
+    EXPECT_EQ(bridge.status().underrun_frames, static_cast<std::int64_t>(reported.size()));
+  }
+
+  AudioBridge bridge;
+  test::AudioHost host;
+  TickSchedule schedule;
+  std::int64_t tick = 0;
+  bool heard = false;
+  std::map<std::int64_t, float> sounded;  // host frame -> sample
+  std::map<std::int64_t, float> pulled;   // station frame -> sample
+  std::vector<Event> events;
+};
+
+TEST(AudioBridgeTest, SoundsEveryFrameAtItsPlaceWithoutUnderrun) {
+  Rig rig;
+  rig.host.start(kPeriod, 1'000'000, 20'000'000);
+  for (int i = 0; i < 2000; ++i) {
+    rig.step();
+  }
+  rig.expectExactExceptReported();
+  EXPECT_EQ(rig.bridge.status().underruns, 0);
+  EXPECT_TRUE(rig.bridge.status().clock_locked);
+  EXPECT_EQ(rig.events.size(), 1U) << "audio started, nothing else";
+}
+
+TEST(AudioBridgeTest, TickIsDueOneRingDepthBeforeItsFirstFrameSounds) {
+  Rig rig;
+  rig.host.start(kPeriod, 1'000'000, 20'000'000);
+  rig.settle();
+  const std::int64_t sounds_at = rig.tick * kRatio + rig.offset();
+  EXPECT_NEAR(static_cast<double>(rig.bridge.dueNs(rig.tick)),
+              static_cast<double>(rig.host.timeOf(sounds_at - 768)), 2000.0);
+}
+
+TEST(AudioBridgeTest, ConnectsWithinHalfAFrameOfTheTimesAtWhichTicksWereDue) {
+  Rig rig;
+  rig.host.start(kPeriod, 77, 23'456'789);
+  while (!rig.bridge.isMaster()) {
+    rig.step();
+  }
+  EXPECT_LE(std::abs(static_cast<double>(rig.bridge.dueNs(rig.tick) - rig.schedule.dueNs())),
+            0.5 * 1e9 / kRate + 1000.0);
+}
+
+TEST(AudioBridgeTest, SkippedPushesAreZerosExactlyWhereReported) {
+  Rig rig;
+  rig.host.start(kPeriod, 1'000'000, 20'000'000);
+  rig.settle();
+  rig.tick += 5;  // ticks that never ran
+  rig.schedule.advance(5);
+  for (int i = 0; i < 50; ++i) {
+    rig.step();
+  }
+  rig.expectExactExceptReported();
+  EXPECT_EQ(rig.bridge.status().underruns, 1);
+  EXPECT_EQ(rig.bridge.status().underrun_frames, 5 * kRatio);
+}
+
+TEST(AudioBridgeTest, DiscardsWhatComesTooLateAndNeverShifts) {
+  Rig rig;
+  rig.host.start(kPeriod, 1'000'000, 20'000'000);
+  rig.settle();
+  for (int i = 0; i < 6; ++i) {
+    rig.hear();  // the tick thread stands still for 1536 frames, twice the ring depth
+  }
+  for (int i = 0; i < 50; ++i) {
+    rig.step();
+  }
+  rig.expectExactExceptReported();
+  EXPECT_EQ(rig.bridge.status().underruns, 1) << "one gap, though it spans several blocks";
+  EXPECT_NEAR(static_cast<double>(rig.bridge.status().underrun_frames), 768.0 + 256.0, 256.0);
+}
+
+TEST(AudioBridgeTest, TellsWhatTheHostLeftOut) {
+  Rig rig;
+  rig.host.start(kPeriod, 1'000'000, 20'000'000);
+  rig.settle();
+  const std::int64_t expected = rig.host.nextFrame();
+  rig.host.skip(512);
+  rig.bridge.xrun();
+  for (int i = 0; i < 50; ++i) {
+    rig.step();
+  }
+  rig.expectExactExceptReported();
+  const auto skipped = std::find_if(rig.events.begin(), rig.events.end(), [](const Event& e) {
+    return e.type == Event::Type::kAudioSkipped;
+  });
+  ASSERT_NE(skipped, rig.events.end());
+  EXPECT_EQ(skipped->frame, expected - rig.offset());
+  EXPECT_EQ(skipped->index, 512);
+  EXPECT_EQ(rig.bridge.status().xruns, 1);
+  EXPECT_EQ(rig.bridge.status().underruns, 0);
+}
+
+class AudioBridgeScheduleTest : public ::testing::TestWithParam<unsigned> {};
+
+TEST_P(AudioBridgeScheduleTest, IsExactWhereverItReportsNoUnderrun) {
+  std::mt19937 random(GetParam());
+  Rig rig;
+  rig.host.start(kPeriod, 1'000'000, 20'000'000);
+  rig.settle();
+  std::uniform_int_distribution<int> kind(0, 19);
+  std::uniform_int_distribution<std::int64_t> some(1, 150);
+  for (int i = 0; i < 2000; ++i) {
+    switch (kind(random)) {
+      case 0: {
+        const std::int64_t lost = some(random);  // ticks that never ran
+        rig.tick += lost;
+        rig.schedule.advance(lost);
+        break;
+      }
+      case 1:
+        rig.hear();  // the tick thread is late for this block
+        break;
+      case 2:
+        rig.host.skip(some(random));
+        break;
+      case 3:  // the tick thread is early
+        rig.runTicksUntil(rig.schedule.dueNs() + some(random) * 20'000);
+        break;
+      default:
+        rig.step();
+    }
+  }
+  rig.expectExactExceptReported();
+  EXPECT_GT(rig.bridge.status().underruns, 10);
+  EXPECT_EQ(rig.bridge.status().dropped_records, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, AudioBridgeScheduleTest, ::testing::Range(1U, 11U));
+
+TEST(AudioBridgeTest, ReconnectsToAHostThatCountsFromElsewhere) {
+  Rig rig;
+  rig.host.start(kPeriod, 1'000'000, 20'000'000);
+  rig.settle();
+  rig.step(0.5F);
+  const std::int64_t gone_at = rig.host.timeOf(rig.host.nextFrame());
+  rig.bridge.audioStopped();
+  rig.runTicksUntil(gone_at + 50'000'000);
+  EXPECT_FALSE(rig.bridge.isMaster());
+  EXPECT_EQ(rig.events.back().type, Event::Type::kAudioStopped);
+  EXPECT_FALSE(rig.bridge.status().running);
+
+  rig.events.clear();
+  rig.sounded.clear();
+  rig.pulled.clear();
+  rig.host.start(kPeriod, 64, gone_at + 60'000'000);
+  rig.settle();
+  for (int i = 0; i < 50; ++i) {
+    rig.step(0.25F);
+  }
+  rig.expectExactExceptReported();
+  EXPECT_EQ(rig.bridge.status().underruns, 0);
+  EXPECT_EQ(rig.pulled.rbegin()->second, 0.25F);
+}
+
+TEST(AudioBridgeTest, IsSilentWithoutUnderrunsOnceTicksEnd) {
+  Rig rig;
+  rig.host.start(kPeriod, 1'000'000, 20'000'000);
+  rig.settle();
+  rig.bridge.disconnect();
+  for (int i = 0; i < 10; ++i) {
+    const auto out = rig.hear();
+    EXPECT_TRUE(std::all_of(out.begin(), out.end(), [](float s) { return s == 0.0F; }));
+  }
+  EXPECT_EQ(rig.bridge.status().underruns, 0);
+}
+
+TEST(AudioBridgeTest, CaptureReachesTicksAtAConstantDistance) {
+  Rig rig;
+  rig.host.start(kPeriod, 1'000'000, 20'000'000);
+  rig.settle();
+  // An impulse at the start of one block arrives at exactly one station frame.
+  rig.runTicksUntil(rig.host.timeOf(rig.host.nextFrame()));
+  const std::int64_t at = rig.host.nextFrame();
+  std::vector<float> impulse(kPeriod, 0.0F);
+  impulse[0] = 1.0F;
+  rig.host.block(impulse);
+  for (int i = 0; i < 10; ++i) {
+    rig.step();
+  }
+  std::vector<std::int64_t> found;
+  for (const auto& [frame, sample] : rig.pulled) {
+    if (sample != 0.0F) {
+      found.push_back(frame);
+    }
+  }
+  ASSERT_EQ(found.size(), 1U);
+  const std::int64_t lag = static_cast<std::int64_t>(kPeriod) + kRatio;
+  EXPECT_EQ(found[0] + rig.offset() - 768 - lag, at);
+}
+
+TEST(AudioBridgeTest, TellsSilenceFromSoundAtTheInput) {
+  Rig rig;
+  rig.host.start(kPeriod, 1'000'000, 20'000'000);
+  rig.settle();
+  EXPECT_FALSE(rig.heard);
+  for (int i = 0; i < 5; ++i) {
+    rig.step(0.5F);
+  }
+  EXPECT_TRUE(rig.heard);
+}
+
+TEST(AudioBridgeTest, FillsHostChannelsThatTheStationDoesNotHave) {
+  AudioBridge bridge(smallConfig());
+  test::AudioHost host(bridge, 5, 0, kRate);
+  host.start(64, 0, 0);
+  host.block();
+  for (const auto& channel : host.last()) {
+    EXPECT_TRUE(std::all_of(channel.begin(), channel.end(), [](float s) { return s == 0.0F; }));
+  }
+}
+
+TEST(AudioBridgeTest, RaisesARingDepthThatTheHostsPeriodExceeds) {
+  Rig rig;
+  rig.host.start(1024, 1'000'000, 20'000'000);
+  EXPECT_EQ(rig.bridge.latencyFrames(), 1024 + kRatio + AudioBridge::kMarginFrames);
+  EXPECT_EQ(rig.bridge.takeWarnings().size(), 1U);
+  EXPECT_TRUE(rig.bridge.takeWarnings().empty());
+  for (int i = 0; i < 200; ++i) {
+    rig.step();
+  }
+  rig.expectExactExceptReported();
+  EXPECT_EQ(rig.bridge.status().underruns, 0);
+}
+
+TEST(AudioBridgeTest, RefusesAHostAtAnotherRateOrWithAnEndlessPeriod) {
+  AudioBridge bridge(smallConfig());
+  EXPECT_THROW(bridge.audioStarted(48000.0, 256), Exception);
+  EXPECT_THROW(bridge.audioStarted(kRate, 1U << 15U), Exception);
+  EXPECT_FALSE(bridge.status().running);
+}
+
+TEST(AudioBridgeTest, RefusesARingDepthOutsideItsRange) {
+  AudioBridgeConfig config = smallConfig();
+  config.latency_frames = 0;
+  EXPECT_THROW(AudioBridge{config}, Exception);
+  config.latency_frames = AudioBridge::kMaxLatencyFrames + 1;
+  EXPECT_THROW(AudioBridge{config}, Exception);
+}
+
+}  // namespace
+}  // namespace ergotic::station

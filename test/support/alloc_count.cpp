@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/alloc_count.hpp"
+
+#include <cerrno>
+#include <cstddef>
+
+namespace {
+
+// Only ever plain integers: the first heap call of a thread comes before any constructor.
+thread_local int active_scopes = 0;
+thread_local std::int64_t heap_calls = 0;
+
+}  // namespace
+
+#ifndef ERGOTIC_SANITIZED
+
+namespace {
+void count() noexcept {
+  heap_calls += active_scopes > 0 ? 1 : 0;
+}
+}  // namespace
+
+// glibc 2.36 has no malloc hooks; a program may define the functions over the names beneath them.
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* old, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+void __libc_free(void* block);
+
+void* malloc(std::size_t size) {
+  count();
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t items, std::size_t size) {
+  count();
+  return __libc_calloc(items, size);
+}
+void* realloc(void* old, std::size_t size) {
+  count();
+  return __libc_realloc(old, size);
+}
+void* memalign(std::size_t alignment, std::size_t size) {
+  count();
+  return __libc_memalign(alignment, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  count();
+  return __libc_memalign(alignment, size);
+}
+int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
+  count();
+  *block = __libc_memalign(alignment, size);
+  return *block == nullptr ? ENOMEM : 0;
+}
+void free(void* block) {
+  count();
+  __libc_free(block);
+}
+}
+
+#endif
+
+namespace ergotic::test {
+
+AllocationScope::AllocationScope() noexcept {
+  if (active_scopes++ == 0) {
+    heap_calls = 0;
+  }
+}
+
+AllocationScope::~AllocationScope() {
+  --active_scopes;
+}
+
+std::int64_t AllocationScope::calls() const noexcept {
+  return heap_calls;
+}
+
+bool AllocationScope::isAvailable() noexcept {
+#ifdef ERGOTIC_SANITIZED
+  return false;
+#else
+  return true;
+#endif
+}
+
+}  // namespace ergotic::test

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+namespace ergotic::test {
+
+/// Counts the heap calls (malloc, calloc, realloc, aligned ones, free) of the calling thread while
+/// the object lives. Under sanitizers, which bring their own heap, it counts nothing.
+class AllocationScope {
+ public:
+  AllocationScope() noexcept;
+  ~AllocationScope();
+  AllocationScope(const AllocationScope&) = delete;
+  AllocationScope& operator=(const AllocationScope&) = delete;
+
+  /// Heap calls so far.
+  std::int64_t calls() const noexcept;
+
+  /// False where heap calls cannot be counted: tests then skip themselves.
+  static bool isAvailable() noexcept;
+};
+
+}  // namespace ergotic::test

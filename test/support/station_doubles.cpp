@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/station_doubles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numeric>
+
+namespace ergotic::test {
+namespace {
+
+scene::Scene sceneOf(const SpringInstrument::Setting& setting) {
+  scene::Scene scene;
+  scene.name = "spring";
+  scene.sections.emplace_back();
+  scene.mats.emplace_back();
+  scene.mats[0].type = scene::MatType::kSlice;
+  scene.ports.push_back(setting.port);
+  scene.ports[0].name = "hand";
+  scene.parameters.push_back({"stiffness", setting.stiffness, 0.0, 1e6, {}});
+  for (int c = 0; c < setting.outputs; ++c) {
+    scene.outputs.emplace_back();
+    scene.outputs.back().channel = c;
+  }
+  for (int c = 0; c < setting.inputs; ++c) {
+    scene.inputs.emplace_back();
+    scene.inputs.back().channel = c;
+  }
+  return scene;
+}
+
+}  // namespace
+
+std::uint32_t ScriptedDriver::exchange(const double* forces, double* positions) noexcept {
+  const std::int64_t n = log_.exchanges++;
+  std::copy_n(forces, slices_, log_.forces.begin());
+  if (watch) {
+    watch(n, forces);
+  }
+  for (int s = 0; s < slices_; ++s) {
+    positions[s] = position_(n, s);
+  }
+  const std::uint32_t safe = log_.safe.load() ? tgr::kMadeSafe : 0U;
+  return safe | (flags_of ? flags_of(n) : 0U);
+}
+
+SpringInstrument::SpringInstrument(const Setting& setting)
+    : Instrument(sceneOf(setting), {setting.audio_hz, setting.ratio}, physics::Precision::kDouble),
+      setting_(setting),
+      stiffness_(std::make_unique<Stiffness>()) {
+  stiffness_->value = setting.stiffness;
+}
+
+SpringInstrument::~SpringInstrument() {
+  if (setting_.destroyed != nullptr) {
+    ++*setting_.destroyed;
+  }
+}
+
+void SpringInstrument::tick(const physics::TickIo& io) noexcept {
+  const std::int64_t tick = frames_ / rates().ratio;
+  io.forces[0] =
+      tick == setting_.bad_force_at ? std::nan("") : -stiffness_->value * io.positions[0];
+  const int in = rates().ratio * inputChannels();
+  last_input = std::accumulate(io.inputs, io.inputs + in, 0.0);
+  double* to = io.outputs;
+  for (int r = 0; r < rates().ratio; ++r, ++frames_) {
+    const double sample = setting_.count_frames ? static_cast<double>(frames_) : setting_.level;
+    to = std::fill_n(to, outputChannels(), sample);
+  }
+  if (tick == setting_.bad_sample_at) {
+    io.outputs[0] = std::numeric_limits<double>::infinity();
+  }
+}
+
+std::unique_ptr<physics::Coefficients> SpringInstrument::prepare(
+    const std::vector<double>& values) const {
+  auto made = std::make_unique<Stiffness>();
+  made->value = values.at(0);
+  return made;
+}
+
+std::unique_ptr<physics::Coefficients> SpringInstrument::exchange(
+    std::unique_ptr<physics::Coefficients> next) noexcept {
+  std::unique_ptr<physics::Coefficients> old(stiffness_.release());
+  stiffness_.reset(static_cast<Stiffness*>(next.release()));
+  return old;
+}
+
+std::vector<physics::StateEntry> SpringInstrument::stateEntries() const {
+  return {{"frames", 0, sizeof(frames_)}};
+}
+
+void SpringInstrument::saveState(void* to) const noexcept {
+  std::memcpy(to, &frames_, sizeof(frames_));
+}
+
+void SpringInstrument::loadState(const void* from) noexcept {
+  std::memcpy(&frames_, from, sizeof(frames_));
+}
+
+void SpringInstrument::readDisplacements(float* to) const noexcept {
+  to[0] = static_cast<float>(frames_);
+}
+
+bool SpringInstrument::isFinite() const noexcept {
+  return setting_.bad_displacement_at < 0 ||
+         frames_ / rates().ratio <= setting_.bad_displacement_at;
+}
+
+std::unique_ptr<station::Performer> makeSpring(const SpringInstrument::Setting& setting) {
+  return std::make_unique<station::Performer>(std::make_unique<SpringInstrument>(setting));
+}
+
+Bench::Bench(const SpringInstrument::Setting& setting,
+             ScriptedDriver::Position position,
+             const station::StationConfig& config) {
+  auto made = std::make_unique<ScriptedDriver>(2, log, std::move(position));
+  driver = made.get();
+  auto performer = makeSpring(setting);
+  instrument = static_cast<SpringInstrument*>(performer->instrument.get());
+  station = std::make_unique<station::Station>(config, std::move(made), std::move(performer));
+}
+
+station::StationConfig Bench::quickConfig() {
+  station::StationConfig config;
+  config.output_channels = 2;
+  config.input_channels = 1;
+  config.safety.ramp_s = 0.1;
+  config.record_ring = 1U << 12U;
+  config.keyframe_bytes = 1U << 10U;
+  return config;
+}
+
+bool Bench::command(station::Command::Type type) {
+  station::Command made;
+  made.type = type;
+  return station->submit(made);
+}
+
+std::vector<station::Event> Bench::events() {
+  std::vector<station::Event> all;
+  station::Event event;
+  while (station->poll(event)) {
+    all.push_back(event);
+  }
+  return all;
+}
+
+void Bench::run(std::int64_t ticks) {
+  for (std::int64_t i = 0; i < ticks; ++i) {
+    station->cycle({0, true});
+  }
+}
+
+int count(const std::vector<station::Event>& events, station::Event::Type type) {
+  return static_cast<int>(std::count_if(
+      events.begin(), events.end(), [type](const station::Event& e) { return e.type == type; }));
+}
+
+station::Event firstOf(const std::vector<station::Event>& events, station::Event::Type type) {
+  for (const station::Event& event : events) {
+    if (event.type == type) {
+      return event;
+    }
+  }
+  station::Event none;
+  none.tick = -1;
+  return none;
+}
+
+void FrameLog::push(std::int64_t first, const float* frames, int nframes) noexcept {
+  for (int i = 0; i < nframes; ++i) {
+    samples.push_back(frames[static_cast<std::size_t>(i) * channels_]);
+    indices.push_back(first + i);
+  }
+}
+
+bool FrameLog::pull(std::int64_t /*first*/, float* frames, int nframes) noexcept {
+  std::fill_n(frames, nframes, input_level);
+  return input_level != 0.0F;
+}
+
+}  // namespace ergotic::test

@@ -26,6 +26,7 @@ VirtualDevice::VirtualDevice(const VirtualDeviceConfig& config)
       shared_(SharedSegment::create(config.shared_memory, bank_.slices(), config.rate_hz)),
       watchdog_ns_(static_cast<std::int64_t>(config.watchdog_s * kNsPerS)) {
   bank_.start(1.0 / config.rate_hz);
+  shared_->heartbeat_ns = rt::monotonicNs();
 }
 
 ERGOTIC_REALTIME bool VirtualDevice::mayPush(std::int64_t now_ns) noexcept {

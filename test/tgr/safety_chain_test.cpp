@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ergotic/tgr/safety_chain.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "ergotic/exception.hpp"
+
+namespace ergotic::tgr {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTick = 1.0 / 1024.0;  // a power of two: ramps add up exactly
+
+SafetyConfig quickConfig() {
+  SafetyConfig config;
+  config.ramp_s = 0.125;  // 128 ticks
+  config.max_missing = 3;
+  return config;
+}
+
+class SafetyChainTest : public ::testing::Test {
+ protected:
+  double limited(double force) {
+    std::array<double, 2> forces{force, 0.0};
+    chain_.limit(forces.data());
+    return forces[0];
+  }
+  std::uint64_t validated(double x0, double x1, std::uint32_t flags = kExchangeOk) {
+    positions_ = {x0, x1};
+    return chain_.validate(positions_.data(), flags);
+  }
+  void openFully() {
+    chain_.engage();
+    for (int i = 0; i < 128; ++i) {
+      limited(0.0);
+    }
+  }
+
+  SafetyChain chain_{quickConfig(), 2, kTick};
+  std::array<double, 2> positions_{};
+};
+
+TEST_F(SafetyChainTest, RampsLinearlyFromZeroToOne) {
+  chain_.engage();
+  for (int n = 0; n <= 128; ++n) {
+    ASSERT_EQ(limited(8.0), 8.0 * n / 128.0);
+  }
+  EXPECT_EQ(limited(8.0), 8.0);
+  EXPECT_EQ(chain_.gain(), 1.0);
+}
+
+TEST_F(SafetyChainTest, PassesForcesWithinTheLimitUnchangedOnceOpen) {
+  openFully();
+  for (const double force : {-20.0, -19.999, -1e-300, 0.1, 20.0}) {
+    EXPECT_EQ(limited(force), force);
+  }
+}
+
+TEST_F(SafetyChainTest, ClipsAfterTheGain) {
+  chain_.engage();
+  for (int n = 0; n < 64; ++n) {
+    limited(0.0);
+  }
+  EXPECT_EQ(limited(30.0), 15.0);  // half of it: clipping first would give 10
+  EXPECT_EQ(limited(-1e6), -20.0);
+  EXPECT_EQ(limited(1e308), 20.0);
+}
+
+TEST_F(SafetyChainTest, GivesExactZerosWhileClosed) {
+  EXPECT_EQ(limited(-5.0), 0.0);
+  EXPECT_FALSE(std::signbit(limited(-5.0)));
+  openFully();
+  EXPECT_EQ(limited(5.0), 5.0);
+  chain_.disengage();
+  EXPECT_EQ(limited(5.0), 0.0);
+}
+
+TEST_F(SafetyChainTest, StartsFromZeroAtEveryEngage) {
+  openFully();
+  chain_.disengage();
+  chain_.engage();
+  EXPECT_EQ(limited(8.0), 0.0);
+  EXPECT_EQ(limited(8.0), 8.0 / 128.0);
+}
+
+TEST_F(SafetyChainTest, KeepsItsGainWhenEngagedTwice) {
+  openFully();
+  chain_.engage();
+  EXPECT_EQ(limited(8.0), 8.0);
+}
+
+TEST_F(SafetyChainTest, RestartsTheRampOnlyWhileOpen) {
+  openFully();
+  chain_.restartRamp();
+  EXPECT_EQ(limited(8.0), 0.0);
+  EXPECT_TRUE(chain_.isOpen());
+  chain_.disengage();
+  chain_.restartRamp();
+  EXPECT_FALSE(chain_.isOpen());
+}
+
+TEST_F(SafetyChainTest, SilencesAllSlicesInTheTickOfANonFiniteForce) {
+  for (const double bad : {kNan, kInfinity, -kInfinity}) {
+    openFully();
+    std::array<double, 2> forces{5.0, bad};
+    chain_.limit(forces.data());
+    EXPECT_EQ(forces, (std::array<double, 2>{0.0, 0.0}));
+    EXPECT_EQ(chain_.fault(), SafetyFault::kBadForce);
+    EXPECT_EQ(chain_.faultSlice(), 1);
+    EXPECT_FALSE(chain_.isOpen());
+    EXPECT_EQ(limited(5.0), 0.0) << "the gate must latch";
+  }
+}
+
+TEST_F(SafetyChainTest, LeavesGoodPositionsAlone) {
+  EXPECT_EQ(validated(0.1, -0.1), 0U);
+  EXPECT_EQ(positions_, (std::array<double, 2>{0.1, -0.1}));
+  EXPECT_EQ(chain_.fault(), SafetyFault::kNone);
+}
+
+TEST_F(SafetyChainTest, HoldsABadPositionAndFaultsAtOnce) {
+  for (const double bad : {kNan, kInfinity, 0.1000001, -0.1000001}) {
+    openFully();
+    validated(0.01, 0.02);
+    EXPECT_EQ(validated(0.03, bad), 0b10U);
+    EXPECT_EQ(positions_, (std::array<double, 2>{0.03, 0.02}));
+    EXPECT_EQ(chain_.fault(), SafetyFault::kBadPosition);
+    EXPECT_EQ(chain_.faultSlice(), 1);
+    EXPECT_EQ(limited(5.0), 0.0);
+  }
+}
+
+TEST_F(SafetyChainTest, HoldsMissingSamplesAndFaultsAfterTooManyInARow) {
+  openFully();
+  validated(0.01, 0.02);
+  for (int n = 0; n < 3; ++n) {
+    EXPECT_EQ(validated(0.05, 0.05, kMissingSample), 0b11U);
+    EXPECT_EQ(positions_, (std::array<double, 2>{0.01, 0.02}));
+    EXPECT_EQ(chain_.fault(), SafetyFault::kNone);
+  }
+  EXPECT_EQ(validated(0.05, 0.05, kMissingSample), 0b11U);
+  EXPECT_EQ(chain_.fault(), SafetyFault::kMissingSamples);
+  EXPECT_FALSE(chain_.isOpen());
+}
+
+TEST_F(SafetyChainTest, CountsMissingSamplesInARowOnly) {
+  for (int n = 0; n < 20; ++n) {
+    validated(0.0, 0.0, n % 4 == 3 ? kExchangeOk : kMissingSample);
+  }
+  EXPECT_EQ(chain_.fault(), SafetyFault::kNone);
+}
+
+TEST_F(SafetyChainTest, FaultsAgainIfEngagedWhileSamplesAreStillMissing) {
+  for (int n = 0; n < 4; ++n) {
+    validated(0.0, 0.0, kMissingSample);
+  }
+  chain_.engage();
+  EXPECT_EQ(chain_.fault(), SafetyFault::kNone);
+  validated(0.0, 0.0, kMissingSample);
+  EXPECT_EQ(chain_.fault(), SafetyFault::kMissingSamples);
+}
+
+TEST_F(SafetyChainTest, FaultsAtOnceWhenTheDeviceIsLost) {
+  openFully();
+  validated(0.01, 0.02);
+  EXPECT_EQ(validated(kNan, kNan, kDeviceLost | kMissingSample), 0b11U);
+  EXPECT_EQ(positions_, (std::array<double, 2>{0.01, 0.02}));
+  EXPECT_EQ(chain_.fault(), SafetyFault::kDeviceLost);
+  EXPECT_EQ(limited(5.0), 0.0);
+}
+
+TEST_F(SafetyChainTest, TellsTheFirstFaultUntilEngaged) {
+  validated(kNan, 0.0);
+  validated(0.0, 0.0, kDeviceLost);
+  EXPECT_EQ(chain_.fault(), SafetyFault::kBadPosition);
+  chain_.engage();
+  EXPECT_EQ(chain_.fault(), SafetyFault::kNone);
+  EXPECT_EQ(chain_.faultSlice(), -1);
+}
+
+TEST_F(SafetyChainTest, NamesEverySliceOfAFullBank) {
+  SafetyChain chain(quickConfig(), kMaxSlices, kTick);
+  std::array<double, kMaxSlices> positions{};
+  EXPECT_EQ(chain.validate(positions.data(), kMissingSample), ~std::uint64_t{0});
+  positions.fill(1.0);
+  EXPECT_EQ(chain.validate(positions.data(), kExchangeOk), ~std::uint64_t{0});
+}
+
+TEST(SafetyConfigTest, RefusesSettingsOutsideTheirRange) {
+  const auto refuses = [](auto change) {
+    SafetyConfig config;
+    change(config);
+    EXPECT_THROW(SafetyChain(config, 12, kTick), Exception);
+  };
+  refuses([](SafetyConfig& c) { c.force_limit_n = kAbsoluteForceLimitN + 0.1; });
+  refuses([](SafetyConfig& c) { c.force_limit_n = -1.0; });
+  refuses([](SafetyConfig& c) { c.force_limit_n = kNan; });
+  refuses([](SafetyConfig& c) { c.ramp_s = 0.0; });
+  refuses([](SafetyConfig& c) { c.ramp_s = 11.0; });
+  refuses([](SafetyConfig& c) { c.position_limit_m = 0.0; });
+  refuses([](SafetyConfig& c) { c.max_missing = -1; });
+  EXPECT_THROW(SafetyChain(SafetyConfig{}, 0, kTick), Exception);
+  EXPECT_THROW(SafetyChain(SafetyConfig{}, kMaxSlices + 1, kTick), Exception);
+}
+
+}  // namespace
+}  // namespace ergotic::tgr

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tgr/drivers/virtual/shared_memory_driver.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <csignal>
+#include <sstream>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+
+#include "ergotic/exception.hpp"
+#include "support/scratch_file.hpp"
+#include "tgr/driver_rigs.hpp"
+
+namespace ergotic::tgr {
+namespace {
+
+using Slices = std::array<double, 3>;
+constexpr int kWatchdogSteps = 10;  // of 1 ms
+
+class SharedMemoryDriverTest : public ::testing::Test {
+ protected:
+  std::uint32_t exchange(double force) {
+    const Slices forces{force, 0.0, 0.0};
+    return rig_.driver().exchange(forces.data(), x_.data());
+  }
+  /// The force that slice 0 feels after the device's next step.
+  double felt() {
+    rig_.elapse();
+    ForceRecord record;
+    while (rig_.device().pollForce(record)) {
+      felt_ = record.slice == 0 ? record.force_n : felt_;
+    }
+    return felt_;
+  }
+  void play(double force) {
+    rig_.driver().open(1000.0);
+    exchange(force);
+    ASSERT_EQ(felt(), force);
+  }
+
+  test::SharedMemoryRig rig_;
+  Slices x_{};
+  double felt_ = 0.0;
+};
+
+TEST_F(SharedMemoryDriverTest, ForceReachesTheDeviceWithItsNextStep) {
+  rig_.driver().open(1000.0);
+  EXPECT_EQ(exchange(7.5), kExchangeOk);
+  EXPECT_EQ(felt(), 7.5);
+  exchange(-300.0);
+  EXPECT_EQ(felt(), -200.0) << "saturated";
+}
+
+TEST_F(SharedMemoryDriverTest, MovesAsADeviceInsideTheDriverDoes) {
+  test::InProcessRig inside;
+  inside.driver().open(1000.0);
+  rig_.driver().open(1000.0);
+  for (int n = 0; n < 300; ++n) {
+    const double force = 5.0 * std::sin(0.05 * n);
+    exchange(force);
+    rig_.elapse();
+    const Slices forces{force, 0.0, 0.0};
+    Slices x{};
+    inside.driver().exchange(forces.data(), x.data());
+    ASSERT_EQ(x_, x) << "tick " << n;
+  }
+}
+
+TEST_F(SharedMemoryDriverTest, WatchdogTakesTheForceOffWhenExchangesStop) {
+  play(15.0);
+  for (int n = 0; n < kWatchdogSteps; ++n) {
+    EXPECT_EQ(felt(), 15.0) << n;
+  }
+  EXPECT_EQ(felt(), 0.0);
+}
+
+TEST_F(SharedMemoryDriverTest, WatchdogLetsGoOfNothingWhileExchangesCome) {
+  play(15.0);
+  for (int n = 0; n < 500; ++n) {
+    if (n % kWatchdogSteps == 0) {
+      EXPECT_EQ(exchange(15.0), kExchangeOk);
+    }
+    ASSERT_EQ(felt(), 15.0);
+  }
+}
+
+TEST_F(SharedMemoryDriverTest, WatchdogLatchesUntilAnExchangeAndARearm) {
+  play(15.0);
+  for (int n = 0; n <= kWatchdogSteps; ++n) {
+    rig_.elapse();
+  }
+  for (int n = 0; n < 5; ++n) {
+    EXPECT_EQ(exchange(15.0), kMadeSafe);
+    EXPECT_EQ(felt(), 0.0) << "an exchange alone is not enough";
+  }
+  for (int n = 0; n < 2 * kWatchdogSteps; ++n) {
+    rig_.elapse();
+  }
+  rig_.driver().rearm();
+  EXPECT_EQ(felt(), 0.0) << "a rearm alone is not enough";
+  EXPECT_EQ(exchange(15.0), kExchangeOk);
+  EXPECT_EQ(felt(), 15.0);
+}
+
+TEST_F(SharedMemoryDriverTest, MakeSafeNeedsNoExchange) {
+  play(15.0);
+  rig_.driver().makeSafe();
+  EXPECT_EQ(felt(), 0.0);
+}
+
+TEST_F(SharedMemoryDriverTest, CloseTakesTheForceOff) {
+  play(15.0);
+  rig_.driver().close();
+  EXPECT_EQ(felt(), 0.0);
+}
+
+TEST_F(SharedMemoryDriverTest, OpensSlowlyWithoutWakingTheWatchdog) {
+  rig_.driver().open(1000.0);
+  for (int n = 0; n < 5 * kWatchdogSteps; ++n) {
+    rig_.elapse();
+  }
+  EXPECT_EQ(exchange(3.0), kExchangeOk);
+  EXPECT_EQ(felt(), 3.0);
+}
+
+TEST_F(SharedMemoryDriverTest, FlagsADeviceThatIsSlowAndOneThatIsLost) {
+  rig_.driver().open(1000.0);
+  rig_.setNow(rt::monotonicNs() - SharedMemoryDriver::kMissingNs - test::SharedMemoryRig::kStepNs);
+  rig_.elapse();
+  EXPECT_NE(exchange(0.0) & (kMissingSample | kDeviceLost), 0U);  // lost if this took a second
+  rig_.setNow(rt::monotonicNs() - SharedMemoryDriver::kLostNs - test::SharedMemoryRig::kStepNs);
+  rig_.elapse();
+  EXPECT_EQ(exchange(0.0), kDeviceLost);
+}
+
+TEST_F(SharedMemoryDriverTest, FindsADeviceThatWasEndedAndStartedAgainByOpening) {
+  play(5.0);
+  rig_.endDevice();
+  EXPECT_EQ(exchange(5.0), kDeviceLost);
+  rig_.driver().makeSafe();  // into memory whose device has gone
+  rig_.driver().rearm();
+  rig_.restartDevice();
+  EXPECT_EQ(exchange(5.0), kDeviceLost);
+  play(4.0);
+}
+
+TEST_F(SharedMemoryDriverTest, SetsTargetsOfTheHands) {
+  EXPECT_FALSE(rig_.driver().setTarget(1, 0.01)) << "not open yet";
+  rig_.driver().open(1000.0);
+  EXPECT_TRUE(rig_.driver().setTarget(1, 0.01));
+  EXPECT_FALSE(rig_.driver().setTarget(3, 0.01));
+  EXPECT_FALSE(rig_.driver().setTarget(0, 0.1001));
+  EXPECT_FALSE(rig_.driver().setTarget(0, std::nan("")));
+  for (int n = 0; n < 5000; ++n) {
+    exchange(0.0);
+    rig_.elapse();
+  }
+  EXPECT_NEAR(x_[1], 0.01, 1e-9);
+  EXPECT_EQ(x_[0], 0.0);
+}
+
+TEST_F(SharedMemoryDriverTest, DeclaresTheStepsThatForceAndPositionMayWait) {
+  rig_.driver().open(1000.0);
+  EXPECT_EQ(rig_.driver().extraDelayTicks(), 2);
+  rig_.driver().open(100.0);
+  EXPECT_EQ(rig_.driver().extraDelayTicks(), 1);
+}
+
+TEST_F(SharedMemoryDriverTest, RefusesADeviceThatAnotherDriverHas) {
+  rig_.driver().open(1000.0);
+  const auto second = rig_.makeDriver();
+  EXPECT_THROW(second->open(1000.0), DeviceError);
+  rig_.driver().close();
+  EXPECT_NO_THROW(second->open(1000.0));
+}
+
+TEST_F(SharedMemoryDriverTest, RefusesADeviceOfOtherSlices) {
+  EXPECT_THROW(rig_.makeDriver(4)->open(1000.0), DeviceError);
+}
+
+TEST_F(SharedMemoryDriverTest, RefusesSettingsOfTheDeviceProcess) {
+  VirtualDriverConfig config;
+  config.shared_memory = rig_.name();
+  config.extra_delay_ticks = 1;
+  EXPECT_THROW(makeVirtualDriver(config), Exception);
+  config.extra_delay_ticks = 0;
+  config.gesture_file = "g.csv";
+  EXPECT_THROW(makeVirtualDriver(config), Exception);
+}
+
+/// A station that is killed in the middle of playing, and the one after it.
+TEST_F(SharedMemoryDriverTest, SurvivesTheDeathOfTheDriversProcess) {
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    const auto driver = rig_.makeDriver();
+    driver->open(1000.0);
+    const Slices forces{15.0, 0.0, 0.0};
+    Slices x{};
+    driver->exchange(forces.data(), x.data());
+    ::raise(SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  for (int n = 0; n <= kWatchdogSteps; ++n) {
+    EXPECT_EQ(felt(), 15.0) << n;
+  }
+  EXPECT_EQ(felt(), 0.0);
+  rig_.driver().open(1000.0);
+  EXPECT_EQ(exchange(3.0), kExchangeOk);
+  EXPECT_EQ(felt(), 3.0);
+}
+
+TEST(VirtualDeviceTest, RecordsEveryChangeOfForceWithItsTime) {
+  test::SharedMemoryRig rig;
+  rig.driver().open(1000.0);
+  Slices x{};
+  const std::int64_t start = rig.now();
+  for (const Slices& forces : {Slices{1.0, 0.0, 0.0}, Slices{1.0, 0.0, -0.1}, Slices{}}) {
+    rig.driver().exchange(forces.data(), x.data());
+    rig.elapse();
+    rig.elapse();
+  }
+  std::ostringstream log;
+  drainForces(rig.device(), log);
+  const auto at = [&](int step) { return std::to_string(start + step * rig.kStepNs); };
+  EXPECT_EQ(log.str(), at(1) + ",0,1\n" + at(3) + ",2,-0.10000000000000001\n" + at(5) + ",0,0\n" +
+                           at(5) + ",2,0\n");
+  EXPECT_EQ(rig.device().droppedRecords(), 0);
+}
+
+TEST(VirtualDeviceTest, StartsTheGestureWhenADriverOpens) {
+  const test::ScratchFile gesture("0,0,0\n1,0,0.05\n");
+  test::SharedMemoryRig rig(gesture.path());
+  for (int n = 0; n < 3000; ++n) {
+    rig.elapse();  // nobody is there: this gesture is lost
+  }
+  rig.driver().open(1000.0);
+  const Slices forces{};
+  Slices x{};
+  for (int n = 0; n < 1001; ++n) {
+    rig.driver().exchange(forces.data(), x.data());
+    rig.elapse();
+    if (n == 600) {
+      EXPECT_NEAR(x[0], 0.03, 0.001);
+    }
+  }
+}
+
+TEST(VirtualDeviceTest, RefusesANameThatALivingDeviceHas) {
+  const test::SharedMemoryRig rig;
+  EXPECT_THROW(SharedSegment::create(rig.name(), 3, 1000.0), DeviceError);
+  EXPECT_NO_THROW(SharedSegment::attach(rig.name()));
+}
+
+TEST(VirtualDeviceTest, TakesTheNameOfADeviceThatWasKilled) {
+  const std::string name = test::freshSegmentName();
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    const SharedSegment segment = SharedSegment::create(name, 3, 1000.0);
+    ::raise(SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_EQ(SharedSegment::attach(name)->slices, 3) << "the killed device left its memory";
+  const SharedSegment segment = SharedSegment::create(name, 5, 1000.0);
+  EXPECT_EQ(SharedSegment::attach(name)->slices, 5);
+}
+
+TEST(VirtualDeviceTest, TakesItsNameAwayWhenItEnds) {
+  const std::string name = test::freshSegmentName();
+  { const SharedSegment segment = SharedSegment::create(name, 3, 1000.0); }
+  EXPECT_THROW(SharedSegment::attach(name), DeviceError);
+}
+
+TEST(VirtualDeviceTest, IsNotMistakenForOtherMemory) {
+  const std::string name = test::freshSegmentName();
+  {
+    const SharedSegment segment = SharedSegment::create(name, 3, 1000.0);
+    segment->version = SharedDevice::kVersion + 1;
+    EXPECT_THROW(SharedSegment::attach(name), DeviceError);
+    segment->version = SharedDevice::kVersion;
+    segment->size = 1;
+    EXPECT_THROW(SharedSegment::attach(name), DeviceError);
+    segment->size = sizeof(SharedDevice);
+    segment->magic = 0;
+    EXPECT_THROW(SharedSegment::attach(name), DeviceError);
+  }
+  for (const char* bad : {"", "/", "a/b", "/a/b"}) {
+    EXPECT_THROW(SharedSegment::create(bad, 3, 1000.0), DeviceError) << bad;
+  }
+}
+
+TEST(VirtualDeviceTest, RefusesSettingsOutsideTheirRange) {
+  VirtualDeviceConfig config;
+  config.shared_memory = test::freshSegmentName();
+  config.rate_hz = 50.0;
+  EXPECT_THROW(VirtualDevice{config}, Exception);
+  config.rate_hz = 4000.0;
+  config.watchdog_s = 0.0;
+  EXPECT_THROW(VirtualDevice{config}, Exception);
+}
+
+}  // namespace
+}  // namespace ergotic::tgr

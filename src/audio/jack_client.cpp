@@ -72,9 +72,12 @@ void JackHost::Impl::supervise() {
     } catch (const std::exception& error) {
       session.reset();
       say(error.what());
+      wake->forget();  // what the ended session posted
     }
     updateStatus();
-    wake->waitFor(kRetryNs);
+    if (!quit) {
+      wake->waitFor(kRetryNs);
+    }
   }
   session.reset();
 }

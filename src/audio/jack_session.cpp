@@ -255,6 +255,7 @@ void JackSession::registerPorts(int inputs, int outputs, std::uint32_t latency_f
 
 void JackSession::activate(rt::BlockProcessor& processor) {
   core_->processor = &processor;
+  core_->period = jack_get_buffer_size(core_->client);  // activation reports it: not a change
   core_->setCallbacks();
   if (jack_activate(core_->client) != 0) {
     fail("the client cannot be activated");
@@ -263,6 +264,7 @@ void JackSession::activate(rt::BlockProcessor& processor) {
 
 void JackSession::resume() {
   core_->clock_offset_ns = jackClockOffset();
+  core_->changed = false;  // what changes from here on is noted again
   core_->period = jack_get_buffer_size(core_->client);
   core_->processor->audioStarted(sampleRate(), core_->period);
   flowing_ = true;

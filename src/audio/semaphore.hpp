@@ -21,6 +21,12 @@ class Semaphore {
   /// Never blocks. Thread: any
   void post() noexcept { sem_post(&semaphore_); }
 
+  /// Takes back all posts so far.
+  void forget() noexcept {
+    while (sem_trywait(&semaphore_) == 0) {
+    }
+  }
+
   /// Waits for a post, at most this long; an interruption by a signal ends it as well.
   void waitFor(std::int64_t timeout_ns) noexcept {
     const std::int64_t end_ns = rt::monotonicNs() + timeout_ns;

@@ -63,6 +63,12 @@ JackServer::JackServer(const std::string& tag, const Settings& settings)
 JackServer::~JackServer() {
   stop();
   std::filesystem::remove(logPath(name_));
+  // Semaphores that neither a killed server nor its clients took away.
+  for (const auto& entry : std::filesystem::directory_iterator("/dev/shm")) {
+    if (entry.path().filename().string().find("_" + name_ + "_") != std::string::npos) {
+      std::filesystem::remove(entry.path());
+    }
+  }
 }
 
 void JackServer::start() {

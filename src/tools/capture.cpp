@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ergotic/audio/capture.hpp"
+
+#include <signal.h>
+
+#include <cstdint>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+namespace {
+
+std::atomic<bool> stop{false};
+
+void onSignal(int) {
+  stop = true;
+}
+
+void stopOnSignals() {
+  struct sigaction action {};
+  action.sa_handler = onSignal;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ergotic::audio::CaptureConfig config;
+  CLI::App app("Records JACK ports to a WAV file, sample by sample.");
+  app.add_option("--out,out", config.path, "WAV file, 32-bit float")->required();
+  app.add_option("--port", config.ports, "port to record, client:name; repeatable");
+  app.add_option("--match", config.match, "record all ports matching this regular expression");
+  app.add_option("--seconds", config.seconds, "length; without: until SIGINT or SIGTERM")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--wait", config.wait_s, "seconds to wait for the ports to appear")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--server", config.server, "name of the JACK server");
+  CLI11_PARSE(app, argc, argv);
+
+  stopOnSignals();
+  try {
+    const auto report =
+        ergotic::audio::capture(config, stop, [](const std::vector<std::string>& channels) {
+          std::cerr << "capture: recording";
+          for (const std::string& channel : channels) {
+            std::cerr << " " << channel;
+          }
+          std::cerr << std::endl;
+        });
+    std::cout << "{\"frames\":" << report.frames
+              << ",\"first_jack_frame\":" << report.first_jack_frame
+              << ",\"sample_rate\":" << static_cast<std::int64_t>(report.sample_rate_hz)
+              << ",\"dropped\":" << report.dropped << ",\"lost\":" << report.lost
+              << ",\"xruns\":" << report.xruns << "}" << std::endl;
+    if (!report.message.empty()) {
+      std::cerr << "capture: " << report.message << std::endl;
+    }
+    return report.dropped == 0 && report.message.empty() ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::cerr << "capture: error: " << error.what() << std::endl;
+    return 1;
+  }
+}

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ergotic/audio/capture.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "ergotic/audio/jack_client.hpp"
+#include "ergotic/audio/wav.hpp"
+#include "ergotic/exception.hpp"
+#include "support/block_probe.hpp"
+#include "support/jack_server.hpp"
+
+namespace ergotic::audio {
+namespace {
+
+using test::BlockProbe;
+using test::eventually;
+using test::JackServer;
+
+class CaptureTest : public testing::Test {
+ protected:
+  CaptureTest() {
+    config_.path = testing::TempDir() + "ergotic_capture_" + std::to_string(getpid()) + ".wav";
+    config_.server = server_.name();
+    config_.wait_s = 30.0;
+    sender_config_.name = "sender";
+    sender_config_.server = server_.name();
+    sender_config_.outputs = 3;
+  }
+  ~CaptureTest() override { std::remove(config_.path.c_str()); }
+
+  /// Frames whose value is neither what was sent at that frame time nor accounted for as missing.
+  std::int64_t wrongFrames(const CaptureReport& report, const std::vector<int>& channels) const {
+    const std::vector<double> samples = WavReader(config_.path).readAll();
+    const auto width = channels.size();
+    EXPECT_EQ(static_cast<std::int64_t>(samples.size() / width), report.frames);
+    std::int64_t different = 0;
+    for (std::size_t i = 0; i < samples.size() / width; ++i) {
+      const std::int64_t frame = report.first_jack_frame + static_cast<std::int64_t>(i);
+      bool same = true;
+      for (std::size_t c = 0; c < width; ++c) {
+        const float sent = test::counterRamp(frame, channels[c]);
+        same = same && samples[i * width + c] == static_cast<double>(sent);
+      }
+      different += same ? 0 : 1;
+    }
+    return different - report.lost;
+  }
+
+  JackServer server_{"capture"};
+  CaptureConfig config_;
+  JackConfig sender_config_;
+  BlockProbe probe_;
+  std::atomic<bool> stop_{false};
+};
+
+TEST_F(CaptureTest, EverySampleArrivesAtItsFrameTime) {
+  server_.start();
+  JackHost sender(sender_config_, probe_);
+  config_.ports = {"sender:out_3", "sender:out_1"};
+  config_.seconds = 3.0;
+  const CaptureReport report = capture(config_, stop_);
+  EXPECT_EQ(report.frames, 3 * 44100);
+  EXPECT_EQ(report.sample_rate_hz, 44100.0);
+  EXPECT_EQ(report.dropped, 0);
+  EXPECT_EQ(report.message, "");
+  EXPECT_TRUE(report.lost == 0 || report.xruns > 0);
+  // A block of the sender that JACK did not wait for is an xrun.
+  EXPECT_LE(wrongFrames(report, {2, 0}), 256 * report.xruns);
+}
+
+TEST_F(CaptureTest, WaitsForPortsThatMatchAndRecordsThemInOrder) {
+  config_.match = "^sender:out_";
+  config_.seconds = 0.5;
+  CaptureReport report;
+  std::vector<std::string> names;
+  std::thread recording([&] {
+    report = capture(config_, stop_, [&](const std::vector<std::string>& found) { names = found; });
+  });
+  server_.start();
+  JackHost sender(sender_config_, probe_);
+  recording.join();
+  EXPECT_EQ(names, (std::vector<std::string>{"sender:out_1", "sender:out_2", "sender:out_3"}));
+  EXPECT_EQ(report.frames, 22050);
+  EXPECT_EQ(WavReader(config_.path).channels(), 3);
+}
+
+TEST_F(CaptureTest, EndsOnRequestWithAWholeFile) {
+  server_.start();
+  JackHost sender(sender_config_, probe_);
+  config_.ports = {"sender:out_1"};
+  CaptureReport report;
+  std::atomic<bool> recording{false};
+  std::thread recorder([&] {
+    report = capture(config_, stop_, [&](const std::vector<std::string>&) { recording = true; });
+  });
+  EXPECT_TRUE(eventually([&] { return recording.load(); }));
+  const std::int64_t blocks = probe_.counts.blocks;
+  EXPECT_TRUE(eventually([&] { return probe_.counts.blocks > blocks + 50; }));
+  stop_ = true;
+  recorder.join();
+  EXPECT_GE(report.frames, 40 * 256);
+  EXPECT_EQ(WavReader(config_.path).frames(), report.frames);
+  EXPECT_EQ(report.message, "");
+}
+
+TEST_F(CaptureTest, KeepsWhatItHasWhenTheServerIsKilled) {
+  server_.start();
+  config_.ports = {"system:capture_1"};
+  CaptureReport report;
+  std::atomic<bool> recording{false};
+  std::thread recorder([&] {
+    report = capture(config_, stop_, [&](const std::vector<std::string>&) { recording = true; });
+  });
+  EXPECT_TRUE(eventually([&] { return recording.load(); }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  server_.kill();
+  recorder.join();
+  EXPECT_NE(report.message.find("went away"), std::string::npos) << report.message;
+  EXPECT_GT(report.frames, 0);
+  EXPECT_EQ(WavReader(config_.path).frames(), report.frames);
+}
+
+TEST_F(CaptureTest, SaysWhatItWaitedForInVain) {
+  config_.wait_s = 0.3;
+  EXPECT_THROW(capture(config_, stop_), Exception);  // no ports named
+  config_.ports = {"nobody:out_1"};
+  try {
+    capture(config_, stop_);
+    FAIL() << "recorded without a server";
+  } catch (const DeviceError& error) {
+    EXPECT_NE(std::string(error.what()).find("no JACK server"), std::string::npos) << error.what();
+  }
+  server_.start();
+  try {
+    capture(config_, stop_);
+    FAIL() << "recorded a port that is not there";
+  } catch (const DeviceError& error) {
+    EXPECT_NE(std::string(error.what()).find("nobody:out_1"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace ergotic::audio

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/rt/block_io.hpp"
+
+namespace ergotic::test {
+
+/// Value of frame `frame` on output `channel`: exact in a float, no two near frames alike.
+inline float counterRamp(std::int64_t frame, int channel) {
+  constexpr std::int64_t kModulus = 1 << 20;
+  return static_cast<float>(frame % kModulus + channel * kModulus) / 16777216.0F;
+}
+
+/// Waits until something holds, generously: a machine may be busy. \return whether it came to hold
+inline bool eventually(const std::function<bool()>& holds) {
+  for (int look = 0; look < 3000; ++look) {
+    if (holds()) {
+      return true;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+/// Sends counter ramps and remembers what an audio host does to it.
+class BlockProbe : public rt::BlockProcessor {
+ public:
+  /// What a host did; between two starts every block is checked.
+  struct Counts {
+    std::atomic<int> starts{0};
+    std::atomic<int> stops{0};
+    std::atomic<std::int64_t> blocks{0};
+    std::atomic<std::int64_t> jumps{0};  ///< blocks not beginning where the last ended
+    std::atomic<std::int64_t> xruns{0};
+    std::atomic<std::int64_t> stray{0};       ///< blocks outside of start and stop
+    std::atomic<std::int64_t> wrong_size{0};  ///< blocks not of the announced period
+    std::atomic<std::int64_t> bad_times{0};   ///< not within a second of CLOCK_MONOTONIC
+    std::atomic<std::int64_t> denormals{0};   ///< blocks in which denormals survive
+  };
+
+  void audioStarted(double sample_rate_hz, std::uint32_t period_frames) override {
+    if (refuse) {
+      throw Exception("the probe wants no audio");
+    }
+    sample_rate = sample_rate_hz;
+    period = period_frames;
+    has_last_ = false;
+    running_ = true;
+    ++counts.starts;
+  }
+
+  void audioStopped() noexcept override {
+    running_ = false;
+    ++counts.stops;
+  }
+
+  void process(const rt::Block& block) noexcept override {
+    counts.stray += running_ ? 0 : 1;
+    counts.wrong_size += block.nframes == period ? 0 : 1;
+    counts.jumps += has_last_ && block.start.frames != next_ ? 1 : 0;
+    const std::int64_t late_ns = rt::monotonicNs() - block.start.time_ns;
+    counts.bad_times += std::abs(late_ns) < 1'000'000'000 ? 0 : 1;
+    volatile double tiny = 1e-308;
+    volatile double product = tiny * 0.001;
+    counts.denormals += product != 0.0 ? 1 : 0;
+    has_last_ = true;
+    next_ = block.start.frames + block.nframes;
+    for (int channel = 0; channel < block.output_channels; ++channel) {
+      for (std::uint32_t i = 0; i < block.nframes; ++i) {
+        block.outputs[channel][i] = counterRamp(block.start.frames + i, channel);
+      }
+    }
+    ++counts.blocks;
+  }
+
+  void xrun() noexcept override { ++counts.xruns; }
+
+  Counts counts;
+  std::atomic<bool> refuse{false};
+  std::atomic<double> sample_rate{0.0};
+  std::atomic<std::uint32_t> period{0};
+
+ private:
+  std::atomic<bool> running_{false};
+  bool has_last_ = false;
+  std::int64_t next_ = 0;
+};
+
+}  // namespace ergotic::test

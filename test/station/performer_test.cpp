@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ergotic/station/performer.hpp"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "ergotic/exception.hpp"
+#include "support/scene_builder.hpp"
+
+namespace ergotic::station {
+namespace {
+
+constexpr physics::Rates kRates{44100.0, 14};
+
+std::unique_ptr<Performer> make(const scene::Scene& scene, const PerformerPolicy& policy = {}) {
+  return makePerformer(scene, kRates, physics::Precision::kDouble, policy);
+}
+
+/// A struck oscillator under slice 3.
+test::SceneBuilder oscillator(double stiffness) {
+  test::SceneBuilder b;
+  const int mass = b.mass(1e-3, 1e-3);
+  b.spring(mass, b.ground(), stiffness);
+  b.link(scene::LiaType::kContact, b.slice(3), mass, 1e3, 0.1);
+  b.hear(mass);
+  return b;
+}
+
+std::string refusalOf(const scene::Scene& scene, const PerformerPolicy& policy = {}) {
+  try {
+    make(scene, policy);
+  } catch (const Exception& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(PerformerTest, HoldsBuffersForEveryPortAndChannelOfATick) {
+  const auto performer = make(oscillator(1e3).scene);
+  EXPECT_EQ(performer->positions.size(), 1U);
+  EXPECT_EQ(performer->forces.size(), 1U);
+  EXPECT_EQ(performer->inputs.size(), 0U);
+  EXPECT_EQ(performer->outputs.size(), 14U);
+  EXPECT_EQ(performer->slice_of_port, std::vector<int>{3});
+  EXPECT_EQ(performer->motion.draft().displacement.size(), 3U);
+}
+
+TEST(PerformerTest, StartsInTheStateThatWasCompiled) {
+  const scene::Scene scene = oscillator(1e3).scene;
+  const auto performer = make(scene);
+  const auto fresh = physics::compile(scene, kRates, physics::Precision::kDouble);
+  std::vector<unsigned char> warm(performer->instrument->stateSize());
+  std::vector<unsigned char> cold(fresh->stateSize());
+  performer->instrument->saveState(warm.data());
+  fresh->saveState(cold.data());
+  EXPECT_EQ(warm, cold);
+}
+
+TEST(PerformerTest, ShowsTheModelBeforeItsFirstTick) {
+  const auto performer = make(oscillator(1e3).scene);
+  ASSERT_TRUE(performer->motion.refresh());
+  EXPECT_FLOAT_EQ(performer->motion.latest().displacement[0], 1e-3F);
+}
+
+TEST(PerformerTest, RefusesAnUnstableSceneWithTheFindings) {
+  const std::string refusal = refusalOf(oscillator(1e9).scene);
+  EXPECT_NE(refusal.find("unstable"), std::string::npos) << refusal;
+  EXPECT_NE(refusal.find("built.yaml:"), std::string::npos) << refusal;
+}
+
+TEST(PerformerTest, PlaysAnUnstableSceneOnlyIfAskedAndWarns) {
+  PerformerPolicy policy;
+  policy.allow_unproven = true;
+  EXPECT_NE(refusalOf(oscillator(1e9).scene, policy), "");
+  policy.allow_unstable = true;
+  const auto performer = make(oscillator(1e9).scene, policy);
+  EXPECT_EQ(performer->certificate.verdict, physics::Verdict::kUnstable);
+  EXPECT_FALSE(performer->warnings.empty());
+}
+
+TEST(PerformerTest, PlaysAnUnprovenSceneOnlyIfAsked) {
+  test::SceneBuilder b = oscillator(1e3);
+  b.link(scene::LiaType::kCubic, 0, 1, 10.0);  // its slope has no bound
+  b.scene.lias.back().nonlinearity = {1e3};
+  EXPECT_NE(refusalOf(b.scene).find("unproven"), std::string::npos);
+  PerformerPolicy policy;
+  policy.allow_unproven = true;
+  EXPECT_EQ(make(b.scene, policy)->certificate.verdict, physics::Verdict::kUnproven);
+}
+
+TEST(PerformerTest, PassesOnTheWarningsOfTheReader) {
+  scene::Scene scene = oscillator(1e3).scene;
+  scene.warnings.emplace_back("built.yaml:1:1: warning: look");
+  ASSERT_FALSE(make(scene)->warnings.empty());
+  EXPECT_EQ(make(scene)->warnings[0], "built.yaml:1:1: warning: look");
+}
+
+TEST(PerformerTest, RefusesASliceThatTheDeviceDoesNotHave) {
+  PerformerPolicy policy;
+  policy.slices = 3;
+  EXPECT_NE(refusalOf(oscillator(1e3).scene, policy).find("slice 3"), std::string::npos);
+  policy.slices = 4;
+  EXPECT_EQ(refusalOf(oscillator(1e3).scene, policy), "");
+}
+
+TEST(PerformerTest, RefusesAnInvalidScene) {
+  scene::Scene scene = oscillator(1e3).scene;
+  scene.mats[0].mass = {-1.0};
+  EXPECT_THROW(make(scene), TextError);
+}
+
+}  // namespace
+}  // namespace ergotic::station

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "ergotic/station/audio_bridge.hpp"
+#include "ergotic/station/station.hpp"
+#include "support/alloc_count.hpp"
+#include "support/audio_host.hpp"
+#include "support/scene_builder.hpp"
+#include "support/station_doubles.hpp"
+
+namespace ergotic::station {
+namespace {
+
+using test::AllocationScope;
+
+constexpr physics::Rates kRates{44100.0, 14};
+
+/// A string under a slice that plucks it, tuned by a parameter.
+scene::Scene pluckedString() {
+  test::SceneBuilder b;
+  const int left = b.chain(60, 1e-3, 2e4, 1e-3);
+  for (scene::Lia& lia : b.scene.lias) {
+    lia.stiffness = {1.0, 0};
+  }
+  b.scene.parameters.push_back({"stiffness", 2e4, 1e4, 3e4, {1, 1}});
+  const int hand = b.slice(0);
+  b.link(scene::LiaType::kPluck, hand, left + 20, 1e3, 0.1);
+  b.scene.lias.back().width = {1e-3};
+  b.hear(left + 30);
+  return b.scene;
+}
+
+struct Live {
+  Live() {
+    StationConfig config = test::Bench::quickConfig();
+    config.rates = kRates;
+    auto driver = std::make_unique<test::ScriptedDriver>(1, log, [](std::int64_t n, int) {
+      return 0.005 * static_cast<double>(n % 2000 - 1000) / 1000.0;
+    });
+    PerformerPolicy policy;
+    policy.allow_unproven = true;
+    station = std::make_unique<Station>(
+        config, std::move(driver),
+        makePerformer(pluckedString(), kRates, physics::Precision::kDouble, policy));
+    next = makePerformer(pluckedString(), kRates, physics::Precision::kDouble, policy);
+    coefficients = next->instrument->prepare({2.5e4});
+  }
+  test::DriverLog log;
+  std::unique_ptr<Station> station;
+  std::unique_ptr<Performer> next;
+  std::unique_ptr<physics::Coefficients> coefficients;
+};
+
+TEST(AllocationScopeTest, CountsTheHeapCallsOfItsThreadOnly) {
+  if (!AllocationScope::isAvailable()) {
+    GTEST_SKIP() << "the sanitizer has its own heap";
+  }
+  const AllocationScope scope;
+  EXPECT_EQ(scope.calls(), 0);
+  auto block = std::make_unique<std::vector<double>>(1000);
+  EXPECT_EQ(scope.calls(), 2);
+  block.reset();
+  EXPECT_EQ(scope.calls(), 4);
+  void* volatile aligned = std::aligned_alloc(64, 128);  // or the compiler leaves the pair out
+  EXPECT_EQ(scope.calls(), 5);
+  std::free(aligned);
+}
+
+TEST(StationNoAllocTest, TickNeverTouchesTheHeapWhateverIsAsked) {
+  if (!AllocationScope::isAvailable()) {
+    GTEST_SKIP() << "the sanitizer has its own heap";
+  }
+  Live live;
+  Station& station = *live.station;
+  const auto at = [&](Command::Type type) {
+    Command command;
+    command.type = type;
+    ASSERT_TRUE(station.submit(command));
+  };
+  std::int64_t heap_calls = 0;
+  for (int n = 0; n < 100'000; ++n) {
+    const AllocationScope scope;
+    if (n % 25'000 == 10) {
+      at(Command::Type::kEngage);
+    } else if (n == 20'000) {
+      Command command;
+      command.type = Command::Type::kParameter;
+      command.value = 2.5e4;
+      command.coefficients = live.coefficients.release();
+      ASSERT_TRUE(station.submit(command));
+    } else if (n == 40'000) {
+      at(Command::Type::kKeyframe);
+    } else if (n == 50'000) {
+      Command command;
+      command.type = Command::Type::kSwap;
+      command.performer = live.next.release();
+      ASSERT_TRUE(station.submit(command));
+    } else if (n % 25'000 == 20'000) {
+      at(Command::Type::kStop);
+    }
+    if (n % 30'000 == 29'999) {
+      station.catchUp(100, 30'000'000);
+    } else {
+      station.cycle({0, false});
+    }
+    heap_calls += scope.calls();
+  }
+  EXPECT_EQ(heap_calls, 0);
+  int handed_back = 0;
+  Event event;
+  while (station.poll(event)) {
+    handed_back += event.performer != nullptr || event.coefficients != nullptr ? 1 : 0;
+    delete event.performer;
+    delete event.coefficients;
+  }
+  EXPECT_EQ(handed_back, 2) << "swap and parameter took place";
+  const Snapshot* snapshot = station.snapshot();
+  ASSERT_NE(snapshot, nullptr);
+  EXPECT_GT(snapshot->counters.peak_force_n, 0.0) << "the string was touched";
+}
+
+TEST(StationNoAllocTest, AudioBridgeNeverTouchesTheHeapOnEitherSide) {
+  if (!AllocationScope::isAvailable()) {
+    GTEST_SKIP() << "the sanitizer has its own heap";
+  }
+  AudioBridgeConfig config;
+  config.rates = kRates;
+  config.output_channels = 1;
+  config.input_channels = 1;
+  AudioBridge bridge(config);
+  bridge.audioStarted(kRates.audio_hz, 140);
+  std::vector<float> in(140, 0.5F);
+  std::vector<float> out(140);
+  const float* inputs = in.data();
+  float* outputs = out.data();
+  std::vector<float> frames(14, 0.25F);
+  const AllocationScope scope;
+  for (std::int64_t block = 0; block < 1000; ++block) {
+    const std::int64_t first = block * 140;
+    bridge.process({140, {first, first * 22676}, &inputs, &outputs, 1, 1});
+    for (std::int64_t n = block * 10; n < (block + 1) * 10; ++n) {
+      bridge.track(n, n * 317460);
+      bridge.pull(n * 14, frames.data(), 14);
+      bridge.push(n * 14, frames.data(), 14);
+    }
+  }
+  EXPECT_EQ(scope.calls(), 0);
+  EXPECT_EQ(out[0], 0.5F) << "input came back through both rings";
+}
+
+}  // namespace
+}  // namespace ergotic::station

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <map>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "ergotic/rt/clock.hpp"
+#include "ergotic/station/timer_source.hpp"
+#include "support/audio_host.hpp"
+#include "support/station_doubles.hpp"
+
+namespace ergotic::station {
+namespace {
+
+using test::Bench;
+
+/// What an operator asked for, and what came back.
+struct Tally {
+  std::map<Event::Type, std::int64_t> asked;
+  std::map<Event::Type, std::int64_t> told;
+  std::int64_t performers = 0;
+  std::int64_t coefficients = 0;
+
+  void take(Station& station) {
+    Event event;
+    while (station.poll(event)) {
+      ++told[event.type];
+      performers += event.performer != nullptr ? 1 : 0;
+      coefficients += event.coefficients != nullptr ? 1 : 0;
+      delete event.performer;
+      delete event.coefficients;
+    }
+  }
+};
+
+/// Submits, polling while the station refuses, and remembers what must come back.
+void submit(Station& station, Tally& tally, const Command& command, Event::Type answer) {
+  while (!station.submit(command)) {
+    tally.take(station);
+    std::this_thread::yield();
+  }
+  ++tally.asked[answer];
+}
+
+TEST(StationThreadsTest, AnswersEveryCommandOfAStormExactlyOnce) {
+  Bench bench;
+  Station& station = *bench.station;
+  std::atomic<bool> stop{false};
+  std::thread tick([&] {
+    while (!stop.load()) {
+      station.cycle({0, true});
+    }
+  });
+  Tally tally;
+  auto prepared = test::makeSpring();
+  std::int64_t ticks_recorded = 0;
+  std::vector<GestureTick> gestures(256);
+  for (int i = 0; i < 2000; ++i) {
+    Command command;
+    command.type = Command::Type::kEngage;
+    submit(station, tally, command, Event::Type::kEngaged);
+    command.type = Command::Type::kSwap;
+    command.performer = test::makeSpring().release();
+    submit(station, tally, command, Event::Type::kSwapped);
+    command = Command{};
+    command.type = Command::Type::kParameter;
+    command.value = i;
+    command.coefficients = prepared->instrument->prepare({command.value}).release();
+    submit(station, tally, command, Event::Type::kParameter);
+    command = Command{};
+    command.type = Command::Type::kKeyframe;
+    submit(station, tally, command, Event::Type::kKeyframe);
+    command.type = Command::Type::kStop;
+    submit(station, tally, command, Event::Type::kStopped);
+    ticks_recorded +=
+        static_cast<std::int64_t>(station.pollGestures(gestures.data(), gestures.size()));
+    station.snapshot();
+    tally.take(station);
+  }
+  while (tally.told[Event::Type::kStopped] < 2000 || tally.told[Event::Type::kSwapped] < 2000) {
+    tally.take(station);
+    std::this_thread::yield();
+  }
+  stop.store(true);
+  tick.join();
+  tally.take(station);
+  for (const auto& [type, asked] : tally.asked) {
+    EXPECT_EQ(asked, 2000);
+    EXPECT_EQ(tally.told[type], asked) << "event type " << static_cast<int>(type);
+  }
+  EXPECT_EQ(tally.performers, 2000);
+  EXPECT_EQ(tally.coefficients, 2000);
+  EXPECT_GT(ticks_recorded, 0);
+}
+
+TEST(StationThreadsTest, MakeSafeFromAnotherThreadAlwaysWins) {
+  Bench bench;
+  Station& station = *bench.station;
+  for (int i = 0; i < 200; ++i) {
+    bench.command(Command::Type::kEngage);
+    std::thread tick([&] { bench.run(500); });
+    std::thread guard([&] { station.makeSafe(); });
+    tick.join();
+    guard.join();
+    bench.run(2);
+    ASSERT_EQ(bench.log.forces[0], 0.0) << "round " << i;
+    ASSERT_GE(test::count(bench.events(), Event::Type::kFault), 1);
+  }
+}
+
+/// A host thread that paces itself by the clock, as a dummy sound card does.
+class HostThread {
+ public:
+  HostThread(AudioBridge& bridge, int blocks) : host_(bridge, 2, 1, 44100.0) {
+    const std::int64_t begin = rt::monotonicNs() + 5'000'000;
+    host_.start(kPeriod, 5000, begin);
+    thread_ = std::thread([this, blocks] {
+      for (int i = 0; i < blocks; ++i) {
+        rt::sleepUntilNs(host_.timeOf(host_.nextFrame()));
+        first_.push_back(host_.nextFrame());
+        heard_.push_back(host_.block());
+      }
+    });
+  }
+  void join() { thread_.join(); }
+
+  /// Host frame -> sample.
+  std::map<std::int64_t, float> sounded() const {
+    std::map<std::int64_t, float> all;
+    for (std::size_t b = 0; b < first_.size(); ++b) {
+      for (std::size_t i = 0; i < heard_[b].size(); ++i) {
+        all[first_[b] + static_cast<std::int64_t>(i)] = heard_[b][i];
+      }
+    }
+    return all;
+  }
+
+ private:
+  static constexpr std::uint32_t kPeriod = 256;
+  test::AudioHost host_;
+  std::vector<std::int64_t> first_;
+  std::vector<std::vector<float>> heard_;
+  std::thread thread_;
+};
+
+/// Puts the index of every station frame on the bridge, whatever the model says.
+class IndexPort : public FramePort {
+ public:
+  explicit IndexPort(AudioBridge& bridge) : bridge_(bridge) {}
+  void push(std::int64_t first, const float* /*frames*/, int nframes) noexcept override {
+    std::array<float, 2 * physics::kMaxRatio> indices{};
+    for (int i = 0; i < 2 * nframes; ++i) {
+      indices[static_cast<std::size_t>(i)] = static_cast<float>(first + i / 2 + 1);
+    }
+    bridge_.push(first, indices.data(), nframes);
+  }
+  bool pull(std::int64_t first, float* frames, int nframes) noexcept override {
+    return bridge_.pull(first, frames, nframes);
+  }
+  bool popEvent(Event& event) noexcept override { return bridge_.popEvent(event); }
+  AudioStatus status() const noexcept override { return bridge_.status(); }
+
+ private:
+  AudioBridge& bridge_;
+};
+
+TEST(StationThreadsTest, LiveAudioIsExactExceptWhereUnderrunsAreReported) {
+  Bench bench;
+  AudioBridgeConfig config;
+  config.rates = {44100.0, 14};
+  config.output_channels = 2;
+  config.input_channels = 1;
+  AudioBridge bridge(config);
+  IndexPort port(bridge);
+  bench.station->setFramePort(&port);
+  TimerSource timer(*bench.station, &bridge);
+  TimerOptions options;
+  options.lock_memory = false;
+  timer.start(options);
+  HostThread host(bridge, 170);  // a second
+  host.join();
+  bridge.audioStopped();
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  timer.stop();
+
+  const auto events = bench.events();
+  const Event started = test::firstOf(events, Event::Type::kAudioStarted);
+  ASSERT_GE(started.tick, 0);
+  EXPECT_EQ(test::count(events, Event::Type::kAudioStopped), 1);
+  const std::int64_t offset = static_cast<std::int64_t>(started.value) - started.frame;
+  std::map<std::int64_t, bool> missing;
+  for (const Event& event : events) {
+    for (std::int64_t i = 0; event.type == Event::Type::kUnderrun && i < event.index; ++i) {
+      missing[event.frame + i + offset] = true;
+    }
+  }
+  std::int64_t exact = 0;
+  for (const auto& [frame, sample] : host.sounded()) {
+    const std::int64_t station_frame = frame - offset;
+    const bool silent = station_frame < started.frame || missing.count(frame) != 0;
+    ASSERT_EQ(sample, silent ? 0.0F : static_cast<float>(station_frame + 1)) << "at " << frame;
+    exact += silent ? 0 : 1;
+  }
+  EXPECT_GT(exact, 0);
+  RecordProperty("frames_exact", static_cast<int>(exact));
+}
+
+}  // namespace
+}  // namespace ergotic::station

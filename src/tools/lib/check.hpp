@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tools/lib/options.hpp"
+
+namespace ergotic::tools {
+
+/// What `check` is asked for.
+struct CheckOptions {
+  SceneOptions scene;
+  bool json = false;
+};
+
+void addOptions(CLI::App& app, CheckOptions& options);
+
+/// Says on stdout what a scene is made of, whether it is stable, and what it costs.
+/// \return kSuccess, or kRefused if it is unstable
+/// \throws TextError, Exception
+int check(const CheckOptions& options);
+
+}  // namespace ergotic::tools

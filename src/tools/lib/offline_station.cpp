@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/lib/offline_station.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "ergotic/exception.hpp"
+
+namespace ergotic::tools {
+namespace {
+
+station::StationConfig configOf(const physics::Rates& rates, int inputs, int outputs) {
+  station::StationConfig config;
+  config.rates = rates;
+  config.input_channels = inputs;
+  config.output_channels = outputs;
+  config.record_ring = 1;  // nobody reads it
+  return config;
+}
+
+void requireSound(const station::Event& event) {
+  if (event.type == station::Event::Type::kFault &&
+      event.index == static_cast<std::int64_t>(station::FaultReason::kModelBlowUp)) {
+    throw Exception("the sound or a force is not finite from frame " + std::to_string(event.frame) +
+                    " on: the model blows up; nothing is kept");
+  }
+}
+
+}  // namespace
+
+OfflineStation::OfflineStation(std::unique_ptr<station::Performer> performer,
+                               std::unique_ptr<tgr::Driver> driver,
+                               SoundInputs inputs,
+                               int output_channels)
+    : inputs_(std::move(inputs)),
+      output_channels_(output_channels),
+      station_(configOf(performer->instrument->rates(), inputs_.channels(), output_channels),
+               std::move(driver),
+               std::move(performer)) {
+  sound_.resize(static_cast<std::size_t>(rates().ratio * output_channels_));
+  station_.setFramePort(this);
+}
+
+void OfflineStation::submit(const station::Command& command) {
+  if (!station_.submit(command)) {
+    throw Exception("more commands in one tick than a station takes");
+  }
+}
+
+void OfflineStation::cycle(double* frames, const std::function<void(const station::Event&)>& hear) {
+  station::Station::Timing timing;
+  timing.freewheel = true;
+  station_.cycle(timing);
+  std::copy(sound_.begin(), sound_.end(), frames);
+  station::Event event;
+  while (station_.poll(event)) {
+    const std::unique_ptr<station::Performer> performer(event.performer);
+    const std::unique_ptr<physics::Coefficients> coefficients(event.coefficients);
+    requireSound(event);
+    if (hear) {
+      hear(event);
+    }
+  }
+}
+
+void OfflineStation::push(std::int64_t /*first*/, const float* frames, int nframes) noexcept {
+  std::copy_n(frames, nframes * output_channels_, sound_.data());
+}
+
+bool OfflineStation::pull(std::int64_t first, float* frames, int nframes) noexcept {
+  inputs_.read(first, nframes, frames);
+  return !inputs_.areSilent();
+}
+
+}  // namespace ergotic::tools

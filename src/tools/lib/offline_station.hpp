@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "ergotic/station/station.hpp"
+#include "tools/lib/sound_inputs.hpp"
+
+namespace ergotic::tools {
+
+/// A station without a clock, whose sound is taken tick by tick.
+class OfflineStation : private station::FramePort {
+ public:
+  /// \param output_channels  of the widest model that will play, >= 1
+  /// \throws Exception if performer and driver do not fit
+  OfflineStation(std::unique_ptr<station::Performer> performer,
+                 std::unique_ptr<tgr::Driver> driver,
+                 SoundInputs inputs,
+                 int output_channels);
+
+  const physics::Rates& rates() const { return station_.config().rates; }
+  int outputChannels() const { return output_channels_; }
+
+  /// \throws Exception if the station does not take it
+  void submit(const station::Command& command);
+
+  /// Runs one tick; then what it told, freed of what it handed back, goes to `hear`.
+  /// \param[out] frames  [R][output channels]
+  /// \throws Exception if the model blows up
+  void cycle(double* frames, const std::function<void(const station::Event&)>& hear = nullptr);
+
+  const station::Keyframe& keyframe() const { return station_.keyframe(); }
+  int swapDelayTicks() const { return station_.swapDelayTicks(); }
+
+ private:
+  void push(std::int64_t first, const float* frames, int nframes) noexcept override;
+  bool pull(std::int64_t first, float* frames, int nframes) noexcept override;
+
+  SoundInputs inputs_;
+  int output_channels_;
+  std::vector<float> sound_;  // of the last tick, [R][station channels]
+  station::Station station_;
+};
+
+}  // namespace ergotic::tools

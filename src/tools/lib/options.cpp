@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/lib/options.hpp"
+
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <sstream>
+
+namespace ergotic::tools {
+namespace {
+constexpr double kDefaultRateHz = 44100.0;
+}
+
+void addOptions(CLI::App& app, SceneOptions& options) {
+  app.add_option("--set", options.set, "value of a parameter of the scene, NAME=VALUE")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--rate", options.rate_hz, "audio rate, Hz (default: 44100)")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--gestural-rate", options.gestural_rate_hz,
+                 "wanted gestural rate, Hz; the nearest whole fraction of the audio rate is taken "
+                 "(default: as the scene wishes)")
+      ->check(CLI::PositiveNumber);
+}
+
+std::pair<std::string, std::string> splitAssignment(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
+    throw CLI::ValidationError(text, "not of the form NAME=VALUE");
+  }
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+scene::Overrides overridesOf(const std::vector<std::string>& set) {
+  scene::Overrides overrides;
+  for (const std::string& assignment : set) {
+    const auto [name, text] = splitAssignment(assignment);
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (*end != '\0') {
+      throw CLI::ValidationError("--set " + assignment, "'" + text + "' is not a number");
+    }
+    if (!overrides.emplace(name, value).second) {
+      throw CLI::ValidationError("--set " + assignment, name + " is set twice");
+    }
+  }
+  return overrides;
+}
+
+scene::Scene readScene(const SceneOptions& options) {
+  scene::Scene scene = scene::readSceneFile(options.scene, overridesOf(options.set));
+  scene::validate(scene);
+  return scene;
+}
+
+physics::Rates chosenRates(const scene::Scene& scene, const SceneOptions& options) {
+  const double rate_hz = options.rate_hz > 0.0 ? options.rate_hz : kDefaultRateHz;
+  return physics::chooseRates(scene, rate_hz, options.gestural_rate_hz);
+}
+
+std::string conversionNote(const scene::Scene& scene, const physics::Rates& rates) {
+  if (scene.time_unit_s == 1.0 || scene.time_unit_s * rates.audio_hz == 1.0) {
+    return {};
+  }
+  std::ostringstream note;
+  note << scene.file << ": counts in samples of " << 1.0 / scene.time_unit_s << " Hz; converted "
+       << "through SI units to " << rates.audio_hz << " Hz, it keeps its pitch but not its samples";
+  return note.str();
+}
+
+int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& tool) {
+  try {
+    app.parse(argc, argv);
+    return tool();
+  } catch (const CLI::Error& error) {
+    return app.exit(error) == 0 ? kSuccess : kUsage;
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return kFailure;
+  }
+}
+
+}  // namespace ergotic::tools

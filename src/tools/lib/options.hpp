@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "ergotic/physics/rates.hpp"
+#include "ergotic/scene/read_scene.hpp"
+
+namespace ergotic::tools {
+
+enum ExitCode {
+  kSuccess = 0,
+  kFailure = 1,  ///< the scene, a file or a device is at fault; the reason is on stderr
+  kUsage = 2,    ///< the command line is
+  kRefused = 3,  ///< `check`: the scene is unstable; `render`: the recording has gaps
+};
+
+/// The scene and the rates that a tool is asked for.
+struct SceneOptions {
+  std::string scene;              ///< path; may be empty where a recording tells
+  std::vector<std::string> set;   ///< NAME=VALUE
+  double rate_hz = 0.0;           ///< 0: 44100
+  double gestural_rate_hz = 0.0;  ///< 0: as the scene wishes
+};
+
+void addOptions(CLI::App& app, SceneOptions& options);
+
+/// Splits NAME=TEXT. \throws CLI::ValidationError if there is no name or no text
+std::pair<std::string, std::string> splitAssignment(const std::string& text);
+
+/// \throws CLI::ValidationError if one is not NAME=NUMBER
+scene::Overrides overridesOf(const std::vector<std::string>& set);
+
+/// Reads and validates the scene asked for. \throws TextError, Exception
+scene::Scene readScene(const SceneOptions& options);
+
+/// \throws Exception if the scene cannot be run at the rates asked for
+physics::Rates chosenRates(const scene::Scene& scene, const SceneOptions& options);
+
+/// What a reader should know about a scene in samples of another rate; empty if there is nothing.
+std::string conversionNote(const scene::Scene& scene, const physics::Rates& rates);
+
+/// Parses the command line and runs `tool`; errors go to stderr. \return the exit code
+int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& tool);
+
+}  // namespace ergotic::tools

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/lib/player.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/tgr/replay_driver.hpp"
+#include "ergotic/tgr/virtual_driver.hpp"
+#include "tools/lib/offline_station.hpp"
+
+namespace ergotic::tools {
+namespace {
+
+class FreePlayer final : public Player {
+ public:
+  FreePlayer(std::unique_ptr<station::Performer> performer, SoundInputs inputs)
+      : performer_(std::move(performer)), inputs_(std::move(inputs)) {
+    const std::vector<scene::Port>& ports = performer_->instrument->scene().ports;
+    std::transform(ports.begin(), ports.end(), performer_->positions.begin(),
+                   [](const scene::Port& port) { return -port.offset / port.position_scale; });
+  }
+
+  const physics::Rates& rates() const override { return performer_->instrument->rates(); }
+  int outputChannels() const override { return performer_->instrument->outputChannels(); }
+  std::size_t modules() const override { return performer_->instrument->scene().mats.size(); }
+
+  bool next(double* frames) override {
+    inputs_.read(frame_, rates().ratio, performer_->inputs.data());
+    performer_->instrument->tick({performer_->positions.data(), performer_->forces.data(),
+                                  performer_->inputs.data(), frames});
+    frame_ += rates().ratio;
+    return true;
+  }
+
+ private:
+  std::unique_ptr<station::Performer> performer_;
+  SoundInputs inputs_;
+  std::int64_t frame_ = 0;
+};
+
+/// Passes recorded positions on and remembers that they came to their end.
+class EndingSource final : public tgr::GestureSource {
+ public:
+  EndingSource(std::unique_ptr<tgr::GestureSource> source, bool& ended)
+      : source_(std::move(source)), ended_(ended) {}
+  int slices() const noexcept override { return source_->slices(); }
+  bool next(double* positions) noexcept override {
+    ended_ = !source_->next(positions);
+    return !ended_;
+  }
+
+ private:
+  std::unique_ptr<tgr::GestureSource> source_;
+  bool& ended_;
+};
+
+class HandPlayer final : public Player {
+ public:
+  HandPlayer(std::unique_ptr<station::Performer> performer,
+             SoundInputs inputs,
+             const std::string& csv)
+      : outputs_(std::max(performer->instrument->outputChannels(), 1)),
+        modules_(performer->instrument->scene().mats.size()),
+        driver_(makeDriver(csv, *performer, ended_)),
+        station_(std::move(performer), std::move(driver_), std::move(inputs), outputs_) {
+    station::Command engage;
+    engage.type = station::Command::Type::kEngage;
+    station_.submit(engage);
+  }
+
+  const physics::Rates& rates() const override { return station_.rates(); }
+  int outputChannels() const override { return outputs_; }
+  std::size_t modules() const override { return modules_; }
+
+  bool next(double* frames) override {
+    if (!ended_) {
+      station_.cycle(frames);
+    }
+    return !ended_;
+  }
+
+ private:
+  static std::unique_ptr<tgr::Driver> makeDriver(const std::string& csv,
+                                                 const station::Performer& performer,
+                                                 bool& ended) {
+    if (tgr::gestureKindOf(csv) == tgr::GestureKind::kPositions) {
+      return tgr::makeReplayDriver(
+          std::make_unique<EndingSource>(tgr::readPositionsCsv(csv), ended));
+    }
+    tgr::VirtualDriverConfig config;
+    for (const int slice : performer.slice_of_port) {
+      config.slices = std::max(config.slices, slice + 1);
+    }
+    config.gesture_file = csv;
+    return tgr::makeVirtualDriver(config);
+  }
+
+  bool ended_ = false;
+  int outputs_;
+  std::size_t modules_;
+  std::unique_ptr<tgr::Driver> driver_;  // on its way into the station
+  OfflineStation station_;
+};
+
+}  // namespace
+
+std::unique_ptr<Player> makeFreePlayer(std::unique_ptr<station::Performer> performer,
+                                       SoundInputs inputs) {
+  return std::make_unique<FreePlayer>(std::move(performer), std::move(inputs));
+}
+
+std::unique_ptr<Player> makeHandPlayer(std::unique_ptr<station::Performer> performer,
+                                       SoundInputs inputs,
+                                       const std::string& csv) {
+  return std::make_unique<HandPlayer>(std::move(performer), std::move(inputs), csv);
+}
+
+}  // namespace ergotic::tools

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ergotic/station/performer.hpp"
+#include "tools/lib/sound_inputs.hpp"
+
+namespace ergotic::tools {
+
+/// Something that makes sound tick by tick, offline.
+class Player {
+ public:
+  virtual ~Player() = default;
+
+  virtual const physics::Rates& rates() const = 0;
+  virtual int outputChannels() const = 0;
+  virtual std::size_t modules() const = 0;  ///< of the model that plays
+
+  /// \param[out] frames  [R][output channels], where R frames make a tick
+  /// \return false if there is no more; `frames` is untouched then
+  /// \throws Exception if the model blows up
+  virtual bool next(double* frames) = 0;
+
+  /// Ticks that are left to play; -1: no end.
+  virtual std::int64_t ticksLeft() const { return -1; }
+};
+
+/// The instrument alone: nobody touches the slices, they rest at the zero of the hand. The sound
+/// keeps the precision of the instrument's outputs.
+std::unique_ptr<Player> makeFreePlayer(std::unique_ptr<station::Performer> performer,
+                                       SoundInputs inputs);
+
+/// The instrument in a station that is engaged from the first tick on: safety, the tick of delay
+/// and single-precision sound as when played live.
+/// \param csv  targets for the hand of a virtual device, or recorded positions
+/// \throws TextError from the file
+std::unique_ptr<Player> makeHandPlayer(std::unique_ptr<station::Performer> performer,
+                                       SoundInputs inputs,
+                                       const std::string& csv);
+
+}  // namespace ergotic::tools

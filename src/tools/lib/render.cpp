@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/lib/render.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <sstream>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/rt/build_id.hpp"
+#include "ergotic/rt/thread.hpp"
+#include "tools/lib/frame_writer.hpp"
+#include "tools/lib/player.hpp"
+#include "tools/lib/progress.hpp"
+#include "tools/lib/replay.hpp"
+
+namespace ergotic::tools {
+namespace {
+
+constexpr double kDefaultSeconds = 10.0;
+
+void say(const std::string& line) {
+  std::cerr << line << '\n';
+}
+
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+station::PerformerPolicy policyOf(const RenderOptions& options) {
+  station::PerformerPolicy policy;
+  policy.allow_unproven = true;
+  policy.allow_unstable = options.allow_unstable;
+  return policy;
+}
+
+/// The scene of the command line, played by nobody or by a CSV file.
+std::unique_ptr<Player> playScene(const RenderOptions& options) {
+  if (options.scene.scene.empty()) {
+    throw CLI::ValidationError("SCENE", "needed without a recording");
+  }
+  const scene::Scene scene = readScene(options.scene);
+  const physics::Rates rates = chosenRates(scene, options.scene);
+  const auto precision =
+      options.precision == "double" ? physics::Precision::kDouble : physics::Precision::kFloat;
+  SoundInputs inputs(options.inputs, scene, rates.audio_hz);
+  auto performer = station::makePerformer(scene, rates, precision, policyOf(options));
+  for (const std::string& warning : performer->warnings) {
+    say(warning);
+  }
+  if (performer->certificate.verdict != physics::Verdict::kPassive &&
+      performer->certificate.verdict != physics::Verdict::kBounded) {
+    say(std::string("warning: the verdict on this scene is ") +
+        physics::toString(performer->certificate.verdict));
+  }
+  const std::string note = conversionNote(scene, rates);
+  if (!note.empty()) {
+    say(note);
+  }
+  return options.gesture.empty()
+             ? makeFreePlayer(std::move(performer), std::move(inputs))
+             : makeHandPlayer(std::move(performer), std::move(inputs), options.gesture);
+}
+
+#ifdef ERGOTIC_HAVE_BAG
+void compareScene(const std::string& path, const bag::Keyframe& keyframe) {
+  if (path.empty()) {
+    return;
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    throw Exception(path + ": cannot be read");
+  }
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (text != keyframe.scene_text) {
+    say("warning: " + path + " is not the scene of the recording (" + keyframe.scene_name +
+        "); the recording's is played");
+  }
+}
+
+/// A recording was played with its own rates, precision and parameters, or it is another one.
+void requireNothingElse(const RenderOptions& options) {
+  const SceneOptions& scene = options.scene;
+  if (!scene.set.empty() || scene.rate_hz > 0.0 || scene.gestural_rate_hz > 0.0 ||
+      !options.precision.empty() || !options.inputs.empty()) {
+    throw CLI::ValidationError("--gesture",
+                               "a recording says itself what --set, --rate, --gestural-rate, "
+                               "--precision and --input would");
+  }
+}
+
+std::unique_ptr<Replay> playRecording(const RenderOptions& options) {
+  requireNothingElse(options);
+  auto replay = std::make_unique<Replay>(bag::readRecording(options.gesture), policyOf(options));
+  compareScene(options.scene.scene, replay->start());
+  if (!endsWith(replay->start().build, rt::buildId())) {
+    say("warning: recorded by build " + replay->start().build + ", played by build " +
+        rt::buildId() + ": the sound may differ");
+  }
+  return replay;
+}
+#else
+std::unique_ptr<Replay> playRecording(const RenderOptions& options) {
+  throw Exception(options.gesture + ": this build has no ROS and reads no bags");
+}
+#endif
+
+std::int64_t framesOf(const RenderOptions& options, const Player& player) {
+  const double rate = player.rates().audio_hz;
+  const std::int64_t recorded = player.ticksLeft() * player.rates().ratio;
+  if (options.seconds > 0.0) {
+    const std::int64_t wanted = std::llround(options.seconds * rate);
+    return player.ticksLeft() < 0 ? wanted : std::min(wanted, recorded);
+  }
+  return player.ticksLeft() < 0 ? std::llround(kDefaultSeconds * rate) : recorded;
+}
+
+/// Plays `frames` frames, or as many as there are. \return seconds of work
+double play(Player& player, std::int64_t frames, FrameWriter& writer) {
+  const rt::FlushDenormals fast;
+  const int ratio = player.rates().ratio;
+  std::vector<double> tick(static_cast<std::size_t>(ratio * player.outputChannels()));
+  Progress progress(frames);
+  const auto begin = std::chrono::steady_clock::now();
+  while (writer.frames() < frames && player.next(tick.data())) {
+    writer.write(tick.data(), std::min<std::int64_t>(ratio, frames - writer.frames()));
+    progress.show(writer.frames());
+  }
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+std::string summary(const Player& player, const FrameWriter& writer, double work_s) {
+  const physics::Rates& rates = player.rates();
+  const double length_s = static_cast<double>(writer.frames()) / rates.audio_hz;
+  std::ostringstream line;
+  line << player.modules() << " modules, " << rates.audio_hz << " Hz, gestures "
+       << rates.gesturalHz() << " Hz (R = " << rates.ratio << "), " << writer.frames()
+       << " frames (" << length_s << " s) in " << work_s << " s (" << length_s / work_s
+       << " times real time), peak " << writer.peak() << ", all finite";
+  if (writer.clippedSamples() > 0) {
+    line << ", " << writer.clippedSamples() << " samples clipped to full scale";
+  }
+  return line.str();
+}
+
+}  // namespace
+
+void addOptions(CLI::App& app, RenderOptions& options) {
+  app.add_option("scene", options.scene.scene, "scene file, .yaml or .mdl")->type_name("SCENE");
+  addOptions(app, options.scene);
+  app.add_option("--seconds", options.seconds, "length (default: 10, or that of the recording)")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--out", options.out, "WAV file to write")->type_name("F.wav");
+  app.add_option("--out-format", options.out_format, "format of the samples")
+      ->check(CLI::IsMember({"float", "double", "24"}))
+      ->capture_default_str();
+  app.add_option("--input", options.inputs, "sound file for an input of the scene")
+      ->type_name("NAME=F.wav")
+      ->allow_extra_args(false);
+  app.add_option("--gesture", options.gesture,
+                 "who plays: targets of a hand or recorded positions (CSV), or a recording (bag)")
+      ->type_name("F.csv|F.bag");
+  app.add_option("--precision", options.precision, "of the instrument (default: float)")
+      ->check(CLI::IsMember({"float", "double"}));
+  app.add_flag("--allow-unstable", options.allow_unstable, "play what is known to blow up, too");
+  app.add_flag("--allow-gaps", options.allow_gaps, "accept a recording that cannot be exact");
+}
+
+int render(const RenderOptions& options) {
+  std::unique_ptr<Player> player;
+  const Replay* replay = nullptr;
+  if (endsWith(options.gesture, ".bag")) {
+    auto recorded = playRecording(options);
+    replay = recorded.get();
+    player = std::move(recorded);
+  } else {
+    player = playScene(options);
+  }
+  FrameWriter writer(options.out, player->rates().audio_hz, player->outputChannels(),
+                     audio::wavFormatOf(options.out_format));
+  const double work_s = play(*player, framesOf(options, *player), writer);
+  if (replay != nullptr && !replay->flaws().empty()) {
+    for (const std::string& flaw : replay->flaws()) {
+      say(flaw);
+    }
+    if (!options.allow_gaps) {
+      say("nothing is kept; --allow-gaps keeps it all the same");
+      return kRefused;
+    }
+  }
+  writer.finish();
+  say(summary(*player, writer, work_s));
+  return kSuccess;
+}
+
+}  // namespace ergotic::tools

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/lib/options.hpp"
+
+namespace ergotic::tools {
+
+/// What `render` is asked for.
+struct RenderOptions {
+  SceneOptions scene;
+  double seconds = 0.0;  ///< 0: 10, or as long as the gesture is
+  std::string out;       ///< empty: nothing is kept
+  std::string out_format = "float";
+  std::vector<std::string> inputs;  ///< NAME=FILE
+  std::string gesture;              ///< empty: nobody plays
+  std::string precision;            ///< empty: float
+  bool allow_unstable = false;
+  bool allow_gaps = false;
+};
+
+void addOptions(CLI::App& app, RenderOptions& options);
+
+/// Plays a scene offline into a file; a line of figures to stderr.
+/// \return kSuccess, or kRefused if a recording has gaps
+/// \throws TextError, Exception
+int render(const RenderOptions& options);
+
+}  // namespace ergotic::tools

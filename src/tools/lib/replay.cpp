@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/lib/replay.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/scene/read_scene.hpp"
+#include "ergotic/tgr/replay_driver.hpp"
+
+namespace ergotic::tools {
+namespace {
+
+using EventType = station::Event::Type;
+
+scene::Scene sceneOf(const bag::Keyframe& keyframe) {
+  const std::string& name = keyframe.scene_name;
+  const bool mdl = name.size() > 4 && name.compare(name.size() - 4, 4, ".mdl") == 0;
+  return mdl ? scene::readMdl(keyframe.scene_text, name)
+             : scene::readYaml(keyframe.scene_text, name);
+}
+
+bool isSwap(const station::Event& event) {
+  return event.type == EventType::kSwapped && event.index == 1;
+}
+
+}  // namespace
+
+/// The positions of the tick that the replay is at.
+struct Replay::Source final : tgr::GestureSource {
+  explicit Source(const std::vector<double>& from) : position(from) {}
+  int slices() const noexcept override { return static_cast<int>(position.size()); }
+  bool next(double* to) noexcept override {
+    std::copy(position.begin(), position.end(), to);
+    return true;
+  }
+  const std::vector<double>& position;
+};
+
+Replay::Replay(bag::Recording recording, const station::PerformerPolicy& policy)
+    : recording_(std::move(recording)),
+      policy_(policy),
+      start_(findStart()),
+      tick_(start().tick),
+      position_(static_cast<std::size_t>(start().slices)),
+      keyframe_(start_ + 1) {
+  policy_.slices = start().slices;
+  // Swaps that happened before the start, and changes that its parameters hold already.
+  const auto is_past = [&](const station::Event& event) { return event.tick < tick_; };
+  const auto first = std::find_if_not(recording_.events.begin(), recording_.events.end(), is_past);
+  swap_ = change_ = static_cast<std::size_t>(first - recording_.events.begin());
+  std::copy_if(first, recording_.events.end(), std::back_inserter(lost_),
+               [](const station::Event& event) { return event.type == EventType::kTicksLost; });
+  std::unique_ptr<station::Performer> performer = resume(start());
+  playing_ = {performer->instrument.get(), performer->parameters};
+  station_ = std::make_unique<OfflineStation>(std::move(performer), makeDriver(),
+                                              SoundInputs({}, {}, 0.0), widestModel());
+}
+
+Replay::~Replay() = default;
+
+std::size_t Replay::findStart() const {
+  const auto recorded = [&](const bag::Keyframe& keyframe) {
+    return std::any_of(
+        recording_.blocks.begin(), recording_.blocks.end(), [&](const bag::Block& block) {
+          return block.first_tick <= keyframe.tick && keyframe.tick < block.endTick();
+        });
+  };
+  const auto& keyframes = recording_.keyframes;
+  const auto found = std::find_if(keyframes.begin(), keyframes.end(), recorded);
+  if (found != keyframes.end()) {
+    return static_cast<std::size_t>(found - keyframes.begin());
+  }
+  const std::int64_t end = recording_.blocks.back().endTick();
+  for (std::size_t i = keyframes.size(); i-- > 0;) {
+    if (keyframes[i].tick < end) {
+      return i;
+    }
+  }
+  throw Exception("the recording ends before its first keyframe, tick " +
+                  std::to_string(keyframes.front().tick));
+}
+
+/// As when it was swapped in: with the parameters of its text, from its initial state.
+std::unique_ptr<station::Performer> Replay::perform(const bag::Keyframe& keyframe) const {
+  return station::makePerformer(sceneOf(keyframe), keyframe.rates, keyframe.precision, policy_);
+}
+
+/// As it was at the keyframe.
+std::unique_ptr<station::Performer> Replay::resume(const bag::Keyframe& keyframe) const {
+  std::unique_ptr<station::Performer> performer = perform(keyframe);
+  physics::Instrument& instrument = *performer->instrument;
+  if (instrument.stateSize() != keyframe.state.size() ||
+      performer->parameters.size() != keyframe.parameters.size()) {
+    throw Exception("the recorded state has " + std::to_string(keyframe.state.size()) +
+                    " bytes, this build needs " + std::to_string(instrument.stateSize()) +
+                    ": it was recorded by another build, " + keyframe.build);
+  }
+  instrument.exchange(instrument.prepare(keyframe.parameters));
+  performer->parameters = keyframe.parameters;
+  instrument.loadState(keyframe.state.data());
+  return performer;
+}
+
+std::unique_ptr<tgr::Driver> Replay::makeDriver() {
+  return tgr::makeReplayDriver(std::make_unique<Source>(position_));
+}
+
+int Replay::widestModel() const {
+  int channels = 1;
+  for (std::size_t i = start_; i < recording_.keyframes.size(); ++i) {
+    channels = std::max(channels, sceneOf(recording_.keyframes[i]).outputChannels());
+  }
+  return channels;
+}
+
+std::int64_t Replay::ticksLeft() const {
+  return std::max<std::int64_t>(recording_.blocks.back().endTick() - tick_, 0);
+}
+
+bool Replay::next(double* frames) {
+  if (ticksLeft() == 0) {
+    return false;
+  }
+  if (wasLost(tick_)) {
+    std::fill_n(frames, rates().ratio * outputChannels(), 0.0);
+    in_gap_ = false;
+  } else {
+    takePositions();
+    submitSwaps();
+    submitParameters();
+    submitKeyframe();
+    station_->cycle(frames, [this](const station::Event& event) { hear(event); });
+  }
+  ++tick_;
+  return true;
+}
+
+/// True if the station itself let this tick fall.
+bool Replay::wasLost(std::int64_t tick) const {
+  return std::any_of(lost_.begin(), lost_.end(), [&](const station::Event& event) {
+    return event.tick <= tick && tick < event.tick + event.index;
+  });
+}
+
+void Replay::takePositions() {
+  const auto& blocks = recording_.blocks;
+  while (blocks[block_].endTick() <= tick_) {
+    ++block_;
+  }
+  const bag::Block& block = blocks[block_];
+  const bool missing = tick_ < block.first_tick;
+  if (missing && !in_gap_) {
+    addFlaw(tick_, "gap of " + std::to_string(block.first_tick - tick_) + " ticks");
+  }
+  in_gap_ = missing;
+  if (missing) {
+    return;
+  }
+  if (block.slices != position_.size()) {
+    throw Exception("the device has " + std::to_string(block.slices) + " slices at tick " +
+                    std::to_string(tick_) + " of the recording and " +
+                    std::to_string(position_.size()) + " at its start");
+  }
+  const auto row = static_cast<std::size_t>(tick_ - block.first_tick);
+  std::copy_n(block.positions.begin() + static_cast<std::ptrdiff_t>(row * block.slices),
+              block.slices, position_.begin());
+  if ((block.flags[row] & station::GestureTick::kAudioInput) != 0 && !audio_input_told_) {
+    audio_input_told_ = true;
+    addFlaw(tick_, "live sound entered the model");
+  }
+}
+
+const bag::Keyframe& Replay::keyframeOfSwap(std::int64_t tick) const {
+  for (const bag::Keyframe& keyframe : recording_.keyframes) {
+    if (keyframe.tick >= tick) {
+      return keyframe;
+    }
+  }
+  throw Exception("the model that plays from tick " + std::to_string(tick) +
+                  " on is not in the recording: it has no keyframe after that");
+}
+
+/// A swap is asked for so long before it happens as the fade-out takes.
+void Replay::submitSwaps() {
+  while (swap_ < recording_.events.size() &&
+         recording_.events[swap_].tick - station_->swapDelayTicks() <= tick_) {
+    const station::Event& event = recording_.events[swap_++];
+    if (!isSwap(event)) {
+      continue;
+    }
+    std::unique_ptr<station::Performer> performer = perform(keyframeOfSwap(event.tick));
+    incoming_ = {performer->instrument.get(), performer->parameters};
+    swap_tick_ = event.tick;
+    station::Command swap;
+    swap.type = station::Command::Type::kSwap;
+    swap.performer = performer.get();
+    station_->submit(swap);
+    performer.release();
+  }
+}
+
+void Replay::submitParameters() {
+  while (change_ < recording_.events.size() && recording_.events[change_].tick <= tick_) {
+    const station::Event& event = recording_.events[change_++];
+    if (event.type != EventType::kParameter) {
+      continue;
+    }
+    Tone& tone = incoming_.instrument != nullptr && tick_ < swap_tick_ ? incoming_ : playing_;
+    tone.parameters.at(static_cast<std::size_t>(event.index)) = event.value;
+    auto coefficients = tone.instrument->prepare(tone.parameters);
+    station::Command change;
+    change.type = station::Command::Type::kParameter;
+    change.index = static_cast<int>(event.index);
+    change.value = event.value;
+    change.coefficients = coefficients.get();
+    station_->submit(change);
+    coefficients.release();
+  }
+}
+
+/// Every later keyframe is a check of the replay.
+void Replay::submitKeyframe() {
+  const auto& keyframes = recording_.keyframes;
+  while (keyframe_ < keyframes.size() && keyframes[keyframe_].tick < tick_) {
+    ++keyframe_;
+  }
+  if (keyframe_ < keyframes.size() && keyframes[keyframe_].tick == tick_) {
+    station::Command keyframe;
+    keyframe.type = station::Command::Type::kKeyframe;
+    station_->submit(keyframe);
+  }
+}
+
+void Replay::hear(const station::Event& event) {
+  if (isSwap(event)) {
+    playing_ = std::exchange(incoming_, {});
+    if (tick_ != swap_tick_) {
+      addFlaw(tick_, "a swap was under way at the keyframe that the replay starts from");
+    }
+  }
+  if (event.type == EventType::kKeyframe &&
+      station_->keyframe().state != recording_.keyframes[keyframe_].state) {
+    addFlaw(tick_, "the model is not in the recorded state");
+  }
+}
+
+void Replay::addFlaw(std::int64_t tick, const std::string& what) {
+  flaws_.push_back("recording is inexact: " + what + " at tick " + std::to_string(tick));
+}
+
+}  // namespace ergotic::tools

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ergotic/bag/recording.hpp"
+#include "tools/lib/offline_station.hpp"
+#include "tools/lib/player.hpp"
+
+namespace ergotic::tools {
+
+/// Plays a recorded performance again in a station: the recorded positions, parameter changes and
+/// swaps at their ticks. The same build gives the same samples, bit for bit.
+///
+/// Ticks that never ran when it was recorded are silence; ticks that ran but are missing from the
+/// recording are played with the last position held, and told of in `flaws`.
+class Replay final : public Player {
+ public:
+  /// Starts at the first keyframe whose tick was recorded.
+  /// \throws TextError, Exception if a scene cannot be read or compiled here, or may not be played
+  Replay(bag::Recording recording, const station::PerformerPolicy& policy);
+  ~Replay() override;
+
+  const physics::Rates& rates() const override { return station_->rates(); }
+  int outputChannels() const override { return station_->outputChannels(); }
+  std::size_t modules() const override { return playing_.instrument->scene().mats.size(); }
+  bool next(double* frames) override;
+  std::int64_t ticksLeft() const override;
+
+  const bag::Keyframe& start() const { return recording_.keyframes[start_]; }
+
+  /// Why the sound is not that of the performance, in order; empty: it is.
+  const std::vector<std::string>& flaws() const { return flaws_; }
+
+ private:
+  struct Source;
+  struct Tone {
+    const physics::Instrument* instrument = nullptr;
+    std::vector<double> parameters;
+  };
+
+  std::size_t findStart() const;
+  std::unique_ptr<station::Performer> perform(const bag::Keyframe& keyframe) const;
+  std::unique_ptr<station::Performer> resume(const bag::Keyframe& keyframe) const;
+  std::unique_ptr<tgr::Driver> makeDriver();
+  int widestModel() const;
+  const bag::Keyframe& keyframeOfSwap(std::int64_t tick) const;
+  bool wasLost(std::int64_t tick) const;
+  void takePositions();
+  void submitSwaps();
+  void submitParameters();
+  void submitKeyframe();
+  void hear(const station::Event& event);
+  void addFlaw(std::int64_t tick, const std::string& what);
+
+  bag::Recording recording_;
+  station::PerformerPolicy policy_;
+  std::size_t start_;
+  std::int64_t tick_;  // the one to be played next, as numbered in the recording
+  std::vector<double> position_;
+  std::size_t block_ = 0;             // the one that holds tick_, or the next one
+  std::size_t swap_ = 0;              // events up to here were looked at for swaps,
+  std::size_t change_ = 0;            // for parameters,
+  std::size_t keyframe_ = 0;          // and keyframes up to here
+  std::int64_t swap_tick_ = -1;       // at which the swap under way has to happen, -1: none
+  std::vector<station::Event> lost_;  // kTicksLost
+  bool in_gap_ = false;
+  bool audio_input_told_ = false;
+  Tone playing_;
+  Tone incoming_;
+  std::unique_ptr<OfflineStation> station_;
+  std::vector<std::string> flaws_;
+};
+
+}  // namespace ergotic::tools

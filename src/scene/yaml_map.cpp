@@ -34,8 +34,8 @@ bool isNameCharacter(char c) {
 }  // namespace
 
 Place placeOf(const YAML::Node& node, Place fallback) {
-  const YAML::Mark mark = node.Mark();
-  return mark.is_null() ? fallback : Place{mark.line + 1, mark.column + 1};
+  const YAML::Mark mark = node.Mark();  // of a missing value: wherever the next token is
+  return mark.is_null() || node.IsNull() ? fallback : Place{mark.line + 1, mark.column + 1};
 }
 
 std::string wordOf(const SceneBuilder& builder,
@@ -238,7 +238,7 @@ Value YamlMap::value(const std::string& key, const Limits& limits) const {
   const Parameter& parameter = builder_.scene().parameters[static_cast<std::size_t>(index)];
   for (const double end : {parameter.minimum, parameter.maximum}) {
     if (!limits.hold(factor * end)) {
-      fail(key, outOfRange(named(key) + " at " + quoted(parameter.name) + " = " + numberText(end),
+      fail(key, outOfRange(named(key) + " (where " + parameter.name + " = " + numberText(end) + ")",
                            factor * end, limits));
     }
   }

@@ -14,7 +14,7 @@
 
 namespace ergotic::scene {
 
-/// Where a node begins; `fallback` if yaml-cpp does not know.
+/// Where a node begins; `fallback` if it is empty or yaml-cpp does not know.
 Place placeOf(const YAML::Node& node, Place fallback);
 
 /// Text of a scalar. \throws TextError if it is not one

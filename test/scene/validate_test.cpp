@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <functional>
+#include <limits>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/scene/read_scene.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+/// One element of every kind, legal.
+Scene legal() {
+  return readYaml(
+      "ergotic: 1\nparameters: {p: {value: 1, range: [1, 2]}}\n"
+      "sections: {a: {}, h: {rate: gestural}}\n"
+      "mats: {m: {type: cell, section: a, mass: $p}, k: {type: slice, section: h},\n"
+      "  d: {type: driven, section: a}}\n"
+      "generators: [{type: string, name: s, section: a, masses: 1, mass: 1, stiffness: 1,\n"
+      "  to: [1, 0]}]\n"
+      "lias: {l: {type: bow, between: [m, k], damping: 1, width: 1},\n"
+      "  t: {type: bow, between: [m, k], table: [[0, 0], [1, 1]]}}\n"
+      "ports: {o: {mat: k, slice: 0}}\n"
+      "inputs: {i: {mat: d, quantity: position, channel: 1}}\n"
+      "outputs: {q: {at: s@0.3, quantity: force, channel: 1}}\n",
+      "legal.yaml");
+}
+
+struct Damage {
+  const char* message;
+  std::function<void(Scene&)> apply;
+};
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+const Damage kDamages[] = {
+    {"time unit", [](Scene& s) { s.time_unit_s = 0.0; }},
+    {"gestural_rate", [](Scene& s) { s.gestural_rate_hz = kNan; }},
+    {"value of parameter 'p' = 3", [](Scene& s) { s.parameters[0].value = 3.0; }},
+    {"maximum of parameter 'p'", [](Scene& s) { s.parameters[0].maximum = 0.5; }},
+    {"mass of module 'm' = -1", [](Scene& s) { s.parameters[0].minimum = -1.0; }},
+    {"divisor of section 'a' = 0", [](Scene& s) { s.sections[0].divisor = 0; }},
+    {"gravity of section 'a'", [](Scene& s) { s.sections[0].gravity = kNan; }},
+    {"pose of section 'h'", [](Scene& s) { s.sections[1].pose.translation().x() = kNan; }},
+    {"section 'a' is defined twice", [](Scene& s) { s.sections[1].name = "a"; }},
+    {"a module has no name", [](Scene& s) { s.mats[1].name.clear(); }},
+    {"section of module 'm' = 2 does not exist", [](Scene& s) { s.mats[0].section = 2; }},
+    {"stiffness of module 'm'", [](Scene& s) { s.mats[0].stiffness.factor = -1.0; }},
+    {"parameter of damping of module 'm'", [](Scene& s) { s.mats[0].damping.parameter = 1; }},
+    {"force of module 'm'", [](Scene& s) { s.mats[0].force = kNan; }},
+    {"a coordinate of module 'k'", [](Scene& s) { s.mats[1].y = kNan; }},
+    {"velocity of module 'm'", [](Scene& s) { s.mats[0].velocity = kNan; }},
+    {"slice 'k' is in section 'a'", [](Scene& s) { s.mats[1].section = 0; }},
+    {"first module of link 't' = -1", [](Scene& s) { s.lias.back().a = -1; }},
+    {"second module of link 't' = 99", [](Scene& s) { s.lias.back().b = 99; }},
+    {"joins module 'k' to itself", [](Scene& s) { s.lias.back().a = s.lias.back().b; }},
+    {"width of link 'l'", [](Scene& s) { s.lias[s.lias.size() - 2].width.factor = 0.0; }},
+    {"damping of link 'l'", [](Scene& s) { s.lias[s.lias.size() - 2].damping.factor = -1.0; }},
+    {"rest_length of link 't'", [](Scene& s) { s.lias.back().rest_length = kNan; }},
+    {"one point in the table", [](Scene& s) { s.lias.back().table.resize(1); }},
+    {"first number in the table", [](Scene& s) { s.lias.back().table[1].first = 0.0; }},
+    {"has a table", [](Scene& s) { s.lias.back().type = LiaType::kCubic; }},
+    {"slice of port 'o' = 64", [](Scene& s) { s.ports[0].slice = 64; }},
+    {"allowed: modules of type slice", [](Scene& s) { s.ports[0].mat = 0; }},
+    {"is on slice 0, which port 'o' has",
+     [](Scene& s) {
+       s.ports.push_back(s.ports[0]);
+       s.ports[1].name = "second";
+     }},
+    {"allowed: modules of type driven", [](Scene& s) { s.inputs[0].mat = 0; }},
+    {"quantity of input 'i' is velocity",
+     [](Scene& s) { s.inputs[0].quantity = Quantity::kVelocity; }},
+    {"channel of input 'i' = 0", [](Scene& s) { s.inputs[0].channel = -1; }},
+    {"channel of output 'q' = 65", [](Scene& s) { s.outputs[0].channel = 64; }},
+    {"fraction of output 'q'", [](Scene& s) { s.outputs[0].point.fraction = 1.5; }},
+    {"next module of output 'q'", [](Scene& s) { s.outputs[0].point.next = 99; }},
+    {"gain of output 'q'", [](Scene& s) { s.outputs[0].gain.factor = kNan; }},
+    {"last module of string 's'", [](Scene& s) { s.strings[0].count = 9; }},
+};
+TEST(ValidateTest, AcceptsWhatTheReaderMakes) {
+  EXPECT_NO_THROW(validate(legal()));
+}
+
+TEST(ValidateTest, FindsEveryDamage) {
+  for (const Damage& damage : kDamages) {
+    Scene scene = legal();
+    damage.apply(scene);
+    try {
+      validate(scene);
+      ADD_FAILURE() << "not found: " << damage.message;
+    } catch (const TextError& e) {
+      EXPECT_THAT(e.what(), testing::HasSubstr(damage.message));
+      EXPECT_THAT(e.what(), testing::StartsWith("legal.yaml:"));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ergotic::scene

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# What the scripts of this folder share. To be sourced, by bash, after `set -euo pipefail`.
+
+# Debian's python first: another one on the path knows nothing of catkin.
+export PATH="/usr/bin:/bin:$PATH"
+export PYTHONDONTWRITEBYTECODE=1
+unset PYTHONHOME
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+say() { printf '%s\n' "$*"; }
+warn() { printf 'warning: %s\n' "$*" >&2; }
+die() {
+  printf 'error: %s\n' "$*" >&2
+  exit 1
+}
+
+# ROS finds this package, and the shell its commands, from here on.
+source_devel_space() { # BUILD_DIR
+  local setup="$1/devel/setup.bash"
+  [ -f "$setup" ] || die "$setup is not there: run scripts/build first"
+  set +eu  # catkin's file knows neither
+  # shellcheck disable=SC1090
+  source "$setup"
+  set -eu
+}
+
+# Waits until a command succeeds. Each try has to be short; returns 1 when the time is over.
+wait_until() { # SECONDS COMMAND...
+  local end=$((SECONDS + $1))
+  shift
+  until "$@" >/dev/null 2>&1; do
+    ((SECONDS < end)) || return 1
+    sleep 0.2
+  done
+}

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Starting JACK, ROS and the like, and leaving none of it behind. To be sourced, after lib.sh.
+#
+# Everything started here, and what that starts in turn, carries ERGOTIC_SESSION in its
+# environment: also what has left its parent can be found and ended.
+
+export ERGOTIC_SESSION="$$-$(date +%s%N)"
+logs=$(mktemp --directory --tmpdir ergotic.XXXXXX)
+started=()  # process groups, in the order of their starts
+
+# Starts a command in a process group of its own; $spawned is its id. Its output goes to
+# $logs/NAME.log, to be shown if something goes wrong; what it prints for others to $logs/NAME.out.
+spawn() { # NAME COMMAND...
+  setsid env --default-signal=INT,QUIT "${@:2}" \
+    </dev/null >"$logs/$1.out" 2>"$logs/$1.log" &
+  spawned=$!
+  started+=("$spawned")
+}
+
+# The same with the output of this script.
+spawn_visibly() { # COMMAND...
+  setsid env --default-signal=INT,QUIT "$@" </dev/null &
+  spawned=$!
+  started+=("$spawned")
+}
+
+is_running() { kill -0 "$1" 2>/dev/null; }
+has_ended() { ! is_running "$1"; }
+
+# Asks a process group to end, more and more firmly; returns when its first process has.
+stop_group() { # GROUP [SECONDS TO END BY ITSELF]
+  local signal
+  for signal in INT TERM KILL; do
+    kill -s "$signal" -- "-$1" 2>/dev/null || return 0
+    ! wait_until "${2:-10}" has_ended "$1" || return 0
+  done
+}
+
+# Whatever is left of this session, this script excepted.
+session_members() {
+  local file pid
+  for file in /proc/[0-9]*/environ; do
+    pid=${file//[^0-9]/}
+    if [ "$pid" != "$$" ] && [ "$pid" != "$BASHPID" ] &&
+      grep -qsz "^ERGOTIC_SESSION=$ERGOTIC_SESSION\$" "$file"; then
+      printf '%s\n' "$pid"
+    fi
+  done
+}
+
+stop_all() {
+  local i pids
+  for ((i = ${#started[@]} - 1; i >= 0; --i)); do
+    stop_group "${started[i]}" 25  # roslaunch gives its nodes 15 s
+  done
+  started=()
+  for signal in TERM KILL; do
+    mapfile -t pids < <(session_members)
+    [ ${#pids[@]} -eq 0 ] || kill -s "$signal" "${pids[@]}" 2>/dev/null || true
+    [ ${#pids[@]} -eq 0 ] || sleep 1
+  done
+}
+
+show_logs() {
+  local log
+  for log in "$logs"/*.log "$logs"/ros/*.log "$logs"/ros/*/*.log; do
+    [ ! -s "$log" ] || { say "--- the end of ${log#"$logs"/}:" && tail -n 25 "$log"; } >&2
+  done
+}
+
+# Call it first of all: at the end, however it comes, everything is stopped, and after a failure
+# the logs are shown.
+clean_up_at_exit() {
+  trap 'on_exit $?' EXIT
+  trap 'exit 130' INT
+  trap 'exit 143' TERM HUP
+}
+on_exit() { # STATUS
+  trap '' INT TERM HUP
+  stop_all
+  [ "$1" -eq 0 ] || [ "$1" -ge 128 ] || show_logs
+  rm -rf "$logs"
+  exit "$1"
+}
+
+may_be_realtime() { chrt --fifo 70 true 2>/dev/null; }
+
+# The first sound card that can play, as ALSA numbers them; nothing if there is none.
+playback_card() {
+  local pcm
+  for pcm in /proc/asound/card[0-9]*/pcm*p; do
+    [ -e "$pcm" ] || continue
+    pcm=${pcm#/proc/asound/card}
+    say "${pcm%%/*}"
+    return
+  done
+}
+
+jack_runs() { [[ $(timeout 10 jack_wait --check 2>/dev/null) == running* ]]; }
+
+# Starts the server named by JACK_DEFAULT_SERVER. \return 1 if it does not run within ten seconds
+start_jack() { # BACKEND OPTIONS...
+  local priority=(--realtime --realtime-priority 70)
+  if ! may_be_realtime; then
+    warn "real-time scheduling is not permitted (README, \"Real time\"): sound may crackle"
+    priority=(--no-realtime)
+  fi
+  spawn jackd jackd "${priority[@]}" --name "${JACK_DEFAULT_SERVER:-default}" -d "$@"
+  local jackd=$spawned
+  jack_or_death() { jack_runs || has_ended "$jackd"; }
+  wait_until 10 jack_or_death && jack_runs
+}
+start_dummy_jack() {
+  start_jack dummy --rate 44100 --period 256 --capture 12 --playback 24
+}
+
+master_runs() { timeout 10 rosnode list; }

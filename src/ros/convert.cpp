@@ -25,9 +25,12 @@ static_assert(Status::FAULT_MADE_SAFE == number(station::FaultReason::kMadeSafe)
 
 const char* toString(station::LateCause cause) {
   switch (cause) {
-    case station::LateCause::kWakeUp: return "the thread was woken late";
-    case station::LateCause::kDevice: return "the device was slow";
-    case station::LateCause::kCompute: return "the computation took too long";
+    case station::LateCause::kWakeUp:
+      return "the thread was woken late";
+    case station::LateCause::kDevice:
+      return "the device was slow";
+    case station::LateCause::kCompute:
+      return "the computation took too long";
   }
   return "";
 }
@@ -36,10 +39,17 @@ std::string textOf(const station::Event& event, const scene::Scene* scene) {
   std::ostringstream text;
   const auto milliseconds = [](double seconds) { return seconds * 1e3; };
   switch (event.type) {
-    case EventType::kEngaged: text << "force ramps in over " << event.value << " s"; break;
-    case EventType::kPlaying: text << "full force"; break;
-    case EventType::kStopped: text << "force is zero"; break;
-    case EventType::kSwapped: text << (event.index != 0 ? "another model plays" : "a model was overtaken by a newer one");
+    case EventType::kEngaged:
+      text << "force ramps in over " << event.value << " s";
+      break;
+    case EventType::kPlaying:
+      text << "full force";
+      break;
+    case EventType::kStopped:
+      text << "force is zero";
+      break;
+    case EventType::kSwapped:
+      text << (event.index != 0 ? "another model plays" : "a model was overtaken by a newer one");
       break;
     case EventType::kParameter: {
       const auto index = static_cast<std::size_t>(event.index);
@@ -47,7 +57,7 @@ std::string textOf(const station::Event& event, const scene::Scene* scene) {
       text << (known ? scene->parameters[index].name : "parameter") << " = " << event.value;
       break;
     }
-    case EventType::kKeyframe: 
+    case EventType::kKeyframe:
       text << (event.index != 0 ? "keyframe" : "the state is too large for a keyframe");
       break;
     case EventType::kFault:
@@ -63,15 +73,21 @@ std::string textOf(const station::Event& event, const scene::Scene* scene) {
       text << "stall of " << milliseconds(event.value) << " ms, " << event.index
            << " ticks caught up";
       break;
-    case EventType::kTicksLost: text << event.index << " ticks never ran"; break;
+    case EventType::kTicksLost:
+      text << event.index << " ticks never ran";
+      break;
     case EventType::kUnderrun:
       text << "underrun: " << event.index << " frames of silence from frame " << event.frame;
       break;
     case EventType::kAudioSkipped:
       text << "JACK left out " << event.index << " frames from frame " << event.frame;
       break;
-    case EventType::kAudioStarted: text << "sound from frame " << event.frame; break;
-    case EventType::kAudioStopped: text << "no sound: the audio server is gone"; break;
+    case EventType::kAudioStarted:
+      text << "sound from frame " << event.frame;
+      break;
+    case EventType::kAudioStopped:
+      text << "no sound: the audio server is gone";
+      break;
   }
   return text.str();
 }

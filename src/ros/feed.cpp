@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/feed.hpp"
 
-#include <utility>
+#include <ergotic/ModelState.h>
 
 #include "ergotic/rt/build_id.hpp"
 #include "ergotic/rt/clock.hpp"
@@ -18,12 +18,7 @@ constexpr bool kLatched = true;
 
 }  // namespace
 
-Feed::Feed(::ros::NodeHandle& node,
-           const Parameters& parameters,
-           std::function<void()> on_gesture_subscriber)
-    : station_config_(toYaml(parameters)),
-      display_scale_(parameters.display_scale),
-      motion_period_ns_(static_cast<std::int64_t>(1e9 / parameters.display_rate)) {
+Feed::Feed(::ros::NodeHandle& node) {
   joint_states_ = node.advertise<sensor_msgs::JointState>("joint_states", kQueue);
   model_structure_ = node.advertise<ModelStructure>("model_structure", 1, kLatched);
   model_state_ = node.advertise<ModelState>("model_state", kQueue);
@@ -32,13 +27,17 @@ Feed::Feed(::ros::NodeHandle& node,
   events_ = node.advertise<Event>("events", kEventQueue);
   status_topic_ = node.advertise<Status>("status", 1, kLatched);
   gesture_ = node.advertise<GestureBlock>(
-      "gesture",
-      kGestureQueue,
-      [asked = std::move(on_gesture_subscriber)](const ::ros::SingleSubscriberPublisher&) {
-        asked();
-      });
+      "gesture", kGestureQueue,
+      [this](const ::ros::SingleSubscriberPublisher& /*peer*/) { new_listener_ = true; });
+  showSilence("no model yet");
+}
+
+void Feed::configure(const Parameters& parameters) {
+  station_config_ = toYaml(parameters);
+  display_scale_ = parameters.display_scale;
+  motion_period_ns_ = static_cast<std::int64_t>(1e9 / parameters.display_rate);
   status_.driver = parameters.driver;
-  status_.state_text = station::toString(station::ForceState::kDisconnected);
+  blocks_.reset();
 }
 
 void Feed::showModel(const station::Performer& performer, const std::string& note) {
@@ -54,7 +53,7 @@ void Feed::showModel(const station::Performer& performer, const std::string& not
 
   markers_topic_.publish(Markers::eraseAll());
   markers_.emplace(instrument.scene(), display_scale_);
-  if (!blocks_) {  // the rates hold for the whole run
+  if (!blocks_) {  // rates hold until the next `configure`
     blocks_.emplace(instrument.rates().gesturalHz());
   }
 }
@@ -65,14 +64,19 @@ void Feed::showSilence(const std::string& message) {
   status_.audio_running = 0U;
   status_.message = message;
   markers_.reset();
-  blocks_.reset();
   sendStatus();
 }
 
-void Feed::show(const station::Event& event, const scene::Scene* scene) {
+void Feed::addMessage(const std::string& line) {
+  status_.message += (status_.message.empty() ? "" : "\n") + line;
+  sendStatus();
+}
+
+Event Feed::show(const station::Event& event, const scene::Scene* scene) {
   Event message = toEvent(event, scene);
   message.stamp = ::ros::Time::now();
   events_.publish(message);
+  return message;
 }
 
 void Feed::show(const station::GestureTick* ticks, std::size_t count) {

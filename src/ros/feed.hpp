@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,22 +21,27 @@ namespace ergotic::node {
 /// Everything the station tells ROS. All but the constructor: operator thread.
 class Feed {
  public:
-  /// \param on_gesture_subscriber  called from a ROS thread when somebody starts to listen to
-  ///                               `gesture`, most likely to record it
-  Feed(::ros::NodeHandle& node,
-       const Parameters& parameters,
-       std::function<void()> on_gesture_subscriber);
+  explicit Feed(::ros::NodeHandle& node);
 
+  /// A station with these parameters begins to play.
+  void configure(const Parameters& parameters);
   /// Another model plays from now on.
   void showModel(const station::Performer& performer, const std::string& note);
   /// Nothing plays any more, or nothing yet; `message` says why.
   void showSilence(const std::string& message);
 
-  void show(const station::Event& event, const scene::Scene* scene);
+  /// Adds a line to the message of the status.
+  void addMessage(const std::string& line);
+
+  /// \return what was sent
+  Event show(const station::Event& event, const scene::Scene* scene);
   void show(const station::GestureTick* ticks, std::size_t count);
   void show(const station::Snapshot& snapshot);
   void show(const station::MotionFrame& motion);
   void show(const station::Keyframe& keyframe, const physics::Instrument& instrument);
+
+  /// True once for everybody who starts to listen to `gesture`, most likely to record it.
+  bool takeNewListener() { return new_listener_.exchange(false); }
 
   /// Sends the status if it is a second old.
   void refresh();
@@ -46,9 +51,10 @@ class Feed {
  private:
   void sendStatus();
 
+  std::atomic<bool> new_listener_{false};
   std::string station_config_;
-  double display_scale_;
-  std::int64_t motion_period_ns_;
+  double display_scale_ = 1.0;
+  std::int64_t motion_period_ns_ = 0;
   ::ros::Publisher joint_states_;
   ::ros::Publisher model_structure_;
   ::ros::Publisher model_state_;

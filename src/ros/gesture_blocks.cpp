@@ -6,9 +6,10 @@
 
 namespace ergotic::node {
 
-static_assert(GestureBlock::CATCH_UP == station::GestureTick::kCatchUp);
-static_assert(GestureBlock::HELD == station::GestureTick::kHeld);
-static_assert(GestureBlock::AUDIO_INPUT == station::GestureTick::kAudioInput);
+// The message carries the station's flags as they are.
+static_assert(GestureBlock::CATCH_UP == std::uint32_t{station::GestureTick::kCatchUp});
+static_assert(GestureBlock::HELD == std::uint32_t{station::GestureTick::kHeld});
+static_assert(GestureBlock::AUDIO_INPUT == std::uint32_t{station::GestureTick::kAudioInput});
 
 GestureBlocks::GestureBlocks(double tick_rate_hz)
     : tick_rate_hz_(tick_rate_hz),
@@ -27,8 +28,8 @@ std::optional<GestureBlock> GestureBlocks::add(const station::GestureTick& tick)
     block_.slices = tick.slices;
   }
   block_.flags.push_back(tick.flags);
-  block_.positions.insert(
-      block_.positions.end(), tick.position.begin(), tick.position.begin() + tick.slices);
+  block_.positions.insert(block_.positions.end(), tick.position.begin(),
+                          tick.position.begin() + tick.slices);
   block_.forces.insert(block_.forces.end(), tick.force.begin(), tick.force.begin() + tick.slices);
   ++block_.ticks;
   if (!finished && block_.ticks >= ticks_per_block_) {

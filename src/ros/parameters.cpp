@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/parameters.hpp"
 
+#include <yaml-cpp/yaml.h>
+
 #include <map>
 #include <sstream>
 
-#include <yaml-cpp/yaml.h>
-
 #include "ergotic/exception.hpp"
+#include "ergotic/station/audio_bridge.hpp"
 #include "ergotic/tgr/driver.hpp"
 
 namespace ergotic::node {
@@ -39,8 +40,7 @@ class Reader {
   void integer(const std::string& name, int& value, int minimum, int maximum) const {
     typed(name, value, "an integer");
     if (value < minimum || value > maximum) {
-      refuse(name,
-             std::to_string(value),
+      refuse(name, std::to_string(value),
              std::to_string(minimum) + "..." + std::to_string(maximum));
     }
   }
@@ -74,8 +74,8 @@ class Reader {
   [[noreturn]] void refuse(const std::string& name,
                            const std::string& value,
                            const std::string& allowed) const {
-    throw Exception("parameter " + node_.resolveName(name) + " is " + value + ", allowed: " +
-                    allowed);
+    throw Exception("parameter " + node_.resolveName(name) + " is " + value +
+                    ", allowed: " + allowed);
   }
 
   const ::ros::NodeHandle& node_;
@@ -106,11 +106,12 @@ Parameters readParameters(const ::ros::NodeHandle& node) {
   read.choice("jack", p.jack, kJack);
   read.text("jack_name", p.jack_name);
   read.number("jack_wait", p.jack_wait, 0.0, 60.0);
-  read.number("ring_depth", p.ring_depth, 0.0, 1.0);
+  read.flag("jack_connect", p.jack_connect);
+  read.integer("ring_depth", p.ring_depth, 1, station::AudioBridge::kMaxLatencyFrames);
   read.number("force_limit", p.force_limit, 0.0, tgr::kAbsoluteForceLimitN);
   read.number("ramp", p.ramp, 0.1, 10.0);
-  read.number("max_stall", p.max_stall, 0.001, 10.0);
-  read.integer("priority", p.priority, 1, 95);
+  read.number("max_stall", p.max_stall, 0.001, 1.0);
+  read.integer("priority", p.priority, 1, 99);
   read.choice("realtime", p.realtime, kRealtime);
   read.flag("allow_unproven", p.allow_unproven);
   read.flag("autoengage", p.autoengage);
@@ -134,6 +135,7 @@ std::string toYaml(const Parameters& p) {
   entry("jack", wordOf(p.jack, kJack));
   entry("jack_name", p.jack_name);
   entry("jack_wait", p.jack_wait);
+  entry("jack_connect", p.jack_connect);
   entry("ring_depth", p.ring_depth);
   entry("force_limit", p.force_limit);
   entry("ramp", p.ramp);

@@ -26,19 +26,20 @@ struct Parameters {
   double audio_rate = 44100.0;        ///< Hz, without a JACK server
   double gestural_rate = 0.0;         ///< Hz; 0: as the model wishes
   physics::Precision precision = physics::Precision::kDouble;
-  bool jack = true;                ///< false: no sound card, ticks follow the system clock
+  bool jack = true;                   ///< false: no sound card, ticks follow the system clock
   std::string jack_name = "ergotic";  ///< of the JACK client
-  double jack_wait = 2.0;          ///< s, for a server to appear before the first model plays
-  double ring_depth = 0.0;         ///< s of sound computed ahead; 0: chosen by the audio bridge
-  double force_limit = 20.0;       ///< N, per slice
-  double ramp = 2.0;               ///< s, from zero to full force
-  double max_stall = 0.05;         ///< s, longer stalls are a fault
-  int priority = 60;               ///< SCHED_FIFO priority of the tick
+  double jack_wait = 2.0;             ///< s, for a server to appear before the first model plays
+  bool jack_connect = true;           ///< out_i to the i-th physical playback port
+  int ring_depth = 768;               ///< audio frames from a tick's due time to its sound
+  double force_limit = 20.0;          ///< N, per slice
+  double ramp = 2.0;                  ///< s, from zero to full force
+  double max_stall = 0.05;            ///< s, longer stalls are a fault
+  int priority = 75;                  ///< SCHED_FIFO priority of the tick
   Realtime realtime = Realtime::kTry;
-  bool allow_unproven = false;     ///< play what the certificate cannot prove to be stable
-  bool autoengage = false;         ///< engage once the first model plays
-  double display_rate = 30.0;      ///< Hz, of model_state and markers
-  double display_scale = 10.0;     ///< factor on displacements in markers
+  bool allow_unproven = false;  ///< play what the certificate cannot prove to be stable
+  bool autoengage = false;      ///< engage once the first model plays
+  double display_rate = 30.0;   ///< Hz, of model_state and markers
+  double display_scale = 10.0;  ///< factor on displacements in markers
 };
 
 /// \throws Exception naming parameter, value and allowed range

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/signal_guard.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -10,9 +13,6 @@
 #include <thread>
 #include <vector>
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/thread.hpp"
 
@@ -20,8 +20,8 @@ namespace ergotic::node {
 namespace {
 
 constexpr std::array<int, 3> kSignals = {SIGINT, SIGTERM, SIGHUP};
-constexpr unsigned char kQuit = 0;       // no signal has this number
-constexpr int kHelperPriority = 80;      // above the tick's: zero force is more urgent than sound
+constexpr unsigned char kQuit = 0;   // no signal has this number
+constexpr int kHelperPriority = 80;  // above the tick's: zero force is more urgent than sound
 std::atomic<int> handler_fd{-1};
 
 extern "C" void ergoticOnSignal(int signal) {

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/diagnostics.hpp"
+
+#include "ergotic/rt/clock.hpp"
+
+namespace ergotic::node {
+namespace {
+
+constexpr std::int64_t kPeriodNs = 1'000'000'000;
+constexpr double kHighLoad = 0.8;
+
+using Level = diagnostic_msgs::DiagnosticStatus;
+
+}  // namespace
+
+Diagnostics::Diagnostics(const ::ros::NodeHandle& node,
+                         const ::ros::NodeHandle& private_node,
+                         const std::string& name)
+    : updater_(node, private_node, name) {
+  updater_.setHardwareID("tgr");
+  updater_.add("force", this, &Diagnostics::reportForce);
+  updater_.add("real time", this, &Diagnostics::reportRealtime);
+  updater_.add("sound", this, &Diagnostics::reportSound);
+}
+
+bool Diagnostics::isDue() {
+  const std::int64_t now_ns = rt::monotonicNs();
+  if (now_ns < due_ns_) {
+    return false;
+  }
+  due_ns_ = now_ns + kPeriodNs;
+  return true;
+}
+
+void Diagnostics::publish(const Status& status, const std::optional<audio::JackStatus>& jack) {
+  last_ = status_;
+  status_ = status;
+  jack_ = jack;
+  updater_.force_update();
+}
+
+void Diagnostics::reportForce(Report& report) {
+  switch (status_.state) {
+    case Status::FAULT:
+      report.summary(Level::ERROR, status_.state_text);
+      break;
+    case Status::DISCONNECTED:
+      report.summary(Level::ERROR, status_.message);
+      break;
+    default:
+      report.summary(Level::OK, status_.state_text);
+  }
+  report.add("device", status_.driver);
+  report.add("slices", status_.slices);
+  report.add("peak force (N)", status_.peak_force);
+  report.add("model", status_.model);
+  report.add("verdict", status_.verdict);
+}
+
+void Diagnostics::reportRealtime(Report& report) {
+  const auto late = [](const Status& s) { return s.late_wake_up + s.late_device + s.late_compute; };
+  if (status_.stalls > last_.stalls || status_.lost_ticks > last_.lost_ticks) {
+    report.summary(Level::WARN, "ticks had to be caught up in the last second");
+  } else if (late(status_) > late(last_)) {
+    report.summary(Level::WARN, "late ticks in the last second");
+  } else if (status_.load_mean > kHighLoad) {
+    report.summary(Level::WARN, "the model needs more than 80 % of the time there is");
+  } else {
+    report.summary(Level::OK, "on time");
+  }
+  report.add("gestural rate (Hz)", status_.gestural_rate);
+  report.add("ticks", status_.ticks);
+  report.add("late: woken late", status_.late_wake_up);
+  report.add("late: slow device", status_.late_device);
+  report.add("late: long computation", status_.late_compute);
+  report.add("stalls", status_.stalls);
+  report.add("ticks caught up", status_.catch_up_ticks);
+  report.add("ticks lost", status_.lost_ticks);
+  report.add("records dropped", status_.dropped_records);
+  report.add("load, mean", status_.load_mean);
+  report.add("load, peak", status_.load_peak);
+}
+
+void Diagnostics::reportSound(Report& report) {
+  if (!jack_) {
+    report.summary(Level::OK, "no sound: plays without JACK");
+  } else if (!jack_->message.empty()) {
+    report.summary(Level::WARN, jack_->message);
+  } else if (!jack_->running) {
+    report.summary(Level::WARN, "no JACK server");
+  } else if (status_.underruns > last_.underruns || status_.xruns > last_.xruns) {
+    report.summary(Level::WARN, "sound was interrupted in the last second");
+  } else {
+    report.summary(Level::OK, "playing");
+  }
+  report.add("audio rate (Hz)", status_.audio_rate);
+  report.add("clock locked", status_.clock_locked != 0U);
+  report.add("underruns", status_.underruns);
+  report.add("frames of silence", status_.underrun_frames);
+  report.add("xruns of JACK", status_.xruns);
+  if (jack_) {
+    report.add("JACK client", jack_->client);
+    report.add("period (frames)", jack_->period_frames);
+    report.add("starts", jack_->starts);
+  }
+}
+
+}  // namespace ergotic::node

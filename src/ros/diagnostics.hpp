@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+
+#include <cstdint>
+#include <optional>
+
+#include <ergotic/Status.h>
+
+#include "ergotic/audio/jack_client.hpp"
+
+namespace ergotic::node {
+
+/// What /diagnostics says: force, real time, sound; once a second.
+/// Thread: operator, all but the constructor
+class Diagnostics {
+ public:
+  Diagnostics(const ::ros::NodeHandle& node,
+              const ::ros::NodeHandle& private_node,
+              const std::string& name);
+
+  /// Publishes if a second has passed.
+  /// \param jack  asked only then; may give nothing: it plays without JACK
+  template <class JackStatusSource>
+  void refresh(const Status& status, const JackStatusSource& jack) {
+    if (isDue()) {
+      publish(status, jack());
+    }
+  }
+
+ private:
+  using Report = diagnostic_updater::DiagnosticStatusWrapper;
+
+  bool isDue();
+  void publish(const Status& status, const std::optional<audio::JackStatus>& jack);
+  void reportForce(Report& report);
+  void reportRealtime(Report& report);
+  void reportSound(Report& report);
+
+  diagnostic_updater::Updater updater_;
+  Status status_;
+  Status last_;  // a second ago
+  std::optional<audio::JackStatus> jack_;
+  std::int64_t due_ns_ = 0;
+};
+
+}  // namespace ergotic::node

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/engine.hpp"
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <utility>
+
+#include "ergotic/exception.hpp"
+
+namespace ergotic::node {
+namespace {
+
+std::unique_ptr<tgr::VirtualDriver> makeDriver(const Parameters& parameters) {
+  tgr::VirtualDriverConfig config;
+  config.gesture_file = parameters.gesture;
+  config.shared_memory = parameters.virtual_shared_memory;
+  return tgr::makeVirtualDriver(config);
+}
+
+station::StationConfig stationConfig(const Parameters& parameters, const physics::Rates& rates) {
+  station::StationConfig config;
+  config.rates = rates;
+  config.safety.force_limit_n = parameters.force_limit;
+  config.safety.ramp_s = parameters.ramp;
+  config.max_stall_s = parameters.max_stall;
+  return config;
+}
+
+station::TimerOptions timerOptions(const Parameters& parameters) {
+  station::TimerOptions options;
+  const bool realtime = parameters.realtime != Realtime::kOff;
+  options.priority = realtime ? parameters.priority : 0;
+  options.lock_memory = realtime;
+  return options;
+}
+
+/// Hears of the server's rate, plays nothing.
+class RateProbe : public rt::BlockProcessor {
+ public:
+  void audioStarted(double sample_rate_hz, std::uint32_t /*period_frames*/) override {
+    const std::lock_guard lock(mutex_);
+    rate_ = sample_rate_hz;
+    heard_.notify_all();
+  }
+  void audioStopped() noexcept override {}
+  void process(const rt::Block& /*block*/) noexcept override {}
+  void xrun() noexcept override {}
+
+  std::optional<double> wait(double seconds) {
+    std::unique_lock lock(mutex_);
+    heard_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return !!rate_; });
+    return rate_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable heard_;
+  std::optional<double> rate_;
+};
+
+}  // namespace
+
+Engine::Engine(const Parameters& parameters, std::unique_ptr<station::Performer> performer)
+    : parameters_(parameters) {
+  const physics::Rates rates = performer->instrument->rates();
+  const station::StationConfig config = stationConfig(parameters, rates);
+  auto driver = makeDriver(parameters);
+  hand_ = driver.get();
+  station_ = std::make_unique<station::Station>(config, std::move(driver), std::move(performer));
+  if (parameters.jack) {
+    station::AudioBridgeConfig bridge;
+    bridge.rates = rates;
+    bridge.output_channels = config.output_channels;
+    bridge.input_channels = config.input_channels;
+    bridge.latency_frames = parameters.ring_depth;
+    bridge_ = std::make_unique<station::AudioBridge>(bridge);
+    station_->setFramePort(bridge_.get());
+  }
+  source_ = std::make_unique<station::TimerSource>(*station_, bridge_.get());
+  source_->start(timerOptions(parameters));
+  warnings_ = source_->warnings();
+  if (parameters.realtime == Realtime::kRequire && !warnings_.empty()) {
+    source_->stop();
+    throw DeviceError("realtime:=require, but " + warnings_.front());
+  }
+  if (parameters.jack) {
+    audio::JackConfig jack;
+    jack.name = parameters.jack_name;
+    jack.inputs = config.input_channels;
+    jack.outputs = config.output_channels;
+    jack.connect = parameters.jack_connect;
+    jack.latency_frames = static_cast<std::uint32_t>(bridge_->latencyFrames());
+    jack_ = std::make_unique<audio::JackHost>(jack, *bridge_);
+  }
+}
+
+Engine::~Engine() {
+  station_->makeSafe();
+  source_->stop();
+  station_.reset();  // the device is given back before JACK, which may take its time
+}
+
+std::optional<audio::JackStatus> Engine::jackStatus() const {
+  return jack_ ? std::optional(jack_->status()) : std::nullopt;
+}
+
+std::vector<std::string> Engine::takeWarnings() {
+  std::vector<std::string> warnings = std::exchange(warnings_, {});
+  if (bridge_) {
+    for (std::string& warning : bridge_->takeWarnings()) {
+      warnings.push_back(std::move(warning));
+    }
+  }
+  return warnings;
+}
+
+std::optional<double> findJackRate(const std::string& name, double wait_s) {
+  RateProbe probe;
+  audio::JackConfig config;
+  config.name = name;
+  const audio::JackHost host(config, probe);
+  return probe.wait(wait_s);
+}
+
+}  // namespace ergotic::node

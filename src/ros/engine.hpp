@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ergotic/audio/jack_client.hpp"
+#include "ergotic/station/audio_bridge.hpp"
+#include "ergotic/station/station.hpp"
+#include "ergotic/station/timer_source.hpp"
+#include "ergotic/tgr/virtual_driver.hpp"
+#include "ros/parameters.hpp"
+
+namespace ergotic::node {
+
+/// A running station with its device, its real-time thread and its audio host.
+class Engine {
+ public:
+  /// Opens the device, starts to tick, looks for a JACK server. Forces stay at zero.
+  /// \throws DeviceError, TextError (gesture file) or Exception saying what is missing
+  Engine(const Parameters& parameters, std::unique_ptr<station::Performer> performer);
+  /// Forces to zero, threads ended, device closed.
+  ~Engine();
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  station::Station& station() { return *station_; }
+  const Parameters& parameters() const { return parameters_; }
+
+  /// Where the hand of the virtual device wants a slice to be, m. Thread: operator
+  bool setTarget(int slice, double target_m) { return hand_->setTarget(slice, target_m); }
+
+  /// \return nothing if it plays without JACK. Thread: any
+  std::optional<audio::JackStatus> jackStatus() const;
+  /// What the real-time thread could not get and what the audio host asked for since the last call.
+  std::vector<std::string> takeWarnings();
+
+ private:
+  Parameters parameters_;
+  tgr::VirtualDriver* hand_ = nullptr;  // owned by the station
+  std::unique_ptr<station::Station> station_;
+  std::unique_ptr<station::AudioBridge> bridge_;
+  std::unique_ptr<station::TimerSource> source_;
+  std::unique_ptr<audio::JackHost> jack_;
+  std::vector<std::string> warnings_;
+};
+
+/// The sample rate of the JACK server, which a whole run keeps.
+/// \param name  of the client that asks
+/// \return nothing if no server appears within `wait_s`. Blocks as long
+std::optional<double> findJackRate(const std::string& name, double wait_s);
+
+}  // namespace ergotic::node

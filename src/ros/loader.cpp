@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/loader.hpp"
+
+#include <exception>
+
+#include <ros/console.h>
+
+#include "ergotic/exception.hpp"
+#include "ros/model_loader.hpp"
+
+namespace ergotic::node {
+namespace {
+
+/// \param[out] verdict  also set when the model is refused for its sake
+std::unique_ptr<station::Performer> makePerformer(const scene::Scene& scene,
+                                                  const physics::Rates& rates,
+                                                  physics::Precision precision,
+                                                  const station::PerformerPolicy& policy,
+                                                  std::string& verdict) {
+  verdict = physics::toString(physics::certify(scene, rates).verdict);
+  return station::makePerformer(scene, rates, precision, policy);
+}
+
+double audioRateFor(const Parameters& parameters) {
+  if (parameters.jack) {
+    if (const auto found = findJackRate(parameters.jack_name, parameters.jack_wait)) {
+      return *found;
+    }
+    ROS_WARN_STREAM("no JACK server within "
+                    << parameters.jack_wait << " s: plays without sound at "
+                    << parameters.audio_rate << " Hz until one with that rate appears");
+  }
+  return parameters.audio_rate;
+}
+
+}  // namespace
+
+LoadModel::Response Loader::load(const std::string& model, bool allow_unproven) {
+  LoadModel::Response response;
+  Answer answer;
+  try {
+    answer = play(readModel(model), allow_unproven, response.verdict);
+  } catch (const std::exception& refusal) {
+    answer = {false, refusal.what()};
+  }
+  if (answer.ok) {
+    ROS_INFO_STREAM("plays (" << response.verdict << ")"
+                              << (answer.message.empty() ? "" : ": " + answer.message));
+  } else {
+    ROS_ERROR_STREAM(answer.message);
+    operator_.tell(answer.message);
+  }
+  response.success = answer.ok ? 1U : 0U;
+  response.message = answer.message;
+  return response;
+}
+
+void Loader::loadFromParameters() {
+  try {
+    const Parameters parameters = readParameters(node_);
+    if (!parameters.model.empty()) {
+      load(parameters.model, parameters.allow_unproven);
+    }
+  } catch (const Exception& refusal) {
+    ROS_ERROR_STREAM(refusal.what());
+    operator_.tell(refusal.what());
+  }
+}
+
+Answer Loader::play(const scene::Scene& scene, bool allow_unproven, std::string& verdict) {
+  const auto terms = operator_.terms();
+  if (!terms) {
+    return start(scene, allow_unproven, verdict);
+  }
+  station::PerformerPolicy policy;
+  policy.allow_unproven = allow_unproven || terms->parameters.allow_unproven;
+  policy.slices = terms->slices;
+  const physics::Rates rates =
+      physics::chooseRates(scene, terms->rates.audio_hz, terms->rates.gesturalHz());
+  return operator_.swap(makePerformer(scene, rates, terms->parameters.precision, policy, verdict));
+}
+
+Answer Loader::start(const scene::Scene& scene, bool allow_unproven, std::string& verdict) {
+  const Parameters parameters = readParameters(node_);
+  station::PerformerPolicy policy;
+  policy.allow_unproven = allow_unproven || parameters.allow_unproven;
+  const physics::Rates rates =
+      physics::chooseRates(scene, audioRateFor(parameters), parameters.gestural_rate);
+  auto performer = makePerformer(scene, rates, parameters.precision, policy, verdict);
+  station::Performer* const first = performer.get();
+  return operator_.begin(std::make_unique<Engine>(parameters, std::move(performer)), first);
+}
+
+}  // namespace ergotic::node

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "ros/diagnostics.hpp"
+#include "ros/performance.hpp"
+
+namespace ergotic::node {
+
+/// The one thread that speaks to the station: it carries requests in and news out.
+///
+/// ROS callbacks never touch the station; they hand a request over here and wait for its answer.
+class Operator {
+ public:
+  Operator(Feed& feed, Diagnostics& diagnostics);
+  ~Operator();  ///< forces to zero, device closed
+  Operator(const Operator&) = delete;
+  Operator& operator=(const Operator&) = delete;
+
+  // Thread: any, but never this operator's own. All wait for their answer, 5 s at most.
+
+  /// Takes over a running engine and the performer it was made with. A closed operator destroys it.
+  Answer begin(std::unique_ptr<Engine> engine, station::Performer* performer);
+  /// Plays another model; answers when it plays.
+  Answer swap(std::unique_ptr<station::Performer> performer);
+  /// Lets force ramp in; answers when it does.
+  Answer engage();
+  /// Force to zero; answers when it is.
+  Answer stop();
+  /// Answers when the tick plays with the new value.
+  Answer setParameter(const std::string& name, double value);
+  /// Moves the hand of the virtual device.
+  Answer setTarget(int slice, double target_m);
+
+  /// What a new model must fit.
+  struct Terms {
+    physics::Rates rates;
+    int slices = 0;
+    Parameters parameters;
+  };
+  /// \return nothing if no engine runs
+  std::optional<Terms> terms();
+
+  // Thread: any. None of these waits.
+
+  /// Says why nothing plays, to those who look at the status. No effect while something does.
+  void tell(const std::string& message);
+  /// Force to zero at once, latched.
+  void makeSafe() { performance_.makeSafe(); }
+
+  /// Forces to zero, device closed, no engine taken any more; waits for it, 0.9 s at most.
+  /// Thread: any
+  void close();
+
+ private:
+  using Task = std::function<void()>;
+
+  bool post(Task task);
+  Answer ask(const std::function<void(const Promise&)>& request);
+  void run();
+  void runTasks();
+
+  Feed& feed_;
+  Diagnostics& diagnostics_;
+  Performance performance_;
+
+  std::mutex mutex_;  // of what follows
+  std::condition_variable woken_;
+  std::deque<Task> tasks_;
+  bool quit_ = false;
+  bool closed_ = false;
+
+  std::thread thread_;
+};
+
+}  // namespace ergotic::node

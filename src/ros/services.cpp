@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/services.hpp"
+
+#include <ros/console.h>
+
+namespace ergotic::node {
+namespace {
+
+constexpr std::uint32_t kQueue = 100;
+constexpr double kLogPeriodS = 1.0;
+
+template <class Response>
+bool fill(Response& response, const Answer& answer) {
+  response.success = answer.ok ? 1U : 0U;
+  response.message = answer.message;
+  return true;  // the call itself went well, whatever came of it
+}
+
+void complain(const std::string& topic, const Answer& answer) {
+  if (!answer.ok) {
+    ROS_WARN_STREAM_THROTTLE(kLogPeriodS, topic << ": " << answer.message);
+  }
+}
+
+}  // namespace
+
+Services::Services(::ros::NodeHandle node, Operator& operator_thread)
+    : operator_(operator_thread),
+      loader_(node, operator_thread),
+      node_(node),
+      loading_node_(node),
+      loading_spinner_(1, &loading_queue_) {
+  loading_node_.setCallbackQueue(&loading_queue_);
+  servers_ = {
+      loading_node_.advertiseService("load_model", &Services::onLoadModel, this),
+      node_.advertiseService("engage", &Services::onEngage, this),
+      node_.advertiseService("stop", &Services::onStop, this),
+      node_.advertiseService("set_parameter", &Services::onSetParameter, this),
+  };
+  subscribers_ = {
+      loading_node_.subscribe("model", 1, &Services::onModel, this),
+      node_.subscribe("parameters", kQueue, &Services::onParameter, this),
+      node_.subscribe("hand_target", kQueue, &Services::onHandTarget, this),
+  };
+  constexpr bool kOnce = true;
+  first_load_ = loading_node_.createWallTimer(
+      ::ros::WallDuration(0.0), [this](const auto& /*event*/) { loader_.loadFromParameters(); },
+      kOnce);
+  loading_spinner_.start();
+}
+
+Services::~Services() {
+  loading_spinner_.stop();  // after the load that runs, if one does
+}
+
+bool Services::onLoadModel(LoadModel::Request& request, LoadModel::Response& response) {
+  response = loader_.load(request.model, request.allow_unproven != 0U);
+  return true;
+}
+
+void Services::onModel(const std_msgs::String& model) {
+  loader_.load(model.data, false);  // logs what goes wrong, and the status says it
+}
+
+bool Services::onEngage(Trigger::Request& /*request*/, Trigger::Response& response) {
+  return fill(response, operator_.engage());
+}
+
+bool Services::onStop(Trigger::Request& /*request*/, Trigger::Response& response) {
+  return fill(response, operator_.stop());
+}
+
+bool Services::onSetParameter(SetParameter::Request& request, SetParameter::Response& response) {
+  return fill(response, operator_.setParameter(request.name, request.value));
+}
+
+void Services::onParameter(const ParameterValue& parameter) {
+  complain("parameters", operator_.setParameter(parameter.name, parameter.value));
+}
+
+void Services::onHandTarget(const SliceTarget& target) {
+  complain("hand_target", operator_.setTarget(static_cast<int>(target.slice), target.target));
+}
+
+}  // namespace ergotic::node

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <std_srvs/Trigger.h>
+
+#include <ergotic/LoadModel.h>
+#include <ergotic/ParameterValue.h>
+#include <ergotic/SetParameter.h>
+#include <ergotic/SliceTarget.h>
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+#include <std_msgs/String.h>
+
+#include "ros/loader.hpp"
+#include "ros/operator.hpp"
+
+namespace ergotic::node {
+
+/// What ROS can ask of the station. `engage`, `stop` and the topics come through the queue of
+/// `node`; everything that loads a model has a queue and a thread of its own, one at a time, so
+/// that a long load never delays a `stop`.
+class Services {
+ public:
+  Services(::ros::NodeHandle node, Operator& operator_thread);
+  ~Services();
+  Services(const Services&) = delete;
+  Services& operator=(const Services&) = delete;
+
+ private:
+  using Trigger = std_srvs::Trigger;
+
+  bool onLoadModel(LoadModel::Request& request, LoadModel::Response& response);
+  void onModel(const std_msgs::String& model);
+  bool onEngage(Trigger::Request& request, Trigger::Response& response);
+  bool onStop(Trigger::Request& request, Trigger::Response& response);
+  bool onSetParameter(SetParameter::Request& request, SetParameter::Response& response);
+  void onParameter(const ParameterValue& parameter);
+  void onHandTarget(const SliceTarget& target);
+
+  Operator& operator_;
+  Loader loader_;
+  ::ros::NodeHandle node_;
+  ::ros::CallbackQueue loading_queue_;
+  ::ros::NodeHandle loading_node_;
+  ::ros::AsyncSpinner loading_spinner_;
+  ::ros::WallTimer first_load_;
+  std::vector<::ros::ServiceServer> servers_;
+  std::vector<::ros::Subscriber> subscribers_;
+};
+
+}  // namespace ergotic::node

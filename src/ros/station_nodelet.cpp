@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <memory>
+
+#include <nodelet/nodelet.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "ros/diagnostics.hpp"
+#include "ros/feed.hpp"
+#include "ros/operator.hpp"
+#include "ros/services.hpp"
+#include "ros/signal_guard.hpp"
+
+namespace ergotic::node {
+
+/// `ergotic/Station`: a station as a nodelet. Ends with force at zero and the device closed when it
+/// is unloaded, and on SIGINT, SIGTERM and SIGHUP.
+class StationNodelet : public nodelet::Nodelet {
+ public:
+  ~StationNodelet() override {
+    if (operator_) {
+      operator_->close();  // before anything that may take its time
+    }
+  }
+
+ private:
+  /// Returns at once; models load in a thread of their own. Nothing may be thrown from here: a
+  /// nodelet that fails in onInit leaves its name taken.
+  void onInit() override {
+    try {
+      ::ros::NodeHandle& node = getMTPrivateNodeHandle();
+      diagnostics_ = std::make_unique<Diagnostics>(getNodeHandle(), node, getName());
+      feed_ = std::make_unique<Feed>(node);
+      operator_ = std::make_unique<Operator>(*feed_, *diagnostics_);
+      guard_ = std::make_unique<SignalGuard>([this] {
+        operator_->makeSafe();
+        operator_->close();
+      });
+      services_ = std::make_unique<Services>(node, *operator_);
+    } catch (const std::exception& failure) {
+      NODELET_ERROR_STREAM(failure.what());
+    }
+  }
+
+  std::unique_ptr<Diagnostics> diagnostics_;
+  std::unique_ptr<Feed> feed_;
+  std::unique_ptr<Operator> operator_;
+  std::unique_ptr<Services> services_;
+  std::unique_ptr<SignalGuard> guard_;
+};
+
+}  // namespace ergotic::node
+
+PLUGINLIB_EXPORT_CLASS(ergotic::node::StationNodelet, nodelet::Nodelet)

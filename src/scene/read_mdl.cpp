@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ergotic/scene/read_scene.hpp"
+#include "scene/clipped_law.hpp"
 #include "scene/limits.hpp"
 #include "scene/mdl_lexer.hpp"
 #include "scene/mdl_numbers.hpp"
@@ -192,6 +193,7 @@ class MdlReader {
             numbers_.number(line.arguments[index], named(field.key, line), field.limits)};
       }
     }
+    completeClippedLaw(lia, ClippedLaw::kMdl);
     builder_.add(std::move(lia));
   }
 

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/clipped_law.hpp"
 #include "scene/yaml_elements.hpp"
 
 namespace ergotic::scene {
@@ -95,6 +96,18 @@ void readTable(const SceneBuilder& builder, const YamlMap& map, Lia& lia) {
   }
 }
 
+/// The tipping point of a clipped law is computed once.
+void refuseParameters(const YamlMap& map, const Lia& lia) {
+  for (const LiaField& field : liaFields(lia.type)) {
+    const bool shapes = field.member == &Lia::stiffness || field.member == &Lia::nonlinearity ||
+                        field.member == &Lia::stiffness_limit;
+    if (shapes && (lia.*field.member).parameter >= 0) {
+      map.fail(field.key, quoted(field.key) + " of " + map.what() +
+                              " is a parameter, allowed in a clipped law: a number");
+    }
+  }
+}
+
 Lia readLia(const SceneBuilder& builder, const std::string& name, const YamlMap& map) {
   std::vector<std::string> words;
   for (const LiaKind& each : liaKinds()) {
@@ -129,6 +142,10 @@ Lia readLia(const SceneBuilder& builder, const std::string& name, const YamlMap&
     const bool required = contains(kind.required, field.key);
     lia.*field.member =
         required ? map.value(field.key, field.limits) : map.value(field.key, field.limits, {});
+  }
+  if (kind.type == LiaType::kClippedCubic || kind.type == LiaType::kCubicContact) {
+    refuseParameters(map, lia);
+    completeClippedLaw(lia, ClippedLaw::kContinuous);
   }
   return lia;
 }

@@ -19,3 +19,7 @@ foreach(room rt scene physics tgr station audio golden)
       TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${room})
   endif()
 endforeach()
+
+# The scripts: what measures a demo.
+add_test(NAME scripts.demo_report
+  COMMAND /usr/bin/python3 ${CMAKE_SOURCE_DIR}/test/integration/demo_report_test.py)

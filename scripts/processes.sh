@@ -114,4 +114,16 @@ start_dummy_jack() {
   start_jack dummy --rate 44100 --period 256 --capture 12 --playback 24
 }
 
-master_runs() { timeout 10 rosnode list; }
+# A ROS master of our own, for this machine only, that leaves nothing in the home folder.
+# \return 1 if it does not run within half a minute
+start_private_master() {
+  local port
+  port=$(/usr/bin/python3 -c \
+    'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])')
+  export ROS_MASTER_URI="http://localhost:$port" ROS_IP=127.0.0.1
+  export ROS_HOME="$logs/ros_home" ROS_LOG_DIR="$logs/ros"
+  unset ROS_HOSTNAME ROS_NAMESPACE
+  spawn master roscore -p "$port"
+  master_runs() { timeout 10 rosnode list; }
+  wait_until 30 master_runs
+}

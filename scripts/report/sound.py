@@ -92,7 +92,8 @@ def find_shift(replay, recorded, samples=4000):
     if not votes:
         return None
     shifts, counts = np.unique(votes, return_counts=True)
-    return int(shifts[np.argmax(counts)])
+    chance = 0.05 * len(loud)  # two sounds may have a value in common
+    return int(shifts[np.argmax(counts)]) if np.max(counts) > chance else None
 
 
 def compare(replay, recorded, shift, silenced):

@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# roslaunch, rosrun and `rosbag record -a` work from the devel space and from an install space.
+# usage: spaces.sh BUILD_DIR
+set -euo pipefail
+build=$1
+source "$(dirname "${BASH_SOURCE[0]}")/../../scripts/lib.sh"
+source "$root/scripts/processes.sh"
+clean_up_at_exit
+
+unset ROS_PACKAGE_PATH CMAKE_PREFIX_PATH
+
+# All that follows has to work for whoever sources SETUP, wherever this source tree is.
+try_space() { # NAME SETUP
+  local name=$1 station recorder
+  set +eu
+  # shellcheck disable=SC1090
+  source "$2"
+  set -eu
+  cd "$logs"
+  roslaunch --files ergotic station.launch | grep -q station.launch ||
+    die "$name: roslaunch does not find station.launch"
+  roslaunch --nodes ergotic station.launch | grep -qx /station ||
+    die "$name: station.launch starts no /station"
+  local model
+  model="$(rospack find ergotic)/models/string.yaml"
+  rosrun ergotic check "$model" >/dev/null || die "$name: check refuses the default model"
+  rosrun ergotic render "$model" --seconds 0.1 --out "$logs/$name.wav" ||
+    die "$name: render does not render"
+  [ -s "$logs/$name.wav" ] || die "$name: render wrote nothing"
+
+  start_private_master || die "$name: no ROS master"
+  spawn "$name-bag" rosbag record --all --output-name="$logs/$name.bag"
+  recorder=$spawned
+  spawn "$name-station" roslaunch ergotic station.launch rviz:=false jack:=none
+  station=$spawned
+  plays() { timeout 10 rostopic echo -n 1 /station/gesture/first_tick; }
+  wait_until 40 plays || die "$name: the station does not tick"
+  sleep 2
+  stop_group "$recorder" 20
+  stop_group "$station" 25
+  stop_all
+  rosbag info "$logs/$name.bag" | tee "$logs/$name.info" | grep -q 'ergotic/GestureBlock' ||
+    die "$name: the bag holds no gesture"
+  rosrun ergotic render --gesture "$logs/$name.bag" --out "$logs/$name-replay.wav" ||
+    die "$name: the bag cannot be played again"
+  say "$name: works"
+}
+
+(try_space devel "$build/devel/setup.bash")
+
+cmake --install "$build" --prefix "$logs/installed" >/dev/null
+if grep -rqsF "$root" "$logs/installed/share/ergotic/launch" "$logs/installed/share/ergotic/rviz"; then
+  die "the install space refers to the source tree"
+fi
+(try_space install "$logs/installed/setup.bash")

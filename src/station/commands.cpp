@@ -87,7 +87,7 @@ void Station::engage() noexcept {
     return;
   }
   // From zero in any case: the driver may have been made safe and re-armed within one tick.
-  chain_.restartRamp();
+  chain_.disengage();
   chain_.engage();
   state_ = ForceState::kEngaging;
   fault_ = FaultReason::kNone;
@@ -130,7 +130,7 @@ void Station::advanceSwap() noexcept {
   performer_.swap(incoming_);
   blown_up_ = false;
   fade_.startIn();
-  restartRamp();
+  chain_.resume();
   Event swapped = event(Event::Type::kSwapped);
   swapped.performer = incoming_.release();
   swapped.index = 1;

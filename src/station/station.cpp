@@ -148,7 +148,7 @@ void Station::catchUp(std::int64_t ticks, std::int64_t stall_ns) noexcept {
     tick_ += ticks - run;
     fault(FaultReason::kStall, -1);
   }
-  restartRamp();
+  chain_.resume();
   const Slices origin = position_;
   for (std::int64_t i = 1; i < run; ++i) {
     const double part = static_cast<double>(i) / static_cast<double>(run);
@@ -315,13 +315,6 @@ void Station::fault(FaultReason reason, int slice) noexcept {
 void Station::blowUp() noexcept {
   blown_up_ = true;
   fault(FaultReason::kModelBlowUp, -1);
-}
-
-void Station::restartRamp() noexcept {
-  chain_.restartRamp();
-  if (state_ == ForceState::kPlaying) {
-    state_ = ForceState::kEngaging;
-  }
 }
 
 }  // namespace ergotic::station

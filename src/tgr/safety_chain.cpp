@@ -10,9 +10,13 @@
 namespace ergotic::tgr {
 
 SafetyChain::SafetyChain(const SafetyConfig& config, int slices, double tick_s)
-    : config_(config), slices_(slices), gain_step_(tick_s / config.ramp_s) {
+    : config_(config),
+      slices_(slices),
+      gain_step_(tick_s / config.ramp_s),
+      resume_step_(tick_s / config.resume_ramp_s) {
   requireWithin("force_limit", config.force_limit_n, 0.0, kAbsoluteForceLimitN, "N");
   requireWithin("ramp", config.ramp_s, 0.1, 10.0, "s");
+  requireWithin("resume_ramp", config.resume_ramp_s, 0.005, 10.0, "s");
   requireWithin("position_limit", config.position_limit_m, 0.001, 1.0, "m");
   requireWithin("max_missing", config.max_missing, 0, 1000, "ticks");
   requireWithin("slices", slices, 1, kMaxSlices, "");
@@ -34,8 +38,8 @@ ERGOTIC_REALTIME void SafetyChain::disengage() noexcept {
   gain_ = 0.0;
 }
 
-ERGOTIC_REALTIME void SafetyChain::restartRamp() noexcept {
-  gain_ = 0.0;
+ERGOTIC_REALTIME void SafetyChain::resume() noexcept {
+  resume_gain_ = 0.0;
 }
 
 ERGOTIC_REALTIME void SafetyChain::raise(SafetyFault fault, int slice) noexcept {
@@ -85,10 +89,12 @@ ERGOTIC_REALTIME void SafetyChain::limit(double* forces) noexcept {
     return;
   }
   const double bound = config_.force_limit_n;
+  const double gain = gain_ * resume_gain_;
   for (int i = 0; i < slices_; ++i) {
-    forces[i] = std::clamp(gain_ * forces[i], -bound, bound);
+    forces[i] = std::clamp(gain * forces[i], -bound, bound);
   }
   gain_ = std::min(1.0, gain_ + gain_step_);
+  resume_gain_ = std::min(1.0, resume_gain_ + resume_step_);
 }
 
 }  // namespace ergotic::tgr

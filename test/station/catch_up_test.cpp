@@ -10,6 +10,7 @@ namespace {
 using test::Bench;
 
 constexpr std::int64_t kRampTicks = 400;
+constexpr std::int64_t kResumeTicks = 158;   // 50 ms at 3150 Hz
 constexpr std::int64_t kMostCaughtUp = 158;  // 50 ms at 3150 Hz
 
 /// The hand rests at 1 cm and is found at 2 cm after the stall.
@@ -56,10 +57,10 @@ TEST(CatchUpTest, RampsForceInAgain) {
   bench.run(kRampTicks);
   bench.station->catchUp(10, 3'000'000);
   bench.run(2);
-  EXPECT_LE(std::abs(bench.log.forces[0]), 0.02);
-  bench.run(kRampTicks);
+  EXPECT_LE(std::abs(bench.log.forces[0]), 0.04);
+  bench.run(kResumeTicks);
   EXPECT_EQ(bench.log.forces[0], -2.0);
-  EXPECT_EQ(test::count(bench.events(), Event::Type::kPlaying), 2);
+  EXPECT_EQ(test::count(bench.events(), Event::Type::kPlaying), 1) << "the state does not flicker";
 }
 
 TEST(CatchUpTest, DoesNotEngageWhatWasNot) {

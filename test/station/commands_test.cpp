@@ -93,10 +93,10 @@ TEST(CommandsTest, SwapUnderPlayHasNoStepInAudioAndNoGrowthInForce) {
   EXPECT_EQ(frames.samples[500 * 14], 1.0F);
   EXPECT_EQ(frames.samples.back(), -1.0F);
 
-  // |F| = 1 N before, falls to zero with the fade, then grows by a ramp step of 5 N / 315 at most.
+  // |F| = 1 N before, falls to zero with the fade, then grows by a ramp step of 5 N / 157 at most.
   EXPECT_EQ(forces[500], -1.0);
   for (std::size_t n = 502; n < forces.size(); ++n) {
-    ASSERT_LE(std::abs(forces[n]) - std::abs(forces[n - 1]), 5.0 / 314.0) << "exchange " << n;
+    ASSERT_LE(std::abs(forces[n]) - std::abs(forces[n - 1]), 5.0 / 157.0) << "exchange " << n;
   }
   EXPECT_EQ(*std::max_element(forces.begin() + 501, forces.begin() + 530), 0.0);
   EXPECT_EQ(forces.back(), -5.0);

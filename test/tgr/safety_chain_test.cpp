@@ -18,7 +18,8 @@ constexpr double kTick = 1.0 / 1024.0;  // a power of two: ramps add up exactly
 
 SafetyConfig quickConfig() {
   SafetyConfig config;
-  config.ramp_s = 0.125;  // 128 ticks
+  config.ramp_s = 0.125;           // 128 ticks
+  config.resume_ramp_s = 0.03125;  // 32 ticks
   config.max_missing = 3;
   return config;
 }
@@ -94,14 +95,26 @@ TEST_F(SafetyChainTest, KeepsItsGainWhenEngagedTwice) {
   EXPECT_EQ(limited(8.0), 8.0);
 }
 
-TEST_F(SafetyChainTest, RestartsTheRampOnlyWhileOpen) {
+TEST_F(SafetyChainTest, ResumesFromZeroByItsOwnShorterRamp) {
   openFully();
-  chain_.restartRamp();
-  EXPECT_EQ(limited(8.0), 0.0);
-  EXPECT_TRUE(chain_.isOpen());
-  chain_.disengage();
-  chain_.restartRamp();
+  chain_.resume();
+  for (int n = 0; n <= 32; ++n) {
+    ASSERT_EQ(limited(8.0), 8.0 * n / 32.0);
+  }
+  EXPECT_EQ(limited(8.0), 8.0);
+}
+
+TEST_F(SafetyChainTest, ResumingNeitherOpensTheGateNorShortensTheRamp) {
+  chain_.resume();
   EXPECT_FALSE(chain_.isOpen());
+  EXPECT_EQ(limited(8.0), 0.0);
+  chain_.engage();
+  for (int n = 0; n < 64; ++n) {
+    limited(0.0);
+  }
+  chain_.resume();
+  EXPECT_EQ(limited(8.0), 0.0);
+  EXPECT_EQ(limited(8.0), 8.0 * (65.0 / 128.0) / 32.0);
 }
 
 TEST_F(SafetyChainTest, SilencesAllSlicesInTheTickOfANonFiniteForce) {
@@ -202,6 +215,7 @@ TEST(SafetyConfigTest, RefusesSettingsOutsideTheirRange) {
   refuses([](SafetyConfig& c) { c.force_limit_n = kNan; });
   refuses([](SafetyConfig& c) { c.ramp_s = 0.0; });
   refuses([](SafetyConfig& c) { c.ramp_s = 11.0; });
+  refuses([](SafetyConfig& c) { c.resume_ramp_s = 0.0; });
   refuses([](SafetyConfig& c) { c.position_limit_m = 0.0; });
   refuses([](SafetyConfig& c) { c.max_missing = -1; });
   EXPECT_THROW(SafetyChain(SafetyConfig{}, 0, kTick), Exception);

@@ -154,7 +154,6 @@ class Station {
 
   void fault(FaultReason reason, int slice) noexcept;
   void blowUp() noexcept;
-  void restartRamp() noexcept;
   Event event(Event::Type type) const noexcept;
   void tell(const Event& event) noexcept;
   void handBack(const Event& event) noexcept;

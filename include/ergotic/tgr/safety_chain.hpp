@@ -11,6 +11,7 @@ namespace ergotic::tgr {
 struct SafetyConfig {
   double force_limit_n = 20.0;    ///< per slice, 0...kAbsoluteForceLimitN
   double ramp_s = 2.0;            ///< from zero to full gain after engage, 0.1...10
+  double resume_ramp_s = 0.05;    ///< the same after a stall or a swap, 0.005...10
   double position_limit_m = 0.1;  ///< |x| of a slice beyond this is a bad sample, 0.001...1
   int max_missing = 20;           ///< ticks a missing sample is held before a Fault, 0...1000
 };
@@ -37,8 +38,9 @@ class SafetyChain {
   void engage() noexcept;
   /// Closes the gate at once.
   void disengage() noexcept;
-  /// Closes the gate at once and ramps in again from zero (after a stall). No effect if closed.
-  void restartRamp() noexcept;
+  /// Force to zero at once, and back within `resume_ramp_s`: after a stall or a swap the hand meets
+  /// a model that has moved on. The gate stays as it is.
+  void resume() noexcept;
 
   /// Replaces bad or missing positions by the last good ones.
   /// \param[in,out] positions  [slices] m
@@ -50,7 +52,7 @@ class SafetyChain {
   void limit(double* forces) noexcept;
 
   bool isOpen() const noexcept { return open_; }
-  double gain() const noexcept { return gain_; }  ///< 0...1, of the ramp
+  double gain() const noexcept { return gain_; }  ///< 0...1, of the ramp after engage
   SafetyFault fault() const noexcept { return fault_; }
   int faultSlice() const noexcept { return fault_slice_; }
 
@@ -60,8 +62,10 @@ class SafetyChain {
   SafetyConfig config_;
   int slices_;
   double gain_step_;
+  double resume_step_;
   bool open_ = false;
   double gain_ = 0.0;
+  double resume_gain_ = 1.0;
   int missing_ = 0;
   SafetyFault fault_ = SafetyFault::kNone;
   int fault_slice_ = -1;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <memory>
+#include <sstream>
 #include <utility>
 
 #include "audio/jack_session.hpp"
@@ -31,8 +32,9 @@ class Search {
     const std::int64_t end_ns = rt::monotonicNs() + std::llround(config_.wait_s * 1e9);
     while (!look()) {
       if (stop || rt::monotonicNs() >= end_ns) {
-        throw DeviceError("nothing recorded, waited for " + std::to_string(config_.wait_s) +
-                          " s: " + missing_);
+        std::ostringstream message;
+        message << "nothing recorded, waited for up to " << config_.wait_s << " s: " << missing_;
+        throw DeviceError(message.str());
       }
       wake_->waitFor(kLookNs);
     }
@@ -135,7 +137,7 @@ CaptureReport capture(const CaptureConfig& config,
       config.seconds > 0.0 ? std::llround(config.seconds * report.sample_rate_hz) : INT64_MAX;
   report.message = record(*session, *wake, stop, recorder, file, limit);
   session->pause();
-  recorder.drain(file, limit);
+  recorder.finish(file, limit);
   file.finish();
   report.frames = file.frames();
   report.first_jack_frame = recorder.firstFrame();

@@ -2,6 +2,7 @@
 #include "audio/recorder.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 
 #include "ergotic/exception.hpp"
@@ -43,32 +44,51 @@ void Recorder::process(const rt::Block& block) noexcept {
 void Recorder::drain(WavWriter& file, std::int64_t limit) {
   Header header;
   while (headers_.pop(header)) {
+    if (held_) {
+      if (header.start == held_->start) {
+        held_->start -= held_->nframes;  // it was late: the newer block belongs there
+      }
+      place(file, limit);
+    }
+    held_ = header;
     block_.resize(static_cast<std::size_t>(header.nframes) * channels_);
     samples_.pop(block_.data(), block_.size());
-    fillGap(file, header, limit);
-    file.write(block_.data(), std::min(header.nframes, limit - file.frames()));
   }
 }
 
-void Recorder::fillGap(WavWriter& file, const Header& header, std::int64_t limit) {
-  if (!first_) {
-    first_ = header.start;
+void Recorder::finish(WavWriter& file, std::int64_t limit) {
+  drain(file, limit);
+  if (held_) {
+    place(file, limit);
+    held_.reset();
   }
-  const std::int64_t gap = header.start - (*first_ + file.frames());
-  const std::int64_t room = limit - file.frames();
-  if (room == 0) {
+}
+
+void Recorder::place(WavWriter& file, std::int64_t limit) {
+  if (!first_) {
+    first_ = held_->start;
+  }
+  const std::int64_t gap = held_->start - (*first_ + file.frames());
+  if (file.frames() == limit) {
     return;
   }
-  if (gap < 0 || gap > max_gap_) {
-    throw Exception("JACK's frame time jumped by " + std::to_string(gap) +
-                    " frames, allowed: 0..." + std::to_string(max_gap_) +
-                    "; the recording ends before the jump");
+  if (std::abs(gap) > max_gap_) {
+    throw Exception("JACK's frame time jumped by " + std::to_string(gap) + " frames, allowed: +-" +
+                    std::to_string(max_gap_) + "; the recording ends before the jump");
   }
-  const std::int64_t zeros = std::min(gap, room);
-  const std::vector<float> silence(static_cast<std::size_t>(zeros) * channels_, 0.0F);
-  file.write(silence.data(), zeros);
-  lost_ += std::max<std::int64_t>(0, zeros - (header.dropped - dropped_before_));
-  dropped_before_ = header.dropped;
+  if (gap < 0) {
+    displaced_ += held_->nframes;
+    return;
+  }
+  fillGap(file, std::min(gap, limit - file.frames()));
+  file.write(block_.data(), std::min(held_->nframes, limit - file.frames()));
+}
+
+void Recorder::fillGap(WavWriter& file, std::int64_t gap) {
+  const std::vector<float> silence(static_cast<std::size_t>(gap) * channels_, 0.0F);
+  file.write(silence.data(), gap);
+  lost_ += std::max<std::int64_t>(0, gap - (held_->dropped - dropped_before_));
+  dropped_before_ = held_->dropped;
 }
 
 }  // namespace ergotic::audio

@@ -13,6 +13,10 @@
 namespace ergotic::audio {
 
 /// Takes blocks in a real-time thread, writes them to a file in another, each at its frame time.
+///
+/// A client that an asynchronous JACK server did not wait for may run a cycle late: it is told the
+/// frame time of the next cycle, and the same again in that next one. So a block is held back until
+/// its successor has confirmed its place.
 class Recorder : public rt::BlockProcessor {
  public:
   /// \param ring_frames  how far the file may lag behind
@@ -24,13 +28,15 @@ class Recorder : public rt::BlockProcessor {
   void xrun() noexcept override {}
 
   // Thread: the file's
-  /// Writes what has arrived, zeros where blocks are missing.
+  /// Writes what has arrived but the newest block, zeros where blocks are missing.
   /// \param limit  frames that the file shall have at most
-  /// \throws Exception from the file, or if the frame time jumps back or by more than a minute
+  /// \throws Exception from the file, or if the frame time jumps by more than a minute
   void drain(WavWriter& file, std::int64_t limit);
+  /// Writes the newest block too. \pre nothing arrives any more
+  void finish(WavWriter& file, std::int64_t limit);
   std::int64_t firstFrame() const noexcept { return first_.value_or(0); }
-  /// Frames that found the ring full. Thread: any
-  std::int64_t droppedFrames() const noexcept { return dropped_; }
+  /// Frames that arrived and are not in the file: the ring was full, or two claim one frame time.
+  std::int64_t droppedFrames() const noexcept { return dropped_ + displaced_; }
   /// Frames that never reached us, as far as written.
   std::int64_t lostFrames() const noexcept { return lost_; }
 
@@ -41,7 +47,8 @@ class Recorder : public rt::BlockProcessor {
     std::int64_t dropped = 0;  ///< frames dropped so far
   };
 
-  void fillGap(WavWriter& file, const Header& header, std::int64_t limit);
+  void place(WavWriter& file, std::int64_t limit);
+  void fillGap(WavWriter& file, std::int64_t gap);
 
   std::size_t channels_;
   rt::Ring<float> samples_;
@@ -49,11 +56,13 @@ class Recorder : public rt::BlockProcessor {
   std::vector<float> interleaved_;  // the real-time thread's
   std::atomic<std::int64_t> dropped_{0};
 
-  std::vector<float> block_;  // the file's thread's, as all below
+  std::optional<Header> held_;  // the file's thread's, as all below
+  std::vector<float> block_;    // samples of held_
   std::int64_t max_gap_ = 0;
   std::optional<std::int64_t> first_;
   std::int64_t dropped_before_ = 0;
   std::int64_t lost_ = 0;
+  std::int64_t displaced_ = 0;
 };
 
 }  // namespace ergotic::audio

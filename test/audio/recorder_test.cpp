@@ -25,7 +25,10 @@ class RecorderTest : public testing::Test {
   ~RecorderTest() override { std::remove(path_.c_str()); }
 
   /// Channel 1 holds the frame time, channel 2 its negative.
-  void feed(std::int64_t start) {
+  void feed(std::int64_t start) { feed(start, start); }
+
+  /// \param told  frame time that JACK claims
+  void feed(std::int64_t start, std::int64_t told) {
     std::vector<float> up(kPeriod);
     std::vector<float> down(kPeriod);
     for (std::size_t i = 0; i < kPeriod; ++i) {
@@ -35,13 +38,14 @@ class RecorderTest : public testing::Test {
     const float* channels[] = {up.data(), down.data()};
     rt::Block block;
     block.nframes = kPeriod;
-    block.start.frames = start;
+    block.start.frames = told;
     block.inputs = channels;
     block.input_channels = 2;
     recorder_.process(block);
   }
 
-  std::vector<double> recorded() {
+  std::vector<double> recorded(std::int64_t limit = kNoLimit) {
+    recorder_.finish(file_, limit);
     file_.finish();
     return WavReader(path_).readAll();
   }
@@ -78,10 +82,9 @@ TEST_F(RecorderTest, FilePositionIsFrameTime) {
 TEST_F(RecorderTest, LostCyclesAreZerosAndCounted) {
   feed(1000);
   feed(1064);
-  recorder_.drain(file_, kNoLimit);
+  EXPECT_EQ(recorded(), ramp(1000, 80, 1016, 1064));
   EXPECT_EQ(recorder_.lostFrames(), 48);
   EXPECT_EQ(recorder_.droppedFrames(), 0);
-  EXPECT_EQ(recorded(), ramp(1000, 80, 1016, 1064));
 }
 
 TEST_F(RecorderTest, BlocksThatFindTheRingFullAreDroppedNotLost) {
@@ -91,40 +94,60 @@ TEST_F(RecorderTest, BlocksThatFindTheRingFullAreDroppedNotLost) {
   recorder_.drain(file_, kNoLimit);
   feed(1000 + 6 * kPeriod);
   feed(1000 + 8 * kPeriod);
-  recorder_.drain(file_, kNoLimit);
-  EXPECT_EQ(recorder_.droppedFrames(), 2 * kPeriod);
-  EXPECT_EQ(recorder_.lostFrames(), kPeriod);
   std::vector<double> expected = ramp(1000, 9 * kPeriod, 1000 + 4 * kPeriod, 1000 + 6 * kPeriod);
   const auto lost = expected.begin() + 2 * 7 * kPeriod;
   std::fill(lost, lost + 2 * kPeriod, 0.0);
   EXPECT_EQ(recorded(), expected);
+  EXPECT_EQ(recorder_.droppedFrames(), 2 * kPeriod);
+  EXPECT_EQ(recorder_.lostFrames(), kPeriod);
 }
 
-TEST_F(RecorderTest, StopsExactlyAtItsLimitEvenInAGap) {
+TEST_F(RecorderTest, ALateBlockGoesWhereItBelongs) {
+  feed(1000);
+  feed(1016, 1032);
+  recorder_.drain(file_, kNoLimit);
+  feed(1032);
+  feed(1048);
+  EXPECT_EQ(recorded(), ramp(1000, 64, 0, 0));
+  EXPECT_EQ(recorder_.lostFrames(), 0);
+  EXPECT_EQ(recorder_.droppedFrames(), 0);
+}
+
+TEST_F(RecorderTest, ABlockWithoutAPlaceIsDropped) {
   feed(1000);
   feed(1016);
-  recorder_.drain(file_, 20);
-  EXPECT_EQ(file_.frames(), 20);
+  feed(1008);
+  feed(1032);
+  EXPECT_EQ(recorded(), ramp(1000, 48, 0, 0));
+  EXPECT_EQ(recorder_.droppedFrames(), kPeriod);
+}
+
+TEST_F(RecorderTest, StopsExactlyAtItsLimit) {
+  feed(1000);
+  feed(1016);
   feed(1032);
   recorder_.drain(file_, 20);
-  EXPECT_EQ(recorded(), ramp(1000, 20, 0, 0));
+  EXPECT_EQ(file_.frames(), 20);
+  feed(1048);
+  EXPECT_EQ(recorded(20), ramp(1000, 20, 0, 0));
 }
 
 TEST_F(RecorderTest, ALimitInsideAGapEndsInZeros) {
   feed(1000);
   feed(1064);
-  recorder_.drain(file_, 30);
+  EXPECT_EQ(recorded(30), ramp(1000, 30, 1016, 1064));
   EXPECT_EQ(recorder_.lostFrames(), 14);
-  EXPECT_EQ(recorded(), ramp(1000, 30, 1016, 1064));
 }
 
 TEST_F(RecorderTest, AFrameTimeThatJumpsOutOfReachEndsTheRecording) {
-  feed(1000);
-  feed(999);
-  EXPECT_THROW(recorder_.drain(file_, kNoLimit), Exception);
-  feed(1000 + 61 * 44100);
-  EXPECT_THROW(recorder_.drain(file_, kNoLimit), Exception);
-  EXPECT_EQ(recorded(), ramp(1000, 16, 0, 0));
+  constexpr std::int64_t kStart = 100 * 44100;
+  feed(kStart);
+  feed(kStart + 61 * 44100);
+  EXPECT_THROW(recorder_.finish(file_, kNoLimit), Exception);
+  feed(kStart - 61 * 44100);
+  EXPECT_THROW(recorder_.finish(file_, kNoLimit), Exception);
+  file_.finish();
+  EXPECT_EQ(WavReader(path_).readAll(), ramp(kStart, 16, 0, 0));
 }
 
 TEST(FrameCounterTest, GoesOnWhereJacksCountWraps) {

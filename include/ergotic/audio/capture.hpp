@@ -23,7 +23,8 @@ struct CaptureReport {
   std::int64_t frames = 0;            ///< in the file
   std::int64_t first_jack_frame = 0;  ///< JACK frame time of the first frame of the file
   double sample_rate_hz = 0.0;
-  std::int64_t dropped = 0;  ///< frames that the disk was too slow for, zeros in the file
+  std::int64_t dropped = 0;  ///< frames that came and are not in the file: the disk was too slow
+                             ///< (zeros instead), or JACK gave two blocks one frame time
   std::int64_t lost = 0;     ///< frames in cycles that JACK lost, zeros in the file
   std::int64_t xruns = 0;    ///< as JACK counts them
   std::string message;       ///< why it ended before its time, empty: it did not

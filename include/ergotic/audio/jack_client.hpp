@@ -39,7 +39,9 @@ struct JackStatus {
 /// audioStarted and audioStopped. Between the two, `process` comes from JACK's real-time thread
 /// with denormals flushed, `Block::start` in CLOCK_MONOTONIC and in the server's frame time
 /// (continued beyond 32 bits; a new server counts anew). While the server freewheels audio counts
-/// as stopped: an instrument in real time cannot follow. If audioStarted throws, the message is
+/// as stopped: an instrument in real time cannot follow. A server in asynchronous mode (without
+/// `jackd -S`) that did not wait for us gives a late block the frame time of the next: that time
+/// then comes twice. If audioStarted throws, the message is
 /// kept and the start repeated later.
 ///
 /// Realtime: no. Thread: any, one at a time; the processor must outlive the host

@@ -58,9 +58,9 @@ double pushes(std::size_t channel, std::size_t n) {
   return n == 3 ? -size : (n >= 22050 && n < 22060 ? size / 4.0 : 0.0);
 }
 
-/// A smooth push down and back that brings the hammer onto the oscillator twice.
+/// Presses the hammer onto the oscillator, six times.
 double strokes(std::size_t /*channel*/, std::size_t n) {
-  return n == 100 || n == 22050 ? -0.02 : 0.0;
+  return n % 8000 >= 100 && n % 8000 < 1600 ? -0.0015 : 0.0;
 }
 
 double mixed(std::size_t channel, std::size_t n) {
@@ -121,15 +121,15 @@ const std::vector<Case>& cases() {
         overlap("held off by the threshold", 2, 0, -0.6, 0.0)}},
       {"cubic_contact",
        strokes,
-       {overlap("apart", 0, 1, -9.0, 0.0), overlap("cubic", 0, 1, 0.0, 0.05),
-        overlap("clipped", 0, 1, 0.05, 9.0), overlap("threshold", 0, 2, -0.1, 0.0)}},
+       {overlap("apart", 0, 1, -9.0, 0.0), overlap("cubic", 0, 1, 0.0, 0.042),
+        overlap("clipped", 0, 1, 0.043, 9.0), overlap("threshold", 0, 2, -0.1, 0.0)}},
       {"nl_springs", silence, {}},
       {"clipped_springs", pushes, {stretch("cubic", 2, 0.1, 0.5), stretch("clipped", 2, 0.5, 9.0)}},
       {"pluck",
        plectrum,
        {distance("inner", 0.001, 0.02), distance("outer", 0.02, 0.2), distance("free", 0.2, 9.0)}},
       {"dry_pluck",
-       silence,
+       plectrum,
        {distance("inner", 0.0, 0.03), distance("outer", 0.03, 0.3), distance("free", 0.3, 9.0)}},
       {"bow",
        bowing,

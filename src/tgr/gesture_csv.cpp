@@ -3,9 +3,9 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <limits>
+#include <system_error>
 #include <vector>
 
 #include "ergotic/exception.hpp"
@@ -20,7 +20,7 @@ namespace {
 std::ifstream openForReading(const std::string& path) {
   std::ifstream in(path);
   if (!in) {
-    throw Exception(path + ": cannot be read: " + std::strerror(errno));
+    throw Exception(path + ": cannot be read: " + std::generic_category().message(errno));
   }
   return in;
 }
@@ -111,7 +111,7 @@ class CsvSink final : public PerformanceSink {
  private:
   void check() const {
     if (!out_) {
-      throw Exception(path_ + ": cannot be written: " + std::strerror(errno));
+      throw Exception(path_ + ": cannot be written: " + std::generic_category().message(errno));
     }
   }
 

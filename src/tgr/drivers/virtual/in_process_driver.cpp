@@ -51,7 +51,7 @@ ERGOTIC_REALTIME std::uint32_t InProcessDriver::exchange(const double* forces,
 }
 
 ERGOTIC_REALTIME void InProcessDriver::takeTargets() noexcept {
-  std::array<Target, kPendingTargets> pending;
+  std::array<Target, kPendingTargets> pending{};
   const std::size_t count = targets_.pop(pending.data(), pending.size());
   for (std::size_t i = 0; i < count; ++i) {
     bank_.setTarget(pending[i].slice, pending[i].target_m);

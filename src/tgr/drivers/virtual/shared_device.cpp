@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 #include <new>
+#include <system_error>
 #include <utility>
 
 #include <sys/mman.h>
@@ -21,7 +22,7 @@ namespace ergotic::tgr {
 namespace {
 
 std::string segmentName(const std::string& given) {
-  const std::string name = given.substr(0, 1) == "/" ? given : "/" + given;
+  std::string name = given.substr(0, 1) == "/" ? given : "/" + given;
   constexpr std::size_t kLongest = 200;
   if (name.size() < 2 || name.size() > kLongest || name.find('/', 1) != std::string::npos) {
     throw DeviceError("shared memory '" + given + "': the name must be 1...199 characters, no '/'");
@@ -54,7 +55,7 @@ SharedDevice* map(const File& file, const std::string& name) {
   void* const memory =
       ::mmap(nullptr, sizeof(SharedDevice), PROT_READ | PROT_WRITE, MAP_SHARED, file.fd(), 0);
   if (memory == MAP_FAILED) {
-    refuse(name, std::string("cannot be mapped: ") + std::strerror(errno));
+    refuse(name, std::string("cannot be mapped: ") + std::generic_category().message(errno));
   }
   return static_cast<SharedDevice*>(memory);
 }
@@ -81,7 +82,7 @@ ERGOTIC_REALTIME void SharedFrame::write(const double* values, int count) noexce
 }
 
 ERGOTIC_REALTIME bool SharedFrame::read(double* values, int count) const noexcept {
-  std::array<double, kMaxSlices> copy;
+  std::array<double, kMaxSlices> copy{};
   for (int attempt = 0; attempt < kTries; ++attempt) {
     const std::uint64_t before = sequence_.load(std::memory_order_acquire);
     for (int i = 0; i < count; ++i) {
@@ -114,7 +115,7 @@ SharedSegment SharedSegment::create(const std::string& given, int slices, double
   }
   const File file(fd);
   if (fd < 0 || ::ftruncate(fd, sizeof(SharedDevice)) != 0) {
-    refuse(name, std::string("cannot be created: ") + std::strerror(errno));
+    refuse(name, std::string("cannot be created: ") + std::generic_category().message(errno));
   }
   auto* const device = new (map(file, name)) SharedDevice;
   device->slices = slices;
@@ -132,7 +133,8 @@ SharedSegment SharedSegment::attach(const std::string& given) {
   const File file(::shm_open(name.c_str(), O_RDWR, 0));
   struct stat status {};
   if (file.fd() < 0 || ::fstat(file.fd(), &status) != 0) {
-    refuse(name, std::string(std::strerror(errno)) + "; start it with virtual_tgr --shm");
+    refuse(name, std::string(std::generic_category().message(errno)) +
+                     "; start it with virtual_tgr --shm");
   }
   if (status.st_size < static_cast<off_t>(sizeof(SharedDevice))) {
     refuse(name, "is not ready, or of another version");

@@ -75,6 +75,8 @@ class SharedSegment {
   static SharedSegment attach(const std::string& name);
 
   SharedSegment(SharedSegment&& other) noexcept;
+  SharedSegment(const SharedSegment&) = delete;
+  SharedSegment& operator=(const SharedSegment&) = delete;
   SharedSegment& operator=(SharedSegment&&) = delete;
   ~SharedSegment();
 

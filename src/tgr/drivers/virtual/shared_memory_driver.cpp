@@ -36,6 +36,25 @@ SharedSegment attachPatiently(const std::string& name) {
   }
 }
 
+/// Makes this process the driver, with zero force, the gesture at its start and nothing latched.
+void takeOver(SharedDevice& device, const std::string& name) {
+  std::int32_t owner = device.driver_pid;
+  if (processLives(owner)) {
+    throw DeviceError("virtual device " + name + ": process " + std::to_string(owner) +
+                      " has it open");
+  }
+  if (!device.driver_pid.compare_exchange_strong(owner, ::getpid())) {
+    throw DeviceError("virtual device " + name + ": another driver opens it at the same moment");
+  }
+  device.forces.write(kNoForce.data(), device.slices);
+  for (std::atomic<double>& target : device.targets) {
+    target = std::numeric_limits<double>::quiet_NaN();
+  }
+  device.exchanges = 0;
+  device.safe = 0;
+  ++device.session;
+}
+
 }  // namespace
 
 SharedMemoryDriver::SharedMemoryDriver(const VirtualDriverConfig& config)
@@ -70,24 +89,6 @@ void SharedMemoryDriver::open(double tick_rate_hz) {
     device->safe = 1;
   }
   open_ = true;
-}
-
-void SharedMemoryDriver::takeOver(SharedDevice& device, const std::string& name) {
-  std::int32_t owner = device.driver_pid;
-  if (processLives(owner)) {
-    throw DeviceError("virtual device " + name + ": process " + std::to_string(owner) +
-                      " has it open");
-  }
-  if (!device.driver_pid.compare_exchange_strong(owner, ::getpid())) {
-    throw DeviceError("virtual device " + name + ": another driver opens it at the same moment");
-  }
-  device.forces.write(kNoForce.data(), slices_);
-  for (std::atomic<double>& target : device.targets) {
-    target = std::numeric_limits<double>::quiet_NaN();
-  }
-  device.exchanges = 0;
-  device.safe = 0;
-  ++device.session;
 }
 
 void SharedMemoryDriver::close() noexcept {

@@ -36,8 +36,6 @@ class SharedMemoryDriver final : public VirtualDriver {
   static constexpr std::int64_t kLostNs = 1'000'000'000;
 
  private:
-  void takeOver(SharedDevice& device, const std::string& name);
-
   std::string name_;
   int slices_;
   int extra_delay_ticks_ = 0;

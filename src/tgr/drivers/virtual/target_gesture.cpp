@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <fstream>
+#include <system_error>
 
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/realtime.hpp"
@@ -72,7 +72,7 @@ TargetGesture readTargetGesture(const std::string& path, int slices) {
   }
   std::ifstream in(path);
   if (!in) {
-    throw Exception(path + ": cannot be read: " + std::strerror(errno));
+    throw Exception(path + ": cannot be read: " + std::generic_category().message(errno));
   }
   return {in, path, slices};
 }

@@ -74,7 +74,7 @@ ERGOTIC_REALTIME void VirtualDevice::step(std::int64_t now_ns) noexcept {
     bank_.setTarget(i, shared_->targets[static_cast<std::size_t>(i)]);
   }
   bank_.step(forces_.data());
-  std::array<double, kMaxSlices> positions;
+  std::array<double, kMaxSlices> positions{};
   bank_.read(positions.data());
   shared_->positions.write(positions.data(), bank_.slices());
   shared_->heartbeat_ns = now_ns;

@@ -15,9 +15,8 @@
 #include "ergotic/rt/thread.hpp"
 #include "tgr/drivers/virtual/virtual_device.hpp"
 
+namespace ergotic {
 namespace {
-
-using namespace ergotic;
 
 struct Options {
   tgr::VirtualDeviceConfig device;
@@ -105,17 +104,18 @@ int run(const Options& options) {
 }
 
 }  // namespace
+}  // namespace ergotic
 
 int main(int argc, char** argv) {
   CLI::App app("A virtual TGR as a process of its own; `driver: virtual` finds it by its name.");
-  Options options;
-  declare(app, options);
+  ergotic::Options options;
+  ergotic::declare(app, options);
   CLI11_PARSE(app, argc, argv);
   constexpr double kSPerMs = 1e-3;
   options.device.watchdog_s = options.watchdog_ms * kSPerMs;
   try {
-    return run(options);
-  } catch (const Exception& error) {
+    return ergotic::run(options);
+  } catch (const ergotic::Exception& error) {
     std::cerr << "virtual_tgr: " << error.what() << '\n';
     return EXIT_FAILURE;
   }

@@ -9,7 +9,7 @@ logs=$(mktemp --directory --tmpdir ergotic.XXXXXX)
 started=()  # process groups, in the order of their starts
 
 # Starts a command in a process group of its own; $spawned is its id. Its output goes to
-# $logs/NAME.log, to be shown if something goes wrong; what it prints for others to $logs/NAME.out.
+# $logs/NAME.out and $logs/NAME.log (errors), shown if something goes wrong.
 spawn() { # NAME COMMAND...
   setsid env --default-signal=INT,QUIT "${@:2}" \
     </dev/null >"$logs/$1.out" 2>"$logs/$1.log" &
@@ -63,13 +63,13 @@ stop_all() {
 
 show_logs() {
   local log
-  for log in "$logs"/*.log "$logs"/ros/*.log "$logs"/ros/*/*.log; do
+  for log in "$logs"/*.out "$logs"/*.log "$logs"/ros/latest/*.log; do
     [ ! -s "$log" ] || { say "--- the end of ${log#"$logs"/}:" && tail -n 25 "$log"; } >&2
   done
 }
 
-# Call it first of all: at the end, however it comes, everything is stopped, and after a failure
-# the logs are shown.
+# Call it first of all: at the end, however it comes, everything is stopped; if it comes by a
+# failure, the logs are shown.
 clean_up_at_exit() {
   trap 'on_exit $?' EXIT
   trap 'exit 130' INT
@@ -77,8 +77,8 @@ clean_up_at_exit() {
 }
 on_exit() { # STATUS
   trap '' INT TERM HUP
-  stop_all
   [ "$1" -eq 0 ] || [ "$1" -ge 128 ] || show_logs
+  stop_all
   rm -rf "$logs"
   exit "$1"
 }

@@ -34,10 +34,11 @@ OfflineStation::OfflineStation(std::unique_ptr<station::Performer> performer,
                                int output_channels)
     : inputs_(std::move(inputs)),
       output_channels_(output_channels),
-      station_(configOf(performer->instrument->rates(), inputs_.channels(), output_channels),
+      rates_(performer->instrument->rates()),
+      station_(configOf(rates_, inputs_.channels(), output_channels),
                std::move(driver),
                std::move(performer)) {
-  sound_.resize(static_cast<std::size_t>(rates().ratio * output_channels_));
+  sound_.resize(static_cast<std::size_t>(rates_.ratio * output_channels_));
   station_.setFramePort(this);
 }
 

@@ -21,7 +21,7 @@ class OfflineStation : private station::FramePort {
                  SoundInputs inputs,
                  int output_channels);
 
-  const physics::Rates& rates() const { return station_.config().rates; }
+  const physics::Rates& rates() const { return rates_; }
   int outputChannels() const { return output_channels_; }
 
   /// \throws Exception if the station does not take it
@@ -41,6 +41,7 @@ class OfflineStation : private station::FramePort {
 
   SoundInputs inputs_;
   int output_channels_;
+  physics::Rates rates_;
   std::vector<float> sound_;  // of the last tick, [R][station channels]
   station::Station station_;
 };

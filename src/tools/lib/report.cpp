@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/lib/report.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <sstream>
@@ -52,6 +53,10 @@ void Report::printJson(std::ostream& out, int depth) const {
     out << (kind_ == Kind::kText ? quoted(value_) : value_);
     return;
   }
+  if (isVector()) {
+    printVector(out);
+    return;
+  }
   const bool map = kind_ == Kind::kMap;
   out << (map ? "{" : "[");
   const char* separator = "\n";
@@ -66,6 +71,21 @@ void Report::printJson(std::ostream& out, int depth) const {
   out << (children_.empty() ? "" : "\n" + indent(depth)) << (map ? "}" : "]");
 }
 
+bool Report::isVector() const {
+  return kind_ == Kind::kList && !children_.empty() &&
+         std::all_of(children_.begin(), children_.end(),
+                     [](const auto& child) { return child.second.kind_ == Kind::kNumber; });
+}
+
+void Report::printVector(std::ostream& out) const {
+  const char* separator = "[";
+  for (const auto& child : children_) {
+    out << separator << child.second.value_;
+    separator = ", ";
+  }
+  out << ']';
+}
+
 void Report::printText(std::ostream& out) const {
   printText(out, 0, false);
 }
@@ -78,6 +98,10 @@ void Report::printText(std::ostream& out, int depth, bool after_dash) const {
     out << (kind_ == Kind::kMap ? name + ":" : "-");
     if (child.isLeaf()) {
       out << ' ' << child.value_ << '\n';
+    } else if (child.isVector()) {
+      out << ' ';
+      child.printVector(out);
+      out << '\n';
     } else if (child.children_.empty()) {
       out << " none\n";
     } else if (kind_ == Kind::kList) {

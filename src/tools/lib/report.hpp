@@ -29,6 +29,8 @@ class Report {
   enum class Kind { kMap, kList, kText, kNumber };
   Report(Kind kind, std::string value) : kind_(kind), value_(std::move(value)) {}
   bool isLeaf() const { return kind_ == Kind::kText || kind_ == Kind::kNumber; }
+  bool isVector() const;  ///< a list of numbers: printed on one line
+  void printVector(std::ostream& out) const;
   void printJson(std::ostream& out, int depth) const;
   void printText(std::ostream& out, int depth, bool after_dash) const;
 

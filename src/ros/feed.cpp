@@ -34,7 +34,7 @@ Feed::Feed(::ros::NodeHandle& node) {
 
 void Feed::configure(const Parameters& parameters) {
   station_config_ = toYaml(parameters);
-  display_scale_ = parameters.display_scale;
+  display_zoom_ = parameters.display_zoom;
   motion_period_ns_ = static_cast<std::int64_t>(1e9 / parameters.display_rate);
   status_.driver = parameters.driver;
   blocks_.reset();
@@ -52,7 +52,7 @@ void Feed::showModel(const station::Performer& performer, const std::string& not
   model_structure_.publish(structure);
 
   markers_topic_.publish(Markers::eraseAll());
-  markers_.emplace(instrument.scene(), display_scale_);
+  markers_.emplace(instrument.scene(), display_zoom_);
   if (!blocks_) {  // rates hold until the next `configure`
     blocks_.emplace(instrument.rates().gesturalHz());
   }

@@ -53,7 +53,7 @@ class Feed {
 
   std::atomic<bool> new_listener_{false};
   std::string station_config_;
-  double display_scale_ = 1.0;
+  double display_zoom_ = 1.0;
   std::int64_t motion_period_ns_ = 0;
   ::ros::Publisher joint_states_;
   ::ros::Publisher model_structure_;

@@ -12,8 +12,8 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr double kPointWidthM = 0.004;
-constexpr double kLineWidthM = 0.002;
+constexpr double kPointWidthM = 0.006;
+constexpr double kLineWidthM = 0.004;
 
 struct Colour {
   float r, g, b;
@@ -47,23 +47,14 @@ Marker markerOf(const scene::Section& section, std::size_t index, int type, int 
 
 }  // namespace
 
-Markers::Markers(const scene::Scene& scene, double displacement_scale)
-    : scale_(displacement_scale) {
+Markers::Markers(const scene::Scene& scene, double zoom) {
   std::vector<Indices> modules(scene.sections.size());
   std::vector<Indices> links(scene.sections.size());
   for (std::size_t i = 0; i < scene.mats.size(); ++i) {
     const scene::Mat& mat = scene.mats[i];
     const auto section = static_cast<std::size_t>(mat.section);
-    const Eigen::Vector3d rest = restOf(scene, mat);
     const Eigen::Vector3d axis = axisOf(scene.sections[section]);
-    rest_.emplace_back();
-    rest_.back().x = rest.x();
-    rest_.back().y = rest.y();
-    rest_.back().z = rest.z();
-    axis_.emplace_back();
-    axis_.back().x = axis.x();
-    axis_.back().y = axis.y();
-    axis_.back().z = axis.z();
+    modules_.push_back({restOf(scene, mat) - mat.rest_x * axis, zoom * axis, mat.rest_x});
     modules[section].push_back(i);
   }
   for (const scene::Lia& lia : scene.lias) {
@@ -99,12 +90,13 @@ const visualization_msgs::MarkerArray& Markers::draw(const std::vector<float>& d
     Marker& marker = array_.markers[m];
     marker.header.stamp = stamp;
     for (std::size_t p = 0; p < points_[m].size(); ++p) {
-      const std::size_t mat = points_[m][p];
-      const double d = static_cast<double>(displacements[mat]);
-      const double moved = std::isfinite(d) ? scale_ * d : 0.0;
-      marker.points[p].x = rest_[mat].x + moved * axis_[mat].x;
-      marker.points[p].y = rest_[mat].y + moved * axis_[mat].y;
-      marker.points[p].z = rest_[mat].z + moved * axis_[mat].z;
+      const Module& module = modules_[points_[m][p]];
+      const double d = static_cast<double>(displacements[points_[m][p]]);
+      const double x = module.rest_x + (std::isfinite(d) ? d : 0.0);
+      const Eigen::Vector3d place = module.ground + x * module.step;
+      marker.points[p].x = place.x();
+      marker.points[p].y = place.y();
+      marker.points[p].z = place.z();
     }
   }
   return array_;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include <Eigen/Core>
 #include <visualization_msgs/MarkerArray.h>
 
 #include "ergotic/scene/scene.hpp"
@@ -16,12 +17,14 @@ class Markers {
  public:
   static constexpr std::size_t kChunkPoints = 16000;
 
-  /// \param displacement_scale  factor on every displacement: strings move by a millimetre
-  Markers(const scene::Scene& scene, double displacement_scale);
+  /// \param zoom  of x about x = 0 of every section, as maps exaggerate height: strings move by
+  ///              millimetres. What touches in the model touches in the picture
+  Markers(const scene::Scene& scene, double zoom);
 
   /// The picture at these displacements.
-  /// \param displacements  [mats] m from rest along x of the section; anything not finite is drawn
-  ///                       at rest
+  /// \param displacements  [mats] m from rest along x of the section; what is not finite is drawn
+  /// at
+  ///                       rest
   const visualization_msgs::MarkerArray& draw(const std::vector<float>& displacements,
                                               const ::ros::Time& stamp);
 
@@ -32,10 +35,13 @@ class Markers {
   using Indices = std::vector<std::size_t>;
   void addMarkers(const scene::Scene& scene, std::size_t section, int type, const Indices& mats);
 
-  double scale_;
-  std::vector<geometry_msgs::Point> rest_;    // [mats] in frame model
-  std::vector<geometry_msgs::Vector3> axis_;  // [mats] direction of motion
-  std::vector<Indices> points_;               // [markers] mats in the order of the points
+  struct Module {
+    Eigen::Vector3d ground;  // its place at x = 0, in frame model
+    Eigen::Vector3d step;    // how far a metre of x is drawn, in frame model
+    double rest_x = 0.0;
+  };
+  std::vector<Module> modules_;  // [mats]
+  std::vector<Indices> points_;  // [markers] mats in the order of the points
   visualization_msgs::MarkerArray array_;
 };
 

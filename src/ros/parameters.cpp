@@ -116,7 +116,7 @@ Parameters readParameters(const ::ros::NodeHandle& node) {
   read.flag("allow_unproven", p.allow_unproven);
   read.flag("autoengage", p.autoengage);
   read.number("display_rate", p.display_rate, 1.0, 60.0);
-  read.number("display_scale", p.display_scale, 0.0, 1e6);
+  read.number("display_zoom", p.display_zoom, 0.0, 1e6);
   return p;
 }
 
@@ -145,7 +145,7 @@ std::string toYaml(const Parameters& p) {
   entry("allow_unproven", p.allow_unproven);
   entry("autoengage", p.autoengage);
   entry("display_rate", p.display_rate);
-  entry("display_scale", p.display_scale);
+  entry("display_zoom", p.display_zoom);
   out << YAML::EndMap;
   return out.c_str();
 }

@@ -39,7 +39,7 @@ struct Parameters {
   bool allow_unproven = false;  ///< play what the certificate cannot prove to be stable
   bool autoengage = false;      ///< engage once the first model plays
   double display_rate = 30.0;   ///< Hz, of model_state and markers
-  double display_scale = 10.0;  ///< factor on displacements in markers
+  double display_zoom = 5.0;    ///< of x in markers, about x = 0
 };
 
 /// \throws Exception naming parameter, value and allowed range

@@ -108,6 +108,21 @@ TEST_F(SharedMemoryDriverTest, WatchdogLatchesUntilAnExchangeAndARearm) {
   EXPECT_EQ(felt(), 15.0);
 }
 
+TEST_F(SharedMemoryDriverTest, RearmDoesNotBringBackTheForceFromBeforeTheSilence) {
+  play(15.0);
+  for (int n = 0; n <= kWatchdogSteps; ++n) {
+    rig_.elapse();
+  }
+  rig_.driver().rearm();
+  EXPECT_EQ(felt(), 0.0);
+}
+
+TEST_F(SharedMemoryDriverTest, TellsTheDeviceOfAMakeSafeFromBeforeOpen) {
+  rig_.driver().makeSafe();
+  rig_.driver().open(1000.0);
+  EXPECT_NE(SharedSegment::attach(rig_.name())->safe.load(), 0U);
+}
+
 TEST_F(SharedMemoryDriverTest, MakeSafeNeedsNoExchange) {
   play(15.0);
   rig_.driver().makeSafe();

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ergotic/bag/recording.hpp"
+#include "ergotic/scene/read_scene.hpp"
+#include "ergotic/station/station.hpp"
+#include "ergotic/tgr/virtual_driver.hpp"
+
+namespace ergotic::test {
+
+/// A performance on a station with a virtual device, recorded as the nodelet records it: what a
+/// replay is measured against.
+class LiveRun : private station::FramePort {
+ public:
+  explicit LiveRun(const std::string& scene_text) : scene_text_(scene_text) {
+    station::StationConfig config;
+    config.rates = kRates;
+    config.output_channels = 1;
+    config.input_channels = 1;
+    auto performer = perform(scene_text);
+    playing_ = performer->instrument.get();
+    auto driver = tgr::makeVirtualDriver({});
+    driver_ = driver.get();
+    station_ = std::make_unique<station::Station>(config, std::move(driver), std::move(performer));
+    station_->setFramePort(this);
+    station::Command engage;
+    engage.type = station::Command::Type::kEngage;
+    station_->submit(engage);
+  }
+
+  /// The virtual hand moves slice 0 to and fro.
+  void play(int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      const bool up = (station_->nextTick() / 400) % 2 == 0;
+      driver_->setTarget(0, up ? 0.01 : -0.01);
+      station::Station::Timing timing;
+      timing.freewheel = true;
+      station_->cycle(timing);
+      listen();
+    }
+  }
+
+  void stall(int ticks) {
+    station_->catchUp(ticks, 1'000'000);
+    listen();
+  }
+
+  void setParameter(int index, double value) {
+    auto values = std::vector<double>{};
+    for (const scene::Parameter& parameter : playing_->scene().parameters) {
+      values.push_back(parameter.value);
+    }
+    values[static_cast<std::size_t>(index)] = value;
+    station::Command change;
+    change.type = station::Command::Type::kParameter;
+    change.index = index;
+    change.value = value;
+    change.coefficients = playing_->prepare(values).release();
+    station_->submit(change);
+  }
+
+  void swap(const std::string& scene_text) {
+    scene_text_ = scene_text;
+    auto performer = perform(scene_text);
+    playing_ = performer->instrument.get();
+    station::Command next;
+    next.type = station::Command::Type::kSwap;
+    next.performer = performer.release();
+    station_->submit(next);
+  }
+
+  void takeKeyframe() {
+    station::Command keyframe;
+    keyframe.type = station::Command::Type::kKeyframe;
+    station_->submit(keyframe);
+  }
+
+  const bag::Recording& recording() const { return recording_; }
+  /// From station frame 0 on, one channel; frames of ticks that never ran are 0.
+  const std::vector<float>& sound() const { return sound_; }
+
+  static constexpr physics::Rates kRates{44100.0, 14};
+
+ private:
+  static std::unique_ptr<station::Performer> perform(const std::string& text) {
+    const scene::Scene scene = scene::readYaml(text, "live.yaml");
+    return station::makePerformer(scene, kRates, physics::Precision::kFloat);
+  }
+
+  void push(std::int64_t first, const float* frames, int nframes) noexcept override {
+    sound_.resize(static_cast<std::size_t>(first + nframes));
+    std::copy_n(frames, nframes, sound_.begin() + first);
+  }
+  bool pull(std::int64_t, float* frames, int nframes) noexcept override {
+    std::fill_n(frames, nframes, 0.0F);
+    return false;
+  }
+
+  void listen() {
+    station::GestureTick tick;
+    while (station_->pollGestures(&tick, 1) == 1) {
+      if (recording_.blocks.empty() || recording_.blocks.back().endTick() != tick.tick ||
+          recording_.blocks.back().flags.size() == 64) {
+        recording_.blocks.push_back({tick.tick, tick.slices, {}, {}});
+      }
+      bag::Block& block = recording_.blocks.back();
+      block.flags.push_back(tick.flags);
+      block.positions.insert(block.positions.end(), tick.position.begin(),
+                             tick.position.begin() + tick.slices);
+    }
+    station::Event event;
+    while (station_->poll(event)) {
+      const std::unique_ptr<station::Performer> performer(event.performer);
+      const std::unique_ptr<physics::Coefficients> coefficients(event.coefficients);
+      event.performer = nullptr;
+      event.coefficients = nullptr;
+      recording_.events.push_back(event);
+      if (event.type == station::Event::Type::kKeyframe) {
+        addKeyframe(station_->keyframe());
+      }
+    }
+  }
+
+  void addKeyframe(const station::Keyframe& taken) {
+    bag::Keyframe keyframe;
+    keyframe.tick = taken.tick;
+    keyframe.scene_name = "live.yaml";
+    keyframe.scene_text = scene_text_;
+    keyframe.rates = kRates;
+    keyframe.precision = physics::Precision::kFloat;
+    keyframe.slices = 12;
+    keyframe.state = taken.state;
+    keyframe.parameters = taken.parameters;
+    recording_.keyframes.push_back(keyframe);
+  }
+
+  std::string scene_text_;
+  std::vector<float> sound_;
+  bag::Recording recording_;
+  const physics::Instrument* playing_ = nullptr;
+  tgr::VirtualDriver* driver_ = nullptr;
+  std::unique_ptr<station::Station> station_;
+};
+
+}  // namespace ergotic::test

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/lib/replay.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "ergotic/exception.hpp"
+#include "tools/live_run.hpp"
+
+namespace ergotic::tools {
+namespace {
+
+using test::LiveRun;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const char* const kScene = R"(
+ergotic: 1
+name: struck
+gestural_rate: 3150
+parameters:
+  tone: {value: 2000, range: [1000, 8000]}
+sections:
+  sound: {rate: audio}
+  keys: {rate: gestural}
+mats:
+  key: {type: slice, section: keys, rest: -0.002}
+  bar: {type: cell, section: sound, mass: 0.001, stiffness: $tone, damping: 0.001}
+lias:
+  felt: {type: contact, between: [key, bar], stiffness: 500, damping: 0.02}
+ports:
+  hand: {mat: key, slice: 0}
+outputs:
+  left: {quantity: velocity, at: bar, channel: 1}
+)";
+
+std::string otherScene() {
+  std::string text = kScene;
+  text.replace(text.find("mass: 0.001"), 11, "mass: 0.003");
+  return text;
+}
+
+struct Replayed {
+  std::int64_t first_tick = 0;
+  std::vector<float> sound;
+  std::vector<std::string> flaws;
+};
+
+Replayed replay(const bag::Recording& recording) {
+  Replay player(recording, {});
+  Replayed result;
+  result.first_tick = player.start().tick;
+  std::vector<double> frames(static_cast<std::size_t>(player.rates().ratio));
+  while (player.next(frames.data())) {
+    result.sound.insert(result.sound.end(), frames.begin(), frames.end());
+  }
+  result.flaws = player.flaws();
+  return result;
+}
+
+/// Fails unless the replay is the performance, bit for bit, from the replay's first tick to the
+/// performance's end.
+void expectSame(const Replayed& got, const std::vector<float>& live) {
+  const auto first = static_cast<std::size_t>(got.first_tick * LiveRun::kRates.ratio);
+  ASSERT_EQ(got.sound.size(), live.size() - first);
+  std::size_t different = 0;
+  float peak = 0.0F;
+  for (std::size_t i = 0; i < got.sound.size(); ++i) {
+    different += got.sound[i] != live[first + i] ? 1 : 0;
+    peak = std::max(peak, std::abs(live[first + i]));
+  }
+  EXPECT_EQ(different, 0U);
+  EXPECT_GT(peak, 1e-3F);
+}
+
+TEST(ReplayTest, IsThePerformanceBitForBitFromAKeyframeInItsMiddle) {
+  LiveRun live(kScene);
+  live.play(700);
+  live.takeKeyframe();
+  live.play(3000);
+  const Replayed again = replay(live.recording());
+  EXPECT_EQ(again.first_tick, 700);
+  EXPECT_THAT(again.flaws, ElementsAre());
+  expectSame(again, live.sound());
+}
+
+TEST(ReplayTest, TakesParametersAtTheirTicks) {
+  LiveRun live(kScene);
+  live.setParameter(0, 3000.0);
+  live.play(500);
+  live.takeKeyframe();
+  live.play(1003);
+  live.setParameter(0, 7000.0);
+  live.play(1500);
+  const Replayed again = replay(live.recording());
+  EXPECT_THAT(again.flaws, ElementsAre());
+  expectSame(again, live.sound());
+}
+
+TEST(ReplayTest, FollowsStallsAndLeavesLostTicksSilent) {
+  LiveRun live(kScene);
+  live.takeKeyframe();
+  live.play(1210);
+  live.stall(20);
+  live.play(1005);
+  live.stall(400);  // 157 ticks are run, 243 are lost
+  live.play(1000);
+  live.takeKeyframe();
+  live.play(50);
+  const Replayed again = replay(live.recording());
+  EXPECT_THAT(again.flaws, ElementsAre());
+  expectSame(again, live.sound());
+}
+
+TEST(ReplayTest, SwapsModelsWithTheSameFade) {
+  LiveRun live(kScene);
+  live.takeKeyframe();
+  live.play(1300);
+  live.swap(otherScene());
+  live.play(5);
+  live.setParameter(0, 5000.0);  // of the model that is still to come
+  live.play(20);
+  live.takeKeyframe();
+  live.play(2000);
+  const Replayed again = replay(live.recording());
+  EXPECT_THAT(again.flaws, ElementsAre());
+  expectSame(again, live.sound());
+}
+
+TEST(ReplayTest, SaysWhereTicksAreMissing) {
+  LiveRun live(kScene);
+  live.takeKeyframe();
+  live.play(1280);
+  bag::Recording recording = live.recording();
+  ASSERT_EQ(recording.blocks.at(5).first_tick, 320);
+  recording.blocks.erase(recording.blocks.begin() + 5);
+  EXPECT_THAT(replay(recording).flaws,
+              ElementsAre("recording is inexact: gap of 64 ticks at tick 320"));
+}
+
+TEST(ReplayTest, ChecksItselfAgainstLaterKeyframes) {
+  LiveRun live(kScene);
+  live.takeKeyframe();
+  live.play(900);
+  live.takeKeyframe();
+  live.play(10);
+  bag::Recording recording = live.recording();
+  recording.keyframes.at(1).state.at(0) ^= 1U;
+  EXPECT_THAT(
+      replay(recording).flaws,
+      ElementsAre("recording is inexact: the model is not in the recorded state at tick 900"));
+}
+
+TEST(ReplayTest, SaysWhenLiveSoundWasHeard) {
+  LiveRun live(kScene);
+  live.takeKeyframe();
+  live.play(100);
+  bag::Recording recording = live.recording();
+  recording.blocks.at(0).flags.at(40) |= station::GestureTick::kAudioInput;
+  recording.blocks.at(0).flags.at(41) |= station::GestureTick::kAudioInput;
+  EXPECT_THAT(replay(recording).flaws, ElementsAre(HasSubstr("live sound")));
+}
+
+TEST(ReplayTest, RefusesTheStateOfAnotherBuild) {
+  LiveRun live(kScene);
+  live.takeKeyframe();
+  live.play(100);
+  bag::Recording recording = live.recording();
+  recording.keyframes.at(0).state.pop_back();
+  recording.keyframes.at(0).build = "0.0.1 abc";
+  try {
+    replay(recording);
+    FAIL() << "played";
+  } catch (const Exception& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("another build"), HasSubstr("0.0.1 abc")));
+  }
+}
+
+}  // namespace
+}  // namespace ergotic::tools

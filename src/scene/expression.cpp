@@ -14,7 +14,7 @@
 namespace ergotic::scene {
 namespace {
 
-constexpr int kDeepest = 64;
+constexpr int kDeepest = 32;
 
 struct Function {
   const char* name;

@@ -23,7 +23,7 @@ class ExpressionError : public std::runtime_error {
 using NameValue = std::function<double(const std::string& name, std::size_t offset)>;
 
 /// Evaluates numbers, names, `+ - * /`, parentheses, and the functions sqrt exp log sin cos abs
-/// (one argument), pow min max (two). Nesting is limited to 64.
+/// (one argument), pow min max (two). Nesting is limited to 32.
 /// \return a finite number
 /// \throws ExpressionError if it cannot be read, divides by zero or leaves the finite numbers;
 ///         whatever `name_value` throws

@@ -22,10 +22,14 @@ std::string Limits::text(bool with_unit) const {
 }
 
 std::vector<LiaField> liaFields(LiaType type) {
+  // A clipped cubic law has a tipping point only if it gets stiffer on the way there.
+  const bool clipped = type == LiaType::kClippedCubic || type == LiaType::kCubicContact;
+  const Limits nonlinearity{type == LiaType::kQuadratic ? "N/m^2" : "N/m^3",
+                            clipped ? 0.0 : -kInfinity};
   std::vector<LiaField> fields = {
       {"stiffness", &Lia::stiffness, kStiffnessLimits},
       {"damping", &Lia::damping, kDampingLimits},
-      {"nonlinearity", &Lia::nonlinearity, {type == LiaType::kQuadratic ? "N/m^2" : "N/m^3"}},
+      {"nonlinearity", &Lia::nonlinearity, nonlinearity},
       {"stiffness_limit", &Lia::stiffness_limit, kStiffnessLimits},
   };
   switch (type) {

@@ -13,7 +13,8 @@
 namespace ergotic::scene {
 namespace {
 
-constexpr int kLongestChain = 256;  // params that refer to params that refer to ...
+// Params that refer to params that refer to ...: with the nesting of expressions, bounds the stack.
+constexpr int kLongestChain = 64;
 
 }  // namespace
 

@@ -141,6 +141,8 @@ class Validator {
     for (const LiaField& field : liaFields(l.type)) {
       value(l.place, field.key + of, l.*field.member, field.limits);
     }
+    number(l.place, "tipping_point" + of, l.tipping_point, {"m", 0.0});
+    value(l.place, "limit_damping" + of, l.limit_damping, kDampingLimits);
   }
 
   void table(const Lia& l) const {

@@ -26,6 +26,8 @@ const BadText kLines[] = {
     {"@a mass <!>-1 0 0\n", "mass of '@a' = -1 is out of range, allowed: > 0"},
     {"@a osc 1 <!>-1 0 0 0\n", "stiffness of '@a' = -1 is out of range, allowed: >= 0"},
     {TWO "@s nlPluck @a @b 1 <!>0\n", "width of '@s' = 0 is out of range, allowed: > 0"},
+    {TWO "@s nlContact @a @b 1 <!>-2 3 4\n", "nonlinearity of '@s' = -2 is out of range"},
+    {TWO "<!>@s nlContact @a @b 1 1e-320 3 4\n", "tipping_point of link 's' = inf"},
     {TWO "@s spring @a @b <!>1e999\n", "not a finite number"},
     {TWO "@s spring @a <!>b 1\n", "'b' is not a module, allowed: @name"},
     {TWO "@s spring @a <!>@c 1\n", "unknown module 'c'"},
@@ -95,6 +97,15 @@ TEST(MdlErrorsTest, DeepExpressionsAndLongChainsAreErrorsNotCrashes) {
     chain += "@p" + std::to_string(i) + " param p" + std::to_string(i + 1) + "\n";
   }
   EXPECT_THROW(readMdl(chain + "@p100000 param 1\n", "chain.mdl"), TextError);
+}
+
+TEST(MdlErrorsTest, DeepestExpressionsInTheLongestChainAreStillRead) {
+  std::string text = "@m mass p0 0 0\n";
+  for (int i = 0; i < 63; ++i) {
+    text += "@p" + std::to_string(i) + " param " + std::string(31, '(') + "p" +
+            std::to_string(i + 1) + std::string(31, ')') + "\n";
+  }
+  EXPECT_EQ(readMdl(text + "@p63 param 2\n", "chain.mdl").mats.at(0).mass.factor, 2.0);
 }
 
 }  // namespace

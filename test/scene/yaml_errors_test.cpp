@@ -156,7 +156,19 @@ TEST(YamlErrorsTest, OfGeneratorsAreRefusedAtTheirPlace) {
 }
 
 #define LINK TWO_MASSES "lias: {l: {"
+#define CLIPPED LINK "type: clipped_cubic, between: [m, n], stiffness: 1, "
 const BadText kLias[] = {
+    {CLIPPED "nonlinearity: <!>-1, stiffness_limit: 2}}\n",
+     "= -1 N/m^3 is out of range, allowed: >= 0"},
+    {PARAMETER
+     "mats: {m: {type: mass, mass: 1}, n: {type: mass, mass: 1}}\nlias: {l: {type: cubic_contact, "
+     "between: [m, n], stiffness: 1, nonlinearity: 1, stiffness_limit: <!>2*$q}}\n",
+     "unknown parameter 'q'"},
+    {HEAD "parameters: {p: {value: 1, range: [1, 2]}}\nmats: {m: {type: mass, mass: 1}, n: {type: "
+          "mass, mass: 1}}\n"
+          "lias: {l: {type: cubic_contact, between: [m, n], stiffness: 1, nonlinearity: <!>$p, "
+          "stiffness_limit: 2}}\n",
+     "is a parameter, allowed in a clipped law: a number"},
     {LINK "type: <!>sprng, between: [m, n], stiffness: 1}}\n", "did you mean 'spring'?"},
     {TWO_MASSES "lias: {<!>l: {type: spring, stiffness: 1}}\n",
      "missing key 'between' of link 'l'"},

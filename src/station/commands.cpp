@@ -59,6 +59,10 @@ void Station::drainCommands() noexcept {
   for (int i = 0; i < kCommandsPerTick && commands_.pop(command); ++i) {
     obey(command);
   }
+  // Not within a fade: a replay starts at full gain.
+  for (; keyframes_wanted_ > 0 && fade_.isFull(); --keyframes_wanted_) {
+    takeKeyframe();
+  }
 }
 
 void Station::obey(const Command& command) noexcept {
@@ -76,7 +80,7 @@ void Station::obey(const Command& command) noexcept {
       takeCoefficients(command);
       break;
     case Command::Type::kKeyframe:
-      takeKeyframe();
+      ++keyframes_wanted_;
       break;
   }
 }

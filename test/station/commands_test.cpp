@@ -236,6 +236,18 @@ TEST(CommandsTest, KeyframeHoldsStateAndParametersBeforeTheTickItNames) {
   delete test::firstOf(events, Event::Type::kParameter).coefficients;
 }
 
+TEST(CommandsTest, TakesNoKeyframeWithinTheFadeOfASwap) {
+  Bench bench;
+  ASSERT_TRUE(bench.station->submit(swapTo(test::makeSpring())));
+  bench.run(5);
+  ASSERT_TRUE(bench.command(Command::Type::kKeyframe));
+  bench.run(100);
+  const auto events = bench.events();
+  ASSERT_EQ(test::count(events, Event::Type::kKeyframe), 1);
+  EXPECT_EQ(test::firstOf(events, Event::Type::kKeyframe).tick, 1 + 2 * kFadeTicks);
+  delete test::firstOf(events, Event::Type::kSwapped).performer;
+}
+
 TEST(CommandsTest, SaysWhenAStateIsTooLargeForAKeyframe) {
   StationConfig config = Bench::quickConfig();
   config.keyframe_bytes = 4;

@@ -81,7 +81,8 @@ TEST(StationThreadsTest, AnswersEveryCommandOfAStormExactlyOnce) {
     station.snapshot();
     tally.take(station);
   }
-  while (tally.told[Event::Type::kStopped] < 2000 || tally.told[Event::Type::kSwapped] < 2000) {
+  while (tally.told[Event::Type::kStopped] < 2000 || tally.told[Event::Type::kSwapped] < 2000 ||
+         tally.told[Event::Type::kKeyframe] < 2000) {
     tally.take(station);
     std::this_thread::yield();
   }

@@ -31,7 +31,7 @@ struct Command {
     kSwap,       ///< take `performer`, hand the old one back
     kParameter,  ///< take `coefficients`, prepared by the performer submitted last; index and value
                  ///< say which parameter got which value, for the record
-    kKeyframe,   ///< copy the state for a recording that starts now
+    kKeyframe,   ///< copy the state for a recording that starts now, or after the fade of a swap
   };
   Type type = Type::kStop;
   int index = 0;

@@ -176,9 +176,10 @@ class Station {
   ForceState state_ = ForceState::kReady;
   FaultReason fault_ = FaultReason::kNone;
   bool blown_up_ = false;
-  Slices force_{};     // N, of the last tick, for the next exchange
-  Slices position_{};  // m, of the last tick
-  Slices velocity_{};  // m/s
+  int keyframes_wanted_ = 0;  // wait for the end of a fade
+  Slices force_{};            // N, of the last tick, for the next exchange
+  Slices position_{};         // m, of the last tick
+  Slices velocity_{};         // m/s
   std::vector<float> frames_out_;
   std::vector<float> frames_in_;
   Counters counters_;

@@ -95,6 +95,9 @@ TEST(CommandsTest, SwapUnderPlayHasNoStepInAudioAndNoGrowthInForce) {
 
   // |F| = 1 N before, falls to zero with the fade, then grows by a ramp step of 5 N / 157 at most.
   EXPECT_EQ(forces[500], -1.0);
+  for (int k = 1; k <= kFadeTicks; ++k) {
+    EXPECT_NEAR(forces[501U + static_cast<std::size_t>(k)], -1.0 + k / 16.0, 1e-12);
+  }
   for (std::size_t n = 502; n < forces.size(); ++n) {
     ASSERT_LE(std::abs(forces[n]) - std::abs(forces[n - 1]), 5.0 / 157.0) << "exchange " << n;
   }

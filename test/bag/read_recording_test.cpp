@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdio>
+
+#include <ergotic/Event.h>
+#include <ergotic/GestureBlock.h>
+#include <ergotic/Keyframe.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <std_msgs/String.h>
+
+#include "ergotic/bag/recording.hpp"
+#include "ergotic/exception.hpp"
+#include "support/scratch_file.hpp"
+
+namespace ergotic::bag {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const ros::Time kStart(1000, 0);
+
+ergotic::GestureBlock block(std::int64_t first_tick) {
+  ergotic::GestureBlock message;
+  message.first_tick = first_tick;
+  message.slices = 2;
+  message.ticks = 2;
+  message.flags = {0, ergotic::GestureBlock::CATCH_UP};
+  message.positions = {0.1, 0.2, 0.3, 1.0 / 3.0};
+  message.forces = {0, 0, 0, 0};
+  return message;
+}
+
+ergotic::Keyframe keyframe() {
+  ergotic::Keyframe message;
+  message.tick = 12;
+  message.scene = "the text";
+  message.scene_name = "a.yaml";
+  message.build = "0.1.0 abc";
+  message.audio_rate = 48000.0;
+  message.ratio = 16;
+  message.precision = "double";
+  message.slices = 2;
+  message.state = {1, 2, 3};
+  message.parameter_names = {"tone"};
+  message.parameter_values = {0.7};
+  return message;
+}
+
+std::string errorOf(const std::string& path) {
+  try {
+    readRecording(path);
+  } catch (const Exception& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(ReadRecordingTest, GivesBackEveryFieldInTheOrderOfTicks) {
+  const test::ScratchFile file;
+  {
+    rosbag::Bag bag(file.path(), rosbag::bagmode::Write);
+    std_msgs::String other;
+    ergotic::Event parameter;
+    parameter.tick = 13;
+    parameter.type = ergotic::Event::PARAMETER;
+    parameter.index = 1;
+    parameter.value = 0.25;
+    bag.write("/station/gesture", kStart, block(14));
+    bag.write("/chatter", kStart, other);
+    bag.write("/elsewhere/gesture", kStart, block(12));
+    bag.write("/station/events", kStart, parameter);
+    bag.write("/station/keyframe", kStart, keyframe());
+  }
+  const Recording recording = readRecording(file.path());
+  ASSERT_EQ(recording.blocks.size(), 2U);
+  EXPECT_EQ(recording.blocks[0].first_tick, 12);
+  EXPECT_EQ(recording.blocks[1].endTick(), 16);
+  EXPECT_EQ(recording.blocks[0].slices, 2U);
+  EXPECT_THAT(recording.blocks[0].flags, ElementsAre(0, station::GestureTick::kCatchUp));
+  EXPECT_THAT(recording.blocks[0].positions, ElementsAre(0.1, 0.2, 0.3, 1.0 / 3.0));
+  ASSERT_EQ(recording.events.size(), 1U);
+  EXPECT_EQ(recording.events[0].type, station::Event::Type::kParameter);
+  EXPECT_EQ(recording.events[0].tick, 13);
+  EXPECT_EQ(recording.events[0].index, 1);
+  EXPECT_EQ(recording.events[0].value, 0.25);
+  ASSERT_EQ(recording.keyframes.size(), 1U);
+  const Keyframe& got = recording.keyframes[0];
+  EXPECT_EQ(got.tick, 12);
+  EXPECT_EQ(got.scene_text, "the text");
+  EXPECT_EQ(got.scene_name, "a.yaml");
+  EXPECT_EQ(got.build, "0.1.0 abc");
+  EXPECT_EQ(got.rates.audio_hz, 48000.0);
+  EXPECT_EQ(got.rates.ratio, 16);
+  EXPECT_EQ(got.precision, physics::Precision::kDouble);
+  EXPECT_EQ(got.slices, 2);
+  EXPECT_THAT(got.state, ElementsAre(1, 2, 3));
+  EXPECT_THAT(got.parameters, ElementsAre(0.7));
+}
+
+TEST(ReadRecordingTest, SaysWhatIsMissing) {
+  const test::ScratchFile file;
+  {
+    rosbag::Bag bag(file.path(), rosbag::bagmode::Write);
+    bag.write("/station/gesture", kStart, block(0));
+  }
+  EXPECT_THAT(errorOf(file.path()), HasSubstr("no keyframe"));
+  {
+    rosbag::Bag bag(file.path(), rosbag::bagmode::Write);
+    bag.write("/station/keyframe", kStart, keyframe());
+  }
+  EXPECT_THAT(errorOf(file.path()), HasSubstr("no gesture"));
+}
+
+TEST(ReadRecordingTest, RefusesABlockThatContradictsItself) {
+  const test::ScratchFile file;
+  {
+    rosbag::Bag bag(file.path(), rosbag::bagmode::Write);
+    ergotic::GestureBlock wrong = block(40);
+    wrong.positions.pop_back();
+    bag.write("/station/gesture", kStart, wrong);
+  }
+  EXPECT_THAT(errorOf(file.path()), HasSubstr("block of tick 40 has 3 positions"));
+}
+
+TEST(ReadRecordingTest, RefusesWhatIsNoBag) {
+  const test::ScratchFile text("no bag at all");
+  EXPECT_THAT(errorOf(text.path()), HasSubstr(text.path()));
+  EXPECT_THAT(errorOf("/nonexistent.bag"), HasSubstr("/nonexistent.bag"));
+}
+
+}  // namespace
+}  // namespace ergotic::bag

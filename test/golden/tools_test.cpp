@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The command-line tools, run as a person runs them.
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+
+#include "ergotic/audio/wav.hpp"
+#include "support/mdl_simulator.hpp"
+
+namespace ergotic {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+bool exists(const std::string& path) {
+  struct stat info {};
+  return stat(path.c_str(), &info) == 0;
+}
+
+/// Beside the tests, or in the devel space of a catkin build.
+std::string toolPath(const std::string& name) {
+  const std::string build = ERGOTIC_BINARY_DIR;
+  for (const char* place :
+       {"/", "/devel/lib/ergotic/", "/../devel/lib/ergotic/", "/../../devel/lib/ergotic/"}) {
+    if (exists(build + place + name)) {
+      return build + place + name;
+    }
+  }
+  ADD_FAILURE() << "no tool " << name << " in " << build << " or its devel space";
+  return "false";
+}
+
+struct Outcome {
+  int code = -1;
+  std::string text;  ///< stdout and stderr together
+};
+
+Outcome run(const std::string& tool, const std::string& arguments) {
+  Outcome outcome;
+  FILE* pipe = popen((toolPath(tool) + " " + arguments + " 2>&1").c_str(), "r");
+  std::array<char, 4096> buffer{};
+  while (const std::size_t got = fread(buffer.data(), 1, buffer.size(), pipe)) {
+    outcome.text.append(buffer.data(), got);
+  }
+  const int status = pclose(pipe);
+  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return outcome;
+}
+
+std::vector<double> soundOf(const std::string& path) {
+  return audio::WavReader(path).readAll();
+}
+
+double peakOf(const std::vector<double>& sound) {
+  double peak = 0.0;
+  for (const double sample : sound) {
+    peak = std::max(peak, std::abs(sample));
+  }
+  return peak;
+}
+
+const char* const kSpring = R"(# one mass, thrown
+@K param 0.04
+@m mass 1 0 882
+@g ground 0
+@s springDamper @m @g K 0.0001
+@in1 frcInput @m
+@out1 posOutput @m
+)";
+
+const char* const kDrum = R"(
+ergotic: 1
+name: drum
+gestural_rate: 3150
+parameters:
+  tone: {value: 2000, range: [1000, 8000]}
+sections:
+  sound: {rate: audio}
+  keys: {rate: gestural}
+mats:
+  key: {type: slice, section: keys, rest: -0.002}
+  bar: {type: cell, section: sound, mass: 0.001, stiffness: $tone, damping: 0.001}
+lias:
+  felt: {type: contact, between: [key, bar], stiffness: 500, damping: 0.02}
+ports:
+  hand: {mat: key, slice: 0}
+outputs:
+  left: {quantity: position, at: bar, channel: 1, gain: 100}
+)";
+
+class ToolsTest : public testing::Test {
+ protected:
+  ToolsTest() {
+    std::string pattern = "/tmp/ergotic_tools_XXXXXX";
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~ToolsTest() override {
+    for (const std::string& file : files_) {
+      std::remove(file.c_str());
+    }
+    // Fails, and is seen below, if a tool left something behind.
+    EXPECT_EQ(rmdir(folder_.c_str()), 0) << folder_ << " is not empty";
+  }
+
+  std::string path(const std::string& name) {
+    files_.push_back(folder_ + "/" + name);
+    return files_.back();
+  }
+  std::string write(const std::string& name, const std::string& text) {
+    std::ofstream(path(name)) << text;
+    return files_.back();
+  }
+  std::string writeSound(const std::string& name,
+                         const std::vector<double>& samples,
+                         double rate_hz = 44100.0) {
+    audio::WavWriter writer(path(name), rate_hz, 1, audio::WavFormat::kDouble);
+    writer.write(samples.data(), static_cast<std::int64_t>(samples.size()));
+    writer.finish();
+    return files_.back();
+  }
+
+ private:
+  std::string folder_;
+  std::vector<std::string> files_;
+};
+
+using RenderTest = ToolsTest;
+using CheckTest = ToolsTest;
+
+TEST_F(RenderTest, WritesWhatTheSimulatorPlays) {
+  const std::string scene = write("spring.mdl", kSpring);
+  std::vector<double> push(2000);
+  push[1000] = 0.05;
+  const std::string input = writeSound("push.wav", push);
+  const std::string out = path("out.wav");
+  const Outcome outcome =
+      run("render", scene + " --seconds 0.1 --out " + out +
+                        " --out-format double --precision double --input in1=" + input +
+                        " --set K=0.09");
+  ASSERT_EQ(outcome.code, 0) << outcome.text;
+  const auto wanted = test::simulateMdl(kSpring, {{"K", 0.09}}, {push}, 4410).at(0);
+  const std::vector<double> got = soundOf(out);
+  ASSERT_EQ(got.size(), wanted.size());
+  for (std::size_t n = 0; n < got.size(); ++n) {
+    ASSERT_NEAR(got[n], wanted[n], 1e-11 * peakOf(wanted)) << n;
+  }
+  EXPECT_THAT(outcome.text,
+              AllOf(HasSubstr("2 modules"), HasSubstr("4410 frames"), HasSubstr("real time")));
+}
+
+TEST_F(RenderTest, RoundsToTheFormatAskedFor) {
+  const std::string scene = write("spring.mdl", kSpring);
+  const std::string exact = path("double.wav");
+  const std::string single = path("float.wav");
+  const std::string integer = path("24.wav");
+  const std::string common = scene + " --seconds 0.05 --precision double --out ";
+  ASSERT_EQ(run("render", common + exact + " --out-format double").code, 0);
+  ASSERT_EQ(run("render", common + single).code, 0);
+  ASSERT_EQ(run("render", common + integer + " --out-format 24").code, 0);
+  const std::vector<double> reference = soundOf(exact);
+  const std::vector<double> as_float = soundOf(single);
+  const std::vector<double> as_integer = soundOf(integer);
+  ASSERT_EQ(reference.size(), as_float.size());
+  ASSERT_EQ(reference.size(), as_integer.size());
+  bool rounded = false;
+  for (std::size_t n = 0; n < reference.size(); ++n) {
+    rounded = rounded || as_float[n] != reference[n];
+    ASSERT_EQ(as_float[n], static_cast<double>(static_cast<float>(reference[n])));
+    ASSERT_NEAR(as_integer[n], reference[n], std::ldexp(0.5001, -23));
+  }
+  EXPECT_TRUE(rounded);
+}
+
+TEST_F(RenderTest, SaysWhereASceneIsWrong) {
+  const std::string scene = write("bad.mdl", "@m mass 1 0 0\n@s spring @m @nobody 0.1\n");
+  const Outcome outcome = run("render", scene);
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.text, AllOf(HasSubstr("bad.mdl:2:14: error: "), HasSubstr("nobody")));
+}
+
+TEST_F(RenderTest, RefusesWhatIsUnstableUnlessToldOtherwise) {
+  const std::string scene = write("unstable.mdl", R"(@m mass 1 0.1 0
+@g ground 0
+@s spring @m @g 4.5
+@out1 posOutput @m
+)");
+  const std::string out = path("out.wav");
+  const Outcome refused = run("render", scene + " --seconds 0.001 --out " + out);
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.text, AllOf(HasSubstr("unstable"), HasSubstr("unstable.mdl:3:1")));
+  EXPECT_FALSE(exists(out));
+  const Outcome played = run("render", scene + " --allow-unstable --seconds 0.001 --out " + out);
+  EXPECT_EQ(played.code, 0) << played.text;
+  EXPECT_GT(peakOf(soundOf(out)), 1e3);
+}
+
+TEST_F(RenderTest, LeavesTheOldFileWhenTheSoundBlowsUp) {
+  const std::string scene = write("unstable.mdl", R"(@m mass 1 0.1 0
+@g ground 0
+@s spring @m @g 4.5
+@out1 posOutput @m
+)");
+  const std::string out = write("out.wav", "what was there before");
+  const Outcome outcome = run("render", scene + " --allow-unstable --seconds 1 --out " + out);
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.text, HasSubstr("not finite from frame "));
+  std::ifstream file(out);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "what was there before");
+}
+
+TEST_F(RenderTest, AsksForInputsAtTheRateOfTheInstrument) {
+  const std::string scene = write("spring.mdl", kSpring);
+  const std::string input = writeSound("push.wav", {0.1, 0.2}, 48000.0);
+  const Outcome rate = run("render", scene + " --input in1=" + input);
+  EXPECT_EQ(rate.code, 1);
+  EXPECT_THAT(rate.text, AllOf(HasSubstr("48000"), HasSubstr("44100")));
+  const Outcome name = run("render", scene + " --input in2=" + input);
+  EXPECT_EQ(name.code, 1);
+  EXPECT_THAT(name.text, AllOf(HasSubstr("in2"), HasSubstr("it has: in1")));
+}
+
+TEST_F(RenderTest, KeepsThePitchOfAnMdlSceneAtAnotherRateAndSaysSo) {
+  const std::string scene = write("spring.mdl", kSpring);
+  const auto crossings = [&](double rate) {
+    const std::string out = path("at" + std::to_string(static_cast<int>(rate)) + ".wav");
+    const Outcome outcome =
+        run("render", scene + " --seconds 1 --rate " + std::to_string(rate) + " --out " + out);
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+    const bool converted = outcome.text.find("converted") != std::string::npos;
+    EXPECT_EQ(converted, rate != 44100.0) << outcome.text;
+    const std::vector<double> sound = soundOf(out);
+    int count = 0;
+    for (std::size_t n = 1; n < sound.size(); ++n) {
+      count += sound[n - 1] < 0.0 && sound[n] >= 0.0 ? 1 : 0;
+    }
+    return count;
+  };
+  // Per sample at 44.1 kHz: 2 asin(sqrt(K)/2) / 2 pi = 1406 Hz; at another rate the step differs.
+  EXPECT_NEAR(crossings(44100.0), 1406, 1);
+  EXPECT_NEAR(crossings(48000.0), 1406, 2);
+}
+
+TEST_F(RenderTest, LetsAHandPlayFromACsvFile) {
+  const std::string scene = write("drum.yaml", kDrum);
+  const std::string gesture =
+      write("hand.csv", "time_s,slice,target_m\n0,0,0\n0.2,0,0\n0.3,0,0.01\n");
+  const std::string out = path("out.wav");
+  const Outcome outcome =
+      run("render", scene + " --seconds 0.5 --out " + out + " --gesture " + gesture);
+  ASSERT_EQ(outcome.code, 0) << outcome.text;
+  const std::vector<double> sound = soundOf(out);
+  ASSERT_EQ(sound.size(), 22050U);
+  const std::vector<double> before(sound.begin(), sound.begin() + 8820);
+  EXPECT_EQ(peakOf(before), 0.0);
+  EXPECT_GT(peakOf(sound), 1e-3);
+}
+
+TEST_F(RenderTest, PlaysRecordedPositionsToTheirEnd) {
+  const std::string scene = write("drum.yaml", kDrum);
+  std::string text = "tick,x0\n";
+  for (int tick = 0; tick < 315; ++tick) {
+    text += std::to_string(tick) + (tick < 100 ? ",0\n" : ",0.005\n");
+  }
+  const std::string out = path("out.wav");
+  const Outcome outcome =
+      run("render", scene + " --out " + out + " --gesture " + write("moves.csv", text));
+  ASSERT_EQ(outcome.code, 0) << outcome.text;
+  const std::vector<double> sound = soundOf(out);
+  EXPECT_EQ(sound.size(), 4410U);
+  const std::vector<double> before(sound.begin(), sound.begin() + 1400);
+  EXPECT_EQ(peakOf(before), 0.0);
+  EXPECT_GT(peakOf(sound), 1e-3);
+}
+
+TEST_F(RenderTest, GivesTheSameBitsTwice) {
+  const std::string scene = write("drum.yaml", kDrum);
+  const std::string gesture = write("hand.csv", "time_s,slice,target_m\n0,0,0\n0.1,0,0.01\n");
+  const std::string common = scene + " --seconds 0.3 --gesture " + gesture + " --out ";
+  const std::string one = path("one.wav");
+  const std::string two = path("two.wav");
+  ASSERT_EQ(run("render", common + one).code, 0);
+  ASSERT_EQ(run("render", common + two).code, 0);
+  EXPECT_EQ(soundOf(one), soundOf(two));
+}
+
+TEST_F(RenderTest, TellsUsageErrorsFromOthers) {
+  const std::string scene = write("spring.mdl", kSpring);
+  EXPECT_EQ(run("render", "").code, 2);
+  EXPECT_EQ(run("render", scene + " --nonsense").code, 2);
+  EXPECT_EQ(run("render", scene + " --precision half").code, 2);
+  EXPECT_EQ(run("render", scene + " --seconds -1").code, 2);
+  EXPECT_EQ(run("render", scene + " --set K").code, 2);
+  EXPECT_EQ(run("render", scene + " --set K=x").code, 2);
+  EXPECT_EQ(run("render", scene + " --set nobody=1").code, 1);
+  EXPECT_EQ(run("render", "/nonexistent.mdl").code, 1);
+  EXPECT_EQ(run("render", scene + " --out /nonexistent/out.wav").code, 1);
+  EXPECT_EQ(run("render", "--help").code, 0);
+}
+
+TEST_F(CheckTest, SaysWhatASceneIsMadeOf) {
+  const std::string scene = write("drum.yaml", kDrum);
+  const Outcome outcome = run("check", scene + " --set tone=2500");
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_THAT(outcome.text,
+              AllOf(HasSubstr("modules: 2\n"), HasSubstr("gestural_rate_hz: 3150\n"),
+                    HasSubstr("slice: 1\n"), HasSubstr("contact: 1\n"), HasSubstr("value: 2500\n"),
+                    HasSubstr("maximum: 8000\n"), HasSubstr("verdict: "),
+                    HasSubstr("lowest_stable_audio_rate_hz: "), HasSubstr("state_bytes: "),
+                    HasSubstr("real_time_factor: ")));
+}
+
+TEST_F(CheckTest, GivesTheClosedFormPitchOfEachString) {
+  const Outcome outcome = run("check", std::string(ERGOTIC_SOURCE_DIR) + "/models/string.yaml");
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_THAT(outcome.text, HasSubstr("pitch_hz: 110.0"));
+}
+
+TEST_F(CheckTest, WritesJsonThatAProgramReads) {
+  const std::string scene = write("drum.yaml", kDrum);
+  const Outcome outcome =
+      run("check",
+          scene +
+              " --json | /usr/bin/python3 -c 'import json, sys; r = json.load(sys.stdin);"
+              " print(r[\"modules\"], r[\"ports\"][0][\"slice\"], r[\"sections\"][0][\"axis\"])'");
+  EXPECT_EQ(outcome.text, "2 0 [1, 0, 0]\n");
+}
+
+TEST_F(CheckTest, RefusesWhatIsUnstable) {
+  const std::string scene =
+      write("unstable.mdl", "@m mass 1 0 0\n@g ground 0\n@s spring @m @g 4.5\n");
+  const Outcome outcome = run("check", scene);
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.text, AllOf(HasSubstr("verdict: unstable"), HasSubstr("unstable.mdl:3:1")));
+}
+
+TEST_F(CheckTest, SaysWhereASceneIsWrong) {
+  const std::string scene = write("bad.yaml", std::string(kDrum) + "lost: 1\n");
+  const Outcome outcome = run("check", scene);
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.text, HasSubstr("bad.yaml:19:1: error: "));
+  EXPECT_EQ(run("check", "").code, 2);
+}
+
+}  // namespace
+}  // namespace ergotic

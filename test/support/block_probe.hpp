@@ -6,10 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <mutex>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/block_io.hpp"
@@ -24,13 +21,14 @@ inline float counterRamp(std::int64_t frame, int channel) {
 
 /// Waits until something holds, generously: a machine may be busy. \return whether it came to hold
 inline bool eventually(const std::function<bool()>& holds) {
-  for (int look = 0; look < 3000; ++look) {
-    if (holds()) {
-      return true;
+  const std::int64_t end_ns = rt::monotonicNs() + 30'000'000'000;
+  while (!holds()) {
+    if (rt::monotonicNs() > end_ns) {
+      return false;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  return false;
+  return true;
 }
 
 /// Sends counter ramps and remembers what an audio host does to it.

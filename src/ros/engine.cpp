@@ -118,7 +118,7 @@ std::vector<std::string> Engine::takeWarnings() {
 std::optional<double> findJackRate(const std::string& name, double wait_s) {
   RateProbe probe;
   audio::JackConfig config;
-  config.name = name;
+  config.name = name + "_probe";  // the station's own name stays free
   const audio::JackHost host(config, probe);
   return probe.wait(wait_s);
 }

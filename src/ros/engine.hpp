@@ -48,7 +48,7 @@ class Engine {
 };
 
 /// The sample rate of the JACK server, which a whole run keeps.
-/// \param name  of the client that asks
+/// \param name  of the station's client; the one that asks is another
 /// \return nothing if no server appears within `wait_s`. Blocks as long
 std::optional<double> findJackRate(const std::string& name, double wait_s);
 

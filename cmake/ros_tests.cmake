@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Tests that need ROS: messages and conversions as gtests, the station as rostests, launch files.
+# All of them run under plain ctest, in the devel space.
+include(GoogleTest)
+file(GLOB ros_tests CONFIGURE_DEPENDS test/ros/*_test.cpp)
+add_executable(ergotic_ros_test ${ros_tests})
+target_link_libraries(ergotic_ros_test
+  PRIVATE ergotic_ros ergotic_test_support GTest::gtest_main ergotic_flags)
+gtest_discover_tests(ergotic_ros_test
+  TEST_PREFIX "ros." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ros)
+
+set(in_devel_space ${CATKIN_DEVEL_PREFIX}/env.sh ${CMAKE_COMMAND} -E env ROS_IP=127.0.0.1
+  ROS_LOG_DIR=${CMAKE_BINARY_DIR}/ros_log)
+file(GLOB rostests CONFIGURE_DEPENDS test/integration/*.test)
+foreach(rostest ${rostests})
+  get_filename_component(name ${rostest} NAME_WE)
+  add_executable(${name}_rostest
+    test/integration/${name}_rostest.cpp test/integration/child_process.cpp)
+  set_target_properties(${name}_rostest PROPERTIES
+    RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/ergotic)
+  target_link_libraries(${name}_rostest
+    PRIVATE ergotic_audio ergotic_messages ${catkin_LIBRARIES} ergotic_test_support ergotic_flags)
+  target_compile_definitions(${name}_rostest
+    PRIVATE ERGOTIC_TOOLS_DIR="${CATKIN_DEVEL_PREFIX}/lib/ergotic")
+  add_test(NAME integration.${name} COMMAND ${in_devel_space} /usr/bin/rostest ${rostest})
+  set_tests_properties(integration.${name} PROPERTIES
+    RUN_SERIAL TRUE TIMEOUT 300 LABELS integration)
+endforeach()
+
+# roslaunch reads the file, finds every package and every substitution, and names the nodes.
+file(GLOB launch_files CONFIGURE_DEPENDS launch/*.launch)
+foreach(launch ${launch_files})
+  get_filename_component(name ${launch} NAME_WE)
+  add_test(NAME integration.launch_${name}
+    COMMAND ${in_devel_space} /usr/bin/roslaunch --nodes ${launch} record:=x rviz:=true)
+  set_tests_properties(integration.launch_${name} PROPERTIES
+    PASS_REGULAR_EXPRESSION "/station.*/robot_state_publisher.*/rviz.*/record" LABELS integration)
+endforeach()

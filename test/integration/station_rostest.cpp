@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <std_srvs/Trigger.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <ergotic/Event.h>
+#include <ergotic/GestureBlock.h>
+#include <ergotic/Keyframe.h>
+#include <ergotic/LoadModel.h>
+#include <ergotic/ModelState.h>
+#include <ergotic/ModelStructure.h>
+#include <ergotic/SetParameter.h>
+#include <ergotic/SliceTarget.h>
+#include <ergotic/Status.h>
+#include <gtest/gtest.h>
+#include <nodelet/NodeletLoad.h>
+#include <nodelet/NodeletUnload.h>
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include "ergotic/audio/capture.hpp"
+#include "ergotic/audio/wav.hpp"
+#include "integration/child_process.hpp"
+#include "integration/listener.hpp"
+#include "support/jack_server.hpp"
+
+namespace ergotic::test {
+namespace {
+
+constexpr double kSilence = 3.2e-5;  // -90 dBFS
+constexpr double kHeard = 1e-3;
+const std::string kModel =
+    std::string(ERGOTIC_SOURCE_DIR) + "/test/integration/plucked_string.yaml";
+
+/// A JACK server, a nodelet manager and the station in it, once for all tests: what they do builds
+/// on one another no more than the order in which a player does it.
+class StationTest : public ::testing::Test {
+ protected:
+  struct World {
+    World() : jack("rostest") {
+      jack.start();
+      manager = std::make_unique<ChildProcess>(
+          std::vector<std::string>{"/usr/lib/nodelet/nodelet", "manager", "__name:=manager"},
+          std::map<std::string, std::string>{{"JACK_DEFAULT_SERVER", jack.name()}});
+      node.setParam("/station/model", kModel);
+      node.setParam("/station/ramp", 0.1);
+      node.setParam("/station/jack_wait", 30.0);
+      node.setParam("/station/jack_connect", false);
+      load_nodelet();
+    }
+    void load_nodelet() {
+      nodelet::NodeletLoad load;
+      load.request.name = "/station";
+      load.request.type = "ergotic/Station";
+      if (!::ros::service::waitForService("/manager/load_nodelet", 30000) ||
+          !::ros::service::call("/manager/load_nodelet", load) || load.response.success == 0U) {
+        throw std::runtime_error("the manager does not load ergotic/Station");
+      }
+    }
+
+    ::ros::NodeHandle node;
+    Listener<Status> status{node, "/station/status"};
+    Listener<Event> events{node, "/station/events"};
+    Listener<GestureBlock> gesture{node, "/station/gesture"};
+    Listener<Keyframe> keyframes{node, "/station/keyframe"};
+    Listener<ModelState> model_state{node, "/station/model_state"};
+    Listener<ModelStructure> structure{node, "/station/model_structure"};
+    Listener<sensor_msgs::JointState> joints{node, "/station/joint_states"};
+    Listener<visualization_msgs::MarkerArray> markers{node, "/station/markers"};
+    Listener<diagnostic_msgs::DiagnosticArray> diagnostics{node, "/diagnostics"};
+    ::ros::Publisher hand = node.advertise<SliceTarget>("/station/hand_target", 10);
+    JackServer jack;
+    std::unique_ptr<ChildProcess> manager;
+  };
+
+  static void SetUpTestSuite() {
+    world_ = std::make_unique<World>();
+    ASSERT_TRUE(eventually([] { return world_->status.latest().model == "plucked string"; }));
+    ASSERT_TRUE(eventually([] { return world_->status.latest().audio_running != 0U; }));
+    ASSERT_TRUE(eventually([] { return world_->hand.getNumSubscribers() > 0; }));
+  }
+  static void TearDownTestSuite() { world_.reset(); }
+
+  static std_srvs::Trigger::Response call(const std::string& service) {
+    std_srvs::Trigger trigger;
+    EXPECT_TRUE(::ros::service::call(service, trigger)) << service;
+    return trigger.response;
+  }
+  static LoadModel::Response load(const std::string& model) {
+    LoadModel load;
+    load.request.model = model;
+    EXPECT_TRUE(::ros::service::call("/station/load_model", load));
+    return load.response;
+  }
+  static void moveHand(double target) {
+    SliceTarget message;
+    message.slice = 0;
+    message.target = target;
+    world_->hand.publish(message);
+  }
+  static bool eventually(const std::function<bool()>& condition) {
+    return test::eventually(condition);
+  }
+  static double sliceEffort() {
+    const auto joints = world_->joints.latest();
+    return joints.effort.empty() ? 0.0 : joints.effort.front();
+  }
+
+  static std::unique_ptr<World> world_;
+};
+std::unique_ptr<StationTest::World> StationTest::world_;
+
+/// Root mean square of what the station's first port sends while `action` runs and after.
+double heardDuring(const JackServer& jack, const std::function<void()>& action) {
+  const auto path = std::filesystem::temp_directory_path() / (jack.name() + ".wav");
+  audio::CaptureConfig config;
+  config.path = path.string();
+  config.ports = {"ergotic:out_1"};
+  config.server = jack.name();
+  config.seconds = 2.0;
+  audio::capture(config, std::atomic<bool>(false), [&](const auto&) { action(); });
+  const std::vector<double> samples = audio::WavReader(path.string()).readAll();
+  std::filesystem::remove(path);
+  double sum = 0.0;
+  for (const double sample : samples) {
+    sum += sample * sample;
+  }
+  return std::sqrt(sum / static_cast<double>(samples.size()));
+}
+
+TEST_F(StationTest, DescribesItsModel) {
+  const ModelStructure structure = world_->structure.latest();
+  const Status status = world_->status.latest();
+  EXPECT_EQ(structure.module_names.size(), status.modules);
+  EXPECT_EQ(structure.rest_positions.size(), 3 * structure.module_names.size());
+  EXPECT_EQ(structure.links.size(), 2 * status.links);
+  ASSERT_EQ(structure.string_names, std::vector<std::string>{"string"});
+  EXPECT_EQ(structure.string_count.front(), 22U);
+  EXPECT_EQ(status.audio_rate, 44100.0);
+  EXPECT_EQ(status.gestural_rate, 44100.0 / status.ratio);
+}
+
+TEST_F(StationTest, IsSilentAndWithoutForceBeforeTheFirstTouch) {
+  EXPECT_EQ(world_->status.latest().state, Status::READY);
+  EXPECT_LT(heardDuring(world_->jack, [] {}), kSilence);
+  for (const auto& block : world_->gesture.messages()) {
+    EXPECT_TRUE(
+        std::all_of(block.forces.begin(), block.forces.end(), [](float f) { return f == 0.0F; }));
+  }
+}
+
+TEST_F(StationTest, PlaysWhatTheHandPlucks) {
+  const auto engaged = call("/station/engage");
+  ASSERT_TRUE(engaged.success) << engaged.message;
+  ASSERT_TRUE(eventually([] { return world_->status.latest().state == Status::PLAYING; }));
+  const double heard = heardDuring(world_->jack, [] { moveHand(0.02); });
+  EXPECT_GT(heard, kHeard);
+
+  // The hand got there, through the string; the picture and the record saw it.
+  EXPECT_TRUE(eventually([] {
+    const auto joints = world_->joints.latest();
+    return !joints.position.empty() && joints.position.front() > 0.015;
+  }));
+  EXPECT_EQ(world_->joints.latest().name.at(3), "slice_3");
+  const auto states = world_->model_state.messages();
+  EXPECT_TRUE(std::any_of(states.begin(), states.end(), [](const ModelState& state) {
+    return std::any_of(state.displacement.begin() + 1, state.displacement.end(),
+                       [](float d) { return std::abs(d) > 1e-4F; });
+  }));
+  const auto blocks = world_->gesture.messages();
+  EXPECT_TRUE(std::any_of(blocks.begin(), blocks.end(), [](const GestureBlock& block) {
+    return std::any_of(block.forces.begin(), block.forces.end(),
+                       [](float f) { return f < -0.05F; });
+  }));
+  moveHand(0.0);
+}
+
+TEST_F(StationTest, RecordsEveryTickOnceAndBeginsWithAKeyframe) {
+  const auto blocks = world_->gesture.messages();
+  ASSERT_GT(blocks.size(), 10U);
+  std::int64_t next = blocks.front().first_tick;
+  for (const GestureBlock& block : blocks) {
+    ASSERT_EQ(block.first_tick, next);
+    ASSERT_EQ(block.flags.size(), block.ticks);
+    ASSERT_EQ(block.positions.size(), std::size_t{block.ticks} * block.slices);
+    ASSERT_EQ(block.forces.size(), block.positions.size());
+    next += block.ticks;
+  }
+  const Keyframe keyframe = world_->keyframes.latest();
+  EXPECT_LE(blocks.front().first_tick, keyframe.tick);
+  EXPECT_LT(keyframe.tick, next);
+  EXPECT_FALSE(keyframe.state.empty());
+  EXPECT_NE(keyframe.scene.find("plucked string"), std::string::npos);
+  EXPECT_EQ(keyframe.scene_hash, world_->structure.latest().scene_hash);
+}
+
+TEST_F(StationTest, KeepsPlayingWhenAModelIsBroken) {
+  const std::int64_t before = world_->status.latest().ticks;
+  const auto answer = load(
+      "ergotic: 1\nname: broken\nsections:\n  s: {rate: audio}\nmats:\n"
+      "  a: {type: mass, section: s, mass: -1}\n");
+  EXPECT_FALSE(answer.success);
+  EXPECT_EQ(answer.message.rfind("inline.yaml:6:", 0), 0U) << answer.message;
+  EXPECT_NE(answer.message.find(": error: "), std::string::npos) << answer.message;
+  EXPECT_TRUE(eventually([before] { return world_->status.latest().ticks > before + 3000; }));
+  EXPECT_EQ(world_->status.latest().model, "plucked string");
+  EXPECT_EQ(world_->status.latest().state, Status::PLAYING);
+}
+
+TEST_F(StationTest, SwapsModelsAndTellsWhichOnePlays) {
+  const auto answer = load(
+      "ergotic: 1\nname: one mass\nsections:\n  s: {rate: audio}\nmats:\n"
+      "  a: {type: cell, section: s, mass: 0.01, stiffness: 100}\n");
+  ASSERT_TRUE(answer.success) << answer.message;
+  EXPECT_EQ(answer.verdict, "passive");
+  EXPECT_TRUE(eventually([] { return world_->structure.latest().name == "one mass"; }));
+  EXPECT_TRUE(eventually([] { return world_->model_state.latest().displacement.size() == 1; }));
+  ASSERT_TRUE(load(kModel).success);
+  EXPECT_TRUE(eventually([] { return world_->status.latest().model == "plucked string"; }));
+}
+
+TEST_F(StationTest, SetsParametersWithinTheirRange) {
+  SetParameter set;
+  set.request.name = "loss";
+  set.request.value = 1e-4;
+  ASSERT_TRUE(::ros::service::call("/station/set_parameter", set));
+  EXPECT_TRUE(set.response.success) << set.response.message;
+  set.request.value = 1e4;
+  ASSERT_TRUE(::ros::service::call("/station/set_parameter", set));
+  EXPECT_FALSE(set.response.success);
+  EXPECT_NE(set.response.message.find("loss"), std::string::npos) << set.response.message;
+  const auto events = world_->events.messages();
+  EXPECT_TRUE(eventually([] {
+    const auto seen = world_->events.messages();
+    return std::any_of(seen.begin(), seen.end(), [](const Event& event) {
+      return event.type == Event::PARAMETER && event.value == 1e-4;
+    });
+  }));
+}
+
+TEST_F(StationTest, DrawsItsModelInFrameModel) {
+  ASSERT_TRUE(eventually([] { return world_->markers.latest().markers.size() > 1; }));
+  for (const auto& marker : world_->markers.latest().markers) {
+    EXPECT_EQ(marker.header.frame_id, "model");
+    EXPECT_FALSE(marker.points.empty());
+  }
+}
+
+TEST_F(StationTest, ReportsDiagnostics) {
+  EXPECT_TRUE(eventually([] {
+    const auto seen = world_->diagnostics.messages();
+    return std::any_of(seen.begin(), seen.end(), [](const auto& array) {
+      return array.status.size() == 3 && array.status.front().level == 0 &&
+             array.status.front().message == world_->status.latest().state_text;
+    });
+  }));
+}
+
+TEST_F(StationTest, StopsForceOnRequest) {
+  const auto stopped = call("/station/stop");
+  EXPECT_TRUE(stopped.success) << stopped.message;
+  EXPECT_TRUE(eventually([] { return world_->status.latest().state == Status::READY; }));
+  EXPECT_TRUE(eventually([] { return sliceEffort() == 0.0; }));
+}
+
+TEST_F(StationTest, CanBeUnloadedAndLoadedAgain) {
+  nodelet::NodeletUnload unload;
+  unload.request.name = "/station";
+  ASSERT_TRUE(::ros::service::call("/manager/unload_nodelet", unload));
+  EXPECT_TRUE(unload.response.success);
+  EXPECT_FALSE(::ros::service::exists("/station/engage", false));
+  world_->load_nodelet();
+  EXPECT_TRUE(::ros::service::waitForService("/station/engage", 30000));
+  EXPECT_TRUE(eventually([] { return world_->status.latest().state == Status::READY; }));
+}
+
+}  // namespace
+}  // namespace ergotic::test
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ::ros::init(argc, argv, "station_rostest");
+  ::ros::AsyncSpinner spinner(2);
+  spinner.start();
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/convert.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <ros/serialization.h>
+
+#include "ergotic/scene/read_scene.hpp"
+#include "ros/model_loader.hpp"
+
+namespace ergotic::node {
+namespace {
+
+const char kScene[] = R"(ergotic: 1
+name: two
+sections:
+  s: {rate: audio, pose: {position: [0, 0, 1]}}
+mats:
+  a: {type: ground, section: s, at: [0.1, 0.2], x: 0.3}
+  b: {type: mass, section: s, mass: 0.01, at: [0.4, 0.5]}
+lias:
+  l: {type: spring, between: [a, b], stiffness: 10}
+)";
+
+template <class Message>
+Message sentAndReceived(const Message& message) {
+  const ::ros::SerializedMessage wire = ::ros::serialization::serializeMessage(message);
+  Message received;
+  ::ros::serialization::deserializeMessage(wire, received);
+  return received;
+}
+
+TEST(ConvertTest, StructureHoldsPlacesInFrameModel) {
+  const scene::Scene scene = scene::readYaml(kScene, "two.yaml");
+  const ModelStructure structure = sentAndReceived(toModelStructure(scene, physics::Rates()));
+  EXPECT_EQ(structure.module_names, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(structure.rest_positions, (std::vector<float>{0.3F, 0.1F, 1.2F, 0.0F, 0.4F, 1.5F}));
+  EXPECT_EQ(structure.links, (std::vector<std::uint32_t>{0, 1}));
+  ASSERT_EQ(structure.section_axes.size(), 1U);
+  EXPECT_EQ(structure.section_axes[0].x, 1.0);
+  EXPECT_EQ(structure.section_rates, std::vector<double>{44100.0});
+}
+
+TEST(ConvertTest, JointsAreNamedAfterTheirSlices) {
+  station::Snapshot snapshot;
+  snapshot.slices = 2;
+  snapshot.slice_position[1] = 0.01;
+  snapshot.slice_velocity[1] = -0.2;
+  snapshot.slice_force[1] = 3.0;
+  const auto joints = toJointState(snapshot);
+  EXPECT_EQ(joints.name, (std::vector<std::string>{"slice_0", "slice_1"}));
+  EXPECT_EQ(joints.position, (std::vector<double>{0.0, 0.01}));
+  EXPECT_EQ(joints.velocity, (std::vector<double>{0.0, -0.2}));
+  EXPECT_EQ(joints.effort, (std::vector<double>{0.0, 3.0}));
+}
+
+TEST(ConvertTest, EveryEventHasWordsOfItsOwn) {
+  std::vector<std::string> texts;
+  for (std::uint8_t type = Event::ENGAGED; type <= Event::AUDIO_STOPPED; ++type) {
+    station::Event event;
+    event.type = static_cast<station::Event::Type>(type);
+    const Event message = toEvent(event, nullptr);
+    EXPECT_EQ(message.type, type);
+    EXPECT_FALSE(message.text.empty());
+    EXPECT_EQ(std::count(texts.begin(), texts.end(), message.text), 0) << message.text;
+    texts.push_back(message.text);
+  }
+}
+
+TEST(ConvertTest, ParameterEventsNameTheParameter) {
+  scene::Scene scene;
+  scene.parameters.resize(2);
+  scene.parameters[1].name = "tension";
+  station::Event event;
+  event.type = station::Event::Type::kParameter;
+  event.index = 1;
+  event.value = 0.5;
+  EXPECT_EQ(toEvent(event, &scene).text, "tension = 0.5");
+}
+
+TEST(ConvertTest, StatusSaysWhyForceIsGone) {
+  station::Snapshot snapshot;
+  snapshot.state = station::ForceState::kFault;
+  snapshot.fault = station::FaultReason::kStall;
+  snapshot.counters.underruns = 7;
+  Status status;
+  fillStatus(snapshot, status);
+  status = sentAndReceived(status);
+  EXPECT_EQ(status.state, Status::FAULT);
+  EXPECT_EQ(status.fault, Status::FAULT_STALL);
+  EXPECT_EQ(status.underruns, 7);
+  EXPECT_NE(status.state_text.find(station::toString(station::FaultReason::kStall)),
+            std::string::npos);
+}
+
+TEST(ConvertTest, KeyframeSurvivesTheWireBitForBit) {
+  const scene::Scene scene = scene::readYaml(kScene, "two.yaml");
+  const auto instrument = physics::compile(scene, physics::Rates(), physics::Precision::kDouble);
+  station::Keyframe keyframe;
+  keyframe.tick = 123456789012;
+  keyframe.state.resize(instrument->stateSize());
+  instrument->saveState(keyframe.state.data());
+  const Keyframe received = sentAndReceived(toKeyframe(keyframe, *instrument, 12));
+  EXPECT_EQ(received.tick, keyframe.tick);
+  EXPECT_EQ(received.state, keyframe.state);
+  EXPECT_EQ(received.scene, kScene);
+  EXPECT_EQ(received.scene_hash, textHash(kScene));
+  EXPECT_EQ(received.precision, "double");
+  EXPECT_EQ(received.slices, 12U);
+}
+
+TEST(ConvertTest, TextHashIsFnv1a) {
+  // Reference values of the authors of the hash.
+  EXPECT_EQ(textHash(""), "cbf29ce484222325");
+  EXPECT_EQ(textHash("foobar"), "85944171f73967e8");
+}
+
+}  // namespace
+}  // namespace ergotic::node

@@ -152,6 +152,14 @@ TEST(ReadMdlTest, NonlinearSpringsKeepTheOrderOfTheirArguments) {
   EXPECT_EQ(clipped.damping.factor, 4.0);
 }
 
+TEST(ReadMdlTest, ClippedLawThatStartsAtItsLimitIsStraight) {
+  const Lia contact = linkOf("@l nlContact @a @b 3 2 3 4\n");
+  EXPECT_EQ(contact.type, LiaType::kContact);
+  EXPECT_EQ(contact.stiffness.factor, 3.0);
+  EXPECT_EQ(contact.damping.factor, 4.0);
+  EXPECT_EQ(contact.limit_damping.factor, 0.0);
+}
+
 TEST(ReadMdlTest, PluckAndBowTakeTheirOptionalArguments) {
   const Lia pluck = linkOf("@l nlPluck @a @b 1 0.1\n");
   EXPECT_EQ(pluck.type, LiaType::kPluck);

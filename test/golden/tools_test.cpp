@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -14,52 +13,19 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
 
 #include "ergotic/audio/wav.hpp"
 #include "support/mdl_simulator.hpp"
+#include "support/tool_process.hpp"
 
 namespace ergotic {
 namespace {
 
+using test::exists;
+using test::Outcome;
+using test::run;
 using testing::AllOf;
 using testing::HasSubstr;
-
-bool exists(const std::string& path) {
-  struct stat info {};
-  return stat(path.c_str(), &info) == 0;
-}
-
-/// Beside the tests, or in the devel space of a catkin build.
-std::string toolPath(const std::string& name) {
-  const std::string build = ERGOTIC_BINARY_DIR;
-  for (const char* place :
-       {"/", "/devel/lib/ergotic/", "/../devel/lib/ergotic/", "/../../devel/lib/ergotic/"}) {
-    if (exists(build + place + name)) {
-      return build + place + name;
-    }
-  }
-  ADD_FAILURE() << "no tool " << name << " in " << build << " or its devel space";
-  return "false";
-}
-
-struct Outcome {
-  int code = -1;
-  std::string text;  ///< stdout and stderr together
-};
-
-Outcome run(const std::string& tool, const std::string& arguments) {
-  Outcome outcome;
-  FILE* pipe = popen((toolPath(tool) + " " + arguments + " 2>&1").c_str(), "r");
-  std::array<char, 4096> buffer{};
-  while (const std::size_t got = fread(buffer.data(), 1, buffer.size(), pipe)) {
-    outcome.text.append(buffer.data(), got);
-  }
-  const int status = pclose(pipe);
-  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
-}
 
 std::vector<double> soundOf(const std::string& path) {
   return audio::WavReader(path).readAll();

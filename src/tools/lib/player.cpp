@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "ergotic/exception.hpp"
 #include "ergotic/tgr/replay_driver.hpp"
 #include "ergotic/tgr/virtual_driver.hpp"
 #include "tools/lib/offline_station.hpp"

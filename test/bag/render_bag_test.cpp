@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From a live performance through a bag and `render` to the same samples.
+#include <cstdio>
+#include <optional>
+
+#include <ergotic/Event.h>
+#include <ergotic/GestureBlock.h>
+#include <ergotic/Keyframe.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+
+#include "ergotic/audio/wav.hpp"
+#include "support/scratch_file.hpp"
+#include "support/tool_process.hpp"
+#include "tools/live_run.hpp"
+
+namespace ergotic {
+namespace {
+
+using test::LiveRun;
+using test::Outcome;
+using test::run;
+using testing::AllOf;
+using testing::HasSubstr;
+
+const char* const kScene = R"(
+ergotic: 1
+name: struck
+gestural_rate: 3150
+parameters:
+  tone: {value: 2000, range: [1000, 8000]}
+sections:
+  sound: {rate: audio}
+  keys: {rate: gestural}
+mats:
+  key: {type: slice, section: keys, rest: -0.002}
+  bar: {type: cell, section: sound, mass: 0.001, stiffness: $tone, damping: 0.001}
+lias:
+  felt: {type: contact, between: [key, bar], stiffness: 500, damping: 0.02}
+ports:
+  hand: {mat: key, slice: 0}
+outputs:
+  left: {quantity: velocity, at: bar, channel: 1}
+)";
+
+void write(rosbag::Bag& bag, const bag::Keyframe& keyframe) {
+  ergotic::Keyframe message;
+  message.tick = keyframe.tick;
+  message.scene = keyframe.scene_text;
+  message.scene_name = keyframe.scene_name;
+  message.build = "0 another";
+  message.audio_rate = keyframe.rates.audio_hz;
+  message.ratio = static_cast<std::uint32_t>(keyframe.rates.ratio);
+  message.precision = "float";
+  message.slices = static_cast<std::uint32_t>(keyframe.slices);
+  message.state = keyframe.state;
+  message.parameter_values = keyframe.parameters;
+  bag.write("/station/keyframe", ros::Time(1, 0), message);
+}
+
+void write(rosbag::Bag& bag, const bag::Block& block) {
+  ergotic::GestureBlock message;
+  message.first_tick = block.first_tick;
+  message.slices = static_cast<std::uint32_t>(block.slices);
+  message.ticks = static_cast<std::uint32_t>(block.flags.size());
+  message.flags = block.flags;
+  message.positions = block.positions;
+  bag.write("/station/gesture", ros::Time(1, 0), message);
+}
+
+void write(rosbag::Bag& bag, const station::Event& event) {
+  ergotic::Event message;
+  message.tick = event.tick;
+  message.type = static_cast<std::uint8_t>(event.type);
+  message.index = event.index;
+  message.value = event.value;
+  bag.write("/station/events", ros::Time(1, 0), message);
+}
+
+class RenderBagTest : public testing::Test {
+ protected:
+  RenderBagTest() : live_(kScene) {
+    live_.play(150);
+    live_.takeKeyframe();
+    live_.play(1000);
+    live_.setParameter(0, 4000.0);
+    live_.play(1000);
+  }
+  ~RenderBagTest() override {
+    std::remove(bag_path_.c_str());
+    std::remove(sound_path_.c_str());
+  }
+
+  void record(std::optional<std::size_t> lost_block = std::nullopt) {
+    const bag::Recording& recording = live_.recording();
+    rosbag::Bag bag(bag_path_, rosbag::bagmode::Write);
+    for (std::size_t i = 0; i < recording.blocks.size(); ++i) {
+      if (i != lost_block) {
+        write(bag, recording.blocks[i]);
+      }
+    }
+    for (const station::Event& event : recording.events) {
+      write(bag, event);
+    }
+    write(bag, recording.keyframes.at(0));
+  }
+
+  Outcome render(const std::string& arguments = "") {
+    return run("render", arguments + " --gesture " + bag_path_ + " --out " + sound_path_);
+  }
+
+  /// Samples that differ from the performance, from tick 150 on.
+  std::size_t differences() {
+    const std::vector<double> got = audio::WavReader(sound_path_).readAll();
+    const std::vector<float> wanted(live_.sound().begin() + 150 * LiveRun::kRates.ratio,
+                                    live_.sound().end());
+    EXPECT_EQ(got.size(), wanted.size());
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < std::min(got.size(), wanted.size()); ++i) {
+      count += got[i] != static_cast<double>(wanted[i]) ? 1 : 0;
+    }
+    return count;
+  }
+
+  LiveRun live_;
+  const test::ScratchFile name_;
+  const std::string bag_path_ = name_.path() + ".bag";
+  const std::string sound_path_ = name_.path() + ".wav";
+};
+
+TEST_F(RenderBagTest, GivesTheSamplesOfThePerformance) {
+  record();
+  const Outcome outcome = render();
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_EQ(differences(), 0U);
+  EXPECT_THAT(outcome.text, HasSubstr("recorded by build 0 another"));
+}
+
+TEST_F(RenderBagTest, RefusesGapsUnlessTheyAreAllowed) {
+  record(12);
+  const Outcome refused = render();
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_THAT(refused.text, HasSubstr("recording is inexact: gap of 64 ticks at tick 768\n"));
+  EXPECT_FALSE(test::exists(sound_path_));
+  EXPECT_EQ(render("--allow-gaps").code, 0);
+  EXPECT_GT(differences(), 0U);
+}
+
+TEST_F(RenderBagTest, PlaysTheScenesOfTheBagAndSaysIfAnotherWasNamed) {
+  record();
+  const test::ScratchFile same(kScene);
+  EXPECT_THAT(render(same.path()).text, testing::Not(HasSubstr("is not the scene")));
+  const test::ScratchFile other(std::string(kScene) + "# changed\n");
+  const Outcome outcome = render(other.path());
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.text, HasSubstr("is not the scene of the recording (live.yaml)"));
+  EXPECT_EQ(differences(), 0U);
+}
+
+TEST_F(RenderBagTest, TakesRatesAndParametersFromTheRecordingOnly) {
+  record();
+  EXPECT_EQ(render("--rate 48000").code, 2);
+  EXPECT_EQ(render("--set tone=3000").code, 2);
+  EXPECT_EQ(render("--precision double").code, 2);
+}
+
+}  // namespace
+}  // namespace ergotic

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+
+/// Runs the built command-line tools as a person does.
+namespace ergotic::test {
+
+inline bool exists(const std::string& path) {
+  struct stat info {};
+  return stat(path.c_str(), &info) == 0;
+}
+
+/// Beside the tests, or in the devel space of a catkin build.
+inline std::string toolPath(const std::string& name) {
+  const std::string build = ERGOTIC_BINARY_DIR;
+  for (const char* place :
+       {"/", "/devel/lib/ergotic/", "/../devel/lib/ergotic/", "/../../devel/lib/ergotic/"}) {
+    if (exists(build + place + name)) {
+      return build + place + name;
+    }
+  }
+  ADD_FAILURE() << "no tool " << name << " in " << build << " or its devel space";
+  return "false";
+}
+
+struct Outcome {
+  int code = -1;
+  std::string text;  ///< stdout and stderr together
+};
+
+inline Outcome run(const std::string& tool, const std::string& arguments) {
+  Outcome outcome;
+  FILE* pipe = popen((toolPath(tool) + " " + arguments + " 2>&1").c_str(), "r");
+  std::array<char, 4096> buffer{};
+  while (const std::size_t got = fread(buffer.data(), 1, buffer.size(), pipe)) {
+    outcome.text.append(buffer.data(), got);
+  }
+  const int status = pclose(pipe);
+  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return outcome;
+}
+
+}  // namespace ergotic::test

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <future>
 #include <string>
 #include <thread>
 #include <vector>
@@ -77,14 +78,13 @@ TEST_F(CaptureTest, EverySampleArrivesAtItsFrameTime) {
 TEST_F(CaptureTest, WaitsForPortsThatMatchAndRecordsThemInOrder) {
   config_.match = "^sender:out_";
   config_.seconds = 0.5;
-  CaptureReport report;
   std::vector<std::string> names;
-  std::thread recording([&] {
-    report = capture(config_, stop_, [&](const std::vector<std::string>& found) { names = found; });
+  auto recording = std::async(std::launch::async, [&] {
+    return capture(config_, stop_, [&](const std::vector<std::string>& found) { names = found; });
   });
   server_.start();
   JackHost sender(sender_config_, probe_);
-  recording.join();
+  const CaptureReport report = recording.get();
   EXPECT_EQ(names, (std::vector<std::string>{"sender:out_1", "sender:out_2", "sender:out_3"}));
   EXPECT_EQ(report.frames, 22050);
   EXPECT_EQ(WavReader(config_.path).channels(), 3);
@@ -94,16 +94,15 @@ TEST_F(CaptureTest, EndsOnRequestWithAWholeFile) {
   server_.start();
   JackHost sender(sender_config_, probe_);
   config_.ports = {"sender:out_1"};
-  CaptureReport report;
   std::atomic<bool> recording{false};
-  std::thread recorder([&] {
-    report = capture(config_, stop_, [&](const std::vector<std::string>&) { recording = true; });
+  auto recorder = std::async(std::launch::async, [&] {
+    return capture(config_, stop_, [&](const std::vector<std::string>&) { recording = true; });
   });
   EXPECT_TRUE(eventually([&] { return recording.load(); }));
   const std::int64_t blocks = probe_.counts.blocks;
   EXPECT_TRUE(eventually([&] { return probe_.counts.blocks > blocks + 50; }));
   stop_ = true;
-  recorder.join();
+  const CaptureReport report = recorder.get();
   EXPECT_GE(report.frames, 40 * 256);
   EXPECT_EQ(WavReader(config_.path).frames(), report.frames);
   EXPECT_EQ(report.message, "");
@@ -112,15 +111,14 @@ TEST_F(CaptureTest, EndsOnRequestWithAWholeFile) {
 TEST_F(CaptureTest, KeepsWhatItHasWhenTheServerIsKilled) {
   server_.start();
   config_.ports = {"system:capture_1"};
-  CaptureReport report;
   std::atomic<bool> recording{false};
-  std::thread recorder([&] {
-    report = capture(config_, stop_, [&](const std::vector<std::string>&) { recording = true; });
+  auto recorder = std::async(std::launch::async, [&] {
+    return capture(config_, stop_, [&](const std::vector<std::string>&) { recording = true; });
   });
   EXPECT_TRUE(eventually([&] { return recording.load(); }));
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   server_.kill();
-  recorder.join();
+  const CaptureReport report = recorder.get();
   EXPECT_NE(report.message.find("went away"), std::string::npos) << report.message;
   EXPECT_GT(report.frames, 0);
   EXPECT_EQ(WavReader(config_.path).frames(), report.frames);

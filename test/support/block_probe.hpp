@@ -60,6 +60,7 @@ class BlockProbe : public rt::BlockProcessor {
 
   void audioStopped() noexcept override {
     running_ = false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));  // time for stray blocks to come
     ++counts.stops;
   }
 

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
@@ -39,8 +40,13 @@ std::string contents(const std::string& path) {
   return text.str();
 }
 
+/// JACK has room for eight servers, and a killed one keeps its place until its name comes again.
+bool holdsAPlace(const std::string& name) {
+  return contents("/dev/shm/jack-shm-registry").find(":" + name + ":") != std::string::npos;
+}
+
 [[noreturn]] void becomeServer(const std::vector<std::string>& words, const std::string& log) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
   const int out = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   dup2(out, STDOUT_FILENO);
   dup2(out, STDERR_FILENO);
@@ -62,12 +68,24 @@ JackServer::JackServer(const std::string& tag, const Settings& settings)
 
 JackServer::~JackServer() {
   stop();
+  if (holdsAPlace(name_)) {
+    giveBackPlace();
+  }
   std::filesystem::remove(logPath(name_));
   // Semaphores that neither a killed server nor its clients took away.
   for (const auto& entry : std::filesystem::directory_iterator("/dev/shm")) {
     if (entry.path().filename().string().find("_" + name_ + "_") != std::string::npos) {
       std::filesystem::remove(entry.path());
     }
+  }
+}
+
+void JackServer::giveBackPlace() {
+  try {
+    start();
+    stop();
+  } catch (const std::exception& error) {
+    std::cerr << name_ << " keeps its place among JACK's servers: " << error.what() << std::endl;
   }
 }
 

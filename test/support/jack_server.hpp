@@ -37,6 +37,7 @@ class JackServer {
 
  private:
   void end(int signal);
+  void giveBackPlace();
 
   std::string name_;
   Settings settings_;

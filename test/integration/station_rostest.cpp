@@ -79,8 +79,11 @@ class StationTest : public ::testing::Test {
     std::unique_ptr<ChildProcess> manager;
   };
 
-  static void SetUpTestSuite() {
-    world_ = std::make_unique<World>();
+  /// In the first test, so that a failure here is a failure of a test.
+  void SetUp() override {
+    if (world_ == nullptr) {
+      world_ = std::make_unique<World>();
+    }
     ASSERT_TRUE(eventually([] { return world_->status.latest().model == "plucked string"; }));
     ASSERT_TRUE(eventually([] { return world_->status.latest().audio_running != 0U; }));
     ASSERT_TRUE(eventually([] { return world_->hand.getNumSubscribers() > 0; }));
@@ -270,6 +273,7 @@ TEST_F(StationTest, StopsForceOnRequest) {
 }
 
 TEST_F(StationTest, CanBeUnloadedAndLoadedAgain) {
+  const std::int64_t before = world_->status.latest().ticks;
   nodelet::NodeletUnload unload;
   unload.request.name = "/station";
   ASSERT_TRUE(::ros::service::call("/manager/unload_nodelet", unload));
@@ -277,7 +281,10 @@ TEST_F(StationTest, CanBeUnloadedAndLoadedAgain) {
   EXPECT_FALSE(::ros::service::exists("/station/engage", false));
   world_->load_nodelet();
   EXPECT_TRUE(::ros::service::waitForService("/station/engage", 30000));
-  EXPECT_TRUE(eventually([] { return world_->status.latest().state == Status::READY; }));
+  EXPECT_TRUE(eventually([before] {
+    const Status status = world_->status.latest();
+    return status.state == Status::READY && status.ticks < before;
+  }));
 }
 
 }  // namespace

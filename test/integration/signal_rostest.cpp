@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <mutex>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <ergotic/Status.h>
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+#include <sys/wait.h>
+
+#include "ergotic/rt/clock.hpp"
+#include "ergotic/rt/thread.hpp"
+#include "integration/child_process.hpp"
+#include "integration/listener.hpp"
+
+namespace ergotic::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t kMs = 1'000'000;
+constexpr std::int64_t kLimitNs = 10 * kMs;
+constexpr std::int64_t kGapNs = 5 * kMs;
+constexpr int kAttempts = 5;
+constexpr int kNeededPasses = 3;
+
+// A wall of 1000 N/m; the hand (500 N/m) wants to be 46 mm inside, and so meets 15 N at 15 mm.
+const char kWall[] = R"(ergotic: 1
+name: wall
+sections:
+  hand: {rate: gestural}
+mats:
+  key: {type: slice, section: hand}
+  ground: {type: ground, section: hand, at: [0, 0]}
+lias:
+  wall: {type: spring_damper, between: [key, ground], stiffness: 1000, damping: 2}
+ports:
+  key: {mat: key, slice: 0}
+)";
+constexpr double kForceN = 15.0;
+
+/// A thread that nothing in this test outranks notes when the machine did not let it run.
+class ReferenceThread {
+ public:
+  ReferenceThread() : thread_([this] { run(); }) {}
+  ~ReferenceThread() {
+    stop_ = true;
+    thread_.join();
+  }
+  ReferenceThread(const ReferenceThread&) = delete;
+  ReferenceThread& operator=(const ReferenceThread&) = delete;
+
+  /// Whether a gap of `kGapNs` or more began, went on or ended between these times.
+  bool sawGap(std::int64_t from_ns, std::int64_t to_ns) const {
+    const std::lock_guard lock(mutex_);
+    return std::any_of(gaps_.begin(), gaps_.end(), [=](const Gap& gap) {
+      return gap.start_ns <= to_ns && gap.end_ns >= from_ns;
+    });
+  }
+
+ private:
+  struct Gap {
+    std::int64_t start_ns = 0;
+    std::int64_t end_ns = 0;
+  };
+
+  void run() {
+    if (const rt::Outcome outcome = rt::makeRealtime(90); !outcome.ok) {
+      std::cerr << "reference thread: " << outcome.message << '\n';
+    }
+    std::int64_t last = rt::monotonicNs();
+    while (!stop_) {
+      rt::sleepUntilNs(last + kMs);
+      const std::int64_t now = rt::monotonicNs();
+      if (now - last >= kGapNs) {
+        const std::lock_guard lock(mutex_);
+        gaps_.push_back({last, now});
+      }
+      last = now;
+    }
+  }
+
+  std::atomic<bool> stop_{false};
+  mutable std::mutex mutex_;
+  std::vector<Gap> gaps_;
+  std::thread thread_;
+};
+
+struct ForceRecord {
+  std::int64_t time_ns = 0;
+  double force_n = 0.0;
+};
+
+std::vector<ForceRecord> forcesOfSliceZero(const fs::path& log) {
+  std::vector<ForceRecord> records;
+  std::ifstream file(log);
+  std::string line;
+  std::getline(file, line);  // the names of the columns
+  while (std::getline(file, line)) {
+    std::istringstream fields(line);
+    ForceRecord record;
+    int slice = -1;
+    char comma = 0;
+    fields >> record.time_ns >> comma >> slice >> comma >> record.force_n;
+    if (fields && slice == 0) {
+      records.push_back(record);
+    }
+  }
+  return records;
+}
+
+/// One station under 15 N, one signal, and what the device felt.
+class SignalTest : public ::testing::TestWithParam<int> {
+ protected:
+  struct Attempt {
+    std::int64_t signal_ns = 0;
+    int exit_status = 0;
+    std::vector<ForceRecord> forces;
+  };
+
+  SignalTest()
+      : folder_(fs::temp_directory_path() / ("ergotic_signal_" + std::to_string(getpid()))) {
+    fs::create_directories(folder_);
+    std::ofstream(folder_ / "wall.yaml") << kWall;
+    std::ofstream(folder_ / "gesture.csv")
+        << "time_s,slice,target_m\n0,0,0\n0.2,0,0.046\n60,0,0.046\n";
+  }
+  ~SignalTest() override { fs::remove_all(folder_); }
+
+  void setParameters(const std::string& segment) {
+    node_.setParam("/station/model", (folder_ / "wall.yaml").string());
+    node_.setParam("/station/virtual_shared_memory", segment);
+    node_.setParam("/station/jack", "none");
+    node_.setParam("/station/ramp", 0.1);
+    node_.setParam("/station/autoengage", true);
+  }
+
+  Attempt attempt(int signal, int number) {
+    const std::string segment =
+        "/ergotic_signal_" + std::to_string(getpid()) + "_" + std::to_string(number);
+    const fs::path log = folder_ / (std::to_string(number) + ".csv");
+    ChildProcess device({std::string(ERGOTIC_TOOLS_DIR) + "/virtual_tgr", "--shm", segment,
+                         "--gesture", (folder_ / "gesture.csv").string(), "--log", log.string(),
+                         "--priority", "70", "--watchdog-ms", "2000"});
+    setParameters(segment);
+    Listener<sensor_msgs::JointState> joints(node_, "/station/joint_states");
+    ChildProcess station(
+        {"/usr/lib/nodelet/nodelet", "standalone", "ergotic/Station", "__name:=station"});
+    const bool pushed = eventually([&joints] {
+      const auto latest = joints.latest();
+      return !latest.effort.empty() && latest.effort.front() < -0.95 * kForceN;
+    });
+    EXPECT_TRUE(pushed) << "the station never applied " << kForceN << " N";
+
+    Attempt attempt;
+    attempt.signal_ns = rt::monotonicNs();
+    station.signal(signal);
+    attempt.exit_status = station.wait(10.0).value_or(-1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    device.signal(SIGTERM);
+    EXPECT_EQ(device.wait(10.0), 0);
+    attempt.forces = forcesOfSliceZero(log);
+    return attempt;
+  }
+
+  ::ros::NodeHandle node_;
+  fs::path folder_;
+};
+
+/// When force was zero for good. \pre there was force
+std::int64_t releaseTime(const std::vector<ForceRecord>& forces) {
+  return forces.back().force_n == 0.0 ? forces.back().time_ns : INT64_MAX;
+}
+
+double forceAt(const std::vector<ForceRecord>& forces, std::int64_t time_ns) {
+  double force = 0.0;
+  for (const ForceRecord& record : forces) {
+    if (record.time_ns <= time_ns) {
+      force = record.force_n;
+    }
+  }
+  return force;
+}
+
+void expectUsualStatus(int signal, int status) {
+  if (signal == SIGINT) {  // roscpp ends the program by itself
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+  } else {
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << status;
+  }
+}
+
+// The device's own watchdog is set to 2 s, so that it cannot be what released the force.
+TEST_P(SignalTest, ReleasesFifteenNewtonsWithinTenMilliseconds) {
+  const ReferenceThread reference;
+  int passes = 0;
+  for (int number = 0; number < kAttempts && passes < kNeededPasses; ++number) {
+    const Attempt done = attempt(GetParam(), number);
+    ASSERT_FALSE(done.forces.empty());
+    expectUsualStatus(GetParam(), done.exit_status);
+    EXPECT_LT(forceAt(done.forces, done.signal_ns), -0.95 * kForceN);
+    const std::int64_t released = releaseTime(done.forces);
+    ASSERT_NE(released, INT64_MAX) << "force was never released";
+    const double took_ms = static_cast<double>(released - done.signal_ns) * 1e-6;
+    const bool excused = reference.sawGap(done.signal_ns, done.signal_ns + kLimitNs);
+    std::cout << "force gone after " << took_ms << " ms" << (excused ? ", excused" : "") << '\n';
+    passes += released - done.signal_ns <= kLimitNs && !excused ? 1 : 0;
+  }
+  EXPECT_GE(passes, kNeededPasses) << "of " << kAttempts << " attempts";
+}
+
+std::string nameOf(const ::testing::TestParamInfo<int>& tested) {
+  return std::string("Sig") + sigabbrev_np(tested.param);
+}
+INSTANTIATE_TEST_SUITE_P(Every, SignalTest, ::testing::Values(SIGTERM, SIGINT, SIGHUP), &nameOf);
+
+}  // namespace
+}  // namespace ergotic::test
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ::ros::init(argc, argv, "signal_rostest");
+  ::ros::AsyncSpinner spinner(1);
+  spinner.start();
+  return RUN_ALL_TESTS();
+}

@@ -1,6 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Messages, the nodelet, and what the tools need of rosbag. Works from catkin_make, as a plain CMake
 # project, and from an install space.
+string(FIND "${CMAKE_BINARY_DIR}/" "${CMAKE_SOURCE_DIR}/build/" ergotic_build_folder)
+if(ergotic_build_folder EQUAL 0 AND NOT CATKIN_DEVEL_PREFIX)
+  # Not in the build folder: rosrun passes over what is in <package>/build.
+  set(CATKIN_DEVEL_PREFIX ${CMAKE_SOURCE_DIR}/devel)
+endif()
 set(CATKIN_ENABLE_TESTING OFF CACHE BOOL "The tests of ergotic run under ctest")
 set(ergotic_ros_packages
   diagnostic_updater geometry_msgs nodelet pluginlib rosbag_storage roscpp sensor_msgs std_msgs

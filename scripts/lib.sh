@@ -14,13 +14,12 @@ die() {
   exit 1
 }
 
-# ROS finds this package, and the shell its commands, from here on.
-source_devel_space() { # BUILD_DIR
-  local setup="$1/devel/setup.bash"
-  [ -f "$setup" ] || die "$setup is not there: run scripts/build first"
+# From here on ROS finds the package of a devel or install space.
+source_space() { # SETUP_FILE
+  [ -f "$1" ] || die "$1 is not there: run scripts/build first"
   set +eu  # catkin's file knows neither
   # shellcheck disable=SC1090
-  source "$setup"
+  source "$1"
   set -eu
 }
 

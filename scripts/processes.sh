@@ -63,7 +63,7 @@ stop_all() {
 
 show_logs() {
   local log
-  for log in "$logs"/*.out "$logs"/*.log "$logs"/ros/latest/*.log; do
+  for log in "$logs"/*.out "$logs"/*.log "$logs"/ros/latest/*-stdout.log; do
     [ ! -s "$log" ] || { say "--- the end of ${log#"$logs"/}:" && tail -n 25 "$log"; } >&2
   done
 }

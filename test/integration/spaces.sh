@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # roslaunch, rosrun and `rosbag record -a` work from the devel space and from an install space.
-# usage: spaces.sh BUILD_DIR
+# usage: spaces.sh BUILD_DIR DEVEL_DIR
 set -euo pipefail
-build=$1
+build=$1 devel=$2
 source "$(dirname "${BASH_SOURCE[0]}")/../../scripts/lib.sh"
 source "$root/scripts/processes.sh"
 clean_up_at_exit
@@ -13,10 +13,7 @@ unset ROS_PACKAGE_PATH CMAKE_PREFIX_PATH
 # All that follows has to work for whoever sources SETUP, wherever this source tree is.
 try_space() { # NAME SETUP
   local name=$1 station recorder
-  set +eu
-  # shellcheck disable=SC1090
-  source "$2"
-  set -eu
+  source_space "$2"
   cd "$logs"
   roslaunch --files ergotic station.launch | grep -q station.launch ||
     die "$name: roslaunch does not find station.launch"
@@ -47,7 +44,7 @@ try_space() { # NAME SETUP
   say "$name: works"
 }
 
-(try_space devel "$build/devel/setup.bash")
+(try_space devel "$devel/setup.bash")
 
 cmake --install "$build" --prefix "$logs/installed" >/dev/null
 if grep -rqsF "$root" "$logs/installed/share/ergotic/launch" "$logs/installed/share/ergotic/rviz"; then

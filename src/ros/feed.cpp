@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/feed.hpp"
 
+#include <algorithm>
+
 #include <ergotic/ModelState.h>
 
 #include "ergotic/rt/build_id.hpp"
@@ -112,7 +114,7 @@ void Feed::show(const station::MotionFrame& motion) {
   if (now_ns < motion_due_ns_ || !markers_) {
     return;
   }
-  motion_due_ns_ = now_ns + motion_period_ns_;
+  motion_due_ns_ = std::max(motion_due_ns_ + motion_period_ns_, now_ns);
   const ::ros::Time now = ::ros::Time::now();
   if (model_state_.getNumSubscribers() > 0) {
     ModelState message;

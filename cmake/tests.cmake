@@ -20,6 +20,12 @@ foreach(room rt scene physics tgr station audio golden)
   endif()
 endforeach()
 
-# The scripts: what measures a demo.
+# The scripts: what measures a demo; what users do in the devel and in an install space.
 add_test(NAME scripts.demo_report
   COMMAND /usr/bin/python3 ${CMAKE_SOURCE_DIR}/test/integration/demo_report_test.py)
+if(ERGOTIC_ROS)
+  add_test(NAME integration.spaces
+    COMMAND ${CMAKE_SOURCE_DIR}/test/integration/spaces.sh
+            ${CMAKE_BINARY_DIR} ${CATKIN_DEVEL_PREFIX})
+  set_tests_properties(integration.spaces PROPERTIES RUN_SERIAL ON TIMEOUT 300 LABELS integration)
+endif()

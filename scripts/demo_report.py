@@ -13,11 +13,13 @@ from report.performance import Performance
 MOVED_M = 1e-3  # a key this far from where it was at first has been moved by the hand
 STILL_M = 2e-4  # a key that moves less than this is at rest
 SETTLE_S = 0.3  # after which a string is taken to be free of what touched it
+WINDOW_S = 0.1  # in which motion and force are looked at
 FREE_S = 0.8  # shortest stretch of a free string that its pitch is measured in
 QUIET_S = 1.0  # of silence that has to be heard before the first touch
 LOUD_DBFS, QUIET_DBFS = -40.0, -90.0
 PITCH_CENTS = 1.0
 FORCE_N = 1.0
+CORRELATION = 0.5
 SHARE_EQUAL = 0.9
 PIXELS = 50
 
@@ -54,30 +56,36 @@ def find_first_touch(performance):
     return int(moved[0]) if moved.size else None
 
 
+def by_windows(values, window):
+    """[windows][window] of a series, without what is left over at the end."""
+    return values[: len(values) // window * window].reshape(-1, window)
+
+
 def check_force(verdict, performance):
-    """Force is there when a key is moved, and only then."""
-    peak = np.max(np.abs(performance.forces), axis=0)
-    key = int(np.argmax(peak))
-    force = np.abs(performance.forces[:, key])
-    away = np.abs(performance.positions[:, key] - performance.positions[0, key])
-    moved = away > MOVED_M
-    share = np.sum(np.square(force[moved])) / max(np.sum(np.square(force)), 1e-30)
-    strong = force > FORCE_N
-    verdict.check("force goes with the keys", peak[key] > FORCE_N and np.all(moved[strong]),
-                  f"peak {peak[key]:.2f} N on slice {key}, above {FORCE_N:g} N for "
-                  f"{1e3 * np.sum(strong) / performance.tick_rate:.0f} ms, always with the key moved; "
-                  f"{100 * share:.2f} % of its energy while moved")
+    """Force is there while a key moves, and only then."""
+    peaks = np.max(np.abs(performance.forces), axis=0)
+    key = int(np.argmax(peaks))
+    window = max(int(WINDOW_S * performance.tick_rate), 1)
+    force = np.max(np.abs(by_windows(performance.forces[:, key], window)), axis=1)
+    motion = np.ptp(by_windows(performance.positions[:, key], window), axis=1)
+    moving = motion > MOVED_M
+    correlation = np.corrcoef(force, motion)[0, 1] if np.any(moving) else 0.0
+    verdict.check("force goes with the keys",
+                  peaks[key] > FORCE_N and np.all(moving[force > FORCE_N]) and
+                  correlation > CORRELATION,
+                  f"peak {peaks[key]:.2f} N on slice {key}; correlation with its motion "
+                  f"{correlation:.2f}; above {FORCE_N:g} N in {np.sum(force > FORCE_N)} windows "
+                  f"of {1e3 * WINDOW_S:.0f} ms, {np.sum(moving[force > FORCE_N])} of them with the key moving")
 
 
 def free_stretch(performance, rate, to_sound):
     """The longest stretch of sound in which all keys rest after a touch: (first, end) frames."""
     ticks = len(performance.ticks)
-    window = max(int(0.05 * performance.tick_rate), 1)
+    window = max(int(WINDOW_S * performance.tick_rate), 1)
     starts = np.arange(0, ticks - window, window)
-    blocks = [performance.positions[at : at + window] for at in starts]
-    still = np.array([np.max(np.ptp(block, axis=0)) < STILL_M for block in blocks])
-    touch = find_first_touch(performance)
-    still &= starts > touch
+    still = np.array([np.max(np.ptp(performance.positions[at : at + window], axis=0)) < STILL_M
+                      for at in starts])
+    still &= starts > find_first_touch(performance)
     edges = np.flatnonzero(np.diff(np.concatenate([[0], still.astype(int), [0]])))
     runs = [(starts[a], starts[b - 1] + window - 1) for a, b in zip(edges[::2], edges[1::2])]
     if not runs:

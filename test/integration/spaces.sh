@@ -46,8 +46,10 @@ try_space() { # NAME SETUP
 
 (try_space devel "$devel/setup.bash")
 
-cmake --install "$build" --prefix "$logs/installed" >/dev/null
-if grep -rqsF "$root" "$logs/installed/share/ergotic/launch" "$logs/installed/share/ergotic/rviz"; then
+prefix=$(sed -n 's/^CMAKE_INSTALL_PREFIX:PATH=//p' "$build/CMakeCache.txt")
+DESTDIR="$logs/installed" cmake --install "$build" >/dev/null
+installed="$logs/installed$prefix"
+if grep -rqsF "$root" "$installed/share/ergotic/launch" "$installed/share/ergotic/rviz"; then
   die "the install space refers to the source tree"
 fi
-(try_space install "$logs/installed/setup.bash")
+(try_space install "$installed/setup.bash")

@@ -56,7 +56,3 @@ target_compile_definitions(ergotic_ros PRIVATE ERGOTIC_VERSION="${ergotic_VERSIO
 target_link_libraries(ergotic_ros
   PUBLIC ergotic_core ergotic_audio ergotic_messages ${catkin_LIBRARIES}
   PRIVATE ergotic_flags yaml-cpp)
-
-if(ERGOTIC_TESTS)
-  include(cmake/ros_tests.cmake)
-endif()

@@ -1,13 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Tests that need ROS: messages and conversions as gtests, the station as rostests, launch files.
 # All of them run under plain ctest, in the devel space.
-include(GoogleTest)
-file(GLOB ros_tests CONFIGURE_DEPENDS test/ros/*_test.cpp)
-add_executable(ergotic_ros_test ${ros_tests})
-target_link_libraries(ergotic_ros_test
-  PRIVATE ergotic_ros ergotic_test_support GTest::gtest_main ergotic_flags)
-gtest_discover_tests(ergotic_ros_test
-  TEST_PREFIX "ros." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ros)
+ergotic_add_gtests(ros ergotic_ros)
+ergotic_add_gtests(bag ergotic_bag)
+add_dependencies(ergotic_bag_test render)
 
 set(in_devel_space ${CATKIN_DEVEL_PREFIX}/env.sh ${CMAKE_COMMAND} -E env ROS_IP=127.0.0.1
   ROS_LOG_DIR=${CMAKE_BINARY_DIR}/ros_log)

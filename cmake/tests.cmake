@@ -9,16 +9,25 @@ target_link_libraries(ergotic_test_support
   PUBLIC ergotic_audio GTest::gtest GTest::gmock PkgConfig::SNDFILE PRIVATE ergotic_flags)
 
 include(GoogleTest)
+# The tests of one folder as one program: ergotic_add_gtests(ROOM LIBRARIES...)
+function(ergotic_add_gtests room)
+  file(GLOB sources CONFIGURE_DEPENDS test/${room}/*_test.cpp)
+  add_executable(ergotic_${room}_test ${sources})
+  target_link_libraries(ergotic_${room}_test
+    PRIVATE ergotic_test_support GTest::gtest_main ergotic_flags ${ARGN})
+  gtest_discover_tests(ergotic_${room}_test
+    TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${room})
+endfunction()
+
 foreach(room rt scene physics tgr station audio golden)
-  file(GLOB room_tests CONFIGURE_DEPENDS test/${room}/*_test.cpp)
-  if(room_tests)
-    add_executable(ergotic_${room}_test ${room_tests})
-    target_link_libraries(ergotic_${room}_test
-      PRIVATE ergotic_test_support GTest::gtest_main ergotic_flags)
-    gtest_discover_tests(ergotic_${room}_test
-      TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${room})
-  endif()
+  ergotic_add_gtests(${room})
 endforeach()
+ergotic_add_gtests(tools ergotic_tool_support)
+# They run the tools as programs.
+add_dependencies(ergotic_golden_test render check)
+if(ERGOTIC_ROS)
+  include(cmake/ros_tests.cmake)
+endif()
 
 # The scripts: what measures a demo; what users do in the devel and in an install space.
 add_test(NAME scripts.demo_report

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Messages, the nodelet, and what the tools need of rosbag. Works from catkin_make, as a plain CMake
 # project, and from an install space.
-string(FIND "${CMAKE_BINARY_DIR}/" "${CMAKE_SOURCE_DIR}/build/" ergotic_build_folder)
+string(FIND "${PROJECT_BINARY_DIR}/" "${PROJECT_SOURCE_DIR}/build/" ergotic_build_folder)
 if(ergotic_build_folder EQUAL 0 AND NOT CATKIN_DEVEL_PREFIX)
   # Not in the build folder: rosrun passes over what is in <package>/build.
-  set(CATKIN_DEVEL_PREFIX ${CMAKE_SOURCE_DIR}/devel)
+  set(CATKIN_DEVEL_PREFIX ${PROJECT_SOURCE_DIR}/devel)
 endif()
 set(CATKIN_ENABLE_TESTING OFF CACHE BOOL "The tests of ergotic run under ctest")
 set(ergotic_ros_packages
@@ -12,8 +12,8 @@ set(ergotic_ros_packages
   std_srvs visualization_msgs)
 find_package(catkin REQUIRED COMPONENTS ${ergotic_ros_packages} message_generation)
 
-file(GLOB ergotic_messages RELATIVE ${CMAKE_SOURCE_DIR}/msg CONFIGURE_DEPENDS msg/*.msg)
-file(GLOB ergotic_services RELATIVE ${CMAKE_SOURCE_DIR}/srv CONFIGURE_DEPENDS srv/*.srv)
+file(GLOB ergotic_messages RELATIVE ${PROJECT_SOURCE_DIR}/msg CONFIGURE_DEPENDS msg/*.msg)
+file(GLOB ergotic_services RELATIVE ${PROJECT_SOURCE_DIR}/srv CONFIGURE_DEPENDS srv/*.srv)
 add_message_files(FILES ${ergotic_messages})
 add_service_files(FILES ${ergotic_services})
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)

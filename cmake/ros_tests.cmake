@@ -6,7 +6,7 @@ ergotic_add_gtests(bag ergotic_bag)
 add_dependencies(ergotic_bag_test render)
 
 set(in_devel_space ${CATKIN_DEVEL_PREFIX}/env.sh ${CMAKE_COMMAND} -E env ROS_IP=127.0.0.1
-  ROS_LOG_DIR=${CMAKE_BINARY_DIR}/ros_log)
+  ROS_LOG_DIR=${PROJECT_BINARY_DIR}/ros_log)
 file(GLOB rostests CONFIGURE_DEPENDS test/integration/*.test)
 foreach(rostest ${rostests})
   get_filename_component(name ${rostest} NAME_WE)

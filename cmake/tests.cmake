@@ -4,7 +4,7 @@ file(GLOB support_sources CONFIGURE_DEPENDS test/support/*.cpp)
 add_library(ergotic_test_support STATIC ${support_sources})
 target_include_directories(ergotic_test_support PUBLIC test src)
 target_compile_definitions(ergotic_test_support PUBLIC
-  ERGOTIC_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ERGOTIC_BINARY_DIR="${CMAKE_BINARY_DIR}")
+  ERGOTIC_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ERGOTIC_BINARY_DIR="${PROJECT_BINARY_DIR}")
 target_link_libraries(ergotic_test_support
   PUBLIC ergotic_audio GTest::gtest GTest::gmock PkgConfig::SNDFILE PRIVATE ergotic_flags)
 
@@ -31,10 +31,10 @@ endif()
 
 # The scripts: what measures a demo; what users do in the devel and in an install space.
 add_test(NAME scripts.demo_report
-  COMMAND /usr/bin/python3 ${CMAKE_SOURCE_DIR}/test/integration/demo_report_test.py)
+  COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/demo_report_test.py)
 if(ERGOTIC_ROS)
   add_test(NAME integration.spaces
-    COMMAND ${CMAKE_SOURCE_DIR}/test/integration/spaces.sh
-            ${CMAKE_BINARY_DIR} ${CATKIN_DEVEL_PREFIX})
+    COMMAND ${PROJECT_SOURCE_DIR}/test/integration/spaces.sh
+            ${PROJECT_BINARY_DIR} ${CATKIN_DEVEL_PREFIX})
   set_tests_properties(integration.spaces PROPERTIES RUN_SERIAL ON TIMEOUT 300 LABELS integration)
 endif()

@@ -135,6 +135,19 @@ TEST(InstrumentTest, SliceForceIsAFunctionOfThePositionOfTheSameTick) {
   }
 }
 
+TEST(InstrumentTest, HandThatIsElsewhereAtTheStartDidNotJumpThere) {
+  SceneBuilder b;
+  const int slice = b.slice(0);
+  b.link(LiaType::kSpringDamper, slice, b.ground(0.0, SceneBuilder::kGestural), 0.0, 10.0);
+  Player player(b.scene, {kRate, 14});
+  player.positions[0] = 0.02;
+  player.tick();
+  EXPECT_EQ(player.forces[0], 0.0);
+  player.positions[0] = 0.03;
+  player.tick();
+  EXPECT_NEAR(player.forces[0], -10.0 * 0.01 * kRate / 14.0, 1e-9);
+}
+
 TEST(InstrumentTest, SliceOfAForeignUnitSceneGivesNewtons) {
   SceneBuilder b;
   b.scene.time_unit_s = 1.0 / 44100.0;

@@ -83,7 +83,7 @@ void Diagnostics::reportRealtime(Report& report) {
 
 void Diagnostics::reportSound(Report& report) {
   if (!jack_) {
-    report.summary(Level::OK, "no sound: plays without JACK");
+    report.summary(Level::OK, "no sound: no JACK client");
   } else if (!jack_->message.empty()) {
     report.summary(Level::WARN, jack_->message);
   } else if (!jack_->running) {

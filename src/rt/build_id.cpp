@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/rt/build_id.hpp"
 
-#include <cstdint>
-#include <cstring>
-
 #include <elf.h>
 #include <link.h>
+
+#include <cstdint>
+#include <cstring>
 
 namespace ergotic::rt {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/rt/build_id.hpp"
 
+#include <dlfcn.h>
+
 #include <array>
 #include <cstdio>
 #include <memory>
 #include <string>
-
-#include <dlfcn.h>
 
 #include <gtest/gtest.h>
 

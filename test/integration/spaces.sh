@@ -15,9 +15,9 @@ try_space() { # NAME SETUP
   local name=$1 station recorder
   source_space "$2"
   cd "$logs"
-  roslaunch --files ergotic station.launch | grep -q station.launch ||
+  [[ $(roslaunch --files ergotic station.launch) == *station.launch ]] ||
     die "$name: roslaunch does not find station.launch"
-  roslaunch --nodes ergotic station.launch | grep -qx /station ||
+  [[ $'\n'$(roslaunch --nodes ergotic station.launch)$'\n' == *$'\n'/station$'\n'* ]] ||
     die "$name: station.launch starts no /station"
   local model
   model="$(rospack find ergotic)/models/string.yaml"
@@ -37,7 +37,7 @@ try_space() { # NAME SETUP
   stop_group "$recorder" 20
   stop_group "$station" 25
   stop_all
-  rosbag info "$logs/$name.bag" | tee "$logs/$name.info" | grep -q 'ergotic/GestureBlock' ||
+  [[ $(rosbag info "$logs/$name.bag") == *ergotic/GestureBlock* ]] ||
     die "$name: the bag holds no gesture"
   rosrun ergotic render --gesture "$logs/$name.bag" --out "$logs/$name-replay.wav" ||
     die "$name: the bag cannot be played again"

@@ -36,6 +36,7 @@ constexpr std::int64_t kLimitNs = 10 * kMs;
 constexpr std::int64_t kGapNs = 5 * kMs;
 constexpr int kAttempts = 5;
 constexpr int kNeededPasses = 3;
+constexpr int kMaxSpoiled = 10;  // attempts in which a stall had muted the force before the signal
 
 // A wall of 1000 N/m; the hand (500 N/m) wants to be 46 mm inside, and so meets 15 N at 15 mm.
 const char kWall[] = R"(ergotic: 1
@@ -207,19 +208,25 @@ void expectUsualStatus(int signal, int status) {
 TEST_P(SignalTest, ReleasesFifteenNewtonsWithinTenMilliseconds) {
   const ReferenceThread reference;
   int passes = 0;
-  for (int number = 0; number < kAttempts && passes < kNeededPasses; ++number) {
+  int attempts = 0;
+  for (int number = 0; attempts < kAttempts && passes < kNeededPasses; ++number) {
+    ASSERT_LT(number, kAttempts + kMaxSpoiled) << "the machine stalls too often to be tested on";
     const Attempt done = attempt(GetParam(), number);
     ASSERT_FALSE(done.forces.empty());
     expectUsualStatus(GetParam(), done.exit_status);
-    EXPECT_LT(forceAt(done.forces, done.signal_ns), -0.95 * kForceN);
     const std::int64_t released = releaseTime(done.forces);
     ASSERT_NE(released, INT64_MAX) << "force was never released";
+    if (forceAt(done.forces, done.signal_ns) > -0.95 * kForceN) {
+      std::cout << "a stall had muted the force when the signal came: once more\n";
+      continue;
+    }
+    ++attempts;
     const double took_ms = static_cast<double>(released - done.signal_ns) * 1e-6;
     const bool excused = reference.sawGap(done.signal_ns, done.signal_ns + kLimitNs);
     std::cout << "force gone after " << took_ms << " ms" << (excused ? ", excused" : "") << '\n';
     passes += released - done.signal_ns <= kLimitNs && !excused ? 1 : 0;
   }
-  EXPECT_GE(passes, kNeededPasses) << "of " << kAttempts << " attempts";
+  EXPECT_GE(passes, kNeededPasses) << "of " << attempts << " attempts";
 }
 
 std::string nameOf(const ::testing::TestParamInfo<int>& tested) {

@@ -126,7 +126,7 @@ def check_replay(verdict, performance, recorded, replay, shift, capture):
     """The bag plays the same sound, sample by sample, but where the station said it did not."""
     start = performance.frame_of_first_keyframe()
     silenced = [(frame - start + shift, frames) for frame, frames, _ in performance.silenced
-                if 0 <= frame - start + shift < len(recorded)]
+                if -frames < frame - start + shift < len(recorded)]
     found = sound.compare(replay, recorded, shift, silenced)
     excused = capture["lost"] + capture["dropped"]  # cycles that never reached the recorder
     unexplained = found["different"] - min(found["gaps"], excused)

@@ -99,13 +99,16 @@ playback_card() {
 jack_runs() { [[ $(timeout 10 jack_wait --check 2>/dev/null) == running* ]]; }
 
 # Starts the server named by JACK_DEFAULT_SERVER. \return 1 if it does not run within ten seconds
+# The dummy driver runs in synchronous mode: else the server tells a client that comes late the time
+# of the next period, and the sound of that period goes where nobody can find it.
 start_jack() { # BACKEND OPTIONS...
-  local priority=(--realtime --realtime-priority 70)
+  local options=(--realtime --realtime-priority 70)
   if ! may_be_realtime; then
     warn "real-time scheduling is not permitted (README, \"Real time\"): sound may crackle"
-    priority=(--no-realtime)
+    options=(--no-realtime)
   fi
-  spawn jackd jackd "${priority[@]}" --name "${JACK_DEFAULT_SERVER:-default}" -d "$@"
+  [ "$1" != dummy ] || options+=(--sync)
+  spawn jackd jackd "${options[@]}" --name "${JACK_DEFAULT_SERVER:-default}" -d "$@"
   local jackd=$spawned
   jack_or_death() { jack_runs || has_ended "$jackd"; }
   wait_until 10 jack_or_death && jack_runs

@@ -36,7 +36,7 @@ std::string describe(double value) {
 /// The end of a parameter's range at which |value| is largest (or smallest, for masses).
 double extreme(const scene::Scene& scene, const scene::Value& v, bool largest) {
   if (v.parameter < 0) {
-    return v.factor;
+    return v.audio < 0 ? v.factor : 0.0;
   }
   const scene::Parameter& p = scene.parameters[at(v.parameter)];
   const double a = v.factor * p.minimum;
@@ -110,6 +110,11 @@ class Certifier {
       }
       result_.sections.push_back(known->second);
       result_.sections.back().section = s;
+    }
+    for (const scene::AudioParameter& parameter : scene_.audio_parameters) {
+      find(Verdict::kUnproven,
+           where(parameter.place) + "warning: '" + parameter.name +
+               "' follows an audio input, which has no range: nothing is proven of what it moves");
     }
     for (std::size_t l = 0; l < scene_.lias.size(); ++l) {
       judgeLink(scene_.lias[l], slopes_[l]);

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "step_units.hpp"
+#include "laws.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -53,6 +53,34 @@ LinkFields fieldsOf(const scene::Scene& scene, const scene::Lia& lia, const Step
   return {};
 }
 
+std::size_t fieldCount(Law law) {
+  switch (law) {
+    case Law::kSpringDamper:
+      return laws::SpringDamper<double>::kFields;
+    case Law::kContact:
+      return laws::Contact<double>::kFields;
+    case Law::kQuadratic:
+      return laws::Quadratic<double>::kFields;
+    case Law::kCubic:
+      return laws::Cubic<double>::kFields;
+    case Law::kClippedCubic:
+      return laws::ClippedCubic<double>::kFields;
+    case Law::kCubicContact:
+      return laws::CubicContact<double>::kFields;
+    case Law::kPluck:
+      return laws::Pluck<double>::kFields;
+    case Law::kBow:
+      return laws::Bow<double>::kFields;
+    case Law::kSmoothBow:
+      return laws::SmoothBow<double>::kFields;
+    case Law::kPluckTable:
+      return laws::PluckTable<double>::kFields;
+    case Law::kBowTable:
+      return laws::BowTable<double>::kFields;
+  }
+  return 0;
+}
+
 }  // namespace
 
 template <class Real>
@@ -84,21 +112,49 @@ void CoefficientsOf<Real>::fillMasses(const scene::Scene& scene,
   for (const SectionRange& range : layout.sections) {
     const StepUnits units(scene, rates, range.divisor);
     for (int slot = range.cells; slot < range.fixed; ++slot) {
-      const scene::Mat& mat = scene.mats[at(layout.mat_of_slot[at(slot)])];
-      const double mass = scene.valueOf(mat.mass);
-      const double inverse = units.inverseMass(mass);
-      const double gravity = scene.sections[at(mat.section)].gravity;
-      double drift = mat.force * inverse + units.acceleration(gravity);
-      if (slot < range.masses) {
-        const double pull = scene.valueOf(mat.stiffness) * inverse;
-        const double loss = units.damping(scene.valueOf(mat.damping)) * inverse;
-        masses.keep[at(slot)] = static_cast<Real>(1.0 - loss);
-        masses.pull[at(slot)] = static_cast<Real>(pull);
-        drift -= pull * mat.rest_x;
-      }
-      masses.inverse_mass[at(slot)] = static_cast<Real>(inverse);
-      masses.drift[at(slot)] = static_cast<Real>(drift);
+      setSlot(scene, units, layout, slot);
     }
+  }
+}
+
+template <class Real>
+void CoefficientsOf<Real>::setSlot(const scene::Scene& scene,
+                                   const StepUnits& units,
+                                   const Layout& layout,
+                                   int slot) {
+  const scene::Mat& mat = scene.mats[at(layout.mat_of_slot[at(slot)])];
+  const double inverse = units.inverseMass(scene.valueOf(mat.mass));
+  double drift = mat.force * inverse + units.acceleration(scene.sections[at(mat.section)].gravity);
+  if (mat.type == scene::MatType::kCell) {
+    const double pull = scene.valueOf(mat.stiffness) * inverse;
+    const double loss = units.damping(scene.valueOf(mat.damping)) * inverse;
+    masses.keep[at(slot)] = static_cast<Real>(1.0 - loss);
+    masses.pull[at(slot)] = static_cast<Real>(pull);
+    drift -= pull * mat.rest_x;
+  }
+  masses.inverse_mass[at(slot)] = static_cast<Real>(inverse);
+  masses.drift[at(slot)] = static_cast<Real>(drift);
+}
+
+template <class Real>
+void CoefficientsOf<Real>::setLink(
+    const scene::Scene& scene, const StepUnits& units, const LinkRun& run, std::size_t r, int l) {
+  const LinkFields from = fieldsOf(scene, scene.lias[at(run.lias[at(l)])], units);
+  for (std::size_t f = 0; f < from.count; ++f) {
+    runs[r].fields[f * run.lias.size() + at(l)] = static_cast<Real>(from.values[f]);
+  }
+}
+
+template <class Real>
+void CoefficientsOf<Real>::follow(const scene::Scene& scene,
+                                  const Rates& rates,
+                                  const Layout& layout,
+                                  const Follower& follower) noexcept {
+  const StepUnits units(scene, rates, layout.sections[at(follower.section)].divisor);
+  if (follower.run < 0) {
+    setSlot(scene, units, layout, follower.index);
+  } else {
+    setLink(scene, units, layout.runs[at(follower.run)], at(follower.run), follower.index);
   }
 }
 
@@ -110,22 +166,15 @@ void CoefficientsOf<Real>::fillRun(const scene::Scene& scene,
   const LinkRun& run = layout.runs[r];
   const StepUnits units(scene, rates, layout.sections[at(run.section)].divisor);
   RunCoefficients<Real>& to = runs[r];
-  const bool is_table = run.law == Law::kPluckTable || run.law == Law::kBowTable;
-  const std::size_t links = run.lias.size();
-  for (std::size_t l = 0; l < links; ++l) {
-    const scene::Lia& lia = scene.lias[at(run.lias[l])];
-    const LinkFields from = fieldsOf(scene, lia, units);
-    to.fields.resize(from.count * links);
-    for (std::size_t f = 0; f < from.count; ++f) {
-      to.fields[f * links + l] = static_cast<Real>(from.values[f]);
-    }
-    if (is_table) {
-      to.table_first.push_back(static_cast<int>(to.table_x.size()));
-      to.table_count.push_back(static_cast<int>(lia.table.size()));
-      for (const auto& [x, y] : lia.table) {
-        to.table_x.push_back(static_cast<Real>(x));
-        to.table_y.push_back(static_cast<Real>(y));
-      }
+  to.fields.resize(fieldCount(run.law) * run.lias.size());
+  for (int l = 0; l < static_cast<int>(run.lias.size()); ++l) {
+    setLink(scene, units, run, r, l);
+    const scene::Lia& lia = scene.lias[at(run.lias[at(l)])];
+    to.table_first.push_back(static_cast<int>(to.table_x.size()));
+    to.table_count.push_back(static_cast<int>(lia.table.size()));
+    for (const auto& [x, y] : lia.table) {
+      to.table_x.push_back(static_cast<Real>(x));
+      to.table_y.push_back(static_cast<Real>(y));
     }
   }
 }

@@ -6,6 +6,7 @@
 
 #include "ergotic/physics/instrument.hpp"
 #include "layout.hpp"
+#include "step_units.hpp"
 
 namespace ergotic::physics {
 
@@ -34,6 +35,13 @@ class CoefficientsOf final : public Coefficients {
   /// Converts every number of `scene` to steps. \pre layout was made from scene and rates
   CoefficientsOf(const scene::Scene& scene, const Rates& rates, const Layout& layout);
 
+  /// Converts again what follows an audio input, from the present samples in `scene`.
+  /// Realtime: yes
+  void follow(const scene::Scene& scene,
+              const Rates& rates,
+              const Layout& layout,
+              const Follower& follower) noexcept;
+
   MassCoefficients<Real> masses;
   std::vector<RunCoefficients<Real>> runs;  ///< [Layout::runs]
   std::vector<Real> tap_gains;              ///< [Layout::taps]
@@ -41,6 +49,9 @@ class CoefficientsOf final : public Coefficients {
 
  private:
   void fillMasses(const scene::Scene& scene, const Rates& rates, const Layout& layout);
+  void setSlot(const scene::Scene& scene, const StepUnits& units, const Layout& layout, int slot);
+  void setLink(
+      const scene::Scene& scene, const StepUnits& units, const LinkRun& run, std::size_t r, int l);
   void fillRun(const scene::Scene& scene, const Rates& rates, const Layout& layout, std::size_t r);
 };
 

@@ -43,7 +43,8 @@ class InstrumentOf final : public Instrument {
       : Instrument(scene, rates, precision),
         layout_(std::move(layout)),
         coefficients_(std::make_unique<CoefficientsOf<Real>>(scene, rates, layout_)),
-        due_(layout_.sections.size(), 0) {
+        due_(layout_.sections.size(), 0),
+        followed_(layout_.followers.empty() ? scene::Scene{} : scene) {
     const std::size_t slots = at(layout_.slots());
     clock_at_ = arena_.add<std::int64_t>("frame", 1);
     x_at_ = arena_.add<Real>("x", slots);
@@ -138,6 +139,7 @@ class InstrumentOf final : public Instrument {
 
   /// One audio frame: masses, position outputs, links, force inputs, force outputs.
   void frameStep(std::int64_t now, const double* in, double* out) noexcept {
+    followAudio(in);
     for (std::size_t s = 0; s < layout_.sections.size(); ++s) {
       due_[s] = now % layout_.sections[s].divisor == 0 ? 1 : 0;
       if (due_[s] != 0) {
@@ -153,6 +155,16 @@ class InstrumentOf final : public Instrument {
     }
     feedForces(in);
     takeForces(now, out);
+  }
+
+  /// What follows an audio input gets its coefficients of this frame.
+  void followAudio(const double* in) noexcept {
+    for (scene::AudioParameter& parameter : followed_.audio_parameters) {
+      parameter.value = in[parameter.channel];
+    }
+    for (const Follower& follower : layout_.followers) {
+      coefficients_->follow(followed_, rates(), layout_, follower);
+    }
   }
 
   void moveMasses(const SectionRange& range) noexcept {
@@ -314,6 +326,7 @@ class InstrumentOf final : public Instrument {
   Layout layout_;
   std::unique_ptr<CoefficientsOf<Real>> coefficients_;
   std::vector<unsigned char> due_;  // [sections] in this frame
+  scene::Scene followed_;           // where audio parameters have their present samples
   Arena arena_;
   std::size_t clock_at_ = 0;
   std::size_t x_at_ = 0;

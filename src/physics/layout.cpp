@@ -119,6 +119,28 @@ Tap describeTap(const scene::Scene& scene,
   return tap;
 }
 
+bool follows(const scene::Value& v) {
+  return v.audio >= 0;
+}
+
+void findFollowers(const scene::Scene& scene, Layout& layout) {
+  for (int r = 0; r < static_cast<int>(layout.runs.size()); ++r) {
+    const LinkRun& run = layout.runs[at(r)];
+    for (int l = 0; l < static_cast<int>(run.lias.size()); ++l) {
+      const scene::Lia& lia = scene.lias[at(run.lias[at(l)])];
+      if (follows(lia.stiffness) || follows(lia.damping) || follows(lia.nonlinearity)) {
+        layout.followers.push_back({r, l, run.section});
+      }
+    }
+  }
+  for (int slot = 0; slot < layout.slots(); ++slot) {
+    const scene::Mat& mat = scene.mats[at(layout.mat_of_slot[at(slot)])];
+    if (mat.type == MatType::kCell && (follows(mat.stiffness) || follows(mat.damping))) {
+      layout.followers.push_back({-1, slot, mat.section});
+    }
+  }
+}
+
 }  // namespace
 
 Law lawOf(const scene::Lia& lia) {
@@ -161,6 +183,7 @@ Layout makeLayout(const scene::Scene& scene, const Rates& rates) {
     layout.feeds.push_back({input.quantity, layout.slot_of_mat[at(input.mat)], mat.rest_x,
                             mat.section, 1.0 / divisor, input.channel});
   }
+  findFollowers(scene, layout);
   return layout;
 }
 

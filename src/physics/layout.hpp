@@ -71,6 +71,13 @@ struct Feed {
   int channel = 0;
 };
 
+/// A link or a module whose coefficients follow an audio input.
+struct Follower {
+  int run = 0;    ///< index in Layout::runs; -1: a module
+  int index = 0;  ///< of the link in its run, or slot of the module
+  int section = 0;
+};
+
 /// Where everything of a scene lies in the arrays of an instrument.
 struct Layout {
   std::vector<int> slot_of_mat;
@@ -80,6 +87,7 @@ struct Layout {
   std::vector<int> port_slots;
   std::vector<Tap> taps;
   std::vector<Feed> feeds;
+  std::vector<Follower> followers;
   int slots() const { return static_cast<int>(mat_of_slot.size()); }
 };
 

@@ -93,12 +93,55 @@ double MdlNumbers::evaluateAt(const MdlToken& token) {
   }
   try {
     return evaluate(text, [&](const std::string& name, std::size_t offset) {
-      return paramValue(name, placeOf(offset));
+      return nameValue(name, placeOf(offset));
     });
   } catch (const ExpressionError& e) {
     const Place place = placeOf(e.offset());
     builder_.fail(place, e.what());
   }
+}
+
+double MdlNumbers::nameValue(const std::string& name, Place place) {
+  const std::vector<AudioParameter>& audio = builder_.scene().audio_parameters;
+  const auto found = std::find_if(audio.begin(), audio.end(),
+                                  [&](const AudioParameter& p) { return p.name == name; });
+  if (found == audio.end()) {
+    return paramValue(name, place);
+  }
+  if (!sample_) {
+    builder_.fail(place, "audioParam " + quoted(name) +
+                             " stands here, allowed only in the stiffness, damping or "
+                             "nonlinearity of a link or an osc");
+  }
+  const int index = static_cast<int>(found - audio.begin());
+  if (followed_ >= 0 && followed_ != index) {
+    builder_.fail(place, "two audioParams in one number, allowed: one");
+  }
+  followed_ = index;
+  return *sample_;
+}
+
+double MdlNumbers::evaluateWith(const MdlToken& token, double sample) {
+  sample_ = sample;
+  const double value = number(token);
+  sample_.reset();
+  return value;
+}
+
+Value MdlNumbers::value(const MdlToken& token, const std::string& what, const Limits& limits) {
+  followed_ = -1;
+  const double one = evaluateWith(token, 1.0);
+  const int audio = followed_;
+  if (audio < 0) {
+    return {number(token, what, limits)};
+  }
+  const double none = evaluateWith(token, 0.0);
+  const double two = evaluateWith(token, 2.0);
+  if (none != 0.0 || two != 2.0 * one) {
+    builder_.fail(token.place, what + " is '" + token.text +
+                                   "', allowed with an audioParam: a constant times it");
+  }
+  return {one, -1, audio};
 }
 
 double MdlNumbers::number(const MdlToken& token) {

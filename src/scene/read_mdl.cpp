@@ -61,6 +61,9 @@ class MdlReader {
     builder_.add(std::move(section));
     for (const MdlLine& line : lines_) {
       checkKeyword(line);
+      readAudioParameter(line);
+    }
+    for (const MdlLine& line : lines_) {
       readMat(line);
     }
     for (const MdlLine& line : lines_) {  // every module is known now
@@ -77,9 +80,6 @@ class MdlReader {
     if (kMacros.count(keyword) > 0) {
       builder_.fail(line.keyword.place,
                     "macro " + quoted(keyword) + " is not supported yet, allowed: single modules");
-    }
-    if (keyword == "audioParam") {
-      builder_.fail(line.keyword.place, "'audioParam' is not supported yet, allowed: param");
     }
     const auto& known = mdlKeywords();
     if (line.keyword.kind != MdlToken::Kind::kBare ||
@@ -123,8 +123,8 @@ class MdlReader {
     mat.mass = {numbers_.number(arguments[0], named("mass", line), kMassLimits)};
     if (osc) {
       mat.type = MatType::kCell;
-      mat.stiffness = {numbers_.number(arguments[1], named("stiffness", line), kStiffnessLimits)};
-      mat.damping = {numbers_.number(arguments[2], named("damping", line), kDampingLimits)};
+      mat.stiffness = numbers_.value(arguments[1], named("stiffness", line), kStiffnessLimits);
+      mat.damping = numbers_.value(arguments[2], named("damping", line), kDampingLimits);
     }
     if (arguments.size() > least) {
       // A force for each step, whatever the mass.
@@ -189,12 +189,45 @@ class MdlReader {
       const auto position = std::find(link.arguments.begin(), link.arguments.end(), field.member);
       const auto index = 2 + static_cast<std::size_t>(position - link.arguments.begin());
       if (position != link.arguments.end() && index < line.arguments.size()) {
-        lia.*field.member = {
-            numbers_.number(line.arguments[index], named(field.key, line), field.limits)};
+        lia.*field.member = linkNumber(lia, line, field, index);
       }
     }
     completeClippedLaw(lia, ClippedLaw::kMdl);
     builder_.add(std::move(lia));
+  }
+
+  /// Widths and the shape of a clipped law are worked out once, so they cannot follow audio.
+  Value linkNumber(const Lia& lia,
+                   const MdlLine& line,
+                   const LiaField& field,
+                   std::size_t argument) const {
+    const MdlToken& token = line.arguments[argument];
+    const std::string what = named(field.key, line);
+    const bool clipped = lia.type == LiaType::kClippedCubic || lia.type == LiaType::kCubicContact;
+    const bool follows =
+        field.member == &Lia::damping ||
+        (!clipped && (field.member == &Lia::stiffness || field.member == &Lia::nonlinearity));
+    return follows ? numbers_.value(token, what, field.limits)
+                   : Value{numbers_.number(token, what, field.limits)};
+  }
+
+  /// `@name audioParam @in1`
+  void readAudioParameter(const MdlLine& line) {
+    if (line.keyword.text != "audioParam") {
+      return;
+    }
+    expect(line, 1, 1, "@inK");
+    if (numbers_.isParam(line.name)) {
+      builder_.fail(line.place, quoted(line.name) + " is a param and an audioParam, allowed: one");
+    }
+    AudioParameter parameter;
+    parameter.name = line.name;
+    parameter.place = line.place;
+    const MdlToken& source = line.arguments[0];
+    const std::string name = trimmed(source.text);
+    const std::string channel = name.compare(0, 3, "@in") == 0 ? name.substr(3) : "";
+    parameter.channel = channelNumber(name, channel, source.place, line, "@in") - 1;
+    builder_.scene().audio_parameters.push_back(std::move(parameter));
   }
 
   void readTap(const MdlLine& line) {
@@ -229,16 +262,25 @@ class MdlReader {
   /// The channel, from 0, of a name like `@in1`.
   int channelOf(const MdlLine& line, const std::string& prefix) const {
     const bool fits = line.name.compare(0, prefix.size(), prefix) == 0;
-    const std::optional<int> channel =
-        fits ? parseInteger(line.name.substr(prefix.size())) : std::nullopt;
+    return channelNumber("@" + line.name, fits ? line.name.substr(prefix.size()) : "", line.place,
+                         line, "@" + prefix) -
+           1;
+  }
+
+  int channelNumber(const std::string& said,
+                    const std::string& digits,
+                    Place place,
+                    const MdlLine& line,
+                    const std::string& prefix) const {
+    const std::optional<int> channel = parseInteger(digits);
     if (!channel) {
-      builder_.fail(line.place, quoted("@" + line.name) + " is not a channel, allowed for " +
-                                    line.keyword.text + ": @" + prefix + "1 ... @" + prefix + "64");
+      builder_.fail(place, quoted(said) + " is not a channel, allowed for " + line.keyword.text +
+                               ": " + prefix + "1 ... " + prefix + "64");
     }
     if (!kChannelLimits.hold(*channel)) {
-      builder_.fail(line.place, outOfRange(named("channel", line), *channel, kChannelLimits));
+      builder_.fail(place, outOfRange(named("channel", line), *channel, kChannelLimits));
     }
-    return *channel - 1;
+    return *channel;
   }
 
   int matOf(const MdlToken& token) const {

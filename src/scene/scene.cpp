@@ -18,7 +18,7 @@ int channelsOf(const std::vector<T>& list) {
 }  // namespace
 
 int Scene::inputChannels() const {
-  return channelsOf(inputs);
+  return std::max(channelsOf(inputs), channelsOf(audio_parameters));
 }
 
 int Scene::outputChannels() const {

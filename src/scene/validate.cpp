@@ -21,6 +21,7 @@ class Validator {
     }
     number(Place{1, 1}, "gestural_rate", scene_.gestural_rate_hz, kGesturalRateLimits);
     each(scene_.parameters, "parameter", &Validator::parameter);
+    each(scene_.audio_parameters, "audio parameter", &Validator::audioParameter);
     each(scene_.sections, "section", &Validator::section);
     each(scene_.mats, "module", &Validator::mat);
     each(scene_.lias, "link", &Validator::lia);
@@ -49,6 +50,10 @@ class Validator {
 
   /// A number that a parameter can change must be legal at both ends of the parameter's range.
   void value(Place place, const std::string& what, const Value& v, const Limits& limits) const {
+    if (v.audio >= 0) {
+      index(place, "audio parameter of " + what, v.audio, scene_.audio_parameters.size());
+      return;
+    }
     if (v.parameter < 0) {
       number(place, what, v.factor, limits);
       return;
@@ -89,6 +94,10 @@ class Validator {
     number(p.place, "minimum" + of, p.minimum, {});
     number(p.place, "maximum" + of, p.maximum, {"", p.minimum});
     number(p.place, "value" + of, p.value, {"", p.minimum, p.maximum});
+  }
+
+  void audioParameter(const AudioParameter& p) const {
+    number(p.place, "channel of audio parameter " + quoted(p.name), p.channel + 1, kChannelLimits);
   }
 
   void section(const Section& s) const {

@@ -77,6 +77,21 @@ double mixed(std::size_t channel, std::size_t n) {
   }
 }
 
+/// A few pushes; a stiffness and a damping that swing.
+double swinging(std::size_t channel, std::size_t n) {
+  const double t = seconds(n);
+  switch (channel) {
+    case 0:
+      return n % 11025 == 0 ? 0.02 : 0.0;
+    case 1:
+      return 0.02 + 0.01 * std::sin(kTwoPi * 5.0 * t);
+    case 2:
+      return 0.001 + 0.0008 * std::sin(kTwoPi * 130.0 * t);
+    default:
+      return 0.0;
+  }
+}
+
 double plectrum(std::size_t /*channel*/, std::size_t n) {
   return 0.5 * std::sin(kTwoPi * 2.5 * seconds(n));
 }
@@ -114,6 +129,7 @@ const std::vector<Case>& cases() {
       {"links", pushes, {}},
       {"inputs", mixed, {}},
       {"params", pushes, {}},
+      {"audio_params", swinging, {}},
       {"contact",
        strokes,
        {overlap("apart", 0, 1, -9.0, 0.0), overlap("pressed", 0, 1, 0.0, 9.0),

@@ -27,16 +27,22 @@ struct Inertia : Material {
   Inertia(double mass, double k, double z, double gravity, double position, double velocity)
       : Material(position, position - velocity / kMdlSampleRate),
         m(mass),
-        a(2.0 - (k + z) / mass),
-        b(z / mass - 1.0),
-        g(gravity / kMdlSampleRate) {}
+        g(gravity / kMdlSampleRate) {
+    set(k, z);
+  }
+  void set(double k, double z) {
+    a = 2.0 - (k + z) / m;
+    b = z / m - 1.0;
+  }
   void move() override {
     const double next = a * x + b * x_last + (force - g) / m;
     x_last = x;
     x = next;
     force = 0.0;
   }
-  double m, a, b, g;
+  double m, g;
+  double a = 0.0;
+  double b = 0.0;
 };
 
 struct FixedPoint : Material {

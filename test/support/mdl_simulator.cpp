@@ -171,6 +171,11 @@ class Model {
   Model(const std::vector<Line>& lines, const std::map<std::string, double>& params)
       : lines_(lines), given_(params) {
     for (const Line& line : lines_) {
+      if (line.keyword == "audioParam") {
+        audio_[line.name] = {channelOf(line.arguments.at(0)), 0.0};
+      }
+    }
+    for (const Line& line : lines_) {
       addMaterial(line);
     }
     for (const Line& line : lines_) {
@@ -212,6 +217,7 @@ class Model {
     for (const Drive& drive : drives_) {
       drive.point->target = at(inputs, drive.channel, n);
     }
+    listen(inputs, n);
     for (const auto& material : materials_) {
       material.second->move();
     }
@@ -226,11 +232,33 @@ class Model {
     }
   }
 
+  /// What names an audioParam is written anew with the sample of now.
+  void listen(const Channels& inputs, std::size_t n) {
+    if (audio_.empty()) {
+      return;
+    }
+    for (auto& [name, audio] : audio_) {
+      audio.value = at(inputs, audio.channel, n);
+    }
+    links_.clear();
+    for (const Line& line : lines_) {
+      if (line.keyword == "osc") {
+        dynamic_cast<Inertia&>(*materials_.at(line.name))
+            .set(number(line.arguments.at(1)), number(line.arguments.at(2)));
+      }
+      addLink(line);
+    }
+  }
+
   double number(const std::string& text) const {
     const Expression::Lookup lookup = [this](const std::string& name) { return param(name); };
     return Expression(text, lookup).value();
   }
   double param(const std::string& name) const {
+    const auto audio = audio_.find(name);
+    if (audio != audio_.end()) {
+      return audio->second.value;
+    }
     const auto given = given_.find(name);
     if (given != given_.end()) {
       return given->second;
@@ -319,6 +347,11 @@ class Model {
     }
   }
 
+  struct Audio {
+    std::size_t channel;
+    double value;
+  };
+  std::map<std::string, Audio> audio_;
   const std::vector<Line>& lines_;
   const std::map<std::string, double>& given_;
   std::map<std::string, std::unique_ptr<Material>> materials_;

@@ -24,13 +24,14 @@ struct Place {
   int column = 0;
 };
 
-/// A number of the scene: `factor`, or `factor * parameters[parameter].value`.
+/// A number of the scene: `factor`, or `factor` times a parameter or the sample of an audio input.
 struct Value {
   double factor = 0.0;
-  int parameter = -1;  ///< index in Scene::parameters, -1: a constant
+  int parameter = -1;  ///< index in Scene::parameters, -1: none
+  int audio = -1;      ///< index in Scene::audio_parameters, -1: none
 };
 inline Value operator*(double k, const Value& v) {
-  return {k * v.factor, v.parameter};
+  return {k * v.factor, v.parameter, v.audio};
 }
 
 /// A number that may change while playing. Only these can.
@@ -39,6 +40,15 @@ struct Parameter {
   double value = 0.0;
   double minimum = 0.0;
   double maximum = 0.0;
+  Place place;
+};
+
+/// A number that follows an audio input from sample to sample (`.mdl` audioParam). It has no range,
+/// so nothing is proven of what it moves. Only stiffness, damping and nonlinearity may follow one.
+struct AudioParameter {
+  std::string name;
+  int channel = 0;     ///< audio channel, from 0
+  double value = 0.0;  ///< the present sample
   Place place;
 };
 
@@ -176,6 +186,7 @@ struct Scene {
   double time_unit_s = 1.0;          ///< see the top of this file
   double gestural_rate_hz = 3000.0;  ///< wanted; the real one is the audio rate over an integer
   std::vector<Parameter> parameters;
+  std::vector<AudioParameter> audio_parameters;
   std::vector<Section> sections;
   std::vector<Mat> mats;
   std::vector<Lia> lias;
@@ -186,6 +197,9 @@ struct Scene {
   std::vector<std::string> warnings;  ///< from reading, `file:line:col: warning: ...`
 
   double valueOf(const Value& v) const {
+    if (v.audio >= 0) {
+      return v.factor * audio_parameters[static_cast<std::size_t>(v.audio)].value;
+    }
     return v.parameter < 0 ? v.factor
                            : v.factor * parameters[static_cast<std::size_t>(v.parameter)].value;
   }

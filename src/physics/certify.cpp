@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <map>
 #include <sstream>
 #include <unordered_map>
@@ -30,6 +31,13 @@ std::string describe(double value) {
   std::ostringstream text;
   text.precision(4);
   text << value;
+  return text.str();
+}
+
+/// Rounded up: a rate that is still enough.
+std::string wholeHz(double hz) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(0) << std::ceil(hz);
   return text.str();
 }
 
@@ -197,13 +205,13 @@ class Certifier {
     const NetworkBound network = networkOf(divisor(s));
     result.link_bound = network.linkBound();
     result.lambda = result.link_bound;
-    if (result.lambda >= NetworkBound::kLimit) {
+    if (!(result.lambda < NetworkBound::kLimit)) {
       result.lambda = std::min(result.lambda, network.collatzWielandtBound(kIterations));
     }
     result.worst_lia = network.worstLink();
     result.worst_mat = network.worstOwner();
     result.stable_rate_hz = 1.0 / (network.stableStep() * scene_.time_unit_s);
-    if (result.lambda >= NetworkBound::kLimit) {
+    if (!(result.lambda < NetworkBound::kLimit)) {
       refuse(result);
     }
     return result;
@@ -217,9 +225,9 @@ class Certifier {
                                      : "module '" + mat(std::max(section.worst_mat, 0)).name + "'";
     find(Verdict::kUnstable,
          where(place) + "error: section '" + scene_.sections[at(section.section)].name + "' at " +
-             describe(section.rate_hz) + " Hz: " + name + " is too stiff or too damped, bound " +
+             wholeHz(section.rate_hz) + " Hz: " + name + " is too stiff or too damped, bound " +
              describe(section.lambda) + ", allowed below 4. Soften it, make its masses heavier, " +
-             "or run the section at " + describe(section.stable_rate_hz) + " Hz or more");
+             "or run the section at " + wholeHz(section.stable_rate_hz) + " Hz or more");
   }
 
   /// Slow masses that fast ones pull on: the low-rate network with the couplings and the fast
@@ -250,7 +258,7 @@ class Certifier {
     }
     const double bound = std::min(network.linkBound(), network.collatzWielandtBound(kIterations));
     const std::string name = scene_.sections[at(s)].name;
-    if (bound >= NetworkBound::kLimit) {
+    if (!(bound < NetworkBound::kLimit)) {
       find(Verdict::kUnproven,
            where(scene_.sections[at(s)].place) + "warning: section '" + name +
                "' is coupled to a faster one too stiffly for its rate, bound " + describe(bound) +

@@ -109,9 +109,13 @@ double NetworkBound::collatzWielandtBound(int iterations) const {
     std::vector<double> largest(nodes, 0.0);
     for (std::size_t i = 0; i < nodes; ++i) {
       // Nodes without load are stable by themselves; their x has become 0.
-      bound = x[i] > 0.0 ? std::max(bound, y[i] / x[i]) : bound;
+      const double here = x[i] > 0.0 ? y[i] / x[i] : y[i];
+      bound = here > bound || std::isnan(here) ? here : bound;
       double& peak = largest[at(components.find(static_cast<int>(i)))];
       peak = std::max(peak, y[i]);
+    }
+    if (!std::isfinite(bound)) {
+      return std::numeric_limits<double>::infinity();  // beyond what numbers can hold is no proof
     }
     best = std::min(best, bound);
     for (std::size_t i = 0; i < nodes; ++i) {

@@ -97,6 +97,9 @@ TEST(CertifyTest, RefusalNamesTheLinkAndARateThatWorks) {
   EXPECT_EQ(c.sections[0].worst_lia, 4);
   EXPECT_TRUE(has(c, "built.yaml:104:1: error")) << c.findings.front();
   EXPECT_TRUE(has(c, "'l4'"));
+  const double advised = std::ceil(c.sections[0].stable_rate_hz);
+  EXPECT_TRUE(has(c, " " + std::to_string(static_cast<int>(advised)) + " Hz or more"));
+  EXPECT_EQ(certify(b.scene, {advised, 14}).verdict, Verdict::kPassive);
   EXPECT_LT(c.margin(), 0.0);
   b.hear(first + 3);
   const double rate = c.sections[0].stable_rate_hz * 1.0001;
@@ -222,6 +225,25 @@ TEST(CertifyTest, WhatNoBoundCoversIsUnproven) {
   const int free_mass = negative.mass(1.0);
   negative.spring(free_mass, negative.ground(), 1.0, -0.1);
   EXPECT_EQ(certify(negative.scene, {kRate, 14}).verdict, Verdict::kUnproven);
+}
+
+TEST(CertifyTest, WhatOverflowsIsNotProven) {
+  for (const auto& [kg, k] : {std::pair(1e-20, 1e300), {1e-320, 7.6e4}, {1e-300, 1e20}}) {
+    SceneBuilder b;
+    b.spring(b.mass(kg), b.ground(), k);
+    const int chain = b.mass(kg);
+    b.spring(chain, b.mass(kg), k);
+    EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnstable) << kg << ' ' << k;
+  }
+}
+
+TEST(CertifyTest, WhatFollowsAnAudioInputIsUnproven) {
+  SceneBuilder b;
+  b.scene.lias[at(b.spring(b.mass(1.0), b.ground(), 0.0))].stiffness = {1.0, -1, 0};
+  b.scene.audio_parameters.push_back({"k", 0, 0.0, {7, 1}});
+  const Certificate c = certify(b.scene, {kRate, 14});
+  EXPECT_EQ(c.verdict, Verdict::kUnproven);
+  EXPECT_TRUE(has(c, "built.yaml:7:1: warning: 'k' follows an audio input"));
 }
 
 TEST(CertifyTest, SceneWithoutLinksIsPassive) {

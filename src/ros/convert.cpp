@@ -62,8 +62,10 @@ std::string textOf(const station::Event& event, const scene::Scene* scene) {
       break;
     case EventType::kFault:
       text << "force latched at zero: "
-           << station::toString(static_cast<station::FaultReason>(event.index)) << ", slice "
-           << event.value;
+           << station::toString(static_cast<station::FaultReason>(event.index));
+      if (event.value >= 0.0) {
+        text << ", slice " << event.value;
+      }
       break;
     case EventType::kLateTick:
       text << "tick " << milliseconds(event.value)

@@ -47,6 +47,7 @@ void Feed::showModel(const station::Performer& performer, const std::string& not
   fillStatus(instrument, status_);
   status_.verdict = physics::toString(performer.certificate.verdict);
   status_.message = note;
+  note_ = note;
   sendStatus();
 
   ModelStructure structure = toModelStructure(instrument.scene(), instrument.rates());
@@ -65,12 +66,13 @@ void Feed::showSilence(const std::string& message) {
   status_.state_text = station::toString(station::ForceState::kDisconnected);
   status_.audio_running = 0U;
   status_.message = message;
+  note_ = message;
   markers_.reset();
   sendStatus();
 }
 
 void Feed::addMessage(const std::string& line) {
-  status_.message += (status_.message.empty() ? "" : "\n") + line;
+  status_.message = note_ + (note_.empty() ? "" : "\n") + line;
   sendStatus();
 }
 

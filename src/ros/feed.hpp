@@ -65,6 +65,7 @@ class Feed {
   ::ros::Publisher status_topic_;
 
   Status status_;
+  std::string note_;  // of the model that plays; status_.message adds the latest news
   std::optional<GestureBlocks> blocks_;
   std::optional<Markers> markers_;
   std::int64_t motion_due_ns_ = 0;

@@ -106,6 +106,8 @@ void Operator::tell(const std::string& message) {
   post([this, message] {
     if (performance_.engine() == nullptr) {
       feed_.showSilence(message);
+    } else {
+      feed_.addMessage(message);
     }
   });
 }

@@ -87,6 +87,7 @@ void Station::obey(const Command& command) noexcept {
 
 void Station::engage() noexcept {
   if (blown_up_) {
+    state_ = ForceState::kReady;  // the refusal is told each time
     fault(FaultReason::kModelBlowUp, -1);
     return;
   }

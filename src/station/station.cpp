@@ -301,9 +301,13 @@ void Station::updateForces(bool muted) noexcept {
   }
 }
 
+/// The first reason is the one to tell; later ones find the force latched at zero already.
 void Station::fault(FaultReason reason, int slice) noexcept {
   chain_.disengage();
   force_.fill(0.0);
+  if (state_ == ForceState::kFault) {
+    return;
+  }
   state_ = ForceState::kFault;
   fault_ = reason;
   Event told = event(Event::Type::kFault);

@@ -99,6 +99,14 @@ Report modulesOf(const Scene& scene, int section) {
   return counts(by_type);
 }
 
+std::string steppingOf(const scene::Section& section) {
+  if (section.gestural) {
+    return "once a tick";
+  }
+  return section.divisor == 1 ? "at audio rate"
+                              : "every " + std::to_string(section.divisor) + " audio frames";
+}
+
 Report sectionReport(const Scene& scene,
                      const physics::Rates& rates,
                      const physics::Certificate& certificate,
@@ -107,7 +115,7 @@ Report sectionReport(const Scene& scene,
   Report report = Report::map();
   report.add("name", Report::text(section.name))
       .add("rate_hz", Report::number(rates.audio_hz / physics::divisorOf(section, rates)))
-      .add("stepped", Report::text(section.gestural ? "once a tick" : "at audio rate"))
+      .add("stepped", Report::text(steppingOf(section)))
       .add("geometry", Report::text("1D"))
       .add("axis", vectorOf(section.pose.linear().col(0)))
       .add("origin_m", vectorOf(section.pose.translation()))

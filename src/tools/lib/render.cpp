@@ -113,7 +113,7 @@ std::int64_t framesOf(const RenderOptions& options, const Player& player) {
   const double rate = player.rates().audio_hz;
   const std::int64_t recorded = player.ticksLeft() * player.rates().ratio;
   if (options.seconds > 0.0) {
-    const std::int64_t wanted = std::llround(options.seconds * rate);
+    const std::int64_t wanted = std::max(1LL, std::llround(options.seconds * rate));
     return player.ticksLeft() < 0 ? wanted : std::min(wanted, recorded);
   }
   return player.ticksLeft() < 0 ? std::llround(kDefaultSeconds * rate) : recorded;
@@ -153,7 +153,8 @@ void addOptions(CLI::App& app, RenderOptions& options) {
   app.add_option("scene", options.scene.scene, "scene file, .yaml or .mdl")->type_name("SCENE");
   addOptions(app, options.scene);
   app.add_option("--seconds", options.seconds, "length (default: 10, or that of the recording)")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(0.0, 1e6));
   app.add_option("--out", options.out, "WAV file to write")->type_name("F.wav");
   app.add_option("--out-format", options.out_format, "format of the samples")
       ->check(CLI::IsMember({"float", "double", "24"}))

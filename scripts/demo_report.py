@@ -122,6 +122,15 @@ def check_sound(verdict, performance, recorded, rate, to_sound, expected):
                   f"{error:+.4f} cents")
 
 
+def reported_underruns(performance):
+    """Frames reported between the first and the last status: at least, and at most."""
+    first, last = performance.statuses[0].ticks, performance.statuses[-1].ticks
+    near = performance.tick_rate  # a second: what is reported close to a status may be in it or not
+    inside = lambda margin: sum(frames for tick, frames in performance.underruns
+                                if first + margin < tick <= last - margin)
+    return inside(near), inside(-near)
+
+
 def check_replay(verdict, performance, recorded, replay, shift, capture):
     """The bag plays the same sound, sample by sample, but where the station said it did not."""
     start = performance.frame_of_first_keyframe()
@@ -134,11 +143,16 @@ def check_replay(verdict, performance, recorded, replay, shift, capture):
                   unexplained == 0 and found["share"] >= SHARE_EQUAL,
                   f"{100 * found['share']:.2f} % of {len(recorded)} frames equal, "
                   f"{unexplained} differ, {min(found['gaps'], excused)} missed by the recorder")
+    fewest, most = reported_underruns(performance)
+    counted = performance.statuses[-1].underrun_frames - performance.statuses[0].underrun_frames
+    verdict.check("every underrun was counted and reported", fewest <= counted <= most,
+                  f"{counted} frames counted, {most} reported")
     where = [frame - start + shift == at - capture["first_jack_frame"]
              for frame, _, at in performance.silenced]
-    verdict.check("underruns are where they were reported",
+    verdict.check("frames that did not sound are those that were reported",
                   found["noisy"] == 0 and all(where) and performance.audio_stops == 0,
-                  f"{len(silenced)} reported, {sum(frames for _, frames in silenced)} frames, "
+                  f"{len(silenced)} underruns and periods left out by JACK, "
+                  f"{sum(frames for _, frames in silenced)} frames, "
                   f"{found['noisy']} of them not silent")
 
 

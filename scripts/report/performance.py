@@ -15,13 +15,16 @@ class Performance:
     forces     [ticks][slices] N
     ratio      audio frames per tick
     keyframes  [n] ticks
-    silenced   [(station frame, frames, JACK frame)] that did not sound
+    silenced   [(station frame, frames, JACK frame)] that did not sound: underruns, and periods
+               that JACK itself left out
+    underruns  [(tick, frames)]
     statuses   messages, first to last
     times, displacements  [pictures] s, and the largest displacement of a string, m
     """
 
     def __init__(self, path):
         blocks, self.keyframes, self.silenced, self.statuses, motion = [], [], [], [], []
+        self.underruns = []
         self.audio_stops = 0
         strings = None
         with rosbag.Bag(path) as bag:
@@ -49,6 +52,8 @@ class Performance:
         self._take_motion(motion, strings)
 
     def _hear(self, event):
+        if event.type == EVENT_UNDERRUN:
+            self.underruns.append((event.tick, event.index))
         if event.type in (EVENT_UNDERRUN, EVENT_AUDIO_SKIPPED):
             self.silenced.append((event.frame, event.index, int(event.value)))
         elif event.type == EVENT_AUDIO_STOPPED:

@@ -17,6 +17,7 @@ using test::Bench;
 
 constexpr double kStiffness = 100.0;
 constexpr std::int64_t kRampTicks = 400;
+constexpr std::int64_t kResumeTicks = 18;  // 5 ms and a little
 
 double stampOf(std::int64_t n, int /*slice*/) {
   return 1e-6 * static_cast<double>(n % 20001 - 10000);
@@ -31,6 +32,9 @@ TimerOptions ordinary() {
 StationConfig longRecord() {
   StationConfig config = Bench::quickConfig();
   config.record_ring = 1U << 15U;
+  // Stalls of the machine are no fault of what is tested.
+  config.max_stall_s = 1.0;
+  config.safety.resume_ramp_s = 0.005;
   return config;
 }
 
@@ -62,13 +66,13 @@ TEST(TimerSourceTest, LiveForceOfATickGoesOutWithTheExchangeThatReadsTheNextPosi
     ASSERT_EQ(ticks[i].position[0], stampOf(static_cast<std::int64_t>(exchange), 0));
     ++exchange;
     ASSERT_LT(exchange, sent.size());
-    if (i + 1 < ticks.size() && since_stall > kRampTicks &&
-        (ticks[i + 1].flags & GestureTick::kCatchUp) == 0) {
+    if (i + 1 < ticks.size() && static_cast<std::int64_t>(i) > kRampTicks &&
+        since_stall > kResumeTicks && (ticks[i + 1].flags & GestureTick::kCatchUp) == 0) {
       ASSERT_EQ(sent[exchange], -kStiffness * ticks[i].position[0]) << "tick " << ticks[i].tick;
       ++proved;
     }
   }
-  EXPECT_GT(proved, 0);
+  EXPECT_GT(proved, 500) << "the machine stalls all the time";
   RecordProperty("ticks_proved", static_cast<int>(proved));
   EXPECT_EQ(sent.back(), 0.0) << "the timer leaves the device at rest";
 }

@@ -22,10 +22,10 @@ constexpr int kMaxRate = 1'000'000;
   throw Exception(path + ": " + what);
 }
 
-/// libsndfile's reason, with the system's where there is one.
+/// libsndfile's reason, with the system's where libsndfile does not name it itself.
 std::string reason(SNDFILE* file, int system_error) {
   std::string text = sf_strerror(file);
-  if (system_error != 0) {
+  if (system_error != 0 && text.find(std::strerror(system_error)) == std::string::npos) {
     text += std::string(" (") + std::strerror(system_error) + ")";
   }
   return text;

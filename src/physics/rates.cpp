@@ -44,6 +44,11 @@ Rates chooseRates(const scene::Scene& scene, double audio_hz, double gestural_hz
     throw Exception("gestural rate " + std::to_string(wanted) + " Hz: must be positive");
   }
   const double ratio = std::round(audio_hz / wanted);
+  if (gestural_hz > 0.0 && !(ratio >= 1.0 && ratio <= kMaxRatio)) {
+    throw Exception("gestural rate " + std::to_string(gestural_hz) + " Hz: allowed " +
+                    std::to_string(audio_hz / kMaxRatio) + "..." + std::to_string(audio_hz) +
+                    " Hz at this audio rate");
+  }
   const Rates rates{audio_hz, static_cast<int>(std::clamp(ratio, 1.0, double{kMaxRatio}))};
   for (const scene::Section& section : scene.sections) {
     if (!section.gestural && !isLegalDivisor(section.divisor, rates.ratio)) {

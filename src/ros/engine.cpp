@@ -32,6 +32,7 @@ station::TimerOptions timerOptions(const Parameters& parameters) {
   const bool realtime = parameters.realtime != Realtime::kOff;
   options.priority = realtime ? parameters.priority : 0;
   options.lock_memory = realtime;
+  options.cpu = parameters.cpu;
   return options;
 }
 

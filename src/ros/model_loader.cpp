@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <sstream>
 
+#include "ergotic/exception.hpp"
 #include "ergotic/scene/read_scene.hpp"
 
 namespace ergotic::node {
@@ -19,6 +20,9 @@ void addLine(std::string& text, const std::string& line) {
 }  // namespace
 
 scene::Scene readModel(const std::string& model) {
+  if (model.empty()) {
+    throw Exception("no model is named, allowed: a path, or YAML of more than one line");
+  }
   scene::Scene scene = model.find('\n') == std::string::npos
                            ? scene::readSceneFile(model)
                            : scene::readYaml(model, "inline.yaml");

@@ -112,6 +112,7 @@ Parameters readParameters(const ::ros::NodeHandle& node) {
   read.number("ramp", p.ramp, 0.1, 10.0);
   read.number("max_stall", p.max_stall, 0.001, 1.0);
   read.integer("priority", p.priority, 1, 99);
+  read.integer("cpu", p.cpu, -1, 1023);
   read.choice("realtime", p.realtime, kRealtime);
   read.flag("allow_unproven", p.allow_unproven);
   read.flag("autoengage", p.autoengage);
@@ -141,6 +142,7 @@ std::string toYaml(const Parameters& p) {
   entry("ramp", p.ramp);
   entry("max_stall", p.max_stall);
   entry("priority", p.priority);
+  entry("cpu", p.cpu);
   entry("realtime", wordOf(p.realtime, kRealtime));
   entry("allow_unproven", p.allow_unproven);
   entry("autoengage", p.autoengage);

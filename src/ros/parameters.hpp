@@ -35,6 +35,7 @@ struct Parameters {
   double ramp = 2.0;                  ///< s, from zero to full force
   double max_stall = 0.05;            ///< s, longer stalls are a fault
   int priority = 75;                  ///< SCHED_FIFO priority of the tick
+  int cpu = -1;                       ///< processor of the tick, -1: any
   Realtime realtime = Realtime::kTry;
   bool allow_unproven = false;  ///< play what the certificate cannot prove to be stable
   bool autoengage = false;      ///< engage once the first model plays

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <yaml-cpp/depthguard.h>
+
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -24,6 +26,9 @@ YAML::Node parse(const SceneBuilder& builder, const std::string& text) {
       builder.fail(placeOf(documents[1], {1, 1}), "a second document, allowed: one in each file");
     }
     return documents.front();
+  } catch (const YAML::DeepRecursion& e) {
+    builder.fail({std::max(e.mark.line, 0) + 1, std::max(e.mark.column, 0) + 1},
+                 "nested too deeply, allowed: as deep as a scene needs");
   } catch (const YAML::Exception& e) {
     builder.fail({std::max(e.mark.line, 0) + 1, std::max(e.mark.column, 0) + 1},
                  "not valid YAML: " + e.msg);

@@ -65,14 +65,22 @@ TEST_F(CaptureTest, EverySampleArrivesAtItsFrameTime) {
   server_.start();
   JackHost sender(sender_config_, probe_);
   config_.ports = {"sender:out_3", "sender:out_1"};
-  config_.seconds = 3.0;
-  const CaptureReport report = capture(config_, stop_);
-  EXPECT_EQ(report.frames, 3 * 44100);
-  EXPECT_EQ(report.sample_rate_hz, 44100.0);
-  EXPECT_EQ(report.dropped, 0);
-  EXPECT_EQ(report.message, "");
-  EXPECT_EQ(report.lost, 0);
-  EXPECT_EQ(wrongFrames(report, {2, 0}), 0);
+  config_.seconds = 1.0;
+  // A period that the server itself missed (an xrun) excuses a recording; three need no excuse.
+  int passes = 0;
+  for (int attempt = 0; attempt < 5 && passes < 3; ++attempt) {
+    const std::int64_t xruns_before = sender.status().xruns;
+    const CaptureReport report = capture(config_, stop_);
+    EXPECT_EQ(report.frames, 44100);
+    EXPECT_EQ(report.sample_rate_hz, 44100.0);
+    EXPECT_EQ(report.dropped, 0);
+    EXPECT_EQ(report.message, "");
+    const std::int64_t wrong = wrongFrames(report, {2, 0});
+    const bool excused = report.xruns > 0 || sender.status().xruns > xruns_before;
+    EXPECT_TRUE(excused || (wrong == 0 && report.lost == 0)) << wrong << ' ' << report.lost;
+    passes += excused ? 0 : 1;
+  }
+  EXPECT_GE(passes, 3) << "recordings without an xrun";
 }
 
 TEST_F(CaptureTest, WaitsForPortsThatMatchAndRecordsThemInOrder) {

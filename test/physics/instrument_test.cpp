@@ -354,7 +354,11 @@ TEST(RatesTest, TheRatioIsTheNearestInteger) {
   EXPECT_EQ(chooseRates(scene, 48000.0).ratio, 16);
   EXPECT_EQ(chooseRates(scene, 44100.0, 3150.0).ratio, 14);
   EXPECT_EQ(chooseRates(scene, 44100.0, 44100.0).ratio, 1);
-  EXPECT_EQ(chooseRates(scene, 44100.0, 10.0).ratio, kMaxRatio);
+  scene.gestural_rate_hz = 500.0;
+  EXPECT_EQ(chooseRates(scene, 44100.0).ratio, kMaxRatio)
+      << "a scene's wish is met as far as can be";
+  EXPECT_THROW(chooseRates(scene, 44100.0, 500.0), Exception) << "an order is not";
+  EXPECT_THROW(chooseRates(scene, 44100.0, 1e9), Exception);
   EXPECT_THROW(chooseRates(scene, 1000.0), Exception);
 }
 

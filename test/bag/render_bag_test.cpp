@@ -12,6 +12,7 @@
 
 #include "ergotic/audio/wav.hpp"
 #include "support/scratch_file.hpp"
+#include "support/struck_bar.hpp"
 #include "support/tool_process.hpp"
 #include "tools/live_run.hpp"
 
@@ -24,25 +25,7 @@ using test::run;
 using testing::AllOf;
 using testing::HasSubstr;
 
-const char* const kScene = R"(
-ergotic: 1
-name: struck
-gestural_rate: 3150
-parameters:
-  tone: {value: 2000, range: [1000, 8000]}
-sections:
-  sound: {rate: audio}
-  keys: {rate: gestural}
-mats:
-  key: {type: slice, section: keys, rest: -0.002}
-  bar: {type: cell, section: sound, mass: 0.001, stiffness: $tone, damping: 0.001}
-lias:
-  felt: {type: contact, between: [key, bar], stiffness: 500, damping: 0.02}
-ports:
-  hand: {mat: key, slice: 0}
-outputs:
-  left: {quantity: velocity, at: bar, channel: 1}
-)";
+const std::string kScene = test::struckBar("{quantity: velocity, at: bar, channel: 1}");
 
 void write(rosbag::Bag& bag, const bag::Keyframe& keyframe) {
   ergotic::Keyframe message;

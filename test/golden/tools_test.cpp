@@ -16,6 +16,7 @@
 
 #include "ergotic/audio/wav.hpp"
 #include "support/mdl_simulator.hpp"
+#include "support/struck_bar.hpp"
 #include "support/tool_process.hpp"
 
 namespace ergotic {
@@ -48,25 +49,7 @@ const char* const kSpring = R"(# one mass, thrown
 @out1 posOutput @m
 )";
 
-const char* const kDrum = R"(
-ergotic: 1
-name: drum
-gestural_rate: 3150
-parameters:
-  tone: {value: 2000, range: [1000, 8000]}
-sections:
-  sound: {rate: audio}
-  keys: {rate: gestural}
-mats:
-  key: {type: slice, section: keys, rest: -0.002}
-  bar: {type: cell, section: sound, mass: 0.001, stiffness: $tone, damping: 0.001}
-lias:
-  felt: {type: contact, between: [key, bar], stiffness: 500, damping: 0.02}
-ports:
-  hand: {mat: key, slice: 0}
-outputs:
-  left: {quantity: position, at: bar, channel: 1, gain: 100}
-)";
+const std::string kDrum = test::struckBar("{quantity: position, at: bar, channel: 1, gain: 100}");
 
 class ToolsTest : public testing::Test {
  protected:
@@ -314,10 +297,10 @@ TEST_F(CheckTest, RefusesWhatIsUnstable) {
 }
 
 TEST_F(CheckTest, SaysWhereASceneIsWrong) {
-  const std::string scene = write("bad.yaml", std::string(kDrum) + "lost: 1\n");
+  const std::string scene = write("bad.yaml", kDrum + "lost: 1\n");
   const Outcome outcome = run("check", scene);
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.text, HasSubstr("bad.yaml:19:1: error: "));
+  EXPECT_THAT(outcome.text, HasSubstr("bad.yaml:18:1: error: "));
   EXPECT_EQ(run("check", "").code, 2);
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "ergotic/exception.hpp"
+#include "support/struck_bar.hpp"
 #include "tools/live_run.hpp"
 
 namespace ergotic::tools {
@@ -15,25 +16,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const char* const kScene = R"(
-ergotic: 1
-name: struck
-gestural_rate: 3150
-parameters:
-  tone: {value: 2000, range: [1000, 8000]}
-sections:
-  sound: {rate: audio}
-  keys: {rate: gestural}
-mats:
-  key: {type: slice, section: keys, rest: -0.002}
-  bar: {type: cell, section: sound, mass: 0.001, stiffness: $tone, damping: 0.001}
-lias:
-  felt: {type: contact, between: [key, bar], stiffness: 500, damping: 0.02}
-ports:
-  hand: {mat: key, slice: 0}
-outputs:
-  left: {quantity: velocity, at: bar, channel: 1}
-)";
+const std::string kScene = test::struckBar("{quantity: velocity, at: bar, channel: 1}");
 
 std::string otherScene() {
   std::string text = kScene;

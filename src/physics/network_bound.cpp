@@ -78,10 +78,12 @@ int NetworkBound::worstLink() const {
 
 int NetworkBound::worstOwner() const {
   const Link* link = worst();
-  if (link == nullptr || (link->a == kFixed && link->b == kFixed)) {
+  if (link == nullptr) {
     return -1;
   }
-  return owner_[at(ratio(link->a) > ratio(link->b) ? link->a : link->b)];
+  const bool take_a = link->b == kFixed || (link->a != kFixed && ratio(link->a) > ratio(link->b));
+  const int node = take_a ? link->a : link->b;
+  return node == kFixed ? -1 : owner_[at(node)];
 }
 
 double NetworkBound::collatzWielandtBound(int iterations) const {

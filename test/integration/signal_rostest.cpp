@@ -216,15 +216,16 @@ TEST_P(SignalTest, ReleasesFifteenNewtonsWithinTenMilliseconds) {
     expectUsualStatus(GetParam(), done.exit_status);
     const std::int64_t released = releaseTime(done.forces);
     ASSERT_NE(released, INT64_MAX) << "force was never released";
-    if (forceAt(done.forces, done.signal_ns) > -0.95 * kForceN) {
-      std::cout << "a stall had muted the force when the signal came: once more\n";
+    const bool in_time = released - done.signal_ns <= kLimitNs;
+    if (in_time && forceAt(done.forces, done.signal_ns) > -0.95 * kForceN) {
+      std::cout << "a stall had muted the force when the signal came: proves nothing, once more\n";
       continue;
     }
     ++attempts;
     const double took_ms = static_cast<double>(released - done.signal_ns) * 1e-6;
     const bool excused = reference.sawGap(done.signal_ns, done.signal_ns + kLimitNs);
     std::cout << "force gone after " << took_ms << " ms" << (excused ? ", excused" : "") << '\n';
-    passes += released - done.signal_ns <= kLimitNs && !excused ? 1 : 0;
+    passes += in_time && !excused ? 1 : 0;
   }
   EXPECT_GE(passes, kNeededPasses) << "of " << attempts << " attempts";
 }

@@ -90,9 +90,9 @@ Slopes slopesOf(const scene::Scene& scene, const scene::Lia& lia) {
               z + std::abs(extreme(scene, lia.limit_damping, true))};
     }
     case LiaType::kPluck:
-      return {lia.table.empty() ? k : steepest(lia.table), z};
+      return {lia.table.empty() ? k : steepest(lia.table.points), z};
     case LiaType::kBow:
-      return {0.0, lia.table.empty() ? z : steepest(lia.table)};
+      return {0.0, lia.table.empty() ? z : steepest(lia.table.points)};
     case LiaType::kSmoothBow:
       return {0.0, width > 0.0 ? kSmoothBowSlope * z : z};
     default:

@@ -27,7 +27,7 @@ LinkFields fieldsOf(const scene::Scene& scene, const scene::Lia& lia, const Step
   const double z_limit = z + units.damping(scene.valueOf(lia.limit_damping));
   // Displacements are stored from rest: the distance at rest is folded into the elongation.
   const double offset =
-      scene.mats[at(lia.a)].rest_x - scene.mats[at(lia.b)].rest_x - lia.rest_length;
+      scene.mats[at(lia.a)].rest.x() - scene.mats[at(lia.b)].rest.x() - lia.rest_length;
   switch (lawOf(lia)) {
     case Law::kSpringDamper:
     case Law::kPluckTable:
@@ -124,13 +124,14 @@ void CoefficientsOf<Real>::setSlot(const scene::Scene& scene,
                                    int slot) {
   const scene::Mat& mat = scene.mats[at(layout.mat_of_slot[at(slot)])];
   const double inverse = units.inverseMass(scene.valueOf(mat.mass));
-  double drift = mat.force * inverse + units.acceleration(scene.sections[at(mat.section)].gravity);
+  double drift =
+      mat.force.x() * inverse + units.acceleration(scene.sections[at(mat.section)].gravity.x());
   if (mat.type == scene::MatType::kCell) {
     const double pull = scene.valueOf(mat.stiffness) * inverse;
     const double loss = units.damping(scene.valueOf(mat.damping)) * inverse;
     masses.keep[at(slot)] = static_cast<Real>(1.0 - loss);
     masses.pull[at(slot)] = static_cast<Real>(pull);
-    drift -= pull * mat.rest_x;
+    drift -= pull * mat.rest.x();
   }
   masses.inverse_mass[at(slot)] = static_cast<Real>(inverse);
   masses.drift[at(slot)] = static_cast<Real>(drift);
@@ -171,8 +172,8 @@ void CoefficientsOf<Real>::fillRun(const scene::Scene& scene,
     setLink(scene, units, run, r, l);
     const scene::Lia& lia = scene.lias[at(run.lias[at(l)])];
     to.table_first.push_back(static_cast<int>(to.table_x.size()));
-    to.table_count.push_back(static_cast<int>(lia.table.size()));
-    for (const auto& [x, y] : lia.table) {
+    to.table_count.push_back(static_cast<int>(lia.table.points.size()));
+    for (const auto& [x, y] : lia.table.points) {
       to.table_x.push_back(static_cast<Real>(x));
       to.table_y.push_back(static_cast<Real>(y));
     }

@@ -95,6 +95,11 @@ class InstrumentOf final : public Instrument {
     }
   }
 
+  Energies makeEnergies() const override { return {}; }
+  std::vector<GuardReport> makeGuardReports() const override { return {}; }
+  void readEnergies(Energies&) const noexcept override {}
+  void readGuards(std::vector<GuardReport>&) const noexcept override {}
+
   bool isFinite() const noexcept override {
     const Real* x = arena_.template at<Real>(x_at_);
     return std::all_of(x, x + layout_.slots(), [](Real v) { return std::isfinite(v); });
@@ -111,9 +116,9 @@ class InstrumentOf final : public Instrument {
       const StepUnits units(scene(), rates(), range.divisor);
       for (int slot = range.cells; slot < range.end; ++slot) {
         const scene::Mat& mat = scene().mats[at(layout_.mat_of_slot[at(slot)])];
-        x()[slot] = static_cast<Real>(mat.position - mat.rest_x);
+        x()[slot] = static_cast<Real>(mat.position.x() - mat.rest.x());
         if (slot < range.fixed) {
-          d()[slot] = static_cast<Real>(units.velocity(mat.velocity));
+          d()[slot] = static_cast<Real>(units.velocity(mat.velocity.x()));
         }
       }
     }

@@ -106,12 +106,12 @@ Tap describeTap(const scene::Scene& scene,
   Tap tap;
   tap.quantity = output.quantity;
   tap.slot = layout.slot_of_mat[at(output.point.mat)];
-  tap.rest = mat.rest_x;
+  tap.rest = mat.rest.x();
   if (output.point.next >= 0) {
     const double f = output.point.fraction;
     tap.next = layout.slot_of_mat[at(output.point.next)];
     tap.fraction = f;
-    tap.rest = (1.0 - f) * mat.rest_x + f * scene.mats[at(output.point.next)].rest_x;
+    tap.rest = (1.0 - f) * mat.rest.x() + f * scene.mats[at(output.point.next)].rest.x();
   }
   tap.divisor = layout.sections[at(mat.section)].divisor;
   tap.velocity = 1.0 / StepUnits(scene, rates, tap.divisor).step;
@@ -163,6 +163,10 @@ Law lawOf(const scene::Lia& lia) {
       return lia.table.empty() ? Law::kBow : Law::kBowTable;
     case LiaType::kSmoothBow:
       return Law::kSmoothBow;
+    case LiaType::kPowerContact:
+    case LiaType::kTable:
+    case LiaType::kConditional:
+      break;
   }
   throw Exception("link '" + lia.name + "' has no force law");
 }
@@ -180,7 +184,7 @@ Layout makeLayout(const scene::Scene& scene, const Rates& rates) {
   for (const scene::Input& input : scene.inputs) {
     const scene::Mat& mat = scene.mats[at(input.mat)];
     const int divisor = layout.sections[at(mat.section)].divisor;
-    layout.feeds.push_back({input.quantity, layout.slot_of_mat[at(input.mat)], mat.rest_x,
+    layout.feeds.push_back({input.quantity, layout.slot_of_mat[at(input.mat)], mat.rest.x(),
                             mat.section, 1.0 / divisor, input.channel});
   }
   findFollowers(scene, layout);

@@ -10,7 +10,7 @@ namespace ergotic::node {
 /// Where a module rests, m, in frame `model`.
 inline Eigen::Vector3d restOf(const scene::Scene& scene, const scene::Mat& mat) {
   const auto& section = scene.sections[static_cast<std::size_t>(mat.section)];
-  return section.pose * Eigen::Vector3d(mat.rest_x, mat.y, mat.z);
+  return section.pose * Eigen::Vector3d(mat.rest.x(), mat.rest.y(), mat.rest.z());
 }
 
 /// Unit direction in which the modules of a section move, in frame `model`.

@@ -54,7 +54,7 @@ Markers::Markers(const scene::Scene& scene, double zoom) {
     const scene::Mat& mat = scene.mats[i];
     const auto section = static_cast<std::size_t>(mat.section);
     const Eigen::Vector3d axis = axisOf(scene.sections[section]);
-    modules_.push_back({restOf(scene, mat) - mat.rest_x * axis, zoom * axis, mat.rest_x});
+    modules_.push_back({restOf(scene, mat) - mat.rest.x() * axis, zoom * axis, mat.rest.x()});
     modules[section].push_back(i);
   }
   for (const scene::Lia& lia : scene.lias) {

@@ -19,8 +19,8 @@ Mat stringMat(const StringSpec& spec, int index) {
   Mat mat;
   mat.name = spec.name + "." + std::to_string(index);
   mat.section = spec.section;
-  mat.y = at.x();
-  mat.z = at.y();
+  mat.rest.y() = at.x();
+  mat.rest.z() = at.y();
   mat.place = spec.place;
   if (index == 0 || index == spec.masses + 1) {
     mat.type = MatType::kGround;
@@ -29,7 +29,7 @@ Mat stringMat(const StringSpec& spec, int index) {
   mat.type = spec.loss ? MatType::kCell : MatType::kMass;
   mat.mass = spec.mass;
   mat.damping = spec.loss.value_or(Value{});
-  mat.position = spec.pluck ? triangle(u, spec.pluck->x(), spec.pluck->y()) : 0.0;
+  mat.position.x() = spec.pluck ? triangle(u, spec.pluck->x(), spec.pluck->y()) : 0.0;
   return mat;
 }
 
@@ -89,10 +89,10 @@ void addChaplet(SceneBuilder& builder, const ChapletSpec& spec) {
     mat.name = spec.name + "." + std::to_string(i);
     mat.section = spec.section;
     mat.mass = kMass[k] * spec.mass;
-    mat.rest_x = carrier.rest_x;
-    mat.position = carrier.position;
-    mat.y = spec.at.x();
-    mat.z = spec.at.y();
+    mat.rest.x() = carrier.rest.x();
+    mat.position.x() = carrier.position.x();
+    mat.rest.y() = spec.at.x();
+    mat.rest.z() = spec.at.y();
     mat.place = spec.place;
     const int index = builder.add(std::move(mat));
     Lia lia = generatedLink(spec.name, i, previous, index, spec.place);

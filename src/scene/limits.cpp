@@ -34,6 +34,7 @@ std::vector<LiaField> liaFields(LiaType type) {
   };
   switch (type) {
     case LiaType::kContact:
+    case LiaType::kPowerContact:
     case LiaType::kCubicContact:
       fields.push_back({"threshold", &Lia::width, kMetreLimits});
       break;
@@ -44,6 +45,10 @@ std::vector<LiaField> liaFields(LiaType type) {
     case LiaType::kSmoothBow:
       fields.push_back({"width", &Lia::width, {"m/s", 0.0, kInfinity, true}});
       break;
+    case LiaType::kConditional:
+      fields.push_back({"width", &Lia::width, {"m", 0.0, kInfinity, true}});
+      break;
+    case LiaType::kTable:
     case LiaType::kSpringDamper:
     case LiaType::kQuadratic:
     case LiaType::kCubic:

@@ -128,11 +128,11 @@ class MdlReader {
     }
     if (arguments.size() > least) {
       // A force for each step, whatever the mass.
-      mat.force = -numbers_.number(arguments[least - 2]) / kMdlRateHz;
+      mat.force.x() = -numbers_.number(arguments[least - 2]) / kMdlRateHz;
     }
     setPlace(mat, numbers_.vector(arguments[arguments.size() - 2]));
-    mat.velocity = numbers_.vector(arguments.back()).z / kMdlRateHz;
-    if (mat.velocity != 0.0 && builder_.scene().text.find('[') == std::string::npos) {
+    mat.velocity.x() = numbers_.vector(arguments.back()).z / kMdlRateHz;
+    if (mat.velocity.x() != 0.0 && builder_.scene().text.find('[') == std::string::npos) {
       builder_.warn(arguments.back().place,
                     "the last number of " + quoted("@" + line.name) +
                         " is taken as a velocity per second; older files mean a position");
@@ -149,7 +149,7 @@ class MdlReader {
     mat.type = line.keyword.text == "ground" ? MatType::kGround : MatType::kDriven;
     setPlace(mat, numbers_.vector(line.arguments[0]));
     if (mat.type == MatType::kGround) {
-      mat.rest_x = mat.position;
+      mat.rest.x() = mat.position.x();
     }
     const int index = builder_.add(std::move(mat));
     if (line.keyword.text == "posInput") {
@@ -159,9 +159,9 @@ class MdlReader {
 
   /// The z of a text is what moves: x here; its x and y are the workbench.
   static void setPlace(Mat& mat, const MdlNumbers::Vector& at) {
-    mat.y = at.x;
-    mat.z = at.y;
-    mat.position = at.z;
+    mat.rest.y() = at.x;
+    mat.rest.z() = at.y;
+    mat.position.x() = at.z;
   }
 
   void readLink(const MdlLine& line) {

@@ -126,7 +126,7 @@ void readSections(SceneBuilder& builder, const YamlMap& top) {
                    section.name = name;
                    section.place = map.place();
                    readRate(map, section);
-                   section.gravity = map.number("gravity", kGravityLimits, 0.0);
+                   section.gravity.x() = map.number("gravity", kGravityLimits, 0.0);
                    if (map.has("pose")) {
                      section.pose = readPose(map.map("pose"));
                    }

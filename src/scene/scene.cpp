@@ -17,6 +17,27 @@ int channelsOf(const std::vector<T>& list) {
 
 }  // namespace
 
+int dimensionsOf(Geometry geometry) {
+  switch (geometry) {
+    case Geometry::kScalar:
+    case Geometry::kLine:
+      return 1;
+    case Geometry::kPlane:
+      return 2;
+    case Geometry::kSpace:
+      return 3;
+  }
+  return 1;
+}
+
+int Scene::coordinates() const {
+  int count = 0;
+  for (const Mat& mat : mats) {
+    count += dimensionsOf(sectionOf(mat).geometry);
+  }
+  return count;
+}
+
 int Scene::inputChannels() const {
   return std::max(channelsOf(inputs), channelsOf(audio_parameters));
 }

@@ -102,7 +102,7 @@ class Validator {
 
   void section(const Section& s) const {
     const std::string of = " of section " + quoted(s.name);
-    number(s.place, "gravity" + of, s.gravity, kGravityLimits);
+    number(s.place, "gravity" + of, s.gravity.x(), kGravityLimits);
     if (!s.gestural) {
       number(s.place, "divisor" + of, s.divisor, kDivisorLimits);
     }
@@ -121,9 +121,9 @@ class Validator {
       value(m.place, "stiffness" + of, m.stiffness, kStiffnessLimits);
       value(m.place, "damping" + of, m.damping, kDampingLimits);
     }
-    number(m.place, "force" + of, m.force, kForceLimits);
-    number(m.place, "velocity" + of, m.velocity, kVelocityLimits);
-    for (const double metres : {m.rest_x, m.y, m.z, m.position}) {
+    number(m.place, "force" + of, m.force.x(), kForceLimits);
+    number(m.place, "velocity" + of, m.velocity.x(), kVelocityLimits);
+    for (const double metres : {m.rest.x(), m.rest.y(), m.rest.z(), m.position.x()}) {
       number(m.place, "a coordinate" + of, metres, kMetreLimits);
     }
     if (m.type == MatType::kSlice &&
@@ -159,13 +159,13 @@ class Validator {
     if (l.type != LiaType::kPluck && l.type != LiaType::kBow) {
       fail(l.place, "link " + quoted(l.name) + " has a table, allowed: pluck and bow only");
     }
-    if (l.table.size() < 2) {
+    if (l.table.points.size() < 2) {
       fail(l.place, "one point" + of + ", allowed: at least 2");
     }
-    for (std::size_t i = 0; i < l.table.size(); ++i) {
-      const double before = i == 0 ? -kInfinity : l.table[i - 1].first;
-      number(l.place, "first number" + of, l.table[i].first, {"", before, kInfinity, i > 0});
-      number(l.place, "force" + of, l.table[i].second, kForceLimits);
+    for (std::size_t i = 0; i < l.table.points.size(); ++i) {
+      const double before = i == 0 ? -kInfinity : l.table.points[i - 1].first;
+      number(l.place, "first number" + of, l.table.points[i].first, {"", before, kInfinity, i > 0});
+      number(l.place, "force" + of, l.table.points[i].second, kForceLimits);
     }
   }
 

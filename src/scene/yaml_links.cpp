@@ -90,7 +90,7 @@ void readTable(const SceneBuilder& builder, const YamlMap& map, Lia& lia) {
       builder.fail(place, outOfRange("first number of a point of " + what, at,
                                      {"", before, kInfinity, true}));
     }
-    lia.table.emplace_back(
+    lia.table.points.emplace_back(
         at, numberOf(builder, point[1], "force of a point of " + what, kForceLimits, place));
     before = at;
   }
@@ -216,7 +216,7 @@ void readLias(SceneBuilder& builder, const YamlMap& top) {
   std::size_t points = 0;
   forEachElement(builder, top, "lias", "link", [&](const std::string& name, const YamlMap& map) {
     Lia lia = readLia(builder, name, map);
-    points += lia.table.size();
+    points += lia.table.points.size();
     if (points > kMaxSceneTablePoints) {
       builder.fail(map.place(), "the tables of the scene have more than " +
                                     std::to_string(kMaxSceneTablePoints) + " points");

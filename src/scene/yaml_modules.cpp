@@ -66,15 +66,15 @@ Mat readMat(const SceneBuilder& builder, const std::string& name, const YamlMap&
   }
   mat.stiffness = map.value("stiffness", kStiffnessLimits, {});
   mat.damping = map.value("damping", kDampingLimits, {});
-  mat.rest_x = map.number("rest", kMetreLimits, 0.0);
-  mat.position = map.number("x", kMetreLimits, mat.rest_x);
-  mat.velocity = map.number("v", kVelocityLimits, 0.0);
+  mat.rest.x() = map.number("rest", kMetreLimits, 0.0);
+  mat.position.x() = map.number("x", kMetreLimits, mat.rest.x());
+  mat.velocity.x() = map.number("v", kVelocityLimits, 0.0);
   if (kind.type == MatType::kGround) {
-    mat.rest_x = mat.position;
+    mat.rest.x() = mat.position.x();
   }
   const Eigen::Vector2d at = planePoint(map, "at");
-  mat.y = at.x();
-  mat.z = at.y();
+  mat.rest.y() = at.x();
+  mat.rest.z() = at.y();
   if (kind.type == MatType::kSlice &&
       !builder.scene().sections[static_cast<std::size_t>(mat.section)].gestural) {
     builder.fail(map.has("section") ? map.placeAt("section") : map.place(),
@@ -136,7 +136,8 @@ void readChaplet(SceneBuilder& builder, const std::string& name, const YamlMap& 
   spec.from = builder.mat(map.word("from"), map.placeAt("from"));
   spec.mass = map.value("mass", kMassLimits);
   const Mat& carrier = builder.scene().mats[static_cast<std::size_t>(spec.from)];
-  spec.at = map.has("at") ? planePoint(map, "at") : Eigen::Vector2d(carrier.y, carrier.z);
+  spec.at =
+      map.has("at") ? planePoint(map, "at") : Eigen::Vector2d(carrier.rest.y(), carrier.rest.z());
   addChaplet(builder, spec);
 }
 

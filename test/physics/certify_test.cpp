@@ -59,7 +59,7 @@ TEST(CertifyTest, ChainIsStableBelowTheBoundAndDivergesAboveIt) {
     SceneBuilder b;
     const double m = 1e-4;
     const int first = b.chain(50, m, kappa * m * kRate * kRate);
-    b.scene.mats[at(first + 7)].position = 1e-3;
+    b.scene.mats[at(first + 7)].position.x() = 1e-3;
     b.hear(first + 20);
     const Certificate c = certify(b.scene, {kRate, 14});
     EXPECT_EQ(c.verdict, kappa < 1.0 ? Verdict::kPassive : Verdict::kUnstable);
@@ -207,9 +207,9 @@ TEST(CertifyTest, SteepestLineOfATableCounts) {
   const int mass = b.mass(1.0);
   scene::Lia& lia = b.scene.lias[at(b.link(LiaType::kPluck, mass, b.ground(), 0.0))];
   const double k = 4.5 * kRate * kRate;
-  lia.table = {{-0.01, 0.0}, {0.0, 0.0}, {0.001, 0.001 * k}, {0.002, 0.0}};
+  lia.table.points = {{-0.01, 0.0}, {0.0, 0.0}, {0.001, 0.001 * k}, {0.002, 0.0}};
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnstable);
-  lia.table[2].second *= 0.5;
+  lia.table.points[2].second *= 0.5;
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
 }
 

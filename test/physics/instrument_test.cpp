@@ -78,7 +78,7 @@ TEST(InstrumentTest, ChainModesHaveTheFrequenciesOfTheScheme) {
     SceneBuilder b;
     const int first = b.chain(masses, m, k);
     for (int i = 1; i <= masses; ++i) {
-      b.scene.mats[at(first + i)].position = std::sin(kPi * mode * i / (masses + 1));
+      b.scene.mats[at(first + i)].position.x() = std::sin(kPi * mode * i / (masses + 1));
     }
     b.hear(first + 1);
     Player player(b.scene, {kRate, 14});
@@ -99,7 +99,7 @@ TEST(InstrumentTest, ChainModesHaveTheFrequenciesOfTheScheme) {
 
 TEST(InstrumentTest, GravityMakesAParabola) {
   SceneBuilder b;
-  b.scene.sections[0].gravity = -9.81;
+  b.scene.sections[0].gravity.x() = -9.81;
   const int mass = b.mass(0.1, 0.0, 2.0);
   b.hear(mass);
   Player player(b.scene, {kRate, 10});
@@ -183,7 +183,7 @@ TEST(InstrumentTest, RestOffsetsChangeNothingButTheFoldedConstants) {
     b.spring(mass, ground, 1000.0, 0.1);
     b.link(LiaType::kContact, other, mass, 800.0, 0.02);
     for (auto& mat : b.scene.mats) {
-      mat.rest_x = rest;
+      mat.rest.x() = rest;
     }
     b.hear(mass);
     b.hear(other, 1);
@@ -330,7 +330,7 @@ TEST(InstrumentTest, DisplacementsComeInTheOrderOfTheScene) {
   b.ground(1.0);
   b.cell(1.0, 0.0, 0.0, 2.0);
   b.mass(1.0, 3.0);
-  b.scene.mats[0].rest_x = 1.0;
+  b.scene.mats[0].rest.x() = 1.0;
   Player player(b.scene, {kRate, 1});
   std::vector<float> x(3);
   player.instrument->readDisplacements(x.data());

@@ -103,7 +103,9 @@ TEST(LawsTest, BowsDragWithTheirCurve) {
 }
 
 TEST(LawsTest, TablesAreStraightLinesBetweenTheirPoints) {
-  const auto set = [](Lia& lia) { lia.table = {{-0.2, -1.0}, {0.0, 0.0}, {0.1, 2.0}, {0.4, 0.5}}; };
+  const auto set = [](Lia& lia) {
+    lia.table.points = {{-0.2, -1.0}, {0.0, 0.0}, {0.1, 2.0}, {0.4, 0.5}};
+  };
   for (const LiaType type : {LiaType::kPluck, LiaType::kBow}) {
     const auto at = [&](double value) {
       return type == LiaType::kPluck ? forceOf(type, set, value) : forceOf(type, set, 0.0, value);

@@ -23,8 +23,8 @@ scene::Scene rowOf(int masses) {
       Eigen::Translation3d(0.0, 0.0, 1.0) * Eigen::AngleAxisd(-M_PI_2, Eigen::Vector3d::UnitY());
   for (int i = 0; i < masses; ++i) {
     scene::Mat mat;
-    mat.y = i;
-    mat.rest_x = 0.1;
+    mat.rest.y() = i;
+    mat.rest.x() = 0.1;
     scene.mats.push_back(mat);
     if (i > 0) {
       scene::Lia lia;

@@ -48,9 +48,9 @@ TEST(StringGeneratorTest, MakesMassesBetweenTwoGroundsJoinedInOrder) {
     EXPECT_EQ(mat.name, "s." + std::to_string(i));
     EXPECT_EQ(mat.type, i == 0 || i == 4 ? MatType::kGround : MatType::kMass);
     EXPECT_EQ(mat.section, 0);
-    EXPECT_DOUBLE_EQ(mat.y, 1.0 + i);
-    EXPECT_DOUBLE_EQ(mat.z, 2.0 + 2.0 * i);
-    EXPECT_EQ(mat.position, 0.0);
+    EXPECT_DOUBLE_EQ(mat.rest.y(), 1.0 + i);
+    EXPECT_DOUBLE_EQ(mat.rest.z(), 2.0 + 2.0 * i);
+    EXPECT_EQ(mat.position.x(), 0.0);
     EXPECT_EQ(mat.place.line, 8);
   }
   EXPECT_EQ(s.mats[2].mass.factor, 0.1);
@@ -90,8 +90,8 @@ TEST(StringGeneratorTest, PluckIsATriangleWithItsTopWhereItIsHeld) {
       "     pluck: {at: 0.25, height: 0.004}}\n");
   const double expected[] = {0.0, 0.004, 0.004 * 2 / 3, 0.004 / 3, 0.0};
   for (std::size_t i = 0; i < 5; ++i) {
-    EXPECT_NEAR(s.mats[1 + i].position, expected[i], 1e-15);
-    EXPECT_EQ(s.mats[1 + i].rest_x, 0.0);
+    EXPECT_NEAR(s.mats[1 + i].position.x(), expected[i], 1e-15);
+    EXPECT_EQ(s.mats[1 + i].rest.x(), 0.0);
   }
 }
 
@@ -128,10 +128,10 @@ TEST(ChapletGeneratorTest, HangsTwoTunedMassesOntoItsCarrier) {
 TEST(ChapletGeneratorTest, StartsUnstretchedWhereItsCarrierIs) {
   const Scene s = generate("  - {type: chaplet, name: c, section: a, from: key, mass: 0.002}\n");
   for (const std::size_t i : {1U, 2U}) {
-    EXPECT_EQ(s.mats[i].position, 0.02);
-    EXPECT_EQ(s.mats[i].rest_x, 0.02);
-    EXPECT_EQ(s.mats[i].y, 0.3);
-    EXPECT_EQ(s.mats[i].z, 0.4);
+    EXPECT_EQ(s.mats[i].position.x(), 0.02);
+    EXPECT_EQ(s.mats[i].rest.x(), 0.02);
+    EXPECT_EQ(s.mats[i].rest.y(), 0.3);
+    EXPECT_EQ(s.mats[i].rest.z(), 0.4);
   }
 }
 

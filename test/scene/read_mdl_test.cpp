@@ -27,7 +27,7 @@ TEST(ReadMdlTest, SceneCountsTimeInSamplesOfOneAudioSection) {
   ASSERT_EQ(s.sections.size(), 1U);
   EXPECT_FALSE(s.sections[0].gestural);
   EXPECT_EQ(s.sections[0].divisor, 1);
-  EXPECT_EQ(s.sections[0].gravity, 0.0);
+  EXPECT_EQ(s.sections[0].gravity.x(), 0.0);
 }
 
 TEST(ReadMdlTest, MassTakesPlaceFromXYAndMotionFromZ) {
@@ -35,18 +35,18 @@ TEST(ReadMdlTest, MassTakesPlaceFromXYAndMotionFromZ) {
   EXPECT_EQ(m.name, "m");
   EXPECT_EQ(m.type, MatType::kMass);
   EXPECT_EQ(m.mass.factor, 2.5);
-  EXPECT_EQ(m.y, 1.0);
-  EXPECT_EQ(m.z, 2.0);
-  EXPECT_EQ(m.position, 3.0);
-  EXPECT_EQ(m.rest_x, 0.0);
-  EXPECT_DOUBLE_EQ(m.velocity, 0.001);
-  EXPECT_EQ(m.force, 0.0);
+  EXPECT_EQ(m.rest.y(), 1.0);
+  EXPECT_EQ(m.rest.z(), 2.0);
+  EXPECT_EQ(m.position.x(), 3.0);
+  EXPECT_EQ(m.rest.x(), 0.0);
+  EXPECT_DOUBLE_EQ(m.velocity.x(), 0.001);
+  EXPECT_EQ(m.force.x(), 0.0);
 }
 
 TEST(ReadMdlTest, GravityIsAForceForEachStepWhateverTheMass) {
   const Scene s = readMdl("@m mass 2 9.81 0 0\n@o osc 3 0.1 0.2 9.81 0 0\n", "m.mdl");
-  EXPECT_DOUBLE_EQ(s.mats[0].force, -9.81 / 44100.0);
-  EXPECT_DOUBLE_EQ(s.mats[1].force, -9.81 / 44100.0);
+  EXPECT_DOUBLE_EQ(s.mats[0].force.x(), -9.81 / 44100.0);
+  EXPECT_DOUBLE_EQ(s.mats[1].force.x(), -9.81 / 44100.0);
 }
 
 TEST(ReadMdlTest, OscIsACellThatRestsAtTheOrigin) {
@@ -55,22 +55,22 @@ TEST(ReadMdlTest, OscIsACellThatRestsAtTheOrigin) {
   EXPECT_EQ(m.mass.factor, 3.0);
   EXPECT_EQ(m.stiffness.factor, 0.1);
   EXPECT_EQ(m.damping.factor, 0.2);
-  EXPECT_EQ(m.position, 0.5);
-  EXPECT_EQ(m.rest_x, 0.0);
-  EXPECT_DOUBLE_EQ(m.velocity, -1.0 / 44100.0);
+  EXPECT_EQ(m.position.x(), 0.5);
+  EXPECT_EQ(m.rest.x(), 0.0);
+  EXPECT_DOUBLE_EQ(m.velocity.x(), -1.0 / 44100.0);
 }
 
 TEST(ReadMdlTest, GroundRestsWhereItIs) {
   const Mat m = readMdl("@g ground 1.5\n", "m.mdl").mats.at(0);
   EXPECT_EQ(m.type, MatType::kGround);
-  EXPECT_EQ(m.position, 1.5);
-  EXPECT_EQ(m.rest_x, 1.5);
+  EXPECT_EQ(m.position.x(), 1.5);
+  EXPECT_EQ(m.rest.x(), 1.5);
 }
 
 TEST(ReadMdlTest, PosInputIsADrivenModuleWithItsInput) {
   const Scene s = readMdl("@in3 posInput [1 2 0.25]\n", "m.mdl");
   EXPECT_EQ(s.mats.at(0).type, MatType::kDriven);
-  EXPECT_EQ(s.mats[0].position, 0.25);
+  EXPECT_EQ(s.mats[0].position.x(), 0.25);
   ASSERT_EQ(s.inputs.size(), 1U);
   EXPECT_EQ(s.inputs[0].name, "in3");
   EXPECT_EQ(s.inputs[0].quantity, Quantity::kPosition);
@@ -220,8 +220,8 @@ TEST(ReadMdlTest, LinksMayComeBeforeTheirModules) {
 TEST(ReadMdlTest, WindowsLineEndsAndByteOrderMarkChangeNothing) {
   const Scene s = readMdl("\xEF\xBB\xBF@a mass 1 [0 0 2] 0\r\n@b ground 3\r\n", "m.mdl");
   ASSERT_EQ(s.mats.size(), 2U);
-  EXPECT_EQ(s.mats[0].position, 2.0);
-  EXPECT_EQ(s.mats[1].position, 3.0);
+  EXPECT_EQ(s.mats[0].position.x(), 2.0);
+  EXPECT_EQ(s.mats[1].position.x(), 3.0);
 }
 
 TEST(ReadMdlTest, VelocityWithoutAnyVectorIsWarnedOf) {

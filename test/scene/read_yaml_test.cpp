@@ -68,7 +68,7 @@ TEST(ReadYamlTest, ParametersAndSectionsAreReadFieldByField) {
   EXPECT_EQ(s.parameters[1].place.line, 4);
   EXPECT_EQ(s.parameters[1].place.column, 3);
   ASSERT_EQ(s.sections.size(), 3U);
-  EXPECT_EQ(s.sections[0].gravity, -9.81);
+  EXPECT_EQ(s.sections[0].gravity.x(), -9.81);
   EXPECT_EQ(s.sections[1].divisor, 3);
   EXPECT_TRUE(s.sections[2].gestural);
   EXPECT_EQ(s.sections[2].name, "hand");
@@ -95,20 +95,20 @@ TEST(ReadYamlTest, ModulesAreReadFieldByField) {
   EXPECT_EQ(m.type, MatType::kMass);
   EXPECT_EQ(m.mass.factor, 0.5);
   EXPECT_EQ(m.mass.parameter, -1);
-  EXPECT_EQ(m.y, 0.1);
-  EXPECT_EQ(m.z, -0.2);
-  EXPECT_EQ(m.position, 0.3);
-  EXPECT_EQ(m.velocity, -4.0);
-  EXPECT_EQ(m.rest_x, 0.25);
+  EXPECT_EQ(m.rest.y(), 0.1);
+  EXPECT_EQ(m.rest.z(), -0.2);
+  EXPECT_EQ(m.position.x(), 0.3);
+  EXPECT_EQ(m.velocity.x(), -4.0);
+  EXPECT_EQ(m.rest.x(), 0.25);
   EXPECT_EQ(m.place.line, 10);
   EXPECT_EQ(m.place.column, 3);
   EXPECT_EQ(s.mats[1].mass.factor, 2e-3);
   EXPECT_EQ(s.mats[1].mass.parameter, 1);
   EXPECT_EQ(s.valueOf(s.mats[1].mass), 4e-3);
-  EXPECT_EQ(s.mats[1].position, 0.125);  // at rest
+  EXPECT_EQ(s.mats[1].position.x(), 0.125);  // at rest
   EXPECT_EQ(s.mats[2].type, MatType::kGround);
-  EXPECT_EQ(s.mats[2].position, 0.75);
-  EXPECT_EQ(s.mats[2].rest_x, 0.75);
+  EXPECT_EQ(s.mats[2].position.x(), 0.75);
+  EXPECT_EQ(s.mats[2].rest.x(), 0.75);
   const Mat& c = s.mats[3];
   EXPECT_EQ(c.type, MatType::kCell);
   EXPECT_EQ(c.section, 1);
@@ -117,12 +117,12 @@ TEST(ReadYamlTest, ModulesAreReadFieldByField) {
   EXPECT_EQ(c.damping.parameter, 0);
   EXPECT_EQ(c.position, 1.0);
   EXPECT_EQ(c.velocity, 2.0);
-  EXPECT_EQ(c.rest_x, 0.0);
+  EXPECT_EQ(c.rest.x(), 0.0);
   EXPECT_EQ(s.mats[4].type, MatType::kDriven);
-  EXPECT_EQ(s.mats[4].position, 0.5);
+  EXPECT_EQ(s.mats[4].position.x(), 0.5);
   EXPECT_EQ(s.mats[5].type, MatType::kSlice);
   EXPECT_EQ(s.mats[5].section, 2);
-  EXPECT_EQ(s.mats[5].position, -0.01);
+  EXPECT_EQ(s.mats[5].position.x(), -0.01);
 }
 
 TEST(ReadYamlTest, EveryTypeOfLinkIsReadFieldByField) {
@@ -169,10 +169,10 @@ TEST(ReadYamlTest, EveryTypeOfLinkIsReadFieldByField) {
   EXPECT_EQ(s.lias[6].stiffness_limit.factor, 3.0);
   EXPECT_EQ(s.lias[7].width.factor, 0.5);
   EXPECT_EQ(s.lias[8].width.factor, 0.01);
-  ASSERT_EQ(s.lias[9].table.size(), 3U);
-  EXPECT_EQ(s.lias[9].table[2], std::make_pair(1.0, -2.0));
+  ASSERT_EQ(s.lias[9].table.points.size(), 3U);
+  EXPECT_EQ(s.lias[9].table.points[2], std::make_pair(1.0, -2.0));
   EXPECT_EQ(s.lias[10].width.parameter, 1);
-  EXPECT_EQ(s.lias[11].table.size(), 2U);
+  EXPECT_EQ(s.lias[11].table.points.size(), 2U);
   EXPECT_EQ(s.lias[12].damping.factor, 1.0);
 }
 
@@ -250,7 +250,7 @@ TEST(ReadYamlTest, WindowsLineEndsAndByteOrderMarkChangeNothing) {
   }
   const Scene s = readYaml(windows, "a.yaml");
   ASSERT_EQ(s.mats.size(), 6U);
-  EXPECT_EQ(s.mats[5].rest_x, -0.01);
+  EXPECT_EQ(s.mats[5].rest.x(), -0.01);
   EXPECT_EQ(s.mats[5].place.line, 15);
   EXPECT_EQ(s.text, windows);
 }

@@ -21,8 +21,8 @@ int SceneBuilder::add(scene::MatType type, double kg, double x, double v, int se
   mat.type = type;
   mat.name = "m" + std::to_string(scene.mats.size());
   mat.mass = {kg};
-  mat.position = x;
-  mat.velocity = v;
+  mat.position.x() = x;
+  mat.velocity.x() = v;
   mat.section = section;
   mat.place = {static_cast<int>(scene.mats.size()) + 1, 1};
   scene.mats.push_back(mat);

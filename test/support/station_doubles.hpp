@@ -80,6 +80,10 @@ class SpringInstrument : public physics::Instrument {
   std::vector<physics::StateEntry> stateEntries() const override;
   void saveState(void* to) const noexcept override;
   void loadState(const void* from) noexcept override;
+  physics::Energies makeEnergies() const override { return {}; }
+  std::vector<physics::GuardReport> makeGuardReports() const override { return {}; }
+  void readEnergies(physics::Energies&) const noexcept override {}
+  void readGuards(std::vector<physics::GuardReport>&) const noexcept override {}
   void readDisplacements(float* to) const noexcept override;
   bool isFinite() const noexcept override;
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ergotic/physics/energy.hpp"
 #include "ergotic/physics/rates.hpp"
 #include "ergotic/scene/scene.hpp"
 
@@ -69,9 +70,17 @@ class Instrument {
   /// Realtime: yes. \pre saved by an instrument compiled from the same scene, rates and precision
   virtual void loadState(const void* from) noexcept = 0;
 
-  /// Displacement from rest of every module, m, in the order of Scene::mats.
+  /// Displacement from rest of every module, m, in the order of Scene::mats: as many numbers for
+  /// each as its section has coordinates that move (Scene::coordinates in all).
   /// Realtime: yes.
   virtual void readDisplacements(float* to) const noexcept = 0;
+
+  /// Room for `readEnergies` and `readGuards`. Realtime: no.
+  virtual Energies makeEnergies() const = 0;
+  virtual std::vector<GuardReport> makeGuardReports() const = 0;
+  /// \pre made by the above. Realtime: yes. Cost: O(modules + links)
+  virtual void readEnergies(Energies& to) const noexcept = 0;
+  virtual void readGuards(std::vector<GuardReport>& to) const noexcept = 0;
 
   /// True if every displacement is a finite number. Realtime: yes.
   virtual bool isFinite() const noexcept = 0;

@@ -14,8 +14,10 @@
 /// in kg/sample^2, a velocity in m/sample. `compile` turns both into steps of the rate it is asked
 /// for, so that either kind keeps its pitch at any rate.
 ///
-/// Motion is along the x axis of a section (1D). A module rests at (rest_x, y, z) of its section's
-/// frame; the y-z plane is the workbench, on which only the picture depends.
+/// A section declares its geometry. Scalar motion (the default) is along the x axis of the section;
+/// the y-z plane is then the workbench, on which only the picture depends. In the Euclidean
+/// geometries modules move along x, in the x-y plane or in space, and links act along the line that
+/// joins their ends.
 namespace ergotic::scene {
 
 /// Where in a text something was said, for messages; line and column count from 1.
@@ -52,13 +54,28 @@ struct AudioParameter {
   Place place;
 };
 
+/// How modules of a section move and what a link's elongation is.
+enum class Geometry {
+  kScalar,  ///< along x; e = x_a - x_b, signed
+  kLine,    ///< along x; e from the distance |x_a - x_b|
+  kPlane,   ///< in x-y, distances in the plane
+  kSpace,   ///< in x-y-z
+};
+/// Coordinates that move: 1, 1, 2, 3.
+int dimensionsOf(Geometry geometry);
+
 /// Modules that are stepped together, at one rate, in one frame.
 struct Section {
   std::string name;
-  bool gestural = false;  ///< stepped once per tick; otherwise `divisor` holds
-  int divisor = 1;        ///< audio frames per step, 1: the audio rate
+  bool gestural = false;        ///< stepped once per tick; otherwise `divisor` holds
+  bool automatic_rate = false;  ///< `settle` chooses the rate by the section's highest mode
+  int divisor = 1;              ///< audio frames per step, 1: the audio rate
+  Geometry geometry = Geometry::kScalar;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< section frame in frame `model`
-  double gravity = 0.0;                                    ///< acceleration along x, m/time_unit^2
+  /// Acceleration of free modules, m/time_unit^2, along the coordinates that move.
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
+  Value medium{};             ///< damping of every free module to the ground, kg/time_unit
+  double sleep_energy = 0.0;  ///< kg m^2/time_unit^2, below which it may rest at 0; 0: never
   Place place;
 };
 
@@ -68,6 +85,7 @@ enum class MatType {
   kCell,    ///< (CEL) mass with a spring and a damper to x = 0 of its section's plane
   kDriven,  ///< its position is an input (`.mdl` posInput)
   kSlice,   ///< a device slice: its position is the hand's, its force is felt by the hand
+  kPoint,   ///< massless: lies between the modules of a grid, see Connection
 };
 
 /// (MAT) A material point: takes a force, gives a position.
@@ -75,15 +93,19 @@ struct Mat {
   std::string name;
   MatType type = MatType::kMass;
   int section = 0;
-  Value mass{1.0};        ///< kg, > 0; mass and cell
-  Value stiffness{};      ///< kg/time_unit^2, cell only
-  Value damping{};        ///< kg/time_unit, cell only
-  double force = 0.0;     ///< constant force along x (kg m/time_unit^2)
-  double rest_x = 0.0;    ///< m; displacements are stored and displayed from here
-  double y = 0.0;         ///< m, place on the workbench
-  double z = 0.0;         ///< m
-  double position = 0.0;  ///< m, absolute along x (not from rest_x), at the start
-  double velocity = 0.0;  ///< m/time_unit at the start
+  Value mass{1.0};    ///< kg, > 0; mass and cell
+  Value stiffness{};  ///< kg/time_unit^2, cell only
+  Value damping{};    ///< kg/time_unit, cell only
+  /// Cells: coefficients whose pole is that of the continuous oscillator, not its first order.
+  bool matched = false;
+  /// m; displacements are stored and displayed from here. Scalar sections: y and z are the place on
+  /// the workbench.
+  Eigen::Vector3d rest = Eigen::Vector3d::Zero();
+  // The next three use the coordinates that move; the others are ignored.
+  Eigen::Vector3d position =
+      Eigen::Vector3d::Zero();  ///< m, absolute (not from rest), at the start
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/time_unit, at the start
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();     ///< constant, kg m/time_unit^2
   Place place;
 };
 
@@ -97,6 +119,29 @@ enum class LiaType {
   kPluck,         ///< plectrum, or a table force(e) when `table` is given
   kBow,           ///< piecewise linear friction, or a table force(v) when `table` is given
   kSmoothBow,     ///< f = 0.63 Z v exp(-4 (v/width)^2 + 0.5)
+  kPowerContact,  ///< f = K e^exponent + Z v while e > 0
+  kTable,         ///< (LNL) f = table(e) + viscous_table(v), held beyond the last points
+  kConditional,   ///< f = K e + Z v from when |e| < width until |e| > release
+};
+
+/// How the force of a link is worked out in time.
+enum class Scheme {
+  kExplicit,  ///< CORDIS-ANIMA, from the present positions
+  kGuarded,   ///< never gives more energy than it took; contact, two-sided springs and friction
+  kAuto,      ///< `settle` chooses by the rules of the certificate
+};
+
+/// How a link joins two rates.
+enum class Coupling {
+  kHold,      ///< computed at the faster rate: position held, force averaged (scheme A)
+  kDecimate,  ///< computed at the slower rate: position decimated, force as one impulse (scheme B)
+};
+
+/// Points (x, y) of a function, sorted by x, at least two if there are any.
+struct Table {
+  std::vector<std::pair<double, double>> points;
+  bool smooth = false;  ///< monotone cubic between the points; otherwise straight lines
+  bool empty() const { return points.empty(); }
 };
 
 /// (LIA) An interaction: takes two positions, gives one force, -f to `a` and +f to `b`,
@@ -118,10 +163,40 @@ struct Lia {
   /// Clipped cubic laws: |e| at which the slope K_limit takes over, m. `.mdl` files mean
   /// sqrt(K_limit - K) / Q, YAML sqrt((K_limit - K) / Q), where the force is continuous.
   double tipping_point = 0.0;
-  double rest_length = 0.0;  ///< m, along x; not for contacts
-  /// Points of a force law, sorted by the first: (e, force) for a pluck, (v, force) for a bow;
-  /// straight lines between, 0 outside.
-  std::vector<std::pair<double, double>> table;
+  double rest_length = 0.0;  ///< m; scalar: along x; not for contacts
+  Value exponent{1.0};       ///< of the power contact, 1...5
+  double release = 0.0;      ///< conditional: |e| at which it lets go, m, >= width
+  /// (e, force): pluck and LNL; (v, force): bow. Pluck and bow are 0 outside, LNL holds its ends.
+  Table table;
+  Table viscous_table;  ///< (v, force): LNL
+  Scheme scheme = Scheme::kExplicit;
+  Coupling coupling = Coupling::kHold;
+  bool filtered = false;  ///< `settle` puts a chaplet between the slower end and this link
+  Place place;
+};
+
+/// Modules in rows and columns between which points can lie: a string is one row.
+struct Grid {
+  std::string name;
+  int first = 0;    ///< index of the first mat; the others follow, row by row
+  int columns = 2;  ///< mats of a row
+  int rows = 1;
+};
+
+/// Where a kPoint lies. Its position is the weighted mean of the modules around it, and these
+/// receive its force with the same weights: a finger, the place of a bow, a fret, a bridge.
+/// along = 0 is the first column, 1 the last; across = 0 the first row, 1 the last.
+struct Connection {
+  int mat = 0;   ///< a kPoint, in the section of the grid
+  int grid = 0;  ///< index in Scene::grids
+  Value along{};
+  Value across{};
+  /// Module whose displacement along x moves the point: along + guide_scale * x, -1: none.
+  int guide = -1;
+  double guide_scale = 0.0;    ///< 1/m
+  double along_minimum = 0.0;  ///< it never leaves this range, whatever asks for it
+  double along_maximum = 1.0;
+  double speed = 0.0;  ///< largest change of along and across per time_unit; 0: at once
   Place place;
 };
 
@@ -175,6 +250,10 @@ struct StringInfo {
   Value stiffness;  ///< of one link
   Value damping;    ///< of one link
   Value loss;       ///< of one mass to the ground
+  /// Coarse string: > 0, the wanted fundamental, Hz; `settle` then fits the springs to the next
+  /// three neighbours to the partials of an ideal string (links in the order of addString).
+  double corrected_hz = 0.0;
+  int first_lia = 0;  ///< index of its first link
 };
 
 /// A whole scene.
@@ -194,6 +273,8 @@ struct Scene {
   std::vector<Input> inputs;
   std::vector<Output> outputs;
   std::vector<StringInfo> strings;
+  std::vector<Grid> grids;
+  std::vector<Connection> connections;
   std::vector<std::string> warnings;  ///< from reading, `file:line:col: warning: ...`
 
   double valueOf(const Value& v) const {
@@ -203,6 +284,11 @@ struct Scene {
     return v.parameter < 0 ? v.factor
                            : v.factor * parameters[static_cast<std::size_t>(v.parameter)].value;
   }
+  const Section& sectionOf(const Mat& mat) const {
+    return sections[static_cast<std::size_t>(mat.section)];
+  }
+  /// Numbers that say where all modules are: the coordinates that move, module by module.
+  int coordinates() const;
   /// 1 + the highest channel, 0 if there is none.
   int inputChannels() const;
   int outputChannels() const;

@@ -28,6 +28,8 @@ const char* nameOf(scene::MatType type) {
       return "driven";
     case scene::MatType::kSlice:
       return "slice";
+    case scene::MatType::kPoint:
+      return "point";
   }
   return "";
 }
@@ -52,6 +54,12 @@ const char* nameOf(scene::LiaType type) {
       return "bow";
     case scene::LiaType::kSmoothBow:
       return "smooth bow";
+    case scene::LiaType::kPowerContact:
+      return "power-law contact";
+    case scene::LiaType::kTable:
+      return "table";
+    case scene::LiaType::kConditional:
+      return "conditional spring-damper";
   }
   return "";
 }

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace ergotic::physics {
+
+/// Energies of one section, J. Those that are "since the start" add up over time.
+struct SectionEnergy {
+  double kinetic = 0.0;
+  double potential = 0.0;    ///< of its links, cells, gravity and constant forces
+  double dissipated = 0.0;   ///< since the start
+  double from_device = 0.0;  ///< work of the hands on its slices, since the start
+  double from_inputs = 0.0;  ///< work of audio inputs and moving places, since the start
+  double from_links = 0.0;   ///< work of links to other sections on its modules, since the start
+};
+
+/// Energies of the links between two sections, J.
+struct CouplingEnergy {
+  int section_a = 0;
+  int section_b = 0;
+  double stored = 0.0;
+  double dissipated = 0.0;  ///< since the start
+  /// What hold and mean have borrowed: the work that the link saw less the work that both sides
+  /// did, since the start. It breathes within a step and does not drift.
+  double breathing = 0.0;
+};
+
+/// The balance: all that is stored, less what it was at the start, plus what was dissipated, less
+/// what came in. Only rounding may remain.
+struct Energies {
+  std::vector<SectionEnergy> sections;    ///< [Scene::sections]
+  std::vector<CouplingEnergy> couplings;  ///< pairs of sections that links join
+  double stored = 0.0;                    ///< in all sections and couplings
+  double residual = 0.0;
+};
+
+/// How often the force of a guarded link had to be cut to keep it from making energy.
+struct GuardReport {
+  int lia = 0;               ///< index in Scene::lias
+  std::int64_t active = 0;   ///< steps in which it pushed
+  std::int64_t clipped = 0;  ///< of these, with less force than its law asks for
+};
+
+}  // namespace ergotic::physics

@@ -71,6 +71,7 @@ void addString(SceneBuilder& builder, const StringSpec& spec) {
   info.damping = spec.damping;
   info.loss = spec.loss.value_or(Value{});
   builder.add(std::move(info));
+  builder.add(Grid{spec.name, first, count, 1});
 }
 
 void addChaplet(SceneBuilder& builder, const ChapletSpec& spec) {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/generators.hpp"
 
-#include <array>
 #include <cmath>
 #include <utility>
+
+#include "ergotic/scene/chaplet.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -75,32 +76,28 @@ void addString(SceneBuilder& builder, const StringSpec& spec) {
 }
 
 void addChaplet(SceneBuilder& builder, const ChapletSpec& spec) {
-  // C2 of docs/scene.md: stiffness in m wN^2, damping in m wN, mass in m (link 0: from the
-  // carrier).
-  constexpr std::array<double, 2> kStiffness{0.0083, 0.0705};
-  constexpr std::array<double, 2> kDamping{0.2237, 0.0};
-  constexpr std::array<double, 2> kMass{0.4475, 0.5525};
   const double nyquist = M_PI * builder.scene().gestural_rate_hz;  // wN, rad/s
   const Mat carrier = builder.scene().mats[static_cast<std::size_t>(spec.from)];
 
   int previous = spec.from;
-  for (int i = 0; i < 2; ++i) {
-    const auto k = static_cast<std::size_t>(i);
+  int index = 0;
+  for (const ChapletStage& stage : kChapletC2) {
     Mat mat;
-    mat.name = spec.name + "." + std::to_string(i);
+    mat.name = spec.name + "." + std::to_string(index);
     mat.section = spec.section;
-    mat.mass = kMass[k] * spec.mass;
+    mat.mass = stage.mass * spec.mass;
     mat.rest.x() = carrier.rest.x();
     mat.position.x() = carrier.position.x();
     mat.rest.y() = spec.at.x();
     mat.rest.z() = spec.at.y();
     mat.place = spec.place;
-    const int index = builder.add(std::move(mat));
-    Lia lia = generatedLink(spec.name, i, previous, index, spec.place);
-    lia.stiffness = kStiffness[k] * nyquist * nyquist * spec.mass;
-    lia.damping = kDamping[k] * nyquist * spec.mass;
+    const int added = builder.add(std::move(mat));
+    Lia lia = generatedLink(spec.name, index, previous, added, spec.place);
+    lia.stiffness = stage.stiffness * nyquist * nyquist * spec.mass;
+    lia.damping = stage.damping * nyquist * spec.mass;
     builder.add(std::move(lia));
-    previous = index;
+    previous = added;
+    ++index;
   }
 }
 

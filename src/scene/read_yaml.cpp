@@ -92,51 +92,6 @@ void overrideParameters(SceneBuilder& builder, const Overrides& overrides) {
   }
 }
 
-void readRate(const YamlMap& map, Section& section) {
-  if (!map.has("rate")) {
-    return;
-  }
-  if (map.at("rate").IsMap()) {
-    const YamlMap rate = map.map("rate");
-    rate.allow({"divisor"});
-    section.divisor = rate.integer("divisor", kDivisorLimits);
-    return;
-  }
-  section.gestural = map.choice("rate", {"audio", "gestural"}) == 1;
-}
-
-Eigen::Isometry3d readPose(const YamlMap& pose) {
-  pose.allow({"position", "rotation"});
-  const std::vector<double> position = pose.vector("position", 3, kMetreLimits);
-  const std::vector<double> rotation = pose.vector("rotation", 3, kAngleLimits);
-  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  result.translate(Eigen::Vector3d(position[0], position[1], position[2]));
-  result.rotate(Eigen::AngleAxisd(rotation[2], Eigen::Vector3d::UnitZ()) *
-                Eigen::AngleAxisd(rotation[1], Eigen::Vector3d::UnitY()) *
-                Eigen::AngleAxisd(rotation[0], Eigen::Vector3d::UnitX()));
-  return result;
-}
-
-void readSections(SceneBuilder& builder, const YamlMap& top) {
-  top.at("sections");
-  forEachElement(builder, top, "sections", "section",
-                 [&](const std::string& name, const YamlMap& map) {
-                   map.allow({"rate", "pose", "gravity"});
-                   Section section;
-                   section.name = name;
-                   section.place = map.place();
-                   readRate(map, section);
-                   section.gravity.x() = map.number("gravity", kGravityLimits, 0.0);
-                   if (map.has("pose")) {
-                     section.pose = readPose(map.map("pose"));
-                   }
-                   builder.add(std::move(section));
-                 });
-  if (builder.scene().sections.empty()) {
-    top.fail("sections", "the scene has no section, allowed: at least one");
-  }
-}
-
 /// What is legal but hardly meant.
 void warnOfLooseEnds(SceneBuilder& builder) {
   Scene& scene = builder.scene();
@@ -188,6 +143,7 @@ Scene readYaml(const std::string& text, const std::string& name, const Overrides
   readSections(builder, top);
   readMats(builder, top);
   readGenerators(builder, top);
+  readPoints(builder, top);
   readLias(builder, top);
   readPorts(builder, top);
   readInputs(builder, top);

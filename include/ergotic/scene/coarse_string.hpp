@@ -38,9 +38,4 @@ struct CoarseLink {
 /// \param index   0...coarseLinks(masses) - 1
 CoarseLink coarseLink(int masses, int index);
 
-/// Indices of the first links that have k1, k2 and k3 alone.
-constexpr std::array<int, 3> coarsePureLinks(int masses) {
-  return {0, masses + 1, 2 * masses + 1};
-}
-
 }  // namespace ergotic::scene

@@ -10,22 +10,24 @@
 #include "scene/overrides.hpp"
 #include "scene/source_text.hpp"
 #include "scene/yaml_elements.hpp"
+#include "scene/yaml_tables.hpp"
 
 namespace ergotic::scene {
 namespace {
 
 constexpr int kFormatVersion = 1;
 
-YAML::Node parse(const SceneBuilder& builder, const std::string& text) {
+/// The scene, and after it the tables of its files if the text has them.
+std::vector<YAML::Node> parse(const SceneBuilder& builder, const std::string& text) {
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    std::vector<YAML::Node> documents = YAML::LoadAll(text);
     if (documents.empty() || documents.front().IsNull()) {
       builder.fail({1, 1}, "the scene is empty, allowed: a map that begins with 'ergotic: 1'");
     }
-    if (documents.size() > 1) {
-      builder.fail(placeOf(documents[1], {1, 1}), "a second document, allowed: one in each file");
+    if (documents.size() > 2) {
+      builder.fail(placeOf(documents[2], {1, 1}), "a third document, allowed: at most two");
     }
-    return documents.front();
+    return documents;
   } catch (const YAML::DeepRecursion& e) {
     builder.fail({std::max(e.mark.line, 0) + 1, std::max(e.mark.column, 0) + 1},
                  "nested too deeply, allowed: as deep as a scene needs");
@@ -133,8 +135,9 @@ void forEachElement(const SceneBuilder& builder,
 Scene readYaml(const std::string& text, const std::string& name, const Overrides& overrides) {
   checkBytes(text, name, Bytes::kUtf8);
   SceneBuilder builder(name, text);
-  const YAML::Node root = parse(builder, text);
-  const YamlMap top(builder, root, "the scene", {1, 1});
+  const std::vector<YAML::Node> documents = parse(builder, text);
+  const YamlMap top(builder, documents.front(), "the scene", {1, 1});
+  YamlTables tables(builder, documents.size() > 1 ? &documents.back() : nullptr);
   top.allow({"ergotic", "name", "gestural_rate", "parameters", "sections", "mats", "generators",
              "lias", "ports", "inputs", "outputs"});
   readHead(builder, top, overrides);
@@ -144,7 +147,8 @@ Scene readYaml(const std::string& text, const std::string& name, const Overrides
   readMats(builder, top);
   readGenerators(builder, top);
   readPoints(builder, top);
-  readLias(builder, top);
+  readLias(builder, top, tables);
+  tables.finish();
   readPorts(builder, top);
   readInputs(builder, top);
   readOutputs(builder, top);

@@ -13,11 +13,13 @@
 /// order, because later parts name what earlier ones define. All throw TextError.
 namespace ergotic::scene {
 
+class YamlTables;
+
 void readSections(SceneBuilder& builder, const YamlMap& top);
 void readMats(SceneBuilder& builder, const YamlMap& top);  ///< all but the points
 void readGenerators(SceneBuilder& builder, const YamlMap& top);
 void readPoints(SceneBuilder& builder, const YamlMap& top);  ///< of `mats`: they lie on grids
-void readLias(SceneBuilder& builder, const YamlMap& top);
+void readLias(SceneBuilder& builder, const YamlMap& top, YamlTables& tables);
 void readPorts(SceneBuilder& builder, const YamlMap& top);
 void readInputs(SceneBuilder& builder, const YamlMap& top);
 void readOutputs(SceneBuilder& builder, const YamlMap& top);

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
+#include <vector>
 
 #include "ergotic/exception.hpp"
+#include "ergotic/scene/coarse_string.hpp"
 #include "ergotic/scene/scene.hpp"
+#include "ergotic/scene/table.hpp"
+#include "scene/lia_rules.hpp"
 #include "scene/limits.hpp"
 #include "scene/names.hpp"
 
@@ -24,16 +29,17 @@ class Validator {
     each(scene_.audio_parameters, "audio parameter", &Validator::audioParameter);
     each(scene_.sections, "section", &Validator::section);
     each(scene_.mats, "module", &Validator::mat);
+    for (const Grid& g : scene_.grids) {
+      grid(g);
+    }
+    connections();
     each(scene_.lias, "link", &Validator::lia);
     each(scene_.inputs, "input", &Validator::input);
     each(scene_.outputs, "output", &Validator::output);
     each(scene_.ports, "port", &Validator::port);
     exclusive();
-    for (const StringInfo& string : scene_.strings) {
-      index(Place{1, 1}, "first module of string " + quoted(string.name), string.first,
-            scene_.mats.size());
-      index(Place{1, 1}, "last module of string " + quoted(string.name),
-            string.count < 3 ? -1 : string.first + string.count - 1, scene_.mats.size());
+    for (const StringInfo& s : scene_.strings) {
+      string(s);
     }
   }
 
@@ -102,7 +108,16 @@ class Validator {
 
   void section(const Section& s) const {
     const std::string of = " of section " + quoted(s.name);
-    number(s.place, "gravity" + of, s.gravity.x(), kGravityLimits);
+    for (const double acceleration : s.gravity) {
+      number(s.place, "gravity" + of, acceleration, kGravityLimits);
+    }
+    value(s.place, "medium" + of, s.medium, kDampingLimits);
+    if (s.sleep_energy != 0.0) {
+      number(s.place, "sleep" + of, s.sleep_energy, kSleepLimits);
+    }
+    if (s.gestural && s.automatic_rate) {
+      fail(s.place, "rate" + of + " is both gestural and auto, allowed: one of them");
+    }
     if (!s.gestural) {
       number(s.place, "divisor" + of, s.divisor, kDivisorLimits);
     }
@@ -121,17 +136,107 @@ class Validator {
       value(m.place, "stiffness" + of, m.stiffness, kStiffnessLimits);
       value(m.place, "damping" + of, m.damping, kDampingLimits);
     }
-    number(m.place, "force" + of, m.force.x(), kForceLimits);
-    number(m.place, "velocity" + of, m.velocity.x(), kVelocityLimits);
-    for (const double metres : {m.rest.x(), m.rest.y(), m.rest.z(), m.position.x()}) {
-      number(m.place, "a coordinate" + of, metres, kMetreLimits);
+    for (int i = 0; i < 3; ++i) {
+      number(m.place, "force" + of, m.force[i], kForceLimits);
+      number(m.place, "velocity" + of, m.velocity[i], kVelocityLimits);
+      number(m.place, "a coordinate" + of, m.rest[i], kMetreLimits);
+      number(m.place, "a coordinate" + of, m.position[i], kMetreLimits);
     }
-    if (m.type == MatType::kSlice &&
-        !scene_.sections[static_cast<std::size_t>(m.section)].gestural) {
-      fail(m.place, "slice " + quoted(m.name) + " is in section " +
-                        quoted(scene_.sections[static_cast<std::size_t>(m.section)].name) +
-                        ", allowed: sections with rate: gestural");
+    if (m.type == MatType::kSlice) {
+      slice(m);
     }
+  }
+
+  void slice(const Mat& m) const {
+    const Section& section = scene_.sectionOf(m);
+    const std::string is = "slice " + quoted(m.name) + " is in section " + quoted(section.name);
+    if (!section.gestural) {
+      fail(m.place, is + ", allowed: sections with rate: gestural");
+    }
+    if (section.sleep_energy > 0.0) {
+      fail(m.place, is + ", which may sleep, allowed: sections without 'sleep'");
+    }
+  }
+
+  void grid(const Grid& g) const {
+    const std::string what = "string or mesh " + quoted(g.name);
+    const auto modules = static_cast<std::size_t>(std::max(g.rows, 0)) *
+                         static_cast<std::size_t>(std::max(g.columns, 0));
+    index({1, 1}, "first module of " + what, g.first, scene_.mats.size());
+    const Mat& first = scene_.mats[static_cast<std::size_t>(g.first)];
+    number(first.place, "columns of " + what, g.columns, {"", 2.0});
+    number(first.place, "rows of " + what, g.rows, {"", 1.0});
+    const std::size_t end = static_cast<std::size_t>(g.first) + modules;
+    if (end > scene_.mats.size()) {
+      fail(first.place, what + " ends at module " + std::to_string(end) + ", there are " +
+                            std::to_string(scene_.mats.size()));
+    }
+    for (auto i = static_cast<std::size_t>(g.first); i < end; ++i) {
+      const Mat& m = scene_.mats[i];
+      if (m.section != first.section || m.type == MatType::kPoint) {
+        fail(m.place, "module " + quoted(m.name) + " of " + what +
+                          " is a point or in another section, allowed: modules of one section");
+      }
+    }
+  }
+
+  /// Every point has one connection.
+  void connections() const {
+    std::vector<int> found(scene_.mats.size(), 0);
+    for (const Connection& c : scene_.connections) {
+      index(c.place, "point of a connection", c.mat, scene_.mats.size());
+      connection(c, scene_.mats[static_cast<std::size_t>(c.mat)]);
+      ++found[static_cast<std::size_t>(c.mat)];
+    }
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const Mat& m = scene_.mats[i];
+      if (m.type == MatType::kPoint && found[i] != 1) {
+        fail(m.place, "point " + quoted(m.name) + " has " + std::to_string(found[i]) +
+                          " connections, allowed: 1");
+      }
+    }
+  }
+
+  void connection(const Connection& c, const Mat& m) const {
+    const std::string of = " of point " + quoted(m.name);
+    if (m.type != MatType::kPoint) {
+      fail(c.place, "module " + quoted(m.name) + " has a connection, allowed: points");
+    }
+    index(c.place, "string or mesh" + of, c.grid, scene_.grids.size());
+    const Grid& g = scene_.grids[static_cast<std::size_t>(c.grid)];
+    if (scene_.mats[static_cast<std::size_t>(g.first)].section != m.section) {
+      fail(c.place,
+           "section" + of + " is another than that of " + quoted(g.name) + ", allowed: the same");
+    }
+    number(c.place, "lower end of the range" + of, c.along_minimum, kFractionLimits);
+    number(c.place, "upper end of the range" + of, c.along_maximum, {"", c.along_minimum, 1.0});
+    value(c.place, "place along" + of, c.along, {"", c.along_minimum, c.along_maximum});
+    value(c.place, "place across" + of, c.across, kFractionLimits);
+    if (c.speed != 0.0) {
+      number(c.place, "speed" + of, c.speed, kPointSpeedLimits);
+    }
+    if (c.guide != -1) {
+      index(c.place, "guide" + of, c.guide, scene_.mats.size());
+      number(c.place, "scale of the guide" + of, c.guide_scale, kGuideScaleLimits);
+      if (scene_.mats[static_cast<std::size_t>(c.guide)].type == MatType::kPoint) {
+        fail(c.place, "guide" + of + " is a point, allowed: modules of any other type");
+      }
+    }
+  }
+
+  void string(const StringInfo& s) const {
+    const std::string of = " of string " + quoted(s.name);
+    index({1, 1}, "first module" + of, s.first, scene_.mats.size());
+    index({1, 1}, "last module" + of, s.count < 3 ? -1 : s.first + s.count - 1, scene_.mats.size());
+    const Place place = scene_.mats[static_cast<std::size_t>(s.first)].place;
+    const bool coarse = s.corrected_hz != 0.0;
+    if (coarse) {
+      number(place, "frequency" + of, s.corrected_hz, kFrequencyLimits);
+      number(place, "masses" + of, s.count - 2, {"", kFewestCoarseMasses});
+    }
+    const int links = coarse ? coarseLinks(s.count - 2) : s.count - 1;
+    index(place, "first link" + of, s.first_lia, scene_.lias.size());
+    index(place, "last link" + of, s.first_lia + links - 1, scene_.lias.size());
   }
 
   void lia(const Lia& l) const {
@@ -142,9 +247,28 @@ class Validator {
       fail(l.place, "link " + quoted(l.name) + " joins module " +
                         quoted(scene_.mats[static_cast<std::size_t>(l.a)].name) + " to itself");
     }
-    number(l.place, "rest_length" + of, l.rest_length, kMetreLimits);
-    if (!l.table.empty()) {
-      table(l);
+    number(l.place, "rest_length" + of, l.rest_length, restLengthLimits(scene_, l));
+    laws(l, of);
+    for (const std::string& fault :
+         {schemeFault(l), couplingFault(scene_, l), filterFault(scene_, l)}) {
+      if (!fault.empty()) {
+        fail(l.place, fault);
+      }
+    }
+  }
+
+  void laws(const Lia& l, const std::string& of) const {
+    const bool table_only = l.type == LiaType::kTable;
+    const bool may_have_table = table_only || l.type == LiaType::kPluck || l.type == LiaType::kBow;
+    if ((!l.table.empty() && !may_have_table) || (!l.viscous_table.empty() && !table_only)) {
+      fail(l.place, "link " + quoted(l.name) + " has a table, allowed: pluck, bow and table only");
+    }
+    if (table_only && l.table.empty() && l.viscous_table.empty()) {
+      fail(l.place, "link " + quoted(l.name) + " has no table, allowed: elastic, viscous or both");
+    }
+    table(l, l.table);
+    table(l, l.viscous_table);
+    if (table_only || !l.table.empty()) {
       return;
     }
     for (const LiaField& field : liaFields(l.type)) {
@@ -152,20 +276,26 @@ class Validator {
     }
     number(l.place, "tipping_point" + of, l.tipping_point, {"m", 0.0});
     value(l.place, "limit_damping" + of, l.limit_damping, kDampingLimits);
+    if (l.type == LiaType::kConditional) {
+      number(l.place, "release" + of, l.release, releaseLimits(scene_, l));
+    }
   }
 
-  void table(const Lia& l) const {
+  void table(const Lia& l, const Table& t) const {
     const std::string of = " in the table of link " + quoted(l.name);
-    if (l.type != LiaType::kPluck && l.type != LiaType::kBow) {
-      fail(l.place, "link " + quoted(l.name) + " has a table, allowed: pluck and bow only");
+    if (t.empty()) {
+      return;
     }
-    if (l.table.points.size() < 2) {
+    if (t.points.size() < 2) {
       fail(l.place, "one point" + of + ", allowed: at least 2");
     }
-    for (std::size_t i = 0; i < l.table.points.size(); ++i) {
-      const double before = i == 0 ? -kInfinity : l.table.points[i - 1].first;
-      number(l.place, "first number" + of, l.table.points[i].first, {"", before, kInfinity, i > 0});
-      number(l.place, "force" + of, l.table.points[i].second, kForceLimits);
+    for (std::size_t i = 0; i < t.points.size(); ++i) {
+      const double before = i == 0 ? -kInfinity : t.points[i - 1].first;
+      number(l.place, "first number" + of, t.points[i].first, {"", before, kInfinity, i > 0});
+      number(l.place, "force" + of, t.points[i].second, kForceLimits);
+    }
+    if (!isFinite(interpolate(t))) {
+      fail(l.place, "points" + of + " are too close to each other, allowed: finite slopes");
     }
   }
 

@@ -141,8 +141,10 @@ void addString(SceneBuilder& builder, const StringSpec& spec) {
   for (int i = 0; i < count; ++i) {
     builder.add(stringMat(builder, spec, i));
   }
+  const int moving =
+      dimensionsOf(builder.scene().sections[static_cast<std::size_t>(spec.section)].geometry);
   const double rest_length =
-      spec.rest_length_ratio * (spec.to - spec.from).norm() / (spec.masses + 1);
+      spec.rest_length_ratio * (spec.to - spec.from).head(moving).norm() / (spec.masses + 1);
   for (int i = 0; i < links; ++i) {
     const CoarseLink ends = coarse ? coarseLink(spec.masses, i) : CoarseLink{i, i + 1, {}};
     Lia lia = generatedLink(spec.name, i, info.first + ends.a, info.first + ends.b, spec.place);

@@ -115,6 +115,21 @@ TEST(PointTest, CanBeNamedByLinksAndOutputs) {
   EXPECT_EQ(s.outputs[0].point.mat, s.connections[0].mat);
 }
 
+TEST(PointTest, OfALinkEndIsMadeOnceForAllLinks) {
+  const Scene s = readYaml(kHead +
+                               "mats: {g: {type: ground, section: p}}\n"
+                               "lias:\n"
+                               "  l: {type: spring, between: [g, net@0.3:0.7], stiffness: 1}\n"
+                               "  m: {type: damper, between: [g, net@0.3:0.7], damping: 1}\n",
+                           "point.yaml");
+  ASSERT_EQ(s.connections.size(), 1U);
+  EXPECT_EQ(s.connections[0].along.factor, 0.3);
+  EXPECT_EQ(s.connections[0].across.factor, 0.7);
+  const std::size_t links = s.lias.size();
+  EXPECT_EQ(s.lias[links - 1].b, s.connections[0].mat);
+  EXPECT_EQ(s.lias[links - 2].b, s.connections[0].mat);
+}
+
 class PointAtTest : public testing::Test {
  protected:
   PointAtTest() {

@@ -18,7 +18,8 @@ Scene legal() {
       "ergotic: 1\nparameters: {p: {value: 1, range: [1, 2]}}\n"
       "sections: {a: {}, h: {rate: gestural}}\n"
       "mats: {m: {type: cell, section: a, mass: $p}, k: {type: slice, section: h},\n"
-      "  d: {type: driven, section: a}}\n"
+      "  d: {type: driven, section: a},\n"
+      "  u: {type: point, along: s, at: 0.3, guide: {mat: k, scale: 1}}}\n"
       "generators: [{type: string, name: s, section: a, masses: 1, mass: 1, stiffness: 1,\n"
       "  to: [1, 0]}]\n"
       "lias: {l: {type: bow, between: [m, k], damping: 1, width: 1},\n"
@@ -79,9 +80,46 @@ const Damage kDamages[] = {
     {"next module of output 'q'", [](Scene& s) { s.outputs[0].point.next = 99; }},
     {"gain of output 'q'", [](Scene& s) { s.outputs[0].gain.factor = kNan; }},
     {"last module of string 's'", [](Scene& s) { s.strings[0].count = 9; }},
+    {"last link of string 's'", [](Scene& s) { s.strings[0].first_lia = 3; }},
+    {"frequency of string 's'", [](Scene& s) { s.strings[0].corrected_hz = -1.0; }},
+    {"masses of string 's' = 1 is out of range, allowed: >= 3",
+     [](Scene& s) { s.strings[0].corrected_hz = 1.0; }},
+    {"gravity of section 'a'", [](Scene& s) { s.sections[0].gravity.z() = kNan; }},
+    {"medium of section 'a'", [](Scene& s) { s.sections[0].medium.factor = -1.0; }},
+    {"sleep of section 'a'", [](Scene& s) { s.sections[0].sleep_energy = -1.0; }},
+    {"which may sleep", [](Scene& s) { s.sections[1].sleep_energy = 1.0; }},
+    {"both gestural and auto", [](Scene& s) { s.sections[1].automatic_rate = true; }},
+    {"a coordinate of module 'm'", [](Scene& s) { s.mats[0].position.z() = kNan; }},
+    {"first module of string or mesh 's'", [](Scene& s) { s.grids[0].first = -1; }},
+    {"columns of string or mesh 's'", [](Scene& s) { s.grids[0].columns = 1; }},
+    {"rows of string or mesh 's'", [](Scene& s) { s.grids[0].rows = 0; }},
+    {"'s' ends at module 9", [](Scene& s) { s.grids[0].rows = 2; }},
+    {"of string or mesh 's' is a point or in another section",
+     [](Scene& s) { s.grids[0].columns = 4; }},
+    {"point of a connection = 99", [](Scene& s) { s.connections[0].mat = 99; }},
+    {"module 'm' has a connection, allowed: points", [](Scene& s) { s.connections[0].mat = 0; }},
+    {"point 'u' has 0 connections", [](Scene& s) { s.connections.clear(); }},
+    {"point 'u' has 2 connections", [](Scene& s) { s.connections.push_back(s.connections[0]); }},
+    {"string or mesh of point 'u'", [](Scene& s) { s.connections[0].grid = 1; }},
+    {"section of point 'u' is another", [](Scene& s) { s.mats.back().section = 1; }},
+    {"place along of point 'u' = 0.3 is out of range, allowed: 0.4...1",
+     [](Scene& s) { s.connections[0].along_minimum = 0.4; }},
+    {"upper end of the range of point 'u'", [](Scene& s) { s.connections[0].along_maximum = 2; }},
+    {"place across of point 'u'", [](Scene& s) { s.connections[0].across.factor = 2.0; }},
+    {"speed of point 'u'", [](Scene& s) { s.connections[0].speed = -1.0; }},
+    {"guide of point 'u' = 99", [](Scene& s) { s.connections[0].guide = 99; }},
+    {"guide of point 'u' is a point", [](Scene& s) { s.connections[0].guide = 6; }},
+    {"scale of the guide of point 'u'", [](Scene& s) { s.connections[0].guide_scale = kNan; }},
 };
 TEST(ValidateTest, AcceptsWhatTheReaderMakes) {
   EXPECT_NO_THROW(validate(legal()));
+}
+
+TEST(ValidateTest, AcceptsNegativeStiffnessAndDampingOfLinearLinks) {
+  Scene scene = legal();
+  scene.lias[0].stiffness.factor = -1.0;
+  scene.lias[0].damping.factor = -1.0;
+  EXPECT_NO_THROW(validate(scene));
 }
 
 TEST(ValidateTest, FindsEveryDamage) {

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "scene/bad_text.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+const std::string kSections =
+    "ergotic: 1\n"
+    "parameters: {air: {value: 2, range: [0, 4]}}\n"
+    "sections:\n"
+    "  scalar: {gravity: [-9.81], medium: 0.5*$air, rate: auto}\n"
+    "  line: {geometry: line, gravity: 3, sleep: 1e-9}\n"
+    "  plane: {geometry: plane, gravity: [1, -2]}\n"
+    "  space: {geometry: space, gravity: [1, 2, 3], rate: gestural, sleep: 1}\n";
+
+Scene withMats(const std::string& mats) {
+  return readYaml(kSections + "mats:\n" + mats, "geometry.yaml");
+}
+
+void expectVector(const Eigen::Vector3d& seen, double x, double y, double z) {
+  EXPECT_EQ(seen.x(), x);
+  EXPECT_EQ(seen.y(), y);
+  EXPECT_EQ(seen.z(), z);
+}
+
+TEST(YamlGeometryTest, SectionsAreReadFieldByField) {
+  const Scene s = readYaml(kSections, "geometry.yaml");
+  ASSERT_EQ(s.sections.size(), 4U);
+  const Geometry geometries[] = {Geometry::kScalar, Geometry::kLine, Geometry::kPlane,
+                                 Geometry::kSpace};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(s.sections[i].geometry, geometries[i]);
+    EXPECT_EQ(s.sections[i].automatic_rate, i == 0);
+    EXPECT_EQ(s.sections[i].gestural, i == 3);
+  }
+  expectVector(s.sections[0].gravity, -9.81, 0.0, 0.0);
+  expectVector(s.sections[1].gravity, 3.0, 0.0, 0.0);
+  expectVector(s.sections[2].gravity, 1.0, -2.0, 0.0);
+  expectVector(s.sections[3].gravity, 1.0, 2.0, 3.0);
+  EXPECT_EQ(s.sections[0].medium.factor, 0.5);
+  EXPECT_EQ(s.sections[0].medium.parameter, 0);
+  EXPECT_EQ(s.sections[1].medium.factor, 0.0);
+  EXPECT_EQ(s.sections[0].sleep_energy, 0.0);
+  EXPECT_EQ(s.sections[1].sleep_energy, 1e-9);
+}
+
+TEST(YamlGeometryTest, ModulesRestWhereTheyAreAndMayStartElsewhere) {
+  const Scene s = withMats(
+      "  a: {type: mass, section: plane, mass: 1, at: [1, 2]}\n"
+      "  b: {type: mass, section: plane, mass: 1, at: [1, 2, 3], x: [4, 5], v: [6, 7]}\n"
+      "  c: {type: cell, section: space, mass: 1, at: [1, 2, 3], x: [4, 5, 6], v: [7, 8, 9]}\n"
+      "  d: {type: mass, section: line, mass: 1, at: 1, x: 2, v: 3}\n"
+      "  e: {type: mass, section: line, mass: 1, at: [1, 2, 3], x: [4]}\n"
+      "  f: {type: mass, section: space, mass: 1}\n");
+  expectVector(s.mats[0].rest, 1.0, 2.0, 0.0);
+  expectVector(s.mats[0].position, 1.0, 2.0, 0.0);
+  expectVector(s.mats[0].velocity, 0.0, 0.0, 0.0);
+  expectVector(s.mats[1].rest, 1.0, 2.0, 3.0);
+  expectVector(s.mats[1].position, 4.0, 5.0, 0.0);
+  expectVector(s.mats[1].velocity, 6.0, 7.0, 0.0);
+  expectVector(s.mats[2].rest, 1.0, 2.0, 3.0);
+  expectVector(s.mats[2].position, 4.0, 5.0, 6.0);
+  expectVector(s.mats[2].velocity, 7.0, 8.0, 9.0);
+  expectVector(s.mats[3].rest, 1.0, 0.0, 0.0);
+  expectVector(s.mats[3].position, 2.0, 0.0, 0.0);
+  expectVector(s.mats[3].velocity, 3.0, 0.0, 0.0);
+  expectVector(s.mats[4].rest, 1.0, 2.0, 3.0);
+  expectVector(s.mats[4].position, 4.0, 0.0, 0.0);
+  expectVector(s.mats[5].position, 0.0, 0.0, 0.0);
+  EXPECT_EQ(s.coordinates(), 2 + 2 + 3 + 1 + 1 + 3);
+}
+
+TEST(YamlGeometryTest, GroundsAndDrivenModulesAreAtTheirPlace) {
+  const Scene s = withMats(
+      "  g: {type: ground, section: space, at: [1, 2, 3]}\n"
+      "  d: {type: driven, section: plane, at: [1, 2], x: [3, 2]}\n");
+  expectVector(s.mats[0].rest, 1.0, 2.0, 3.0);
+  expectVector(s.mats[0].position, 1.0, 2.0, 3.0);
+  expectVector(s.mats[1].rest, 1.0, 2.0, 0.0);
+  expectVector(s.mats[1].position, 3.0, 2.0, 0.0);
+}
+
+TEST(YamlGeometryTest, CellsAreMatchedUnlessTheySayOtherwise) {
+  const Scene s = withMats(
+      "  a: {type: cell, section: scalar, mass: 1}\n"
+      "  b: {type: cell, section: scalar, mass: 1, matched: false}\n"
+      "  c: {type: cell, section: scalar, mass: 1, matched: true}\n"
+      "  d: {type: mass, section: scalar, mass: 1}\n");
+  EXPECT_TRUE(s.mats[0].matched);
+  EXPECT_FALSE(s.mats[1].matched);
+  EXPECT_TRUE(s.mats[2].matched);
+  EXPECT_FALSE(s.mats[3].matched);
+}
+
+#define SECTION(fields) "ergotic: 1\nsections: {a: {" fields "}}\n"
+const BadText kBadSections[] = {
+    {SECTION("geometry: <!>plan"), "unknown geometry 'plan' of section 'a'; did you mean 'plane'?"},
+    {SECTION("geometry: plane, gravity: <!>9.81"),
+     "'gravity' of section 'a' is a single value, allowed: a list of 2 numbers"},
+    {SECTION("geometry: space, gravity: <!>[0, 1]"),
+     "is a list of 2, allowed: a list of 3 numbers"},
+    {SECTION("gravity: <!>[1, 2]"), "is a list of 2, allowed: a number or a list of 1 number"},
+    {SECTION("gravity: <!>x"), "'x' is not a finite number, allowed: any finite number of m/s^2"},
+    {SECTION("medium: <!>-1"), "= -1 N s/m is out of range, allowed: >= 0 N s/m"},
+    {SECTION("sleep: <!>0"), "= 0 J is out of range, allowed: > 0 J"},
+    {SECTION("rate: <!>automatic"), "unknown rate 'automatic'"},
+    {SECTION("rate: gestural, sleep: 1") "mats: {<!>k: {type: slice}}\n",
+     "slice 'k' is in section 'a', which may sleep, allowed: sections without 'sleep'"},
+    {SECTION("rate: auto") "mats: {<!>k: {type: slice}}\n", "in a section that is not gestural"},
+    {SECTION("rate: auto") "mats: {m: {type: mass, mass: 1}}\n"
+                           "generators:\n"
+                           "  - <!>{type: chaplet, name: c, from: m, mass: 1}\n",
+     "allowed: scalar sections with rate: audio"},
+};
+TEST(YamlGeometryTest, WrongSectionsAreRefusedAtTheirPlace) {
+  for (const BadText& bad : kBadSections) {
+    expectRefused(bad, "bad.yaml");
+  }
+}
+
+#define PLANE(mat) SECTION("geometry: plane") "mats: {m: {" mat "}}\n"
+const BadText kBadMats[] = {
+    {PLANE("type: mass, mass: 1, at: <!>[1]"),
+     "'at' of module 'm' is a list of 1, allowed: a list of 2 to 3 numbers"},
+    {PLANE("type: mass, mass: 1, at: <!>[1, 2, 3, 4]"), "is a list of 4"},
+    {PLANE("type: mass, mass: 1, at: [1, <!>x]"), "'x' is not a finite number"},
+    {PLANE("type: mass, mass: 1, x: <!>1"), "is a single value, allowed: a list of 2 numbers"},
+    {PLANE("type: mass, mass: 1, v: <!>[1, 2, 3]"), "is a list of 3, allowed: a list of 2"},
+    {PLANE("type: mass, mass: 1, <!>rest: 1"),
+     "'rest' of module 'm' has no meaning in section 'a' of geometry plane, allowed: 'at'"},
+    {PLANE("type: ground, <!>x: [1, 2]"), "'x' of module 'm' has no meaning in section 'a'"},
+    {PLANE("type: cell, mass: 1, matched: <!>yes"), "unknown matched 'yes' of module 'm'"},
+    {PLANE("type: mass, mass: 1, <!>matched: true"), "unknown key 'matched' of module 'm'"},
+    {SECTION("geometry: space") "mats: {m: {type: mass, mass: 1, at: <!>[1, 2]}}\n",
+     "allowed: a list of 3 numbers"},
+    {SECTION("geometry: line") "mats: {m: {type: mass, mass: 1, at: <!>[]}}\n",
+     "allowed: a number or a list of 1 to 3 numbers"},
+    {SECTION("") "mats: {m: {type: mass, mass: 1, x: <!>[1, 2]}}\n",
+     "is a list of 2, allowed: a number or a list of 1 number"},
+};
+TEST(YamlGeometryTest, WrongModulesAreRefusedAtTheirPlace) {
+  for (const BadText& bad : kBadMats) {
+    expectRefused(bad, "bad.yaml");
+  }
+}
+
+#define STRING(section, fields) \
+  SECTION(section) "generators:\n  - {type: string, name: s, masses: 3, mass: 1, " fields "}\n"
+#define MESH(fields) \
+  SECTION("") "generators:\n  - {type: mesh, name: n, mass: 1, stiffness: 1, " fields "}\n"
+const BadText kBadGenerators[] = {
+    {STRING("geometry: plane", "stiffness: 1, to: <!>[0, 0]"), "is where it comes from"},
+    {STRING("geometry: plane", "stiffness: 1, to: <!>[0]"), "allowed: a list of 2 to 3 numbers"},
+    {STRING("geometry: plane", "frequency: 1, to: [1, 0], rest_length_ratio: <!>1"),
+     "leaves no tension for 'frequency'"},
+    {STRING("geometry: plane", "stiffness: 1, to: [1, 0], rest_length_ratio: <!>1.5"),
+     "= 1.5 is out of range, allowed: 0...1"},
+    {STRING("", "stiffness: 1, to: [1, 0], <!>rest_length_ratio: 0.5"),
+     "has no meaning in section 'a' of geometry scalar, allowed: line, plane, space"},
+    {STRING("geometry: plane", "frequency: 1, to: [1, 0], <!>coarse: true"),
+     "has no meaning in section 'a' of geometry plane, allowed: scalar"},
+    {STRING("", "<!>stiffness: 1, to: [1, 0], coarse: true"),
+     "is fitted for a coarse string, allowed: 'frequency'"},
+    {SECTION("") "generators:\n  - {type: string, name: s, masses: <!>2, mass: 1, frequency: 1, "
+                 "to: [1, 0], coarse: true}\n",
+     "= 2 is out of range, allowed: 3...1999998"},
+    {STRING("", "frequency: 1, to: [1, 0], coarse: <!>maybe"), "known: false, true"},
+    {MESH("rows: <!>2, columns: 3, spacing: 1"), "= 2 is out of range, allowed: 3...1000000"},
+    {MESH("rows: 2, columns: <!>1, spacing: 1, edges: free"), "allowed: 2...1000000"},
+    {MESH("rows: 3, columns: 3, spacing: <!>0"), "= 0 m is out of range, allowed: > 0 m"},
+    {SECTION("") "generators:\n  - {type: mesh, name: <!>n, mass: 1, stiffness: 1, rows: 3000, "
+                 "columns: 3000, spacing: 1}\n",
+     "would have 9000000 modules, allowed: at most 2000000"},
+    {MESH("rows: 3, columns: 3, spacing: 1, edges: <!>open"), "known: fixed, free, corners"},
+    {MESH("rows: 3, columns: 3, spacing: 1, neighbours: <!>6"), "unknown neighbours '6' of generator"},
+    {MESH("rows: 3, columns: 3, spacing: 1, <!>diagonal_stiffness: 1"),
+     "without diagonals, allowed with neighbours: 8"},
+    {STRING("", "stiffness: 1, to: [1, 0]") "  - {type: mesh, name: <!>s, mass: 1, stiffness: 1, "
+                                            "rows: 3, columns: 3, spacing: 1}\n",
+     "'s.link.0' is defined twice, first in line 4"},
+};
+TEST(YamlGeometryTest, WrongGeneratorsAreRefusedAtTheirPlace) {
+  for (const BadText& bad : kBadGenerators) {
+    expectRefused(bad, "bad.yaml");
+  }
+}
+
+}  // namespace
+}  // namespace ergotic::scene

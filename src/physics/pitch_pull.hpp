@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ergotic/scene/scene.hpp"
+
+namespace ergotic::physics {
+
+/// By how much a string that moves in a plane or in space sounds higher when it moves widely, cents
+/// above its pitch at rest; a scalar one keeps its pitch.
+/// \param slack      rest length of a link over its length in the string, 0...1
+/// \param amplitude  of the fundamental over the length of the string
+double pitchPullCents(double slack, double amplitude);
+
+/// Says of every string in a plane or in space what it gains by not being scalar.
+void notePitchPull(const scene::Scene& scene, std::vector<std::string>& notes);
+
+}  // namespace ergotic::physics

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ergotic/physics/instrument.hpp"
+#include "ergotic/physics/settle.hpp"
 
 namespace ergotic::test {
 
@@ -41,14 +42,15 @@ class SceneBuilder {
   int add(scene::MatType type, double kg, double x, double v, int section);
 };
 
-/// Ticks an instrument and keeps every output frame. `positions` is held, or empty for no port.
+/// Ticks an instrument, made of the settled scene, and keeps every output frame. `positions` is
+/// held, or empty for no port.
 class Player {
  public:
   explicit Player(std::unique_ptr<physics::Instrument> instrument);
   Player(const scene::Scene& scene,
          const physics::Rates& rates,
          physics::Precision precision = physics::Precision::kDouble)
-      : Player(physics::compile(scene, rates, precision)) {}
+      : Player(physics::compile(physics::settle(scene, rates).scene, rates, precision)) {}
 
   void tick();
   void ticks(int count) {

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "guarded.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ergotic::physics {
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+template <class Real>
+GuardedLinks<Real>::GuardedLinks(const std::vector<GuardedLink>& links, std::size_t slots)
+    : motions_(links.size()), modules_(slots) {
+  for (const GuardedLink& link : links) {
+    const std::size_t capacity = std::max(link.capacity, link.terms.size());
+    links_.push_back({link.euclidean, link.dimensions, terms_.size(), 0, {}});
+    terms_.resize(terms_.size() + capacity);
+    setTerms(links_.size() - 1, link.terms.data(), link.terms.size(), link.offset);
+  }
+}
+
+/// Terms of one module lie side by side; a coordinate that both ends share becomes one term.
+template <class Real>
+ERGOTIC_REALTIME void GuardedLinks<Real>::setTerms(std::size_t link,
+                                                   const GuardedTerm* terms,
+                                                   std::size_t count,
+                                                   const double (&offset)[3]) noexcept {
+  Link& to = links_[link];
+  Term* const first = terms_.data() + to.first;
+  Term* last = first;
+  for (const GuardedTerm* t = terms; t != terms + count; ++t) {
+    const int place = t->slot + t->component * t->stride;
+    const Real weight = static_cast<Real>(t->weight);
+    Term* same = std::find_if(first, last, [place](const Term& k) { return k.at == place; });
+    if (same != last) {
+      same->weight += weight;
+      continue;
+    }
+    Term* after = std::find_if(first, last, [t](const Term& k) { return k.slot == t->slot; });
+    const bool opens = after == last;
+    after += opens ? 0 : 1;
+    std::move_backward(after, last, last + 1);
+    *after = {t->slot,         place, t->component, t->stride,
+              t->slow_section, opens, weight,       static_cast<Real>(t->share)};
+    ++last;
+  }
+  to.count = static_cast<std::size_t>(last - first);
+  std::transform(offset, offset + 3, to.offset, [](double o) { return static_cast<Real>(o); });
+}
+
+template <class Real>
+bool GuardedLinks<Real>::isFree(const GuardedView<Real>& view, const Term& term) const noexcept {
+  return term.slow_section < 0 && view.inverse_mass[term.slot] > Real(0);
+}
+
+/// Elongation or compression and its direction.
+template <class Real>
+void GuardedLinks<Real>::place(const GuardedView<Real>& view,
+                               const GuardedLaw<Real>& law,
+                               const Link& link,
+                               Motion& m) const noexcept {
+  Real u[3] = {link.offset[0], link.offset[1], link.offset[2]};
+  for (std::size_t t = link.first; t < link.first + link.count; ++t) {
+    const Term& term = terms_[t];
+    for (int k = 0; k < link.dimensions; ++k) {
+      u[k] += term.weight * view.x[term.at + k * term.stride];
+    }
+  }
+  const Real length = law.isContact() ? -law.length : law.length;
+  if (!link.euclidean) {
+    m.p = u[0] - length;
+    m.gradient[0] = Real(1);
+    return;
+  }
+  const Real sense = law.isContact() ? Real(-1) : Real(1);
+  const Real distance = std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+  m.p = sense * distance - length;
+  for (int k = 0; k < link.dimensions; ++k) {
+    // Ends in one place have no line between them, and no force.
+    m.gradient[k] = distance > Real(0) ? sense * u[k] / distance : Real(0);
+  }
+}
+
+/// Where the link is, how it opens if left alone, and whether it has a say.
+template <class Real>
+GuardedMotion<Real> GuardedLinks<Real>::measure(const GuardedView<Real>& v,
+                                                const GuardedLaw<Real>& law,
+                                                const Link& link,
+                                                GuardedState<Real>& state) const noexcept {
+  Motion m;
+  place(v, law, link, m);
+  Real moved = Real(0);
+  Real opened = Real(0);
+  for (std::size_t t = link.first; t < link.first + link.count; ++t) {
+    const Term& term = terms_[t];
+    const bool is_free = isFree(v, term);
+    for (int k = 0; k < link.dimensions; ++k) {
+      const int i = term.at + k * term.stride;
+      const Real rate = -term.weight * m.gradient[k];
+      // A held module moved when its section did, and will stay until that does again.
+      const bool is_held = term.slow_section >= 0;
+      const Real now = is_held && v.due[term.slow_section] == 0 ? Real(0) : v.d[i];
+      const Real next = is_held ? Real(0)
+                                : v.keep[i] * now - v.pull[i] * v.x[i] +
+                                      (v.inverse_mass[i] * v.f[i] + v.drift[i]);
+      opened += rate * now;
+      m.opening += rate * next;
+      if (!is_free) {
+        moved -= term.weight * state.gradient[k] * now;
+        m.foreseen += rate * next;
+      }
+    }
+  }
+  m.opening += opened;
+  m.coasting = Real(2) * opened;
+  payArrears(moved, state);
+  m.is_friction = law.isFriction();
+  m.is_pushing = !m.is_friction && (m.p > Real(0) || !law.isContact());
+  m.is_active = m.is_friction || m.is_pushing || state.tank > Real(0);
+  return m;
+}
+
+template <class Real>
+void GuardedLinks<Real>::countActive(const GuardedView<Real>& view,
+                                     const Link& link,
+                                     const Motion& m) noexcept {
+  for (std::size_t t = link.first; t < link.first + link.count; ++t) {
+    if (m.is_active && terms_[t].opens_module && isFree(view, terms_[t])) {
+      modules_[at(terms_[t].slot)].links += Real(1);
+    }
+  }
+}
+
+/// How far a force opens the link, alone and if all links of its modules act as it does.
+template <class Real>
+void GuardedLinks<Real>::yieldOf(const GuardedView<Real>& view,
+                                 const Link& link,
+                                 Motion& m) const noexcept {
+  for (std::size_t t = link.first; t < link.first + link.count; ++t) {
+    const Term& term = terms_[t];
+    if (isFree(view, term)) {
+      const Real own = term.weight * term.weight * view.inverse_mass[term.slot];
+      m.own_give += own;
+      m.give += modules_[at(term.slot)].links * own;
+    }
+  }
+}
+
+template <class Real>
+void GuardedLinks<Real>::apply(const GuardedView<Real>& view,
+                               const Link& link,
+                               const Motion& m) noexcept {
+  for (std::size_t t = link.first; t < link.first + link.count; ++t) {
+    const Term& term = terms_[t];
+    for (int k = 0; k < link.dimensions; ++k) {
+      const Real f = -term.weight * m.gradient[k] * m.total();
+      view.f[term.at + k * term.stride] += term.share * f;
+      modules_[at(term.slot)].load[term.component + k] += f;
+    }
+  }
+}
+
+/// Visits each module that the link shares, with what it was charged there beyond the work it did:
+/// h^2 F (c F - sum F) / (2M). Over all links of the module these add up to
+/// h^2 (c sum F^2 - |sum F|^2) / (2M), which is never negative.
+template <class Real>
+template <class Visit>
+void GuardedLinks<Real>::visitShared(const GuardedView<Real>& view,
+                                     const Link& link,
+                                     const Motion& m,
+                                     const Visit& visit) noexcept {
+  const std::size_t end = link.first + link.count;
+  for (std::size_t t = link.first; t < end;) {
+    const int slot = terms_[t].slot;
+    Module& module = modules_[at(slot)];
+    Real excess = Real(0);
+    const bool is_shared = module.links > Real(1) && isFree(view, terms_[t]);
+    for (; t < end && terms_[t].slot == slot; ++t) {
+      const Term& term = terms_[t];
+      for (int k = 0; k < link.dimensions; ++k) {
+        const Real f = -term.weight * m.gradient[k] * m.total();
+        excess += f * (module.links * f - module.load[term.component + k]);
+      }
+    }
+    if (is_shared) {
+      visit(module, excess * view.inverse_mass[slot] / Real(2));
+    }
+  }
+}
+
+/// Links that were charged too little pay the rest, as far as they can.
+template <class Real>
+void GuardedLinks<Real>::collect(const GuardedView<Real>& view,
+                                 const Link& link,
+                                 const Motion& m,
+                                 GuardedState<Real>& state) noexcept {
+  Real purse = m.is_friction ? -m.damper * m.swing() / Real(2) : state.tank;
+  visitShared(view, link, m, [&](Module& module, Real excess) {
+    const Real paid = std::clamp(-excess, Real(0), std::max(Real(0), purse));
+    purse -= paid;
+    takeBack(-paid, m, state);
+    module.refunds += std::max(Real(0), excess);
+    module.arrears += std::max(Real(0), -excess) - paid;
+  });
+}
+
+/// The others get back what they were charged too much, less their part of what is missing.
+template <class Real>
+void GuardedLinks<Real>::refund(const GuardedView<Real>& view,
+                                const Link& link,
+                                const Motion& m,
+                                GuardedState<Real>& state) noexcept {
+  visitShared(view, link, m, [&](const Module& module, Real excess) {
+    if (excess > Real(0)) {
+      const Real part = std::min(Real(1), module.arrears / module.refunds);
+      takeBack(excess * (Real(1) - part), m, state);
+    }
+  });
+}
+
+template <class Real>
+ERGOTIC_REALTIME void GuardedLinks<Real>::step(const GuardedView<Real>& view,
+                                               const GuardedLaw<Real>* laws,
+                                               GuardedState<Real>* states) noexcept {
+  const std::size_t links = links_.size();
+  for (std::size_t l = 0; l < links; ++l) {
+    motions_[l] = measure(view, laws[l], links_[l], states[l]);
+    countActive(view, links_[l], motions_[l]);
+  }
+  for (std::size_t l = 0; l < links; ++l) {
+    if (motions_[l].is_active) {
+      yieldOf(view, links_[l], motions_[l]);
+      exertForce(motions_[l], laws[l], states[l]);
+    }
+    payWork(motions_[l], states[l]);
+  }
+  // No force before every link has had its look ahead.
+  for (std::size_t l = 0; l < links; ++l) {
+    if (motions_[l].is_active) {
+      apply(view, links_[l], motions_[l]);
+    }
+  }
+  for (std::size_t l = 0; l < links; ++l) {
+    if (motions_[l].is_active) {
+      collect(view, links_[l], motions_[l], states[l]);
+    }
+  }
+  for (std::size_t l = 0; l < links; ++l) {
+    if (motions_[l].is_active) {
+      refund(view, links_[l], motions_[l], states[l]);
+    }
+    closeTank(states[l]);
+  }
+  for (const Term& term : terms_) {
+    modules_[at(term.slot)] = Module{};
+  }
+}
+
+template <class Real>
+void GuardedLinks<Real>::start(const GuardedView<Real>& view,
+                               const GuardedLaw<Real>* laws,
+                               GuardedState<Real>* states) const noexcept {
+  for (std::size_t l = 0; l < links_.size(); ++l) {
+    states[l].tank = stored(view, laws[l], l);
+  }
+}
+
+template <class Real>
+ERGOTIC_REALTIME Real GuardedLinks<Real>::stored(const GuardedView<Real>& view,
+                                                 const GuardedLaw<Real>& law,
+                                                 std::size_t link) const noexcept {
+  Motion m;
+  place(view, law, links_[link], m);
+  const bool is_open = law.isContact() && !(m.p > Real(0));
+  return is_open ? Real(0) : std::max(Real(0), law.potential(m.p));
+}
+
+template <class Real>
+ERGOTIC_REALTIME double GuardedLinks<Real>::retune(const GuardedView<Real>& view,
+                                                   const GuardedLaw<Real>* from,
+                                                   const GuardedLaw<Real>* to,
+                                                   GuardedState<Real>* states) const noexcept {
+  double work = 0.0;
+  for (std::size_t l = 0; l < links_.size(); ++l) {
+    const Real before = states[l].tank;
+    const Real change = stored(view, to[l], l) - stored(view, from[l], l);
+    states[l].tank = std::max(Real(0), before + change);
+    work += static_cast<double>(states[l].tank - before);
+  }
+  return work;
+}
+
+template class GuardedLinks<float>;
+template class GuardedLinks<double>;
+
+}  // namespace ergotic::physics

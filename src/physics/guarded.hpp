@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "guarded_force.hpp"
+#include "guarded_laws.hpp"
+
+namespace ergotic::physics {
+
+/// One module of an end of a guarded link. The weights are signed: those of end a, less those of
+/// end b.
+struct GuardedTerm {
+  int slot = 0;       ///< of its first coordinate
+  int stride = 0;     ///< from one coordinate to the next
+  int component = 0;  ///< the coordinate that a scalar link works on
+  double weight = 1.0;
+  int slow_section = -1;  ///< where the module is stepped, if more slowly than the link
+  double share = 1.0;     ///< of the force that it receives at each step of the link
+};
+
+struct GuardedLink {
+  bool euclidean = false;  ///< works along the line that joins its ends
+  int dimensions = 1;      ///< coordinates that it measures
+  std::vector<GuardedTerm> terms;
+  std::size_t capacity = 0;      ///< most terms it will ever have; 0: as many as now
+  double offset[3] = {0, 0, 0};  ///< distance of the ends while all displacements are 0, m
+};
+
+/// The modules as links see them within a step. Forces of everything else are already in `f`.
+template <class Real>
+struct GuardedView {
+  const Real* x = nullptr;
+  const Real* d = nullptr;  ///< x[n] - x[n-1]
+  Real* f = nullptr;
+  // The step to come is d <- keep d - pull x + inverse_mass f + drift.
+  const Real* inverse_mass = nullptr;  ///< h^2/M; 0: forces do not move it
+  const Real* drift = nullptr;
+  const Real* keep = nullptr;
+  const Real* pull = nullptr;
+  const unsigned char* due = nullptr;  ///< [sections] 1 if it moved in this step
+};
+
+/// Links that never give more energy than they took, of one rate, all together: those that share
+/// masses know of each other.
+///
+/// Each has a tank: the work its force has absorbed. Its force is that of the law at a point a
+/// little ahead (fourth order in contact time and rebound), cut to what the tank can pay for.
+/// Friction has no tank, so it can only slow the slip down, at most to rest.
+/// Source: docs/physics.md, "Guarded links".
+template <class Real>
+class GuardedLinks {
+ public:
+  /// \param slots  size of the arrays of GuardedView. Realtime: no
+  GuardedLinks(const std::vector<GuardedLink>& links, std::size_t slots);
+
+  std::size_t size() const noexcept { return links_.size(); }
+
+  /// Fills the tanks with the energy that the links hold where the modules are.
+  /// \param laws, states  [size()], here and below
+  void start(const GuardedView<Real>& view,
+             const GuardedLaw<Real>* laws,
+             GuardedState<Real>* states) const noexcept;
+
+  /// Adds the forces of all links to view.f.
+  /// Realtime: yes. Cost: O(links)
+  void step(const GuardedView<Real>& view,
+            const GuardedLaw<Real>* laws,
+            GuardedState<Real>* states) noexcept;
+
+  /// Other laws come: their tanks follow, by work of whoever turned the knob.
+  /// \return that work. Realtime: yes. Cost: O(links)
+  double retune(const GuardedView<Real>& view,
+                const GuardedLaw<Real>* from,
+                const GuardedLaw<Real>* to,
+                GuardedState<Real>* states) const noexcept;
+
+  /// Other modules for a link whose end has moved along a string.
+  /// \pre at most `capacity` of the link. Realtime: yes. Cost: O(count^2)
+  void setTerms(std::size_t link,
+                const GuardedTerm* terms,
+                std::size_t count,
+                const double (&offset)[3]) noexcept;
+
+  /// Energy stored in a link of this law where the modules are now. Realtime: yes
+  Real stored(const GuardedView<Real>& view,
+              const GuardedLaw<Real>& law,
+              std::size_t link) const noexcept;
+
+ private:
+  struct Term {
+    int slot;  // of the module
+    int at;    // of the first coordinate it works on
+    int component;
+    int stride;
+    int slow_section;
+    bool opens_module;  // first term of the link on this module
+    Real weight;
+    Real share;
+  };
+  struct Link {
+    bool euclidean;
+    int dimensions;
+    std::size_t first;
+    std::size_t count;
+    Real offset[3];
+  };
+  using Motion = GuardedMotion<Real>;
+  /// A module as the links on it see it.
+  struct Module {
+    Real links = Real(0);                        // that are active
+    Real load[3] = {Real(0), Real(0), Real(0)};  // sum of their forces
+    Real refunds = Real(0);                      // due to those that were charged too much
+    Real arrears = Real(0);                      // that the others cannot pay
+  };
+
+  bool isFree(const GuardedView<Real>& view, const Term& term) const noexcept;
+  Motion measure(const GuardedView<Real>& view,
+                 const GuardedLaw<Real>& law,
+                 const Link& link,
+                 GuardedState<Real>& state) const noexcept;
+  void place(const GuardedView<Real>& view,
+             const GuardedLaw<Real>& law,
+             const Link& link,
+             Motion& motion) const noexcept;
+  void countActive(const GuardedView<Real>& view, const Link& link, const Motion& m) noexcept;
+  void yieldOf(const GuardedView<Real>& view, const Link& link, Motion& m) const noexcept;
+  void apply(const GuardedView<Real>& view, const Link& link, const Motion& m) noexcept;
+  template <class Visit>
+  void visitShared(const GuardedView<Real>& view,
+                   const Link& link,
+                   const Motion& m,
+                   const Visit& visit) noexcept;
+  void collect(const GuardedView<Real>& view,
+               const Link& link,
+               const Motion& m,
+               GuardedState<Real>& state) noexcept;
+  void refund(const GuardedView<Real>& view,
+              const Link& link,
+              const Motion& m,
+              GuardedState<Real>& state) noexcept;
+
+  std::vector<Link> links_;
+  std::vector<Term> terms_;
+  std::vector<Motion> motions_;
+  std::vector<Module> modules_;  // [slots], all zero between steps
+};
+
+extern template class GuardedLinks<float>;
+extern template class GuardedLinks<double>;
+
+}  // namespace ergotic::physics

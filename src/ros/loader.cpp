@@ -6,6 +6,7 @@
 #include <ros/console.h>
 
 #include "ergotic/exception.hpp"
+#include "ergotic/physics/settle.hpp"
 #include "ros/model_loader.hpp"
 
 namespace ergotic::node {
@@ -17,7 +18,8 @@ std::unique_ptr<station::Performer> makePerformer(const scene::Scene& scene,
                                                   physics::Precision precision,
                                                   const station::PerformerPolicy& policy,
                                                   std::string& verdict) {
-  verdict = physics::toString(physics::certify(scene, rates).verdict);
+  const physics::Settled settled = physics::settle(scene, rates);
+  verdict = physics::toString(physics::certify(settled.scene, rates).verdict);
   return station::makePerformer(scene, rates, precision, policy);
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "ergotic/exception.hpp"
+#include "ergotic/physics/settle.hpp"
 #include "ergotic/scene/scene.hpp"
 
 namespace ergotic::station {
@@ -11,7 +12,7 @@ namespace {
 
 MotionFrame emptyMotion(const physics::Instrument& instrument) {
   MotionFrame frame;
-  frame.displacement.resize(instrument.scene().mats.size());
+  frame.displacement.resize(static_cast<std::size_t>(instrument.scene().coordinates()));
   return frame;
 }
 
@@ -83,14 +84,18 @@ std::unique_ptr<Performer> makePerformer(const scene::Scene& scene,
                                          const PerformerPolicy& policy) {
   scene::validate(scene);
   checkSlices(scene, policy.slices);
-  physics::Certificate certificate = physics::certify(scene, rates);
+  const physics::Settled settled = physics::settle(scene, rates);
+  physics::Certificate certificate = physics::certify(settled.scene, rates);
   if (!isAllowed(certificate.verdict, policy)) {
-    refuse(scene, certificate);
+    refuse(settled.scene, certificate);
   }
-  auto performer = std::make_unique<Performer>(physics::compile(scene, rates, precision));
+  auto performer = std::make_unique<Performer>(physics::compile(settled.scene, rates, precision));
   performer->warnings = scene.warnings;
-  performer->warnings.insert(performer->warnings.end(), certificate.findings.begin(),
-                             certificate.findings.end());
+  const auto tell = [&](const std::vector<std::string>& said) {
+    performer->warnings.insert(performer->warnings.end(), said.begin(), said.end());
+  };
+  tell(certificate.findings);
+  tell(settled.notes);
   performer->certificate = std::move(certificate);
   warm(*performer);
   return performer;

@@ -16,7 +16,7 @@ namespace ergotic::station {
 /// What displays get of a model: one frame of its motion.
 struct MotionFrame {
   std::int64_t tick = 0;
-  std::vector<float> displacement;  ///< [mats] m from rest
+  std::vector<float> displacement;  ///< [Scene::coordinates] m from rest
 };
 
 /// An instrument ready to play: everything the tick needs for it is allocated here.
@@ -27,7 +27,7 @@ struct Performer {
 
   std::unique_ptr<physics::Instrument> instrument;
   physics::Certificate certificate;   ///< filled by makePerformer
-  std::vector<std::string> warnings;  ///< of the scene and of the certificate, for the operator
+  std::vector<std::string> warnings;  ///< of scene and certificate, and notes of `settle`
   std::vector<int> slice_of_port;
   std::vector<double> parameters;  ///< [parameters] values now in force; written by the tick
   std::vector<double> positions;   ///< [ports] m, in the model
@@ -44,7 +44,8 @@ struct PerformerPolicy {
   int slices = tgr::kMaxSlices;  ///< of the device that it will be played with
 };
 
-/// Validates, certifies, compiles and warms a scene. Realtime: no. Thread: any
+/// Validates, settles, certifies, compiles and warms a scene: the instrument's is the settled one.
+/// Realtime: no. Thread: any
 /// \throws TextError or Exception if the scene is not valid, needs a slice that the device does not
 ///         have, or its verdict is refused (the text holds the findings of the certificate)
 std::unique_ptr<Performer> makePerformer(const scene::Scene& scene,

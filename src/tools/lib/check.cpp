@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <iostream>
 #include <map>
+#include <utility>
 
 #include "ergotic/physics/certify.hpp"
 #include "ergotic/physics/instrument.hpp"
+#include "ergotic/physics/settle.hpp"
 #include "ergotic/scene/pitch.hpp"
 #include "tools/lib/cost.hpp"
 #include "tools/lib/report.hpp"
@@ -76,6 +78,20 @@ const char* nameOf(scene::Quantity quantity) {
   return "";
 }
 
+const char* nameOf(scene::Geometry geometry) {
+  switch (geometry) {
+    case scene::Geometry::kScalar:
+      return "scalar";
+    case scene::Geometry::kLine:
+      return "1D";
+    case scene::Geometry::kPlane:
+      return "2D";
+    case scene::Geometry::kSpace:
+      return "3D";
+  }
+  return "";
+}
+
 const scene::Mat& matAt(const Scene& scene, int index) {
   return scene.mats[static_cast<std::size_t>(index)];
 }
@@ -124,7 +140,7 @@ Report sectionReport(const Scene& scene,
   report.add("name", Report::text(section.name))
       .add("rate_hz", Report::number(rates.audio_hz / physics::divisorOf(section, rates)))
       .add("stepped", Report::text(steppingOf(section)))
-      .add("geometry", Report::text("1D"))
+      .add("geometry", Report::text(nameOf(section.geometry)))
       .add("axis", vectorOf(section.pose.linear().col(0)))
       .add("origin_m", vectorOf(section.pose.translation()))
       .add("modules", modulesOf(scene, index));
@@ -141,14 +157,19 @@ Report sectionReport(const Scene& scene,
 Report linksOf(const Scene& scene) {
   std::map<std::string, std::size_t> by_type;
   std::size_t between_sections = 0;
+  std::size_t guarded = 0;
   for (const scene::Lia& lia : scene.lias) {
     ++by_type[nameOf(lia.type)];
     const bool across = matAt(scene, lia.a).section != matAt(scene, lia.b).section;
     between_sections += across ? 1 : 0;
+    guarded += lia.scheme == scene::Scheme::kGuarded ? 1 : 0;
   }
   Report report = counts(by_type);
   if (between_sections > 0) {
     report.add("of them between sections", Report::count(between_sections));
+  }
+  if (guarded > 0) {
+    report.add("of them guarded", Report::count(guarded));
   }
   return report;
 }
@@ -261,9 +282,10 @@ double lowestStableAudioRate(const Scene& scene,
   return lowest;
 }
 
-Report reportOn(const Scene& scene,
+Report reportOn(const physics::Settled& settled,
                 const physics::Rates& rates,
                 const physics::Certificate& certificate) {
+  const Scene& scene = settled.scene;
   Report sections = Report::list();
   for (std::size_t i = 0; i < scene.sections.size(); ++i) {
     sections.add(sectionReport(scene, rates, certificate, static_cast<int>(i)));
@@ -291,6 +313,7 @@ Report reportOn(const Scene& scene,
       .add("parameters", parametersOf(scene))
       .add("strings", stringsOf(scene, rates))
       .add("cost", costOf(scene, rates))
+      .add("notes", texts(settled.notes))
       .add("warnings", texts(warnings));
 }
 
@@ -305,10 +328,11 @@ void addOptions(CLI::App& app, CheckOptions& options) {
 }
 
 int check(const CheckOptions& options) {
-  const Scene scene = readScene(options.scene);
+  Scene scene = readScene(options.scene);
   const physics::Rates rates = chosenRates(scene, options.scene);
-  const physics::Certificate certificate = physics::certify(scene, rates);
-  const Report report = reportOn(scene, rates, certificate);
+  const physics::Settled settled = physics::settle(std::move(scene), rates);
+  const physics::Certificate certificate = physics::certify(settled.scene, rates);
+  const Report report = reportOn(settled, rates, certificate);
   if (options.json) {
     report.printJson(std::cout);
     std::cout << '\n';
@@ -318,7 +342,7 @@ int check(const CheckOptions& options) {
   if (certificate.verdict != physics::Verdict::kUnstable) {
     return kSuccess;
   }
-  std::cerr << scene.file << ": unstable at these rates\n";
+  std::cerr << settled.scene.file << ": unstable at these rates\n";
   return kRefused;
 }
 

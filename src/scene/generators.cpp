@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/generators.hpp"
 
-#include <array>
 #include <cmath>
 #include <utility>
+
+#include "ergotic/scene/chaplet.hpp"
+#include "ergotic/scene/coarse_string.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -13,23 +15,38 @@ double triangle(double u, double at, double height) {
   return height * (u <= at ? u / at : (1.0 - u) / (1.0 - at));
 }
 
-Mat stringMat(const StringSpec& spec, int index) {
-  const double u = static_cast<double>(index) / (spec.masses + 1);
-  const Eigen::Vector2d at = (1.0 - u) * spec.from + u * spec.to;
+/// A module at rest at its place.
+Mat generatedMat(const SceneBuilder& builder,
+                 int section,
+                 std::string name,
+                 const Eigen::Vector3d& rest,
+                 Place place) {
   Mat mat;
-  mat.name = spec.name + "." + std::to_string(index);
-  mat.section = spec.section;
-  mat.rest.y() = at.x();
-  mat.rest.z() = at.y();
-  mat.place = spec.place;
+  mat.name = std::move(name);
+  mat.section = section;
+  mat.rest = rest;
+  const int moving = dimensionsOf(builder.scene().sectionOf(mat).geometry);
+  mat.position.head(moving) = rest.head(moving);
+  mat.place = place;
+  return mat;
+}
+
+Mat stringMat(const SceneBuilder& builder, const StringSpec& spec, int index) {
+  const double u = static_cast<double>(index) / (spec.masses + 1);
+  Mat mat = generatedMat(builder, spec.section, spec.name + "." + std::to_string(index),
+                         (1.0 - u) * spec.from + u * spec.to, spec.place);
   if (index == 0 || index == spec.masses + 1) {
     mat.type = MatType::kGround;
     return mat;
   }
   mat.type = spec.loss ? MatType::kCell : MatType::kMass;
+  mat.matched = spec.loss.has_value();
   mat.mass = spec.mass;
   mat.damping = spec.loss.value_or(Value{});
-  mat.position.x() = spec.pluck ? triangle(u, spec.pluck->x(), spec.pluck->y()) : 0.0;
+  if (spec.pluck) {
+    const int transverse = dimensionsOf(builder.scene().sectionOf(mat).geometry) > 1 ? 1 : 0;
+    mat.position[transverse] += triangle(u, spec.pluck->x(), spec.pluck->y());
+  }
   return mat;
 }
 
@@ -42,6 +59,63 @@ Lia generatedLink(const std::string& name, int index, int a, int b, Place place)
   return lia;
 }
 
+/// From a module of a mesh to a neighbour.
+struct MeshStep {
+  int row;
+  int column;
+};
+constexpr MeshStep kMeshSteps[] = {{0, 1}, {1, 0}, {1, 1}, {1, -1}};
+
+Mat meshMat(const SceneBuilder& builder, const MeshSpec& spec, int row, int column) {
+  const bool scalar = builder.scene().sections[static_cast<std::size_t>(spec.section)].geometry ==
+                      Geometry::kScalar;
+  Eigen::Vector3d rest = spec.at;
+  rest[scalar ? 1 : 0] += column * spec.spacing;
+  rest[scalar ? 2 : 1] += row * spec.spacing;
+  Mat mat = generatedMat(builder, spec.section,
+                         spec.name + "." + std::to_string(row) + "." + std::to_string(column), rest,
+                         spec.place);
+  const bool row_edge = row == 0 || row == spec.rows - 1;
+  const bool column_edge = column == 0 || column == spec.columns - 1;
+  const bool fixed = spec.edges == MeshEdges::kFixed     ? row_edge || column_edge
+                     : spec.edges == MeshEdges::kCorners ? row_edge && column_edge
+                                                         : false;
+  mat.type = fixed ? MatType::kGround : MatType::kMass;
+  mat.mass = spec.mass;
+  return mat;
+}
+
+/// \param next  number of the link, raised if it is made
+void addMeshLink(SceneBuilder& builder,
+                 const MeshSpec& spec,
+                 int first,
+                 const MeshStep& from,
+                 const MeshStep& step,
+                 int& next) {
+  const int row = from.row + step.row;
+  const int column = from.column + step.column;
+  const bool diagonal = step.row != 0 && step.column != 0;
+  if (row >= spec.rows || column < 0 || column >= spec.columns ||
+      (diagonal && !spec.diagonal_stiffness)) {
+    return;
+  }
+  const int a = first + from.row * spec.columns + from.column;
+  const int b = first + row * spec.columns + column;
+  const Mat& mat_a = builder.scene().mats[static_cast<std::size_t>(a)];
+  const Mat& mat_b = builder.scene().mats[static_cast<std::size_t>(b)];
+  if (mat_a.type == MatType::kGround && mat_b.type == MatType::kGround) {
+    return;
+  }
+  const Geometry geometry = builder.scene().sectionOf(mat_a).geometry;
+  const int moving = dimensionsOf(geometry);
+  Lia lia = generatedLink(spec.name, next++, a, b, spec.place);
+  lia.stiffness = diagonal ? *spec.diagonal_stiffness : spec.stiffness;
+  lia.damping = spec.damping;
+  lia.rest_length =
+      spec.rest_length_ratio * (mat_a.rest.head(moving) - mat_b.rest.head(moving)).norm();
+  builder.add(std::move(lia));
+}
+
 }  // namespace
 
 Value stringStiffness(int masses, const Value& mass, double frequency_hz) {
@@ -50,56 +124,83 @@ Value stringStiffness(int masses, const Value& mass, double frequency_hz) {
 }
 
 void addString(SceneBuilder& builder, const StringSpec& spec) {
+  const bool coarse = spec.corrected_hz > 0.0;
   const int count = spec.masses + 2;
-  builder.reserve(static_cast<std::size_t>(count), static_cast<std::size_t>(count - 1), spec.place);
-  const int first = static_cast<int>(builder.scene().mats.size());
-  for (int i = 0; i < count; ++i) {
-    builder.add(stringMat(spec, i));
-  }
-  for (int i = 0; i + 1 < count; ++i) {
-    Lia lia = generatedLink(spec.name, i, first + i, first + i + 1, spec.place);
-    lia.stiffness = spec.stiffness;
-    lia.damping = spec.damping;
-    builder.add(std::move(lia));
-  }
+  const int links = coarse ? coarseLinks(spec.masses) : spec.masses + 1;
+  builder.reserve(static_cast<std::size_t>(count), static_cast<std::size_t>(links), spec.place);
   StringInfo info;
   info.name = spec.name;
-  info.first = first;
+  info.first = static_cast<int>(builder.scene().mats.size());
+  info.first_lia = static_cast<int>(builder.scene().lias.size());
   info.count = count;
   info.mass = spec.mass;
   info.stiffness = spec.stiffness;
   info.damping = spec.damping;
   info.loss = spec.loss.value_or(Value{});
+  info.corrected_hz = spec.corrected_hz;
+  for (int i = 0; i < count; ++i) {
+    builder.add(stringMat(builder, spec, i));
+  }
+  const double rest_length =
+      spec.rest_length_ratio * (spec.to - spec.from).norm() / (spec.masses + 1);
+  for (int i = 0; i < links; ++i) {
+    const CoarseLink ends = coarse ? coarseLink(spec.masses, i) : CoarseLink{i, i + 1, {}};
+    Lia lia = generatedLink(spec.name, i, info.first + ends.a, info.first + ends.b, spec.place);
+    if (i <= spec.masses) {
+      lia.stiffness = spec.stiffness;
+      lia.damping = spec.damping;
+      lia.rest_length = rest_length;
+    }
+    builder.add(std::move(lia));
+  }
+  builder.add(Grid{spec.name, info.first, count, 1});
   builder.add(std::move(info));
 }
 
+void addMesh(SceneBuilder& builder, const MeshSpec& spec) {
+  const std::size_t count =
+      static_cast<std::size_t>(spec.rows) * static_cast<std::size_t>(spec.columns);
+  builder.reserve(count, (spec.diagonal_stiffness ? 4 : 2) * count, spec.place);
+  const int first = static_cast<int>(builder.scene().mats.size());
+  for (int row = 0; row < spec.rows; ++row) {
+    for (int column = 0; column < spec.columns; ++column) {
+      builder.add(meshMat(builder, spec, row, column));
+    }
+  }
+  int next = 0;
+  for (int row = 0; row < spec.rows; ++row) {
+    for (int column = 0; column < spec.columns; ++column) {
+      for (const MeshStep& step : kMeshSteps) {
+        addMeshLink(builder, spec, first, {row, column}, step, next);
+      }
+    }
+  }
+  builder.add(Grid{spec.name, first, spec.columns, spec.rows});
+}
+
 void addChaplet(SceneBuilder& builder, const ChapletSpec& spec) {
-  // C2 of docs/scene.md: stiffness in m wN^2, damping in m wN, mass in m (link 0: from the
-  // carrier).
-  constexpr std::array<double, 2> kStiffness{0.0083, 0.0705};
-  constexpr std::array<double, 2> kDamping{0.2237, 0.0};
-  constexpr std::array<double, 2> kMass{0.4475, 0.5525};
   const double nyquist = M_PI * builder.scene().gestural_rate_hz;  // wN, rad/s
   const Mat carrier = builder.scene().mats[static_cast<std::size_t>(spec.from)];
 
   int previous = spec.from;
-  for (int i = 0; i < 2; ++i) {
-    const auto k = static_cast<std::size_t>(i);
+  int index = 0;
+  for (const ChapletStage& stage : kChapletC2) {
     Mat mat;
-    mat.name = spec.name + "." + std::to_string(i);
+    mat.name = spec.name + "." + std::to_string(index);
     mat.section = spec.section;
-    mat.mass = kMass[k] * spec.mass;
+    mat.mass = stage.mass * spec.mass;
     mat.rest.x() = carrier.rest.x();
     mat.position.x() = carrier.position.x();
     mat.rest.y() = spec.at.x();
     mat.rest.z() = spec.at.y();
     mat.place = spec.place;
-    const int index = builder.add(std::move(mat));
-    Lia lia = generatedLink(spec.name, i, previous, index, spec.place);
-    lia.stiffness = kStiffness[k] * nyquist * nyquist * spec.mass;
-    lia.damping = kDamping[k] * nyquist * spec.mass;
+    const int added = builder.add(std::move(mat));
+    Lia lia = generatedLink(spec.name, index, previous, added, spec.place);
+    lia.stiffness = stage.stiffness * nyquist * nyquist * spec.mass;
+    lia.damping = stage.damping * nyquist * spec.mass;
     builder.add(std::move(lia));
-    previous = index;
+    previous = added;
+    ++index;
   }
 }
 

@@ -26,15 +26,20 @@ std::vector<LiaField> liaFields(LiaType type) {
   const bool clipped = type == LiaType::kClippedCubic || type == LiaType::kCubicContact;
   const Limits nonlinearity{type == LiaType::kQuadratic ? "N/m^2" : "N/m^3",
                             clipped ? 0.0 : -kInfinity};
+  // Of a linear link any stiffness and damping may be asked for: the certificate judges the whole.
+  const double least = type == LiaType::kSpringDamper ? -kInfinity : 0.0;
+  const bool power = type == LiaType::kPowerContact;
   std::vector<LiaField> fields = {
-      {"stiffness", &Lia::stiffness, kStiffnessLimits},
-      {"damping", &Lia::damping, kDampingLimits},
+      {"stiffness", &Lia::stiffness, {power ? "N/m^exponent" : "N/m", least}},
+      {"damping", &Lia::damping, {"N s/m", least}},
       {"nonlinearity", &Lia::nonlinearity, nonlinearity},
       {"stiffness_limit", &Lia::stiffness_limit, kStiffnessLimits},
   };
   switch (type) {
-    case LiaType::kContact:
     case LiaType::kPowerContact:
+      fields.push_back({"exponent", &Lia::exponent, kExponentLimits});
+      [[fallthrough]];
+    case LiaType::kContact:
     case LiaType::kCubicContact:
       fields.push_back({"threshold", &Lia::width, kMetreLimits});
       break;
@@ -46,7 +51,7 @@ std::vector<LiaField> liaFields(LiaType type) {
       fields.push_back({"width", &Lia::width, {"m/s", 0.0, kInfinity, true}});
       break;
     case LiaType::kConditional:
-      fields.push_back({"width", &Lia::width, {"m", 0.0, kInfinity, true}});
+      fields.push_back({"engage", &Lia::width, {"m", 0.0, kInfinity, true}});
       break;
     case LiaType::kTable:
     case LiaType::kSpringDamper:

@@ -32,12 +32,17 @@ constexpr Limits kMetreLimits{"m"};
 constexpr Limits kVelocityLimits{"m/s"};
 constexpr Limits kAngleLimits{"rad"};
 constexpr Limits kGravityLimits{"m/s^2"};
+constexpr Limits kSleepLimits{"J", 0.0, kInfinity, true};
 constexpr Limits kGainLimits{""};
 constexpr Limits kGesturalRateLimits{"Hz", 500.0, 48000.0};
 constexpr Limits kDivisorLimits{"audio frames", 1.0, 4096.0};
 constexpr Limits kFractionLimits{"", 0.0, 1.0};
+constexpr Limits kGuideScaleLimits{"1/m"};
+constexpr Limits kPointSpeedLimits{"1/s", 0.0, kInfinity, true};
+constexpr Limits kSpacingLimits{"m", 0.0, kInfinity, true};
 constexpr Limits kInnerFractionLimits{"", 0.001, 0.999};
 constexpr Limits kFrequencyLimits{"Hz", 0.0, 24000.0, true};
+constexpr Limits kExponentLimits{"", 1.0, 5.0};
 constexpr Limits kSliceLimits{"", 0.0, 63.0};
 constexpr Limits kChannelLimits{"", 1.0, 64.0};  ///< as written; one less in a Scene
 constexpr Limits kOffsetLimits{"m", -1.0, 1.0};
@@ -57,7 +62,7 @@ struct LiaField {
   Limits limits;
 };
 
-/// Every coefficient with its range; `width` depends on the type and goes by three names.
+/// Every coefficient with its range; `width` depends on the type and goes by several names.
 std::vector<LiaField> liaFields(LiaType type);
 
 /// `mass = -1 kg is out of range, allowed: > 0 kg`

@@ -207,8 +207,12 @@ class MdlReader {
     const bool follows =
         field.member == &Lia::damping ||
         (!clipped && (field.member == &Lia::stiffness || field.member == &Lia::nonlinearity));
-    return follows ? numbers_.value(token, what, field.limits)
-                   : Value{numbers_.number(token, what, field.limits)};
+    Limits limits = field.limits;
+    if (field.member == &Lia::stiffness || field.member == &Lia::damping) {
+      limits.minimum = 0.0;  // what linear links of published models keep to
+    }
+    return follows ? numbers_.value(token, what, limits)
+                   : Value{numbers_.number(token, what, limits)};
   }
 
   /// `@name audioParam @in1`

@@ -10,22 +10,24 @@
 #include "scene/overrides.hpp"
 #include "scene/source_text.hpp"
 #include "scene/yaml_elements.hpp"
+#include "scene/yaml_tables.hpp"
 
 namespace ergotic::scene {
 namespace {
 
 constexpr int kFormatVersion = 1;
 
-YAML::Node parse(const SceneBuilder& builder, const std::string& text) {
+/// The scene, and after it the tables of its files if the text has them.
+std::vector<YAML::Node> parse(const SceneBuilder& builder, const std::string& text) {
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    std::vector<YAML::Node> documents = YAML::LoadAll(text);
     if (documents.empty() || documents.front().IsNull()) {
       builder.fail({1, 1}, "the scene is empty, allowed: a map that begins with 'ergotic: 1'");
     }
-    if (documents.size() > 1) {
-      builder.fail(placeOf(documents[1], {1, 1}), "a second document, allowed: one in each file");
+    if (documents.size() > 2) {
+      builder.fail(placeOf(documents[2], {1, 1}), "a third document, allowed: at most two");
     }
-    return documents.front();
+    return documents;
   } catch (const YAML::DeepRecursion& e) {
     builder.fail({std::max(e.mark.line, 0) + 1, std::max(e.mark.column, 0) + 1},
                  "nested too deeply, allowed: as deep as a scene needs");
@@ -92,51 +94,6 @@ void overrideParameters(SceneBuilder& builder, const Overrides& overrides) {
   }
 }
 
-void readRate(const YamlMap& map, Section& section) {
-  if (!map.has("rate")) {
-    return;
-  }
-  if (map.at("rate").IsMap()) {
-    const YamlMap rate = map.map("rate");
-    rate.allow({"divisor"});
-    section.divisor = rate.integer("divisor", kDivisorLimits);
-    return;
-  }
-  section.gestural = map.choice("rate", {"audio", "gestural"}) == 1;
-}
-
-Eigen::Isometry3d readPose(const YamlMap& pose) {
-  pose.allow({"position", "rotation"});
-  const std::vector<double> position = pose.vector("position", 3, kMetreLimits);
-  const std::vector<double> rotation = pose.vector("rotation", 3, kAngleLimits);
-  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  result.translate(Eigen::Vector3d(position[0], position[1], position[2]));
-  result.rotate(Eigen::AngleAxisd(rotation[2], Eigen::Vector3d::UnitZ()) *
-                Eigen::AngleAxisd(rotation[1], Eigen::Vector3d::UnitY()) *
-                Eigen::AngleAxisd(rotation[0], Eigen::Vector3d::UnitX()));
-  return result;
-}
-
-void readSections(SceneBuilder& builder, const YamlMap& top) {
-  top.at("sections");
-  forEachElement(builder, top, "sections", "section",
-                 [&](const std::string& name, const YamlMap& map) {
-                   map.allow({"rate", "pose", "gravity"});
-                   Section section;
-                   section.name = name;
-                   section.place = map.place();
-                   readRate(map, section);
-                   section.gravity.x() = map.number("gravity", kGravityLimits, 0.0);
-                   if (map.has("pose")) {
-                     section.pose = readPose(map.map("pose"));
-                   }
-                   builder.add(std::move(section));
-                 });
-  if (builder.scene().sections.empty()) {
-    top.fail("sections", "the scene has no section, allowed: at least one");
-  }
-}
-
 /// What is legal but hardly meant.
 void warnOfLooseEnds(SceneBuilder& builder) {
   Scene& scene = builder.scene();
@@ -178,8 +135,9 @@ void forEachElement(const SceneBuilder& builder,
 Scene readYaml(const std::string& text, const std::string& name, const Overrides& overrides) {
   checkBytes(text, name, Bytes::kUtf8);
   SceneBuilder builder(name, text);
-  const YAML::Node root = parse(builder, text);
-  const YamlMap top(builder, root, "the scene", {1, 1});
+  const std::vector<YAML::Node> documents = parse(builder, text);
+  const YamlMap top(builder, documents.front(), "the scene", {1, 1});
+  YamlTables tables(builder, documents.size() > 1 ? &documents.back() : nullptr);
   top.allow({"ergotic", "name", "gestural_rate", "parameters", "sections", "mats", "generators",
              "lias", "ports", "inputs", "outputs"});
   readHead(builder, top, overrides);
@@ -188,7 +146,9 @@ Scene readYaml(const std::string& text, const std::string& name, const Overrides
   readSections(builder, top);
   readMats(builder, top);
   readGenerators(builder, top);
-  readLias(builder, top);
+  readPoints(builder, top);
+  readLias(builder, top, tables);
+  tables.finish();
   readPorts(builder, top);
   readInputs(builder, top);
   readOutputs(builder, top);

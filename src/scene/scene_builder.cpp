@@ -13,6 +13,10 @@ Place placeOf(const StringInfo& string, const Scene& scene) {
   return scene.mats[static_cast<std::size_t>(string.first)].place;
 }
 
+Place placeOf(const Grid& grid, const Scene& scene) {
+  return scene.mats[static_cast<std::size_t>(grid.first)].place;
+}
+
 template <class T>
 Place placeOf(const T& item, const Scene&) {
   return item.place;
@@ -66,6 +70,10 @@ int SceneBuilder::add(StringInfo string) {
   return append(scene_.strings, strings_, "string", std::move(string));
 }
 
+int SceneBuilder::add(Grid grid) {
+  return append(scene_.grids, grids_, "string or mesh", std::move(grid));
+}
+
 void SceneBuilder::reserve(std::size_t mats, std::size_t lias, Place place) {
   const std::size_t total = scene_.mats.size() + mats;
   if (total > static_cast<std::size_t>(kMaxMats)) {
@@ -92,6 +100,10 @@ int SceneBuilder::mat(const std::string& name, Place place) const {
 
 int SceneBuilder::string(const std::string& name, Place place) const {
   return find(strings_, "string", name, place);
+}
+
+int SceneBuilder::grid(const std::string& name, Place place) const {
+  return find(grids_, "string or mesh", name, place);
 }
 
 int SceneBuilder::find(const NameTable& table,

@@ -25,6 +25,7 @@ class SceneBuilder {
   int add(Mat mat);
   int add(Lia lia);
   int add(StringInfo string);
+  int add(Grid grid);
   /// Makes room for that many modules and links more.
   /// \throws TextError if that would be more than kMaxMats modules
   void reserve(std::size_t mats, std::size_t lias, Place place);
@@ -35,6 +36,9 @@ class SceneBuilder {
   int section(const std::string& name, Place place) const;
   int mat(const std::string& name, Place place) const;
   int string(const std::string& name, Place place) const;
+  int grid(const std::string& name, Place place) const;
+  /// \return -1 if there is no such module
+  int findMat(const std::string& name) const { return mats_.find(name); }
 
   [[noreturn]] void fail(Place place, const std::string& what) const;
   void warn(Place place, const std::string& what);
@@ -50,6 +54,7 @@ class SceneBuilder {
   NameTable mats_;
   NameTable lias_;
   NameTable strings_;
+  NameTable grids_;
 };
 
 }  // namespace ergotic::scene

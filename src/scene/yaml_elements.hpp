@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
+#include <string>
+
+#include <Eigen/Core>
+
 #include "scene/scene_builder.hpp"
 #include "scene/yaml_map.hpp"
 
@@ -8,9 +13,13 @@
 /// order, because later parts name what earlier ones define. All throw TextError.
 namespace ergotic::scene {
 
-void readMats(SceneBuilder& builder, const YamlMap& top);
+class YamlTables;
+
+void readSections(SceneBuilder& builder, const YamlMap& top);
+void readMats(SceneBuilder& builder, const YamlMap& top);  ///< all but the points
 void readGenerators(SceneBuilder& builder, const YamlMap& top);
-void readLias(SceneBuilder& builder, const YamlMap& top);
+void readPoints(SceneBuilder& builder, const YamlMap& top);  ///< of `mats`: they lie on grids
+void readLias(SceneBuilder& builder, const YamlMap& top, YamlTables& tables);
 void readPorts(SceneBuilder& builder, const YamlMap& top);
 void readInputs(SceneBuilder& builder, const YamlMap& top);
 void readOutputs(SceneBuilder& builder, const YamlMap& top);
@@ -23,5 +32,26 @@ void forEachElement(const SceneBuilder& builder,
                     const std::string& part,
                     const std::string& kind,
                     const ElementReader& element);
+
+/// Index of the section under the key `section`, or of the only one.
+int sectionOf(const SceneBuilder& builder, const YamlMap& map);
+
+/// A rest place, m; zeros if the key is missing. Scalar sections: `[y, z]` on the workbench. The
+/// others: the coordinates that move, and those of the workbench after them if they are given.
+Eigen::Vector3d readRest(const Section& section, const YamlMap& map, const std::string& key);
+
+/// As many numbers as the section has coordinates that move (one need not be a list).
+Eigen::Vector3d readMoving(const Section& section,
+                           const YamlMap& map,
+                           const std::string& key,
+                           const Limits& limits,
+                           const Eigen::Vector3d& otherwise);
+
+/// \throws TextError if a key is given that has no meaning in the geometry of the section
+void refuseIn(const SceneBuilder& builder,
+              const Section& section,
+              const YamlMap& map,
+              const std::vector<std::string>& keys,
+              const std::string& allowed);
 
 }  // namespace ergotic::scene

@@ -78,6 +78,42 @@ double numberIn(const SceneBuilder& builder,
   return *number;
 }
 
+Value valueOf(const SceneBuilder& builder,
+              const YAML::Node& node,
+              const std::string& what,
+              const Limits& limits,
+              Place fallback) {
+  const std::string text = wordOf(builder, node, what, fallback);
+  const Place place = placeOf(node, fallback);
+  const std::size_t dollar = text.find('$');
+  if (dollar == std::string::npos) {
+    return {numberIn(builder, text, what, limits, place), -1};
+  }
+  // `$name` or `number*$name`
+  double factor = 1.0;
+  if (dollar > 0) {
+    const std::size_t end = text.find_last_not_of(' ', dollar - 1);
+    const bool product = end != std::string::npos && text[end] == '*';
+    const std::optional<double> number =
+        product ? parseNumber(trimmed(text.substr(0, end))) : std::nullopt;
+    if (!number) {
+      builder.fail(place, what + " = " + quoted(text) +
+                              " is not understood, allowed: a number, $name or number*$name");
+    }
+    factor = *number;
+  }
+  const int index = builder.parameter(trimmed(text.substr(dollar + 1)), place);
+  const Parameter& parameter = builder.scene().parameters[static_cast<std::size_t>(index)];
+  for (const double end : {parameter.minimum, parameter.maximum}) {
+    if (!limits.hold(factor * end)) {
+      builder.fail(place,
+                   outOfRange(what + " (where " + parameter.name + " = " + numberText(end) + ")",
+                              factor * end, limits));
+    }
+  }
+  return {factor, index};
+}
+
 void forEachEntry(const SceneBuilder& builder,
                   const YAML::Node& node,
                   const std::string& what,
@@ -197,52 +233,46 @@ int YamlMap::integer(const std::string& key, const Limits& limits) const {
 std::vector<double> YamlMap::vector(const std::string& key,
                                     std::size_t count,
                                     const Limits& limits) const {
-  std::vector<double> numbers(count, 0.0);
-  if (!has(key)) {
-    return numbers;
+  return has(key) ? list(key, count, count, limits) : std::vector<double>(count, 0.0);
+}
+
+std::vector<double> YamlMap::numbers(const std::string& key,
+                                     std::size_t fewest,
+                                     std::size_t most,
+                                     const Limits& limits) const {
+  if (fewest == 1 && at(key).IsScalar()) {
+    return {number(key, limits)};
   }
-  const YAML::Node& list = at(key);
-  if (!list.IsSequence() || list.size() != count) {
+  return list(key, fewest, most, limits);
+}
+
+std::vector<double> YamlMap::list(const std::string& key,
+                                  std::size_t fewest,
+                                  std::size_t most,
+                                  const Limits& limits) const {
+  const YAML::Node& node = at(key);
+  if (!node.IsSequence() || node.size() < fewest || node.size() > most) {
     const std::string found =
-        list.IsSequence() ? "a list of " + std::to_string(list.size()) : std::string(kindOf(list));
-    fail(key, named(key) + " is " + found + ", allowed: a list of " + std::to_string(count) +
-                  " numbers");
+        node.IsSequence() ? "a list of " + std::to_string(node.size()) : std::string(kindOf(node));
+    const std::string count =
+        std::to_string(fewest) + (most > fewest ? " to " + std::to_string(most) : std::string());
+    fail(key, named(key) + " is " + found + ", allowed: " + (fewest == 1 ? "a number or " : "") +
+                  "a list of " + count + (most == 1 ? " number" : " numbers"));
   }
-  std::size_t i = 0;
-  for (const YAML::Node& item : list) {
-    numbers[i++] = numberOf(builder_, item, named(key), limits, placeAt(key));
+  std::vector<double> result;
+  for (const YAML::Node& item : node) {
+    result.push_back(numberOf(builder_, item, named(key), limits, placeAt(key)));
   }
-  return numbers;
+  return result;
+}
+
+bool YamlMap::flag(const std::string& key, bool otherwise) const {
+  return has(key) ? choice(key, {"false", "true"}) == 1 : otherwise;
 }
 
 Value YamlMap::value(const std::string& key, const Limits& limits) const {
-  const std::string text = word(key);
-  const std::size_t dollar = text.find('$');
-  if (dollar == std::string::npos) {
-    return {number(key, limits), -1};
-  }
-  // `$name` or `number*$name`
-  double factor = 1.0;
-  if (dollar > 0) {
-    const std::size_t end = text.find_last_not_of(' ', dollar - 1);
-    const bool product = end != std::string::npos && text[end] == '*';
-    const std::optional<double> number =
-        product ? parseNumber(trimmed(text.substr(0, end))) : std::nullopt;
-    if (!number) {
-      fail(key, named(key) + " = " + quoted(text) +
-                    " is not understood, allowed: a number, $name or number*$name");
-    }
-    factor = *number;
-  }
-  const int index = builder_.parameter(trimmed(text.substr(dollar + 1)), placeAt(key));
-  const Parameter& parameter = builder_.scene().parameters[static_cast<std::size_t>(index)];
-  for (const double end : {parameter.minimum, parameter.maximum}) {
-    if (!limits.hold(factor * end)) {
-      fail(key, outOfRange(named(key) + " (where " + parameter.name + " = " + numberText(end) + ")",
-                           factor * end, limits));
-    }
-  }
-  return {factor, index};
+  const Entry& entry = require(key);
+  return valueOf(builder_, entry.value, named(key), limits, entry.place);
 }
 
 Value YamlMap::value(const std::string& key, const Limits& limits, const Value& otherwise) const {

@@ -37,6 +37,14 @@ double numberOf(const SceneBuilder& builder,
                 const Limits& limits,
                 Place fallback);
 
+/// A number, `$name` or `number*$name`, legal over the parameter's whole range.
+/// \throws TextError as `numberOf`, or if there is no such parameter
+Value valueOf(const SceneBuilder& builder,
+              const YAML::Node& node,
+              const std::string& what,
+              const Limits& limits,
+              Place fallback);
+
 /// Calls `entry` for every pair of a map in the order of the text.
 /// \throws TextError if it is not a map, or a key is not a scalar or comes twice
 using MapEntry = std::function<void(const std::string& key, Place place, const YAML::Node& value)>;
@@ -75,7 +83,14 @@ class YamlMap {
   int integer(const std::string& key, const Limits& limits) const;
   /// `[a, b, ...]` of exactly `count` constants; zeros if the key is missing.
   std::vector<double> vector(const std::string& key, std::size_t count, const Limits& limits) const;
-  /// A number, `$name` or `number*$name`, legal over the parameter's whole range.
+  /// `[a, b, ...]` of `fewest` to `most` constants; where one is enough, it may stand alone.
+  std::vector<double> numbers(const std::string& key,
+                              std::size_t fewest,
+                              std::size_t most,
+                              const Limits& limits) const;
+  /// `true` or `false`.
+  bool flag(const std::string& key, bool otherwise) const;
+  /// As `valueOf`.
   Value value(const std::string& key, const Limits& limits) const;
   Value value(const std::string& key, const Limits& limits, const Value& otherwise) const;
   /// The map under a key.
@@ -92,6 +107,10 @@ class YamlMap {
   const Entry* find(const std::string& key) const;
   const Entry& require(const std::string& key) const;
   std::string named(const std::string& key) const;
+  std::vector<double> list(const std::string& key,
+                           std::size_t fewest,
+                           std::size_t most,
+                           const Limits& limits) const;
 
   const SceneBuilder& builder_;
   std::string what_;

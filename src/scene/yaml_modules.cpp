@@ -2,7 +2,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/generators.hpp"
+#include "scene/points.hpp"
 #include "scene/yaml_elements.hpp"
 
 namespace ergotic::scene {
@@ -13,49 +13,58 @@ struct MatKind {
   const char* name;
   MatType type;
   std::vector<std::string> keys;
+  std::vector<std::string> scalar_keys;  ///< in scalar sections only
 };
 
 const std::vector<MatKind>& matKinds() {
   static const std::vector<MatKind> kKinds = {
-      {"mass", MatType::kMass, {"mass", "x", "v", "rest"}},
-      {"ground", MatType::kGround, {"x"}},
-      {"cell", MatType::kCell, {"mass", "stiffness", "damping", "x", "v"}},
-      {"driven", MatType::kDriven, {"x", "rest"}},
-      {"slice", MatType::kSlice, {"rest"}},
+      {"mass", MatType::kMass, {"mass", "x", "v"}, {"rest"}},
+      {"ground", MatType::kGround, {}, {"x"}},
+      {"cell", MatType::kCell, {"mass", "stiffness", "damping", "matched", "x", "v"}, {}},
+      {"driven", MatType::kDriven, {"x"}, {"rest"}},
+      {"slice", MatType::kSlice, {}, {"rest"}},
+      {"point", MatType::kPoint, {"along", "guide", "range", "speed"}, {}},
   };
   return kKinds;
 }
 
-/// The section that is named, or the only one.
-int sectionOf(const SceneBuilder& builder, const YamlMap& map) {
-  if (map.has("section")) {
-    return builder.section(map.word("section"), map.placeAt("section"));
-  }
-  if (builder.scene().sections.size() == 1) {
-    return 0;
-  }
-  std::string names;
-  for (const Section& section : builder.scene().sections) {
-    names += (names.empty() ? "" : ", ") + section.name;
-  }
-  builder.fail(map.place(), "missing key 'section' of " + map.what() + ", allowed: " + names);
-}
-
-Eigen::Vector2d planePoint(const YamlMap& map, const std::string& key) {
-  const std::vector<double> yz = map.vector(key, 2, kMetreLimits);
-  return {yz[0], yz[1]};
-}
-
-Mat readMat(const SceneBuilder& builder, const std::string& name, const YamlMap& map) {
+const MatKind& kindOf(const YamlMap& map) {
   std::vector<std::string> words;
   for (const MatKind& each : matKinds()) {
     words.emplace_back(each.name);
   }
-  const MatKind& kind = matKinds()[map.choice("type", words)];
+  return matKinds()[map.choice("type", words)];
+}
+
+void allowKeys(const YamlMap& map, const MatKind& kind) {
   std::vector<std::string> keys = {"type", "section", "at"};
   keys.insert(keys.end(), kind.keys.begin(), kind.keys.end());
+  keys.insert(keys.end(), kind.scalar_keys.begin(), kind.scalar_keys.end());
   map.allow(keys);
+}
 
+/// Rest, position and velocity.
+void readPlaces(const SceneBuilder& builder, const YamlMap& map, const MatKind& kind, Mat& mat) {
+  const Section& section = builder.scene().sectionOf(mat);
+  mat.rest = readRest(section, map, "at");
+  if (section.geometry == Geometry::kScalar) {
+    mat.rest.x() = map.number("rest", kMetreLimits, 0.0);
+  } else {
+    refuseIn(builder, section, map, kind.scalar_keys, "'at'");
+  }
+  const int moving = dimensionsOf(section.geometry);
+  Eigen::Vector3d at_rest = Eigen::Vector3d::Zero();
+  at_rest.head(moving) = mat.rest.head(moving);
+  mat.position = readMoving(section, map, "x", kMetreLimits, at_rest);
+  mat.velocity = readMoving(section, map, "v", kVelocityLimits, Eigen::Vector3d::Zero());
+  if (kind.type == MatType::kGround) {
+    mat.rest.head(moving) = mat.position.head(moving);
+  }
+}
+
+Mat readMat(const SceneBuilder& builder, const std::string& name, const YamlMap& map) {
+  const MatKind& kind = kindOf(map);
+  allowKeys(map, kind);
   Mat mat;
   mat.name = name;
   mat.type = kind.type;
@@ -66,17 +75,9 @@ Mat readMat(const SceneBuilder& builder, const std::string& name, const YamlMap&
   }
   mat.stiffness = map.value("stiffness", kStiffnessLimits, {});
   mat.damping = map.value("damping", kDampingLimits, {});
-  mat.rest.x() = map.number("rest", kMetreLimits, 0.0);
-  mat.position.x() = map.number("x", kMetreLimits, mat.rest.x());
-  mat.velocity.x() = map.number("v", kVelocityLimits, 0.0);
-  if (kind.type == MatType::kGround) {
-    mat.rest.x() = mat.position.x();
-  }
-  const Eigen::Vector2d at = planePoint(map, "at");
-  mat.rest.y() = at.x();
-  mat.rest.z() = at.y();
-  if (kind.type == MatType::kSlice &&
-      !builder.scene().sections[static_cast<std::size_t>(mat.section)].gestural) {
+  mat.matched = map.flag("matched", kind.type == MatType::kCell);
+  readPlaces(builder, map, kind, mat);
+  if (kind.type == MatType::kSlice && !builder.scene().sectionOf(mat).gestural) {
     builder.fail(map.has("section") ? map.placeAt("section") : map.place(),
                  map.what() + " is a slice in a section that is not gestural, allowed: sections " +
                      "with rate: gestural");
@@ -84,86 +85,81 @@ Mat readMat(const SceneBuilder& builder, const std::string& name, const YamlMap&
   return mat;
 }
 
-Value readStringStiffness(const SceneBuilder& builder, const YamlMap& map, const StringSpec& spec) {
-  if (map.has("stiffness") == map.has("frequency")) {
-    builder.fail(map.has("stiffness") ? map.keyPlaceAt("stiffness") : map.place(),
-                 map.what() + " has " + (map.has("stiffness") ? "both" : "neither") +
-                     " 'stiffness' and 'frequency', allowed: exactly one of them");
+/// `at: u` on a string, `at: [u, v]` on a mesh.
+void readStart(const SceneBuilder& builder, const YamlMap& map, Connection& connection) {
+  const Grid& grid = builder.scene().grids[static_cast<std::size_t>(connection.grid)];
+  const Limits along{"", connection.along_minimum, connection.along_maximum};
+  if (grid.rows == 1) {
+    connection.along = map.value("at", along);
+    return;
   }
-  return map.has("stiffness")
-             ? map.value("stiffness", kStiffnessLimits)
-             : stringStiffness(spec.masses, spec.mass, map.number("frequency", kFrequencyLimits));
+  const YAML::Node& pair = map.at("at");
+  if (!pair.IsSequence() || pair.size() != 2) {
+    map.fail("at", "'at' of " + map.what() + " is no place on mesh " + quoted(grid.name) +
+                       ", allowed: [along, across]");
+  }
+  const std::string what = " number of 'at' of " + map.what();
+  connection.along = valueOf(builder, pair[0], "first" + what, along, map.placeAt("at"));
+  connection.across =
+      valueOf(builder, pair[1], "second" + what, kFractionLimits, map.placeAt("at"));
 }
 
-void readString(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
-  map.allow({"type", "name", "section", "masses", "mass", "stiffness", "frequency", "damping",
-             "loss", "from", "to", "pluck"});
-  StringSpec spec;
-  spec.name = name;
-  spec.place = map.placeAt("name");
-  spec.section = sectionOf(builder, map);
-  spec.masses = map.integer("masses", {"", 1.0, kMaxMats - 2});
-  spec.mass = map.value("mass", kMassLimits);
-  spec.stiffness = readStringStiffness(builder, map, spec);
-  spec.damping = map.value("damping", kDampingLimits, {});
-  if (map.has("loss")) {
-    spec.loss = map.value("loss", kDampingLimits);
+void readGuide(const SceneBuilder& builder, const YamlMap& map, Connection& connection) {
+  if (!map.has("guide")) {
+    return;
   }
-  map.at("to");
-  spec.from = planePoint(map, "from");
-  spec.to = planePoint(map, "to");
-  if (map.has("pluck")) {
-    const YamlMap pluck = map.map("pluck");
-    pluck.allow({"at", "height"});
-    spec.pluck = Eigen::Vector2d(pluck.number("at", kInnerFractionLimits),
-                                 pluck.number("height", kMetreLimits));
+  const YamlMap guide = map.map("guide");
+  guide.allow({"mat", "scale"});
+  connection.guide = builder.mat(guide.word("mat"), guide.placeAt("mat"));
+  connection.guide_scale = guide.number("scale", kGuideScaleLimits);
+  const Mat& mat = builder.scene().mats[static_cast<std::size_t>(connection.guide)];
+  if (mat.type == MatType::kPoint) {
+    guide.fail("mat", map.what() + " is guided by point " + quoted(mat.name) +
+                          ", allowed: modules of any other type");
   }
-  addString(builder, spec);
 }
 
-void readChaplet(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
-  map.allow({"type", "name", "section", "from", "mass", "at"});
-  ChapletSpec spec;
-  spec.name = name;
-  spec.place = map.placeAt("name");
-  spec.section = sectionOf(builder, map);
-  const Section& section = builder.scene().sections[static_cast<std::size_t>(spec.section)];
-  if (section.gestural || section.divisor != 1) {
-    builder.fail(map.has("section") ? map.placeAt("section") : map.place(),
-                 map.what() + " is in section " + quoted(section.name) +
-                     ", allowed: sections with rate: audio");
+void readPoint(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
+  Connection connection;
+  connection.place = map.place();
+  if (map.has("section")) {
+    builder.fail(map.keyPlaceAt("section"),
+                 "'section' of " + map.what() + ", allowed: none, it is that of what it lies on");
   }
-  spec.from = builder.mat(map.word("from"), map.placeAt("from"));
-  spec.mass = map.value("mass", kMassLimits);
-  const Mat& carrier = builder.scene().mats[static_cast<std::size_t>(spec.from)];
-  spec.at =
-      map.has("at") ? planePoint(map, "at") : Eigen::Vector2d(carrier.rest.y(), carrier.rest.z());
-  addChaplet(builder, spec);
+  connection.grid = builder.grid(map.word("along"), map.placeAt("along"));
+  if (map.has("range")) {
+    const std::vector<double> range = map.vector("range", 2, kFractionLimits);
+    if (range[0] > range[1]) {
+      map.fail("range", "'range' of " + map.what() + " is [" + numberText(range[0]) + ", " +
+                            numberText(range[1]) + "], allowed: [lowest, highest]");
+    }
+    connection.along_minimum = range[0];
+    connection.along_maximum = range[1];
+  }
+  readStart(builder, map, connection);
+  readGuide(builder, map, connection);
+  connection.speed = map.number("speed", kPointSpeedLimits, 0.0);
+  addPoint(builder, name, connection);
 }
 
 }  // namespace
 
 void readMats(SceneBuilder& builder, const YamlMap& top) {
   forEachElement(builder, top, "mats", "module", [&](const std::string& name, const YamlMap& map) {
-    builder.add(readMat(builder, name, map));
+    if (kindOf(map).type != MatType::kPoint) {
+      builder.add(readMat(builder, name, map));
+    }
   });
 }
 
-void readGenerators(SceneBuilder& builder, const YamlMap& top) {
-  if (!top.has("generators")) {
-    return;
-  }
-  const YAML::Node& list = top.at("generators");
-  if (!list.IsSequence()) {
-    top.fail("generators", "'generators' is not a list, allowed: a list of maps");
-  }
-  for (const YAML::Node& node : list) {
-    const YamlMap map(builder, node, "generator", placeOf(node, top.placeAt("generators")));
-    const std::size_t type = map.choice("type", {"string", "chaplet"});
-    const std::string name = map.word("name");
-    checkName(builder, name, map.placeAt("name"));
-    (type == 0 ? readString : readChaplet)(builder, name, map);
-  }
+void readPoints(SceneBuilder& builder, const YamlMap& top) {
+  forEachElement(builder, top, "mats", "module", [&](const std::string& name, const YamlMap& map) {
+    const MatKind& kind = kindOf(map);
+    if (kind.type == MatType::kPoint) {
+      allowKeys(map, kind);
+      readPoint(builder, name, map);
+    }
+  });
 }
 
 }  // namespace ergotic::scene

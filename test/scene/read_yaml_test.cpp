@@ -115,8 +115,8 @@ TEST(ReadYamlTest, ModulesAreReadFieldByField) {
   EXPECT_EQ(c.stiffness.factor, 3.0);
   EXPECT_EQ(c.stiffness.parameter, 1);
   EXPECT_EQ(c.damping.parameter, 0);
-  EXPECT_EQ(c.position, 1.0);
-  EXPECT_EQ(c.velocity, 2.0);
+  EXPECT_EQ(c.position.x(), 1.0);
+  EXPECT_EQ(c.velocity.x(), 2.0);
   EXPECT_EQ(c.rest.x(), 0.0);
   EXPECT_EQ(s.mats[4].type, MatType::kDriven);
   EXPECT_EQ(s.mats[4].position.x(), 0.5);

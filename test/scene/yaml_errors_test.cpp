@@ -123,7 +123,7 @@ const BadText kGenerators[] = {
     {HEAD "generators: <!>{}\n", "'generators' is not a list"},
     {HEAD "generators:\n  - <!>{name: s}\n", "missing key 'type' of generator"},
     {HEAD "generators:\n  - <!>{type: string, masses: 1}\n", "missing key 'name' of generator"},
-    {GENERATOR "type: <!>mesh}\n", "unknown type 'mesh' of generator; known: string, chaplet"},
+    {GENERATOR "type: <!>net}\n", "unknown type 'net' of generator; known: string, mesh, chaplet"},
     {GENERATOR "type: string, masses: <!>0, stiffness: 1}\n", "allowed: 1...1999998"},
     {GENERATOR "type: string, masses: <!>99999999999, stiffness: 1}\n", "allowed: 1...1999998"},
     {GENERATOR "type: string, masses: 3, <!>stiffness: 1, frequency: 1}\n",
@@ -146,7 +146,7 @@ const BadText kGenerators[] = {
     {SLICES "generators:\n  - {type: chaplet, name: c, from: k, mass: 1, section: <!>x}\n",
      "unknown section 'x'"},
     {SLICES "generators:\n  - <!>{type: chaplet, name: c, from: k, mass: 1}\n",
-     "allowed: sections with rate: audio"},
+     "allowed: scalar sections with rate: audio"},
     {HEAD "generators:\n  - {type: chaplet, name: c, from: <!>k, mass: 1}\n", "unknown module 'k'"},
 };
 TEST(YamlErrorsTest, OfGeneratorsAreRefusedAtTheirPlace) {

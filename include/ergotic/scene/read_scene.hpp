@@ -13,9 +13,10 @@ using Overrides = std::map<std::string, double>;
 
 /// Reads a scene file; `.mdl` selects the MIMS reader, anything else is YAML.
 ///
-/// All readers give a whole valid scene or throw. `Scene::text` is the text as it was given,
-/// without the overrides: `readScene(scene.text, scene.file, overrides)` with the same overrides
-/// gives the same scene again.
+/// All readers give a whole valid scene or throw. `Scene::text` is the text as it was given, without
+/// the overrides, and with the points of table files appended to it: wherever it is read again,
+/// `readScene(scene.text, scene.file, overrides)` with the same overrides gives the same scene and
+/// opens no file.
 ///
 /// Overrides replace the value of a parameter (YAML: within its range; `.mdl`: a `param`), or
 /// `gestural_rate`, Hz, before anything is computed from it.

@@ -174,6 +174,9 @@ struct Lia {
   bool filtered = false;  ///< `settle` puts a chaplet between the slower end and this link
   Place place;
 };
+/// True if the link may be guarded: all but linear springs and dampers, plucks, conditional links
+/// and viscous tables.
+bool isGuardable(const Lia& lia);
 
 /// Modules in rows and columns between which points can lie: a string is one row.
 struct Grid {

@@ -27,8 +27,8 @@ struct Curve {
 };
 
 /// Straight lines, or, if the table is smooth, the monotone cubic: it goes through every point, has
-/// a continuous slope, and rises or falls between two points where they do, without overshoot; three
-/// points on a straight line give a straight line.
+/// a continuous slope, and rises or falls between two points where they do, without overshoot;
+/// three points on a straight line give a straight line.
 ///
 /// The slope at an inner point is the weighted harmonic mean of the slopes of the two intervals, 0
 /// where these differ in sign; at the ends a three-point estimate, limited to keep the shape.

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/lia_rules.hpp"
+
+#include "scene/names.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+const Section& sectionAt(const Scene& scene, int mat) {
+  return scene.sectionOf(scene.mats[static_cast<std::size_t>(mat)]);
+}
+
+/// True if the two are stepped together at any audio rate and any number of frames per tick.
+bool haveSameRate(const Section& a, const Section& b) {
+  if (&a == &b) {
+    return true;
+  }
+  if (a.automatic_rate || b.automatic_rate) {
+    return false;
+  }
+  return a.gestural == b.gestural && (a.gestural || a.divisor == b.divisor);
+}
+
+/// What no guard is defined for, nullptr if there is one.
+const char* unguarded(const Lia& lia) {
+  switch (lia.type) {
+    case LiaType::kSpringDamper:
+      return "a linear spring or damper";
+    case LiaType::kPluck:
+      return "a pluck";
+    case LiaType::kConditional:
+      return "conditional";
+    case LiaType::kTable:
+      return lia.viscous_table.empty() ? nullptr : "a table with a viscous part";
+    default:
+      return nullptr;
+  }
+}
+
+}  // namespace
+
+bool isGuardable(const Lia& lia) {
+  return unguarded(lia) == nullptr;
+}
+
+Limits restLengthLimits(const Scene& scene, const Lia& lia) {
+  const bool scalar = sectionAt(scene, lia.a).geometry == Geometry::kScalar ||
+                      sectionAt(scene, lia.b).geometry == Geometry::kScalar;
+  return {"m", scalar ? -kInfinity : 0.0};
+}
+
+Limits releaseLimits(const Scene& scene, const Lia& lia) {
+  double engage = lia.width.factor;
+  if (lia.width.parameter >= 0) {
+    const Parameter& p = scene.parameters[static_cast<std::size_t>(lia.width.parameter)];
+    engage *= engage > 0.0 ? p.maximum : p.minimum;
+  }
+  return {"m", engage};
+}
+
+std::string schemeFault(const Lia& lia) {
+  const char* kind = unguarded(lia);
+  if (lia.scheme != Scheme::kGuarded || kind == nullptr) {
+    return "";
+  }
+  return "link " + quoted(lia.name) + " cannot be guarded, it is " + kind +
+         ", allowed: auto, explicit";
+}
+
+std::string couplingFault(const Scene& scene, const Lia& lia) {
+  if (lia.coupling == Coupling::kHold ||
+      !haveSameRate(sectionAt(scene, lia.a), sectionAt(scene, lia.b))) {
+    return "";
+  }
+  return "link " + quoted(lia.name) +
+         " has nothing to decimate, both ends have the same rate, allowed: hold";
+}
+
+std::string filterFault(const Scene& scene, const Lia& lia) {
+  if (!lia.filtered) {
+    return "";
+  }
+  if (sectionAt(scene, lia.a).gestural == sectionAt(scene, lia.b).gestural) {
+    return "link " + quoted(lia.name) +
+           " cannot be filtered, allowed: links between a gestural section and a faster one";
+  }
+  if (lia.coupling == Coupling::kDecimate) {
+    return "link " + quoted(lia.name) +
+           " is decimated, so there is nothing to filter, allowed: coupling hold";
+  }
+  return "";
+}
+
+}  // namespace ergotic::scene

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "ergotic/scene/scene.hpp"
+#include "scene/limits.hpp"
+
+/// What a link may ask for, said once for the YAML reader and for `validate`.
+namespace ergotic::scene {
+
+/// Rest lengths: signed along x; a distance where both ends are in Euclidean sections.
+Limits restLengthLimits(const Scene& scene, const Lia& lia);
+
+/// |e| at which a conditional link lets go: not before it acts, whatever its parameters are.
+Limits releaseLimits(const Scene& scene, const Lia& lia);
+
+/// What is wrong with the scheme, coupling or filter of a link; empty if nothing is.
+/// \pre the ends of the link exist
+std::string schemeFault(const Lia& lia);
+std::string couplingFault(const Scene& scene, const Lia& lia);
+std::string filterFault(const Scene& scene, const Lia& lia);
+
+}  // namespace ergotic::scene

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/points.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "ergotic/scene/grid.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+constexpr double kOnModule = 1e-9;  ///< of the spacing
+
+/// The two fractions behind the `@`; `across` is 0 on a string.
+struct Fractions {
+  double along = 0.0;
+  double across = 0.0;
+};
+
+Fractions fractionsOf(const SceneBuilder& builder,
+                      const Grid& grid,
+                      const std::string& text,
+                      Place place) {
+  const std::string numbers = text.substr(text.find('@') + 1);
+  const std::size_t colon = numbers.find(':');
+  if ((colon == std::string::npos) != (grid.rows == 1)) {
+    builder.fail(place, quoted(text) + " is no point of " + quoted(grid.name) + ", allowed: " +
+                            grid.name + (grid.rows == 1 ? "@0.3" : "@0.3:0.7") + " and the like");
+  }
+  const std::string what = "fraction of " + quoted(text);
+  Fractions result;
+  result.along = numberIn(builder, numbers.substr(0, colon), what, kFractionLimits, place);
+  if (grid.rows > 1) {
+    result.across = numberIn(builder, numbers.substr(colon + 1), what, kFractionLimits, place);
+  }
+  return result;
+}
+
+/// The one module that the place falls onto, -1: none.
+int moduleOn(const Grid& grid, const Fractions& at) {
+  const double column = at.along * (grid.columns - 1);
+  const double row = at.across * (grid.rows - 1);
+  const double whole_column = std::round(column);
+  const double whole_row = std::round(row);
+  if (std::abs(column - whole_column) > kOnModule || std::abs(row - whole_row) > kOnModule) {
+    return -1;
+  }
+  return grid.first + static_cast<int>(whole_row) * grid.columns + static_cast<int>(whole_column);
+}
+
+}  // namespace
+
+int pointAt(SceneBuilder& builder, const std::string& text, Place place) {
+  const std::size_t at_sign = text.find('@');
+  if (at_sign == std::string::npos) {
+    return builder.mat(text, place);
+  }
+  const int index = builder.grid(text.substr(0, at_sign), place);
+  const Grid& grid = builder.scene().grids[static_cast<std::size_t>(index)];
+  const Fractions at = fractionsOf(builder, grid, text, place);
+  const int module = moduleOn(grid, at);
+  if (module >= 0) {
+    return module;
+  }
+  std::string name = grid.name + "@" + numberText(at.along);
+  if (grid.rows > 1) {
+    name += ":" + numberText(at.across);
+  }
+  const int known = builder.findMat(name);
+  if (known >= 0) {
+    return known;
+  }
+  Connection connection;
+  connection.grid = index;
+  connection.along = {at.along};
+  connection.across = {at.across};
+  connection.place = place;
+  return addPoint(builder, name, std::move(connection));
+}
+
+int addPoint(SceneBuilder& builder, const std::string& name, Connection connection) {
+  Scene& scene = builder.scene();
+  const Grid& grid = scene.grids[static_cast<std::size_t>(connection.grid)];
+  const GridPlace around =
+      placeOn(grid, scene.valueOf(connection.along), scene.valueOf(connection.across));
+  Mat point;
+  point.name = name;
+  point.type = MatType::kPoint;
+  point.section = scene.mats[static_cast<std::size_t>(grid.first)].section;
+  point.place = connection.place;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(around.count); ++i) {
+    const Mat& mat = scene.mats[static_cast<std::size_t>(around.mats[i])];
+    point.rest += around.weights[i] * mat.rest;
+    point.position += around.weights[i] * mat.position;
+    point.velocity += around.weights[i] * mat.velocity;
+  }
+  connection.mat = builder.add(std::move(point));
+  scene.connections.push_back(connection);
+  return connection.mat;
+}
+
+}  // namespace ergotic::scene

@@ -75,26 +75,29 @@ void EnergyMeter<Real>::forEachSource(StateType& state, const Book& book) const 
   auto* feeding = arena.template at<Feeding>(forced_at_);
   for (const Forced& forced : forced_) {
     book(forced.section, forced.device ? Source::kDevice : Source::kInputs, 0, -d[forced.slot],
-         *feeding, f[forced.slot]);
+         -d[forced.slot], *feeding, f[forced.slot]);
     ++feeding;
   }
   feeding = arena.template at<Feeding>(feeds_at_);
   for (const Feed& feed : layout_.feeds) {
-    book(feed.section, Source::kInputs, 0, d[feed.slot], *feeding, feeding->mean);
+    book(feed.section, Source::kInputs, 0, d[feed.slot], d[feed.slot], *feeding, feeding->mean);
     ++feeding;
   }
+  const Real* place_d = state.placeD();
   feeding = arena.template at<Feeding>(places_at_);
   for (const PlacePoint& point : layout_.places) {
-    for (int k = point.slot; k < point.slot + point.dimensions; ++k, ++feeding) {
-      book(point.section, Source::kInputs, 0, d[k] - moved[k], *feeding, feeding->mean);
+    for (int k = point.slot; k < point.slot + point.dimensions; ++k, ++feeding, ++place_d) {
+      book(point.section, Source::kInputs, 0, d[k] - moved[k], *place_d - moved[k], *feeding,
+           feeding->mean);
     }
   }
   feeding = arena.template at<Feeding>(decimations_at_);
   for (std::size_t p = 0; p < layout_.decimations.size(); ++p) {
     const DecimatedPoint& point = layout_.decimations[p];
     for (int k = 0; k < point.dimensions; ++k, ++feeding) {
-      book(point.of.section, Source::kDecimated, p, d[point.of.slot + k * point.of.stride],
-           *feeding, static_cast<Real>(point.impulse) * feeding->mean);
+      const Real moved_by = d[point.of.slot + k * point.of.stride];
+      book(point.of.section, Source::kDecimated, p, moved_by, moved_by, *feeding,
+           static_cast<Real>(point.impulse) * feeding->mean);
     }
   }
 }
@@ -104,12 +107,12 @@ void EnergyMeter<Real>::endFrame(std::int64_t now, State<Real>& state) const noe
   auto* books = state.arena().template at<SectionBooks>(books_at_);
   auto* decimated = state.arena().template at<double>(decimation_work_at_);
   collectPointForces(state);
-  forEachSource(state, [&](int section, Source source, std::size_t p, Real moved, Feeding& feeding,
-                           Real force) noexcept {
+  forEachSource(state, [&](int section, Source source, std::size_t p, Real moved, Real moved_last,
+                           Feeding& feeding, Real force) noexcept {
     if (!endsStep(section, now)) {
       return;
     }
-    const double work = 0.5 * static_cast<double>(moved * (force + feeding.last));
+    const double work = 0.5 * static_cast<double>(moved * force + moved_last * feeding.last);
     switch (source) {
       case Source::kDevice:
         books[section].from_device += work;
@@ -282,14 +285,12 @@ kernels::Work EnergyMeter<Real>::workOf(std::size_t r, const State<Real>& state)
   }
   const kernels::Memory<const Real> memory = state.memory(r);
   const std::size_t links = run.ends.size();
-  double pending = 0.0;
   for (std::size_t i = 0; i < state.remembered(r); ++i) {
     const LinkEnds& ends = run.ends[i % links];
     const int k = static_cast<int>(i / links);
     const int slot = run.slow_is_a ? ends.a + k * run.stride_a : ends.b + k * run.stride_b;
-    pending += static_cast<double>(state.d()[slot] * (memory.mean[i] + memory.last_mean[i]));
+    kernels::addSlowWork(run, memory, i, static_cast<double>(state.moved()[slot]), work);
   }
-  (run.slow_is_a ? work.on_a : work.on_b) += (run.slow_is_a ? -0.5 : 0.5) * pending;
   return work;
 }
 
@@ -304,12 +305,12 @@ void EnergyMeter<Real>::addSources(const State<Real>& state, Energies& to) const
   for (std::size_t p = 0; p < layout_.decimations.size(); ++p) {
     give(p, decimated[p]);
   }
-  forEachSource(state, [&](int section, Source source, std::size_t p, Real moved,
+  forEachSource(state, [&](int section, Source source, std::size_t p, Real moved, Real moved_last,
                            const Feeding& feeding, Real force) {
     if (state.frame() % layout_.sections[at(section)].divisor == 0) {
       return;
     }
-    const double work = 0.5 * static_cast<double>(moved * (force + feeding.last));
+    const double work = 0.5 * static_cast<double>(moved * force + moved_last * feeding.last);
     SectionEnergy& energy = to.sections[at(section)];
     if (source == Source::kDecimated) {
       give(p, work);
@@ -319,8 +320,8 @@ void EnergyMeter<Real>::addSources(const State<Real>& state, Energies& to) const
   });
 }
 
-/// Everything but the residual, in the scene's unit of energy.
-eturn the balance template <class Real>
+/// Everything but the residual, in the scene's unit of energy. \return the balance
+template <class Real>
 double EnergyMeter<Real>::collect(const CoefficientsOf<Real>& c,
                                   const State<Real>& state,
                                   Energies& to) const noexcept {

@@ -90,8 +90,8 @@ class EnergyMeter {
       }
     }
   }
-  /// Calls `book(section, source, decimated point, moved by, feeding, force of this step)` for all
-  /// that moves modules.
+  /// Calls `book(section, source, decimated point, moved under the force of this step, moved under
+  /// that of the last, feeding, force of this step)` for all that moves modules.
   template <class StateType, class Book>
   void forEachSource(StateType& state, const Book& book) const noexcept;
   void collectPointForces(State<Real>& state) const noexcept;

@@ -26,8 +26,11 @@ template <class Real>
 struct Memory {
   Real* elastic = nullptr;  ///< force of the last step
   Real* viscous = nullptr;
-  Real* mean = nullptr;       ///< on the slower end, so far in its step; runs across rates only
-  Real* last_mean = nullptr;  ///< over its last step
+  // Runs across rates only: means over the step of the slower end, so far and of the last.
+  Real* mean = nullptr;
+  Real* last_mean = nullptr;
+  Real* mean_viscous = nullptr;
+  Real* last_mean_viscous = nullptr;
 };
 
 /// The instrument's arrays, and how the ends of a run count in this frame.
@@ -67,7 +70,8 @@ void stepPlain(const LinkRun& run, const Law& law, const Frame<Real>& at) noexce
   at.work->dissipated += 0.5 * static_cast<double>(lost);
 }
 
-/// Books one coordinate of one link that remembers, and hands its force out.
+/// Books one coordinate of one link that remembers, and hands its force out. Across rates a damper
+/// takes what both sides do against it: the jumps of a held end are no motion of anything.
 template <class Real>
 void exchangeForce(const LinkRun& run,
                    const Frame<Real>& at,
@@ -83,31 +87,51 @@ void exchangeForce(const LinkRun& run,
   const Real both = sum + memory.elastic[index] + memory.viscous[index];
   Work& work = *at.work;
   work.stored += 0.5 * static_cast<double>(moved * (force.elastic + memory.elastic[index]));
-  work.dissipated += 0.5 * static_cast<double>(moved * (force.viscous + memory.viscous[index]));
+  const Real viscous = force.viscous + memory.viscous[index];
   memory.elastic[index] = force.elastic;
   memory.viscous[index] = force.viscous;
   if (run.slow_section < 0) {
-    work.on_a -= 0.5 * static_cast<double>(at.d[a] * both);
-    work.on_b += 0.5 * static_cast<double>(at.d[b] * both);
+    work.dissipated += 0.5 * static_cast<double>(moved * viscous);
+    work.on_a -= 0.5 * static_cast<double>(moved_a * both);
+    work.on_b += 0.5 * static_cast<double>(moved_b * both);
   } else {
-    const double fast = 0.5 * static_cast<double>(at.d[run.slow_is_a ? b : a] * both);
-    (run.slow_is_a ? work.on_b : work.on_a) += run.slow_is_a ? fast : -fast;
-    memory.mean[index] += (run.slow_is_a ? at.share_a : at.share_b) * sum;
+    const Real fast = run.slow_is_a ? at.moved[b] : -at.moved[a];
+    (run.slow_is_a ? work.on_b : work.on_a) += 0.5 * static_cast<double>(fast * both);
+    work.dissipated -= 0.5 * static_cast<double>(fast * viscous);
+    const Real share = run.slow_is_a ? at.share_a : at.share_b;
+    memory.mean[index] += share * sum;
+    memory.mean_viscous[index] += share * force.viscous;
   }
   at.f[a] -= at.share_a * sum;
   at.f[b] += at.share_b * sum;
+}
+
+/// Work on the slower end, which moved by `moved`, with the mean force so far in its step.
+template <class Real>
+void addSlowWork(const LinkRun& run,
+                 const Memory<Real>& memory,
+                 std::size_t index,
+                 double moved,
+                 Work& work) noexcept {
+  const double signed_moved = run.slow_is_a ? -moved : moved;
+  const auto mean = static_cast<double>(memory.mean[index] + memory.last_mean[index]);
+  const auto viscous =
+      static_cast<double>(memory.mean_viscous[index] + memory.last_mean_viscous[index]);
+  (run.slow_is_a ? work.on_a : work.on_b) += 0.5 * signed_moved * mean;
+  work.dissipated -= 0.5 * signed_moved * viscous;
 }
 
 /// The slower end has moved by d under the mean force: its side of the books closes.
 template <class Real>
 void closeSlowStep(
     const LinkRun& run, const Frame<Real>& at, std::size_t index, int a, int b) noexcept {
-  Real& mean = at.memory.mean[index];
-  Real& last = at.memory.last_mean[index];
-  const double work = 0.5 * static_cast<double>(at.d[run.slow_is_a ? a : b] * (mean + last));
-  (run.slow_is_a ? at.work->on_a : at.work->on_b) += run.slow_is_a ? -work : work;
-  last = mean;
-  mean = Real(0);
+  addSlowWork(run, at.memory, index, static_cast<double>(at.moved[run.slow_is_a ? a : b]),
+              *at.work);
+  const Memory<Real>& memory = at.memory;
+  memory.last_mean[index] = memory.mean[index];
+  memory.last_mean_viscous[index] = memory.mean_viscous[index];
+  memory.mean[index] = Real(0);
+  memory.mean_viscous[index] = Real(0);
 }
 
 /// Scalar runs that remember: nonlinear, or between sections.

@@ -55,16 +55,20 @@ class Points {
               State<Real>& state) const noexcept {
     Real* x = state.x();
     Real* d = state.d();
+    Real* place_d = state.placeD();
     for (std::size_t p = 0; p < layout_.places.size(); ++p) {
       const PlacePoint& point = layout_.places[p];
       if (due[point.section] != 0) {
         keepLast(point.slot, point.dimensions, state);
+        gatherPlace(p, x, d, state.places());
+        std::copy_n(d + point.slot, point.dimensions, place_d);
         moveOn(p, c.places[p], x, state.places());
         gatherPlace(p, x, d, state.places());
         for (int k = point.slot; k < point.slot + point.dimensions; ++k) {
           state.moved()[k] += x[k];
         }
       }
+      place_d += point.dimensions;
     }
     for (const ProjectedPoint& point : layout_.projections) {
       if (due[point.of.section] != 0) {

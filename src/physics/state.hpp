@@ -30,6 +30,11 @@ class State {
     f_at_ = arena_.add<Real>("f", slots);
     moved_at_ = layout.places.empty() ? d_at_ : arena_.add<Real>("moved", slots);
     places_at_ = arena_.add<double>("places", 2 * layout.places.size());
+    std::size_t coordinates = 0;
+    for (const PlacePoint& point : layout.places) {
+      coordinates += static_cast<std::size_t>(point.dimensions);
+    }
+    place_d_at_ = arena_.add<Real>("place_d", coordinates);
     held_at_ = arena_.add<Real>("held_force_outputs", layout.taps.size());
     asleep_at_ = arena_.add<unsigned char>("asleep", layout.sections.size());
     work_at_ = arena_.add<kernels::Work>("link_work", layout.runs.size());
@@ -53,6 +58,9 @@ class State {
   const Real* x() const noexcept { return arena_.at<Real>(x_at_); }
   const Real* d() const noexcept { return arena_.at<Real>(d_at_); }
   const Real* f() const noexcept { return arena_.at<Real>(f_at_); }
+  /// [coordinates of places] what d would be had the place not moved
+  Real* placeD() noexcept { return arena_.at<Real>(place_d_at_); }
+  const Real* placeD() const noexcept { return arena_.at<Real>(place_d_at_); }
   double* places() noexcept { return arena_.at<double>(places_at_); }
   Real* held() noexcept { return arena_.at<Real>(held_at_); }
   unsigned char* asleep() noexcept { return arena_.at<unsigned char>(asleep_at_); }
@@ -83,17 +91,20 @@ class State {
     if (n == 0) {
       return {};
     }
-    return {base, base + n, at.across ? base + 2 * n : nullptr, at.across ? base + 3 * n : nullptr};
+    if (!at.across) {
+      return {base, base + n};
+    }
+    return {base, base + n, base + 2 * n, base + 3 * n, base + 4 * n, base + 5 * n};
   }
 
   RunEntries addRun(const LinkRun& run) {
     RunEntries at;
     const std::string name = "run" + std::to_string(runs_.size());
-    if (remembers(run) && !run.guarded) {
+    if (remembers(run)) {
       at.links =
           run.ends.size() * static_cast<std::size_t>(run.dimensions == 0 ? 1 : run.dimensions);
       at.across = run.slow_section >= 0;
-      at.memory = arena_.add<Real>(name + ".forces", (at.across ? 4 : 2) * at.links);
+      at.memory = arena_.add<Real>(name + ".forces", (at.across ? 6 : 2) * at.links);
     }
     if (run.law == Law::kConditional) {
       at.engaged = arena_.add<Real>(name + ".engaged", run.ends.size());
@@ -110,6 +121,7 @@ class State {
   std::size_t f_at_ = 0;
   std::size_t moved_at_ = 0;
   std::size_t places_at_ = 0;
+  std::size_t place_d_at_ = 0;
   std::size_t held_at_ = 0;
   std::size_t asleep_at_ = 0;
   std::size_t work_at_ = 0;

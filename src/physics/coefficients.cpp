@@ -3,7 +3,9 @@
 
 #include <array>
 
+#include "ergotic/scene/table.hpp"
 #include "laws.hpp"
+#include "oscillator.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -18,7 +20,11 @@ struct LinkFields {
   std::size_t count = 0;
 };
 
-LinkFields fieldsOf(const scene::Scene& scene, const scene::Lia& lia, const StepUnits& units) {
+/// \param rest  distance of the ends at rest, if it is not part of the elongation already
+LinkFields fieldsOf(const scene::Scene& scene,
+                    const scene::Lia& lia,
+                    const StepUnits& units,
+                    double rest) {
   const double k = scene.valueOf(lia.stiffness);
   const double z = units.damping(scene.valueOf(lia.damping));
   const double width = scene.valueOf(lia.width);
@@ -26,8 +32,7 @@ LinkFields fieldsOf(const scene::Scene& scene, const scene::Lia& lia, const Step
   const double k_limit = scene.valueOf(lia.stiffness_limit);
   const double z_limit = z + units.damping(scene.valueOf(lia.limit_damping));
   // Displacements are stored from rest: the distance at rest is folded into the elongation.
-  const double offset =
-      scene.mats[at(lia.a)].rest.x() - scene.mats[at(lia.b)].rest.x() - lia.rest_length;
+  const double offset = rest - lia.rest_length;
   switch (lawOf(lia)) {
     case Law::kSpringDamper:
     case Law::kPluckTable:
@@ -49,6 +54,12 @@ LinkFields fieldsOf(const scene::Scene& scene, const scene::Lia& lia, const Step
       return {{z, 1.0 / units.velocity(width)}, 2};
     case Law::kBowTable:
       return {{1.0 / units.step}, 1};
+    case Law::kPowerContact:
+      return {{k, z, offset + width, scene.valueOf(lia.exponent)}, 4};
+    case Law::kTable:
+      return {{offset, 1.0 / units.step}, 2};
+    case Law::kConditional:
+      return {{k, z, offset, width, lia.release}, 5};
   }
   return {};
 }
@@ -77,6 +88,12 @@ std::size_t fieldCount(Law law) {
       return laws::PluckTable<double>::kFields;
     case Law::kBowTable:
       return laws::BowTable<double>::kFields;
+    case Law::kPowerContact:
+      return laws::PowerContact<double>::kFields;
+    case Law::kTable:
+      return laws::ElasticViscousTable<double>::kFields;
+    case Law::kConditional:
+      return laws::Conditional<double>::kFields;
   }
   return 0;
 }
@@ -88,6 +105,7 @@ CoefficientsOf<Real>::CoefficientsOf(const scene::Scene& scene,
                                      const Rates& rates,
                                      const Layout& layout) {
   fillMasses(scene, rates, layout);
+  fillPlaces(scene, rates, layout);
   runs.resize(layout.runs.size());
   for (std::size_t r = 0; r < runs.size(); ++r) {
     fillRun(scene, rates, layout, r);
@@ -123,24 +141,41 @@ void CoefficientsOf<Real>::setSlot(const scene::Scene& scene,
                                    const Layout& layout,
                                    int slot) {
   const scene::Mat& mat = scene.mats[at(layout.mat_of_slot[at(slot)])];
+  const scene::Section& section = scene.sectionOf(mat);
+  const OscillatorCoefficients own = oscillatorOf(scene, mat, units);
   const double inverse = units.inverseMass(scene.valueOf(mat.mass));
-  double drift =
-      mat.force.x() * inverse + units.acceleration(scene.sections[at(mat.section)].gravity.x());
-  if (mat.type == scene::MatType::kCell) {
-    const double pull = scene.valueOf(mat.stiffness) * inverse;
-    const double loss = units.damping(scene.valueOf(mat.damping)) * inverse;
-    masses.keep[at(slot)] = static_cast<Real>(1.0 - loss);
-    masses.pull[at(slot)] = static_cast<Real>(pull);
-    drift -= pull * mat.rest.x();
+  const int stride = layout.sections[at(mat.section)].stride;
+  for (int c = 0; c < dimensionsOf(section.geometry); ++c) {
+    const std::size_t here = at(slot + c * stride);
+    double drift = mat.force[c] * inverse + units.acceleration(section.gravity[c]);
+    if (section.geometry == scene::Geometry::kScalar) {
+      drift -= own.pull * mat.rest.x();  // its spring ends at 0, wherever it rests
+    }
+    masses.inverse_mass[here] = static_cast<Real>(inverse);
+    masses.keep[here] = static_cast<Real>(own.keep);
+    masses.pull[here] = static_cast<Real>(own.pull);
+    masses.drift[here] = static_cast<Real>(drift);
   }
-  masses.inverse_mass[at(slot)] = static_cast<Real>(inverse);
-  masses.drift[at(slot)] = static_cast<Real>(drift);
+}
+
+template <class Real>
+void CoefficientsOf<Real>::fillPlaces(const scene::Scene& scene,
+                                      const Rates& rates,
+                                      const Layout& layout) {
+  for (const PlacePoint& point : layout.places) {
+    const scene::Connection& from = scene.connections[at(point.connection)];
+    const SectionRange& range = layout.sections[at(point.section)];
+    const StepUnits units(scene, rates, range.divisor);
+    places.push_back({scene.valueOf(from.along), scene.valueOf(from.across), from.guide_scale,
+                      from.along_minimum, from.along_maximum, units.velocity(from.speed)});
+  }
 }
 
 template <class Real>
 void CoefficientsOf<Real>::setLink(
     const scene::Scene& scene, const StepUnits& units, const LinkRun& run, std::size_t r, int l) {
-  const LinkFields from = fieldsOf(scene, scene.lias[at(run.lias[at(l)])], units);
+  const double rest = run.dimensions == 0 ? run.rests[at(l)].x() : 0.0;
+  const LinkFields from = fieldsOf(scene, scene.lias[at(run.lias[at(l)])], units, rest);
   for (std::size_t f = 0; f < from.count; ++f) {
     runs[r].fields[f * run.lias.size() + at(l)] = static_cast<Real>(from.values[f]);
   }
@@ -171,13 +206,34 @@ void CoefficientsOf<Real>::fillRun(const scene::Scene& scene,
   for (int l = 0; l < static_cast<int>(run.lias.size()); ++l) {
     setLink(scene, units, run, r, l);
     const scene::Lia& lia = scene.lias[at(run.lias[at(l)])];
-    to.table_first.push_back(static_cast<int>(to.table_x.size()));
-    to.table_count.push_back(static_cast<int>(lia.table.points.size()));
-    for (const auto& [x, y] : lia.table.points) {
-      to.table_x.push_back(static_cast<Real>(x));
-      to.table_y.push_back(static_cast<Real>(y));
+    to.table.add(lia.table);
+    to.viscous_table.add(lia.viscous_table);
+  }
+  for (int c = 0; c < run.dimensions; ++c) {
+    for (const Eigen::Vector3d& rest : run.rests) {
+      to.rests.push_back(static_cast<Real>(rest[c]));
     }
   }
+}
+
+template <class Real>
+void TableCoefficients<Real>::add(const scene::Table& table) {
+  first.push_back(static_cast<int>(x.size()));
+  count.push_back(static_cast<int>(table.points.size()));
+  if (table.empty()) {
+    return;
+  }
+  const scene::Curve curve = scene::interpolate(table);
+  const auto push = [this](double from, std::initializer_list<double> numbers) {
+    x.push_back(static_cast<Real>(from));
+    for (const double number : numbers) {
+      cubic.push_back(static_cast<Real>(number));
+    }
+  };
+  for (const scene::CurvePiece& p : curve.pieces) {
+    push(p.begin, {p.c0, p.c1, p.c2, p.c3});
+  }
+  push(curve.end, {curve.end_value, 0.0, 0.0, 0.0});
 }
 
 template class CoefficientsOf<float>;

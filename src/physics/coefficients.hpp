@@ -11,7 +11,7 @@
 namespace ergotic::physics {
 
 /// Per-slot coefficients of d <- keep d - pull x + inverse_mass f + drift; x <- x + d.
-/// Masses have keep = 1 and pull = 0 and use neither.
+/// Masses without a medium have keep = 1 and pull = 0 and use neither.
 template <class Real>
 struct MassCoefficients {
   std::vector<Real> inverse_mass;
@@ -20,13 +20,33 @@ struct MassCoefficients {
   std::vector<Real> pull;
 };
 
+/// The tables of a run, one after the other.
+template <class Real>
+struct TableCoefficients {
+  std::vector<Real> x;
+  std::vector<Real> cubic;  ///< [points][4]
+  std::vector<int> first;   ///< [links]
+  std::vector<int> count;
+
+  void add(const scene::Table& table);
+};
+
 template <class Real>
 struct RunCoefficients {
   std::vector<Real> fields;  ///< [fields of the law][links]
-  std::vector<Real> table_x;
-  std::vector<Real> table_y;
-  std::vector<int> table_first;  ///< [links] of tabulated laws
-  std::vector<int> table_count;
+  std::vector<Real> rests;   ///< [dimensions][links] rest of a less rest of b
+  TableCoefficients<Real> table;
+  TableCoefficients<Real> viscous_table;
+};
+
+/// Where a point of a grid is asked to be. `speed` is per step of its section.
+struct PlaceCoefficients {
+  double along = 0.0;
+  double across = 0.0;
+  double guide_scale = 0.0;
+  double minimum = 0.0;
+  double maximum = 1.0;
+  double speed = 0.0;
 };
 
 template <class Real>
@@ -46,12 +66,14 @@ class CoefficientsOf final : public Coefficients {
   std::vector<RunCoefficients<Real>> runs;  ///< [Layout::runs]
   std::vector<Real> tap_gains;              ///< [Layout::taps]
   std::vector<Real> feed_gains;             ///< [Layout::feeds]
+  std::vector<PlaceCoefficients> places;    ///< [Layout::places]
 
  private:
   void fillMasses(const scene::Scene& scene, const Rates& rates, const Layout& layout);
   void setSlot(const scene::Scene& scene, const StepUnits& units, const Layout& layout, int slot);
   void setLink(
       const scene::Scene& scene, const StepUnits& units, const LinkRun& run, std::size_t r, int l);
+  void fillPlaces(const scene::Scene& scene, const Rates& rates, const Layout& layout);
   void fillRun(const scene::Scene& scene, const Rates& rates, const Layout& layout, std::size_t r);
 };
 

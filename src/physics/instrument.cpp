@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arena.hpp"
 #include "coefficients.hpp"
+#include "energy_meter.hpp"
 #include "ergotic/exception.hpp"
-#include "laws.hpp"
 #include "layout.hpp"
+#include "points.hpp"
+#include "state.hpp"
 #include "step_units.hpp"
+#include "stepper.hpp"
+#include "taps.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -43,22 +46,20 @@ class InstrumentOf final : public Instrument {
       : Instrument(scene, rates, precision),
         layout_(std::move(layout)),
         coefficients_(std::make_unique<CoefficientsOf<Real>>(scene, rates, layout_)),
+        state_(layout_),
+        meter_(scene, layout_, state_),
+        stepper_(layout_),
+        points_(scene, layout_),
+        taps_(layout_),
         due_(layout_.sections.size(), 0),
         followed_(layout_.followers.empty() ? scene::Scene{} : scene) {
-    const std::size_t slots = at(layout_.slots());
-    clock_at_ = arena_.add<std::int64_t>("frame", 1);
-    x_at_ = arena_.add<Real>("x", slots);
-    d_at_ = arena_.add<Real>("d", slots);
-    f_at_ = arena_.add<Real>("f", slots);
-    held_at_ = arena_.add<Real>("held_force_outputs", layout_.taps.size());
-    arena_.allocate();
+    state_.allocate();
     placeInitialState();
   }
 
   void tick(const TickIo& io) noexcept override {
-    const std::int64_t first = frame();
-    const bool is_first_tick = first == 0;
-    takeSlices(io.positions, is_first_tick);
+    const std::int64_t first = state_.frame();
+    takeSlices(io.positions, first == 0);
     const int channels_in = inputChannels();
     const int channels_out = outputChannels();
     for (int r = 0; r < rates().ratio; ++r) {
@@ -66,8 +67,15 @@ class InstrumentOf final : public Instrument {
       double* out = io.outputs + at(r) * at(channels_out);
       std::fill_n(out, channels_out, 0.0);
       frameStep(first + r, in, out);
+      state_.frame() = first + r + 1;
+      if (first + r == 0) {
+        meter_.start(*coefficients_, state_);
+      }
     }
-    frame() = first + rates().ratio;
+    if (changed_) {
+      meter_.endChange(*coefficients_, state_);
+      changed_ = false;
+    }
     giveForces(io.forces);
   }
 
@@ -77,49 +85,65 @@ class InstrumentOf final : public Instrument {
   }
 
   std::unique_ptr<Coefficients> exchange(std::unique_ptr<Coefficients> next) noexcept override {
+    if (!changed_ && state_.frame() > 0) {
+      meter_.beginChange(*coefficients_, state_);
+      changed_ = true;
+    }
     auto* mine = static_cast<CoefficientsOf<Real>*>(next.release());
     std::unique_ptr<Coefficients> old = std::move(coefficients_);
     coefficients_.reset(mine);
     return old;
   }
 
-  std::size_t stateSize() const noexcept override { return arena_.size(); }
-  std::vector<StateEntry> stateEntries() const override { return arena_.entries(); }
-  void saveState(void* to) const noexcept override { arena_.save(to); }
-  void loadState(const void* from) noexcept override { arena_.load(from); }
+  std::size_t stateSize() const noexcept override { return state_.arena().size(); }
+  std::vector<StateEntry> stateEntries() const override { return state_.arena().entries(); }
+  void saveState(void* to) const noexcept override { state_.arena().save(to); }
+  void loadState(const void* from) noexcept override { state_.arena().load(from); }
 
   void readDisplacements(float* to) const noexcept override {
-    const Real* x = arena_.template at<Real>(x_at_);
+    const Real* x = state_.x();
     for (std::size_t m = 0; m < layout_.slot_of_mat.size(); ++m) {
-      to[m] = static_cast<float>(x[layout_.slot_of_mat[m]]);
+      const scene::Mat& mat = scene().mats[m];
+      const SectionRange& range = layout_.sections[at(mat.section)];
+      const int stride = mat.type == scene::MatType::kPoint ? 1 : range.stride;
+      for (int k = 0; k < range.dimensions; ++k) {
+        *to++ = static_cast<float>(x[layout_.slot_of_mat[m] + k * stride]);
+      }
     }
   }
 
-  Energies makeEnergies() const override { return {}; }
+  Energies makeEnergies() const override { return meter_.make(); }
+  void readEnergies(Energies& to) const noexcept override {
+    meter_.read(*coefficients_, state_, to);
+  }
   std::vector<GuardReport> makeGuardReports() const override { return {}; }
-  void readEnergies(Energies&) const noexcept override {}
   void readGuards(std::vector<GuardReport>&) const noexcept override {}
 
   bool isFinite() const noexcept override {
-    const Real* x = arena_.template at<Real>(x_at_);
+    const Real* x = state_.x();
     return std::all_of(x, x + layout_.slots(), [](Real v) { return std::isfinite(v); });
   }
 
  private:
-  Real* x() noexcept { return arena_.at<Real>(x_at_); }
-  Real* d() noexcept { return arena_.at<Real>(d_at_); }
-  Real* f() noexcept { return arena_.at<Real>(f_at_); }
-  std::int64_t& frame() noexcept { return *arena_.at<std::int64_t>(clock_at_); }
-
   void placeInitialState() {
-    for (const SectionRange& range : layout_.sections) {
+    for (std::size_t s = 0; s < layout_.sections.size(); ++s) {
+      const SectionRange& range = layout_.sections[s];
       const StepUnits units(scene(), rates(), range.divisor);
       for (int slot = range.cells; slot < range.end; ++slot) {
         const scene::Mat& mat = scene().mats[at(layout_.mat_of_slot[at(slot)])];
-        x()[slot] = static_cast<Real>(mat.position.x() - mat.rest.x());
-        if (slot < range.fixed) {
-          d()[slot] = static_cast<Real>(units.velocity(mat.velocity.x()));
+        for (int k = 0; k < range.dimensions; ++k) {
+          const int here = slot + k * range.stride;
+          state_.x()[here] = static_cast<Real>(mat.position[k] - mat.rest[k]);
+          if (slot < range.fixed) {
+            state_.d()[here] = static_cast<Real>(units.velocity(mat.velocity[k]));
+          }
         }
+      }
+    }
+    points_.placeAtStart(*coefficients_, state_.x(), state_.d(), state_.places());
+    for (std::size_t r = 0; r < layout_.runs.size(); ++r) {
+      if (remembers(layout_.runs[r])) {
+        stepper_.storeAtStart(r, coefficients_->runs[r], state_);
       }
     }
   }
@@ -127,39 +151,50 @@ class InstrumentOf final : public Instrument {
   /// Slices move at the start of a tick; a slice at 0 has its module at rest.
   void takeSlices(const double* positions, bool is_first_tick) noexcept {
     for (std::size_t p = 0; p < layout_.port_slots.size(); ++p) {
-      const int slot = layout_.port_slots[p];
-      const Real position = static_cast<Real>(positions[p]);
       // Before the first tick nothing is known of the hand: it did not jump, it was there.
-      d()[slot] = is_first_tick ? Real(0) : position - x()[slot];
-      x()[slot] = position;
+      moveTo(layout_.port_slots[p], static_cast<Real>(positions[p]), is_first_tick);
     }
+  }
+
+  /// Something outside moves a module.
+  void moveTo(int slot, Real position, bool was_there) noexcept {
+    state_.dLast()[slot] = state_.d()[slot];
+    state_.d()[slot] = was_there ? Real(0) : position - state_.x()[slot];
+    state_.x()[slot] = position;
   }
 
   void giveForces(double* forces) noexcept {
     const double newton = 1.0 / (scene().time_unit_s * scene().time_unit_s);
     for (std::size_t p = 0; p < layout_.port_slots.size(); ++p) {
-      forces[p] = newton * static_cast<double>(f()[layout_.port_slots[p]]);
+      forces[p] = newton * static_cast<double>(state_.f()[layout_.port_slots[p]]);
     }
   }
 
-  /// One audio frame: masses, position outputs, links, force inputs, force outputs.
+  /// One audio frame: modules move, positions are heard, links, inputs, forces are heard.
   void frameStep(std::int64_t now, const double* in, double* out) noexcept {
     followAudio(in);
-    for (std::size_t s = 0; s < layout_.sections.size(); ++s) {
-      due_[s] = now % layout_.sections[s].divisor == 0 ? 1 : 0;
-      if (due_[s] != 0) {
-        moveMasses(layout_.sections[s]);
-      }
-    }
+    moveModules(now);
     feedPositions(in);
-    takePositions(out);
+    gatherPoints();
+    taps_.takePositions(*coefficients_, state_, out);
     for (std::size_t r = 0; r < layout_.runs.size(); ++r) {
-      if (due_[at(layout_.runs[r].section)] != 0) {
-        dispatch(layout_.runs[r], coefficients_->runs[r]);
+      const LinkRun& run = layout_.runs[r];
+      if (due_[at(run.section)] != 0 && !isAsleep(run)) {
+        stepper_.stepLinks(r, coefficients_->runs[r], due_.data(), endsSlowStep(run, now), state_);
       }
     }
     feedForces(in);
-    takeForces(now, out);
+    points_.scatter(state_.f(), state_.places());
+    meter_.endFrame(now, state_);
+    taps_.takeForces(*coefficients_, now, state_, out);
+  }
+
+  bool endsSlowStep(const LinkRun& run, std::int64_t now) const noexcept {
+    return run.slow_section >= 0 && (now + 1) % layout_.sections[at(run.slow_section)].divisor == 0;
+  }
+
+  bool isAsleep(const LinkRun& run) noexcept {
+    return run.section_a == run.section_b && state_.asleep()[run.section_a] != 0;
   }
 
   /// What follows an audio input gets its coefficients of this frame.
@@ -172,24 +207,29 @@ class InstrumentOf final : public Instrument {
     }
   }
 
-  void moveMasses(const SectionRange& range) noexcept {
-    Real* xs = x();
-    Real* ds = d();
-    Real* fs = f();
-    const MassCoefficients<Real>& c = coefficients_->masses;
-    const Real* inverse = c.inverse_mass.data();
-    const Real* drift = c.drift.data();
-    const Real* keep = c.keep.data();
-    const Real* pull = c.pull.data();
-    for (int i = range.cells; i < range.masses; ++i) {
-      ds[i] = keep[i] * ds[i] - pull[i] * xs[i] + (inverse[i] * fs[i] + drift[i]);
-      xs[i] += ds[i];
+  void moveModules(std::int64_t now) noexcept {
+    for (std::size_t s = 0; s < layout_.sections.size(); ++s) {
+      due_[s] = now % layout_.sections[s].divisor == 0 ? 1 : 0;
+      if (due_[s] != 0 && state_.asleep()[s] == 0) {
+        const int section = static_cast<int>(s);
+        meter_.addDissipated(section, stepper_.moveMasses(section, coefficients_->masses, state_),
+                             state_);
+      }
     }
-    for (int i = range.masses; i < range.fixed; ++i) {
-      ds[i] += inverse[i] * fs[i] + drift[i];
-      xs[i] += ds[i];
+  }
+
+  void gatherPoints() noexcept {
+    if (!layout_.places.empty()) {
+      for (std::size_t s = 0; s < layout_.sections.size(); ++s) {
+        const SectionRange& range = layout_.sections[s];
+        if (due_[s] != 0) {
+          std::copy_n(state_.d() + range.cells, range.dimensions * range.stride,
+                      state_.moved() + range.cells);
+        }
+      }
     }
-    std::fill(fs + range.cells, fs + range.end, Real(0));
+    points_.gather(*coefficients_, due_.data(), state_);
+    points_.clearForces(state_.f());
   }
 
   void feedPositions(const double* in) noexcept {
@@ -197,9 +237,7 @@ class InstrumentOf final : public Instrument {
       const Feed& feed = layout_.feeds[k];
       if (feed.quantity == scene::Quantity::kPosition && due_[at(feed.section)] != 0) {
         const double gain = static_cast<double>(coefficients_->feed_gains[k]);
-        const Real position = static_cast<Real>(gain * in[feed.channel] - feed.rest);
-        d()[feed.slot] = position - x()[feed.slot];
-        x()[feed.slot] = position;
+        moveTo(feed.slot, static_cast<Real>(gain * in[feed.channel] - feed.rest), false);
       }
     }
   }
@@ -208,136 +246,24 @@ class InstrumentOf final : public Instrument {
     for (std::size_t k = 0; k < layout_.feeds.size(); ++k) {
       const Feed& feed = layout_.feeds[k];
       if (feed.quantity == scene::Quantity::kForce) {
-        f()[feed.slot] += coefficients_->feed_gains[k] * static_cast<Real>(in[feed.channel]) *
-                          static_cast<Real>(feed.share);
+        const Real force = coefficients_->feed_gains[k] * static_cast<Real>(in[feed.channel]) *
+                           static_cast<Real>(feed.share);
+        state_.f()[feed.slot] += force;
+        meter_.addFeed(k, force, state_);
       }
-    }
-  }
-
-  /// A quantity at a tap, between two modules if it lies there.
-  double read(const Real* values, const Tap& tap) const noexcept {
-    const double here = static_cast<double>(values[tap.slot]);
-    if (tap.next < 0) {
-      return here;
-    }
-    return here + tap.fraction * (static_cast<double>(values[tap.next]) - here);
-  }
-
-  void takePositions(double* out) noexcept {
-    for (std::size_t k = 0; k < layout_.taps.size(); ++k) {
-      const Tap& tap = layout_.taps[k];
-      const double gain = static_cast<double>(coefficients_->tap_gains[k]);
-      if (tap.quantity == scene::Quantity::kPosition) {
-        out[tap.channel] += gain * (read(x(), tap) + tap.rest);
-      } else if (tap.quantity == scene::Quantity::kVelocity) {
-        out[tap.channel] += gain * tap.velocity * read(d(), tap);
-      }
-    }
-  }
-
-  /// The force on a slow module is whole only at the end of its step: it is held until the next.
-  void takeForces(std::int64_t now, double* out) noexcept {
-    Real* held = arena_.at<Real>(held_at_);
-    for (std::size_t k = 0; k < layout_.taps.size(); ++k) {
-      const Tap& tap = layout_.taps[k];
-      if (tap.quantity != scene::Quantity::kForce) {
-        continue;
-      }
-      if ((now + 1) % tap.divisor == 0) {
-        held[k] = static_cast<Real>(read(f(), tap));
-      }
-      out[tap.channel] +=
-          static_cast<double>(coefficients_->tap_gains[k]) * static_cast<double>(held[k]);
-    }
-  }
-
-  void dispatch(const LinkRun& run, const RunCoefficients<Real>& c) noexcept {
-    const laws::Fields<Real> fields{c.fields.data(), run.ends.size()};
-    const laws::Tables<Real> tables{c.table_x.data(), c.table_y.data(), c.table_first.data(),
-                                    c.table_count.data()};
-    switch (run.law) {
-      case Law::kSpringDamper:
-        return apply(run, laws::SpringDamper<Real>{fields});
-      case Law::kContact:
-        return apply(run, laws::Contact<Real>{fields});
-      case Law::kQuadratic:
-        return apply(run, laws::Quadratic<Real>{fields});
-      case Law::kCubic:
-        return apply(run, laws::Cubic<Real>{fields});
-      case Law::kClippedCubic:
-        return apply(run, laws::ClippedCubic<Real>{fields});
-      case Law::kCubicContact:
-        return apply(run, laws::CubicContact<Real>{{fields}});
-      case Law::kPluck:
-        return apply(run, laws::Pluck<Real>{fields});
-      case Law::kBow:
-        return apply(run, laws::Bow<Real>{fields});
-      case Law::kSmoothBow:
-        return apply(run, laws::SmoothBow<Real>{fields});
-      case Law::kPluckTable:
-        return apply(run, laws::PluckTable<Real>{fields, tables});
-      case Law::kBowTable:
-        return apply(run, laws::BowTable<Real>{fields, tables});
-    }
-  }
-
-  template <class LawType>
-  void apply(const LinkRun& run, const LawType& law) noexcept {
-    if (run.slow_section < 0) {
-      applySameRate(run, law);
-    } else {
-      applyAcrossRates(run, law);
-    }
-  }
-
-  template <class LawType>
-  void applySameRate(const LinkRun& run, const LawType& law) noexcept {
-    const Real* xs = x();
-    const Real* ds = d();
-    Real* fs = f();
-    const LinkEnds* ends = run.ends.data();
-    const std::size_t links = run.ends.size();
-    for (std::size_t l = 0; l < links; ++l) {
-      const int a = ends[l].a;
-      const int b = ends[l].b;
-      const Real force = law.force(l, xs[a] - xs[b], ds[a] - ds[b]);
-      fs[a] -= force;
-      fs[b] += force;
-    }
-  }
-
-  /// Hold up, mean down: the held end moved, by its whole difference, only in the frame in which
-  /// it stepped. Those two are adjoint, so the coupling neither makes nor eats energy on average.
-  template <class LawType>
-  void applyAcrossRates(const LinkRun& run, const LawType& law) noexcept {
-    const Real fresh = due_[at(run.slow_section)] != 0 ? Real(1) : Real(0);
-    const Real share = static_cast<Real>(run.share);
-    const Real gate_a = run.slow_is_a ? fresh : Real(1);
-    const Real gate_b = run.slow_is_a ? Real(1) : fresh;
-    const Real share_a = run.slow_is_a ? share : Real(1);
-    const Real share_b = run.slow_is_a ? Real(1) : share;
-    const Real* xs = x();
-    const Real* ds = d();
-    Real* fs = f();
-    for (std::size_t l = 0; l < run.ends.size(); ++l) {
-      const int a = run.ends[l].a;
-      const int b = run.ends[l].b;
-      const Real force = law.force(l, xs[a] - xs[b], gate_a * ds[a] - gate_b * ds[b]);
-      fs[a] -= share_a * force;
-      fs[b] += share_b * force;
     }
   }
 
   Layout layout_;
   std::unique_ptr<CoefficientsOf<Real>> coefficients_;
+  State<Real> state_;
+  EnergyMeter<Real> meter_;
+  Stepper<Real> stepper_;
+  Points<Real> points_;
+  Taps<Real> taps_;
   std::vector<unsigned char> due_;  // [sections] in this frame
   scene::Scene followed_;           // where audio parameters have their present samples
-  Arena arena_;
-  std::size_t clock_at_ = 0;
-  std::size_t x_at_ = 0;
-  std::size_t d_at_ = 0;
-  std::size_t f_at_ = 0;
-  std::size_t held_at_ = 0;
+  bool changed_ = false;            // coefficients were exchanged since the last tick
 };
 
 }  // namespace

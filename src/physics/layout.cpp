@@ -1,30 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "layout.hpp"
 
-#include <algorithm>
-#include <map>
 #include <string>
-#include <tuple>
 
 #include "ergotic/exception.hpp"
+#include "layout_links.hpp"
 #include "step_units.hpp"
 
 namespace ergotic::physics {
 namespace {
 
-using scene::LiaType;
 using scene::MatType;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-int rankOf(MatType type) {
-  switch (type) {
+/// Modules that lose speed by themselves are stepped like cells.
+int rankOf(const scene::Scene& scene, const scene::Mat& mat) {
+  switch (mat.type) {
     case MatType::kCell:
       return 0;
     case MatType::kMass:
-      return 1;
+      return scene.sectionOf(mat).medium.factor != 0.0 ? 0 : 1;
     default:
       return 2;
   }
@@ -35,66 +33,32 @@ void placeMats(const scene::Scene& scene, const Rates& rates, Layout& layout) {
   std::vector<std::vector<int>> bins(at(3 * sections));
   for (int m = 0; m < static_cast<int>(scene.mats.size()); ++m) {
     const scene::Mat& mat = scene.mats[at(m)];
-    bins[at(3 * mat.section + rankOf(mat.type))].push_back(m);
+    if (mat.type != MatType::kPoint) {
+      bins[at(3 * mat.section + rankOf(scene, mat))].push_back(m);
+    }
   }
   layout.slot_of_mat.resize(scene.mats.size());
-  const auto place = [&](int bin) {
-    for (const int m : bins[at(bin)]) {
-      layout.slot_of_mat[at(m)] = layout.slots();
-      layout.mat_of_slot.push_back(m);
-    }
-  };
   for (int s = 0; s < sections; ++s) {
     SectionRange range;
     range.divisor = divisorOf(scene.sections[at(s)], rates);
+    range.dimensions = dimensionsOf(scene.sections[at(s)].geometry);
     range.cells = layout.slots();
-    place(3 * s);
-    range.masses = layout.slots();
-    place(3 * s + 1);
-    range.fixed = layout.slots();
-    place(3 * s + 2);
-    range.end = layout.slots();
+    range.masses = range.cells + static_cast<int>(bins[at(3 * s)].size());
+    range.fixed = range.masses + static_cast<int>(bins[at(3 * s + 1)].size());
+    range.end = range.fixed + static_cast<int>(bins[at(3 * s + 2)].size());
+    range.stride = range.end - range.cells;
+    for (int c = 0; c < range.dimensions; ++c) {
+      for (int bin = 3 * s; bin < 3 * s + 3; ++bin) {
+        for (const int m : bins[at(bin)]) {
+          if (c == 0) {
+            layout.slot_of_mat[at(m)] = layout.slots();
+          }
+          layout.mat_of_slot.push_back(m);
+          layout.component.push_back(c);
+        }
+      }
+    }
     layout.sections.push_back(range);
-  }
-}
-
-/// Whose steps a link follows: the faster of its two sections.
-LinkRun describeRun(const scene::Scene& scene, const scene::Lia& lia, const Layout& layout) {
-  LinkRun run;
-  run.law = lawOf(lia);
-  const int sa = scene.mats[at(lia.a)].section;
-  const int sb = scene.mats[at(lia.b)].section;
-  const int da = layout.sections[at(sa)].divisor;
-  const int db = layout.sections[at(sb)].divisor;
-  run.section = da <= db ? sa : sb;
-  if (da != db) {
-    run.slow_is_a = da > db;
-    run.slow_section = run.slow_is_a ? sa : sb;
-    const int fast = std::min(da, db);
-    const int slow = std::max(da, db);
-    if (slow % fast != 0) {
-      throw Exception("link '" + lia.name + "' joins sections stepped every " +
-                      std::to_string(fast) + " and " + std::to_string(slow) +
-                      " audio frames: one must be a multiple of the other");
-    }
-    run.share = static_cast<double>(fast) / slow;
-  }
-  return run;
-}
-
-void placeLias(const scene::Scene& scene, Layout& layout) {
-  std::map<std::tuple<int, Law, int, bool>, std::size_t> known;
-  for (int l = 0; l < static_cast<int>(scene.lias.size()); ++l) {
-    const scene::Lia& lia = scene.lias[at(l)];
-    LinkRun run = describeRun(scene, lia, layout);
-    const auto key = std::make_tuple(run.section, run.law, run.slow_section, run.slow_is_a);
-    const auto [found, is_new] = known.emplace(key, layout.runs.size());
-    if (is_new) {
-      layout.runs.push_back(std::move(run));
-    }
-    LinkRun& target = layout.runs[found->second];
-    target.lias.push_back(l);
-    target.ends.push_back({layout.slot_of_mat[at(lia.a)], layout.slot_of_mat[at(lia.b)]});
   }
 }
 
@@ -104,18 +68,26 @@ Tap describeTap(const scene::Scene& scene,
                 const Layout& layout) {
   const scene::Mat& mat = scene.mats[at(output.point.mat)];
   Tap tap;
+  const auto slotOf = [&](int m) {
+    return layout.slot_of_mat[at(m)] + output.axis * layout.strideOf(scene, m);
+  };
   tap.quantity = output.quantity;
-  tap.slot = layout.slot_of_mat[at(output.point.mat)];
-  tap.rest = mat.rest.x();
+  tap.slot = slotOf(output.point.mat);
+  tap.rest = mat.rest[output.axis];
   if (output.point.next >= 0) {
     const double f = output.point.fraction;
-    tap.next = layout.slot_of_mat[at(output.point.next)];
+    tap.next = slotOf(output.point.next);
     tap.fraction = f;
-    tap.rest = (1.0 - f) * mat.rest.x() + f * scene.mats[at(output.point.next)].rest.x();
+    tap.rest = (1.0 - f) * tap.rest + f * scene.mats[at(output.point.next)].rest[output.axis];
   }
   tap.divisor = layout.sections[at(mat.section)].divisor;
   tap.velocity = 1.0 / StepUnits(scene, rates, tap.divisor).step;
   tap.channel = output.channel;
+  if (mat.type == MatType::kPoint && tap.quantity == scene::Quantity::kForce && tap.divisor > 1) {
+    throw Exception("output '" + output.name +
+                    "' hears the force on a point of a section slower than audio, allowed: a "
+                    "module beside it");
+  }
   return tap;
 }
 
@@ -134,8 +106,12 @@ void findFollowers(const scene::Scene& scene, Layout& layout) {
     }
   }
   for (int slot = 0; slot < layout.slots(); ++slot) {
+    if (layout.mat_of_slot[at(slot)] < 0) {
+      continue;
+    }
     const scene::Mat& mat = scene.mats[at(layout.mat_of_slot[at(slot)])];
-    if (mat.type == MatType::kCell && (follows(mat.stiffness) || follows(mat.damping))) {
+    if (layout.component[at(slot)] == 0 && mat.type == MatType::kCell &&
+        (follows(mat.stiffness) || follows(mat.damping))) {
       layout.followers.push_back({-1, slot, mat.section});
     }
   }
@@ -143,38 +119,16 @@ void findFollowers(const scene::Scene& scene, Layout& layout) {
 
 }  // namespace
 
-Law lawOf(const scene::Lia& lia) {
-  switch (lia.type) {
-    case LiaType::kSpringDamper:
-      return Law::kSpringDamper;
-    case LiaType::kContact:
-      return Law::kContact;
-    case LiaType::kQuadratic:
-      return Law::kQuadratic;
-    case LiaType::kCubic:
-      return Law::kCubic;
-    case LiaType::kClippedCubic:
-      return Law::kClippedCubic;
-    case LiaType::kCubicContact:
-      return Law::kCubicContact;
-    case LiaType::kPluck:
-      return lia.table.empty() ? Law::kPluck : Law::kPluckTable;
-    case LiaType::kBow:
-      return lia.table.empty() ? Law::kBow : Law::kBowTable;
-    case LiaType::kSmoothBow:
-      return Law::kSmoothBow;
-    case LiaType::kPowerContact:
-    case LiaType::kTable:
-    case LiaType::kConditional:
-      break;
-  }
-  throw Exception("link '" + lia.name + "' has no force law");
+int Layout::strideOf(const scene::Scene& scene, int mat) const {
+  const scene::Mat& m = scene.mats[at(mat)];
+  return m.type == MatType::kPoint ? 1 : sections[at(m.section)].stride;
 }
 
 Layout makeLayout(const scene::Scene& scene, const Rates& rates) {
   Layout layout;
   placeMats(scene, rates, layout);
-  placeLias(scene, layout);
+  placeConnections(scene, layout);
+  placeLinks(scene, layout);
   for (const scene::Port& port : scene.ports) {
     layout.port_slots.push_back(layout.slot_of_mat[at(port.mat)]);
   }

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "ergotic/physics/rates.hpp"
 #include "ergotic/scene/scene.hpp"
 
@@ -21,16 +23,31 @@ enum class Law {
   kSmoothBow,
   kPluckTable,
   kBowTable,
+  kPowerContact,
+  kTable,
+  kConditional,
 };
 Law lawOf(const scene::Lia& lia);
 
-/// Slots of a section: cells, masses, then modules that forces do not move.
+/// Slots of a section. A slot is one coordinate of one module. Each coordinate of a section fills
+/// `stride` slots in a row: cells, masses, then modules that forces do not move; those of y follow
+/// those of x. The ranges are those of x.
 struct SectionRange {
   int divisor = 1;  ///< audio frames per step
-  int cells = 0;    ///< first slot
-  int masses = 0;   ///< first slot
-  int fixed = 0;    ///< first slot
+  int dimensions = 1;
+  int stride = 0;
+  int cells = 0;   ///< first slot
+  int masses = 0;  ///< first slot
+  int fixed = 0;   ///< first slot
   int end = 0;
+};
+
+/// One end of a link: coordinate c lies in slot + c * stride.
+struct End {
+  int slot = 0;
+  int stride = 0;
+  int section = 0;
+  Eigen::Vector3d rest = Eigen::Vector3d::Zero();
 };
 
 struct LinkEnds {
@@ -43,12 +60,49 @@ struct LinkEnds {
 /// `share` of the force at every step, so the mean over its own step.
 struct LinkRun {
   Law law = Law::kSpringDamper;
-  int section = 0;
+  bool guarded = false;
+  int dimensions = 0;  ///< 0: scalar, else the coordinates a distance is taken over
+  int section = 0;     ///< whose steps it follows
+  int section_a = 0;   ///< of the modules
+  int section_b = 0;
+  enum class Decimated { kNone, kA, kB };
+  Decimated decimated = Decimated::kNone;  ///< the end that is seen at the slower rate (scheme B)
   int slow_section = -1;
   bool slow_is_a = false;
   double share = 1.0;
-  std::vector<int> lias;       ///< [links] index in Scene::lias
-  std::vector<LinkEnds> ends;  ///< [links]
+  int stride_a = 0;
+  int stride_b = 0;
+  std::vector<int> lias;               ///< [links] index in Scene::lias
+  std::vector<LinkEnds> ends;          ///< [links]
+  std::vector<Eigen::Vector3d> rests;  ///< [links] rest of a less rest of b
+};
+
+/// A connection: its slots follow one another.
+struct PlacePoint {
+  int slot = 0;
+  int dimensions = 1;
+  int section = 0;     ///< of the grid
+  int stride = 0;      ///< of the modules around it
+  int connection = 0;  ///< index in Scene::connections
+  int guide = -1;      ///< slot
+};
+
+/// A module seen in the frame of a section with fewer coordinates: y = axes x.
+struct ProjectedPoint {
+  int slot = 0;
+  int dimensions = 1;         ///< of what is seen
+  End of;                     ///< what is seen
+  int source_dimensions = 1;  ///< coordinates of `of`
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+};
+
+/// A module of a faster section as a link at the slower rate sees it (scheme B).
+struct DecimatedPoint {
+  int slot = 0;
+  int dimensions = 1;
+  int section = 0;  ///< the slower one, that of its steps
+  End of;
+  double impulse = 1.0;  ///< steps of the faster section per step of the slower
 };
 
 struct Tap {
@@ -80,15 +134,21 @@ struct Follower {
 
 /// Where everything of a scene lies in the arrays of an instrument.
 struct Layout {
-  std::vector<int> slot_of_mat;
-  std::vector<int> mat_of_slot;
+  std::vector<int> slot_of_mat;  ///< of the x coordinate
+  std::vector<int> mat_of_slot;  ///< -1: internal point
+  std::vector<int> component;    ///< [slots] 0 x, 1 y, 2 z
   std::vector<SectionRange> sections;
+  std::vector<PlacePoint> places;
+  std::vector<ProjectedPoint> projections;
+  std::vector<DecimatedPoint> decimations;
   std::vector<LinkRun> runs;
   std::vector<int> port_slots;
   std::vector<Tap> taps;
   std::vector<Feed> feeds;
   std::vector<Follower> followers;
+
   int slots() const { return static_cast<int>(mat_of_slot.size()); }
+  int strideOf(const scene::Scene& scene, int mat) const;
 };
 
 /// \throws Exception if links join sections whose divisors do not divide one another

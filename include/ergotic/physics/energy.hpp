@@ -33,6 +33,7 @@ struct Energies {
   std::vector<SectionEnergy> sections;    ///< [Scene::sections]
   std::vector<CouplingEnergy> couplings;  ///< pairs of sections that links join
   double stored = 0.0;                    ///< in all sections and couplings
+  double from_parameters = 0.0;           ///< work of parameter changes, since the start
   double residual = 0.0;
 };
 

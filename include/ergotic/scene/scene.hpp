@@ -239,6 +239,7 @@ struct Output {
   std::string name;
   Quantity quantity = Quantity::kPosition;
   Point point;
+  int axis = 0;     ///< coordinate: 0 x, 1 y, 2 z, one that moves
   int channel = 0;  ///< audio channel, from 0; outputs on one channel add up
   Value gain{1.0};  ///< per m, m/time_unit or kg m/time_unit^2
   Place place;

@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "energy_meter.hpp"
+
+#include <algorithm>
+
+namespace ergotic::physics {
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+template <class Point>
+std::size_t coordinatesOf(const std::vector<Point>& points) {
+  std::size_t count = 0;
+  for (const Point& point : points) {
+    count += at(point.dimensions);
+  }
+  return count;
+}
+
+}  // namespace
+
+template <class Real>
+EnergyMeter<Real>::EnergyMeter(const scene::Scene& scene, const Layout& layout, State<Real>& state)
+    : layout_(layout), newton_(1.0 / (scene.time_unit_s * scene.time_unit_s)) {
+  for (std::size_t m = 0; m < scene.mats.size(); ++m) {
+    const scene::MatType type = scene.mats[m].type;
+    if (type == scene::MatType::kSlice || type == scene::MatType::kDriven) {
+      forced_.push_back(
+          {layout.slot_of_mat[m], scene.mats[m].section, type == scene::MatType::kSlice});
+    }
+  }
+  const auto couple = [this](int a, int b) {
+    const auto found = std::find_if(couplings_.begin(), couplings_.end(),
+                                    [&](const Coupled& c) { return c.a == a && c.b == b; });
+    if (found == couplings_.end()) {
+      couplings_.push_back({a, b});
+      return couplings_.size() - 1;
+    }
+    return static_cast<std::size_t>(found - couplings_.begin());
+  };
+  for (const LinkRun& run : layout.runs) {
+    coupling_of_run_.push_back(
+        run.section_a == run.section_b ? kInside : couple(run.section_a, run.section_b));
+  }
+  for (const DecimatedPoint& point : layout.decimations) {
+    coupling_of_decimation_.push_back(couple(point.section, point.of.section));
+  }
+  Arena& arena = state.arena();
+  books_at_ = arena.add<SectionBooks>("section_energy", layout.sections.size());
+  forced_at_ = arena.add<Feeding>("slice_forces", forced_.size());
+  feeds_at_ = arena.add<Feeding>("input_forces", layout.feeds.size());
+  places_at_ = arena.add<Feeding>("place_forces", coordinatesOf(layout.places));
+  decimations_at_ = arena.add<Feeding>("decimated_forces", coordinatesOf(layout.decimations));
+  decimation_work_at_ = arena.add<double>("decimated_work", layout.decimations.size());
+  totals_at_ = arena.add<Totals>("energy_totals", 1);
+  scratch_ = make();
+}
+
+template <class Real>
+void EnergyMeter<Real>::addDissipated(int section,
+                                      double energy,
+                                      State<Real>& state) const noexcept {
+  state.arena().template at<SectionBooks>(books_at_)[section].dissipated += energy;
+}
+
+template <class Real>
+template <class StateType, class Book>
+void EnergyMeter<Real>::forEachSource(StateType& state, const Book& book) const noexcept {
+  auto& arena = state.arena();
+  const Real* d = state.d();
+  const Real* moved = state.moved();
+  const Real* f = state.f();
+  auto* feeding = arena.template at<Feeding>(forced_at_);
+  for (const Forced& forced : forced_) {
+    book(forced.section, forced.device ? Source::kDevice : Source::kInputs, 0, -d[forced.slot],
+         -d[forced.slot], *feeding, f[forced.slot]);
+    ++feeding;
+  }
+  feeding = arena.template at<Feeding>(feeds_at_);
+  for (const Feed& feed : layout_.feeds) {
+    book(feed.section, Source::kInputs, 0, d[feed.slot], d[feed.slot], *feeding, feeding->mean);
+    ++feeding;
+  }
+  const Real* place_d = state.placeD();
+  feeding = arena.template at<Feeding>(places_at_);
+  for (const PlacePoint& point : layout_.places) {
+    for (int k = point.slot; k < point.slot + point.dimensions; ++k, ++feeding, ++place_d) {
+      book(point.section, Source::kInputs, 0, d[k] - moved[k], *place_d - moved[k], *feeding,
+           feeding->mean);
+    }
+  }
+  feeding = arena.template at<Feeding>(decimations_at_);
+  for (std::size_t p = 0; p < layout_.decimations.size(); ++p) {
+    const DecimatedPoint& point = layout_.decimations[p];
+    for (int k = 0; k < point.dimensions; ++k, ++feeding) {
+      const Real moved_by = d[point.of.slot + k * point.of.stride];
+      book(point.of.section, Source::kDecimated, p, moved_by, moved_by, *feeding,
+           static_cast<Real>(point.impulse) * feeding->mean);
+    }
+  }
+}
+
+template <class Real>
+void EnergyMeter<Real>::endFrame(std::int64_t now, State<Real>& state) const noexcept {
+  auto* books = state.arena().template at<SectionBooks>(books_at_);
+  auto* decimated = state.arena().template at<double>(decimation_work_at_);
+  collectPointForces(state);
+  forEachSource(state, [&](int section, Source source, std::size_t p, Real moved, Real moved_last,
+                           Feeding& feeding, Real force) noexcept {
+    if (!endsStep(section, now)) {
+      return;
+    }
+    const double work = 0.5 * static_cast<double>(moved * force + moved_last * feeding.last);
+    switch (source) {
+      case Source::kDevice:
+        books[section].from_device += work;
+        break;
+      case Source::kInputs:
+        books[section].from_inputs += work;
+        break;
+      case Source::kDecimated:
+        decimated[p] += work;
+        break;
+    }
+    feeding = {Real(0), force};
+  });
+}
+
+/// Points give their forces away in every frame: their means are collected here.
+template <class Real>
+void EnergyMeter<Real>::collectPointForces(State<Real>& state) const noexcept {
+  const Real* f = state.f();
+  auto* feeding = state.arena().template at<Feeding>(places_at_);
+  for (const PlacePoint& point : layout_.places) {
+    for (int k = 0; k < point.dimensions; ++k, ++feeding) {
+      feeding->mean += f[point.slot + k];
+    }
+  }
+  feeding = state.arena().template at<Feeding>(decimations_at_);
+  for (const DecimatedPoint& point : layout_.decimations) {
+    for (int k = 0; k < point.dimensions; ++k, ++feeding) {
+      feeding->mean += f[point.slot + k];
+    }
+  }
+}
+
+/// M v^2 / 2 with the velocity of this instant: that of the last step and half of what the present
+/// force adds.
+template <class Real>
+double EnergyMeter<Real>::kinetic(const SectionRange& range,
+                                  const MassCoefficients<Real>& c,
+                                  const State<Real>& state) const noexcept {
+  double energy = 0.0;
+  forEachFree(range, [&](int s) {
+    const std::size_t i = at(s);
+    const auto d = static_cast<double>(state.d()[s]);
+    const auto x = static_cast<double>(state.x()[s]);
+    const auto inverse = static_cast<double>(c.inverse_mass[i]);
+    const double gain = inverse * static_cast<double>(state.f()[s]) +
+                        static_cast<double>(c.drift[i]) - static_cast<double>(c.pull[i]) * x -
+                        (1.0 - static_cast<double>(c.keep[i])) * d;
+    energy += d * (d + gain) / inverse;
+  });
+  return 0.5 * energy;
+}
+
+/// Springs of cells, gravity and constant forces.
+template <class Real>
+double EnergyMeter<Real>::potential(const SectionRange& range,
+                                    const MassCoefficients<Real>& c,
+                                    const State<Real>& state) const noexcept {
+  double energy = 0.0;
+  forEachFree(range, [&](int s) {
+    const std::size_t i = at(s);
+    const auto x = static_cast<double>(state.x()[s]);
+    energy += x * (0.5 * static_cast<double>(c.pull[i]) * x - static_cast<double>(c.drift[i])) /
+              static_cast<double>(c.inverse_mass[i]);
+  });
+  return energy;
+}
+
+/// Plain runs store K e^2 / 2 exactly.
+template <class Real>
+double EnergyMeter<Real>::springs(const LinkRun& run,
+                                  const RunCoefficients<Real>& c,
+                                  const State<Real>& state) const noexcept {
+  const std::size_t links = run.ends.size();
+  double energy = 0.0;
+  for (std::size_t l = 0; l < links; ++l) {
+    const auto k = static_cast<double>(c.fields[l]);
+    const double e = static_cast<double>(state.x()[run.ends[l].a] - state.x()[run.ends[l].b] +
+                                         c.fields[2 * links + l]);
+    energy += k * e * e;
+  }
+  return 0.5 * energy;
+}
+
+template <class Real>
+double EnergyMeter<Real>::storedIn(int section,
+                                   const CoefficientsOf<Real>& c,
+                                   const State<Real>& state) const noexcept {
+  const SectionRange& range = layout_.sections[at(section)];
+  double energy = kinetic(range, c.masses, state) + potential(range, c.masses, state);
+  for (std::size_t r = 0; r < layout_.runs.size(); ++r) {
+    if (coupling_of_run_[r] == kInside && layout_.runs[r].section == section) {
+      energy += storedIn(r, c, state);
+    }
+  }
+  return energy;
+}
+
+template <class Real>
+double EnergyMeter<Real>::storedIn(std::size_t run,
+                                   const CoefficientsOf<Real>& c,
+                                   const State<Real>& state) const noexcept {
+  if (!remembers(layout_.runs[run])) {
+    return springs(layout_.runs[run], c.runs[run], state);
+  }
+  const kernels::Work& work = state.work()[run];
+  return work.initial + work.stored;
+}
+
+template <class Real>
+Energies EnergyMeter<Real>::make() const {
+  Energies energies;
+  energies.sections.resize(layout_.sections.size());
+  for (const Coupled& pair : couplings_) {
+    energies.couplings.push_back({pair.a, pair.b, 0.0, 0.0, 0.0});
+  }
+  return energies;
+}
+
+template <class Real>
+void EnergyMeter<Real>::addSections(const CoefficientsOf<Real>& c,
+                                    const State<Real>& state,
+                                    Energies& to) const noexcept {
+  const auto* books = state.arena().template at<SectionBooks>(books_at_);
+  for (std::size_t s = 0; s < layout_.sections.size(); ++s) {
+    to.sections[s] = {kinetic(layout_.sections[s], c.masses, state),
+                      potential(layout_.sections[s], c.masses, state),
+                      books[s].dissipated,
+                      books[s].from_device,
+                      books[s].from_inputs,
+                      0.0};
+  }
+}
+
+template <class Real>
+void EnergyMeter<Real>::addLinks(const CoefficientsOf<Real>& c,
+                                 const State<Real>& state,
+                                 Energies& to) const noexcept {
+  for (std::size_t r = 0; r < layout_.runs.size(); ++r) {
+    const LinkRun& run = layout_.runs[r];
+    const kernels::Work work = workOf(r, state);
+    const double stored = storedIn(r, c, state);
+    if (coupling_of_run_[r] == kInside) {
+      to.sections[at(run.section)].potential += stored;
+      to.sections[at(run.section)].dissipated += work.dissipated;
+      continue;
+    }
+    CouplingEnergy& coupling = to.couplings[coupling_of_run_[r]];
+    coupling.stored += stored;
+    coupling.dissipated += work.dissipated;
+    coupling.breathing += work.stored + work.dissipated;
+    if (run.decimated != LinkRun::Decimated::kA) {
+      coupling.breathing += work.on_a;
+      to.sections[at(run.section_a)].from_links += work.on_a;
+    }
+    if (run.decimated != LinkRun::Decimated::kB) {
+      coupling.breathing += work.on_b;
+      to.sections[at(run.section_b)].from_links += work.on_b;
+    }
+  }
+}
+
+/// The work of a run, with that of the slower end's step under way.
+template <class Real>
+kernels::Work EnergyMeter<Real>::workOf(std::size_t r, const State<Real>& state) const noexcept {
+  const LinkRun& run = layout_.runs[r];
+  kernels::Work work = state.work()[r];
+  if (run.slow_section < 0 || state.frame() % layout_.sections[at(run.slow_section)].divisor == 0) {
+    return work;
+  }
+  const kernels::Memory<const Real> memory = state.memory(r);
+  const std::size_t links = run.ends.size();
+  for (std::size_t i = 0; i < state.remembered(r); ++i) {
+    const LinkEnds& ends = run.ends[i % links];
+    const int k = static_cast<int>(i / links);
+    const int slot = run.slow_is_a ? ends.a + k * run.stride_a : ends.b + k * run.stride_b;
+    kernels::addSlowWork(run, memory, i, static_cast<double>(state.moved()[slot]), work);
+  }
+  return work;
+}
+
+/// What moves modules: the books, and the steps under way.
+template <class Real>
+void EnergyMeter<Real>::addSources(const State<Real>& state, Energies& to) const noexcept {
+  const auto* decimated = state.arena().template at<double>(decimation_work_at_);
+  const auto give = [&](std::size_t p, double work) {
+    to.couplings[coupling_of_decimation_[p]].breathing += work;
+    to.sections[at(layout_.decimations[p].of.section)].from_links += work;
+  };
+  for (std::size_t p = 0; p < layout_.decimations.size(); ++p) {
+    give(p, decimated[p]);
+  }
+  forEachSource(state, [&](int section, Source source, std::size_t p, Real moved, Real moved_last,
+                           const Feeding& feeding, Real force) {
+    if (state.frame() % layout_.sections[at(section)].divisor == 0) {
+      return;
+    }
+    const double work = 0.5 * static_cast<double>(moved * force + moved_last * feeding.last);
+    SectionEnergy& energy = to.sections[at(section)];
+    if (source == Source::kDecimated) {
+      give(p, work);
+    } else {
+      (source == Source::kDevice ? energy.from_device : energy.from_inputs) += work;
+    }
+  });
+}
+
+/// Everything but the residual, in the scene's unit of energy. \return the balance
+template <class Real>
+double EnergyMeter<Real>::collect(const CoefficientsOf<Real>& c,
+                                  const State<Real>& state,
+                                  Energies& to) const noexcept {
+  for (CouplingEnergy& coupling : to.couplings) {
+    coupling.stored = coupling.dissipated = coupling.breathing = 0.0;
+  }
+  addSections(c, state, to);
+  addLinks(c, state, to);
+  addSources(state, to);
+  to.stored = 0.0;
+  double balance = 0.0;
+  for (const SectionEnergy& s : to.sections) {
+    to.stored += s.kinetic + s.potential;
+    balance += s.dissipated - s.from_device - s.from_inputs;
+  }
+  for (const CouplingEnergy& coupling : to.couplings) {
+    to.stored += coupling.stored;
+    balance += coupling.dissipated - coupling.breathing;
+  }
+  return balance + to.stored;
+}
+
+template <class Real>
+void EnergyMeter<Real>::start(const CoefficientsOf<Real>& c, State<Real>& state) noexcept {
+  totals(state).reference = collect(c, state, scratch_);
+}
+
+template <class Real>
+void EnergyMeter<Real>::beginChange(const CoefficientsOf<Real>& c, State<Real>& state) noexcept {
+  totals(state).before_change = collect(c, state, scratch_);
+}
+
+template <class Real>
+void EnergyMeter<Real>::endChange(const CoefficientsOf<Real>& c, State<Real>& state) noexcept {
+  totals(state).from_parameters += collect(c, state, scratch_) - totals(state).before_change;
+}
+
+template <class Real>
+void EnergyMeter<Real>::read(const CoefficientsOf<Real>& c,
+                             const State<Real>& state,
+                             Energies& to) const noexcept {
+  const Totals& totals = *state.arena().template at<Totals>(totals_at_);
+  to.residual = newton_ * (collect(c, state, to) - totals.reference - totals.from_parameters);
+  to.from_parameters = newton_ * totals.from_parameters;
+  to.stored *= newton_;
+  for (SectionEnergy& s : to.sections) {
+    for (double* value :
+         {&s.kinetic, &s.potential, &s.dissipated, &s.from_device, &s.from_inputs, &s.from_links}) {
+      *value *= newton_;
+    }
+  }
+  for (CouplingEnergy& coupling : to.couplings) {
+    for (double* value : {&coupling.stored, &coupling.dissipated, &coupling.breathing}) {
+      *value *= newton_;
+    }
+  }
+}
+
+template class EnergyMeter<float>;
+template class EnergyMeter<double>;
+
+}  // namespace ergotic::physics

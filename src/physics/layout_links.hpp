@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "layout.hpp"
+
+namespace ergotic::physics {
+
+/// Slots of the points that lie on grids. \pre modules are placed
+void placeConnections(const scene::Scene& scene, Layout& layout);
+
+/// Runs of links, and the points through which they see other geometries and rates.
+/// \pre modules and connections are placed
+/// \throws Exception if links join sections whose divisors do not divide one another
+void placeLinks(const scene::Scene& scene, Layout& layout);
+
+}  // namespace ergotic::physics

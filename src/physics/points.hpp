@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "coefficients.hpp"
+#include "ergotic/scene/grid.hpp"
+#include "layout.hpp"
+#include "state.hpp"
+
+namespace ergotic::physics {
+
+/// Massless modules through which links see others: places on grids, other frames, other rates.
+/// Each takes its position as a weighted sum and hands its force back with the same weights, so
+/// that no work is lost between.
+template <class Real>
+class Points {
+ public:
+  Points(const scene::Scene& scene, const Layout& layout) : layout_(layout) {
+    for (const PlacePoint& point : layout.places) {
+      const scene::Connection& connection =
+          scene.connections[static_cast<std::size_t>(point.connection)];
+      grids_.push_back(scene.grids[static_cast<std::size_t>(connection.grid)]);
+    }
+    for (std::size_t m = 0; m < scene.mats.size() && !grids_.empty(); ++m) {
+      rests_.push_back(scene.mats[m].rest);
+    }
+  }
+
+  /// Where a place is at the start.
+  void placeAtStart(const CoefficientsOf<Real>& c, Real* x, Real* d, double* places) const {
+    for (std::size_t p = 0; p < layout_.places.size(); ++p) {
+      const PlaceCoefficients& wanted = c.places[p];
+      places[2 * p] = std::clamp(wanted.along, wanted.minimum, wanted.maximum);
+      places[2 * p + 1] = std::clamp(wanted.across, 0.0, 1.0);
+      gatherPlace(p, x, d, places);
+    }
+    for (const ProjectedPoint& point : layout_.projections) {
+      gatherProjection(point, x, d);
+    }
+    for (const DecimatedPoint& point : layout_.decimations) {
+      // As if it had come here at its speed: it moves by the first of its faster steps.
+      for (int k = 0; k < point.dimensions; ++k) {
+        const int from = point.of.slot + k * point.of.stride;
+        x[point.slot + k] = x[from] - static_cast<Real>(point.impulse - 1.0) * d[from];
+      }
+    }
+  }
+
+  /// Positions of the points whose sections are due, from those of the modules.
+  void gather(const CoefficientsOf<Real>& c,
+              const unsigned char* due,
+              State<Real>& state) const noexcept {
+    Real* x = state.x();
+    Real* d = state.d();
+    Real* place_d = state.placeD();
+    for (std::size_t p = 0; p < layout_.places.size(); ++p) {
+      const PlacePoint& point = layout_.places[p];
+      if (due[point.section] != 0) {
+        keepLast(point.slot, point.dimensions, state);
+        gatherPlace(p, x, d, state.places());
+        std::copy_n(d + point.slot, point.dimensions, place_d);
+        moveOn(p, c.places[p], x, state.places());
+        gatherPlace(p, x, d, state.places());
+        for (int k = point.slot; k < point.slot + point.dimensions; ++k) {
+          state.moved()[k] += x[k];
+        }
+      }
+      place_d += point.dimensions;
+    }
+    for (const ProjectedPoint& point : layout_.projections) {
+      if (due[point.of.section] != 0) {
+        keepLast(point.slot, point.dimensions, state);
+        gatherProjection(point, x, d);
+        copyMoved(point.slot, point.dimensions, state);
+      }
+    }
+    for (const DecimatedPoint& point : layout_.decimations) {
+      if (due[point.section] != 0) {
+        keepLast(point.slot, point.dimensions, state);
+        for (int k = 0; k < point.dimensions; ++k) {
+          const Real position = x[point.of.slot + k * point.of.stride];
+          d[point.slot + k] = position - x[point.slot + k];
+          x[point.slot + k] = position;
+        }
+        copyMoved(point.slot, point.dimensions, state);
+      }
+    }
+  }
+
+  void clearForces(Real* f) const noexcept {
+    const auto clear = [f](int slot, int count) { std::fill_n(f + slot, count, Real(0)); };
+    for (const PlacePoint& point : layout_.places) {
+      clear(point.slot, point.dimensions);
+    }
+    for (const ProjectedPoint& point : layout_.projections) {
+      clear(point.slot, point.dimensions);
+    }
+    for (const DecimatedPoint& point : layout_.decimations) {
+      clear(point.slot, point.dimensions);
+    }
+  }
+
+  /// Forces go on to the modules, in the reverse order of gather().
+  void scatter(Real* f, const double* places) const noexcept {
+    for (const DecimatedPoint& point : layout_.decimations) {
+      for (int k = 0; k < point.dimensions; ++k) {
+        f[point.of.slot + k * point.of.stride] +=
+            static_cast<Real>(point.impulse) * f[point.slot + k];
+      }
+    }
+    for (const ProjectedPoint& point : layout_.projections) {
+      for (int k = 0; k < point.dimensions; ++k) {
+        for (int c = 0; c < point.source_dimensions; ++c) {
+          f[point.of.slot + c * point.of.stride] +=
+              static_cast<Real>(point.axes(k, c)) * f[point.slot + k];
+        }
+      }
+    }
+    for (std::size_t p = 0; p < layout_.places.size(); ++p) {
+      const PlacePoint& point = layout_.places[p];
+      const scene::GridPlace around = scene::placeOn(grids_[p], places[2 * p], places[2 * p + 1]);
+      for (int i = 0; i < around.count; ++i) {
+        for (int k = 0; k < point.dimensions; ++k) {
+          f[slotOf(around, i) + k * point.stride] += weight(around, i) * f[point.slot + k];
+        }
+      }
+    }
+  }
+
+  /// The modules around a place, and their weights: what else acts through a point needs them.
+  scene::GridPlace around(std::size_t p, const double* places) const noexcept {
+    return scene::placeOn(grids_[p], places[2 * p], places[2 * p + 1]);
+  }
+  int slotOf(const scene::GridPlace& around, int i) const noexcept {
+    return layout_.slot_of_mat[static_cast<std::size_t>(around.mats[static_cast<std::size_t>(i)])];
+  }
+
+ private:
+  static Real weight(const scene::GridPlace& around, int i) noexcept {
+    return static_cast<Real>(around.weights[static_cast<std::size_t>(i)]);
+  }
+
+  /// Remembers the last step; `moved` holds -x until the new position is known.
+  void keepLast(int slot, int count, State<Real>& state) const noexcept {
+    for (int k = slot; k < slot + count; ++k) {
+      state.dLast()[k] = state.d()[k];
+      if (!layout_.places.empty()) {
+        state.moved()[k] = -state.x()[k];
+      }
+    }
+  }
+
+  void copyMoved(int slot, int count, State<Real>& state) const noexcept {
+    if (!layout_.places.empty()) {
+      std::copy_n(state.d() + slot, count, state.moved() + slot);
+    }
+  }
+
+  /// The place follows what is asked for, as fast as it may.
+  void moveOn(std::size_t p,
+              const PlaceCoefficients& wanted,
+              const Real* x,
+              double* places) const noexcept {
+    const int guide = layout_.places[p].guide;
+    const double led = guide < 0 ? 0.0 : wanted.guide_scale * static_cast<double>(x[guide]);
+    const double targets[2] = {std::clamp(wanted.along + led, wanted.minimum, wanted.maximum),
+                               std::clamp(wanted.across, 0.0, 1.0)};
+    for (std::size_t k = 0; k < 2; ++k) {
+      double& place = places[2 * p + k];
+      const double way = targets[k] - place;
+      place += wanted.speed > 0.0 ? std::clamp(way, -wanted.speed, wanted.speed) : way;
+    }
+  }
+
+  /// d is that of the modules: a place that moves along them is no velocity of the string.
+  void gatherPlace(std::size_t p, Real* x, Real* d, const double* places) const noexcept {
+    const PlacePoint& point = layout_.places[p];
+    const scene::GridPlace here = around(p, places);
+    const Eigen::Vector3d& rest =
+        rests_[static_cast<std::size_t>(layout_.mat_of_slot[static_cast<std::size_t>(point.slot)])];
+    for (int k = 0; k < point.dimensions; ++k) {
+      Real position(0);
+      Real velocity(0);
+      for (int i = 0; i < here.count; ++i) {
+        const int slot = slotOf(here, i) + k * point.stride;
+        const Eigen::Vector3d& there =
+            rests_[static_cast<std::size_t>(here.mats[static_cast<std::size_t>(i)])];
+        position += weight(here, i) * (x[slot] + static_cast<Real>(there[k] - rest[k]));
+        velocity += weight(here, i) * d[slot];
+      }
+      x[point.slot + k] = position;
+      d[point.slot + k] = velocity;
+    }
+  }
+
+  void gatherProjection(const ProjectedPoint& point, Real* x, Real* d) const noexcept {
+    for (int k = 0; k < point.dimensions; ++k) {
+      Real position(0);
+      Real velocity(0);
+      for (int c = 0; c < point.source_dimensions; ++c) {
+        const Real axis = static_cast<Real>(point.axes(k, c));
+        position += axis * x[point.of.slot + c * point.of.stride];
+        velocity += axis * d[point.of.slot + c * point.of.stride];
+      }
+      x[point.slot + k] = position;
+      d[point.slot + k] = velocity;
+    }
+  }
+
+  const Layout& layout_;
+  std::vector<scene::Grid> grids_;      // [places]
+  std::vector<Eigen::Vector3d> rests_;  // [mats], if there are places
+};
+
+}  // namespace ergotic::physics

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <vector>
+
+#include "coefficients.hpp"
+#include "laws.hpp"
+#include "layout.hpp"
+#include "state.hpp"
+
+namespace ergotic::physics {
+
+/// Moves modules and works out explicit links, section by section and run by run.
+template <class Real>
+class Stepper {
+ public:
+  explicit Stepper(const Layout& layout) : layout_(layout) {}
+
+  /// One step of the modules of a section. \return what cells and medium dissipated in it
+  double moveMasses(int section,
+                    const MassCoefficients<Real>& c,
+                    State<Real>& state) const noexcept {
+    const SectionRange& range = layout_.sections[static_cast<std::size_t>(section)];
+    double lost = 0.0;
+    for (int k = 0; k < range.dimensions; ++k) {
+      const int by = k * range.stride;
+      lost += moveCells(range.cells + by, range.masses + by, c, state);
+      moveFree(range.masses + by, range.fixed + by, c, state);
+    }
+    std::fill_n(state.f() + range.cells, range.dimensions * range.stride, Real(0));
+    return lost;
+  }
+
+  /// One step of a run of explicit links. `due`: [sections] in this frame; `slow_ends`: see
+  /// kernels::Frame.
+  void stepLinks(std::size_t r,
+                 const RunCoefficients<Real>& c,
+                 const unsigned char* due,
+                 bool slow_ends,
+                 State<Real>& state) const noexcept {
+    const LinkRun& run = layout_.runs[r];
+    const bool across = run.slow_section >= 0;
+    const Real fresh = !across || due[run.slow_section] != 0 ? Real(1) : Real(0);
+    const Real share = static_cast<Real>(run.share);
+    kernels::Frame<Real> at{};
+    at.x = state.x();
+    at.d = state.d();
+    at.moved = state.moved();
+    at.d_last = state.dLast();
+    at.f = state.f();
+    at.gate_a = run.slow_is_a ? fresh : Real(1);
+    at.gate_b = run.slow_is_a ? Real(1) : fresh;
+    at.share_a = across && run.slow_is_a ? share : Real(1);
+    at.share_b = across && !run.slow_is_a ? share : Real(1);
+    at.slow_ends = across && slow_ends;
+    at.memory = state.memory(r);
+    at.work = state.work() + r;
+    visitLaw(run, c, state.engaged(r),
+             [&](const auto& law) { kernels::step(run, law, c.rests.data(), at); });
+  }
+
+  /// Books what remembering links hold before anything moves. Realtime: no.
+  void storeAtStart(std::size_t r, const RunCoefficients<Real>& c, State<Real>& state) const {
+    const LinkRun& run = layout_.runs[r];
+    std::vector<Real> engaged(run.ends.size(), Real(0));  // a trial: nothing engages by this
+    visitLaw(run, c, engaged.data(), [&](const auto& law) {
+      constexpr bool kGap = std::decay_t<decltype(law)>::kKind == laws::Kind::kGap;
+      for (std::size_t l = 0; l < run.ends.size(); ++l) {
+        const Real u = apartAtStart(run, l, c.rests, state);
+        state.work()[r].initial +=
+            kernels::storedAtStart(law, l, run.dimensions > 0 && kGap ? -u : u);
+      }
+    });
+  }
+
+ private:
+  Real apartAtStart(const LinkRun& run,
+                    std::size_t l,
+                    const std::vector<Real>& rests,
+                    State<Real>& state) const {
+    const auto position = [&state](int slot) { return state.x()[slot] + state.d()[slot]; };
+    if (run.dimensions == 0) {
+      return position(run.ends[l].a) - position(run.ends[l].b);
+    }
+    Real sum(0);
+    for (int k = 0; k < run.dimensions; ++k) {
+      const Real u = position(run.ends[l].a + k * run.stride_a) -
+                     position(run.ends[l].b + k * run.stride_b) +
+                     rests[static_cast<std::size_t>(k) * run.ends.size() + l];
+      sum += u * u;
+    }
+    return std::sqrt(sum);
+  }
+
+  double moveCells(int first,
+                   int last,
+                   const MassCoefficients<Real>& c,
+                   State<Real>& state) const noexcept {
+    Real* x = state.x();
+    Real* d = state.d();
+    Real* d_last = state.dLast();
+    const Real* f = state.f();
+    double lost = 0.0;
+    for (int s = first; s < last; ++s) {
+      const auto i = static_cast<std::size_t>(s);
+      const Real before = d[s];
+      const Real now =
+          c.keep[i] * before - c.pull[i] * x[s] + (c.inverse_mass[i] * f[s] + c.drift[i]);
+      lost += static_cast<double>((Real(1) - c.keep[i]) / c.inverse_mass[i] * now * (now + before));
+      d_last[s] = before;
+      d[s] = now;
+      x[s] += now;
+    }
+    return 0.5 * lost;
+  }
+
+  void moveFree(int first,
+                int last,
+                const MassCoefficients<Real>& c,
+                State<Real>& state) const noexcept {
+    Real* x = state.x();
+    Real* d = state.d();
+    Real* d_last = state.dLast();
+    const Real* f = state.f();
+    const Real* inverse = c.inverse_mass.data();
+    const Real* drift = c.drift.data();
+    for (int s = first; s < last; ++s) {
+      d_last[s] = d[s];
+      d[s] += inverse[s] * f[s] + drift[s];
+      x[s] += d[s];
+    }
+  }
+
+  static laws::Tables<Real> tablesOf(const TableCoefficients<Real>& c) noexcept {
+    return {c.x.data(), c.cubic.data(), c.first.data(), c.count.data()};
+  }
+
+  /// Calls `step(law)` with the law of a run.
+  template <class Step>
+  void visitLaw(const LinkRun& run,
+                const RunCoefficients<Real>& c,
+                Real* engaged,
+                const Step& step) const noexcept {
+    const laws::Fields<Real> fields{c.fields.data(), run.ends.size()};
+    switch (run.law) {
+      case Law::kSpringDamper:
+        return step(laws::SpringDamper<Real>{fields});
+      case Law::kContact:
+        return step(laws::Contact<Real>{fields});
+      case Law::kQuadratic:
+        return step(laws::Quadratic<Real>{fields});
+      case Law::kCubic:
+        return step(laws::Cubic<Real>{fields});
+      case Law::kClippedCubic:
+        return step(laws::ClippedCubic<Real>{fields});
+      case Law::kCubicContact:
+        return step(laws::CubicContact<Real>{{fields}});
+      case Law::kPluck:
+        return step(laws::Pluck<Real>{fields});
+      case Law::kBow:
+        return step(laws::Bow<Real>{fields});
+      case Law::kSmoothBow:
+        return step(laws::SmoothBow<Real>{fields});
+      case Law::kPluckTable:
+        return step(laws::PluckTable<Real>{fields, tablesOf(c.table)});
+      case Law::kBowTable:
+        return step(laws::BowTable<Real>{fields, tablesOf(c.table)});
+      case Law::kPowerContact:
+        return step(laws::PowerContact<Real>{fields});
+      case Law::kTable:
+        return step(
+            laws::ElasticViscousTable<Real>{fields, tablesOf(c.table), tablesOf(c.viscous_table)});
+      case Law::kConditional:
+        return step(laws::Conditional<Real>{fields, engaged});
+    }
+  }
+
+  const Layout& layout_;
+};
+
+}  // namespace ergotic::physics

@@ -11,24 +11,20 @@ namespace {
 
 constexpr double kOnModule = 1e-9;  ///< of the spacing
 
-/// The two fractions behind the `@`; `across` is 0 on a string.
-struct Fractions {
-  double along = 0.0;
-  double across = 0.0;
-};
+}  // namespace
 
-Fractions fractionsOf(const SceneBuilder& builder,
-                      const Grid& grid,
-                      const std::string& text,
-                      Place place) {
-  const std::string numbers = text.substr(text.find('@') + 1);
+NamedPlace namedPlace(const SceneBuilder& builder, const std::string& text, Place place) {
+  const std::size_t at_sign = text.find('@');
+  NamedPlace result;
+  result.grid = builder.grid(text.substr(0, at_sign), place);
+  const Grid& grid = builder.scene().grids[static_cast<std::size_t>(result.grid)];
+  const std::string numbers = text.substr(at_sign + 1);
   const std::size_t colon = numbers.find(':');
   if ((colon == std::string::npos) != (grid.rows == 1)) {
     builder.fail(place, quoted(text) + " is no point of " + quoted(grid.name) + ", allowed: " +
                             grid.name + (grid.rows == 1 ? "@0.3" : "@0.3:0.7") + " and the like");
   }
   const std::string what = "fraction of " + quoted(text);
-  Fractions result;
   result.along = numberIn(builder, numbers.substr(0, colon), what, kFractionLimits, place);
   if (grid.rows > 1) {
     result.across = numberIn(builder, numbers.substr(colon + 1), what, kFractionLimits, place);
@@ -36,8 +32,7 @@ Fractions fractionsOf(const SceneBuilder& builder,
   return result;
 }
 
-/// The one module that the place falls onto, -1: none.
-int moduleOn(const Grid& grid, const Fractions& at) {
+int moduleOn(const Grid& grid, const NamedPlace& at) {
   const double column = at.along * (grid.columns - 1);
   const double row = at.across * (grid.rows - 1);
   const double whole_column = std::round(column);
@@ -48,16 +43,12 @@ int moduleOn(const Grid& grid, const Fractions& at) {
   return grid.first + static_cast<int>(whole_row) * grid.columns + static_cast<int>(whole_column);
 }
 
-}  // namespace
-
 int pointAt(SceneBuilder& builder, const std::string& text, Place place) {
-  const std::size_t at_sign = text.find('@');
-  if (at_sign == std::string::npos) {
+  if (text.find('@') == std::string::npos) {
     return builder.mat(text, place);
   }
-  const int index = builder.grid(text.substr(0, at_sign), place);
-  const Grid& grid = builder.scene().grids[static_cast<std::size_t>(index)];
-  const Fractions at = fractionsOf(builder, grid, text, place);
+  const NamedPlace at = namedPlace(builder, text, place);
+  const Grid& grid = builder.scene().grids[static_cast<std::size_t>(at.grid)];
   const int module = moduleOn(grid, at);
   if (module >= 0) {
     return module;
@@ -71,7 +62,7 @@ int pointAt(SceneBuilder& builder, const std::string& text, Place place) {
     return known;
   }
   Connection connection;
-  connection.grid = index;
+  connection.grid = at.grid;
   connection.along = {at.along};
   connection.across = {at.across};
   connection.place = place;

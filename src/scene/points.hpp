@@ -9,6 +9,19 @@
 /// Connection points: massless modules on strings and meshes.
 namespace ergotic::scene {
 
+/// Where on which grid a text such as `s@0.3` or `p@0.3:0.7` is.
+struct NamedPlace {
+  int grid = 0;
+  double along = 0.0;
+  double across = 0.0;  ///< 0 on a string
+};
+
+/// \throws TextError at `place` if there is no such string or mesh, or a fraction is outside 0...1
+NamedPlace namedPlace(const SceneBuilder& builder, const std::string& text, Place place);
+
+/// The one module that a place falls onto, -1: none.
+int moduleOn(const Grid& grid, const NamedPlace& at);
+
 /// Index of the module that a text names: a module; `s@0.3`, the point at that fraction of the way
 /// from the first to the last module of the string `s`; or `p@0.3:0.7`, the point of the mesh `p`
 /// at 0.3 of the way along its columns and 0.7 across its rows.

@@ -98,10 +98,6 @@ int SceneBuilder::mat(const std::string& name, Place place) const {
   return find(mats_, "module", name, place);
 }
 
-int SceneBuilder::string(const std::string& name, Place place) const {
-  return find(strings_, "string", name, place);
-}
-
 int SceneBuilder::grid(const std::string& name, Place place) const {
   return find(grids_, "string or mesh", name, place);
 }

@@ -35,7 +35,6 @@ class SceneBuilder {
   int parameter(const std::string& name, Place place) const;
   int section(const std::string& name, Place place) const;
   int mat(const std::string& name, Place place) const;
-  int string(const std::string& name, Place place) const;
   int grid(const std::string& name, Place place) const;
   /// \return -1 if there is no such module
   int findMat(const std::string& name) const { return mats_.find(name); }

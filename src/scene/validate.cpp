@@ -304,6 +304,7 @@ class Validator {
     index(in.place, "module" + of, in.mat, scene_.mats.size());
     number(in.place, "channel" + of, in.channel + 1, kChannelLimits);
     value(in.place, "gain" + of, in.gain, kGainLimits);
+    axis(in.place, of, in.axis, in.mat);
     const bool driven = scene_.mats[static_cast<std::size_t>(in.mat)].type == MatType::kDriven;
     if (in.quantity == Quantity::kVelocity) {
       fail(in.place, "quantity" + of + " is velocity, allowed: position, force");
@@ -324,6 +325,12 @@ class Validator {
     number(out.place, "fraction" + of, out.point.fraction, kFractionLimits);
     number(out.place, "channel" + of, out.channel + 1, kChannelLimits);
     value(out.place, "gain" + of, out.gain, kGainLimits);
+    axis(out.place, of, out.axis, out.point.mat);
+  }
+
+  void axis(Place place, const std::string& of, int coordinate, int mat) const {
+    const Section& section = scene_.sectionOf(scene_.mats[static_cast<std::size_t>(mat)]);
+    number(place, "axis" + of, coordinate, {"", 0.0, dimensionsOf(section.geometry) - 1.0});
   }
 
   void port(const Port& p) const {

@@ -1,40 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
 #include <utility>
 #include <vector>
 
+#include "ergotic/scene/grid.hpp"
+#include "scene/points.hpp"
 #include "scene/yaml_elements.hpp"
 
 namespace ergotic::scene {
 namespace {
 
-/// The module that a text names: never a point between two modules.
-int matOf(const SceneBuilder& builder, const std::string& name, Place place) {
-  if (name.find('@') != std::string::npos) {
-    builder.fail(place, quoted(name) + " is a point between two modules, allowed here: one module" +
-                            ", as in " + quoted(name.substr(0, name.find('@')) + ".1"));
-  }
-  return builder.mat(name, place);
-}
-
-/// `name`, or `string@fraction`.
-Point readPoint(const SceneBuilder& builder, const YamlMap& map) {
+/// A module; a place on a string, between two of its modules; or a point on a mesh.
+Point readPoint(SceneBuilder& builder, const YamlMap& map) {
   const std::string text = map.word("at");
   const Place place = map.placeAt("at");
-  const std::size_t at_sign = text.find('@');
-  if (at_sign == std::string::npos) {
-    return {builder.mat(text, place), -1, 0.0};
+  if (text.find('@') != std::string::npos) {
+    const NamedPlace at = namedPlace(builder, text, place);
+    const Grid& grid = builder.scene().grids[static_cast<std::size_t>(at.grid)];
+    if (grid.rows == 1 && moduleOn(grid, at) < 0) {
+      const GridPlace around = placeOn(grid, at.along, 0.0);
+      return {around.mats[0], around.mats[1], around.weights[1]};
+    }
   }
-  const StringInfo& string =
-      builder.scene()
-          .strings[static_cast<std::size_t>(builder.string(text.substr(0, at_sign), place))];
-  const double along = numberIn(builder, text.substr(at_sign + 1), "fraction of " + quoted(text),
-                                kFractionLimits, place);
-  const double index = along * (string.count - 1);
-  const int whole = static_cast<int>(std::floor(index));
-  const double fraction = index - whole;
-  const int mat = string.first + whole;
-  return fraction > 0.0 ? Point{mat, mat + 1, fraction} : Point{mat, -1, 0.0};
+  return {pointAt(builder, text, place), -1, 0.0};
+}
+
+/// The coordinate of a module, one that moves.
+int readAxis(const SceneBuilder& builder, const YamlMap& map, int mat) {
+  if (!map.has("axis")) {
+    return 0;
+  }
+  std::vector<std::string> axes = {"x", "y", "z"};
+  const Scene& scene = builder.scene();
+  const Section& section = scene.sectionOf(scene.mats[static_cast<std::size_t>(mat)]);
+  axes.resize(static_cast<std::size_t>(dimensionsOf(section.geometry)));
+  return static_cast<int>(map.choice("axis", axes));
 }
 
 Quantity readQuantity(const YamlMap& map, const std::vector<std::string>& words) {
@@ -42,14 +41,15 @@ Quantity readQuantity(const YamlMap& map, const std::vector<std::string>& words)
   return kQuantities[map.choice("quantity", words)];
 }
 
-Input readInput(const SceneBuilder& builder, const std::string& name, const YamlMap& map) {
-  map.allow({"mat", "quantity", "channel", "gain"});
+Input readInput(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
+  map.allow({"mat", "quantity", "channel", "axis", "gain"});
   Input input;
   input.name = name;
   input.place = map.place();
-  input.mat = matOf(builder, map.word("mat"), map.placeAt("mat"));
+  input.mat = pointAt(builder, map.word("mat"), map.placeAt("mat"));
   input.quantity = readQuantity(map, {"position", "force"});
   input.channel = map.integer("channel", kChannelLimits) - 1;
+  input.axis = readAxis(builder, map, input.mat);
   input.gain = map.value("gain", kGainLimits, {1.0});
   const Mat& mat = builder.scene().mats[static_cast<std::size_t>(input.mat)];
   if (input.quantity == Quantity::kPosition && mat.type != MatType::kDriven) {
@@ -64,7 +64,7 @@ Port readPort(const SceneBuilder& builder, const std::string& name, const YamlMa
   Port port;
   port.name = name;
   port.place = map.place();
-  port.mat = matOf(builder, map.word("mat"), map.placeAt("mat"));
+  port.mat = builder.mat(map.word("mat"), map.placeAt("mat"));
   port.slice = map.integer("slice", kSliceLimits);
   port.offset = map.number("offset", kOffsetLimits, 0.0);
   port.position_scale = map.number("position_scale", kPositionScaleLimits, 1.0);
@@ -94,13 +94,14 @@ void readInputs(SceneBuilder& builder, const YamlMap& top) {
 void readOutputs(SceneBuilder& builder, const YamlMap& top) {
   forEachElement(builder, top, "outputs", "output",
                  [&](const std::string& name, const YamlMap& map) {
-                   map.allow({"at", "quantity", "channel", "gain"});
+                   map.allow({"at", "quantity", "channel", "axis", "gain"});
                    Output output;
                    output.name = name;
                    output.place = map.place();
                    output.point = readPoint(builder, map);
                    output.quantity = readQuantity(map, {"position", "force", "velocity"});
                    output.channel = map.integer("channel", kChannelLimits) - 1;
+                   output.axis = readAxis(builder, map, output.point.mat);
                    output.gain = map.value("gain", kGainLimits, {1.0});
                    builder.scene().outputs.push_back(std::move(output));
                  });

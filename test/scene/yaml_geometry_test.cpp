@@ -96,6 +96,33 @@ TEST(YamlGeometryTest, CellsAreMatchedUnlessTheySayOtherwise) {
   EXPECT_FALSE(s.mats[3].matched);
 }
 
+TEST(YamlGeometryTest, InputsAndOutputsHaveAnAxisAndMayBeOnPoints) {
+  const Scene s = readYaml(kSections +
+                               "mats: {d: {type: driven, section: space}}\n"
+                               "generators:\n"
+                               "  - {type: mesh, name: n, section: plane, rows: 3, columns: 3, "
+                               "spacing: 1, mass: 1, stiffness: 1}\n"
+                               "  - {type: string, name: s, section: plane, masses: 9, mass: 1, "
+                               "stiffness: 1, to: [1, 0]}\n"
+                               "inputs:\n"
+                               "  a: {mat: d, quantity: position, channel: 1, axis: z}\n"
+                               "  b: {mat: s@0.35, quantity: force, channel: 2}\n"
+                               "outputs:\n"
+                               "  c: {at: s@0.35, quantity: velocity, channel: 1, axis: y}\n"
+                               "  d: {at: n@0.1:0.2, quantity: position, channel: 1}\n",
+                           "axis.yaml");
+  EXPECT_EQ(s.inputs[0].axis, 2);
+  EXPECT_EQ(s.inputs[1].axis, 0);
+  EXPECT_EQ(s.inputs[1].mat, s.connections.at(0).mat);
+  EXPECT_EQ(s.outputs[0].axis, 1);
+  EXPECT_EQ(s.mats[static_cast<std::size_t>(s.outputs[0].point.mat)].name, "s.3");
+  EXPECT_EQ(s.outputs[0].point.next, s.outputs[0].point.mat + 1);
+  EXPECT_NEAR(s.outputs[0].point.fraction, 0.5, 1e-14);
+  EXPECT_EQ(s.outputs[1].axis, 0);
+  EXPECT_EQ(s.outputs[1].point.mat, s.connections.at(1).mat);
+  EXPECT_EQ(s.outputs[1].point.next, -1);
+}
+
 #define SECTION(fields) "ergotic: 1\nsections: {a: {" fields "}}\n"
 const BadText kBadSections[] = {
     {SECTION("geometry: <!>plan"), "unknown geometry 'plan' of section 'a'; did you mean 'plane'?"},
@@ -148,6 +175,22 @@ TEST(YamlGeometryTest, WrongModulesAreRefusedAtTheirPlace) {
   }
 }
 
+#define PLANE_MASS SECTION("geometry: plane") "mats: {m: {type: mass, mass: 1}}\n"
+const BadText kBadAxes[] = {
+    {PLANE_MASS "inputs: {i: {mat: m, quantity: force, channel: 1, axis: <!>z}}\n",
+     "unknown axis 'z' of input 'i'"},
+    {PLANE_MASS "outputs: {o: {at: m, quantity: force, channel: 1, axis: <!>z}}\n",
+     "unknown axis 'z' of output 'o'"},
+    {SECTION("") "mats: {m: {type: mass, mass: 1}}\n"
+                 "outputs: {o: {at: m, quantity: force, channel: 1, axis: <!>y}}\n",
+     "unknown axis 'y' of output 'o'"},
+};
+TEST(YamlGeometryTest, AxesThatDoNotMoveAreRefusedAtTheirPlace) {
+  for (const BadText& bad : kBadAxes) {
+    expectRefused(bad, "bad.yaml");
+  }
+}
+
 #define STRING(section, fields) \
   SECTION(section) "generators:\n  - {type: string, name: s, masses: 3, mass: 1, " fields "}\n"
 #define MESH(fields) \
@@ -176,7 +219,8 @@ const BadText kBadGenerators[] = {
                  "columns: 3000, spacing: 1}\n",
      "would have 9000000 modules, allowed: at most 2000000"},
     {MESH("rows: 3, columns: 3, spacing: 1, edges: <!>open"), "known: fixed, free, corners"},
-    {MESH("rows: 3, columns: 3, spacing: 1, neighbours: <!>6"), "unknown neighbours '6' of generator"},
+    {MESH("rows: 3, columns: 3, spacing: 1, neighbours: <!>6"),
+     "unknown neighbours '6' of generator"},
     {MESH("rows: 3, columns: 3, spacing: 1, <!>diagonal_stiffness: 1"),
      "without diagonals, allowed with neighbours: 8"},
     {STRING("", "stiffness: 1, to: [1, 0]") "  - {type: mesh, name: <!>s, mass: 1, stiffness: 1, "

@@ -74,7 +74,9 @@ struct Section {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< section frame in frame `model`
   /// Acceleration of free modules, m/time_unit^2, along the coordinates that move.
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
-  Value medium{};             ///< damping of every free module to the ground, kg/time_unit
+  /// Damping of every mass and cell to the ground, kg/time_unit; adds to the cells' own, before
+  /// these are matched.
+  Value medium{};
   double sleep_energy = 0.0;  ///< kg m^2/time_unit^2, below which it may rest at 0; 0: never
   Place place;
 };
@@ -82,7 +84,7 @@ struct Section {
 enum class MatType {
   kMass,    ///< (MAS) free inertia
   kGround,  ///< (SOL) fixed point
-  kCell,    ///< (CEL) mass with a spring and a damper to x = 0 of its section's plane
+  kCell,  ///< (CEL) mass with a spring and a damper to x = 0, or in Euclidean sections to its rest
   kDriven,  ///< its position is an input (`.mdl` posInput)
   kSlice,   ///< a device slice: its position is the hand's, its force is felt by the hand
   kPoint,   ///< massless: lies between the modules of a grid, see Connection
@@ -203,8 +205,8 @@ struct Connection {
   Place place;
 };
 
-/// A slice of the device that is a module of the scene. Model and hand may be scaled:
-/// x_model = (x_hand - offset) / position_scale, F_hand = force_scale * F_model.
+/// A slice of the device that is a module of the scene and moves along x. Model and hand may be
+/// scaled: x_model = (x_hand - offset) / position_scale, F_hand = force_scale * F_model.
 struct Port {
   std::string name;
   int mat = 0;          ///< a kSlice
@@ -230,6 +232,7 @@ struct Input {
   Quantity quantity = Quantity::kForce;
   int mat = 0;
   int channel = 0;  ///< audio channel, from 0
+  int axis = 0;     ///< the coordinate: 0 x, 1 y, 2 z; one that moves
   Value gain{1.0};  ///< m or kg m/time_unit^2 per unit of the channel
   Place place;
 };
@@ -239,8 +242,8 @@ struct Output {
   std::string name;
   Quantity quantity = Quantity::kPosition;
   Point point;
-  int axis = 0;     ///< coordinate: 0 x, 1 y, 2 z, one that moves
   int channel = 0;  ///< audio channel, from 0; outputs on one channel add up
+  int axis = 0;     ///< the coordinate: 0 x, 1 y, 2 z; one that moves
   Value gain{1.0};  ///< per m, m/time_unit or kg m/time_unit^2
   Place place;
 };

@@ -13,7 +13,8 @@ double groundLoss(const Scene& scene, const StringInfo& string, double step) {
   const Mat& mat = scene.mats[static_cast<std::size_t>(string.first + 1)];
   const double damping = scene.valueOf(string.loss) + scene.valueOf(scene.sectionOf(mat).medium);
   const double zeta = damping * step / scene.valueOf(string.mass);
-  return mat.matched ? -std::expm1(-zeta) : zeta;
+  const bool first_order = mat.type == MatType::kCell && !mat.matched;
+  return first_order ? zeta : -std::expm1(-zeta);
 }
 
 /// What the tension leaves of a link's stiffness across the string.

@@ -9,9 +9,9 @@ namespace ergotic::scene {
 /// parameters at their present values.
 ///
 /// With N moving masses M, links (K, Z), loss and medium Y to the ground and step h, the lowest
-/// mode has s = 4 sin^2(pi/(2(N+1))), kappa = s K h^2/M, zeta = s Z h/M + l with l = Y h/M, or
-/// l = 1 - e^(-Y h/M) where the masses are matched cells, and moves as lambda^n with
-/// lambda^2 - (2 - kappa - zeta) lambda + (1 - zeta) = 0.
+/// mode has s = 4 sin^2(pi/(2(N+1))), kappa = s K h^2/M, zeta = s Z h/M + l with
+/// l = 1 - e^(-Y h/M), or l = Y h/M where the masses are cells that are not matched, and moves as
+/// lambda^n with lambda^2 - (2 - kappa - zeta) lambda + (1 - zeta) = 0.
 /// In a plane and in space this is the motion across the string at small amplitudes: kappa is then
 /// (1 - r) s K h^2/M with r the rest length of a link over its length, and zeta is l alone, because
 /// dampers act along the string.

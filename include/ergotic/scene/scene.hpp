@@ -74,8 +74,8 @@ struct Section {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< section frame in frame `model`
   /// Acceleration of free modules, m/time_unit^2, along the coordinates that move.
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
-  /// Damping of every mass and cell to the ground, kg/time_unit; adds to the cells' own, before
-  /// these are matched.
+  /// Damping of every mass and cell to the ground, kg/time_unit. It adds to the cells' own before
+  /// these are matched; that of masses always is.
   Value medium{};
   double sleep_energy = 0.0;  ///< kg m^2/time_unit^2, below which it may rest at 0; 0: never
   Place place;

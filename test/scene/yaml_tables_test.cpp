@@ -195,6 +195,19 @@ TEST_F(YamlTablesTest, UnreadableFilesAreToldAtTheirPlaceInTheScene) {
   expectRefused({BOW "{file: <!>.}}}\n", "cannot read"}, name);
 }
 
+TEST_F(YamlTablesTest, TextAndTablesTogetherAreNoLongerThanATextMayBe) {
+  write("t.csv", "0 0\n1 1\n");
+  std::string text = BOW "{file: t.csv}}}\n";
+  text += std::string((std::size_t{64} << 20U) - 10 - text.size(), '#');
+  try {
+    readYaml(text, folder_ + "scene.yaml");
+    ADD_FAILURE();
+  } catch (const TextError& e) {
+    EXPECT_THAT(e.what(), testing::EndsWith("the text has 67108854 bytes and its tables 41, "
+                                            "allowed: at most 67108864 in all"));
+  }
+}
+
 const BadText kBad[] = {
     {BOW "{file: <!>/etc/hosts}}}\n", "is no path from the scene's folder"},
     {BOW "{file: <!>\"\"}}}\n", "is no path from the scene's folder"},

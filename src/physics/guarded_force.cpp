@@ -9,6 +9,7 @@ namespace ergotic::physics {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr double kEmptyTank = 1e-6;
 
 /// The largest force whose work F (opening + give F) / 2 is at most `energy`.
 template <class Real>
@@ -50,8 +51,14 @@ void release(GuardedMotion<Real>& m, const GuardedState<Real>& state) noexcept {
 /// the link turns from closing to opening, its tank keeps e^2 of what it holds.
 template <class Real>
 Real rebound(GuardedMotion<Real>& m, Real e, Real wanted, GuardedState<Real>& state) noexcept {
-  if (!(state.tank > Real(0)) && m.coasting < Real(0) && m.give > Real(0)) {
-    // Nothing absorbed yet, and already on the way back: the impact lies between two samples.
+  // Empty but for rounding, against the energy of the motion.
+  const bool is_empty =
+      m.give * state.tank <= Real(kEmptyTank) * m.coasting * m.coasting && m.give > Real(0);
+  if (is_empty && m.coasting < Real(0)) {
+    // It closes and could not open on its own: this step stands for the whole impact.
+    state.lost += static_cast<double>(state.tank);
+    state.tank = Real(0);
+    state.rebounding = Real(0);
     const Real load = m.opening - m.coasting;
     const Real high = (-load - m.coasting * (Real(1) + e) / Real(2)) / m.give;
     m.forfeits = wanted > high;

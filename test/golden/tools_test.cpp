@@ -278,6 +278,16 @@ TEST_F(CheckTest, GivesTheClosedFormPitchOfEachString) {
   EXPECT_THAT(outcome.text, HasSubstr("pitch_hz: 110.0"));
 }
 
+TEST_F(CheckTest, SaysWhatWasChosenForTheScene) {
+  std::string text = kDrum;
+  text.replace(text.find("rate: audio"), 11, "rate: auto");
+  const Outcome outcome = run("check", write("drum.yaml", text) + " --set tone=2500");
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_THAT(outcome.text,
+              AllOf(HasSubstr("note: section 'sound' runs at "),
+                    HasSubstr("stepped: every 2 audio frames\n"), HasSubstr("geometry: scalar\n")));
+}
+
 TEST_F(CheckTest, WritesJsonThatAProgramReads) {
   const std::string scene = write("drum.yaml", kDrum);
   const Outcome outcome =

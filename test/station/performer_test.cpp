@@ -58,6 +58,17 @@ TEST(PerformerTest, StartsInTheStateThatWasCompiled) {
   EXPECT_EQ(warm, cold);
 }
 
+TEST(PerformerTest, PlaysTheSettledSceneAndTellsWhatWasChosen) {
+  scene::Scene scene = oscillator(1e3).scene;
+  scene.lias[1].scheme = scene::Scheme::kAuto;
+  scene.lias[1].stiffness = {0.06 * 1e-3 * 44100.0 * 44100.0};
+  scene.warnings = {"read"};
+  const auto performer = make(scene);
+  EXPECT_EQ(performer->instrument->scene().lias[1].scheme, scene::Scheme::kGuarded);
+  EXPECT_EQ(performer->warnings.front(), "read");
+  EXPECT_NE(performer->warnings.back().find("note: link 'l1': guarded"), std::string::npos);
+}
+
 TEST(PerformerTest, ShowsTheModelBeforeItsFirstTick) {
   const auto performer = make(oscillator(1e3).scene);
   ASSERT_TRUE(performer->motion.refresh());

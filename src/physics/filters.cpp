@@ -79,7 +79,9 @@ void planSlowEnd(const Scene& scene, const Rates& rates, Plan& plan) {
   const double step = divisorOfMat(scene, rates, plan.slow) / rates.audio_hz;
   const double half_sine = std::sqrt(network.highestModeAt(plan.slow)) * step / 2.0;
   const double angle = 2.0 * std::asin(std::min(half_sine, 1.0));  // w T of the explicit scheme
-  plan.dashpot = plan.chaplet.stages().front().damping * angle * angle / 8.0;
+  // Z (w T)^2/8 makes up for the lag of T/2 with which the held end brakes, to leading order; R of
+  // 4...8 asks for up to 1.25 times that.
+  plan.dashpot = 2.0 * plan.chaplet.stages().front().damping * angle * angle / 8.0;
 }
 
 void requireLightness(const Scene& scene, const Plan& plan) {

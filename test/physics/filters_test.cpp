@@ -257,7 +257,7 @@ TEST(FiltersTest, SlowMassWithSpringsGetsTheSmallDashpot) {
   EXPECT_EQ(dashpot.a, slow);
   EXPECT_EQ(b.scene.mats[at(dashpot.b)].type, scene::MatType::kGround);
   EXPECT_EQ(b.scene.mats[at(dashpot.b)].section, SceneBuilder::kGestural);
-  EXPECT_NEAR(dashpot.damping.factor, damping * angle * angle / 8.0, 1e-12);
+  EXPECT_NEAR(dashpot.damping.factor, damping * angle * angle / 4.0, 1e-12);
   EXPECT_THAT(notes.at(0), HasSubstr("gets a dashpot of"));
   EXPECT_NO_THROW(scene::validate(b.scene));
 }

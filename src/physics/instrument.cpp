@@ -9,6 +9,7 @@
 #include "ergotic/exception.hpp"
 #include "layout.hpp"
 #include "points.hpp"
+#include "sleeper.hpp"
 #include "state.hpp"
 #include "step_units.hpp"
 #include "stepper.hpp"
@@ -51,6 +52,7 @@ class InstrumentOf final : public Instrument {
         stepper_(layout_),
         points_(scene, layout_),
         taps_(layout_),
+        sleeper_(scene, layout_, *coefficients_),
         due_(layout_.sections.size(), 0),
         followed_(layout_.followers.empty() ? scene::Scene{} : scene) {
     state_.allocate();
@@ -179,7 +181,7 @@ class InstrumentOf final : public Instrument {
     taps_.takePositions(*coefficients_, state_, out);
     for (std::size_t r = 0; r < layout_.runs.size(); ++r) {
       const LinkRun& run = layout_.runs[r];
-      if (due_[at(run.section)] != 0 && !isAsleep(run)) {
+      if (!run.guarded && due_[at(run.section)] != 0 && !isAsleep(run)) {
         stepper_.stepLinks(r, coefficients_->runs[r], due_.data(), endsSlowStep(run, now), state_);
       }
     }
@@ -187,6 +189,7 @@ class InstrumentOf final : public Instrument {
     points_.scatter(state_.f(), state_.places());
     meter_.endFrame(now, state_);
     taps_.takeForces(*coefficients_, now, state_, out);
+    sleeper_.endFrame(now, *coefficients_, meter_, state_);
   }
 
   bool endsSlowStep(const LinkRun& run, std::int64_t now) const noexcept {
@@ -261,6 +264,7 @@ class InstrumentOf final : public Instrument {
   Stepper<Real> stepper_;
   Points<Real> points_;
   Taps<Real> taps_;
+  Sleeper<Real> sleeper_;
   std::vector<unsigned char> due_;  // [sections] in this frame
   scene::Scene followed_;           // where audio parameters have their present samples
   bool changed_ = false;            // coefficients were exchanged since the last tick

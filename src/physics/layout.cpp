@@ -138,8 +138,10 @@ Layout makeLayout(const scene::Scene& scene, const Rates& rates) {
   for (const scene::Input& input : scene.inputs) {
     const scene::Mat& mat = scene.mats[at(input.mat)];
     const int divisor = layout.sections[at(mat.section)].divisor;
-    layout.feeds.push_back({input.quantity, layout.slot_of_mat[at(input.mat)], mat.rest.x(),
-                            mat.section, 1.0 / divisor, input.channel});
+    const int slot =
+        layout.slot_of_mat[at(input.mat)] + input.axis * layout.strideOf(scene, input.mat);
+    layout.feeds.push_back(
+        {input.quantity, slot, mat.rest[input.axis], mat.section, 1.0 / divisor, input.channel});
   }
   findFollowers(scene, layout);
   return layout;

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "coefficients.hpp"
+#include "energy_meter.hpp"
+#include "ergotic/exception.hpp"
+#include "layout.hpp"
+#include "state.hpp"
+
+namespace ergotic::physics {
+
+/// Puts quiet sections to rest: one whose energy has fallen below its limit, and on which no link
+/// of another section pulls, is set to 0 and stepped no more until a force comes. The error is
+/// bounded (docs/physics.md, "Model no more than a scene needs").
+template <class Real>
+class Sleeper {
+ public:
+  /// \throws Exception if a section that may sleep does not rest at 0, or is not linear
+  Sleeper(const scene::Scene& scene, const Layout& layout, const CoefficientsOf<Real>& c)
+      : layout_(layout) {
+    for (int s = 0; s < static_cast<int>(scene.sections.size()); ++s) {
+      const double energy = scene.sections[static_cast<std::size_t>(s)].sleep_energy;
+      if (energy > 0.0) {
+        checkRest(scene, s, c);
+        limits_.push_back({s, energy});
+      }
+    }
+  }
+
+  /// After all forces of a frame are known. Realtime: yes
+  void endFrame(std::int64_t now,
+                const CoefficientsOf<Real>& c,
+                const EnergyMeter<Real>& meter,
+                State<Real>& state) const noexcept {
+    for (const Limit& limit : limits_) {
+      unsigned char& asleep = state.asleep()[limit.section];
+      const int divisor = layout_.sections[static_cast<std::size_t>(limit.section)].divisor;
+      if (asleep != 0) {
+        asleep = isTouched(limit.section, state) ? 0 : 1;
+      } else if (now % (kStepsBetween * divisor) == 0 && !isTouched(limit.section, state)) {
+        const double energy = meter.storedIn(limit.section, c, state);
+        if (energy < limit.energy) {
+          meter.addDissipated(limit.section, energy, state);
+          rest(limit.section, state);
+          asleep = 1;
+        }
+      }
+    }
+  }
+
+ private:
+  static constexpr std::int64_t kStepsBetween = 64;  // the energy costs as much as a step
+  struct Limit {
+    int section;
+    double energy;
+  };
+
+  void checkRest(const scene::Scene& scene, int section, const CoefficientsOf<Real>& c) const {
+    const SectionRange& range = layout_.sections[static_cast<std::size_t>(section)];
+    bool rests = true;
+    for (int slot = range.cells; slot < range.fixed; ++slot) {
+      for (int k = 0; k < range.dimensions; ++k) {
+        const auto here = static_cast<std::size_t>(slot + k * range.stride);
+        rests = rests && c.masses.drift[here] == Real(0);
+      }
+    }
+    for (std::size_t r = 0; r < layout_.runs.size(); ++r) {
+      const LinkRun& run = layout_.runs[r];
+      if (run.section_a != section || run.section_b != section) {
+        continue;
+      }
+      const std::size_t links = run.ends.size();
+      rests = rests && !remembers(run) &&
+              std::all_of(c.runs[r].fields.data() + 2 * links, c.runs[r].fields.data() + 3 * links,
+                          [](Real offset) { return offset == Real(0); });
+    }
+    if (!rests) {
+      throw Exception("section '" + scene.sections[static_cast<std::size_t>(section)].name +
+                      "' cannot sleep: allowed are scalar sections of masses, cells and "
+                      "spring-dampers that rest at 0 (no gravity, no rest lengths)");
+    }
+  }
+
+  /// Whether anything from outside pulls on a section.
+  bool isTouched(int section, State<Real>& state) const noexcept {
+    for (std::size_t r = 0; r < layout_.runs.size(); ++r) {
+      const LinkRun& run = layout_.runs[r];
+      const bool joins = (run.section_a == section) != (run.section_b == section);
+      if (joins) {
+        const kernels::Memory<Real> memory = state.memory(r);
+        for (std::size_t i = 0; i < state.remembered(r); ++i) {
+          if (memory.elastic[i] != Real(0) || memory.viscous[i] != Real(0)) {
+            return true;
+          }
+        }
+      }
+    }
+    return std::any_of(layout_.feeds.begin(), layout_.feeds.end(), [&](const Feed& feed) {
+      return feed.section == section && state.asleep()[section] != 0 &&
+             state.f()[feed.slot] != Real(0);
+    });
+  }
+
+  void rest(int section, State<Real>& state) const noexcept {
+    const SectionRange& range = layout_.sections[static_cast<std::size_t>(section)];
+    for (Real* values : {state.x(), state.d(), state.dLast(), state.f()}) {
+      for (int k = 0; k < range.dimensions; ++k) {
+        std::fill(values + range.cells + k * range.stride, values + range.fixed + k * range.stride,
+                  Real(0));
+      }
+    }
+  }
+
+  const Layout& layout_;
+  std::vector<Limit> limits_;
+};
+
+}  // namespace ergotic::physics

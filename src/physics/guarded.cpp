@@ -11,6 +11,17 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
+/// Sets the direction of a link along u. Without a length it has none, and no force.
+/// \return the length, with the sign `sense`
+template <class Real>
+Real direct(const Real (&u)[3], Real sense, GuardedMotion<Real>& m) noexcept {
+  const Real length = std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+  for (int k = 0; k < 3; ++k) {
+    m.gradient[k] = length > Real(0) ? sense * u[k] / length : Real(0);
+  }
+  return sense * length;
+}
+
 }  // namespace
 
 template <class Real>
@@ -78,48 +89,70 @@ void GuardedLinks<Real>::place(const GuardedView<Real>& view,
     return;
   }
   const Real sense = law.isContact() ? Real(-1) : Real(1);
-  const Real distance = std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
-  m.p = sense * distance - length;
-  for (int k = 0; k < link.dimensions; ++k) {
-    // Ends in one place have no line between them, and no force.
-    m.gradient[k] = distance > Real(0) ? sense * u[k] / distance : Real(0);
+  m.p = direct(u, sense, m) - length;
+}
+
+/// How far end a moves against end b: in the step just made, in the one to come if nothing guarded
+/// pushes, and the part of both by modules that forces do not move.
+template <class Real>
+struct GuardedLinks<Real>::Course {
+  Real now[3] = {Real(0), Real(0), Real(0)};
+  Real next[3] = {Real(0), Real(0), Real(0)};
+  Real fixed_now[3] = {Real(0), Real(0), Real(0)};
+  Real fixed_next[3] = {Real(0), Real(0), Real(0)};
+};
+
+template <class Real>
+typename GuardedLinks<Real>::Course GuardedLinks<Real>::courseOf(const GuardedView<Real>& v,
+                                                                 const Link& link) const noexcept {
+  Course c;
+  for (std::size_t t = link.first; t < link.first + link.count; ++t) {
+    const Term& term = terms_[t];
+    const bool is_free = isFree(v, term);
+    const bool is_held = term.slow_section >= 0;
+    for (int k = 0; k < link.dimensions; ++k) {
+      const int i = term.at + k * term.stride;
+      // A held module moved when its section did, and will stay until that does again.
+      const Real now = is_held && v.due[term.slow_section] == 0 ? Real(0) : term.weight * v.d[i];
+      const Real next = is_held ? Real(0)
+                                : v.keep[i] * now + term.weight * (v.inverse_mass[i] * v.f[i] +
+                                                                   v.drift[i] - v.pull[i] * v.x[i]);
+      c.now[k] += now;
+      c.next[k] += next;
+      c.fixed_now[k] += is_free ? Real(0) : now;
+      c.fixed_next[k] += is_free ? Real(0) : next;
+    }
   }
+  return c;
 }
 
 /// Where the link is, how it opens if left alone, and whether it has a say.
 template <class Real>
-GuardedMotion<Real> GuardedLinks<Real>::measure(const GuardedView<Real>& v,
+GuardedMotion<Real> GuardedLinks<Real>::measure(const GuardedView<Real>& view,
                                                 const GuardedLaw<Real>& law,
                                                 const Link& link,
                                                 GuardedState<Real>& state) const noexcept {
   Motion m;
-  place(v, law, link, m);
-  Real moved = Real(0);
+  m.is_friction = law.isFriction();
+  const Course c = courseOf(view, link);
+  if (m.is_friction && link.euclidean) {
+    // In space friction is along the slip.
+    const Real u[3] = {c.now[0] + c.next[0], c.now[1] + c.next[1], c.now[2] + c.next[2]};
+    direct(u, Real(1), m);
+  } else {
+    place(view, law, link, m);
+  }
   Real opened = Real(0);
-  for (std::size_t t = link.first; t < link.first + link.count; ++t) {
-    const Term& term = terms_[t];
-    const bool is_free = isFree(v, term);
-    for (int k = 0; k < link.dimensions; ++k) {
-      const int i = term.at + k * term.stride;
-      const Real rate = -term.weight * m.gradient[k];
-      // A held module moved when its section did, and will stay until that does again.
-      const bool is_held = term.slow_section >= 0;
-      const Real now = is_held && v.due[term.slow_section] == 0 ? Real(0) : v.d[i];
-      const Real next = is_held ? Real(0)
-                                : v.keep[i] * now - v.pull[i] * v.x[i] +
-                                      (v.inverse_mass[i] * v.f[i] + v.drift[i]);
-      opened += rate * now;
-      m.opening += rate * next;
-      if (!is_free) {
-        moved -= term.weight * state.gradient[k] * now;
-        m.foreseen += rate * next;
-      }
-    }
+  Real moved = Real(0);
+  for (int k = 0; k < link.dimensions; ++k) {
+    opened -= m.gradient[k] * c.now[k];
+    m.opening -= m.gradient[k] * c.next[k];
+    m.foreseen -= m.gradient[k] * c.fixed_next[k];
+    moved -= state.gradient[k] * c.fixed_now[k];
   }
   m.opening += opened;
   m.coasting = Real(2) * opened;
   payArrears(moved, state);
-  m.is_friction = law.isFriction();
   m.is_pushing = !m.is_friction && (m.p > Real(0) || !law.isContact());
   m.is_active = m.is_friction || m.is_pushing || state.tank > Real(0);
   return m;
@@ -165,9 +198,9 @@ void GuardedLinks<Real>::apply(const GuardedView<Real>& view,
   }
 }
 
-/// Visits each module that the link shares, with what it was charged there beyond the work it did:
-/// h^2 F (c F - sum F) / (2M). Over all links of the module these add up to
-/// h^2 (c sum F^2 - |sum F|^2) / (2M), which is never negative.
+/// Visits each module that the link shares, with how far less than the link was charged for it
+/// really opens there: h^2 (c F - sum F) / M. Times F/2 and over all links of the module that adds
+/// up to h^2 (c sum F^2 - |sum F|^2) / (2M), which is never negative.
 template <class Real>
 template <class Visit>
 void GuardedLinks<Real>::visitShared(const GuardedView<Real>& view,
@@ -178,17 +211,17 @@ void GuardedLinks<Real>::visitShared(const GuardedView<Real>& view,
   for (std::size_t t = link.first; t < end;) {
     const int slot = terms_[t].slot;
     Module& module = modules_[at(slot)];
-    Real excess = Real(0);
     const bool is_shared = module.links > Real(1) && isFree(view, terms_[t]);
+    Real swing = Real(0);
     for (; t < end && terms_[t].slot == slot; ++t) {
       const Term& term = terms_[t];
       for (int k = 0; k < link.dimensions; ++k) {
-        const Real f = -term.weight * m.gradient[k] * m.total();
-        excess += f * (module.links * f - module.load[term.component + k]);
+        const Real lever = -term.weight * m.gradient[k];
+        swing += lever * (module.links * lever * m.total() - module.load[term.component + k]);
       }
     }
     if (is_shared) {
-      visit(module, excess * view.inverse_mass[slot] / Real(2));
+      visit(module, swing * view.inverse_mass[slot]);
     }
   }
 }
@@ -197,15 +230,18 @@ void GuardedLinks<Real>::visitShared(const GuardedView<Real>& view,
 template <class Real>
 void GuardedLinks<Real>::collect(const GuardedView<Real>& view,
                                  const Link& link,
-                                 const Motion& m,
+                                 Motion& m,
                                  GuardedState<Real>& state) noexcept {
-  Real purse = m.is_friction ? -m.damper * m.swing() / Real(2) : state.tank;
-  visitShared(view, link, m, [&](Module& module, Real excess) {
-    const Real paid = std::clamp(-excess, Real(0), std::max(Real(0), purse));
-    purse -= paid;
-    takeBack(-paid, m, state);
-    module.refunds += std::max(Real(0), excess);
-    module.arrears += std::max(Real(0), -excess) - paid;
+  visitShared(view, link, m, [&](Module& module, Real swing) {
+    const Real excess = m.total() * swing / Real(2);
+    if (excess < Real(0)) {
+      const Real purse = std::max(Real(0), state.tank + m.heat);
+      const Real part = std::min(Real(1), purse / -excess);
+      takeBack(part * swing, m, state);
+      module.arrears -= (Real(1) - part) * excess;
+    } else {
+      module.refunds += excess;
+    }
   });
 }
 
@@ -213,12 +249,12 @@ void GuardedLinks<Real>::collect(const GuardedView<Real>& view,
 template <class Real>
 void GuardedLinks<Real>::refund(const GuardedView<Real>& view,
                                 const Link& link,
-                                const Motion& m,
+                                Motion& m,
                                 GuardedState<Real>& state) noexcept {
-  visitShared(view, link, m, [&](const Module& module, Real excess) {
-    if (excess > Real(0)) {
-      const Real part = std::min(Real(1), module.arrears / module.refunds);
-      takeBack(excess * (Real(1) - part), m, state);
+  visitShared(view, link, m, [&](const Module& module, Real swing) {
+    if (m.total() * swing > Real(0)) {
+      const Real missing = std::min(Real(1), module.arrears / module.refunds);
+      takeBack((Real(1) - missing) * swing, m, state);
     }
   });
 }
@@ -254,7 +290,7 @@ ERGOTIC_REALTIME void GuardedLinks<Real>::step(const GuardedView<Real>& view,
     if (motions_[l].is_active) {
       refund(view, links_[l], motions_[l], states[l]);
     }
-    closeTank(states[l]);
+    closeStep(motions_[l], states[l]);
   }
   for (const Term& term : terms_) {
     modules_[at(term.slot)] = Module{};

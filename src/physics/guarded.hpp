@@ -124,6 +124,8 @@ class GuardedLinks {
              const GuardedLaw<Real>& law,
              const Link& link,
              Motion& motion) const noexcept;
+  struct Course;
+  Course courseOf(const GuardedView<Real>& view, const Link& link) const noexcept;
   void countActive(const GuardedView<Real>& view, const Link& link, const Motion& m) noexcept;
   void yieldOf(const GuardedView<Real>& view, const Link& link, Motion& m) const noexcept;
   void apply(const GuardedView<Real>& view, const Link& link, const Motion& m) noexcept;
@@ -134,11 +136,11 @@ class GuardedLinks {
                    const Visit& visit) noexcept;
   void collect(const GuardedView<Real>& view,
                const Link& link,
-               const Motion& m,
+               Motion& m,
                GuardedState<Real>& state) noexcept;
   void refund(const GuardedView<Real>& view,
               const Link& link,
-              const Motion& m,
+              Motion& m,
               GuardedState<Real>& state) noexcept;
 
   std::vector<Link> links_;

@@ -152,17 +152,17 @@ void exertForce(GuardedMotion<Real>& m,
 }
 
 template <class Real>
-void payWork(const GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept {
+void payWork(GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept {
   const Real swing = m.swing();
   const Real work = m.force * swing / Real(2);
-  state.lost -= static_cast<double>(m.damper * swing / Real(2));
+  m.heat = -m.damper * swing / Real(2);
   if (m.forfeits && work < Real(0)) {
-    state.lost -= static_cast<double>(work);
+    m.heat -= work;
   } else {
     state.tank -= work;
   }
   if (m.empties) {
-    state.lost += static_cast<double>(state.tank);
+    m.heat += state.tank;
     state.tank = Real(0);
   }
   state.force = m.force;
@@ -174,9 +174,12 @@ void payWork(const GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept {
 template <class Real>
 void payArrears(Real moved, GuardedState<Real>& state) noexcept {
   const Real unforeseen = (moved - state.foreseen) / Real(2);
-  state.tank -= state.force * unforeseen;
   state.lost -= static_cast<double>(state.damper * unforeseen);
-  closeTank(state);
+  state.tank -= state.force * unforeseen;
+  if (state.tank < Real(0)) {
+    state.lost += static_cast<double>(state.tank);
+    state.tank = Real(0);
+  }
 }
 
 template void exertForce(GuardedMotion<float>&,
@@ -185,8 +188,8 @@ template void exertForce(GuardedMotion<float>&,
 template void exertForce(GuardedMotion<double>&,
                          const GuardedLaw<double>&,
                          GuardedState<double>&) noexcept;
-template void payWork(const GuardedMotion<float>&, GuardedState<float>&) noexcept;
-template void payWork(const GuardedMotion<double>&, GuardedState<double>&) noexcept;
+template void payWork(GuardedMotion<float>&, GuardedState<float>&) noexcept;
+template void payWork(GuardedMotion<double>&, GuardedState<double>&) noexcept;
 template void payArrears(float, GuardedState<float>&) noexcept;
 template void payArrears(double, GuardedState<double>&) noexcept;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+
 #include "guarded_laws.hpp"
 
 namespace ergotic::physics {
@@ -31,6 +33,7 @@ struct GuardedMotion {
   Real own_give = Real(0);  ///< the same if it were alone
   Real force = Real(0);     ///< elastic, closed links push: > 0
   Real damper = Real(0);    ///< damping or friction
+  Real heat = Real(0);      ///< what it dissipates in this step
   bool is_friction = false;
   bool is_pushing = false;  ///< in contact, or two-sided
   bool is_active = false;   ///< may have a force
@@ -49,33 +52,29 @@ void exertForce(GuardedMotion<Real>& m,
                 const GuardedLaw<Real>& law,
                 GuardedState<Real>& state) noexcept;
 
-/// Pays the work of this step from the tank, which may fall below 0 until refunds have come.
+/// Pays the work of this step from the tank, as if no other link were on its masses. Realtime: yes
+template <class Real>
+void payWork(GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept;
+
+/// Takes back what it was charged too much: `swing` is how far it opened more than it really will.
 /// Realtime: yes
 template <class Real>
-void payWork(const GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept;
+void takeBack(Real swing, GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept {
+  state.tank += m.force * swing / Real(2);
+  m.heat += m.damper * swing / Real(2);
+}
+
+/// Ends the step: neither tank nor heat stays below 0, each pays for the other. Realtime: yes
+template <class Real>
+void closeStep(const GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept {
+  const Real both = state.tank + m.heat;
+  state.tank = std::clamp(state.tank, Real(0), std::max(Real(0), both));
+  state.lost += static_cast<double>(both - state.tank);
+}
 
 /// Pays what the force of the last step did beyond what was foreseen then.
 /// \param moved  how far what forces do not move has opened the link since. Realtime: yes
 template <class Real>
 void payArrears(Real moved, GuardedState<Real>& state) noexcept;
-
-/// Takes back energy that it was charged too much. Realtime: yes
-template <class Real>
-void takeBack(Real energy, const GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept {
-  if (m.is_friction) {
-    state.lost += static_cast<double>(energy);  // what it absorbs is heat
-  } else {
-    state.tank += energy;
-  }
-}
-
-/// No tank below 0. Realtime: yes
-template <class Real>
-void closeTank(GuardedState<Real>& state) noexcept {
-  if (state.tank < Real(0)) {
-    state.lost += static_cast<double>(state.tank);
-    state.tank = Real(0);
-  }
-}
 
 }  // namespace ergotic::physics

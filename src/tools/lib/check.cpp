@@ -10,6 +10,7 @@
 #include "ergotic/physics/instrument.hpp"
 #include "ergotic/physics/settle.hpp"
 #include "ergotic/scene/pitch.hpp"
+#include "tools/lib/check_filters.hpp"
 #include "tools/lib/cost.hpp"
 #include "tools/lib/report.hpp"
 
@@ -312,6 +313,7 @@ Report reportOn(const physics::Settled& settled,
       .add("outputs", outputsOf(scene))
       .add("parameters", parametersOf(scene))
       .add("strings", stringsOf(scene, rates))
+      .add("filters", filtersReport(scene, rates))
       .add("cost", costOf(scene, rates))
       .add("notes", texts(settled.notes))
       .add("warnings", texts(warnings));
@@ -325,6 +327,9 @@ void addOptions(CLI::App& app, CheckOptions& options) {
       ->required();
   addOptions(app, options.scene);
   app.add_flag("--json", options.json, "for a program to read");
+  app.add_option("--filter-response", options.filter_response,
+                 "write what the chaplets of the scene let through to this table")
+      ->type_name("FILE.csv");
 }
 
 int check(const CheckOptions& options) {
@@ -333,6 +338,9 @@ int check(const CheckOptions& options) {
   const physics::Settled settled = physics::settle(std::move(scene), rates);
   const physics::Certificate certificate = physics::certify(settled.scene, rates);
   const Report report = reportOn(settled, rates, certificate);
+  if (!options.filter_response.empty()) {
+    writeFilterResponse(options.filter_response, settled.scene, rates);
+  }
   if (options.json) {
     report.printJson(std::cout);
     std::cout << '\n';

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+
 #include "tools/lib/options.hpp"
 
 namespace ergotic::tools {
@@ -9,6 +11,7 @@ namespace ergotic::tools {
 struct CheckOptions {
   SceneOptions scene;
   bool json = false;
+  std::string filter_response;  ///< empty: not written
 };
 
 void addOptions(CLI::App& app, CheckOptions& options);

@@ -36,16 +36,21 @@ double largest(const scene::Scene& scene, const scene::Value& v) {
   return magnitude(scene, v, true);
 }
 
-/// Steepest rise and fall of a friction force over velocity, both >= 0.
-struct FrictionSlopes {
+/// Steepest rise and fall of a force over velocity or elongation, both >= 0.
+struct CurveSlopes {
   double rise = 0.0;
   double fall = 0.0;
 };
 
-FrictionSlopes frictionSlopes(const scene::Scene& scene, const scene::Lia& lia) {
-  if (lia.type == LiaType::kBow && !lia.table.empty()) {
-    const scene::Curve curve = scene::interpolate(lia.table);
-    return {std::max(curve.largest_slope, 0.0), std::max(-curve.smallest_slope, 0.0)};
+CurveSlopes slopesOf(const scene::Table& table) {
+  const scene::Curve curve = scene::interpolate(table);
+  return {std::max(curve.largest_slope, 0.0), std::max(-curve.smallest_slope, 0.0)};
+}
+
+CurveSlopes frictionSlopes(const scene::Scene& scene, const scene::Lia& lia) {
+  const scene::Table& table = lia.type == LiaType::kTable ? lia.viscous_table : lia.table;
+  if (!table.empty()) {
+    return slopesOf(table);
   }
   const double z = largest(scene, lia.damping);
   if (lia.type == LiaType::kBow) {
@@ -56,6 +61,10 @@ FrictionSlopes frictionSlopes(const scene::Scene& scene, const scene::Lia& lia) 
 }
 
 double switchedStiffness(const scene::Scene& scene, const scene::Lia& lia) {
+  if (lia.type == LiaType::kTable) {
+    const CurveSlopes slopes = slopesOf(lia.table);
+    return std::max(slopes.rise, slopes.fall);
+  }
   const double k = largest(scene, lia.stiffness);
   if (lia.type != LiaType::kClippedCubic && lia.type != LiaType::kCubicContact) {
     return k;
@@ -157,6 +166,11 @@ class Chooser {
         const double q = largest(scene_, lia.nonlinearity);
         return q > 0.0 ? Reason{"nonlinearity", q, 0.0} : Reason{};
       }
+      case LiaType::kTable:
+        if (!lia.table.empty()) {
+          return switching(lia, h * h * inverse);
+        }
+        return lia.viscous_table.empty() ? Reason{} : sliding(lia, h * inverse);
       case LiaType::kBow:
       case LiaType::kSmoothBow:
         return sliding(lia, h * inverse);
@@ -172,7 +186,7 @@ class Chooser {
   }
 
   Reason sliding(const scene::Lia& lia, double unit) const {
-    const FrictionSlopes slopes = frictionSlopes(scene_, lia);
+    const CurveSlopes slopes = frictionSlopes(scene_, lia);
     if (unit * slopes.rise >= kExplicitFriction) {
       return {"h max F' (1/Ma + 1/Mb)", unit * slopes.rise, kExplicitFriction};
     }

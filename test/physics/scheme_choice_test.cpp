@@ -153,6 +153,27 @@ TEST(SchemeChoiceTest, FrictionTablesAreJudgedByTheirLines) {
   EXPECT_EQ(table(0.999, 0.201), Scheme::kGuarded);
 }
 
+TEST(SchemeChoiceTest, LinesOfAnElasticTableSwitchAndThoseOfAViscousOneSlide) {
+  Pair elastic(LiaType::kTable);
+  const auto spring = [&](double kappa) {
+    const double f = stiff(kappa).factor * 1e-3;
+    elastic.lia().table.points = {{-1e-3, -0.1 * f}, {0.0, 0.0}, {1e-3, f}};
+    return elastic.scheme();
+  };
+  EXPECT_EQ(spring(0.0499), Scheme::kExplicit);
+  EXPECT_EQ(spring(0.0501), Scheme::kGuarded);
+  EXPECT_EQ(spring(-0.0501), Scheme::kGuarded);
+  Pair viscous(LiaType::kTable);
+  const auto friction = [&](double rise, double fall) {
+    const double f = kRate / kInverse;
+    viscous.lia().viscous_table.points = {{0.0, 0.0}, {1.0, rise * f}, {2.0, (rise - fall) * f}};
+    return viscous.scheme();
+  };
+  EXPECT_EQ(friction(0.999, 0.199), Scheme::kExplicit);
+  EXPECT_EQ(friction(1.001, 0.199), Scheme::kGuarded);
+  EXPECT_EQ(friction(0.999, 0.201), Scheme::kGuarded);
+}
+
 TEST(SchemeChoiceTest, AcrossRatesOnlyWhatNoForceMovesMayBeSlow) {
   SceneBuilder b;
   const int string = b.mass(kLight);

@@ -121,7 +121,7 @@ class Assembly {
     for (std::size_t m = 0; m < scene_.mats.size(); ++m) {
       const scene::Mat& mat = scene_.mats[m];
       if (row_[m] >= 0 && mat.type == MatType::kCell) {
-        triplets_.emplace_back(row_[m], row_[m], lowest(scene_, mat.stiffness));
+        addBlock(row_[m], row_[m], lowest(scene_, mat.stiffness) * Eigen::Matrix3d::Identity());
       }
     }
     for (const scene::Lia& lia : scene_.lias) {
@@ -202,6 +202,14 @@ double springEnergy(const scene::Scene& scene,
   return 0.5 * springOf(scene, lia) * e * e;
 }
 
+/// Of the spring of a cell at the start: to x = 0, or in Euclidean sections to its rest.
+Eigen::Vector3d stretchOf(const scene::Scene& scene, const scene::Mat& cell) {
+  const Geometry geometry = scene.sectionOf(cell).geometry;
+  return geometry == Geometry::kScalar
+             ? Eigen::Vector3d(cell.position.x(), 0.0, 0.0)
+             : moving(cell.position - cell.rest, scene::dimensionsOf(geometry));
+}
+
 /// What a section has at the start more than at rest, in the springs of its own and in motion.
 double startEnergy(const scene::Scene& scene, int section) {
   const auto isInside = [&](int m) { return scene.mats[at(m)].section == section; };
@@ -212,7 +220,7 @@ double startEnergy(const scene::Scene& scene, int section) {
       energy += 0.5 * scene.valueOf(mat.mass) * moving(mat.velocity, dimensions).squaredNorm();
     }
     if (mat.section == section && mat.type == MatType::kCell) {
-      energy += 0.5 * scene.valueOf(mat.stiffness) * mat.position.x() * mat.position.x();
+      energy += 0.5 * scene.valueOf(mat.stiffness) * stretchOf(scene, mat).squaredNorm();
     }
   }
   for (const scene::Lia& lia : scene.lias) {

@@ -90,6 +90,16 @@ TEST(SleepBoundTest, StretchedStringIsHeldAcrossByItsTension) {
   EXPECT_NEAR(largestCompliance(Eigen::MatrixXd(k).sparseView()), 1.0 / 50.0, 1e-12);
 }
 
+TEST(SleepBoundTest, CellsAreHeldInEveryCoordinateThatMoves) {
+  SceneBuilder b;
+  b.scene.sections[0].geometry = scene::Geometry::kSpace;
+  b.cell(1e-3, 40.0, 0.0);
+  b.cell(1e-3, 10.0, 0.0);
+  const Eigen::MatrixXd k(stiffnessOf(b.scene, 0));
+  EXPECT_EQ(k.rows(), 6);
+  EXPECT_NEAR(largestCompliance(k.sparseView()), 1.0 / 10.0, 1e-12);
+}
+
 TEST(SleepBoundTest, NoteComparesWithTheStart) {
   SceneBuilder b;
   const int first = b.chain(9, 1e-4, 2000.0);

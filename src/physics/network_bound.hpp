@@ -5,58 +5,98 @@
 
 namespace ergotic::physics {
 
-/// Upper bounds of the largest eigenvalue of M^-1 (h^2 K + 2 h Z) of a network of springs and
-/// dampers with K, Z >= 0. The explicit scheme is stable if and only if it is below 4.
+/// What a number can be: parameters move within a range.
+struct Span {
+  double lowest = 0.0;
+  double highest = 0.0;
+};
+
+/// How much a node counts at an end of a link.
+struct Share {
+  int node = 0;
+  double weight = 1.0;
+};
+
+/// A network of springs and dampers, each a rank-one load k u u^T, z u u^T with u the weights of
+/// the nodes it joins (+1 and -1 for a plain link, 1 for one to a fixed point), and upper bounds of
+/// the largest eigenvalue of M^-1 (h^2 K + 2 h Z). With K and Z positive semidefinite the explicit
+/// scheme is stable if and only if that is below 4.
+///
+/// A negative k or z only ever lowers the eigenvalue, so the bounds leave it out; whether K and Z
+/// are semidefinite all the same is a question for NetworkSpectrum.
 /// Source: docs/physics.md, "Stability".
 class NetworkBound {
  public:
-  static constexpr int kFixed = -1;  ///< an end that does not move by forces
   static constexpr double kLimit = 4.0;
+
+  struct Link {
+    std::vector<Share> ends;  ///< every node once
+    Span stiffness;
+    Span damping;
+    int label = -1;
+  };
+  /// A link with an end that may be at any of some places, here one after the other.
+  struct MovingLink {
+    std::vector<std::vector<Share>> places;
+    double stiffness = 0.0;
+    double damping = 0.0;
+    int label = -1;
+  };
 
   /// \param step  h, time units
   explicit NetworkBound(double step) : step_(step) {}
 
-  /// \param owner  whatever the caller wants back from worstOwner(). \return the node
+  /// \param owner  whatever the caller wants back from ownerOf(). \return the node
   int addNode(double mass, int owner);
+  /// \param ends   shares of one node add up; none: held at both ends, without effect
   /// \param label  whatever the caller wants back from worstLink()
-  void addLink(int a, int b, double stiffness, double damping, int label);
+  void addLink(const std::vector<Share>& ends, Span stiffness, Span damping, int label);
+  /// \param places  more than one
+  void addMovingLink(const std::vector<std::vector<Share>>& places,
+                     double stiffness,
+                     double damping,
+                     int label);
 
-  /// max over links of S_i/M_i + S_j/M_j, S_i the sum of h^2 K + 2 h Z at node i; fixed ends
-  /// count 0. O(links)
+  /// The same network in which every moving link loads all its places at once. Since
+  /// (u - v)(u - v)^T <= (1 + t) u u^T + (1 + 1/t) v v^T for any t > 0, that is a bound.
+  NetworkBound withMovingEverywhere() const;
+
+  /// max over links of sum_i |u_i| S_i / M_i, S_i the sum of (h^2 k + 2 h z) |u_i| at node i, which
+  /// is S_i/M_i + S_j/M_j for plain links. O(links)
   double linkBound() const;
 
   /// max_i (|M^-1 A| x)_i / x_i after some iterations from x = 1: a bound at every one of them,
   /// exact in the limit for chains and square grids. O(links * iterations)
   double collatzWielandtBound(int iterations) const;
 
-  /// Label of the link with the largest bound, and owner of its more loaded node; -1: none.
-  int worstLink() const;
-  int worstOwner() const;
-
   /// The longest step at which linkBound() is at most 4, time units; infinity if any will do.
   double stableStep() const;
 
+  int worstLink() const;         ///< label of the link with the largest bound; -1: none
+  int worstOwner() const;        ///< owner of its most loaded node; -1: none
+  int largestComponent() const;  ///< nodes
+  bool hasNegativeStiffness() const;
+  bool hasNegativeDamping() const;
+
+  double step() const { return step_; }
+  int nodes() const { return static_cast<int>(mass_.size()); }
+  double mass(int node) const { return mass_[static_cast<std::size_t>(node)]; }
+  int ownerOf(int node) const { return owner_[static_cast<std::size_t>(node)]; }
+  const std::vector<Link>& links() const { return links_; }
+  const std::vector<MovingLink>& movingLinks() const { return moving_; }
+
  private:
-  struct Link {
-    int a;
-    int b;
-    double stiffness;
-    double damping;
-    int label;
-  };
-  double load(const Link& link) const {
-    return step_ * step_ * link.stiffness + 2.0 * step_ * link.damping;
-  }
-  double ratio(int node) const;  // S/M
-  double bound(const Link& link) const { return ratio(link.a) + ratio(link.b); }
+  double load(const Link& link) const;
+  std::vector<double> sums(double per_stiffness, double per_damping) const;  // S, per node
+  double bound(const Link& link, const std::vector<double>& sum) const;
   const Link* worst() const;
+  std::vector<int> components() const;  // a node that stands for each node's component
 
   double step_;
   std::vector<double> mass_;
   std::vector<int> owner_;
-  std::vector<double> stiffness_sum_;
-  std::vector<double> damping_sum_;
   std::vector<Link> links_;
+  std::vector<MovingLink> moving_;
 };
 
 }  // namespace ergotic::physics

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "ergotic/physics/rates.hpp"
+#include "ergotic/scene/scene.hpp"
+
+namespace ergotic::physics {
+
+/// The linear part of a scene over one period of its slowest section (at least one tick), as a
+/// matrix: stepped by the instrument itself from unit states, so it is what is played.
+///
+/// Linear part: the links that are springs or dampers, and K and Z of two-sided nonlinear ones;
+/// contacts open, pluck and bow away, guarded links away; hands and driven modules held; moving
+/// points where they are at the start; Euclidean sections as scalar ones. Parameters have their
+/// present values.
+///
+/// State: displacements of the n modules that forces move, then what they are about to move by, in
+/// units of their own; shape (2n, 2n). Eigenvalues do not depend on these units.
+/// Realtime: no. Cost: 3n periods.
+/// \throws Exception if the scene cannot be compiled at these rates
+Eigen::MatrixXd monodromy(const scene::Scene& scene, const Rates& rates);
+
+/// Largest absolute eigenvalue; 0 of an empty matrix. A rigid motion is a double eigenvalue 1 that
+/// rounding splits: what is within 1e-6 of 1, and no larger than 1 + 1e-7, counts as 1.
+/// Realtime: no. Cost: O(rows^3), about 1 s for 600 rows.
+double spectralRadius(const Eigen::MatrixXd& matrix);
+
+}  // namespace ergotic::physics

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "certify_parts.hpp"
+#include "scheme_choice.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+using scene::Lia;
+using scene::LiaType;
+
+constexpr double kWarnedSwitch = 0.25;  // h^2 K (1/Ma + 1/Mb): gains a few per cent at worst
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+class LinkJudge {
+ public:
+  LinkJudge(const SceneNetwork& networks, Findings& findings)
+      : networks_(networks), findings_(findings) {}
+
+  void judge(int l) {
+    const Lia& lia = networks_.scene().lias[at(l)];
+    const Slopes& slopes = networks_.slopes(l);
+    if (lia.scheme == scene::Scheme::kGuarded) {
+      judgeGuarded(lia);
+      return;
+    }
+    judgeSignOfMoving(lia, slopes);
+    switch (lia.type) {
+      case LiaType::kSpringDamper:
+        return;
+      case LiaType::kPluck:
+      case LiaType::kConditional:
+        findings_.worsen(Verdict::kBounded);
+        return;
+      case LiaType::kBow:
+      case LiaType::kSmoothBow:
+        judgeFriction(lia);
+        return;
+      case LiaType::kQuadratic:
+      case LiaType::kCubic:
+      case LiaType::kPowerContact:
+        if (slopes.is_unbounded) {
+          judgeGrowing(lia);
+        } else if (lia.type == LiaType::kPowerContact) {
+          judgeSwitching(lia, slopes);
+        }
+        return;
+      case LiaType::kTable:
+        judgeTable(lia, slopes);
+        return;
+      default:
+        judgeSwitching(lia, slopes);
+    }
+  }
+
+ private:
+  void judgeGuarded(const Lia& lia) {
+    if (lia.type == LiaType::kBow || lia.type == LiaType::kSmoothBow) {
+      findings_.worsen(Verdict::kBounded);
+    }
+    if (networks_.crossesRates(lia) && (networks_.inverseMass(networks_.slowEnd(lia)) > 0.0 ||
+                                        lia.coupling == scene::Coupling::kDecimate)) {
+      findings_.add(Verdict::kUnproven, lia.place,
+                    "guarded link '" + lia.name +
+                        "' acts on a slower module, which its guard cannot follow. Move that "
+                        "module to the faster section, or put a module of that section between");
+    }
+  }
+
+  /// Signs of links at rest are judged as a network.
+  void judgeSignOfMoving(const Lia& lia, const Slopes& slopes) {
+    if ((slopes.stiffness.lowest < 0.0 || slopes.damping.lowest < 0.0) && networks_.isMoving(lia)) {
+      findings_.add(Verdict::kUnproven, lia.place,
+                    "link '" + lia.name +
+                        "' has a negative stiffness or damping and an end that moves: it gives "
+                        "energy, no bound holds");
+    }
+  }
+
+  void judgeFriction(const Lia& lia) {
+    findings_.worsen(Verdict::kBounded);
+    const FrictionSlopes slopes = frictionSlopesOf(networks_.scene(), lia);
+    const double unit = networks_.inverseMassStep(lia);
+    const double rise = unit * slopes.rise;
+    const double fall = unit * slopes.fall;
+    if (rise >= kExplicitFriction) {
+      findings_.add(Verdict::kBounded, lia.place,
+                    "friction of link '" + lia.name +
+                        "' is steep for the step, h max F' (1/Ma + "
+                        "1/Mb) = " +
+                        describe(rise) + " (silent below " + describe(kExplicitFriction) +
+                        "): it overshoots. Use scheme: guarded, or raise the rate");
+    }
+    if (fall >= kExplicitFalling) {
+      findings_.add(Verdict::kBounded, lia.place,
+                    "friction of link '" + lia.name +
+                        "' falls fast for the step, h max(-F') "
+                        "(1/Ma + 1/Mb) = " +
+                        describe(fall) + " (silent below " + describe(kExplicitFalling) +
+                        "): stick and slip will be inaccurate. Use scheme: guarded, or raise the "
+                        "rate");
+    }
+  }
+
+  /// Two-sided springs and power contacts: nothing holds at every amplitude.
+  void judgeGrowing(const Lia& lia) {
+    const double unit = networks_.inverseMassStep2(lia);
+    if (!(unit > 0.0)) {
+      return;  // no force moves either end
+    }
+    const double limit = lia.type == LiaType::kPowerContact ? kWarnedSwitch : NetworkBound::kLimit;
+    const double reach = elongationOf(networks_.scene(), lia, limit / unit);
+    const std::string how = lia.type == LiaType::kPowerContact
+                                ? "; it would count as soft up to an overlap of "
+                                : "; no motion can be stable beyond an elongation of ";
+    findings_.add(Verdict::kUnproven, lia.place,
+                  "the slope of link '" + lia.name +
+                      "' grows with its amplitude: stable only while it moves little" + how +
+                      describe(reach) + " m. Use scheme: guarded");
+  }
+
+  void judgeTable(const Lia& lia, const Slopes& slopes) {
+    const double kappa = slopes.stiffness.highest * networks_.inverseMassStep2(lia);
+    if (!isRising(lia) || kappa > kWarnedSwitch) {
+      findings_.worsen(Verdict::kBounded);  // what it can give is held at its ends
+    } else {
+      judgeSwitching(lia, slopes);
+    }
+  }
+
+  /// A stiffness that switches pumps energy: by little if it is soft for the step.
+  void judgeSwitching(const Lia& lia, const Slopes& slopes) {
+    const double kappa = slopes.stiffness.highest * networks_.inverseMassStep2(lia);
+    if (kappa <= kExplicitSwitch) {
+      return;
+    }
+    const std::string text =
+        "link '" + lia.name + "' switches its stiffness, h^2 K (1/Ma + 1/Mb) = " + describe(kappa);
+    if (kappa <= kWarnedSwitch) {
+      findings_.add(Verdict::kPassive, lia.place,
+                    text + " (silent below " + describe(kExplicitSwitch) +
+                        "): hard hits may come back a few per cent faster");
+    } else {
+      findings_.add(Verdict::kUnproven, lia.place,
+                    text + ", allowed up to " + describe(kWarnedSwitch) +
+                        ": it may feed energy in. Use scheme: guarded, soften it, make its masses "
+                        "heavier, or raise the rate");
+    }
+  }
+
+  const SceneNetwork& networks_;
+  Findings& findings_;
+};
+
+}  // namespace
+
+void judgeLinks(const SceneNetwork& networks, Findings& findings) {
+  LinkJudge judge(networks, findings);
+  for (int l = 0; l < static_cast<int>(networks.scene().lias.size()); ++l) {
+    judge.judge(l);
+  }
+}
+
+}  // namespace ergotic::physics

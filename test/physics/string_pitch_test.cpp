@@ -30,7 +30,7 @@ double playedPitchHz(scene::Scene scene, const Rates& rates) {
     scene.mats[static_cast<std::size_t>(string.first + i)].position[axis] +=
         1e-5 * std::sin(M_PI * i / (string.count - 1));
   }
-  const auto instrument = compile(scene, rates, Precision::kDouble);
+  const auto instrument = compile(settle(scene, rates).scene, rates, Precision::kDouble);
   std::vector<double> x(static_cast<std::size_t>(rates.ratio));
   TickIo io;
   io.outputs = x.data();

@@ -2,12 +2,14 @@
 #include "ros/convert.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <ros/serialization.h>
 
+#include "ergotic/physics/settle.hpp"
 #include "ergotic/scene/read_scene.hpp"
 #include "ros/model_loader.hpp"
 
@@ -39,9 +41,42 @@ TEST(ConvertTest, StructureHoldsPlacesInFrameModel) {
   EXPECT_EQ(structure.module_names, (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(structure.rest_positions, (std::vector<float>{0.3F, 0.1F, 1.2F, 0.0F, 0.4F, 1.5F}));
   EXPECT_EQ(structure.links, (std::vector<std::uint32_t>{0, 1}));
-  ASSERT_EQ(structure.section_axes.size(), 1U);
-  EXPECT_EQ(structure.section_axes[0].x, 1.0);
+  ASSERT_EQ(structure.section_poses.size(), 1U);
+  EXPECT_EQ(structure.section_poses[0].position.z, 1.0);
+  EXPECT_EQ(structure.section_poses[0].orientation.w, 1.0);
+  EXPECT_EQ(structure.section_dimensions, std::vector<std::uint8_t>{1});
   EXPECT_EQ(structure.section_rates, std::vector<double>{44100.0});
+}
+
+TEST(ConvertTest, StructureSaysHowManyCoordinatesOfASectionMove) {
+  const scene::Scene scene = scene::readYaml(R"(ergotic: 1
+name: net
+sections:
+  up: {rate: audio}
+  net: {rate: audio, geometry: space, pose: {rotation: [0, 0, 1.5707963267948966]}}
+mats:
+  a: {type: mass, section: up, mass: 1}
+  finger: {type: point, along: n, at: [0.25, 0.5]}
+generators:
+  - {type: mesh, name: n, section: net, rows: 3, columns: 3, spacing: 0.1, mass: 1, stiffness: 1,
+     rest_length_ratio: 0.5}
+)",
+                                             "net.yaml");
+  const ModelStructure structure = sentAndReceived(toModelStructure(scene, physics::Rates()));
+  EXPECT_EQ(structure.section_dimensions, (std::vector<std::uint8_t>{1, 3}));
+  EXPECT_NEAR(structure.section_poses[1].orientation.z, std::sqrt(0.5), 1e-12);
+  const auto finger = static_cast<std::size_t>(
+      std::find(structure.module_names.begin(), structure.module_names.end(), "finger") -
+      structure.module_names.begin());
+  EXPECT_EQ(structure.module_types.at(finger), ModelStructure::POINT);
+  // 0.05 m along x and 0.1 m along y of the net, which is turned by a quarter about z.
+  EXPECT_NEAR(structure.rest_positions.at(3 * finger), -0.1F, 1e-6F);
+  EXPECT_NEAR(structure.rest_positions.at(3 * finger + 1), 0.05F, 1e-6F);
+  int coordinates = 0;
+  for (const std::uint32_t section : structure.module_sections) {
+    coordinates += structure.section_dimensions.at(section);
+  }
+  EXPECT_EQ(coordinates, scene.coordinates());
 }
 
 TEST(ConvertTest, JointsAreNamedAfterTheirSlices) {
@@ -98,7 +133,8 @@ TEST(ConvertTest, StatusSaysWhyForceIsGone) {
 
 TEST(ConvertTest, KeyframeSurvivesTheWireBitForBit) {
   const scene::Scene scene = scene::readYaml(kScene, "two.yaml");
-  const auto instrument = physics::compile(scene, physics::Rates(), physics::Precision::kDouble);
+  const auto instrument =
+      physics::compile(physics::settle(scene, {}).scene, {}, physics::Precision::kDouble);
   station::Keyframe keyframe;
   keyframe.tick = 123456789012;
   keyframe.state.resize(instrument->stateSize());

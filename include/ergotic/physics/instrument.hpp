@@ -38,11 +38,13 @@ struct StateEntry {
 
 /// The instrument: flat arrays and one `tick`.
 ///
-/// A tick of index n, all sections explicit (CORDIS-ANIMA):
-///   slices take their positions x[n]; each audio frame r = 0...R-1 then
+/// A tick of index n (CORDIS-ANIMA): slices take their positions x[n]; each audio frame
+/// r = 0...R-1 then
 ///   1. inputs arrive, masses of the sections due move (x += d, by the forces of their last step),
+///      connection points follow them,
 ///   2. outputs are taken,
-///   3. links of the sections due give forces from the new positions.
+///   3. explicit links of the sections due give forces from the new positions, points hand theirs
+///      on, then guarded links, which need to know all other forces.
 /// The forces on the slices after the last frame are F[n], a function of x[n]: they wait for the
 /// next exchange with the device. Links across two rates run at the faster one, the slower end is
 /// held and receives the mean force (docs/physics.md, "Two rates").
@@ -109,6 +111,7 @@ class Instrument {
 };
 
 /// Turns a valid scene into arrays. Does not certify.
+/// \pre    settled (settle.hpp)
 /// \throws Exception if the scene needs something that these rates do not allow
 std::unique_ptr<Instrument> compile(const scene::Scene& scene,
                                     const Rates& rates,

@@ -38,6 +38,7 @@ class LinkJudge {
         return;
       case LiaType::kBow:
       case LiaType::kSmoothBow:
+        findings_.worsen(Verdict::kBounded);
         judgeFriction(lia);
         return;
       case LiaType::kQuadratic:
@@ -59,7 +60,8 @@ class LinkJudge {
 
  private:
   void judgeGuarded(const Lia& lia) {
-    if (lia.type == LiaType::kBow || lia.type == LiaType::kSmoothBow) {
+    if (lia.type == LiaType::kBow || lia.type == LiaType::kSmoothBow ||
+        (lia.type == LiaType::kTable && !isRising(lia))) {
       findings_.worsen(Verdict::kBounded);
     }
     if (networks_.crossesRates(lia) && (networks_.inverseMass(networks_.slowEnd(lia)) > 0.0 ||
@@ -81,14 +83,14 @@ class LinkJudge {
     }
   }
 
+  /// Never a matter of the verdict: whether it is stable, the network has told.
   void judgeFriction(const Lia& lia) {
-    findings_.worsen(Verdict::kBounded);
     const FrictionSlopes slopes = frictionSlopesOf(networks_.scene(), lia);
     const double unit = networks_.inverseMassStep(lia);
     const double rise = unit * slopes.rise;
     const double fall = unit * slopes.fall;
     if (rise >= kExplicitFriction) {
-      findings_.add(Verdict::kBounded, lia.place,
+      findings_.add(Verdict::kPassive, lia.place,
                     "friction of link '" + lia.name +
                         "' is steep for the step, h max F' (1/Ma + "
                         "1/Mb) = " +
@@ -96,7 +98,7 @@ class LinkJudge {
                         "): it overshoots. Use scheme: guarded, or raise the rate");
     }
     if (fall >= kExplicitFalling) {
-      findings_.add(Verdict::kBounded, lia.place,
+      findings_.add(Verdict::kPassive, lia.place,
                     "friction of link '" + lia.name +
                         "' falls fast for the step, h max(-F') "
                         "(1/Ma + 1/Mb) = " +
@@ -124,6 +126,9 @@ class LinkJudge {
   }
 
   void judgeTable(const Lia& lia, const Slopes& slopes) {
+    if (!lia.viscous_table.empty()) {
+      judgeFriction(lia);
+    }
     const double kappa = slopes.stiffness.highest * networks_.inverseMassStep2(lia);
     if (!isRising(lia) || kappa > kWarnedSwitch) {
       findings_.worsen(Verdict::kBounded);  // what it can give is held at its ends

@@ -127,8 +127,9 @@ double elongationOf(const scene::Scene& scene, const scene::Lia& lia, double lim
 }
 
 FrictionSlopes frictionSlopesOf(const scene::Scene& scene, const scene::Lia& lia) {
-  if (lia.type == LiaType::kBow && !lia.table.empty()) {
-    const scene::Curve curve = scene::interpolate(lia.table);
+  const scene::Table& table = lia.type == LiaType::kTable ? lia.viscous_table : lia.table;
+  if (!table.empty()) {
+    const scene::Curve curve = scene::interpolate(table);
     return {std::max(curve.largest_slope, 0.0), std::max(-curve.smallest_slope, 0.0)};
   }
   const double z = largest(scene, lia.damping);

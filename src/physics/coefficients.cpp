@@ -4,6 +4,7 @@
 #include <array>
 
 #include "ergotic/scene/table.hpp"
+#include "guarded_groups.hpp"
 #include "laws.hpp"
 #include "oscillator.hpp"
 
@@ -110,6 +111,7 @@ CoefficientsOf<Real>::CoefficientsOf(const scene::Scene& scene,
   for (std::size_t r = 0; r < runs.size(); ++r) {
     fillRun(scene, rates, layout, r);
   }
+  fillGuarded(scene, rates, layout);
   for (const scene::Output& output : scene.outputs) {
     tap_gains.push_back(static_cast<Real>(scene.valueOf(output.gain)));
   }
@@ -212,6 +214,20 @@ void CoefficientsOf<Real>::fillRun(const scene::Scene& scene,
   for (int c = 0; c < run.dimensions; ++c) {
     for (const Eigen::Vector3d& rest : run.rests) {
       to.rests.push_back(static_cast<Real>(rest[c]));
+    }
+  }
+}
+
+template <class Real>
+void CoefficientsOf<Real>::fillGuarded(const scene::Scene& scene,
+                                       const Rates& rates,
+                                       const Layout& layout) {
+  for (const GuardedGroup& group : guardedGroupsOf(layout)) {
+    const StepUnits units(scene, rates, group.divisor);
+    guarded.emplace_back();
+    for (const GuardedRef& ref : group.links) {
+      const scene::Lia& lia = scene.lias[at(layout.runs[ref.run].lias[ref.link])];
+      guarded.back().push_back(GuardedLaw<Real>::make(scene, lia, units));
     }
   }
 }

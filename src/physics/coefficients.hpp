@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ergotic/physics/instrument.hpp"
+#include "guarded_laws.hpp"
 #include "layout.hpp"
 #include "step_units.hpp"
 
@@ -64,6 +65,7 @@ class CoefficientsOf final : public Coefficients {
 
   MassCoefficients<Real> masses;
   std::vector<RunCoefficients<Real>> runs;  ///< [Layout::runs]
+  std::vector<std::vector<GuardedLaw<Real>>> guarded;  ///< [guardedGroupsOf(layout)][links]
   std::vector<Real> tap_gains;              ///< [Layout::taps]
   std::vector<Real> feed_gains;             ///< [Layout::feeds]
   std::vector<PlaceCoefficients> places;    ///< [Layout::places]
@@ -73,6 +75,7 @@ class CoefficientsOf final : public Coefficients {
   void setSlot(const scene::Scene& scene, const StepUnits& units, const Layout& layout, int slot);
   void setLink(
       const scene::Scene& scene, const StepUnits& units, const LinkRun& run, std::size_t r, int l);
+  void fillGuarded(const scene::Scene& scene, const Rates& rates, const Layout& layout);
   void fillPlaces(const scene::Scene& scene, const Rates& rates, const Layout& layout);
   void fillRun(const scene::Scene& scene, const Rates& rates, const Layout& layout, std::size_t r);
 };

@@ -29,13 +29,14 @@ GuardedLinks<Real>::GuardedLinks(const std::vector<GuardedLink>& links, std::siz
     : motions_(links.size()), modules_(slots) {
   for (const GuardedLink& link : links) {
     const std::size_t capacity = std::max(link.capacity, link.terms.size());
-    links_.push_back({link.euclidean, link.dimensions, terms_.size(), 0, {}});
+    const bool euclidean = link.dimensions > 0;
+    links_.push_back({euclidean, std::max(1, link.dimensions), terms_.size(), 0, {}});
     terms_.resize(terms_.size() + capacity);
     setTerms(links_.size() - 1, link.terms.data(), link.terms.size(), link.offset);
   }
 }
 
-/// Terms of one module lie side by side; a coordinate that both ends share becomes one term.
+/// Terms of one module lie side by side; a coordinate that both ends reach becomes one term.
 template <class Real>
 ERGOTIC_REALTIME void GuardedLinks<Real>::setTerms(std::size_t link,
                                                    const GuardedTerm* terms,
@@ -45,20 +46,22 @@ ERGOTIC_REALTIME void GuardedLinks<Real>::setTerms(std::size_t link,
   Term* const first = terms_.data() + to.first;
   Term* last = first;
   for (const GuardedTerm* t = terms; t != terms + count; ++t) {
-    const int place = t->slot + t->component * t->stride;
-    const Real weight = static_cast<Real>(t->weight);
-    Term* same = std::find_if(first, last, [place](const Term& k) { return k.at == place; });
-    if (same != last) {
-      same->weight += weight;
-      continue;
+    Term* same = std::find_if(first, last, [t](const Term& k) { return k.slot == t->slot; });
+    if (same == last) {
+      Term* after = first;
+      while (after != last && after->module != t->module) {
+        ++after;
+      }
+      const bool opens = after == last;
+      after += opens ? 0 : 1;
+      std::move_backward(after, last, last + 1);
+      *after = {t->slot, t->module, t->component, t->slow_section, opens, {}};
+      same = after;
+      ++last;
     }
-    Term* after = std::find_if(first, last, [t](const Term& k) { return k.slot == t->slot; });
-    const bool opens = after == last;
-    after += opens ? 0 : 1;
-    std::move_backward(after, last, last + 1);
-    *after = {t->slot,         place, t->component, t->stride,
-              t->slow_section, opens, weight,       static_cast<Real>(t->share)};
-    ++last;
+    for (std::size_t k = 0; k < 3; ++k) {
+      same->weight[k] += static_cast<Real>(t->weight[k]);
+    }
   }
   to.count = static_cast<std::size_t>(last - first);
   std::transform(offset, offset + 3, to.offset, [](double o) { return static_cast<Real>(o); });
@@ -66,7 +69,7 @@ ERGOTIC_REALTIME void GuardedLinks<Real>::setTerms(std::size_t link,
 
 template <class Real>
 bool GuardedLinks<Real>::isFree(const GuardedView<Real>& view, const Term& term) const noexcept {
-  return term.slow_section < 0 && view.inverse_mass[term.slot] > Real(0);
+  return term.slow_section < 0 && view.inverse_mass[term.module] > Real(0);
 }
 
 /// Elongation or compression and its direction.
@@ -79,7 +82,7 @@ void GuardedLinks<Real>::place(const GuardedView<Real>& view,
   for (std::size_t t = link.first; t < link.first + link.count; ++t) {
     const Term& term = terms_[t];
     for (int k = 0; k < link.dimensions; ++k) {
-      u[k] += term.weight * view.x[term.at + k * term.stride];
+      u[k] += term.weight[k] * view.x[term.slot];
     }
   }
   const Real length = law.isContact() ? -law.length : law.length;
@@ -108,19 +111,19 @@ typename GuardedLinks<Real>::Course GuardedLinks<Real>::courseOf(const GuardedVi
   Course c;
   for (std::size_t t = link.first; t < link.first + link.count; ++t) {
     const Term& term = terms_[t];
-    const bool is_free = isFree(v, term);
+    const int i = term.slot;
     const bool is_held = term.slow_section >= 0;
+    // A held module moved when its section did, and will stay until that does again.
+    const Real now = is_held && v.due[term.slow_section] == 0 ? Real(0) : v.d[i];
+    const Real next =
+        is_held ? Real(0)
+                : v.keep[i] * now - v.pull[i] * v.x[i] + (v.inverse_mass[i] * v.f[i] + v.drift[i]);
+    const Real fixed = isFree(v, term) ? Real(0) : Real(1);
     for (int k = 0; k < link.dimensions; ++k) {
-      const int i = term.at + k * term.stride;
-      // A held module moved when its section did, and will stay until that does again.
-      const Real now = is_held && v.due[term.slow_section] == 0 ? Real(0) : term.weight * v.d[i];
-      const Real next = is_held ? Real(0)
-                                : v.keep[i] * now + term.weight * (v.inverse_mass[i] * v.f[i] +
-                                                                   v.drift[i] - v.pull[i] * v.x[i]);
-      c.now[k] += now;
-      c.next[k] += next;
-      c.fixed_now[k] += is_free ? Real(0) : now;
-      c.fixed_next[k] += is_free ? Real(0) : next;
+      c.now[k] += term.weight[k] * now;
+      c.next[k] += term.weight[k] * next;
+      c.fixed_now[k] += fixed * term.weight[k] * now;
+      c.fixed_next[k] += fixed * term.weight[k] * next;
     }
   }
   return c;
@@ -164,9 +167,16 @@ void GuardedLinks<Real>::countActive(const GuardedView<Real>& view,
                                      const Motion& m) noexcept {
   for (std::size_t t = link.first; t < link.first + link.count; ++t) {
     if (m.is_active && terms_[t].opens_module && isFree(view, terms_[t])) {
-      modules_[at(terms_[t].slot)].links += Real(1);
+      modules_[at(terms_[t].module)].links += Real(1);
     }
   }
+}
+
+/// Force on a coordinate per force of the link.
+template <class Real>
+Real GuardedLinks<Real>::leverOf(const Term& term, const Motion& m) noexcept {
+  return -(term.weight[0] * m.gradient[0] + term.weight[1] * m.gradient[1] +
+           term.weight[2] * m.gradient[2]);
 }
 
 /// How far a force opens the link, alone and if all links of its modules act as it does.
@@ -177,24 +187,19 @@ void GuardedLinks<Real>::yieldOf(const GuardedView<Real>& view,
   for (std::size_t t = link.first; t < link.first + link.count; ++t) {
     const Term& term = terms_[t];
     if (isFree(view, term)) {
-      const Real own = term.weight * term.weight * view.inverse_mass[term.slot];
+      const Real lever = leverOf(term, m);
+      const Real own = lever * lever * view.inverse_mass[term.module];
       m.own_give += own;
-      m.give += modules_[at(term.slot)].links * own;
+      m.give += modules_[at(term.module)].links * own;
     }
   }
 }
 
 template <class Real>
-void GuardedLinks<Real>::apply(const GuardedView<Real>& view,
-                               const Link& link,
-                               const Motion& m) noexcept {
+void GuardedLinks<Real>::load(const Link& link, const Motion& m) noexcept {
   for (std::size_t t = link.first; t < link.first + link.count; ++t) {
     const Term& term = terms_[t];
-    for (int k = 0; k < link.dimensions; ++k) {
-      const Real f = -term.weight * m.gradient[k] * m.total();
-      view.f[term.at + k * term.stride] += term.share * f;
-      modules_[at(term.slot)].load[term.component + k] += f;
-    }
+    modules_[at(term.module)].load[term.component] += leverOf(term, m) * m.total();
   }
 }
 
@@ -209,16 +214,13 @@ void GuardedLinks<Real>::visitShared(const GuardedView<Real>& view,
                                      const Visit& visit) noexcept {
   const std::size_t end = link.first + link.count;
   for (std::size_t t = link.first; t < end;) {
-    const int slot = terms_[t].slot;
+    const int slot = terms_[t].module;
     Module& module = modules_[at(slot)];
     const bool is_shared = module.links > Real(1) && isFree(view, terms_[t]);
     Real swing = Real(0);
-    for (; t < end && terms_[t].slot == slot; ++t) {
-      const Term& term = terms_[t];
-      for (int k = 0; k < link.dimensions; ++k) {
-        const Real lever = -term.weight * m.gradient[k];
-        swing += lever * (module.links * lever * m.total() - module.load[term.component + k]);
-      }
+    for (; t < end && terms_[t].module == slot; ++t) {
+      const Real lever = leverOf(terms_[t], m);
+      swing += lever * (module.links * lever * m.total() - module.load[terms_[t].component]);
     }
     if (is_shared) {
       visit(module, swing * view.inverse_mass[slot]);
@@ -264,22 +266,18 @@ ERGOTIC_REALTIME void GuardedLinks<Real>::step(const GuardedView<Real>& view,
                                                const GuardedLaw<Real>* laws,
                                                GuardedState<Real>* states) noexcept {
   const std::size_t links = links_.size();
+  const auto isIdle = [&view](std::size_t l) { return view.idle != nullptr && view.idle[l] != 0; };
   for (std::size_t l = 0; l < links; ++l) {
-    motions_[l] = measure(view, laws[l], links_[l], states[l]);
+    motions_[l] = isIdle(l) ? Motion{} : measure(view, laws[l], links_[l], states[l]);
     countActive(view, links_[l], motions_[l]);
   }
   for (std::size_t l = 0; l < links; ++l) {
     if (motions_[l].is_active) {
       yieldOf(view, links_[l], motions_[l]);
       exertForce(motions_[l], laws[l], states[l]);
+      load(links_[l], motions_[l]);
     }
     payWork(motions_[l], states[l]);
-  }
-  // No force before every link has had its look ahead.
-  for (std::size_t l = 0; l < links; ++l) {
-    if (motions_[l].is_active) {
-      apply(view, links_[l], motions_[l]);
-    }
   }
   for (std::size_t l = 0; l < links; ++l) {
     if (motions_[l].is_active) {
@@ -293,7 +291,7 @@ ERGOTIC_REALTIME void GuardedLinks<Real>::step(const GuardedView<Real>& view,
     closeStep(motions_[l], states[l]);
   }
   for (const Term& term : terms_) {
-    modules_[at(term.slot)] = Module{};
+    modules_[at(term.module)] = Module{};
   }
 }
 
@@ -317,18 +315,14 @@ ERGOTIC_REALTIME Real GuardedLinks<Real>::stored(const GuardedView<Real>& view,
 }
 
 template <class Real>
-ERGOTIC_REALTIME double GuardedLinks<Real>::retune(const GuardedView<Real>& view,
-                                                   const GuardedLaw<Real>* from,
-                                                   const GuardedLaw<Real>* to,
-                                                   GuardedState<Real>* states) const noexcept {
-  double work = 0.0;
+ERGOTIC_REALTIME void GuardedLinks<Real>::retune(const GuardedView<Real>& view,
+                                                 const GuardedLaw<Real>* from,
+                                                 const GuardedLaw<Real>* to,
+                                                 GuardedState<Real>* states) const noexcept {
   for (std::size_t l = 0; l < links_.size(); ++l) {
-    const Real before = states[l].tank;
     const Real change = stored(view, to[l], l) - stored(view, from[l], l);
-    states[l].tank = std::max(Real(0), before + change);
-    work += static_cast<double>(states[l].tank - before);
+    states[l].tank = std::max(Real(0), states[l].tank + change);
   }
-  return work;
 }
 
 template class GuardedLinks<float>;

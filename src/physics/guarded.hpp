@@ -9,37 +9,35 @@
 
 namespace ergotic::physics {
 
-/// One module of an end of a guarded link. The weights are signed: those of end a, less those of
-/// end b.
+/// One coordinate of a module that a guarded link reaches: at its end itself, or through points.
 struct GuardedTerm {
-  int slot = 0;       ///< of its first coordinate
-  int stride = 0;     ///< from one coordinate to the next
-  int component = 0;  ///< the coordinate that a scalar link works on
-  double weight = 1.0;
-  int slow_section = -1;  ///< where the module is stepped, if more slowly than the link
-  double share = 1.0;     ///< of the force that it receives at each step of the link
+  int slot = 0;                  ///< of the coordinate
+  int module = 0;                ///< slot of the module's first coordinate
+  int component = 0;             ///< 0 x, 1 y, 2 z
+  double weight[3] = {1, 0, 0};  ///< in each coordinate of end a less end b
+  int slow_section = -1;         ///< where the module is stepped, if more slowly than the link
 };
 
 struct GuardedLink {
-  bool euclidean = false;  ///< works along the line that joins its ends
-  int dimensions = 1;      ///< coordinates that it measures
+  int dimensions = 0;  ///< 0: scalar; otherwise it works along the line that joins its ends
   std::vector<GuardedTerm> terms;
   std::size_t capacity = 0;      ///< most terms it will ever have; 0: as many as now
-  double offset[3] = {0, 0, 0};  ///< distance of the ends while all displacements are 0, m
+  double offset[3] = {0, 0, 0};  ///< end a less end b while all displacements are 0, m
 };
 
-/// The modules as links see them within a step. Forces of everything else are already in `f`.
+/// The modules as links see them within a step; `f`: forces of everything else.
 template <class Real>
 struct GuardedView {
   const Real* x = nullptr;
   const Real* d = nullptr;  ///< x[n] - x[n-1]
-  Real* f = nullptr;
+  const Real* f = nullptr;
   // The step to come is d <- keep d - pull x + inverse_mass f + drift.
   const Real* inverse_mass = nullptr;  ///< h^2/M; 0: forces do not move it
   const Real* drift = nullptr;
   const Real* keep = nullptr;
   const Real* pull = nullptr;
-  const unsigned char* due = nullptr;  ///< [sections] 1 if it moved in this step
+  const unsigned char* due = nullptr;   ///< [sections] 1 if it moved in this step
+  const unsigned char* idle = nullptr;  ///< [links] 1 if it sleeps; none: all are awake
 };
 
 /// Links that never give more energy than they took, of one rate, all together: those that share
@@ -63,18 +61,18 @@ class GuardedLinks {
              const GuardedLaw<Real>* laws,
              GuardedState<Real>* states) const noexcept;
 
-  /// Adds the forces of all links to view.f.
-  /// Realtime: yes. Cost: O(links)
+  /// Works out the forces of this step, see GuardedState. End b receives them along the gradient,
+  /// end a against it. Realtime: yes. Cost: O(links)
   void step(const GuardedView<Real>& view,
             const GuardedLaw<Real>* laws,
             GuardedState<Real>* states) noexcept;
 
   /// Other laws come: their tanks follow, by work of whoever turned the knob.
-  /// \return that work. Realtime: yes. Cost: O(links)
-  double retune(const GuardedView<Real>& view,
-                const GuardedLaw<Real>* from,
-                const GuardedLaw<Real>* to,
-                GuardedState<Real>* states) const noexcept;
+  /// Realtime: yes. Cost: O(links)
+  void retune(const GuardedView<Real>& view,
+              const GuardedLaw<Real>* from,
+              const GuardedLaw<Real>* to,
+              GuardedState<Real>* states) const noexcept;
 
   /// Other modules for a link whose end has moved along a string.
   /// \pre at most `capacity` of the link. Realtime: yes. Cost: O(count^2)
@@ -90,14 +88,12 @@ class GuardedLinks {
 
  private:
   struct Term {
-    int slot;  // of the module
-    int at;    // of the first coordinate it works on
+    int slot;
+    int module;
     int component;
-    int stride;
     int slow_section;
     bool opens_module;  // first term of the link on this module
-    Real weight;
-    Real share;
+    Real weight[3];
   };
   struct Link {
     bool euclidean;
@@ -128,7 +124,8 @@ class GuardedLinks {
   Course courseOf(const GuardedView<Real>& view, const Link& link) const noexcept;
   void countActive(const GuardedView<Real>& view, const Link& link, const Motion& m) noexcept;
   void yieldOf(const GuardedView<Real>& view, const Link& link, Motion& m) const noexcept;
-  void apply(const GuardedView<Real>& view, const Link& link, const Motion& m) noexcept;
+  void load(const Link& link, const Motion& m) noexcept;
+  static Real leverOf(const Term& term, const Motion& m) noexcept;
   template <class Visit>
   void visitShared(const GuardedView<Real>& view,
                    const Link& link,

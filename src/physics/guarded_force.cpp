@@ -155,6 +155,7 @@ template <class Real>
 void payWork(GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept {
   const Real swing = m.swing();
   const Real work = m.force * swing / Real(2);
+  state.stored = static_cast<double>(state.tank - m.force * m.coasting / Real(4));
   m.heat = -m.damper * swing / Real(2);
   if (m.forfeits && work < Real(0)) {
     m.heat -= work;

@@ -10,6 +10,7 @@ namespace ergotic::physics {
 /// What a guarded link remembers; all 0 before it starts. Energies in force unit times m.
 template <class Real>
 struct GuardedState {
+  double stored = 0.0;      ///< at this step: the tank, with the first half of the step's work
   double lost = 0.0;        ///< energy dissipated since the start
   double active = 0.0;      ///< steps in which it pushed
   double clipped = 0.0;     ///< of these, with less force than its law asks for

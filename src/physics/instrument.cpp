@@ -7,6 +7,7 @@
 #include "coefficients.hpp"
 #include "energy_meter.hpp"
 #include "ergotic/exception.hpp"
+#include "guarded_runs.hpp"
 #include "layout.hpp"
 #include "points.hpp"
 #include "sleeper.hpp"
@@ -51,6 +52,7 @@ class InstrumentOf final : public Instrument {
         meter_(scene, layout_, state_),
         stepper_(layout_),
         points_(scene, layout_),
+        guarded_(scene, layout_, points_, state_),
         taps_(layout_),
         sleeper_(scene, layout_, *coefficients_),
         due_(layout_.sections.size(), 0),
@@ -92,6 +94,9 @@ class InstrumentOf final : public Instrument {
       changed_ = true;
     }
     auto* mine = static_cast<CoefficientsOf<Real>*>(next.release());
+    if (state_.frame() > 0) {
+      guarded_.retune(*coefficients_, *mine, state_);
+    }
     std::unique_ptr<Coefficients> old = std::move(coefficients_);
     coefficients_.reset(mine);
     return old;
@@ -118,8 +123,10 @@ class InstrumentOf final : public Instrument {
   void readEnergies(Energies& to) const noexcept override {
     meter_.read(*coefficients_, state_, to);
   }
-  std::vector<GuardReport> makeGuardReports() const override { return {}; }
-  void readGuards(std::vector<GuardReport>&) const noexcept override {}
+  std::vector<GuardReport> makeGuardReports() const override { return guarded_.makeReports(); }
+  void readGuards(std::vector<GuardReport>& to) const noexcept override {
+    guarded_.read(state_, to);
+  }
 
   bool isFinite() const noexcept override {
     const Real* x = state_.x();
@@ -144,7 +151,7 @@ class InstrumentOf final : public Instrument {
     }
     points_.placeAtStart(*coefficients_, state_.x(), state_.d(), state_.places());
     for (std::size_t r = 0; r < layout_.runs.size(); ++r) {
-      if (remembers(layout_.runs[r])) {
+      if (remembers(layout_.runs[r]) && !layout_.runs[r].guarded) {
         stepper_.storeAtStart(r, coefficients_->runs[r], state_);
       }
     }
@@ -187,6 +194,7 @@ class InstrumentOf final : public Instrument {
     }
     feedForces(in);
     points_.scatter(state_.f(), state_.places());
+    guarded_.step(now, *coefficients_, stepper_, due_.data(), state_);
     meter_.endFrame(now, state_);
     taps_.takeForces(*coefficients_, now, state_, out);
     sleeper_.endFrame(now, *coefficients_, meter_, state_);
@@ -263,6 +271,7 @@ class InstrumentOf final : public Instrument {
   EnergyMeter<Real> meter_;
   Stepper<Real> stepper_;
   Points<Real> points_;
+  GuardedRuns<Real> guarded_;
   Taps<Real> taps_;
   Sleeper<Real> sleeper_;
   std::vector<unsigned char> due_;  // [sections] in this frame

@@ -42,6 +42,17 @@ class Stepper {
                  bool slow_ends,
                  State<Real>& state) const noexcept {
     const LinkRun& run = layout_.runs[r];
+    const kernels::Frame<Real> at = frameOf(r, due, slow_ends, state);
+    visitLaw(run, c, state.engaged(r),
+             [&](const auto& law) { kernels::step(run, law, c.rests.data(), at); });
+  }
+
+  /// How the ends of a run count in this frame.
+  kernels::Frame<Real> frameOf(std::size_t r,
+                               const unsigned char* due,
+                               bool slow_ends,
+                               State<Real>& state) const noexcept {
+    const LinkRun& run = layout_.runs[r];
     const bool across = run.slow_section >= 0;
     const Real fresh = !across || due[run.slow_section] != 0 ? Real(1) : Real(0);
     const Real share = static_cast<Real>(run.share);
@@ -58,8 +69,7 @@ class Stepper {
     at.slow_ends = across && slow_ends;
     at.memory = state.memory(r);
     at.work = state.work() + r;
-    visitLaw(run, c, state.engaged(r),
-             [&](const auto& law) { kernels::step(run, law, c.rests.data(), at); });
+    return at;
   }
 
   /// Books what remembering links hold before anything moves. Realtime: no.

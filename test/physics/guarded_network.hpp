@@ -40,22 +40,23 @@ class GuardedNetwork {
   using End = std::vector<std::pair<int, double>>;
   std::size_t guard(const Law& law, const End& a, const End& b = {}) {
     GuardedLink link;
-    link.euclidean = dimensions_ > 1;
-    link.dimensions = dimensions_;
-    for (const auto& [m, weight] : a) {
-      link.terms.push_back({m * dimensions_, 1, 0, weight});
+    link.dimensions = dimensions_ > 1 ? dimensions_ : 0;
+    for (int k = 0; k < dimensions_; ++k) {
+      for (const auto& [m, weight] : a) {
+        link.terms.push_back(term(m, k, weight));
+      }
+      for (const auto& [m, weight] : b) {
+        link.terms.push_back(term(m, k, -weight));
+      }
     }
-    for (const auto& [m, weight] : b) {
-      link.terms.push_back({m * dimensions_, 1, 0, -weight});
-    }
-    links_.push_back(link);
+    links.push_back(link);
     laws.push_back(law);
-    return links_.size() - 1;
+    return links.size() - 1;
   }
 
   void start() {
-    states.assign(links_.size(), GuardedState<Real>{});
-    guarded_ = std::make_unique<GuardedLinks<Real>>(links_, x_.size());
+    states.assign(links.size(), GuardedState<Real>{});
+    guarded_ = std::make_unique<GuardedLinks<Real>>(links, x_.size());
     guarded_->start(view(), laws.data(), states.data());
   }
 
@@ -68,6 +69,13 @@ class GuardedNetwork {
       }
     }
     guarded_->step(view(), laws.data(), states.data());
+    for (std::size_t l = 0; l < links.size(); ++l) {
+      for (const GuardedTerm& t : links[l].terms) {
+        const Real weight = static_cast<Real>(t.weight[t.component]);
+        const Real force = states[l].force + states[l].damper;
+        f_[at(t.slot)] -= weight * states[l].gradient[t.component] * force;
+      }
+    }
     for (std::size_t i = 0; i < x_.size(); ++i) {
       d_[i] = keep_[i] * d_[i] - pull_[i] * x_[i] + (inverse_mass_[i] * f_[i] + drift_[i]);
       x_[i] += d_[i];
@@ -130,6 +138,7 @@ class GuardedNetwork {
 
   std::vector<Law> laws;
   std::vector<GuardedState<Real>> states;
+  std::vector<GuardedLink> links;
 
  private:
   struct Spring {
@@ -137,13 +146,17 @@ class GuardedNetwork {
     int b;
     double stiffness;
   };
+  GuardedTerm term(int m, int component, double weight) const {
+    GuardedTerm t{m * dimensions_ + component, m * dimensions_, component, {0, 0, 0}, -1};
+    t.weight[component] = weight;
+    return t;
+  }
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   Real elongation(const Spring& s) const { return x_[at(s.a)] - (s.b < 0 ? Real(0) : x_[at(s.b)]); }
 
   int dimensions_;
   std::vector<Real> inverse_mass_, drift_, keep_, pull_, x_, d_, f_;
   std::vector<Spring> springs_;
-  std::vector<GuardedLink> links_;
   std::unique_ptr<GuardedLinks<Real>> guarded_;
 };
 

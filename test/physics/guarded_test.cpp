@@ -196,7 +196,7 @@ struct Barrier {
 };
 
 TEST(GuardedTest, StringOnABarrierKeepsItsEnergy) {
-  for (const double kappa : {0.05, 0.3, 1.0, 3.0, 10.0, 100.0}) {
+  for (const double kappa : {0.05, 1.0, 100.0}) {
     for (const double exponent : {1.0, 1.5}) {
       Barrier barrier(kappa, exponent, true);
       barrier.net.step();
@@ -233,7 +233,7 @@ Network cubicChain(double amplitude) {
 
 /// Without refunds it would lose nearly all, without counting shared masses gain 10^4 times.
 TEST(GuardedTest, CubicChainKeepsItsEnergyAtAnyAmplitude) {
-  for (const double amplitude : {0.1, 1.0, 2.0, 5.0, 30.0}) {
+  for (const double amplitude : {0.1, 2.0, 30.0}) {
     Network net = cubicChain(amplitude);
     const double before = net.energy();
     double worst = 0.0;

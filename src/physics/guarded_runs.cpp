@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "guarded_runs.hpp"
+
+#include <algorithm>
+
+namespace ergotic::physics {
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+template <class Real>
+GuardedRuns<Real>::GuardedRuns(const scene::Scene& scene,
+                               const Layout& layout,
+                               const Points<Real>& points,
+                               State<Real>& state)
+    : layout_(layout),
+      points_(points),
+      place_of_slot_(at(layout.slots()), -1),
+      projection_of_slot_(at(layout.slots()), -1),
+      members_(guardedGroupsOf(layout)),
+      forces_(members_.empty() ? 0 : at(layout.slots()), Real(0)) {
+  for (const scene::Mat& mat : scene.mats) {
+    rests_.push_back(mat.rest);
+  }
+  for (std::size_t p = 0; p < layout.places.size(); ++p) {
+    place_of_slot_[at(layout.places[p].slot)] = static_cast<int>(p);
+  }
+  for (std::size_t p = 0; p < layout.projections.size(); ++p) {
+    projection_of_slot_[at(layout.projections[p].slot)] = static_cast<int>(p);
+  }
+  const std::vector<double> somewhere(2 * layout.places.size(), 0.0);
+  for (const GuardedGroup& members : members_) {
+    std::vector<GuardedLink> links;
+    std::vector<std::size_t> moving;
+    for (const GuardedRef& ref : members.links) {
+      const LinkEnds& ends = layout.runs[ref.run].ends[ref.link];
+      if (isOnPlace(ends.a) || isOnPlace(ends.b)) {
+        moving.push_back(links.size());
+      }
+      links.push_back(describe(ref, somewhere.data()));
+    }
+    const std::string name = "guarded" + std::to_string(groups_.size());
+    groups_.push_back({GuardedLinks<Real>(links, at(layout.slots())), moving,
+                       std::vector<unsigned char>(links.size(), 0),
+                       state.arena().template add<GuardedState<Real>>(name, links.size())});
+  }
+}
+
+template <class Real>
+bool GuardedRuns<Real>::isOnPlace(int slot) const noexcept {
+  const int projection = projection_of_slot_[at(slot)];
+  return place_of_slot_[at(slot)] >= 0 ||
+         (projection >= 0 && isOnPlace(layout_.projections[at(projection)].of.slot));
+}
+
+template <class Real>
+GuardedLink GuardedRuns<Real>::describe(const GuardedRef& ref, const double* places) const {
+  const Reach reach = reachOf(ref, places);
+  GuardedLink link;
+  link.dimensions = layout_.runs[ref.run].dimensions;
+  link.terms.assign(reach.terms.begin(), reach.terms.begin() + reach.count);
+  link.capacity = reach.terms.size();
+  std::copy_n(reach.offset, 3, link.offset);
+  return link;
+}
+
+template <class Real>
+typename GuardedRuns<Real>::Reach GuardedRuns<Real>::reachOf(const GuardedRef& ref,
+                                                             const double* places) const noexcept {
+  const LinkRun& run = layout_.runs[ref.run];
+  const int divisor = layout_.sections[at(run.section)].divisor;
+  const auto slowOf = [&](int section) {
+    return layout_.sections[at(section)].divisor > divisor ? section : -1;
+  };
+  const int dimensions = std::max(1, run.dimensions);
+  const LinkEnds& ends = run.ends[ref.link];
+  const Eigen::Matrix3d map = Eigen::Matrix3d::Identity();
+  Reach reach;
+  Eigen::Map<Eigen::Vector3d>(reach.offset) = run.rests[ref.link];
+  reachEnd(ends.a, run.stride_a, dimensions, map, slowOf(run.section_a), places, reach);
+  reachEnd(ends.b, run.stride_b, dimensions, -map, slowOf(run.section_b), places, reach);
+  return reach;
+}
+
+/// \param map  from the coordinates of the end to those of the link, signed
+template <class Real>
+void GuardedRuns<Real>::reachEnd(int slot,
+                                 int stride,
+                                 int dimensions,
+                                 const Eigen::Matrix3d& map,
+                                 int slow_section,
+                                 const double* places,
+                                 Reach& to) const noexcept {
+  const auto add = [&](int module, int step, double weight) {
+    for (int c = 0; c < dimensions; ++c) {
+      GuardedTerm& term = to.terms[to.count++];
+      term = {module + c * step, module, c, {}, slow_section};
+      Eigen::Map<Eigen::Vector3d>(term.weight) = weight * map.col(c);
+    }
+  };
+  const int projection = projection_of_slot_[at(slot)];
+  const int place = place_of_slot_[at(slot)];
+  if (projection >= 0) {
+    const ProjectedPoint& point = layout_.projections[at(projection)];
+    Eigen::Matrix3d seen = Eigen::Matrix3d::Zero();
+    seen.topRows(point.dimensions) = point.axes.topRows(point.dimensions);
+    reachEnd(point.of.slot, point.of.stride, point.source_dimensions, map * seen, slow_section,
+             places, to);
+  } else if (place >= 0) {
+    const PlacePoint& point = layout_.places[at(place)];
+    const scene::GridPlace around = points_.around(at(place), places);
+    const Eigen::Vector3d& rest = rests_[at(layout_.mat_of_slot[at(slot)])];
+    for (int i = 0; i < around.count; ++i) {
+      const double weight = around.weights[at(i)];
+      add(points_.slotOf(around, i), point.stride, weight);
+      const Eigen::Vector3d apart = rests_[at(around.mats[at(i)])] - rest;
+      for (int c = 0; c < dimensions; ++c) {
+        Eigen::Map<Eigen::Vector3d>(to.offset) += weight * apart[c] * map.col(c);
+      }
+    }
+  } else {
+    add(slot, stride, 1.0);
+  }
+}
+
+template <class Real>
+GuardedView<Real> GuardedRuns<Real>::viewOf(const Group& group,
+                                            const CoefficientsOf<Real>& c,
+                                            const unsigned char* due,
+                                            State<Real>& state) const noexcept {
+  GuardedView<Real> view;
+  view.x = state.x();
+  view.d = state.d();
+  view.f = state.f();
+  view.inverse_mass = c.masses.inverse_mass.data();
+  view.drift = c.masses.drift.data();
+  view.keep = c.masses.keep.data();
+  view.pull = c.masses.pull.data();
+  view.due = due;
+  view.idle = group.idle.data();
+  return view;
+}
+
+template <class Real>
+void GuardedRuns<Real>::followPlaces(std::size_t g, State<Real>& state) noexcept {
+  for (const std::size_t l : groups_[g].moving) {
+    const Reach reach = reachOf(members_[g].links[l], state.places());
+    groups_[g].links.setTerms(l, reach.terms.data(), reach.count, reach.offset);
+  }
+}
+
+template <class Real>
+void GuardedRuns<Real>::markIdle(std::size_t g, State<Real>& state) noexcept {
+  for (std::size_t l = 0; l < members_[g].links.size(); ++l) {
+    const LinkRun& run = layout_.runs[members_[g].links[l].run];
+    const bool is_inside = run.section_a == run.section_b;
+    groups_[g].idle[l] = is_inside ? state.asleep()[run.section_a] : 0;
+  }
+}
+
+/// Hands the forces to both ends, as explicit links do.
+template <class Real>
+void GuardedRuns<Real>::exchange(std::size_t g,
+                                 std::int64_t now,
+                                 const Stepper<Real>& stepper,
+                                 const unsigned char* due,
+                                 State<Real>& state) noexcept {
+  const GuardedState<Real>* all = states(g, state);
+  for (std::size_t l = 0; l < members_[g].links.size(); ++l) {
+    const GuardedRef& ref = members_[g].links[l];
+    const LinkRun& run = layout_.runs[ref.run];
+    if (groups_[g].idle[l] != 0) {
+      continue;
+    }
+    const bool slow_ends =
+        run.slow_section >= 0 && (now + 1) % layout_.sections[at(run.slow_section)].divisor == 0;
+    kernels::Frame<Real> frame = stepper.frameOf(ref.run, due, slow_ends, state);
+    frame.f = forces_.data();
+    for (int k = 0; k < std::max(1, run.dimensions); ++k) {
+      const int a = run.ends[ref.link].a + k * run.stride_a;
+      const int b = run.ends[ref.link].b + k * run.stride_b;
+      const std::size_t index = at(k) * run.ends.size() + ref.link;
+      const Real n = all[l].gradient[k];
+      kernels::exchangeForce(run, frame, index, a, b, {n * all[l].force, n * all[l].damper});
+      if (frame.slow_ends) {
+        kernels::closeSlowStep(run, frame, index, a, b);
+      }
+    }
+  }
+}
+
+/// What its tanks hold is what a run stores; the rest of what it took is gone.
+template <class Real>
+void GuardedRuns<Real>::closeBooks(std::size_t g, bool starts, State<Real>& state) const noexcept {
+  const GuardedState<Real>* all = states(g, state);
+  const std::vector<GuardedRef>& links = members_[g].links;
+  for (std::size_t l = 0; l < links.size();) {
+    const std::size_t run = links[l].run;
+    double stored = 0.0;
+    for (; l < links.size() && links[l].run == run; ++l) {
+      stored += starts ? static_cast<double>(all[l].tank) : all[l].stored;
+    }
+    kernels::Work& work = state.work()[run];
+    if (starts) {
+      work.initial = stored;
+    }
+    const double gone = work.initial + work.stored - stored;
+    work.stored -= gone;
+    work.dissipated += gone;
+  }
+}
+
+template <class Real>
+ERGOTIC_REALTIME void GuardedRuns<Real>::step(std::int64_t now,
+                                              const CoefficientsOf<Real>& c,
+                                              const Stepper<Real>& stepper,
+                                              const unsigned char* due,
+                                              State<Real>& state) noexcept {
+  bool any = false;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    if (now % members_[g].divisor != 0) {
+      continue;
+    }
+    any = true;
+    followPlaces(g, state);
+    markIdle(g, state);
+    const GuardedView<Real> view = viewOf(groups_[g], c, due, state);
+    if (now == 0) {
+      groups_[g].links.start(view, c.guarded[g].data(), states(g, state));
+      closeBooks(g, true, state);
+    }
+    groups_[g].links.step(view, c.guarded[g].data(), states(g, state));
+    exchange(g, now, stepper, due, state);
+    closeBooks(g, false, state);
+  }
+  if (any) {
+    points_.scatter(forces_.data(), state.places());
+    for (std::size_t slot = 0; slot < forces_.size(); ++slot) {
+      state.f()[slot] += forces_[slot];
+      forces_[slot] = Real(0);
+    }
+  }
+}
+
+template <class Real>
+ERGOTIC_REALTIME void GuardedRuns<Real>::retune(const CoefficientsOf<Real>& from,
+                                                const CoefficientsOf<Real>& to,
+                                                State<Real>& state) noexcept {
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const GuardedView<Real> view = viewOf(groups_[g], from, nullptr, state);
+    const auto book = [&](double sign) {
+      for (std::size_t l = 0; l < members_[g].links.size(); ++l) {
+        state.work()[members_[g].links[l].run].stored +=
+            sign * static_cast<double>(states(g, state)[l].tank);
+      }
+    };
+    book(-1.0);
+    groups_[g].links.retune(view, from.guarded[g].data(), to.guarded[g].data(), states(g, state));
+    book(1.0);
+  }
+}
+
+template <class Real>
+std::vector<GuardReport> GuardedRuns<Real>::makeReports() const {
+  std::vector<GuardReport> reports;
+  for (const GuardedGroup& members : members_) {
+    for (const GuardedRef& ref : members.links) {
+      reports.push_back({layout_.runs[ref.run].lias[ref.link], 0, 0});
+    }
+  }
+  return reports;
+}
+
+template <class Real>
+ERGOTIC_REALTIME void GuardedRuns<Real>::read(const State<Real>& state,
+                                              std::vector<GuardReport>& to) const noexcept {
+  std::size_t next = 0;
+  for (const Group& group : groups_) {
+    const auto* all = state.arena().template at<GuardedState<Real>>(group.states_at);
+    for (std::size_t l = 0; l < group.links.size(); ++l) {
+      to[next].active = static_cast<std::int64_t>(all[l].active);
+      to[next].clipped = static_cast<std::int64_t>(all[l].clipped);
+      ++next;
+    }
+  }
+}
+
+template class GuardedRuns<float>;
+template class GuardedRuns<double>;
+
+}  // namespace ergotic::physics

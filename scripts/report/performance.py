@@ -67,8 +67,10 @@ class Performance:
         self.forces = np.concatenate([b.forces for b in blocks]).reshape(-1, slices)
 
     def _take_motion(self, motion, structure):
+        numbers = [structure.section_dimensions[s] for s in structure.module_sections]
+        begin = np.concatenate([[0], np.cumsum(numbers)])  # of each module in a picture
         wanted = np.concatenate(
-            [np.arange(first, first + count)
+            [np.arange(begin[first], begin[first + count])
              for first, count in zip(structure.string_first, structure.string_count)])
         self.times = np.array([m.header.stamp.to_sec() for m in motion])
         self.displacements = np.array(

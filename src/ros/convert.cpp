@@ -3,7 +3,7 @@
 
 #include <sstream>
 
-#include "ros/geometry.hpp"
+#include "ergotic/station/health.hpp"
 #include "ros/model_loader.hpp"
 
 namespace ergotic::node {
@@ -16,8 +16,8 @@ template <class T>
 constexpr std::uint8_t number(T value) {
   return static_cast<std::uint8_t>(value);
 }
-static_assert(ModelStructure::SLICE == number(scene::MatType::kSlice));
-static_assert(ModelStructure::SMOOTH_BOW == number(scene::LiaType::kSmoothBow));
+static_assert(ModelStructure::POINT == number(scene::MatType::kPoint));
+static_assert(ModelStructure::CONDITIONAL == number(scene::LiaType::kConditional));
 static_assert(Event::AUDIO_STOPPED == number(EventType::kAudioStopped));
 static_assert(Event::FAULT == number(EventType::kFault));
 static_assert(Status::FAULT == number(station::ForceState::kFault));
@@ -94,15 +94,27 @@ std::string textOf(const station::Event& event, const scene::Scene* scene) {
   return text.str();
 }
 
+geometry_msgs::Pose poseOf(const Eigen::Isometry3d& pose) {
+  const Eigen::Vector3d position = pose.translation();
+  const Eigen::Quaterniond orientation(pose.linear());
+  geometry_msgs::Pose message;
+  message.position.x = position.x();
+  message.position.y = position.y();
+  message.position.z = position.z();
+  message.orientation.x = orientation.x();
+  message.orientation.y = orientation.y();
+  message.orientation.z = orientation.z();
+  message.orientation.w = orientation.w();
+  return message;
+}
+
 void addSections(const scene::Scene& scene, const physics::Rates& rates, ModelStructure& message) {
   for (const scene::Section& section : scene.sections) {
     message.section_names.push_back(section.name);
     message.section_rates.push_back(rates.audio_hz / physics::divisorOf(section, rates));
-    const Eigen::Vector3d axis = axisOf(section);
-    message.section_axes.emplace_back();
-    message.section_axes.back().x = axis.x();
-    message.section_axes.back().y = axis.y();
-    message.section_axes.back().z = axis.z();
+    message.section_poses.push_back(poseOf(section.pose));
+    message.section_dimensions.push_back(
+        static_cast<std::uint8_t>(scene::dimensionsOf(section.geometry)));
   }
 }
 
@@ -118,7 +130,7 @@ ModelStructure toModelStructure(const scene::Scene& scene, const physics::Rates&
     message.module_names.push_back(mat.name);
     message.module_types.push_back(number(mat.type));
     message.module_sections.push_back(static_cast<std::uint32_t>(mat.section));
-    const Eigen::Vector3f rest = restOf(scene, mat).cast<float>();
+    const Eigen::Vector3f rest = (scene.sectionOf(mat).pose * mat.rest).cast<float>();
     message.rest_positions.insert(message.rest_positions.end(), rest.data(), rest.data() + 3);
   }
   for (const scene::Lia& lia : scene.lias) {
@@ -193,6 +205,37 @@ void fillStatus(const physics::Instrument& instrument, Status& status) {
   status.precision = instrument.precision() == physics::Precision::kDouble ? "double" : "float";
   status.modules = static_cast<std::uint32_t>(scene.mats.size());
   status.links = static_cast<std::uint32_t>(scene.lias.size());
+}
+
+void fillStatus(const station::MotionFrame& motion, const scene::Scene& scene, Status& status) {
+  status.stored_energy = motion.energies.stored;
+  status.energy_residual = station::relativeResidual(motion.energies);
+  const std::vector<std::string> warnings = station::guardWarnings(scene, motion.guards);
+  status.guard_warning = warnings.empty() ? "" : warnings.front();
+}
+
+ModelEnergy toModelEnergy(const station::MotionFrame& motion) {
+  ModelEnergy message;
+  message.tick = motion.tick;
+  message.stored = motion.energies.stored;
+  message.from_parameters = motion.energies.from_parameters;
+  message.residual = motion.energies.residual;
+  for (const physics::SectionEnergy& section : motion.energies.sections) {
+    message.kinetic.push_back(section.kinetic);
+    message.potential.push_back(section.potential);
+    message.dissipated.push_back(section.dissipated);
+    message.from_device.push_back(section.from_device);
+    message.from_inputs.push_back(section.from_inputs);
+    message.from_links.push_back(section.from_links);
+  }
+  for (const physics::CouplingEnergy& coupling : motion.energies.couplings) {
+    message.couplings.push_back(static_cast<std::uint32_t>(coupling.section_a));
+    message.couplings.push_back(static_cast<std::uint32_t>(coupling.section_b));
+    message.coupling_stored.push_back(coupling.stored);
+    message.coupling_dissipated.push_back(coupling.dissipated);
+    message.coupling_breathing.push_back(coupling.breathing);
+  }
+  return message;
 }
 
 Keyframe toKeyframe(const station::Keyframe& keyframe,

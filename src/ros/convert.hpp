@@ -3,6 +3,7 @@
 
 #include <ergotic/Event.h>
 #include <ergotic/Keyframe.h>
+#include <ergotic/ModelEnergy.h>
 #include <ergotic/ModelStructure.h>
 #include <ergotic/Status.h>
 #include <sensor_msgs/JointState.h>
@@ -27,6 +28,11 @@ void fillStatus(const station::Snapshot& snapshot, Status& status);
 
 /// Fills name, rates and sizes of `status`.
 void fillStatus(const physics::Instrument& instrument, Status& status);
+
+/// Fills energies and the warning on guarded links of `status`.
+void fillStatus(const station::MotionFrame& motion, const scene::Scene& scene, Status& status);
+
+ModelEnergy toModelEnergy(const station::MotionFrame& motion);
 
 Keyframe toKeyframe(const station::Keyframe& keyframe,
                     const physics::Instrument& instrument,

@@ -21,6 +21,7 @@ Diagnostics::Diagnostics(const ::ros::NodeHandle& node,
   updater_.add("force", this, &Diagnostics::reportForce);
   updater_.add("real time", this, &Diagnostics::reportRealtime);
   updater_.add("sound", this, &Diagnostics::reportSound);
+  updater_.add("model", this, &Diagnostics::reportModel);
 }
 
 bool Diagnostics::isDue() {
@@ -53,8 +54,6 @@ void Diagnostics::reportForce(Report& report) {
   report.add("device", status_.driver);
   report.add("slices", status_.slices);
   report.add("peak force (N)", status_.peak_force);
-  report.add("model", status_.model);
-  report.add("verdict", status_.verdict);
 }
 
 void Diagnostics::reportRealtime(Report& report) {
@@ -103,6 +102,20 @@ void Diagnostics::reportSound(Report& report) {
     report.add("period (frames)", jack_->period_frames);
     report.add("starts", jack_->starts);
   }
+}
+
+void Diagnostics::reportModel(Report& report) {
+  if (!status_.guard_warning.empty()) {
+    report.summary(Level::WARN, status_.guard_warning);
+  } else if (status_.model.empty()) {
+    report.summary(Level::OK, "no model");
+  } else {
+    report.summary(Level::OK, status_.verdict);
+  }
+  report.add("model", status_.model);
+  report.add("verdict", status_.verdict);
+  report.add("stored energy (J)", status_.stored_energy);
+  report.add("residual of the energy balance (share)", status_.energy_residual);
 }
 
 }  // namespace ergotic::node

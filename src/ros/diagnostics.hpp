@@ -12,7 +12,7 @@
 
 namespace ergotic::node {
 
-/// What /diagnostics says: force, real time, sound; once a second.
+/// What /diagnostics says: force, real time, sound, model; once a second.
 /// Thread: operator, all but the constructor
 class Diagnostics {
  public:
@@ -37,6 +37,7 @@ class Diagnostics {
   void reportForce(Report& report);
   void reportRealtime(Report& report);
   void reportSound(Report& report);
+  void reportModel(Report& report);
 
   diagnostic_updater::Updater updater_;
   Status status_;

@@ -24,6 +24,7 @@ Feed::Feed(::ros::NodeHandle& node) {
   joint_states_ = node.advertise<sensor_msgs::JointState>("joint_states", kQueue);
   model_structure_ = node.advertise<ModelStructure>("model_structure", 1, kLatched);
   model_state_ = node.advertise<ModelState>("model_state", kQueue);
+  model_energy_ = node.advertise<ModelEnergy>("model_energy", kQueue);
   markers_topic_ = node.advertise<visualization_msgs::MarkerArray>("markers", 2);
   keyframe_ = node.advertise<Keyframe>("keyframe", kQueue, kLatched);
   events_ = node.advertise<Event>("events", kEventQueue);
@@ -47,6 +48,7 @@ void Feed::showModel(const station::Performer& performer, const std::string& not
   fillStatus(instrument, status_);
   status_.verdict = physics::toString(performer.certificate.verdict);
   status_.message = note;
+  status_.guard_warning.clear();
   note_ = note;
   sendStatus();
 
@@ -111,13 +113,19 @@ void Feed::show(const station::Snapshot& snapshot) {
   }
 }
 
-void Feed::show(const station::MotionFrame& motion) {
+void Feed::show(const station::MotionFrame& motion, const scene::Scene& scene) {
   const std::int64_t now_ns = rt::monotonicNs();  // ROS time may jump
   if (now_ns < motion_due_ns_ || !markers_) {
     return;
   }
   motion_due_ns_ = std::max(motion_due_ns_ + motion_period_ns_, now_ns);
+  watch(motion, scene);
   const ::ros::Time now = ::ros::Time::now();
+  if (model_energy_.getNumSubscribers() > 0) {
+    ModelEnergy message = toModelEnergy(motion);
+    message.header.stamp = now;
+    model_energy_.publish(message);
+  }
   if (model_state_.getNumSubscribers() > 0) {
     ModelState message;
     message.header.stamp = now;
@@ -128,6 +136,15 @@ void Feed::show(const station::MotionFrame& motion) {
   }
   if (markers_topic_.getNumSubscribers() > 0) {
     markers_topic_.publish(markers_->draw(motion.displacement, now));
+  }
+}
+
+/// A link that begins to be cut too often is news, once.
+void Feed::watch(const station::MotionFrame& motion, const scene::Scene& scene) {
+  const bool known = !status_.guard_warning.empty();
+  fillStatus(motion, scene, status_);
+  if (!known && !status_.guard_warning.empty()) {
+    addMessage(status_.guard_warning);
   }
 }
 

@@ -37,7 +37,7 @@ class Feed {
   Event show(const station::Event& event, const scene::Scene* scene);
   void show(const station::GestureTick* ticks, std::size_t count);
   void show(const station::Snapshot& snapshot);
-  void show(const station::MotionFrame& motion);
+  void show(const station::MotionFrame& motion, const scene::Scene& scene);
   void show(const station::Keyframe& keyframe, const physics::Instrument& instrument);
 
   /// True once for everybody who starts to listen to `gesture`, most likely to record it.
@@ -50,6 +50,7 @@ class Feed {
 
  private:
   void sendStatus();
+  void watch(const station::MotionFrame& motion, const scene::Scene& scene);
 
   std::atomic<bool> new_listener_{false};
   std::string station_config_;
@@ -58,6 +59,7 @@ class Feed {
   ::ros::Publisher joint_states_;
   ::ros::Publisher model_structure_;
   ::ros::Publisher model_state_;
+  ::ros::Publisher model_energy_;
   ::ros::Publisher markers_topic_;
   ::ros::Publisher gesture_;
   ::ros::Publisher keyframe_;

@@ -3,9 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-
-#include "ros/geometry.hpp"
 
 namespace ergotic::node {
 namespace {
@@ -48,14 +45,20 @@ Marker markerOf(const scene::Section& section, std::size_t index, int type, int 
 }  // namespace
 
 Markers::Markers(const scene::Scene& scene, double zoom) {
+  for (const scene::Section& section : scene.sections) {
+    const double magnified = scene::dimensionsOf(section.geometry) == 1 ? zoom : 1.0;
+    drawing_.emplace_back(section.pose * Eigen::Scaling(magnified, 1.0, 1.0));
+  }
   std::vector<Indices> modules(scene.sections.size());
   std::vector<Indices> links(scene.sections.size());
+  std::size_t first = 0;
   for (std::size_t i = 0; i < scene.mats.size(); ++i) {
     const scene::Mat& mat = scene.mats[i];
     const auto section = static_cast<std::size_t>(mat.section);
-    const Eigen::Vector3d axis = axisOf(scene.sections[section]);
-    modules_.push_back({restOf(scene, mat) - mat.rest.x() * axis, zoom * axis, mat.rest.x()});
+    const int dimensions = scene::dimensionsOf(scene.sections[section].geometry);
+    modules_.push_back({mat.rest, section, first, dimensions});
     modules[section].push_back(i);
+    first += static_cast<std::size_t>(dimensions);
   }
   for (const scene::Lia& lia : scene.lias) {
     const auto a = static_cast<std::size_t>(lia.a);
@@ -90,16 +93,25 @@ const visualization_msgs::MarkerArray& Markers::draw(const std::vector<float>& d
     Marker& marker = array_.markers[m];
     marker.header.stamp = stamp;
     for (std::size_t p = 0; p < points_[m].size(); ++p) {
-      const Module& module = modules_[points_[m][p]];
-      const double d = static_cast<double>(displacements[points_[m][p]]);
-      const double x = module.rest_x + (std::isfinite(d) ? d : 0.0);
-      const Eigen::Vector3d place = module.ground + x * module.step;
-      marker.points[p].x = place.x();
-      marker.points[p].y = place.y();
-      marker.points[p].z = place.z();
+      marker.points[p] = place(modules_[points_[m][p]], displacements);
     }
   }
   return array_;
+}
+
+geometry_msgs::Point Markers::place(const Module& module,
+                                    const std::vector<float>& displacements) const {
+  Eigen::Vector3d moved = module.rest;
+  for (int k = 0; k < module.dimensions; ++k) {
+    moved[k] += static_cast<double>(displacements[module.first + static_cast<std::size_t>(k)]);
+  }
+  const Eigen::Vector3d drawn =
+      drawing_[module.section] * (moved.allFinite() ? moved : module.rest);
+  geometry_msgs::Point point;
+  point.x = drawn.x();
+  point.y = drawn.y();
+  point.z = drawn.z();
+  return point;
 }
 
 visualization_msgs::MarkerArray Markers::eraseAll() {

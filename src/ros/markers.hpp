@@ -4,7 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <geometry_msgs/Point.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include "ergotic/scene/scene.hpp"
@@ -17,14 +18,14 @@ class Markers {
  public:
   static constexpr std::size_t kChunkPoints = 16000;
 
-  /// \param zoom  of x about x = 0 of every section, as maps exaggerate height: strings move by
-  ///              millimetres. What touches in the model touches in the picture
+  /// \param zoom  of x about x = 0 where modules move along x alone, as maps exaggerate height:
+  ///              strings move by millimetres. What touches in the model touches in the picture.
+  ///              Planes and spaces are true to scale
   Markers(const scene::Scene& scene, double zoom);
 
   /// The picture at these displacements.
-  /// \param displacements  [mats] m from rest along x of the section; what is not finite is drawn
-  /// at
-  ///                       rest
+  /// \param displacements  [Scene::coordinates] m from rest; a module of which one is not finite is
+  ///                       drawn at rest
   const visualization_msgs::MarkerArray& draw(const std::vector<float>& displacements,
                                               const ::ros::Time& stamp);
 
@@ -36,12 +37,16 @@ class Markers {
   void addMarkers(const scene::Scene& scene, std::size_t section, int type, const Indices& mats);
 
   struct Module {
-    Eigen::Vector3d ground;  // its place at x = 0, in frame model
-    Eigen::Vector3d step;    // how far a metre of x is drawn, in frame model
-    double rest_x = 0.0;
+    Eigen::Vector3d rest;
+    std::size_t section = 0;
+    std::size_t first = 0;  // of its displacements
+    int dimensions = 1;
   };
-  std::vector<Module> modules_;  // [mats]
-  std::vector<Indices> points_;  // [markers] mats in the order of the points
+  geometry_msgs::Point place(const Module& module, const std::vector<float>& displacements) const;
+
+  std::vector<Eigen::Affine3d> drawing_;  // [sections] from its frame to the picture
+  std::vector<Module> modules_;           // [mats]
+  std::vector<Indices> points_;           // [markers] mats in the order of the points
   visualization_msgs::MarkerArray array_;
 };
 

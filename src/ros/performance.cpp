@@ -178,7 +178,7 @@ void Performance::poll() {
     answerWaiters(*snapshot);
   }
   if (playing_->motion.refresh()) {
-    feed_.show(playing_->motion.latest());
+    feed_.show(playing_->motion.latest(), playing_->instrument->scene());
   }
   giveUpWaiters();
   reportWarnings();

@@ -13,6 +13,8 @@ namespace {
 MotionFrame emptyMotion(const physics::Instrument& instrument) {
   MotionFrame frame;
   frame.displacement.resize(static_cast<std::size_t>(instrument.scene().coordinates()));
+  frame.energies = instrument.makeEnergies();
+  frame.guards = instrument.makeGuardReports();
   return frame;
 }
 
@@ -57,8 +59,7 @@ void warm(Performer& performer) {
   std::vector<unsigned char> state(instrument.stateSize());
   instrument.saveState(state.data());
   instrument.loadState(state.data());
-  instrument.readDisplacements(performer.motion.draft().displacement.data());
-  performer.motion.publish();
+  performer.publishMotion(0);
 }
 
 }  // namespace
@@ -76,6 +77,15 @@ Performer::Performer(std::unique_ptr<physics::Instrument> made)
   for (const scene::Parameter& parameter : instrument->scene().parameters) {
     parameters.push_back(parameter.value);
   }
+}
+
+void Performer::publishMotion(std::int64_t tick) noexcept {
+  MotionFrame& frame = motion.draft();
+  frame.tick = tick;
+  instrument->readDisplacements(frame.displacement.data());
+  instrument->readEnergies(frame.energies);
+  instrument->readGuards(frame.guards);
+  motion.publish();
 }
 
 std::unique_ptr<Performer> makePerformer(const scene::Scene& scene,

@@ -39,10 +39,7 @@ void Station::publish() noexcept {
   s.slices = slices_;
   snapshots_.publish();
   if (!blown_up_) {
-    MotionFrame& motion = performer_->motion.draft();
-    motion.tick = tick_;
-    performer_->instrument->readDisplacements(motion.displacement.data());
-    performer_->motion.publish();
+    performer_->publishMotion(tick_);
   }
 }
 

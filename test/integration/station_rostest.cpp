@@ -12,6 +12,7 @@
 #include <ergotic/GestureBlock.h>
 #include <ergotic/Keyframe.h>
 #include <ergotic/LoadModel.h>
+#include <ergotic/ModelEnergy.h>
 #include <ergotic/ModelState.h>
 #include <ergotic/ModelStructure.h>
 #include <ergotic/SetParameter.h>
@@ -69,6 +70,7 @@ class StationTest : public ::testing::Test {
     Listener<Event> events{node, "/station/events"};
     Listener<GestureBlock> gesture{node, "/station/gesture"};
     Listener<Keyframe> keyframes{node, "/station/keyframe"};
+    Listener<ModelEnergy> energy{node, "/station/model_energy"};
     Listener<ModelState> model_state{node, "/station/model_state"};
     Listener<ModelStructure> structure{node, "/station/model_structure"};
     Listener<sensor_msgs::JointState> joints{node, "/station/joint_states"};
@@ -184,6 +186,23 @@ TEST_F(StationTest, PlaysWhatTheHandPlucks) {
   moveHand(0.0);
 }
 
+TEST_F(StationTest, TellsWhereTheEnergyOfThePluckWent) {
+  EXPECT_TRUE(eventually([] {
+    const ModelEnergy energy = world_->energy.latest();
+    return std::any_of(energy.from_device.begin(), energy.from_device.end(),
+                       [](double joule) { return std::abs(joule) > 1e-6; });
+  }));
+  const ModelEnergy energy = world_->energy.latest();
+  EXPECT_EQ(energy.kinetic.size(), world_->structure.latest().section_names.size());
+  EXPECT_EQ(energy.couplings.size(), 2 * energy.coupling_stored.size());
+  double dissipated = 0.0;
+  for (const double joule : energy.dissipated) {
+    dissipated += joule;
+  }
+  EXPECT_GT(dissipated, 1e-6);
+  EXPECT_LT(std::abs(energy.residual), 1e-6 * dissipated);
+}
+
 TEST_F(StationTest, RecordsEveryTickOnceAndBeginsWithAKeyframe) {
   const auto blocks = world_->gesture.messages();
   ASSERT_GT(blocks.size(), 10U);
@@ -259,7 +278,7 @@ TEST_F(StationTest, ReportsDiagnostics) {
   EXPECT_TRUE(eventually([] {
     const auto seen = world_->diagnostics.messages();
     return std::any_of(seen.begin(), seen.end(), [](const auto& array) {
-      return array.status.size() == 3 && array.status.front().level == 0 &&
+      return array.status.size() == 4 && array.status.front().level == 0 &&
              array.status.front().message == world_->status.latest().state_text;
     });
   }));

@@ -131,6 +131,48 @@ TEST(ConvertTest, StatusSaysWhyForceIsGone) {
             std::string::npos);
 }
 
+TEST(ConvertTest, EnergyKeepsSectionsAndCouplingsApart) {
+  station::MotionFrame motion;
+  motion.tick = 5;
+  motion.energies.sections = {{1, 2, 3, 4, 5, 6}, {7, 8, 9, 10, 11, 12}};
+  motion.energies.couplings = {{0, 1, 13, 14, 15}};
+  motion.energies.stored = 31;
+  motion.energies.from_parameters = 16;
+  motion.energies.residual = 1e-12;
+  const ModelEnergy energy = sentAndReceived(toModelEnergy(motion));
+  EXPECT_EQ(energy.tick, 5);
+  EXPECT_EQ(energy.kinetic, (std::vector<double>{1, 7}));
+  EXPECT_EQ(energy.potential, (std::vector<double>{2, 8}));
+  EXPECT_EQ(energy.dissipated, (std::vector<double>{3, 9}));
+  EXPECT_EQ(energy.from_device, (std::vector<double>{4, 10}));
+  EXPECT_EQ(energy.from_inputs, (std::vector<double>{5, 11}));
+  EXPECT_EQ(energy.from_links, (std::vector<double>{6, 12}));
+  EXPECT_EQ(energy.couplings, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(energy.coupling_stored, std::vector<double>{13});
+  EXPECT_EQ(energy.coupling_dissipated, std::vector<double>{14});
+  EXPECT_EQ(energy.coupling_breathing, std::vector<double>{15});
+  EXPECT_EQ(energy.stored, 31);
+  EXPECT_EQ(energy.from_parameters, 16);
+  EXPECT_EQ(energy.residual, 1e-12);
+}
+
+TEST(ConvertTest, StatusNamesAGuardedLinkAsLongAsItIsCutTooOften) {
+  const scene::Scene scene = scene::readYaml(kScene, "two.yaml");
+  station::MotionFrame motion;
+  motion.energies.stored = 2.0;
+  motion.energies.residual = 1e-9;
+  motion.guards = {{0, 1000, 100}};
+  Status status;
+  fillStatus(motion, scene, status);
+  EXPECT_EQ(status.stored_energy, 2.0);
+  EXPECT_EQ(status.energy_residual, 0.5e-9);
+  EXPECT_NE(status.guard_warning.find("two.yaml:9:"), std::string::npos) << status.guard_warning;
+  EXPECT_NE(status.guard_warning.find("'l'"), std::string::npos) << status.guard_warning;
+  motion.guards = {{0, 10000, 100}};
+  fillStatus(motion, scene, status);
+  EXPECT_EQ(status.guard_warning, "");
+}
+
 TEST(ConvertTest, KeyframeSurvivesTheWireBitForBit) {
   const scene::Scene scene = scene::readYaml(kScene, "two.yaml");
   const auto instrument =

@@ -54,6 +54,40 @@ TEST(MarkersTest, DrawMotionAlongTheAxisOfTheSection) {
   EXPECT_NEAR(lines.points[1].y, points.points[1].y, 1e-12);
 }
 
+TEST(MarkersTest, DrawModulesOfAPlaneWhereTheyAre) {
+  scene::Scene scene = rowOf(3);
+  scene.sections[0].geometry = scene::Geometry::kPlane;
+  Markers markers(scene, 5.0);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const auto& array = markers.draw({0.01F, 0.02F, 0.03F, 0.04F, 0.05F, nan}, ::ros::Time(1.0));
+  const auto& points = array.markers[0].points;
+  ASSERT_EQ(points.size(), 3U);
+  // x of the section is z of the model; y of both is the same; nothing is magnified.
+  EXPECT_NEAR(points[0].z, 1.11, 1e-8);
+  EXPECT_NEAR(points[0].y, 0.02, 1e-8);
+  EXPECT_NEAR(points[1].z, 1.13, 1e-8);
+  EXPECT_NEAR(points[1].y, 1.04, 1e-8);
+  EXPECT_NEAR(points[2].z, 1.10, 1e-8) << "one coordinate is no number: drawn at rest";
+  EXPECT_NEAR(points[2].y, 2.0, 1e-12);
+  const auto& ends = array.markers[1].points;
+  ASSERT_EQ(ends.size(), 4U);
+  EXPECT_EQ(ends[1].y, points[1].y);
+  EXPECT_EQ(ends[2].z, points[1].z);
+}
+
+TEST(MarkersTest, FollowTheDisplacementsOfMixedGeometries) {
+  scene::Scene scene = rowOf(2);
+  scene.sections.push_back(scene.sections[0]);
+  scene.sections[0].geometry = scene::Geometry::kSpace;
+  scene.mats[1].section = 1;
+  Markers markers(scene, 10.0);
+  const auto& array = markers.draw({0.1F, 0.2F, 0.3F, 0.4F}, ::ros::Time(1.0));
+  ASSERT_EQ(array.markers.size(), 3U) << "the second section has no links of its own";
+  EXPECT_NEAR(array.markers[0].points[0].x, -0.3, 1e-7) << "z of the section is -x of the model";
+  EXPECT_NEAR(array.markers[0].points[0].y, 0.2, 1e-7);
+  EXPECT_NEAR(array.markers[2].points[0].z, 1.0 + 10.0 * 0.5, 1e-6);
+}
+
 TEST(MarkersTest, ChunksStayBelowWhatRvizBears) {
   Markers markers(rowOf(20001), 1.0);
   const auto& array = markers.draw(std::vector<float>(20001), ::ros::Time(1.0));

@@ -75,6 +75,32 @@ TEST(PerformerTest, ShowsTheModelBeforeItsFirstTick) {
   EXPECT_FLOAT_EQ(performer->motion.latest().displacement[0], 1e-3F);
 }
 
+TEST(PerformerTest, ShowsTheEnergyOfTheModelBeforeItsFirstTick) {
+  const auto performer = make(oscillator(1e3).scene);
+  ASSERT_TRUE(performer->motion.refresh());
+  const physics::Energies& energies = performer->motion.latest().energies;
+  ASSERT_EQ(energies.sections.size(), performer->instrument->scene().sections.size());
+  EXPECT_NEAR(energies.stored, 0.5 * 1e3 * 1e-3 * 1e-3, 1e-12) << "a spring of 1e3 N/m, by 1 mm";
+}
+
+TEST(PerformerTest, HoldsAsManyNumbersOfMotionAsCoordinatesMove) {
+  test::SceneBuilder b = oscillator(1e3);
+  scene::Section net;
+  net.name = "net";
+  net.geometry = scene::Geometry::kSpace;
+  b.scene.sections.push_back(net);
+  b.scene.mats.push_back(b.scene.mats[0]);
+  b.scene.mats.back().name = "loose";
+  b.scene.mats.back().section = static_cast<int>(b.scene.sections.size()) - 1;
+  b.scene.mats.back().position = {0.1, 0.2, 0.3};
+  const auto performer = make(b.scene);
+  ASSERT_TRUE(performer->motion.refresh());
+  const std::vector<float>& displacement = performer->motion.latest().displacement;
+  ASSERT_EQ(displacement.size(), 6U);
+  EXPECT_FLOAT_EQ(displacement[4], 0.2F);
+  EXPECT_FLOAT_EQ(displacement[5], 0.3F);
+}
+
 TEST(PerformerTest, RefusesAnUnstableSceneWithTheFindings) {
   const std::string refusal = refusalOf(oscillator(1e9).scene);
   EXPECT_NE(refusal.find("unstable"), std::string::npos) << refusal;

@@ -13,10 +13,12 @@
 
 namespace ergotic::station {
 
-/// What displays get of a model: one frame of its motion.
+/// What displays get of a model: one frame of its motion, and how it fares.
 struct MotionFrame {
   std::int64_t tick = 0;
   std::vector<float> displacement;  ///< [Scene::coordinates] m from rest
+  physics::Energies energies;
+  std::vector<physics::GuardReport> guards;
 };
 
 /// An instrument ready to play: everything the tick needs for it is allocated here.
@@ -24,6 +26,10 @@ struct MotionFrame {
 struct Performer {
   /// \pre `made` is not null. Realtime: no. Thread: any
   explicit Performer(std::unique_ptr<physics::Instrument> made);
+
+  /// Puts what the instrument does now into `motion`. Realtime: yes. Thread: tick
+  /// Cost: O(modules + links)
+  void publishMotion(std::int64_t tick) noexcept;
 
   std::unique_ptr<physics::Instrument> instrument;
   physics::Certificate certificate;   ///< filled by makePerformer

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ergotic/physics/energy.hpp"
+#include "ergotic/scene/scene.hpp"
+
+/// Whether what plays is what the scene says. Realtime: no.
+namespace ergotic::station {
+
+/// Share of the steps in which a guarded link may be cut before it is told of.
+constexpr double kMaxClippedShare = 0.05;
+/// Steps in which it must have pushed before its share means anything.
+constexpr std::int64_t kMinActiveSteps = 200;
+
+/// Clipped over active steps; 0 if it never pushed.
+double clippedShare(const physics::GuardReport& guard);
+
+/// One line for each guarded link that is cut too often, worst first: which, how often, and what to
+/// change.
+std::vector<std::string> guardWarnings(const scene::Scene& scene,
+                                       const std::vector<physics::GuardReport>& guards);
+
+/// Residual of the balance over all the energy that there was: what is stored and what was
+/// dissipated. Dimensionless; 0 if there was none.
+double relativeResidual(const physics::Energies& energies);
+
+}  // namespace ergotic::station

@@ -246,6 +246,21 @@ TEST_F(RenderTest, GivesTheSameBitsTwice) {
   EXPECT_EQ(soundOf(one), soundOf(two));
 }
 
+TEST_F(RenderTest, SaysWhereTheEnergyWentIfAsked) {
+  const std::string common = write("spring.mdl", kSpring) + " --precision double --seconds 0.1";
+  EXPECT_EQ(run("render", common).text.find("energies_j"), std::string::npos);
+  const Outcome outcome = run("render", common + " --energies");
+  ASSERT_EQ(outcome.code, 0) << outcome.text;
+  const auto numberAfter = [&](const std::string& name) {
+    return std::stod(outcome.text.substr(outcome.text.find(name + ": ") + name.size() + 2));
+  };
+  const double kinetic_at_start = 0.5 * 882.0 * 882.0;  // 1 kg, 882 m/s
+  EXPECT_NEAR(numberAfter("stored") + numberAfter("dissipated"), kinetic_at_start,
+              1e-3 * kinetic_at_start);
+  EXPECT_GT(numberAfter("dissipated"), 0.1 * kinetic_at_start);
+  EXPECT_LT(std::abs(numberAfter("balance_residual")), 1e-10 * kinetic_at_start);
+}
+
 TEST_F(RenderTest, TellsUsageErrorsFromOthers) {
   const std::string scene = write("spring.mdl", kSpring);
   EXPECT_EQ(run("render", "").code, 2);

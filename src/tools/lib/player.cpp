@@ -22,7 +22,7 @@ class FreePlayer final : public Player {
 
   const physics::Rates& rates() const override { return performer_->instrument->rates(); }
   int outputChannels() const override { return performer_->instrument->outputChannels(); }
-  std::size_t modules() const override { return performer_->instrument->scene().mats.size(); }
+  const physics::Instrument& instrument() const override { return *performer_->instrument; }
 
   bool next(double* frames) override {
     inputs_.read(frame_, rates().ratio, performer_->inputs.data());
@@ -60,7 +60,7 @@ class HandPlayer final : public Player {
              SoundInputs inputs,
              const std::string& csv)
       : outputs_(std::max(performer->instrument->outputChannels(), 1)),
-        modules_(performer->instrument->scene().mats.size()),
+        instrument_(*performer->instrument),
         driver_(makeDriver(csv, *performer, ended_)),
         station_(std::move(performer), std::move(driver_), std::move(inputs), outputs_) {
     station::Command engage;
@@ -70,7 +70,7 @@ class HandPlayer final : public Player {
 
   const physics::Rates& rates() const override { return station_.rates(); }
   int outputChannels() const override { return outputs_; }
-  std::size_t modules() const override { return modules_; }
+  const physics::Instrument& instrument() const override { return instrument_; }
 
   bool next(double* frames) override {
     if (!ended_) {
@@ -97,8 +97,8 @@ class HandPlayer final : public Player {
 
   bool ended_ = false;
   int outputs_;
-  std::size_t modules_;
-  std::unique_ptr<tgr::Driver> driver_;  // on its way into the station
+  const physics::Instrument& instrument_;  // the station's: nobody swaps it
+  std::unique_ptr<tgr::Driver> driver_;    // on its way into the station
   OfflineStation station_;
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -19,7 +18,7 @@ class Player {
 
   virtual const physics::Rates& rates() const = 0;
   virtual int outputChannels() const = 0;
-  virtual std::size_t modules() const = 0;  ///< of the model that plays
+  virtual const physics::Instrument& instrument() const = 0;  ///< that plays
 
   /// \param[out] frames  [R][output channels], where R frames make a tick
   /// \return false if there is no more; `frames` is untouched then

@@ -13,9 +13,11 @@
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/build_id.hpp"
 #include "ergotic/rt/thread.hpp"
+#include "ergotic/station/health.hpp"
 #include "tools/lib/frame_writer.hpp"
 #include "tools/lib/player.hpp"
 #include "tools/lib/progress.hpp"
+#include "tools/lib/render_energies.hpp"
 #include "tools/lib/replay.hpp"
 
 namespace ergotic::tools {
@@ -137,14 +139,22 @@ std::string summary(const Player& player, const FrameWriter& writer, double work
   const physics::Rates& rates = player.rates();
   const double length_s = static_cast<double>(writer.frames()) / rates.audio_hz;
   std::ostringstream line;
-  line << player.modules() << " modules, " << rates.audio_hz << " Hz, gestures "
-       << rates.gesturalHz() << " Hz (R = " << rates.ratio << "), " << writer.frames()
-       << " frames (" << length_s << " s) in " << work_s << " s (" << length_s / work_s
-       << " times real time), peak " << writer.peak() << ", all finite";
+  line << player.instrument().scene().mats.size() << " modules, " << rates.audio_hz
+       << " Hz, gestures " << rates.gesturalHz() << " Hz (R = " << rates.ratio << "), "
+       << writer.frames() << " frames (" << length_s << " s) in " << work_s << " s ("
+       << length_s / work_s << " times real time), peak " << writer.peak() << ", all finite";
   if (writer.clippedSamples() > 0) {
     line << ", " << writer.clippedSamples() << " samples clipped to full scale";
   }
   return line.str();
+}
+
+void sayHowLinksFared(const physics::Instrument& instrument) {
+  std::vector<physics::GuardReport> guards = instrument.makeGuardReports();
+  instrument.readGuards(guards);
+  for (const std::string& warning : station::guardWarnings(instrument.scene(), guards)) {
+    say(warning);
+  }
 }
 
 }  // namespace
@@ -167,6 +177,7 @@ void addOptions(CLI::App& app, RenderOptions& options) {
       ->type_name("F.csv|F.bag");
   app.add_option("--precision", options.precision, "of the instrument (default: float)")
       ->check(CLI::IsMember({"float", "double"}));
+  app.add_flag("--energies", options.energies, "say where the energy went");
   app.add_flag("--allow-unstable", options.allow_unstable, "play what is known to blow up, too");
   app.add_flag("--allow-gaps", options.allow_gaps, "accept a recording that cannot be exact");
 }
@@ -195,6 +206,10 @@ int render(const RenderOptions& options) {
   }
   writer.finish();
   say(summary(*player, writer, work_s));
+  sayHowLinksFared(player->instrument());
+  if (options.energies) {
+    printEnergies(player->instrument(), std::cerr);
+  }
   return kSuccess;
 }
 

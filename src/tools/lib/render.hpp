@@ -17,6 +17,7 @@ struct RenderOptions {
   std::vector<std::string> inputs;  ///< NAME=FILE
   std::string gesture;              ///< empty: nobody plays
   std::string precision;            ///< empty: float
+  bool energies = false;
   bool allow_unstable = false;
   bool allow_gaps = false;
 };

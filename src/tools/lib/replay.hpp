@@ -26,7 +26,7 @@ class Replay final : public Player {
 
   const physics::Rates& rates() const override { return station_->rates(); }
   int outputChannels() const override { return station_->outputChannels(); }
-  std::size_t modules() const override { return playing_.instrument->scene().mats.size(); }
+  const physics::Instrument& instrument() const override { return *playing_.instrument; }
   bool next(double* frames) override;
   std::int64_t ticksLeft() const override;
 

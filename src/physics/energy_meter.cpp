@@ -280,7 +280,7 @@ template <class Real>
 kernels::Work EnergyMeter<Real>::workOf(std::size_t r, const State<Real>& state) const noexcept {
   const LinkRun& run = layout_.runs[r];
   kernels::Work work = state.work()[r];
-  if (run.slow_section < 0 || state.frame() % layout_.sections[at(run.slow_section)].divisor == 0) {
+  if (layout_.isBetweenSlowSteps(run, state.frame())) {
     return work;
   }
   const kernels::Memory<const Real> memory = state.memory(r);

@@ -176,8 +176,7 @@ void GuardedRuns<Real>::exchange(std::size_t g,
     if (groups_[g].idle[l] != 0) {
       continue;
     }
-    const bool slow_ends =
-        run.slow_section >= 0 && (now + 1) % layout_.sections[at(run.slow_section)].divisor == 0;
+    const bool slow_ends = layout_.endsSlowStep(run, now);
     kernels::Frame<Real> frame = stepper.frameOf(ref.run, due, slow_ends, state);
     frame.f = forces_.data();
     for (int k = 0; k < std::max(1, run.dimensions); ++k) {

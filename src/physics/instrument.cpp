@@ -189,7 +189,8 @@ class InstrumentOf final : public Instrument {
     for (std::size_t r = 0; r < layout_.runs.size(); ++r) {
       const LinkRun& run = layout_.runs[r];
       if (!run.guarded && due_[at(run.section)] != 0 && !isAsleep(run)) {
-        stepper_.stepLinks(r, coefficients_->runs[r], due_.data(), endsSlowStep(run, now), state_);
+        stepper_.stepLinks(r, coefficients_->runs[r], due_.data(), layout_.endsSlowStep(run, now),
+                           state_);
       }
     }
     feedForces(in);
@@ -198,10 +199,6 @@ class InstrumentOf final : public Instrument {
     meter_.endFrame(now, state_);
     taps_.takeForces(*coefficients_, now, state_, out);
     sleeper_.endFrame(now, *coefficients_, meter_, state_);
-  }
-
-  bool endsSlowStep(const LinkRun& run, std::int64_t now) const noexcept {
-    return run.slow_section >= 0 && (now + 1) % layout_.sections[at(run.slow_section)].divisor == 0;
   }
 
   bool isAsleep(const LinkRun& run) noexcept {

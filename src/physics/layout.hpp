@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
@@ -149,6 +151,22 @@ struct Layout {
 
   int slots() const { return static_cast<int>(mat_of_slot.size()); }
   int strideOf(const scene::Scene& scene, int mat) const;
+
+  /// True if a run steps with frame `now` for the last time in the step of its slower end.
+  bool endsSlowStep(const LinkRun& run, std::int64_t now) const noexcept {
+    return run.slow_section >= 0 &&
+           (now + divisorOf(run.section)) % divisorOf(run.slow_section) == 0;
+  }
+  /// True if at the start of frame `now` that last step is behind, and the next one is to come.
+  bool isBetweenSlowSteps(const LinkRun& run, std::int64_t now) const noexcept {
+    const int step = divisorOf(run.section);
+    return run.slow_section < 0 || (now + step - 1) % divisorOf(run.slow_section) < step;
+  }
+
+ private:
+  int divisorOf(int section) const noexcept {
+    return sections[static_cast<std::size_t>(section)].divisor;
+  }
 };
 
 /// \throws Exception if links join sections whose divisors do not divide one another

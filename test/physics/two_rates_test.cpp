@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "ergotic/exception.hpp"
+#include "support/scene_builder.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+using scene::Coupling;
+using scene::Quantity;
+using test::Player;
+using test::SceneBuilder;
+
+constexpr double kRate = 44100.0;
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// A slow mass and a fast one on springs of their own, coupled; kg, samples, m.
+struct Pair {
+  int ratio = 14;
+  double slow_mass = 1.0;
+  double fast_mass = 0.3;
+  double stiffness = 0.0;
+  double damping = 0.0;
+  double slow_spring = 0.0;
+  double fast_spring = 0.0;
+
+  /// K T^2 (1/M + 1/m) = 0.4: a tenth of the limit of a model that is slow throughout.
+  static Pair tenthOfTheLimit(int ratio, double damping) {
+    Pair p;
+    p.ratio = ratio;
+    const double square = ratio * ratio;
+    p.stiffness = 0.4 / (square * (1.0 / p.slow_mass + 1.0 / p.fast_mass));
+    p.damping = damping / ratio;
+    p.slow_spring = 0.05 / square;
+    p.fast_spring = 0.07 / square;
+    return p;
+  }
+};
+
+/// Positions of both at the start of a period of the slower, and the momenta by which they came
+/// there, in units of M/T: canonical, because both schemes follow from a discrete action.
+using Phase = Eigen::Vector4d;  // X, x, P, p
+
+Phase playedPeriod(const Pair& p, Coupling coupling, int unit, Phase& start) {
+  const Eigen::Vector4d is = Eigen::Vector4d::Unit(unit);
+  SceneBuilder b;
+  const double k = kRate * kRate;  // from kg/sample^2 to N/m
+  const int slow = b.mass(p.slow_mass, is[0], is[2] * kRate / p.ratio, SceneBuilder::kGestural);
+  const int fast = b.mass(p.fast_mass, is[1], is[3] * kRate / p.ratio);
+  const int link = b.spring(slow, fast, p.stiffness * k, p.damping * kRate);
+  b.scene.lias[at(link)].coupling = coupling;
+  b.spring(slow, b.ground(0.0, SceneBuilder::kGestural), p.slow_spring * k);
+  b.spring(fast, b.ground(), p.fast_spring * k);
+  b.hear(slow, 0);
+  b.hear(fast, 1);
+  b.hear(slow, 2, Quantity::kVelocity);
+  b.hear(fast, 3, Quantity::kVelocity);
+  Player player(b.scene, {kRate, p.ratio});
+  player.ticks(2);
+  const auto phaseAt = [&](int frame) {
+    const auto& heard = player.heard;
+    const double period = p.ratio / kRate;
+    return Phase(heard[0][at(frame)], heard[1][at(frame)], heard[2][at(frame)] * period,
+                 heard[3][at(frame)] * period * p.fast_mass / p.slow_mass);
+  };
+  start = phaseAt(0);
+  return phaseAt(p.ratio);
+}
+
+/// One period of the slower mass, from what is heard of four unit starts.
+Eigen::Matrix4d playedMatrix(const Pair& p, Coupling coupling) {
+  Eigen::Matrix4d from;
+  Eigen::Matrix4d to;
+  for (int unit = 0; unit < 4; ++unit) {
+    Phase start;
+    to.col(unit) = playedPeriod(p, coupling, unit, start);
+    from.col(unit) = start;
+  }
+  return to * from.inverse();
+}
+
+/// The equations of the two schemes, written out. Scheme A: the held position moves in the first
+/// of R fast steps, the slow mass receives the mean. Scheme B: one force per period, as an impulse
+/// of weight R on the fast mass, from the position that it has then.
+Phase equations(const Pair& p, Coupling coupling, const Phase& from) {
+  const double ratio = p.ratio;
+  double x = from[1];
+  double d = from[3] * p.slow_mass / (p.fast_mass * ratio);
+  const double slow_step = from[2];
+  double mean = 0.0;
+  for (int m = 0; m < p.ratio; ++m) {
+    const double up = m == 0 ? slow_step : 0.0;
+    const double hold = p.stiffness * (from[0] - x) + p.damping * (up - d);
+    const double impulse = m == 0 ? ratio * p.stiffness * (from[0] - x) : 0.0;
+    const double force = coupling == Coupling::kHold ? hold : impulse;
+    mean += force / ratio;
+    d += (force - p.fast_spring * x) / p.fast_mass;
+    x += d;
+  }
+  const double pull = mean + p.slow_spring * from[0];
+  const double next_step = slow_step - ratio * ratio * pull / p.slow_mass;
+  return {from[0] + next_step, x, next_step, d * ratio * p.fast_mass / p.slow_mass};
+}
+
+Eigen::Matrix4d matrixOfEquations(const Pair& p, Coupling coupling) {
+  Eigen::Matrix4d matrix;
+  for (int unit = 0; unit < 4; ++unit) {
+    matrix.col(unit) = equations(p, coupling, Phase::Unit(unit));
+  }
+  return matrix;
+}
+
+double symplecticDefect(const Eigen::Matrix4d& s) {
+  Eigen::Matrix4d form = Eigen::Matrix4d::Zero();
+  form.topRightCorner<2, 2>().setIdentity();
+  form.bottomLeftCorner<2, 2>() = -Eigen::Matrix2d::Identity();
+  return (s.transpose() * form * s - form).cwiseAbs().maxCoeff();
+}
+
+class TwoRatesTest : public testing::TestWithParam<int> {};
+
+TEST_P(TwoRatesTest, PeriodIsTheMatrixOfTheEquations) {
+  for (const Coupling coupling : {Coupling::kHold, Coupling::kDecimate}) {
+    const Pair p = Pair::tenthOfTheLimit(GetParam(), 0.0);
+    const Eigen::Matrix4d played = playedMatrix(p, coupling);
+    const Eigen::Matrix4d expected = matrixOfEquations(p, coupling);
+    EXPECT_LT((played - expected).cwiseAbs().maxCoeff(), 1e-10);
+    Eigen::VectorXd angles(4);
+    Eigen::VectorXd expected_angles(4);
+    for (int i = 0; i < 4; ++i) {
+      angles[i] = std::arg(played.eigenvalues()[i]);
+      expected_angles[i] = std::arg(expected.eigenvalues()[i]);
+      EXPECT_NEAR(std::abs(played.eigenvalues()[i]), 1.0, 1e-10);
+    }
+    std::sort(angles.begin(), angles.end());
+    std::sort(expected_angles.begin(), expected_angles.end());
+    EXPECT_LT((angles - expected_angles).norm(), 1e-10);
+    EXPECT_GT(expected_angles.minCoeff(), -3.0) << "no pair on the real axis";
+  }
+}
+
+TEST_P(TwoRatesTest, DampedPeriodOfHoldAndMeanIsTheMatrixOfTheEquations) {
+  const Pair p = Pair::tenthOfTheLimit(GetParam(), 0.03);
+  const Eigen::Matrix4d played = playedMatrix(p, Coupling::kHold);
+  EXPECT_LT((played - matrixOfEquations(p, Coupling::kHold)).cwiseAbs().maxCoeff(), 1e-10);
+  EXPECT_LT(played.eigenvalues().cwiseAbs().maxCoeff(), 1.0 - 1e-4);
+}
+
+TEST_P(TwoRatesTest, BothSchemesAreSymplectic) {
+  const Pair p = Pair::tenthOfTheLimit(GetParam(), 0.0);
+  EXPECT_LT(symplecticDefect(playedMatrix(p, Coupling::kHold)), 1e-12);
+  EXPECT_LT(symplecticDefect(playedMatrix(p, Coupling::kDecimate)), 1e-12);
+}
+
+/// A mass of a section on a damped spring to a slow wall: its position at every tick.
+std::vector<double> playMass(int ratio, int mass_section, Coupling coupling) {
+  SceneBuilder b;
+  const double tick_s = ratio / kRate;
+  const double m = 0.1;
+  const int mass = b.mass(m, 1e-3, 0.0, mass_section);
+  const int wall = b.ground(2e-4, SceneBuilder::kGestural);
+  const int link = b.spring(mass, wall, 0.5 * m / (tick_s * tick_s), 2e-3 * m / tick_s);
+  b.scene.lias[at(link)].coupling = coupling;
+  b.hear(mass);
+  Player player(b.scene, {kRate, ratio});
+  player.ticks(1800);
+  std::vector<double> starts;
+  for (int n = 0; n < 1800; ++n) {
+    starts.push_back(player.heard[0][at(n * ratio)]);
+  }
+  return starts;
+}
+
+TEST_P(TwoRatesTest, FastMassOnASlowSpringMovesAsIfAllWereSlow) {
+  const auto slow = playMass(GetParam(), SceneBuilder::kGestural, Coupling::kHold);
+  const auto mixed = playMass(GetParam(), SceneBuilder::kAudio, Coupling::kDecimate);
+  for (std::size_t n = 0; n < slow.size(); ++n) {
+    ASSERT_NEAR(mixed[n], slow[n], 1e-12 * 1e-3) << n;
+  }
+  EXPECT_LT(std::abs(slow.back() - 2e-4), 0.5e-3) << "it was damped";
+}
+
+INSTANTIATE_TEST_SUITE_P(Ratios, TwoRatesTest, testing::Values(4, 14, 44));
+
+/// Masses one after the other, each stepped at its own rate, joined by springs and dampers that
+/// are stepped at the faster of their two rates. Written out from the equations alone.
+class Row {
+ public:
+  Row(std::vector<int> divisors, double kappa, double zeta)
+      : divisors_(std::move(divisors)), kappa_(kappa), zeta_(zeta) {
+    const std::size_t n = divisors_.size();
+    x_.assign(n, 0.0);
+    d_.assign(n, 0.0);
+    force_.assign(n, 0.0);
+    x_[0] = 1.0;
+  }
+  const std::vector<double>& frame() {
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      if (isDue(i)) {
+        const double step = divisors_[i];
+        d_[i] += step * step * force_[i];
+        x_[i] += d_[i];
+        force_[i] = 0.0;
+      }
+    }
+    for (std::size_t i = 0; i + 1 < x_.size(); ++i) {
+      stepLink(i, i + 1);
+    }
+    stepLink(0, 0);  // the first one is held by a spring of its own rate
+    ++now_;
+    return x_;
+  }
+
+ private:
+  bool isDue(std::size_t i) const { return now_ % divisors_[i] == 0; }
+  double slip(std::size_t i, int step) const { return isDue(i) ? d_[i] / step : 0.0; }
+  void stepLink(std::size_t a, std::size_t b) {
+    const int step = std::min(divisors_[a], divisors_[b]);
+    if (now_ % step != 0) {
+      return;
+    }
+    if (a == b) {
+      force_[a] -= kappa_ * x_[a] + zeta_ * slip(a, step);
+      return;
+    }
+    const double f = kappa_ * (x_[a] - x_[b]) + zeta_ * (slip(a, step) - slip(b, step));
+    force_[a] -= f * step / divisors_[a];
+    force_[b] += f * step / divisors_[b];
+  }
+
+  std::vector<int> divisors_;
+  double kappa_;
+  double zeta_;
+  int now_ = 0;
+  std::vector<double> x_;
+  std::vector<double> d_;
+  std::vector<double> force_;
+};
+
+// The tick is 14 frames: divisors below, of and above it; of two neighbours one divides the other.
+const std::vector<int> kDivisors{56, 28, 14, 1, 7, 1, 2, 1, 28};
+
+/// The same row as a scene, with a section for every divisor.
+SceneBuilder rowScene(double kappa, double zeta) {
+  SceneBuilder b;
+  b.scene.sections.clear();
+  std::vector<int> section_of(57, -1);
+  for (const int divisor : kDivisors) {
+    if (section_of[at(divisor)] < 0) {
+      section_of[at(divisor)] = static_cast<int>(b.scene.sections.size());
+      scene::Section section;
+      section.name = "every" + std::to_string(divisor);
+      section.divisor = divisor;
+      b.scene.sections.push_back(section);
+    }
+  }
+  const double k = kappa * kRate * kRate;
+  for (std::size_t i = 0; i < kDivisors.size(); ++i) {
+    const int m = b.mass(1.0, i == 0 ? 1.0 : 0.0, 0.0, section_of[at(kDivisors[i])]);
+    b.hear(m, m);
+    if (i > 0) {
+      b.spring(m - 1, m, k, zeta * kRate);
+    }
+  }
+  b.spring(0, b.ground(0.0, section_of[at(kDivisors[0])]), k, zeta * kRate);
+  return b;
+}
+
+TEST(ManyRatesTest, SectionsOfManyDivisorsMoveAsTheirEquationsSay) {
+  Player player(rowScene(2e-4, 1e-4).scene, {kRate, 14});
+  Row row(kDivisors, 2e-4, 1e-4);
+  player.ticks(200);
+  for (int n = 0; n < 2800; ++n) {
+    const std::vector<double>& expected = row.frame();
+    for (std::size_t i = 0; i < kDivisors.size(); ++i) {
+      ASSERT_NEAR(player.heard[i][at(n)], expected[i], 1e-12) << "mass " << i << ", frame " << n;
+    }
+  }
+  EXPECT_GT(std::abs(player.heard.back().back()), 1e-3) << "it came through to the last one";
+}
+
+TEST(ManyRatesTest, EnergyBalancesAtEveryTickWhateverStepsAreUnderWay) {
+  Player player(rowScene(2e-4, 1e-4).scene, {kRate, 14});
+  Energies energies = player.instrument->makeEnergies();
+  for (int n = 0; n < 400; ++n) {
+    player.tick();
+    player.instrument->readEnergies(energies);
+    ASSERT_LT(std::abs(energies.residual), 1e-12 * energies.stored) << n;
+  }
+  EXPECT_LT(energies.stored, 0.9 * 2e-4 * kRate * kRate) << "some was dissipated";
+}
+
+TEST(ManyRatesTest, LinkBetweenDivisorsThatDoNotDivideEachOtherIsRefused) {
+  SceneBuilder b;
+  b.scene.sections[0].divisor = 2;
+  b.scene.sections[1].gestural = false;
+  b.scene.sections[1].divisor = 7;
+  b.spring(b.mass(1.0), b.mass(1.0, 0.0, 0.0, SceneBuilder::kGestural), 1.0);
+  try {
+    compile(b.scene, {kRate, 14}, Precision::kDouble);
+    FAIL() << "accepted";
+  } catch (const Exception& e) {
+    EXPECT_NE(std::string(e.what()).find("'l0'"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("2 and 7"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace ergotic::physics

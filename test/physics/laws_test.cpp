@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <functional>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -117,6 +118,90 @@ TEST(LawsTest, TablesAreStraightLinesBetweenTheirPoints) {
     EXPECT_EQ(at(0.41), 0.0);
     EXPECT_EQ(at(-0.21), 0.0);
   }
+}
+
+TEST(LawsTest, PowerContactPushesWithItsExponentBeyondItsThreshold) {
+  const auto set = [](Lia& lia) {
+    lia.stiffness = {1000.0};
+    lia.damping = {3.0};
+    lia.width = {0.02};
+    lia.exponent = {2.3};
+  };
+  EXPECT_EQ(forceOf(LiaType::kPowerContact, set, -0.0201, 1.0), 0.0);
+  EXPECT_NEAR(forceOf(LiaType::kPowerContact, set, 0.01), 1000.0 * std::pow(0.03, 2.3), 1e-9);
+  EXPECT_NEAR(forceOf(LiaType::kPowerContact, set, -0.015, -0.5),
+              1000.0 * std::pow(0.005, 2.3) - 1.5, 1e-9);
+}
+
+TEST(LawsTest, ElasticAndViscousTablesAddUp) {
+  const auto set = [](Lia& lia) {
+    lia.rest_length = 0.05;
+    lia.table.points = {{-0.1, -2.0}, {0.0, 1.0}, {0.1, 5.0}};
+    lia.viscous_table.points = {{-1.0, -3.0}, {1.0, 1.0}};
+  };
+  EXPECT_NEAR(forceOf(LiaType::kTable, set, 0.10, 0.5), 3.0 + 0.0, 1e-9);
+  EXPECT_NEAR(forceOf(LiaType::kTable, set, 0.0, -0.5), -0.5 - 2.0, 1e-9);
+}
+
+TEST(LawsTest, TablesOfASpringHoldTheirLastValues) {
+  const auto elastic = [](Lia& lia) { lia.table.points = {{-0.1, -2.0}, {0.1, 5.0}}; };
+  EXPECT_NEAR(forceOf(LiaType::kTable, elastic, 0.3), 5.0, 1e-12);
+  EXPECT_NEAR(forceOf(LiaType::kTable, elastic, -0.3), -2.0, 1e-12);
+  const auto viscous = [](Lia& lia) { lia.viscous_table.points = {{-1.0, -3.0}, {1.0, 1.0}}; };
+  EXPECT_NEAR(forceOf(LiaType::kTable, viscous, 0.2, 4.0), 1.0, 1e-12);
+  EXPECT_NEAR(forceOf(LiaType::kTable, viscous, 0.2, -4.0), -3.0, 1e-12);
+  EXPECT_NEAR(forceOf(LiaType::kTable, viscous, 0.2, 0.5), 0.0, 1e-9) << "no elastic part";
+}
+
+TEST(LawsTest, SmoothTablesAreMonotoneCubics) {
+  // Slopes 1 and 7: their harmonic mean 1.75 in the middle, 0 and 10 at the ends.
+  const auto elastic = [](Lia& lia) { lia.table = {{{0.0, 0.0}, {1.0, 1.0}, {2.0, 8.0}}, true}; };
+  const auto viscous = [](Lia& lia) {
+    lia.viscous_table = {{{0.0, 0.0}, {1.0, 1.0}, {2.0, 8.0}}, true};
+  };
+  for (const auto& [at, value] : {std::pair(0.5, 0.28125), {1.0, 1.0}, {1.5, 3.46875}}) {
+    EXPECT_NEAR(forceOf(LiaType::kTable, elastic, at), value, 1e-12);
+    EXPECT_NEAR(forceOf(LiaType::kTable, viscous, 0.0, at), value, 1e-9);
+  }
+}
+
+TEST(LawsTest, ConditionalLinkHoldsFromWhereItEngagesToWhereItLetsGo) {
+  SceneBuilder b;
+  const int driven = b.driven(0);
+  const int ground = b.ground();
+  Lia& lia =
+      b.scene.lias[static_cast<std::size_t>(b.link(LiaType::kConditional, driven, ground, 100.0))];
+  lia.rest_length = 1.0;
+  lia.width = {0.1};
+  lia.release = 0.3;
+  b.hear(ground, 0, scene::Quantity::kForce);
+  Player player(b.scene, {kRate, 9});
+  player.inputs = {1.2, 1.05, 1.29, 0.71, 1.31, 1.2, 0.91, 0.69, 0.85};
+  const std::vector<double> forces{0.0, 5.0, 29.0, -29.0, 0.0, 0.0, -9.0, 0.0, 0.0};
+  player.tick();
+  for (std::size_t n = 0; n < forces.size(); ++n) {
+    EXPECT_NEAR(player.heard[0][n], forces[n], 1e-10) << n;
+  }
+}
+
+TEST(LawsTest, ConditionalLinkIsAsHeldAsItWasWhenItsStateIsLoaded) {
+  SceneBuilder b;
+  const int driven = b.driven(0);
+  const int ground = b.ground();
+  b.link(LiaType::kConditional, driven, ground, 100.0, 0.5);
+  b.scene.lias[0].width = {0.1};
+  b.scene.lias[0].release = 0.3;
+  b.hear(ground, 0, scene::Quantity::kForce);
+  Player held(b.scene, {kRate, 2});
+  held.inputs = {0.05, 0.2};
+  held.tick();
+  std::vector<unsigned char> state(held.instrument->stateSize());
+  held.instrument->saveState(state.data());
+  Player other(b.scene, {kRate, 2});
+  other.instrument->loadState(state.data());
+  other.inputs = {0.2, 0.2};
+  other.tick();
+  EXPECT_NEAR(other.heard[0].back(), 20.0, 1e-10);
 }
 
 }  // namespace

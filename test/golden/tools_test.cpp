@@ -281,8 +281,10 @@ TEST_F(CheckTest, SaysWhatASceneIsMadeOf) {
   EXPECT_EQ(outcome.code, 0) << outcome.text;
   EXPECT_THAT(outcome.text,
               AllOf(HasSubstr("modules: 2\n"), HasSubstr("gestural_rate_hz: 3150\n"),
-                    HasSubstr("slice: 1\n"), HasSubstr("contact: 1\n"), HasSubstr("value: 2500\n"),
-                    HasSubstr("maximum: 8000\n"), HasSubstr("verdict: "),
+                    HasSubstr("modules: {slice: 1}\n"),
+                    HasSubstr("types: {contact: 1}, schemes: {explicit: 1}"),
+                    HasSubstr("value: 2500, minimum: 1000, maximum: 8000}\n"),
+                    HasSubstr("verdict: passive\n"), HasSubstr("passive_up_to_n_per_m: 4200\n"),
                     HasSubstr("lowest_stable_audio_rate_hz: "), HasSubstr("state_bytes: "),
                     HasSubstr("real_time_factor: ")));
 }
@@ -296,6 +298,7 @@ TEST_F(CheckTest, GivesTheClosedFormPitchOfEachString) {
 TEST_F(CheckTest, SaysWhatWasChosenForTheScene) {
   std::string text = kDrum;
   text.replace(text.find("rate: audio"), 11, "rate: auto");
+  text.replace(text.find("type: cell"), 10, "type: cell, matched: false");
   const Outcome outcome = run("check", write("drum.yaml", text) + " --set tone=2500");
   EXPECT_EQ(outcome.code, 0) << outcome.text;
   EXPECT_THAT(outcome.text,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/lib/check.hpp"
 
-#include <algorithm>
 #include <iostream>
 #include <map>
 #include <utility>
@@ -11,6 +10,8 @@
 #include "ergotic/physics/settle.hpp"
 #include "ergotic/scene/pitch.hpp"
 #include "tools/lib/check_filters.hpp"
+#include "tools/lib/check_names.hpp"
+#include "tools/lib/check_sections.hpp"
 #include "tools/lib/cost.hpp"
 #include "tools/lib/report.hpp"
 
@@ -18,80 +19,6 @@ namespace ergotic::tools {
 namespace {
 
 using scene::Scene;
-
-const char* nameOf(scene::MatType type) {
-  switch (type) {
-    case scene::MatType::kMass:
-      return "mass";
-    case scene::MatType::kGround:
-      return "ground";
-    case scene::MatType::kCell:
-      return "cell";
-    case scene::MatType::kDriven:
-      return "driven";
-    case scene::MatType::kSlice:
-      return "slice";
-    case scene::MatType::kPoint:
-      return "point";
-  }
-  return "";
-}
-
-const char* nameOf(scene::LiaType type) {
-  switch (type) {
-    case scene::LiaType::kSpringDamper:
-      return "spring-damper";
-    case scene::LiaType::kContact:
-      return "contact";
-    case scene::LiaType::kQuadratic:
-      return "quadratic spring";
-    case scene::LiaType::kCubic:
-      return "cubic spring";
-    case scene::LiaType::kClippedCubic:
-      return "clipped cubic spring";
-    case scene::LiaType::kCubicContact:
-      return "cubic contact";
-    case scene::LiaType::kPluck:
-      return "pluck";
-    case scene::LiaType::kBow:
-      return "bow";
-    case scene::LiaType::kSmoothBow:
-      return "smooth bow";
-    case scene::LiaType::kPowerContact:
-      return "power-law contact";
-    case scene::LiaType::kTable:
-      return "table";
-    case scene::LiaType::kConditional:
-      return "conditional spring-damper";
-  }
-  return "";
-}
-
-const char* nameOf(scene::Quantity quantity) {
-  switch (quantity) {
-    case scene::Quantity::kPosition:
-      return "position";
-    case scene::Quantity::kVelocity:
-      return "velocity";
-    case scene::Quantity::kForce:
-      return "force";
-  }
-  return "";
-}
-
-const char* nameOf(scene::Geometry geometry) {
-  switch (geometry) {
-    case scene::Geometry::kScalar:
-      return "scalar";
-    case scene::Geometry::kLine:
-      return "1D";
-    case scene::Geometry::kPlane:
-      return "2D";
-    case scene::Geometry::kSpace:
-      return "3D";
-  }
-  return "";
-}
 
 const scene::Mat& matAt(const Scene& scene, int index) {
   return scene.mats[static_cast<std::size_t>(index)];
@@ -105,86 +32,64 @@ Report counts(const std::map<std::string, std::size_t>& by_name) {
   return report;
 }
 
-Report vectorOf(const Eigen::Vector3d& v) {
-  Report report = Report::list();
-  for (const double component : {v.x(), v.y(), v.z()}) {
-    report.add(Report::number(component));
-  }
-  return report;
-}
-
-Report modulesOf(const Scene& scene, int section) {
-  std::map<std::string, std::size_t> by_type;
-  for (const scene::Mat& mat : scene.mats) {
-    by_type[nameOf(mat.type)] += mat.section == section ? 1 : 0;
-  }
-  for (auto type = by_type.begin(); type != by_type.end();) {
-    type = type->second == 0 ? by_type.erase(type) : std::next(type);
-  }
-  return counts(by_type);
-}
-
-std::string steppingOf(const scene::Section& section) {
-  if (section.gestural) {
-    return "once a tick";
-  }
-  return section.divisor == 1 ? "at audio rate"
-                              : "every " + std::to_string(section.divisor) + " audio frames";
-}
-
-Report sectionReport(const Scene& scene,
-                     const physics::Rates& rates,
-                     const physics::Certificate& certificate,
-                     int index) {
-  const scene::Section& section = scene.sections[static_cast<std::size_t>(index)];
-  Report report = Report::map();
-  report.add("name", Report::text(section.name))
-      .add("rate_hz", Report::number(rates.audio_hz / physics::divisorOf(section, rates)))
-      .add("stepped", Report::text(steppingOf(section)))
-      .add("geometry", Report::text(nameOf(section.geometry)))
-      .add("axis", vectorOf(section.pose.linear().col(0)))
-      .add("origin_m", vectorOf(section.pose.translation()))
-      .add("modules", modulesOf(scene, index));
-  for (const physics::SectionCertificate& c : certificate.sections) {
-    if (c.section == index) {
-      report.add("lambda", Report::number(c.lambda))
-          .add("link_bound", Report::number(c.link_bound))
-          .add("lowest_stable_rate_hz", Report::number(c.stable_rate_hz));
-    }
-  }
-  return report;
-}
-
 Report linksOf(const Scene& scene) {
   std::map<std::string, std::size_t> by_type;
+  std::map<std::string, std::size_t> by_scheme;
   std::size_t between_sections = 0;
-  std::size_t guarded = 0;
   for (const scene::Lia& lia : scene.lias) {
     ++by_type[nameOf(lia.type)];
+    ++by_scheme[lia.scheme == scene::Scheme::kGuarded ? "guarded" : "explicit"];
     const bool across = matAt(scene, lia.a).section != matAt(scene, lia.b).section;
     between_sections += across ? 1 : 0;
-    guarded += lia.scheme == scene::Scheme::kGuarded ? 1 : 0;
   }
-  Report report = counts(by_type);
-  if (between_sections > 0) {
-    report.add("of them between sections", Report::count(between_sections));
-  }
-  if (guarded > 0) {
-    report.add("of them guarded", Report::count(guarded));
+  return Report::map()
+      .add("count", Report::count(scene.lias.size()))
+      .add("types", counts(by_type))
+      .add("schemes", counts(by_scheme))
+      .add("between_sections", Report::count(between_sections));
+}
+
+Report pointsOf(const Scene& scene) {
+  Report report = Report::list();
+  for (const scene::Connection& point : scene.connections) {
+    const scene::Grid& grid = scene.grids[static_cast<std::size_t>(point.grid)];
+    Report entry = Report::map();
+    entry.add("name", Report::text(matAt(scene, point.mat).name))
+        .add("on", Report::text(grid.name))
+        .add("along", Report::number(scene.valueOf(point.along)));
+    if (grid.rows > 1) {
+      entry.add("across", Report::number(scene.valueOf(point.across)));
+    }
+    if (point.along.parameter >= 0) {
+      const auto moved_by = static_cast<std::size_t>(point.along.parameter);
+      entry.add("parameter", Report::text(scene.parameters[moved_by].name));
+    }
+    if (point.guide >= 0) {
+      entry.add("guide", Report::text(matAt(scene, point.guide).name));
+    }
+    report.add(std::move(entry));
   }
   return report;
 }
 
-Report portsOf(const Scene& scene) {
+Report portsOf(const Scene& scene, const physics::Certificate& certificate) {
   Report report = Report::list();
-  for (const scene::Port& port : scene.ports) {
-    report.add(Report::map()
-                   .add("name", Report::text(port.name))
-                   .add("slice", Report::number(port.slice))
-                   .add("module", Report::text(matAt(scene, port.mat).name))
-                   .add("offset_m", Report::number(port.offset))
-                   .add("position_scale", Report::number(port.position_scale))
-                   .add("force_scale", Report::number(port.force_scale)));
+  for (std::size_t p = 0; p < scene.ports.size(); ++p) {
+    const scene::Port& port = scene.ports[p];
+    Report entry = Report::map();
+    entry.add("name", Report::text(port.name))
+        .add("slice", Report::number(port.slice))
+        .add("module", Report::text(matAt(scene, port.mat).name))
+        .add("offset_m", Report::number(port.offset))
+        .add("position_scale", Report::number(port.position_scale))
+        .add("force_scale", Report::number(port.force_scale));
+    for (const physics::PortCertificate& c : certificate.ports) {
+      if (c.port == static_cast<int>(p)) {
+        entry.add("stiffness_n_per_m", Report::number(c.stiffness))
+            .add("passive_up_to_n_per_m", Report::number(c.limit));
+      }
+    }
+    report.add(std::move(entry));
   }
   return report;
 }
@@ -265,32 +170,10 @@ Report texts(const std::vector<std::string>& lines) {
   return report;
 }
 
-Report verdictOf(const physics::Certificate& certificate) {
-  return Report::map()
-      .add("verdict", Report::text(physics::toString(certificate.verdict)))
-      .add("margin", Report::number(certificate.margin()))
-      .add("findings", texts(certificate.findings));
-}
-
-double lowestStableAudioRate(const Scene& scene,
-                             const physics::Rates& rates,
-                             const physics::Certificate& certificate) {
-  double lowest = 0.0;
-  for (const physics::SectionCertificate& c : certificate.sections) {
-    const scene::Section& section = scene.sections[static_cast<std::size_t>(c.section)];
-    lowest = std::max(lowest, c.stable_rate_hz * physics::divisorOf(section, rates));
-  }
-  return lowest;
-}
-
 Report reportOn(const physics::Settled& settled,
                 const physics::Rates& rates,
                 const physics::Certificate& certificate) {
   const Scene& scene = settled.scene;
-  Report sections = Report::list();
-  for (std::size_t i = 0; i < scene.sections.size(); ++i) {
-    sections.add(sectionReport(scene, rates, certificate, static_cast<int>(i)));
-  }
   std::vector<std::string> warnings = scene.warnings;
   const std::string note = conversionNote(scene, rates);
   if (!note.empty()) {
@@ -299,16 +182,14 @@ Report reportOn(const physics::Settled& settled,
   return Report::map()
       .add("scene", Report::text(scene.name))
       .add("modules", Report::count(scene.mats.size()))
-      .add("links", Report::count(scene.lias.size()))
       .add("audio_rate_hz", Report::number(rates.audio_hz))
       .add("gestural_rate_hz", Report::number(rates.gesturalHz()))
       .add("frames_per_tick", Report::number(rates.ratio))
-      .add("stability", verdictOf(certificate))
-      .add("lowest_stable_audio_rate_hz",
-           Report::number(lowestStableAudioRate(scene, rates, certificate)))
-      .add("sections", std::move(sections))
-      .add("link_types", linksOf(scene))
-      .add("ports", portsOf(scene))
+      .add("stability", stabilityReport(scene, rates, certificate))
+      .add("sections", sectionsReport(scene, rates, certificate))
+      .add("links", linksOf(scene))
+      .add("points", pointsOf(scene))
+      .add("ports", portsOf(scene, certificate))
       .add("inputs", inputsOf(scene))
       .add("outputs", outputsOf(scene))
       .add("parameters", parametersOf(scene))

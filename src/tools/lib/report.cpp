@@ -10,6 +10,8 @@ namespace ergotic::tools {
 namespace {
 
 constexpr int kDigits = 9;
+constexpr int kReadableDigits = 6;
+constexpr std::size_t kWidth = 100;  // characters of a line that holds a map or a list
 
 std::string quoted(const std::string& text) {
   std::string result = "\"";
@@ -37,10 +39,15 @@ std::string indent(int depth) {
 }  // namespace
 
 Report Report::number(double value) {
-  std::ostringstream text;
-  text.precision(kDigits);
-  text << value;
-  return Report(Kind::kNumber, std::isfinite(value) ? text.str() : "null");
+  const auto written = [value](int digits) {
+    std::ostringstream text;
+    text.precision(digits);
+    text << value;
+    return std::isfinite(value) ? text.str() : std::string("null");
+  };
+  Report report(Kind::kNumber, written(kDigits));
+  report.readable_ = written(kReadableDigits);
+  return report;
 }
 
 Report& Report::add(const std::string& name, Report value) {
@@ -54,7 +61,12 @@ void Report::printJson(std::ostream& out, int depth) const {
     return;
   }
   if (isVector()) {
-    printVector(out);
+    const char* comma = "[";
+    for (const auto& child : children_) {
+      out << comma << child.second.value_;
+      comma = ", ";
+    }
+    out << ']';
     return;
   }
   const bool map = kind_ == Kind::kMap;
@@ -77,13 +89,25 @@ bool Report::isVector() const {
                      [](const auto& child) { return child.second.kind_ == Kind::kNumber; });
 }
 
-void Report::printVector(std::ostream& out) const {
-  const char* separator = "[";
-  for (const auto& child : children_) {
-    out << separator << child.second.value_;
-    separator = ", ";
+bool Report::fitsInFlow() const {
+  if (isLeaf() || isVector()) {
+    return true;
   }
-  out << ']';
+  return kind_ == Kind::kMap && !children_.empty() &&
+         std::all_of(children_.begin(), children_.end(),
+                     [](const auto& child) { return child.second.fitsInFlow(); });
+}
+
+std::string Report::flow() const {
+  if (isLeaf()) {
+    return readable_;
+  }
+  const bool map = kind_ == Kind::kMap;
+  std::string line;
+  for (const auto& [name, child] : children_) {
+    line += (line.empty() ? "" : ", ") + (map ? name + ": " : "") + child.flow();
+  }
+  return map ? "{" + line + "}" : "[" + line + "]";
 }
 
 void Report::printText(std::ostream& out) const {
@@ -95,13 +119,11 @@ void Report::printText(std::ostream& out, int depth, bool after_dash) const {
   for (const auto& [name, child] : children_) {
     out << (after_dash ? "" : indent(depth));
     after_dash = false;
-    out << (kind_ == Kind::kMap ? name + ":" : "-");
-    if (child.isLeaf()) {
-      out << ' ' << child.value_ << '\n';
-    } else if (child.isVector()) {
-      out << ' ';
-      child.printVector(out);
-      out << '\n';
+    const std::string head = indent(depth) + (kind_ == Kind::kMap ? name + ":" : "-");
+    out << head.substr(static_cast<std::size_t>(depth) * 2);
+    const std::string line = child.fitsInFlow() ? child.flow() : "";
+    if (child.isLeaf() || (!line.empty() && head.size() + 1 + line.size() <= kWidth)) {
+      out << ' ' << line << '\n';
     } else if (child.children_.empty()) {
       out << " none\n";
     } else if (kind_ == Kind::kList) {

@@ -27,15 +27,17 @@ class Report {
 
  private:
   enum class Kind { kMap, kList, kText, kNumber };
-  Report(Kind kind, std::string value) : kind_(kind), value_(std::move(value)) {}
+  Report(Kind kind, std::string value) : kind_(kind), value_(std::move(value)), readable_(value_) {}
   bool isLeaf() const { return kind_ == Kind::kText || kind_ == Kind::kNumber; }
-  bool isVector() const;  ///< a list of numbers: printed on one line
-  void printVector(std::ostream& out) const;
+  bool isVector() const;    ///< a list of numbers: printed on one line
+  bool fitsInFlow() const;  ///< a map of numbers and words, however deep: may stand on one line
+  std::string flow() const;
   void printJson(std::ostream& out, int depth) const;
   void printText(std::ostream& out, int depth, bool after_dash) const;
 
   Kind kind_;
   std::string value_;
+  std::string readable_;  // the same, shorter
   std::vector<std::pair<std::string, Report>> children_;
 };
 

@@ -156,7 +156,9 @@ GuardedMotion<Real> GuardedLinks<Real>::measure(const GuardedView<Real>& view,
   m.opening += opened;
   m.coasting = Real(2) * opened;
   payArrears(moved, state);
-  m.is_pushing = !m.is_friction && (m.p > Real(0) || !law.isContact());
+  // A contact that closes within this step begins to push in it.
+  const Real soonest = m.p - std::min(Real(0), m.coasting / Real(2));
+  m.is_pushing = !m.is_friction && (soonest > Real(0) || !law.isContact());
   m.is_active = m.is_friction || m.is_pushing || state.tank > Real(0);
   return m;
 }

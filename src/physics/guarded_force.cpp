@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kEmptyTank = 1e-6;
+constexpr double kShortContact = 3.0;  // kt above which a contact is over before a sample sees it
 
 /// The largest force whose work F (opening + give F) / 2 is at most `energy`.
 template <class Real>
@@ -25,7 +26,7 @@ Real largestForce(Real energy, Real opening, Real give) noexcept {
 /// energy; 1/4 - 1/(2 kt) is the least that is stable on a stiffness that does not change.
 template <class Real>
 Real lookAhead(Real kt, bool is_contact) noexcept {
-  if (kt > Real(3)) {
+  if (kt > Real(kShortContact)) {
     return Real(0.25) - Real(1) / (Real(2) * kt);
   }
   // At given amplitude a two-sided spring is more accurate without.
@@ -86,15 +87,37 @@ Real wantedForce(const GuardedMotion<Real>& m,
   return (at.force - ahead * at.slope * (m.opening - m.coasting)) / (Real(1) + ahead * kt);
 }
 
+/// The same of a contact that lasts for several steps. Its slope changes at the first touch, at a
+/// time that no sample knows; the mean of the law over the steps on both sides, which is what the
+/// motion feels, does. It depends on the velocity, hence the passes.
+template <class Real>
+Real wantedMean(const GuardedMotion<Real>& m,
+                const GuardedLaw<Real>& law,
+                GuardedForce<Real> at,
+                Real kt) noexcept {
+  Real wanted = at.force;
+  for (int pass = 0; pass < 3; ++pass) {
+    at.force = law.meanPush(m.p, (m.opening + m.give * wanted) / Real(2));
+    wanted = wantedForce(m, at, kt, true);
+  }
+  return wanted;
+}
+
 template <class Real>
 void exertElastic(GuardedMotion<Real>& m,
                   const GuardedLaw<Real>& law,
                   GuardedState<Real>& state) noexcept {
   const bool is_contact = law.isContact();
-  const GuardedForce<Real> at = law.push(m.p);
+  const bool is_open = is_contact && !(m.p > Real(0));
+  const GuardedForce<Real> at = is_open ? GuardedForce<Real>{} : law.push(m.p);
   const Real kt = m.give * std::max(Real(0), at.slope);
-  const Real wanted = wantedForce(m, at, kt, is_contact);
-  const Real z = law.dampingAt(m.p, -m.coasting / Real(2));
+  const Real deepest = m.p + std::abs(m.coasting) / Real(2);
+  const bool is_long = is_contact && m.give * law.push(deepest).slope <= Real(kShortContact);
+  if (is_open && !is_long) {
+    return;
+  }
+  const Real wanted = is_long ? wantedMean(m, law, at, kt) : wantedForce(m, at, kt, is_contact);
+  const Real z = is_open ? Real(0) : law.dampingAt(m.p, -m.coasting / Real(2));
   const bool is_impact = is_contact && z > Real(0) && kt > Real(1);
   const Real damping = is_impact ? Real(0) : z;
   const Real drag = Real(1) + m.give * damping / Real(2);

@@ -237,6 +237,47 @@ ERGOTIC_REALTIME Real GuardedLaw<Real>::potential(Real p) const noexcept {
   return Real(0);
 }
 
+/// Integral of the potential from 0: what a force gives to a motion at constant velocity.
+template <class Real>
+ERGOTIC_REALTIME Real GuardedLaw<Real>::impulse(Real p) const noexcept {
+  if (!(p > Real(0))) {
+    return Real(0);
+  }
+  if (kind == Kind::kContact) {
+    return stiffness * p * p * p / Real(6);
+  }
+  if (kind == Kind::kPowerContact) {
+    return push(p).force * p * p / ((exponent + Real(1)) * (exponent + Real(2)));
+  }
+  const Real inside = std::min(p, tip);
+  const Real cube = inside * inside * inside;
+  const Real beyond = p - inside;
+  return cube * (stiffness / Real(6) + nonlinearity * inside * inside / Real(20)) +
+         beyond * clippedPotential(inside) +
+         stiffness_limit * beyond * beyond * (p + Real(2) * inside) / Real(6);
+}
+
+/// Second derivative of f.
+template <class Real>
+ERGOTIC_REALTIME Real GuardedLaw<Real>::bend(Real p) const noexcept {
+  if (kind == Kind::kPowerContact) {
+    return exponent * (exponent - Real(1)) * push(p).force / (p * p);
+  }
+  return kind == Kind::kCubicContact && p < tip ? Real(6) * nonlinearity * p : Real(0);
+}
+
+template <class Real>
+ERGOTIC_REALTIME Real GuardedLaw<Real>::meanPush(Real p, Real w) const noexcept {
+  const Real step = std::abs(w);
+  if (p > Real(4) * step) {
+    return push(p).force + step * step * bend(p) / Real(12);  // the rest is below 1e-5 of it
+  }
+  if (!(p + step > Real(0))) {
+    return Real(0);
+  }
+  return (impulse(p + step) - Real(2) * impulse(p) + impulse(p - step)) / (step * step);
+}
+
 template <class Real>
 ERGOTIC_REALTIME Real GuardedLaw<Real>::dampingAt(Real p, Real v) const noexcept {
   const bool is_clipped = kind == Kind::kCubicContact || kind == Kind::kClippedCubic;

@@ -93,6 +93,10 @@ struct GuardedLaw {
     return kind == Kind::kBow || kind == Kind::kSmoothBow || kind == Kind::kSlipTable;
   }
 
+  /// Mean of f over the steps before and after p, which is passed at w per step, with the weight
+  /// 1 - |t|: the impulse that a motion at constant velocity would get. Contacts only.
+  /// Realtime: yes
+  Real meanPush(Real p, Real w) const noexcept;
   /// f(p) and f'(p) of the elastic laws. \pre p > 0 for contacts. Realtime: yes
   GuardedForce<Real> push(Real p) const noexcept;
   /// Integral of f from 0 to p, for springs with a well above its bottom. Realtime: yes
@@ -105,6 +109,8 @@ struct GuardedLaw {
  private:
   GuardedForce<Real> bow(Real v) const noexcept;
   Real clippedPotential(Real p) const noexcept;
+  Real impulse(Real p) const noexcept;
+  Real bend(Real p) const noexcept;
 };
 
 /// True if `GuardedLaw::make` knows a law for it.

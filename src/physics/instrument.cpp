@@ -7,6 +7,7 @@
 #include "coefficients.hpp"
 #include "energy_meter.hpp"
 #include "ergotic/exception.hpp"
+#include "ergotic/physics/settle.hpp"
 #include "guarded_runs.hpp"
 #include "layout.hpp"
 #include "points.hpp"
@@ -281,6 +282,9 @@ class InstrumentOf final : public Instrument {
 std::unique_ptr<Instrument> compile(const scene::Scene& scene,
                                     const Rates& rates,
                                     Precision precision) {
+  if (!isSettled(scene)) {
+    throw Exception("scene '" + scene.name + "' is not settled: settle() comes before compile()");
+  }
   Layout layout = makeLayout(scene, rates);
   if (precision == Precision::kFloat) {
     return std::make_unique<InstrumentOf<float>>(scene, rates, std::move(layout), precision);

@@ -27,6 +27,7 @@ using test::Outcome;
 using test::run;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 std::vector<double> soundOf(const std::string& path) {
   return audio::WavReader(path).readAll();
@@ -273,6 +274,46 @@ TEST_F(RenderTest, TellsUsageErrorsFromOthers) {
   EXPECT_EQ(run("render", "/nonexistent.mdl").code, 1);
   EXPECT_EQ(run("render", scene + " --out /nonexistent/out.wav").code, 1);
   EXPECT_EQ(run("render", "--help").code, 0);
+}
+
+/// How alike a sound is to itself `lag` frames later, 1: the same. From frame `first` on, 0.2 s.
+double likenessAt(const std::vector<double>& sound, std::size_t first, std::size_t lag) {
+  double product = 0.0;
+  double power = 0.0;
+  double later = 0.0;
+  for (std::size_t n = first; n < first + 8820; ++n) {
+    product += sound[n] * sound[n + lag];
+    power += sound[n] * sound[n];
+    later += sound[n + lag] * sound[n + lag];
+  }
+  return product / std::sqrt(power * later);
+}
+
+TEST_F(RenderTest, PlaysTheFrettedStringOpenAndOnAFret) {
+  const std::string model = std::string(ERGOTIC_SOURCE_DIR) + "/models/fretted_string";
+  EXPECT_THAT(
+      run("check", model + ".yaml").text,
+      AllOf(HasSubstr("verdict: bounded"), HasSubstr("geometry: 3D"), HasSubstr("guarded: 4")));
+  const std::string out = path("out.wav");
+  const Outcome outcome =
+      run("render", model + ".yaml --gesture " + model +
+                        "_demo.csv --seconds 6.2 --out-format double --out " + out);
+  ASSERT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_THAT(outcome.text, Not(HasSubstr("warning:"))) << "links are hardly ever cut";
+  const std::vector<double> both = soundOf(out);
+  std::vector<double> sound;
+  for (std::size_t n = 0; n < both.size(); n += 2) {
+    sound.push_back(both[n]);
+  }
+  EXPECT_GT(peakOf(sound), 0.1);
+  EXPECT_LT(peakOf(sound), 1.0);
+  const std::size_t open = 450;             // frames of a period of 98 Hz
+  const std::size_t fretted = 338;          // five semitones above
+  const std::size_t open_from = 127890;     // 2.9 s
+  const std::size_t fretted_from = 249165;  // 5.65 s
+  EXPECT_GT(likenessAt(sound, open_from, open), 0.9);
+  EXPECT_GT(likenessAt(sound, fretted_from, fretted), 0.9);
+  EXPECT_LT(likenessAt(sound, fretted_from, open), 0.5);
 }
 
 TEST_F(CheckTest, SaysWhatASceneIsMadeOf) {

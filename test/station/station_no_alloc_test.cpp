@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "ergotic/scene/read_scene.hpp"
 #include "ergotic/station/audio_bridge.hpp"
 #include "ergotic/station/station.hpp"
 #include "support/alloc_count.hpp"
@@ -121,6 +123,81 @@ TEST(StationNoAllocTest, TickNeverTouchesTheHeapWhateverIsAsked) {
   const Snapshot* snapshot = station.snapshot();
   ASSERT_NE(snapshot, nullptr);
   EXPECT_GT(snapshot->counters.peak_force_n, 0.0) << "the string was touched";
+}
+
+/// A finger on a string in three dimensions that a parameter moves, a place that a guide moves, a
+/// guarded contact.
+const char kMovedPlaces[] = R"(ergotic: 1
+name: moved places
+parameters:
+  place: {value: 0.3, range: [0.1, 0.9]}
+sections:
+  string: {rate: audio, geometry: space}
+  keys: {rate: gestural}
+mats:
+  key: {type: slice, section: keys}
+  slider: {type: slice, section: keys}
+  finger: {type: point, along: s, at: $place, speed: 2}
+  led: {type: point, along: s, at: 0.5, guide: {mat: slider, scale: 20}}
+  damper: {type: ground, section: string, at: [0.3, 0, 0]}
+generators:
+  - {type: string, name: s, section: string, masses: 30, mass: 1.0e-4, stiffness: 2000,
+     rest_length_ratio: 0.5, from: [0, 0, 0], to: [0.6, 0, 0]}
+lias:
+  touch: {type: contact, between: [key, led], stiffness: 500, threshold: 0.3, scheme: guarded}
+  hold: {type: spring, between: [finger, damper], stiffness: 100}
+ports:
+  a: {mat: key, slice: 0}
+  b: {mat: slider, slice: 1}
+)";
+
+TEST(StationNoAllocTest, PlacesMoveWhilePlayingWithoutTheHeap) {
+  if (!AllocationScope::isAvailable()) {
+    GTEST_SKIP() << "the sanitizer has its own heap";
+  }
+  PerformerPolicy policy;
+  policy.allow_unproven = true;
+  auto made = makePerformer(scene::readYaml(kMovedPlaces, "places.yaml"), kRates,
+                            physics::Precision::kDouble, policy);
+  Performer& performer = *made;
+  const auto slowly = [](std::int64_t n, int) {
+    return 0.01 * std::sin(1e-3 * static_cast<double>(n));
+  };
+  test::DriverLog log;
+  StationConfig config = test::Bench::quickConfig();
+  config.rates = kRates;
+  Station station(config, std::make_unique<test::ScriptedDriver>(2, log, slowly), std::move(made));
+  auto coefficients = performer.instrument->prepare({0.7});
+  Command move;
+  move.type = Command::Type::kParameter;
+  move.value = 0.7;
+  move.coefficients = coefficients.release();
+  std::int64_t heap_calls = 0;
+  for (int n = 0; n < 6000; ++n) {
+    const AllocationScope scope;
+    if (n == 3000) {
+      ASSERT_TRUE(station.submit(move));
+    }
+    station.cycle({0, false});
+    heap_calls += scope.calls();
+  }
+  EXPECT_EQ(heap_calls, 0);
+  Event event;
+  while (station.poll(event)) {
+    delete event.coefficients;
+  }
+  ASSERT_TRUE(performer.motion.refresh());
+  const MotionFrame& motion = performer.motion.latest();
+  const std::vector<scene::Mat>& mats = performer.instrument->scene().mats;
+  std::size_t first = 0;  // of the finger's displacements
+  for (std::size_t m = 0; mats[m].name != "finger"; ++m) {
+    first += static_cast<std::size_t>(
+        scene::dimensionsOf(performer.instrument->scene().sectionOf(mats[m]).geometry));
+  }
+  EXPECT_NEAR(motion.displacement[first], 0.4F * 0.6F, 0.02F) << "0.3 to 0.7 of 0.6 m";
+  EXPECT_NE(motion.energies.sections[0].from_inputs, 0.0) << "work of the places that move";
+  ASSERT_EQ(motion.guards.size(), 1U);
+  EXPECT_GT(motion.guards[0].active, 0);
 }
 
 TEST(StationNoAllocTest, AudioBridgeNeverTouchesTheHeapOnEitherSide) {

@@ -239,6 +239,28 @@ TEST(PointTest, LinkBetweenTwoMovingPlacesKeepsMomentumAndEnergyBalances) {
   EXPECT_GT(std::abs(energies.sections[0].from_inputs), 1e-6) << "moving a place takes work";
 }
 
+TEST(PointTest, GlidingUpASlopeTakesTheWorkThatTheSpringStores) {
+  for (const double cubic : {0.0, 3.0}) {
+    Built b;
+    const int point = b.point(b.ruler(11), 1.0);  // a slope of fixed modules: 0...10 m
+    b.parameter(0.2, 0.0, 1.0);
+    b.scene.connections[0].along = {1.0, 0};
+    b.scene.connections[0].speed = 30.0;
+    b.link(cubic > 0.0 ? LiaType::kCubic : LiaType::kSpringDamper, point, b.ground(), 100.0);
+    b.scene.lias[0].nonlinearity = {cubic};
+    Player player(b.scene, {kRate, 10});
+    Energies energies = player.instrument->makeEnergies();
+    player.tick();
+    player.instrument->exchange(player.instrument->prepare({0.8}));
+    player.ticks(100);
+    player.instrument->readEnergies(energies);
+    const auto stored = [&](double x) { return 50.0 * x * x + 0.25 * cubic * std::pow(x, 4.0); };
+    EXPECT_NEAR(energies.sections[0].from_inputs / (stored(8.0) - stored(2.0)), 1.0, 1e-6);
+    EXPECT_NEAR(energies.stored / stored(8.0), 1.0, 1e-6);
+    EXPECT_LT(std::abs(energies.residual), 1e-12 * energies.stored);
+  }
+}
+
 TEST(PointTest, StringFrettedInTheMiddleSoundsAnOctaveHigher) {
   const double kappa = 0.05;
   const double m = 1e-4;

@@ -145,6 +145,59 @@ TEST(MixedGeometryTest, EnergyBalancesBetweenTheGeometries) {
   EXPECT_GT(energies.sections[2].kinetic, 1e-3);
 }
 
+/// A slow scalar mass on a spring to a place between four masses of a square in space.
+TwoFrames slowMassAndMesh(scene::Coupling coupling) {
+  TwoFrames b;
+  b.scene.sections[0].gestural = true;
+  const int slow = b.mass(0.05, 0.0, 0.5);
+  const int first = static_cast<int>(b.scene.mats.size());
+  for (int i = 0; i < 4; ++i) {
+    const int m = b.mass(1e-3, 0.0, 0.0, TwoFrames::kSpace);
+    b.scene.mats[at(m)].rest = b.origin() + Vector3d(0.1 * (i % 2), 0.1 * (i / 2), 0.0);
+    b.scene.mats[at(m)].position = b.scene.mats[at(m)].rest;
+    b.hearAxes(m, 1 + 3 * i, Quantity::kVelocity);
+  }
+  for (const auto& [i, j] : {std::pair(0, 1), {1, 3}, {3, 2}, {2, 0}, {0, 3}}) {
+    b.spring(first + i, first + j, 50.0, 1e-3);
+  }
+  b.scene.grids.push_back({"mesh", first, 2, 2});
+  scene::Mat point;
+  point.name = "point";
+  point.type = scene::MatType::kPoint;
+  point.section = TwoFrames::kSpace;
+  b.scene.mats.push_back(point);
+  scene::Connection connection;
+  connection.mat = static_cast<int>(b.scene.mats.size()) - 1;
+  connection.along = {0.3};
+  connection.across = {0.6};
+  b.scene.connections.push_back(connection);
+  const int l = b.spring(slow, connection.mat, 40.0, 1e-3);
+  b.scene.lias[at(l)].coupling = coupling;
+  b.hear(slow, 0, Quantity::kVelocity);
+  return b;
+}
+
+TEST(MixedGeometryTest, PointsFramesAndRatesTogetherKeepMomentumAndEnergyBalances) {
+  for (const scene::Coupling coupling : {scene::Coupling::kHold, scene::Coupling::kDecimate}) {
+    const TwoFrames b = slowMassAndMesh(coupling);
+    Player player(b.scene, {kRate, 14});
+    Energies energies = player.instrument->makeEnergies();
+    for (int n = 0; n < 1000; ++n) {
+      player.tick();
+      player.instrument->readEnergies(energies);
+      ASSERT_LT(std::abs(energies.residual), 1e-12 * energies.stored) << n;
+      // At the start of a slow step the mean force of the last one has arrived.
+      double momentum = 0.05 * player.heard[0][at(14 * n)];
+      for (int axis = 0; axis < 12; ++axis) {
+        momentum += 1e-3 * b.axis()[axis % 3] * player.heard[at(1 + axis)][at(14 * n)];
+      }
+      ASSERT_NEAR(momentum, 0.05 * 0.5, 1e-14) << n;
+    }
+    EXPECT_GT(energies.couplings[0].dissipated, 1e-9);
+    EXPECT_LT(player.heard[0].back(), 0.495) << "the square was set going";
+  }
+}
+
 /// Two driven points of a plane: the first link joins them. Force on the second.
 Vector3d planeForce(LiaType type, const Vector3d& from, const Vector3d& to, double width) {
   SceneBuilder b;

@@ -55,19 +55,34 @@ template <class Real, class Law>
 void stepPlain(const LinkRun& run, const Law& law, const Frame<Real>& at) noexcept {
   const LinkEnds* ends = run.ends.data();
   const std::size_t links = run.ends.size();
-  Real lost(0);
-  for (std::size_t l = 0; l < links; ++l) {
+  const Real* x = at.x;
+  const Real* d = at.d;
+  const Real* moved = at.moved;
+  const Real* d_last = at.d_last;
+  Real* f = at.f;
+  // What a link loses, twice over.
+  const auto stepLink = [=](std::size_t l) noexcept {
     const int a = ends[l].a;
     const int b = ends[l].b;
-    const Real v = at.d[a] - at.d[b];
-    const laws::Force<Real> force = law.force(l, at.x[a] - at.x[b], v);
+    const Real v = d[a] - d[b];
+    const laws::Force<Real> force = law.force(l, x[a] - x[b], v);
     const Real sum = force.elastic + force.viscous;
-    at.f[a] -= sum;
-    at.f[b] += sum;
+    f[a] -= sum;
+    f[b] += sum;
     // The damper's last force is the damping times the last v.
-    lost += (at.moved[a] - at.moved[b]) * law.c(1, l) * (v + (at.d_last[a] - at.d_last[b]));
+    return (moved[a] - moved[b]) * law.c(1, l) * (v + (d_last[a] - d_last[b]));
+  };
+  Real lost[4] = {};  // four sums, as one would wait for each addition
+  std::size_t l = 0;
+  for (; l + 4 <= links; l += 4) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      lost[k] += stepLink(l + k);
+    }
   }
-  at.work->dissipated += 0.5 * static_cast<double>(lost);
+  for (; l < links; ++l) {
+    lost[0] += stepLink(l);
+  }
+  at.work->dissipated += 0.5 * static_cast<double>((lost[0] + lost[1]) + (lost[2] + lost[3]));
 }
 
 /// Books one coordinate of one link that remembers, and hands its force out. Across rates a damper

@@ -137,10 +137,13 @@ class Stepper {
     const Real* f = state.f();
     const Real* inverse = c.inverse_mass.data();
     const Real* drift = c.drift.data();
+#pragma GCC ivdep  // the arrays do not overlap
     for (int s = first; s < last; ++s) {
-      d_last[s] = d[s];
-      d[s] += inverse[s] * f[s] + drift[s];
-      x[s] += d[s];
+      const Real before = d[s];
+      const Real now = before + (inverse[s] * f[s] + drift[s]);
+      d_last[s] = before;
+      d[s] = now;
+      x[s] += now;
     }
   }
 

@@ -26,7 +26,8 @@ bool hasSlice(const scene::Scene& scene, int section) {
   });
 }
 
-/// The section with everything around it held.
+/// The section with everything around it held. Cells count as plain ones: matched, each would be
+/// exact at any rate, but not heard above half of it.
 scene::Scene isolated(scene::Scene scene, int section) {
   const auto is_outside = [&](int m) { return scene.mats[at(m)].section != section; };
   auto& connections = scene.connections;
@@ -38,6 +39,7 @@ scene::Scene isolated(scene::Scene scene, int section) {
   scene.inputs.clear();
   scene.outputs.clear();
   for (scene::Mat& mat : scene.mats) {
+    mat.matched = false;
     if (mat.section != section) {
       mat.type = MatType::kGround;
       mat.section = section;

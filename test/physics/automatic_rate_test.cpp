@@ -67,6 +67,16 @@ TEST(AutomaticRateTest, HighestModeDecidesAtBothSidesOfTheThreshold) {
   EXPECT_EQ(chosen(oscillator(2.0, 1).scene, 14), 1) << "there is none faster";
 }
 
+TEST(AutomaticRateTest, MatchedCellsAreKeptBelowTheNyquistRateToo) {
+  for (const double lambda : {0.039, 0.041}) {
+    SceneBuilder b;
+    const int s = automatic(b);
+    b.cell(kMass, stiffness(lambda, 14), 0.0, 0.0, 0.0, s);
+    b.scene.mats.back().matched = true;
+    EXPECT_EQ(chosen(b.scene, 14), lambda < 0.04 ? 14 : 7);
+  }
+}
+
 TEST(AutomaticRateTest, HeardDetuningIsThePredictedOne) {
   for (const double lambda : {0.002, 0.0399}) {
     const SceneBuilder b = oscillator(lambda, 14);

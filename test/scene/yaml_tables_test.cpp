@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "ergotic/exception.hpp"
 #include "ergotic/scene/read_scene.hpp"
@@ -40,7 +41,7 @@ std::string pointsText(const Table& table) {
 class YamlTablesTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = testing::TempDir() + "ergotic_yaml_tables_test/";
+    folder_ = testing::TempDir() + "ergotic_tables_" + std::to_string(::getpid()) + "/";
     ::mkdir(folder_.c_str(), 0755);
   }
   void write(const std::string& name, const std::string& text) const {

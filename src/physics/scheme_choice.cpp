@@ -2,12 +2,11 @@
 #include "scheme_choice.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <tuple>
 
-#include "ergotic/scene/table.hpp"
 #include "note.hpp"
+#include "slopes.hpp"
 #include "step_units.hpp"
 
 namespace ergotic::physics {
@@ -21,57 +20,10 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-/// Largest (or smallest) |value| in the range of a value's parameter.
-double magnitude(const scene::Scene& scene, const scene::Value& v, bool largest) {
-  if (v.parameter < 0) {
-    return std::abs(scene.valueOf(v));
-  }
-  const scene::Parameter& p = scene.parameters[at(v.parameter)];
-  const double a = std::abs(v.factor * p.minimum);
-  const double b = std::abs(v.factor * p.maximum);
-  return largest ? std::max(a, b) : std::min(a, b);
-}
-
-double largest(const scene::Scene& scene, const scene::Value& v) {
-  return magnitude(scene, v, true);
-}
-
-/// Steepest rise and fall of a force over velocity or elongation, both >= 0.
-struct CurveSlopes {
-  double rise = 0.0;
-  double fall = 0.0;
-};
-
-CurveSlopes slopesOf(const scene::Table& table) {
-  const scene::Curve curve = scene::interpolate(table);
-  return {std::max(curve.largest_slope, 0.0), std::max(-curve.smallest_slope, 0.0)};
-}
-
-CurveSlopes frictionSlopes(const scene::Scene& scene, const scene::Lia& lia) {
-  const scene::Table& table = lia.type == LiaType::kTable ? lia.viscous_table : lia.table;
-  if (!table.empty()) {
-    return slopesOf(table);
-  }
-  const double z = largest(scene, lia.damping);
-  if (lia.type == LiaType::kBow) {
-    return {z * 2.0 / 3.0, z / 3.0};
-  }
-  // 0.63 Z exp(0.5 - 4 r^2) (1 - 8 r^2): steepest at r = 0, falls most where r^2 = 3/8
-  return {0.63 * std::exp(0.5) * z, 0.63 * 2.0 * std::exp(-1.0) * z};
-}
-
-double switchedStiffness(const scene::Scene& scene, const scene::Lia& lia) {
-  if (lia.type == LiaType::kTable) {
-    const CurveSlopes slopes = slopesOf(lia.table);
-    return std::max(slopes.rise, slopes.fall);
-  }
-  const double k = largest(scene, lia.stiffness);
-  if (lia.type != LiaType::kClippedCubic && lia.type != LiaType::kCubicContact) {
-    return k;
-  }
-  const double q = largest(scene, lia.nonlinearity);
-  const double tip = lia.tipping_point;
-  return std::max(k + 3.0 * q * tip * tip, largest(scene, lia.stiffness_limit));
+/// The largest stiffness that a link switches on and off.
+double stiffest(const scene::Scene& scene, const scene::Lia& lia) {
+  return lia.type == LiaType::kPowerContact ? largest(scene, lia.stiffness)
+                                            : slopesOf(scene, lia).stiffness.highest;
 }
 
 /// Why a link is guarded: a figure that is larger than the explicit scheme bears.
@@ -128,7 +80,7 @@ class Chooser {
     switch (mat(m).type) {
       case MatType::kMass:
       case MatType::kCell:
-        return 1.0 / magnitude(scene_, mat(m).mass, false);
+        return 1.0 / smallest(scene_, mat(m).mass);
       case MatType::kPoint:
         return lightestUnder(m);
       default:
@@ -180,13 +132,13 @@ class Chooser {
   }
 
   Reason switching(const scene::Lia& lia, double unit) const {
-    const double kappa = unit * switchedStiffness(scene_, lia);
+    const double kappa = unit * stiffest(scene_, lia);
     return kappa > kExplicitSwitch ? Reason{"h^2 K (1/Ma + 1/Mb)", kappa, kExplicitSwitch}
                                    : Reason{};
   }
 
   Reason sliding(const scene::Lia& lia, double unit) const {
-    const CurveSlopes slopes = frictionSlopes(scene_, lia);
+    const FrictionSlopes slopes = frictionSlopesOf(scene_, lia);
     if (unit * slopes.rise >= kExplicitFriction) {
       return {"h max F' (1/Ma + 1/Mb)", unit * slopes.rise, kExplicitFriction};
     }

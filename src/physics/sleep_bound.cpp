@@ -8,6 +8,7 @@
 #include <Eigen/SparseCholesky>
 
 #include "note.hpp"
+#include "slopes.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -74,26 +75,17 @@ Eigen::Vector3d moving(const Eigen::Vector3d& v, int dimensions) {
   return {v.x(), dimensions > 1 ? v.y() : 0.0, dimensions > 2 ? v.z() : 0.0};
 }
 
-/// The smallest value that its parameter allows.
-double lowest(const scene::Scene& scene, const scene::Value& v) {
-  if (v.parameter < 0) {
-    return scene.valueOf(v);
-  }
-  const scene::Parameter& p = scene.parameters[at(v.parameter)];
-  return std::min(v.factor * p.minimum, v.factor * p.maximum);
-}
-
 /// Of the spring that a link is at least; 0 if it may let go.
 double springOf(const scene::Scene& scene, const scene::Lia& lia) {
-  const double k = lowest(scene, lia.stiffness);
+  const double k = spanOf(scene, lia.stiffness).lowest;
   switch (lia.type) {
     case LiaType::kSpringDamper:
       return k;
     case LiaType::kQuadratic:
     case LiaType::kCubic:
-      return lowest(scene, lia.nonlinearity) < 0.0 ? 0.0 : k;
+      return spanOf(scene, lia.nonlinearity).lowest < 0.0 ? 0.0 : k;
     case LiaType::kClippedCubic:
-      return std::min(k, lowest(scene, lia.stiffness_limit));
+      return std::min(k, spanOf(scene, lia.stiffness_limit).lowest);
     default:
       return 0.0;
   }
@@ -121,7 +113,8 @@ class Assembly {
     for (std::size_t m = 0; m < scene_.mats.size(); ++m) {
       const scene::Mat& mat = scene_.mats[m];
       if (row_[m] >= 0 && mat.type == MatType::kCell) {
-        addBlock(row_[m], row_[m], lowest(scene_, mat.stiffness) * Eigen::Matrix3d::Identity());
+        addBlock(row_[m], row_[m],
+                 spanOf(scene_, mat.stiffness).lowest * Eigen::Matrix3d::Identity());
       }
     }
     for (const scene::Lia& lia : scene_.lias) {

@@ -218,7 +218,7 @@ double EnergyMeter<Real>::storedIn(std::size_t run,
   if (!remembers(layout_.runs[run])) {
     return springs(layout_.runs[run], c.runs[run], state);
   }
-  const kernels::Work& work = state.work()[run];
+  const kernels::Work work = workOf(run, state);
   return work.initial + work.stored;
 }
 
@@ -275,12 +275,15 @@ void EnergyMeter<Real>::addLinks(const CoefficientsOf<Real>& c,
   }
 }
 
-/// The work of a run, with that of the slower end's step under way.
+/// The work of a run, with that of the steps under way.
 template <class Real>
 kernels::Work EnergyMeter<Real>::workOf(std::size_t r, const State<Real>& state) const noexcept {
   const LinkRun& run = layout_.runs[r];
   kernels::Work work = state.work()[r];
-  if (layout_.isBetweenSlowSteps(run, state.frame())) {
+  const bool is_slow_done = layout_.isBetweenSlowSteps(run, state.frame());
+  const bool is_done =
+      !run.guarded || state.frame() % layout_.sections[at(run.section)].divisor == 0;
+  if (is_slow_done && is_done) {
     return work;
   }
   const kernels::Memory<const Real> memory = state.memory(r);
@@ -288,8 +291,16 @@ kernels::Work EnergyMeter<Real>::workOf(std::size_t r, const State<Real>& state)
   for (std::size_t i = 0; i < state.remembered(r); ++i) {
     const LinkEnds& ends = run.ends[i % links];
     const int k = static_cast<int>(i / links);
-    const int slot = run.slow_is_a ? ends.a + k * run.stride_a : ends.b + k * run.stride_b;
-    kernels::addSlowWork(run, memory, i, static_cast<double>(state.moved()[slot]), work);
+    const Real moved_a = state.moved()[ends.a + k * run.stride_a];
+    const Real moved_b = state.moved()[ends.b + k * run.stride_b];
+    if (!is_slow_done) {
+      kernels::addSlowWork(run, memory, i, static_cast<double>(run.slow_is_a ? moved_a : moved_b),
+                           work);
+    }
+    if (!is_done) {
+      // Its force comes with the last frame of the step.
+      kernels::addHalfWork(run, moved_a, moved_b, {memory.elastic[i], memory.viscous[i]}, work);
+    }
   }
   return work;
 }

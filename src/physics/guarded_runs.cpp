@@ -22,6 +22,7 @@ GuardedRuns<Real>::GuardedRuns(const scene::Scene& scene,
       place_of_slot_(at(layout.slots()), -1),
       projection_of_slot_(at(layout.slots()), -1),
       members_(guardedGroupsOf(layout)),
+      due_(layout.sections.size(), 0),
       forces_(members_.empty() ? 0 : at(layout.slots()), Real(0)) {
   for (const scene::Mat& mat : scene.mats) {
     rests_.push_back(mat.rest);
@@ -130,7 +131,6 @@ void GuardedRuns<Real>::reachEnd(int slot,
 template <class Real>
 GuardedView<Real> GuardedRuns<Real>::viewOf(const Group& group,
                                             const CoefficientsOf<Real>& c,
-                                            const unsigned char* due,
                                             State<Real>& state) const noexcept {
   GuardedView<Real> view;
   view.x = state.x();
@@ -140,7 +140,7 @@ GuardedView<Real> GuardedRuns<Real>::viewOf(const Group& group,
   view.drift = c.masses.drift.data();
   view.keep = c.masses.keep.data();
   view.pull = c.masses.pull.data();
-  view.due = due;
+  view.due = due_.data();
   view.idle = group.idle.data();
   return view;
 }
@@ -162,12 +162,19 @@ void GuardedRuns<Real>::markIdle(std::size_t g, State<Real>& state) noexcept {
   }
 }
 
+/// The sections that moved as the step began.
+template <class Real>
+void GuardedRuns<Real>::markDue(std::int64_t began) noexcept {
+  for (std::size_t s = 0; s < due_.size(); ++s) {
+    due_[s] = began % layout_.sections[s].divisor == 0 ? 1 : 0;
+  }
+}
+
 /// Hands the forces to both ends, as explicit links do.
 template <class Real>
 void GuardedRuns<Real>::exchange(std::size_t g,
-                                 std::int64_t now,
+                                 std::int64_t began,
                                  const Stepper<Real>& stepper,
-                                 const unsigned char* due,
                                  State<Real>& state) noexcept {
   const GuardedState<Real>* all = states(g, state);
   for (std::size_t l = 0; l < members_[g].links.size(); ++l) {
@@ -176,8 +183,8 @@ void GuardedRuns<Real>::exchange(std::size_t g,
     if (groups_[g].idle[l] != 0) {
       continue;
     }
-    const bool slow_ends = layout_.endsSlowStep(run, now);
-    kernels::Frame<Real> frame = stepper.frameOf(ref.run, due, slow_ends, state);
+    const bool slow_ends = layout_.endsSlowStep(run, began);
+    kernels::Frame<Real> frame = stepper.frameOf(ref.run, due_.data(), slow_ends, state);
     frame.f = forces_.data();
     for (int k = 0; k < std::max(1, run.dimensions); ++k) {
       const int a = run.ends[ref.link].a + k * run.stride_a;
@@ -217,23 +224,25 @@ template <class Real>
 ERGOTIC_REALTIME void GuardedRuns<Real>::step(std::int64_t now,
                                               const CoefficientsOf<Real>& c,
                                               const Stepper<Real>& stepper,
-                                              const unsigned char* due,
                                               State<Real>& state) noexcept {
   bool any = false;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
-    if (now % members_[g].divisor != 0) {
+    const GuardedView<Real> view = viewOf(groups_[g], c, state);
+    if (now == 0) {
+      followPlaces(g, state);
+      groups_[g].links.start(view, c.guarded[g].data(), states(g, state));
+      closeBooks(g, true, state);
+    }
+    if ((now + 1) % members_[g].divisor != 0) {
       continue;
     }
     any = true;
     followPlaces(g, state);
     markIdle(g, state);
-    const GuardedView<Real> view = viewOf(groups_[g], c, due, state);
-    if (now == 0) {
-      groups_[g].links.start(view, c.guarded[g].data(), states(g, state));
-      closeBooks(g, true, state);
-    }
+    const std::int64_t began = now + 1 - members_[g].divisor;
+    markDue(began);
     groups_[g].links.step(view, c.guarded[g].data(), states(g, state));
-    exchange(g, now, stepper, due, state);
+    exchange(g, began, stepper, state);
     closeBooks(g, false, state);
   }
   if (any) {
@@ -250,7 +259,7 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::retune(const CoefficientsOf<Real>& from
                                                 const CoefficientsOf<Real>& to,
                                                 State<Real>& state) noexcept {
   for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const GuardedView<Real> view = viewOf(groups_[g], from, nullptr, state);
+    const GuardedView<Real> view = viewOf(groups_[g], from, state);
     const auto book = [&](double sign) {
       for (std::size_t l = 0; l < members_[g].links.size(); ++l) {
         state.work()[members_[g].links[l].run].stored +=

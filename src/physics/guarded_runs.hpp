@@ -25,12 +25,12 @@ class GuardedRuns {
               const Points<Real>& points,
               State<Real>& state);
 
-  /// Steps the guarded links that are due, adds their forces to all modules and points.
-  /// \pre all other forces are there. Realtime: yes
+  /// Steps the guarded links of sections whose steps end with this frame, adds their forces to all
+  /// modules and points. Only then are all other forces of these steps there: links to faster
+  /// sections give theirs frame by frame. \pre so are those of this frame. Realtime: yes
   void step(std::int64_t now,
             const CoefficientsOf<Real>& c,
             const Stepper<Real>& stepper,
-            const unsigned char* due,
             State<Real>& state) noexcept;
 
   /// Tanks follow other coefficients. Realtime: yes
@@ -68,14 +68,13 @@ class GuardedRuns {
   bool isOnPlace(int slot) const noexcept;
   GuardedView<Real> viewOf(const Group& group,
                            const CoefficientsOf<Real>& c,
-                           const unsigned char* due,
                            State<Real>& state) const noexcept;
   void followPlaces(std::size_t g, State<Real>& state) noexcept;
   void markIdle(std::size_t g, State<Real>& state) noexcept;
+  void markDue(std::int64_t began) noexcept;
   void exchange(std::size_t g,
-                std::int64_t now,
+                std::int64_t began,
                 const Stepper<Real>& stepper,
-                const unsigned char* due,
                 State<Real>& state) noexcept;
   void closeBooks(std::size_t g, bool starts, State<Real>& state) const noexcept;
   GuardedState<Real>* states(std::size_t g, State<Real>& state) const noexcept {
@@ -89,7 +88,8 @@ class GuardedRuns {
   std::vector<int> projection_of_slot_;  // -1: none
   std::vector<GuardedGroup> members_;    // [groups]
   std::vector<Group> groups_;
-  std::vector<Real> forces_;  // [slots], of guarded links; zero between steps
+  std::vector<unsigned char> due_;  // [sections] moved as the present step began
+  std::vector<Real> forces_;        // [slots], of guarded links; zero between steps
 };
 
 extern template class GuardedRuns<float>;

@@ -196,7 +196,7 @@ class InstrumentOf final : public Instrument {
     }
     feedForces(in);
     points_.scatter(state_.f(), state_.places());
-    guarded_.step(now, *coefficients_, stepper_, due_.data(), state_);
+    guarded_.step(now, *coefficients_, stepper_, state_);
     meter_.endFrame(now, state_);
     taps_.takeForces(*coefficients_, now, state_, out);
     sleeper_.endFrame(now, *coefficients_, meter_, state_);

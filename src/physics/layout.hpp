@@ -152,14 +152,15 @@ struct Layout {
   int slots() const { return static_cast<int>(mat_of_slot.size()); }
   int strideOf(const scene::Scene& scene, int mat) const;
 
-  /// True if a run steps with frame `now` for the last time in the step of its slower end.
+  /// True if the step of a run that began with frame `now` is the last in that of its slower end.
   bool endsSlowStep(const LinkRun& run, std::int64_t now) const noexcept {
     return run.slow_section >= 0 &&
            (now + divisorOf(run.section)) % divisorOf(run.slow_section) == 0;
   }
   /// True if at the start of frame `now` that last step is behind, and the next one is to come.
+  /// Guarded runs give their force with the last frame of a step, others with the first.
   bool isBetweenSlowSteps(const LinkRun& run, std::int64_t now) const noexcept {
-    const int step = divisorOf(run.section);
+    const int step = run.guarded ? 1 : divisorOf(run.section);
     return run.slow_section < 0 || (now + step - 1) % divisorOf(run.slow_section) < step;
   }
 

@@ -85,8 +85,26 @@ void stepPlain(const LinkRun& run, const Law& law, const Frame<Real>& at) noexce
   at.work->dissipated += 0.5 * static_cast<double>((lost[0] + lost[1]) + (lost[2] + lost[3]));
 }
 
-/// Books one coordinate of one link that remembers, and hands its force out. Across rates a damper
-/// takes what both sides do against it: the jumps of a held end are no motion of anything.
+/// Half of the work of a force over the step in which the ends moved so far: each step is booked
+/// with half of the force before it and half of that after it. Across rates a damper takes what
+/// both sides do against it: the jumps of a held end are no motion of anything.
+template <class Real>
+void addHalfWork(
+    const LinkRun& run, Real moved_a, Real moved_b, laws::Force<Real> force, Work& work) noexcept {
+  const Real sum = force.elastic + force.viscous;
+  work.stored += 0.5 * static_cast<double>((moved_a - moved_b) * force.elastic);
+  if (run.slow_section < 0) {
+    work.dissipated += 0.5 * static_cast<double>((moved_a - moved_b) * force.viscous);
+    work.on_a -= 0.5 * static_cast<double>(moved_a * sum);
+    work.on_b += 0.5 * static_cast<double>(moved_b * sum);
+  } else {
+    const Real fast = run.slow_is_a ? moved_b : -moved_a;
+    (run.slow_is_a ? work.on_b : work.on_a) += 0.5 * static_cast<double>(fast * sum);
+    work.dissipated -= 0.5 * static_cast<double>(fast * force.viscous);
+  }
+}
+
+/// Books one coordinate of one link that remembers, and hands its force out.
 template <class Real>
 void exchangeForce(const LinkRun& run,
                    const Frame<Real>& at,
@@ -95,24 +113,13 @@ void exchangeForce(const LinkRun& run,
                    int b,
                    laws::Force<Real> force) noexcept {
   const Memory<Real>& memory = at.memory;
-  const Real moved_a = at.gate_a * at.moved[a];
-  const Real moved_b = at.gate_b * at.moved[b];
-  const Real moved = moved_a - moved_b;
-  const Real sum = force.elastic + force.viscous;
-  const Real both = sum + memory.elastic[index] + memory.viscous[index];
-  Work& work = *at.work;
-  work.stored += 0.5 * static_cast<double>(moved * (force.elastic + memory.elastic[index]));
-  const Real viscous = force.viscous + memory.viscous[index];
+  const laws::Force<Real> both{force.elastic + memory.elastic[index],
+                               force.viscous + memory.viscous[index]};
+  addHalfWork(run, at.gate_a * at.moved[a], at.gate_b * at.moved[b], both, *at.work);
   memory.elastic[index] = force.elastic;
   memory.viscous[index] = force.viscous;
-  if (run.slow_section < 0) {
-    work.dissipated += 0.5 * static_cast<double>(moved * viscous);
-    work.on_a -= 0.5 * static_cast<double>(moved_a * both);
-    work.on_b += 0.5 * static_cast<double>(moved_b * both);
-  } else {
-    const Real fast = run.slow_is_a ? at.moved[b] : -at.moved[a];
-    (run.slow_is_a ? work.on_b : work.on_a) += 0.5 * static_cast<double>(fast * both);
-    work.dissipated -= 0.5 * static_cast<double>(fast * viscous);
+  const Real sum = force.elastic + force.viscous;
+  if (run.slow_section >= 0) {
     const Real share = run.slow_is_a ? at.share_a : at.share_b;
     memory.mean[index] += share * sum;
     memory.mean_viscous[index] += share * force.viscous;

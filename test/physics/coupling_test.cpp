@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -49,6 +50,36 @@ TEST_P(CouplingTest, GesturalMassOnAnAudioRateSpringMovesAsIfAllWereGestural) {
         ASSERT_NEAR(mixed[at(n)], slow[at(n)], 1e-12 * 1e-3) << n;
       }
     }
+  }
+}
+
+/// Positions of a gestural mass that a spring pulls onto a hard guarded contact.
+std::vector<double> playBouncingMass(int ratio, int spring_section, int ticks) {
+  SceneBuilder b;
+  const double m = 0.1;
+  const double unit = m * std::pow(kRate / ratio, 2);
+  const int mass = b.mass(m, 1e-3, 0.0, SceneBuilder::kGestural);
+  b.spring(mass, b.ground(-1e-3, spring_section), 0.05 * unit);
+  const int wall = b.ground(0.0, SceneBuilder::kGestural);
+  const int contact = b.link(scene::LiaType::kContact, wall, mass, 3.0 * unit);
+  b.scene.lias[at(contact)].scheme = scene::Scheme::kGuarded;
+  b.hear(mass);
+  Player player(b.scene, {kRate, ratio});
+  player.ticks(ticks);
+  std::vector<double> starts;
+  for (int n = 0; n < ticks; ++n) {
+    starts.push_back(player.heard[0][at(n * ratio)]);
+  }
+  return starts;
+}
+
+TEST_P(CouplingTest, GuardedContactOfAGesturalMassKnowsTheForcesOfFasterSections) {
+  const int ticks = 500;
+  const auto slow = playBouncingMass(GetParam(), SceneBuilder::kGestural, ticks);
+  const auto mixed = playBouncingMass(GetParam(), SceneBuilder::kAudio, ticks);
+  EXPECT_LT(*std::min_element(slow.begin(), slow.end()), -1e-5) << "it never touched";
+  for (int n = 0; n < ticks; ++n) {
+    ASSERT_NEAR(mixed[at(n)], slow[at(n)], 1e-9 * 1e-3) << n;
   }
 }
 

@@ -8,9 +8,8 @@
 
 namespace ergotic::test {
 
-/// Ways of joining two rates that are not adjoint, so that energy is made. An instrument has none
-/// of them; `kHoldMean` is its own (scheme A), for comparison.
-enum class Joining { kHoldMean, kHoldLast, kHoldSum, kDecimateHold };
+/// Ways of joining two rates that are not adjoint, so that energy is made. No instrument has them.
+enum class Joining { kHoldLast, kHoldSum, kDecimateHold };
 
 /// A slow mass on a spring to the ground, joined by a spring to a fast string with fixed ends.
 /// Everything in units of the fast step and the mass of one module of the string.

@@ -192,8 +192,8 @@ TEST(RandomSceneTest, ScenesAreOfAllKinds) {
   EXPECT_GT(two_rates, kScenes / 2);
   EXPECT_GT(nonlinear, 9 * kScenes / 20);
   EXPECT_GT(near_limit, 3 * kScenes / 10);
-  EXPECT_GT(vouched, kScenes / 2);
-  EXPECT_GT(vouched_near, kScenes / 6);
+  EXPECT_GT(vouched, 2 * kScenes / 5);
+  EXPECT_GT(vouched_near, kScenes / 10);
 }
 
 }  // namespace

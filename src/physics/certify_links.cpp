@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "certify_parts.hpp"
 #include "scheme_choice.hpp"
@@ -29,6 +31,7 @@ class LinkJudge {
       return;
     }
     judgeSignOfMoving(lia, slopes);
+    noteTurning(lia, slopes);
     switch (lia.type) {
       case LiaType::kSpringDamper:
         return;
@@ -58,7 +61,39 @@ class LinkJudge {
     }
   }
 
+  /// What concerns many links at once.
+  void finish() {
+    for (const auto& [place, turning] : turning_) {
+      const std::string more =
+          turning.links > 1 ? " and " + std::to_string(turning.links - 1) + " more" : "";
+      findings_.add(Verdict::kUnproven, turning.first->place,
+                    "link '" + turning.first->name + "'" + more +
+                        " has a rest length and acts along a line that turns: stable while it "
+                        "moves little against its length, but large motion may feed energy in. "
+                        "Use rest length 0, scheme: guarded, or a scalar section");
+    }
+  }
+
  private:
+  /// Links of one place in the text: a generator makes many.
+  struct Turning {
+    const Lia* first = nullptr;
+    int links = 0;
+  };
+
+  /// A distance is linear in the coordinates only if the link wants to have none.
+  void noteTurning(const Lia& lia, const Slopes& slopes) {
+    const auto isScalar = [this](int mat) {
+      return networks_.scene().sectionOf(networks_.scene().mats[at(mat)]).geometry ==
+             scene::Geometry::kScalar;
+    };
+    const bool has_rest = slopes.stiffness.highest > 0.0 && lia.rest_length > 0.0;
+    if (has_rest && !isScalar(lia.a) && !isScalar(lia.b) && networks_.inverseMassStep2(lia) > 0.0) {
+      Turning& turning = turning_[{lia.place.line, lia.place.column}];
+      turning.first = turning.links++ == 0 ? &lia : turning.first;
+    }
+  }
+
   void judgeGuarded(const Lia& lia) {
     if (lia.type == LiaType::kBow || lia.type == LiaType::kSmoothBow ||
         (lia.type == LiaType::kTable && !isRising(lia))) {
@@ -159,6 +194,7 @@ class LinkJudge {
 
   const SceneNetwork& networks_;
   Findings& findings_;
+  std::map<std::pair<int, int>, Turning> turning_;  // by line and column
 };
 
 }  // namespace
@@ -168,6 +204,7 @@ void judgeLinks(const SceneNetwork& networks, Findings& findings) {
   for (int l = 0; l < static_cast<int>(networks.scene().lias.size()); ++l) {
     judge.judge(l);
   }
+  judge.finish();
 }
 
 }  // namespace ergotic::physics

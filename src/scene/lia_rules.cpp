@@ -25,7 +25,8 @@ bool haveSameRate(const Section& a, const Section& b) {
 const char* unguarded(const Lia& lia) {
   switch (lia.type) {
     case LiaType::kSpringDamper:
-      return "a linear spring or damper";
+      // With a rest length it is linear along its line only.
+      return lia.rest_length > 0.0 ? nullptr : "a linear spring or damper";
     case LiaType::kPluck:
       return "a pluck";
     case LiaType::kConditional:

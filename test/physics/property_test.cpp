@@ -145,11 +145,7 @@ void expectProperties(const RandomScene& random) {
     return;
   }
   const Links links = linksOf(settled.scene);
-  // A guard makes no energy over a network that makes none. Hold and mean make none only on the
-  // average: a hard guarded link beside them may lift what they borrow, and nothing bounds that.
-  if (!random.has_two_rates || links.guarded == 0) {
-    EXPECT_LE(seen.growth, kMostGrowth);
-  }
+  EXPECT_LE(seen.growth, kMostGrowth);
   if (!random.has_two_rates && links.other == 0) {
     EXPECT_LE(seen.created, kCreated);
     if (random.is_lossless) {

@@ -60,6 +60,8 @@ class Maker {
     addLoss();
     if (made_.is_near_limit) {
       approachLimit();
+    } else if (chance(0.8)) {
+      guardNets();
     }
     scene::validate(b_.scene);
     made_.scene = b_.scene;
@@ -85,7 +87,7 @@ class Maker {
 
   void chooseGeometry() {
     const auto any = [this] {
-      return chance(0.65) ? Geometry::kScalar
+      return chance(0.78) ? Geometry::kScalar
                           : pick({Geometry::kLine, Geometry::kPlane, Geometry::kSpace});
     };
     for (scene::Section& section : b_.scene.sections) {
@@ -314,6 +316,14 @@ class Maker {
     }
   }
 
+  /// Springs along lines that turn are certified only if they are guarded.
+  void guardNets() {
+    for (Lia& lia : b_.scene.lias) {
+      const bool turns = lia.type == LiaType::kSpringDamper && !actsAlongX(lia.a, lia.b);
+      lia.scheme = turns && lia.rest_length > 0.0 ? scene::Scheme::kGuarded : lia.scheme;
+    }
+  }
+
   /// Scales springs and dampers of a section until its lambda is nearly 4.
   void approachLimit() {
     const int section = is_soft_ ? kGestural : kAudio;
@@ -340,6 +350,7 @@ class Maker {
   SceneBuilder b_;
   RandomScene made_;
   bool is_soft_ = false;
+
   double kappa_ = 0.0;  // of the string
   double reach_ = 0.0;  // m, how far it moves
   double mesh_ = 0.0;   // m, between neighbours of Euclidean sections

@@ -132,8 +132,8 @@ Builder string(int masses, double kappa, double zeta, double speed = 1.0) {
   return b;
 }
 
-/// A net in space with springs that pull, all around fixed; struck aslant.
-Builder net(int side, double kappa) {
+/// A net in space, all around fixed; struck aslant. `rest`: rest length of its springs, in meshes.
+Builder net(int side, double kappa, double rest = 0.0, Scheme scheme = Scheme::kExplicit) {
   Builder b;
   const double mesh = 1e-3;
   b.scene.sections[0].geometry = scene::Geometry::kSpace;
@@ -151,7 +151,8 @@ Builder net(int side, double kappa) {
       for (const auto& [ni, nj] : {std::pair(i + 1, j), std::pair(i, j + 1)}) {
         if (ni < side && nj < side) {
           b.spring(index(i, j), index(ni, nj), kappa * kUnit);
-          b.scene.lias.back().rest_length = 0.02 * mesh;
+          b.scene.lias.back().rest_length = rest * mesh;
+          b.scene.lias.back().scheme = scheme;
         }
       }
     }
@@ -295,6 +296,13 @@ void addLimits(Cases& cases) {
                    }});
   cases.push_back({spatial, "at the certified rate", true, "passive", "",
                    [=] { return playAtStableRate(stiffNet(), 20000, Closed::kNo); }});
+  const std::string thrown = "net in space thrown about by more than its meshes";
+  cases.push_back({thrown, "explicit", false, "unproven", "a line that turns", [=] {
+                     return play(net(9, 0.4, 0.9), {kRate, 1}, 20000, Closed::kNo);
+                   }});
+  cases.push_back({thrown, "guarded", true, "passive", "", [=] {
+                     return play(net(9, 0.4, 0.9, Scheme::kGuarded), {kRate, 1}, 20000);
+                   }});
 }
 
 void addRates(Cases& cases) {

@@ -113,6 +113,7 @@ void addMeshLink(SceneBuilder& builder,
   lia.damping = spec.damping;
   lia.rest_length =
       spec.rest_length_ratio * (mat_a.rest.head(moving) - mat_b.rest.head(moving)).norm();
+  lia.scheme = spec.scheme;
   builder.add(std::move(lia));
 }
 
@@ -152,6 +153,7 @@ void addString(SceneBuilder& builder, const StringSpec& spec) {
       lia.stiffness = spec.stiffness;
       lia.damping = spec.damping;
       lia.rest_length = rest_length;
+      lia.scheme = spec.scheme;
     }
     builder.add(std::move(lia));
   }

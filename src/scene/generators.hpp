@@ -24,7 +24,8 @@ struct StringSpec {
   /// Coarse: the fundamental, Hz, > 0; 0: ordinary. A coarse string starts with the springs of the
   /// ordinary one, the others being 0, until its stiffnesses are fitted.
   double corrected_hz = 0.0;
-  double rest_length_ratio = 0.0;  ///< rest length of a link / its length at rest; not scalar
+  double rest_length_ratio = 0.0;     ///< rest length of a link / its length at rest; not scalar
+  Scheme scheme = Scheme::kExplicit;  ///< of links with a rest length
   Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< rest of the first ground, m
   Eigen::Vector3d to = Eigen::Vector3d::Zero();    ///< rest of the last ground, m
   /// Where (0...1) and how high (m) it is held at start: along x, in a plane or in space along y.
@@ -61,7 +62,8 @@ struct MeshSpec {
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< rest of the first module, m
   /// m; columns follow each other along x and rows along y, in scalar sections y and z.
   double spacing = 1.0;
-  double rest_length_ratio = 0.0;  ///< rest length of a link / its length at rest; not scalar
+  double rest_length_ratio = 0.0;     ///< rest length of a link / its length at rest; not scalar
+  Scheme scheme = Scheme::kExplicit;  ///< of links with a rest length
   Place place;
 };
 

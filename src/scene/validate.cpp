@@ -150,8 +150,8 @@ class Validator {
   void slice(const Mat& m) const {
     const Section& section = scene_.sectionOf(m);
     const std::string is = "slice " + quoted(m.name) + " is in section " + quoted(section.name);
-    if (!section.gestural) {
-      fail(m.place, is + ", allowed: sections with rate: gestural");
+    if (!section.gestural && !section.automatic_rate) {
+      fail(m.place, is + ", allowed: sections with rate: gestural or auto");
     }
     if (section.sleep_energy > 0.0) {
       fail(m.place, is + ", which may sleep, allowed: sections without 'sleep'");

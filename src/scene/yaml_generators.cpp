@@ -22,6 +22,17 @@ double readRestLengthRatio(const SceneBuilder& builder, const YamlMap& map, int 
   return map.number("rest_length_ratio", kFractionLimits, 0.0);
 }
 
+/// Of links with a rest length; without one there is nothing to guard.
+Scheme readScheme(const YamlMap& map, double rest_length_ratio) {
+  const bool guarded = map.has("scheme") && map.choice("scheme", {"explicit", "guarded"}) == 1;
+  if (guarded && !(rest_length_ratio > 0.0)) {
+    map.fail("scheme", "'scheme' of " + map.what() +
+                           " is guarded without a rest length, allowed: explicit, or "
+                           "'rest_length_ratio' above 0");
+  }
+  return guarded ? Scheme::kGuarded : Scheme::kExplicit;
+}
+
 /// What a string's own tension leaves of a link's stiffness across the string.
 double transverseShare(const SceneBuilder& builder, const YamlMap& map, const StringSpec& spec) {
   if (dimensionsOf(sectionAt(builder, spec.section).geometry) == 1) {
@@ -84,7 +95,7 @@ void readStringPlaces(const SceneBuilder& builder, const YamlMap& map, StringSpe
 
 void readString(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
   map.allow({"type", "name", "section", "masses", "mass", "stiffness", "frequency", "coarse",
-             "damping", "loss", "rest_length_ratio", "from", "to", "pluck"});
+             "damping", "loss", "rest_length_ratio", "scheme", "from", "to", "pluck"});
   StringSpec spec;
   spec.name = name;
   spec.place = map.placeAt("name");
@@ -92,6 +103,7 @@ void readString(SceneBuilder& builder, const std::string& name, const YamlMap& m
   spec.masses = map.integer("masses", {"", 1.0, kMaxMats - 2});
   spec.mass = map.value("mass", kMassLimits);
   spec.rest_length_ratio = readRestLengthRatio(builder, map, spec.section);
+  spec.scheme = readScheme(map, spec.rest_length_ratio);
   spec.stiffness = readStringStiffness(builder, map, spec);
   spec.corrected_hz = readCoarse(builder, map, spec);
   spec.damping = map.value("damping", kDampingLimits, {});
@@ -110,7 +122,7 @@ void readString(SceneBuilder& builder, const std::string& name, const YamlMap& m
 
 void readMesh(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
   map.allow({"type", "name", "section", "rows", "columns", "spacing", "at", "neighbours", "mass",
-             "stiffness", "diagonal_stiffness", "damping", "rest_length_ratio", "edges"});
+             "stiffness", "diagonal_stiffness", "damping", "rest_length_ratio", "scheme", "edges"});
   MeshSpec spec;
   spec.name = name;
   spec.place = map.placeAt("name");
@@ -127,6 +139,7 @@ void readMesh(SceneBuilder& builder, const std::string& name, const YamlMap& map
   spec.stiffness = map.value("stiffness", kStiffnessLimits);
   spec.damping = map.value("damping", kDampingLimits, {});
   spec.rest_length_ratio = readRestLengthRatio(builder, map, spec.section);
+  spec.scheme = readScheme(map, spec.rest_length_ratio);
   if (map.has("neighbours") && map.choice("neighbours", {"4", "8"}) == 1) {
     spec.diagonal_stiffness =
         map.value("diagonal_stiffness", kStiffnessLimits, 0.5 * spec.stiffness);

@@ -77,10 +77,11 @@ Mat readMat(const SceneBuilder& builder, const std::string& name, const YamlMap&
   mat.damping = map.value("damping", kDampingLimits, {});
   mat.matched = map.flag("matched", kind.type == MatType::kCell);
   readPlaces(builder, map, kind, mat);
-  if (kind.type == MatType::kSlice && !builder.scene().sectionOf(mat).gestural) {
+  const Section& section = builder.scene().sectionOf(mat);
+  if (kind.type == MatType::kSlice && !section.gestural && !section.automatic_rate) {
     builder.fail(map.has("section") ? map.placeAt("section") : map.place(),
                  map.what() + " is a slice in a section that is not gestural, allowed: sections " +
-                     "with rate: gestural");
+                     "with rate: gestural or auto");
   }
   return mat;
 }

@@ -69,6 +69,19 @@ TEST(StringGeneratorTest, MakesMassesBetweenTwoGroundsJoinedInOrder) {
   EXPECT_EQ(s.strings[0].loss.factor, 0.0);
 }
 
+TEST(StringGeneratorTest, LinksWithARestLengthMayBeGuarded) {
+  const Scene s = readYaml(
+      "ergotic: 1\nsections: {a: {geometry: plane}}\ngenerators:\n"
+      "  - {type: string, name: s, masses: 2, mass: 1, stiffness: 1, to: [1, 0],\n"
+      "     rest_length_ratio: 0.5, scheme: guarded}\n"
+      "  - {type: mesh, name: m, rows: 3, columns: 3, spacing: 1, mass: 1, stiffness: 1,\n"
+      "     rest_length_ratio: 0.5, scheme: guarded}\n",
+      "s.yaml");
+  for (const Lia& lia : s.lias) {
+    EXPECT_EQ(lia.scheme, Scheme::kGuarded) << lia.name;
+  }
+}
+
 TEST(StringGeneratorTest, LossMakesCellsWithoutStiffness) {
   const Scene s = generate(
       "  - {type: string, name: s, section: a, masses: 1, mass: 3*$p, frequency: 10, loss: $p,\n"

@@ -137,7 +137,8 @@ const BadText kBadSections[] = {
     {SECTION("rate: <!>automatic"), "unknown rate 'automatic'"},
     {SECTION("rate: gestural, sleep: 1") "mats: {<!>k: {type: slice}}\n",
      "slice 'k' is in section 'a', which may sleep, allowed: sections without 'sleep'"},
-    {SECTION("rate: auto") "mats: {<!>k: {type: slice}}\n", "in a section that is not gestural"},
+    {SECTION("rate: audio") "mats: {<!>k: {type: slice}}\n",
+     "in a section that is not gestural, allowed: sections with rate: gestural or auto"},
     {SECTION("rate: auto") "mats: {m: {type: mass, mass: 1}}\n"
                            "generators:\n"
                            "  - <!>{type: chaplet, name: c, from: m, mass: 1}\n",
@@ -200,6 +201,8 @@ const BadText kBadGenerators[] = {
     {STRING("geometry: plane", "stiffness: 1, to: <!>[0]"), "allowed: a list of 2 to 3 numbers"},
     {STRING("geometry: plane", "frequency: 1, to: [1, 0], rest_length_ratio: <!>1"),
      "leaves no tension for 'frequency'"},
+    {STRING("geometry: plane", "stiffness: 1, to: [1, 0], scheme: <!>guarded"),
+     "guarded without a rest length, allowed: explicit, or 'rest_length_ratio' above 0"},
     {STRING("geometry: plane", "stiffness: 1, to: [1, 0], rest_length_ratio: <!>1.5"),
      "= 1.5 is out of range, allowed: 0...1"},
     {STRING("", "stiffness: 1, to: [1, 0], <!>rest_length_ratio: 0.5"),

@@ -32,7 +32,7 @@ struct Group {
   double coupling_damping = 0.0;
   bool has_fast_modules = false;
   bool decimates = false;
-  const scene::Lia* guarded = nullptr;  // an elastic one, on a module of the group
+  const scene::Lia* nonlinear = nullptr;  // a link on a module of the group
 };
 
 /// What the linear model does over one period of its slowest section.
@@ -77,16 +77,14 @@ class CouplingJudge {
       group.decimates |= lia.coupling == scene::Coupling::kDecimate;
     }
     for (const scene::Lia& lia : scene_.lias) {
-      const bool is_friction =
-          lia.type == scene::LiaType::kBow || lia.type == scene::LiaType::kSmoothBow;
-      if (lia.scheme != scene::Scheme::kGuarded || is_friction) {
+      if (lia.type == scene::LiaType::kSpringDamper && networks_.isExplicit(lia)) {
         continue;
       }
       for (const int name :
            {networks_.groupOf(lia), networks_.groupOf(lia.a), networks_.groupOf(lia.b)}) {
         const auto group = found.find(name);
         if (group != found.end()) {
-          group->second.guarded = &lia;
+          group->second.nonlinear = &lia;
         }
       }
     }
@@ -96,12 +94,12 @@ class CouplingJudge {
   /// The slow network with the couplings and the fast masses they touch must be stable at the slow
   /// rate; that is enough while the fast section has no modes above half of it.
   void judge(int name, const Group& group) {
-    if (group.guarded != nullptr) {
+    if (group.nonlinear != nullptr) {
       say(group, Verdict::kUnproven,
-          "is coupled to a faster one, and guarded link '" + group.guarded->name +
-              "' acts beside it: its guard makes no energy, but hold and mean may lend it some. "
-              "Put "
-              "all of that in one section, or hold the slower end by a hand");
+          "is coupled to a faster one, and link '" + group.nonlinear->name +
+              "' acts beside it, which is not linear: hold and mean make no energy on the average "
+              "only, and it may keep what they lend. Put all of that in one section, or let a hand "
+              "hold the slower end");
     }
     double bound = 0.0;
     for (const int divisor : group.slow_divisors) {

@@ -12,7 +12,7 @@ namespace {
 using scene::Lia;
 using scene::LiaType;
 
-constexpr double kWarnedSwitch = 0.25;  // h^2 K (1/Ma + 1/Mb): gains a few per cent at worst
+constexpr double kWarnedSwitch = 0.25;  // h^2 K (1/Ma + 1/Mb): gains a few per cent a hit
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -151,13 +151,16 @@ class LinkJudge {
     }
     const double limit = lia.type == LiaType::kPowerContact ? kWarnedSwitch : NetworkBound::kLimit;
     const double reach = elongationOf(networks_.scene(), lia, limit / unit);
+    const bool is_decimated =
+        networks_.crossesRates(lia) && lia.coupling == scene::Coupling::kDecimate;
     const std::string how = lia.type == LiaType::kPowerContact
                                 ? "; it would count as soft up to an overlap of "
                                 : "; no motion can be stable beyond an elongation of ";
     findings_.add(Verdict::kUnproven, lia.place,
                   "the slope of link '" + lia.name +
                       "' grows with its amplitude: stable only while it moves little" + how +
-                      describe(reach) + " m. Use scheme: guarded");
+                      describe(reach) + " m. Use " + (is_decimated ? "coupling: hold and " : "") +
+                      "scheme: guarded");
   }
 
   void judgeTable(const Lia& lia, const Slopes& slopes) {
@@ -180,16 +183,14 @@ class LinkJudge {
     }
     const std::string text =
         "link '" + lia.name + "' switches its stiffness, h^2 K (1/Ma + 1/Mb) = " + describe(kappa);
-    if (kappa <= kWarnedSwitch) {
-      findings_.add(Verdict::kPassive, lia.place,
-                    text + " (silent below " + describe(kExplicitSwitch) +
-                        "): hard hits may come back a few per cent faster");
-    } else {
-      findings_.add(Verdict::kUnproven, lia.place,
-                    text + ", allowed up to " + describe(kWarnedSwitch) +
-                        ": it may feed energy in. Use scheme: guarded, soften it, make its masses "
-                        "heavier, or raise the rate");
-    }
+    const std::string harm =
+        kappa <= kWarnedSwitch
+            ? "hard hits come back a few per cent faster, and undamped ones add up"
+            : "it may feed energy in at every hit";
+    findings_.add(
+        Verdict::kUnproven, lia.place,
+        text + ", silent below " + describe(kExplicitSwitch) + ": " + harm +
+            ". Use scheme: guarded, soften it, make its masses heavier, or raise the rate");
   }
 
   const SceneNetwork& networks_;

@@ -173,8 +173,9 @@ class Chooser {
     const std::string why = std::string(group.worst.figure) + " = " + shortly(group.worst.value) +
                             ", explicit bears " + shortly(group.worst.allowed);
     return noteAt(scene_, group.first->place) + who +
-           (group.guarded ? ": guarded (" + why + ")"
-                          : ": explicit, because one end is a slower mass, although " + why);
+           (group.guarded
+                ? ": guarded (" + why + ")"
+                : ": explicit, because one end is a slower mass or decimated, although " + why);
   }
 
   using Key = std::tuple<int, int, std::string, bool>;  // place, figure, guarded

@@ -298,10 +298,11 @@ TEST(CertifyTest, SlowMassesOnHeldFastModulesCount) {
 
 TEST(CertifyTest, WorstFindingsComeFirst) {
   SceneBuilder b;
-  b.link(LiaType::kContact, b.mass(1.0), b.ground(), 0.2 * kRate * kRate);
+  b.link(LiaType::kBow, b.mass(1.0), b.ground(), 0.0, 1.6 * kRate);  // overshoots
+  b.scene.lias.back().width = {1.0};
   b.link(LiaType::kContact, b.mass(1.0), b.ground(), 0.5 * kRate * kRate);
   const Certificate c = certify(b.scene, {kRate, 14});
-  ASSERT_EQ(c.findings.size(), 2u);
+  ASSERT_GE(c.findings.size(), 2u);
   EXPECT_NE(c.findings[0].find("'l1'"), std::string::npos);
 }
 

@@ -75,11 +75,20 @@ double lowestStableAudioRate(const Scene& scene,
   return lowest;
 }
 
-std::string adviceOn(Verdict verdict, double lowest_rate_hz) {
+/// Soft contacts and the like, worked out explicitly: passive but for a little at every hit.
+bool switchesExplicitly(const Scene& scene) {
+  return std::any_of(scene.lias.begin(), scene.lias.end(), [](const scene::Lia& lia) {
+    return lia.scheme == scene::Scheme::kExplicit && lia.type != scene::LiaType::kSpringDamper;
+  });
+}
+
+std::string adviceOn(const Scene& scene, Verdict verdict, double lowest_rate_hz) {
   const auto whole = std::to_string(std::llround(std::ceil(lowest_rate_hz)));
   switch (verdict) {
     case Verdict::kPassive:
-      return "it cannot blow up, whatever the hands do";
+      return switchesExplicitly(scene)
+                 ? "stable: its explicit contacts are so soft that a hit gives hardly anything"
+                 : "it cannot blow up, whatever the hands do";
     case Verdict::kBounded:
       return "it cannot blow up: what plucks or bows gives energy, but only so much";
     case Verdict::kUnproven:
@@ -128,7 +137,7 @@ Report stabilityReport(const Scene& scene,
   }
   return Report::map()
       .add("verdict", Report::text(physics::toString(certificate.verdict)))
-      .add("advice", Report::text(adviceOn(certificate.verdict, lowest_rate_hz)))
+      .add("advice", Report::text(adviceOn(scene, certificate.verdict, lowest_rate_hz)))
       .add("margin", Report::number(certificate.margin()))
       .add("lowest_stable_audio_rate_hz", Report::number(lowest_rate_hz))
       .add("findings", std::move(findings));

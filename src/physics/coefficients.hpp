@@ -64,11 +64,11 @@ class CoefficientsOf final : public Coefficients {
               const Follower& follower) noexcept;
 
   MassCoefficients<Real> masses;
-  std::vector<RunCoefficients<Real>> runs;  ///< [Layout::runs]
+  std::vector<RunCoefficients<Real>> runs;             ///< [Layout::runs]
   std::vector<std::vector<GuardedLaw<Real>>> guarded;  ///< [guardedGroupsOf(layout)][links]
-  std::vector<Real> tap_gains;              ///< [Layout::taps]
-  std::vector<Real> feed_gains;             ///< [Layout::feeds]
-  std::vector<PlaceCoefficients> places;    ///< [Layout::places]
+  std::vector<Real> tap_gains;                         ///< [Layout::taps]
+  std::vector<Real> feed_gains;                        ///< [Layout::feeds]
+  std::vector<PlaceCoefficients> places;               ///< [Layout::places]
 
  private:
   void fillMasses(const scene::Scene& scene, const Rates& rates, const Layout& layout);

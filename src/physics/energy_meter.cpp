@@ -31,7 +31,9 @@ EnergyMeter<Real>::EnergyMeter(const scene::Scene& scene, const Layout& layout, 
           {layout.slot_of_mat[m], scene.mats[m].section, type == scene::MatType::kSlice});
     }
   }
-  const auto couple = [this](int a, int b) {
+  const auto couple = [this](int one, int other) {
+    const int a = std::min(one, other);
+    const int b = std::max(one, other);
     const auto found = std::find_if(couplings_.begin(), couplings_.end(),
                                     [&](const Coupled& c) { return c.a == a && c.b == b; });
     if (found == couplings_.end()) {

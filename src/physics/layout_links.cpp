@@ -63,6 +63,7 @@ class Ends {
     return known->second;
   }
 
+  const std::string& file() const { return scene_.file; }
   int divisor(int section) const { return layout_.sections[at(section)].divisor; }
 
  private:
@@ -114,9 +115,10 @@ void setRates(const scene::Lia& lia, const End& a, const End& b, const Ends& end
   const int fast = std::min(da, db);
   const int slow = std::max(da, db);
   if (slow % fast != 0) {
-    throw Exception("link '" + lia.name + "' joins sections stepped every " + std::to_string(fast) +
-                    " and " + std::to_string(slow) +
-                    " audio frames: one must be a multiple of the other");
+    throw TextError(ends.file(), lia.place.line, lia.place.column,
+                    "link '" + lia.name + "' joins sections stepped every " + std::to_string(fast) +
+                        " and " + std::to_string(slow) +
+                        " audio frames: one must be a multiple of the other");
   }
   run.section = da <= db ? a.section : b.section;
   if (da != db) {

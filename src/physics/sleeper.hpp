@@ -78,9 +78,11 @@ class Sleeper {
                           [](Real offset) { return offset == Real(0); });
     }
     if (!rests) {
-      throw Exception("section '" + scene.sections[static_cast<std::size_t>(section)].name +
-                      "' cannot sleep: allowed are scalar sections of masses, cells and "
-                      "spring-dampers that rest at 0 (no gravity, no rest lengths)");
+      const scene::Section& named = scene.sections[static_cast<std::size_t>(section)];
+      throw TextError(scene.file, named.place.line, named.place.column,
+                      "section '" + named.name +
+                          "' cannot sleep: allowed are scalar sections of masses, cells and "
+                          "spring-dampers that rest at 0 (no gravity, no rest lengths)");
     }
   }
 

@@ -13,8 +13,8 @@ namespace ergotic::physics {
 /// A run remembers its forces if they cannot be worked out from positions: nonlinear laws,
 /// distances, guarded links and links between sections.
 inline bool remembers(const LinkRun& run) {
-  return run.guarded || run.law != Law::kSpringDamper || run.dimensions > 0 || run.section_a != run.section_b ||
-         run.slow_section >= 0;
+  return run.guarded || run.law != Law::kSpringDamper || run.dimensions > 0 ||
+         run.section_a != run.section_b || run.slow_section >= 0;
 }
 
 /// Everything mutable of an instrument, in one arena.

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "guarded_network.hpp"
+#include "support/scene_builder.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -104,15 +105,26 @@ Errors guardedImpact(const Impact& impact, double phase) {
 }
 
 Errors explicitImpact(const Impact& impact, double phase) {
-  double d = impact.speed / impact.rate;
+  const double d = impact.speed / impact.rate;
   const double start = -(5.0 + phase) * d;
-  Flight flight{{}, {}, start, d};
+  ergotic::test::SceneBuilder b;
+  const int ball = b.mass(impact.mass, start - d, impact.speed);  // its first step is free
+  b.link(scene::LiaType::kPowerContact, ball, b.ground(), impact.stiffness);
+  b.scene.lias.back().exponent = {impact.exponent};
+  b.hear(ball, 0);
+  b.hear(ball, 1, scene::Quantity::kForce);
+  b.hear(ball, 2, scene::Quantity::kVelocity);
+  ergotic::test::Player player(b.scene, {impact.rate, 1});
+  Flight flight;
   do {
-    flight.depth.push_back(flight.position);
-    flight.force.push_back(impact.force(flight.position));
-    flight.velocity -= impact.inverseMass() * flight.force.back();
-    flight.position += flight.velocity;
-  } while (flight.velocity > 0.0 || flight.position > 0.0);
+    player.tick();
+    flight.depth.push_back(player.heard[0].back());
+    flight.force.push_back(-player.heard[1].back());
+  } while (player.heard[2].back() > 0.0 || flight.depth.back() > 0.0);
+  flight.position = flight.depth.back();
+  flight.velocity = player.heard[2].back() / impact.rate;
+  flight.depth.pop_back();
+  flight.force.pop_back();
   return judge(impact, start, flight, 1.0 / 24.0);
 }
 

@@ -18,7 +18,7 @@ struct SectionEnergy {
 
 /// Energies of the links between two sections, J.
 struct CouplingEnergy {
-  int section_a = 0;
+  int section_a = 0;  ///< < section_b
   int section_b = 0;
   double stored = 0.0;
   double dissipated = 0.0;  ///< since the start

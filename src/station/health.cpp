@@ -8,6 +8,8 @@
 namespace ergotic::station {
 namespace {
 
+constexpr std::size_t kMostWarnings = 5;  // links named; a generator makes many
+
 std::string warningOf(const scene::Scene& scene, const physics::GuardReport& guard) {
   const scene::Lia& lia = scene.lias[static_cast<std::size_t>(guard.lia)];
   std::ostringstream text;
@@ -35,8 +37,12 @@ std::vector<std::string> guardWarnings(const scene::Scene& scene,
   std::sort(cut.begin(), cut.end(),
             [](const auto& a, const auto& b) { return clippedShare(a) > clippedShare(b); });
   std::vector<std::string> warnings;
-  for (const physics::GuardReport& guard : cut) {
-    warnings.push_back(warningOf(scene, guard));
+  for (std::size_t g = 0; g < std::min(cut.size(), kMostWarnings); ++g) {
+    warnings.push_back(warningOf(scene, cut[g]));
+  }
+  if (cut.size() > kMostWarnings) {
+    warnings.push_back(scene.file + ": warning: and " + std::to_string(cut.size() - kMostWarnings) +
+                       " more guarded links were cut as often");
   }
   return warnings;
 }

@@ -250,5 +250,50 @@ TEST(EnergyOfManyStepsTest, AllKindsBalanceOverAMillion) {
   EXPECT_LT(largestResidual(b.scene, {kRate, ratio}, 1'000'000 / ratio + 1), kUnbalanced);
 }
 
+/// Every law, explicit and guarded where it can be, a matched cell and a third rate; nothing moves
+/// it from outside.
+scene::Scene closedNetwork(Geometry geometry) {
+  SceneBuilder b = stringAndHand(LiaType::kSpringDamper, geometry);
+  for (scene::Mat& mat : b.scene.mats) {
+    mat.type = mat.type == scene::MatType::kSlice ? scene::MatType::kGround : mat.type;
+  }
+  b.scene.ports.clear();
+  int low = 2;
+  for (const LiaType type : kAllTypes) {
+    for (const bool is_guarded : {false, true}) {
+      Lia& lia = b.scene.lias[at(b.link(type, low, low + 3, 100.0))];
+      shape(lia);
+      lia.damping = {is_guarded ? 0.0 : 1e-3};
+      lia.scheme = is_guarded && scene::isGuardable(lia) ? Scheme::kGuarded : Scheme::kExplicit;
+    }
+    low += 2;
+  }
+  const int cell = b.cell(1e-3, 1000.0, 1e-3, 1e-3);
+  b.scene.mats[at(cell)].matched = true;
+  b.scene.mats[at(cell)].rest = b.scene.mats[16].rest;
+  b.spring(cell, 16, 100.0);
+  scene::Section third = b.scene.sections[0];
+  third.name = "third";
+  third.divisor = 2;
+  b.scene.sections.push_back(third);
+  b.spring(b.mass(0.01, 0.0, 0.1, 2), 12, 20.0, 1e-3);
+  return b.scene;
+}
+
+class ClosedNetworkTest : public testing::TestWithParam<std::pair<Geometry, int>> {};
+
+TEST_P(ClosedNetworkTest, BalancesOverAMillionSteps) {
+  const auto [geometry, ratio] = GetParam();
+  const int ticks = 1'000'000 / ratio + 1;
+  EXPECT_LT(largestResidual(closedNetwork(geometry), {kRate, ratio}, ticks), kUnbalanced);
+}
+
+INSTANTIATE_TEST_SUITE_P(Geometries,
+                         ClosedNetworkTest,
+                         testing::Values(std::pair(Geometry::kScalar, 14),
+                                         std::pair(Geometry::kLine, 4),
+                                         std::pair(Geometry::kPlane, 44),
+                                         std::pair(Geometry::kSpace, 14)));
+
 }  // namespace
 }  // namespace ergotic::physics

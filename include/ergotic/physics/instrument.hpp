@@ -60,8 +60,9 @@ class Instrument {
   /// \throws Exception if a value is outside its range, naming parameter, value and range
   virtual std::unique_ptr<Coefficients> prepare(const std::vector<double>& values) const = 0;
 
-  /// Takes other coefficients from the next tick on, gives back those used so far.
-  /// Realtime: yes. \pre made by `prepare` of this instrument
+  /// Takes other coefficients from the next tick on, gives back those used so far. What the change
+  /// does to the stored energy is booked as work of the parameters.
+  /// Realtime: yes. Cost: O(modules + links). \pre made by `prepare` of this instrument
   virtual std::unique_ptr<Coefficients> exchange(std::unique_ptr<Coefficients> next) noexcept = 0;
 
   /// The whole mutable state is one block of `stateSize()` bytes, described by `stateEntries()`.

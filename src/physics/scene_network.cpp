@@ -126,17 +126,19 @@ double SceneNetwork::inverseMass(int mat) const {
   return inverse;
 }
 
-double SceneNetwork::inverseMassStep(const scene::Lia& lia) const {
+double SceneNetwork::stepOf(const scene::Lia& lia) const {
   const int a = divisorOfMat(lia.a);
   const int b = divisorOfMat(lia.b);
   const bool is_slow = lia.coupling == scene::Coupling::kDecimate;
-  const int divisor = is_slow ? std::max(a, b) : std::min(a, b);
-  return StepUnits(scene_, rates_, divisor).step * (inverseMass(lia.a) + inverseMass(lia.b));
+  return StepUnits(scene_, rates_, is_slow ? std::max(a, b) : std::min(a, b)).step;
+}
+
+double SceneNetwork::inverseMassStep(const scene::Lia& lia) const {
+  return stepOf(lia) * (inverseMass(lia.a) + inverseMass(lia.b));
 }
 
 double SceneNetwork::inverseMassStep2(const scene::Lia& lia) const {
-  const int divisor = std::min(divisorOfMat(lia.a), divisorOfMat(lia.b));
-  return StepUnits(scene_, rates_, divisor).step * inverseMassStep(lia);
+  return stepOf(lia) * inverseMassStep(lia);
 }
 
 bool SceneNetwork::crossesRates(const scene::Lia& lia) const {

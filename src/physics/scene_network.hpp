@@ -57,6 +57,7 @@ class SceneNetwork {
   using Places = std::vector<std::vector<Share>>;  // of modules rather than nodes
   struct Builder;
 
+  double stepOf(const scene::Lia& lia) const;  // at the rate it is computed at
   void joinGroups();
   Places placesOf(int mat) const;
   Places placesOf(const scene::Connection& connection) const;

@@ -6,19 +6,14 @@
 #include <tuple>
 
 #include "note.hpp"
+#include "scene_network.hpp"
 #include "slopes.hpp"
-#include "step_units.hpp"
 
 namespace ergotic::physics {
 namespace {
 
 using scene::LiaType;
-using scene::MatType;
 using scene::Scheme;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// The largest stiffness that a link switches on and off.
 double stiffest(const scene::Scene& scene, const scene::Lia& lia) {
@@ -36,7 +31,7 @@ struct Reason {
 class Chooser {
  public:
   Chooser(scene::Scene& scene, const Rates& rates, std::vector<std::string>& notes)
-      : scene_(scene), rates_(rates), notes_(notes) {}
+      : scene_(scene), networks_(scene, rates), notes_(notes) {}
 
   void run() {
     for (scene::Lia& lia : scene_.lias) {
@@ -58,49 +53,16 @@ class Chooser {
     bool guarded = false;
   };
 
-  const scene::Mat& mat(int m) const { return scene_.mats[at(m)]; }
-  int divisor(int m) const { return divisorOf(scene_.sectionOf(mat(m)), rates_); }
-
-  /// A point is as light as the lightest module that it can lie on.
-  double lightestUnder(int point) const {
-    double inverse = 0.0;
-    for (const scene::Connection& connection : scene_.connections) {
-      if (connection.mat == point) {
-        const scene::Grid& grid = scene_.grids[at(connection.grid)];
-        for (int m = 0; m < grid.columns * grid.rows; ++m) {
-          inverse = std::max(inverse, inverseMass(grid.first + m));
-        }
-      }
-    }
-    return inverse;
-  }
-
-  /// 0: forces do not move it.
-  double inverseMass(int m) const {
-    switch (mat(m).type) {
-      case MatType::kMass:
-      case MatType::kCell:
-        return 1.0 / smallest(scene_, mat(m).mass);
-      case MatType::kPoint:
-        return lightestUnder(m);
-      default:
-        return 0.0;
-    }
-  }
-
   /// The guard counts on knowing how far both ends go in a step: not so across rates.
   bool isOntoSlowMass(const scene::Lia& lia) const {
-    const int da = divisor(lia.a);
-    const int db = divisor(lia.b);
-    return da != db && (lia.coupling == scene::Coupling::kDecimate ||
-                        inverseMass(da > db ? lia.a : lia.b) > 0.0);
+    return networks_.crossesRates(lia) && (lia.coupling == scene::Coupling::kDecimate ||
+                                           networks_.inverseMass(networks_.slowEnd(lia)) > 0.0);
   }
 
   Reason reasonFor(const scene::Lia& lia) const {
-    const int steps = std::min(divisor(lia.a), divisor(lia.b));
-    const double h = StepUnits(scene_, rates_, steps).step;
-    const double inverse = inverseMass(lia.a) + inverseMass(lia.b);
-    if (!(inverse > 0.0)) {
+    const double per_stiffness = networks_.inverseMassStep2(lia);
+    const double per_damping = networks_.inverseMassStep(lia);
+    if (!(per_stiffness > 0.0)) {
       return {};
     }
     switch (lia.type) {
@@ -108,11 +70,11 @@ class Chooser {
         if (largest(scene_, lia.exponent) > 1.0) {
           return {"exponent", largest(scene_, lia.exponent), 1.0};
         }
-        return switching(lia, h * h * inverse);
+        return switching(lia, per_stiffness);
       case LiaType::kContact:
       case LiaType::kClippedCubic:
       case LiaType::kCubicContact:
-        return switching(lia, h * h * inverse);
+        return switching(lia, per_stiffness);
       case LiaType::kQuadratic:
       case LiaType::kCubic: {
         const double q = largest(scene_, lia.nonlinearity);
@@ -120,12 +82,12 @@ class Chooser {
       }
       case LiaType::kTable:
         if (!lia.table.empty()) {
-          return switching(lia, h * h * inverse);
+          return switching(lia, per_stiffness);
         }
-        return lia.viscous_table.empty() ? Reason{} : sliding(lia, h * inverse);
+        return lia.viscous_table.empty() ? Reason{} : sliding(lia, per_damping);
       case LiaType::kBow:
       case LiaType::kSmoothBow:
-        return sliding(lia, h * inverse);
+        return sliding(lia, per_damping);
       default:
         return {};
     }
@@ -181,7 +143,7 @@ class Chooser {
   using Key = std::tuple<int, int, std::string, bool>;  // place, figure, guarded
 
   scene::Scene& scene_;
-  Rates rates_;
+  SceneNetwork networks_;
   std::vector<std::string>& notes_;
   std::map<Key, Group> groups_;
 };

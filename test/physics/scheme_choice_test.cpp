@@ -207,24 +207,30 @@ TEST(SchemeChoiceTest, WallThatOnlyAHandTouchesStaysExplicit) {
   EXPECT_EQ(settle(b.scene, kRates).scene.lias[0].scheme, Scheme::kExplicit);
 }
 
+/// One that moves may come to every module of its range; one that does not stays on its own.
 TEST(SchemeChoiceTest, PointIsAsLightAsTheLightestModuleUnderIt) {
-  SceneBuilder b;
-  const int first = b.chain(3, kHeavy, 1.0);
-  b.scene.mats[3].mass = {kLight};
-  b.scene.grids.push_back({"string", first, 5, 1});
-  const int point = b.ground();
-  b.scene.mats[static_cast<std::size_t>(point)].type = scene::MatType::kPoint;
-  scene::Connection connection;
-  connection.mat = point;
-  connection.along = {0.5};
-  b.scene.connections.push_back(connection);
-  scene::Lia& lia =
-      b.scene.lias[static_cast<std::size_t>(b.link(LiaType::kContact, b.ground(), point, 0.0))];
-  lia.scheme = Scheme::kAuto;
-  lia.stiffness = {0.0499 * kLight * kRate * kRate};
-  EXPECT_EQ(settle(b.scene, kRates).scene.lias.back().scheme, Scheme::kExplicit);
-  lia.stiffness = {0.0501 * kLight * kRate * kRate};
-  EXPECT_EQ(settle(b.scene, kRates).scene.lias.back().scheme, Scheme::kGuarded);
+  for (const bool moves : {true, false}) {
+    SceneBuilder b;
+    const int first = b.chain(3, kHeavy, 1.0);
+    b.scene.mats[3].mass = {kLight};
+    b.scene.grids.push_back({"string", first, 5, 1});
+    const int point = b.ground();
+    b.scene.mats[static_cast<std::size_t>(point)].type = scene::MatType::kPoint;
+    scene::Connection connection;
+    connection.mat = point;
+    connection.along = {0.5};
+    connection.guide = moves ? b.slice(0) : -1;
+    connection.guide_scale = 1.0;
+    b.scene.connections.push_back(connection);
+    scene::Lia& lia =
+        b.scene.lias[static_cast<std::size_t>(b.link(LiaType::kContact, b.ground(), point, 0.0))];
+    lia.scheme = Scheme::kAuto;
+    const double mass = moves ? kLight : kHeavy;
+    lia.stiffness = {0.0499 * mass * kRate * kRate};
+    EXPECT_EQ(settle(b.scene, kRates).scene.lias.back().scheme, Scheme::kExplicit) << moves;
+    lia.stiffness = {0.0501 * mass * kRate * kRate};
+    EXPECT_EQ(settle(b.scene, kRates).scene.lias.back().scheme, Scheme::kGuarded) << moves;
+  }
 }
 
 TEST(SchemeChoiceTest, LinksOfOnePlaceAreSaidOnce) {

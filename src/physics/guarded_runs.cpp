@@ -49,6 +49,44 @@ GuardedRuns<Real>::GuardedRuns(const scene::Scene& scene,
                        std::vector<unsigned char>(links.size(), 0),
                        state.arena().template add<GuardedState<Real>>(name, links.size())});
   }
+  if (!members_.empty()) {
+    collectReached();
+  }
+}
+
+/// The ends of guarded links, all points, and the modules that points hand their forces to.
+template <class Real>
+void GuardedRuns<Real>::collectReached() {
+  const auto add = [this](int slot, int stride, int count) {
+    for (int k = 0; k < count; ++k) {
+      reached_.push_back(slot + k * stride);
+    }
+  };
+  for (const GuardedGroup& members : members_) {
+    for (const GuardedRef& ref : members.links) {
+      const LinkRun& run = layout_.runs[ref.run];
+      const LinkEnds& ends = run.ends[ref.link];
+      add(ends.a, run.stride_a, std::max(1, run.dimensions));
+      add(ends.b, run.stride_b, std::max(1, run.dimensions));
+    }
+  }
+  for (const DecimatedPoint& point : layout_.decimations) {
+    add(point.slot, 1, point.dimensions);
+    add(point.of.slot, point.of.stride, point.dimensions);
+  }
+  for (const ProjectedPoint& point : layout_.projections) {
+    add(point.slot, 1, point.dimensions);
+    add(point.of.slot, point.of.stride, point.source_dimensions);
+  }
+  for (std::size_t p = 0; p < layout_.places.size(); ++p) {
+    const PlacePoint& point = layout_.places[p];
+    add(point.slot, 1, point.dimensions);
+    for (const int slot : points_.slotsUnder(p)) {
+      add(slot, point.stride, point.dimensions);
+    }
+  }
+  std::sort(reached_.begin(), reached_.end());
+  reached_.erase(std::unique(reached_.begin(), reached_.end()), reached_.end());
 }
 
 template <class Real>
@@ -247,9 +285,9 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::step(std::int64_t now,
   }
   if (any) {
     points_.scatter(forces_.data(), state.places());
-    for (std::size_t slot = 0; slot < forces_.size(); ++slot) {
-      state.f()[slot] += forces_[slot];
-      forces_[slot] = Real(0);
+    for (const int slot : reached_) {
+      state.f()[slot] += forces_[at(slot)];
+      forces_[at(slot)] = Real(0);
     }
   }
 }

@@ -66,6 +66,7 @@ class GuardedRuns {
                 const double* places,
                 Reach& to) const noexcept;
   bool isOnPlace(int slot) const noexcept;
+  void collectReached();
   GuardedView<Real> viewOf(const Group& group,
                            const CoefficientsOf<Real>& c,
                            State<Real>& state) const noexcept;
@@ -90,6 +91,7 @@ class GuardedRuns {
   std::vector<Group> groups_;
   std::vector<unsigned char> due_;  // [sections] moved as the present step began
   std::vector<Real> forces_;        // [slots], of guarded links; zero between steps
+  std::vector<int> reached_;        // slots that these can be on
 };
 
 extern template class GuardedRuns<float>;

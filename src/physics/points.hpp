@@ -62,8 +62,9 @@ class Points {
         keepLast(point.slot, point.dimensions, state);
         gatherPlace(p, x, d, state.places());
         std::copy_n(d + point.slot, point.dimensions, place_d);
-        moveOn(p, c.places[p], x, state.places());
-        gatherPlace(p, x, d, state.places());
+        if (moveOn(p, c.places[p], x, state.places())) {
+          gatherPlace(p, x, d, state.places());
+        }
         for (int k = point.slot; k < point.slot + point.dimensions; ++k) {
           state.moved()[k] += x[k];
         }
@@ -134,6 +135,12 @@ class Points {
   scene::GridPlace around(std::size_t p, const double* places) const noexcept {
     return scene::placeOn(grids_[p], places[2 * p], places[2 * p + 1]);
   }
+  /// Slots of all modules that a place can come to. Realtime: no
+  std::vector<int> slotsUnder(std::size_t p) const {
+    const scene::Grid& grid = grids_[p];
+    const auto first = layout_.slot_of_mat.begin() + grid.first;
+    return {first, first + grid.columns * grid.rows};
+  }
   int slotOf(const scene::GridPlace& around, int i) const noexcept {
     return layout_.slot_of_mat[static_cast<std::size_t>(around.mats[static_cast<std::size_t>(i)])];
   }
@@ -159,8 +166,8 @@ class Points {
     }
   }
 
-  /// The place follows what is asked for, as fast as it may.
-  void moveOn(std::size_t p,
+  /// The place follows what is asked for, as fast as it may. \return true if it moved
+  bool moveOn(std::size_t p,
               const PlaceCoefficients& wanted,
               const Real* x,
               double* places) const noexcept {
@@ -168,11 +175,14 @@ class Points {
     const double led = guide < 0 ? 0.0 : wanted.guide_scale * static_cast<double>(x[guide]);
     const double targets[2] = {std::clamp(wanted.along + led, wanted.minimum, wanted.maximum),
                                std::clamp(wanted.across, 0.0, 1.0)};
+    bool moves = false;
     for (std::size_t k = 0; k < 2; ++k) {
       double& place = places[2 * p + k];
       const double way = targets[k] - place;
       place += wanted.speed > 0.0 ? std::clamp(way, -wanted.speed, wanted.speed) : way;
+      moves = moves || way != 0.0;
     }
+    return moves;
   }
 
   /// d is that of the modules: a place that moves along them is no velocity of the string.

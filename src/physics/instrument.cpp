@@ -45,8 +45,11 @@ scene::Scene withParameters(scene::Scene scene, const std::vector<double>& value
 template <class Real>
 class InstrumentOf final : public Instrument {
  public:
-  InstrumentOf(const scene::Scene& scene, const Rates& rates, Layout layout, Precision precision)
-      : Instrument(scene, rates, precision),
+  InstrumentOf(const scene::Scene& scene,
+               const Rates& rates,
+               Layout layout,
+               const CompileOptions& options)
+      : Instrument(scene, rates, options),
         layout_(std::move(layout)),
         coefficients_(std::make_unique<CoefficientsOf<Real>>(scene, rates, layout_)),
         state_(layout_),
@@ -127,6 +130,16 @@ class InstrumentOf final : public Instrument {
   std::vector<GuardReport> makeGuardReports() const override { return guarded_.makeReports(); }
   void readGuards(std::vector<GuardReport>& to) const noexcept override {
     guarded_.read(state_, to);
+  }
+
+  std::vector<std::string> describe() const override {
+    std::vector<std::string> lines;
+    for (std::size_t s = 0; s < layout_.sections.size(); ++s) {
+      const SectionRange& range = layout_.sections[s];
+      lines.push_back("section '" + scene().sections[s].name + "': " +
+                      std::to_string(range.fixed - range.cells) + " free modules one by one");
+    }
+    return lines;
   }
 
   bool isFinite() const noexcept override {
@@ -281,15 +294,15 @@ class InstrumentOf final : public Instrument {
 
 std::unique_ptr<Instrument> compile(const scene::Scene& scene,
                                     const Rates& rates,
-                                    Precision precision) {
+                                    const CompileOptions& options) {
   if (!isSettled(scene)) {
     throw Exception("scene '" + scene.name + "' is not settled: settle() comes before compile()");
   }
   Layout layout = makeLayout(scene, rates);
-  if (precision == Precision::kFloat) {
-    return std::make_unique<InstrumentOf<float>>(scene, rates, std::move(layout), precision);
+  if (options.precision == Precision::kFloat) {
+    return std::make_unique<InstrumentOf<float>>(scene, rates, std::move(layout), options);
   }
-  return std::make_unique<InstrumentOf<double>>(scene, rates, std::move(layout), precision);
+  return std::make_unique<InstrumentOf<double>>(scene, rates, std::move(layout), options);
 }
 
 }  // namespace ergotic::physics

@@ -85,6 +85,7 @@ class SpringInstrument : public physics::Instrument {
   void readEnergies(physics::Energies&) const noexcept override {}
   void readGuards(std::vector<physics::GuardReport>&) const noexcept override {}
   void readDisplacements(float* to) const noexcept override;
+  std::vector<std::string> describe() const override { return {}; }
   bool isFinite() const noexcept override;
 
   double last_input = 0.0;  ///< sum of all input samples of the last tick

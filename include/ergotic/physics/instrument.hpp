@@ -8,12 +8,11 @@
 #include <vector>
 
 #include "ergotic/physics/energy.hpp"
+#include "ergotic/physics/options.hpp"
 #include "ergotic/physics/rates.hpp"
 #include "ergotic/scene/scene.hpp"
 
 namespace ergotic::physics {
-
-enum class Precision { kFloat, kDouble };
 
 /// What one tick takes and gives. All arrays belong to the caller; R frames, frame-major.
 struct TickIo {
@@ -85,28 +84,32 @@ class Instrument {
   virtual void readEnergies(Energies& to) const noexcept = 0;
   virtual void readGuards(std::vector<GuardReport>& to) const noexcept = 0;
 
+  /// What compile() chose for each part of the scene and why, one line each. Realtime: no.
+  virtual std::vector<std::string> describe() const = 0;
+
   /// True if every displacement is a finite number. Realtime: yes.
   virtual bool isFinite() const noexcept = 0;
 
   const scene::Scene& scene() const noexcept { return scene_; }
   const Rates& rates() const noexcept { return rates_; }
-  Precision precision() const noexcept { return precision_; }
+  const CompileOptions& options() const noexcept { return options_; }
+  Precision precision() const noexcept { return options_.precision; }
   int ports() const noexcept { return static_cast<int>(scene_.ports.size()); }
   int inputChannels() const noexcept { return input_channels_; }
   int outputChannels() const noexcept { return output_channels_; }
 
  protected:
-  Instrument(scene::Scene scene, const Rates& rates, Precision precision)
+  Instrument(scene::Scene scene, const Rates& rates, const CompileOptions& options)
       : scene_(std::move(scene)),
         rates_(rates),
-        precision_(precision),
+        options_(options),
         input_channels_(scene_.inputChannels()),
         output_channels_(scene_.outputChannels()) {}
 
  private:
   scene::Scene scene_;
   Rates rates_;
-  Precision precision_;
+  CompileOptions options_;
   int input_channels_;
   int output_channels_;
 };
@@ -116,6 +119,6 @@ class Instrument {
 /// \throws Exception if the scene needs something that these rates do not allow
 std::unique_ptr<Instrument> compile(const scene::Scene& scene,
                                     const Rates& rates,
-                                    Precision precision);
+                                    const CompileOptions& options);
 
 }  // namespace ergotic::physics

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "ergotic/rt/isa.hpp"
+
+namespace ergotic::physics {
+
+enum class Precision { kFloat, kDouble };
+
+/// How a scene is turned into an instrument. Only the precision changes what it plays.
+struct CompileOptions {
+  Precision precision = Precision::kFloat;
+  rt::Isa isa = rt::bestIsa();  ///< of the kernels; every level gives the same bits
+  int threads = 1;      ///< 1...kMaxThreads that share a tick; any number gives the same bits
+  bool metered = true;  ///< keeps the books of energy (energy.hpp), else only what is stored
+
+  CompileOptions() = default;
+  CompileOptions(Precision p) : precision(p) {}  // NOLINT(google-explicit-constructor)
+};
+
+constexpr int kMaxThreads = 8;
+
+}  // namespace ergotic::physics

@@ -15,15 +15,22 @@
 namespace ergotic::bag {
 namespace {
 
-Keyframe fromMessage(const ergotic::Keyframe& message) {
+Keyframe fromMessage(const ergotic::Keyframe& message, const std::string& path) {
+  if (message.threads < 1 || message.threads > physics::kMaxThreads) {
+    throw Exception(path + ": the keyframe of tick " + std::to_string(message.tick) + " has " +
+                    std::to_string(message.threads) + " threads, allowed: 1..." +
+                    std::to_string(physics::kMaxThreads));
+  }
   Keyframe keyframe;
   keyframe.tick = message.tick;
   keyframe.scene_name = message.scene_name;
   keyframe.scene_text = message.scene;
   keyframe.build = message.build;
   keyframe.rates = {message.audio_rate, static_cast<int>(message.ratio)};
-  keyframe.precision =
-      message.precision == "double" ? physics::Precision::kDouble : physics::Precision::kFloat;
+  keyframe.precision = physics::precisionNamed(message.precision);
+  keyframe.isa = message.isa;
+  keyframe.threads = static_cast<int>(message.threads);
+  keyframe.metered = message.metered != 0U;
   keyframe.slices = static_cast<int>(message.slices);
   keyframe.state = message.state;
   keyframe.parameters = message.parameter_values;
@@ -60,7 +67,7 @@ void add(Recording& recording, const rosbag::MessageInstance& message, const std
   if (const auto block = as<GestureBlock>(message, path)) {
     recording.blocks.push_back(fromMessage(*block, path));
   } else if (const auto keyframe = as<ergotic::Keyframe>(message, path)) {
-    recording.keyframes.push_back(fromMessage(*keyframe));
+    recording.keyframes.push_back(fromMessage(*keyframe, path));
   } else if (const auto told = as<ergotic::Event>(message, path)) {
     station::Event event;
     event.type = static_cast<station::Event::Type>(told->type);

@@ -202,7 +202,10 @@ void fillStatus(const physics::Instrument& instrument, Status& status) {
   status.audio_rate = instrument.rates().audio_hz;
   status.gestural_rate = instrument.rates().gesturalHz();
   status.ratio = static_cast<std::uint32_t>(instrument.rates().ratio);
-  status.precision = instrument.precision() == physics::Precision::kDouble ? "double" : "float";
+  status.precision = nameOf(instrument.precision());
+  status.isa = nameOf(instrument.options().isa);
+  status.threads = static_cast<std::uint32_t>(instrument.options().threads);
+  status.metered = instrument.options().metered;
   status.modules = static_cast<std::uint32_t>(scene.mats.size());
   status.links = static_cast<std::uint32_t>(scene.lias.size());
 }
@@ -249,7 +252,10 @@ Keyframe toKeyframe(const station::Keyframe& keyframe,
   message.scene_hash = textHash(scene.text);
   message.audio_rate = instrument.rates().audio_hz;
   message.ratio = static_cast<std::uint32_t>(instrument.rates().ratio);
-  message.precision = instrument.precision() == physics::Precision::kDouble ? "double" : "float";
+  message.precision = nameOf(instrument.precision());
+  message.isa = nameOf(instrument.options().isa);
+  message.threads = static_cast<std::uint32_t>(instrument.options().threads);
+  message.metered = instrument.options().metered;
   message.slices = slices;
   message.state = keyframe.state;
   for (const scene::Parameter& parameter : scene.parameters) {

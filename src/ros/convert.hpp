@@ -26,7 +26,7 @@ sensor_msgs::JointState toJointState(const station::Snapshot& snapshot);
 /// Fills state, fault and counters of `status`.
 void fillStatus(const station::Snapshot& snapshot, Status& status);
 
-/// Fills name, rates and sizes of `status`.
+/// Fills name, rates, sizes and compile options of `status`.
 void fillStatus(const physics::Instrument& instrument, Status& status);
 
 /// Fills energies and the warning on guarded links of `status`.

@@ -114,8 +114,13 @@ void Diagnostics::reportModel(Report& report) {
   }
   report.add("model", status_.model);
   report.add("verdict", status_.verdict);
+  report.add("precision", status_.precision);
+  report.add("instruction set", status_.isa);
+  report.add("threads", status_.threads);
   report.add("stored energy (J)", status_.stored_energy);
-  report.add("residual of the energy balance (share)", status_.energy_residual);
+  if (status_.metered != 0U) {
+    report.add("residual of the energy balance (share)", status_.energy_residual);
+  }
 }
 
 }  // namespace ergotic::node

@@ -20,16 +20,15 @@ constexpr bool kLatched = true;
 
 }  // namespace
 
-Feed::Feed(::ros::NodeHandle& node) {
-  joint_states_ = node.advertise<sensor_msgs::JointState>("joint_states", kQueue);
-  model_structure_ = node.advertise<ModelStructure>("model_structure", 1, kLatched);
-  model_state_ = node.advertise<ModelState>("model_state", kQueue);
-  model_energy_ = node.advertise<ModelEnergy>("model_energy", kQueue);
-  markers_topic_ = node.advertise<visualization_msgs::MarkerArray>("markers", 2);
-  keyframe_ = node.advertise<Keyframe>("keyframe", kQueue, kLatched);
-  events_ = node.advertise<Event>("events", kEventQueue);
-  status_topic_ = node.advertise<Status>("status", 1, kLatched);
-  gesture_ = node.advertise<GestureBlock>(
+Feed::Feed(const ::ros::NodeHandle& node) : node_(node) {
+  joint_states_ = node_.advertise<sensor_msgs::JointState>("joint_states", kQueue);
+  model_structure_ = node_.advertise<ModelStructure>("model_structure", 1, kLatched);
+  model_state_ = node_.advertise<ModelState>("model_state", kQueue);
+  markers_topic_ = node_.advertise<visualization_msgs::MarkerArray>("markers", 2);
+  keyframe_ = node_.advertise<Keyframe>("keyframe", kQueue, kLatched);
+  events_ = node_.advertise<Event>("events", kEventQueue);
+  status_topic_ = node_.advertise<Status>("status", 1, kLatched);
+  gesture_ = node_.advertise<GestureBlock>(
       "gesture", kGestureQueue,
       [this](const ::ros::SingleSubscriberPublisher& /*peer*/) { new_listener_ = true; });
   showSilence("no model yet");
@@ -40,6 +39,9 @@ void Feed::configure(const Parameters& parameters) {
   display_zoom_ = parameters.display_zoom;
   motion_period_ns_ = static_cast<std::int64_t>(1e9 / parameters.display_rate);
   status_.driver = parameters.driver;
+  if (parameters.compile.metered) {
+    model_energy_ = node_.advertise<ModelEnergy>("model_energy", kQueue);
+  }
   blocks_.reset();
 }
 

@@ -21,7 +21,7 @@ namespace ergotic::node {
 /// Everything the station tells ROS. All but the constructor: operator thread.
 class Feed {
  public:
-  explicit Feed(::ros::NodeHandle& node);
+  explicit Feed(const ::ros::NodeHandle& node);
 
   /// A station with these parameters begins to play.
   void configure(const Parameters& parameters);
@@ -52,6 +52,7 @@ class Feed {
   void sendStatus();
   void watch(const station::MotionFrame& motion, const scene::Scene& scene);
 
+  ::ros::NodeHandle node_;
   std::atomic<bool> new_listener_{false};
   std::string station_config_;
   double display_zoom_ = 1.0;
@@ -59,7 +60,7 @@ class Feed {
   ::ros::Publisher joint_states_;
   ::ros::Publisher model_structure_;
   ::ros::Publisher model_state_;
-  ::ros::Publisher model_energy_;
+  ::ros::Publisher model_energy_;  // only if the books are kept
   ::ros::Publisher markers_topic_;
   ::ros::Publisher gesture_;
   ::ros::Publisher keyframe_;

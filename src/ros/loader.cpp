@@ -15,12 +15,12 @@ namespace {
 /// \param[out] verdict  also set when the model is refused for its sake
 std::unique_ptr<station::Performer> makePerformer(const scene::Scene& scene,
                                                   const physics::Rates& rates,
-                                                  physics::Precision precision,
+                                                  const physics::CompileOptions& options,
                                                   const station::PerformerPolicy& policy,
                                                   std::string& verdict) {
   const physics::Settled settled = physics::settle(scene, rates);
   verdict = physics::toString(physics::certify(settled.scene, rates).verdict);
-  return station::makePerformer(scene, rates, precision, policy);
+  return station::makePerformer(scene, rates, options, policy);
 }
 
 double audioRateFor(const Parameters& parameters) {
@@ -79,7 +79,7 @@ Answer Loader::play(const scene::Scene& scene, bool allow_unproven, std::string&
   policy.slices = terms->slices;
   const physics::Rates rates =
       physics::chooseRates(scene, terms->rates.audio_hz, terms->rates.gesturalHz());
-  return operator_.swap(makePerformer(scene, rates, terms->parameters.precision, policy, verdict));
+  return operator_.swap(makePerformer(scene, rates, terms->parameters.compile, policy, verdict));
 }
 
 Answer Loader::start(const scene::Scene& scene, bool allow_unproven, std::string& verdict) {
@@ -88,7 +88,7 @@ Answer Loader::start(const scene::Scene& scene, bool allow_unproven, std::string
   policy.allow_unproven = allow_unproven || parameters.allow_unproven;
   const physics::Rates rates =
       physics::chooseRates(scene, audioRateFor(parameters), parameters.gestural_rate);
-  auto performer = makePerformer(scene, rates, parameters.precision, policy, verdict);
+  auto performer = makePerformer(scene, rates, parameters.compile, policy, verdict);
   station::Performer* const first = performer.get();
   return operator_.begin(std::make_unique<Engine>(parameters, std::move(performer)), first);
 }

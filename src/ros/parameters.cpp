@@ -20,6 +20,14 @@ const std::map<std::string, Realtime> kRealtime = {
     {"try", Realtime::kTry}, {"require", Realtime::kRequire}, {"off", Realtime::kOff}};
 const std::map<std::string, std::string> kDrivers = {{"virtual", "virtual"}};
 
+std::map<std::string, rt::Isa> isas() {
+  std::map<std::string, rt::Isa> choices{{"best", rt::bestIsa()}};
+  for (const rt::Isa isa : rt::isas()) {
+    choices.emplace(nameOf(isa), isa);
+  }
+  return choices;
+}
+
 /// Reads parameters of one node; every refusal says name, value and what is allowed.
 class Reader {
  public:
@@ -102,7 +110,10 @@ Parameters readParameters(const ::ros::NodeHandle& node) {
   read.text("virtual_shared_memory", p.virtual_shared_memory);
   read.number("audio_rate", p.audio_rate, 8000.0, 192000.0);
   read.number("gestural_rate", p.gestural_rate, 0.0, 192000.0);
-  read.choice("precision", p.precision, kPrecisions);
+  read.choice("precision", p.compile.precision, kPrecisions);
+  read.choice("isa", p.compile.isa, isas());
+  read.integer("threads", p.compile.threads, 1, physics::kMaxThreads);
+  read.flag("energies", p.compile.metered);
   read.choice("jack", p.jack, kJack);
   read.text("jack_name", p.jack_name);
   read.number("jack_wait", p.jack_wait, 0.0, 60.0);
@@ -132,7 +143,10 @@ std::string toYaml(const Parameters& p) {
   entry("virtual_shared_memory", p.virtual_shared_memory);
   entry("audio_rate", p.audio_rate);
   entry("gestural_rate", p.gestural_rate);
-  entry("precision", wordOf(p.precision, kPrecisions));
+  entry("precision", nameOf(p.compile.precision));
+  entry("isa", nameOf(p.compile.isa));
+  entry("threads", p.compile.threads);
+  entry("energies", p.compile.metered);
   entry("jack", wordOf(p.jack, kJack));
   entry("jack_name", p.jack_name);
   entry("jack_wait", p.jack_wait);

@@ -25,7 +25,7 @@ struct Parameters {
   std::string virtual_shared_memory;  ///< segment of a `virtual_tgr`; empty: device inside
   double audio_rate = 44100.0;        ///< Hz, without a JACK server
   double gestural_rate = 0.0;         ///< Hz; 0: as the model wishes
-  physics::Precision precision = physics::Precision::kDouble;
+  physics::CompileOptions compile;    ///< precision, isa, threads, energies (metered)
   bool jack = true;                   ///< false: no sound card, ticks follow the system clock
   std::string jack_name = "ergotic";  ///< of the JACK client
   double jack_wait = 2.0;             ///< s, for a server to appear before the first model plays

@@ -90,7 +90,7 @@ void Performer::publishMotion(std::int64_t tick) noexcept {
 
 std::unique_ptr<Performer> makePerformer(const scene::Scene& scene,
                                          const physics::Rates& rates,
-                                         physics::Precision precision,
+                                         const physics::CompileOptions& options,
                                          const PerformerPolicy& policy) {
   scene::validate(scene);
   checkSlices(scene, policy.slices);
@@ -99,7 +99,7 @@ std::unique_ptr<Performer> makePerformer(const scene::Scene& scene,
   if (!isAllowed(certificate.verdict, policy)) {
     refuse(settled.scene, certificate);
   }
-  auto performer = std::make_unique<Performer>(physics::compile(settled.scene, rates, precision));
+  auto performer = std::make_unique<Performer>(physics::compile(settled.scene, rates, options));
   performer->warnings = scene.warnings;
   const auto tell = [&](const std::vector<std::string>& said) {
     performer->warnings.insert(performer->warnings.end(), said.begin(), said.end());

@@ -41,6 +41,9 @@ ergotic::Keyframe keyframe() {
   message.audio_rate = 48000.0;
   message.ratio = 16;
   message.precision = "double";
+  message.isa = "avx4096";
+  message.threads = 3;
+  message.metered = 1;
   message.slices = 2;
   message.state = {1, 2, 3};
   message.parameter_names = {"tone"};
@@ -94,6 +97,9 @@ TEST(ReadRecordingTest, GivesBackEveryFieldInTheOrderOfTicks) {
   EXPECT_EQ(got.rates.audio_hz, 48000.0);
   EXPECT_EQ(got.rates.ratio, 16);
   EXPECT_EQ(got.precision, physics::Precision::kDouble);
+  EXPECT_EQ(got.isa, "avx4096");
+  EXPECT_EQ(got.threads, 3);
+  EXPECT_TRUE(got.metered);
   EXPECT_EQ(got.slices, 2);
   EXPECT_THAT(got.state, ElementsAre(1, 2, 3));
   EXPECT_THAT(got.parameters, ElementsAre(0.7));
@@ -122,6 +128,27 @@ TEST(ReadRecordingTest, RefusesABlockThatContradictsItself) {
     bag.write("/station/gesture", kStart, wrong);
   }
   EXPECT_THAT(errorOf(file.path()), HasSubstr("block of tick 40 has 3 positions"));
+}
+
+TEST(ReadRecordingTest, RefusesAKeyframeThatNoInstrumentCanContinue) {
+  const test::ScratchFile file;
+  const auto refusalOf = [&](const ergotic::Keyframe& wrong) {
+    {
+      rosbag::Bag bag(file.path(), rosbag::bagmode::Write);
+      bag.write("/station/gesture", kStart, block(12));
+      bag.write("/station/keyframe", kStart, wrong);
+    }
+    return errorOf(file.path());
+  };
+  ergotic::Keyframe half = keyframe();
+  half.precision = "half";
+  EXPECT_THAT(refusalOf(half), HasSubstr("precision 'half', allowed: float, double"));
+  for (const unsigned threads : {0U, 9U}) {
+    ergotic::Keyframe wrong = keyframe();
+    wrong.threads = threads;
+    EXPECT_THAT(refusalOf(wrong),
+                HasSubstr("tick 12 has " + std::to_string(threads) + " threads, allowed: 1...8"));
+  }
 }
 
 TEST(ReadRecordingTest, RefusesWhatIsNoBag) {

@@ -24,6 +24,7 @@ using test::Outcome;
 using test::run;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 const std::string kScene = test::struckBar("{quantity: velocity, at: bar, channel: 1}");
 
@@ -35,7 +36,10 @@ void write(rosbag::Bag& bag, const bag::Keyframe& keyframe) {
   message.build = "0 another";
   message.audio_rate = keyframe.rates.audio_hz;
   message.ratio = static_cast<std::uint32_t>(keyframe.rates.ratio);
-  message.precision = "float";
+  message.precision = nameOf(keyframe.precision);
+  message.isa = keyframe.isa;
+  message.threads = static_cast<std::uint32_t>(keyframe.threads);
+  message.metered = keyframe.metered;
   message.slices = static_cast<std::uint32_t>(keyframe.slices);
   message.state = keyframe.state;
   message.parameter_values = keyframe.parameters;
@@ -76,7 +80,9 @@ class RenderBagTest : public testing::Test {
   }
 
   void record(std::optional<std::size_t> lost_block = std::nullopt) {
-    const bag::Recording& recording = live_.recording();
+    record(live_.recording(), lost_block);
+  }
+  void record(const bag::Recording& recording, std::optional<std::size_t> lost_block) {
     rosbag::Bag bag(bag_path_, rosbag::bagmode::Write);
     for (std::size_t i = 0; i < recording.blocks.size(); ++i) {
       if (i != lost_block) {
@@ -133,7 +139,7 @@ TEST_F(RenderBagTest, RefusesGapsUnlessTheyAreAllowed) {
 TEST_F(RenderBagTest, PlaysTheScenesOfTheBagAndSaysIfAnotherWasNamed) {
   record();
   const test::ScratchFile same(kScene);
-  EXPECT_THAT(render(same.path()).text, testing::Not(HasSubstr("is not the scene")));
+  EXPECT_THAT(render(same.path()).text, Not(HasSubstr("is not the scene")));
   const test::ScratchFile other(std::string(kScene) + "# changed\n");
   const Outcome outcome = render(other.path());
   EXPECT_EQ(outcome.code, 0);
@@ -146,6 +152,44 @@ TEST_F(RenderBagTest, TakesRatesAndParametersFromTheRecordingOnly) {
   EXPECT_EQ(render("--rate 48000").code, 2);
   EXPECT_EQ(render("--set tone=3000").code, 2);
   EXPECT_EQ(render("--precision double").code, 2);
+}
+
+TEST_F(RenderBagTest, PlaysTheSameSamplesWithTheKernelsAndThreadsAskedFor) {
+  record();
+  const Outcome outcome = render("--isa baseline --threads 2");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.text, HasSubstr("(float, baseline, 2 threads)"));
+  EXPECT_EQ(differences(), 0U);
+  EXPECT_EQ(render("--isa avx4096").code, 2);
+}
+
+TEST_F(RenderBagTest, SaysThatItLacksTheKernelsOfTheRecording) {
+  record();
+  EXPECT_THAT(render().text, Not(HasSubstr("lacks")));
+  bag::Recording elsewhere = live_.recording();
+  elsewhere.keyframes.at(0).isa = "avx4096";
+  record(elsewhere, std::nullopt);
+  const Outcome outcome = render();
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.text, HasSubstr("note: recorded with kernels for avx4096, which this "
+                                      "processor lacks"));
+  EXPECT_EQ(differences(), 0U);
+  EXPECT_THAT(render("--isa baseline").text, Not(HasSubstr("lacks")));
+}
+
+TEST_F(RenderBagTest, HasNoEnergiesToTellWhereNoBooksWereKept) {
+  record();
+  EXPECT_THAT(render("--energies").text, HasSubstr("balance_residual"));
+  bag::Recording unmetered = live_.recording();
+  unmetered.keyframes.at(0).metered = false;
+  record(unmetered, std::nullopt);
+  EXPECT_EQ(render().code, 0);
+  EXPECT_EQ(differences(), 0U);
+  std::remove(sound_path_.c_str());
+  const Outcome refused = render("--energies");
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.text, HasSubstr("without books of energy"));
+  EXPECT_FALSE(test::exists(sound_path_));
 }
 
 }  // namespace

@@ -27,6 +27,7 @@
 
 #include "ergotic/audio/capture.hpp"
 #include "ergotic/audio/wav.hpp"
+#include "ergotic/rt/isa.hpp"
 #include "integration/child_process.hpp"
 #include "integration/listener.hpp"
 #include "support/jack_server.hpp"
@@ -63,6 +64,13 @@ class StationTest : public ::testing::Test {
           !::ros::service::call("/manager/load_nodelet", load) || load.response.success == 0U) {
         throw std::runtime_error("the manager does not load ergotic/Station");
       }
+    }
+
+    void unload_nodelet() const {
+      nodelet::NodeletUnload unload;
+      unload.request.name = "/station";
+      EXPECT_TRUE(::ros::service::call("/manager/unload_nodelet", unload));
+      EXPECT_TRUE(unload.response.success);
     }
 
     ::ros::NodeHandle node;
@@ -112,6 +120,12 @@ class StationTest : public ::testing::Test {
   static bool eventually(const std::function<bool()>& condition) {
     return test::eventually(condition);
   }
+  static bool isAdvertised(const std::string& topic) {
+    ::ros::master::V_TopicInfo topics;
+    ::ros::master::getTopics(topics);
+    return std::any_of(topics.begin(), topics.end(),
+                       [&topic](const auto& info) { return info.name == topic; });
+  }
   static double sliceEffort() {
     const auto joints = world_->joints.latest();
     return joints.effort.empty() ? 0.0 : joints.effort.front();
@@ -149,6 +163,9 @@ TEST_F(StationTest, DescribesItsModel) {
   EXPECT_EQ(structure.string_count.front(), 22U);
   EXPECT_EQ(status.audio_rate, 44100.0);
   EXPECT_EQ(status.gestural_rate, 44100.0 / status.ratio);
+  EXPECT_EQ(status.precision, "float");
+  EXPECT_EQ(status.isa, rt::nameOf(rt::bestIsa()));
+  EXPECT_EQ(status.threads, 1U);
 }
 
 TEST_F(StationTest, IsSilentAndWithoutForceBeforeTheFirstTouch) {
@@ -293,10 +310,7 @@ TEST_F(StationTest, StopsForceOnRequest) {
 
 TEST_F(StationTest, CanBeUnloadedAndLoadedAgain) {
   const std::int64_t before = world_->status.latest().ticks;
-  nodelet::NodeletUnload unload;
-  unload.request.name = "/station";
-  ASSERT_TRUE(::ros::service::call("/manager/unload_nodelet", unload));
-  EXPECT_TRUE(unload.response.success);
+  world_->unload_nodelet();
   EXPECT_FALSE(::ros::service::exists("/station/engage", false));
   world_->load_nodelet();
   EXPECT_TRUE(::ros::service::waitForService("/station/engage", 30000));
@@ -304,6 +318,32 @@ TEST_F(StationTest, CanBeUnloadedAndLoadedAgain) {
     const Status status = world_->status.latest();
     return status.state == Status::READY && status.ticks < before;
   }));
+}
+
+TEST_F(StationTest, CompilesAsItsParametersSayAndSaysWhatIsWrongInThem) {
+  EXPECT_TRUE(isAdvertised("/station/model_energy"));
+  world_->unload_nodelet();
+  world_->node.setParam("/station/precision", "double");
+  world_->node.setParam("/station/isa", "avx4096");
+  world_->node.setParam("/station/threads", 9);
+  world_->node.setParam("/station/energies", false);
+  world_->load_nodelet();
+  const auto saysOf = [](const std::string& name, const std::string& refusal) {
+    return eventually([&] {
+      return world_->status.latest().message.find("/station/" + name + " is " + refusal) == 10;
+    });
+  };
+  EXPECT_TRUE(saysOf("isa", "avx4096, allowed: ")) << world_->status.latest().message;
+  world_->node.setParam("/station/isa", "baseline");
+  EXPECT_FALSE(load(kModel).success);
+  EXPECT_TRUE(saysOf("threads", "9, allowed: 1...8")) << world_->status.latest().message;
+  world_->node.setParam("/station/threads", 2);
+  ASSERT_TRUE(load(kModel).success);
+  EXPECT_TRUE(eventually([] { return world_->status.latest().precision == "double"; }));
+  EXPECT_EQ(world_->status.latest().isa, "baseline");
+  EXPECT_EQ(world_->status.latest().threads, 2U);
+  EXPECT_FALSE(world_->status.latest().metered);
+  EXPECT_FALSE(isAdvertised("/station/model_energy"));
 }
 
 }  // namespace

@@ -175,8 +175,11 @@ TEST(ConvertTest, StatusNamesAGuardedLinkAsLongAsItIsCutTooOften) {
 
 TEST(ConvertTest, KeyframeSurvivesTheWireBitForBit) {
   const scene::Scene scene = scene::readYaml(kScene, "two.yaml");
-  const auto instrument =
-      physics::compile(physics::settle(scene, {}).scene, {}, physics::Precision::kDouble);
+  physics::CompileOptions options(physics::Precision::kDouble);
+  options.isa = rt::Isa::kBaseline;
+  options.threads = 2;
+  options.metered = false;
+  const auto instrument = physics::compile(physics::settle(scene, {}).scene, {}, options);
   station::Keyframe keyframe;
   keyframe.tick = 123456789012;
   keyframe.state.resize(instrument->stateSize());
@@ -187,7 +190,20 @@ TEST(ConvertTest, KeyframeSurvivesTheWireBitForBit) {
   EXPECT_EQ(received.scene, kScene);
   EXPECT_EQ(received.scene_hash, textHash(kScene));
   EXPECT_EQ(received.precision, "double");
+  EXPECT_EQ(received.isa, "baseline");
+  EXPECT_EQ(received.threads, 2U);
+  EXPECT_FALSE(received.metered);
   EXPECT_EQ(received.slices, 12U);
+}
+
+TEST(ConvertTest, StatusSaysHowTheModelWasCompiled) {
+  const scene::Scene scene = physics::settle(scene::readYaml(kScene, "two.yaml"), {}).scene;
+  Status status;
+  fillStatus(*physics::compile(scene, {}, {}), status);
+  EXPECT_EQ(status.precision, "float");
+  EXPECT_EQ(status.isa, nameOf(rt::bestIsa()));
+  EXPECT_EQ(status.threads, 1U);
+  EXPECT_TRUE(status.metered);
 }
 
 TEST(ConvertTest, TextHashIsFnv1a) {

@@ -20,7 +20,8 @@ namespace ergotic::test {
 /// replay is measured against.
 class LiveRun : private station::FramePort {
  public:
-  explicit LiveRun(const std::string& scene_text) : scene_text_(scene_text) {
+  explicit LiveRun(const std::string& scene_text, const physics::CompileOptions& options = {})
+      : scene_text_(scene_text), options_(options) {
     station::StationConfig config;
     config.rates = kRates;
     config.output_channels = 1;
@@ -90,9 +91,8 @@ class LiveRun : private station::FramePort {
   static constexpr physics::Rates kRates{44100.0, 14};
 
  private:
-  static std::unique_ptr<station::Performer> perform(const std::string& text) {
-    const scene::Scene scene = scene::readYaml(text, "live.yaml");
-    return station::makePerformer(scene, kRates, physics::Precision::kFloat);
+  std::unique_ptr<station::Performer> perform(const std::string& text) const {
+    return station::makePerformer(scene::readYaml(text, "live.yaml"), kRates, options_);
   }
 
   void push(std::int64_t first, const float* frames, int nframes) noexcept override {
@@ -135,7 +135,10 @@ class LiveRun : private station::FramePort {
     keyframe.scene_name = "live.yaml";
     keyframe.scene_text = scene_text_;
     keyframe.rates = kRates;
-    keyframe.precision = physics::Precision::kFloat;
+    keyframe.precision = options_.precision;
+    keyframe.isa = nameOf(options_.isa);
+    keyframe.threads = options_.threads;
+    keyframe.metered = options_.metered;
     keyframe.slices = 12;
     keyframe.state = taken.state;
     keyframe.parameters = taken.parameters;
@@ -143,6 +146,7 @@ class LiveRun : private station::FramePort {
   }
 
   std::string scene_text_;
+  physics::CompileOptions options_;
   std::vector<float> sound_;
   bag::Recording recording_;
   const physics::Instrument* playing_ = nullptr;

@@ -28,11 +28,13 @@ struct Replayed {
   std::int64_t first_tick = 0;
   std::vector<float> sound;
   std::vector<std::string> flaws;
+  physics::CompileOptions options;
 };
 
-Replayed replay(const bag::Recording& recording) {
-  Replay player(recording, {});
+Replayed replay(const bag::Recording& recording, const CompileChoice& choice = {}) {
+  Replay player(recording, {}, choice);
   Replayed result;
+  result.options = player.instrument().options();
   result.first_tick = player.start().tick;
   std::vector<double> frames(static_cast<std::size_t>(player.rates().ratio));
   while (player.next(frames.data())) {
@@ -107,6 +109,57 @@ TEST(ReplayTest, SwapsModelsWithTheSameFade) {
   live.takeKeyframe();
   live.play(2000);
   const Replayed again = replay(live.recording());
+  EXPECT_THAT(again.flaws, ElementsAre());
+  expectSame(again, live.sound());
+}
+
+/// A performance with a keyframe in its middle and one near its end.
+bag::Recording recordingOf(LiveRun& live) {
+  live.play(700);
+  live.takeKeyframe();
+  live.play(1800);
+  live.takeKeyframe();
+  live.play(50);
+  return live.recording();
+}
+
+TEST(ReplayTest, TakesPrecisionKernelsThreadsAndBooksFromTheRecording) {
+  physics::CompileOptions options(physics::Precision::kDouble);
+  options.isa = rt::Isa::kBaseline;
+  options.threads = 2;
+  options.metered = false;
+  LiveRun live(kScene, options);
+  const Replayed again = replay(recordingOf(live));
+  EXPECT_EQ(again.options.precision, physics::Precision::kDouble);
+  EXPECT_EQ(again.options.isa, rt::Isa::kBaseline);
+  EXPECT_EQ(again.options.threads, 2);
+  EXPECT_FALSE(again.options.metered);
+  EXPECT_THAT(again.flaws, ElementsAre());
+  expectSame(again, live.sound());
+}
+
+TEST(ReplayTest, PlaysTheSameStatesAndSamplesWithAnyKernelsAndThreads) {
+  LiveRun live(kScene);
+  const bag::Recording recording = recordingOf(live);
+  for (const rt::Isa isa : rt::isas()) {
+    for (const int threads : {1, 2}) {
+      const Replayed again = replay(recording, {"", nameOf(isa), threads});
+      EXPECT_EQ(again.options.isa, isa);
+      EXPECT_EQ(again.options.threads, threads);
+      EXPECT_THAT(again.flaws, ElementsAre());
+      expectSame(again, live.sound());
+    }
+  }
+}
+
+TEST(ReplayTest, TakesTheBestKernelsWhereThisProcessorLacksTheRecordedOnes) {
+  LiveRun live(kScene);
+  bag::Recording recording = recordingOf(live);
+  for (bag::Keyframe& keyframe : recording.keyframes) {
+    keyframe.isa = "avx4096";
+  }
+  const Replayed again = replay(recording);
+  EXPECT_EQ(again.options.isa, rt::bestIsa());
   EXPECT_THAT(again.flaws, ElementsAre());
   expectSame(again, live.sound());
 }

@@ -20,7 +20,10 @@ struct Keyframe {
   std::string build;  ///< of the program that made the state
   physics::Rates rates;
   physics::Precision precision = physics::Precision::kFloat;
-  int slices = 0;  ///< of the device
+  std::string isa;      ///< name of the kernels' level (rt/isa.hpp); this processor may lack it
+  int threads = 1;      ///< 1...physics::kMaxThreads
+  bool metered = true;  ///< the state holds books of energy
+  int slices = 0;       ///< of the device
   std::vector<std::uint8_t> state;
   std::vector<double> parameters;
 };

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+
 #include "ergotic/rt/isa.hpp"
 
 namespace ergotic::physics {
 
 enum class Precision { kFloat, kDouble };
+
+/// "float", "double".
+const char* nameOf(Precision precision);
+/// \throws Exception if there is no such precision, listing those there are
+Precision precisionNamed(const std::string& name);
 
 /// How a scene is turned into an instrument. Only the precision changes what it plays.
 struct CompileOptions {

@@ -56,7 +56,7 @@ struct PerformerPolicy {
 ///         have, or its verdict is refused (the text holds the findings of the certificate)
 std::unique_ptr<Performer> makePerformer(const scene::Scene& scene,
                                          const physics::Rates& rates,
-                                         physics::Precision precision,
+                                         const physics::CompileOptions& options,
                                          const PerformerPolicy& policy = {});
 
 }  // namespace ergotic::station

@@ -147,21 +147,6 @@ Report stringsOf(const Scene& scene, const physics::Rates& rates) {
   return report;
 }
 
-Report costOf(const Scene& scene, const physics::Rates& rates) {
-  Report report = Report::map();
-  for (const auto precision : {physics::Precision::kFloat, physics::Precision::kDouble}) {
-    const auto instrument = physics::compile(scene, rates, precision);
-    const Cost cost = measureCost(*instrument);
-    report.add(precision == physics::Precision::kFloat ? "float" : "double",
-               Report::map()
-                   .add("state_bytes", Report::count(instrument->stateSize()))
-                   .add("tick_ns", Report::number(cost.tick_ns))
-                   .add("step_ns", Report::number(cost.frame_ns))
-                   .add("real_time_factor", Report::number(cost.real_time_factor)));
-  }
-  return report;
-}
-
 Report texts(const std::vector<std::string>& lines) {
   Report report = Report::list();
   for (const std::string& line : lines) {
@@ -170,17 +155,52 @@ Report texts(const std::vector<std::string>& lines) {
   return report;
 }
 
+/// What `compile` made of the scene, and why.
+Report programOf(const physics::Instrument& instrument) {
+  const physics::CompileOptions& options = instrument.options();
+  return Report::map()
+      .add("precision", Report::text(nameOf(options.precision)))
+      .add("isa", Report::text(nameOf(options.isa)))
+      .add("threads", Report::number(options.threads))
+      .add("parts", texts(instrument.describe()));
+}
+
+/// Adds the program that `options` ask for, and what both precisions cost.
+void addProgram(const Scene& scene,
+                const physics::Rates& rates,
+                physics::CompileOptions options,
+                Report& report) {
+  const physics::Precision chosen = options.precision;
+  Report costs = Report::map();
+  for (const auto precision : {physics::Precision::kFloat, physics::Precision::kDouble}) {
+    options.precision = precision;
+    const auto instrument = physics::compile(scene, rates, options);
+    if (precision == chosen) {
+      report.add("program", programOf(*instrument));
+    }
+    const Cost cost = measureCost(*instrument);
+    costs.add(nameOf(precision),
+              Report::map()
+                  .add("state_bytes", Report::count(instrument->stateSize()))
+                  .add("tick_ns", Report::number(cost.tick_ns))
+                  .add("step_ns", Report::number(cost.frame_ns))
+                  .add("real_time_factor", Report::number(cost.real_time_factor)));
+  }
+  report.add("cost", std::move(costs));
+}
+
 Report reportOn(const physics::Settled& settled,
                 const physics::Rates& rates,
-                const physics::Certificate& certificate) {
+                const physics::Certificate& certificate,
+                const physics::CompileOptions& options) {
   const Scene& scene = settled.scene;
   std::vector<std::string> warnings = scene.warnings;
   const std::string note = conversionNote(scene, rates);
   if (!note.empty()) {
     warnings.push_back(note);
   }
-  return Report::map()
-      .add("scene", Report::text(scene.name))
+  Report report = Report::map();
+  report.add("scene", Report::text(scene.name))
       .add("modules", Report::count(scene.mats.size()))
       .add("audio_rate_hz", Report::number(rates.audio_hz))
       .add("gestural_rate_hz", Report::number(rates.gesturalHz()))
@@ -194,10 +214,9 @@ Report reportOn(const physics::Settled& settled,
       .add("outputs", outputsOf(scene))
       .add("parameters", parametersOf(scene))
       .add("strings", stringsOf(scene, rates))
-      .add("filters", filtersReport(scene, rates))
-      .add("cost", costOf(scene, rates))
-      .add("notes", texts(settled.notes))
-      .add("warnings", texts(warnings));
+      .add("filters", filtersReport(scene, rates));
+  addProgram(scene, rates, options, report);
+  return report.add("notes", texts(settled.notes)).add("warnings", texts(warnings));
 }
 
 }  // namespace
@@ -207,6 +226,7 @@ void addOptions(CLI::App& app, CheckOptions& options) {
       ->type_name("SCENE")
       ->required();
   addOptions(app, options.scene);
+  addOptions(app, options.compile);
   app.add_flag("--json", options.json, "for a program to read");
   app.add_option("--filter-response", options.filter_response,
                  "write what the chaplets of the scene let through to this table")
@@ -218,7 +238,7 @@ int check(const CheckOptions& options) {
   const physics::Rates rates = chosenRates(scene, options.scene);
   const physics::Settled settled = physics::settle(std::move(scene), rates);
   const physics::Certificate certificate = physics::certify(settled.scene, rates);
-  const Report report = reportOn(settled, rates, certificate);
+  const Report report = reportOn(settled, rates, certificate, chosenOptions(options.compile));
   if (!options.filter_response.empty()) {
     writeFilterResponse(options.filter_response, settled.scene, rates);
   }

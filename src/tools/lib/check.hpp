@@ -10,6 +10,7 @@ namespace ergotic::tools {
 /// What `check` is asked for.
 struct CheckOptions {
   SceneOptions scene;
+  CompileChoice compile;
   bool json = false;
   std::string filter_response;  ///< empty: not written
 };

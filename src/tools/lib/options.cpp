@@ -6,10 +6,23 @@
 #include <iostream>
 #include <sstream>
 
+#include "ergotic/exception.hpp"
+
 namespace ergotic::tools {
 namespace {
 constexpr double kDefaultRateHz = 44100.0;
+
+/// \return why there is no such level here; empty if there is
+std::string refusalOfIsa(const std::string& name) {
+  try {
+    rt::isaNamed(name);
+  } catch (const Exception& refusal) {
+    return refusal.what();
+  }
+  return {};
 }
+
+}  // namespace
 
 void addOptions(CLI::App& app, SceneOptions& options) {
   app.add_option("--set", options.set, "value of a parameter of the scene, NAME=VALUE")
@@ -21,6 +34,19 @@ void addOptions(CLI::App& app, SceneOptions& options) {
                  "wanted gestural rate, Hz; the nearest whole fraction of the audio rate is taken "
                  "(default: as the scene wishes)")
       ->check(CLI::PositiveNumber);
+}
+
+void addOptions(CLI::App& app, CompileChoice& choice) {
+  app.add_option("--precision", choice.precision, "of the instrument (default: float)")
+      ->check(CLI::IsMember({"float", "double"}));
+  app.add_option("--isa", choice.isa,
+                 "instruction set of the kernels; all give the same samples (default: the best "
+                 "that this processor has)")
+      ->type_name("NAME")
+      ->check(&refusalOfIsa);
+  app.add_option("--threads", choice.threads,
+                 "that share the work; any number gives the same samples (default: 1)")
+      ->check(CLI::Range(1, physics::kMaxThreads));
 }
 
 std::pair<std::string, std::string> splitAssignment(const std::string& text) {
@@ -56,6 +82,25 @@ scene::Scene readScene(const SceneOptions& options) {
 physics::Rates chosenRates(const scene::Scene& scene, const SceneOptions& options) {
   const double rate_hz = options.rate_hz > 0.0 ? options.rate_hz : kDefaultRateHz;
   return physics::chooseRates(scene, rate_hz, options.gestural_rate_hz);
+}
+
+physics::CompileOptions chosenOptions(const CompileChoice& choice,
+                                      physics::CompileOptions options) {
+  if (!choice.precision.empty()) {
+    options.precision = physics::precisionNamed(choice.precision);
+  }
+  if (!choice.isa.empty()) {
+    options.isa = rt::isaNamed(choice.isa);
+  }
+  if (choice.threads > 0) {
+    options.threads = choice.threads;
+  }
+  return options;
+}
+
+std::string toString(const physics::CompileOptions& options) {
+  return std::string(nameOf(options.precision)) + ", " + nameOf(options.isa) + ", " +
+         std::to_string(options.threads) + (options.threads == 1 ? " thread" : " threads");
 }
 
 std::string conversionNote(const scene::Scene& scene, const physics::Rates& rates) {

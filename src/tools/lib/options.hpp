@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "ergotic/physics/options.hpp"
 #include "ergotic/physics/rates.hpp"
 #include "ergotic/scene/read_scene.hpp"
 
@@ -30,6 +31,15 @@ struct SceneOptions {
 
 void addOptions(CLI::App& app, SceneOptions& options);
 
+/// How the instrument is to be compiled, as far as a tool is told.
+struct CompileChoice {
+  std::string precision;  ///< empty: not told
+  std::string isa;        ///< empty: not told
+  int threads = 0;        ///< 0: not told
+};
+
+void addOptions(CLI::App& app, CompileChoice& choice);
+
 /// Splits NAME=TEXT. \throws CLI::ValidationError if there is no name or no text
 std::pair<std::string, std::string> splitAssignment(const std::string& text);
 
@@ -41,6 +51,13 @@ scene::Scene readScene(const SceneOptions& options);
 
 /// \throws Exception if the scene cannot be run at the rates asked for
 physics::Rates chosenRates(const scene::Scene& scene, const SceneOptions& options);
+
+/// The options of a tool: what it is told, and `otherwise` where it is told nothing.
+physics::CompileOptions chosenOptions(const CompileChoice& choice,
+                                      physics::CompileOptions otherwise = {});
+
+/// "float, avx2, 1 thread".
+std::string toString(const physics::CompileOptions& options);
 
 /// What a reader should know about a scene in samples of another rate; empty if there is nothing.
 std::string conversionNote(const scene::Scene& scene, const physics::Rates& rates);

@@ -47,10 +47,10 @@ std::unique_ptr<Player> playScene(const RenderOptions& options) {
   }
   const scene::Scene scene = readScene(options.scene);
   const physics::Rates rates = chosenRates(scene, options.scene);
-  const auto precision =
-      options.precision == "double" ? physics::Precision::kDouble : physics::Precision::kFloat;
+  physics::CompileOptions compile = chosenOptions(options.compile);
+  compile.metered = options.energies;
   SoundInputs inputs(options.inputs, scene, rates.audio_hz);
-  auto performer = station::makePerformer(scene, rates, precision, policyOf(options));
+  auto performer = station::makePerformer(scene, rates, compile, policyOf(options));
   for (const std::string& warning : performer->warnings) {
     say(warning);
   }
@@ -84,11 +84,27 @@ void compareScene(const std::string& path, const bag::Keyframe& keyframe) {
   }
 }
 
+/// Which kernels play does not change the sound, so that a recording may come from anywhere.
+void compareIsa(const bag::Keyframe& keyframe, rt::Isa isa, bool asked_for) {
+  if (!asked_for && keyframe.isa != nameOf(isa)) {
+    say("note: recorded with kernels for " + keyframe.isa +
+        ", which this processor lacks; those for " + nameOf(isa) + " play the same samples");
+  }
+}
+
+void requireBooks(const RenderOptions& options, const bag::Keyframe& keyframe) {
+  if (options.energies && !keyframe.metered) {
+    throw Exception(options.gesture +
+                    ": recorded without books of energy (energies: false), "
+                    "--energies has nothing to say");
+  }
+}
+
 /// A recording was played with its own rates, precision and parameters, or it is another one.
 void requireNothingElse(const RenderOptions& options) {
   const SceneOptions& scene = options.scene;
   if (!scene.set.empty() || scene.rate_hz > 0.0 || scene.gestural_rate_hz > 0.0 ||
-      !options.precision.empty() || !options.inputs.empty()) {
+      !options.compile.precision.empty() || !options.inputs.empty()) {
     throw CLI::ValidationError("--gesture",
                                "a recording says itself what --set, --rate, --gestural-rate, "
                                "--precision and --input would");
@@ -97,8 +113,11 @@ void requireNothingElse(const RenderOptions& options) {
 
 std::unique_ptr<Replay> playRecording(const RenderOptions& options) {
   requireNothingElse(options);
-  auto replay = std::make_unique<Replay>(bag::readRecording(options.gesture), policyOf(options));
+  auto replay = std::make_unique<Replay>(bag::readRecording(options.gesture), policyOf(options),
+                                         options.compile);
+  requireBooks(options, replay->start());
   compareScene(options.scene.scene, replay->start());
+  compareIsa(replay->start(), replay->instrument().options().isa, !options.compile.isa.empty());
   if (!endsWith(replay->start().build, rt::buildId())) {
     say("warning: recorded by build " + replay->start().build + ", played by build " +
         rt::buildId() + ": the sound may differ");
@@ -139,10 +158,11 @@ std::string summary(const Player& player, const FrameWriter& writer, double work
   const physics::Rates& rates = player.rates();
   const double length_s = static_cast<double>(writer.frames()) / rates.audio_hz;
   std::ostringstream line;
-  line << player.instrument().scene().mats.size() << " modules, " << rates.audio_hz
-       << " Hz, gestures " << rates.gesturalHz() << " Hz (R = " << rates.ratio << "), "
-       << writer.frames() << " frames (" << length_s << " s) in " << work_s << " s ("
-       << length_s / work_s << " times real time), peak " << writer.peak() << ", all finite";
+  line << player.instrument().scene().mats.size() << " modules ("
+       << toString(player.instrument().options()) << "), " << rates.audio_hz << " Hz, gestures "
+       << rates.gesturalHz() << " Hz (R = " << rates.ratio << "), " << writer.frames()
+       << " frames (" << length_s << " s) in " << work_s << " s (" << length_s / work_s
+       << " times real time), peak " << writer.peak() << ", all finite";
   if (writer.clippedSamples() > 0) {
     line << ", " << writer.clippedSamples() << " samples clipped to full scale";
   }
@@ -162,6 +182,7 @@ void sayHowLinksFared(const physics::Instrument& instrument) {
 void addOptions(CLI::App& app, RenderOptions& options) {
   app.add_option("scene", options.scene.scene, "scene file, .yaml or .mdl")->type_name("SCENE");
   addOptions(app, options.scene);
+  addOptions(app, options.compile);
   app.add_option("--seconds", options.seconds, "length (default: 10, or that of the recording)")
       ->check(CLI::PositiveNumber)
       ->check(CLI::Range(0.0, 1e6));
@@ -175,8 +196,6 @@ void addOptions(CLI::App& app, RenderOptions& options) {
   app.add_option("--gesture", options.gesture,
                  "who plays: targets of a hand or recorded positions (CSV), or a recording (bag)")
       ->type_name("F.csv|F.bag");
-  app.add_option("--precision", options.precision, "of the instrument (default: float)")
-      ->check(CLI::IsMember({"float", "double"}));
   app.add_flag("--energies", options.energies, "say where the energy went");
   app.add_flag("--allow-unstable", options.allow_unstable, "play what is known to blow up, too");
   app.add_flag("--allow-gaps", options.allow_gaps, "accept a recording that cannot be exact");

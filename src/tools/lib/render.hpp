@@ -11,12 +11,12 @@ namespace ergotic::tools {
 /// What `render` is asked for.
 struct RenderOptions {
   SceneOptions scene;
+  CompileChoice compile;
   double seconds = 0.0;  ///< 0: 10, or as long as the gesture is
   std::string out;       ///< empty: nothing is kept
   std::string out_format = "float";
   std::vector<std::string> inputs;  ///< NAME=FILE
   std::string gesture;              ///< empty: nobody plays
-  std::string precision;            ///< empty: float
   bool energies = false;
   bool allow_unstable = false;
   bool allow_gaps = false;

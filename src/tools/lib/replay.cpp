@@ -21,6 +21,19 @@ scene::Scene sceneOf(const bag::Keyframe& keyframe) {
              : scene::readYaml(keyframe.scene_text, name);
 }
 
+/// As it was recorded, with the best kernels of this processor where it lacks the recorded ones.
+physics::CompileOptions recordedOptions(const bag::Keyframe& keyframe) {
+  physics::CompileOptions options(keyframe.precision);
+  options.threads = keyframe.threads;
+  options.metered = keyframe.metered;
+  for (const rt::Isa isa : rt::isas()) {
+    if (keyframe.isa == nameOf(isa)) {
+      options.isa = isa;
+    }
+  }
+  return options;
+}
+
 bool isSwap(const station::Event& event) {
   return event.type == EventType::kSwapped && event.index == 1;
 }
@@ -38,9 +51,12 @@ struct Replay::Source final : tgr::GestureSource {
   const std::vector<double>& position;
 };
 
-Replay::Replay(bag::Recording recording, const station::PerformerPolicy& policy)
+Replay::Replay(bag::Recording recording,
+               const station::PerformerPolicy& policy,
+               CompileChoice choice)
     : recording_(std::move(recording)),
       policy_(policy),
+      choice_(std::move(choice)),
       start_(findStart()),
       tick_(start().tick),
       position_(static_cast<std::size_t>(start().slices)),
@@ -84,7 +100,8 @@ std::size_t Replay::findStart() const {
 
 /// As when it was swapped in: with the parameters of its text, from its initial state.
 std::unique_ptr<station::Performer> Replay::perform(const bag::Keyframe& keyframe) const {
-  return station::makePerformer(sceneOf(keyframe), keyframe.rates, keyframe.precision, policy_);
+  return station::makePerformer(sceneOf(keyframe), keyframe.rates,
+                                chosenOptions(choice_, recordedOptions(keyframe)), policy_);
 }
 
 /// As it was at the keyframe.

@@ -8,12 +8,13 @@
 
 #include "ergotic/bag/recording.hpp"
 #include "tools/lib/offline_station.hpp"
+#include "tools/lib/options.hpp"
 #include "tools/lib/player.hpp"
 
 namespace ergotic::tools {
 
 /// Plays a recorded performance again in a station: the recorded positions, parameter changes and
-/// swaps at their ticks. The same build gives the same samples, bit for bit.
+/// swaps at their ticks. The same build gives the same samples, bit for bit, on any processor.
 ///
 /// Ticks that never ran when it was recorded are silence; ticks that ran but are missing from the
 /// recording are played with the last position held, and told of in `flaws`.
@@ -21,7 +22,10 @@ class Replay final : public Player {
  public:
   /// Starts at the first keyframe whose tick was recorded.
   /// \throws TextError, Exception if a scene cannot be read or compiled here, or may not be played
-  Replay(bag::Recording recording, const station::PerformerPolicy& policy);
+  /// \param choice  overrides what was recorded; the precision must not be told
+  Replay(bag::Recording recording,
+         const station::PerformerPolicy& policy,
+         CompileChoice choice = {});
   ~Replay() override;
 
   const physics::Rates& rates() const override { return station_->rates(); }
@@ -58,6 +62,7 @@ class Replay final : public Player {
 
   bag::Recording recording_;
   station::PerformerPolicy policy_;
+  CompileChoice choice_;
   std::size_t start_;
   std::int64_t tick_;  // the one to be played next, as numbered in the recording
   std::vector<double> position_;

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ergotic/physics/options.hpp"
+
+#include "ergotic/exception.hpp"
+
+namespace ergotic::physics {
+
+const char* nameOf(Precision precision) {
+  return precision == Precision::kDouble ? "double" : "float";
+}
+
+Precision precisionNamed(const std::string& name) {
+  for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
+    if (name == nameOf(precision)) {
+      return precision;
+    }
+  }
+  throw Exception("precision '" + name + "', allowed: float, double");
+}
+
+}  // namespace ergotic::physics

@@ -40,7 +40,8 @@ def tell_counters(performance):
     gained = lambda name: getattr(last, name) - getattr(first, name)
     print(f"      model: {last.model}, {last.modules} modules, {last.links} links, {last.verdict}")
     print(f"      rates: {last.audio_rate:g} Hz audio, {last.gestural_rate:g} Hz gestures "
-          f"(R = {last.ratio}), {last.precision}, load {100 * last.load_mean:.1f} %")
+          f"(R = {last.ratio}), load {100 * last.load_mean:.1f} %")
+    print(f"      compiled: {last.precision}, {last.isa}, threads: {last.threads}")
     print(f"      ticks: {gained('ticks')} while recorded; late: {gained('late_wake_up')} woken late, "
           f"{gained('late_device')} slow device, {gained('late_compute')} long computation; "
           f"{gained('stalls')} stalls, {gained('catch_up_ticks')} caught up, "

@@ -27,6 +27,7 @@ foreach(room physics tools)  # physics is compared with the tools' plain impleme
 endforeach()
 # They run the tools as programs.
 add_dependencies(ergotic_golden_test render check)
+add_dependencies(ergotic_tools_test bench)
 if(ERGOTIC_ROS)
   include(cmake/ros_tests.cmake)
 endif()

@@ -7,6 +7,12 @@ if(tool_library_sources)
   target_include_directories(ergotic_tool_support PUBLIC src)
   target_link_libraries(ergotic_tool_support
     PUBLIC ergotic_audio CLI11::CLI11 PRIVATE ergotic_flags)
+  string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
+  get_target_property(ergotic_options ergotic_flags INTERFACE_COMPILE_OPTIONS)
+  string(REPLACE ";" " " ergotic_options
+    "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${build_type}} ${ergotic_options}")
+  set_source_files_properties(src/tools/lib/bench_report.cpp PROPERTIES
+    COMPILE_DEFINITIONS "ERGOTIC_FLAGS=\"${ergotic_options}\"")
 endif()
 file(GLOB tool_sources CONFIGURE_DEPENDS src/tools/*.cpp)
 foreach(source ${tool_sources})

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/lib/plain_network.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <random>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "ergotic/exception.hpp"
-#include "support/scene_builder.hpp"
+#include "support/plain_difference.hpp"
 
 namespace ergotic::tools {
 namespace {
@@ -21,35 +19,8 @@ using test::SceneBuilder;
 
 const physics::Rates kRates{44100.0, 8};
 
-/// Largest difference of any module in any tick from the instrument, over the largest motion.
 double differenceFromInstrument(const scene::Scene& scene, int ticks) {
-  scene::Scene heard = scene;
-  const auto coordinates = static_cast<std::size_t>(scene.coordinates());
-  const std::size_t axes = coordinates / scene.mats.size();
-  for (std::size_t i = 0; i < coordinates; ++i) {
-    scene::Output output;
-    output.point.mat = static_cast<int>(i / axes);
-    output.axis = static_cast<int>(i % axes);
-    output.channel = static_cast<int>(i);
-    heard.outputs.push_back(output);
-  }
-  test::Player player(heard, kRates);
-  const auto plain = makePlainNetwork(scene, kRates, Precision::kDouble);
-  std::vector<double> displacements(coordinates);
-  double difference = 0.0;
-  double motion = 0.0;
-  for (int tick = 0; tick < ticks; ++tick) {
-    player.tick();
-    plain->step(kRates.ratio);
-    plain->readDisplacements(displacements.data());
-    for (std::size_t i = 0; i < coordinates; ++i) {
-      const scene::Mat& mat = scene.mats[i / axes];
-      const double moved = player.heard[i].back() - mat.rest[static_cast<Eigen::Index>(i % axes)];
-      difference = std::max(difference, std::abs(moved - displacements[i]));
-      motion = std::max(motion, std::abs(moved));
-    }
-  }
-  return difference / motion;
+  return test::differenceFromPlain(scene, Precision::kDouble, kRates, ticks);
 }
 
 TEST(PlainNetworkTest, MovesAFallingMassByHand) {

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/lib/bench.hpp"
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/physics/certify.hpp"
+#include "support/plain_difference.hpp"
+#include "support/scratch_file.hpp"
+#include "support/tool_process.hpp"
+
+namespace ergotic::tools {
+namespace {
+
+using testing::HasSubstr;
+
+/// Closed form: n x n plate with fixed edges and diagonals.
+TEST(BenchTest, CountsTheLeastWorkOfAPlate) {
+  const scene::Scene scene = benchKindNamed("plate8").make(4000);
+  const double masses = static_cast<double>(modulesOf(scene) - scene.lias.size());
+  const double links = static_cast<double>(scene.lias.size());
+  const BenchWork work = workOf(scene, benchRates(), physics::Precision::kFloat);
+  EXPECT_EQ(work.bytes, 16.0 * masses);
+  EXPECT_EQ(work.resident, static_cast<std::size_t>(8.0 * masses));
+  EXPECT_EQ(work.operations, 3.0 * masses + 7.0 * links);
+}
+
+TEST(BenchTest, CountsCoefficientsAndIndicesWhereElementsDiffer) {
+  const scene::Scene scene = benchKindNamed("triangulated").make(4000);
+  const double masses = static_cast<double>(modulesOf(scene) - scene.lias.size());
+  double between_masses = 0.0;
+  for (const scene::Lia& lia : scene.lias) {
+    const auto isMass = [&scene](int mat) {
+      return scene.mats[static_cast<std::size_t>(mat)].type == scene::MatType::kMass;
+    };
+    between_masses += isMass(lia.a) && isMass(lia.b) ? 1.0 : 0.0;
+  }
+  const BenchWork work = workOf(scene, benchRates(), physics::Precision::kDouble);
+  EXPECT_EQ(work.bytes, (32.0 + 8.0) * masses + 16.0 * static_cast<double>(scene.lias.size()) +
+                            4.0 * between_masses);
+}
+
+TEST(BenchTest, TakesTheLimitThatBindsWhereTheSceneFits) {
+  MachineLimits limits;
+  limits.levels = {{"L1", 1000, 100.0, 0}, {"memory", 0, 10.0, 0}};
+  limits.gflops = 50.0;
+  const BenchWork small{1000, 2000.0, 100.0};
+  const BenchWork large{1001, 2000.0, 100.0};
+  const BenchWork busy{1000, 2000.0, 5000.0};
+  EXPECT_EQ(small.limitNs(limits), 20.0);
+  EXPECT_EQ(large.limitNs(limits), 200.0);
+  EXPECT_EQ(busy.limitNs(limits), 100.0);
+}
+
+class BenchKindTest : public testing::TestWithParam<BenchKind> {};
+
+TEST_P(BenchKindTest, MakesASceneOfTheSizeAskedFor) {
+  for (const int modules : {700, 7000, 20'000}) {
+    const auto made = static_cast<double>(modulesOf(GetParam().make(modules)));
+    EXPECT_NEAR(made, modules, 0.04 * modules + 100);  // half a string
+  }
+}
+
+TEST_P(BenchKindTest, MakesTheSameSceneTwice) {
+  const scene::Scene one = GetParam().make(1000);
+  const scene::Scene two = GetParam().make(1000);
+  ASSERT_EQ(one.lias.size(), two.lias.size());
+  for (std::size_t l = 0; l < one.lias.size(); ++l) {
+    EXPECT_EQ(one.lias[l].b, two.lias[l].b);
+    EXPECT_EQ(one.lias[l].stiffness.factor, two.lias[l].stiffness.factor);
+  }
+}
+
+TEST_P(BenchKindTest, MakesASceneThatIsStable) {
+  const scene::Scene scene = GetParam().make(1500);
+  const physics::Certificate certificate = physics::certify(scene, benchRates());
+  EXPECT_NE(certificate.verdict, physics::Verdict::kUnstable)
+      << testing::PrintToString(certificate.findings);
+}
+
+TEST_P(BenchKindTest, PlaysItAsThePlainImplementationDoesIfThatCan) {
+  const scene::Scene scene = GetParam().make(700);
+  if (GetParam().is_plain) {
+    const double difference =
+        test::differenceFromPlain(scene, physics::Precision::kDouble, benchRates(), 20);
+    EXPECT_LT(difference, 1e-10);
+  } else {
+    EXPECT_THROW(makePlainNetwork(scene, benchRates(), physics::Precision::kDouble), Exception);
+  }
+}
+
+std::string nameOfKind(const testing::TestParamInfo<BenchKind>& kind) {
+  return kind.param.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BenchKindTest, testing::ValuesIn(benchKinds()), nameOfKind);
+
+std::string contentsOf(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(BenchTest, WritesJsonThatOthersCanRead) {
+  const test::ScratchFile file;
+  const std::string& path = file.path();
+  const test::Outcome outcome = test::run(
+      "bench", "--scene chain station7k --size 700 --runs 3 --seconds 0.02 --json " + path);
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_THAT(outcome.text, HasSubstr("| chain |"));
+  const std::string read =
+      "/usr/bin/python3 -c \"import json, sys; r = json.load(open('" + path +
+      "'))['results']; sys.exit([len(x['ns_per_frame_runs']) for x in r] != [3, 3])\"";
+  EXPECT_EQ(std::system(read.c_str()), 0) << contentsOf(path);
+  EXPECT_THAT(contentsOf(path), HasSubstr("\"flags\": \""));
+}
+
+TEST(BenchTest, ListsItsScenes) {
+  const test::Outcome outcome = test::run("bench", "--list");
+  EXPECT_EQ(outcome.code, 0);
+  for (const BenchKind& kind : benchKinds()) {
+    EXPECT_THAT(outcome.text, HasSubstr(kind.name));
+  }
+}
+
+TEST(BenchTest, NamesWhatIsAllowedInsteadOfWhatWasAskedFor) {
+  const auto complaint = [](const std::string& arguments) {
+    const test::Outcome outcome = test::run("bench", arguments);
+    EXPECT_NE(outcome.code, 0);
+    return outcome.text;
+  };
+  EXPECT_THAT(complaint("--scene plate5"), HasSubstr("'plate5', allowed: chain, strings"));
+  EXPECT_THAT(complaint("--isa mmx"), HasSubstr("baseline"));
+  EXPECT_THAT(complaint("--size 12"), HasSubstr("100"));
+  EXPECT_THAT(complaint("--threads 0"), HasSubstr("1 to 8"));
+  EXPECT_THAT(complaint("--precision half"), HasSubstr("double"));
+  EXPECT_THAT(complaint("--scene chain --size 700 --seconds 0.01 --json /nowhere/a.json"),
+              HasSubstr("/nowhere/a.json: cannot be written"));
+}
+
+}  // namespace
+}  // namespace ergotic::tools

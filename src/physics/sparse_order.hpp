@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "layout.hpp"
+
+namespace ergotic::physics {
+
+/// An order of the nodes of a network in which linked nodes lie close together: networks that hang
+/// together one after the other, each in levels of equal distance from one of its ends
+/// (Cuthill and McKee 1969), and within a level from one side to the other. Realtime: no; the time
+/// goes with the number of links.
+/// \return [nodes] the node at each place
+/// \throws Exception if a link ends outside 0...nodes-1
+std::vector<int> sparseOrder(int nodes, const std::vector<LinkEnds>& links);
+
+}  // namespace ergotic::physics

@@ -50,12 +50,7 @@ std::vector<Case> casesOf(const BenchOptions& options) {
 
 BenchSettings settingsOf(const BenchOptions& options) {
   BenchSettings settings;
-  settings.compile.precision =
-      options.precision == "double" ? physics::Precision::kDouble : physics::Precision::kFloat;
-  if (!options.isa.empty()) {
-    settings.compile.isa = rt::isaNamed(options.isa);
-  }
-  settings.compile.threads = options.threads;
+  settings.compile = chosenOptions(options.compile);
   settings.compile.metered = options.metered;
   settings.runs = options.runs;
   settings.seconds = options.seconds;
@@ -86,14 +81,7 @@ void addOptions(CLI::App& app, BenchOptions& options) {
                  "modules, that is masses and links (default: what each scene is made for; with "
                  "all scenes also 200000)")
       ->check(CLI::Range(kMinBenchModules, kMaxBenchModules));
-  app.add_option("--precision", options.precision, "float or double")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"float", "double"}));
-  app.add_option("--isa", options.isa,
-                 "vector instructions: baseline, avx2 or avx512 (default: the best there are)");
-  app.add_option("--threads", options.threads, "that share a tick")
-      ->capture_default_str()
-      ->check(CLI::Range(1, physics::kMaxThreads));
+  addOptions(app, options.compile);
   app.add_flag("--metered,!--no-meter", options.metered, "keep the books of energy (default)");
   app.add_option("--runs", options.runs, "whose median counts")
       ->capture_default_str()

@@ -13,9 +13,7 @@ namespace ergotic::tools {
 struct BenchOptions {
   std::vector<std::string> scenes;  ///< names; empty: all
   std::vector<int> sizes;           ///< modules; empty: what each scene is made for, and 200,000
-  std::string precision = "float";
-  std::string isa;  ///< empty: the best
-  int threads = 1;
+  CompileChoice compile;
   bool metered = true;
   int runs = 5;
   double seconds = 0.5;

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "ergotic/rt/build_id.hpp"
+#include "tools/lib/options.hpp"
 
 namespace ergotic::tools {
 namespace {
@@ -25,10 +26,6 @@ std::string processorName() {
     }
   }
   return "unknown";
-}
-
-const char* nameOf(physics::Precision precision) {
-  return precision == physics::Precision::kFloat ? "float" : "double";
 }
 
 double realTimeFactor(double frame_ns) {
@@ -87,7 +84,7 @@ Report buildReport() {
 
 Report settingsReport(const BenchSettings& settings) {
   return Report::map()
-      .add("precision", Report::text(nameOf(settings.compile.precision)))
+      .add("precision", Report::text(physics::nameOf(settings.compile.precision)))
       .add("isa", Report::text(rt::nameOf(settings.compile.isa)))
       .add("threads", Report::number(settings.compile.threads))
       .add("metered", Report::number(settings.compile.metered ? 1 : 0))
@@ -135,9 +132,7 @@ Report resultReport(const BenchResult& result, const MachineLimits& limits) {
 }  // namespace
 
 void printHead(const BenchSettings& settings, const MachineLimits& limits) {
-  std::printf("%s, %s, %s, %d thread%s, %s\n", processorName().c_str(),
-              rt::nameOf(settings.compile.isa), nameOf(settings.compile.precision),
-              settings.compile.threads, settings.compile.threads == 1 ? "" : "s",
+  std::printf("%s, %s, %s\n", processorName().c_str(), toString(settings.compile).c_str(),
               settings.compile.metered ? "metered" : "not metered");
   std::printf("at most: %.0f G operations/s", limits.gflops);
   for (const MemoryLevel& level : limits.levels) {

@@ -49,19 +49,20 @@ class Neighbours {
   std::vector<int> node_;
 };
 
-/// Steps from a node to every other that it hangs together with.
+/// Steps from some nodes to every other that they hang together with.
 class Distances {
  public:
   explicit Distances(int nodes) : steps_(at(nodes), -1) {}
 
-  /// Forgets the last walk. \return the nodes reached, the nearest first; of one family those with
-  /// few neighbours first
-  const std::vector<int>& walk(const Neighbours& neighbours, int from) {
+  /// Forgets the last walk; reaches the nearest first, of one family those with few neighbours.
+  void walk(const Neighbours& neighbours, const std::vector<int>& from) {
     for (const int node : reached_) {
       steps_[at(node)] = -1;
     }
-    reached_.assign(1, from);
-    steps_[at(from)] = 0;
+    reached_ = from;
+    for (const int node : from) {
+      steps_[at(node)] = 0;
+    }
     for (std::size_t i = 0; i < reached_.size(); ++i) {
       const int node = reached_[i];
       const std::size_t family = reached_.size();
@@ -78,7 +79,6 @@ class Distances {
                   return of_a != of_b ? of_a < of_b : a < b;
                 });
     }
-    return reached_;
   }
   const std::vector<int>& reached() const { return reached_; }
   int to(int node) const { return steps_[at(node)]; }
@@ -92,28 +92,34 @@ class Distances {
 /// Orders one network after the other.
 class Sweeper {
  public:
-  Sweeper(int nodes, const std::vector<LinkEnds>& links)
-      : neighbours_(nodes, links),
+  Sweeper(int nodes, const std::vector<LinkEnds>& links, SparseSweep sweep)
+      : sweep_(sweep),
+        neighbours_(nodes, links),
         from_end_(nodes),
         to_end_(nodes),
-        from_side_(nodes),
-        to_side_(nodes),
+        from_corner_(nodes),
+        other_(nodes),
         across_(at(nodes)) {}
 
   /// Appends what hangs together with `node`.
   void append(int node, std::vector<int>& order) {
     walkFromEnd(node);
-    to_end_.walk(neighbours_, from_end_.farthest());
-    from_side_.walk(neighbours_, side());
-    to_side_.walk(neighbours_, from_side_.farthest());
-    std::vector<int> nodes = from_end_.reached();
+    to_end_.walk(neighbours_, {from_end_.farthest()});
+    const int corner = mostAside();
+    from_corner_.walk(neighbours_, {corner});
+    const bool from_side = sweep_ == SparseSweep::kFromSide;
+    other_.walk(neighbours_,
+                from_side ? sideFrom(corner) : std::vector<int>{from_corner_.farthest()});
+    const Distances& level = from_side ? other_ : from_end_;
+    const Distances& opposite = from_side ? from_end_ : other_;
+    std::vector<int> nodes = level.reached();
     for (const int n : nodes) {
-      across_[at(n)] = meanAcross(n);
+      across_[at(n)] = meanAcross(opposite, n);
     }
     std::stable_sort(nodes.begin(), nodes.end(), [&](int a, int b) {
-      const int from_a = from_end_.to(a);
-      const int from_b = from_end_.to(b);
-      return from_a != from_b ? from_a < from_b : across_[at(a)] < across_[at(b)];
+      const int of_a = level.to(a);
+      const int of_b = level.to(b);
+      return of_a != of_b ? of_a < of_b : across_[at(a)] < across_[at(b)];
     });
     order.insert(order.end(), nodes.begin(), nodes.end());
   }
@@ -124,7 +130,7 @@ class Sweeper {
     constexpr int kTurns = 4;
     int depth = -1;
     for (int turn = 0; turn < kTurns; ++turn) {
-      from_end_.walk(neighbours_, node);
+      from_end_.walk(neighbours_, {node});
       const int farthest = from_end_.farthest();
       if (from_end_.to(farthest) <= depth) {
         return;
@@ -135,7 +141,7 @@ class Sweeper {
   }
 
   /// The node that lies most aside of the ways from end to end.
-  int side() const {
+  int mostAside() const {
     int best = from_end_.reached().front();
     int most = 0;
     for (const int node : from_end_.reached()) {
@@ -150,10 +156,31 @@ class Sweeper {
     return best;
   }
 
-  /// How far across a node lies: steps from one side less steps to the other, evened out among the
-  /// neighbours, as many nodes of a level have the same.
-  double meanAcross(int node) const {
-    const auto across = [this](int n) { return from_side_.to(n) - to_side_.to(n); };
+  /// The shortest way from a corner to the first end that keeps away from the other end, and to
+  /// nodes with few neighbours: along the rim.
+  std::vector<int> sideFrom(int corner) const {
+    std::vector<int> side{corner};
+    while (from_end_.to(side.back()) > 0) {
+      const int here = side.back();
+      int best = -1;
+      for (const int* to = neighbours_.begin(here); to != neighbours_.end(here); ++to) {
+        if (from_end_.to(*to) < from_end_.to(here) && (best < 0 || isRather(*to, best))) {
+          best = *to;
+        }
+      }
+      side.push_back(best);
+    }
+    return side;
+  }
+  bool isRather(int node, int than) const {
+    const int away = to_end_.to(node) - to_end_.to(than);
+    return away != 0 ? away > 0 : neighbours_.count(node) < neighbours_.count(than);
+  }
+
+  /// How far across a node lies: steps from the corner less steps from what is opposite, evened out
+  /// among the neighbours, as many nodes of a level have the same.
+  double meanAcross(const Distances& opposite, int node) const {
+    const auto across = [&](int n) { return from_corner_.to(n) - opposite.to(n); };
     double sum = 0.0;
     for (const int* to = neighbours_.begin(node); to != neighbours_.end(node); ++to) {
       sum += across(*to);
@@ -162,18 +189,19 @@ class Sweeper {
     return count == 0.0 ? 0.0 : across(node) + sum / count;
   }
 
+  SparseSweep sweep_;
   Neighbours neighbours_;
   Distances from_end_;
   Distances to_end_;
-  Distances from_side_;
-  Distances to_side_;
+  Distances from_corner_;
+  Distances other_;             ///< from a side, or from the corner opposite
   std::vector<double> across_;  ///< [nodes]
 };
 
 }  // namespace
 
-std::vector<int> sparseOrder(int nodes, const std::vector<LinkEnds>& links) {
-  Sweeper sweeper(nodes, links);
+std::vector<int> sparseOrder(int nodes, const std::vector<LinkEnds>& links, SparseSweep sweep) {
+  Sweeper sweeper(nodes, links, sweep);
   std::vector<int> order;
   order.reserve(at(nodes));
   std::vector<bool> done(at(nodes), false);

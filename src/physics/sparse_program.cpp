@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -31,6 +32,13 @@ struct Side {
   int block() const { return node / kLanes; }
 };
 
+/// Serves two blocks, one neighbour of each lane.
+struct Window {
+  int block = 0;  ///< first
+  std::bitset<kLanes> lanes;
+  bool given_up = false;  ///< its neighbours are picked
+};
+
 /// Writes the slots of one group after the other.
 class Writer {
  public:
@@ -47,9 +55,9 @@ class Writer {
     std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
       return a.node != b.node ? a.node < b.node : a.where < b.where;
     });
-    const std::vector<int> windows = serve(sides);
-    const std::vector<int> kept = keepFull(windows.size(), sides);
-    writeWindows(group, windows, kept, sides);
+    serve(sides);
+    giveUpEmpty();
+    writeWindows(group, sides);
     writePicks(group, sides);
     program_.first_window.push_back(static_cast<std::uint32_t>(program_.window.size()));
     program_.first_pick.push_back(static_cast<std::uint32_t>(program_.pick.size() / kLanes));
@@ -59,83 +67,65 @@ class Writer {
  private:
   /// Serves all neighbours with the fewest windows: each begins with the first block that is left,
   /// and takes of each lane the first neighbour that is left in this block and the next.
-  /// \return first block of each window
-  static std::vector<int> serve(std::vector<Side>& sides) {
-    std::vector<int> windows;
+  void serve(std::vector<Side>& sides) {
+    windows_.clear();
     for (std::size_t first = 0; first < sides.size(); ++first) {
       if (sides[first].window >= 0) {
         continue;
       }
-      const int block = sides[first].block();
-      std::array<bool, kLanes> taken{};
-      for (std::size_t s = first; s < sides.size() && sides[s].block() <= block + 1; ++s) {
-        if (sides[s].window < 0 && !taken[at(sides[s].lane)]) {
-          sides[s].window = static_cast<int>(windows.size());
-          taken[at(sides[s].lane)] = true;
+      Window window{sides[first].block(), {}, false};
+      for (std::size_t s = first; s < sides.size() && sides[s].block() <= window.block + 1; ++s) {
+        if (sides[s].window < 0 && !window.lanes[at(sides[s].lane)]) {
+          sides[s].window = static_cast<int>(windows_.size());
+          window.lanes.set(at(sides[s].lane));
         }
       }
-      windows.push_back(block);
+      windows_.push_back(window);
     }
-    return windows;
   }
 
-  /// Gives up the emptiest windows as long as picks are cheaper.
-  /// \return new number of each window, -1: its neighbours are picked
-  static std::vector<int> keepFull(std::size_t windows, const std::vector<Side>& sides) {
-    std::vector<int> filled(windows, 0);
-    for (const Side& side : sides) {
-      ++filled[at(side.window)];
-    }
-    std::vector<std::vector<int>> lanes(windows);
-    for (const Side& side : sides) {
-      lanes[at(side.window)].push_back(side.lane);
-    }
-    std::vector<int> emptiest(windows);
-    std::iota(emptiest.begin(), emptiest.end(), 0);
-    std::stable_sort(emptiest.begin(), emptiest.end(),
-                     [&](int a, int b) { return filled[at(a)] < filled[at(b)]; });
+  /// Gives up as many of the emptiest windows as make the group cheapest.
+  void giveUpEmpty() {
+    emptiest_.resize(windows_.size());
+    std::iota(emptiest_.begin(), emptiest_.end(), std::size_t{0});
+    std::stable_sort(emptiest_.begin(), emptiest_.end(), [this](std::size_t a, std::size_t b) {
+      return windows_[a].lanes.count() < windows_[b].lanes.count();
+    });
     std::array<int, kLanes> picks{};
-    double least = static_cast<double>(windows);
+    int most_picks = 0;
+    auto least = static_cast<double>(windows_.size());
     std::size_t given_up = 0;
-    for (std::size_t n = 0; n < windows; ++n) {
-      for (const int lane : lanes[at(emptiest[n])]) {
-        ++picks[at(lane)];
+    for (std::size_t n = 0; n < emptiest_.size(); ++n) {
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        picks[lane] += windows_[emptiest_[n]].lanes[lane] ? 1 : 0;
+        most_picks = std::max(most_picks, picks[lane]);
       }
-      const double cost = static_cast<double>(windows - n - 1) + kPickStart +
-                          kPickCost * *std::max_element(picks.begin(), picks.end());
+      const double cost =
+          static_cast<double>(windows_.size() - n - 1) + kPickStart + kPickCost * most_picks;
       if (cost < least) {
         least = cost;
         given_up = n + 1;
       }
     }
-    std::vector<int> kept(windows, 0);
     for (std::size_t n = 0; n < given_up; ++n) {
-      kept[at(emptiest[n])] = -1;
+      windows_[emptiest_[n]].given_up = true;
     }
-    int next = 0;
-    for (int& number : kept) {
-      number = number < 0 ? -1 : next++;
-    }
-    return kept;
   }
 
-  void writeWindows(int group,
-                    const std::vector<int>& windows,
-                    const std::vector<int>& kept,
-                    std::vector<Side>& sides) {
-    const std::size_t first = program_.window.size();
-    for (std::size_t w = 0; w < windows.size(); ++w) {
-      if (kept[w] >= 0) {
+  void writeWindows(int group, const std::vector<Side>& sides) {
+    slot_of_window_.resize(windows_.size());
+    for (std::size_t w = 0; w < windows_.size(); ++w) {
+      slot_of_window_[w] = program_.window.size();
+      if (!windows_[w].given_up) {
         // The window of the last block begins one earlier, so that it ends with the nodes.
-        const int block = std::max(0, std::min(windows[w], program_.groups - 2));
+        const int block = std::max(0, std::min(windows_[w].block, program_.groups - 2));
         program_.window.push_back(static_cast<std::uint32_t>(block * kLanes));
       }
     }
     program_.lane.resize(program_.window.size() * kLanes, 0);
-    for (Side& side : sides) {
-      side.window = kept[at(side.window)];
-      if (side.window >= 0) {
-        const std::size_t slot = first + at(side.window);
+    for (const Side& side : sides) {
+      if (!windows_[at(side.window)].given_up) {
+        const std::size_t slot = slot_of_window_[at(side.window)];
         program_.lane[slot * kLanes + at(side.lane)] =
             static_cast<std::uint8_t>(at(side.node) - program_.window[slot]);
         *side.where = (slot + program_.first_pick[at(group)]) * kLanes + at(side.lane);
@@ -143,11 +133,11 @@ class Writer {
     }
   }
 
-  void writePicks(int group, std::vector<Side>& sides) {
+  void writePicks(int group, const std::vector<Side>& sides) {
     const std::size_t first = program_.pick.size() / kLanes;
     std::array<int, kLanes> picks{};
-    for (Side& side : sides) {
-      if (side.window >= 0) {
+    for (const Side& side : sides) {
+      if (!windows_[at(side.window)].given_up) {
         continue;
       }
       const std::size_t slot = first + at(picks[at(side.lane)]++);
@@ -162,6 +152,10 @@ class Writer {
   }
 
   SparseProgram program_;
+  // Of the group at hand:
+  std::vector<Window> windows_;
+  std::vector<std::size_t> emptiest_;
+  std::vector<std::size_t> slot_of_window_;
 };
 
 void check(int node, int nodes) {
@@ -169,6 +163,29 @@ void check(int node, int nodes) {
     throw Exception("link to node " + std::to_string(node) + " of a network of 0..." +
                     std::to_string(nodes - 1));
   }
+}
+
+/// The neighbours of the nodes of each group.
+std::vector<std::vector<Side>> sidesOfGroups(int nodes,
+                                             const std::vector<LinkEnds>& links,
+                                             std::vector<SparseProgram::Sides>& where) {
+  std::vector<std::size_t> count(at((nodes + kLanes - 1) / kLanes), 0);
+  for (const LinkEnds& link : links) {
+    check(link.a, nodes);
+    check(link.b, nodes);
+    ++count[at(link.a / kLanes)];
+    ++count[at(link.b / kLanes)];
+  }
+  std::vector<std::vector<Side>> of_group(count.size());
+  for (std::size_t g = 0; g < count.size(); ++g) {
+    of_group[g].reserve(count[g]);
+  }
+  for (std::size_t l = 0; l < links.size(); ++l) {
+    const auto [a, b] = links[l];
+    of_group[at(a / kLanes)].push_back({a % kLanes, b, &where[l].a, -1});
+    of_group[at(b / kLanes)].push_back({b % kLanes, a, &where[l].b, -1});
+  }
+  return of_group;
 }
 
 }  // namespace
@@ -184,14 +201,7 @@ double SparseProgram::cost() const {
 
 SparseProgram makeSparseProgram(int nodes, const std::vector<LinkEnds>& links) {
   Writer writer(nodes, links.size());
-  std::vector<std::vector<Side>> of_group(at((nodes + kLanes - 1) / kLanes));
-  for (std::size_t l = 0; l < links.size(); ++l) {
-    const auto [a, b] = links[l];
-    check(a, nodes);
-    check(b, nodes);
-    of_group[at(a / kLanes)].push_back({a % kLanes, b, &writer.sides()[l].a});
-    of_group[at(b / kLanes)].push_back({b % kLanes, a, &writer.sides()[l].b});
-  }
+  std::vector<std::vector<Side>> of_group = sidesOfGroups(nodes, links, writer.sides());
   for (std::size_t g = 0; g < of_group.size(); ++g) {
     writer.add(static_cast<int>(g), of_group[g]);
   }
@@ -206,19 +216,24 @@ SparseProgram makeSparseProgram(int nodes, const std::vector<LinkEnds>& links) {
 }
 
 SparsePlan planSparse(int nodes, const std::vector<LinkEnds>& links) {
-  SparsePlan given{std::vector<int>(at(nodes)), makeSparseProgram(nodes, links)};
-  std::iota(given.order.begin(), given.order.end(), 0);
-  SparsePlan swept{sparseOrder(nodes, links), {}};
+  SparsePlan best{std::vector<int>(at(nodes)), makeSparseProgram(nodes, links)};
+  std::iota(best.order.begin(), best.order.end(), 0);
   std::vector<int> place(at(nodes));
-  for (std::size_t i = 0; i < place.size(); ++i) {
-    place[at(swept.order[i])] = static_cast<int>(i);
+  std::vector<LinkEnds> moved(links.size());
+  for (const SparseSweep sweep : {SparseSweep::kFromEnd, SparseSweep::kFromSide}) {
+    std::vector<int> order = sparseOrder(nodes, links, sweep);
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      place[at(order[i])] = static_cast<int>(i);
+    }
+    std::transform(links.begin(), links.end(), moved.begin(), [&](const LinkEnds& link) {
+      return LinkEnds{place[at(link.a)], place[at(link.b)]};
+    });
+    SparseProgram program = makeSparseProgram(nodes, moved);
+    if (program.cost() < best.program.cost()) {
+      best = {std::move(order), std::move(program)};
+    }
   }
-  std::vector<LinkEnds> moved = links;
-  for (LinkEnds& link : moved) {
-    link = {place[at(link.a)], place[at(link.b)]};
-  }
-  swept.program = makeSparseProgram(nodes, moved);
-  return swept.program.cost() < given.program.cost() ? std::move(swept) : std::move(given);
+  return best;
 }
 
 }  // namespace ergotic::physics

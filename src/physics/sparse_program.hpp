@@ -74,8 +74,8 @@ struct SparsePlan {
   SparseProgram program;   ///< of places
 };
 
-/// The order that costs least of the given one, which may be that of a generator, and sparseOrder,
-/// and its program. Realtime: no. \throws Exception if a link ends outside 0...nodes-1
+/// The order that costs least, of the given one, which may be that of a generator, and those of
+/// sparseOrder, and its program. Realtime: no. \throws Exception if a link ends outside 0...nodes-1
 SparsePlan planSparse(int nodes, const std::vector<LinkEnds>& links);
 
 }  // namespace ergotic::physics

@@ -25,6 +25,7 @@ struct SparseProgram {
 
   int nodes = 0;
   int groups = 0;  ///< of kLanes nodes
+  int span = 0;    ///< groups between a node and its farthest neighbour, at most
   /// First window and first pick of each group, and their number: [groups + 1]. The slots of a
   /// group are its windows, then its picks; its first slot is first_window + first_pick.
   std::vector<std::uint32_t> first_window;

@@ -241,6 +241,13 @@ TEST(SparseProgramTest, WhatItReadsLiesWithinReach) {
   }
 }
 
+TEST(SparseProgramTest, SpanIsThatOfTheFarthestLink) {
+  const Network chain{"chain", 64, {{0, 1}, {15, 16}, {20, 30}}};
+  EXPECT_EQ(makeSparseProgram(chain.nodes, chain.links).span, 1);
+  EXPECT_EQ(makeSparseProgram(64, {{63, 16}, {0, 15}}).span, 2);
+  EXPECT_EQ(makeSparseProgram(64, {{0, 15}}).span, 0);
+}
+
 TEST(SparseProgramTest, MeshesHaveWindowsAndRandomNetworksMostlyPicks) {
   const Network net = randomOf(20000, 60000, 10);
   const SparsePlan random = planSparse(net.nodes, net.links);

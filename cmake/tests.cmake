@@ -32,9 +32,11 @@ if(ERGOTIC_ROS)
   include(cmake/ros_tests.cmake)
 endif()
 
-# The scripts: what measures a demo; what users do in the devel and in an install space.
-add_test(NAME scripts.demo_report
-  COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/demo_report_test.py)
+# The scripts: what measures a demo and a peer; what users do in the devel and in an install space.
+foreach(script demo_report bench_faust)
+  add_test(NAME scripts.${script}
+    COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/${script}_test.py)
+endforeach()
 if(ERGOTIC_ROS)
   add_test(NAME integration.spaces
     COMMAND ${PROJECT_SOURCE_DIR}/test/integration/spaces.sh

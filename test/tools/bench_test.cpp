@@ -135,7 +135,7 @@ TEST(BenchTest, NamesWhatIsAllowedInsteadOfWhatWasAskedFor) {
   };
   EXPECT_THAT(complaint("--scene plate5"), HasSubstr("'plate5', allowed: chain, strings"));
   EXPECT_THAT(complaint("--isa mmx"), HasSubstr("baseline"));
-  EXPECT_THAT(complaint("--size 12"), HasSubstr("100"));
+  EXPECT_THAT(complaint("--size 12"), HasSubstr("20 to 2000000"));
   EXPECT_THAT(complaint("--threads 0"), HasSubstr("1 to 8"));
   EXPECT_THAT(complaint("--precision half"), HasSubstr("double"));
   EXPECT_THAT(complaint("--scene chain --size 700 --seconds 0.01 --json /nowhere/a.json"),

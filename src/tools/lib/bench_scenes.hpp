@@ -30,7 +30,7 @@ std::size_t modulesOf(const scene::Scene& scene);
 /// 44.1 kHz, and 14 frames per tick.
 physics::Rates benchRates();
 
-constexpr int kMinBenchModules = 100;
+constexpr int kMinBenchModules = 20;
 constexpr int kMaxBenchModules = 2'000'000;
 
 }  // namespace ergotic::tools

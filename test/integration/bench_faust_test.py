@@ -63,6 +63,10 @@ class LimitTest(unittest.TestCase):
         self.assertEqual(self.complaint(["sh", "-c", "while :; do :; done"]),
                          "sh did not end in 1 s")
 
+    def test_says_what_took_too_much_memory(self):
+        self.assertEqual(self.complaint(["sh", "-c", "echo std::bad_alloc >&2; exit 1"]),
+                         "sh wanted more than 8 GB after 0 s")
+
     def test_says_what_failed_and_why(self):
         self.assertRegex(self.complaint(["ls", "/nowhere"]),
                          "ls failed after 0 s: .*nowhere")

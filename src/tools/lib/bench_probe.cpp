@@ -16,7 +16,7 @@ constexpr int kChains = 12;  // more than the latency of an addition and a multi
 
 template <class Real, int kBytes>
 struct Wide {
-  using Type __attribute__((vector_size(kBytes))) = Real;
+  using Type __attribute__((vector_size(kBytes), may_alias)) = Real;
 };
 
 /// x <- a x + b over the whole array: every number is read and written once.

@@ -10,25 +10,19 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-template <class Point>
-std::size_t coordinatesOf(const std::vector<Point>& points) {
-  std::size_t count = 0;
-  for (const Point& point : points) {
-    count += at(point.dimensions);
-  }
-  return count;
-}
-
 }  // namespace
 
 template <class Real>
 EnergyMeter<Real>::EnergyMeter(const scene::Scene& scene, const Layout& layout, State<Real>& state)
-    : layout_(layout), newton_(1.0 / (scene.time_unit_s * scene.time_unit_s)) {
+    : layout_(layout),
+      newton_(1.0 / (scene.time_unit_s * scene.time_unit_s)),
+      everything_(everythingOf(layout)),
+      forced_of_section_(layout.sections.size()) {
   for (std::size_t m = 0; m < scene.mats.size(); ++m) {
     const scene::MatType type = scene.mats[m].type;
     if (type == scene::MatType::kSlice || type == scene::MatType::kDriven) {
-      forced_.push_back(
-          {layout.slot_of_mat[m], scene.mats[m].section, type == scene::MatType::kSlice});
+      forced_of_section_[at(scene.mats[m].section)].push_back(forced_.size());
+      forced_.push_back({layout.slot_of_mat[m], type == scene::MatType::kSlice});
     }
   }
   const auto couple = [this](int one, int other) {
@@ -69,33 +63,39 @@ void EnergyMeter<Real>::addDissipated(int section,
 
 template <class Real>
 template <class StateType, class Book>
-void EnergyMeter<Real>::forEachSource(StateType& state, const Book& book) const noexcept {
+void EnergyMeter<Real>::forEachSource(const Group& group,
+                                      StateType& state,
+                                      const Book& book) const noexcept {
   auto& arena = state.arena();
   const Real* d = state.d();
   const Real* moved = state.moved();
   const Real* f = state.f();
-  auto* feeding = arena.template at<Feeding>(forced_at_);
-  for (const Forced& forced : forced_) {
-    book(forced.section, forced.device ? Source::kDevice : Source::kInputs, 0, -d[forced.slot],
-         -d[forced.slot], *feeding, f[forced.slot]);
-    ++feeding;
+  auto* feedings = arena.template at<Feeding>(forced_at_);
+  for (const int section : group.sections) {
+    for (const std::size_t i : forced_of_section_[at(section)]) {
+      const int slot = forced_[i].slot;
+      book(section, forced_[i].device ? Source::kDevice : Source::kInputs, 0, -d[slot], -d[slot],
+           feedings[i], f[slot]);
+    }
   }
-  feeding = arena.template at<Feeding>(feeds_at_);
-  for (const Feed& feed : layout_.feeds) {
-    book(feed.section, Source::kInputs, 0, d[feed.slot], d[feed.slot], *feeding, feeding->mean);
-    ++feeding;
+  feedings = arena.template at<Feeding>(feeds_at_);
+  for (const std::size_t k : group.feeds) {
+    const Feed& feed = layout_.feeds[k];
+    book(feed.section, Source::kInputs, 0, d[feed.slot], d[feed.slot], feedings[k],
+         feedings[k].mean);
   }
-  const Real* place_d = state.placeD();
-  feeding = arena.template at<Feeding>(places_at_);
-  for (const PlacePoint& point : layout_.places) {
+  for (const std::size_t p : group.places) {
+    const PlacePoint& point = layout_.places[p];
+    const Real* place_d = state.placeD() + point.coordinate;
+    auto* feeding = arena.template at<Feeding>(places_at_) + point.coordinate;
     for (int k = point.slot; k < point.slot + point.dimensions; ++k, ++feeding, ++place_d) {
       book(point.section, Source::kInputs, 0, d[k] - moved[k], *place_d - moved[k], *feeding,
            feeding->mean);
     }
   }
-  feeding = arena.template at<Feeding>(decimations_at_);
-  for (std::size_t p = 0; p < layout_.decimations.size(); ++p) {
+  for (const std::size_t p : group.decimations) {
     const DecimatedPoint& point = layout_.decimations[p];
+    auto* feeding = arena.template at<Feeding>(decimations_at_) + point.coordinate;
     for (int k = 0; k < point.dimensions; ++k, ++feeding) {
       const Real moved_by = d[point.of.slot + k * point.of.stride];
       book(point.of.section, Source::kDecimated, p, moved_by, moved_by, *feeding,
@@ -105,46 +105,40 @@ void EnergyMeter<Real>::forEachSource(StateType& state, const Book& book) const 
 }
 
 template <class Real>
-void EnergyMeter<Real>::endFrame(std::int64_t now, State<Real>& state) const noexcept {
+void EnergyMeter<Real>::endFrame(const Group& group,
+                                 std::int64_t now,
+                                 State<Real>& state) const noexcept {
   auto* books = state.arena().template at<SectionBooks>(books_at_);
   auto* decimated = state.arena().template at<double>(decimation_work_at_);
-  collectPointForces(state);
-  forEachSource(state, [&](int section, Source source, std::size_t p, Real moved, Real moved_last,
-                           Feeding& feeding, Real force) noexcept {
-    if (!endsStep(section, now)) {
-      return;
-    }
-    const double work = 0.5 * static_cast<double>(moved * force + moved_last * feeding.last);
-    switch (source) {
-      case Source::kDevice:
-        books[section].from_device += work;
-        break;
-      case Source::kInputs:
-        books[section].from_inputs += work;
-        break;
-      case Source::kDecimated:
-        decimated[p] += work;
-        break;
-    }
-    feeding = {Real(0), force};
-  });
+  collectPointForces(group, state);
+  forEachSource(group, state,
+                [&](int section, Source source, std::size_t p, Real moved, Real moved_last,
+                    Feeding& feeding, Real force) noexcept {
+                  if (!endsStep(section, now)) {
+                    return;
+                  }
+                  double& book = source == Source::kDecimated ? decimated[p]
+                                 : source == Source::kDevice  ? books[section].from_device
+                                                              : books[section].from_inputs;
+                  book += 0.5 * static_cast<double>(moved * force + moved_last * feeding.last);
+                  feeding = {Real(0), force};
+                });
 }
 
 /// Points give their forces away in every frame: their means are collected here.
 template <class Real>
-void EnergyMeter<Real>::collectPointForces(State<Real>& state) const noexcept {
-  const Real* f = state.f();
-  auto* feeding = state.arena().template at<Feeding>(places_at_);
-  for (const PlacePoint& point : layout_.places) {
-    for (int k = 0; k < point.dimensions; ++k, ++feeding) {
-      feeding->mean += f[point.slot + k];
+void EnergyMeter<Real>::collectPointForces(const Group& group, State<Real>& state) const noexcept {
+  const auto collect = [&](const auto& point, std::size_t feedings_at) {
+    auto* feeding = state.arena().template at<Feeding>(feedings_at) + point.coordinate;
+    for (int k = 0; k < point.dimensions; ++k) {
+      feeding[k].mean += state.f()[point.slot + k];
     }
+  };
+  for (const std::size_t p : group.places) {
+    collect(layout_.places[p], places_at_);
   }
-  feeding = state.arena().template at<Feeding>(decimations_at_);
-  for (const DecimatedPoint& point : layout_.decimations) {
-    for (int k = 0; k < point.dimensions; ++k, ++feeding) {
-      feeding->mean += f[point.slot + k];
-    }
+  for (const std::size_t p : group.decimations) {
+    collect(layout_.decimations[p], decimations_at_);
   }
 }
 
@@ -318,19 +312,21 @@ void EnergyMeter<Real>::addSources(const State<Real>& state, Energies& to) const
   for (std::size_t p = 0; p < layout_.decimations.size(); ++p) {
     give(p, decimated[p]);
   }
-  forEachSource(state, [&](int section, Source source, std::size_t p, Real moved, Real moved_last,
-                           const Feeding& feeding, Real force) {
-    if (state.frame() % layout_.sections[at(section)].divisor == 0) {
-      return;
-    }
-    const double work = 0.5 * static_cast<double>(moved * force + moved_last * feeding.last);
-    SectionEnergy& energy = to.sections[at(section)];
-    if (source == Source::kDecimated) {
-      give(p, work);
-    } else {
-      (source == Source::kDevice ? energy.from_device : energy.from_inputs) += work;
-    }
-  });
+  forEachSource(everything_, state,
+                [&](int section, Source source, std::size_t p, Real moved, Real moved_last,
+                    const Feeding& feeding, Real force) {
+                  if (state.frame() % layout_.sections[at(section)].divisor == 0) {
+                    return;
+                  }
+                  const double work =
+                      0.5 * static_cast<double>(moved * force + moved_last * feeding.last);
+                  SectionEnergy& energy = to.sections[at(section)];
+                  if (source == Source::kDecimated) {
+                    give(p, work);
+                  } else {
+                    (source == Source::kDevice ? energy.from_device : energy.from_inputs) += work;
+                  }
+                });
 }
 
 /// Everything but the residual, in the scene's unit of energy. \return the balance

@@ -5,6 +5,7 @@
 
 #include "coefficients.hpp"
 #include "ergotic/physics/energy.hpp"
+#include "groups.hpp"
 #include "layout.hpp"
 #include "state.hpp"
 
@@ -27,8 +28,8 @@ class EnergyMeter {
     state.arena().template at<Feeding>(feeds_at_)[k].mean += force;
   }
 
-  /// Closes the books of the sections whose steps end with this frame.
-  void endFrame(std::int64_t now, State<Real>& state) const noexcept;
+  /// Closes the books of the sections of a group whose steps end with this frame.
+  void endFrame(const Group& group, std::int64_t now, State<Real>& state) const noexcept;
 
   /// The balance is counted from here on.
   void start(const CoefficientsOf<Real>& c, State<Real>& state) noexcept;
@@ -66,7 +67,6 @@ class EnergyMeter {
   /// A module that something moves: a slice or a driven one.
   struct Forced {
     int slot;
-    int section;
     bool device;
   };
   struct Coupled {
@@ -91,10 +91,10 @@ class EnergyMeter {
     }
   }
   /// Calls `book(section, source, decimated point, moved under the force of this step, moved under
-  /// that of the last, feeding, force of this step)` for all that moves modules.
+  /// that of the last, feeding, force of this step)` for all that moves modules of a group.
   template <class StateType, class Book>
-  void forEachSource(StateType& state, const Book& book) const noexcept;
-  void collectPointForces(State<Real>& state) const noexcept;
+  void forEachSource(const Group& group, StateType& state, const Book& book) const noexcept;
+  void collectPointForces(const Group& group, State<Real>& state) const noexcept;
 
   double kinetic(const SectionRange& range,
                  const MassCoefficients<Real>& c,
@@ -121,8 +121,10 @@ class EnergyMeter {
                  Energies& to) const noexcept;
 
   const Layout& layout_;
-  double newton_;  // from the scene's units to joule
+  double newton_;     // from the scene's units to joule
+  Group everything_;  // sections and what moves modules
   std::vector<Forced> forced_;
+  std::vector<std::vector<std::size_t>> forced_of_section_;
   std::vector<Coupled> couplings_;                   // pairs of sections
   std::vector<std::size_t> coupling_of_run_;         // [runs] kInside: inside a section
   std::vector<std::size_t> coupling_of_decimation_;  // [decimated points]

@@ -25,8 +25,9 @@ Real direct(const Real (&u)[3], Real sense, GuardedMotion<Real>& m) noexcept {
 }  // namespace
 
 template <class Real>
-GuardedLinks<Real>::GuardedLinks(const std::vector<GuardedLink>& links, std::size_t slots)
-    : motions_(links.size()), modules_(slots) {
+GuardedLinks<Real>::GuardedLinks(const std::vector<GuardedLink>& links,
+                                 std::vector<GuardedModule<Real>>& modules)
+    : motions_(links.size()), modules_(modules) {
   for (const GuardedLink& link : links) {
     const std::size_t capacity = std::max(link.capacity, link.terms.size());
     const bool euclidean = link.dimensions > 0;

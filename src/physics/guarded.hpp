@@ -40,6 +40,15 @@ struct GuardedView {
   const unsigned char* idle = nullptr;  ///< [links] 1 if it sleeps; none: all are awake
 };
 
+/// A module as the guarded links on it see it.
+template <class Real>
+struct GuardedModule {
+  Real links = Real(0);                        // that are active
+  Real load[3] = {Real(0), Real(0), Real(0)};  // sum of their forces
+  Real refunds = Real(0);                      // due to those that were charged too much
+  Real arrears = Real(0);                      // that the others cannot pay
+};
+
 /// Links that never give more energy than they took, of one rate, all together: those that share
 /// masses know of each other.
 ///
@@ -50,8 +59,9 @@ struct GuardedView {
 template <class Real>
 class GuardedLinks {
  public:
-  /// \param slots  size of the arrays of GuardedView. Realtime: no
-  GuardedLinks(const std::vector<GuardedLink>& links, std::size_t slots);
+  /// \param modules  [slots] all zero between steps; those who share no modules may share it.
+  /// Realtime: no
+  GuardedLinks(const std::vector<GuardedLink>& links, std::vector<GuardedModule<Real>>& modules);
 
   std::size_t size() const noexcept { return links_.size(); }
 
@@ -103,13 +113,7 @@ class GuardedLinks {
     Real offset[3];
   };
   using Motion = GuardedMotion<Real>;
-  /// A module as the links on it see it.
-  struct Module {
-    Real links = Real(0);                        // that are active
-    Real load[3] = {Real(0), Real(0), Real(0)};  // sum of their forces
-    Real refunds = Real(0);                      // due to those that were charged too much
-    Real arrears = Real(0);                      // that the others cannot pay
-  };
+  using Module = GuardedModule<Real>;
 
   bool isFree(const GuardedView<Real>& view, const Term& term) const noexcept;
   Motion measure(const GuardedView<Real>& view,
@@ -143,7 +147,7 @@ class GuardedLinks {
   std::vector<Link> links_;
   std::vector<Term> terms_;
   std::vector<Motion> motions_;
-  std::vector<Module> modules_;  // [slots], all zero between steps
+  std::vector<Module>& modules_;
 };
 
 extern template class GuardedLinks<float>;

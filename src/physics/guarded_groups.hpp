@@ -16,11 +16,12 @@ struct GuardedRef {
 
 /// Guarded links that are stepped together. Those of one run follow one another.
 struct GuardedGroup {
-  int divisor = 1;  ///< audio frames per step
+  int divisor = 1;                  ///< audio frames per step
+  int group = LinkRun::kHeldGroup;  ///< LinkRun::group
   std::vector<GuardedRef> links;
 };
 
-/// All guarded links of a layout, by rate. Realtime: no.
+/// All guarded links of a layout, by group and rate. Realtime: no.
 inline std::vector<GuardedGroup> guardedGroupsOf(const Layout& layout) {
   std::vector<GuardedGroup> groups;
   for (std::size_t r = 0; r < layout.runs.size(); ++r) {
@@ -29,10 +30,11 @@ inline std::vector<GuardedGroup> guardedGroupsOf(const Layout& layout) {
       continue;
     }
     const int divisor = layout.sections[static_cast<std::size_t>(run.section)].divisor;
-    auto group = std::find_if(groups.begin(), groups.end(),
-                              [&](const GuardedGroup& g) { return g.divisor == divisor; });
+    auto group = std::find_if(groups.begin(), groups.end(), [&](const GuardedGroup& g) {
+      return g.divisor == divisor && g.group == run.group;
+    });
     if (group == groups.end()) {
-      group = groups.insert(groups.end(), {divisor, {}});
+      group = groups.insert(groups.end(), {divisor, run.group, {}});
     }
     for (std::size_t l = 0; l < run.ends.size(); ++l) {
       group->links.push_back({r, l});

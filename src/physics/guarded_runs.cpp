@@ -15,6 +15,7 @@ std::size_t at(int i) {
 template <class Real>
 GuardedRuns<Real>::GuardedRuns(const scene::Scene& scene,
                                const Layout& layout,
+                               const Groups& groups,
                                const Points<Real>& points,
                                State<Real>& state)
     : layout_(layout),
@@ -22,7 +23,7 @@ GuardedRuns<Real>::GuardedRuns(const scene::Scene& scene,
       place_of_slot_(at(layout.slots()), -1),
       projection_of_slot_(at(layout.slots()), -1),
       members_(guardedGroupsOf(layout)),
-      due_(layout.sections.size(), 0),
+      modules_(members_.empty() ? 0 : at(layout.slots())),
       forces_(members_.empty() ? 0 : at(layout.slots()), Real(0)) {
   for (const scene::Mat& mat : scene.mats) {
     rests_.push_back(mat.rest);
@@ -33,60 +34,73 @@ GuardedRuns<Real>::GuardedRuns(const scene::Scene& scene,
   for (std::size_t p = 0; p < layout.projections.size(); ++p) {
     projection_of_slot_[at(layout.projections[p].slot)] = static_cast<int>(p);
   }
-  const std::vector<double> somewhere(2 * layout.places.size(), 0.0);
   for (const GuardedGroup& members : members_) {
-    std::vector<GuardedLink> links;
-    std::vector<std::size_t> moving;
-    for (const GuardedRef& ref : members.links) {
-      const LinkEnds& ends = layout.runs[ref.run].ends[ref.link];
-      if (isOnPlace(ends.a) || isOnPlace(ends.b)) {
-        moving.push_back(links.size());
-      }
-      links.push_back(describe(ref, somewhere.data()));
+    addLinks(members, state);
+    reached_.push_back(reachedBy(
+        members.group == LinkRun::kHeldGroup ? groups.held : groups.running[at(members.group)]));
+  }
+}
+
+template <class Real>
+void GuardedRuns<Real>::addLinks(const GuardedGroup& members, State<Real>& state) {
+  const std::vector<double> somewhere(2 * layout_.places.size(), 0.0);
+  std::vector<GuardedLink> links;
+  std::vector<std::size_t> moving;
+  std::vector<int> slow;
+  for (const GuardedRef& ref : members.links) {
+    const LinkRun& run = layout_.runs[ref.run];
+    if (isOnPlace(run.ends[ref.link].a) || isOnPlace(run.ends[ref.link].b)) {
+      moving.push_back(links.size());
     }
-    const std::string name = "guarded" + std::to_string(groups_.size());
-    groups_.push_back({GuardedLinks<Real>(links, at(layout.slots())), moving,
-                       std::vector<unsigned char>(links.size(), 0),
-                       state.arena().template add<GuardedState<Real>>(name, links.size())});
+    if (run.slow_section >= 0 && (slow.empty() || slow.back() != run.slow_section)) {
+      slow.push_back(run.slow_section);
+    }
+    links.push_back(describe(ref, somewhere.data()));
   }
-  if (!members_.empty()) {
-    collectReached();
-  }
+  const std::string name = "guarded" + std::to_string(links_.size());
+  links_.push_back({GuardedLinks<Real>(links, modules_), moving,
+                    std::vector<unsigned char>(links.size(), 0), slow,
+                    std::vector<unsigned char>(layout_.sections.size(), 0),
+                    state.arena().template add<GuardedState<Real>>(name, links.size())});
 }
 
 /// The ends of guarded links, all points, and the modules that points hand their forces to.
 template <class Real>
-void GuardedRuns<Real>::collectReached() {
-  const auto add = [this](int slot, int stride, int count) {
+std::vector<int> GuardedRuns<Real>::reachedBy(const Group& group) const {
+  std::vector<int> reached;
+  const auto add = [&reached](int slot, int stride, int count) {
     for (int k = 0; k < count; ++k) {
-      reached_.push_back(slot + k * stride);
+      reached.push_back(slot + k * stride);
     }
   };
-  for (const GuardedGroup& members : members_) {
-    for (const GuardedRef& ref : members.links) {
+  for (const std::size_t g : group.guarded) {
+    for (const GuardedRef& ref : members_[g].links) {
       const LinkRun& run = layout_.runs[ref.run];
       const LinkEnds& ends = run.ends[ref.link];
       add(ends.a, run.stride_a, std::max(1, run.dimensions));
       add(ends.b, run.stride_b, std::max(1, run.dimensions));
     }
   }
-  for (const DecimatedPoint& point : layout_.decimations) {
+  for (const std::size_t p : group.decimations) {
+    const DecimatedPoint& point = layout_.decimations[p];
     add(point.slot, 1, point.dimensions);
     add(point.of.slot, point.of.stride, point.dimensions);
   }
-  for (const ProjectedPoint& point : layout_.projections) {
+  for (const std::size_t p : group.projections) {
+    const ProjectedPoint& point = layout_.projections[p];
     add(point.slot, 1, point.dimensions);
     add(point.of.slot, point.of.stride, point.source_dimensions);
   }
-  for (std::size_t p = 0; p < layout_.places.size(); ++p) {
+  for (const std::size_t p : group.places) {
     const PlacePoint& point = layout_.places[p];
     add(point.slot, 1, point.dimensions);
     for (const int slot : points_.slotsUnder(p)) {
       add(slot, point.stride, point.dimensions);
     }
   }
-  std::sort(reached_.begin(), reached_.end());
-  reached_.erase(std::unique(reached_.begin(), reached_.end()), reached_.end());
+  std::sort(reached.begin(), reached.end());
+  reached.erase(std::unique(reached.begin(), reached.end()), reached.end());
+  return reached;
 }
 
 template <class Real>
@@ -167,7 +181,7 @@ void GuardedRuns<Real>::reachEnd(int slot,
 }
 
 template <class Real>
-GuardedView<Real> GuardedRuns<Real>::viewOf(const Group& group,
+GuardedView<Real> GuardedRuns<Real>::viewOf(const Links& links,
                                             const CoefficientsOf<Real>& c,
                                             State<Real>& state) const noexcept {
   GuardedView<Real> view;
@@ -178,16 +192,16 @@ GuardedView<Real> GuardedRuns<Real>::viewOf(const Group& group,
   view.drift = c.masses.drift.data();
   view.keep = c.masses.keep.data();
   view.pull = c.masses.pull.data();
-  view.due = due_.data();
-  view.idle = group.idle.data();
+  view.due = links.due.data();
+  view.idle = links.idle.data();
   return view;
 }
 
 template <class Real>
 void GuardedRuns<Real>::followPlaces(std::size_t g, State<Real>& state) noexcept {
-  for (const std::size_t l : groups_[g].moving) {
+  for (const std::size_t l : links_[g].moving) {
     const Reach reach = reachOf(members_[g].links[l], state.places());
-    groups_[g].links.setTerms(l, reach.terms.data(), reach.count, reach.offset);
+    links_[g].links.setTerms(l, reach.terms.data(), reach.count, reach.offset);
   }
 }
 
@@ -196,15 +210,14 @@ void GuardedRuns<Real>::markIdle(std::size_t g, State<Real>& state) noexcept {
   for (std::size_t l = 0; l < members_[g].links.size(); ++l) {
     const LinkRun& run = layout_.runs[members_[g].links[l].run];
     const bool is_inside = run.section_a == run.section_b;
-    groups_[g].idle[l] = is_inside ? state.asleep()[run.section_a] : 0;
+    links_[g].idle[l] = is_inside ? state.asleep()[run.section_a] : 0;
   }
 }
 
-/// The sections that moved as the step began.
 template <class Real>
-void GuardedRuns<Real>::markDue(std::int64_t began) noexcept {
-  for (std::size_t s = 0; s < due_.size(); ++s) {
-    due_[s] = began % layout_.sections[s].divisor == 0 ? 1 : 0;
+void GuardedRuns<Real>::markDue(std::size_t g, std::int64_t began) noexcept {
+  for (const int section : links_[g].slow) {
+    links_[g].due[at(section)] = layout_.isDue(section, began) ? 1 : 0;
   }
 }
 
@@ -218,11 +231,10 @@ void GuardedRuns<Real>::exchange(std::size_t g,
   for (std::size_t l = 0; l < members_[g].links.size(); ++l) {
     const GuardedRef& ref = members_[g].links[l];
     const LinkRun& run = layout_.runs[ref.run];
-    if (groups_[g].idle[l] != 0) {
+    if (links_[g].idle[l] != 0) {
       continue;
     }
-    const bool slow_ends = layout_.endsSlowStep(run, began);
-    kernels::Frame<Real> frame = stepper.frameOf(ref.run, due_.data(), slow_ends, state);
+    kernels::Frame<Real> frame = stepper.frameOf(ref.run, began, state);
     frame.f = forces_.data();
     for (int k = 0; k < std::max(1, run.dimensions); ++k) {
       const int a = run.ends[ref.link].a + k * run.stride_a;
@@ -259,33 +271,35 @@ void GuardedRuns<Real>::closeBooks(std::size_t g, bool starts, State<Real>& stat
 }
 
 template <class Real>
-ERGOTIC_REALTIME void GuardedRuns<Real>::step(std::int64_t now,
+ERGOTIC_REALTIME void GuardedRuns<Real>::step(const Group& group,
+                                              std::int64_t first,
+                                              std::int64_t last,
                                               const CoefficientsOf<Real>& c,
                                               const Stepper<Real>& stepper,
                                               State<Real>& state) noexcept {
   bool any = false;
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const GuardedView<Real> view = viewOf(groups_[g], c, state);
-    if (now == 0) {
+  for (const std::size_t g : group.guarded) {
+    const GuardedView<Real> view = viewOf(links_[g], c, state);
+    if (first == 0) {
       followPlaces(g, state);
-      groups_[g].links.start(view, c.guarded[g].data(), states(g, state));
+      links_[g].links.start(view, c.guarded[g].data(), states(g, state));
       closeBooks(g, true, state);
     }
-    if ((now + 1) % members_[g].divisor != 0) {
+    if ((last + 1) % members_[g].divisor != 0) {
       continue;
     }
     any = true;
     followPlaces(g, state);
     markIdle(g, state);
-    const std::int64_t began = now + 1 - members_[g].divisor;
-    markDue(began);
-    groups_[g].links.step(view, c.guarded[g].data(), states(g, state));
+    const std::int64_t began = last + 1 - members_[g].divisor;
+    markDue(g, began);
+    links_[g].links.step(view, c.guarded[g].data(), states(g, state));
     exchange(g, began, stepper, state);
     closeBooks(g, false, state);
   }
   if (any) {
-    points_.scatter(forces_.data(), state.places());
-    for (const int slot : reached_) {
+    points_.scatter(group, forces_.data(), state.places());
+    for (const int slot : reached_[group.guarded.front()]) {
       state.f()[slot] += forces_[at(slot)];
       forces_[at(slot)] = Real(0);
     }
@@ -296,8 +310,8 @@ template <class Real>
 ERGOTIC_REALTIME void GuardedRuns<Real>::retune(const CoefficientsOf<Real>& from,
                                                 const CoefficientsOf<Real>& to,
                                                 State<Real>& state) noexcept {
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const GuardedView<Real> view = viewOf(groups_[g], from, state);
+  for (std::size_t g = 0; g < links_.size(); ++g) {
+    const GuardedView<Real> view = viewOf(links_[g], from, state);
     const auto book = [&](double sign) {
       for (std::size_t l = 0; l < members_[g].links.size(); ++l) {
         state.work()[members_[g].links[l].run].stored +=
@@ -305,7 +319,7 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::retune(const CoefficientsOf<Real>& from
       }
     };
     book(-1.0);
-    groups_[g].links.retune(view, from.guarded[g].data(), to.guarded[g].data(), states(g, state));
+    links_[g].links.retune(view, from.guarded[g].data(), to.guarded[g].data(), states(g, state));
     book(1.0);
   }
 }
@@ -325,7 +339,7 @@ template <class Real>
 ERGOTIC_REALTIME void GuardedRuns<Real>::read(const State<Real>& state,
                                               std::vector<GuardReport>& to) const noexcept {
   std::size_t next = 0;
-  for (const Group& group : groups_) {
+  for (const Links& group : links_) {
     const auto* all = state.arena().template at<GuardedState<Real>>(group.states_at);
     for (std::size_t l = 0; l < group.links.size(); ++l) {
       to[next].active = static_cast<std::int64_t>(all[l].active);

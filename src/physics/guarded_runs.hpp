@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "coefficients.hpp"
+#include "groups.hpp"
 #include "guarded.hpp"
 #include "guarded_groups.hpp"
 #include "points.hpp"
@@ -22,13 +23,17 @@ class GuardedRuns {
   /// Adds its entries to the arena. \pre the arena is not allocated
   GuardedRuns(const scene::Scene& scene,
               const Layout& layout,
+              const Groups& groups,
               const Points<Real>& points,
               State<Real>& state);
 
-  /// Steps the guarded links of sections whose steps end with this frame, adds their forces to all
+  /// Steps the guarded links of a group whose steps end with frame `last`, adds their forces to
   /// modules and points. Only then are all other forces of these steps there: links to faster
-  /// sections give theirs frame by frame. \pre so are those of this frame. Realtime: yes
-  void step(std::int64_t now,
+  /// sections give theirs frame by frame. \pre so are those of the frames from `first` to `last`.
+  /// Realtime: yes
+  void step(const Group& group,
+            std::int64_t first,
+            std::int64_t last,
             const CoefficientsOf<Real>& c,
             const Stepper<Real>& stepper,
             State<Real>& state) noexcept;
@@ -49,13 +54,17 @@ class GuardedRuns {
     std::size_t count = 0;
     double offset[3] = {0.0, 0.0, 0.0};
   };
-  struct Group {
+  /// Links of one rate in one group.
+  struct Links {
     GuardedLinks<Real> links;
-    std::vector<std::size_t> moving;  // links with an end on a place
+    std::vector<std::size_t> moving;  // those with an end on a place
     std::vector<unsigned char> idle;  // [links]
+    std::vector<int> slow;            // sections that are stepped more slowly
+    std::vector<unsigned char> due;   // [sections] of these, that moved as the present step began
     std::size_t states_at;
   };
 
+  void addLinks(const GuardedGroup& members, State<Real>& state);
   GuardedLink describe(const GuardedRef& ref, const double* places) const;
   Reach reachOf(const GuardedRef& ref, const double* places) const noexcept;
   void reachEnd(int slot,
@@ -66,32 +75,32 @@ class GuardedRuns {
                 const double* places,
                 Reach& to) const noexcept;
   bool isOnPlace(int slot) const noexcept;
-  void collectReached();
-  GuardedView<Real> viewOf(const Group& group,
+  std::vector<int> reachedBy(const Group& group) const;
+  GuardedView<Real> viewOf(const Links& links,
                            const CoefficientsOf<Real>& c,
                            State<Real>& state) const noexcept;
   void followPlaces(std::size_t g, State<Real>& state) noexcept;
   void markIdle(std::size_t g, State<Real>& state) noexcept;
-  void markDue(std::int64_t began) noexcept;
+  void markDue(std::size_t g, std::int64_t began) noexcept;
   void exchange(std::size_t g,
                 std::int64_t began,
                 const Stepper<Real>& stepper,
                 State<Real>& state) noexcept;
   void closeBooks(std::size_t g, bool starts, State<Real>& state) const noexcept;
   GuardedState<Real>* states(std::size_t g, State<Real>& state) const noexcept {
-    return state.arena().template at<GuardedState<Real>>(groups_[g].states_at);
+    return state.arena().template at<GuardedState<Real>>(links_[g].states_at);
   }
 
   const Layout& layout_;
   const Points<Real>& points_;
-  std::vector<Eigen::Vector3d> rests_;   // [mats]
-  std::vector<int> place_of_slot_;       // -1: none
-  std::vector<int> projection_of_slot_;  // -1: none
-  std::vector<GuardedGroup> members_;    // [groups]
-  std::vector<Group> groups_;
-  std::vector<unsigned char> due_;  // [sections] moved as the present step began
-  std::vector<Real> forces_;        // [slots], of guarded links; zero between steps
-  std::vector<int> reached_;        // slots that these can be on
+  std::vector<Eigen::Vector3d> rests_;        // [mats]
+  std::vector<int> place_of_slot_;            // -1: none
+  std::vector<int> projection_of_slot_;       // -1: none
+  std::vector<GuardedGroup> members_;         // guardedGroupsOf
+  std::vector<GuardedModule<Real>> modules_;  // [slots]
+  std::vector<Links> links_;                  // [members_]
+  std::vector<Real> forces_;                  // [slots], of guarded links; zero between steps
+  std::vector<std::vector<int>> reached_;     // [members_] slots that those of its group can be on
 };
 
 extern template class GuardedRuns<float>;

@@ -4,18 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coefficients.hpp"
-#include "energy_meter.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/physics/settle.hpp"
-#include "guarded_runs.hpp"
-#include "layout.hpp"
-#include "points.hpp"
-#include "sleeper.hpp"
-#include "state.hpp"
+#include "ergotic/rt/thread.hpp"
+#include "group_stepper.hpp"
+#include "parts.hpp"
 #include "step_units.hpp"
-#include "stepper.hpp"
-#include "taps.hpp"
+#include "workers.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -45,249 +40,254 @@ scene::Scene withParameters(scene::Scene scene, const std::vector<double>& value
 template <class Real>
 class InstrumentOf final : public Instrument {
  public:
-  InstrumentOf(const scene::Scene& scene,
-               const Rates& rates,
-               Layout layout,
-               const CompileOptions& options)
+  InstrumentOf(const scene::Scene& scene, const Rates& rates, const CompileOptions& options)
       : Instrument(scene, rates, options),
-        layout_(std::move(layout)),
-        coefficients_(std::make_unique<CoefficientsOf<Real>>(scene, rates, layout_)),
-        state_(layout_),
-        meter_(scene, layout_, state_),
-        stepper_(layout_),
-        points_(scene, layout_),
-        guarded_(scene, layout_, points_, state_),
-        taps_(layout_),
-        sleeper_(scene, layout_, *coefficients_),
-        due_(layout_.sections.size(), 0),
-        followed_(layout_.followers.empty() ? scene::Scene{} : scene) {
-    state_.allocate();
+        parts_(scene, rates),
+        stepper_(scene, rates, parts_),
+        inputs_(at(rates.ratio * inputChannels())),
+        heard_of_held_(heardOf(parts_.groups.held)),
+        workers_(options.threads,
+                 parts_.groups.running.size(),
+                 options.wait_limit_ns,
+                 [this](std::size_t g) { stepGroup(g); }) {
+    for (const Group& group : parts_.groups.running) {
+      heard_.push_back(heardOf(group));
+    }
     placeInitialState();
   }
 
   void tick(const TickIo& io) noexcept override {
-    const std::int64_t first = state_.frame();
-    takeSlices(io.positions, first == 0);
-    const int channels_in = inputChannels();
-    const int channels_out = outputChannels();
-    for (int r = 0; r < rates().ratio; ++r) {
-      const double* in = io.inputs + at(r) * at(channels_in);
-      double* out = io.outputs + at(r) * at(channels_out);
-      std::fill_n(out, channels_out, 0.0);
-      frameStep(first + r, in, out);
-      state_.frame() = first + r + 1;
-      if (first + r == 0) {
-        meter_.start(*coefficients_, state_);
-      }
+    const rt::FlushDenormals flush_denormals;
+    if (!finishTick()) {
+      stall(io);
+      return;
     }
-    if (changed_) {
-      meter_.endChange(*coefficients_, state_);
-      changed_ = false;
+    std::copy_n(io.inputs, inputs_.size(), inputs_.data());
+    takeSlices(io.positions);
+    beginTick();
+    is_under_way_ = !workers_.run();
+    if (is_under_way_) {
+      stall(io);
+      return;
     }
+    endTick();
+    giveOutputs(io.outputs);
     giveForces(io.forces);
   }
 
   std::unique_ptr<Coefficients> prepare(const std::vector<double>& values) const override {
     return std::make_unique<CoefficientsOf<Real>>(withParameters(scene(), values), rates(),
-                                                  layout_);
+                                                  parts_.layout);
   }
 
   std::unique_ptr<Coefficients> exchange(std::unique_ptr<Coefficients> next) noexcept override {
-    if (!changed_ && state_.frame() > 0) {
-      meter_.beginChange(*coefficients_, state_);
+    if (!finishTick()) {
+      return next;
+    }
+    if (!changed_ && parts_.state.frame() > 0) {
+      parts_.meter.beginChange(*parts_.coefficients, parts_.state);
       changed_ = true;
     }
     auto* mine = static_cast<CoefficientsOf<Real>*>(next.release());
-    if (state_.frame() > 0) {
-      guarded_.retune(*coefficients_, *mine, state_);
+    if (parts_.state.frame() > 0) {
+      parts_.guarded.retune(*parts_.coefficients, *mine, parts_.state);
     }
-    std::unique_ptr<Coefficients> old = std::move(coefficients_);
-    coefficients_.reset(mine);
+    std::unique_ptr<Coefficients> old = std::move(parts_.coefficients);
+    parts_.coefficients.reset(mine);
     return old;
   }
 
-  std::size_t stateSize() const noexcept override { return state_.arena().size(); }
-  std::vector<StateEntry> stateEntries() const override { return state_.arena().entries(); }
-  void saveState(void* to) const noexcept override { state_.arena().save(to); }
-  void loadState(const void* from) noexcept override { state_.arena().load(from); }
+  std::size_t stateSize() const noexcept override { return parts_.state.arena().size(); }
+  std::vector<StateEntry> stateEntries() const override { return parts_.state.arena().entries(); }
+  void saveState(void* to) const noexcept override { parts_.state.arena().save(to); }
+  void loadState(const void* from) noexcept override { parts_.state.arena().load(from); }
 
   void readDisplacements(float* to) const noexcept override {
-    const Real* x = state_.x();
-    for (std::size_t m = 0; m < layout_.slot_of_mat.size(); ++m) {
+    if (is_under_way_) {
+      return;
+    }
+    const Real* x = parts_.state.x();
+    for (std::size_t m = 0; m < parts_.layout.slot_of_mat.size(); ++m) {
       const scene::Mat& mat = scene().mats[m];
-      const SectionRange& range = layout_.sections[at(mat.section)];
+      const SectionRange& range = parts_.layout.sections[at(mat.section)];
       const int stride = mat.type == scene::MatType::kPoint ? 1 : range.stride;
       for (int k = 0; k < range.dimensions; ++k) {
-        *to++ = static_cast<float>(x[layout_.slot_of_mat[m] + k * stride]);
+        *to++ = static_cast<float>(x[parts_.layout.slot_of_mat[m] + k * stride]);
       }
     }
   }
 
-  Energies makeEnergies() const override { return meter_.make(); }
+  Energies makeEnergies() const override { return parts_.meter.make(); }
   void readEnergies(Energies& to) const noexcept override {
-    meter_.read(*coefficients_, state_, to);
+    if (!is_under_way_) {
+      parts_.meter.read(*parts_.coefficients, parts_.state, to);
+    }
   }
-  std::vector<GuardReport> makeGuardReports() const override { return guarded_.makeReports(); }
+  std::vector<GuardReport> makeGuardReports() const override {
+    return parts_.guarded.makeReports();
+  }
   void readGuards(std::vector<GuardReport>& to) const noexcept override {
-    guarded_.read(state_, to);
+    if (!is_under_way_) {
+      parts_.guarded.read(parts_.state, to);
+    }
   }
 
   std::vector<std::string> describe() const override {
     std::vector<std::string> lines;
-    for (std::size_t s = 0; s < layout_.sections.size(); ++s) {
-      const SectionRange& range = layout_.sections[s];
+    for (std::size_t s = 0; s < parts_.layout.sections.size(); ++s) {
+      const SectionRange& range = parts_.layout.sections[s];
       lines.push_back("section '" + scene().sections[s].name + "': " +
                       std::to_string(range.fixed - range.cells) + " free modules one by one");
     }
+    const std::vector<std::string> groups =
+        describeGroups(scene(), parts_.groups, workers_.threads());
+    lines.insert(lines.end(), groups.begin(), groups.end());
     return lines;
   }
 
+  std::int64_t stalledTicks() const noexcept override { return stalled_; }
+  bool isUnderWay() const noexcept override { return is_under_way_; }
+
   bool isFinite() const noexcept override {
-    const Real* x = state_.x();
-    return std::all_of(x, x + layout_.slots(), [](Real v) { return std::isfinite(v); });
+    const Real* x = parts_.state.x();
+    return is_under_way_ ||
+           std::all_of(x, x + parts_.layout.slots(), [](Real v) { return std::isfinite(v); });
   }
 
  private:
   void placeInitialState() {
-    for (std::size_t s = 0; s < layout_.sections.size(); ++s) {
-      const SectionRange& range = layout_.sections[s];
+    for (std::size_t s = 0; s < parts_.layout.sections.size(); ++s) {
+      const SectionRange& range = parts_.layout.sections[s];
       const StepUnits units(scene(), rates(), range.divisor);
       for (int slot = range.cells; slot < range.end; ++slot) {
-        const scene::Mat& mat = scene().mats[at(layout_.mat_of_slot[at(slot)])];
+        const scene::Mat& mat = scene().mats[at(parts_.layout.mat_of_slot[at(slot)])];
         for (int k = 0; k < range.dimensions; ++k) {
           const int here = slot + k * range.stride;
-          state_.x()[here] = static_cast<Real>(mat.position[k] - mat.rest[k]);
+          parts_.state.x()[here] = static_cast<Real>(mat.position[k] - mat.rest[k]);
           if (slot < range.fixed) {
-            state_.d()[here] = static_cast<Real>(units.velocity(mat.velocity[k]));
+            parts_.state.d()[here] = static_cast<Real>(units.velocity(mat.velocity[k]));
           }
         }
       }
     }
-    points_.placeAtStart(*coefficients_, state_.x(), state_.d(), state_.places());
-    for (std::size_t r = 0; r < layout_.runs.size(); ++r) {
-      if (remembers(layout_.runs[r]) && !layout_.runs[r].guarded) {
-        stepper_.storeAtStart(r, coefficients_->runs[r], state_);
+    parts_.points.placeAtStart(*parts_.coefficients, parts_.state.x(), parts_.state.d(),
+                               parts_.state.places());
+    for (const Group& group : parts_.groups.running) {
+      stepper_.fillProxies(group);
+    }
+    for (std::size_t r = 0; r < parts_.layout.runs.size(); ++r) {
+      if (remembers(parts_.layout.runs[r]) && !parts_.layout.runs[r].guarded) {
+        parts_.stepper.storeAtStart(r, parts_.coefficients->runs[r], parts_.state);
       }
     }
   }
 
   /// Slices move at the start of a tick; a slice at 0 has its module at rest.
-  void takeSlices(const double* positions, bool is_first_tick) noexcept {
-    for (std::size_t p = 0; p < layout_.port_slots.size(); ++p) {
+  void takeSlices(const double* positions) noexcept {
+    const bool is_first_tick = parts_.state.frame() == 0;
+    for (std::size_t p = 0; p < parts_.layout.port_slots.size(); ++p) {
       // Before the first tick nothing is known of the hand: it did not jump, it was there.
-      moveTo(layout_.port_slots[p], static_cast<Real>(positions[p]), is_first_tick);
+      stepper_.moveTo(parts_.layout.port_slots[p], static_cast<Real>(positions[p]), is_first_tick);
     }
-  }
-
-  /// Something outside moves a module.
-  void moveTo(int slot, Real position, bool was_there) noexcept {
-    state_.dLast()[slot] = state_.d()[slot];
-    state_.d()[slot] = was_there ? Real(0) : position - state_.x()[slot];
-    state_.x()[slot] = position;
   }
 
   void giveForces(double* forces) noexcept {
     const double newton = 1.0 / (scene().time_unit_s * scene().time_unit_s);
-    for (std::size_t p = 0; p < layout_.port_slots.size(); ++p) {
-      forces[p] = newton * static_cast<double>(state_.f()[layout_.port_slots[p]]);
+    for (std::size_t p = 0; p < parts_.layout.port_slots.size(); ++p) {
+      forces[p] = newton * static_cast<double>(parts_.state.f()[parts_.layout.port_slots[p]]);
     }
   }
 
-  /// One audio frame: modules move, positions are heard, links, inputs, forces are heard.
-  void frameStep(std::int64_t now, const double* in, double* out) noexcept {
-    followAudio(in);
-    moveModules(now);
-    feedPositions(in);
-    gatherPoints();
-    taps_.takePositions(*coefficients_, state_, out);
-    for (std::size_t r = 0; r < layout_.runs.size(); ++r) {
-      const LinkRun& run = layout_.runs[r];
-      if (!run.guarded && due_[at(run.section)] != 0 && !isAsleep(run)) {
-        stepper_.stepLinks(r, coefficients_->runs[r], due_.data(), layout_.endsSlowStep(run, now),
-                           state_);
-      }
-    }
-    feedForces(in);
-    points_.scatter(state_.f(), state_.places());
-    guarded_.step(now, *coefficients_, stepper_, state_);
-    meter_.endFrame(now, state_);
-    taps_.takeForces(*coefficients_, now, state_, out);
-    sleeper_.endFrame(now, *coefficients_, meter_, state_);
+  /// All frames of the tick.
+  Frames tickOf(std::vector<double>& heard) noexcept {
+    std::fill(heard.begin(), heard.end(), 0.0);
+    return {parts_.state.frame(), rates().ratio, inputs_.data(), heard.data()};
   }
 
-  bool isAsleep(const LinkRun& run) noexcept {
-    return run.section_a == run.section_b && state_.asleep()[run.section_a] != 0;
-  }
-
-  /// What follows an audio input gets its coefficients of this frame.
-  void followAudio(const double* in) noexcept {
-    for (scene::AudioParameter& parameter : followed_.audio_parameters) {
-      parameter.value = in[parameter.channel];
-    }
-    for (const Follower& follower : layout_.followers) {
-      coefficients_->follow(followed_, rates(), layout_, follower);
+  /// Held sections move, and groups see where they are for the whole tick.
+  void beginTick() noexcept {
+    held_frames_ = tickOf(heard_of_held_);
+    stepper_.begin(parts_.groups.held, held_frames_);
+    for (const Group& group : parts_.groups.running) {
+      stepper_.fillProxies(group);
     }
   }
 
-  void moveModules(std::int64_t now) noexcept {
-    for (std::size_t s = 0; s < layout_.sections.size(); ++s) {
-      due_[s] = now % layout_.sections[s].divisor == 0 ? 1 : 0;
-      if (due_[s] != 0 && state_.asleep()[s] == 0) {
-        const int section = static_cast<int>(s);
-        meter_.addDissipated(section, stepper_.moveMasses(section, coefficients_->masses, state_),
-                             state_);
-      }
+  /// All frames, one after the other. Thread: any
+  void stepGroup(std::size_t g) noexcept {
+    const Group& group = parts_.groups.running[g];
+    const Frames tick = tickOf(heard_[g]);
+    for (int r = 0; r < tick.count; ++r) {
+      const Frames frame{tick.first + r, 1, tick.inputs + at(r) * at(inputChannels()),
+                         tick.outputs + at(r) * group.channels.size()};
+      stepper_.begin(group, frame);
+      stepper_.end(group, frame);
     }
   }
 
-  void gatherPoints() noexcept {
-    if (!layout_.places.empty()) {
-      for (std::size_t s = 0; s < layout_.sections.size(); ++s) {
-        const SectionRange& range = layout_.sections[s];
-        if (due_[s] != 0) {
-          std::copy_n(state_.d() + range.cells, range.dimensions * range.stride,
-                      state_.moved() + range.cells);
-        }
-      }
+  /// Held sections get the forces of all groups, always in the same order.
+  void endTick() noexcept {
+    for (const Group& group : parts_.groups.running) {
+      stepper_.emptyProxies(group);
     }
-    points_.gather(*coefficients_, due_.data(), state_);
-    points_.clearForces(state_.f());
-  }
-
-  void feedPositions(const double* in) noexcept {
-    for (std::size_t k = 0; k < layout_.feeds.size(); ++k) {
-      const Feed& feed = layout_.feeds[k];
-      if (feed.quantity == scene::Quantity::kPosition && due_[at(feed.section)] != 0) {
-        const double gain = static_cast<double>(coefficients_->feed_gains[k]);
-        moveTo(feed.slot, static_cast<Real>(gain * in[feed.channel] - feed.rest), false);
-      }
+    stepper_.end(parts_.groups.held, held_frames_);
+    const bool is_first_tick = parts_.state.frame() == 0;
+    parts_.state.frame() += rates().ratio;
+    if (is_first_tick) {
+      parts_.meter.start(*parts_.coefficients, parts_.state);
+    }
+    if (changed_) {
+      parts_.meter.endChange(*parts_.coefficients, parts_.state);
+      changed_ = false;
     }
   }
 
-  void feedForces(const double* in) noexcept {
-    for (std::size_t k = 0; k < layout_.feeds.size(); ++k) {
-      const Feed& feed = layout_.feeds[k];
-      if (feed.quantity == scene::Quantity::kForce) {
-        const Real force = coefficients_->feed_gains[k] * static_cast<Real>(in[feed.channel]) *
-                           static_cast<Real>(feed.share);
-        state_.f()[feed.slot] += force;
-        meter_.addFeed(k, force, state_);
+  /// Brings a stalled tick to its end. \return false if another thread is still at it
+  bool finishTick() noexcept {
+    if (is_under_way_ && workers_.finish()) {
+      endTick();
+      is_under_way_ = false;
+    }
+    return !is_under_way_;
+  }
+
+  void stall(const TickIo& io) noexcept {
+    std::fill_n(io.forces, ports(), 0.0);
+    std::fill_n(io.outputs, rates().ratio * outputChannels(), 0.0);
+    ++stalled_;
+  }
+
+  void giveOutputs(double* outputs) const noexcept {
+    std::fill_n(outputs, at(rates().ratio * outputChannels()), 0.0);
+    addHeard(parts_.groups.held, heard_of_held_, outputs);
+    for (std::size_t g = 0; g < heard_.size(); ++g) {
+      addHeard(parts_.groups.running[g], heard_[g], outputs);
+    }
+  }
+
+  void addHeard(const Group& group, const std::vector<double>& heard, double* to) const noexcept {
+    const double* from = heard.data();
+    for (int r = 0; r < rates().ratio; ++r, to += outputChannels()) {
+      for (const int channel : group.channels) {
+        to[channel] += *from++;
       }
     }
   }
 
-  Layout layout_;
-  std::unique_ptr<CoefficientsOf<Real>> coefficients_;
-  State<Real> state_;
-  EnergyMeter<Real> meter_;
-  Stepper<Real> stepper_;
-  Points<Real> points_;
-  GuardedRuns<Real> guarded_;
-  Taps<Real> taps_;
-  Sleeper<Real> sleeper_;
-  std::vector<unsigned char> due_;  // [sections] in this frame
-  scene::Scene followed_;           // where audio parameters have their present samples
-  bool changed_ = false;            // coefficients were exchanged since the last tick
+  std::vector<double> heardOf(const Group& group) const {
+    return std::vector<double>(at(rates().ratio) * group.channels.size());
+  }
+
+  Parts<Real> parts_;
+  GroupStepper<Real> stepper_;
+  std::vector<double> inputs_;              // [R][input channels]
+  std::vector<double> heard_of_held_;       // [R][its channels]
+  std::vector<std::vector<double>> heard_;  // [groups][R][its channels]
+  Frames held_frames_;                      // of the present tick
+  std::int64_t stalled_ = 0;
+  bool is_under_way_ = false;  // another thread has not done its share of the last tick
+  bool changed_ = false;       // coefficients were exchanged since the last tick
+  Workers workers_;            // the last: its threads use all of the above
 };
 
 }  // namespace
@@ -298,11 +298,10 @@ std::unique_ptr<Instrument> compile(const scene::Scene& scene,
   if (!isSettled(scene)) {
     throw Exception("scene '" + scene.name + "' is not settled: settle() comes before compile()");
   }
-  Layout layout = makeLayout(scene, rates);
   if (options.precision == Precision::kFloat) {
-    return std::make_unique<InstrumentOf<float>>(scene, rates, std::move(layout), options);
+    return std::make_unique<InstrumentOf<float>>(scene, rates, options);
   }
-  return std::make_unique<InstrumentOf<double>>(scene, rates, std::move(layout), options);
+  return std::make_unique<InstrumentOf<double>>(scene, rates, options);
 }
 
 }  // namespace ergotic::physics

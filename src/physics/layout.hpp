@@ -72,6 +72,8 @@ struct LinkRun {
   int slow_section = -1;
   bool slow_is_a = false;
   double share = 1.0;
+  static constexpr int kHeldGroup = -1;
+  int group = kHeldGroup;  ///< that steps it, index in Groups::running
   int stride_a = 0;
   int stride_b = 0;
   std::vector<int> lias;               ///< [links] index in Scene::lias
@@ -83,6 +85,7 @@ struct LinkRun {
 struct PlacePoint {
   int slot = 0;
   int dimensions = 1;
+  int coordinate = 0;  ///< first of its own among those of all places
   int section = 0;     ///< of the grid
   int stride = 0;      ///< of the modules around it
   int connection = 0;  ///< index in Scene::connections
@@ -102,10 +105,19 @@ struct ProjectedPoint {
 struct DecimatedPoint {
   int slot = 0;
   int dimensions = 1;
-  int section = 0;  ///< the slower one, that of its steps
+  int coordinate = 0;  ///< first of its own among those of all decimated points
+  int section = 0;     ///< the slower one, that of its steps
   End of;
   double impulse = 1.0;  ///< steps of the faster section per step of the slower
 };
+
+/// Coordinates of all of these places, or decimated points.
+template <class Point>
+std::size_t coordinatesOf(const std::vector<Point>& points) {
+  return points.empty()
+             ? 0
+             : static_cast<std::size_t>(points.back().coordinate + points.back().dimensions);
+}
 
 struct Tap {
   scene::Quantity quantity = scene::Quantity::kPosition;
@@ -152,6 +164,11 @@ struct Layout {
   int slots() const { return static_cast<int>(mat_of_slot.size()); }
   int strideOf(const scene::Scene& scene, int mat) const;
 
+  /// True if a section moves in frame `now`.
+  bool isDue(int section, std::int64_t now) const noexcept {
+    const int divisor = divisorOf(section);
+    return divisor == 1 || now % divisor == 0;
+  }
   /// True if the step of a run that began with frame `now` is the last in that of its slower end.
   bool endsSlowStep(const LinkRun& run, std::int64_t now) const noexcept {
     return run.slow_section >= 0 &&

@@ -54,6 +54,7 @@ class Ends {
       DecimatedPoint point;
       point.slot = addSlots(layout_, dimensions, -1);
       point.dimensions = dimensions;
+      point.coordinate = static_cast<int>(coordinatesOf(layout_.decimations));
       point.section = section;
       point.of = end;
       point.impulse = static_cast<double>(divisor(section)) / divisor(end.section);
@@ -191,6 +192,7 @@ void placeConnections(const scene::Scene& scene, Layout& layout) {
     const SectionRange& range = layout.sections[at(point.section)];
     point.dimensions = range.dimensions;
     point.stride = range.stride;
+    point.coordinate = static_cast<int>(coordinatesOf(layout.places));
     point.slot = addSlots(layout, point.dimensions, connection.mat);
     point.connection = k;
     point.guide = connection.guide < 0 ? -1 : layout.slot_of_mat[at(connection.guide)];

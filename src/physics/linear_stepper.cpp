@@ -7,6 +7,7 @@
 #include <random>
 
 #include "ergotic/exception.hpp"
+#include "layout.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -72,6 +73,7 @@ LinearStepper::LinearStepper(const scene::Scene& linear, const Rates& rates)
     : instrument_(compile(linear, rates, Precision::kDouble)),
       rest_(instrument_->stateSize()),
       state_(instrument_->stateSize()),
+      slots_(makeLayout(linear, rates).slots()),  // behind them are proxies, filled in every tick
       ticks_(std::max(1, slowestDivisor(linear, rates) / rates.ratio)),
       period_s_(ticks_ / rates.gesturalHz()),
       positions_(static_cast<std::size_t>(instrument_->ports())),
@@ -84,7 +86,6 @@ LinearStepper::LinearStepper(const scene::Scene& linear, const Rates& rates)
     for (int which = 0; which < 3; ++which) {
       if (entry.name == names[which]) {
         offsets_[which] = entry.offset;
-        slots_ = static_cast<int>(entry.size / sizeof(double));
       }
     }
   }

@@ -35,10 +35,10 @@ class LinearStepper {
   std::unique_ptr<Instrument> instrument_;
   std::vector<std::byte> rest_;  // the state at time 0
   std::vector<std::byte> state_;
+  int slots_;
   std::size_t offsets_[3] = {0, 0, 0};
-  int slots_ = 0;
-  int ticks_ = 1;
-  double period_s_ = 0.0;
+  int ticks_;
+  double period_s_;
   std::vector<double> positions_;
   std::vector<double> forces_;
   std::vector<double> inputs_;

@@ -7,6 +7,7 @@
 
 #include "coefficients.hpp"
 #include "ergotic/scene/grid.hpp"
+#include "groups.hpp"
 #include "layout.hpp"
 #include "state.hpp"
 
@@ -49,19 +50,19 @@ class Points {
     }
   }
 
-  /// Positions of the points whose sections are due, from those of the modules.
-  void gather(const CoefficientsOf<Real>& c,
-              const unsigned char* due,
+  /// Positions of the points of a group whose sections are due, from those of the modules.
+  void gather(const Group& group,
+              const CoefficientsOf<Real>& c,
+              std::int64_t now,
               State<Real>& state) const noexcept {
     Real* x = state.x();
     Real* d = state.d();
-    Real* place_d = state.placeD();
-    for (std::size_t p = 0; p < layout_.places.size(); ++p) {
+    for (const std::size_t p : group.places) {
       const PlacePoint& point = layout_.places[p];
-      if (due[point.section] != 0) {
+      if (layout_.isDue(point.section, now)) {
         keepLast(point.slot, point.dimensions, state);
         gatherPlace(p, x, d, state.places());
-        std::copy_n(d + point.slot, point.dimensions, place_d);
+        std::copy_n(d + point.slot, point.dimensions, state.placeD() + point.coordinate);
         if (moveOn(p, c.places[p], x, state.places())) {
           gatherPlace(p, x, d, state.places());
         }
@@ -69,17 +70,18 @@ class Points {
           state.moved()[k] += x[k];
         }
       }
-      place_d += point.dimensions;
     }
-    for (const ProjectedPoint& point : layout_.projections) {
-      if (due[point.of.section] != 0) {
+    for (const std::size_t p : group.projections) {
+      const ProjectedPoint& point = layout_.projections[p];
+      if (layout_.isDue(point.of.section, now)) {
         keepLast(point.slot, point.dimensions, state);
         gatherProjection(point, x, d);
         copyMoved(point.slot, point.dimensions, state);
       }
     }
-    for (const DecimatedPoint& point : layout_.decimations) {
-      if (due[point.section] != 0) {
+    for (const std::size_t p : group.decimations) {
+      const DecimatedPoint& point = layout_.decimations[p];
+      if (layout_.isDue(point.section, now)) {
         keepLast(point.slot, point.dimensions, state);
         for (int k = 0; k < point.dimensions; ++k) {
           const Real position = x[point.of.slot + k * point.of.stride];
@@ -91,28 +93,32 @@ class Points {
     }
   }
 
-  void clearForces(Real* f) const noexcept {
-    const auto clear = [f](int slot, int count) { std::fill_n(f + slot, count, Real(0)); };
-    for (const PlacePoint& point : layout_.places) {
-      clear(point.slot, point.dimensions);
+  void clearForces(const Group& group, Real* f) const noexcept {
+    const auto clear = [f](const auto& point) {
+      std::fill_n(f + point.slot, point.dimensions, Real(0));
+    };
+    for (const std::size_t p : group.places) {
+      clear(layout_.places[p]);
     }
-    for (const ProjectedPoint& point : layout_.projections) {
-      clear(point.slot, point.dimensions);
+    for (const std::size_t p : group.projections) {
+      clear(layout_.projections[p]);
     }
-    for (const DecimatedPoint& point : layout_.decimations) {
-      clear(point.slot, point.dimensions);
+    for (const std::size_t p : group.decimations) {
+      clear(layout_.decimations[p]);
     }
   }
 
   /// Forces go on to the modules, in the reverse order of gather().
-  void scatter(Real* f, const double* places) const noexcept {
-    for (const DecimatedPoint& point : layout_.decimations) {
+  void scatter(const Group& group, Real* f, const double* places) const noexcept {
+    for (const std::size_t p : group.decimations) {
+      const DecimatedPoint& point = layout_.decimations[p];
       for (int k = 0; k < point.dimensions; ++k) {
         f[point.of.slot + k * point.of.stride] +=
             static_cast<Real>(point.impulse) * f[point.slot + k];
       }
     }
-    for (const ProjectedPoint& point : layout_.projections) {
+    for (const std::size_t p : group.projections) {
+      const ProjectedPoint& point = layout_.projections[p];
       for (int k = 0; k < point.dimensions; ++k) {
         for (int c = 0; c < point.source_dimensions; ++c) {
           f[point.of.slot + c * point.of.stride] +=
@@ -120,7 +126,7 @@ class Points {
         }
       }
     }
-    for (std::size_t p = 0; p < layout_.places.size(); ++p) {
+    for (const std::size_t p : group.places) {
       const PlacePoint& point = layout_.places[p];
       const scene::GridPlace around = scene::placeOn(grids_[p], places[2 * p], places[2 * p + 1]);
       for (int i = 0; i < around.count; ++i) {

@@ -7,6 +7,7 @@
 #include "coefficients.hpp"
 #include "energy_meter.hpp"
 #include "ergotic/exception.hpp"
+#include "groups.hpp"
 #include "layout.hpp"
 #include "state.hpp"
 
@@ -20,31 +21,41 @@ class Sleeper {
  public:
   /// \throws Exception if a section that may sleep does not rest at 0, or is not linear
   Sleeper(const scene::Scene& scene, const Layout& layout, const CoefficientsOf<Real>& c)
-      : layout_(layout) {
+      : layout_(layout), limits_(scene.sections.size()) {
     for (int s = 0; s < static_cast<int>(scene.sections.size()); ++s) {
-      const double energy = scene.sections[static_cast<std::size_t>(s)].sleep_energy;
-      if (energy > 0.0) {
+      Limit& limit = limits_[static_cast<std::size_t>(s)];
+      limit.energy = scene.sections[static_cast<std::size_t>(s)].sleep_energy;
+      if (limit.energy > 0.0) {
         checkRest(scene, s, c);
-        limits_.push_back({s, energy});
+        for (std::size_t r = 0; r < layout.runs.size(); ++r) {
+          if ((layout.runs[r].section_a == s) != (layout.runs[r].section_b == s)) {
+            limit.joins.push_back(r);
+          }
+        }
       }
     }
   }
 
-  /// After all forces of a frame are known. Realtime: yes
-  void endFrame(std::int64_t now,
-                const CoefficientsOf<Real>& c,
-                const EnergyMeter<Real>& meter,
-                State<Real>& state) const noexcept {
-    for (const Limit& limit : limits_) {
-      unsigned char& asleep = state.asleep()[limit.section];
-      const int divisor = layout_.sections[static_cast<std::size_t>(limit.section)].divisor;
+  /// After all forces of the frames from `first` on are known. Realtime: yes
+  void endFrames(const Group& group,
+                 std::int64_t first,
+                 const CoefficientsOf<Real>& c,
+                 const EnergyMeter<Real>& meter,
+                 State<Real>& state) const noexcept {
+    for (const int section : group.sections) {
+      const Limit& limit = limits_[static_cast<std::size_t>(section)];
+      if (limit.energy == 0.0) {
+        continue;
+      }
+      unsigned char& asleep = state.asleep()[section];
+      const int divisor = layout_.sections[static_cast<std::size_t>(section)].divisor;
       if (asleep != 0) {
-        asleep = isTouched(limit.section, state) ? 0 : 1;
-      } else if (now % (kStepsBetween * divisor) == 0 && !isTouched(limit.section, state)) {
-        const double energy = meter.storedIn(limit.section, c, state);
+        asleep = isTouched(section, state) ? 0 : 1;
+      } else if (first % (kStepsBetween * divisor) == 0 && !isTouched(section, state)) {
+        const double energy = meter.storedIn(section, c, state);
         if (energy < limit.energy) {
-          meter.addDissipated(limit.section, energy, state);
-          rest(limit.section, state);
+          meter.addDissipated(section, energy, state);
+          rest(section, state);
           asleep = 1;
         }
       }
@@ -54,8 +65,8 @@ class Sleeper {
  private:
   static constexpr std::int64_t kStepsBetween = 64;  // the energy costs as much as a step
   struct Limit {
-    int section;
-    double energy;
+    double energy = 0.0;             // 0: it never sleeps
+    std::vector<std::size_t> joins;  // runs that end in it and elsewhere
   };
 
   void checkRest(const scene::Scene& scene, int section, const CoefficientsOf<Real>& c) const {
@@ -86,18 +97,18 @@ class Sleeper {
     }
   }
 
-  /// Whether anything from outside pulls on a section.
+  /// Whether anything from outside pulls on a section, or has pulled on a slow one in this step.
   bool isTouched(int section, State<Real>& state) const noexcept {
-    for (std::size_t r = 0; r < layout_.runs.size(); ++r) {
-      const LinkRun& run = layout_.runs[r];
-      const bool joins = (run.section_a == section) != (run.section_b == section);
-      if (joins) {
-        const kernels::Memory<Real> memory = state.memory(r);
-        for (std::size_t i = 0; i < state.remembered(r); ++i) {
-          if (memory.elastic[i] != Real(0) || memory.viscous[i] != Real(0)) {
-            return true;
-          }
-        }
+    const auto is_touching = [](const Real* forces, std::size_t count) {
+      return forces != nullptr &&
+             std::any_of(forces, forces + count, [](Real force) { return force != Real(0); });
+    };
+    for (const std::size_t r : limits_[static_cast<std::size_t>(section)].joins) {
+      const kernels::Memory<Real> memory = state.memory(r);
+      const std::size_t count = state.remembered(r);
+      if (is_touching(memory.elastic, count) || is_touching(memory.viscous, count) ||
+          is_touching(memory.mean, count) || is_touching(memory.last_mean, count)) {
+        return true;
       }
     }
     return std::any_of(layout_.feeds.begin(), layout_.feeds.end(), [&](const Feed& feed) {
@@ -117,7 +128,7 @@ class Sleeper {
   }
 
   const Layout& layout_;
-  std::vector<Limit> limits_;
+  std::vector<Limit> limits_;  // [sections]
 };
 
 }  // namespace ergotic::physics

@@ -30,11 +30,7 @@ class State {
     f_at_ = arena_.add<Real>("f", slots);
     moved_at_ = layout.places.empty() ? d_at_ : arena_.add<Real>("moved", slots);
     places_at_ = arena_.add<double>("places", 2 * layout.places.size());
-    std::size_t coordinates = 0;
-    for (const PlacePoint& point : layout.places) {
-      coordinates += static_cast<std::size_t>(point.dimensions);
-    }
-    place_d_at_ = arena_.add<Real>("place_d", coordinates);
+    place_d_at_ = arena_.add<Real>("place_d", coordinatesOf(layout.places));
     held_at_ = arena_.add<Real>("held_force_outputs", layout.taps.size());
     asleep_at_ = arena_.add<unsigned char>("asleep", layout.sections.size());
     work_at_ = arena_.add<kernels::Work>("link_work", layout.runs.size());

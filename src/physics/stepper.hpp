@@ -34,27 +34,22 @@ class Stepper {
     return lost;
   }
 
-  /// One step of a run of explicit links. `due`: [sections] in this frame; `slow_ends`: see
-  /// kernels::Frame.
+  /// The step of a run of explicit links that begins with frame `now`.
   void stepLinks(std::size_t r,
                  const RunCoefficients<Real>& c,
-                 const unsigned char* due,
-                 bool slow_ends,
+                 std::int64_t now,
                  State<Real>& state) const noexcept {
     const LinkRun& run = layout_.runs[r];
-    const kernels::Frame<Real> at = frameOf(r, due, slow_ends, state);
+    const kernels::Frame<Real> at = frameOf(r, now, state);
     visitLaw(run, c, state.engaged(r),
              [&](const auto& law) { kernels::step(run, law, c.rests.data(), at); });
   }
 
-  /// How the ends of a run count in this frame.
-  kernels::Frame<Real> frameOf(std::size_t r,
-                               const unsigned char* due,
-                               bool slow_ends,
-                               State<Real>& state) const noexcept {
+  /// How the ends of a run count in a step that begins with frame `now`.
+  kernels::Frame<Real> frameOf(std::size_t r, std::int64_t now, State<Real>& state) const noexcept {
     const LinkRun& run = layout_.runs[r];
     const bool across = run.slow_section >= 0;
-    const Real fresh = !across || due[run.slow_section] != 0 ? Real(1) : Real(0);
+    const Real fresh = !across || layout_.isDue(run.slow_section, now) ? Real(1) : Real(0);
     const Real share = static_cast<Real>(run.share);
     kernels::Frame<Real> at{};
     at.x = state.x();
@@ -66,7 +61,7 @@ class Stepper {
     at.gate_b = run.slow_is_a ? Real(1) : fresh;
     at.share_a = across && run.slow_is_a ? share : Real(1);
     at.share_b = across && !run.slow_is_a ? share : Real(1);
-    at.slow_ends = across && slow_ends;
+    at.slow_ends = layout_.endsSlowStep(run, now);
     at.memory = state.memory(r);
     at.work = state.work() + r;
     return at;

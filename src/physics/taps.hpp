@@ -2,6 +2,7 @@
 #pragma once
 
 #include "coefficients.hpp"
+#include "groups.hpp"
 #include "layout.hpp"
 #include "state.hpp"
 
@@ -13,35 +14,39 @@ class Taps {
  public:
   explicit Taps(const Layout& layout) : layout_(layout) {}
 
-  void takePositions(const CoefficientsOf<Real>& c,
-                     State<Real>& state,
+  /// \param out  [group.channels], here and below
+  void takePositions(const Group& group,
+                     const CoefficientsOf<Real>& c,
+                     const State<Real>& state,
                      double* out) const noexcept {
-    for (std::size_t k = 0; k < layout_.taps.size(); ++k) {
-      const Tap& tap = layout_.taps[k];
-      const double gain = static_cast<double>(c.tap_gains[k]);
+    for (std::size_t i = 0; i < group.taps.size(); ++i) {
+      const Tap& tap = layout_.taps[group.taps[i]];
+      const double gain = static_cast<double>(c.tap_gains[group.taps[i]]);
       if (tap.quantity == scene::Quantity::kPosition) {
-        out[tap.channel] += gain * (read(state.x(), tap) + tap.rest);
+        out[group.tap_columns[i]] += gain * (read(state.x(), tap) + tap.rest);
       } else if (tap.quantity == scene::Quantity::kVelocity) {
-        out[tap.channel] += gain * tap.velocity * read(state.d(), tap);
+        out[group.tap_columns[i]] += gain * tap.velocity * read(state.d(), tap);
       }
     }
   }
 
   /// The force on a slow module is whole only at the end of its step: it is held until the next.
-  void takeForces(const CoefficientsOf<Real>& c,
+  void takeForces(const Group& group,
+                  const CoefficientsOf<Real>& c,
                   std::int64_t now,
                   State<Real>& state,
                   double* out) const noexcept {
-    Real* held = state.held();
-    for (std::size_t k = 0; k < layout_.taps.size(); ++k) {
+    for (std::size_t i = 0; i < group.taps.size(); ++i) {
+      const std::size_t k = group.taps[i];
       const Tap& tap = layout_.taps[k];
       if (tap.quantity != scene::Quantity::kForce) {
         continue;
       }
+      Real& held = state.held()[k];
       if ((now + 1) % tap.divisor == 0) {
-        held[k] = static_cast<Real>(read(state.f(), tap));
+        held = static_cast<Real>(read(state.f(), tap));
       }
-      out[tap.channel] += static_cast<double>(c.tap_gains[k]) * static_cast<double>(held[k]);
+      out[group.tap_columns[i]] += static_cast<double>(c.tap_gains[k]) * static_cast<double>(held);
     }
   }
 

@@ -26,6 +26,8 @@ constexpr const char* kLimitsHelp =
     "/etc/security/limits.d/audio.conf (Debian's jackd2 offers to), add yourself to the group "
     "`audio`, and log in again";
 
+thread_local int own_priority = 0;
+
 bool hasCapability(int capability) {
   std::ifstream status("/proc/self/status");
   std::string line;
@@ -75,6 +77,7 @@ Outcome makeRealtime(int priority) {
   parameters.sched_priority = priority;
   const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
   if (error == 0) {
+    own_priority = priority;
     return {};
   }
   std::ostringstream message;
@@ -85,6 +88,10 @@ Outcome makeRealtime(int priority) {
             << ". Ticks can be late under load; " << kLimitsHelp;
   }
   return {false, message.str()};
+}
+
+int realtimePriority() noexcept {
+  return own_priority;
 }
 
 __attribute__((noinline)) void prefaultStack() noexcept {

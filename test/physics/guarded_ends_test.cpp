@@ -169,7 +169,8 @@ TEST(GuardedEndsTest, WorkOfAHandIsCountedWithItsRealMotion) {
 TEST(GuardedEndsTest, HeldEndMovesAtOnceAndWorksThen) {
   constexpr int kRatio = 4;
   const std::vector<GuardedTerm> terms = {{0, 0, 0, {1, 0, 0}, 0}, {1, 1, 0, {-1, 0, 0}, -1}};
-  GuardedLinks<double> links({{0, terms, 0, {0, 0, 0}}}, 2);
+  std::vector<GuardedModule<double>> modules(2);
+  GuardedLinks<double> links({{0, terms, 0, {0, 0, 0}}}, modules);
   std::vector<double> x = {0.2, 0.0};
   std::vector<double> d = {0.0, 0.0};
   std::vector<double> f = {0.0, 0.0};

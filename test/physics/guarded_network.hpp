@@ -56,7 +56,8 @@ class GuardedNetwork {
 
   void start() {
     states.assign(links.size(), GuardedState<Real>{});
-    guarded_ = std::make_unique<GuardedLinks<Real>>(links, x_.size());
+    modules_.resize(x_.size());
+    guarded_ = std::make_unique<GuardedLinks<Real>>(links, modules_);
     guarded_->start(view(), laws.data(), states.data());
   }
 
@@ -157,6 +158,7 @@ class GuardedNetwork {
   int dimensions_;
   std::vector<Real> inverse_mass_, drift_, keep_, pull_, x_, d_, f_;
   std::vector<Spring> springs_;
+  std::vector<GuardedModule<Real>> modules_;
   std::unique_ptr<GuardedLinks<Real>> guarded_;
 };
 

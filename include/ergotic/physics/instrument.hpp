@@ -44,6 +44,8 @@ struct StateEntry {
 ///   2. outputs are taken,
 ///   3. explicit links of the sections due give forces from the new positions, points hand theirs
 ///      on, then guarded links, which need to know all other forces.
+/// What does not need each other at the same instant goes through all R frames by itself
+/// (docs/physics.md, "Groups and threads").
 /// The forces on the slices after the last frame are F[n], a function of x[n]: they wait for the
 /// next exchange with the device. Links across two rates run at the faster one, the slower end is
 /// held and receives the mean force (docs/physics.md, "Two rates").
@@ -51,8 +53,17 @@ class Instrument {
  public:
   virtual ~Instrument() = default;
 
-  /// Realtime: yes. Cost: O(modules * R).
+  /// Realtime: yes. Cost: O(modules * R), shared by CompileOptions::threads.
   virtual void tick(const TickIo& io) noexcept = 0;
+
+  /// Ticks that gave no force and no sound because another thread did not finish its share within
+  /// CompileOptions::wait_limit_ns. Realtime: yes.
+  virtual std::int64_t stalledTicks() const noexcept { return 0; }
+  /// True after a tick that stalled, until a later one finds the share finished and goes on from
+  /// there. In between nothing is read: `isFinite` is true, the other `read` functions leave `to`
+  /// alone, the state must not be saved or loaded, and `exchange` waits, then hands back what it
+  /// got. Realtime: yes.
+  virtual bool isUnderWay() const noexcept { return false; }
 
   /// Coefficients for these parameter values (one per Scene::parameters).
   /// Realtime: no.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "ergotic/rt/isa.hpp"
@@ -18,7 +19,10 @@ Precision precisionNamed(const std::string& name);
 struct CompileOptions {
   Precision precision = Precision::kFloat;
   rt::Isa isa = rt::bestIsa();  ///< of the kernels; every level gives the same bits
-  int threads = 1;      ///< 1...kMaxThreads that share a tick; any number gives the same bits
+  int threads = 1;  ///< 1...kMaxThreads that share a tick; any number gives the same bits
+  /// Longest wait in a tick for a thread that has begun its share; beyond it the tick stalls
+  /// (Instrument::stalledTicks). A few ms are right where a hand waits.
+  std::int64_t wait_limit_ns = 1'000'000'000;
   bool metered = true;  ///< keeps the books of energy (energy.hpp), else only what is stored
 
   CompileOptions() = default;

@@ -20,6 +20,9 @@ Outcome lockMemory();
 /// Realtime: no
 Outcome makeRealtime(int priority);
 
+/// What `makeRealtime` gave the calling thread; 0: nothing. Realtime: yes
+int realtimePriority() noexcept;
+
 /// Bytes of stack that `prefaultStack` makes resident.
 constexpr int kPrefaultBytes = 1 << 18;
 

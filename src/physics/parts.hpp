@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "coefficients.hpp"
+#include "energy_meter.hpp"
+#include "groups.hpp"
+#include "guarded_runs.hpp"
+#include "layout.hpp"
+#include "points.hpp"
+#include "sleeper.hpp"
+#include "state.hpp"
+#include "stepper.hpp"
+#include "taps.hpp"
+
+namespace ergotic::physics {
+
+/// What an instrument consists of.
+template <class Real>
+struct Parts {
+  Parts(const scene::Scene& scene, const Rates& rates)
+      : Parts(scene, rates, makeLayout(scene, rates)) {}
+  Parts(const Parts&) = delete;  // they refer to each other
+  Parts& operator=(const Parts&) = delete;
+
+  Layout layout;
+  Groups groups;
+  std::unique_ptr<CoefficientsOf<Real>> coefficients;
+  State<Real> state;
+  EnergyMeter<Real> meter;
+  Stepper<Real> stepper;
+  Points<Real> points;
+  GuardedRuns<Real> guarded;
+  Taps<Real> taps;
+  Sleeper<Real> sleeper;
+
+ private:
+  Parts(const scene::Scene& scene, const Rates& rates, Layout&& made)
+      : layout(std::move(made)),
+        groups(splitIntoGroups(scene, rates, layout)),
+        coefficients(std::make_unique<CoefficientsOf<Real>>(scene, rates, layout)),
+        state(layout),
+        meter(scene, layout, state),
+        stepper(layout),
+        points(scene, layout),
+        guarded(scene, layout, groups, points, state),
+        taps(layout),
+        sleeper(scene, layout, *coefficients) {
+    state.allocate();
+  }
+};
+
+}  // namespace ergotic::physics

@@ -113,6 +113,7 @@ Parameters readParameters(const ::ros::NodeHandle& node) {
   read.choice("precision", p.compile.precision, kPrecisions);
   read.choice("isa", p.compile.isa, isas());
   read.integer("threads", p.compile.threads, 1, physics::kMaxThreads);
+  p.compile.wait_limit_ns = physics::kLiveWaitNs;
   read.flag("energies", p.compile.metered);
   read.choice("jack", p.jack, kJack);
   read.text("jack_name", p.jack_name);

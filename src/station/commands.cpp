@@ -161,7 +161,7 @@ void Station::takeKeyframe() noexcept {
   const physics::Instrument& instrument = *performer_->instrument;
   Event taken = event(Event::Type::kKeyframe);
   // Within the capacities reserved at the start, resizing and assigning do not allocate.
-  if (instrument.stateSize() <= keyframe_.state.capacity() &&
+  if (!instrument.isUnderWay() && instrument.stateSize() <= keyframe_.state.capacity() &&
       performer_->parameters.size() <= keyframe_.parameters.capacity()) {
     keyframe_.tick = tick_;
     keyframe_.state.resize(instrument.stateSize());

@@ -21,7 +21,7 @@ struct CompileOptions {
   rt::Isa isa = rt::bestIsa();  ///< of the kernels; every level gives the same bits
   int threads = 1;  ///< 1...kMaxThreads that share a tick; any number gives the same bits
   /// Longest wait in a tick for a thread that has begun its share; beyond it the tick stalls
-  /// (Instrument::stalledTicks). A few ms are right where a hand waits.
+  /// (Instrument::stalledTicks). Where a hand waits: kLiveWaitNs.
   std::int64_t wait_limit_ns = 1'000'000'000;
   bool metered = true;  ///< keeps the books of energy (energy.hpp), else only what is stored
 
@@ -30,5 +30,6 @@ struct CompileOptions {
 };
 
 constexpr int kMaxThreads = 8;
+constexpr std::int64_t kLiveWaitNs = 5'000'000;
 
 }  // namespace ergotic::physics

@@ -151,6 +151,12 @@ double play(Player& player, std::int64_t frames, FrameWriter& writer) {
     writer.write(tick.data(), std::min<std::int64_t>(ratio, frames - writer.frames()));
     progress.show(writer.frames());
   }
+  if (const std::int64_t stalled = player.instrument().stalledTicks(); stalled > 0) {
+    throw Exception(std::to_string(stalled) +
+                    " ticks are silent: another thread did not finish its share within " +
+                    std::to_string(player.instrument().options().wait_limit_ns / 1'000'000) +
+                    " ms. Use fewer threads");
+  }
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 

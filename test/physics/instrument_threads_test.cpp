@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "ergotic/physics/instrument.hpp"
+#include "ergotic/physics/settle.hpp"
+#include "support/alloc_count.hpp"
+#include "support/random_scene.hpp"
+#include "support/scene_builder.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+using scene::LiaType;
+using test::SceneBuilder;
+
+constexpr double kRate = 44100.0;
+constexpr std::int64_t kPatienceNs = 60'000'000'000;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+std::unique_ptr<Instrument> compileFor(const scene::Scene& scene,
+                                       const Rates& rates,
+                                       Precision precision,
+                                       int threads,
+                                       std::int64_t wait_limit_ns = kPatienceNs) {
+  CompileOptions options(precision);
+  options.threads = threads;
+  options.wait_limit_ns = wait_limit_ns;
+  return compile(settle(scene, rates).scene, rates, options);
+}
+
+/// All that can be told of an instrument from outside.
+struct Heard {
+  std::vector<double> forces;
+  std::vector<double> outputs;
+  std::vector<std::byte> state;
+  bool operator==(const Heard& o) const {
+    return forces == o.forces && outputs == o.outputs && state == o.state;
+  }
+};
+
+/// Plays with hands and inputs that never stand still.
+class Playing {
+ public:
+  explicit Playing(std::unique_ptr<Instrument> made)
+      : instrument(std::move(made)),
+        positions_(at(instrument->ports())),
+        inputs_(at(instrument->rates().ratio * instrument->inputChannels())) {
+    heard.forces.resize(positions_.size());
+    heard.outputs.resize(at(instrument->rates().ratio * instrument->outputChannels()));
+    heard.state.resize(instrument->stateSize());
+  }
+
+  void tick() {
+    for (std::size_t p = 0; p < positions_.size(); ++p) {
+      positions_[p] = 1e-3 * std::sin(0.01 * static_cast<double>((p + 1) * now_));
+    }
+    for (std::size_t i = 0; i < inputs_.size(); ++i) {
+      inputs_[i] = std::sin(0.3 * static_cast<double>(now_ * inputs_.size() + i));
+    }
+    ++now_;
+    instrument->tick(
+        {positions_.data(), heard.forces.data(), inputs_.data(), heard.outputs.data()});
+  }
+
+  const Heard& hear() {
+    instrument->saveState(heard.state.data());
+    return heard;
+  }
+
+  std::unique_ptr<Instrument> instrument;
+  Heard heard;
+
+ private:
+  std::vector<double> positions_;
+  std::vector<double> inputs_;
+  std::size_t now_ = 0;
+};
+
+/// Plays with 1, 2 and 3 threads, and compares all bits after every tick.
+void expectSameBits(const scene::Scene& scene, const Rates& rates, Precision precision, int ticks) {
+  Playing one(compileFor(scene, rates, precision, 1));
+  Playing two(compileFor(scene, rates, precision, 2));
+  Playing three(compileFor(scene, rates, precision, 3));
+  for (int n = 0; n < ticks; ++n) {
+    for (Playing* playing : {&one, &two, &three}) {
+      playing->tick();
+    }
+    one.hear();
+    ASSERT_TRUE(two.hear() == one.heard) << "2 threads, tick " << n;
+    ASSERT_TRUE(three.hear() == one.heard) << "3 threads, tick " << n;
+  }
+  EXPECT_EQ(two.instrument->stalledTicks() + three.instrument->stalledTicks(), 0);
+}
+
+/// An orchestra: strings in sections of their own, with what two hands, slow masses, inputs and
+/// each other do to them.
+class Orchestra {
+ public:
+  explicit Orchestra(int strings) {
+    const int hands[2] = {b_.slice(0), b_.slice(1)};
+    const int bridge = addBridge();
+    for (int s = 0; s < strings; ++s) {
+      const int first = addString(12 + 3 * (s % 4));
+      hit(hands[s % 2], first + 5);
+      b_.spring(bridge, first + 2, 40.0, 0.01);
+      const int finger = addPoint(s, hands[(s + 1) % 2]);
+      b_.link(LiaType::kSpringDamper, finger, hands[0], 300.0, 0.01);
+      b_.hear(first + 4, s % 3);
+      b_.hear(first + 3, (s + 1) % 3, scene::Quantity::kVelocity);
+      b_.hear(first + 1, s % 2, scene::Quantity::kForce);
+      push(first + 6, 0);
+      strings_.push_back(first);
+    }
+    b_.hear(bridge, 0, scene::Quantity::kForce);
+    b_.hear(bridge, 1);
+    push(bridge, 1);
+    addSleeper(hands[0]);
+    bow(strings_[0], strings_[1]);
+    addFollower();
+  }
+
+  scene::Scene scene() const { return b_.scene; }
+
+ private:
+  int addSection(const std::string& name) {
+    scene::Section section = b_.scene.sections[0];
+    section.name = name;
+    b_.scene.sections.push_back(section);
+    return static_cast<int>(b_.scene.sections.size()) - 1;
+  }
+
+  void moveTo(int section, int first) {
+    for (std::size_t m = at(first); m < b_.scene.mats.size(); ++m) {
+      b_.scene.mats[m].section = section;
+    }
+  }
+
+  int addBridge() {
+    const int mass = b_.mass(0.05, 0.0, 0.1, SceneBuilder::kGestural);
+    b_.spring(mass, b_.ground(0.0, SceneBuilder::kGestural), 1000.0, 0.1);
+    return mass;
+  }
+
+  int addString(int masses) {
+    const int section = addSection("string" + std::to_string(b_.scene.sections.size()));
+    const int first = b_.chain(masses, 1e-3, 2e4, 1e-3);
+    moveTo(section, first);
+    b_.scene.mats[at(first + 3)].velocity.x() = 1.0;
+    b_.scene.grids.push_back({"g" + std::to_string(section), first, masses + 2, 1});
+    return first;
+  }
+
+  /// A finger on the last string, led along it by a hand.
+  int addPoint(int grid, int guide) {
+    const int m = b_.ground();
+    scene::Mat& mat = b_.scene.mats[at(m)];
+    mat.type = scene::MatType::kPoint;
+    mat.section = b_.scene.mats[at(b_.scene.grids[at(grid)].first)].section;
+    scene::Connection connection;
+    connection.mat = m;
+    connection.grid = grid;
+    connection.along = {0.5};
+    connection.guide = guide;
+    connection.guide_scale = 100.0;
+    b_.scene.connections.push_back(connection);
+    return m;
+  }
+
+  void hit(int hand, int mass) {
+    const int contact = b_.link(LiaType::kContact, mass, hand, 5e3, 0.01);
+    b_.scene.lias[at(contact)].width = {1e-3};
+    b_.scene.lias[at(contact)].scheme = scene::Scheme::kGuarded;
+  }
+
+  void push(int mat, int channel) {
+    scene::Input input;
+    input.name = "in" + std::to_string(b_.scene.inputs.size());
+    input.mat = mat;
+    input.channel = channel;
+    input.gain = {0.1};
+    b_.scene.inputs.push_back(input);
+  }
+
+  void addSleeper(int hand) {
+    const int section = addSection("sleeper");
+    const int first = b_.cell(1e-3, 100.0, 0.05);
+    moveTo(section, first);
+    b_.scene.mats[at(first)].velocity.x() = 0.01;
+    b_.scene.sections[at(section)].sleep_energy = 1e-9;
+    const int contact = b_.link(LiaType::kContact, first, hand, 100.0);
+    b_.scene.lias[at(contact)].width = {-5e-4};
+    b_.hear(first, 2);
+  }
+
+  /// Makes one group of two strings.
+  void bow(int one, int other) {
+    const int friction = b_.link(LiaType::kSmoothBow, one + 7, other + 7, 0.0, 0.2);
+    b_.scene.lias[at(friction)].width = {0.1};
+    b_.scene.lias[at(friction)].scheme = scene::Scheme::kGuarded;
+  }
+
+  /// The first spring of the last string follows a channel.
+  void addFollower() {
+    b_.scene.audio_parameters.push_back({"k", 1, 0.0, {}});
+    for (scene::Lia& lia : b_.scene.lias) {
+      if (lia.a == strings_.back() && lia.b == strings_.back() + 1) {
+        lia.stiffness = {1e4, -1, 0};
+      }
+    }
+  }
+
+  SceneBuilder b_;
+  std::vector<int> strings_;
+};
+
+TEST(InstrumentThreadsTest, EveryNumberOfThreadsGivesTheSameBits) {
+  for (const int ratio : {1, 4, 14}) {
+    for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
+      SCOPED_TRACE(ratio);
+      expectSameBits(Orchestra(6).scene(), {kRate, ratio}, precision, 3000);
+    }
+  }
+}
+
+/// Several scenes beside each other.
+class Merged {
+ public:
+  void add(scene::Scene from) {
+    const int mats = static_cast<int>(scene.mats.size());
+    const int sections = static_cast<int>(scene.sections.size());
+    const int grids = static_cast<int>(scene.grids.size());
+    const std::string suffix = "_" + std::to_string(sections);
+    for (scene::Section& section : from.sections) {
+      section.name += suffix;
+      scene.sections.push_back(section);
+    }
+    for (scene::Mat& mat : from.mats) {
+      mat.section += sections;
+      mat.name += suffix;
+      scene.mats.push_back(mat);
+    }
+    for (scene::Lia& lia : from.lias) {
+      lia.a += mats;
+      lia.b += mats;
+      lia.name += suffix;
+      scene.lias.push_back(lia);
+    }
+    for (scene::Grid& grid : from.grids) {
+      grid.first += mats;
+      grid.name += suffix;
+      scene.grids.push_back(grid);
+    }
+    for (scene::Connection& connection : from.connections) {
+      connection.mat += mats;
+      connection.grid += grids;
+      connection.guide += connection.guide < 0 ? 0 : mats;
+      scene.connections.push_back(connection);
+    }
+    scene::Output output;
+    output.name = "out" + suffix;
+    output.point.mat = mats + 1;
+    output.channel = sections % 3;
+    scene.outputs.push_back(output);
+  }
+
+  scene::Scene scene;
+};
+
+TEST(InstrumentThreadsTest, RandomScenesSideBySidePlayTheSameBits) {
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    SCOPED_TRACE(seed);
+    Merged merged;
+    merged.scene.name = "merged";
+    merged.scene.file = "merged.yaml";
+    for (unsigned part = 0; part < 4; ++part) {
+      merged.add(test::randomScene(100 * part + seed).scene);
+    }
+    const int ratios[3] = {1, 4, 14};
+    expectSameBits(merged.scene, {kRate, ratios[seed % 3]},
+                   seed % 2 == 0 ? Precision::kFloat : Precision::kDouble, 300);
+  }
+}
+
+TEST(InstrumentThreadsTest, NothingIsLostOrGainedInAnyNumberOfThreads) {
+  SceneBuilder b;
+  const int slow = b.mass(0.05, 0.0, 0.1, SceneBuilder::kGestural);
+  for (int s = 0; s < 5; ++s) {
+    scene::Section section = b.scene.sections[0];
+    section.name = "s" + std::to_string(s);
+    b.scene.sections.push_back(section);
+    const int mass = b.mass(1e-3, 0.0, 1.0, s + 2);
+    b.spring(mass, b.mass(1e-3, 0.0, 0.0, s + 2), 1e4);
+    b.spring(slow, mass, 100.0);
+  }
+  Playing playing(compileFor(b.scene, {kRate, 14}, Precision::kDouble, 2));
+  for (int n = 0; n < 20000; ++n) {
+    playing.tick();
+  }
+  Energies energies = playing.instrument->makeEnergies();
+  playing.instrument->readEnergies(energies);
+  EXPECT_NEAR(energies.residual / energies.stored, 0.0, 1e-11);
+}
+
+TEST(InstrumentThreadsTest, ATickDoesNotAllocate) {
+  if (!test::AllocationScope::isAvailable()) {
+    GTEST_SKIP() << "the heap cannot be counted here";
+  }
+  Playing playing(compileFor(Orchestra(4).scene(), {kRate, 14}, Precision::kFloat, 2));
+  const test::AllocationScope scope;
+  for (int n = 0; n < 500; ++n) {
+    playing.tick();
+  }
+  EXPECT_EQ(scope.calls(), 0);
+}
+
+/// Free sections that nothing outside moves, with a slow mass that all of them hang on.
+scene::Scene heavyPair() {
+  SceneBuilder b;
+  const int slow = b.mass(0.5, 0.0, 0.1, SceneBuilder::kGestural);
+  for (int s = 0; s < 2; ++s) {
+    scene::Section section = b.scene.sections[0];
+    section.name = "s" + std::to_string(s);
+    b.scene.sections.push_back(section);
+    const int first = b.chain(400, 1e-3, 2e4, 1e-3);
+    for (std::size_t m = at(first); m < b.scene.mats.size(); ++m) {
+      b.scene.mats[m].section = s + 2;
+    }
+    b.scene.mats[at(first + 3)].velocity.x() = 1.0;
+    b.spring(slow, first + 9, 100.0);
+    b.hear(first + 5);
+  }
+  return b.scene;
+}
+
+/// Audio frames since the start.
+std::int64_t framesOf(Playing& playing) {
+  playing.hear();
+  for (const StateEntry& entry : playing.instrument->stateEntries()) {
+    if (entry.name == "frame") {
+      std::int64_t frames = 0;
+      std::memcpy(&frames, playing.heard.state.data() + entry.offset, sizeof frames);
+      return frames;
+    }
+  }
+  return -1;
+}
+
+TEST(InstrumentThreadsTest, AStalledTickIsSilentCountedAndGoesOnWhole) {
+  const Rates rates{kRate, 14};
+  Playing hasty(compileFor(heavyPair(), rates, Precision::kDouble, 2, 0));
+  if (hasty.instrument->describe().back().find("threads: 2") == std::string::npos) {
+    GTEST_SKIP() << "one processor";
+  }
+  Playing reference(compileFor(heavyPair(), rates, Precision::kDouble, 1));
+  std::int64_t ticks = 0;
+  while (ticks < 100000 && hasty.instrument->stalledTicks() < 20) {
+    const std::int64_t stalled = hasty.instrument->stalledTicks();
+    hasty.tick();
+    ++ticks;
+    ASSERT_EQ(hasty.instrument->stalledTicks() > stalled, hasty.instrument->isUnderWay());
+    if (hasty.instrument->isUnderWay()) {
+      EXPECT_EQ(hasty.heard.outputs, std::vector<double>(hasty.heard.outputs.size(), 0.0));
+      EXPECT_TRUE(hasty.instrument->isFinite());
+    }
+  }
+  EXPECT_GT(hasty.instrument->stalledTicks(), 0) << "nobody was ever waited for";
+  do {
+    hasty.tick();
+    ++ticks;
+  } while (hasty.instrument->isUnderWay());
+  const std::int64_t played = framesOf(hasty) / rates.ratio;
+  EXPECT_LE(played, ticks);
+  EXPECT_GE(played, ticks - hasty.instrument->stalledTicks());
+  for (std::int64_t n = 0; n < played; ++n) {
+    reference.tick();
+  }
+  EXPECT_EQ(hasty.hear().state, reference.hear().state);
+}
+
+}  // namespace
+}  // namespace ergotic::physics

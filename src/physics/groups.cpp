@@ -142,6 +142,9 @@ class Dealer {
     std::map<int, Group> by_leader;
     for (int s = 0; s < static_cast<int>(layout_.sections.size()); ++s) {
       const SectionRange& range = layout_.sections[at(s)];
+      if (range.stride == 0) {
+        continue;  // no modules
+      }
       Group& group = split.isHeld(s) ? groups_.held : by_leader[split.leaderOf(s)];
       group.sections.push_back(s);
       group.modules += range.stride;

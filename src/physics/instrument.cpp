@@ -46,7 +46,7 @@ class InstrumentOf final : public Instrument {
         stepper_(scene, rates, parts_),
         inputs_(at(rates.ratio * inputChannels())),
         heard_of_held_(heardOf(parts_.groups.held)),
-        workers_(options.threads,
+        workers_(Workers::useful(options.threads, parts_.groups.running.size()),
                  parts_.groups.running.size(),
                  options.wait_limit_ns,
                  [this](std::size_t g) { stepGroup(g); }) {

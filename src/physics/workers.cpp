@@ -47,12 +47,6 @@ bool spinUntil(std::int64_t deadline_ns, const Done& done) noexcept {
   }
 }
 
-int processors() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
-}
-
 }  // namespace
 
 /// When the next block is to be expected, by when the last ones came.
@@ -101,10 +95,16 @@ Workers::Workers(int threads,
       items_(std::make_unique<Item[]>(items)),
       limit_ns_(limit_ns),
       step_(std::move(step)) {
-  const int useful = std::min({threads, static_cast<int>(items), processors()});
-  for (int t = 1; t < useful; ++t) {
+  for (int t = 1; t < threads; ++t) {
     threads_.emplace_back([this] { work(); });
   }
+}
+
+int Workers::useful(int threads, std::size_t items) {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  const int processors = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+  return std::max(1, std::min({threads, static_cast<int>(items), processors}));
 }
 
 Workers::~Workers() {

@@ -22,8 +22,7 @@ namespace ergotic::physics {
 /// the next one. They flush denormals, and take the real-time priority of the running thread.
 class Workers {
  public:
-  /// \param threads   that work on a block, the running one included; more than there are items or
-  ///                  processors would not help and are not made
+  /// \param threads   that work on a block, the running one included; 1: no other is made
   /// \param limit_ns  longest wait for items that others have begun
   /// \param step      does an item, in any of the threads; must not throw
   /// Realtime: no
@@ -35,6 +34,9 @@ class Workers {
   ~Workers();
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
+
+  /// As many of these threads as there are items and processors for.
+  static int useful(int threads, std::size_t items);
 
   int threads() const noexcept { return static_cast<int>(threads_.size()) + 1; }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -39,13 +40,18 @@ std::unique_ptr<Instrument> compileFor(const scene::Scene& scene,
   return compile(settle(scene, rates).scene, rates, options);
 }
 
+/// Bit for bit.
+bool isSame(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
 /// All that can be told of an instrument from outside.
 struct Heard {
   std::vector<double> forces;
   std::vector<double> outputs;
   std::vector<std::byte> state;
   bool operator==(const Heard& o) const {
-    return forces == o.forces && outputs == o.outputs && state == o.state;
+    return isSame(forces, o.forces) && isSame(outputs, o.outputs) && state == o.state;
   }
 };
 
@@ -127,7 +133,16 @@ class Orchestra {
     push(bridge, 1);
     addSleeper(hands[0]);
     bow(strings_[0], strings_[1]);
-    addFollower();
+  }
+
+  /// The first spring of the last string follows a channel.
+  void addFollower() {
+    b_.scene.audio_parameters.push_back({"k", 1, 0.0, {}});
+    for (scene::Lia& lia : b_.scene.lias) {
+      if (lia.a == strings_.back() && lia.b == strings_.back() + 1) {
+        lia.stiffness = {1e4, -1, 0};
+      }
+    }
   }
 
   scene::Scene scene() const { return b_.scene; }
@@ -210,16 +225,6 @@ class Orchestra {
     b_.scene.lias[at(friction)].scheme = scene::Scheme::kGuarded;
   }
 
-  /// The first spring of the last string follows a channel.
-  void addFollower() {
-    b_.scene.audio_parameters.push_back({"k", 1, 0.0, {}});
-    for (scene::Lia& lia : b_.scene.lias) {
-      if (lia.a == strings_.back() && lia.b == strings_.back() + 1) {
-        lia.stiffness = {1e4, -1, 0};
-      }
-    }
-  }
-
   SceneBuilder b_;
   std::vector<int> strings_;
 };
@@ -228,7 +233,9 @@ TEST(InstrumentThreadsTest, EveryNumberOfThreadsGivesTheSameBits) {
   for (const int ratio : {1, 4, 14}) {
     for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
       SCOPED_TRACE(ratio);
-      expectSameBits(Orchestra(6).scene(), {kRate, ratio}, precision, 3000);
+      Orchestra orchestra(6);
+      orchestra.addFollower();
+      expectSameBits(orchestra.scene(), {kRate, ratio}, precision, 3000);
     }
   }
 }
@@ -292,24 +299,25 @@ TEST(InstrumentThreadsTest, RandomScenesSideBySidePlayTheSameBits) {
   }
 }
 
-TEST(InstrumentThreadsTest, NothingIsLostOrGainedInAnyNumberOfThreads) {
-  SceneBuilder b;
-  const int slow = b.mass(0.05, 0.0, 0.1, SceneBuilder::kGestural);
-  for (int s = 0; s < 5; ++s) {
-    scene::Section section = b.scene.sections[0];
-    section.name = "s" + std::to_string(s);
-    b.scene.sections.push_back(section);
-    const int mass = b.mass(1e-3, 0.0, 1.0, s + 2);
-    b.spring(mass, b.mass(1e-3, 0.0, 0.0, s + 2), 1e4);
-    b.spring(slow, mass, 100.0);
+TEST(InstrumentThreadsTest, BooksOfEnergyCloseAcrossGroups) {
+  const scene::Scene scene = Orchestra(6).scene();
+  for (const int ratio : {1, 4, 14}) {
+    SCOPED_TRACE(ratio);
+    Playing playing(compileFor(scene, {kRate, ratio}, Precision::kDouble, 2));
+    Energies energies = playing.instrument->makeEnergies();
+    double moved = 0.0;
+    for (int n = 0; n < 3000; ++n) {
+      playing.tick();
+      playing.instrument->readEnergies(energies);
+      double through = energies.stored;
+      for (const SectionEnergy& section : energies.sections) {
+        through += section.dissipated;
+      }
+      moved = std::max(moved, through);
+      ASSERT_NEAR(energies.residual / moved, 0.0, 1e-12) << "tick " << n;
+    }
+    EXPECT_GT(moved, 1e-3);
   }
-  Playing playing(compileFor(b.scene, {kRate, 14}, Precision::kDouble, 2));
-  for (int n = 0; n < 20000; ++n) {
-    playing.tick();
-  }
-  Energies energies = playing.instrument->makeEnergies();
-  playing.instrument->readEnergies(energies);
-  EXPECT_NEAR(energies.residual / energies.stored, 0.0, 1e-11);
 }
 
 TEST(InstrumentThreadsTest, ATickDoesNotAllocate) {

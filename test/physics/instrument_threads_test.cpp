@@ -12,6 +12,7 @@
 
 #include "ergotic/physics/instrument.hpp"
 #include "ergotic/physics/settle.hpp"
+#include "orchestra.hpp"
 #include "support/alloc_count.hpp"
 #include "support/random_scene.hpp"
 #include "support/scene_builder.hpp"
@@ -19,8 +20,8 @@
 namespace ergotic::physics {
 namespace {
 
-using scene::LiaType;
-using test::SceneBuilder;
+using ergotic::test::SceneBuilder;
+using physics::test::Orchestra;
 
 constexpr double kRate = 44100.0;
 constexpr std::int64_t kPatienceNs = 60'000'000'000;
@@ -109,126 +110,6 @@ void expectSameBits(const scene::Scene& scene, const Rates& rates, Precision pre
   EXPECT_EQ(two.instrument->stalledTicks() + three.instrument->stalledTicks(), 0);
 }
 
-/// An orchestra: strings in sections of their own, with what two hands, slow masses, inputs and
-/// each other do to them.
-class Orchestra {
- public:
-  explicit Orchestra(int strings) {
-    const int hands[2] = {b_.slice(0), b_.slice(1)};
-    const int bridge = addBridge();
-    for (int s = 0; s < strings; ++s) {
-      const int first = addString(12 + 3 * (s % 4));
-      hit(hands[s % 2], first + 5);
-      b_.spring(bridge, first + 2, 40.0, 0.01);
-      const int finger = addPoint(s, hands[(s + 1) % 2]);
-      b_.link(LiaType::kSpringDamper, finger, hands[0], 300.0, 0.01);
-      b_.hear(first + 4, s % 3);
-      b_.hear(first + 3, (s + 1) % 3, scene::Quantity::kVelocity);
-      b_.hear(first + 1, s % 2, scene::Quantity::kForce);
-      push(first + 6, 0);
-      strings_.push_back(first);
-    }
-    b_.hear(bridge, 0, scene::Quantity::kForce);
-    b_.hear(bridge, 1);
-    push(bridge, 1);
-    addSleeper(hands[0]);
-    bow(strings_[0], strings_[1]);
-  }
-
-  /// The first spring of the last string follows a channel.
-  void addFollower() {
-    b_.scene.audio_parameters.push_back({"k", 1, 0.0, {}});
-    for (scene::Lia& lia : b_.scene.lias) {
-      if (lia.a == strings_.back() && lia.b == strings_.back() + 1) {
-        lia.stiffness = {1e4, -1, 0};
-      }
-    }
-  }
-
-  scene::Scene scene() const { return b_.scene; }
-
- private:
-  int addSection(const std::string& name) {
-    scene::Section section = b_.scene.sections[0];
-    section.name = name;
-    b_.scene.sections.push_back(section);
-    return static_cast<int>(b_.scene.sections.size()) - 1;
-  }
-
-  void moveTo(int section, int first) {
-    for (std::size_t m = at(first); m < b_.scene.mats.size(); ++m) {
-      b_.scene.mats[m].section = section;
-    }
-  }
-
-  int addBridge() {
-    const int mass = b_.mass(0.05, 0.0, 0.1, SceneBuilder::kGestural);
-    b_.spring(mass, b_.ground(0.0, SceneBuilder::kGestural), 1000.0, 0.1);
-    return mass;
-  }
-
-  int addString(int masses) {
-    const int section = addSection("string" + std::to_string(b_.scene.sections.size()));
-    const int first = b_.chain(masses, 1e-3, 2e4, 1e-3);
-    moveTo(section, first);
-    b_.scene.mats[at(first + 3)].velocity.x() = 1.0;
-    b_.scene.grids.push_back({"g" + std::to_string(section), first, masses + 2, 1});
-    return first;
-  }
-
-  /// A finger on the last string, led along it by a hand.
-  int addPoint(int grid, int guide) {
-    const int m = b_.ground();
-    scene::Mat& mat = b_.scene.mats[at(m)];
-    mat.type = scene::MatType::kPoint;
-    mat.section = b_.scene.mats[at(b_.scene.grids[at(grid)].first)].section;
-    scene::Connection connection;
-    connection.mat = m;
-    connection.grid = grid;
-    connection.along = {0.5};
-    connection.guide = guide;
-    connection.guide_scale = 100.0;
-    b_.scene.connections.push_back(connection);
-    return m;
-  }
-
-  void hit(int hand, int mass) {
-    const int contact = b_.link(LiaType::kContact, mass, hand, 5e3, 0.01);
-    b_.scene.lias[at(contact)].width = {1e-3};
-    b_.scene.lias[at(contact)].scheme = scene::Scheme::kGuarded;
-  }
-
-  void push(int mat, int channel) {
-    scene::Input input;
-    input.name = "in" + std::to_string(b_.scene.inputs.size());
-    input.mat = mat;
-    input.channel = channel;
-    input.gain = {0.1};
-    b_.scene.inputs.push_back(input);
-  }
-
-  void addSleeper(int hand) {
-    const int section = addSection("sleeper");
-    const int first = b_.cell(1e-3, 100.0, 0.05);
-    moveTo(section, first);
-    b_.scene.mats[at(first)].velocity.x() = 0.01;
-    b_.scene.sections[at(section)].sleep_energy = 1e-9;
-    const int contact = b_.link(LiaType::kContact, first, hand, 100.0);
-    b_.scene.lias[at(contact)].width = {-5e-4};
-    b_.hear(first, 2);
-  }
-
-  /// Makes one group of two strings.
-  void bow(int one, int other) {
-    const int friction = b_.link(LiaType::kSmoothBow, one + 7, other + 7, 0.0, 0.2);
-    b_.scene.lias[at(friction)].width = {0.1};
-    b_.scene.lias[at(friction)].scheme = scene::Scheme::kGuarded;
-  }
-
-  SceneBuilder b_;
-  std::vector<int> strings_;
-};
-
 TEST(InstrumentThreadsTest, EveryNumberOfThreadsGivesTheSameBits) {
   for (const int ratio : {1, 4, 14}) {
     for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
@@ -291,7 +172,7 @@ TEST(InstrumentThreadsTest, RandomScenesSideBySidePlayTheSameBits) {
     merged.scene.name = "merged";
     merged.scene.file = "merged.yaml";
     for (unsigned part = 0; part < 4; ++part) {
-      merged.add(test::randomScene(100 * part + seed).scene);
+      merged.add(ergotic::test::randomScene(100 * part + seed).scene);
     }
     const int ratios[3] = {1, 4, 14};
     expectSameBits(merged.scene, {kRate, ratios[seed % 3]},
@@ -321,11 +202,11 @@ TEST(InstrumentThreadsTest, BooksOfEnergyCloseAcrossGroups) {
 }
 
 TEST(InstrumentThreadsTest, ATickDoesNotAllocate) {
-  if (!test::AllocationScope::isAvailable()) {
+  if (!ergotic::test::AllocationScope::isAvailable()) {
     GTEST_SKIP() << "the heap cannot be counted here";
   }
   Playing playing(compileFor(Orchestra(4).scene(), {kRate, 14}, Precision::kFloat, 2));
-  const test::AllocationScope scope;
+  const ergotic::test::AllocationScope scope;
   for (int n = 0; n < 500; ++n) {
     playing.tick();
   }

@@ -37,11 +37,6 @@ double shareOf(int spring, int mode, int masses) {
   throw TextError(scene.file, place.line, place.column, "string '" + string.name + "' " + what);
 }
 
-/// Half of the modes are fitted: the others are what a coarse string lacks.
-int partialsOf(int masses) {
-  return std::max(kSprings, masses / 2);
-}
-
 void requireStability(const scene::Scene& scene,
                       const scene::StringInfo& string,
                       const CoarseFit& fit) {
@@ -87,6 +82,10 @@ void setSprings(scene::Scene& scene, scene::StringInfo& string, const CoarseFit&
 
 }  // namespace
 
+int fittedPartials(int masses) {
+  return std::max(kSprings, masses / 2);
+}
+
 double CoarseFit::worstCents(int partials) const {
   double worst = 0.0;
   for (int j = 0; j < partials; ++j) {
@@ -129,7 +128,7 @@ void fitCoarseStrings(scene::Scene& scene, const Rates& rates, std::vector<std::
     const int masses = string.count - 2;
     const int divisor = divisorOf(scene.sectionOf(scene.mats[at(string.first)]), rates);
     const double frequency = string.corrected_hz * divisor / rates.audio_hz;
-    const int partials = partialsOf(masses);
+    const int partials = fittedPartials(masses);
     if (masses < scene::kFewestCoarseMasses) {
       fail(scene, string,
            "is coarse with " + std::to_string(masses) + " masses, allowed " +

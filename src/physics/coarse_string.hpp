@@ -19,6 +19,9 @@ struct CoarseFit {
   double worstCents(int partials) const;
 };
 
+/// Half of the modes are fitted: the others are what a coarse string lacks.
+int fittedPartials(int masses);
+
 /// Least squares on the partials f, 2 f, ... of an ideal string, under the explicit scheme:
 /// 4 sin^2(w_j h/2) = sum over k of kappa_k (2 - 2 cos(k j pi / (N+1))), relative error.
 /// \param masses     N, moving ones, at least 3

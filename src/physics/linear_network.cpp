@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 
 #include "ergotic/scene/grid.hpp"
@@ -208,6 +209,25 @@ double LinearNetwork::stiffnessAt(int mat) const {
   }
   const double give = force.dot(solver.solve(force));
   return give > 0.0 ? 1.0 / give : 0.0;
+}
+
+std::vector<double> LinearNetwork::modes(int most) const {
+  const auto size = static_cast<Eigen::Index>(mass_.size());
+  if (size == 0 || size > most) {
+    return {};
+  }
+  Eigen::MatrixXd pencil = Eigen::MatrixXd::Zero(size, size);  // of unit masses
+  for (const Spring& spring : springs_) {
+    for (const auto& [row, down] : spring.ends) {
+      for (const auto& [column, across] : spring.ends) {
+        pencil(row, column) +=
+            spring.stiffness * down * across / std::sqrt(mass_[at(row)] * mass_[at(column)]);
+      }
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(pencil, Eigen::EigenvaluesOnly);
+  const Eigen::VectorXd& values = solver.eigenvalues();
+  return {values.data(), values.data() + size};
 }
 
 double LinearNetwork::highestModeAt(int mat) const {

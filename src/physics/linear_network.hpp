@@ -45,6 +45,10 @@ class LinearNetwork {
   /// \pre moves(mat)
   double highestModeAt(int mat) const;
 
+  /// w^2 of every mode, (rad/s)^2, ascending; empty if there are more than `most`.
+  /// Cost: O(modes^3)
+  std::vector<double> modes(int most) const;
+
  private:
   using Share = std::vector<std::pair<int, double>>;  // nodes and their weights
   struct Spring {

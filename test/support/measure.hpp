@@ -5,6 +5,8 @@
 #include <complex>
 #include <vector>
 
+#include "tools/lib/partials.hpp"
+
 namespace ergotic::test {
 
 /// The root with the positive angle of the recurrence x[n+1] = p x[n] - q x[n-1] that fits best.
@@ -28,31 +30,11 @@ inline std::complex<double> poleOf(const std::vector<double>& x) {
   return (p + std::sqrt(std::complex<double>(p * p - 4.0 * q))) / 2.0;
 }
 
-/// Frequency of the partial of a sound next to `guess_hz`: how far its phase turns in 100 samples,
-/// through a window of half a second whose side lobes fall below 1e-12 within 50 Hz.
-/// \pre at least 0.5 s and 100 samples of sound; other partials at least 50 Hz away
-inline double partialNear(const std::vector<double>& sound, double guess_hz, double rate_hz) {
-  constexpr double kPi = 3.14159265358979323846;
-  constexpr std::size_t kLater = 100;
-  const auto length = static_cast<std::size_t>(rate_hz / 2.0);
-  const double omega = 2.0 * kPi * guess_hz / rate_hz;
-  std::complex<double> first;
-  std::complex<double> later;
-  for (std::size_t k = 0; k < length; ++k) {
-    const double place = static_cast<double>(k);
-    const double window = std::pow(std::sin(kPi * place / static_cast<double>(length)), 8.0);
-    const std::complex<double> turn = std::polar(window, -omega * place);
-    first += turn * sound[k];
-    later += turn * sound[k + kLater];
-  }
-  const double expected = omega * static_cast<double>(kLater);
-  const double beyond = std::arg(later / first * std::polar(1.0, -expected));
-  return guess_hz * (1.0 + beyond / expected);
-}
+using tools::cents;
 
-/// How far a is above b.
-inline double cents(double a, double b) {
-  return 1200.0 * std::log2(a / b);
+/// Frequency of the partial of a sound next to `guess_hz`, see tools::partialAt.
+inline double partialNear(const std::vector<double>& sound, double guess_hz, double rate_hz) {
+  return tools::partialAt(sound, guess_hz, rate_hz).frequency_hz;
 }
 
 }  // namespace ergotic::test

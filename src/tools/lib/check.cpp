@@ -14,6 +14,7 @@
 #include "tools/lib/check_sections.hpp"
 #include "tools/lib/cost.hpp"
 #include "tools/lib/report.hpp"
+#include "tools/lib/target.hpp"
 
 namespace ergotic::tools {
 namespace {
@@ -227,6 +228,7 @@ void addOptions(CLI::App& app, CheckOptions& options) {
       ->required();
   addOptions(app, options.scene);
   addOptions(app, options.compile);
+  addTargetOption(app, options.target, "propose the cheapest setting that plays this accurately");
   app.add_flag("--json", options.json, "for a program to read");
   app.add_option("--filter-response", options.filter_response,
                  "write what the chaplets of the scene let through to this table")
@@ -234,11 +236,16 @@ void addOptions(CLI::App& app, CheckOptions& options) {
 }
 
 int check(const CheckOptions& options) {
-  Scene scene = readScene(options.scene);
+  const Scene scene = readScene(options.scene);
   const physics::Rates rates = chosenRates(scene, options.scene);
-  const physics::Settled settled = physics::settle(std::move(scene), rates);
+  const physics::CompileOptions compile = chosenOptions(options.compile);
+  const physics::Settled settled = physics::settle(scene, rates);
   const physics::Certificate certificate = physics::certify(settled.scene, rates);
-  const Report report = reportOn(settled, rates, certificate, chosenOptions(options.compile));
+  Report report = reportOn(settled, rates, certificate, compile);
+  if (!options.target.empty()) {
+    report.add("target", targetReport(scene, rates, compile, options.target,
+                                      freedomOf(options.scene, options.compile)));
+  }
   if (!options.filter_response.empty()) {
     writeFilterResponse(options.filter_response, settled.scene, rates);
   }

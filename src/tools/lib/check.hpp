@@ -12,6 +12,7 @@ struct CheckOptions {
   SceneOptions scene;
   CompileChoice compile;
   bool json = false;
+  std::string target;           ///< empty: nothing is proposed
   std::string filter_response;  ///< empty: not written
 };
 

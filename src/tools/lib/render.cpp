@@ -14,11 +14,13 @@
 #include "ergotic/rt/build_id.hpp"
 #include "ergotic/rt/thread.hpp"
 #include "ergotic/station/health.hpp"
+#include "ergotic/tgr/gesture.hpp"
 #include "tools/lib/frame_writer.hpp"
 #include "tools/lib/player.hpp"
 #include "tools/lib/progress.hpp"
 #include "tools/lib/render_energies.hpp"
 #include "tools/lib/replay.hpp"
+#include "tools/lib/target.hpp"
 
 namespace ergotic::tools {
 namespace {
@@ -40,15 +42,39 @@ station::PerformerPolicy policyOf(const RenderOptions& options) {
   return policy;
 }
 
+/// Changes a scene and how it is played as far as the target asks for it, and says so. Sounds and
+/// recorded positions come at rates of their own, so these stay.
+void meetTarget(const RenderOptions& options,
+                scene::Scene& scene,
+                physics::Rates& rates,
+                physics::CompileOptions& compile) {
+  const physics::Target target = physics::targetOf(options.target);
+  physics::Freedom freedom = freedomOf(options.scene, options.compile);
+  const bool has_positions = !options.gesture.empty() &&
+                             tgr::gestureKindOf(options.gesture) == tgr::GestureKind::kPositions;
+  freedom.audio_rate = freedom.audio_rate && options.inputs.empty() && !has_positions;
+  freedom.gestural_rate = freedom.gestural_rate && !has_positions;
+  physics::Proposal proposal = physics::propose(scene, rates, compile.precision, target, freedom);
+  for (const std::string& line : targetLines(target, proposal)) {
+    say(line);
+  }
+  scene = std::move(proposal.scene);
+  rates = proposal.rates;
+  compile.precision = proposal.precision;
+}
+
 /// The scene of the command line, played by nobody or by a CSV file.
 std::unique_ptr<Player> playScene(const RenderOptions& options) {
   if (options.scene.scene.empty()) {
     throw CLI::ValidationError("SCENE", "needed without a recording");
   }
-  const scene::Scene scene = readScene(options.scene);
-  const physics::Rates rates = chosenRates(scene, options.scene);
+  scene::Scene scene = readScene(options.scene);
+  physics::Rates rates = chosenRates(scene, options.scene);
   physics::CompileOptions compile = chosenOptions(options.compile);
   compile.metered = options.energies;
+  if (!options.target.empty()) {
+    meetTarget(options, scene, rates, compile);
+  }
   SoundInputs inputs(options.inputs, scene, rates.audio_hz);
   auto performer = station::makePerformer(scene, rates, compile, policyOf(options));
   for (const std::string& warning : performer->warnings) {
@@ -104,10 +130,10 @@ void requireBooks(const RenderOptions& options, const bag::Keyframe& keyframe) {
 void requireNothingElse(const RenderOptions& options) {
   const SceneOptions& scene = options.scene;
   if (!scene.set.empty() || scene.rate_hz > 0.0 || scene.gestural_rate_hz > 0.0 ||
-      !options.compile.precision.empty() || !options.inputs.empty()) {
+      !options.compile.precision.empty() || !options.inputs.empty() || !options.target.empty()) {
     throw CLI::ValidationError("--gesture",
                                "a recording says itself what --set, --rate, --gestural-rate, "
-                               "--precision and --input would");
+                               "--precision, --target and --input would");
   }
 }
 
@@ -202,6 +228,9 @@ void addOptions(CLI::App& app, RenderOptions& options) {
   app.add_option("--gesture", options.gesture,
                  "who plays: targets of a hand or recorded positions (CSV), or a recording (bag)")
       ->type_name("F.csv|F.bag");
+  addTargetOption(app, options.target,
+                  "play it in the cheapest way that is this accurate, within --rate, "
+                  "--gestural-rate and --precision if they are given");
   app.add_flag("--energies", options.energies, "say where the energy went");
   app.add_flag("--allow-unstable", options.allow_unstable, "play what is known to blow up, too");
   app.add_flag("--allow-gaps", options.allow_gaps, "accept a recording that cannot be exact");

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <vector>
+
+namespace ergotic::tools {
+
+/// A partial of a sound.
+struct Partial {
+  double frequency_hz = 0.0;
+  double amplitude = 0.0;
+};
+
+/// The partial of a sound next to `guess_hz`: how far its phase turns in 100 samples, through a
+/// window of half a second whose side lobes fall below 1e-12 within 50 Hz.
+/// \pre at least 0.5 s and 100 samples of sound from `begin` on; other partials at least 50 Hz away
+inline Partial partialAt(const std::vector<double>& sound,
+                         double guess_hz,
+                         double rate_hz,
+                         std::size_t begin = 0) {
+  constexpr double kPi = 3.14159265358979323846;
+  constexpr std::size_t kLater = 100;
+  const auto length = static_cast<std::size_t>(rate_hz / 2.0);
+  const double omega = 2.0 * kPi * guess_hz / rate_hz;
+  std::complex<double> first;
+  std::complex<double> later;
+  double weights = 0.0;
+  for (std::size_t k = 0; k < length; ++k) {
+    const double place = static_cast<double>(k);
+    const double square = std::pow(std::sin(kPi * place / static_cast<double>(length)), 2);
+    const double window = square * square * square * square;
+    const std::complex<double> turn = std::polar(window, -omega * place);
+    first += turn * sound[begin + k];
+    later += turn * sound[begin + k + kLater];
+    weights += window;
+  }
+  const double expected = omega * static_cast<double>(kLater);
+  const double beyond = std::arg(later / first * std::polar(1.0, -expected));
+  return {guess_hz * (1.0 + beyond / expected), 2.0 * std::abs(first) / weights};
+}
+
+/// How far a is above b.
+inline double cents(double a, double b) {
+  return 1200.0 * std::log2(a / b);
+}
+
+}  // namespace ergotic::tools

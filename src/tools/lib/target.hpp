@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ergotic/physics/target.hpp"
+#include "tools/lib/options.hpp"
+#include "tools/lib/report.hpp"
+
+namespace ergotic::tools {
+
+void addTargetOption(CLI::App& app, std::string& target, const std::string& help);
+
+/// What the command line leaves open: rates and precision that it names are kept.
+physics::Freedom freedomOf(const SceneOptions& options, const CompileChoice& compile);
+
+/// What is proposed and why, with the cost of both on this machine.
+Report targetReport(const scene::Scene& scene,
+                    const physics::Rates& rates,
+                    const physics::CompileOptions& options,
+                    const std::string& target,
+                    const physics::Freedom& freedom);
+
+/// The same in a few lines, without costs that have to be measured.
+std::vector<std::string> targetLines(const physics::Target& target,
+                                     const physics::Proposal& proposal);
+
+}  // namespace ergotic::tools

@@ -293,8 +293,10 @@ ERGOTIC_REALTIME void GuardedLinks<Real>::step(const GuardedView<Real>& view,
     }
     closeStep(motions_[l], states[l]);
   }
-  for (const Term& term : terms_) {
-    modules_[at(term.module)] = Module{};
+  for (const Link& link : links_) {
+    for (std::size_t t = link.first; t < link.first + link.count; ++t) {
+      modules_[at(terms_[t].module)] = Module{};
+    }
   }
 }
 

@@ -201,6 +201,24 @@ TEST(GuardedEndsTest, HeldEndMovesAtOnceAndWorksThen) {
   }
 }
 
+/// Other threads step links on other modules meanwhile.
+TEST(GuardedEndsTest, ModulesThatALinkDoesNotReachStayUntouched) {
+  std::vector<GuardedModule<double>> modules(2);
+  modules[0].links = 7.0;
+  // Room for the ends of a link that moves.
+  GuardedLinks<double> links({{0, {{1, 1, 0, {1, 0, 0}, -1}}, 5, {0, 0, 0}}}, modules);
+  const std::vector<double> x = {0.0, 0.2};
+  const std::vector<double> zero = {0.0, 0.0};
+  const std::vector<double> one = {1.0, 1.0};
+  const Law law = wallAt(0.1);
+  GuardedState<double> state;
+  links.step({x.data(), zero.data(), zero.data(), one.data(), zero.data(), one.data(), zero.data()},
+             &law, &state);
+  EXPECT_NE(state.active, 0.0);
+  EXPECT_EQ(modules[0].links, 7.0);
+  EXPECT_EQ(modules[1].links, 0.0);
+}
+
 TEST(GuardedEndsTest, EndMovesToOtherModulesWhilePlaying) {
   Network net;
   for (int m = 0; m < 3; ++m) {

@@ -111,6 +111,7 @@ CoefficientsOf<Real>::CoefficientsOf(const scene::Scene& scene,
   for (std::size_t r = 0; r < runs.size(); ++r) {
     fillRun(scene, rates, layout, r);
   }
+  fillBlocks(scene, rates, layout);
   fillGuarded(scene, rates, layout);
   for (const scene::Output& output : scene.outputs) {
     tap_gains.push_back(static_cast<Real>(scene.valueOf(output.gain)));
@@ -129,10 +130,14 @@ void CoefficientsOf<Real>::fillMasses(const scene::Scene& scene,
   masses.drift.assign(slots, Real(0));
   masses.keep.assign(slots, Real(1));
   masses.pull.assign(slots, Real(0));
+  masses.loss.assign(slots, Real(0));
   for (const SectionRange& range : layout.sections) {
     const StepUnits units(scene, rates, range.divisor);
-    for (int slot = range.cells; slot < range.fixed; ++slot) {
-      setSlot(scene, units, layout, slot);
+    for (int slot = range.first; slot < range.fixed; ++slot) {
+      const int mat = layout.mat_of_slot[at(slot)];
+      if (mat >= 0 && scene.mats[at(mat)].type != scene::MatType::kGround) {
+        setSlot(scene, units, layout, slot);
+      }
     }
   }
 }
@@ -157,6 +162,7 @@ void CoefficientsOf<Real>::setSlot(const scene::Scene& scene,
     masses.keep[here] = static_cast<Real>(own.keep);
     masses.pull[here] = static_cast<Real>(own.pull);
     masses.drift[here] = static_cast<Real>(drift);
+    masses.loss[here] = static_cast<Real>((1.0 - own.keep) / inverse);
   }
 }
 
@@ -176,8 +182,11 @@ void CoefficientsOf<Real>::fillPlaces(const scene::Scene& scene,
 template <class Real>
 void CoefficientsOf<Real>::setLink(
     const scene::Scene& scene, const StepUnits& units, const LinkRun& run, std::size_t r, int l) {
-  const double rest = run.dimensions == 0 ? run.rests[at(l)].x() : 0.0;
-  const LinkFields from = fieldsOf(scene, scene.lias[at(run.lias[at(l)])], units, rest);
+  const scene::Lia& lia = scene.lias[at(run.lias[at(l)])];
+  const double rest = run.block >= 0
+                          ? scene.mats[at(lia.a)].rest.x() - scene.mats[at(lia.b)].rest.x()
+                          : (run.dimensions == 0 ? run.rests[at(l)].x() : 0.0);
+  const LinkFields from = fieldsOf(scene, lia, units, rest);
   for (std::size_t f = 0; f < from.count; ++f) {
     runs[r].fields[f * run.lias.size() + at(l)] = static_cast<Real>(from.values[f]);
   }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "aligned.hpp"
 #include "ergotic/physics/instrument.hpp"
 #include "guarded_laws.hpp"
 #include "layout.hpp"
@@ -15,10 +16,22 @@ namespace ergotic::physics {
 /// Masses without a medium have keep = 1 and pull = 0 and use neither.
 template <class Real>
 struct MassCoefficients {
-  std::vector<Real> inverse_mass;
-  std::vector<Real> drift;  ///< constant force, gravity and the cell's rest, per step
-  std::vector<Real> keep;
-  std::vector<Real> pull;
+  AlignedVector<Real> inverse_mass;
+  AlignedVector<Real> drift;  ///< constant force, gravity and the cell's rest, per step
+  AlignedVector<Real> keep;
+  AlignedVector<Real> pull;
+  AlignedVector<Real> loss;  ///< (1 - keep) / inverse_mass; 0 where no force moves a module
+};
+
+/// Coefficients of the links of a block (blocks.hpp).
+template <class Real>
+struct BlockCoefficients {
+  AlignedVector<Real> k;  ///< [diagonals][guard + elements], chains: [rows, or 1 per lane][kLanes]
+  AlignedVector<Real> z;  ///< empty if `ratio` says it all
+  AlignedVector<Real> bias;     ///< [elements] force at rest, N; empty: none
+  std::vector<Real> uniform_k;  ///< [diagonals]
+  std::vector<Real> uniform_z;
+  Real ratio = Real(0);  ///< Z / K where that is one number
 };
 
 /// The tables of a run, one after the other.
@@ -65,6 +78,7 @@ class CoefficientsOf final : public Coefficients {
 
   MassCoefficients<Real> masses;
   std::vector<RunCoefficients<Real>> runs;             ///< [Layout::runs]
+  std::vector<BlockCoefficients<Real>> blocks;         ///< [Layout::blocks]
   std::vector<std::vector<GuardedLaw<Real>>> guarded;  ///< [guardedGroupsOf(layout)][links]
   std::vector<Real> tap_gains;                         ///< [Layout::taps]
   std::vector<Real> feed_gains;                        ///< [Layout::feeds]
@@ -75,6 +89,8 @@ class CoefficientsOf final : public Coefficients {
   void setSlot(const scene::Scene& scene, const StepUnits& units, const Layout& layout, int slot);
   void setLink(
       const scene::Scene& scene, const StepUnits& units, const LinkRun& run, std::size_t r, int l);
+  void fillBlocks(const scene::Scene& scene, const Rates& rates, const Layout& layout);
+  void fillBlock(const Layout& layout, const LinkRun& run, const RunCoefficients<Real>& from);
   void fillGuarded(const scene::Scene& scene, const Rates& rates, const Layout& layout);
   void fillPlaces(const scene::Scene& scene, const Rates& rates, const Layout& layout);
   void fillRun(const scene::Scene& scene, const Rates& rates, const Layout& layout, std::size_t r);

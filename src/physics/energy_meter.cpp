@@ -151,6 +151,9 @@ double EnergyMeter<Real>::kinetic(const SectionRange& range,
   double energy = 0.0;
   forEachFree(range, [&](int s) {
     const std::size_t i = at(s);
+    if (c.inverse_mass[i] == Real(0)) {
+      return;  // a ground
+    }
     const auto d = static_cast<double>(state.d()[s]);
     const auto x = static_cast<double>(state.x()[s]);
     const auto inverse = static_cast<double>(c.inverse_mass[i]);
@@ -170,6 +173,9 @@ double EnergyMeter<Real>::potential(const SectionRange& range,
   double energy = 0.0;
   forEachFree(range, [&](int s) {
     const std::size_t i = at(s);
+    if (c.inverse_mass[i] == Real(0)) {
+      return;
+    }
     const auto x = static_cast<double>(state.x()[s]);
     energy += x * (0.5 * static_cast<double>(c.pull[i]) * x - static_cast<double>(c.drift[i])) /
               static_cast<double>(c.inverse_mass[i]);

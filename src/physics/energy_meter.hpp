@@ -85,7 +85,7 @@ class EnergyMeter {
   template <class Visit>
   void forEachFree(const SectionRange& range, const Visit& visit) const noexcept {
     for (int k = 0; k < range.dimensions; ++k) {
-      for (int slot = range.cells; slot < range.fixed; ++slot) {
+      for (int slot = range.first; slot < range.fixed; ++slot) {
         visit(slot + k * range.stride);
       }
     }

@@ -30,6 +30,23 @@ class GroupStepper {
         channels_in_(static_cast<std::size_t>(scene.inputChannels())),
         followed_(parts.layout.followers.empty() ? scene::Scene{} : scene) {}
 
+  /// All of a tick for the blocks that nothing else acts on meanwhile.
+  void advanceLoneBlocks(const Group& group, const Frames& tick) noexcept {
+    for (const LoneBlock& lone : group.lone) {
+      const int section = parts_.layout.blocks[lone.block].section;
+      const int divisor = parts_.layout.sections[static_cast<std::size_t>(section)].divisor;
+      // Divisors of sections that run divide the frames of a tick.
+      const double lost = parts_.stepper.advance(
+          lone.block, tick.count / divisor, *parts_.coefficients, parts_.state,
+          [&](int step, int first, int last) noexcept {
+            for (int r = step * divisor; r < (step + 1) * divisor; ++r) {
+              hearLoneBlock(lone, tick.first + r, first, last, outputsOf(group, tick, r));
+            }
+          });
+      parts_.meter.addDissipated(section, lost, parts_.state);
+    }
+  }
+
   /// Modules move, positions are heard, explicit links give their forces.
   void begin(const Group& group, const Frames& frames) noexcept {
     followAudio(group, frames.inputs);
@@ -99,6 +116,18 @@ class GroupStepper {
     return frames.outputs + static_cast<std::size_t>(k) * group.channels.size();
   }
 
+  void hearLoneBlock(
+      const LoneBlock& lone, std::int64_t now, int first, int last, double* out) noexcept {
+    for (std::size_t i = 0; i < lone.taps.size(); ++i) {
+      const std::size_t k = lone.taps[i];
+      const int slot = parts_.taps.slotOf(k);
+      if (slot >= first && slot < last) {
+        out[lone.tap_columns[i]] += parts_.taps.position(k, *parts_.coefficients, parts_.state) +
+                                    parts_.taps.force(k, *parts_.coefficients, now, parts_.state);
+      }
+    }
+  }
+
   bool isAsleep(const LinkRun& run) const noexcept {
     return run.section_a == run.section_b && parts_.state.asleep()[run.section_a] != 0;
   }
@@ -120,7 +149,7 @@ class GroupStepper {
     State<Real>& state = parts_.state;
     for (const int section : group.sections) {
       if (parts_.layout.isDue(section, now) && state.asleep()[section] == 0) {
-        const double lost = parts_.stepper.moveMasses(section, parts_.coefficients->masses, state);
+        const double lost = parts_.stepper.moveMasses(section, *parts_.coefficients, state);
         parts_.meter.addDissipated(section, lost, state);
       }
     }
@@ -156,8 +185,8 @@ class GroupStepper {
       for (const int section : group.sections) {
         const SectionRange& range = parts_.layout.sections[static_cast<std::size_t>(section)];
         if (parts_.layout.isDue(section, now)) {
-          std::copy_n(state.d() + range.cells, range.dimensions * range.stride,
-                      state.moved() + range.cells);
+          std::copy_n(state.d() + range.first, range.dimensions * range.stride,
+                      state.moved() + range.first);
         }
       }
     }

@@ -112,7 +112,10 @@ class Split {
 class Dealer {
  public:
   Dealer(const scene::Scene& scene, const Rates& rates, Layout& layout)
-      : scene_(scene), layout_(layout), group_of_section_(layout.sections.size(), kHeld) {
+      : scene_(scene),
+        layout_(layout),
+        ratio_(rates.ratio),
+        group_of_section_(layout.sections.size(), kHeld) {
     makeGroups(Split(scene, rates, layout), rates);
   }
 
@@ -125,6 +128,7 @@ class Dealer {
                   [](const auto& p) { return p.of.section; });
     dealBySection(layout_.feeds, &Group::feeds, [](const auto& f) { return f.section; });
     dealBySection(layout_.followers, &Group::followers, [](const auto& f) { return f.section; });
+    dealLoneBlocks();
     for (std::size_t k = 0; k < layout_.taps.size(); ++k) {
       dealTap(k, groupOf(scene_.mats[at(scene_.outputs[k].point.mat)].section));
     }
@@ -175,11 +179,67 @@ class Dealer {
     }
   }
 
+  /// Blocks of sections that run and never sleep, which no end of a link, point or input is on.
+  void dealLoneBlocks() {
+    std::vector<bool> touched(layout_.blocks.size(), false);
+    const auto touch = [&](int slot) {
+      const int block = slot < 0 ? -1 : layout_.blockOf(slot);
+      if (block >= 0) {
+        touched[at(block)] = true;
+      }
+    };
+    for (const LinkRun& run : layout_.runs) {
+      for (const LinkEnds& ends : run.ends) {
+        if (run.block < 0) {
+          touch(ends.a);
+          touch(ends.b);
+        }
+      }
+    }
+    for (const PlacePoint& point : layout_.places) {
+      touch(point.guide);
+      const scene::Grid& grid = scene_.grids[at(scene_.connections[at(point.connection)].grid)];
+      for (int m = grid.first; m < grid.first + grid.columns * grid.rows; ++m) {
+        touch(layout_.slot_of_mat[at(m)]);
+      }
+    }
+    for (const ProjectedPoint& point : layout_.projections) {
+      touch(point.of.slot);
+    }
+    for (const DecimatedPoint& point : layout_.decimations) {
+      touch(point.of.slot);
+    }
+    for (const Feed& feed : layout_.feeds) {
+      touch(feed.slot);
+    }
+    for (const Tap& tap : layout_.taps) {
+      if (tap.next >= 0 && layout_.blockOf(tap.slot) != layout_.blockOf(tap.next)) {
+        touch(tap.slot);
+        touch(tap.next);
+      }
+    }
+    for (std::size_t b = 0; b < touched.size(); ++b) {
+      Block& block = layout_.blocks[b];
+      block.is_alone = !touched[b] && group_of_section_[at(block.section)] != kHeld &&
+                       ratio_ % layout_.sections[at(block.section)].divisor == 0 &&
+                       scene_.sections[at(block.section)].sleep_energy == 0.0;
+      if (block.is_alone) {
+        groupOf(block.section).lone.push_back({b, {}, {}});
+      }
+    }
+  }
+
   void dealTap(std::size_t k, Group& group) {
     const int channel = layout_.taps[k].channel;
     const auto known = std::find(group.channels.begin(), group.channels.end(), channel);
-    group.taps.push_back(k);
-    group.tap_columns.push_back(static_cast<std::size_t>(known - group.channels.begin()));
+    const int block = layout_.blockOf(layout_.taps[k].slot);
+    const auto lone = std::find_if(group.lone.begin(), group.lone.end(), [&](const LoneBlock& l) {
+      return static_cast<int>(l.block) == block;
+    });
+    auto& taps = lone == group.lone.end() ? group.taps : lone->taps;
+    auto& columns = lone == group.lone.end() ? group.tap_columns : lone->tap_columns;
+    taps.push_back(k);
+    columns.push_back(static_cast<std::size_t>(known - group.channels.begin()));
     if (known == group.channels.end()) {
       group.channels.push_back(channel);
     }
@@ -192,7 +252,7 @@ class Dealer {
       const int a = group_of_section_[at(run.section_a)];
       const int b = group_of_section_[at(run.section_b)];
       run.group = std::max(a, b);  // running before held
-      if (!run.guarded) {
+      if (!run.guarded && run.block < 0) {
         byIndex(run.group).runs.push_back(r);
       }
       if (a != b) {
@@ -240,6 +300,7 @@ class Dealer {
 
   const scene::Scene& scene_;
   Layout& layout_;
+  int ratio_;
   std::vector<int> group_of_section_;  // index in Groups::running, or kHeld
   Groups groups_;
 };

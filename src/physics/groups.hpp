@@ -18,6 +18,14 @@ struct Proxy {
   int of = 0;  ///< slot of the module or point
 };
 
+/// A block that nothing but its own links acts on while it runs (Block::is_alone), and what is
+/// heard of it.
+struct LoneBlock {
+  std::size_t block = 0;                 ///< Layout::blocks
+  std::vector<std::size_t> taps;         ///< Layout::taps
+  std::vector<std::size_t> tap_columns;  ///< [taps] index in Group::channels
+};
+
 /// What needs each other at the same instant, as indices: it is stepped by one thread.
 struct Group {
   std::vector<int> sections;             ///< Layout::sections
@@ -31,6 +39,7 @@ struct Group {
   std::vector<std::size_t> taps;         ///< Layout::taps
   std::vector<int> channels;             ///< of outputs that the taps are heard on, each once
   std::vector<std::size_t> tap_columns;  ///< [taps] index in `channels`
+  std::vector<LoneBlock> lone;
   std::vector<Proxy> proxies;
   std::int64_t modules = 0;
   std::int64_t cost = 0;  ///< steps of coordinates in a tick

@@ -42,7 +42,7 @@ class InstrumentOf final : public Instrument {
  public:
   InstrumentOf(const scene::Scene& scene, const Rates& rates, const CompileOptions& options)
       : Instrument(scene, rates, options),
-        parts_(scene, rates),
+        parts_(scene, rates, options),
         stepper_(scene, rates, parts_),
         inputs_(at(rates.ratio * inputChannels())),
         heard_of_held_(heardOf(parts_.groups.held)),
@@ -133,12 +133,7 @@ class InstrumentOf final : public Instrument {
   }
 
   std::vector<std::string> describe() const override {
-    std::vector<std::string> lines;
-    for (std::size_t s = 0; s < parts_.layout.sections.size(); ++s) {
-      const SectionRange& range = parts_.layout.sections[s];
-      lines.push_back("section '" + scene().sections[s].name + "': " +
-                      std::to_string(range.fixed - range.cells) + " free modules one by one");
-    }
+    std::vector<std::string> lines = parts_.stepper.describe(scene());
     const std::vector<std::string> groups =
         describeGroups(scene(), parts_.groups, workers_.threads());
     lines.insert(lines.end(), groups.begin(), groups.end());
@@ -159,12 +154,15 @@ class InstrumentOf final : public Instrument {
     for (std::size_t s = 0; s < parts_.layout.sections.size(); ++s) {
       const SectionRange& range = parts_.layout.sections[s];
       const StepUnits units(scene(), rates(), range.divisor);
-      for (int slot = range.cells; slot < range.end; ++slot) {
+      for (int slot = range.first; slot < range.end; ++slot) {
+        if (parts_.layout.mat_of_slot[at(slot)] < 0) {
+          continue;
+        }
         const scene::Mat& mat = scene().mats[at(parts_.layout.mat_of_slot[at(slot)])];
         for (int k = 0; k < range.dimensions; ++k) {
           const int here = slot + k * range.stride;
           parts_.state.x()[here] = static_cast<Real>(mat.position[k] - mat.rest[k]);
-          if (slot < range.fixed) {
+          if (slot < range.fixed && mat.type != scene::MatType::kGround) {
             parts_.state.d()[here] = static_cast<Real>(units.velocity(mat.velocity[k]));
           }
         }
@@ -217,6 +215,7 @@ class InstrumentOf final : public Instrument {
   void stepGroup(std::size_t g) noexcept {
     const Group& group = parts_.groups.running[g];
     const Frames tick = tickOf(heard_[g]);
+    stepper_.advanceLoneBlocks(group, tick);
     for (int r = 0; r < tick.count; ++r) {
       const Frames frame{tick.first + r, 1, tick.inputs + at(r) * at(inputChannels()),
                          tick.outputs + at(r) * group.channels.size()};

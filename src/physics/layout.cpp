@@ -2,9 +2,11 @@
 #include "layout.hpp"
 
 #include <string>
+#include <utility>
 
 #include "ergotic/exception.hpp"
 #include "layout_links.hpp"
+#include "physics/kernels/block_kernels.hpp"
 #include "step_units.hpp"
 
 namespace ergotic::physics {
@@ -28,39 +30,92 @@ int rankOf(const scene::Scene& scene, const scene::Mat& mat) {
   }
 }
 
-void placeMats(const scene::Scene& scene, const Rates& rates, Layout& layout) {
-  const int sections = static_cast<int>(scene.sections.size());
-  std::vector<std::vector<int>> bins(at(3 * sections));
-  for (int m = 0; m < static_cast<int>(scene.mats.size()); ++m) {
-    const scene::Mat& mat = scene.mats[at(m)];
-    if (mat.type != MatType::kPoint) {
-      bins[at(3 * mat.section + rankOf(scene, mat))].push_back(m);
-    }
-  }
-  layout.slot_of_mat.resize(scene.mats.size());
-  for (int s = 0; s < sections; ++s) {
-    SectionRange range;
-    range.divisor = divisorOf(scene.sections[at(s)], rates);
-    range.dimensions = dimensionsOf(scene.sections[at(s)].geometry);
-    range.cells = layout.slots();
-    range.masses = range.cells + static_cast<int>(bins[at(3 * s)].size());
-    range.fixed = range.masses + static_cast<int>(bins[at(3 * s + 1)].size());
-    range.end = range.fixed + static_cast<int>(bins[at(3 * s + 2)].size());
-    range.stride = range.end - range.cells;
-    for (int c = 0; c < range.dimensions; ++c) {
-      for (int bin = 3 * s; bin < 3 * s + 3; ++bin) {
-        for (const int m : bins[at(bin)]) {
-          if (c == 0) {
-            layout.slot_of_mat[at(m)] = layout.slots();
-          }
-          layout.mat_of_slot.push_back(m);
-          layout.component.push_back(c);
+/// Fills slots.
+class MatPlacer {
+ public:
+  MatPlacer(const scene::Scene& scene, const Rates& rates, Layout& layout)
+      : scene_(scene), rates_(rates), layout_(layout), bins_(3 * scene.sections.size()) {
+    layout.slot_of_mat.assign(scene.mats.size(), -1);
+    blocks_ = findBlocks(scene);
+    std::vector<unsigned char> is_in_block(scene.mats.size(), 0);
+    for (const Block& block : blocks_) {
+      for (const int m : block.mats) {
+        if (m >= 0) {
+          is_in_block[at(m)] = 1;
         }
       }
     }
-    layout.sections.push_back(range);
+    for (int m = 0; m < static_cast<int>(scene.mats.size()); ++m) {
+      const scene::Mat& mat = scene.mats[at(m)];
+      if (mat.type != MatType::kPoint && is_in_block[at(m)] == 0) {
+        bins_[at(3 * mat.section + rankOf(scene, mat))].push_back(m);
+      }
+    }
   }
-}
+
+  void place() {
+    for (int s = 0; s < static_cast<int>(scene_.sections.size()); ++s) {
+      const std::vector<int>* bins = &bins_[at(3 * s)];
+      SectionRange range;
+      range.divisor = divisorOf(scene_.sections[at(s)], rates_);
+      range.dimensions = dimensionsOf(scene_.sections[at(s)].geometry);
+      range.first = layout_.slots();
+      placeBlocks(s);
+      range.cells = layout_.slots();
+      range.masses = range.cells + static_cast<int>(bins[0].size());
+      range.fixed = range.masses + static_cast<int>(bins[1].size());
+      range.end = range.fixed + static_cast<int>(bins[2].size());
+      range.stride = range.end - range.first;
+      for (int c = 0; c < range.dimensions; ++c) {
+        for (int bin = 0; bin < 3; ++bin) {
+          for (const int m : bins[bin]) {
+            add(m, c);
+          }
+        }
+      }
+      layout_.sections.push_back(range);
+    }
+  }
+
+ private:
+  void add(int mat, int component) {
+    if (mat >= 0 && component == 0) {
+      layout_.slot_of_mat[at(mat)] = layout_.slots();
+    }
+    layout_.mat_of_slot.push_back(mat);
+    layout_.component.push_back(component);
+  }
+
+  void pad(int count) {
+    for (int i = 0; i < count; ++i) {
+      add(-1, 0);
+    }
+  }
+
+  /// Blocks begin at multiples of kLanes, with their guards around them.
+  void placeBlocks(int section) {
+    for (Block& block : blocks_) {
+      if (block.section != section) {
+        continue;
+      }
+      const int past = layout_.slots() % kernels::kLanes;
+      pad((past == 0 ? 0 : kernels::kLanes - past) + block.guard);
+      block.first = layout_.slots();
+      for (const int m : block.mats) {
+        add(m, 0);
+      }
+      block.mats = {};
+      pad(block.guard);
+      layout_.blocks.push_back(std::move(block));
+    }
+  }
+
+  const scene::Scene& scene_;
+  const Rates& rates_;
+  Layout& layout_;
+  std::vector<std::vector<int>> bins_;  // [sections][cells, masses, fixed]
+  std::vector<Block> blocks_;
+};
 
 Tap describeTap(const scene::Scene& scene,
                 const Rates& rates,
@@ -126,7 +181,7 @@ int Layout::strideOf(const scene::Scene& scene, int mat) const {
 
 Layout makeLayout(const scene::Scene& scene, const Rates& rates) {
   Layout layout;
-  placeMats(scene, rates, layout);
+  MatPlacer(scene, rates, layout).place();
   placeConnections(scene, layout);
   placeLinks(scene, layout);
   for (const scene::Port& port : scene.ports) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "blocks.hpp"
 #include "ergotic/physics/rates.hpp"
 #include "ergotic/scene/scene.hpp"
 
@@ -32,12 +34,14 @@ enum class Law {
 Law lawOf(const scene::Lia& lia);
 
 /// Slots of a section. A slot is one coordinate of one module. Each coordinate of a section fills
-/// `stride` slots in a row: cells, masses, then modules that forces do not move; those of y follow
-/// those of x. The ranges are those of x.
+/// `stride` slots in a row: blocks (blocks.hpp; their grounds are masses that no force moves), cells,
+/// masses, then modules that forces do not move; those of y follow those of x. The ranges are those
+/// of x.
 struct SectionRange {
   int divisor = 1;  ///< audio frames per step
   int dimensions = 1;
   int stride = 0;
+  int first = 0;   ///< slot, of blocks
   int cells = 0;   ///< first slot
   int masses = 0;  ///< first slot
   int fixed = 0;   ///< first slot
@@ -74,6 +78,7 @@ struct LinkRun {
   double share = 1.0;
   static constexpr int kHeldGroup = -1;
   int group = kHeldGroup;  ///< that steps it, index in Groups::running
+  int block = -1;          ///< index in Layout::blocks: its sweep works these links out
   int stride_a = 0;
   int stride_b = 0;
   std::vector<int> lias;               ///< [links] index in Scene::lias
@@ -152,6 +157,7 @@ struct Layout {
   std::vector<int> mat_of_slot;  ///< -1: internal point
   std::vector<int> component;    ///< [slots] 0 x, 1 y, 2 z
   std::vector<SectionRange> sections;
+  std::vector<Block> blocks;  ///< by section, then by slot
   std::vector<PlacePoint> places;
   std::vector<ProjectedPoint> projections;
   std::vector<DecimatedPoint> decimations;
@@ -169,6 +175,15 @@ struct Layout {
     const int divisor = divisorOf(section);
     return divisor == 1 || now % divisor == 0;
   }
+  /// Index of the block that a slot is in, -1: none.
+  int blockOf(int slot) const noexcept {
+    const auto past = std::upper_bound(blocks.begin(), blocks.end(), slot,
+                                       [](int s, const Block& block) { return s < block.first; });
+    return past != blocks.begin() && slot < (past - 1)->first + (past - 1)->elements
+               ? static_cast<int>(past - blocks.begin()) - 1
+               : -1;
+  }
+
   /// True if the step of a run that began with frame `now` is the last in that of its slower end.
   bool endsSlowStep(const LinkRun& run, std::int64_t now) const noexcept {
     return run.slow_section >= 0 &&

@@ -202,16 +202,24 @@ void placeConnections(const scene::Scene& scene, Layout& layout) {
 }
 
 void placeLinks(const scene::Scene& scene, Layout& layout) {
-  using Key = std::tuple<Law, bool, int, int, int, int, int, int, int>;
+  using Key = std::tuple<Law, bool, int, int, int, int, int, int, int, int>;
   std::map<Key, std::size_t> known;
   Ends ends(scene, layout);
+  std::vector<int> block_of_lia(scene.lias.size(), -1);
+  for (int b = 0; b < static_cast<int>(layout.blocks.size()); ++b) {
+    for (const int l : layout.blocks[at(b)].lias) {
+      block_of_lia[at(l)] = b;
+    }
+    layout.blocks[at(b)].lias = {};
+  }
   for (int l = 0; l < static_cast<int>(scene.lias.size()); ++l) {
     LinkRun run;
     End a;
     End b;
     placeLink(scene, l, ends, run, a, b);
-    const Key key{run.law,       run.guarded,  run.dimensions, run.section,     run.section_a,
-                  run.section_b, run.stride_a, run.stride_b,   run.slow_section};
+    run.block = block_of_lia[at(l)];
+    const Key key{run.law,       run.guarded,  run.dimensions, run.section,      run.section_a,
+                  run.section_b, run.stride_a, run.stride_b,   run.slow_section, run.block};
     const auto [found, is_new] = known.emplace(key, layout.runs.size());
     if (is_new) {
       layout.runs.push_back(std::move(run));
@@ -219,7 +227,9 @@ void placeLinks(const scene::Scene& scene, Layout& layout) {
     LinkRun& target = layout.runs[found->second];
     target.lias.push_back(l);
     target.ends.push_back({a.slot, b.slot});
-    target.rests.push_back(a.rest - b.rest);
+    if (run.block < 0) {
+      target.rests.push_back(a.rest - b.rest);
+    }
   }
 }
 

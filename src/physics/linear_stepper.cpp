@@ -35,6 +35,24 @@ int slowestDivisor(const scene::Scene& scene, const Rates& rates) {
   return slowest;
 }
 
+/// Slots of what can move: blocks have places for nothing and for grounds too.
+std::vector<std::size_t> movingSlots(const scene::Scene& scene, const Rates& rates) {
+  const Layout layout = makeLayout(scene, rates);
+  std::vector<std::size_t> slots;
+  for (int slot = 0; slot < layout.slots(); ++slot) {
+    const int mat = layout.mat_of_slot[static_cast<std::size_t>(slot)];
+    const bool is_in_block = std::any_of(
+        layout.sections.begin(), layout.sections.end(),
+        [&](const SectionRange& range) { return slot >= range.first && slot < range.cells; });
+    const bool is_ground =
+        mat >= 0 && scene.mats[static_cast<std::size_t>(mat)].type == MatType::kGround;
+    if (!is_in_block || (mat >= 0 && !is_ground)) {
+      slots.push_back(static_cast<std::size_t>(slot));
+    }
+  }
+  return slots;
+}
+
 }  // namespace
 
 scene::Scene linearPart(scene::Scene scene) {
@@ -70,10 +88,10 @@ scene::Scene linearPart(scene::Scene scene) {
 }
 
 LinearStepper::LinearStepper(const scene::Scene& linear, const Rates& rates)
-    : instrument_(compile(linear, rates, Precision::kDouble)),
+    : slots_(movingSlots(linear, rates)),
+      instrument_(compile(linear, rates, Precision::kDouble)),
       rest_(instrument_->stateSize()),
       state_(instrument_->stateSize()),
-      slots_(makeLayout(linear, rates).slots()),  // behind them are proxies, filled in every tick
       ticks_(std::max(1, slowestDivisor(linear, rates) / rates.ratio)),
       period_s_(ticks_ / rates.gesturalHz()),
       positions_(static_cast<std::size_t>(instrument_->ports())),
@@ -91,24 +109,30 @@ LinearStepper::LinearStepper(const scene::Scene& linear, const Rates& rates)
   }
 }
 
-double* LinearStepper::part(int which) {
-  return reinterpret_cast<double*>(state_.data() + offsets_[which]);
+double& LinearStepper::number(int which, std::size_t slot) {
+  return reinterpret_cast<double*>(state_.data() + offsets_[which])[slot];
+}
+
+template <class Visit>
+void LinearStepper::visitNumbers(const Visit& visit) {
+  int i = 0;
+  for (int which = 0; which < 3; ++which) {
+    for (const std::size_t slot : slots_) {
+      visit(i++, number(which, slot));
+    }
+  }
 }
 
 Eigen::VectorXd LinearStepper::step(const Eigen::VectorXd& state) {
   state_ = rest_;
-  for (int which = 0; which < 3; ++which) {
-    std::copy_n(state.data() + which * slots_, slots_, part(which));
-  }
+  visitNumbers([&](int i, double& number) { number = state[i]; });
   instrument_->loadState(state_.data());
   for (int tick = 0; tick < ticks_; ++tick) {
     instrument_->tick({positions_.data(), forces_.data(), inputs_.data(), outputs_.data()});
   }
   instrument_->saveState(state_.data());
-  Eigen::VectorXd result(3 * slots_);
-  for (int which = 0; which < 3; ++which) {
-    std::copy_n(part(which), slots_, result.data() + which * slots_);
-  }
+  Eigen::VectorXd result(3 * slots());
+  visitNumbers([&](int i, double& number) { result[i] = number; });
   return result;
 }
 

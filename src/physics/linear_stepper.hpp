@@ -21,7 +21,7 @@ class LinearStepper {
   LinearStepper(const scene::Scene& linear, const Rates& rates);
 
   /// Numbers of each of the three parts of a state: positions, differences, forces.
-  int slots() const { return slots_; }
+  int slots() const { return static_cast<int>(slots_.size()); }
   double periodSeconds() const { return period_s_; }
   int ticks() const { return ticks_; }  ///< per period
 
@@ -30,12 +30,16 @@ class LinearStepper {
   Eigen::VectorXd step(const Eigen::VectorXd& state);
 
  private:
-  double* part(int which);
+  double& number(int which, std::size_t slot);
+  /// Calls `visit(index, number)` for all numbers of the present state.
+  template <class Visit>
+  void visitNumbers(const Visit& visit);
+
+  std::vector<std::size_t> slots_;  // whose state counts
 
   std::unique_ptr<Instrument> instrument_;
   std::vector<std::byte> rest_;  // the state at time 0
   std::vector<std::byte> state_;
-  int slots_;
   std::size_t offsets_[3] = {0, 0, 0};
   int ticks_;
   double period_s_;

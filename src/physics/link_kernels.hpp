@@ -47,11 +47,11 @@ struct Frame {
   Real share_b;
   bool slow_ends;  ///< the slower end's step ends with this frame
   Memory<Real> memory;
-  Work* work;
+  Work* work;  ///< null: nobody asks
 };
 
 /// Plain runs: linear, scalar, inside one section.
-template <class Real, class Law>
+template <bool kMetered, class Real, class Law>
 void stepPlain(const LinkRun& run, const Law& law, const Frame<Real>& at) noexcept {
   const LinkEnds* ends = run.ends.data();
   const std::size_t links = run.ends.size();
@@ -69,6 +69,9 @@ void stepPlain(const LinkRun& run, const Law& law, const Frame<Real>& at) noexce
     const Real sum = force.elastic + force.viscous;
     f[a] -= sum;
     f[b] += sum;
+    if constexpr (!kMetered) {
+      return Real(0);
+    }
     // The damper's last force is the damping times the last v.
     return (moved[a] - moved[b]) * law.c(1, l) * (v + (d_last[a] - d_last[b]));
   };
@@ -82,7 +85,9 @@ void stepPlain(const LinkRun& run, const Law& law, const Frame<Real>& at) noexce
   for (; l < links; ++l) {
     lost[0] += stepLink(l);
   }
-  at.work->dissipated += 0.5 * static_cast<double>((lost[0] + lost[1]) + (lost[2] + lost[3]));
+  if constexpr (kMetered) {
+    at.work->dissipated += 0.5 * static_cast<double>((lost[0] + lost[1]) + (lost[2] + lost[3]));
+  }
 }
 
 /// Half of the work of a force over the step in which the ends moved so far: each step is booked
@@ -115,7 +120,9 @@ void exchangeForce(const LinkRun& run,
   const Memory<Real>& memory = at.memory;
   const laws::Force<Real> both{force.elastic + memory.elastic[index],
                                force.viscous + memory.viscous[index]};
-  addHalfWork(run, at.gate_a * at.moved[a], at.gate_b * at.moved[b], both, *at.work);
+  if (at.work != nullptr) {
+    addHalfWork(run, at.gate_a * at.moved[a], at.gate_b * at.moved[b], both, *at.work);
+  }
   memory.elastic[index] = force.elastic;
   memory.viscous[index] = force.viscous;
   const Real sum = force.elastic + force.viscous;
@@ -147,8 +154,10 @@ void addSlowWork(const LinkRun& run,
 template <class Real>
 void closeSlowStep(
     const LinkRun& run, const Frame<Real>& at, std::size_t index, int a, int b) noexcept {
-  addSlowWork(run, at.memory, index, static_cast<double>(at.moved[run.slow_is_a ? a : b]),
-              *at.work);
+  if (at.work != nullptr) {
+    addSlowWork(run, at.memory, index, static_cast<double>(at.moved[run.slow_is_a ? a : b]),
+                *at.work);
+  }
   const Memory<Real>& memory = at.memory;
   memory.last_mean[index] = memory.mean[index];
   memory.last_mean_viscous[index] = memory.mean_viscous[index];
@@ -252,7 +261,8 @@ void step(const LinkRun& run, const Law& law, const Real* rests, const Frame<Rea
     case 0:
       if constexpr (Law::kKind == laws::Kind::kLinear) {
         if (at.memory.elastic == nullptr) {
-          return stepPlain(run, law, at);
+          return at.work != nullptr ? stepPlain<true>(run, law, at)
+                                    : stepPlain<false>(run, law, at);
         }
       }
       return stepScalar(run, law, at);

@@ -20,8 +20,8 @@ namespace ergotic::physics {
 /// What an instrument consists of.
 template <class Real>
 struct Parts {
-  Parts(const scene::Scene& scene, const Rates& rates)
-      : Parts(scene, rates, makeLayout(scene, rates)) {}
+  Parts(const scene::Scene& scene, const Rates& rates, const CompileOptions& options)
+      : Parts(scene, rates, options, makeLayout(scene, rates)) {}
   Parts(const Parts&) = delete;  // they refer to each other
   Parts& operator=(const Parts&) = delete;
 
@@ -37,13 +37,13 @@ struct Parts {
   Sleeper<Real> sleeper;
 
  private:
-  Parts(const scene::Scene& scene, const Rates& rates, Layout&& made)
+  Parts(const scene::Scene& scene, const Rates& rates, const CompileOptions& options, Layout&& made)
       : layout(std::move(made)),
         groups(splitIntoGroups(scene, rates, layout)),
         coefficients(std::make_unique<CoefficientsOf<Real>>(scene, rates, layout)),
         state(layout),
         meter(scene, layout, state),
-        stepper(layout),
+        stepper(layout, options),
         points(scene, layout),
         guarded(scene, layout, groups, points, state),
         taps(layout),

@@ -72,7 +72,7 @@ class Sleeper {
   void checkRest(const scene::Scene& scene, int section, const CoefficientsOf<Real>& c) const {
     const SectionRange& range = layout_.sections[static_cast<std::size_t>(section)];
     bool rests = true;
-    for (int slot = range.cells; slot < range.fixed; ++slot) {
+    for (int slot = range.first; slot < range.fixed; ++slot) {
       for (int k = 0; k < range.dimensions; ++k) {
         const auto here = static_cast<std::size_t>(slot + k * range.stride);
         rests = rests && c.masses.drift[here] == Real(0);
@@ -121,7 +121,7 @@ class Sleeper {
     const SectionRange& range = layout_.sections[static_cast<std::size_t>(section)];
     for (Real* values : {state.x(), state.d(), state.dLast(), state.f()}) {
       for (int k = 0; k < range.dimensions; ++k) {
-        std::fill(values + range.cells + k * range.stride, values + range.fixed + k * range.stride,
+        std::fill(values + range.first + k * range.stride, values + range.fixed + k * range.stride,
                   Real(0));
       }
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "laws.hpp"
 #include "layout.hpp"
 #include "state.hpp"
+#include "sweeper.hpp"
 
 namespace ergotic::physics {
 
@@ -17,21 +19,44 @@ namespace ergotic::physics {
 template <class Real>
 class Stepper {
  public:
-  explicit Stepper(const Layout& layout) : layout_(layout) {}
+  Stepper(const Layout& layout, const CompileOptions& options)
+      : layout_(layout), sweeper_(layout, options), metered_(options.metered) {
+    for (const Block& block : layout.blocks) {
+      blocks_end_.resize(static_cast<std::size_t>(block.section) + 1, blocks());
+      ++blocks_end_.back();
+    }
+    blocks_end_.resize(layout.sections.size(), blocks());
+  }
 
-  /// One step of the modules of a section. \return what cells and medium dissipated in it
-  double moveMasses(int section,
-                    const MassCoefficients<Real>& c,
-                    State<Real>& state) const noexcept {
+  /// One step of the modules of a section, and of the links that blocks hold; blocks that go
+  /// through a tick alone are left out.
+  /// \return what cells, medium and the dampers of blocks dissipated in it
+  double moveMasses(int section, const CoefficientsOf<Real>& c, State<Real>& state) const noexcept {
     const SectionRange& range = layout_.sections[static_cast<std::size_t>(section)];
     double lost = 0.0;
+    for (std::size_t b = firstBlock(section); b < blocks_end_[static_cast<std::size_t>(section)];
+         ++b) {
+      if (!layout_.blocks[b].is_alone) {
+        lost += sweeper_.sweep(b, c, state);
+      }
+    }
     for (int k = 0; k < range.dimensions; ++k) {
       const int by = k * range.stride;
-      lost += moveCells(range.cells + by, range.masses + by, c, state);
-      moveFree(range.masses + by, range.fixed + by, c, state);
+      lost += moveCells(range.cells + by, range.masses + by, c.masses, state);
+      moveFree(range.masses + by, range.fixed + by, c.masses, state);
+      std::fill(state.f() + range.cells + by, state.f() + range.end + by, Real(0));
     }
-    std::fill_n(state.f() + range.cells, range.dimensions * range.stride, Real(0));
     return lost;
+  }
+
+  /// Several steps of a block that nothing else touches; see Sweeper.
+  template <class Visit>
+  double advance(std::size_t block,
+                 int steps,
+                 const CoefficientsOf<Real>& c,
+                 State<Real>& state,
+                 const Visit& visit) const noexcept {
+    return sweeper_.advance(block, steps, c, state, visit);
   }
 
   /// The step of a run of explicit links that begins with frame `now`.
@@ -63,9 +88,12 @@ class Stepper {
     at.share_b = across && !run.slow_is_a ? share : Real(1);
     at.slow_ends = layout_.endsSlowStep(run, now);
     at.memory = state.memory(r);
-    at.work = state.work() + r;
+    at.work = metered_ ? state.work() + r : nullptr;
     return at;
   }
+
+  /// What is stepped how, some lines for each section. Realtime: no
+  std::vector<std::string> describe(const scene::Scene& scene) const;
 
   /// Books what remembering links hold before anything moves. Realtime: no.
   void storeAtStart(std::size_t r, const RunCoefficients<Real>& c, State<Real>& state) const {
@@ -114,7 +142,7 @@ class Stepper {
       const Real before = d[s];
       const Real now =
           c.keep[i] * before - c.pull[i] * x[s] + (c.inverse_mass[i] * f[s] + c.drift[i]);
-      lost += static_cast<double>((Real(1) - c.keep[i]) / c.inverse_mass[i] * now * (now + before));
+      lost += static_cast<double>(c.loss[i] * now * (now + before));
       d_last[s] = before;
       d[s] = now;
       x[s] += now;
@@ -186,7 +214,39 @@ class Stepper {
     }
   }
 
+  std::size_t blocks() const noexcept {
+    return blocks_end_.empty() ? 0 : blocks_end_.back();
+  }
+  std::size_t firstBlock(int section) const noexcept {
+    return section == 0 ? 0 : blocks_end_[static_cast<std::size_t>(section) - 1];
+  }
+
   const Layout& layout_;
+  Sweeper<Real> sweeper_;
+  bool metered_;
+  std::vector<std::size_t> blocks_end_;  // [sections] one past its last block
 };
+
+template <class Real>
+std::vector<std::string> Stepper<Real>::describe(const scene::Scene& scene) const {
+  std::vector<std::string> lines;
+  for (int s = 0; s < static_cast<int>(layout_.sections.size()); ++s) {
+    const auto index = static_cast<std::size_t>(s);
+    const std::string section = "section '" + scene.sections[index].name + "': ";
+    for (std::size_t b = firstBlock(s); b < blocks_end_[index]; ++b) {
+      lines.push_back(section + describeBlock(layout_.blocks[b]));
+    }
+    std::size_t links = 0;
+    for (const LinkRun& run : layout_.runs) {
+      links += run.section == s && run.block < 0 ? run.ends.size() : 0;
+    }
+    const SectionRange& range = layout_.sections[index];
+    if (range.end > range.cells || links > 0) {
+      lines.push_back(section + std::to_string(range.end - range.cells) + " modules and " +
+                      std::to_string(links) + " links one by one");
+    }
+  }
+  return lines;
+}
 
 }  // namespace ergotic::physics

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "aligned.hpp"
+#include "coefficients.hpp"
+#include "ergotic/physics/options.hpp"
+#include "layout.hpp"
+#include "physics/kernels/block_kernels.hpp"
+#include "state.hpp"
+
+namespace ergotic::physics {
+
+/// Steps blocks: modules move, then the forces of the links among them are known.
+template <class Real>
+class Sweeper {
+ public:
+  Sweeper(const Layout& layout, const CompileOptions& options);
+
+  /// One step of a block; f is overwritten. Realtime: yes
+  /// \return energy that cells, medium and dampers took in it; 0 if nobody asks (unmetered)
+  double sweep(std::size_t block, const CoefficientsOf<Real>& c, State<Real>& state) const noexcept;
+
+  /// Several steps of a block that nothing else touches meanwhile. Large lattices go in waves: band
+  /// after band, and behind each the same bands of the next steps while they are in the cache.
+  /// Calls `visit(step, first, last)` for ranges of slots at which all of that step is known.
+  /// \return as sweep. Realtime: yes
+  template <class Visit>
+  double advance(std::size_t b,
+                 int steps,
+                 const CoefficientsOf<Real>& c,
+                 State<Real>& state,
+                 const Visit& visit) const noexcept {
+    const Block& block = layout_.blocks[b];
+    const int bands = (block.elements + bandOf(block) - 1) / bandOf(block);
+    double lost = 0.0;
+    if (block.kind != Block::Kind::kLattice || bands < 2 * steps) {
+      for (int t = 0; t < steps; ++t) {
+        lost += sweep(b, c, state);
+        visit(t, block.first, block.first + block.elements);
+      }
+      return lost;
+    }
+    for (int wave = 0; wave < bands + steps - 1; ++wave) {
+      for (int t = std::max(0, wave - bands + 1); t < std::min(steps, wave + 1); ++t) {
+        const Block::Segment known = knownAfter(block, wave - t);
+        lost += sweepBand(b, wave - t, c, state);
+        visit(t, block.first + known.begin, block.first + known.end);
+      }
+    }
+    return lost;
+  }
+
+ private:
+  // Elements whose forces follow while their positions are still in the first-level cache.
+  static constexpr int kBand = 128 * kernels::kLanes;
+
+  /// The arrays of a block from its first element on, and what its links are.
+  struct Arrays;
+
+  /// Elements that move together: more than twice as many as a link can span.
+  static int bandOf(const Block& block) noexcept { return std::max(kBand, 2 * block.guard); }
+  /// Elements whose forces are known once a band has moved.
+  static Block::Segment knownAfter(const Block& block, int band) noexcept;
+  double sweepBand(std::size_t b,
+                   int band,
+                   const CoefficientsOf<Real>& c,
+                   State<Real>& state) const noexcept;
+  double stepBand(const Block& block,
+                  const BlockCoefficients<Real>& c,
+                  const Arrays& a,
+                  int band) const noexcept;
+
+  Arrays arraysOf(std::size_t block,
+                  const CoefficientsOf<Real>& c,
+                  State<Real>& state) const noexcept;
+  double chains(const Block& block,
+                const BlockCoefficients<Real>& c,
+                const Arrays& a) const noexcept;
+  double lattice(const Block& block,
+                 const BlockCoefficients<Real>& c,
+                 const Arrays& a) const noexcept;
+  double links(const Block& block,
+               const BlockCoefficients<Real>& c,
+               const Arrays& a,
+               int begin,
+               int end) const noexcept;
+  double forces(const Block& block,
+                const BlockCoefficients<Real>& c,
+                const Arrays& a,
+                const Block::Segment& range) const noexcept;
+  kernels::LatticeArguments<Real> diagonalsOf(const Block& block,
+                                              const BlockCoefficients<Real>& c,
+                                              const Arrays& a,
+                                              std::size_t from,
+                                              bool uniform) const noexcept;
+  kernels::PlateArguments<Real> plateOf(const Block& block,
+                                        const BlockCoefficients<Real>& c,
+                                        const Arrays& a) const noexcept;
+
+  const Layout& layout_;
+  const kernels::BlockKernels<Real>& kernels_;
+  bool metered_;
+  mutable AlignedVector<Real> sums_;  // [slots] x + ratio d, known anew in each sweep
+};
+
+extern template class Sweeper<float>;
+extern template class Sweeper<double>;
+
+}  // namespace ergotic::physics

@@ -12,8 +12,8 @@ namespace {
 using kernels::kLanes;
 using scene::Value;
 
-constexpr double kSameRatio = 1e-12;  // relative
-constexpr double kWorthSplitting = 0.25;
+constexpr double kSameRatio = 1e-12;      // relative
+constexpr int kWorthACall = 12 * kLanes;  // elements
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -115,20 +115,37 @@ void findSegments(const scene::Scene& scene,
     }
     return true;
   };
-  int uniform = 0;
-  for (int group = 0; group < block.elements; group += kLanes) {
+  const auto hasNoModule = [&](int group) {
+    return std::all_of(block.mats.begin() + group, block.mats.begin() + group + kLanes,
+                       [&](int m) { return isIndifferent(scene, heard, m); });
+  };
+  int begin = 0;
+  int end = block.elements;
+  while (begin < end && hasNoModule(begin)) {
+    begin += kLanes;
+  }
+  while (end > begin && hasNoModule(end - kLanes)) {
+    end -= kLanes;
+  }
+  std::vector<Block::Segment> runs;
+  for (int group = begin; group < end; group += kLanes) {
     bool all = true;
     for (int e = group; e < group + kLanes && all; ++e) {
       all = isIndifferent(scene, heard, block.mats[at(e)]) || isUniform(e);
     }
-    uniform += all ? kLanes : 0;
-    if (block.segments.empty() || block.segments.back().uniform != all) {
-      block.segments.push_back({group, group, all});
+    if (runs.empty() || runs.back().uniform != all) {
+      runs.push_back({group, group, all});
     }
-    block.segments.back().end = group + kLanes;
+    runs.back().end = group + kLanes;
   }
-  if (uniform < kWorthSplitting * block.elements) {
-    block.segments = {{0, block.elements, false}};
+  // A short uniform run between others costs more calls than it saves.
+  const bool is_one = runs.size() == 1;
+  for (const Block::Segment& run : runs) {
+    const bool uniform = run.uniform && (is_one || run.end - run.begin >= kWorthACall);
+    if (block.segments.empty() || block.segments.back().uniform != uniform) {
+      block.segments.push_back({run.begin, run.begin, uniform});
+    }
+    block.segments.back().end = run.end;
   }
 }
 
@@ -214,6 +231,9 @@ Classifier::Classifier(const scene::Scene& scene)
 
 void Classifier::classify(Block& block) {
   lookAtModules(scene_, block);
+  if (block.kind == Block::Kind::kSparse) {
+    return;
+  }
   const Links links(scene_, block, element_);
   if (block.kind == Block::Kind::kChains) {
     // The kernel of chains knows no bias, and of masses no constant force.

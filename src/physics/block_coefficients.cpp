@@ -4,6 +4,7 @@
 
 #include "coefficients.hpp"
 #include "physics/kernels/block_kernels.hpp"
+#include "sparse_program.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -15,6 +16,16 @@ std::size_t at(int i) {
 bool hasDifferent(const Block& block) {
   return std::any_of(block.segments.begin(), block.segments.end(),
                      [](const Block::Segment& segment) { return !segment.uniform; });
+}
+
+std::size_t placeOf(const Block& block, int element, int offset) {
+  if (block.kind == Block::Kind::kChains) {
+    return at(element);
+  }
+  const auto diagonal = std::find(block.offsets.begin(), block.offsets.end(), offset);
+  return static_cast<std::size_t>(diagonal - block.offsets.begin()) *
+             at(block.guard + block.elements) +
+         at(block.guard + element);
 }
 
 }  // namespace
@@ -36,7 +47,10 @@ void CoefficientsOf<Real>::fillBlocks(const scene::Scene& scene,
       to.ratio = to.uniform_z.front() / to.uniform_k.front();
     }
     const std::size_t elements = at(block.elements);
-    if (block.kind == Block::Kind::kChains) {
+    if (block.kind == Block::Kind::kSparse) {
+      to.k.assign(block.program->slots() * kernels::kLanes, Real(0));
+      to.z.assign(to.k.size(), Real(0));
+    } else if (block.kind == Block::Kind::kChains) {
       to.k.assign(block.per_lane ? kernels::kLanes : elements, Real(0));
       to.z.assign(to.k.size(), Real(0));
     } else if (hasDifferent(block)) {
@@ -55,7 +69,7 @@ void CoefficientsOf<Real>::fillBlocks(const scene::Scene& scene,
   }
 }
 
-/// Links of one diagonal and element add up.
+/// Where the coefficients of a link lie; those of one diagonal and element add up.
 template <class Real>
 void CoefficientsOf<Real>::fillBlock(const Layout& layout,
                                      const LinkRun& run,
@@ -64,28 +78,27 @@ void CoefficientsOf<Real>::fillBlock(const Layout& layout,
   BlockCoefficients<Real>& to = blocks[at(run.block)];
   const std::size_t links = run.ends.size();
   for (std::size_t l = 0; l < links; ++l) {
+    const Real k = from.fields[l];
+    const Real z = from.fields[links + l];
     const int a = run.ends[l].a - block.first;
     const int b = run.ends[l].b - block.first;
     const int element = std::min(a, b);
-    const auto diagonal = std::find(block.offsets.begin(), block.offsets.end(), std::abs(a - b));
-    const std::size_t k = at(static_cast<int>(diagonal - block.offsets.begin()));
-    std::size_t place = k * at(block.guard + block.elements) + at(block.guard + element);
-    if (block.kind == Block::Kind::kChains) {
-      place = at(block.per_lane ? element % kernels::kLanes : element);
-    }
-    if (block.per_lane) {
-      to.k[place] = from.fields[l];
-      to.z[place] = from.fields[links + l];
-      continue;
-    }
-    if (!to.k.empty()) {
-      to.k[place] += from.fields[l];
-    }
-    if (!to.z.empty()) {
-      to.z[place] += from.fields[links + l];
+    if (block.kind == Block::Kind::kSparse) {
+      const SparseProgram::Sides& sides = block.program->sides[l];
+      to.k[sides.a] = to.k[sides.b] = k;
+      to.z[sides.a] = to.z[sides.b] = z;
+    } else if (block.per_lane) {
+      to.k[at(element % kernels::kLanes)] = k;
+      to.z[at(element % kernels::kLanes)] = z;
+    } else if (!to.k.empty()) {
+      const std::size_t place = placeOf(block, element, std::abs(a - b));
+      to.k[place] += k;
+      if (!to.z.empty()) {
+        to.z[place] += z;
+      }
     }
     if (!to.bias.empty()) {
-      const Real force = from.fields[l] * from.fields[2 * links + l];
+      const Real force = k * from.fields[2 * links + l];
       to.bias[at(a)] -= force;
       to.bias[at(b)] += force;
     }

@@ -8,6 +8,7 @@
 
 #include "block_parts.hpp"
 #include "physics/kernels/block_kernels.hpp"
+#include "sparse_program.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -84,6 +85,7 @@ class Finder {
     if (ordered.mats.empty()) {
       ordered.mats = component.mats;
       if (!keepRegular(component, ordered)) {
+        addSparse(component);
         return;
       }
     }
@@ -115,6 +117,36 @@ class Finder {
       }
     }
     return true;
+  }
+
+  /// What is regular nowhere, in an order of its own.
+  void addSparse(const Component& component) {
+    const int nodes = static_cast<int>(component.mats.size());
+    if (nodes < kSmallest) {
+      return;
+    }
+    std::vector<LinkEnds> ends;
+    for (const int l : component.lias) {
+      const scene::Lia& lia = scene_.lias[at(l)];
+      ends.push_back({places_[at(lia.a)], places_[at(lia.b)]});
+    }
+    SparsePlan plan = planSparse(nodes, ends);
+    Block block;
+    block.kind = Block::Kind::kSparse;
+    block.section = component.section;
+    block.lias = component.lias;
+    for (const int node : plan.order) {
+      block.mats.push_back(component.mats[at(node)]);
+    }
+    block.elements = std::max(roundUp(nodes), plan.program.reach());
+    block.mats.resize(at(block.elements), -1);
+    const auto windows = static_cast<int>(plan.program.window.size());
+    block.shape = "irregular net, its neighbours from " + std::to_string(windows) +
+                  " windows and " +
+                  std::to_string(plan.program.slots() - plan.program.window.size()) +
+                  " lists for " + std::to_string(plan.program.groups) + " x 16 modules";
+    block.program = std::make_shared<const SparseProgram>(std::move(plan.program));
+    blocks_.push_back(std::move(block));
   }
 
   /// Components of one shape, side by side where enough are of about one length.
@@ -203,6 +235,9 @@ class Finder {
 
 std::string describeBlock(const Block& block) {
   std::string text = block.shape + (block.is_alone ? ", a tick at a time" : "");
+  if (block.kind == Block::Kind::kSparse) {
+    return text;
+  }
   if (block.kind == Block::Kind::kChains) {
     return text + (block.per_lane ? ", one coefficient a chain" : ", a coefficient for each link");
   }

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "ergotic/scene/scene.hpp"
 
 namespace ergotic::physics {
+
+struct SparseProgram;
 
 /// Modules of one section in consecutive slots, with the linear links among them, that kernels step
 /// as arrays: a sweep moves the modules and then knows the forces of these links
@@ -15,6 +18,7 @@ struct Block {
   enum class Kind {
     kChains,   ///< chains side by side, one per lane: module i of lane j is i * kLanes + j
     kLattice,  ///< every link joins s and s + one of few offsets: strings, plates, nets
+    kSparse,   ///< anything else
   };
   /// Elements that a kernel takes in one go; multiples of kLanes.
   struct Segment {
@@ -32,7 +36,7 @@ struct Block {
   std::vector<int> lias;       ///< links among them; until they are in runs
   std::vector<int> offsets;    ///< in elements, > 0; those of a plate first, else ascending
   std::vector<int> reference;  ///< [offsets] the link whose coefficients uniform segments share
-  std::vector<Segment> segments;
+  std::vector<Segment> segments;  ///< from the first free module to the last
   bool has_cells = false;  ///< or masses in a medium
   bool has_drift = false;  ///< constant forces or gravity
   bool has_bias = false;   ///< links that are not at rest where their modules are
@@ -40,7 +44,8 @@ struct Block {
   int pitch = 0;           ///< > 0: the first diagonals are those of a plate with rows this long
   bool is_alone = false;   ///< nothing else acts on it while it runs: it goes through a tick alone
   bool per_lane = false;   ///< chains: all links of a lane have the same coefficients
-  std::string shape;       ///< for people: what it is and why
+  std::shared_ptr<const SparseProgram> program;  ///< of kSparse, links in the order of `lias`
+  std::string shape;                             ///< for people: what it is and why
 };
 
 /// What a block is and which kernels step it, for people.

@@ -136,10 +136,29 @@ class Dealer {
     for (std::size_t g = 0; g < guarded.size(); ++g) {
       byIndex(guarded[g].group).guarded.push_back(g);
     }
+    for (Group& group : groups_.running) {
+      group.has_only_lone = hasOnlyLone(group);
+    }
     return std::move(groups_);
   }
 
  private:
+  bool hasOnlyLone(const Group& group) const {
+    const bool has_modules =
+        std::any_of(group.sections.begin(), group.sections.end(), [this](int s) {
+          const SectionRange& range = layout_.sections[at(s)];
+          return range.end > range.cells || range.dimensions > 1 || range.first == range.cells;
+        });
+    std::size_t blocks = 0;
+    for (const Block& block : layout_.blocks) {
+      blocks += std::count(group.sections.begin(), group.sections.end(), block.section) > 0 ? 1 : 0;
+    }
+    return !has_modules && blocks == group.lone.size() && group.runs.empty() &&
+           group.guarded.empty() && group.places.empty() && group.projections.empty() &&
+           group.decimations.empty() && group.feeds.empty() && group.followers.empty() &&
+           group.taps.empty() && group.proxies.empty();
+  }
+
   static constexpr int kHeld = LinkRun::kHeldGroup;
 
   void makeGroups(const Split& split, const Rates& rates) {

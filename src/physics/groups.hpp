@@ -40,6 +40,7 @@ struct Group {
   std::vector<int> channels;             ///< of outputs that the taps are heard on, each once
   std::vector<std::size_t> tap_columns;  ///< [taps] index in `channels`
   std::vector<LoneBlock> lone;
+  bool has_only_lone = false;  ///< there is nothing to do frame by frame
   std::vector<Proxy> proxies;
   std::int64_t modules = 0;
   std::int64_t cost = 0;  ///< steps of coordinates in a tick

@@ -216,7 +216,7 @@ class InstrumentOf final : public Instrument {
     const Group& group = parts_.groups.running[g];
     const Frames tick = tickOf(heard_[g]);
     stepper_.advanceLoneBlocks(group, tick);
-    for (int r = 0; r < tick.count; ++r) {
+    for (int r = 0; r < tick.count && !group.has_only_lone; ++r) {
       const Frames frame{tick.first + r, 1, tick.inputs + at(r) * at(inputChannels()),
                          tick.outputs + at(r) * group.channels.size()};
       stepper_.begin(group, frame);

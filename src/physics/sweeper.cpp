@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "sparse_program.hpp"
+
 namespace ergotic::physics {
 namespace {
 
@@ -21,16 +23,24 @@ struct Sweeper<Real>::Arrays {
   Real* f = nullptr;
   const Real* u = nullptr;  // x, or x + ratio d
   const Real* d = nullptr;  // null: u has it all
+  Real* pairs = nullptr;
 };
 
 template <class Real>
 Sweeper<Real>::Sweeper(const Layout& layout, const CompileOptions& options)
     : layout_(layout),
       kernels_(kernels::blockKernels<Real>(options.isa)),
+      sparse_kernels_(kernels::sparseKernels<Real>(options.isa)),
+      isa_(options.isa),
       metered_(options.metered) {
   const bool any = std::any_of(layout.blocks.begin(), layout.blocks.end(),
                                [](const Block& block) { return block.one_ratio; });
   sums_.assign(any ? at(layout.slots()) : 0, Real(0));
+  const bool pairs =
+      std::any_of(layout.blocks.begin(), layout.blocks.end(), [&](const Block& block) {
+        return block.kind == Block::Kind::kSparse && block.program->needsPairs(isa_);
+      });
+  pairs_.assign(pairs ? 2 * at(layout.slots()) : 0, Real(0));
 }
 
 template <class Real>
@@ -54,6 +64,7 @@ typename Sweeper<Real>::Arrays Sweeper<Real>::arraysOf(std::size_t b,
     a.move.pull = c.masses.pull.data() + first;
     a.move.loss = c.masses.loss.data() + first;
   }
+  a.pairs = pairs_.empty() ? nullptr : pairs_.data() + 2 * first;
   a.u = a.move.x;
   a.d = a.move.d;
   if (block.one_ratio) {
@@ -73,9 +84,37 @@ double Sweeper<Real>::sweep(std::size_t b,
                             State<Real>& state) const noexcept {
   const Block& block = layout_.blocks[b];
   const Arrays a = arraysOf(b, c, state);
-  const double twice = block.kind == Block::Kind::kChains ? chains(block, c.blocks[b], a)
-                                                          : lattice(block, c.blocks[b], a);
-  return 0.5 * twice;
+  switch (block.kind) {
+    case Block::Kind::kChains:
+      return 0.5 * chains(block, c.blocks[b], a);
+    case Block::Kind::kSparse:
+      return 0.5 * sparse(block, c.blocks[b], a);
+    default:
+      return 0.5 * lattice(block, c.blocks[b], a);
+  }
+}
+
+template <class Real>
+double Sweeper<Real>::sparse(const Block& block,
+                             const BlockCoefficients<Real>& c,
+                             const Arrays& a) const noexcept {
+  double twice = kernels_.move(a.move, 0, block.elements);
+  kernels::SparseArguments<Real> links = block.program->template arguments<Real>();
+  links.ks = c.k.data();
+  links.zs = c.z.data();
+  links.x = a.move.x;
+  links.d = a.move.d;
+  links.d_last = a.move.d_last;
+  links.f = a.f;
+  if (block.program->needsPairs(isa_)) {
+    sparse_kernels_.pair(links, a.pairs, 0, block.program->groups);
+    links.pairs = a.pairs;
+  }
+  twice += sparse_kernels_.forces(links, 0, block.program->groups);
+  for (std::size_t i = 0; i < c.bias.size(); ++i) {
+    a.f[i] += c.bias[i];
+  }
+  return twice;
 }
 
 template <class Real>
@@ -122,7 +161,8 @@ double Sweeper<Real>::stepBand(const Block& block,
                                int band) const noexcept {
   const int begin = band * bandOf(block);
   const int end = std::min(begin + bandOf(block), block.elements);
-  const double twice = kernels_.move(a.move, begin, end);
+  const double twice = kernels_.move(a.move, std::max(begin, block.segments.front().begin),
+                                     std::min(end, block.segments.back().end));
   const Block::Segment known = knownAfter(block, band);
   return twice + links(block, c, a, known.begin, known.end);
 }

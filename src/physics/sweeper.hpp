@@ -9,6 +9,7 @@
 #include "ergotic/physics/options.hpp"
 #include "layout.hpp"
 #include "physics/kernels/block_kernels.hpp"
+#include "physics/kernels/sparse_kernels.hpp"
 #include "state.hpp"
 
 namespace ergotic::physics {
@@ -79,6 +80,9 @@ class Sweeper {
   double chains(const Block& block,
                 const BlockCoefficients<Real>& c,
                 const Arrays& a) const noexcept;
+  double sparse(const Block& block,
+                const BlockCoefficients<Real>& c,
+                const Arrays& a) const noexcept;
   double lattice(const Block& block,
                  const BlockCoefficients<Real>& c,
                  const Arrays& a) const noexcept;
@@ -102,8 +106,11 @@ class Sweeper {
 
   const Layout& layout_;
   const kernels::BlockKernels<Real>& kernels_;
+  const kernels::SparseKernels<Real>& sparse_kernels_;
+  rt::Isa isa_;
   bool metered_;
-  mutable AlignedVector<Real> sums_;  // [slots] x + ratio d, known anew in each sweep
+  mutable AlignedVector<Real> sums_;   // [slots] x + ratio d, known anew in each sweep
+  mutable AlignedVector<Real> pairs_;  // [slots][2] x, d, where sparse kernels read them
 };
 
 extern template class Sweeper<float>;

@@ -236,62 +236,75 @@ ERGOTIC_INLINE Vector<Real> slide(Vector<Real> one, Vector<Real> other) noexcept
   return __builtin_shuffle(one, other, mask);
 }
 
-/// What a plate's row pass carries from vector to vector, of positions or of steps: its own row and
-/// the second difference across rows, here and one vector back.
+/// Differences of one array (x, d) along a plate's row and across its rows, as a pass along the row
+/// sees them: what it has loaded is shifted, not loaded again.
 template <class Real>
-struct RowWindow {
-  Vector<Real> row_back, row, across_back, across;
+struct RowPass {
+  const Real* u;
+  Index pitch;
+  Vector<Real> here;       // elements s...
+  Vector<Real> step_back;  // next element less this one, one vector back
 
-  static ERGOTIC_INLINE Vector<Real> difference(const Real* u, Index s, Index pitch) noexcept {
-    const Vector<Real> here = load(u, s);
-    return (load(u, s - pitch) - here) + (load(u, s + pitch) - here);
+  ERGOTIC_INLINE RowPass(const Real* from, Index s, Index rows) noexcept
+      : u(from), pitch(rows), here(load(from, s)) {
+    step_back = slide<Real, 1>(load(from, s - kWidth<Real>), here) - load(from, s - kWidth<Real>);
   }
-  ERGOTIC_INLINE RowWindow(const Real* u, Index s, Index pitch) noexcept
-      : row_back(load(u, s - kWidth<Real>)),
-        row(load(u, s)),
-        across_back(difference(u, s - kWidth<Real>, pitch)),
-        across(difference(u, s, pitch)) {}
-
-  /// Sum of stencils at s, then moves one vector on. The corners' second differences are those
-  /// across the rows of the neighbours and twice that along the row.
-  template <bool kCorners>
-  ERGOTIC_INLINE Vector<Real> step(
-      const Real* u, Index s, Index pitch, Real along, Real across_gain, Real corner) noexcept {
-    constexpr int kBack = kWidth<Real> - 1;
-    const Vector<Real> row_next = load(u, s + kWidth<Real>);
-    const Vector<Real> second =
-        (slide<Real, kBack>(row_back, row) - row) + (slide<Real, 1>(row, row_next) - row);
-    Vector<Real> sum = along * second + across_gain * across;
-    const Vector<Real> across_next = difference(u, s + kWidth<Real>, pitch);
-    if constexpr (kCorners) {
-      sum +=
-          corner * (slide<Real, kBack>(across_back, across) + slide<Real, 1>(across, across_next));
-      across_back = across;
-    }
-    row_back = row;
-    row = row_next;
-    across = across_next;
-    return sum;
+  /// Second difference across the rows at s.
+  ERGOTIC_INLINE Vector<Real> across(Index s) const noexcept {
+    const Vector<Real> middle = load(u, s);
+    return (load(u, s - pitch) - middle) + (load(u, s + pitch) - middle);
+  }
+  /// Second difference along the row at s, then on to the next vector.
+  ERGOTIC_INLINE Vector<Real> along(Index s) noexcept {
+    const Vector<Real> next = load(u, s + kWidth<Real>);
+    const Vector<Real> step = slide<Real, 1>(here, next) - here;
+    const Vector<Real> second = step - slide<Real, kWidth<Real> - 1>(step_back, step);
+    here = next;
+    step_back = step;
+    return second;
   }
 };
 
+/// The corners' second differences are those across the rows of both neighbours and twice that
+/// along the row.
 template <bool kCorners, bool kWhole, class Real>
 void plateLoop(const PlateArguments<Real>& given, Index first, Index last) noexcept {
   const PlateArguments<Real> a = given;
   const Real k_along = kCorners ? a.k_along + 2 * a.k_corner : a.k_along;
   const Real z_along = kCorners ? a.z_along + 2 * a.z_corner : a.z_along;
-  RowWindow<Real> u(a.u, first, a.pitch);
-  if constexpr (kWhole) {
-    for (Index s = first; s < last; s += kWidth<Real>) {
-      store(a.f, s, u.template step<kCorners>(a.u, s, a.pitch, k_along, a.k_across, a.k_corner));
+  RowPass<Real> u(a.u, first, a.pitch);
+  RowPass<Real> d(kWhole ? a.u : a.d, first, a.pitch);
+  Vector<Real> corner_back = {};
+  Vector<Real> corner = {};
+  Vector<Real> straight = {};
+  // What the vector at s gives: to itself, and by its corners to both neighbours.
+  const auto look = [&](Index s) noexcept {
+    const Vector<Real> across = u.across(s);
+    straight = a.k_across * across;
+    corner_back = corner;
+    corner = a.k_corner * across;
+    if constexpr (!kWhole) {
+      const Vector<Real> viscous = d.across(s);
+      straight += a.z_across * viscous;
+      corner += a.z_corner * viscous;
     }
-  } else {
-    RowWindow<Real> d(a.d, first, a.pitch);
-    for (Index s = first; s < last; s += kWidth<Real>) {
-      store(a.f, s,
-            u.template step<kCorners>(a.u, s, a.pitch, k_along, a.k_across, a.k_corner) +
-                d.template step<kCorners>(a.d, s, a.pitch, z_along, a.z_across, a.z_corner));
+  };
+  if constexpr (kCorners) {
+    look(first - kWidth<Real>);
+  }
+  look(first);
+  for (Index s = first; s < last; s += kWidth<Real>) {
+    Vector<Real> force = k_along * u.along(s) + straight;
+    if constexpr (!kWhole) {
+      force += z_along * d.along(s);
     }
+    const Vector<Real> one = corner_back;
+    const Vector<Real> two = corner;
+    look(s + kWidth<Real>);
+    if constexpr (kCorners) {
+      force += slide<Real, kWidth<Real> - 1>(one, two) + slide<Real, 1>(two, corner);
+    }
+    store(a.f, s, force);
   }
 }
 

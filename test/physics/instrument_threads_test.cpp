@@ -221,7 +221,7 @@ scene::Scene heavyPair() {
     scene::Section section = b.scene.sections[0];
     section.name = "s" + std::to_string(s);
     b.scene.sections.push_back(section);
-    const int first = b.chain(400, 1e-3, 2e4, 1e-3);
+    const int first = b.chain(20000, 1e-3, 2e4, 1e-3);
     for (std::size_t m = at(first); m < b.scene.mats.size(); ++m) {
       b.scene.mats[m].section = s + 2;
     }

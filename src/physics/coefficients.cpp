@@ -140,6 +140,14 @@ void CoefficientsOf<Real>::fillMasses(const scene::Scene& scene,
       }
     }
   }
+  for (const ModalPlace& point : layout.modal_places) {
+    double inverse = 0.0;
+    for (int i = 0; i < point.count; ++i) {
+      const double weight = point.weights[at(i)];
+      inverse += weight * weight * static_cast<double>(masses.inverse_mass[at(point.first + i)]);
+    }
+    masses.inverse_mass[at(point.slot)] = static_cast<Real>(inverse);
+  }
 }
 
 template <class Real>

@@ -38,6 +38,15 @@ void setParameters(scene::Scene& scene, double scene::Parameter::*end) {
   }
 }
 
+/// True if a section is to be played by fewer modes than it has free modules.
+bool leavesModesOut(const scene::Scene& scene, int section) {
+  const int most = scene.sections[at(section)].modes;
+  return most > scene::kNoModes &&
+         std::count_if(scene.mats.begin(), scene.mats.end(), [section](const scene::Mat& mat) {
+           return mat.section == section && isFree(mat);
+         }) > most;
+}
+
 }  // namespace
 
 CoupledGroup::CoupledGroup(const SceneNetwork& networks, int group)
@@ -127,6 +136,10 @@ std::string CoupledGroup::doubt() const {
     }
     for (const int end : {lia.a, lia.b}) {
       const scene::Section& section = scene.sectionOf(scene.mats[at(end)]);
+      if (leavesModesOut(scene, scene.mats[at(end)].section)) {
+        return "they were worked out with all modes of section '" + section.name +
+               "', of which some are left out. Use modes: all";
+      }
       if (section.geometry != scene::Geometry::kScalar && lia.rest_length != 0.0) {
         return "link '" + lia.name + "' turns and has a length at rest: no matrix describes it";
       }

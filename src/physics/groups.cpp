@@ -121,6 +121,8 @@ class Dealer {
 
   Groups deal() {
     dealRuns();
+    dealBySection(layout_.modal_places, &Group::modal_places,
+                  [](const auto& p) { return p.section; });
     dealBySection(layout_.places, &Group::places, [](const auto& p) { return p.section; });
     dealBySection(layout_.projections, &Group::projections,
                   [](const auto& p) { return p.of.section; });
@@ -334,6 +336,7 @@ Group everythingOf(const Layout& layout) {
   Group everything;
   all(everything.sections, layout.sections.size());
   all(everything.feeds, layout.feeds.size());
+  all(everything.modal_places, layout.modal_places.size());
   all(everything.places, layout.places.size());
   all(everything.projections, layout.projections.size());
   all(everything.decimations, layout.decimations.size());

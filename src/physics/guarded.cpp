@@ -56,7 +56,7 @@ ERGOTIC_REALTIME void GuardedLinks<Real>::setTerms(std::size_t link,
       const bool opens = after == last;
       after += opens ? 0 : 1;
       std::move_backward(after, last, last + 1);
-      *after = {t->slot, t->module, t->component, t->slow_section, opens, {}};
+      *after = {t->slot, t->module, t->component, t->slow_section, t->is_modal, opens, {}};
       same = after;
       ++last;
     }
@@ -96,6 +96,12 @@ void GuardedLinks<Real>::place(const GuardedView<Real>& view,
   m.p = direct(u, sense, m) - length;
 }
 
+/// The step of a module to come.
+template <class Real>
+Real stepOf(const GuardedView<Real>& v, int i, Real now) noexcept {
+  return v.keep[i] * now - v.pull[i] * v.x[i] + (v.inverse_mass[i] * v.f[i] + v.drift[i]);
+}
+
 /// How far end a moves against end b: in the step just made, in the one to come if nothing guarded
 /// pushes, and the part of both by modules that forces do not move.
 template <class Real>
@@ -116,9 +122,7 @@ typename GuardedLinks<Real>::Course GuardedLinks<Real>::courseOf(const GuardedVi
     const bool is_held = term.slow_section >= 0;
     // A held module moved when its section did, and will stay until that does again.
     const Real now = is_held && v.due[term.slow_section] == 0 ? Real(0) : v.d[i];
-    const Real next =
-        is_held ? Real(0)
-                : v.keep[i] * now - v.pull[i] * v.x[i] + (v.inverse_mass[i] * v.f[i] + v.drift[i]);
+    const Real next = is_held ? Real(0) : term.is_modal ? v.ahead[i] : stepOf(v, i, now);
     const Real fixed = isFree(v, term) ? Real(0) : Real(1);
     for (int k = 0; k < link.dimensions; ++k) {
       c.now[k] += term.weight[k] * now;

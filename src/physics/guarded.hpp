@@ -16,6 +16,7 @@ struct GuardedTerm {
   int component = 0;             ///< 0 x, 1 y, 2 z
   double weight[3] = {1, 0, 0};  ///< in each coordinate of end a less end b
   int slow_section = -1;         ///< where the module is stepped, if more slowly than the link
+  bool is_modal = false;         ///< a sum of modes: its next step is in GuardedView::ahead
 };
 
 struct GuardedLink {
@@ -38,6 +39,7 @@ struct GuardedView {
   const Real* pull = nullptr;
   const unsigned char* due = nullptr;   ///< [sections] 1 if it moved in this step
   const unsigned char* idle = nullptr;  ///< [links] 1 if it sleeps; none: all are awake
+  const Real* ahead = nullptr;          ///< [slots] the step to come of sums of modes
 };
 
 /// A module as the guarded links on it see it.
@@ -102,6 +104,7 @@ class GuardedLinks {
     int module;
     int component;
     int slow_section;
+    bool is_modal;
     bool opens_module;  // first term of the link on this module
     Real weight[3];
   };

@@ -22,6 +22,8 @@ GuardedRuns<Real>::GuardedRuns(const scene::Scene& scene,
       points_(points),
       place_of_slot_(at(layout.slots()), -1),
       projection_of_slot_(at(layout.slots()), -1),
+      modal_of_slot_(at(layout.slots()), -1),
+      ahead_(layout.modal_places.empty() ? 0 : at(layout.slots())),
       members_(guardedGroupsOf(layout)),
       modules_(members_.empty() ? 0 : at(layout.slots())),
       forces_(members_.empty() ? 0 : at(layout.slots()), Real(0)) {
@@ -33,6 +35,9 @@ GuardedRuns<Real>::GuardedRuns(const scene::Scene& scene,
   }
   for (std::size_t p = 0; p < layout.projections.size(); ++p) {
     projection_of_slot_[at(layout.projections[p].slot)] = static_cast<int>(p);
+  }
+  for (std::size_t p = 0; p < layout.modal_places.size(); ++p) {
+    modal_of_slot_[at(layout.modal_places[p].slot)] = static_cast<int>(p);
   }
   for (const GuardedGroup& members : members_) {
     addLinks(members, state);
@@ -46,25 +51,34 @@ void GuardedRuns<Real>::addLinks(const GuardedGroup& members, State<Real>& state
   const std::vector<double> somewhere(2 * layout_.places.size(), 0.0);
   std::vector<GuardedLink> links;
   std::vector<std::size_t> moving;
+  std::vector<std::size_t> modal;
   std::vector<int> slow;
   for (const GuardedRef& ref : members.links) {
     const LinkRun& run = layout_.runs[ref.run];
     if (isOnPlace(run.ends[ref.link].a) || isOnPlace(run.ends[ref.link].b)) {
       moving.push_back(links.size());
     }
+    for (const int end : {run.ends[ref.link].a, run.ends[ref.link].b}) {
+      if (const int p = modalPlaceUnder(end); p >= 0) {
+        modal.push_back(at(p));
+      }
+    }
     if (run.slow_section >= 0 && (slow.empty() || slow.back() != run.slow_section)) {
       slow.push_back(run.slow_section);
     }
     links.push_back(describe(ref, somewhere.data()));
   }
+  std::sort(modal.begin(), modal.end());
+  modal.erase(std::unique(modal.begin(), modal.end()), modal.end());
   const std::string name = "guarded" + std::to_string(links_.size());
-  links_.push_back({GuardedLinks<Real>(links, modules_), moving,
+  links_.push_back({GuardedLinks<Real>(links, modules_), moving, modal,
                     std::vector<unsigned char>(links.size(), 0), slow,
                     std::vector<unsigned char>(layout_.sections.size(), 0),
                     state.arena().template add<GuardedState<Real>>(name, links.size())});
 }
 
-/// The ends of guarded links, all points, and the modules that points hand their forces to.
+/// The ends of guarded links, all points, and the modules that points hand their forces to. Sums of
+/// modes hand theirs to the modes themselves.
 template <class Real>
 std::vector<int> GuardedRuns<Real>::reachedBy(const Group& group) const {
   std::vector<int> reached;
@@ -110,6 +124,25 @@ bool GuardedRuns<Real>::isOnPlace(int slot) const noexcept {
          (projection >= 0 && isOnPlace(layout_.projections[at(projection)].of.slot));
 }
 
+/// The sum of modes that an end is, or that is seen there in another frame; -1: none.
+template <class Real>
+int GuardedRuns<Real>::modalPlaceUnder(int slot) const noexcept {
+  const int projection = projection_of_slot_[at(slot)];
+  return projection >= 0 ? modalPlaceUnder(layout_.projections[at(projection)].of.slot)
+                         : modal_of_slot_[at(slot)];
+}
+
+/// \pre forces of everything else are on the modes
+template <class Real>
+void GuardedRuns<Real>::lookAhead(std::size_t g,
+                                  const CoefficientsOf<Real>& c,
+                                  const State<Real>& state) noexcept {
+  for (const std::size_t p : links_[g].modal) {
+    ahead_[at(layout_.modal_places[p].slot)] =
+        points_.modal().stepAhead(p, c.masses, state.x(), state.d(), state.f());
+  }
+}
+
 template <class Real>
 GuardedLink GuardedRuns<Real>::describe(const GuardedRef& ref, const double* places) const {
   const Reach reach = reachOf(ref, places);
@@ -151,7 +184,8 @@ void GuardedRuns<Real>::reachEnd(int slot,
   const auto add = [&](int module, int step, double weight) {
     for (int c = 0; c < dimensions; ++c) {
       GuardedTerm& term = to.terms[to.count++];
-      term = {module + c * step, module, c, {}, slow_section};
+      const bool is_modal = modal_of_slot_[at(module)] >= 0;
+      term = {module + c * step, module, c, {}, slow_section, is_modal};
       Eigen::Map<Eigen::Vector3d>(term.weight) = weight * map.col(c);
     }
   };
@@ -192,6 +226,7 @@ GuardedView<Real> GuardedRuns<Real>::viewOf(const Links& links,
   view.drift = c.masses.drift.data();
   view.keep = c.masses.keep.data();
   view.pull = c.masses.pull.data();
+  view.ahead = ahead_.data();
   view.due = links.due.data();
   view.idle = links.idle.data();
   return view;
@@ -290,6 +325,7 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::step(const Group& group,
     }
     any = true;
     followPlaces(g, state);
+    lookAhead(g, c, state);
     markIdle(g, state);
     const std::int64_t began = last + 1 - members_[g].divisor;
     markDue(g, began);
@@ -298,7 +334,8 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::step(const Group& group,
     closeBooks(g, false, state);
   }
   if (any) {
-    points_.scatter(group, forces_.data(), state.places());
+    points_.scatterToModules(group, forces_.data(), state.places());
+    points_.scatterToModes(group, forces_.data(), state.f());
     for (const int slot : reached_[group.guarded.front()]) {
       state.f()[slot] += forces_[at(slot)];
       forces_[at(slot)] = Real(0);

@@ -58,6 +58,7 @@ class GuardedRuns {
   struct Links {
     GuardedLinks<Real> links;
     std::vector<std::size_t> moving;  // those with an end on a place
+    std::vector<std::size_t> modal;   // modal places that they reach
     std::vector<unsigned char> idle;  // [links]
     std::vector<int> slow;            // sections that are stepped more slowly
     std::vector<unsigned char> due;   // [sections] of these, that moved as the present step began
@@ -75,6 +76,8 @@ class GuardedRuns {
                 const double* places,
                 Reach& to) const noexcept;
   bool isOnPlace(int slot) const noexcept;
+  int modalPlaceUnder(int slot) const noexcept;
+  void lookAhead(std::size_t g, const CoefficientsOf<Real>& c, const State<Real>& state) noexcept;
   std::vector<int> reachedBy(const Group& group) const;
   GuardedView<Real> viewOf(const Links& links,
                            const CoefficientsOf<Real>& c,
@@ -96,6 +99,8 @@ class GuardedRuns {
   std::vector<Eigen::Vector3d> rests_;        // [mats]
   std::vector<int> place_of_slot_;            // -1: none
   std::vector<int> projection_of_slot_;       // -1: none
+  std::vector<int> modal_of_slot_;            // -1: none
+  std::vector<Real> ahead_;                   // [slots] how far sums of modes will go
   std::vector<GuardedGroup> members_;         // guardedGroupsOf
   std::vector<GuardedModule<Real>> modules_;  // [slots]
   std::vector<Links> links_;                  // [members_]

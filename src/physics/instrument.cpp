@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "ergotic/exception.hpp"
 #include "ergotic/physics/settle.hpp"
 #include "ergotic/rt/thread.hpp"
 #include "group_stepper.hpp"
+#include "modal_scene.hpp"
 #include "parts.hpp"
 #include "step_units.hpp"
 #include "workers.hpp"
@@ -42,8 +44,9 @@ class InstrumentOf final : public Instrument {
  public:
   InstrumentOf(const scene::Scene& scene, const Rates& rates, const CompileOptions& options)
       : Instrument(scene, rates, options),
-        parts_(scene, rates, options),
-        stepper_(scene, rates, parts_),
+        modal_(withModes(scene, rates, notes_)),
+        parts_(played(), rates, options, modal_ ? modal_->points : std::vector<ModalPoint>{}),
+        stepper_(played(), rates, parts_),
         inputs_(at(rates.ratio * inputChannels())),
         heard_of_held_(heardOf(parts_.groups.held)),
         workers_(Workers::useful(options.threads, parts_.groups.running.size()),
@@ -76,7 +79,7 @@ class InstrumentOf final : public Instrument {
   }
 
   std::unique_ptr<Coefficients> prepare(const std::vector<double>& values) const override {
-    return std::make_unique<CoefficientsOf<Real>>(withParameters(scene(), values), rates(),
+    return std::make_unique<CoefficientsOf<Real>>(withParameters(played(), values), rates(),
                                                   parts_.layout);
   }
 
@@ -107,12 +110,18 @@ class InstrumentOf final : public Instrument {
       return;
     }
     const Real* x = parts_.state.x();
-    for (std::size_t m = 0; m < parts_.layout.slot_of_mat.size(); ++m) {
-      const scene::Mat& mat = scene().mats[m];
+    std::size_t picture = 0;
+    for (std::size_t written = 0; written < scene().mats.size(); ++written) {
+      const int m = modal_ ? modal_->mats[written] : static_cast<int>(written);
+      if (m < 0) {
+        *to++ = displacementIn(modal_->pictures[picture++]);
+        continue;
+      }
+      const scene::Mat& mat = played().mats[at(m)];
       const SectionRange& range = parts_.layout.sections[at(mat.section)];
       const int stride = mat.type == scene::MatType::kPoint ? 1 : range.stride;
       for (int k = 0; k < range.dimensions; ++k) {
-        *to++ = static_cast<float>(x[parts_.layout.slot_of_mat[m] + k * stride]);
+        *to++ = static_cast<float>(x[parts_.layout.slot_of_mat[at(m)] + k * stride]);
       }
     }
   }
@@ -124,7 +133,11 @@ class InstrumentOf final : public Instrument {
     }
   }
   std::vector<GuardReport> makeGuardReports() const override {
-    return parts_.guarded.makeReports();
+    std::vector<GuardReport> reports = parts_.guarded.makeReports();
+    for (GuardReport& report : reports) {
+      report.lia = modal_ ? modal_->lias[at(report.lia)] : report.lia;
+    }
+    return reports;
   }
   void readGuards(std::vector<GuardReport>& to) const noexcept override {
     if (!is_under_way_) {
@@ -132,8 +145,12 @@ class InstrumentOf final : public Instrument {
     }
   }
 
+  std::vector<std::string> notes() const override { return notes_; }
+
   std::vector<std::string> describe() const override {
-    std::vector<std::string> lines = parts_.stepper.describe(scene());
+    std::vector<std::string> lines = notes_;
+    const std::vector<std::string> stepped = parts_.stepper.describe(scene());
+    lines.insert(lines.end(), stepped.begin(), stepped.end());
     const std::vector<std::string> groups =
         describeGroups(scene(), parts_.groups, workers_.threads());
     lines.insert(lines.end(), groups.begin(), groups.end());
@@ -150,6 +167,18 @@ class InstrumentOf final : public Instrument {
   }
 
  private:
+  /// The scene whose modules are stepped: as it was written, or with modes in place of some.
+  const scene::Scene& played() const noexcept { return modal_ ? modal_->scene : scene(); }
+
+  float displacementIn(const ModalPicture& picture) const noexcept {
+    const Real* modes = parts_.state.x() + parts_.layout.slot_of_mat[at(picture.first)];
+    float sum = 0.0F;
+    for (std::size_t k = 0; k < picture.weights.size(); ++k) {
+      sum += picture.weights[k] * static_cast<float>(modes[k]);
+    }
+    return sum;
+  }
+
   void placeInitialState() {
     for (std::size_t s = 0; s < parts_.layout.sections.size(); ++s) {
       const SectionRange& range = parts_.layout.sections[s];
@@ -158,7 +187,7 @@ class InstrumentOf final : public Instrument {
         if (parts_.layout.mat_of_slot[at(slot)] < 0) {
           continue;
         }
-        const scene::Mat& mat = scene().mats[at(parts_.layout.mat_of_slot[at(slot)])];
+        const scene::Mat& mat = played().mats[at(parts_.layout.mat_of_slot[at(slot)])];
         for (int k = 0; k < range.dimensions; ++k) {
           const int here = slot + k * range.stride;
           parts_.state.x()[here] = static_cast<Real>(mat.position[k] - mat.rest[k]);
@@ -166,6 +195,11 @@ class InstrumentOf final : public Instrument {
             parts_.state.d()[here] = static_cast<Real>(units.velocity(mat.velocity[k]));
           }
         }
+      }
+    }
+    if (modal_) {
+      for (const auto& [mode, force] : modal_->first_forces) {
+        parts_.state.f()[parts_.layout.slot_of_mat[at(mode)]] = static_cast<Real>(force);
       }
     }
     parts_.points.placeAtStart(*parts_.coefficients, parts_.state.x(), parts_.state.d(),
@@ -277,6 +311,8 @@ class InstrumentOf final : public Instrument {
     return std::vector<double>(at(rates().ratio) * group.channels.size());
   }
 
+  std::vector<std::string> notes_;  // on modes
+  std::optional<ModalScene> modal_;
   Parts<Real> parts_;
   GroupStepper<Real> stepper_;
   std::vector<double> inputs_;              // [R][input channels]

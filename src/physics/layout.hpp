@@ -11,6 +11,7 @@
 #include "blocks.hpp"
 #include "ergotic/physics/rates.hpp"
 #include "ergotic/scene/scene.hpp"
+#include "modal_scene.hpp"
 
 namespace ergotic::physics {
 
@@ -34,9 +35,9 @@ enum class Law {
 Law lawOf(const scene::Lia& lia);
 
 /// Slots of a section. A slot is one coordinate of one module. Each coordinate of a section fills
-/// `stride` slots in a row: blocks (blocks.hpp; their grounds are masses that no force moves), cells,
-/// masses, then modules that forces do not move; those of y follow those of x. The ranges are those
-/// of x.
+/// `stride` slots in a row: blocks (blocks.hpp; their grounds are masses that no force moves),
+/// cells, masses, then modules that forces do not move; those of y follow those of x. The ranges
+/// are those of x.
 struct SectionRange {
   int divisor = 1;  ///< audio frames per step
   int dimensions = 1;
@@ -95,6 +96,16 @@ struct PlacePoint {
   int stride = 0;      ///< of the modules around it
   int connection = 0;  ///< index in Scene::connections
   int guide = -1;      ///< slot
+};
+
+/// A module that is a weighted sum of modes, which lie in consecutive slots.
+struct ModalPlace {
+  int slot = 0;
+  int section = 0;
+  int first = 0;  ///< slot of its first mode
+  int count = 0;
+  double offset = 0.0;          ///< m, where all modes are at 0
+  std::vector<double> weights;  ///< [count]
 };
 
 /// A module seen in the frame of a section with fewer coordinates: y = axes x.
@@ -158,6 +169,7 @@ struct Layout {
   std::vector<int> component;    ///< [slots] 0 x, 1 y, 2 z
   std::vector<SectionRange> sections;
   std::vector<Block> blocks;  ///< by section, then by slot
+  std::vector<ModalPlace> modal_places;
   std::vector<PlacePoint> places;
   std::vector<ProjectedPoint> projections;
   std::vector<DecimatedPoint> decimations;
@@ -202,7 +214,10 @@ struct Layout {
   }
 };
 
+/// \param modal_points  of a scene in which modes stand in for modules
 /// \throws Exception if links join sections whose divisors do not divide one another
-Layout makeLayout(const scene::Scene& scene, const Rates& rates);
+Layout makeLayout(const scene::Scene& scene,
+                  const Rates& rates,
+                  const std::vector<ModalPoint>& modal_points = {});
 
 }  // namespace ergotic::physics

@@ -184,6 +184,27 @@ Law lawOf(const scene::Lia& lia) {
   throw Exception("link '" + lia.name + "' has no force law");
 }
 
+void placeModalPoints(const scene::Scene& scene,
+                      const std::vector<ModalPoint>& points,
+                      Layout& layout) {
+  for (const ModalPoint& point : points) {
+    ModalPlace place;
+    place.slot = addSlots(layout, 1, point.mat);
+    place.section = scene.mats[at(point.mat)].section;
+    place.first = layout.slot_of_mat[at(point.first)];
+    place.count = static_cast<int>(point.weights.size());
+    place.offset = point.offset;
+    place.weights = point.weights;
+    for (int i = 0; i < place.count; ++i) {
+      if (layout.slot_of_mat[at(point.first + i)] != place.first + i) {
+        throw Exception("modes do not lie side by side");
+      }
+    }
+    layout.slot_of_mat[at(point.mat)] = place.slot;
+    layout.modal_places.push_back(std::move(place));
+  }
+}
+
 void placeConnections(const scene::Scene& scene, Layout& layout) {
   for (int k = 0; k < static_cast<int>(scene.connections.size()); ++k) {
     const scene::Connection& connection = scene.connections[at(k)];

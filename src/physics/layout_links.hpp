@@ -6,6 +6,10 @@
 namespace ergotic::physics {
 
 /// Slots of the points that lie on grids. \pre modules are placed
+/// Slots for points that are sums of modes. \pre modules have theirs
+void placeModalPoints(const scene::Scene& scene,
+                      const std::vector<ModalPoint>& points,
+                      Layout& layout);
 void placeConnections(const scene::Scene& scene, Layout& layout);
 
 /// Runs of links, and the points through which they see other geometries and rates.

@@ -65,6 +65,7 @@ scene::Scene linearPart(scene::Scene scene) {
     section.pose = Eigen::Isometry3d::Identity();
     section.gravity.setZero();
     section.sleep_energy = 0.0;
+    section.modes = scene::kNoModes;
   }
   for (scene::Mat& mat : scene.mats) {
     for (Eigen::Vector3d* each : {&mat.rest, &mat.position, &mat.velocity, &mat.force}) {

@@ -20,8 +20,12 @@ namespace ergotic::physics {
 /// What an instrument consists of.
 template <class Real>
 struct Parts {
-  Parts(const scene::Scene& scene, const Rates& rates, const CompileOptions& options)
-      : Parts(scene, rates, options, makeLayout(scene, rates)) {}
+  /// \param modal_points  of a scene in which modes stand in for modules
+  Parts(const scene::Scene& scene,
+        const Rates& rates,
+        const CompileOptions& options,
+        const std::vector<ModalPoint>& modal_points = {})
+      : Parts(scene, rates, options, makeLayout(scene, rates, modal_points)) {}
   Parts(const Parts&) = delete;  // they refer to each other
   Parts& operator=(const Parts&) = delete;
 
@@ -44,7 +48,7 @@ struct Parts {
         state(layout),
         meter(scene, layout, state),
         stepper(layout, options),
-        points(scene, layout),
+        points(scene, layout, options.isa),
         guarded(scene, layout, groups, points, state),
         taps(layout),
         sleeper(scene, layout, *coefficients) {

@@ -9,6 +9,7 @@
 #include "ergotic/scene/grid.hpp"
 #include "groups.hpp"
 #include "layout.hpp"
+#include "modal_points.hpp"
 #include "state.hpp"
 
 namespace ergotic::physics {
@@ -19,7 +20,9 @@ namespace ergotic::physics {
 template <class Real>
 class Points {
  public:
-  Points(const scene::Scene& scene, const Layout& layout) : layout_(layout) {
+  /// \param isa  of the sums over modes
+  Points(const scene::Scene& scene, const Layout& layout, rt::Isa isa)
+      : layout_(layout), modal_(layout, isa) {
     for (const PlacePoint& point : layout.places) {
       const scene::Connection& connection =
           scene.connections[static_cast<std::size_t>(point.connection)];
@@ -32,6 +35,9 @@ class Points {
 
   /// Where a place is at the start.
   void placeAtStart(const CoefficientsOf<Real>& c, Real* x, Real* d, double* places) const {
+    for (std::size_t p = 0; p < layout_.modal_places.size(); ++p) {
+      modal_.gather(p, x, d);
+    }
     for (std::size_t p = 0; p < layout_.places.size(); ++p) {
       const PlaceCoefficients& wanted = c.places[p];
       places[2 * p] = std::clamp(wanted.along, wanted.minimum, wanted.maximum);
@@ -57,6 +63,11 @@ class Points {
               State<Real>& state) const noexcept {
     Real* x = state.x();
     Real* d = state.d();
+    for (const std::size_t p : group.modal_places) {
+      if (layout_.isDue(layout_.modal_places[p].section, now)) {
+        gatherModes(p, state);
+      }
+    }
     for (const std::size_t p : group.places) {
       const PlacePoint& point = layout_.places[p];
       if (layout_.isDue(point.section, now)) {
@@ -97,6 +108,9 @@ class Points {
     const auto clear = [f](const auto& point) {
       std::fill_n(f + point.slot, point.dimensions, Real(0));
     };
+    for (const std::size_t p : group.modal_places) {
+      f[layout_.modal_places[p].slot] = Real(0);
+    }
     for (const std::size_t p : group.places) {
       clear(layout_.places[p]);
     }
@@ -110,6 +124,11 @@ class Points {
 
   /// Forces go on to the modules, in the reverse order of gather().
   void scatter(const Group& group, Real* f, const double* places) const noexcept {
+    scatterToModules(group, f, places);
+    scatterToModes(group, f, f);
+  }
+  /// As far as modules that are sums of modes.
+  void scatterToModules(const Group& group, Real* f, const double* places) const noexcept {
     for (const std::size_t p : group.decimations) {
       const DecimatedPoint& point = layout_.decimations[p];
       for (int k = 0; k < point.dimensions; ++k) {
@@ -137,6 +156,14 @@ class Points {
     }
   }
 
+  /// What these have received goes on to the modes. \param f  forces on modes, added to
+  void scatterToModes(const Group& group, const Real* forces, Real* f) const noexcept {
+    for (const std::size_t p : group.modal_places) {
+      modal_.scatter(p, forces, f);
+    }
+  }
+
+  const ModalPoints<Real>& modal() const noexcept { return modal_; }
   /// The modules around a place, and their weights: what else acts through a point needs them.
   scene::GridPlace around(std::size_t p, const double* places) const noexcept {
     return scene::placeOn(grids_[p], places[2 * p], places[2 * p + 1]);
@@ -154,6 +181,19 @@ class Points {
  private:
   static Real weight(const scene::GridPlace& around, int i) noexcept {
     return static_cast<Real>(around.weights[static_cast<std::size_t>(i)]);
+  }
+
+  /// The modes of a section at rest are all at 0.
+  void gatherModes(std::size_t p, State<Real>& state) const noexcept {
+    const ModalPlace& point = layout_.modal_places[p];
+    keepLast(point.slot, 1, state);
+    if (state.asleep()[point.section] == 0) {
+      modal_.gather(p, state.x(), state.d());
+    } else {
+      state.x()[point.slot] = static_cast<Real>(point.offset);
+      state.d()[point.slot] = Real(0);
+    }
+    copyMoved(point.slot, 1, state);
   }
 
   /// Remembers the last step; `moved` holds -x until the new position is known.
@@ -227,6 +267,7 @@ class Points {
   }
 
   const Layout& layout_;
+  ModalPoints<Real> modal_;
   std::vector<scene::Grid> grids_;      // [places]
   std::vector<Eigen::Vector3d> rests_;  // [mats], if there are places
 };

@@ -36,6 +36,7 @@ constexpr Limits kSleepLimits{"J", 0.0, kInfinity, true};
 constexpr Limits kGainLimits{""};
 constexpr Limits kGesturalRateLimits{"Hz", 500.0, 48000.0};
 constexpr Limits kDivisorLimits{"audio frames", 1.0, 4096.0};
+constexpr Limits kModesLimits{"", 1.0, 1e6};
 constexpr Limits kFractionLimits{"", 0.0, 1.0};
 constexpr Limits kGuideScaleLimits{"1/m"};
 constexpr Limits kPointSpeedLimits{"1/s", 0.0, kInfinity, true};

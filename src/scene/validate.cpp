@@ -115,6 +115,9 @@ class Validator {
     if (s.sleep_energy != 0.0) {
       number(s.place, "sleep" + of, s.sleep_energy, kSleepLimits);
     }
+    if (s.modes != kNoModes && s.geometry != Geometry::kScalar) {
+      fail(s.place, "modes" + of + " are of no use there, allowed: in sections of geometry scalar");
+    }
     if (s.gestural && s.automatic_rate) {
       fail(s.place, "rate" + of + " is both gestural and auto, allowed: one of them");
     }

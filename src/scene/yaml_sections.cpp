@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cctype>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,22 @@ void readRate(const YamlMap& map, Section& section) {
   section.automatic_rate = word == 2;
 }
 
+/// `all`, `auto` or a number of modes.
+int readModes(const YamlMap& map) {
+  const std::string word = map.word("modes");
+  if (word == "all") {
+    return kAllModes;
+  }
+  if (word == "auto") {
+    return kAutomaticModes;
+  }
+  if (word.empty() || std::isdigit(static_cast<unsigned char>(word.front())) == 0) {
+    map.fail("modes", "'modes' of " + map.what() + " is " + quoted(word) +
+                          ", allowed: all, auto or a number of modes");
+  }
+  return map.integer("modes", kModesLimits);
+}
+
 Eigen::Isometry3d readPose(const YamlMap& pose) {
   pose.allow({"position", "rotation"});
   const std::vector<double> position = pose.vector("position", 3, kMetreLimits);
@@ -41,7 +58,7 @@ Eigen::Isometry3d readPose(const YamlMap& pose) {
 }
 
 Section readSection(const std::string& name, const YamlMap& map) {
-  map.allow({"rate", "geometry", "pose", "gravity", "medium", "sleep"});
+  map.allow({"rate", "geometry", "pose", "gravity", "medium", "sleep", "modes"});
   Section section;
   section.name = name;
   section.place = map.place();
@@ -52,6 +69,9 @@ Section readSection(const std::string& name, const YamlMap& map) {
   section.gravity = readMoving(section, map, "gravity", kGravityLimits, Eigen::Vector3d::Zero());
   section.medium = map.value("medium", kDampingLimits, {});
   section.sleep_energy = map.number("sleep", kSleepLimits, 0.0);
+  if (map.has("modes")) {
+    section.modes = readModes(map);
+  }
   if (map.has("pose")) {
     section.pose = readPose(map.map("pose"));
   }

@@ -106,6 +106,7 @@ std::unique_ptr<Performer> makePerformer(const scene::Scene& scene,
   };
   tell(certificate.findings);
   tell(settled.notes);
+  tell(performer->instrument->notes());
   performer->certificate = std::move(certificate);
   warm(*performer);
   return performer;

@@ -90,6 +90,11 @@ const Damage kDamages[] = {
     {"gravity of section 'a'", [](Scene& s) { s.sections[0].gravity.z() = kNan; }},
     {"medium of section 'a'", [](Scene& s) { s.sections[0].medium.factor = -1.0; }},
     {"sleep of section 'a'", [](Scene& s) { s.sections[0].sleep_energy = -1.0; }},
+    {"modes of section 'a' are of no use there, allowed: in sections of geometry scalar",
+     [](Scene& s) {
+       s.sections[0].modes = 5;
+       s.sections[0].geometry = Geometry::kLine;
+     }},
     {"which may sleep", [](Scene& s) { s.sections[1].sleep_energy = 1.0; }},
     {"both gestural and auto", [](Scene& s) { s.sections[1].automatic_rate = true; }},
     {"a coordinate of module 'm'", [](Scene& s) { s.mats[0].position.z() = kNan; }},

@@ -48,6 +48,15 @@ TEST(YamlGeometryTest, SectionsAreReadFieldByField) {
   EXPECT_EQ(s.sections[1].sleep_energy, 1e-9);
 }
 
+TEST(YamlGeometryTest, SectionsMayBePlayedByTheirModes) {
+  const Scene s = readYaml(
+      "ergotic: 1\nsections: {a: {modes: all}, b: {modes: auto}, c: {modes: 200}, d: {}}\n", "m");
+  EXPECT_EQ(s.sections[0].modes, kAllModes);
+  EXPECT_EQ(s.sections[1].modes, kAutomaticModes);
+  EXPECT_EQ(s.sections[2].modes, 200);
+  EXPECT_EQ(s.sections[3].modes, kNoModes);
+}
+
 TEST(YamlGeometryTest, ModulesRestWhereTheyAreAndMayStartElsewhere) {
   const Scene s = withMats(
       "  a: {type: mass, section: plane, mass: 1, at: [1, 2]}\n"
@@ -134,6 +143,10 @@ const BadText kBadSections[] = {
     {SECTION("gravity: <!>x"), "'x' is not a finite number, allowed: any finite number of m/s^2"},
     {SECTION("medium: <!>-1"), "= -1 N s/m is out of range, allowed: >= 0 N s/m"},
     {SECTION("sleep: <!>0"), "= 0 J is out of range, allowed: > 0 J"},
+    {SECTION("modes: <!>some"), "'modes' of section 'a' is 'some', allowed: all, auto or a number"},
+    {SECTION("modes: <!>0"), "= 0 is out of range, allowed: 1...1000000"},
+    {"ergotic: 1\nsections: {<!>a: {geometry: plane, modes: all}}\n",
+     "modes of section 'a' are of no use there, allowed: in sections of geometry scalar"},
     {SECTION("rate: <!>automatic"), "unknown rate 'automatic'"},
     {SECTION("rate: gestural, sleep: 1") "mats: {<!>k: {type: slice}}\n",
      "slice 'k' is in section 'a', which may sleep, allowed: sections without 'sleep'"},

@@ -97,6 +97,9 @@ class Instrument {
 
   /// What compile() chose for each part of the scene and why, one line each. Realtime: no.
   virtual std::vector<std::string> describe() const = 0;
+  /// Of these lines what a player should be told, as Settled::notes: choices that the scene left
+  /// open, with the error they are predicted to make. Realtime: no.
+  virtual std::vector<std::string> notes() const { return {}; }
 
   /// True if every displacement is a finite number. Realtime: yes.
   virtual bool isFinite() const noexcept = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -64,6 +65,11 @@ enum class Geometry {
 /// Coordinates that move: 1, 1, 2, 3.
 int dimensionsOf(Geometry geometry);
 
+/// Section::modes: how many modes of vibration may stand in for the linear part of a section.
+constexpr int kNoModes = 0;
+constexpr int kAllModes = std::numeric_limits<int>::max();
+constexpr int kAutomaticModes = -1;  ///< all, where `compile` predicts that they cost less
+
 /// Modules that are stepped together, at one rate, in one frame.
 struct Section {
   std::string name;
@@ -78,6 +84,7 @@ struct Section {
   /// these are matched; that of masses always is.
   Value medium{};
   double sleep_energy = 0.0;  ///< kg m^2/time_unit^2, below which it may rest at 0; 0: never
+  int modes = kNoModes;       ///< most modes that it is played by; scalar sections only
   Place place;
 };
 

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sums over modes, for one level of vector instructions: the including file sets ERGOTIC_LEVEL, the
+// namespace. Nothing here may be shared with other translation units, which run on other
+// processors: no standard library, everything in that namespace.
+#include "modal_kernels.hpp"
+
+namespace ergotic::physics::kernels::ERGOTIC_LEVEL {
+namespace {
+
+#if defined(__AVX512F__)
+constexpr int kBytes = 64;
+#elif defined(__AVX2__)
+constexpr int kBytes = 32;
+#else
+constexpr int kBytes = 16;
+#endif
+/// Sums are taken in as many lanes at every level, so that all give the same bits.
+constexpr int kBlockBytes = 128;
+constexpr int kChains = kBlockBytes / kBytes;
+
+template <class Real>
+struct VectorOf;
+template <>
+struct VectorOf<float> {
+  typedef float Type __attribute__((vector_size(kBytes), aligned(4), may_alias));
+};
+template <>
+struct VectorOf<double> {
+  typedef double Type __attribute__((vector_size(kBytes), aligned(8), may_alias));
+};
+template <class Real>
+struct Wide {
+  using Vector = typename VectorOf<Real>::Type;
+  static constexpr int kLanes = kBytes / static_cast<int>(sizeof(Real));
+  static constexpr int kBlock = kBlockBytes / static_cast<int>(sizeof(Real));
+};
+
+template <class Real>
+struct Sum {
+  typename Wide<Real>::Vector chains[kChains] = {};
+  Real rest = Real(0);
+
+  Real total() const noexcept {
+    constexpr int kBlock = Wide<Real>::kBlock;
+    Real lanes[kBlock];
+    for (int k = 0; k < kBlock; ++k) {
+      lanes[k] = chains[k / Wide<Real>::kLanes][k % Wide<Real>::kLanes];
+    }
+    for (int half = kBlock / 2; half > 0; half /= 2) {
+      for (int k = 0; k < half; ++k) {
+        lanes[k] += lanes[k + half];
+      }
+    }
+    return lanes[0] + rest;
+  }
+};
+
+template <class Real>
+inline const typename Wide<Real>::Vector& load(const Real* from) noexcept {
+  return *reinterpret_cast<const typename Wide<Real>::Vector*>(from);
+}
+
+template <class Real>
+void gather(const ModalArguments<Real>& a, Real* sums) noexcept {
+  Sum<Real> x;
+  Sum<Real> d;
+  int i = 0;
+  for (; i + Wide<Real>::kBlock <= a.count; i += Wide<Real>::kBlock) {
+    for (int c = 0; c < kChains; ++c) {
+      const int k = i + c * Wide<Real>::kLanes;
+      x.chains[c] += load(a.weights + k) * load(a.x + k);
+      d.chains[c] += load(a.weights + k) * load(a.d + k);
+    }
+  }
+  for (; i < a.count; ++i) {
+    x.rest += a.weights[i] * a.x[i];
+    d.rest += a.weights[i] * a.d[i];
+  }
+  sums[0] = x.total();
+  sums[1] = d.total();
+}
+
+template <class Real>
+void scatter(const Real* weights, int count, Real force, Real* f) noexcept {
+  for (int i = 0; i < count; ++i) {
+    f[i] += weights[i] * force;
+  }
+}
+
+template <class Real>
+Real stepAhead(const ModalArguments<Real>& a) noexcept {
+  Sum<Real> step;
+  int i = 0;
+  for (; i + Wide<Real>::kBlock <= a.count; i += Wide<Real>::kBlock) {
+    for (int c = 0; c < kChains; ++c) {
+      const int k = i + c * Wide<Real>::kLanes;
+      step.chains[c] += load(a.weights + k) *
+                        (load(a.keep + k) * load(a.d + k) - load(a.pull + k) * load(a.x + k) +
+                         (load(a.inverse_mass + k) * load(a.f + k) + load(a.drift + k)));
+    }
+  }
+  for (; i < a.count; ++i) {
+    step.rest += a.weights[i] * (a.keep[i] * a.d[i] - a.pull[i] * a.x[i] +
+                                 (a.inverse_mass[i] * a.f[i] + a.drift[i]));
+  }
+  return step.total();
+}
+
+template <class Real>
+constexpr ModalKernels<Real> kKernels = {gather<Real>, scatter<Real>, stepAhead<Real>};
+
+}  // namespace
+
+template <class Real>
+const ModalKernels<Real>& modalKernels() noexcept {
+  return kKernels<Real>;
+}
+
+template const ModalKernels<float>& modalKernels<float>() noexcept;
+template const ModalKernels<double>& modalKernels<double>() noexcept;
+
+}  // namespace ergotic::physics::kernels::ERGOTIC_LEVEL

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "ergotic/rt/isa.hpp"
+
+/// Weighted sums over modes (modal_points.hpp). One translation unit per level of vector
+/// instructions compiles the same source (modal_kernel_source.hpp); all give the same bits.
+namespace ergotic::physics::kernels {
+
+/// The modes of one place, `count` in each array.
+template <class Real>
+struct ModalArguments {
+  const Real* weights;
+  int count;
+  const Real* x;
+  const Real* d;
+  const Real* f;
+  // The step to come is d <- keep d - pull x + inverse_mass f + drift.
+  const Real* keep;
+  const Real* pull;
+  const Real* inverse_mass;
+  const Real* drift;
+};
+
+/// The kernels of one level. All are real-time.
+template <class Real>
+struct ModalKernels {
+  /// sums[0] = weights . x, sums[1] = weights . d
+  void (*gather)(const ModalArguments<Real>&, Real* sums) noexcept;
+  /// f += weights force
+  void (*scatter)(const Real* weights, int count, Real force, Real* f) noexcept;
+  /// weights . the step to come
+  Real (*stepAhead)(const ModalArguments<Real>&) noexcept;
+};
+
+/// \pre this processor has the level
+template <class Real>
+const ModalKernels<Real>& modalKernels(rt::Isa isa) noexcept;
+
+namespace baseline {
+template <class Real>
+const ModalKernels<Real>& modalKernels() noexcept;
+}
+#if defined(__x86_64__)
+namespace avx2 {
+template <class Real>
+const ModalKernels<Real>& modalKernels() noexcept;
+}
+namespace avx512 {
+template <class Real>
+const ModalKernels<Real>& modalKernels() noexcept;
+}
+#endif
+
+}  // namespace ergotic::physics::kernels

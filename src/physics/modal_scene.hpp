@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ergotic/physics/rates.hpp"
+#include "ergotic/scene/scene.hpp"
+
+namespace ergotic::physics {
+
+/// A module whose motion is a weighted sum of modes, which receive its force with the same weights.
+struct ModalPoint {
+  int mat = 0;                  ///< a kPoint of the played scene
+  int first = 0;                ///< its first mode, a kCell of the played scene; the others follow
+  double offset = 0.0;          ///< displacement where all modes are at 0, m
+  std::vector<double> weights;  ///< kg^-1/2; modes have the mass 1 kg and move in m kg^1/2
+};
+
+/// What a module that nothing touches shows of its motion: that of the lowest modes.
+struct ModalPicture {
+  int mat = 0;    ///< of the scene as it was written
+  int first = 0;  ///< first mode
+  std::vector<float> weights;
+};
+
+/// A scene in which modes stand in for linear parts of sections, for `compile` alone: everything
+/// else knows the scene as it was written.
+struct ModalScene {
+  scene::Scene scene;
+  std::vector<ModalPoint> points;
+  std::vector<ModalPicture> pictures;  ///< by module
+  std::vector<int> mats;  ///< [mats as written] index in `scene`; -1: it has a picture only
+  std::vector<int> lias;  ///< [links of `scene`] index as written
+  /// Force on each mode in the very first step, before links have acted, by module of `scene`.
+  std::vector<std::pair<int, double>> first_forces;
+};
+
+/// Replaces what sections ask for (Section::modes); nothing if none does or gets it.
+/// \param notes  is told what was chosen and why, section by section
+/// \throws TextError if a section cannot have the modes it asks for, with the place of what is in
+///         the way
+/// Realtime: no. Cost: that of `modesOf` for each part
+/// Source: docs/physics.md, "Modes instead of modules".
+std::optional<ModalScene> withModes(const scene::Scene& scene,
+                                    const Rates& rates,
+                                    std::vector<std::string>& notes);
+
+}  // namespace ergotic::physics

@@ -11,12 +11,14 @@
 namespace ergotic::physics {
 namespace {
 
-// ns per mass or link and step; ns per mode, and per mode and touched place: float, AVX-512.
+// ns per step: of a mass or link; of a mode, a mode at a touched place, a touched place. Float,
+// AVX-512.
 constexpr double kEqual = 0.08;
-constexpr double kRegular = 0.2;
-constexpr double kIrregular = 0.4;
-constexpr double kMode = 0.08;
-constexpr double kModePlace = 0.1;
+constexpr double kRegular = 0.14;
+constexpr double kIrregular = 0.3;
+constexpr double kMode = 0.19;
+constexpr double kModePlace = 0.085;
+constexpr double kPlace = 25.0;
 constexpr std::size_t kOffsets = 12;   // of a lattice with bending, at most
 constexpr double kRegularShare = 0.9;  // of the links, along these offsets
 constexpr double kEqualShare = 1e-9;
@@ -186,7 +188,7 @@ ModalCost predictCost(const scene::Scene& scene,
     cost.modules += modules;
     cost.modes += modes;
     cost.network_ns += modules * networkNs(scene, parts[p]);
-    cost.modal_ns += modes * (kMode + kModePlace * points[p]);
+    cost.modal_ns += modes * kMode + points[p] * (modes * kModePlace + kPlace);
   }
   return cost;
 }

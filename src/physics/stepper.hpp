@@ -10,6 +10,7 @@
 #include "coefficients.hpp"
 #include "laws.hpp"
 #include "layout.hpp"
+#include "physics/kernels/modal_kernels.hpp"
 #include "state.hpp"
 #include "sweeper.hpp"
 
@@ -20,7 +21,10 @@ template <class Real>
 class Stepper {
  public:
   Stepper(const Layout& layout, const CompileOptions& options)
-      : layout_(layout), sweeper_(layout, options), metered_(options.metered) {
+      : layout_(layout),
+        sweeper_(layout, options),
+        cells_(kernels::modalKernels<Real>(options.isa)),
+        metered_(options.metered) {
     for (const Block& block : layout.blocks) {
       blocks_end_.resize(static_cast<std::size_t>(block.section) + 1, blocks());
       ++blocks_end_.back();
@@ -132,22 +136,18 @@ class Stepper {
                    int last,
                    const MassCoefficients<Real>& c,
                    State<Real>& state) const noexcept {
-    Real* x = state.x();
-    Real* d = state.d();
-    Real* d_last = state.dLast();
-    const Real* f = state.f();
-    double lost = 0.0;
-    for (int s = first; s < last; ++s) {
-      const auto i = static_cast<std::size_t>(s);
-      const Real before = d[s];
-      const Real now =
-          c.keep[i] * before - c.pull[i] * x[s] + (c.inverse_mass[i] * f[s] + c.drift[i]);
-      lost += static_cast<double>(c.loss[i] * now * (now + before));
-      d_last[s] = before;
-      d[s] = now;
-      x[s] += now;
-    }
-    return 0.5 * lost;
+    kernels::CellArguments<Real> cells{};
+    cells.count = last - first;
+    cells.x = state.x() + first;
+    cells.d = state.d() + first;
+    cells.d_last = state.dLast() + first;
+    cells.f = state.f() + first;
+    cells.keep = c.keep.data() + first;
+    cells.pull = c.pull.data() + first;
+    cells.inverse_mass = c.inverse_mass.data() + first;
+    cells.drift = c.drift.data() + first;
+    cells.loss = metered_ ? c.loss.data() + first : nullptr;
+    return 0.5 * cells_.step(cells);
   }
 
   void moveFree(int first,
@@ -223,6 +223,7 @@ class Stepper {
 
   const Layout& layout_;
   Sweeper<Real> sweeper_;
+  const kernels::ModalKernels<Real>& cells_;
   bool metered_;
   std::vector<std::size_t> blocks_end_;  // [sections] one past its last block
 };

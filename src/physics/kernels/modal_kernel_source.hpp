@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums over modes, for one level of vector instructions: the including file sets ERGOTIC_LEVEL, the
-// namespace. Nothing here may be shared with other translation units, which run on other
-// processors: no standard library, everything in that namespace.
+// Cells and sums over modes, for one level of vector instructions: the including file sets
+// ERGOTIC_LEVEL, the namespace. Nothing here may be shared with other translation units, which run
+// on other processors: no standard library, everything in that namespace.
 #include "modal_kernels.hpp"
 
 namespace ergotic::physics::kernels::ERGOTIC_LEVEL {
@@ -36,17 +36,30 @@ struct Wide {
 };
 
 template <class Real>
+inline typename Wide<Real>::Vector& at(Real* to) noexcept {
+  return *reinterpret_cast<typename Wide<Real>::Vector*>(to);
+}
+
+template <class Real>
+inline const typename Wide<Real>::Vector& load(const Real* from) noexcept {
+  return *reinterpret_cast<const typename Wide<Real>::Vector*>(from);
+}
+
+template <class Real>
 struct Sum {
   typename Wide<Real>::Vector chains[kChains] = {};
   Real rest = Real(0);
 
-  Real total() const noexcept {
-    constexpr int kBlock = Wide<Real>::kBlock;
-    Real lanes[kBlock];
-    for (int k = 0; k < kBlock; ++k) {
-      lanes[k] = chains[k / Wide<Real>::kLanes][k % Wide<Real>::kLanes];
+  /// Halves of the block are added until one lane is left.
+  Real total() noexcept {
+    for (int half = kChains / 2; half > 0; half /= 2) {
+      for (int c = 0; c < half; ++c) {
+        chains[c] += chains[c + half];
+      }
     }
-    for (int half = kBlock / 2; half > 0; half /= 2) {
+    Real lanes[Wide<Real>::kLanes];
+    at(lanes) = chains[0];
+    for (int half = Wide<Real>::kLanes / 2; half > 0; half /= 2) {
       for (int k = 0; k < half; ++k) {
         lanes[k] += lanes[k + half];
       }
@@ -55,9 +68,42 @@ struct Sum {
   }
 };
 
+template <bool kIsMetered, class Real>
+double stepCells(const CellArguments<Real>& a) noexcept {
+  Sum<Real> lost;
+  int i = 0;
+  for (; i + Wide<Real>::kBlock <= a.count; i += Wide<Real>::kBlock) {
+    for (int c = 0; c < kChains; ++c) {
+      const int k = i + c * Wide<Real>::kLanes;
+      const typename Wide<Real>::Vector before = load(a.d + k);
+      const typename Wide<Real>::Vector now =
+          load(a.keep + k) * before - load(a.pull + k) * load(a.x + k) +
+          (load(a.inverse_mass + k) * load(a.f + k) + load(a.drift + k));
+      if constexpr (kIsMetered) {
+        lost.chains[c] += load(a.loss + k) * now * (now + before);
+      }
+      at(a.d_last + k) = before;
+      at(a.d + k) = now;
+      at(a.x + k) += now;
+    }
+  }
+  for (; i < a.count; ++i) {
+    const Real before = a.d[i];
+    const Real now =
+        a.keep[i] * before - a.pull[i] * a.x[i] + (a.inverse_mass[i] * a.f[i] + a.drift[i]);
+    if constexpr (kIsMetered) {
+      lost.rest += a.loss[i] * now * (now + before);
+    }
+    a.d_last[i] = before;
+    a.d[i] = now;
+    a.x[i] += now;
+  }
+  return kIsMetered ? static_cast<double>(lost.total()) : 0.0;
+}
+
 template <class Real>
-inline const typename Wide<Real>::Vector& load(const Real* from) noexcept {
-  return *reinterpret_cast<const typename Wide<Real>::Vector*>(from);
+double step(const CellArguments<Real>& a) noexcept {
+  return a.loss == nullptr ? stepCells<false>(a) : stepCells<true>(a);
 }
 
 template <class Real>
@@ -107,7 +153,7 @@ Real stepAhead(const ModalArguments<Real>& a) noexcept {
 }
 
 template <class Real>
-constexpr ModalKernels<Real> kKernels = {gather<Real>, scatter<Real>, stepAhead<Real>};
+constexpr ModalKernels<Real> kKernels = {step<Real>, gather<Real>, scatter<Real>, stepAhead<Real>};
 
 }  // namespace
 

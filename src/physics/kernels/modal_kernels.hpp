@@ -3,8 +3,9 @@
 
 #include "ergotic/rt/isa.hpp"
 
-/// Weighted sums over modes (modal_points.hpp). One translation unit per level of vector
-/// instructions compiles the same source (modal_kernel_source.hpp); all give the same bits.
+/// Cells, modes among them, and weighted sums over modes (modal_points.hpp). One translation unit
+/// per level of vector instructions compiles the same source (modal_kernel_source.hpp); all give
+/// the same bits.
 namespace ergotic::physics::kernels {
 
 /// The modes of one place, `count` in each array.
@@ -22,9 +23,26 @@ struct ModalArguments {
   const Real* drift;
 };
 
+/// Cells, `count` in each array. They move by d <- keep d - pull x + inverse_mass f + drift.
+template <class Real>
+struct CellArguments {
+  int count;
+  Real* x;
+  Real* d;
+  Real* d_last;
+  const Real* f;
+  const Real* keep;
+  const Real* pull;
+  const Real* inverse_mass;
+  const Real* drift;
+  const Real* loss;  ///< (1 - keep) / inverse_mass; null: nobody asks
+};
+
 /// The kernels of one level. All are real-time.
 template <class Real>
 struct ModalKernels {
+  /// One step. \return twice what they dissipated in it, 0 if there is no `loss`
+  double (*step)(const CellArguments<Real>&) noexcept;
   /// sums[0] = weights . x, sums[1] = weights . d
   void (*gather)(const ModalArguments<Real>&, Real* sums) noexcept;
   /// f += weights force

@@ -99,6 +99,12 @@ bool isIndifferent(const scene::Scene& scene, const std::vector<unsigned char>& 
   return mat < 0 || (scene.mats[at(mat)].type == scene::MatType::kGround && heard[at(mat)] == 0);
 }
 
+/// True if a link from here to nothing would give no force.
+bool endsAtRest(const scene::Scene& scene, int mat) {
+  return mat < 0 || (scene.mats[at(mat)].type == scene::MatType::kGround &&
+                     scene.mats[at(mat)].position.x() == scene.mats[at(mat)].rest.x());
+}
+
 /// Elements in groups of kLanes that all have their links, with the coefficients of `reference`.
 void findSegments(const scene::Scene& scene,
                   const std::vector<unsigned char>& heard,
@@ -116,8 +122,9 @@ void findSegments(const scene::Scene& scene,
     return true;
   };
   const auto hasNoModule = [&](int group) {
-    return std::all_of(block.mats.begin() + group, block.mats.begin() + group + kLanes,
-                       [&](int m) { return isIndifferent(scene, heard, m); });
+    return std::all_of(block.mats.begin() + group, block.mats.begin() + group + kLanes, [&](int m) {
+      return isIndifferent(scene, heard, m) && endsAtRest(scene, m);
+    });
   };
   int begin = 0;
   int end = block.elements;
@@ -160,12 +167,6 @@ bool hasOneRatio(const scene::Scene& scene, const Block& block) {
            std::abs(lia.damping.factor / lia.stiffness.factor - ratio) <=
                kSameRatio * std::abs(ratio);
   });
-}
-
-/// True if a link from here to nothing would give no force.
-bool endsAtRest(const scene::Scene& scene, int mat) {
-  return mat < 0 || (scene.mats[at(mat)].type == scene::MatType::kGround &&
-                     scene.mats[at(mat)].position.x() == scene.mats[at(mat)].rest.x());
 }
 
 bool isPerLane(const scene::Scene& scene, const Links& links, const Block& block) {

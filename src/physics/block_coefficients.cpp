@@ -43,9 +43,6 @@ void CoefficientsOf<Real>::fillBlocks(const scene::Scene& scene,
       to.uniform_z.push_back(
           static_cast<Real>(l < 0 ? 0.0 : units.damping(scene.valueOf(scene.lias[at(l)].damping))));
     }
-    if (block.one_ratio) {
-      to.ratio = to.uniform_z.front() / to.uniform_k.front();
-    }
     const std::size_t elements = at(block.elements);
     if (block.kind == Block::Kind::kSparse) {
       to.k.assign(block.program->slots() * kernels::kLanes, Real(0));
@@ -77,6 +74,9 @@ void CoefficientsOf<Real>::fillBlock(const Layout& layout,
   const Block& block = layout.blocks[at(run.block)];
   BlockCoefficients<Real>& to = blocks[at(run.block)];
   const std::size_t links = run.ends.size();
+  if (block.one_ratio) {
+    to.ratio = from.fields[links] / from.fields[0];
+  }
   for (std::size_t l = 0; l < links; ++l) {
     const Real k = from.fields[l];
     const Real z = from.fields[links + l];

@@ -55,13 +55,15 @@ struct Ordered {
 
 class Finder {
  public:
-  explicit Finder(const scene::Scene& scene) : scene_(scene), places_(scene.mats.size(), -1) {}
+  explicit Finder(const scene::Scene& scene)
+      : scene_(scene), places_(scene.mats.size(), -1), is_linked_(scene.mats.size(), false) {
+    for (const scene::Lia& lia : scene.lias) {
+      is_linked_[at(lia.a)] = is_linked_[at(lia.b)] = true;
+    }
+  }
 
   std::vector<Block> find() {
     for (const Component& component : findComponents(scene_)) {
-      for (int i = 0; i < static_cast<int>(component.mats.size()); ++i) {
-        places_[at(component.mats[at(i)])] = i;
-      }
       sort(component);
     }
     for (auto& [key, alike] : alike_) {
@@ -81,15 +83,48 @@ class Finder {
   using Key = std::pair<int, std::vector<int>>;  // section, offsets
 
   void sort(const Component& component) {
+    number(component);
     Ordered ordered{chainOrder(scene_, component, places_), component.lias, {1}};
     if (ordered.mats.empty()) {
-      ordered.mats = component.mats;
-      if (!keepRegular(component, ordered)) {
+      const Component whole = withIdleGrounds(component);
+      number(whole);
+      ordered.mats = whole.mats;
+      if (!keepRegular(whole, ordered)) {
+        number(component);
         addSparse(component);
         return;
       }
     }
     alike_[{component.section, ordered.offsets}].push_back(std::move(ordered));
+  }
+
+  void number(const Component& component) {
+    for (int i = 0; i < static_cast<int>(component.mats.size()); ++i) {
+      places_[at(component.mats[at(i)])] = i;
+    }
+  }
+
+  /// Grounds without links among the modules of a net keep their places: as the corners of a
+  /// clamped plate, without which its rows are not equally long.
+  Component withIdleGrounds(const Component& component) const {
+    const auto isIdle = [&](int m) {
+      const scene::Mat& mat = scene_.mats[at(m)];
+      return mat.type == scene::MatType::kGround && mat.section == component.section &&
+             !is_linked_[at(m)];
+    };
+    Component whole = component;
+    whole.mats.clear();
+    for (const int m : component.mats) {
+      const std::size_t known = whole.mats.size();
+      for (int gap = known == 0 ? m : whole.mats.back() + 1; gap < m && isIdle(gap); ++gap) {
+        whole.mats.push_back(gap);
+      }
+      if (known > 0 && whole.mats.back() + 1 < m) {
+        whole.mats.resize(known);  // others lie there too
+      }
+      whole.mats.push_back(m);
+    }
+    return whole;
   }
 
   /// Keeps the links on few diagonals. \return false if too many others are left
@@ -225,7 +260,8 @@ class Finder {
   }
 
   const scene::Scene& scene_;
-  std::vector<int> places_;  // [mats] in their component
+  std::vector<int> places_;      // [mats] in their component
+  std::vector<bool> is_linked_;  // [mats]
   std::map<Key, std::vector<Ordered>> alike_;
   std::map<int, std::vector<Ordered>> single_;
   std::vector<Block> blocks_;

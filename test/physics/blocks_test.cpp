@@ -145,10 +145,34 @@ TEST_F(BlocksTest, ClampedHomogeneousPlatesAreUniform) {
   nets.plate(20, 30, true, true);
   const Block block = onlyBlock(b.scene);
   EXPECT_EQ(block.kind, Block::Kind::kLattice);
-  // The corners of the border are nobody's neighbours but by a diagonal.
   EXPECT_EQ(block.pitch, 30);
   EXPECT_EQ(uniformElements(block), elementsInSegments(block));
   EXPECT_NE(describeBlock(block).find("rows of 30"), std::string::npos);
+  expectAgreement(b.scene);
+}
+
+TEST_F(BlocksTest, CornersWithoutLinksKeepTheRowsEquallyLong) {
+  nets.plate(20, 30, false, true);
+  const Block block = onlyBlock(b.scene);
+  EXPECT_EQ(block.pitch, 30);
+  EXPECT_EQ(block.lias.size(), b.scene.lias.size());
+  EXPECT_EQ(uniformElements(block), elementsInSegments(block));
+  expectAgreement(b.scene);
+}
+
+TEST_F(BlocksTest, NetsBesideEachOtherShareNoIdleGrounds) {
+  for (int n = 0; n < 40; ++n) {
+    b.ground();
+    nets.plate(5 + n % 3, 6, n % 2 == 0, true);
+  }
+  std::vector<int> seen(b.scene.mats.size(), 0);
+  for (const Block& block : findBlocks(b.scene)) {
+    for (const int m : block.mats) {
+      if (m >= 0) {
+        EXPECT_EQ(++seen[at(m)], 1) << m;
+      }
+    }
+  }
   expectAgreement(b.scene);
 }
 

@@ -164,7 +164,7 @@ class LinkJudge {
   }
 
   void judgeTable(const Lia& lia, const Slopes& slopes) {
-    if (!lia.viscous_table.empty()) {
+    if (!lia.law->viscous_table.empty()) {
       judgeFriction(lia);
     }
     const double kappa = slopes.stiffness.highest * networks_.inverseMassStep2(lia);

@@ -28,10 +28,10 @@ LinkFields fieldsOf(const scene::Scene& scene,
                     double rest) {
   const double k = scene.valueOf(lia.stiffness);
   const double z = units.damping(scene.valueOf(lia.damping));
-  const double width = scene.valueOf(lia.width);
-  const double q = scene.valueOf(lia.nonlinearity);
-  const double k_limit = scene.valueOf(lia.stiffness_limit);
-  const double z_limit = z + units.damping(scene.valueOf(lia.limit_damping));
+  const double width = scene.valueOf(lia.law->width);
+  const double q = scene.valueOf(lia.law->nonlinearity);
+  const double k_limit = scene.valueOf(lia.law->stiffness_limit);
+  const double z_limit = z + units.damping(scene.valueOf(lia.law->limit_damping));
   // Displacements are stored from rest: the distance at rest is folded into the elongation.
   const double offset = rest - lia.rest_length;
   switch (lawOf(lia)) {
@@ -44,9 +44,9 @@ LinkFields fieldsOf(const scene::Scene& scene,
     case Law::kCubic:
       return {{k, z, offset, q}, 4};
     case Law::kClippedCubic:
-      return {{k, z, offset, q, k_limit, z_limit, lia.tipping_point}, 7};
+      return {{k, z, offset, q, k_limit, z_limit, lia.law->tipping_point}, 7};
     case Law::kCubicContact:
-      return {{k, z, offset + width, q, k_limit, z_limit, lia.tipping_point}, 7};
+      return {{k, z, offset + width, q, k_limit, z_limit, lia.law->tipping_point}, 7};
     case Law::kPluck:
       return {{k, z, offset, width}, 4};
     case Law::kBow:
@@ -56,11 +56,11 @@ LinkFields fieldsOf(const scene::Scene& scene,
     case Law::kBowTable:
       return {{1.0 / units.step}, 1};
     case Law::kPowerContact:
-      return {{k, z, offset + width, scene.valueOf(lia.exponent)}, 4};
+      return {{k, z, offset + width, scene.valueOf(lia.law->exponent)}, 4};
     case Law::kTable:
       return {{offset, 1.0 / units.step}, 2};
     case Law::kConditional:
-      return {{k, z, offset, width, lia.release}, 5};
+      return {{k, z, offset, width, lia.law->release}, 5};
   }
   return {};
 }
@@ -162,7 +162,7 @@ void CoefficientsOf<Real>::setSlot(const scene::Scene& scene,
   const int stride = layout.sections[at(mat.section)].stride;
   for (int c = 0; c < dimensionsOf(section.geometry); ++c) {
     const std::size_t here = at(slot + c * stride);
-    double drift = mat.force[c] * inverse + units.acceleration(section.gravity[c]);
+    double drift = mat.push->force[c] * inverse + units.acceleration(section.gravity[c]);
     if (section.geometry == scene::Geometry::kScalar) {
       drift -= own.pull * mat.rest.x();  // its spring ends at 0, wherever it rests
     }
@@ -225,8 +225,8 @@ void CoefficientsOf<Real>::fillRun(const scene::Scene& scene,
   for (int l = 0; l < static_cast<int>(run.lias.size()); ++l) {
     setLink(scene, units, run, r, l);
     const scene::Lia& lia = scene.lias[at(run.lias[at(l)])];
-    to.table.add(lia.table);
-    to.viscous_table.add(lia.viscous_table);
+    to.table.add(lia.law->table);
+    to.viscous_table.add(lia.law->viscous_table);
   }
   for (int c = 0; c < run.dimensions; ++c) {
     for (const Eigen::Vector3d& rest : run.rests) {

@@ -119,9 +119,9 @@ bool CoupledGroup::followsParameters() const {
     }
   }
   return std::any_of(scene.lias.begin(), scene.lias.end(), [&](const scene::Lia& lia) {
-    return isMember(lia) &&
-           (follows(lia.stiffness) || follows(lia.damping) || follows(lia.nonlinearity) ||
-            follows(lia.stiffness_limit) || follows(lia.limit_damping) || follows(lia.exponent));
+    return isMember(lia) && (follows(lia.stiffness) || follows(lia.damping) ||
+                             follows(lia.law->nonlinearity) || follows(lia.law->stiffness_limit) ||
+                             follows(lia.law->limit_damping) || follows(lia.law->exponent));
   });
 }
 

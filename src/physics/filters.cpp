@@ -140,12 +140,12 @@ scene::Mat startOf(const Scene& scene, int mat) {
                      scene.valueOf(connection->across));
   start.rest.setZero();
   start.position.setZero();
-  start.velocity.setZero();
+  start.push = {};
   for (std::size_t i = 0; i < at(place.count); ++i) {
     const scene::Mat& around = scene.mats[at(place.mats[i])];
     start.rest += place.weights[i] * around.rest;
     start.position += place.weights[i] * around.position;
-    start.velocity += place.weights[i] * around.velocity;
+    start.push.edit().velocity += place.weights[i] * around.push->velocity;
   }
   return start;
 }
@@ -212,7 +212,7 @@ class Inserter {
     mat.rest = start_.rest;
     mat.position = start_.position;
     if (type == MatType::kMass) {
-      mat.velocity = start_.velocity;
+      mat.push.edit().velocity = start_.push->velocity;
     }
     mat.place = place_;
     scene_.mats.push_back(std::move(mat));

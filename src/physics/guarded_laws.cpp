@@ -10,7 +10,7 @@ using scene::LiaType;
 
 /// An LNL that only has a viscous table is a friction.
 bool isSlipTable(const scene::Lia& lia) {
-  return lia.type == LiaType::kTable && lia.table.empty();
+  return lia.type == LiaType::kTable && lia.law->table.empty();
 }
 
 template <class Real>
@@ -33,7 +33,7 @@ typename GuardedLaw<Real>::Kind kindOf(const scene::Lia& lia) {
     case LiaType::kTable:
       return isSlipTable(lia) ? Kind::kSlipTable : Kind::kTable;
     case LiaType::kBow:
-      return lia.table.empty() ? Kind::kBow : Kind::kSlipTable;
+      return lia.law->table.empty() ? Kind::kBow : Kind::kSlipTable;
     case LiaType::kSmoothBow:
       return Kind::kSmoothBow;
     case LiaType::kPluck:
@@ -141,12 +141,12 @@ GuardedLaw<Real> GuardedLaw<Real>::make(const scene::Scene& scene,
   GuardedLaw law;
   law.kind = kindOf<Real>(lia);
   const bool holds = lia.type == LiaType::kTable;
-  if (!lia.table.empty()) {
-    const GuardedCurve<Real> curve(scene::interpolate(lia.table), holds);
+  if (!lia.law->table.empty()) {
+    const GuardedCurve<Real> curve(scene::interpolate(lia.law->table), holds);
     (law.kind == Kind::kTable ? law.table : law.viscous) = curve;
   }
-  if (!lia.viscous_table.empty()) {
-    law.viscous = GuardedCurve<Real>(scene::interpolate(lia.viscous_table), holds);
+  if (!lia.law->viscous_table.empty()) {
+    law.viscous = GuardedCurve<Real>(scene::interpolate(lia.law->viscous_table), holds);
   }
   law.update(scene, lia, units);
   return law;
@@ -160,14 +160,14 @@ ERGOTIC_REALTIME void GuardedLaw<Real>::update(const scene::Scene& scene,
   const double z = units.damping(scene.valueOf(lia.damping));
   stiffness = real(scene.valueOf(lia.stiffness));
   damping = real(z);
-  nonlinearity = real(scene.valueOf(lia.nonlinearity));
-  stiffness_limit = real(scene.valueOf(lia.stiffness_limit));
-  limit_damping = real(z + units.damping(scene.valueOf(lia.limit_damping)));
-  tip = real(lia.tipping_point);
-  exponent = real(scene.valueOf(lia.exponent));
-  width = real(units.velocity(scene.valueOf(lia.width)));
+  nonlinearity = real(scene.valueOf(lia.law->nonlinearity));
+  stiffness_limit = real(scene.valueOf(lia.law->stiffness_limit));
+  limit_damping = real(z + units.damping(scene.valueOf(lia.law->limit_damping)));
+  tip = real(lia.law->tipping_point);
+  exponent = real(scene.valueOf(lia.law->exponent));
+  width = real(units.velocity(scene.valueOf(lia.law->width)));
   per_step = real(1.0 / units.step);
-  length = real(isContact() ? scene.valueOf(lia.width) : lia.rest_length);
+  length = real(isContact() ? scene.valueOf(lia.law->width) : lia.rest_length);
 }
 
 template <class Real>

@@ -42,9 +42,11 @@ scene::Scene withParameters(scene::Scene scene, const std::vector<double>& value
 template <class Real>
 class InstrumentOf final : public Instrument {
  public:
-  InstrumentOf(const scene::Scene& scene, const Rates& rates, const CompileOptions& options)
-      : Instrument(scene, rates, options),
-        modal_(withModes(scene, rates, notes_)),
+  InstrumentOf(std::shared_ptr<const scene::Scene> shared,
+               const Rates& rates,
+               const CompileOptions& options)
+      : Instrument(std::move(shared), rates, options),
+        modal_(withModes(scene(), rates, notes_)),
         parts_(played(), rates, options, modal_ ? modal_->points : std::vector<ModalPoint>{}),
         stepper_(played(), rates, parts_),
         inputs_(at(rates.ratio * inputChannels())),
@@ -192,7 +194,7 @@ class InstrumentOf final : public Instrument {
           const int here = slot + k * range.stride;
           parts_.state.x()[here] = static_cast<Real>(mat.position[k] - mat.rest[k]);
           if (slot < range.fixed && mat.type != scene::MatType::kGround) {
-            parts_.state.d()[here] = static_cast<Real>(units.velocity(mat.velocity[k]));
+            parts_.state.d()[here] = static_cast<Real>(units.velocity(mat.push->velocity[k]));
           }
         }
       }
@@ -327,16 +329,22 @@ class InstrumentOf final : public Instrument {
 
 }  // namespace
 
+std::unique_ptr<Instrument> compile(std::shared_ptr<const scene::Scene> scene,
+                                    const Rates& rates,
+                                    const CompileOptions& options) {
+  if (!isSettled(*scene)) {
+    throw Exception("scene '" + scene->name + "' is not settled: settle() comes before compile()");
+  }
+  if (options.precision == Precision::kFloat) {
+    return std::make_unique<InstrumentOf<float>>(std::move(scene), rates, options);
+  }
+  return std::make_unique<InstrumentOf<double>>(std::move(scene), rates, options);
+}
+
 std::unique_ptr<Instrument> compile(const scene::Scene& scene,
                                     const Rates& rates,
                                     const CompileOptions& options) {
-  if (!isSettled(scene)) {
-    throw Exception("scene '" + scene.name + "' is not settled: settle() comes before compile()");
-  }
-  if (options.precision == Precision::kFloat) {
-    return std::make_unique<InstrumentOf<float>>(scene, rates, options);
-  }
-  return std::make_unique<InstrumentOf<double>>(scene, rates, options);
+  return compile(std::make_shared<const scene::Scene>(scene), rates, options);
 }
 
 }  // namespace ergotic::physics

@@ -155,7 +155,7 @@ void findFollowers(const scene::Scene& scene, Layout& layout) {
     const LinkRun& run = layout.runs[at(r)];
     for (int l = 0; l < static_cast<int>(run.lias.size()); ++l) {
       const scene::Lia& lia = scene.lias[at(run.lias[at(l)])];
-      if (follows(lia.stiffness) || follows(lia.damping) || follows(lia.nonlinearity)) {
+      if (follows(lia.stiffness) || follows(lia.damping) || follows(lia.law->nonlinearity)) {
         layout.followers.push_back({r, l, run.section});
       }
     }

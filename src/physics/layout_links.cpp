@@ -169,9 +169,9 @@ Law lawOf(const scene::Lia& lia) {
     case LiaType::kCubicContact:
       return Law::kCubicContact;
     case LiaType::kPluck:
-      return lia.table.empty() ? Law::kPluck : Law::kPluckTable;
+      return lia.law->table.empty() ? Law::kPluck : Law::kPluckTable;
     case LiaType::kBow:
-      return lia.table.empty() ? Law::kBow : Law::kBowTable;
+      return lia.law->table.empty() ? Law::kBow : Law::kBowTable;
     case LiaType::kSmoothBow:
       return Law::kSmoothBow;
     case LiaType::kPowerContact:

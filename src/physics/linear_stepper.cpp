@@ -68,9 +68,9 @@ scene::Scene linearPart(scene::Scene scene) {
     section.modes = scene::kNoModes;
   }
   for (scene::Mat& mat : scene.mats) {
-    for (Eigen::Vector3d* each : {&mat.rest, &mat.position, &mat.velocity, &mat.force}) {
-      each->setZero();
-    }
+    mat.rest.setZero();
+    mat.position.setZero();
+    mat.push = {};
     if (mat.type == MatType::kDriven || mat.type == MatType::kSlice) {
       mat.type = MatType::kGround;
     }

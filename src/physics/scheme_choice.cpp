@@ -67,8 +67,8 @@ class Chooser {
     }
     switch (lia.type) {
       case LiaType::kPowerContact:
-        if (largest(scene_, lia.exponent) > 1.0) {
-          return {"exponent", largest(scene_, lia.exponent), 1.0};
+        if (largest(scene_, lia.law->exponent) > 1.0) {
+          return {"exponent", largest(scene_, lia.law->exponent), 1.0};
         }
         return switching(lia, per_stiffness);
       case LiaType::kContact:
@@ -77,14 +77,14 @@ class Chooser {
         return switching(lia, per_stiffness);
       case LiaType::kQuadratic:
       case LiaType::kCubic: {
-        const double q = largest(scene_, lia.nonlinearity);
+        const double q = largest(scene_, lia.law->nonlinearity);
         return q > 0.0 ? Reason{"nonlinearity", q, 0.0} : Reason{};
       }
       case LiaType::kTable:
-        if (!lia.table.empty()) {
+        if (!lia.law->table.empty()) {
           return switching(lia, per_stiffness);
         }
-        return lia.viscous_table.empty() ? Reason{} : sliding(lia, per_damping);
+        return lia.law->viscous_table.empty() ? Reason{} : sliding(lia, per_damping);
       case LiaType::kBow:
       case LiaType::kSmoothBow:
         return sliding(lia, per_damping);

@@ -83,9 +83,9 @@ double springOf(const scene::Scene& scene, const scene::Lia& lia) {
       return k;
     case LiaType::kQuadratic:
     case LiaType::kCubic:
-      return spanOf(scene, lia.nonlinearity).lowest < 0.0 ? 0.0 : k;
+      return spanOf(scene, lia.law->nonlinearity).lowest < 0.0 ? 0.0 : k;
     case LiaType::kClippedCubic:
-      return std::min(k, spanOf(scene, lia.stiffness_limit).lowest);
+      return std::min(k, spanOf(scene, lia.law->stiffness_limit).lowest);
     default:
       return 0.0;
   }
@@ -210,7 +210,8 @@ double startEnergy(const scene::Scene& scene, int section) {
   double energy = 0.0;
   for (const scene::Mat& mat : scene.mats) {
     if (mat.section == section && (mat.type == MatType::kMass || mat.type == MatType::kCell)) {
-      energy += 0.5 * scene.valueOf(mat.mass) * moving(mat.velocity, dimensions).squaredNorm();
+      energy +=
+          0.5 * scene.valueOf(mat.mass) * moving(mat.push->velocity, dimensions).squaredNorm();
     }
     if (mat.section == section && mat.type == MatType::kCell) {
       energy += 0.5 * scene.valueOf(mat.stiffness) * stretchOf(scene, mat).squaredNorm();

@@ -30,10 +30,10 @@ Slopes upTo(double stiffness, double damping) {
 }
 
 double clippedStiffness(const scene::Scene& scene, const scene::Lia& lia) {
-  const double tip = lia.tipping_point;
+  const double tip = lia.law->tipping_point;
   return std::max(
-      largest(scene, lia.stiffness) + 3.0 * largest(scene, lia.nonlinearity) * tip * tip,
-      largest(scene, lia.stiffness_limit));
+      largest(scene, lia.stiffness) + 3.0 * largest(scene, lia.law->nonlinearity) * tip * tip,
+      largest(scene, lia.law->stiffness_limit));
 }
 
 }  // namespace
@@ -71,39 +71,41 @@ Slopes slopesOf(const scene::Scene& scene, const scene::Lia& lia) {
       return {k, z};
     case LiaType::kQuadratic:
     case LiaType::kCubic:
-      return {k, z, largest(scene, lia.nonlinearity) != 0.0};
+      return {k, z, largest(scene, lia.law->nonlinearity) != 0.0};
     case LiaType::kContact:
     case LiaType::kConditional:
       return {{std::min(k.lowest, 0.0), k.highest}, {std::min(z.lowest, 0.0), z.highest}};
     case LiaType::kPowerContact: {
-      const bool is_linear = largest(scene, lia.exponent) <= 1.0;
+      const bool is_linear = largest(scene, lia.law->exponent) <= 1.0;
       return {
           {0.0, is_linear ? steepest_k : 0.0}, {std::min(z.lowest, 0.0), z.highest}, !is_linear};
     }
     case LiaType::kClippedCubic:
     case LiaType::kCubicContact:
-      return upTo(clippedStiffness(scene, lia), steepest_z + largest(scene, lia.limit_damping));
+      return upTo(clippedStiffness(scene, lia),
+                  steepest_z + largest(scene, lia.law->limit_damping));
     case LiaType::kPluck:
-      return upTo(lia.table.empty() ? kPluckSlope * steepest_k : steepest(lia.table), steepest_z);
+      return upTo(lia.law->table.empty() ? kPluckSlope * steepest_k : steepest(lia.law->table),
+                  steepest_z);
     case LiaType::kBow:
     case LiaType::kSmoothBow:
       return upTo(0.0, frictionSlopesOf(scene, lia).rise);
     case LiaType::kTable:
-      return upTo(steepest(lia.table), steepest(lia.viscous_table));
+      return upTo(steepest(lia.law->table), steepest(lia.law->viscous_table));
   }
   return {};
 }
 
 double stiffnessAt(const scene::Scene& scene, const scene::Lia& lia, double elongation) {
   const double k = largest(scene, lia.stiffness);
-  const double q = largest(scene, lia.nonlinearity);
+  const double q = largest(scene, lia.law->nonlinearity);
   switch (lia.type) {
     case LiaType::kQuadratic:
       return k + 2.0 * q * elongation;
     case LiaType::kCubic:
       return k + 3.0 * q * elongation * elongation;
     case LiaType::kPowerContact: {
-      const double a = largest(scene, lia.exponent);
+      const double a = largest(scene, lia.law->exponent);
       return a * k * std::pow(elongation, a - 1.0);
     }
     default:
@@ -113,21 +115,21 @@ double stiffnessAt(const scene::Scene& scene, const scene::Lia& lia, double elon
 
 double elongationOf(const scene::Scene& scene, const scene::Lia& lia, double limit) {
   const double k = largest(scene, lia.stiffness);
-  const double q = largest(scene, lia.nonlinearity);
+  const double q = largest(scene, lia.law->nonlinearity);
   switch (lia.type) {
     case LiaType::kQuadratic:
       return std::max(limit - k, 0.0) / (2.0 * q);
     case LiaType::kCubic:
       return std::sqrt(std::max(limit - k, 0.0) / (3.0 * q));
     default: {
-      const double a = largest(scene, lia.exponent);
+      const double a = largest(scene, lia.law->exponent);
       return std::pow(limit / (a * k), 1.0 / (a - 1.0));
     }
   }
 }
 
 FrictionSlopes frictionSlopesOf(const scene::Scene& scene, const scene::Lia& lia) {
-  const scene::Table& table = lia.type == LiaType::kTable ? lia.viscous_table : lia.table;
+  const scene::Table& table = lia.type == LiaType::kTable ? lia.law->viscous_table : lia.law->table;
   if (!table.empty()) {
     const scene::Curve curve = scene::interpolate(table);
     return {std::max(curve.largest_slope, 0.0), std::max(-curve.smallest_slope, 0.0)};
@@ -141,7 +143,7 @@ FrictionSlopes frictionSlopesOf(const scene::Scene& scene, const scene::Lia& lia
 }
 
 bool isRising(const scene::Lia& lia) {
-  return rises(lia.table) && rises(lia.viscous_table);
+  return rises(lia.law->table) && rises(lia.law->viscous_table);
 }
 
 }  // namespace ergotic::physics

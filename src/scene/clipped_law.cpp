@@ -11,20 +11,20 @@ void completeClippedLaw(Lia& lia, ClippedLaw law) {
     return;
   }
   const double k = lia.stiffness.factor;
-  const double q = lia.nonlinearity.factor;
-  const double limit = lia.stiffness_limit.factor;
+  const double q = lia.law->nonlinearity.factor;
+  const double limit = lia.law->stiffness_limit.factor;
   if (q == 0.0 || k >= limit) {
     lia.type = contact ? LiaType::kContact : LiaType::kSpringDamper;
-    lia.stiffness = q == 0.0 ? lia.stiffness : lia.stiffness_limit;
-    lia.nonlinearity = {};
-    lia.stiffness_limit = {};
+    lia.stiffness = q == 0.0 ? lia.stiffness : lia.law->stiffness_limit;
+    lia.law.edit().nonlinearity = {};
+    lia.law.edit().stiffness_limit = {};
     return;
   }
   if (law == ClippedLaw::kMdl) {
-    lia.tipping_point = std::sqrt(limit - k) / q;
-    lia.limit_damping = 0.3 * lia.stiffness_limit;
+    lia.law.edit().tipping_point = std::sqrt(limit - k) / q;
+    lia.law.edit().limit_damping = 0.3 * lia.law->stiffness_limit;
   } else {
-    lia.tipping_point = std::sqrt((limit - k) / q);
+    lia.law.edit().tipping_point = std::sqrt((limit - k) / q);
   }
 }
 

@@ -16,11 +16,8 @@ double triangle(double u, double at, double height) {
 }
 
 /// A module at rest at its place.
-Mat generatedMat(const SceneBuilder& builder,
-                 int section,
-                 std::string name,
-                 const Eigen::Vector3d& rest,
-                 Place place) {
+Mat generatedMat(
+    const SceneBuilder& builder, int section, Name name, const Eigen::Vector3d& rest, Place place) {
   Mat mat;
   mat.name = std::move(name);
   mat.section = section;
@@ -31,9 +28,9 @@ Mat generatedMat(const SceneBuilder& builder,
   return mat;
 }
 
-Mat stringMat(const SceneBuilder& builder, const StringSpec& spec, int index) {
+Mat stringMat(const SceneBuilder& builder, const StringSpec& spec, const Name& stem, int index) {
   const double u = static_cast<double>(index) / (spec.masses + 1);
-  Mat mat = generatedMat(builder, spec.section, spec.name + "." + std::to_string(index),
+  Mat mat = generatedMat(builder, spec.section, stem.numbered(index),
                          (1.0 - u) * spec.from + u * spec.to, spec.place);
   if (index == 0 || index == spec.masses + 1) {
     mat.type = MatType::kGround;
@@ -50,9 +47,14 @@ Mat stringMat(const SceneBuilder& builder, const StringSpec& spec, int index) {
   return mat;
 }
 
-Lia generatedLink(const std::string& name, int index, int a, int b, Place place) {
+Name linkStem(const std::string& generator) {
+  return generator + ".link.";
+}
+
+/// \param stem  of all links of the generator
+Lia generatedLink(const Name& stem, int index, int a, int b, Place place) {
   Lia lia;
-  lia.name = name + ".link." + std::to_string(index);
+  lia.name = stem.numbered(index);
   lia.a = a;
   lia.b = b;
   lia.place = place;
@@ -66,15 +68,14 @@ struct MeshStep {
 };
 constexpr MeshStep kMeshSteps[] = {{0, 1}, {1, 0}, {1, 1}, {1, -1}};
 
-Mat meshMat(const SceneBuilder& builder, const MeshSpec& spec, int row, int column) {
+Mat meshMat(
+    const SceneBuilder& builder, const MeshSpec& spec, const Name& stem, int row, int column) {
   const bool scalar = builder.scene().sections[static_cast<std::size_t>(spec.section)].geometry ==
                       Geometry::kScalar;
   Eigen::Vector3d rest = spec.at;
   rest[scalar ? 1 : 0] += column * spec.spacing;
   rest[scalar ? 2 : 1] += row * spec.spacing;
-  Mat mat = generatedMat(builder, spec.section,
-                         spec.name + "." + std::to_string(row) + "." + std::to_string(column), rest,
-                         spec.place);
+  Mat mat = generatedMat(builder, spec.section, stem.numbered(row, column), rest, spec.place);
   const bool row_edge = row == 0 || row == spec.rows - 1;
   const bool column_edge = column == 0 || column == spec.columns - 1;
   const bool fixed = spec.edges == MeshEdges::kFixed     ? row_edge || column_edge
@@ -88,6 +89,7 @@ Mat meshMat(const SceneBuilder& builder, const MeshSpec& spec, int row, int colu
 /// \param next  number of the link, raised if it is made
 void addMeshLink(SceneBuilder& builder,
                  const MeshSpec& spec,
+                 const Name& stem,
                  int first,
                  const MeshStep& from,
                  const MeshStep& step,
@@ -108,7 +110,7 @@ void addMeshLink(SceneBuilder& builder,
   }
   const Geometry geometry = builder.scene().sectionOf(mat_a).geometry;
   const int moving = dimensionsOf(geometry);
-  Lia lia = generatedLink(spec.name, next++, a, b, spec.place);
+  Lia lia = generatedLink(stem, next++, a, b, spec.place);
   lia.stiffness = diagonal ? *spec.diagonal_stiffness : spec.stiffness;
   lia.damping = spec.damping;
   lia.rest_length =
@@ -139,16 +141,18 @@ void addString(SceneBuilder& builder, const StringSpec& spec) {
   info.damping = spec.damping;
   info.loss = spec.loss.value_or(Value{});
   info.corrected_hz = spec.corrected_hz;
+  const Name stem(spec.name + ".");
   for (int i = 0; i < count; ++i) {
-    builder.add(stringMat(builder, spec, i));
+    builder.add(stringMat(builder, spec, stem, i));
   }
   const int moving =
       dimensionsOf(builder.scene().sections[static_cast<std::size_t>(spec.section)].geometry);
   const double rest_length =
       spec.rest_length_ratio * (spec.to - spec.from).head(moving).norm() / (spec.masses + 1);
+  const Name link_stem = linkStem(spec.name);
   for (int i = 0; i < links; ++i) {
     const CoarseLink ends = coarse ? coarseLink(spec.masses, i) : CoarseLink{i, i + 1, {}};
-    Lia lia = generatedLink(spec.name, i, info.first + ends.a, info.first + ends.b, spec.place);
+    Lia lia = generatedLink(link_stem, i, info.first + ends.a, info.first + ends.b, spec.place);
     if (i <= spec.masses) {
       lia.stiffness = spec.stiffness;
       lia.damping = spec.damping;
@@ -166,16 +170,18 @@ void addMesh(SceneBuilder& builder, const MeshSpec& spec) {
       static_cast<std::size_t>(spec.rows) * static_cast<std::size_t>(spec.columns);
   builder.reserve(count, (spec.diagonal_stiffness ? 4 : 2) * count, spec.place);
   const int first = static_cast<int>(builder.scene().mats.size());
+  const Name stem(spec.name + ".");
   for (int row = 0; row < spec.rows; ++row) {
     for (int column = 0; column < spec.columns; ++column) {
-      builder.add(meshMat(builder, spec, row, column));
+      builder.add(meshMat(builder, spec, stem, row, column));
     }
   }
+  const Name link_stem = linkStem(spec.name);
   int next = 0;
   for (int row = 0; row < spec.rows; ++row) {
     for (int column = 0; column < spec.columns; ++column) {
       for (const MeshStep& step : kMeshSteps) {
-        addMeshLink(builder, spec, first, {row, column}, step, next);
+        addMeshLink(builder, spec, link_stem, first, {row, column}, step, next);
       }
     }
   }
@@ -190,7 +196,7 @@ void addChaplet(SceneBuilder& builder, const ChapletSpec& spec) {
   int index = 0;
   for (const ChapletStage& stage : kChapletC2) {
     Mat mat;
-    mat.name = spec.name + "." + std::to_string(index);
+    mat.name = Name(spec.name + ".").numbered(index);
     mat.section = spec.section;
     mat.mass = stage.mass * spec.mass;
     mat.rest.x() = carrier.rest.x();
@@ -199,7 +205,7 @@ void addChaplet(SceneBuilder& builder, const ChapletSpec& spec) {
     mat.rest.z() = spec.at.y();
     mat.place = spec.place;
     const int added = builder.add(std::move(mat));
-    Lia lia = generatedLink(spec.name, index, previous, added, spec.place);
+    Lia lia = generatedLink(linkStem(spec.name), index, previous, added, spec.place);
     lia.stiffness = stage.stiffness * nyquist * nyquist * spec.mass;
     lia.damping = stage.damping * nyquist * spec.mass;
     builder.add(std::move(lia));

@@ -32,7 +32,7 @@ const char* unguarded(const Lia& lia) {
     case LiaType::kConditional:
       return "conditional";
     case LiaType::kTable:
-      return lia.viscous_table.empty() ? nullptr : "a table with a viscous part";
+      return lia.law->viscous_table.empty() ? nullptr : "a table with a viscous part";
     default:
       return nullptr;
   }
@@ -51,9 +51,9 @@ Limits restLengthLimits(const Scene& scene, const Lia& lia) {
 }
 
 Limits releaseLimits(const Scene& scene, const Lia& lia) {
-  double engage = lia.width.factor;
-  if (lia.width.parameter >= 0) {
-    const Parameter& p = scene.parameters[static_cast<std::size_t>(lia.width.parameter)];
+  double engage = lia.law->width.factor;
+  if (lia.law->width.parameter >= 0) {
+    const Parameter& p = scene.parameters[static_cast<std::size_t>(lia.law->width.parameter)];
     engage *= engage > 0.0 ? p.maximum : p.minimum;
   }
   return {"m", engage};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace ergotic::scene {
 namespace {
@@ -10,6 +11,7 @@ namespace {
 constexpr std::size_t kLongestQuote = 48;
 constexpr std::size_t kLongestCompared = 64;  // bounds the cost of a suggestion
 constexpr std::size_t kMostListed = 16;
+constexpr std::size_t kFewestSlots = 16;
 
 /// Letters to add, drop or replace to get from one word to the other (Levenshtein).
 std::size_t editDistance(const std::string& a, const std::string& b) {
@@ -29,21 +31,65 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-int NameTable::add(const std::string& name, int index) {
-  const auto [entry, is_new] = indices_.emplace(name, index);
-  return is_new ? -1 : entry->second;
+void NameTable::reserve(std::size_t count) {
+  std::size_t slots = std::max<std::size_t>(slots_.size(), kFewestSlots);
+  while (slots < 2 * count) {
+    slots *= 2;
+  }
+  if (slots > slots_.size()) {
+    resize(slots);
+  }
 }
 
-int NameTable::find(const std::string& name) const {
-  const auto entry = indices_.find(name);
-  return entry == indices_.end() ? -1 : entry->second;
+void NameTable::resize(std::size_t slots) {
+  std::vector<Slot> old(slots);
+  old.swap(slots_);
+  for (Slot& each : old) {
+    if (each.is_taken) {
+      std::size_t slot = first(each.hash);
+      while (slots_[slot].is_taken) {
+        slot = next(slot);
+      }
+      slots_[slot] = std::move(each);
+    }
+  }
+}
+
+int NameTable::add(const Name& name, int index) {
+  reserve(count_ + 1);
+  const std::uint32_t hash = name.hash();
+  std::size_t slot = first(hash);
+  while (slots_[slot].is_taken) {
+    if (slots_[slot].hash == hash && slots_[slot].name == name) {
+      return slots_[slot].index;
+    }
+    slot = next(slot);
+  }
+  slots_[slot] = {name, index, hash, true};
+  ++count_;
+  return -1;
+}
+
+int NameTable::find(std::string_view name) const {
+  if (slots_.empty()) {
+    return -1;
+  }
+  const std::uint32_t hash = Name::hashOf(name);
+  for (std::size_t slot = first(hash); slots_[slot].is_taken; slot = next(slot)) {
+    if (slots_[slot].hash == hash && slots_[slot].name.isText(name)) {
+      return slots_[slot].index;
+    }
+  }
+  return -1;
 }
 
 std::vector<std::string> NameTable::names() const {
   std::vector<std::string> all;
-  all.reserve(indices_.size());
-  for (const auto& entry : indices_) {
-    all.push_back(entry.first);
+  all.reserve(count_);
+  for (const Slot& each : slots_) {
+    if (each.is_taken) {
+      all.push_back(each.name);
+    }
   }
   std::sort(all.begin(), all.end());
   return all;

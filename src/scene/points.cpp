@@ -79,11 +79,15 @@ int addPoint(SceneBuilder& builder, const std::string& name, Connection connecti
   point.type = MatType::kPoint;
   point.section = scene.mats[static_cast<std::size_t>(grid.first)].section;
   point.place = connection.place;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < static_cast<std::size_t>(around.count); ++i) {
     const Mat& mat = scene.mats[static_cast<std::size_t>(around.mats[i])];
     point.rest += around.weights[i] * mat.rest;
     point.position += around.weights[i] * mat.position;
-    point.velocity += around.weights[i] * mat.velocity;
+    velocity += around.weights[i] * mat.push->velocity;
+  }
+  if (!velocity.isZero(0.0)) {
+    point.push.edit().velocity = velocity;
   }
   connection.mat = builder.add(std::move(point));
   scene.connections.push_back(connection);

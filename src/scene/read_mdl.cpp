@@ -22,17 +22,17 @@ constexpr double kMdlRateHz = 44100.0;  // the rate that the plain coefficients 
 /// A link: its type and where its arguments go; those past `required` are optional.
 struct MdlLink {
   LiaType type;
-  std::vector<Value Lia::*> arguments;
+  std::vector<LiaMember> arguments;
   std::size_t required;
   const char* usage;
 };
 
 const std::map<std::string, MdlLink>& mdlLinks() {
-  constexpr Value Lia::*k = &Lia::stiffness;
-  constexpr Value Lia::*z = &Lia::damping;
-  constexpr Value Lia::*q = &Lia::nonlinearity;
-  constexpr Value Lia::*limit = &Lia::stiffness_limit;
-  constexpr Value Lia::*width = &Lia::width;
+  const LiaMember k = &Lia::stiffness;
+  const LiaMember z = &Lia::damping;
+  const LiaMember q = &LiaLaw::nonlinearity;
+  const LiaMember limit = &LiaLaw::stiffness_limit;
+  const LiaMember width = &LiaLaw::width;
   static const std::map<std::string, MdlLink> kLinks = {
       {"spring", {LiaType::kSpringDamper, {k}, 1, "@m1 @m2 K"}},
       {"damper", {LiaType::kSpringDamper, {z}, 1, "@m1 @m2 Z"}},
@@ -128,11 +128,14 @@ class MdlReader {
     }
     if (arguments.size() > least) {
       // A force for each step, whatever the mass.
-      mat.force.x() = -numbers_.number(arguments[least - 2]) / kMdlRateHz;
+      mat.push.edit().force.x() = -numbers_.number(arguments[least - 2]) / kMdlRateHz;
     }
     setPlace(mat, numbers_.vector(arguments[arguments.size() - 2]));
-    mat.velocity.x() = numbers_.vector(arguments.back()).z / kMdlRateHz;
-    if (mat.velocity.x() != 0.0 && builder_.scene().text.find('[') == std::string::npos) {
+    const double velocity = numbers_.vector(arguments.back()).z / kMdlRateHz;
+    if (velocity != 0.0) {
+      mat.push.edit().velocity.x() = velocity;
+    }
+    if (velocity != 0.0 && builder_.scene().text.find('[') == std::string::npos) {
       builder_.warn(arguments.back().place,
                     "the last number of " + quoted("@" + line.name) +
                         " is taken as a velocity per second; older files mean a position");
@@ -189,7 +192,7 @@ class MdlReader {
       const auto position = std::find(link.arguments.begin(), link.arguments.end(), field.member);
       const auto index = 2 + static_cast<std::size_t>(position - link.arguments.begin());
       if (position != link.arguments.end() && index < line.arguments.size()) {
-        lia.*field.member = linkNumber(lia, line, field, index);
+        setMember(lia, field.member, linkNumber(lia, line, field, index));
       }
     }
     completeClippedLaw(lia, ClippedLaw::kMdl);
@@ -204,11 +207,11 @@ class MdlReader {
     const MdlToken& token = line.arguments[argument];
     const std::string what = named(field.key, line);
     const bool clipped = lia.type == LiaType::kClippedCubic || lia.type == LiaType::kCubicContact;
+    const auto is = [&](LiaMember member) { return field.member == member; };
     const bool follows =
-        field.member == &Lia::damping ||
-        (!clipped && (field.member == &Lia::stiffness || field.member == &Lia::nonlinearity));
+        is(&Lia::damping) || (!clipped && (is(&Lia::stiffness) || is(&LiaLaw::nonlinearity)));
     Limits limits = field.limits;
-    if (field.member == &Lia::stiffness || field.member == &Lia::damping) {
+    if (is(&Lia::stiffness) || is(&Lia::damping)) {
       limits.minimum = 0.0;  // what linear links of published models keep to
     }
     return follows ? numbers_.value(token, what, limits)

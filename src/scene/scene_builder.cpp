@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/scene_builder.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "ergotic/exception.hpp"
@@ -8,6 +9,15 @@
 
 namespace ergotic::scene {
 namespace {
+
+/// Room for many more; grows by half at least, as one scene may have thousands of generators.
+template <class T>
+void makeRoom(std::vector<T>& list, std::size_t more) {
+  const std::size_t wanted = list.size() + more;
+  if (wanted > list.capacity()) {
+    list.reserve(std::max(wanted, list.capacity() + list.capacity() / 2));
+  }
+}
 
 Place placeOf(const StringInfo& string, const Scene& scene) {
   return scene.mats[static_cast<std::size_t>(string.first)].place;
@@ -30,6 +40,8 @@ SceneBuilder::SceneBuilder(const std::string& file, const std::string& text) {
 }
 
 Scene SceneBuilder::finish() {
+  scene_.mats.shrink_to_fit();
+  scene_.lias.shrink_to_fit();
   validate(scene_);
   return std::move(scene_);
 }
@@ -80,8 +92,8 @@ void SceneBuilder::reserve(std::size_t mats, std::size_t lias, Place place) {
     fail(place, "the scene would have " + std::to_string(total) + " modules, allowed: at most " +
                     std::to_string(kMaxMats));
   }
-  scene_.mats.reserve(total);
-  scene_.lias.reserve(scene_.lias.size() + lias);
+  makeRoom(scene_.mats, mats);
+  makeRoom(scene_.lias, lias);
   mats_.reserve(total);
   lias_.reserve(scene_.lias.size() + lias);
 }

@@ -140,8 +140,8 @@ class Validator {
       value(m.place, "damping" + of, m.damping, kDampingLimits);
     }
     for (int i = 0; i < 3; ++i) {
-      number(m.place, "force" + of, m.force[i], kForceLimits);
-      number(m.place, "velocity" + of, m.velocity[i], kVelocityLimits);
+      number(m.place, "force" + of, m.push->force[i], kForceLimits);
+      number(m.place, "velocity" + of, m.push->velocity[i], kVelocityLimits);
       number(m.place, "a coordinate" + of, m.rest[i], kMetreLimits);
       number(m.place, "a coordinate" + of, m.position[i], kMetreLimits);
     }
@@ -263,24 +263,25 @@ class Validator {
   void laws(const Lia& l, const std::string& of) const {
     const bool table_only = l.type == LiaType::kTable;
     const bool may_have_table = table_only || l.type == LiaType::kPluck || l.type == LiaType::kBow;
-    if ((!l.table.empty() && !may_have_table) || (!l.viscous_table.empty() && !table_only)) {
+    if ((!l.law->table.empty() && !may_have_table) ||
+        (!l.law->viscous_table.empty() && !table_only)) {
       fail(l.place, "link " + quoted(l.name) + " has a table, allowed: pluck, bow and table only");
     }
-    if (table_only && l.table.empty() && l.viscous_table.empty()) {
+    if (table_only && l.law->table.empty() && l.law->viscous_table.empty()) {
       fail(l.place, "link " + quoted(l.name) + " has no table, allowed: elastic, viscous or both");
     }
-    table(l, l.table);
-    table(l, l.viscous_table);
-    if (table_only || !l.table.empty()) {
+    table(l, l.law->table);
+    table(l, l.law->viscous_table);
+    if (table_only || !l.law->table.empty()) {
       return;
     }
     for (const LiaField& field : liaFields(l.type)) {
-      value(l.place, field.key + of, l.*field.member, field.limits);
+      value(l.place, field.key + of, memberOf(l, field.member), field.limits);
     }
-    number(l.place, "tipping_point" + of, l.tipping_point, {"m", 0.0});
-    value(l.place, "limit_damping" + of, l.limit_damping, kDampingLimits);
+    number(l.place, "tipping_point" + of, l.law->tipping_point, {"m", 0.0});
+    value(l.place, "limit_damping" + of, l.law->limit_damping, kDampingLimits);
     if (l.type == LiaType::kConditional) {
-      number(l.place, "release" + of, l.release, releaseLimits(scene_, l));
+      number(l.place, "release" + of, l.law->release, releaseLimits(scene_, l));
     }
   }
 

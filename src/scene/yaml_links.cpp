@@ -78,9 +78,10 @@ void readEnds(SceneBuilder& builder, const YamlMap& map, Lia& lia) {
 /// The tipping point of a clipped law is computed once.
 void refuseParameters(const YamlMap& map, const Lia& lia) {
   for (const LiaField& field : liaFields(lia.type)) {
-    const bool shapes = field.member == &Lia::stiffness || field.member == &Lia::nonlinearity ||
-                        field.member == &Lia::stiffness_limit;
-    if (shapes && (lia.*field.member).parameter >= 0) {
+    const auto is = [&](LiaMember member) { return field.member == member; };
+    const bool shapes =
+        is(&Lia::stiffness) || is(&LiaLaw::nonlinearity) || is(&LiaLaw::stiffness_limit);
+    if (shapes && memberOf(lia, field.member).parameter >= 0) {
       map.fail(field.key, quoted(field.key) + " of " + map.what() +
                               " is a parameter, allowed in a clipped law: a number");
     }
@@ -94,20 +95,21 @@ void readLaws(const SceneBuilder& builder, YamlTables& tables, const YamlMap& ma
                  map.what() + " has neither 'elastic' nor 'viscous', allowed: one or both");
   }
   if (map.has("elastic")) {
-    lia.table = tables.read(map, "elastic");
+    lia.law.edit().table = tables.read(map, "elastic");
   }
   if (map.has("viscous")) {
-    lia.viscous_table = tables.read(map, "viscous");
+    lia.law.edit().viscous_table = tables.read(map, "viscous");
   }
 }
 
 /// `release`, or where the link engages if that is one place.
 void readRelease(const SceneBuilder& builder, const YamlMap& map, Lia& lia) {
-  if (!map.has("release") && lia.width.parameter >= 0) {
+  if (!map.has("release") && lia.law->width.parameter >= 0) {
     builder.fail(map.place(), "missing key 'release' of " + map.what() +
                                   ", allowed without it: a constant 'engage'");
   }
-  lia.release = map.number("release", releaseLimits(builder.scene(), lia), lia.width.factor);
+  lia.law.edit().release =
+      map.number("release", releaseLimits(builder.scene(), lia), lia.law->width.factor);
 }
 
 /// The coefficients of all types that have no table.
@@ -117,7 +119,7 @@ void readCoefficients(const SceneBuilder& builder,
                       Lia& lia) {
   for (const LiaField& field : liaFields(kind.type)) {
     if (contains(kind.required, field.key) || map.has(field.key)) {
-      lia.*field.member = map.value(field.key, field.limits);
+      setMember(lia, field.member, map.value(field.key, field.limits));
     }
   }
   if (kind.type == LiaType::kClippedCubic || kind.type == LiaType::kCubicContact) {
@@ -184,7 +186,7 @@ Lia readLia(SceneBuilder& builder,
   readEnds(builder, map, lia);
   lia.rest_length = map.number("rest_length", restLengthLimits(builder.scene(), lia), 0.0);
   if (has_table) {
-    lia.table = tables.read(map, "table");
+    lia.law.edit().table = tables.read(map, "table");
   } else if (kind.type == LiaType::kTable) {
     readLaws(builder, tables, map, lia);
   } else {

@@ -56,7 +56,10 @@ void readPlaces(const SceneBuilder& builder, const YamlMap& map, const MatKind& 
   Eigen::Vector3d at_rest = Eigen::Vector3d::Zero();
   at_rest.head(moving) = mat.rest.head(moving);
   mat.position = readMoving(section, map, "x", kMetreLimits, at_rest);
-  mat.velocity = readMoving(section, map, "v", kVelocityLimits, Eigen::Vector3d::Zero());
+  if (map.has("v")) {
+    mat.push.edit().velocity =
+        readMoving(section, map, "v", kVelocityLimits, Eigen::Vector3d::Zero());
+  }
   if (kind.type == MatType::kGround) {
     mat.rest.head(moving) = mat.position.head(moving);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/station/performer.hpp"
 
+#include <memory>
 #include <utility>
 
 #include "ergotic/exception.hpp"
@@ -88,19 +89,21 @@ void Performer::publishMotion(std::int64_t tick) noexcept {
   motion.publish();
 }
 
-std::unique_ptr<Performer> makePerformer(const scene::Scene& scene,
+std::unique_ptr<Performer> makePerformer(scene::Scene scene,
                                          const physics::Rates& rates,
                                          const physics::CompileOptions& options,
                                          const PerformerPolicy& policy) {
   scene::validate(scene);
   checkSlices(scene, policy.slices);
-  const physics::Settled settled = physics::settle(scene, rates);
+  const std::vector<std::string> warnings = scene.warnings;
+  physics::Settled settled = physics::settle(std::move(scene), rates);
   physics::Certificate certificate = physics::certify(settled.scene, rates);
   if (!isAllowed(certificate.verdict, policy)) {
     refuse(settled.scene, certificate);
   }
-  auto performer = std::make_unique<Performer>(physics::compile(settled.scene, rates, options));
-  performer->warnings = scene.warnings;
+  auto performer = std::make_unique<Performer>(physics::compile(
+      std::make_shared<const scene::Scene>(std::move(settled.scene)), rates, options));
+  performer->warnings = warnings;
   const auto tell = [&](const std::vector<std::string>& said) {
     performer->warnings.insert(performer->warnings.end(), said.begin(), said.end());
   };

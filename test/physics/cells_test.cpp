@@ -164,7 +164,7 @@ TEST(CellTest, YieldsToAConstantForceByItsOwnPull) {
     const double k = kM * turn * turn / (kStep * kStep);
     const int cell = b.cell(kM, k, z);
     b.scene.mats[at(cell)].matched = matched;
-    b.scene.mats[at(cell)].force.x() = 2.0;
+    b.scene.mats[at(cell)].push.edit().force.x() = 2.0;
     b.hear(cell);
     Player player(b.scene, {kRate, 10});
     player.ticks(2000);

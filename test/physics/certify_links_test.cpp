@@ -46,7 +46,7 @@ TEST(CertifyLinksTest, NothingNonlinearIsProvenBesideACoupledSlowMass) {
     b.spring(slow, string + 4, 100.0);
     scene::Lia& lia = b.scene.lias[at(b.link(type, string + 6, b.ground(), 10.0, 1e-3))];
     lia.scheme = scheme;
-    lia.width = {type == LiaType::kContact ? 0.0 : 1.0};
+    lia.law.edit().width = {type == LiaType::kContact ? 0.0 : 1.0};
     return certify(b.scene, {kRate, 14}).verdict;
   };
   for (const auto scheme : {scene::Scheme::kExplicit, scene::Scheme::kGuarded}) {
@@ -79,7 +79,7 @@ TEST(CertifyLinksTest, SwitchingLinksAreJudgedByTheirKappa) {
     SceneBuilder b;
     const int mass = b.mass(1.0);
     scene::Lia& lia = b.scene.lias[at(b.link(type, mass, b.ground(), kappa * kRate * kRate))];
-    lia.stiffness_limit = lia.stiffness;
+    lia.law.edit().stiffness_limit = lia.stiffness;
     return certify(b.scene, {kRate, 14});
   };
   for (const LiaType type : {LiaType::kContact, LiaType::kCubicContact, LiaType::kClippedCubic}) {
@@ -97,7 +97,7 @@ TEST(CertifyLinksTest, SaturatingElementsAreBounded) {
     SceneBuilder b;
     const int mass = b.mass(1.0);
     scene::Lia& lia = b.scene.lias[at(b.link(type, mass, b.ground(), 0.0, 0.0))];
-    lia.width = {0.1};
+    lia.law.edit().width = {0.1};
     lia.damping = {0.1 * kRate};
     EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
     lia.damping = {3.5 * kRate};
@@ -110,9 +110,9 @@ TEST(CertifyLinksTest, SteepestLineOfATableCounts) {
   const int mass = b.mass(1.0);
   scene::Lia& lia = b.scene.lias[at(b.link(LiaType::kPluck, mass, b.ground(), 0.0))];
   const double k = 4.5 * kRate * kRate;
-  lia.table.points = {{-0.01, 0.0}, {0.0, 0.0}, {0.001, 0.001 * k}, {0.002, 0.0}};
+  lia.law.edit().table.points = {{-0.01, 0.0}, {0.0, 0.0}, {0.001, 0.001 * k}, {0.002, 0.0}};
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnstable);
-  lia.table.points[2].second *= 0.5;
+  lia.law.edit().table.points[2].second *= 0.5;
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
 }
 
@@ -121,7 +121,7 @@ TEST(CertifyLinksTest, WhatNoBoundCoversIsUnproven) {
   const int mass = cubic.mass(1.0);
   scene::Lia& lia = cubic.scene.lias[at(cubic.link(LiaType::kCubic, mass, cubic.ground(), 1.0))];
   EXPECT_EQ(certify(cubic.scene, {kRate, 14}).verdict, Verdict::kPassive);
-  lia.nonlinearity = {1.0};
+  lia.law.edit().nonlinearity = {1.0};
   EXPECT_EQ(certify(cubic.scene, {kRate, 14}).verdict, Verdict::kUnproven);
 
   SceneBuilder negative;
@@ -137,8 +137,8 @@ TEST(CertifyLinksTest, GuardedLinksMakeNoEnergy) {
     const int other = b.mass(1.0);
     scene::Lia& lia = b.scene.lias[at(b.link(type, mass, other, 50.0 * kRate * kRate))];
     lia.scheme = scheme;
-    lia.exponent = {1.5};
-    lia.width = {0.1};
+    lia.law.edit().exponent = {1.5};
+    lia.law.edit().width = {0.1};
     lia.damping = {type == LiaType::kBow ? 50.0 * kRate : 0.0};
     return certify(b.scene, {kRate, 14}).verdict;
   };
@@ -156,11 +156,11 @@ TEST(CertifyLinksTest, PowerContactSaysHowDeepItWouldHold) {
   const int mass = b.mass(1.0);
   scene::Lia& lia =
       b.scene.lias[at(b.link(LiaType::kPowerContact, mass, b.ground(), kRate * kRate))];
-  lia.exponent = {2.0};  // slope 2 K p: h^2 2 K p / M = 0.25 at p = 0.125
+  lia.law.edit().exponent = {2.0};  // slope 2 K p: h^2 2 K p / M = 0.25 at p = 0.125
   const Certificate c = certify(b.scene, {kRate, 14});
   EXPECT_EQ(c.verdict, Verdict::kUnproven);
   EXPECT_TRUE(has(c, "up to an overlap of 0.125 m"));
-  lia.exponent = {1.0};
+  lia.law.edit().exponent = {1.0};
   lia.stiffness = {0.04 * kRate * kRate};
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kPassive);
 }
@@ -170,14 +170,14 @@ TEST(CertifyLinksTest, TablesThatFallAreBoundedAndOthersSwitch) {
   const int mass = b.mass(1.0);
   scene::Lia& lia = b.scene.lias[at(b.link(LiaType::kTable, mass, b.ground(), 0.0))];
   const double k = 0.04 * kRate * kRate;
-  lia.table.points = {{-0.01, -0.01 * k}, {0.0, 0.0}, {0.01, 0.005 * k}};
+  lia.law.edit().table.points = {{-0.01, -0.01 * k}, {0.0, 0.0}, {0.01, 0.005 * k}};
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kPassive);
   EXPECT_NEAR(certify(b.scene, {kRate, 14}).sections[0].lambda, 0.04, 1e-6);
-  lia.viscous_table.points = {{-1.0, -0.1 * kRate}, {1.0, 0.1 * kRate}};
+  lia.law.edit().viscous_table.points = {{-1.0, -0.1 * kRate}, {1.0, 0.1 * kRate}};
   EXPECT_NEAR(certify(b.scene, {kRate, 14}).sections[0].lambda, 0.04 + 2.0 * 0.1, 1e-6);
-  lia.table.points[2].second = -0.005 * k;
+  lia.law.edit().table.points[2].second = -0.005 * k;
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
-  lia.table.points[1].second = 2.0 * kRate * kRate;
+  lia.law.edit().table.points[1].second = 2.0 * kRate * kRate;
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnstable);
 }
 
@@ -186,8 +186,8 @@ TEST(CertifyLinksTest, ConditionalLinksAreBoundedAndCountClosed) {
   const int mass = b.mass(1.0);
   scene::Lia& lia =
       b.scene.lias[at(b.link(LiaType::kConditional, mass, b.ground(), kRate * kRate))];
-  lia.width = {0.01};
-  lia.release = 0.02;
+  lia.law.edit().width = {0.01};
+  lia.law.edit().release = 0.02;
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
   lia.stiffness = {4.1 * kRate * kRate};
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnstable);
@@ -199,7 +199,7 @@ TEST(CertifyLinksTest, SteepFrictionIsNoted) {
     const int mass = b.mass(1.0);
     scene::Lia& lia = b.scene.lias[at(b.link(LiaType::kBow, mass, b.ground(), 0.0))];
     lia.damping = {1.5 * rise * kRate};  // its steepest rise is 2/3 Z, its fall 1/3 Z
-    lia.width = {0.1};
+    lia.law.edit().width = {0.1};
     return certify(b.scene, {kRate, 14});
   };
   EXPECT_TRUE(certificate(0.39).findings.empty());

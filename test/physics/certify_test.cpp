@@ -299,7 +299,7 @@ TEST(CertifyTest, SlowMassesOnHeldFastModulesCount) {
 TEST(CertifyTest, WorstFindingsComeFirst) {
   SceneBuilder b;
   b.link(LiaType::kBow, b.mass(1.0), b.ground(), 0.0, 1.6 * kRate);  // overshoots
-  b.scene.lias.back().width = {1.0};
+  b.scene.lias.back().law.edit().width = {1.0};
   b.link(LiaType::kContact, b.mass(1.0), b.ground(), 0.5 * kRate * kRate);
   const Certificate c = certify(b.scene, {kRate, 14});
   ASSERT_GE(c.findings.size(), 2u);

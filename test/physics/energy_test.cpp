@@ -60,17 +60,17 @@ double largestResidual(const scene::Scene& scene, const Rates& rates, int ticks)
 /// Every field that some law reads, for forces of some newtons at some millimetres.
 void shape(Lia& lia) {
   const bool is_gap = lia.type == LiaType::kContact || lia.type == LiaType::kPowerContact;
-  lia.nonlinearity = {1e4};
-  lia.stiffness_limit = {400.0};
-  lia.limit_damping = {0.05};
-  lia.tipping_point = std::sqrt(200.0 / 1e4);
-  lia.exponent = {1.5};
-  lia.width = {is_gap ? 0.0 : 0.01};
-  lia.release = 0.02;
+  lia.law.edit().nonlinearity = {1e4};
+  lia.law.edit().stiffness_limit = {400.0};
+  lia.law.edit().limit_damping = {0.05};
+  lia.law.edit().tipping_point = std::sqrt(200.0 / 1e4);
+  lia.law.edit().exponent = {1.5};
+  lia.law.edit().width = {is_gap ? 0.0 : 0.01};
+  lia.law.edit().release = 0.02;
   if (lia.type == LiaType::kTable) {
     lia.stiffness = {};
     lia.damping = {};
-    lia.table = {{{-0.01, -2.0}, {-1e-3, -0.1}, {1e-3, 0.1}, {0.01, 2.0}}, true};
+    lia.law.edit().table = {{{-0.01, -2.0}, {-1e-3, -0.1}, {1e-3, 0.1}, {0.01, 2.0}}, true};
   }
 }
 
@@ -146,8 +146,8 @@ TEST_P(EnergyTest, TablesOfPluckBowAndViscosityBalance) {
     for (Lia& lia : b.scene.lias) {
       if (lia.type == type) {
         lia.stiffness = {};
-        lia.table = {{{-0.02, 0.0}, {-0.01, -1.0}, {0.01, 1.0}, {0.02, 0.0}}, false};
-        lia.viscous_table = {{{-1.0, -0.2}, {1.0, 0.2}}, false};
+        lia.law.edit().table = {{{-0.02, 0.0}, {-0.01, -1.0}, {0.01, 1.0}, {0.02, 0.0}}, false};
+        lia.law.edit().viscous_table = {{{-1.0, -0.2}, {1.0, 0.2}}, false};
       }
     }
     EXPECT_LT(largestResidual(b.scene, {kRate, GetParam()}, 3000), kUnbalanced)
@@ -201,7 +201,7 @@ TEST_P(EnergyTest, MovingPlaceBalances) {
     b.spring(place.guide, finger, 30.0, 0.1);
     if (is_guarded) {
       Lia& lia = b.scene.lias[at(b.link(LiaType::kCubic, b.ground(), finger, 300.0))];
-      lia.nonlinearity = {1e7};
+      lia.law.edit().nonlinearity = {1e7};
       lia.scheme = Scheme::kGuarded;
     }
     EXPECT_LT(largestResidual(b.scene, {kRate, GetParam()}, 5000), kUnbalanced) << is_guarded;
@@ -226,7 +226,7 @@ TEST(EnergyOfManyRatesTest, Balances) {
     b.spring(heavy, 9, 50.0, 0.01);
     for (const auto& [x, y] : {std::pair(heavy, other), {b.ground(0.0, 2), other}}) {
       Lia& lia = b.scene.lias[at(b.link(LiaType::kCubic, x, y, 2e4))];
-      lia.nonlinearity = {1e10};
+      lia.law.edit().nonlinearity = {1e10};
       lia.scheme = scheme;
     }
     EXPECT_LT(largestResidual(b.scene, {kRate, 14}, 6000), kUnbalanced)

@@ -56,7 +56,7 @@ TEST(ForcesTest, ConstantForceAcceleratesByTheMassAlongEveryAxis) {
   InSpace b;
   const Vector3d force(0.2, -0.1, 0.05);
   const int mass = b.mass(0.02);
-  b.scene.mats[at(mass)].force = force;
+  b.scene.mats[at(mass)].push.edit().force = force;
   b.hearAxes(mass);
   Player player(b.scene, {kRate, 10});
   player.ticks(100);
@@ -197,27 +197,27 @@ TEST(LiveParameterTest, EveryCoefficientOfALawFollows) {
   scene::Lia power;
   power.type = LiaType::kPowerContact;
   power.stiffness = {100.0};
-  power.exponent = {1.0, 0};
+  power.law.edit().exponent = {1.0, 0};
   expect(power, 10.0, 0.1);
-  power.exponent = {2.0};
+  power.law.edit().exponent = {2.0};
   power.damping = {0.5, 0};
   expect(power, 1.0 + 1.0, 1.0 + 3.0);
   power.damping = {0.0};
-  power.width = {0.1, 0};
+  power.law.edit().width = {0.1, 0};
   expect(power, 4.0, 16.0);
   scene::Lia cubic;
   cubic.type = LiaType::kCubic;
   cubic.stiffness = {10.0, 0};
-  cubic.nonlinearity = {1000.0};
+  cubic.law.edit().nonlinearity = {1000.0};
   expect(cubic, 1.0 + 1.0, 3.0 + 1.0);
   cubic.stiffness = {10.0};
-  cubic.nonlinearity = {1000.0, 0};
+  cubic.law.edit().nonlinearity = {1000.0, 0};
   expect(cubic, 1.0 + 1.0, 1.0 + 3.0);
   scene::Lia conditional;
   conditional.type = LiaType::kConditional;
   conditional.stiffness = {10.0};
-  conditional.width = {0.05, 0};
-  conditional.release = 1.0;
+  conditional.law.edit().width = {0.05, 0};
+  conditional.law.edit().release = 1.0;
   expect(conditional, 0.0, 1.0);
 }
 

@@ -31,7 +31,7 @@ struct Built : SceneBuilder {
   int massAt(double kg, const Vector3d& x, const Vector3d& v = Vector3d::Zero()) {
     const int m = mass(kg);
     scene.mats[at(m)].position = x;
-    scene.mats[at(m)].velocity = v;
+    scene.mats[at(m)].push.edit().velocity = v;
     return m;
   }
   void hearAxes(int mat, int first_channel, Quantity quantity = Quantity::kPosition) {
@@ -62,10 +62,10 @@ std::vector<std::vector<double>> playRow(Geometry geometry) {
     b.scene.lias[at(l)].rest_length = 0.8;
   }
   const int l = b.link(LiaType::kCubic, top, high, 500.0, 0.1);
-  b.scene.lias[at(l)].nonlinearity = {1e4};
+  b.scene.lias[at(l)].law.edit().nonlinearity = {1e4};
   b.scene.lias[at(l)].rest_length = 0.4;
   b.link(LiaType::kContact, high, top, 4e3, 0.1);
-  b.scene.lias.back().width = {0.35};
+  b.scene.lias.back().law.edit().width = {0.35};
   b.hear(low, 0);
   b.hear(high, 1);
   b.hear(top, 2);
@@ -204,9 +204,9 @@ struct Net {
         const int l = b.link(types[next++ % 5], i, j, 500.0, 0.01);
         scene::Lia& lia = b.scene.lias[at(l)];
         const bool gap = lia.type == LiaType::kContact || lia.type == LiaType::kPowerContact;
-        lia.nonlinearity = {100.0};
-        lia.exponent = {1.5};
-        lia.width = {gap ? 0.9 : 0.0};
+        lia.law.edit().nonlinearity = {100.0};
+        lia.law.edit().exponent = {1.5};
+        lia.law.edit().width = {gap ? 0.9 : 0.0};
         lia.rest_length = gap ? 0.0 : 0.7;
         lia.scheme = scene::Scheme::kExplicit;
       }

@@ -24,15 +24,15 @@ std::size_t at(int i) {
 scene::Lia& guard(SceneBuilder& b, LiaType type, int from, int to, double k, double z = 0.0) {
   scene::Lia& lia = b.scene.lias[at(b.link(type, from, to, k, z))];
   lia.scheme = scene::Scheme::kGuarded;
-  lia.nonlinearity = {1e4};
-  lia.stiffness_limit = {2.0 * k};
-  lia.tipping_point = std::sqrt(k / 1e4);
-  lia.exponent = {1.5};
+  lia.law.edit().nonlinearity = {1e4};
+  lia.law.edit().stiffness_limit = {2.0 * k};
+  lia.law.edit().tipping_point = std::sqrt(k / 1e4);
+  lia.law.edit().exponent = {1.5};
   const bool is_bow = type == LiaType::kBow || type == LiaType::kSmoothBow;
-  lia.width = {is_bow ? 0.1 : 0.0};
+  lia.law.edit().width = {is_bow ? 0.1 : 0.0};
   if (type == LiaType::kTable) {
-    lia.table = {{{-1.0, -2.0 * k}, {0.0, 0.0}, {1.0, k}}, true};
-    lia.viscous_table = {{{-1.0, -0.2}, {0.0, 0.0}, {1.0, 0.1}}, false};
+    lia.law.edit().table = {{{-1.0, -2.0 * k}, {0.0, 0.0}, {1.0, k}}, true};
+    lia.law.edit().viscous_table = {{{-1.0, -0.2}, {0.0, 0.0}, {1.0, 0.1}}, false};
   }
   return lia;
 }

@@ -45,7 +45,7 @@ TEST(LawsTest, ContactPushesOnlyBeyondItsThreshold) {
   const auto set = [](Lia& lia) {
     lia.stiffness = {100.0};
     lia.damping = {3.0};
-    lia.width = {0.01};
+    lia.law.edit().width = {0.01};
   };
   EXPECT_EQ(forceOf(LiaType::kContact, set, -0.0101, 1.0), 0.0);
   EXPECT_NEAR(forceOf(LiaType::kContact, set, -0.005, 1.0), 0.5 + 3.0, 1e-9);
@@ -54,7 +54,7 @@ TEST(LawsTest, ContactPushesOnlyBeyondItsThreshold) {
 TEST(LawsTest, PolynomialSpringsAreOdd) {
   const auto set = [](Lia& lia) {
     lia.stiffness = {100.0};
-    lia.nonlinearity = {5000.0};
+    lia.law.edit().nonlinearity = {5000.0};
   };
   for (const double e : {0.02, -0.02}) {
     const double sign = e > 0.0 ? 1.0 : -1.0;
@@ -66,9 +66,9 @@ TEST(LawsTest, PolynomialSpringsAreOdd) {
 TEST(LawsTest, ClippedCubicIsContinuousWhereItsStiffnessEnds) {
   const auto set = [](Lia& lia) {
     lia.stiffness = {100.0};
-    lia.stiffness_limit = {400.0};
-    lia.nonlinearity = {3e6};
-    lia.tipping_point = std::sqrt(300.0 / 3e6);
+    lia.law.edit().stiffness_limit = {400.0};
+    lia.law.edit().nonlinearity = {3e6};
+    lia.law.edit().tipping_point = std::sqrt(300.0 / 3e6);
   };
   EXPECT_NEAR(forceOf(LiaType::kClippedCubic, set, 0.005), 0.5 + 0.375, 1e-9);
   EXPECT_NEAR(forceOf(LiaType::kClippedCubic, set, 0.02), 8.0, 1e-9);
@@ -81,7 +81,7 @@ TEST(LawsTest, ClippedCubicIsContinuousWhereItsStiffnessEnds) {
 TEST(LawsTest, PluckPushesBackUntilItSlips) {
   const auto set = [](Lia& lia) {
     lia.stiffness = {1000.0};
-    lia.width = {0.01};
+    lia.law.edit().width = {0.01};
   };
   // From below the plectrum is pushed down: the strongest force is at a tenth of the width.
   EXPECT_EQ(forceOf(LiaType::kPluck, set, -0.0101), 0.0);
@@ -94,7 +94,7 @@ TEST(LawsTest, PluckPushesBackUntilItSlips) {
 TEST(LawsTest, BowsDragWithTheirCurve) {
   const auto set = [](Lia& lia) {
     lia.damping = {3.0};
-    lia.width = {0.3};
+    lia.law.edit().width = {0.3};
   };
   EXPECT_NEAR(forceOf(LiaType::kBow, set, 0.0, 0.05), 2.0 * 0.05, 1e-9);
   EXPECT_NEAR(forceOf(LiaType::kBow, set, 0.0, 0.2), 0.1 * 3.0 - 0.2, 1e-9);
@@ -105,7 +105,7 @@ TEST(LawsTest, BowsDragWithTheirCurve) {
 
 TEST(LawsTest, TablesAreStraightLinesBetweenTheirPoints) {
   const auto set = [](Lia& lia) {
-    lia.table.points = {{-0.2, -1.0}, {0.0, 0.0}, {0.1, 2.0}, {0.4, 0.5}};
+    lia.law.edit().table.points = {{-0.2, -1.0}, {0.0, 0.0}, {0.1, 2.0}, {0.4, 0.5}};
   };
   for (const LiaType type : {LiaType::kPluck, LiaType::kBow}) {
     const auto at = [&](double value) {
@@ -124,8 +124,8 @@ TEST(LawsTest, PowerContactPushesWithItsExponentBeyondItsThreshold) {
   const auto set = [](Lia& lia) {
     lia.stiffness = {1000.0};
     lia.damping = {3.0};
-    lia.width = {0.02};
-    lia.exponent = {2.3};
+    lia.law.edit().width = {0.02};
+    lia.law.edit().exponent = {2.3};
   };
   EXPECT_EQ(forceOf(LiaType::kPowerContact, set, -0.0201, 1.0), 0.0);
   EXPECT_NEAR(forceOf(LiaType::kPowerContact, set, 0.01), 1000.0 * std::pow(0.03, 2.3), 1e-9);
@@ -136,18 +136,20 @@ TEST(LawsTest, PowerContactPushesWithItsExponentBeyondItsThreshold) {
 TEST(LawsTest, ElasticAndViscousTablesAddUp) {
   const auto set = [](Lia& lia) {
     lia.rest_length = 0.05;
-    lia.table.points = {{-0.1, -2.0}, {0.0, 1.0}, {0.1, 5.0}};
-    lia.viscous_table.points = {{-1.0, -3.0}, {1.0, 1.0}};
+    lia.law.edit().table.points = {{-0.1, -2.0}, {0.0, 1.0}, {0.1, 5.0}};
+    lia.law.edit().viscous_table.points = {{-1.0, -3.0}, {1.0, 1.0}};
   };
   EXPECT_NEAR(forceOf(LiaType::kTable, set, 0.10, 0.5), 3.0 + 0.0, 1e-9);
   EXPECT_NEAR(forceOf(LiaType::kTable, set, 0.0, -0.5), -0.5 - 2.0, 1e-9);
 }
 
 TEST(LawsTest, TablesOfASpringHoldTheirLastValues) {
-  const auto elastic = [](Lia& lia) { lia.table.points = {{-0.1, -2.0}, {0.1, 5.0}}; };
+  const auto elastic = [](Lia& lia) { lia.law.edit().table.points = {{-0.1, -2.0}, {0.1, 5.0}}; };
   EXPECT_NEAR(forceOf(LiaType::kTable, elastic, 0.3), 5.0, 1e-12);
   EXPECT_NEAR(forceOf(LiaType::kTable, elastic, -0.3), -2.0, 1e-12);
-  const auto viscous = [](Lia& lia) { lia.viscous_table.points = {{-1.0, -3.0}, {1.0, 1.0}}; };
+  const auto viscous = [](Lia& lia) {
+    lia.law.edit().viscous_table.points = {{-1.0, -3.0}, {1.0, 1.0}};
+  };
   EXPECT_NEAR(forceOf(LiaType::kTable, viscous, 0.2, 4.0), 1.0, 1e-12);
   EXPECT_NEAR(forceOf(LiaType::kTable, viscous, 0.2, -4.0), -3.0, 1e-12);
   EXPECT_NEAR(forceOf(LiaType::kTable, viscous, 0.2, 0.5), 0.0, 1e-9) << "no elastic part";
@@ -155,9 +157,11 @@ TEST(LawsTest, TablesOfASpringHoldTheirLastValues) {
 
 TEST(LawsTest, SmoothTablesAreMonotoneCubics) {
   // Slopes 1 and 7: their harmonic mean 1.75 in the middle, 0 and 10 at the ends.
-  const auto elastic = [](Lia& lia) { lia.table = {{{0.0, 0.0}, {1.0, 1.0}, {2.0, 8.0}}, true}; };
+  const auto elastic = [](Lia& lia) {
+    lia.law.edit().table = {{{0.0, 0.0}, {1.0, 1.0}, {2.0, 8.0}}, true};
+  };
   const auto viscous = [](Lia& lia) {
-    lia.viscous_table = {{{0.0, 0.0}, {1.0, 1.0}, {2.0, 8.0}}, true};
+    lia.law.edit().viscous_table = {{{0.0, 0.0}, {1.0, 1.0}, {2.0, 8.0}}, true};
   };
   for (const auto& [at, value] : {std::pair(0.5, 0.28125), {1.0, 1.0}, {1.5, 3.46875}}) {
     EXPECT_NEAR(forceOf(LiaType::kTable, elastic, at), value, 1e-12);
@@ -172,8 +176,8 @@ TEST(LawsTest, ConditionalLinkHoldsFromWhereItEngagesToWhereItLetsGo) {
   Lia& lia =
       b.scene.lias[static_cast<std::size_t>(b.link(LiaType::kConditional, driven, ground, 100.0))];
   lia.rest_length = 1.0;
-  lia.width = {0.1};
-  lia.release = 0.3;
+  lia.law.edit().width = {0.1};
+  lia.law.edit().release = 0.3;
   b.hear(ground, 0, scene::Quantity::kForce);
   Player player(b.scene, {kRate, 9});
   player.inputs = {1.2, 1.05, 1.29, 0.71, 1.31, 1.2, 0.91, 0.69, 0.85};
@@ -189,8 +193,8 @@ TEST(LawsTest, ConditionalLinkIsAsHeldAsItWasWhenItsStateIsLoaded) {
   const int driven = b.driven(0);
   const int ground = b.ground();
   b.link(LiaType::kConditional, driven, ground, 100.0, 0.5);
-  b.scene.lias[0].width = {0.1};
-  b.scene.lias[0].release = 0.3;
+  b.scene.lias[0].law.edit().width = {0.1};
+  b.scene.lias[0].law.edit().release = 0.3;
   b.hear(ground, 0, scene::Quantity::kForce);
   Player held(b.scene, {kRate, 2});
   held.inputs = {0.05, 0.2};

@@ -208,7 +208,7 @@ Vector3d planeForce(LiaType type, const Vector3d& from, const Vector3d& to, doub
   b.scene.inputs[1].axis = 1;
   const int ground = b.ground();
   b.link(type, moved, ground, 100.0, 2.0);
-  b.scene.lias[0].width = {width};
+  b.scene.lias[0].law.edit().width = {width};
   for (const int axis : {0, 1}) {
     b.hear(ground, axis, Quantity::kForce);
     b.scene.outputs.back().axis = axis;

@@ -199,12 +199,12 @@ TEST(MonodromyTest, TakesTheLinearPartOnly) {
   SceneBuilder b = p.scene(scene::Coupling::kHold);
   b.scene.sections[0].gravity.x() = -9.81;
   b.scene.mats[0].position.x() = 0.3;
-  b.scene.mats[1].velocity.x() = 2.0;
+  b.scene.mats[1].push.edit().velocity.x() = 2.0;
   b.scene.lias[0].type = scene::LiaType::kCubic;
-  b.scene.lias[0].nonlinearity = {1e9};
+  b.scene.lias[0].law.edit().nonlinearity = {1e9};
   b.link(scene::LiaType::kContact, 0, 1, kRate * kRate);
   b.link(scene::LiaType::kSmoothBow, b.slice(0), 1, 0.0, 1.0);
-  b.scene.lias.back().width = {0.1};
+  b.scene.lias.back().law.edit().width = {0.1};
   EXPECT_LT((monodromy(b.scene, {kRate, 14}) - linear).norm(), 1e-12);
 }
 

@@ -105,12 +105,12 @@ TEST(PassivityTest, ThroughAChapletTheSeriesCounts) {
 
 TEST(PassivityTest, SteepestSlopeOfALawCounts) {
   SceneBuilder b = wall(1000.0, LiaType::kCubic);
-  b.scene.lias[0].nonlinearity = {1e9};
+  b.scene.lias[0].law.edit().nonlinearity = {1e9};
   // At a millimetre, as it has no steepest slope: K + 3 Q e^2.
   EXPECT_NEAR(certify(b.scene, kRates).ports[0].stiffness, 1000.0 + 3e9 * 1e-6, 1e-9);
   b.scene.lias[0].type = LiaType::kPowerContact;
   b.scene.lias[0].stiffness = {1e6};
-  b.scene.lias[0].exponent = {2.0};
+  b.scene.lias[0].law.edit().exponent = {2.0};
   EXPECT_NEAR(certify(b.scene, kRates).ports[0].stiffness, 2.0 * 1e6 * 1e-3, 1e-9);
 }
 

@@ -219,7 +219,7 @@ TEST(PointTest, LinkBetweenTwoMovingPlacesKeepsMomentumAndEnergyBalances) {
   }
   b.parameter(0.1, 0.0, 1.0);
   b.link(LiaType::kCubic, points[0], points[1], 800.0, 0.02);
-  b.scene.lias.back().nonlinearity = {1e5};
+  b.scene.lias.back().law.edit().nonlinearity = {1e5};
   for (int m = 0; m < 25; ++m) {
     if (b.scene.mats[at(m)].type == scene::MatType::kMass) {
       b.hear(m, 0, Quantity::kVelocity);
@@ -247,7 +247,7 @@ TEST(PointTest, GlidingUpASlopeTakesTheWorkThatTheSpringStores) {
     b.scene.connections[0].along = {1.0, 0};
     b.scene.connections[0].speed = 30.0;
     b.link(cubic > 0.0 ? LiaType::kCubic : LiaType::kSpringDamper, point, b.ground(), 100.0);
-    b.scene.lias[0].nonlinearity = {cubic};
+    b.scene.lias[0].law.edit().nonlinearity = {cubic};
     Player player(b.scene, {kRate, 10});
     Energies energies = player.instrument->makeEnergies();
     player.tick();

@@ -42,7 +42,7 @@ struct Seen {
 double kineticEnergyAtStart(const scene::Scene& scene) {
   double energy = 0.0;
   for (const scene::Mat& mat : scene.mats) {
-    energy += 0.5 * mat.mass.factor * mat.velocity.squaredNorm();
+    energy += 0.5 * mat.mass.factor * mat.push->velocity.squaredNorm();
   }
   return energy;
 }

@@ -27,7 +27,7 @@ struct Pair {
     const int a = b.mass(kLight);
     b.link(type, a, b.mass(kHeavy), 0.0);
     lia().scheme = Scheme::kAuto;
-    lia().width = {0.1};
+    lia().law.edit().width = {0.1};
   }
   scene::Lia& lia() { return b.scene.lias[0]; }
   Settled settled() { return settle(b.scene, kRates); }
@@ -75,9 +75,9 @@ TEST(SchemeChoiceTest, ContactIsJudgedAtTheWorstEndOfItsRange) {
 TEST(SchemeChoiceTest, PowerContactIsGuardedUnlessItIsLinearAndSoft) {
   Pair pair(LiaType::kPowerContact);
   pair.lia().stiffness = stiff(1e-6);
-  pair.lia().exponent = {1.0001};
+  pair.lia().law.edit().exponent = {1.0001};
   EXPECT_EQ(pair.scheme(), Scheme::kGuarded);
-  pair.lia().exponent = {1.0};
+  pair.lia().law.edit().exponent = {1.0};
   EXPECT_EQ(pair.scheme(), Scheme::kExplicit);
   pair.lia().stiffness = stiff(0.0501);
   EXPECT_EQ(pair.scheme(), Scheme::kGuarded);
@@ -88,9 +88,9 @@ TEST(SchemeChoiceTest, NonlinearSpringsAreGuardedAsSoonAsTheyAreNonlinear) {
     Pair pair(type);
     pair.lia().stiffness = stiff(0.5);
     EXPECT_EQ(pair.scheme(), Scheme::kExplicit);
-    pair.lia().nonlinearity = {1e-6};
+    pair.lia().law.edit().nonlinearity = {1e-6};
     EXPECT_EQ(pair.scheme(), Scheme::kGuarded);
-    pair.lia().nonlinearity = {-1e-6};
+    pair.lia().law.edit().nonlinearity = {-1e-6};
     EXPECT_EQ(pair.scheme(), Scheme::kGuarded);
   }
 }
@@ -98,16 +98,16 @@ TEST(SchemeChoiceTest, NonlinearSpringsAreGuardedAsSoonAsTheyAreNonlinear) {
 TEST(SchemeChoiceTest, ClippedLawsAreJudgedByTheirSteepestSlope) {
   for (const LiaType type : {LiaType::kClippedCubic, LiaType::kCubicContact}) {
     Pair pair(type);
-    pair.lia().tipping_point = 1e-3;
+    pair.lia().law.edit().tipping_point = 1e-3;
     pair.lia().stiffness = stiff(0.01);
-    pair.lia().stiffness_limit = stiff(0.0499);
+    pair.lia().law.edit().stiffness_limit = stiff(0.0499);
     EXPECT_EQ(pair.scheme(), Scheme::kExplicit);
-    pair.lia().stiffness_limit = stiff(0.0501);
+    pair.lia().law.edit().stiffness_limit = stiff(0.0501);
     EXPECT_EQ(pair.scheme(), Scheme::kGuarded);
-    pair.lia().stiffness_limit = stiff(0.01);
-    pair.lia().nonlinearity = {stiff(0.0399).factor / (3.0 * 1e-6)};
+    pair.lia().law.edit().stiffness_limit = stiff(0.01);
+    pair.lia().law.edit().nonlinearity = {stiff(0.0399).factor / (3.0 * 1e-6)};
     EXPECT_EQ(pair.scheme(), Scheme::kExplicit);
-    pair.lia().nonlinearity = {stiff(0.0401).factor / (3.0 * 1e-6)};
+    pair.lia().law.edit().nonlinearity = {stiff(0.0401).factor / (3.0 * 1e-6)};
     EXPECT_EQ(pair.scheme(), Scheme::kGuarded);
   }
 }
@@ -144,7 +144,7 @@ TEST(SchemeChoiceTest, FrictionTablesAreJudgedByTheirLines) {
   Pair pair(LiaType::kBow);
   const double unit = kRate / kInverse;
   const auto table = [&](double rise, double fall) {
-    pair.lia().table.points = {
+    pair.lia().law.edit().table.points = {
         {-1.0, -rise * unit}, {1.0, rise * unit}, {2.0, (rise - fall) * unit}};
     return pair.scheme();
   };
@@ -157,7 +157,7 @@ TEST(SchemeChoiceTest, LinesOfAnElasticTableSwitchAndThoseOfAViscousOneSlide) {
   Pair elastic(LiaType::kTable);
   const auto spring = [&](double kappa) {
     const double f = stiff(kappa).factor * 1e-3;
-    elastic.lia().table.points = {{-1e-3, -0.1 * f}, {0.0, 0.0}, {1e-3, f}};
+    elastic.lia().law.edit().table.points = {{-1e-3, -0.1 * f}, {0.0, 0.0}, {1e-3, f}};
     return elastic.scheme();
   };
   EXPECT_EQ(spring(0.0499), Scheme::kExplicit);
@@ -166,7 +166,8 @@ TEST(SchemeChoiceTest, LinesOfAnElasticTableSwitchAndThoseOfAViscousOneSlide) {
   Pair viscous(LiaType::kTable);
   const auto friction = [&](double rise, double fall) {
     const double f = kRate / kInverse;
-    viscous.lia().viscous_table.points = {{0.0, 0.0}, {1.0, rise * f}, {2.0, (rise - fall) * f}};
+    viscous.lia().law.edit().viscous_table.points = {
+        {0.0, 0.0}, {1.0, rise * f}, {2.0, (rise - fall) * f}};
     return viscous.scheme();
   };
   EXPECT_EQ(friction(0.999, 0.199), Scheme::kExplicit);
@@ -203,7 +204,7 @@ TEST(SchemeChoiceTest, WallThatOnlyAHandTouchesStaysExplicit) {
   const int hand = b.slice(0);
   b.link(LiaType::kPowerContact, hand, b.ground(0.0, SceneBuilder::kGestural), 1e6);
   b.scene.lias[0].scheme = Scheme::kAuto;
-  b.scene.lias[0].exponent = {2.3};
+  b.scene.lias[0].law.edit().exponent = {2.3};
   EXPECT_EQ(settle(b.scene, kRates).scene.lias[0].scheme, Scheme::kExplicit);
 }
 

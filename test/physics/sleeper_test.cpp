@@ -25,13 +25,13 @@ scene::Scene struckTwice(double sleep_energy) {
     b.scene.mats[at(m)].type = scene::MatType::kCell;
     b.scene.mats[at(m)].damping = {4e-3};
   }
-  b.scene.mats[at(first + 9)].velocity.x() = 1.0;
+  b.scene.mats[at(first + 9)].push.edit().velocity.x() = 1.0;
   scene::Section other = b.scene.sections[0];
   other.name = "hammer";
   b.scene.sections.push_back(other);
   const int hammer = b.mass(5e-3, 0.5, -1.0, 2);
   const int l = b.link(scene::LiaType::kContact, first + 12, hammer, 2000.0);
-  b.scene.lias[at(l)].width = {0.0};
+  b.scene.lias[at(l)].law.edit().width = {0.0};
   b.scene.sections[0].sleep_energy = sleep_energy;
   b.hear(first + 25);
   return b.scene;

@@ -15,24 +15,24 @@ Lia clipped(LiaType type, double k, double q, double limit, ClippedLaw law) {
   Lia lia;
   lia.type = type;
   lia.stiffness = {k};
-  lia.nonlinearity = {q};
-  lia.stiffness_limit = {limit};
+  lia.law.edit().nonlinearity = {q};
+  lia.law.edit().stiffness_limit = {limit};
   completeClippedLaw(lia, law);
   return lia;
 }
 
 TEST(ClippedLawTest, IsContinuousAtItsTippingPointInYaml) {
   const Lia lia = clipped(LiaType::kClippedCubic, 2.0, 5.0, 22.0, ClippedLaw::kContinuous);
-  const double e = lia.tipping_point;
+  const double e = lia.law->tipping_point;
   EXPECT_DOUBLE_EQ(e, 2.0);
   EXPECT_DOUBLE_EQ(2.0 * e + 5.0 * e * e * e, 22.0 * e);
-  EXPECT_EQ(lia.limit_damping.factor, 0.0);
+  EXPECT_EQ(lia.law->limit_damping.factor, 0.0);
 }
 
 TEST(ClippedLawTest, TipsWhereMdlSaysAndIsMoreDampedThere) {
   const Lia lia = clipped(LiaType::kCubicContact, 0.01, 0.4, 0.05, ClippedLaw::kMdl);
-  EXPECT_DOUBLE_EQ(lia.tipping_point, 0.5);
-  EXPECT_DOUBLE_EQ(lia.limit_damping.factor, 0.015);
+  EXPECT_DOUBLE_EQ(lia.law->tipping_point, 0.5);
+  EXPECT_DOUBLE_EQ(lia.law->limit_damping.factor, 0.015);
   EXPECT_EQ(lia.type, LiaType::kCubicContact);
 }
 
@@ -46,7 +46,7 @@ TEST(ClippedLawTest, IsStraightWithTheLimitWhenStifferThanThat) {
   const Lia lia = clipped(LiaType::kCubicContact, 0.06, 0.4, 0.05, ClippedLaw::kMdl);
   EXPECT_EQ(lia.type, LiaType::kContact);
   EXPECT_EQ(lia.stiffness.factor, 0.05);
-  EXPECT_EQ(lia.limit_damping.factor, 0.0);
+  EXPECT_EQ(lia.law->limit_damping.factor, 0.0);
 }
 
 TEST(ClippedLawTest, IsNotAParametersBusiness) {

@@ -39,16 +39,16 @@ TEST(ReadLinksTest, PowerContactIsReadFieldByField) {
                      "damping: 4, threshold: -0.1}}\n");
   EXPECT_EQ(l.type, LiaType::kPowerContact);
   EXPECT_EQ(l.stiffness.factor, 1e5);
-  EXPECT_EQ(l.exponent.factor, 2.3);
-  EXPECT_EQ(l.exponent.parameter, -1);
+  EXPECT_EQ(l.law->exponent.factor, 2.3);
+  EXPECT_EQ(l.law->exponent.parameter, -1);
   EXPECT_EQ(l.damping.factor, 4.0);
-  EXPECT_EQ(l.width.factor, -0.1);
+  EXPECT_EQ(l.law->width.factor, -0.1);
 }
 
 TEST(ReadLinksTest, ExponentMayFollowAParameter) {
   const Lia l = last(LINK "type: power_contact, between: [m, n], stiffness: 1, exponent: $p}}\n");
-  EXPECT_EQ(l.exponent.parameter, 0);
-  EXPECT_EQ(l.exponent.factor, 1.0);
+  EXPECT_EQ(l.law->exponent.parameter, 0);
+  EXPECT_EQ(l.law->exponent.factor, 1.0);
 }
 
 TEST(ReadLinksTest, TableLinkHasAnElasticAndAViscousLaw) {
@@ -57,16 +57,16 @@ TEST(ReadLinksTest, TableLinkHasAnElasticAndAViscousLaw) {
                         "viscous: {points: [[-4, -5], [0, 0], [6, 7]], interpolation: monotone}, "
                         "rest_length: 0.5}}\n");
   EXPECT_EQ(both.type, LiaType::kTable);
-  ASSERT_EQ(both.table.points.size(), 2U);
-  EXPECT_EQ(both.table.points[1], std::make_pair(1.0, 3.0));
-  EXPECT_FALSE(both.table.smooth);
-  ASSERT_EQ(both.viscous_table.points.size(), 3U);
-  EXPECT_EQ(both.viscous_table.points[0], std::make_pair(-4.0, -5.0));
-  EXPECT_TRUE(both.viscous_table.smooth);
+  ASSERT_EQ(both.law->table.points.size(), 2U);
+  EXPECT_EQ(both.law->table.points[1], std::make_pair(1.0, 3.0));
+  EXPECT_FALSE(both.law->table.smooth);
+  ASSERT_EQ(both.law->viscous_table.points.size(), 3U);
+  EXPECT_EQ(both.law->viscous_table.points[0], std::make_pair(-4.0, -5.0));
+  EXPECT_TRUE(both.law->viscous_table.smooth);
   EXPECT_EQ(both.rest_length, 0.5);
   const Lia viscous = last(LINK "type: table, between: [m, n], viscous: [[0, 0], [1, 1]]}}\n");
-  EXPECT_TRUE(viscous.table.empty());
-  EXPECT_EQ(viscous.viscous_table.points.size(), 2U);
+  EXPECT_TRUE(viscous.law->table.empty());
+  EXPECT_EQ(viscous.law->viscous_table.points.size(), 2U);
 }
 
 TEST(ReadLinksTest, ConditionalLinkLetsGoWhereItEngagesUnlessTold) {
@@ -75,13 +75,13 @@ TEST(ReadLinksTest, ConditionalLinkLetsGoWhereItEngagesUnlessTold) {
   EXPECT_EQ(told.type, LiaType::kConditional);
   EXPECT_EQ(told.stiffness.factor, 3.0);
   EXPECT_EQ(told.damping.factor, 4.0);
-  EXPECT_EQ(told.width.factor, 0.1);
-  EXPECT_EQ(told.release, 0.2);
+  EXPECT_EQ(told.law->width.factor, 0.1);
+  EXPECT_EQ(told.law->release, 0.2);
   EXPECT_EQ(told.rest_length, 1.0);
-  EXPECT_EQ(last(start + "engage: 0.1}}\n").release, 0.1);
+  EXPECT_EQ(last(start + "engage: 0.1}}\n").law->release, 0.1);
   const Lia moving = last(start + "engage: 0.5*$p, release: 2}}\n");
-  EXPECT_EQ(moving.width.parameter, 0);
-  EXPECT_EQ(moving.release, 2.0);
+  EXPECT_EQ(moving.law->width.parameter, 0);
+  EXPECT_EQ(moving.law->release, 2.0);
 }
 
 TEST(ReadLinksTest, LinearLinksMayBeNegative) {
@@ -286,37 +286,38 @@ struct Damage {
   void (*apply)(Scene&, Lia&);
 };
 const Damage kDamages[] = {
-    {"exponent of link 'x' = 0.5", [](Scene&, Lia& l) { l.exponent = {0.5}; }},
-    {"parameter of exponent of link 'x' = 7", [](Scene&, Lia& l) { l.exponent.parameter = 7; }},
+    {"exponent of link 'x' = 0.5", [](Scene&, Lia& l) { l.law.edit().exponent = {0.5}; }},
+    {"parameter of exponent of link 'x' = 7",
+     [](Scene&, Lia& l) { l.law.edit().exponent.parameter = 7; }},
     {"exponent of link 'x' = 8",
      [](Scene&, Lia& l) {
-       l.exponent = {2.0, 0};
+       l.law.edit().exponent = {2.0, 0};
      }},
     {"stiffness of link 'x' = -1 N/m^exponent", [](Scene&, Lia& l) { l.stiffness = {-1.0}; }},
     {"link 'x' has a table, allowed: pluck, bow and table only",
      [](Scene&, Lia& l) {
-       l.viscous_table.points = {{0.0, 0.0}, {1.0, 1.0}};
+       l.law.edit().viscous_table.points = {{0.0, 0.0}, {1.0, 1.0}};
      }},
     {"link 'x' has no table", [](Scene&, Lia& l) { l.type = LiaType::kTable; }},
     {"one point in the table of link 'x'",
      [](Scene&, Lia& l) {
        l.type = LiaType::kTable;
-       l.viscous_table.points = {{0.0, 0.0}};
+       l.law.edit().viscous_table.points = {{0.0, 0.0}};
      }},
     {"release of link 'x' = 0 m is out of range, allowed: >= 1 m",
      [](Scene&, Lia& l) {
        l.type = LiaType::kConditional;
-       l.width = {1.0};
+       l.law.edit().width = {1.0};
      }},
     {"engage of link 'x' = 0 m",
      [](Scene&, Lia& l) {
        l.type = LiaType::kConditional;
-       l.width = {0.0};
+       l.law.edit().width = {0.0};
      }},
     {"link 'x' cannot be guarded",
      [](Scene&, Lia& l) {
        l.type = LiaType::kPluck;
-       l.width = {1.0};
+       l.law.edit().width = {1.0};
        l.scheme = Scheme::kGuarded;
      }},
     {"link 'x' has nothing to decimate", [](Scene&, Lia& l) { l.coupling = Coupling::kDecimate; }},

@@ -39,14 +39,14 @@ TEST(ReadMdlTest, MassTakesPlaceFromXYAndMotionFromZ) {
   EXPECT_EQ(m.rest.z(), 2.0);
   EXPECT_EQ(m.position.x(), 3.0);
   EXPECT_EQ(m.rest.x(), 0.0);
-  EXPECT_DOUBLE_EQ(m.velocity.x(), 0.001);
-  EXPECT_EQ(m.force.x(), 0.0);
+  EXPECT_DOUBLE_EQ(m.push->velocity.x(), 0.001);
+  EXPECT_EQ(m.push->force.x(), 0.0);
 }
 
 TEST(ReadMdlTest, GravityIsAForceForEachStepWhateverTheMass) {
   const Scene s = readMdl("@m mass 2 9.81 0 0\n@o osc 3 0.1 0.2 9.81 0 0\n", "m.mdl");
-  EXPECT_DOUBLE_EQ(s.mats[0].force.x(), -9.81 / 44100.0);
-  EXPECT_DOUBLE_EQ(s.mats[1].force.x(), -9.81 / 44100.0);
+  EXPECT_DOUBLE_EQ(s.mats[0].push->force.x(), -9.81 / 44100.0);
+  EXPECT_DOUBLE_EQ(s.mats[1].push->force.x(), -9.81 / 44100.0);
 }
 
 TEST(ReadMdlTest, OscIsACellThatRestsAtTheOrigin) {
@@ -57,7 +57,7 @@ TEST(ReadMdlTest, OscIsACellThatRestsAtTheOrigin) {
   EXPECT_EQ(m.damping.factor, 0.2);
   EXPECT_EQ(m.position.x(), 0.5);
   EXPECT_EQ(m.rest.x(), 0.0);
-  EXPECT_DOUBLE_EQ(m.velocity.x(), -1.0 / 44100.0);
+  EXPECT_DOUBLE_EQ(m.push->velocity.x(), -1.0 / 44100.0);
 }
 
 TEST(ReadMdlTest, GroundRestsWhereItIs) {
@@ -125,30 +125,30 @@ TEST(ReadMdlTest, ContactsTakeAnOptionalThreshold) {
   EXPECT_EQ(plain.type, LiaType::kContact);
   EXPECT_EQ(plain.stiffness.factor, 1.0);
   EXPECT_EQ(plain.damping.factor, 2.0);
-  EXPECT_EQ(plain.width.factor, 0.0);
-  EXPECT_EQ(linkOf("@l contact @a @b 1 2 -0.5\n").width.factor, -0.5);
+  EXPECT_EQ(plain.law->width.factor, 0.0);
+  EXPECT_EQ(linkOf("@l contact @a @b 1 2 -0.5\n").law->width.factor, -0.5);
   const Lia cubic = linkOf("@l nlContact @a @b 1 2 3 4 0.5\n");
   EXPECT_EQ(cubic.type, LiaType::kCubicContact);
   EXPECT_EQ(cubic.stiffness.factor, 1.0);
-  EXPECT_EQ(cubic.nonlinearity.factor, 2.0);
-  EXPECT_EQ(cubic.stiffness_limit.factor, 3.0);
+  EXPECT_EQ(cubic.law->nonlinearity.factor, 2.0);
+  EXPECT_EQ(cubic.law->stiffness_limit.factor, 3.0);
   EXPECT_EQ(cubic.damping.factor, 4.0);
-  EXPECT_EQ(cubic.width.factor, 0.5);
-  EXPECT_EQ(linkOf("@l nlContact @a @b 1 2 3 4\n").width.factor, 0.0);
+  EXPECT_EQ(cubic.law->width.factor, 0.5);
+  EXPECT_EQ(linkOf("@l nlContact @a @b 1 2 3 4\n").law->width.factor, 0.0);
 }
 
 TEST(ReadMdlTest, NonlinearSpringsKeepTheOrderOfTheirArguments) {
   const Lia square = linkOf("@l nlSpring2 @a @b 1 2 3\n");
   EXPECT_EQ(square.type, LiaType::kQuadratic);
   EXPECT_EQ(square.stiffness.factor, 1.0);
-  EXPECT_EQ(square.nonlinearity.factor, 2.0);
+  EXPECT_EQ(square.law->nonlinearity.factor, 2.0);
   EXPECT_EQ(square.damping.factor, 3.0);
   EXPECT_EQ(linkOf("@l nlSpring3 @a @b 1 -2 3\n").type, LiaType::kCubic);
-  EXPECT_EQ(linkOf("@l nlSpring3 @a @b 1 -2 3\n").nonlinearity.factor, -2.0);
+  EXPECT_EQ(linkOf("@l nlSpring3 @a @b 1 -2 3\n").law->nonlinearity.factor, -2.0);
   const Lia clipped = linkOf("@l nlSpringDamper @a @b 1 2 3 4\n");
   EXPECT_EQ(clipped.type, LiaType::kClippedCubic);
-  EXPECT_EQ(clipped.nonlinearity.factor, 2.0);
-  EXPECT_EQ(clipped.stiffness_limit.factor, 3.0);
+  EXPECT_EQ(clipped.law->nonlinearity.factor, 2.0);
+  EXPECT_EQ(clipped.law->stiffness_limit.factor, 3.0);
   EXPECT_EQ(clipped.damping.factor, 4.0);
 }
 
@@ -157,23 +157,23 @@ TEST(ReadMdlTest, ClippedLawThatStartsAtItsLimitIsStraight) {
   EXPECT_EQ(contact.type, LiaType::kContact);
   EXPECT_EQ(contact.stiffness.factor, 3.0);
   EXPECT_EQ(contact.damping.factor, 4.0);
-  EXPECT_EQ(contact.limit_damping.factor, 0.0);
+  EXPECT_EQ(contact.law->limit_damping.factor, 0.0);
 }
 
 TEST(ReadMdlTest, PluckAndBowTakeTheirOptionalArguments) {
   const Lia pluck = linkOf("@l nlPluck @a @b 1 0.1\n");
   EXPECT_EQ(pluck.type, LiaType::kPluck);
   EXPECT_EQ(pluck.stiffness.factor, 1.0);
-  EXPECT_EQ(pluck.width.factor, 0.1);
+  EXPECT_EQ(pluck.law->width.factor, 0.1);
   EXPECT_EQ(pluck.damping.factor, 0.0);
   EXPECT_EQ(linkOf("@l nlPluck @a @b 1 0.1 0.2\n").damping.factor, 0.2);
   const Lia bow = linkOf("@l nlBow @a @b 0.3 0.01\n");
   EXPECT_EQ(bow.type, LiaType::kBow);
   EXPECT_EQ(bow.damping.factor, 0.3);
-  EXPECT_EQ(bow.width.factor, 0.01);
+  EXPECT_EQ(bow.law->width.factor, 0.01);
   EXPECT_EQ(linkOf("@l nlBow @a @b 0.3 0.01 0\n").type, LiaType::kBow);
   EXPECT_EQ(linkOf("@l nlBow @a @b 0.3 0.01 1\n").type, LiaType::kSmoothBow);
-  EXPECT_EQ(linkOf("@l nlBow @a @b 0.3 0.01 1\n").width.factor, 0.01);
+  EXPECT_EQ(linkOf("@l nlBow @a @b 0.3 0.01 1\n").law->width.factor, 0.01);
 }
 
 TEST(ReadMdlTest, ExpressionsFollowTheUsualPrecedence) {

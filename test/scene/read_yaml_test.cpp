@@ -98,7 +98,7 @@ TEST(ReadYamlTest, ModulesAreReadFieldByField) {
   EXPECT_EQ(m.rest.y(), 0.1);
   EXPECT_EQ(m.rest.z(), -0.2);
   EXPECT_EQ(m.position.x(), 0.3);
-  EXPECT_EQ(m.velocity.x(), -4.0);
+  EXPECT_EQ(m.push->velocity.x(), -4.0);
   EXPECT_EQ(m.rest.x(), 0.25);
   EXPECT_EQ(m.place.line, 10);
   EXPECT_EQ(m.place.column, 3);
@@ -116,7 +116,7 @@ TEST(ReadYamlTest, ModulesAreReadFieldByField) {
   EXPECT_EQ(c.stiffness.parameter, 1);
   EXPECT_EQ(c.damping.parameter, 0);
   EXPECT_EQ(c.position.x(), 1.0);
-  EXPECT_EQ(c.velocity.x(), 2.0);
+  EXPECT_EQ(c.push->velocity.x(), 2.0);
   EXPECT_EQ(c.rest.x(), 0.0);
   EXPECT_EQ(s.mats[4].type, MatType::kDriven);
   EXPECT_EQ(s.mats[4].position.x(), 0.5);
@@ -163,16 +163,16 @@ TEST(ReadYamlTest, EveryTypeOfLinkIsReadFieldByField) {
   EXPECT_EQ(s.lias[1].damping.factor, 2.0);
   EXPECT_EQ(s.lias[2].stiffness.parameter, 1);
   EXPECT_EQ(s.lias[2].damping.parameter, 0);
-  EXPECT_EQ(s.lias[3].width.factor, -7.0);
+  EXPECT_EQ(s.lias[3].law->width.factor, -7.0);
   EXPECT_EQ(s.lias[3].damping.factor, 6.0);
-  EXPECT_EQ(s.lias[4].nonlinearity.factor, -9.0);
-  EXPECT_EQ(s.lias[6].stiffness_limit.factor, 3.0);
-  EXPECT_EQ(s.lias[7].width.factor, 0.5);
-  EXPECT_EQ(s.lias[8].width.factor, 0.01);
-  ASSERT_EQ(s.lias[9].table.points.size(), 3U);
-  EXPECT_EQ(s.lias[9].table.points[2], std::make_pair(1.0, -2.0));
-  EXPECT_EQ(s.lias[10].width.parameter, 1);
-  EXPECT_EQ(s.lias[11].table.points.size(), 2U);
+  EXPECT_EQ(s.lias[4].law->nonlinearity.factor, -9.0);
+  EXPECT_EQ(s.lias[6].law->stiffness_limit.factor, 3.0);
+  EXPECT_EQ(s.lias[7].law->width.factor, 0.5);
+  EXPECT_EQ(s.lias[8].law->width.factor, 0.01);
+  ASSERT_EQ(s.lias[9].law->table.points.size(), 3U);
+  EXPECT_EQ(s.lias[9].law->table.points[2], std::make_pair(1.0, -2.0));
+  EXPECT_EQ(s.lias[10].law->width.parameter, 1);
+  EXPECT_EQ(s.lias[11].law->table.points.size(), 2U);
   EXPECT_EQ(s.lias[12].damping.factor, 1.0);
 }
 

@@ -50,7 +50,7 @@ class YamlTablesTest : public testing::Test {
   }
   Table tableOf(const std::string& csv) const {
     write("t.csv", csv);
-    return readYaml(BOW "{file: t.csv}}}\n", folder_ + "scene.yaml").lias[0].table;
+    return readYaml(BOW "{file: t.csv}}}\n", folder_ + "scene.yaml").lias[0].law->table;
   }
   void expectCsvRefused(const std::string& csv, const std::string& message) const {
     write("t.csv", csv);
@@ -67,7 +67,7 @@ class YamlTablesTest : public testing::Test {
 
 TEST_F(YamlTablesTest, InlinePointsAreStraightUnlessToldOtherwise) {
   const auto read = [](const std::string& table) {
-    return readYaml(BOW + table + "}}\n", "a.yaml").lias[0].table;
+    return readYaml(BOW + table + "}}\n", "a.yaml").lias[0].law->table;
   };
   const Table plain = read("[[0, 1], [2, 3]]");
   EXPECT_FALSE(plain.smooth);
@@ -125,7 +125,7 @@ TEST_F(YamlTablesTest, KeptTextGivesTheSameSceneInAnyFolder) {
       "  z: {type: pluck, between: [m, n], table: {points: [[0, 0], [1, 1]]}}\n";
   const Scene first = readYaml(text, folder_ + "scene.yaml");
   ASSERT_EQ(first.lias.size(), 3U);
-  ASSERT_EQ(first.lias[0].table.points.size(), 500U);
+  ASSERT_EQ(first.lias[0].law->table.points.size(), 500U);
   std::remove((folder_ + "t.csv").c_str());
 
   const Scene again = readYaml(first.text, "/nonexistent/elsewhere.yaml");
@@ -134,8 +134,8 @@ TEST_F(YamlTablesTest, KeptTextGivesTheSameSceneInAnyFolder) {
   for (std::size_t i = 0; i < first.lias.size(); ++i) {
     const Lia& a = first.lias[i];
     const Lia& b = again.lias[i];
-    EXPECT_EQ(pointsText(b.table), pointsText(a.table));
-    EXPECT_EQ(pointsText(b.viscous_table), pointsText(a.viscous_table));
+    EXPECT_EQ(pointsText(b.law->table), pointsText(a.law->table));
+    EXPECT_EQ(pointsText(b.law->viscous_table), pointsText(a.law->viscous_table));
     EXPECT_EQ(b.name, a.name);
     EXPECT_EQ(b.type, a.type);
     EXPECT_EQ(b.a, a.a);
@@ -152,17 +152,19 @@ TEST_F(YamlTablesTest, KeptTextWinsOverTheFile) {
   write("t.csv", "0 1\n1 2\n");
   const Scene first = readYaml(BOW "{file: t.csv}}}\n", folder_ + "scene.yaml");
   write("t.csv", "0 5\n1 6\n");
-  EXPECT_EQ(readYaml(first.text, folder_ + "scene.yaml").lias[0].table.points[0].second, 1.0);
+  EXPECT_EQ(readYaml(first.text, folder_ + "scene.yaml").lias[0].law->table.points[0].second, 1.0);
 }
 
 TEST_F(YamlTablesTest, PathsBeginAtTheFolderOfTheScene) {
   ::mkdir((folder_ + "sub").c_str(), 0755);
   write("sub/t.csv", "0 1\n1 2\n");
-  EXPECT_EQ(readYaml(BOW "{file: sub/t.csv}}}\n", folder_ + "a.yaml").lias[0].table.points.size(),
-            2U);
   EXPECT_EQ(
-      readYaml(BOW "{file: ../sub/t.csv}}}\n", folder_ + "sub/a.yaml").lias[0].table.points.size(),
+      readYaml(BOW "{file: sub/t.csv}}}\n", folder_ + "a.yaml").lias[0].law->table.points.size(),
       2U);
+  EXPECT_EQ(readYaml(BOW "{file: ../sub/t.csv}}}\n", folder_ + "sub/a.yaml")
+                .lias[0]
+                .law->table.points.size(),
+            2U);
 }
 
 TEST_F(YamlTablesTest, ErrorsInAFileAreToldWithItsPlace) {

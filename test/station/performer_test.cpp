@@ -120,7 +120,7 @@ TEST(PerformerTest, PlaysAnUnstableSceneOnlyIfAskedAndWarns) {
 TEST(PerformerTest, PlaysAnUnprovenSceneOnlyIfAsked) {
   test::SceneBuilder b = oscillator(1e3);
   b.link(scene::LiaType::kCubic, 0, 1, 10.0);  // its slope has no bound
-  b.scene.lias.back().nonlinearity = {1e3};
+  b.scene.lias.back().law.edit().nonlinearity = {1e3};
   EXPECT_NE(refusalOf(b.scene).find("unproven"), std::string::npos);
   PerformerPolicy policy;
   policy.allow_unproven = true;

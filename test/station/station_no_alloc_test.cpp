@@ -31,7 +31,7 @@ scene::Scene pluckedString() {
   b.scene.parameters.push_back({"stiffness", 2e4, 1e4, 3e4, {1, 1}});
   const int hand = b.slice(0);
   b.link(scene::LiaType::kPluck, hand, left + 20, 1e3, 0.1);
-  b.scene.lias.back().width = {1e-3};
+  b.scene.lias.back().law.edit().width = {1e-3};
   b.hear(left + 30);
   return b.scene;
 }

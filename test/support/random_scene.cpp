@@ -110,7 +110,7 @@ class Maker {
     here.position = here.rest;
     if (here.type == scene::MatType::kMass || here.type == scene::MatType::kCell) {
       for (int k = 0; k < scene::dimensionsOf(geometryOf(m)); ++k) {
-        here.velocity[k] = within(-kSpeed, kSpeed);
+        here.push.edit().velocity[k] = within(-kSpeed, kSpeed);
       }
     }
     return m;
@@ -249,7 +249,8 @@ class Maker {
     const bool is_gap = type == LiaType::kContact || type == LiaType::kPowerContact ||
                         type == LiaType::kCubicContact;
     const double gap = within(-reach, reach);
-    (is_gap ? lia.width.factor : lia.rest_length) = gap + (is_gap ? nearness(x, y) : apart(x, y));
+    (is_gap ? lia.law.edit().width.factor : lia.rest_length) =
+        gap + (is_gap ? nearness(x, y) : apart(x, y));
     if (!is_gap && !actsAlongX(x, y)) {
       lia.rest_length = std::max(lia.rest_length, 0.0);
     }
@@ -262,20 +263,20 @@ class Maker {
   void shape(Lia& lia, double k, double reach, double rate) {
     switch (lia.type) {
       case LiaType::kPowerContact:
-        lia.exponent = {within(1.0, 3.0)};
-        lia.stiffness = {k / std::pow(reach, lia.exponent.factor - 1.0)};
+        lia.law.edit().exponent = {within(1.0, 3.0)};
+        lia.stiffness = {k / std::pow(reach, lia.law->exponent.factor - 1.0)};
         break;
       case LiaType::kQuadratic:
-        lia.nonlinearity = {k / reach};
+        lia.law.edit().nonlinearity = {k / reach};
         break;
       case LiaType::kCubic:
-        lia.nonlinearity = {k / (reach * reach)};
+        lia.law.edit().nonlinearity = {k / (reach * reach)};
         break;
       case LiaType::kClippedCubic:
       case LiaType::kCubicContact:
-        lia.nonlinearity = {k / (reach * reach)};
-        lia.stiffness_limit = {2.0 * k};
-        lia.tipping_point = reach;
+        lia.law.edit().nonlinearity = {k / (reach * reach)};
+        lia.law.edit().stiffness_limit = {2.0 * k};
+        lia.law.edit().tipping_point = reach;
         break;
       case LiaType::kBow:
       case LiaType::kSmoothBow:
@@ -283,15 +284,15 @@ class Maker {
         lia.damping = {k / rate};
         lia.stiffness = {0.0};
         lia.rest_length = 0.0;
-        lia.width = {kSpeed * within(0.1, 1.0)};
+        lia.law.edit().width = {kSpeed * within(0.1, 1.0)};
         break;
       case LiaType::kTable:
         lia.stiffness = {0.0};
-        lia.table.points = {{-9.0 * reach, -9.0 * k * reach},
-                            {-reach, -0.3 * k * reach},
-                            {reach, 0.3 * k * reach},
-                            {9.0 * reach, 9.0 * k * reach}};
-        lia.table.smooth = chance(0.5);
+        lia.law.edit().table.points = {{-9.0 * reach, -9.0 * k * reach},
+                                       {-reach, -0.3 * k * reach},
+                                       {reach, 0.3 * k * reach},
+                                       {9.0 * reach, 9.0 * k * reach}};
+        lia.law.edit().table.smooth = chance(0.5);
         break;
       default:
         break;

@@ -22,7 +22,7 @@ int SceneBuilder::add(scene::MatType type, double kg, double x, double v, int se
   mat.name = "m" + std::to_string(scene.mats.size());
   mat.mass = {kg};
   mat.position.x() = x;
-  mat.velocity.x() = v;
+  mat.push.edit().velocity.x() = v;
   mat.section = section;
   mat.place = {static_cast<int>(scene.mats.size()) + 1, 1};
   scene.mats.push_back(mat);

@@ -80,7 +80,7 @@ class Witness {
 double kineticEnergyAtStart(const scene::Scene& scene) {
   double energy = 0.0;
   for (const scene::Mat& mat : scene.mats) {
-    energy += 0.5 * mat.mass.factor * mat.velocity.squaredNorm();
+    energy += 0.5 * mat.mass.factor * mat.push->velocity.squaredNorm();
   }
   return energy;
 }
@@ -128,7 +128,7 @@ StabilityOutcome playAtStableRate(const Builder& builder, int ticks, Closed clos
 Builder string(int masses, double kappa, double zeta, double speed = 1.0) {
   Builder b;
   const int first = b.chain(masses, kMass, kappa * kUnit, zeta * kMass * kRate);
-  b.scene.mats[at(first + 1 + masses / 2)].velocity.x() = speed;
+  b.scene.mats[at(first + 1 + masses / 2)].push.edit().velocity.x() = speed;
   return b;
 }
 
@@ -157,7 +157,7 @@ Builder net(int side, double kappa, double rest = 0.0, Scheme scheme = Scheme::k
       }
     }
   }
-  b.scene.mats[at(index(side / 2, side / 2))].velocity = {20.0, 40.0, 100.0};
+  b.scene.mats[at(index(side / 2, side / 2))].push.edit().velocity = {20.0, 40.0, 100.0};
   return b;
 }
 
@@ -167,7 +167,7 @@ Builder stringOnBarrier(LiaType type, double kappa_contact, Scheme scheme) {
   const int barrier = b.ground(-1e-5);
   for (int m = 1; m <= 100; ++m) {
     scene::Lia& lia = b.scene.lias[at(b.link(type, barrier, m, kappa_contact * kUnit))];
-    lia.exponent = {type == LiaType::kPowerContact ? 1.5 : 1.0};
+    lia.law.edit().exponent = {type == LiaType::kPowerContact ? 1.5 : 1.0};
     // The slope of the power law is as steep at an overlap of 0.1 mm.
     lia.stiffness.factor *= type == LiaType::kPowerContact ? 1.0 / (1.5 * std::sqrt(1e-4)) : 1.0;
     lia.scheme = scheme;
@@ -182,11 +182,11 @@ Builder cubicChain(double kappa_far, Scheme scheme) {
   const double far = 1e-2;
   for (scene::Lia& lia : b.scene.lias) {
     lia.type = LiaType::kCubic;
-    lia.nonlinearity = {kappa_far * kUnit / (3.0 * far * far)};
+    lia.law.edit().nonlinearity = {kappa_far * kUnit / (3.0 * far * far)};
     lia.scheme = scheme;
   }
   for (int m = 1; m <= 64; m += 3) {
-    b.scene.mats[at(m)].velocity.x() = far * kRate;
+    b.scene.mats[at(m)].push.edit().velocity.x() = far * kRate;
   }
   return b;
 }
@@ -197,7 +197,7 @@ Builder rubbedMass(LiaType type, double steepness, Scheme scheme) {
   const int m = b.mass(kMass, 0.0, 1e-6);
   const double initial = type == LiaType::kBow ? 2.0 / 3.0 : 0.63 * std::exp(0.5);
   const int l = b.link(type, b.ground(), m, 0.0, steepness * kMass * kRate / initial);
-  b.scene.lias[at(l)].width = {0.1};
+  b.scene.lias[at(l)].law.edit().width = {0.1};
   b.scene.lias[at(l)].scheme = scheme;
   return b;
 }

@@ -46,7 +46,9 @@ std::uint32_t ScriptedDriver::exchange(const double* forces, double* positions) 
 }
 
 SpringInstrument::SpringInstrument(const Setting& setting)
-    : Instrument(sceneOf(setting), {setting.audio_hz, setting.ratio}, physics::Precision::kDouble),
+    : Instrument(std::make_shared<const scene::Scene>(sceneOf(setting)),
+                 {setting.audio_hz, setting.ratio},
+                 physics::Precision::kDouble),
       setting_(setting),
       stiffness_(std::make_unique<Stiffness>()) {
   stiffness_->value = setting.stiffness;

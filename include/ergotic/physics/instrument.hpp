@@ -104,33 +104,39 @@ class Instrument {
   /// True if every displacement is a finite number. Realtime: yes.
   virtual bool isFinite() const noexcept = 0;
 
-  const scene::Scene& scene() const noexcept { return scene_; }
+  const scene::Scene& scene() const noexcept { return *scene_; }
   const Rates& rates() const noexcept { return rates_; }
   const CompileOptions& options() const noexcept { return options_; }
   Precision precision() const noexcept { return options_.precision; }
-  int ports() const noexcept { return static_cast<int>(scene_.ports.size()); }
+  int ports() const noexcept { return static_cast<int>(scene_->ports.size()); }
   int inputChannels() const noexcept { return input_channels_; }
   int outputChannels() const noexcept { return output_channels_; }
 
  protected:
-  Instrument(scene::Scene scene, const Rates& rates, const CompileOptions& options)
+  Instrument(std::shared_ptr<const scene::Scene> scene,
+             const Rates& rates,
+             const CompileOptions& options)
       : scene_(std::move(scene)),
         rates_(rates),
         options_(options),
-        input_channels_(scene_.inputChannels()),
-        output_channels_(scene_.outputChannels()) {}
+        input_channels_(scene_->inputChannels()),
+        output_channels_(scene_->outputChannels()) {}
 
  private:
-  scene::Scene scene_;
+  std::shared_ptr<const scene::Scene> scene_;
   Rates rates_;
   CompileOptions options_;
   int input_channels_;
   int output_channels_;
 };
 
-/// Turns a valid scene into arrays. Does not certify.
+/// Turns a valid scene into arrays. Does not certify. The instrument shares the scene; one that is
+/// given by reference is copied.
 /// \pre    settled (settle.hpp)
 /// \throws Exception if the scene needs something that these rates do not allow
+std::unique_ptr<Instrument> compile(std::shared_ptr<const scene::Scene> scene,
+                                    const Rates& rates,
+                                    const CompileOptions& options);
 std::unique_ptr<Instrument> compile(const scene::Scene& scene,
                                     const Rates& rates,
                                     const CompileOptions& options);

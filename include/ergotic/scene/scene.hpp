@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
+
+#include "ergotic/scene/name.hpp"
+#include "ergotic/scene/rare.hpp"
 
 /// A scene: what the instrument is made of, before any rate or precision is chosen.
 ///
@@ -56,7 +61,7 @@ struct AudioParameter {
 };
 
 /// How modules of a section move and what a link's elongation is.
-enum class Geometry {
+enum class Geometry : std::uint8_t {
   kScalar,  ///< along x; e = x_a - x_b, signed
   kLine,    ///< along x; e from the distance |x_a - x_b|
   kPlane,   ///< in x-y, distances in the plane
@@ -88,7 +93,7 @@ struct Section {
   Place place;
 };
 
-enum class MatType {
+enum class MatType : std::uint8_t {
   kMass,    ///< (MAS) free inertia
   kGround,  ///< (SOL) fixed point
   kCell,  ///< (CEL) mass with a spring and a damper to x = 0, or in Euclidean sections to its rest
@@ -97,28 +102,32 @@ enum class MatType {
   kPoint,   ///< massless: lies between the modules of a grid, see Connection
 };
 
+/// What drives a module beside its links. Of the coordinates that move; the others are ignored.
+struct Push {
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/time_unit, at the start
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();     ///< constant, kg m/time_unit^2
+};
+
 /// (MAT) A material point: takes a force, gives a position.
 struct Mat {
-  std::string name;
-  MatType type = MatType::kMass;
-  int section = 0;
+  Name name;
   Value mass{1.0};    ///< kg, > 0; mass and cell
   Value stiffness{};  ///< kg/time_unit^2, cell only
   Value damping{};    ///< kg/time_unit, cell only
-  /// Cells: coefficients whose pole is that of the continuous oscillator, not its first order.
-  bool matched = false;
   /// m; displacements are stored and displayed from here. Scalar sections: y and z are the place on
   /// the workbench.
   Eigen::Vector3d rest = Eigen::Vector3d::Zero();
-  // The next three use the coordinates that move; the others are ignored.
-  Eigen::Vector3d position =
-      Eigen::Vector3d::Zero();  ///< m, absolute (not from rest), at the start
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/time_unit, at the start
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();     ///< constant, kg m/time_unit^2
+  /// m, absolute (not from rest), at the start; the coordinates that move, the others are ignored.
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Rare<Push> push;
   Place place;
+  int section = 0;
+  MatType type = MatType::kMass;
+  /// Cells: coefficients whose pole is that of the continuous oscillator, not its first order.
+  bool matched = false;
 };
 
-enum class LiaType {
+enum class LiaType : std::uint8_t {
   kSpringDamper,  ///< (RES, FRO, REF) f = K e + Z v
   kContact,       ///< (BUT) f = K e + Z v while x_b - x_a < threshold, e = x_a - x_b + threshold
   kQuadratic,     ///< f = K e + Q sgn(e) e^2 + Z v
@@ -132,16 +141,17 @@ enum class LiaType {
   kTable,         ///< (LNL) f = table(e) + viscous_table(v), held beyond the last points
   kConditional,   ///< f = K e + Z v from when |e| < width until |e| > release
 };
+constexpr std::size_t kLiaTypes = 12;
 
 /// How the force of a link is worked out in time.
-enum class Scheme {
+enum class Scheme : std::uint8_t {
   kExplicit,  ///< CORDIS-ANIMA, from the present positions
   kGuarded,   ///< never gives more energy than it took; contact, two-sided springs and friction
   kAuto,      ///< `settle` chooses by the rules of the certificate
 };
 
 /// How a link joins two rates.
-enum class Coupling {
+enum class Coupling : std::uint8_t {
   kHold,      ///< computed at the faster rate: position held, force averaged (scheme A)
   kDecimate,  ///< computed at the slower rate: position decimated, force as one impulse (scheme B)
 };
@@ -153,35 +163,40 @@ struct Table {
   bool empty() const { return points.empty(); }
 };
 
-/// (LIA) An interaction: takes two positions, gives one force, -f to `a` and +f to `b`,
-/// with e = x_a - x_b - rest_length and v = v_a - v_b.
-/// The laws are written out in docs/physics.md.
-struct Lia {
-  std::string name;
-  LiaType type = LiaType::kSpringDamper;
-  int a = 0;  ///< index in Scene::mats
-  int b = 0;
-  Value stiffness{};        ///< K, kg/time_unit^2
-  Value damping{};          ///< Z, kg/time_unit
+/// What only some laws of links need.
+struct LiaLaw {
   Value nonlinearity{};     ///< Q, kg/(m time_unit^2) or kg/(m^2 time_unit^2)
   Value stiffness_limit{};  ///< K_limit, kg/time_unit^2
   Value limit_damping{};    ///< extra damping beyond the tipping point, kg/time_unit
   /// Contacts: threshold, m. Pluck: width of the plectrum, m. Bow: width of the friction curve,
   /// m/time_unit.
   Value width{};
+  Value exponent{1.0};  ///< of the power contact, 1...5
   /// Clipped cubic laws: |e| at which the slope K_limit takes over, m. `.mdl` files mean
   /// sqrt(K_limit - K) / Q, YAML sqrt((K_limit - K) / Q), where the force is continuous.
   double tipping_point = 0.0;
-  double rest_length = 0.0;  ///< m; scalar: along x; not for contacts
-  Value exponent{1.0};       ///< of the power contact, 1...5
-  double release = 0.0;      ///< conditional: |e| at which it lets go, m, >= width
+  double release = 0.0;  ///< conditional: |e| at which it lets go, m, >= width
   /// (e, force): pluck and LNL; (v, force): bow. Pluck and bow are 0 outside, LNL holds its ends.
   Table table;
   Table viscous_table;  ///< (v, force): LNL
+};
+
+/// (LIA) An interaction: takes two positions, gives one force, -f to `a` and +f to `b`,
+/// with e = x_a - x_b - rest_length and v = v_a - v_b.
+/// The laws are written out in docs/physics.md.
+struct Lia {
+  Name name;
+  int a = 0;  ///< index in Scene::mats
+  int b = 0;
+  Value stiffness{};         ///< K, kg/time_unit^2
+  Value damping{};           ///< Z, kg/time_unit
+  double rest_length = 0.0;  ///< m; scalar: along x; not for contacts
+  Rare<LiaLaw> law;          ///< the rest of its coefficients
+  Place place;
+  LiaType type = LiaType::kSpringDamper;
   Scheme scheme = Scheme::kExplicit;
   Coupling coupling = Coupling::kHold;
   bool filtered = false;  ///< `settle` puts a chaplet between the slower end and this link
-  Place place;
 };
 /// True if the link may be guarded: all but linear springs and dampers, plucks, conditional links
 /// and viscous tables.
@@ -224,7 +239,7 @@ struct Port {
   Place place;
 };
 
-enum class Quantity { kPosition, kVelocity, kForce };
+enum class Quantity : std::uint8_t { kPosition, kVelocity, kForce };
 
 /// A point of a line of modules: (1 - fraction) of `mat` and fraction of `next`.
 struct Point {

@@ -54,7 +54,7 @@ struct PerformerPolicy {
 /// Realtime: no. Thread: any
 /// \throws TextError or Exception if the scene is not valid, needs a slice that the device does not
 ///         have, or its verdict is refused (the text holds the findings of the certificate)
-std::unique_ptr<Performer> makePerformer(const scene::Scene& scene,
+std::unique_ptr<Performer> makePerformer(scene::Scene scene,
                                          const physics::Rates& rates,
                                          const physics::CompileOptions& options,
                                          const PerformerPolicy& policy = {});

@@ -158,13 +158,13 @@ void stir(scene::Scene& scene, Dice& dice) {
   };
   each([&](scene::Mat& mat, int dimensions) {
     for (int c = 0; c < dimensions; ++c) {
-      mat.velocity[c] = dice.number(-kSpeed, kSpeed);
+      mat.push.edit().velocity[c] = dice.number(-kSpeed, kSpeed);
     }
-    momentum += mat.mass.factor * mat.velocity;
+    momentum += mat.mass.factor * mat.push->velocity;
     mass += mat.mass.factor;
   });
   each([&](scene::Mat& mat, int dimensions) {
-    mat.velocity.head(dimensions) -= momentum.head(dimensions) / mass;
+    mat.push.edit().velocity.head(dimensions) -= momentum.head(dimensions) / mass;
   });
 }
 

@@ -213,7 +213,7 @@ class PlainNetworkOf final : public PlainNetwork {
       }
       mass_of_mat_[i] = masses_.size();
       masses_.push_back(massOf(scene, mat, units));
-      const Eigen::Vector3d force = mat.force + scene.valueOf(mat.mass) * from.gravity;
+      const Eigen::Vector3d force = mat.push->force + scene.valueOf(mat.mass) * from.gravity;
       if (mat.type == MatType::kMass && !force.template head<D>().isZero(0.0)) {
         part.constant.push_back({mass_of_mat_[i], {}});
         for (int c = 0; c < D; ++c) {
@@ -233,7 +233,7 @@ class PlainNetworkOf final : public PlainNetwork {
     mass.inverse = moves ? static_cast<Real>(units.inverseMass(scene.valueOf(mat.mass))) : Real(0);
     for (int c = 0; c < D; ++c) {
       mass.x[c] = static_cast<Real>(mat.position[c]);
-      mass.d[c] = moves ? static_cast<Real>(units.velocity(mat.velocity[c])) : Real(0);
+      mass.d[c] = moves ? static_cast<Real>(units.velocity(mat.push->velocity[c])) : Real(0);
     }
     return mass;
   }
@@ -249,7 +249,7 @@ class PlainNetworkOf final : public PlainNetwork {
     link.k = static_cast<Real>(scene.valueOf(lia.stiffness));
     link.z = static_cast<Real>(units.damping(scene.valueOf(lia.damping)));
     if (lia.type == LiaType::kContact) {
-      link.length = static_cast<Real>(scene.valueOf(lia.width));
+      link.length = static_cast<Real>(scene.valueOf(lia.law->width));
       run.contacts.push_back(link);
     } else if (kEuclidean || lia.rest_length != 0.0 || run.divisor_a != run.divisor_b) {
       link.length = static_cast<Real>(lia.rest_length);

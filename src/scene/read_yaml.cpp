@@ -10,6 +10,7 @@
 #include "scene/overrides.hpp"
 #include "scene/source_text.hpp"
 #include "scene/yaml_elements.hpp"
+#include "scene/yaml_rows.hpp"
 #include "scene/yaml_tables.hpp"
 
 namespace ergotic::scene {
@@ -128,6 +129,11 @@ void forEachElement(const SceneBuilder& builder,
   forEachEntry(builder, top.at(part), "'" + part + "'", top.keyPlaceAt(part),
                [&](const std::string& name, Place place, const YAML::Node& node) {
                  checkName(builder, name, place);
+                 if (isTableOfElements(node)) {
+                   const YamlMap table(builder, node, "table " + quoted(name), place);
+                   forEachRow(builder, table, kind, element);
+                   return;
+                 }
                  element(name, YamlMap(builder, node, kind + " " + quoted(name), place));
                });
 }

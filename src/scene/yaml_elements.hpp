@@ -24,7 +24,8 @@ void readPorts(SceneBuilder& builder, const YamlMap& top);
 void readInputs(SceneBuilder& builder, const YamlMap& top);
 void readOutputs(SceneBuilder& builder, const YamlMap& top);
 
-/// Calls `element` with the map under every name of a part; nothing if the part is missing.
+/// Calls `element` with the map under every name of a part, or with every row of the table there;
+/// nothing if the part is missing.
 /// \param kind  of the elements, for messages
 using ElementReader = std::function<void(const std::string& name, const YamlMap& map)>;
 void forEachElement(const SceneBuilder& builder,

@@ -159,11 +159,14 @@ void readTreatment(const Scene& scene, const YamlMap& map, Lia& lia) {
 }
 
 const LiaKind& kindOf(const YamlMap& map) {
-  Keys words;
-  for (const LiaKind& each : liaKinds()) {
-    words.emplace_back(each.name);
-  }
-  return liaKinds()[map.choice("type", words)];
+  static const Keys kWords = [] {
+    Keys words;
+    for (const LiaKind& each : liaKinds()) {
+      words.emplace_back(each.name);
+    }
+    return words;
+  }();
+  return liaKinds()[map.choice("type", kWords)];
 }
 
 Lia readLia(SceneBuilder& builder,

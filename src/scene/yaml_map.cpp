@@ -150,6 +150,12 @@ YamlMap::YamlMap(const SceneBuilder& builder, const YAML::Node& node, std::strin
                });
 }
 
+YamlMap::YamlMap(const SceneBuilder& builder,
+                 std::vector<Entry> entries,
+                 std::string what,
+                 Place place)
+    : builder_(builder), what_(std::move(what)), place_(place), entries_(std::move(entries)) {}
+
 void YamlMap::allow(const std::vector<std::string>& keys) const {
   for (const Entry& entry : entries_) {
     if (std::find(keys.begin(), keys.end(), entry.key) == keys.end()) {

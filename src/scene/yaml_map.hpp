@@ -62,9 +62,17 @@ void checkName(const SceneBuilder& builder, const std::string& name, Place place
 /// the whole element if a key is missing.
 class YamlMap {
  public:
+  struct Entry {
+    std::string key;
+    Place place;
+    YAML::Node value;
+  };
   /// \param what   for messages, as in `module 'm'`
   /// \param place  of the element
   YamlMap(const SceneBuilder& builder, const YAML::Node& node, std::string what, Place place);
+
+  /// Of entries that were read elsewhere. \pre no key comes twice
+  YamlMap(const SceneBuilder& builder, std::vector<Entry> entries, std::string what, Place place);
 
   /// \throws TextError at the first key that is not among these
   void allow(const std::vector<std::string>& keys) const;
@@ -99,11 +107,6 @@ class YamlMap {
   [[noreturn]] void fail(const std::string& key, const std::string& message) const;
 
  private:
-  struct Entry {
-    std::string key;
-    Place place;
-    YAML::Node value;
-  };
   const Entry* find(const std::string& key) const;
   const Entry& require(const std::string& key) const;
   std::string named(const std::string& key) const;

@@ -29,11 +29,14 @@ const std::vector<MatKind>& matKinds() {
 }
 
 const MatKind& kindOf(const YamlMap& map) {
-  std::vector<std::string> words;
-  for (const MatKind& each : matKinds()) {
-    words.emplace_back(each.name);
-  }
-  return matKinds()[map.choice("type", words)];
+  static const auto kWords = [] {
+    std::vector<std::string> words;
+    for (const MatKind& each : matKinds()) {
+      words.emplace_back(each.name);
+    }
+    return words;
+  }();
+  return matKinds()[map.choice("type", kWords)];
 }
 
 void allowKeys(const YamlMap& map, const MatKind& kind) {

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cell_bound.hpp"
 #include "network_spectrum.hpp"
 
 namespace ergotic::physics {
 namespace {
 
-constexpr int kIterations = 20;            // of Collatz-Wielandt
+constexpr int kIterations = 20;  // of Collatz-Wielandt
+constexpr int kPowerIterations = 60;
+constexpr double kRounding = 1e-9;
 constexpr int kCheapNodes = 20000;         // factorised even if the bounds suffice
 constexpr int kLargestComponent = 200000;  // factorised at all
 constexpr double kMostSolutions = 2e6;     // places of moving links times nodes
@@ -22,15 +25,32 @@ bool areMovingLinksCheap(const NetworkBound& network) {
   return places * network.nodes() <= kMostSolutions;
 }
 
+/// The longest step that a bound at this one allows: the eigenvalue grows at least as h and at most
+/// as h^2.
+double stretched(double step, double lambda) {
+  const double stretch = NetworkBound::kLimit * (1.0 - kRounding) / lambda;
+  return step * std::min(stretch, std::sqrt(stretch));
+}
+
 void bound(const NetworkBound& network, NetworkAnalysis& to) {
   to.link_bound = network.linkBound();
   to.lambda = to.link_bound;
-  if (!to.isProven()) {
-    to.lambda = std::min(to.lambda, network.collatzWielandtBound(kIterations));
-  }
   to.worst_link = network.worstLink();
   to.worst_owner = network.worstOwner();
   to.stable_step = network.stableStep();
+  if (to.isProven()) {
+    return;
+  }
+  to.lambda = std::min(to.lambda, cellBound(network));
+  if (!to.isProven()) {
+    to.lambda = std::min(to.lambda, network.collatzWielandtBound(kIterations));
+  }
+  to.stable_step = std::max(to.stable_step, stretched(network.step(), to.lambda));
+}
+
+/// True if it is above the limit for certain.
+bool isRefuted(const NetworkBound& network) {
+  return rayleighQuotient(network, kPowerIterations) >= NetworkBound::kLimit * (1.0 + kRounding);
 }
 
 void refine(const NetworkBound& network, NetworkAnalysis& to) {
@@ -58,9 +78,14 @@ NetworkAnalysis analyse(const NetworkBound& network) {
     return result;
   }
   NetworkAnalysis result;
-  bound(network.withMovingEverywhere(), result);
+  if (network.movingLinks().empty()) {
+    bound(network, result);
+  } else {
+    bound(network.withMovingEverywhere(), result);
+  }
   const bool is_cheap = network.nodes() <= kCheapNodes;
-  if (is_cheap || !result.isProven()) {
+  const bool is_decided = result.isProven() || (!is_cheap && isRefuted(network));
+  if (is_cheap || !is_decided) {
     result.is_too_large = !is_cheap && network.largestComponent() > kLargestComponent;
     if (!result.is_too_large) {
       refine(network, result);

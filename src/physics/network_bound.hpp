@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <vector>
 
 namespace ergotic::physics {
@@ -51,6 +52,8 @@ class NetworkBound {
   /// \param ends   shares of one node add up; none: held at both ends, without effect
   /// \param label  whatever the caller wants back from worstLink()
   void addLink(const std::vector<Share>& ends, Span stiffness, Span damping, int label);
+  /// Four corners of a mesh between which links may lie, for cellBound(); -1: none there.
+  void addCell(const std::array<int, 4>& nodes) { cells_.push_back(nodes); }
   /// \param places  more than one
   void addMovingLink(const std::vector<std::vector<Share>>& places,
                      double stiffness,
@@ -84,9 +87,10 @@ class NetworkBound {
   int ownerOf(int node) const { return owner_[static_cast<std::size_t>(node)]; }
   const std::vector<Link>& links() const { return links_; }
   const std::vector<MovingLink>& movingLinks() const { return moving_; }
+  const std::vector<std::array<int, 4>>& cells() const { return cells_; }
+  double load(const Link& link) const;  ///< h^2 k + 2 h z, at its stiffest, not below 0
 
  private:
-  double load(const Link& link) const;
   std::vector<double> sums(double per_stiffness, double per_damping) const;  // S, per node
   double bound(const Link& link, const std::vector<double>& sum) const;
   const Link* worst() const;
@@ -97,6 +101,7 @@ class NetworkBound {
   std::vector<int> owner_;
   std::vector<Link> links_;
   std::vector<MovingLink> moving_;
+  std::vector<std::array<int, 4>> cells_;
 };
 
 }  // namespace ergotic::physics

@@ -2,6 +2,7 @@
 #include "scene_network.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <numeric>
@@ -298,6 +299,27 @@ void SceneNetwork::addLink(Builder& to, int l, bool hold_a, bool hold_b) const {
   }
 }
 
+/// Of the meshes that are in the network.
+void SceneNetwork::addCells(Builder& to) const {
+  const auto nodeOf = [&](int mat) {
+    const auto known = to.nodes.find(mat);
+    return known == to.nodes.end() ? -1 : known->second;
+  };
+  for (const scene::Grid& grid : scene_.grids) {
+    for (int row = 0; row + 1 < grid.rows; ++row) {
+      for (int column = 0; column + 1 < grid.columns; ++column) {
+        const int corner = grid.first + row * grid.columns + column;
+        const int below = corner + grid.columns;
+        const std::array<int, 4> nodes{nodeOf(corner), nodeOf(corner + 1), nodeOf(below),
+                                       nodeOf(below + 1)};
+        if (*std::max_element(nodes.begin(), nodes.end()) >= 0) {
+          to.network.addCell(nodes);
+        }
+      }
+    }
+  }
+}
+
 NetworkBound SceneNetwork::atOwnRate(int divisor, int group, bool plain) const {
   Builder builder{NetworkBound(StepUnits(scene_, rates_, divisor).step), divisor, group, {}};
   addModules(builder, plain);
@@ -311,6 +333,7 @@ NetworkBound SceneNetwork::atOwnRate(int divisor, int group, bool plain) const {
       addLink(builder, l, a != divisor, b != divisor);
     }
   }
+  addCells(builder);
   return std::move(builder.network);
 }
 

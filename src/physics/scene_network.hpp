@@ -66,6 +66,7 @@ class SceneNetwork {
   bool isMatched(int mat) const;
   void addModules(Builder& to, bool plain) const;
   void addLink(Builder& to, int lia, bool hold_a, bool hold_b) const;
+  void addCells(Builder& to) const;
 
   const scene::Scene& scene_;
   Rates rates_;

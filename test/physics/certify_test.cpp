@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "ergotic/scene/read_scene.hpp"
 #include "support/scene_builder.hpp"
 
 namespace ergotic::physics {
@@ -16,6 +17,7 @@ using scene::LiaType;
 using test::Player;
 using test::SceneBuilder;
 
+constexpr double kPi = 3.14159265358979323846;
 constexpr double kRate = 44100.0;
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -304,6 +306,26 @@ TEST(CertifyTest, WorstFindingsComeFirst) {
   const Certificate c = certify(b.scene, {kRate, 14});
   ASSERT_GE(c.findings.size(), 2u);
   EXPECT_NE(c.findings[0].find("'l1'"), std::string::npos);
+}
+
+/// 24,000 masses, too many for the exact test where bounds tell; the highest mode is at 8 h^2 K/M.
+TEST(CertifyTest, ALargeMeshWithDiagonalsIsJudgedByItsCells) {
+  for (const double lambda : {3.6, 4.4}) {
+    const double k = lambda / 8.0 * 1e-3 * kRate * kRate;
+    const scene::Scene mesh = scene::readYaml(
+        "ergotic: 1\nsections: {s: {}}\ngenerators:\n"
+        "  - {type: mesh, name: p, rows: 160, columns: 160, spacing: 0.01, neighbours: 8,\n"
+        "     mass: 1e-3, stiffness: " +
+            std::to_string(k) + "}\n",
+        "mesh.yaml");
+    const Certificate c = certify(mesh, {kRate, 1});
+    EXPECT_GT(c.sections[0].link_bound, 1.3 * lambda);
+    EXPECT_NEAR(c.sections[0].lambda, lambda, 0.001 * lambda);
+    EXPECT_GE(c.sections[0].lambda, lambda * std::pow(std::cos(kPi / 318.0), 2.0));
+    EXPECT_EQ(c.verdict, lambda < 4.0 ? Verdict::kPassive : Verdict::kUnstable);
+    const double advised = c.sections[0].stable_rate_hz;
+    EXPECT_EQ(certify(mesh, {1.001 * advised, 1}).verdict, Verdict::kPassive);
+  }
 }
 
 TEST(CertifyTest, SceneWithoutLinksIsPassive) {

@@ -2,6 +2,7 @@
 #include "physics/network_bound.hpp"
 
 #include <cmath>
+#include <functional>
 #include <random>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "ergotic/physics/monodromy.hpp"
+#include "physics/cell_bound.hpp"
 #include "physics/network_analysis.hpp"
 #include "physics/network_spectrum.hpp"
 
@@ -158,6 +160,92 @@ TEST(NetworkSpectrumTest, NamesTheLinkThatTakesMostOfTheWorstMode) {
   NetworkBound network = gridOf(6, 6, 0.2, true);
   network.addLink(between(14, 15), exactly(1.5), exactly(0.0), 4711);
   EXPECT_EQ(analyse(network).worst_link, 4711);
+}
+
+/// A net with all its cells: rows x columns free nodes, sides and diagonals.
+NetworkBound net(int rows,
+                 int columns,
+                 const std::function<double()>& side,
+                 const std::function<double()>& diagonal,
+                 const std::function<double()>& mass) {
+  NetworkBound network(1.0);
+  for (int i = 0; i < rows * columns; ++i) {
+    network.addNode(mass(), i);
+  }
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < columns; ++c) {
+      const int here = r * columns + c;
+      if (c + 1 < columns) {
+        spring(network, between(here, here + 1), side(), 0.1 * side());
+      }
+      if (r + 1 < rows) {
+        spring(network, between(here, here + columns), side());
+      }
+      if (r + 1 < rows && c + 1 < columns) {
+        spring(network, between(here, here + columns + 1), diagonal());
+        spring(network, between(here + 1, here + columns), diagonal());
+        network.addCell({here, here + 1, here + columns, here + columns + 1});
+      }
+    }
+  }
+  return network;
+}
+
+TEST(CellBoundTest, IsExactInTheLimitForNetsWithDiagonals) {
+  const auto one = [] { return 1.0; };
+  const auto half = [] { return 0.5; };
+  const auto none = [] { return 0.0; };
+  NetworkBound network = net(30, 30, none, none, one);
+  const NetworkBound plain = net(30, 30, one, half, one);
+  // sides 1 with a damping of 0.1 along rows: h^2 k + 2 h z = 1.2 and 1, diagonals 0.5
+  const double exact = Dense(plain).lambda(1.0);
+  EXPECT_GE(cellBound(plain), exact);
+  EXPECT_LT(cellBound(plain), 1.02 * exact);
+  EXPECT_GT(plain.linkBound(), 1.3 * exact);
+  EXPECT_EQ(cellBound(network), 0.0);
+}
+
+TEST(CellBoundTest, StaysAboveTheEigenvalueOfRandomNetsWithLooseLinksAndWeights) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> number(0.01, 1.0);
+  for (int n = 0; n < 50; ++n) {
+    const auto any = [&] { return number(random); };
+    NetworkBound network = net(2 + n % 5, 3 + n % 3, any, any, any);
+    const int last = network.nodes() - 1;
+    spring(network, between(0, last), any());
+    spring(network, {{0, 0.3}, {1, 0.7}, {last, -1.0}}, any());
+    spring(network, {{n % network.nodes(), 1.0}}, any());
+    const double exact = Dense(network).lambda(1.0);
+    EXPECT_GE(cellBound(network), exact * (1.0 - 1e-12)) << n;
+    EXPECT_LE(cellBound(network), network.linkBound() * (1.0 + 1e-9)) << n;
+    EXPECT_LE(rayleighQuotient(network, 60), exact * (1.0 + 1e-12)) << n;
+    EXPECT_GE(rayleighQuotient(network, 60), 0.9 * exact) << n;
+  }
+}
+
+TEST(CellBoundTest, WithoutCellsIsTheLinkBound) {
+  NetworkBound chain(0.5);
+  for (int i = 0; i < 5; ++i) {
+    chain.addNode(1.0 + i, i);
+  }
+  for (int i = 0; i + 1 < 5; ++i) {
+    spring(chain, between(i, i + 1), 3.0 - 0.5 * i, 0.1);
+  }
+  EXPECT_NEAR(cellBound(chain), chain.linkBound(), 1e-9);
+}
+
+TEST(NetworkAnalysisTest, LargeNetsWithDiagonalsAreProvenByTheirCellsAndRefutedByAMode) {
+  for (const double k : {0.45, 0.55}) {
+    const auto side = [&] { return k / 1.1; };  // lambda = 8 k / 1.1 at most, damping on top
+    const NetworkBound network = net(
+        150, 150, side, [&] { return 0.5 * side(); }, [] { return 1.0; });
+    const NetworkAnalysis analysis = analyse(network);
+    EXPECT_FALSE(analysis.is_exact);
+    EXPECT_FALSE(analysis.is_too_large);
+    EXPECT_EQ(analysis.isProven(), k < 0.5) << analysis.lambda;
+    EXPECT_GT(analysis.link_bound, NetworkBound::kLimit);
+    EXPECT_EQ(analysis.stable_step > network.step(), k < 0.5);
+  }
 }
 
 TEST(NetworkBoundTest, IsExactForOneLoadWithWeights) {

@@ -125,8 +125,11 @@ class Rewriter {
     cell.stiffness.factor = part.pull[k] / (step * step);
     cell.damping.factor = part.loss[k] / step - from_.valueOf(in.medium);
     cell.position.x() = part.x[k];
-    cell.velocity.x() = part.d[k] / step;
-    cell.force.x() = part.constant[k] - in.gravity.x();
+    scene::setVelocity(cell, part.d[k] / step * Eigen::Vector3d::UnitX());
+    const double force = part.constant[k] - in.gravity.x();
+    if (force != 0.0) {
+      cell.push.edit().force.x() = force;
+    }
     cell.place = in.place;
     to_.first_forces.emplace_back(static_cast<int>(to_.scene.mats.size()), part.first_force[k]);
     to_.scene.mats.push_back(std::move(cell));

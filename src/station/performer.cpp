@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/station/performer.hpp"
 
+#include <malloc.h>
+
 #include <memory>
 #include <utility>
 
@@ -51,7 +53,7 @@ bool isAllowed(physics::Verdict verdict, const PerformerPolicy& policy) {
   for (const std::string& finding : certificate.findings) {
     text += "\n" + finding;
   }
-  throw Exception(text);
+  throw RefusedScene(text, certificate.verdict);
 }
 
 /// Every page of the state becomes resident; its content stays.
@@ -93,24 +95,33 @@ std::unique_ptr<Performer> makePerformer(scene::Scene scene,
                                          const physics::Rates& rates,
                                          const physics::CompileOptions& options,
                                          const PerformerPolicy& policy) {
+  const auto tell = [&, all = scene.mats.size() + scene.lias.size()](const char* stage) {
+    if (policy.on_stage) {
+      policy.on_stage(std::string(stage) + " " + std::to_string(all) + " modules and links");
+    }
+  };
+  tell("validate and settle");
   scene::validate(scene);
   checkSlices(scene, policy.slices);
   const std::vector<std::string> warnings = scene.warnings;
   physics::Settled settled = physics::settle(std::move(scene), rates);
+  tell("certify");
   physics::Certificate certificate = physics::certify(settled.scene, rates);
   if (!isAllowed(certificate.verdict, policy)) {
     refuse(settled.scene, certificate);
   }
+  tell("compile");
   auto performer = std::make_unique<Performer>(physics::compile(
       std::make_shared<const scene::Scene>(std::move(settled.scene)), rates, options));
   performer->warnings = warnings;
-  const auto tell = [&](const std::vector<std::string>& said) {
+  const auto warn = [&](const std::vector<std::string>& said) {
     performer->warnings.insert(performer->warnings.end(), said.begin(), said.end());
   };
-  tell(certificate.findings);
-  tell(settled.notes);
-  tell(performer->instrument->notes());
+  warn(certificate.findings);
+  warn(settled.notes);
+  warn(performer->instrument->notes());
   performer->certificate = std::move(certificate);
+  malloc_trim(0);  // reading leaves many times what stays, and locked memory would keep it all
   warm(*performer);
   return performer;
 }

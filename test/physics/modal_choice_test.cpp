@@ -145,8 +145,8 @@ TEST_F(ModalChoiceTest, MotionAtTheStartIsOffByNoMoreThanTheBound) {
   Plate b = pushedPlate();
   for (int i = 0; i < Plate::kColumns * Plate::kRows; ++i) {
     b.scene.mats[at(i)].position.x() = 1e-4 * std::cos(0.9 * i);
-    b.scene.mats[at(i)].velocity.x() = 0.1 * std::sin(0.4 * i);
-    b.scene.mats[at(i)].force.x() = 0.2 * std::cos(1.3 * i);
+    b.scene.mats[at(i)].push.edit().velocity.x() = 0.1 * std::sin(0.4 * i);
+    b.scene.mats[at(i)].push.edit().force.x() = 0.2 * std::cos(1.3 * i);
   }
   const scene::Scene reduced = withModes(b.scene, 50);
   Player network(b.scene, kRates);

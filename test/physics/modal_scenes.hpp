@@ -107,7 +107,7 @@ inline Plate playedPlate() {
   b.link(scene::LiaType::kContact, slice, b.of(2, 7), 0.5 * k, 1e-2);
   b.scene.lias.back().scheme = scene::Scheme::kGuarded;
   b.link(scene::LiaType::kCubic, pick, slice, 50.0);
-  b.scene.lias.back().nonlinearity = {1e5};
+  b.scene.lias.back().law.edit().nonlinearity = {1e5};
   b.scene.lias.back().scheme = scene::Scheme::kGuarded;
   b.scene.lias.back().place = {321, 1};
   return b;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/alloc_count.hpp"
 
+#include <malloc.h>
+
 #include <cerrno>
 #include <cstddef>
 
@@ -9,6 +11,7 @@ namespace {
 // Only ever plain integers: the first heap call of a thread comes before any constructor.
 thread_local int active_scopes = 0;
 thread_local std::int64_t heap_calls = 0;
+thread_local std::int64_t heap_bytes = 0;
 
 }  // namespace
 
@@ -17,6 +20,13 @@ thread_local std::int64_t heap_calls = 0;
 namespace {
 void count() noexcept {
   heap_calls += active_scopes > 0 ? 1 : 0;
+}
+void* taken(void* block) noexcept {
+  heap_bytes += active_scopes > 0 ? static_cast<std::int64_t>(malloc_usable_size(block)) : 0;
+  return block;
+}
+void givenBack(void* block) noexcept {
+  heap_bytes -= active_scopes > 0 ? static_cast<std::int64_t>(malloc_usable_size(block)) : 0;
 }
 }  // namespace
 
@@ -30,31 +40,33 @@ void __libc_free(void* block);
 
 void* malloc(std::size_t size) {
   count();
-  return __libc_malloc(size);
+  return taken(__libc_malloc(size));
 }
 void* calloc(std::size_t items, std::size_t size) {
   count();
-  return __libc_calloc(items, size);
+  return taken(__libc_calloc(items, size));
 }
 void* realloc(void* old, std::size_t size) {
   count();
-  return __libc_realloc(old, size);
+  givenBack(old);
+  return taken(__libc_realloc(old, size));
 }
 void* memalign(std::size_t alignment, std::size_t size) {
   count();
-  return __libc_memalign(alignment, size);
+  return taken(__libc_memalign(alignment, size));
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) {
   count();
-  return __libc_memalign(alignment, size);
+  return taken(__libc_memalign(alignment, size));
 }
 int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
   count();
-  *block = __libc_memalign(alignment, size);
+  *block = taken(__libc_memalign(alignment, size));
   return *block == nullptr ? ENOMEM : 0;
 }
 void free(void* block) {
   count();
+  givenBack(block);
   __libc_free(block);
 }
 }
@@ -66,6 +78,7 @@ namespace ergotic::test {
 AllocationScope::AllocationScope() noexcept {
   if (active_scopes++ == 0) {
     heap_calls = 0;
+    heap_bytes = 0;
   }
 }
 
@@ -75,6 +88,10 @@ AllocationScope::~AllocationScope() {
 
 std::int64_t AllocationScope::calls() const noexcept {
   return heap_calls;
+}
+
+std::int64_t AllocationScope::bytes() const noexcept {
+  return heap_bytes;
 }
 
 bool AllocationScope::isAvailable() noexcept {

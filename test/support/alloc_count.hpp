@@ -6,7 +6,8 @@
 namespace ergotic::test {
 
 /// Counts the heap calls (malloc, calloc, realloc, aligned ones, free) of the calling thread while
-/// the object lives. Under sanitizers, which bring their own heap, it counts nothing.
+/// the object lives, and the bytes that they take. Under sanitizers, which bring their own heap, it
+/// counts nothing.
 class AllocationScope {
  public:
   AllocationScope() noexcept;
@@ -16,6 +17,8 @@ class AllocationScope {
 
   /// Heap calls so far.
   std::int64_t calls() const noexcept;
+  /// Bytes taken so far and not given back.
+  std::int64_t bytes() const noexcept;
 
   /// False where heap calls cannot be counted: tests then skip themselves.
   static bool isAvailable() noexcept;

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "ergotic/exception.hpp"
 #include "ergotic/physics/certify.hpp"
 #include "ergotic/physics/instrument.hpp"
 #include "ergotic/rt/mailbox.hpp"
@@ -48,12 +50,25 @@ struct PerformerPolicy {
   bool allow_unproven = false;   ///< play what has no bound
   bool allow_unstable = false;   ///< play even what is known to blow up
   int slices = tgr::kMaxSlices;  ///< of the device that it will be played with
+  /// Told what is done next, as in `certify 198003 modules and links`, for whoever waits.
+  std::function<void(const std::string& stage)> on_stage;
+};
+
+/// A scene is refused for its verdict; the text holds the findings of the certificate.
+class RefusedScene : public Exception {
+ public:
+  RefusedScene(const std::string& what, physics::Verdict verdict)
+      : Exception(what), verdict_(verdict) {}
+  physics::Verdict verdict() const noexcept { return verdict_; }
+
+ private:
+  physics::Verdict verdict_;
 };
 
 /// Validates, settles, certifies, compiles and warms a scene: the instrument's is the settled one.
 /// Realtime: no. Thread: any
 /// \throws TextError or Exception if the scene is not valid, needs a slice that the device does not
-///         have, or its verdict is refused (the text holds the findings of the certificate)
+///         have; RefusedScene
 std::unique_ptr<Performer> makePerformer(scene::Scene scene,
                                          const physics::Rates& rates,
                                          const physics::CompileOptions& options,

@@ -2,25 +2,34 @@
 #include "ros/loader.hpp"
 
 #include <exception>
+#include <utility>
 
 #include <ros/console.h>
 
 #include "ergotic/exception.hpp"
-#include "ergotic/physics/settle.hpp"
 #include "ros/model_loader.hpp"
 
 namespace ergotic::node {
 namespace {
 
 /// \param[out] verdict  also set when the model is refused for its sake
-std::unique_ptr<station::Performer> makePerformer(const scene::Scene& scene,
+std::unique_ptr<station::Performer> makePerformer(scene::Scene scene,
                                                   const physics::Rates& rates,
                                                   const physics::CompileOptions& options,
                                                   const station::PerformerPolicy& policy,
                                                   std::string& verdict) {
-  const physics::Settled settled = physics::settle(scene, rates);
-  verdict = physics::toString(physics::certify(settled.scene, rates).verdict);
-  return station::makePerformer(scene, rates, options, policy);
+  try {
+    auto performer = station::makePerformer(std::move(scene), rates, options, policy);
+    verdict = physics::toString(performer->certificate.verdict);
+    return performer;
+  } catch (const station::RefusedScene& refusal) {
+    verdict = physics::toString(refusal.verdict());
+    throw;
+  }
+}
+
+void logStage(const std::string& stage) {
+  ROS_INFO_STREAM(stage);
 }
 
 double audioRateFor(const Parameters& parameters) {
@@ -69,26 +78,29 @@ void Loader::loadFromParameters() {
   }
 }
 
-Answer Loader::play(const scene::Scene& scene, bool allow_unproven, std::string& verdict) {
+Answer Loader::play(scene::Scene scene, bool allow_unproven, std::string& verdict) {
   const auto terms = operator_.terms();
   if (!terms) {
-    return start(scene, allow_unproven, verdict);
+    return start(std::move(scene), allow_unproven, verdict);
   }
   station::PerformerPolicy policy;
+  policy.on_stage = logStage;
   policy.allow_unproven = allow_unproven || terms->parameters.allow_unproven;
   policy.slices = terms->slices;
   const physics::Rates rates =
       physics::chooseRates(scene, terms->rates.audio_hz, terms->rates.gesturalHz());
-  return operator_.swap(makePerformer(scene, rates, terms->parameters.compile, policy, verdict));
+  return operator_.swap(
+      makePerformer(std::move(scene), rates, terms->parameters.compile, policy, verdict));
 }
 
-Answer Loader::start(const scene::Scene& scene, bool allow_unproven, std::string& verdict) {
+Answer Loader::start(scene::Scene scene, bool allow_unproven, std::string& verdict) {
   const Parameters parameters = readParameters(node_);
   station::PerformerPolicy policy;
+  policy.on_stage = logStage;
   policy.allow_unproven = allow_unproven || parameters.allow_unproven;
   const physics::Rates rates =
       physics::chooseRates(scene, audioRateFor(parameters), parameters.gestural_rate);
-  auto performer = makePerformer(scene, rates, parameters.compile, policy, verdict);
+  auto performer = makePerformer(std::move(scene), rates, parameters.compile, policy, verdict);
   station::Performer* const first = performer.get();
   return operator_.begin(std::make_unique<Engine>(parameters, std::move(performer)), first);
 }

@@ -30,8 +30,8 @@ class Loader {
   void loadFromParameters();
 
  private:
-  Answer play(const scene::Scene& scene, bool allow_unproven, std::string& verdict);
-  Answer start(const scene::Scene& scene, bool allow_unproven, std::string& verdict);
+  Answer play(scene::Scene scene, bool allow_unproven, std::string& verdict);
+  Answer start(scene::Scene scene, bool allow_unproven, std::string& verdict);
 
   ::ros::NodeHandle node_;
   Operator& operator_;

@@ -3,6 +3,7 @@
 
 #include <iostream>
 #include <map>
+#include <memory>
 #include <utility>
 
 #include "ergotic/physics/certify.hpp"
@@ -13,6 +14,7 @@
 #include "tools/lib/check_names.hpp"
 #include "tools/lib/check_sections.hpp"
 #include "tools/lib/cost.hpp"
+#include "tools/lib/load_figures.hpp"
 #include "tools/lib/report.hpp"
 #include "tools/lib/target.hpp"
 
@@ -148,6 +150,25 @@ Report stringsOf(const Scene& scene, const physics::Rates& rates) {
   return report;
 }
 
+/// For instruments that live shorter than it does.
+std::shared_ptr<const Scene> shared(const Scene& scene) {
+  return {std::shared_ptr<const Scene>(), &scene};
+}
+
+std::string sizeText(const Scene& scene) {
+  return std::to_string(scene.mats.size() + scene.lias.size()) + " modules and links";
+}
+
+/// Ends with the program that `options` ask for, sharing the scene as in the station.
+Report loadOf(const Scene& scene,
+              const physics::Rates& rates,
+              const physics::CompileOptions& options,
+              LoadFigures& load) {
+  load.begin("compile_s", "compile " + sizeText(scene));
+  const auto instrument = physics::compile(shared(scene), rates, options);
+  return load.finish(scene.mats.size() + scene.lias.size());
+}
+
 Report texts(const std::vector<std::string>& lines) {
   Report report = Report::list();
   for (const std::string& line : lines) {
@@ -175,7 +196,7 @@ void addProgram(const Scene& scene,
   Report costs = Report::map();
   for (const auto precision : {physics::Precision::kFloat, physics::Precision::kDouble}) {
     options.precision = precision;
-    const auto instrument = physics::compile(scene, rates, options);
+    const auto instrument = physics::compile(shared(scene), rates, options);
     if (precision == chosen) {
       report.add("program", programOf(*instrument));
     }
@@ -193,7 +214,8 @@ void addProgram(const Scene& scene,
 Report reportOn(const physics::Settled& settled,
                 const physics::Rates& rates,
                 const physics::Certificate& certificate,
-                const physics::CompileOptions& options) {
+                const physics::CompileOptions& options,
+                Report load) {
   const Scene& scene = settled.scene;
   std::vector<std::string> warnings = scene.warnings;
   const std::string note = conversionNote(scene, rates);
@@ -215,7 +237,8 @@ Report reportOn(const physics::Settled& settled,
       .add("outputs", outputsOf(scene))
       .add("parameters", parametersOf(scene))
       .add("strings", stringsOf(scene, rates))
-      .add("filters", filtersReport(scene, rates));
+      .add("filters", filtersReport(scene, rates))
+      .add("load", std::move(load));
   addProgram(scene, rates, options, report);
   return report.add("notes", texts(settled.notes)).add("warnings", texts(warnings));
 }
@@ -236,14 +259,19 @@ void addOptions(CLI::App& app, CheckOptions& options) {
 }
 
 int check(const CheckOptions& options) {
-  const Scene scene = readScene(options.scene);
+  LoadFigures load;
+  load.begin("read_s", "read " + options.scene.scene);
+  Scene scene = readScene(options.scene);
   const physics::Rates rates = chosenRates(scene, options.scene);
-  const physics::CompileOptions compile = chosenOptions(options.compile);
-  const physics::Settled settled = physics::settle(scene, rates);
+  load.begin("settle_s", "settle " + sizeText(scene));
+  const physics::Settled settled = physics::settle(std::move(scene), rates);
+  load.begin("certify_s", "certify " + sizeText(settled.scene));
   const physics::Certificate certificate = physics::certify(settled.scene, rates);
-  Report report = reportOn(settled, rates, certificate, compile);
+  const physics::CompileOptions compile = chosenOptions(options.compile);
+  Report report =
+      reportOn(settled, rates, certificate, compile, loadOf(settled.scene, rates, compile, load));
   if (!options.target.empty()) {
-    report.add("target", targetReport(scene, rates, compile, options.target,
+    report.add("target", targetReport(readScene(options.scene), rates, compile, options.target,
                                       freedomOf(options.scene, options.compile)));
   }
   if (!options.filter_response.empty()) {

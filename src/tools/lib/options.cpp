@@ -74,9 +74,7 @@ scene::Overrides overridesOf(const std::vector<std::string>& set) {
 }
 
 scene::Scene readScene(const SceneOptions& options) {
-  scene::Scene scene = scene::readSceneFile(options.scene, overridesOf(options.set));
-  scene::validate(scene);
-  return scene;
+  return scene::readSceneFile(options.scene, overridesOf(options.set));
 }
 
 physics::Rates chosenRates(const scene::Scene& scene, const SceneOptions& options) {

@@ -32,4 +32,21 @@ void Progress::show(std::int64_t done) {
   std::cerr << "\r[" << bar << "] " << percent << '%' << std::flush;
 }
 
+StageLine::StageLine() : visible_(isatty(STDERR_FILENO) != 0) {}
+
+void StageLine::show(const std::string& stage) {
+  clear();
+  if (visible_) {
+    std::cerr << stage << " ..." << std::flush;
+    width_ = stage.size() + 4;
+  }
+}
+
+void StageLine::clear() {
+  if (width_ > 0) {
+    std::cerr << '\r' << std::string(width_, ' ') << '\r' << std::flush;
+    width_ = 0;
+  }
+}
+
 }  // namespace ergotic::tools

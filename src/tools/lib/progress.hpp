@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <string>
 
 namespace ergotic::tools {
 
@@ -19,6 +21,22 @@ class Progress {
   std::int64_t total_;
   bool visible_;
   int shown_percent_ = -1;
+};
+
+/// One line on stderr that says what is being done; nothing where stderr is not a terminal.
+class StageLine {
+ public:
+  StageLine();
+  ~StageLine() { clear(); }
+  StageLine(const StageLine&) = delete;
+  StageLine& operator=(const StageLine&) = delete;
+
+  void show(const std::string& stage);
+  void clear();
+
+ private:
+  bool visible_;
+  std::size_t width_ = 0;  // of what stands there
 };
 
 }  // namespace ergotic::tools

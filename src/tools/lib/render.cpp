@@ -68,15 +68,22 @@ std::unique_ptr<Player> playScene(const RenderOptions& options) {
   if (options.scene.scene.empty()) {
     throw CLI::ValidationError("SCENE", "needed without a recording");
   }
+  StageLine stages;
+  stages.show("read " + options.scene.scene);
   scene::Scene scene = readScene(options.scene);
   physics::Rates rates = chosenRates(scene, options.scene);
   physics::CompileOptions compile = chosenOptions(options.compile);
   compile.metered = options.energies;
   if (!options.target.empty()) {
+    stages.clear();
     meetTarget(options, scene, rates, compile);
   }
   SoundInputs inputs(options.inputs, scene, rates.audio_hz);
-  auto performer = station::makePerformer(scene, rates, compile, policyOf(options));
+  const std::string note = conversionNote(scene, rates);
+  station::PerformerPolicy policy = policyOf(options);
+  policy.on_stage = [&](const std::string& stage) { stages.show(stage); };
+  auto performer = station::makePerformer(std::move(scene), rates, compile, policy);
+  stages.clear();
   for (const std::string& warning : performer->warnings) {
     say(warning);
   }
@@ -85,7 +92,6 @@ std::unique_ptr<Player> playScene(const RenderOptions& options) {
     say(std::string("warning: the verdict on this scene is ") +
         physics::toString(performer->certificate.verdict));
   }
-  const std::string note = conversionNote(scene, rates);
   if (!note.empty()) {
     say(note);
   }

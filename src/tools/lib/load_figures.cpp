@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/lib/load_figures.hpp"
+
+#include <malloc.h>
+
+#include <algorithm>
+
+namespace ergotic::tools {
+namespace {
+
+std::size_t heapInUse() {
+  const struct mallinfo2 info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
+
+}  // namespace
+
+LoadFigures::LoadFigures() : heap_(heapInUse()) {}
+
+void LoadFigures::begin(const std::string& key, const std::string& what) {
+  end();
+  key_ = key;
+  line_.show(what);
+  begun_ = Clock::now();
+}
+
+void LoadFigures::end() {
+  if (!key_.empty()) {
+    report_.add(key_, Report::number(std::chrono::duration<double>(Clock::now() - begun_).count()));
+  }
+}
+
+Report LoadFigures::finish(std::size_t parts) {
+  end();
+  line_.clear();
+  const std::size_t heap = heapInUse();
+  const std::size_t grown = heap - std::min(heap, heap_);
+  const auto each = static_cast<double>(std::max<std::size_t>(parts, 1));
+  report_.add("bytes", Report::count(grown))
+      .add("bytes_per_module_or_link", Report::number(static_cast<double>(grown) / each));
+  return report_;
+}
+
+}  // namespace ergotic::tools

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+#include "tools/lib/progress.hpp"
+#include "tools/lib/report.hpp"
+
+namespace ergotic::tools {
+
+/// What it takes to load a scene: the time of every stage and what stays in memory. Says on the
+/// terminal what is being done.
+class LoadFigures {
+ public:
+  LoadFigures();
+
+  /// Ends the stage before. \param key  of its time in the report, as in `certify_s`
+  void begin(const std::string& key, const std::string& what);
+  /// Ends the last stage.
+  /// \param parts  modules and links that the memory is for
+  Report finish(std::size_t parts);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void end();
+
+  StageLine line_;
+  std::string key_;
+  Clock::time_point begun_;
+  std::size_t heap_;  // bytes in use when all began
+  Report report_ = Report::map();
+};
+
+}  // namespace ergotic::tools

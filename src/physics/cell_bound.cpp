@@ -69,6 +69,14 @@ class CellBound {
     }
   }
 
+  /// A link to a fixed point most likely lies where a cell has corners that do not move; any
+  /// weights make a bound.
+  double weightOf(int cell, const NetworkBound::Link& link) const {
+    const auto& nodes = network_.cells()[at(cell)];
+    return link.ends.size() == 1 ? static_cast<double>(std::count(nodes.begin(), nodes.end(), -1))
+                                 : 1.0;
+  }
+
   void share(const NetworkBound::Link& link) {
     const double load = network_.load(link);
     if (!(load > 0.0)) {
@@ -82,9 +90,14 @@ class CellBound {
       }
       return;
     }
-    const double part = load / static_cast<double>(found_.size());
+    double weights = 0.0;
+    for (const int cell : found_) {
+      weights += weightOf(cell, link);
+    }
     for (const int cell : found_) {
       const auto& nodes = network_.cells()[at(cell)];
+      const double part = load * (weights > 0.0 ? weightOf(cell, link) / weights
+                                                : 1.0 / static_cast<double>(found_.size()));
       Eigen::Vector4d u = Eigen::Vector4d::Zero();
       for (const Share& end : link.ends) {
         u[std::find(nodes.begin(), nodes.end(), end.node) - nodes.begin()] = end.weight;

@@ -6,7 +6,7 @@
 namespace ergotic::physics {
 
 /// Upper bound of the largest eigenvalue from the cells of the network's grids: the network is cut
-/// into cells, every link goes in equal parts to the cells that hold all its nodes (to one of its
+/// into cells, every link goes in parts to the cells that hold all its nodes (to one of its
 /// own if none does), every mass to its cells by how much they load it, and the largest eigenvalue
 /// of a cell by itself is a bound of the whole. With every link a cell of its own that would be the
 /// link bound; cells of four see that the diagonals of a net and its sides cannot all be strained

@@ -320,7 +320,7 @@ TEST(CertifyTest, ALargeMeshWithDiagonalsIsJudgedByItsCells) {
         "mesh.yaml");
     const Certificate c = certify(mesh, {kRate, 1});
     EXPECT_GT(c.sections[0].link_bound, 1.3 * lambda);
-    EXPECT_NEAR(c.sections[0].lambda, lambda, 0.001 * lambda);
+    EXPECT_NEAR(c.sections[0].lambda, lambda, 0.01 * lambda);
     EXPECT_GE(c.sections[0].lambda, lambda * std::pow(std::cos(kPi / 318.0), 2.0));
     EXPECT_EQ(c.verdict, lambda < 4.0 ? Verdict::kPassive : Verdict::kUnstable);
     const double advised = c.sections[0].stable_rate_hz;

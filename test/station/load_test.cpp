@@ -37,7 +37,7 @@ TEST(LoadTest, AModuleOrLinkTakesAtMostTwoHundredBytes) {
   if (!test::AllocationScope::isAvailable()) {
     GTEST_SKIP() << "the heap is the sanitizer's";
   }
-  const std::string text = scene(50, 32);
+  const std::string text = scene(60, 32);
   const auto bytesOf = [](const std::string& what, std::size_t& parts) {
     const test::AllocationScope scope;
     const auto performer =

@@ -320,7 +320,8 @@ class Finder {
     const double stiffness =
         unit * (lia.type == LiaType::kPowerContact ? scene_.valueOf(lia.stiffness)
                                                    : slopesOf(scene_, lia).stiffness.highest);
-    const double exponent = lia.type == LiaType::kPowerContact ? scene_.valueOf(lia.exponent) : 1.0;
+    const double exponent =
+        lia.type == LiaType::kPowerContact ? scene_.valueOf(lia.law->exponent) : 1.0;
     if (stiffness > 0.0 && std::isfinite(touch.lightest())) {
       parts_.push_back(std::make_unique<ContactPart>(touch, stiffness, exponent, unit_));
     }

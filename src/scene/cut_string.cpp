@@ -74,27 +74,29 @@ class Cutter {
   static double halfSine(int masses) { return std::sin(M_PI / (2.0 * (masses + 1))); }
 
   /// Between two of the old modules, `place` counted in their spacings.
-  Eigen::Vector3d between(Eigen::Vector3d Mat::*what, double place) const {
+  template <class What>
+  Eigen::Vector3d between(const What& what, double place) const {
     const int lower = std::min(static_cast<int>(place), string_.count - 2);
     const Mat& a = from_.mats[at(string_.first + lower)];
     const Mat& b = from_.mats[at(string_.first + lower + 1)];
-    return (1.0 - (place - lower)) * (a.*what) + (place - lower) * (b.*what);
+    return (1.0 - (place - lower)) * what(a) + (place - lower) * what(b);
   }
 
   void replaceMats() {
     const auto first = to_.mats.begin() + string_.first;
+    const Name stem(string_.name + ".");
     std::vector<Mat> mats;
     for (int i = 0; i < cut_.masses + 2; ++i) {
       const bool is_end = i == 0 || i == cut_.masses + 1;
       Mat mat = from_.mats[at(string_.first + (i == 0 ? 0 : is_end ? string_.count - 1 : 1))];
-      mat.name = string_.name + "." + std::to_string(i);
+      mat.name = stem.numbered(i);
       if (!is_end) {
         const double place = i / finer_;
         mat.mass = (1.0 / finer_) * mat.mass;
         mat.damping = (1.0 / finer_) * mat.damping;
-        mat.rest = between(&Mat::rest, place);
-        mat.position = between(&Mat::position, place);
-        mat.velocity = between(&Mat::velocity, place);
+        mat.rest = between([](const Mat& m) { return m.rest; }, place);
+        mat.position = between([](const Mat& m) { return m.position; }, place);
+        setVelocity(mat, between([](const Mat& m) { return m.push->velocity; }, place));
       }
       mats.push_back(std::move(mat));
     }
@@ -105,11 +107,12 @@ class Cutter {
 
   void replaceLias(const StringInfo& info) {
     const Lia pattern = from_.lias[at(string_.first_lia)];
+    const Name stem(string_.name + ".link.");
     std::vector<Lia> lias;
     for (int i = 0; i < linksOf(cut_); ++i) {
       const CoarseLink ends = cut_.coarse ? coarseLink(cut_.masses, i) : CoarseLink{i, i + 1, {}};
       Lia lia = pattern;
-      lia.name = string_.name + ".link." + std::to_string(i);
+      lia.name = stem.numbered(i);
       lia.a = string_.first + ends.a;
       lia.b = string_.first + ends.b;
       const bool is_plain = i <= cut_.masses;
@@ -181,12 +184,14 @@ class Cutter {
     point.type = MatType::kPoint;
     point.section = to_.mats[at(string_.first)].section;
     point.place = place;
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < at(around.count); ++i) {
       const Mat& mat = to_.mats[at(around.mats[i])];
       point.rest += around.weights[i] * mat.rest;
       point.position += around.weights[i] * mat.position;
-      point.velocity += around.weights[i] * mat.velocity;
+      velocity += around.weights[i] * mat.push->velocity;
     }
+    setVelocity(point, velocity);
     to_.mats.push_back(std::move(point));
     to_.connections.push_back(connection);
     return connection.mat;

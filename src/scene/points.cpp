@@ -86,9 +86,7 @@ int addPoint(SceneBuilder& builder, const std::string& name, Connection connecti
     point.position += around.weights[i] * mat.position;
     velocity += around.weights[i] * mat.push->velocity;
   }
-  if (!velocity.isZero(0.0)) {
-    point.push.edit().velocity = velocity;
-  }
+  setVelocity(point, velocity);
   connection.mat = builder.add(std::move(point));
   scene.connections.push_back(connection);
   return connection.mat;

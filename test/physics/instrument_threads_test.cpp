@@ -225,7 +225,7 @@ scene::Scene heavyPair() {
     for (std::size_t m = at(first); m < b.scene.mats.size(); ++m) {
       b.scene.mats[m].section = s + 2;
     }
-    b.scene.mats[at(first + 3)].velocity.x() = 1.0;
+    b.scene.mats[at(first + 3)].push.edit().velocity.x() = 1.0;
     b.spring(slow, first + 9, 100.0);
     b.hear(first + 5);
   }

@@ -72,7 +72,7 @@ class Orchestra {
     const int section = addSection("string" + std::to_string(b_.scene.sections.size()));
     const int first = b_.chain(masses, 1e-3, 2e4, 1e-3);
     moveTo(section, first);
-    b_.scene.mats[at(first + 3)].velocity.x() = 1.0;
+    b_.scene.mats[at(first + 3)].push.edit().velocity.x() = 1.0;
     b_.scene.grids.push_back({"g" + std::to_string(section), first, masses + 2, 1});
     return first;
   }
@@ -112,7 +112,7 @@ class Orchestra {
     const int section = addSection("sleeper");
     const int first = b_.cell(1e-3, 100.0, 0.05);
     moveTo(section, first);
-    b_.scene.mats[at(first)].velocity.x() = 0.01;
+    b_.scene.mats[at(first)].push.edit().velocity.x() = 0.01;
     b_.scene.sections[at(section)].sleep_energy = 1e-9;
     const int contact = b_.link(scene::LiaType::kContact, first, hand, 100.0);
     b_.scene.lias[at(contact)].width = {-5e-4};

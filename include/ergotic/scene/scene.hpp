@@ -127,6 +127,13 @@ struct Mat {
   bool matched = false;
 };
 
+/// Gives a module a velocity at the start; none takes no memory.
+inline void setVelocity(Mat& mat, const Eigen::Vector3d& velocity) {
+  if (velocity != mat.push->velocity) {
+    mat.push.edit().velocity = velocity;
+  }
+}
+
 enum class LiaType : std::uint8_t {
   kSpringDamper,  ///< (RES, FRO, REF) f = K e + Z v
   kContact,       ///< (BUT) f = K e + Z v while x_b - x_a < threshold, e = x_a - x_b + threshold

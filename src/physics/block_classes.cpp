@@ -210,7 +210,7 @@ void lookAtModules(const scene::Scene& scene, Block& block) {
     const scene::Section& section = scene.sectionOf(mat);
     block.has_cells =
         block.has_cells || mat.type == scene::MatType::kCell || section.medium.factor != 0.0;
-    block.has_drift = block.has_drift || mat.force.x() != 0.0 || section.gravity.x() != 0.0;
+    block.has_drift = block.has_drift || mat.push->force.x() != 0.0 || section.gravity.x() != 0.0;
   }
   block.has_bias = std::any_of(block.lias.begin(), block.lias.end(), [&](int l) {
     const scene::Lia& lia = scene.lias[at(l)];

@@ -110,7 +110,7 @@ Errors explicitImpact(const Impact& impact, double phase) {
   ergotic::test::SceneBuilder b;
   const int ball = b.mass(impact.mass, start - d, impact.speed);  // its first step is free
   b.link(scene::LiaType::kPowerContact, ball, b.ground(), impact.stiffness);
-  b.scene.lias.back().exponent = {impact.exponent};
+  b.scene.lias.back().law.edit().exponent = {impact.exponent};
   b.hear(ball, 0);
   b.hear(ball, 1, scene::Quantity::kForce);
   b.hear(ball, 2, scene::Quantity::kVelocity);

@@ -135,13 +135,13 @@ class Merged {
     }
     for (scene::Mat& mat : from.mats) {
       mat.section += sections;
-      mat.name += suffix;
+      mat.name = mat.name + suffix;
       scene.mats.push_back(mat);
     }
     for (scene::Lia& lia : from.lias) {
       lia.a += mats;
       lia.b += mats;
-      lia.name += suffix;
+      lia.name = lia.name + suffix;
       scene.lias.push_back(lia);
     }
     for (scene::Grid& grid : from.grids) {

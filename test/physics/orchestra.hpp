@@ -95,7 +95,7 @@ class Orchestra {
 
   void hit(int hand, int mass) {
     const int contact = b_.link(scene::LiaType::kContact, mass, hand, 5e3, 0.01);
-    b_.scene.lias[at(contact)].width = {1e-3};
+    b_.scene.lias[at(contact)].law.edit().width = {1e-3};
     b_.scene.lias[at(contact)].scheme = scene::Scheme::kGuarded;
   }
 
@@ -115,14 +115,14 @@ class Orchestra {
     b_.scene.mats[at(first)].push.edit().velocity.x() = 0.01;
     b_.scene.sections[at(section)].sleep_energy = 1e-9;
     const int contact = b_.link(scene::LiaType::kContact, first, hand, 100.0);
-    b_.scene.lias[at(contact)].width = {-5e-4};
+    b_.scene.lias[at(contact)].law.edit().width = {-5e-4};
     b_.hear(first, 2);
   }
 
   /// Makes one group of two strings.
   void bow(int one, int other) {
     const int friction = b_.link(scene::LiaType::kSmoothBow, one + 7, other + 7, 0.0, 0.2);
-    b_.scene.lias[at(friction)].width = {0.1};
+    b_.scene.lias[at(friction)].law.edit().width = {0.1};
     b_.scene.lias[at(friction)].scheme = scene::Scheme::kGuarded;
   }
 

@@ -40,9 +40,9 @@ TEST(PlainNetworkTest, MovesALossyStringAsTheInstrumentDoes) {
   for (int i = 1; i <= 40; ++i) {
     builder.scene.mats[static_cast<std::size_t>(i)].mass = {0.001 + 1e-5 * i};
   }
-  builder.scene.mats[7].velocity.x() = 1.0;
+  builder.scene.mats[7].push.edit().velocity.x() = 1.0;
   builder.scene.lias[3].rest_length = 1e-4;
-  builder.scene.mats[20].force.x() = 0.3;
+  builder.scene.mats[20].push.edit().force.x() = 0.3;
   EXPECT_LT(differenceFromInstrument(builder.scene, 500), 1e-12);
 }
 
@@ -75,9 +75,9 @@ TEST(PlainNetworkTest, MovesAStretchedChainInSpaceAsTheInstrumentDoes) {
   for (scene::Lia& lia : builder.scene.lias) {
     lia.rest_length = 0.009;
   }
-  builder.scene.mats[3].velocity = {0.1, 1.0, 0.5};
+  builder.scene.mats[3].push.edit().velocity = {0.1, 1.0, 0.5};
   builder.link(LiaType::kContact, 2, 6, 1e4, 0.1);
-  builder.scene.lias.back().width = {0.0405};
+  builder.scene.lias.back().law.edit().width = {0.0405};
   EXPECT_LT(differenceFromInstrument(builder.scene, 200), 1e-12);
 }
 

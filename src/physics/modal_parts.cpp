@@ -357,8 +357,9 @@ PartStart startOf(const scene::Scene& scene, const Rates& rates, const LinearPar
     start.velocity[i] = mat.push->velocity.x();
     const double pull = oscillatorOf(scene, mat, units).pull / (units.step * units.step);
     // The spring of a cell ends at 0, wherever the cell rests.
-    start.constant[i] = mat.push->force.x() + start.mass[i] * (scene.sections[at(section)].gravity.x() -
-                                                         pull * mat.rest.x());
+    start.constant[i] =
+        mat.push->force.x() +
+        start.mass[i] * (scene.sections[at(section)].gravity.x() - pull * mat.rest.x());
   }
   for (const int l : part.lias) {
     const scene::Lia& lia = scene.lias[at(l)];
@@ -366,7 +367,9 @@ PartStart startOf(const scene::Scene& scene, const Rates& rates, const LinearPar
     const scene::Mat& b = scene.mats[at(lia.b)];
     // Grounds stay where they are: what their displacement does is constant.
     const auto held = [](const scene::Mat& mat) { return isFree(mat) ? 0.0 : displacementOf(mat); };
-    const auto speed = [](const scene::Mat& mat) { return isFree(mat) ? mat.push->velocity.x() : 0.0; };
+    const auto speed = [](const scene::Mat& mat) {
+      return isFree(mat) ? mat.push->velocity.x() : 0.0;
+    };
     const double k = lia.stiffness.factor;
     const double rest = a.rest.x() - b.rest.x() - lia.rest_length;
     const double constant = k * (held(a) - held(b) + rest);

@@ -277,7 +277,7 @@ TEST_F(BlocksTest, LinksThatFollowAudioOrAreNotLinearStayOneByOne) {
   const int contact = b.link(scene::LiaType::kContact, first + 10, first + 70, 500.0);
   b.scene.lias[at(contact)].scheme = scene::Scheme::kGuarded;
   const int cubic = b.link(scene::LiaType::kCubic, first + 20, first + 60, 500.0);
-  b.scene.lias[at(cubic)].nonlinearity = {1e8};
+  b.scene.lias[at(cubic)].law.edit().nonlinearity = {1e8};
   for (const Block& block : findBlocks(b.scene)) {
     for (const int l : {30, contact, cubic}) {
       EXPECT_EQ(std::count(block.lias.begin(), block.lias.end(), l), 0) << l;

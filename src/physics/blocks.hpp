@@ -29,21 +29,21 @@ struct Block {
 
   Kind kind = Kind::kLattice;
   int section = 0;
-  int first = 0;               ///< slot of the first element
-  int guard = 0;               ///< slots before and after that are always 0
-  int elements = 0;            ///< a multiple of kLanes
-  std::vector<int> mats;       ///< [elements] -1: none, always 0; until slots are given
-  std::vector<int> lias;       ///< links among them; until they are in runs
-  std::vector<int> offsets;    ///< in elements, > 0; those of a plate first, else ascending
-  std::vector<int> reference;  ///< [offsets] the link whose coefficients uniform segments share
+  int first = 0;                  ///< slot of the first element
+  int guard = 0;                  ///< slots before and after that are always 0
+  int elements = 0;               ///< a multiple of kLanes
+  std::vector<int> mats;          ///< [elements] -1: none, always 0; until slots are given
+  std::vector<int> lias;          ///< links among them; until they are in runs
+  std::vector<int> offsets;       ///< in elements, > 0; those of a plate first, else ascending
+  std::vector<int> reference;     ///< [offsets] the link whose coefficients uniform segments share
   std::vector<Segment> segments;  ///< from the first free module to the last
-  bool has_cells = false;  ///< or masses in a medium
-  bool has_drift = false;  ///< constant forces or gravity
-  bool has_bias = false;   ///< links that are not at rest where their modules are
-  bool one_ratio = false;  ///< Z / K of all links is one number, whatever the parameters are
-  int pitch = 0;           ///< > 0: the first diagonals are those of a plate with rows this long
-  bool is_alone = false;   ///< nothing else acts on it while it runs: it goes through a tick alone
-  bool per_lane = false;   ///< chains: all links of a lane have the same coefficients
+  bool has_cells = false;         ///< or masses in a medium
+  bool has_drift = false;         ///< constant forces or gravity
+  bool has_bias = false;          ///< links that are not at rest where their modules are
+  bool one_ratio = false;         ///< Z / K of all links is one number, whatever the parameters are
+  int pitch = 0;          ///< > 0: the first diagonals are those of a plate with rows this long
+  bool is_alone = false;  ///< nothing else acts on it while it runs: it goes through a tick alone
+  bool per_lane = false;  ///< chains: all links of a lane have the same coefficients
   std::shared_ptr<const SparseProgram> program;  ///< of kSparse, links in the order of `lias`
   std::string shape;                             ///< for people: what it is and why
 };

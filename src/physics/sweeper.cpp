@@ -131,39 +131,56 @@ template <class Real>
 double Sweeper<Real>::lattice(const Block& block,
                               const BlockCoefficients<Real>& c,
                               const Arrays& a) const noexcept {
+  const int band = bandOf(block, kBand);
   double twice = 0.0;
-  for (int band = 0; band * bandOf(block) < block.elements; ++band) {
-    twice += stepBand(block, c, a, band);
+  for (int index = 0; index * band < block.elements; ++index) {
+    twice += stepBand(block, c, a, band, index);
   }
   return twice;
 }
 
+/// Where its numbers do not fit into the second-level cache.
 template <class Real>
-Block::Segment Sweeper<Real>::knownAfter(const Block& block, int band) noexcept {
-  const int begin = band * bandOf(block);
-  const int end = begin + bandOf(block);
-  return {band == 0 ? 0 : begin - block.guard,
+bool Sweeper<Real>::goesInWaves(const Block& block) noexcept {
+  const auto different = [](const Block::Segment& segment) { return !segment.uniform; };
+  if (block.kind != Block::Kind::kLattice) {
+    return false;
+  }
+  std::size_t numbers = 6;  // x, d, d_last, x + ratio d, f, inverse mass
+  if (std::any_of(block.segments.begin(), block.segments.end(), different)) {
+    numbers += block.offsets.size() * (block.one_ratio ? 1 : 2);
+  }
+  return numbers * sizeof(Real) * at(block.elements) > kFitsBytes;
+}
+
+template <class Real>
+Block::Segment Sweeper<Real>::knownAfter(const Block& block, int band, int index) noexcept {
+  const int begin = index * band;
+  const int end = begin + band;
+  return {index == 0 ? 0 : begin - block.guard,
           end >= block.elements ? block.elements : end - block.guard, false};
 }
 
 template <class Real>
 double Sweeper<Real>::sweepBand(std::size_t b,
                                 int band,
+                                int index,
                                 const CoefficientsOf<Real>& c,
                                 State<Real>& state) const noexcept {
-  return 0.5 * stepBand(layout_.blocks[b], c.blocks[b], arraysOf(b, c, state), band);
+  return 0.5 * stepBand(layout_.blocks[b], c.blocks[b], arraysOf(b, c, state), band, index);
 }
 
 template <class Real>
 double Sweeper<Real>::stepBand(const Block& block,
                                const BlockCoefficients<Real>& c,
                                const Arrays& a,
-                               int band) const noexcept {
-  const int begin = band * bandOf(block);
-  const int end = std::min(begin + bandOf(block), block.elements);
+                               int band,
+                               int index) const noexcept {
+  const int begin = index * band;
+  const int end = std::min(begin + band, block.elements);
   const double twice = kernels_.move(a.move, std::max(begin, block.segments.front().begin),
                                      std::min(end, block.segments.back().end));
-  const Block::Segment known = knownAfter(block, band);
+  const Block::Segment known = knownAfter(block, band, index);
   return twice + links(block, c, a, known.begin, known.end);
 }
 

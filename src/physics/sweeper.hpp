@@ -35,21 +35,18 @@ class Sweeper {
                  State<Real>& state,
                  const Visit& visit) const noexcept {
     const Block& block = layout_.blocks[b];
-    const int bands = (block.elements + bandOf(block) - 1) / bandOf(block);
     double lost = 0.0;
-    if (block.kind != Block::Kind::kLattice || bands < 2 * steps) {
+    if (!goesInWaves(block)) {
       for (int t = 0; t < steps; ++t) {
         lost += sweep(b, c, state);
         visit(t, block.first, block.first + block.elements);
       }
       return lost;
     }
-    for (int wave = 0; wave < bands + steps - 1; ++wave) {
-      for (int t = std::max(0, wave - bands + 1); t < std::min(steps, wave + 1); ++t) {
-        const Block::Segment known = knownAfter(block, wave - t);
-        lost += sweepBand(b, wave - t, c, state);
-        visit(t, block.first + known.begin, block.first + known.end);
-      }
+    const int band = bandOf(block, kBandInWaves);
+    const int at_once = std::max(2, kWave / band);
+    for (int t = 0; t < steps; t += at_once) {
+      lost += wave(b, band, t, std::min(steps, t + at_once), c, state, visit);
     }
     return lost;
   }
@@ -57,22 +54,55 @@ class Sweeper {
  private:
   // Elements whose forces follow while their positions are still in the first-level cache.
   static constexpr int kBand = 128 * kernels::kLanes;
+  // In waves the bands of all steps together, kWave, lie in the second-level cache.
+  static constexpr int kBandInWaves = 64 * kernels::kLanes;
+  static constexpr int kWave = 512 * kernels::kLanes;
+  static constexpr int kFitsBytes = 1'000'000;  // into that cache, with room for others
 
   /// The arrays of a block from its first element on, and what its links are.
   struct Arrays;
 
-  /// Elements that move together: more than twice as many as a link can span.
-  static int bandOf(const Block& block) noexcept { return std::max(kBand, 2 * block.guard); }
-  /// Elements whose forces are known once a band has moved.
-  static Block::Segment knownAfter(const Block& block, int band) noexcept;
+  static bool goesInWaves(const Block& block) noexcept;
+  /// Elements that move together: at least twice as many as a link can span.
+  static int bandOf(const Block& block, int wanted) noexcept {
+    return std::max(wanted, 2 * block.guard);
+  }
+  /// Elements whose forces are known once band number `index` has moved.
+  static Block::Segment knownAfter(const Block& block, int band, int index) noexcept;
+
+  /// Steps `from`...`to` - 1. A band moves once the one behind it knows its forces of the step
+  /// before.
+  template <class Visit>
+  double wave(std::size_t b,
+              int band,
+              int from,
+              int to,
+              const CoefficientsOf<Real>& c,
+              State<Real>& state,
+              const Visit& visit) const noexcept {
+    const Block& block = layout_.blocks[b];
+    const int bands = (block.elements + band - 1) / band;
+    const int steps = to - from;
+    double lost = 0.0;
+    for (int front = 0; front < bands + steps - 1; ++front) {
+      for (int t = std::max(0, front - bands + 1); t < std::min(steps, front + 1); ++t) {
+        const Block::Segment known = knownAfter(block, band, front - t);
+        lost += sweepBand(b, band, front - t, c, state);
+        visit(from + t, block.first + known.begin, block.first + known.end);
+      }
+    }
+    return lost;
+  }
   double sweepBand(std::size_t b,
                    int band,
+                   int index,
                    const CoefficientsOf<Real>& c,
                    State<Real>& state) const noexcept;
   double stepBand(const Block& block,
                   const BlockCoefficients<Real>& c,
                   const Arrays& a,
-                  int band) const noexcept;
+                  int band,
+                  int index) const noexcept;
 
   Arrays arraysOf(std::size_t block,
                   const CoefficientsOf<Real>& c,

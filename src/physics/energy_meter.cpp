@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "stored_energy.hpp"
+
 namespace ergotic::physics {
 namespace {
 
@@ -43,6 +45,10 @@ EnergyMeter<Real>::EnergyMeter(const scene::Scene& scene, const Layout& layout, 
   for (const DecimatedPoint& point : layout.decimations) {
     coupling_of_decimation_.push_back(couple(point.section, point.of.section));
   }
+  scratch_ = make();
+  if (!state.isMetered()) {
+    return;
+  }
   Arena& arena = state.arena();
   books_at_ = arena.add<SectionBooks>("section_energy", layout.sections.size());
   forced_at_ = arena.add<Feeding>("slice_forces", forced_.size());
@@ -51,14 +57,15 @@ EnergyMeter<Real>::EnergyMeter(const scene::Scene& scene, const Layout& layout, 
   decimations_at_ = arena.add<Feeding>("decimated_forces", coordinatesOf(layout.decimations));
   decimation_work_at_ = arena.add<double>("decimated_work", layout.decimations.size());
   totals_at_ = arena.add<Totals>("energy_totals", 1);
-  scratch_ = make();
 }
 
 template <class Real>
 void EnergyMeter<Real>::addDissipated(int section,
                                       double energy,
                                       State<Real>& state) const noexcept {
-  state.arena().template at<SectionBooks>(books_at_)[section].dissipated += energy;
+  if (state.isMetered()) {
+    state.arena().template at<SectionBooks>(books_at_)[section].dissipated += energy;
+  }
 }
 
 template <class Real>
@@ -108,6 +115,9 @@ template <class Real>
 void EnergyMeter<Real>::endFrame(const Group& group,
                                  std::int64_t now,
                                  State<Real>& state) const noexcept {
+  if (!state.isMetered()) {
+    return;
+  }
   auto* books = state.arena().template at<SectionBooks>(books_at_);
   auto* decimated = state.arena().template at<double>(decimation_work_at_);
   collectPointForces(group, state);
@@ -142,69 +152,12 @@ void EnergyMeter<Real>::collectPointForces(const Group& group, State<Real>& stat
   }
 }
 
-/// M v^2 / 2 with the velocity of this instant: that of the last step and half of what the present
-/// force adds.
-template <class Real>
-double EnergyMeter<Real>::kinetic(const SectionRange& range,
-                                  const MassCoefficients<Real>& c,
-                                  const State<Real>& state) const noexcept {
-  double energy = 0.0;
-  forEachFree(range, [&](int s) {
-    const std::size_t i = at(s);
-    if (c.inverse_mass[i] == Real(0)) {
-      return;  // a ground
-    }
-    const auto d = static_cast<double>(state.d()[s]);
-    const auto x = static_cast<double>(state.x()[s]);
-    const auto inverse = static_cast<double>(c.inverse_mass[i]);
-    const double gain = inverse * static_cast<double>(state.f()[s]) +
-                        static_cast<double>(c.drift[i]) - static_cast<double>(c.pull[i]) * x -
-                        (1.0 - static_cast<double>(c.keep[i])) * d;
-    energy += d * (d + gain) / inverse;
-  });
-  return 0.5 * energy;
-}
-
-/// Springs of cells, gravity and constant forces.
-template <class Real>
-double EnergyMeter<Real>::potential(const SectionRange& range,
-                                    const MassCoefficients<Real>& c,
-                                    const State<Real>& state) const noexcept {
-  double energy = 0.0;
-  forEachFree(range, [&](int s) {
-    const std::size_t i = at(s);
-    if (c.inverse_mass[i] == Real(0)) {
-      return;
-    }
-    const auto x = static_cast<double>(state.x()[s]);
-    energy += x * (0.5 * static_cast<double>(c.pull[i]) * x - static_cast<double>(c.drift[i])) /
-              static_cast<double>(c.inverse_mass[i]);
-  });
-  return energy;
-}
-
-/// Plain runs store K e^2 / 2 exactly.
-template <class Real>
-double EnergyMeter<Real>::springs(const LinkRun& run,
-                                  const RunCoefficients<Real>& c,
-                                  const State<Real>& state) const noexcept {
-  const std::size_t links = run.ends.size();
-  double energy = 0.0;
-  for (std::size_t l = 0; l < links; ++l) {
-    const auto k = static_cast<double>(c.fields[l]);
-    const double e = static_cast<double>(state.x()[run.ends[l].a] - state.x()[run.ends[l].b] +
-                                         c.fields[2 * links + l]);
-    energy += k * e * e;
-  }
-  return 0.5 * energy;
-}
-
 template <class Real>
 double EnergyMeter<Real>::storedIn(int section,
                                    const CoefficientsOf<Real>& c,
                                    const State<Real>& state) const noexcept {
   const SectionRange& range = layout_.sections[at(section)];
-  double energy = kinetic(range, c.masses, state) + potential(range, c.masses, state);
+  double energy = kineticOf(range, c.masses, state) + potentialOf(range, c.masses, state);
   for (std::size_t r = 0; r < layout_.runs.size(); ++r) {
     if (coupling_of_run_[r] == kInside && layout_.runs[r].section == section) {
       energy += storedIn(r, c, state);
@@ -218,7 +171,13 @@ double EnergyMeter<Real>::storedIn(std::size_t run,
                                    const CoefficientsOf<Real>& c,
                                    const State<Real>& state) const noexcept {
   if (!remembers(layout_.runs[run])) {
-    return springs(layout_.runs[run], c.runs[run], state);
+    return springsOf(layout_.runs[run], c.runs[run], state);
+  }
+  if (!state.isMetered()) {
+    const LinkRun& asked = layout_.runs[run];
+    const bool is_spring = asked.law == Law::kSpringDamper && !asked.guarded;
+    return is_spring && coupling_of_run_[run] == kInside ? springsOf(asked, c.runs[run], state)
+                                                         : 0.0;
   }
   const kernels::Work work = workOf(run, state);
   return work.initial + work.stored;
@@ -238,13 +197,17 @@ template <class Real>
 void EnergyMeter<Real>::addSections(const CoefficientsOf<Real>& c,
                                     const State<Real>& state,
                                     Energies& to) const noexcept {
-  const auto* books = state.arena().template at<SectionBooks>(books_at_);
   for (std::size_t s = 0; s < layout_.sections.size(); ++s) {
-    to.sections[s] = {kinetic(layout_.sections[s], c.masses, state),
-                      potential(layout_.sections[s], c.masses, state),
-                      books[s].dissipated,
-                      books[s].from_device,
-                      books[s].from_inputs,
+    const SectionRange& range = layout_.sections[s];
+    SectionBooks books{};
+    if (state.isMetered()) {
+      books = state.arena().template at<SectionBooks>(books_at_)[s];
+    }
+    to.sections[s] = {kineticOf(range, c.masses, state),
+                      potentialOf(range, c.masses, state),
+                      books.dissipated,
+                      books.from_device,
+                      books.from_inputs,
                       0.0};
   }
 }
@@ -280,6 +243,9 @@ void EnergyMeter<Real>::addLinks(const CoefficientsOf<Real>& c,
 /// The work of a run, with that of the steps under way.
 template <class Real>
 kernels::Work EnergyMeter<Real>::workOf(std::size_t r, const State<Real>& state) const noexcept {
+  if (!state.isMetered()) {
+    return {};
+  }
   const LinkRun& run = layout_.runs[r];
   kernels::Work work = state.work()[r];
   const bool is_slow_done = layout_.isBetweenSlowSteps(run, state.frame());
@@ -310,6 +276,9 @@ kernels::Work EnergyMeter<Real>::workOf(std::size_t r, const State<Real>& state)
 /// What moves modules: the books, and the steps under way.
 template <class Real>
 void EnergyMeter<Real>::addSources(const State<Real>& state, Energies& to) const noexcept {
+  if (!state.isMetered()) {
+    return;
+  }
   const auto* decimated = state.arena().template at<double>(decimation_work_at_);
   const auto give = [&](std::size_t p, double work) {
     to.couplings[coupling_of_decimation_[p]].breathing += work;
@@ -361,25 +330,36 @@ double EnergyMeter<Real>::collect(const CoefficientsOf<Real>& c,
 
 template <class Real>
 void EnergyMeter<Real>::start(const CoefficientsOf<Real>& c, State<Real>& state) noexcept {
-  totals(state).reference = collect(c, state, scratch_);
+  if (state.isMetered()) {
+    totals(state).reference = collect(c, state, scratch_);
+  }
 }
 
 template <class Real>
 void EnergyMeter<Real>::beginChange(const CoefficientsOf<Real>& c, State<Real>& state) noexcept {
-  totals(state).before_change = collect(c, state, scratch_);
+  if (state.isMetered()) {
+    totals(state).before_change = collect(c, state, scratch_);
+  }
 }
 
 template <class Real>
 void EnergyMeter<Real>::endChange(const CoefficientsOf<Real>& c, State<Real>& state) noexcept {
-  totals(state).from_parameters += collect(c, state, scratch_) - totals(state).before_change;
+  if (state.isMetered()) {
+    totals(state).from_parameters += collect(c, state, scratch_) - totals(state).before_change;
+  }
 }
 
 template <class Real>
 void EnergyMeter<Real>::read(const CoefficientsOf<Real>& c,
                              const State<Real>& state,
                              Energies& to) const noexcept {
-  const Totals& totals = *state.arena().template at<Totals>(totals_at_);
-  to.residual = newton_ * (collect(c, state, to) - totals.reference - totals.from_parameters);
+  const double balance = collect(c, state, to);
+  Totals totals{};
+  totals.reference = balance;
+  if (state.isMetered()) {
+    totals = *state.arena().template at<Totals>(totals_at_);
+  }
+  to.residual = newton_ * (balance - totals.reference - totals.from_parameters);
   to.from_parameters = newton_ * totals.from_parameters;
   to.stored *= newton_;
   for (SectionEnergy& s : to.sections) {

@@ -13,7 +13,8 @@ namespace ergotic::physics {
 
 /// Keeps the books of energy. Links book their own work while they step (link_kernels.hpp); this
 /// adds what comes in through slices, driven modules, force inputs and moving places, and works the
-/// balance out from positions. Source: docs/physics.md, "Energy".
+/// balance out from positions. Unmetered it books nothing, and knows what positions alone say.
+/// Source: docs/physics.md, "Energy".
 template <class Real>
 class EnergyMeter {
  public:
@@ -25,7 +26,9 @@ class EnergyMeter {
 
   /// Books the force of an input in this frame. `k`: index in Layout::feeds
   void addFeed(std::size_t k, Real force, State<Real>& state) const noexcept {
-    state.arena().template at<Feeding>(feeds_at_)[k].mean += force;
+    if (state.isMetered()) {
+      state.arena().template at<Feeding>(feeds_at_)[k].mean += force;
+    }
   }
 
   /// Closes the books of the sections of a group whose steps end with this frame.
@@ -82,29 +85,12 @@ class EnergyMeter {
   Totals& totals(State<Real>& state) const noexcept {
     return *state.arena().template at<Totals>(totals_at_);
   }
-  template <class Visit>
-  void forEachFree(const SectionRange& range, const Visit& visit) const noexcept {
-    for (int k = 0; k < range.dimensions; ++k) {
-      for (int slot = range.first; slot < range.fixed; ++slot) {
-        visit(slot + k * range.stride);
-      }
-    }
-  }
   /// Calls `book(section, source, decimated point, moved under the force of this step, moved under
   /// that of the last, feeding, force of this step)` for all that moves modules of a group.
   template <class StateType, class Book>
   void forEachSource(const Group& group, StateType& state, const Book& book) const noexcept;
   void collectPointForces(const Group& group, State<Real>& state) const noexcept;
 
-  double kinetic(const SectionRange& range,
-                 const MassCoefficients<Real>& c,
-                 const State<Real>& state) const noexcept;
-  double potential(const SectionRange& range,
-                   const MassCoefficients<Real>& c,
-                   const State<Real>& state) const noexcept;
-  double springs(const LinkRun& run,
-                 const RunCoefficients<Real>& c,
-                 const State<Real>& state) const noexcept;
   double storedIn(std::size_t run,
                   const CoefficientsOf<Real>& c,
                   const State<Real>& state) const noexcept;

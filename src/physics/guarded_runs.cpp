@@ -287,6 +287,9 @@ void GuardedRuns<Real>::exchange(std::size_t g,
 /// What its tanks hold is what a run stores; the rest of what it took is gone.
 template <class Real>
 void GuardedRuns<Real>::closeBooks(std::size_t g, bool starts, State<Real>& state) const noexcept {
+  if (!state.isMetered()) {
+    return;
+  }
   const GuardedState<Real>* all = states(g, state);
   const std::vector<GuardedRef>& links = members_[g].links;
   for (std::size_t l = 0; l < links.size();) {
@@ -350,7 +353,7 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::retune(const CoefficientsOf<Real>& from
   for (std::size_t g = 0; g < links_.size(); ++g) {
     const GuardedView<Real> view = viewOf(links_[g], from, state);
     const auto book = [&](double sign) {
-      for (std::size_t l = 0; l < members_[g].links.size(); ++l) {
+      for (std::size_t l = 0; state.isMetered() && l < members_[g].links.size(); ++l) {
         state.work()[members_[g].links[l].run].stored +=
             sign * static_cast<double>(states(g, state)[l].tank);
       }

@@ -209,7 +209,7 @@ class InstrumentOf final : public Instrument {
     for (const Group& group : parts_.groups.running) {
       stepper_.fillProxies(group);
     }
-    for (std::size_t r = 0; r < parts_.layout.runs.size(); ++r) {
+    for (std::size_t r = 0; options().metered && r < parts_.layout.runs.size(); ++r) {
       if (remembers(parts_.layout.runs[r]) && !parts_.layout.runs[r].guarded) {
         parts_.stepper.storeAtStart(r, parts_.coefficients->runs[r], parts_.state);
       }
@@ -334,6 +334,10 @@ std::unique_ptr<Instrument> compile(std::shared_ptr<const scene::Scene> scene,
                                     const CompileOptions& options) {
   if (!isSettled(*scene)) {
     throw Exception("scene '" + scene->name + "' is not settled: settle() comes before compile()");
+  }
+  if (options.threads < 1 || options.threads > kMaxThreads) {
+    throw Exception("threads: " + std::to_string(options.threads) + ", allowed: 1..." +
+                    std::to_string(kMaxThreads));
   }
   if (options.precision == Precision::kFloat) {
     return std::make_unique<InstrumentOf<float>>(std::move(scene), rates, options);

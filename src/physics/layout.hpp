@@ -12,6 +12,7 @@
 #include "ergotic/physics/rates.hpp"
 #include "ergotic/scene/scene.hpp"
 #include "modal_scene.hpp"
+#include "physics/kernels/spatial_kernels.hpp"
 
 namespace ergotic::physics {
 
@@ -57,10 +58,8 @@ struct End {
   Eigen::Vector3d rest = Eigen::Vector3d::Zero();
 };
 
-struct LinkEnds {
-  int a = 0;  ///< slots
-  int b = 0;
-};
+using kernels::LinkEnds;
+using kernels::LinkSpan;
 
 /// A run of links with one law, stepped with one section. Where `slow_section` is set, end a (or
 /// b) belongs to that slower section: its position is held between its steps and it receives
@@ -85,6 +84,7 @@ struct LinkRun {
   std::vector<int> lias;               ///< [links] index in Scene::lias
   std::vector<LinkEnds> ends;          ///< [links]
   std::vector<Eigen::Vector3d> rests;  ///< [links] rest of a less rest of b
+  std::vector<LinkSpan> spans;  ///< all links, as spatial kernels take them; empty: one by one
 };
 
 /// A connection: its slots follow one another.

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "ergotic/exception.hpp"
+#include "link_spans.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -251,6 +252,9 @@ void placeLinks(const scene::Scene& scene, Layout& layout) {
     if (run.block < 0) {
       target.rests.push_back(a.rest - b.rest);
     }
+  }
+  for (LinkRun& run : layout.runs) {
+    arrangeInSpans(run);
   }
 }
 

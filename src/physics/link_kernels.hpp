@@ -21,7 +21,8 @@ struct Work {
   double on_b = 0.0;
 };
 
-/// What a run that remembers keeps for each link and coordinate: [coordinates][links].
+/// What a run that remembers keeps for each link and coordinate: [coordinates][links]. Unmetered,
+/// runs inside one section do not.
 template <class Real>
 struct Memory {
   Real* elastic = nullptr;  ///< force of the last step
@@ -109,7 +110,7 @@ void addHalfWork(
   }
 }
 
-/// Books one coordinate of one link that remembers, and hands its force out.
+/// Books one coordinate of one link, if anybody asks, and hands its force out.
 template <class Real>
 void exchangeForce(const LinkRun& run,
                    const Frame<Real>& at,
@@ -118,13 +119,15 @@ void exchangeForce(const LinkRun& run,
                    int b,
                    laws::Force<Real> force) noexcept {
   const Memory<Real>& memory = at.memory;
-  const laws::Force<Real> both{force.elastic + memory.elastic[index],
-                               force.viscous + memory.viscous[index]};
   if (at.work != nullptr) {
+    const laws::Force<Real> both{force.elastic + memory.elastic[index],
+                                 force.viscous + memory.viscous[index]};
     addHalfWork(run, at.gate_a * at.moved[a], at.gate_b * at.moved[b], both, *at.work);
   }
-  memory.elastic[index] = force.elastic;
-  memory.viscous[index] = force.viscous;
+  if (memory.elastic != nullptr) {
+    memory.elastic[index] = force.elastic;
+    memory.viscous[index] = force.viscous;
+  }
   const Real sum = force.elastic + force.viscous;
   if (run.slow_section >= 0) {
     const Real share = run.slow_is_a ? at.share_a : at.share_b;
@@ -165,7 +168,7 @@ void closeSlowStep(
   memory.mean_viscous[index] = Real(0);
 }
 
-/// Scalar runs that remember: nonlinear, or between sections.
+/// Scalar runs that are nonlinear, or between sections.
 template <class Real, class Law>
 void stepScalar(const LinkRun& run, const Law& law, const Frame<Real>& at) noexcept {
   for (std::size_t l = 0; l < run.ends.size(); ++l) {

@@ -45,7 +45,7 @@ struct Parts {
       : layout(std::move(made)),
         groups(splitIntoGroups(scene, rates, layout)),
         coefficients(std::make_unique<CoefficientsOf<Real>>(scene, rates, layout)),
-        state(layout),
+        state(layout, options.metered),
         meter(scene, layout, state),
         stepper(layout, options),
         points(scene, layout, options.isa),

@@ -17,11 +17,12 @@ inline bool remembers(const LinkRun& run) {
          run.section_a != run.section_b || run.slow_section >= 0;
 }
 
-/// Everything mutable of an instrument, in one arena.
+/// Everything mutable of an instrument, in one arena. Unmetered, nothing is kept that only the
+/// books of energy need: of links, what those between sections remember.
 template <class Real>
 class State {
  public:
-  explicit State(const Layout& layout) {
+  State(const Layout& layout, bool metered) : metered_(metered) {
     const auto slots = static_cast<std::size_t>(layout.slots());
     frame_at_ = arena_.add<std::int64_t>("frame", 1);
     x_at_ = arena_.add<Real>("x", slots);
@@ -33,13 +34,14 @@ class State {
     place_d_at_ = arena_.add<Real>("place_d", coordinatesOf(layout.places));
     held_at_ = arena_.add<Real>("held_force_outputs", layout.taps.size());
     asleep_at_ = arena_.add<unsigned char>("asleep", layout.sections.size());
-    work_at_ = arena_.add<kernels::Work>("link_work", layout.runs.size());
+    work_at_ = arena_.add<kernels::Work>("link_work", metered ? layout.runs.size() : 0);
     for (const LinkRun& run : layout.runs) {
       runs_.push_back(addRun(run));
     }
   }
 
   void allocate() { arena_.allocate(); }
+  bool isMetered() const noexcept { return metered_; }
   Arena& arena() noexcept { return arena_; }
   const Arena& arena() const noexcept { return arena_; }
 
@@ -60,6 +62,7 @@ class State {
   double* places() noexcept { return arena_.at<double>(places_at_); }
   Real* held() noexcept { return arena_.at<Real>(held_at_); }
   unsigned char* asleep() noexcept { return arena_.at<unsigned char>(asleep_at_); }
+  /// [runs], if metered
   kernels::Work* work() noexcept { return arena_.at<kernels::Work>(work_at_); }
   const kernels::Work* work() const noexcept { return arena_.at<kernels::Work>(work_at_); }
 
@@ -96,7 +99,8 @@ class State {
   RunEntries addRun(const LinkRun& run) {
     RunEntries at;
     const std::string name = "run" + std::to_string(runs_.size());
-    if (remembers(run)) {
+    const bool is_inside = run.section_a == run.section_b && run.slow_section < 0;
+    if (remembers(run) && (metered_ || !is_inside)) {
       at.links =
           run.ends.size() * static_cast<std::size_t>(run.dimensions == 0 ? 1 : run.dimensions);
       at.across = run.slow_section >= 0;
@@ -108,6 +112,7 @@ class State {
     return at;
   }
 
+  bool metered_;
   Arena arena_;
   std::vector<RunEntries> runs_;
   std::size_t frame_at_ = 0;

@@ -24,6 +24,7 @@ class Stepper {
       : layout_(layout),
         sweeper_(layout, options),
         cells_(kernels::modalKernels<Real>(options.isa)),
+        spatial_kernels_(kernels::spatialKernels<Real>(options.isa)),
         metered_(options.metered) {
     for (const Block& block : layout.blocks) {
       blocks_end_.resize(static_cast<std::size_t>(block.section) + 1, blocks());
@@ -69,6 +70,9 @@ class Stepper {
                  std::int64_t now,
                  State<Real>& state) const noexcept {
     const LinkRun& run = layout_.runs[r];
+    if (!run.spans.empty()) {
+      return stepSpans(r, c, state);
+    }
     const kernels::Frame<Real> at = frameOf(r, now, state);
     visitLaw(run, c, state.engaged(r),
              [&](const auto& law) { kernels::step(run, law, c.rests.data(), at); });
@@ -114,6 +118,25 @@ class Stepper {
   }
 
  private:
+  void stepSpans(std::size_t r, const RunCoefficients<Real>& c, State<Real>& state) const noexcept {
+    const LinkRun& run = layout_.runs[r];
+    const kernels::Memory<Real> memory = state.memory(r);
+    const std::size_t links = run.ends.size();
+    const Real* fields = c.fields.data();
+    const kernels::SpatialArguments<Real> arguments{
+        run.spans.data(), run.spans.size(), run.ends.data(), static_cast<std::ptrdiff_t>(links),
+        run.stride_a,     fields,           fields + links,  fields + 2 * links,
+        c.rests.data(),   state.x(),        state.d(),       state.moved(),
+        state.f(),        memory.elastic,   memory.viscous};
+    const auto& step =
+        run.law == Law::kContact ? spatial_kernels_.contacts : spatial_kernels_.springs;
+    const kernels::SpatialWork twice = step[run.dimensions - 1](arguments);
+    if (metered_) {
+      state.work()[r].stored += 0.5 * twice.elastic;
+      state.work()[r].dissipated += 0.5 * twice.viscous;
+    }
+  }
+
   Real apartAtStart(const LinkRun& run,
                     std::size_t l,
                     const std::vector<Real>& rests,
@@ -224,6 +247,7 @@ class Stepper {
   const Layout& layout_;
   Sweeper<Real> sweeper_;
   const kernels::ModalKernels<Real>& cells_;
+  const kernels::SpatialKernels<Real>& spatial_kernels_;
   bool metered_;
   std::vector<std::size_t> blocks_end_;  // [sections] one past its last block
 };

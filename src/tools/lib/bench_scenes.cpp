@@ -221,6 +221,12 @@ void hear(SceneBuilder& builder, int outputs) {
   }
 }
 
+int addRunningSection(SceneBuilder& builder, const std::string& name) {
+  scene::Section section;
+  section.name = name;
+  return builder.add(std::move(section));
+}
+
 int addGesturalSection(SceneBuilder& builder) {
   scene::Section section;
   section.name = "hands";
@@ -287,9 +293,12 @@ Scene mixed200k(int modules) {
   constexpr int kHammers = 12;
   SceneBuilder builder = benchBuilder("mixed200k");
   addStrings(builder, stringsIn(modules / 2));
+  // Instruments of their own, that only hands at the gestural rate join.
   for (int p = 0; p < kPlates; ++p) {
     const Size size = fixedPlateSize(modules / 2 / kPlates, true);
-    addMesh(builder, plateSpec("plate" + std::to_string(p), size, true));
+    scene::MeshSpec plate = plateSpec("plate" + std::to_string(p), size, true);
+    plate.section = addRunningSection(builder, plate.name);
+    addMesh(builder, plate);
   }
   hear(builder, 24);
   const int mats = static_cast<int>(builder.scene().mats.size());

@@ -68,15 +68,19 @@ void write(rosbag::Bag& bag, const station::Event& event) {
 class RenderBagTest : public testing::Test {
  protected:
   RenderBagTest() : live_(kScene) {
-    live_.play(150);
-    live_.takeKeyframe();
-    live_.play(1000);
-    live_.setParameter(0, 4000.0);
-    live_.play(1000);
+    perform(live_);
   }
   ~RenderBagTest() override {
     std::remove(bag_path_.c_str());
     std::remove(sound_path_.c_str());
+  }
+
+  static void perform(LiveRun& live) {
+    live.play(150);
+    live.takeKeyframe();
+    live.play(1000);
+    live.setParameter(0, 4000.0);
+    live.play(1000);
   }
 
   void record(std::optional<std::size_t> lost_block = std::nullopt) {
@@ -180,9 +184,11 @@ TEST_F(RenderBagTest, SaysThatItLacksTheKernelsOfTheRecording) {
 TEST_F(RenderBagTest, HasNoEnergiesToTellWhereNoBooksWereKept) {
   record();
   EXPECT_THAT(render("--energies").text, HasSubstr("balance_residual"));
-  bag::Recording unmetered = live_.recording();
-  unmetered.keyframes.at(0).metered = false;
-  record(unmetered, std::nullopt);
+  physics::CompileOptions without_books;
+  without_books.metered = false;
+  LiveRun unmetered(kScene, without_books);
+  perform(unmetered);
+  record(unmetered.recording(), std::nullopt);
   EXPECT_EQ(render().code, 0);
   EXPECT_EQ(differences(), 0U);
   std::remove(sound_path_.c_str());

@@ -67,9 +67,7 @@ void write(rosbag::Bag& bag, const station::Event& event) {
 
 class RenderBagTest : public testing::Test {
  protected:
-  RenderBagTest() : live_(kScene) {
-    perform(live_);
-  }
+  RenderBagTest() : live_(kScene) { perform(live_); }
   ~RenderBagTest() override {
     std::remove(bag_path_.c_str());
     std::remove(sound_path_.c_str());

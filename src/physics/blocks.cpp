@@ -21,7 +21,8 @@ constexpr double kLanesFilled = 0.4;
 constexpr double kRegularShare = 0.75;
 constexpr double kDiagonalShare = 0.2;
 constexpr int kMostDiagonals = 2 * kernels::kMaxDiagonals;
-constexpr int kSmallest = 24;
+constexpr int kSmallest = 12;
+constexpr int kSmallestSparse = 24;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -157,7 +158,7 @@ class Finder {
   /// What is regular nowhere, in an order of its own.
   void addSparse(const Component& component) {
     const int nodes = static_cast<int>(component.mats.size());
-    if (nodes < kSmallest) {
+    if (nodes < kSmallestSparse) {
       return;
     }
     std::vector<LinkEnds> ends;

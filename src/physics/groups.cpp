@@ -361,7 +361,7 @@ std::vector<std::string> describeGroups(const scene::Scene& scene,
     lines.push_back("stepped together: " + describe(group));
   }
   lines.push_back(groups.running.size() < 2
-                      ? "threads: 1, as nothing that runs is independent of the rest"
+                      ? "threads: 1, as all that runs is one group; a section is never divided"
                       : "threads: " + std::to_string(threads) + " for " +
                             std::to_string(groups.running.size()) + " independent groups");
   return lines;

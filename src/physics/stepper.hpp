@@ -258,8 +258,14 @@ std::vector<std::string> Stepper<Real>::describe(const scene::Scene& scene) cons
   for (int s = 0; s < static_cast<int>(layout_.sections.size()); ++s) {
     const auto index = static_cast<std::size_t>(s);
     const std::string section = "section '" + scene.sections[index].name + "': ";
-    for (std::size_t b = firstBlock(s); b < blocks_end_[index]; ++b) {
-      lines.push_back(section + describeBlock(layout_.blocks[b]));
+    for (std::size_t b = firstBlock(s); b < blocks_end_[index];) {
+      const std::string text = describeBlock(layout_.blocks[b]);
+      const std::size_t first = b;
+      while (b < blocks_end_[index] && describeBlock(layout_.blocks[b]) == text) {
+        ++b;
+      }
+      const std::string times = b - first > 1 ? std::to_string(b - first) + " times " : "";
+      lines.push_back(section + times + text);
     }
     std::size_t links = 0;
     for (const LinkRun& run : layout_.runs) {

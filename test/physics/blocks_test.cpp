@@ -136,7 +136,7 @@ TEST_F(BlocksTest, StringsInOneRowAreNotTiedTogether) {
 }
 
 TEST_F(BlocksTest, SmallNetworksAreLeftOneByOne) {
-  nets.string(23);
+  nets.string(11);
   EXPECT_TRUE(findBlocks(b.scene).empty());
   expectAgreement(b.scene);
 }

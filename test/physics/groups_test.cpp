@@ -163,7 +163,7 @@ TEST(GroupsTest, DescriptionTellsWhatThreadsCanShare) {
   EXPECT_EQ(lines[3], "threads: 2 for 2 independent groups");
   sections.b.spring(0, 1, 1.0);
   lines = describeGroups(sections.b.scene, sections.split(), 1);
-  EXPECT_EQ(lines.back(), "threads: 1, as nothing that runs is independent of the rest");
+  EXPECT_EQ(lines.back(), "threads: 1, as all that runs is one group; a section is never divided");
 }
 
 }  // namespace

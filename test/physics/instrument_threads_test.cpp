@@ -43,7 +43,8 @@ std::unique_ptr<Instrument> compileFor(const scene::Scene& scene,
 
 /// Bit for bit.
 bool isSame(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
 }
 
 /// All that can be told of an instrument from outside.

@@ -59,8 +59,8 @@ void expectSameMotion(Player& one, Player& other, int ticks) {
       }
       player->tick();
     }
-    ASSERT_EQ(
-        std::memcmp(one.forces.data(), other.forces.data(), one.forces.size() * sizeof(double)), 0)
+    const std::size_t bytes = one.forces.size() * sizeof(double);
+    ASSERT_TRUE(bytes == 0 || std::memcmp(one.forces.data(), other.forces.data(), bytes) == 0)
         << "tick " << n;
   }
   EXPECT_TRUE(motionOf(*one.instrument) == motionOf(*other.instrument));

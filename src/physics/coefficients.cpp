@@ -128,7 +128,7 @@ void CoefficientsOf<Real>::fillMasses(const scene::Scene& scene,
   const std::size_t slots = at(layout.slots());
   masses.inverse_mass.assign(slots, Real(0));
   masses.drift.assign(slots, Real(0));
-  masses.keep.assign(slots, Real(1));
+  masses.lose.assign(slots, Real(0));
   masses.pull.assign(slots, Real(0));
   masses.loss.assign(slots, Real(0));
   for (const SectionRange& range : layout.sections) {
@@ -167,10 +167,10 @@ void CoefficientsOf<Real>::setSlot(const scene::Scene& scene,
       drift -= own.pull * mat.rest.x();  // its spring ends at 0, wherever it rests
     }
     masses.inverse_mass[here] = static_cast<Real>(inverse);
-    masses.keep[here] = static_cast<Real>(own.keep);
+    masses.lose[here] = static_cast<Real>(own.lose);
     masses.pull[here] = static_cast<Real>(own.pull);
     masses.drift[here] = static_cast<Real>(drift);
-    masses.loss[here] = static_cast<Real>((1.0 - own.keep) / inverse);
+    masses.loss[here] = static_cast<Real>(own.lose / inverse);
   }
 }
 

@@ -12,15 +12,16 @@
 
 namespace ergotic::physics {
 
-/// Per-slot coefficients of d <- keep d - pull x + inverse_mass f + drift; x <- x + d.
-/// Masses without a medium have keep = 1 and pull = 0 and use neither.
+/// Per-slot coefficients of d <- d - (lose d + pull x) + inverse_mass f + drift; x <- x + d. What
+/// is lost is stored, not what is left: close to 1 a float would round it to a few digits. Masses
+/// without a medium lose and pull nothing and use neither.
 template <class Real>
 struct MassCoefficients {
   AlignedVector<Real> inverse_mass;
   AlignedVector<Real> drift;  ///< constant force, gravity and the cell's rest, per step
-  AlignedVector<Real> keep;
+  AlignedVector<Real> lose;
   AlignedVector<Real> pull;
-  AlignedVector<Real> loss;  ///< (1 - keep) / inverse_mass; 0 where no force moves a module
+  AlignedVector<Real> loss;  ///< lose / inverse_mass; 0 where no force moves a module
 };
 
 /// Coefficients of the links of a block (blocks.hpp).

@@ -99,7 +99,7 @@ void GuardedLinks<Real>::place(const GuardedView<Real>& view,
 /// The step of a module to come.
 template <class Real>
 Real stepOf(const GuardedView<Real>& v, int i, Real now) noexcept {
-  return v.keep[i] * now - v.pull[i] * v.x[i] + (v.inverse_mass[i] * v.f[i] + v.drift[i]);
+  return now - (v.lose[i] * now + v.pull[i] * v.x[i]) + (v.inverse_mass[i] * v.f[i] + v.drift[i]);
 }
 
 /// How far end a moves against end b: in the step just made, in the one to come if nothing guarded

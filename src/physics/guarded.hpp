@@ -32,10 +32,10 @@ struct GuardedView {
   const Real* x = nullptr;
   const Real* d = nullptr;  ///< x[n] - x[n-1]
   const Real* f = nullptr;
-  // The step to come is d <- keep d - pull x + inverse_mass f + drift.
+  // The step to come is d <- d - (lose d + pull x) + inverse_mass f + drift.
   const Real* inverse_mass = nullptr;  ///< h^2/M; 0: forces do not move it
   const Real* drift = nullptr;
-  const Real* keep = nullptr;
+  const Real* lose = nullptr;
   const Real* pull = nullptr;
   const unsigned char* due = nullptr;   ///< [sections] 1 if it moved in this step
   const unsigned char* idle = nullptr;  ///< [links] 1 if it sleeps; none: all are awake

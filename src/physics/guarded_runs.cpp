@@ -224,7 +224,7 @@ GuardedView<Real> GuardedRuns<Real>::viewOf(const Links& links,
   view.f = state.f();
   view.inverse_mass = c.masses.inverse_mass.data();
   view.drift = c.masses.drift.data();
-  view.keep = c.masses.keep.data();
+  view.lose = c.masses.lose.data();
   view.pull = c.masses.pull.data();
   view.ahead = ahead_.data();
   view.due = links.due.data();

@@ -28,7 +28,7 @@ ModalCost predictCost(const scene::Scene& scene,
 struct ModalPart {
   std::shared_ptr<const Modes> modes;
   Eigen::VectorXd pull;         ///< [modes] as MassCoefficients; >= 0
-  Eigen::VectorXd loss;         ///< [modes] 1 - keep
+  Eigen::VectorXd loss;         ///< [modes] as MassCoefficients::lose
   Eigen::MatrixXd weights;      ///< [points][modes] kg^-1/2
   Eigen::VectorXd x;            ///< [modes] at the start
   Eigen::VectorXd d;            ///< per step

@@ -240,7 +240,7 @@ class Finder {
   /// What a module loses by itself per step, beyond alpha times its own spring.
   double ownDecay(int m, double alpha) const {
     const OscillatorCoefficients own = oscillatorOf(scene_, mat(m), units_);
-    return (1.0 - own.keep) - alpha * own.pull;
+    return own.lose - alpha * own.pull;
   }
 
   void keep(LinearPart part) {
@@ -297,7 +297,7 @@ PartMatrices matricesOf(const scene::Scene& scene, const Rates& rates, const Lin
   for (const int m : part.mats) {
     const OscillatorCoefficients own = oscillatorOf(scene, scene.mats[at(m)], units);
     pull.emplace_back(rows.at(m), rows.at(m), own.pull);
-    loss.emplace_back(rows.at(m), rows.at(m), 1.0 - own.keep);
+    loss.emplace_back(rows.at(m), rows.at(m), own.lose);
   }
   for (const int l : part.lias) {
     const scene::Lia& lia = scene.lias[at(l)];

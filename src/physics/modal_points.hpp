@@ -56,7 +56,7 @@ class ModalPoints {
     modes.x = x + first;
     modes.d = d + first;
     modes.f = f + first;
-    modes.keep = c.keep.data() + first;
+    modes.lose = c.lose.data() + first;
     modes.pull = c.pull.data() + first;
     modes.inverse_mass = c.inverse_mass.data() + first;
     modes.drift = c.drift.data() + first;

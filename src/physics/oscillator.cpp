@@ -9,17 +9,17 @@ OscillatorCoefficients oscillatorOf(
     double stiffness, double damping, double mass, double step, bool matched) noexcept {
   if (!matched) {
     const double inverse = step * step / mass;
-    return {1.0 - damping / step * inverse, stiffness * inverse};
+    return {damping / step * inverse, stiffness * inverse};
   }
   const double decay = 0.5 * damping / mass * step;  // s h
   const double turn = stiffness / mass * step * step - decay * decay;
   const double once = std::exp(-decay);
-  // 1 + keep - 2 once cos = (1 - once)^2 + 2 once (1 - cos), without the cancellation.
+  // 2 - lose - 2 once cos = (1 - once)^2 + 2 once (1 - cos), without the cancellation.
   const double half = std::sqrt(std::abs(turn)) / 2.0;
   const double rest = turn >= 0.0 ? 2.0 * std::sin(half) * std::sin(half)
                                   : -2.0 * std::sinh(half) * std::sinh(half);
   const double lost = -std::expm1(-decay);
-  return {once * once, stiffness == 0.0 ? 0.0 : lost * lost + 2.0 * once * rest};
+  return {-std::expm1(-2.0 * decay), stiffness == 0.0 ? 0.0 : lost * lost + 2.0 * once * rest};
 }
 
 OscillatorCoefficients oscillatorOf(const scene::Scene& scene,

@@ -6,14 +6,14 @@
 
 namespace ergotic::physics {
 
-/// What a module does by itself in one step: d <- keep d - pull x.
+/// What a module does by itself in one step: d <- d - (lose d + pull x).
 struct OscillatorCoefficients {
-  double keep = 1.0;
+  double lose = 0.0;
   double pull = 0.0;
 };
 
-/// Plain: keep = 1 - h Z/M, pull = h^2 K/M (first order). Matched: the samples of the continuous
-/// oscillator, keep = e^(-2sh), pull = 1 + keep - 2 e^(-sh) cos(wd h), with s = Z/2M,
+/// Plain: lose = h Z/M, pull = h^2 K/M (first order). Matched: the samples of the continuous
+/// oscillator, lose = 1 - e^(-2sh), pull = 2 - lose - 2 e^(-sh) cos(wd h), with s = Z/2M,
 /// wd^2 = K/M - s^2. Masses in a medium are matched. Realtime: yes. Source: docs/physics.md,
 /// "Cells"
 OscillatorCoefficients oscillatorOf(

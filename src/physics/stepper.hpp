@@ -165,7 +165,7 @@ class Stepper {
     cells.d = state.d() + first;
     cells.d_last = state.dLast() + first;
     cells.f = state.f() + first;
-    cells.keep = c.keep.data() + first;
+    cells.lose = c.lose.data() + first;
     cells.pull = c.pull.data() + first;
     cells.inverse_mass = c.inverse_mass.data() + first;
     cells.drift = c.drift.data() + first;

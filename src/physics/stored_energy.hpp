@@ -38,7 +38,7 @@ double kineticOf(const SectionRange& range,
     const auto inverse = static_cast<double>(c.inverse_mass[i]);
     const double gain = inverse * static_cast<double>(state.f()[s]) +
                         static_cast<double>(c.drift[i]) - static_cast<double>(c.pull[i]) * x -
-                        (1.0 - static_cast<double>(c.keep[i])) * d;
+                        static_cast<double>(c.lose[i]) * d;
     energy += d * (d + gain) / inverse;
   });
   return 0.5 * energy;

@@ -60,7 +60,7 @@ typename Sweeper<Real>::Arrays Sweeper<Real>::arraysOf(std::size_t b,
     a.move.drift = c.masses.drift.data() + first;
   }
   if (block.has_cells) {
-    a.move.keep = c.masses.keep.data() + first;
+    a.move.lose = c.masses.lose.data() + first;
     a.move.pull = c.masses.pull.data() + first;
     a.move.loss = c.masses.loss.data() + first;
   }

@@ -176,12 +176,11 @@ TEST(GuardedEndsTest, HeldEndMovesAtOnceAndWorksThen) {
   std::vector<double> f = {0.0, 0.0};
   const std::vector<double> inverse_mass = {1.0, 1.0};
   const std::vector<double> zero = {0.0, 0.0};
-  const std::vector<double> one = {1.0, 1.0};
   unsigned char due = 1;
   const Law law = wallAt(0.1);
   GuardedState<double> state;
-  const GuardedView<double> view{x.data(),    d.data(),   f.data(),    inverse_mass.data(),
-                                 zero.data(), one.data(), zero.data(), &due};
+  const GuardedView<double> view{x.data(),    d.data(),    f.data(),    inverse_mass.data(),
+                                 zero.data(), zero.data(), zero.data(), &due};
   links.start(view, &law, &state);
   EXPECT_NEAR(state.tank, 0.002, 1e-15);
   double work = 0.0;

@@ -37,7 +37,7 @@ double periodAt(double rate, double steepness) {
   const double h = 1.0 / rate;
   Network net;
   const int mass = net.mass(h * h / kMass, 0.0, kBowSpeed * h);
-  net.keep(mass) = 1.0 - 2.0 * kDampingRatio * kOmega * h;
+  net.lose(mass) = 2.0 * kDampingRatio * kOmega * h;
   net.pull(mass) = kOmega * kOmega * h * h;
   const int bow = net.mass(0.0, 0.0, kBowSpeed * h);
   net.guard(bowOfSteepness(steepness, h), {{bow, 1.0}}, {{mass, 1.0}});

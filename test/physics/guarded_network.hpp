@@ -23,7 +23,7 @@ class GuardedNetwork {
     for (auto* values : {&inverse_mass_, &drift_, &pull_, &x_, &d_, &f_}) {
       values->resize(values->size() + at(dimensions_), Real(0));
     }
-    keep_.resize(x_.size(), Real(1));
+    lose_.resize(x_.size(), Real(0));
     const int m = static_cast<int>(x_.size()) / dimensions_ - 1;
     x(m) = static_cast<Real>(position);
     d(m) = static_cast<Real>(velocity);
@@ -78,7 +78,8 @@ class GuardedNetwork {
       }
     }
     for (std::size_t i = 0; i < x_.size(); ++i) {
-      d_[i] = keep_[i] * d_[i] - pull_[i] * x_[i] + (inverse_mass_[i] * f_[i] + drift_[i]);
+      d_[i] =
+          d_[i] - (lose_[i] * d_[i] + pull_[i] * x_[i]) + (inverse_mass_[i] * f_[i] + drift_[i]);
       x_[i] += d_[i];
       f_[i] = Real(0);
     }
@@ -129,12 +130,12 @@ class GuardedNetwork {
   Real& x(int m, int component = 0) { return x_[at(m * dimensions_ + component)]; }
   Real& d(int m, int component = 0) { return d_[at(m * dimensions_ + component)]; }
   Real& drift(int m) { return drift_[at(m * dimensions_)]; }
-  Real& keep(int m) { return keep_[at(m * dimensions_)]; }
+  Real& lose(int m) { return lose_[at(m * dimensions_)]; }
   Real& pull(int m) { return pull_[at(m * dimensions_)]; }
   GuardedLinks<Real>& guarded() { return *guarded_; }
   GuardedView<Real> view() {
     return {x_.data(),     d_.data(),    f_.data(),    inverse_mass_.data(),
-            drift_.data(), keep_.data(), pull_.data(), nullptr};
+            drift_.data(), lose_.data(), pull_.data(), nullptr};
   }
 
   std::vector<Law> laws;
@@ -156,7 +157,7 @@ class GuardedNetwork {
   Real elongation(const Spring& s) const { return x_[at(s.a)] - (s.b < 0 ? Real(0) : x_[at(s.b)]); }
 
   int dimensions_;
-  std::vector<Real> inverse_mass_, drift_, keep_, pull_, x_, d_, f_;
+  std::vector<Real> inverse_mass_, drift_, lose_, pull_, x_, d_, f_;
   std::vector<Spring> springs_;
   std::vector<GuardedModule<Real>> modules_;
   std::unique_ptr<GuardedLinks<Real>> guarded_;

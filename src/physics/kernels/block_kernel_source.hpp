@@ -65,7 +65,7 @@ ERGOTIC_INLINE Vector<Real> nextStep(const MoveArguments<Real>& a,
                                      Vector<Real> f) noexcept {
   const Vector<Real> gain = load(a.inverse_mass, s) * f;
   if constexpr (kCells) {
-    return load(a.keep, s) * before - load(a.pull, s) * x + (gain + load(a.drift, s));
+    return before - (load(a.lose, s) * before + load(a.pull, s) * x) + (gain + load(a.drift, s));
   } else {
     return before + gain;
   }
@@ -114,7 +114,7 @@ ERGOTIC_INLINE double moveMixed(const MoveArguments<Real>& a, Index first, Index
 }
 template <class Real>
 double move(const MoveArguments<Real>& a, Index first, Index last) noexcept {
-  if (a.keep != nullptr) {
+  if (a.lose != nullptr) {
     return moveMixed<true, true>(a, first, last);
   }
   return a.drift != nullptr ? moveMixed<false, true>(a, first, last)
@@ -375,7 +375,7 @@ double chainLoop(const ChainArguments<Real>& given, Index first, Index last) noe
 template <class Real>
 double chains(const ChainArguments<Real>& a, Index first, Index last) noexcept {
   const bool metered = a.modules.d_last != nullptr;
-  if (a.modules.keep != nullptr) {
+  if (a.modules.lose != nullptr) {
     return metered ? chainLoop<true, true>(a, first, last) : chainLoop<true, false>(a, first, last);
   }
   return metered ? chainLoop<false, true>(a, first, last) : chainLoop<false, false>(a, first, last);

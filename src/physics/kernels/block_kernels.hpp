@@ -15,7 +15,7 @@ constexpr int kLanes = 16;
 /// Diagonals that one pass takes; more need further passes.
 constexpr int kMaxDiagonals = 4;
 
-/// Modules move: d <- d + inverse_mass f, or of cells d <- keep d - pull x + inverse_mass f +
+/// Modules move: d <- d + inverse_mass f, or of cells d <- d - (lose d + pull x) + inverse_mass f +
 /// drift; x <- x + d. All arrays are indexed by slot.
 template <class Real>
 struct MoveArguments {
@@ -27,9 +27,9 @@ struct MoveArguments {
   const Real* f;
   const Real* inverse_mass;
   const Real* drift;  ///< null: none
-  const Real* keep;   ///< null: no cells
+  const Real* lose;   ///< null: no cells
   const Real* pull;
-  const Real* loss;  ///< (1 - keep) / inverse_mass
+  const Real* loss;  ///< lose / inverse_mass
 };
 
 /// Forces of links that join s and s + offset, for all s, as assignment: f = sum K (u' - u) +

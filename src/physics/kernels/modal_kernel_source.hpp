@@ -77,7 +77,7 @@ double stepCells(const CellArguments<Real>& a) noexcept {
       const int k = i + c * Wide<Real>::kLanes;
       const typename Wide<Real>::Vector before = load(a.d + k);
       const typename Wide<Real>::Vector now =
-          load(a.keep + k) * before - load(a.pull + k) * load(a.x + k) +
+          before - (load(a.lose + k) * before + load(a.pull + k) * load(a.x + k)) +
           (load(a.inverse_mass + k) * load(a.f + k) + load(a.drift + k));
       if constexpr (kIsMetered) {
         lost.chains[c] += load(a.loss + k) * now * (now + before);
@@ -89,8 +89,8 @@ double stepCells(const CellArguments<Real>& a) noexcept {
   }
   for (; i < a.count; ++i) {
     const Real before = a.d[i];
-    const Real now =
-        a.keep[i] * before - a.pull[i] * a.x[i] + (a.inverse_mass[i] * a.f[i] + a.drift[i]);
+    const Real now = before - (a.lose[i] * before + a.pull[i] * a.x[i]) +
+                     (a.inverse_mass[i] * a.f[i] + a.drift[i]);
     if constexpr (kIsMetered) {
       lost.rest += a.loss[i] * now * (now + before);
     }
@@ -140,13 +140,14 @@ Real stepAhead(const ModalArguments<Real>& a) noexcept {
   for (; i + Wide<Real>::kBlock <= a.count; i += Wide<Real>::kBlock) {
     for (int c = 0; c < kChains; ++c) {
       const int k = i + c * Wide<Real>::kLanes;
-      step.chains[c] += load(a.weights + k) *
-                        (load(a.keep + k) * load(a.d + k) - load(a.pull + k) * load(a.x + k) +
-                         (load(a.inverse_mass + k) * load(a.f + k) + load(a.drift + k)));
+      step.chains[c] +=
+          load(a.weights + k) *
+          (load(a.d + k) - (load(a.lose + k) * load(a.d + k) + load(a.pull + k) * load(a.x + k)) +
+           (load(a.inverse_mass + k) * load(a.f + k) + load(a.drift + k)));
     }
   }
   for (; i < a.count; ++i) {
-    step.rest += a.weights[i] * (a.keep[i] * a.d[i] - a.pull[i] * a.x[i] +
+    step.rest += a.weights[i] * (a.d[i] - (a.lose[i] * a.d[i] + a.pull[i] * a.x[i]) +
                                  (a.inverse_mass[i] * a.f[i] + a.drift[i]));
   }
   return step.total();

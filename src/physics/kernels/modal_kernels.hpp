@@ -16,14 +16,14 @@ struct ModalArguments {
   const Real* x;
   const Real* d;
   const Real* f;
-  // The step to come is d <- keep d - pull x + inverse_mass f + drift.
-  const Real* keep;
+  // The step to come is d <- d - (lose d + pull x) + inverse_mass f + drift.
+  const Real* lose;
   const Real* pull;
   const Real* inverse_mass;
   const Real* drift;
 };
 
-/// Cells, `count` in each array. They move by d <- keep d - pull x + inverse_mass f + drift.
+/// Cells, `count` in each array. They move by d <- d - (lose d + pull x) + inverse_mass f + drift.
 template <class Real>
 struct CellArguments {
   int count;
@@ -31,11 +31,11 @@ struct CellArguments {
   Real* d;
   Real* d_last;
   const Real* f;
-  const Real* keep;
+  const Real* lose;
   const Real* pull;
   const Real* inverse_mass;
   const Real* drift;
-  const Real* loss;  ///< (1 - keep) / inverse_mass; null: nobody asks
+  const Real* loss;  ///< lose / inverse_mass; null: nobody asks
 };
 
 /// The kernels of one level. All are real-time.

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The layout of a catkin install space, with or without ROS: rosrun and roslaunch find their way.
 set(ergotic_libraries ergotic_core ergotic_audio)
-foreach(library ergotic_bag ergotic_ros)
+foreach(library ergotic_bag ergotic_ros ergotic_comedi_driver ergotic_jack_driver
+    ergotic_comedi_plugin ergotic_jack_plugin)
   if(TARGET ${library})
     list(APPEND ergotic_libraries ${library})
   endif()

@@ -9,7 +9,7 @@ endif()
 set(CATKIN_ENABLE_TESTING OFF CACHE BOOL "The tests of ergotic run under ctest")
 set(ergotic_ros_packages
   diagnostic_updater geometry_msgs nodelet pluginlib rosbag_storage roscpp sensor_msgs std_msgs
-  std_srvs visualization_msgs)
+  std_srvs tf2_ros visualization_msgs)
 find_package(catkin REQUIRED COMPONENTS ${ergotic_ros_packages} message_generation)
 
 file(GLOB ergotic_messages RELATIVE ${PROJECT_SOURCE_DIR}/msg CONFIGURE_DEPENDS msg/*.msg)
@@ -29,6 +29,13 @@ set_target_properties(ergotic_core ergotic_audio PROPERTIES
 foreach(tool ${ergotic_tools})
   set_target_properties(${tool} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/ergotic)
+endforeach()
+
+foreach(driver comedi jack)
+  if(TARGET ergotic_${driver}_driver)
+    set_target_properties(ergotic_${driver}_driver PROPERTIES
+      LIBRARY_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib)
+  endif()
 endforeach()
 
 # Headers of others are no business of our warnings. Debian's nodelet does not name the include
@@ -56,3 +63,13 @@ target_compile_definitions(ergotic_ros PRIVATE ERGOTIC_VERSION="${ergotic_VERSIO
 target_link_libraries(ergotic_ros
   PUBLIC ergotic_core ergotic_audio ergotic_messages ${catkin_LIBRARIES}
   PRIVATE ergotic_flags yaml-cpp)
+
+foreach(driver comedi jack)
+  set(plugin src/tgr/drivers/${driver}/${driver}_plugin.cpp)
+  if(EXISTS ${PROJECT_SOURCE_DIR}/${plugin})
+    add_library(ergotic_${driver}_plugin SHARED ${plugin})
+    target_link_libraries(ergotic_${driver}_plugin
+      PRIVATE ergotic_${driver}_driver ergotic_messages ${pluginlib_LIBRARIES} ${class_loader_LIBRARIES}
+              ergotic_flags)
+  endif()
+endforeach()

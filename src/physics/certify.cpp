@@ -20,7 +20,7 @@ class Certifier {
   Certifier(const scene::Scene& scene, const Rates& rates)
       : scene_(scene), networks_(scene, rates), findings_(scene.file) {}
 
-  Certificate run(double device_damping) {
+  Certificate run(const DeviceTraits& device) {
     Certificate result;
     std::map<int, SectionCertificate> of_rate;
     for (int s = 0; s < static_cast<int>(scene_.sections.size()); ++s) {
@@ -40,7 +40,7 @@ class Certifier {
                         "it moves");
     }
     judgeLinks(networks_, findings_);
-    result.ports = judgePorts(networks_, device_damping, findings_);
+    result.ports = judgePorts(networks_, device, findings_);
     findings_.giveTo(result);
     return result;
   }
@@ -140,13 +140,13 @@ double Certificate::margin() const {
   return 1.0 - lambda / NetworkBound::kLimit;
 }
 
-Certificate certify(const scene::Scene& scene, const Rates& rates, double device_damping) {
+Certificate certify(const scene::Scene& scene, const Rates& rates, const DeviceTraits& device) {
   for (const scene::Lia& lia : scene.lias) {
     if (lia.scheme == scene::Scheme::kAuto) {
       throw std::logic_error("link '" + lia.name + "' is not settled: nobody chose its scheme");
     }
   }
-  return Certifier(scene, rates).run(device_damping);
+  return Certifier(scene, rates).run(device);
 }
 
 }  // namespace ergotic::physics

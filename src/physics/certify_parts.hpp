@@ -17,7 +17,7 @@ void judgeCouplings(const SceneNetwork& networks, Findings& findings);
 
 /// The largest stiffness at each slice against what the device bears.
 std::vector<PortCertificate> judgePorts(const SceneNetwork& networks,
-                                        double device_damping,
+                                        const DeviceTraits& device,
                                         Findings& findings);
 
 /// Says which link is negative, if what is given is not semidefinite all the same.

@@ -8,7 +8,6 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr double kDelayTicks = 1.0;     // a position's force is given one tick later
 constexpr double kWarned = 0.5;         // of the passivity limit
 constexpr double kTooMuch = 2.0;        // of it
 constexpr double kHandDepth = 1e-3;     // m, where a slope grows with it
@@ -75,7 +74,7 @@ class Stiffnesses {
 }  // namespace
 
 std::vector<PortCertificate> judgePorts(const SceneNetwork& networks,
-                                        double device_damping,
+                                        const DeviceTraits& device,
                                         Findings& findings) {
   const scene::Scene& scene = networks.scene();
   std::vector<PortCertificate> certificates;
@@ -90,7 +89,7 @@ std::vector<PortCertificate> judgePorts(const SceneNetwork& networks,
     certificate.stiffness = stiffnesses.of(port.mat) * std::abs(port.force_scale) /
                             (std::abs(port.position_scale) * scene.time_unit_s * scene.time_unit_s);
     certificate.limit =
-        2.0 * device_damping * networks.rates().gesturalHz() / (1.0 + 2.0 * kDelayTicks);
+        2.0 * device.damping * networks.rates().gesturalHz() / (1.0 + 2.0 * device.delay_ticks);
     certificates.push_back(certificate);
     if (certificate.stiffness <= kWarned * certificate.limit) {
       continue;
@@ -98,7 +97,7 @@ std::vector<PortCertificate> judgePorts(const SceneNetwork& networks,
     const std::string link = scene.lias[at(stiffnesses.worst(port.mat))].name;
     const std::string text = "port '" + port.name + "': the hand may meet " +
                              describe(certificate.stiffness) + " N/m, mostly by link '" + link +
-                             "'; a slice with " + describe(device_damping) +
+                             "'; a slice with " + describe(device.damping) +
                              " N s/m of its own is passive up to " + describe(certificate.limit) +
                              " N/m at " + wholeHz(networks.rates().gesturalHz()) + " Hz";
     const std::string advice =

@@ -61,8 +61,7 @@ std::string textOf(const station::Event& event, const scene::Scene* scene) {
       text << (event.index != 0 ? "keyframe" : "the state is too large for a keyframe");
       break;
     case EventType::kFault:
-      text << "force latched at zero: "
-           << station::toString(static_cast<station::FaultReason>(event.index));
+      text << "force latched at zero: " << toString(static_cast<station::FaultReason>(event.index));
       if (event.value >= 0.0) {
         text << ", slice " << event.value;
       }

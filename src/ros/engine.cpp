@@ -11,7 +11,7 @@
 namespace ergotic::node {
 namespace {
 
-std::unique_ptr<tgr::VirtualDriver> makeDriver(const Parameters& parameters) {
+std::unique_ptr<tgr::Driver> makeDriver(const Parameters& parameters) {
   tgr::VirtualDriverConfig config;
   config.gesture_file = parameters.gesture;
   config.shared_memory = parameters.virtual_shared_memory;

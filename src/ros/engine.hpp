@@ -39,7 +39,7 @@ class Engine {
 
  private:
   Parameters parameters_;
-  tgr::VirtualDriver* hand_ = nullptr;  // owned by the station
+  tgr::Driver* hand_ = nullptr;  // owned by the station
   std::unique_ptr<station::Station> station_;
   std::unique_ptr<station::AudioBridge> bridge_;
   std::unique_ptr<station::TimerSource> source_;

@@ -2,6 +2,8 @@
 #include "ergotic/scene/scene.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 namespace ergotic::scene {
 namespace {
@@ -28,6 +30,22 @@ int dimensionsOf(Geometry geometry) {
       return 3;
   }
   return 1;
+}
+
+double Agent::at(double time_s) const noexcept {
+  const double t = period_s > 0.0 ? std::fmod(time_s, period_s) : time_s;
+  const auto next =
+      std::upper_bound(knots.begin(), knots.end(), t,
+                       [](double time, const auto& knot) { return time < knot.first; });
+  if (next == knots.begin()) {
+    return knots.front().second;
+  }
+  const auto last = std::prev(next);
+  if (next == knots.end()) {
+    return last->second;
+  }
+  const double part = (t - last->first) / (next->first - last->first);
+  return last->second + part * (next->second - last->second);
 }
 
 int Scene::coordinates() const {

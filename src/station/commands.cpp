@@ -79,6 +79,12 @@ void Station::obey(const Command& command) noexcept {
     case Command::Type::kParameter:
       takeCoefficients(command);
       break;
+    case Command::Type::kConfigure:
+    case Command::Type::kRecover:
+    case Command::Type::kEmergencyStop:
+    case Command::Type::kPresence:
+    case Command::Type::kInject:
+      break;
     case Command::Type::kKeyframe:
       ++keyframes_wanted_;
       break;
@@ -92,7 +98,7 @@ void Station::engage() noexcept {
     return;
   }
   // From zero in any case: the driver may have been made safe and re-armed within one tick.
-  chain_.disengage();
+  chain_.recover();
   chain_.engage();
   state_ = ForceState::kEngaging;
   fault_ = FaultReason::kNone;

@@ -44,22 +44,6 @@ std::size_t samples(int frames, int channels) {
   return static_cast<std::size_t>(frames) * static_cast<std::size_t>(channels);
 }
 
-FaultReason reasonOf(tgr::SafetyFault fault) noexcept {
-  switch (fault) {
-    case tgr::SafetyFault::kNone:
-      return FaultReason::kNone;
-    case tgr::SafetyFault::kDeviceLost:
-      return FaultReason::kDeviceLost;
-    case tgr::SafetyFault::kMissingSamples:
-      return FaultReason::kMissingSamples;
-    case tgr::SafetyFault::kBadPosition:
-      return FaultReason::kBadPosition;
-    case tgr::SafetyFault::kBadForce:
-      return FaultReason::kModelBlowUp;
-  }
-  return FaultReason::kNone;
-}
-
 }  // namespace
 
 Station::Station(const StationConfig& config,
@@ -177,14 +161,14 @@ void Station::makeSafe() noexcept {
 }
 
 std::uint32_t Station::accept(Slices& positions, std::uint32_t exchange_flags) noexcept {
-  const std::uint64_t held = chain_.validate(positions.data(), exchange_flags);
+  const std::uint64_t held = chain_.validate(positions.data(), exchange_flags, 0);
   const bool made_safe = make_safe_.exchange(false, std::memory_order_acq_rel) ||
                          (exchange_flags & tgr::kMadeSafe) != 0;
   if (state_ != ForceState::kFault) {
     if (made_safe) {
       fault(FaultReason::kMadeSafe, -1);
-    } else if (chain_.fault() != tgr::SafetyFault::kNone) {
-      fault(reasonOf(chain_.fault()), chain_.faultSlice());
+    } else if (chain_.fault() != FaultReason::kNone) {
+      fault(chain_.fault(), chain_.faultSlice());
     }
   }
   return held != 0 ? GestureTick::kHeld : 0U;
@@ -289,8 +273,8 @@ void Station::updateForces(bool muted) noexcept {
         gain * ports[i].force_scale * p.forces[i];
   }
   chain_.limit(force_.data());
-  if (chain_.fault() != tgr::SafetyFault::kNone && state_ != ForceState::kFault) {
-    fault(reasonOf(chain_.fault()), chain_.faultSlice());
+  if (chain_.fault() != FaultReason::kNone && state_ != ForceState::kFault) {
+    fault(chain_.fault(), chain_.faultSlice());
   }
   for (std::size_t s = 0; s < static_cast<std::size_t>(slices_); ++s) {
     counters_.peak_force_n = std::max(counters_.peak_force_n, std::abs(force_[s]));

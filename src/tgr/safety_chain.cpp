@@ -24,11 +24,9 @@ SafetyChain::SafetyChain(const SafetyConfig& config, int slices, double tick_s)
 }
 
 ERGOTIC_REALTIME void SafetyChain::engage() noexcept {
-  if (open_) {
+  if (open_ || fault_ != FaultReason::kNone) {
     return;
   }
-  fault_ = SafetyFault::kNone;
-  fault_slice_ = -1;
   gain_ = 0.0;
   open_ = true;
 }
@@ -42,21 +40,29 @@ ERGOTIC_REALTIME void SafetyChain::resume() noexcept {
   resume_gain_ = 0.0;
 }
 
-ERGOTIC_REALTIME void SafetyChain::raise(SafetyFault fault, int slice) noexcept {
+ERGOTIC_REALTIME void SafetyChain::recover() noexcept {
   disengage();
-  if (fault_ == SafetyFault::kNone) {  // the first cause is the one to tell
+  fault_ = FaultReason::kNone;
+  fault_slice_ = -1;
+  missing_ = 0;
+}
+
+ERGOTIC_REALTIME void SafetyChain::raise(FaultReason fault, int slice) noexcept {
+  disengage();
+  if (fault_ == FaultReason::kNone) {  // the first cause is the one to tell
     fault_ = fault;
     fault_slice_ = slice;
   }
 }
 
 ERGOTIC_REALTIME std::uint64_t SafetyChain::validate(double* positions,
-                                                     std::uint32_t flags) noexcept {
+                                                     std::uint32_t flags,
+                                                     std::int64_t /*host_missed*/) noexcept {
   if ((flags & (kMissingSample | kDeviceLost)) != 0) {
     if ((flags & kDeviceLost) != 0) {
-      raise(SafetyFault::kDeviceLost, -1);
+      raise(FaultReason::kDeviceLost, -1);
     } else if (missing_ >= config_.max_missing) {
-      raise(SafetyFault::kMissingSamples, -1);
+      raise(FaultReason::kMissingSamples, -1);
     } else {
       ++missing_;
     }
@@ -72,7 +78,7 @@ ERGOTIC_REALTIME std::uint64_t SafetyChain::validate(double* positions,
     } else {
       positions[i] = last_good;
       held |= std::uint64_t{1} << static_cast<unsigned>(i);
-      raise(SafetyFault::kBadPosition, i);
+      raise(FaultReason::kBadPosition, i);
     }
   }
   return held;
@@ -81,7 +87,7 @@ ERGOTIC_REALTIME std::uint64_t SafetyChain::validate(double* positions,
 ERGOTIC_REALTIME void SafetyChain::limit(double* forces) noexcept {
   for (int i = 0; i < slices_; ++i) {
     if (!std::isfinite(forces[i])) {
-      raise(SafetyFault::kBadForce, i);
+      raise(FaultReason::kModelBlowUp, i);
     }
   }
   if (!open_) {

@@ -17,6 +17,7 @@ using test::SceneBuilder;
 
 constexpr double kRate = 44100.0;
 constexpr Rates kRates{kRate, 14};
+constexpr double kDeviceDamping = DeviceTraits{}.damping;
 constexpr double kLimit = 2.0 * kDeviceDamping * (kRate / 14.0) / 3.0;  // 2 b / ((1 + 2 d) T)
 
 SceneBuilder wall(double stiffness, LiaType type = LiaType::kContact) {

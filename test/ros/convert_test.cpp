@@ -127,8 +127,7 @@ TEST(ConvertTest, StatusSaysWhyForceIsGone) {
   EXPECT_EQ(status.state, Status::FAULT);
   EXPECT_EQ(status.fault, Status::FAULT_STALL);
   EXPECT_EQ(status.underruns, 7);
-  EXPECT_NE(status.state_text.find(station::toString(station::FaultReason::kStall)),
-            std::string::npos);
+  EXPECT_NE(status.state_text.find(toString(station::FaultReason::kStall)), std::string::npos);
 }
 
 TEST(ConvertTest, EnergyKeepsSectionsAndCouplingsApart) {

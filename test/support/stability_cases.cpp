@@ -219,7 +219,7 @@ StabilityOutcome pushWall(double multiple) {
   const Rates rates{kRate, 14};
   const double t = rates.ratio / rates.audio_hz;
   const double mass = 0.3;
-  const double damping = physics::kDeviceDamping;
+  const double damping = physics::DeviceTraits{}.damping;
   const double decay = std::exp(-damping / mass * t);
   const double glide = mass / damping * (1.0 - decay);  // way of a unit of speed over a tick
   const double wall = multiple * 2.0 * damping / (3.0 * t);

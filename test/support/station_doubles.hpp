@@ -51,6 +51,12 @@ class ScriptedDriver : public tgr::Driver {
   Position position_;
 };
 
+inline scene::Port portOfSlice(int slice) {
+  scene::Port port;
+  port.slice = slice;
+  return port;
+}
+
 /// F = -stiffness x on one slice; output channels 0...n-1 all carry `level`, or the frame count.
 /// Its state is the number of frames made. It can be told to blow up.
 class SpringInstrument : public physics::Instrument {
@@ -61,7 +67,7 @@ class SpringInstrument : public physics::Instrument {
     bool count_frames = false;  ///< samples are the index of their frame instead
     int outputs = 2;
     int inputs = 0;
-    scene::Port port;  ///< slice and scales
+    scene::Port port = portOfSlice(0);  ///< slice and scales
     double audio_hz = 44100.0;
     int ratio = 14;
     std::int64_t bad_force_at = -1;         ///< tick of a NaN force, -1: never

@@ -39,11 +39,11 @@ class InProcessRig {
     config.slice = plainSlice();
     driver_ = tgr::makeVirtualDriver(config);
   }
-  tgr::VirtualDriver& driver() { return *driver_; }
+  tgr::Driver& driver() { return *driver_; }
   void elapse() {}
 
  private:
-  std::unique_ptr<tgr::VirtualDriver> driver_;
+  std::unique_ptr<tgr::Driver> driver_;
 };
 
 /// The device of another process, but stepped here, one step per tick, on a clock that only
@@ -58,13 +58,13 @@ class SharedMemoryRig {
       : device_(std::make_unique<tgr::VirtualDevice>(deviceConfig(gesture_file))),
         driver_(makeDriver()) {}
 
-  std::unique_ptr<tgr::VirtualDriver> makeDriver(int slices = 3) const {
+  std::unique_ptr<tgr::Driver> makeDriver(int slices = 3) const {
     tgr::VirtualDriverConfig config;
     config.slices = slices;
     config.shared_memory = name_;
     return tgr::makeVirtualDriver(config);
   }
-  tgr::VirtualDriver& driver() { return *driver_; }
+  tgr::Driver& driver() { return *driver_; }
   tgr::VirtualDevice& device() { return *device_; }
   const std::string& name() const { return name_; }
   std::int64_t now() const { return now_ns_; }
@@ -89,7 +89,7 @@ class SharedMemoryRig {
 
   std::string name_ = freshSegmentName();
   std::unique_ptr<tgr::VirtualDevice> device_;
-  std::unique_ptr<tgr::VirtualDriver> driver_;
+  std::unique_ptr<tgr::Driver> driver_;
   // An hour ahead: the device always looks alive to the driver, however slow the machine is.
   std::int64_t now_ns_ = rt::monotonicNs() + 3'600'000'000'000;
 };

@@ -26,7 +26,7 @@ VirtualDriverConfig idealConfig() {
 
 /// The largest |x| in each half of `ticks` ticks against a spring of `stiffness` to rest, after a
 /// push of one tick.
-std::array<double, 2> swing(VirtualDriver& driver, double stiffness, int ticks) {
+std::array<double, 2> swing(Driver& driver, double stiffness, int ticks) {
   std::array<double, 2> largest{};
   double force = 0.01;
   for (int n = 0; n < ticks; ++n) {

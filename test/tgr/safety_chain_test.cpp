@@ -33,7 +33,7 @@ class SafetyChainTest : public ::testing::Test {
   }
   std::uint64_t validated(double x0, double x1, std::uint32_t flags = kExchangeOk) {
     positions_ = {x0, x1};
-    return chain_.validate(positions_.data(), flags);
+    return chain_.validate(positions_.data(), flags, 0);
   }
   void openFully() {
     chain_.engage();
@@ -123,7 +123,7 @@ TEST_F(SafetyChainTest, SilencesAllSlicesInTheTickOfANonFiniteForce) {
     std::array<double, 2> forces{5.0, bad};
     chain_.limit(forces.data());
     EXPECT_EQ(forces, (std::array<double, 2>{0.0, 0.0}));
-    EXPECT_EQ(chain_.fault(), SafetyFault::kBadForce);
+    EXPECT_EQ(chain_.fault(), FaultReason::kModelBlowUp);
     EXPECT_EQ(chain_.faultSlice(), 1);
     EXPECT_FALSE(chain_.isOpen());
     EXPECT_EQ(limited(5.0), 0.0) << "the gate must latch";
@@ -133,7 +133,7 @@ TEST_F(SafetyChainTest, SilencesAllSlicesInTheTickOfANonFiniteForce) {
 TEST_F(SafetyChainTest, LeavesGoodPositionsAlone) {
   EXPECT_EQ(validated(0.1, -0.1), 0U);
   EXPECT_EQ(positions_, (std::array<double, 2>{0.1, -0.1}));
-  EXPECT_EQ(chain_.fault(), SafetyFault::kNone);
+  EXPECT_EQ(chain_.fault(), FaultReason::kNone);
 }
 
 TEST_F(SafetyChainTest, HoldsABadPositionAndFaultsAtOnce) {
@@ -142,7 +142,7 @@ TEST_F(SafetyChainTest, HoldsABadPositionAndFaultsAtOnce) {
     validated(0.01, 0.02);
     EXPECT_EQ(validated(0.03, bad), 0b10U);
     EXPECT_EQ(positions_, (std::array<double, 2>{0.03, 0.02}));
-    EXPECT_EQ(chain_.fault(), SafetyFault::kBadPosition);
+    EXPECT_EQ(chain_.fault(), FaultReason::kBadPosition);
     EXPECT_EQ(chain_.faultSlice(), 1);
     EXPECT_EQ(limited(5.0), 0.0);
   }
@@ -154,10 +154,10 @@ TEST_F(SafetyChainTest, HoldsMissingSamplesAndFaultsAfterTooManyInARow) {
   for (int n = 0; n < 3; ++n) {
     EXPECT_EQ(validated(0.05, 0.05, kMissingSample), 0b11U);
     EXPECT_EQ(positions_, (std::array<double, 2>{0.01, 0.02}));
-    EXPECT_EQ(chain_.fault(), SafetyFault::kNone);
+    EXPECT_EQ(chain_.fault(), FaultReason::kNone);
   }
   EXPECT_EQ(validated(0.05, 0.05, kMissingSample), 0b11U);
-  EXPECT_EQ(chain_.fault(), SafetyFault::kMissingSamples);
+  EXPECT_EQ(chain_.fault(), FaultReason::kMissingSamples);
   EXPECT_FALSE(chain_.isOpen());
 }
 
@@ -165,17 +165,22 @@ TEST_F(SafetyChainTest, CountsMissingSamplesInARowOnly) {
   for (int n = 0; n < 20; ++n) {
     validated(0.0, 0.0, n % 4 == 3 ? kExchangeOk : kMissingSample);
   }
-  EXPECT_EQ(chain_.fault(), SafetyFault::kNone);
+  EXPECT_EQ(chain_.fault(), FaultReason::kNone);
 }
 
-TEST_F(SafetyChainTest, FaultsAgainIfEngagedWhileSamplesAreStillMissing) {
-  for (int n = 0; n < 4; ++n) {
-    validated(0.0, 0.0, kMissingSample);
-  }
+TEST_F(SafetyChainTest, FaultsAgainAfterRecoveryWhileSamplesAreStillMissing) {
+  const auto miss = [this] {
+    for (int n = 0; n < 4; ++n) {
+      validated(0.0, 0.0, kMissingSample);
+    }
+  };
+  miss();
   chain_.engage();
-  EXPECT_EQ(chain_.fault(), SafetyFault::kNone);
-  validated(0.0, 0.0, kMissingSample);
-  EXPECT_EQ(chain_.fault(), SafetyFault::kMissingSamples);
+  EXPECT_FALSE(chain_.isOpen()) << "a fault stays until recovery";
+  chain_.recover();
+  EXPECT_EQ(chain_.fault(), FaultReason::kNone);
+  miss();
+  EXPECT_EQ(chain_.fault(), FaultReason::kMissingSamples);
 }
 
 TEST_F(SafetyChainTest, FaultsAtOnceWhenTheDeviceIsLost) {
@@ -183,25 +188,25 @@ TEST_F(SafetyChainTest, FaultsAtOnceWhenTheDeviceIsLost) {
   validated(0.01, 0.02);
   EXPECT_EQ(validated(kNan, kNan, kDeviceLost | kMissingSample), 0b11U);
   EXPECT_EQ(positions_, (std::array<double, 2>{0.01, 0.02}));
-  EXPECT_EQ(chain_.fault(), SafetyFault::kDeviceLost);
+  EXPECT_EQ(chain_.fault(), FaultReason::kDeviceLost);
   EXPECT_EQ(limited(5.0), 0.0);
 }
 
-TEST_F(SafetyChainTest, TellsTheFirstFaultUntilEngaged) {
+TEST_F(SafetyChainTest, TellsTheFirstFaultUntilRecovery) {
   validated(kNan, 0.0);
   validated(0.0, 0.0, kDeviceLost);
-  EXPECT_EQ(chain_.fault(), SafetyFault::kBadPosition);
-  chain_.engage();
-  EXPECT_EQ(chain_.fault(), SafetyFault::kNone);
+  EXPECT_EQ(chain_.fault(), FaultReason::kBadPosition);
+  chain_.recover();
+  EXPECT_EQ(chain_.fault(), FaultReason::kNone);
   EXPECT_EQ(chain_.faultSlice(), -1);
 }
 
 TEST_F(SafetyChainTest, NamesEverySliceOfAFullBank) {
   SafetyChain chain(quickConfig(), kMaxSlices, kTick);
   std::array<double, kMaxSlices> positions{};
-  EXPECT_EQ(chain.validate(positions.data(), kMissingSample), ~std::uint64_t{0});
+  EXPECT_EQ(chain.validate(positions.data(), kMissingSample, 0), ~std::uint64_t{0});
   positions.fill(1.0);
-  EXPECT_EQ(chain.validate(positions.data(), kExchangeOk), ~std::uint64_t{0});
+  EXPECT_EQ(chain.validate(positions.data(), kExchangeOk, 0), ~std::uint64_t{0});
 }
 
 TEST(SafetyConfigTest, RefusesSettingsOutsideTheirRange) {

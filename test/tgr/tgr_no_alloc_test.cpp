@@ -28,7 +28,7 @@ std::int64_t heapCalls(Rig& rig) {
   const test::AllocationScope scope;
   for (int n = 0; n < kTicks; ++n) {
     const std::uint32_t flags = driver.exchange(forces.data(), positions.data());
-    chain.validate(positions.data(), flags);
+    chain.validate(positions.data(), flags, 0);
     chain.engage();
     forces.fill(n % 100 == 99 ? std::numeric_limits<double>::quiet_NaN() : -200.0 * positions[0]);
     chain.limit(forces.data());

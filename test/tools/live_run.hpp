@@ -150,7 +150,7 @@ class LiveRun : private station::FramePort {
   std::vector<float> sound_;
   bag::Recording recording_;
   const physics::Instrument* playing_ = nullptr;
-  tgr::VirtualDriver* driver_ = nullptr;
+  tgr::Driver* driver_ = nullptr;
   std::unique_ptr<station::Station> station_;
 };
 

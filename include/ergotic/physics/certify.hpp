@@ -45,8 +45,11 @@ struct Certificate {
   double margin() const;  ///< 1 - max(lambda)/4, dimensionless; negative if unstable
 };
 
-/// Damping of one slice of the device, N s/m, where nobody has measured it.
-constexpr double kDeviceDamping = 2.0;
+/// What passivity at the ports depends on.
+struct DeviceTraits {
+  double damping = 2.0;      ///< of each slice by itself, N s/m, > 0
+  double delay_ticks = 1.0;  ///< from a position to the force that answers it
+};
 
 /// Tells before running whether a scene can blow up at these rates.
 ///
@@ -56,13 +59,11 @@ constexpr double kDeviceDamping = 2.0;
 /// Coupled rates: the same at the slow step over slow masses, coupling links and the fast masses
 /// that they touch; where that does not decide, the eigenvalues of one period of the slowest
 /// section, up to 300 masses.
-/// \param scene           settled
-/// \param device_damping  of each slice of the device, N s/m, > 0
+/// \param scene   settled
+/// \param device  that it will be played on
 /// Realtime: no. Cost: some tens of sparse factorisations, below 1 s for 7,000 masses.
 /// \throws std::logic_error if `settle` has left something to choose
 /// Source: docs/physics.md, "Stability".
-Certificate certify(const scene::Scene& scene,
-                    const Rates& rates,
-                    double device_damping = kDeviceDamping);
+Certificate certify(const scene::Scene& scene, const Rates& rates, const DeviceTraits& device = {});
 
 }  // namespace ergotic::physics

@@ -98,7 +98,7 @@ enum class MatType : std::uint8_t {
   kGround,  ///< (SOL) fixed point
   kCell,  ///< (CEL) mass with a spring and a damper to x = 0, or in Euclidean sections to its rest
   kDriven,  ///< its position is an input (`.mdl` posInput)
-  kSlice,   ///< a device slice: its position is the hand's, its force is felt by the hand
+  kSlice,   ///< moved from outside by ports, which feel its force; along x unless they say more
   kPoint,   ///< massless: lies between the modules of a grid, see Connection
 };
 
@@ -234,12 +234,29 @@ struct Connection {
   Place place;
 };
 
-/// A slice of the device that is a module of the scene and moves along x. Model and hand may be
-/// scaled: x_model = (x_hand - offset) / position_scale, F_hand = force_scale * F_model.
+/// A hand inside the scene that is not the player's: where it wants to be over time. Its stiffness
+/// and damping are links of the scene.
+struct Agent {
+  std::string name;
+  /// (s since the model began to play, m), in increasing time, at least one: straight lines
+  /// between, the first and the last value outside.
+  std::vector<std::pair<double, double>> knots;
+  double period_s = 0.0;  ///< after which it begins anew; 0: once
+  Place place;
+  /// Where it wants to be. Realtime: yes (binary search)
+  double at(double time_s) const noexcept;
+};
+
+/// One coordinate of a module that something outside moves, and feels: a slice of the device by
+/// itself, an end-effector of several, or an agent. Model and hand may be scaled:
+/// x_model = (x_hand - offset) / position_scale, F_hand = force_scale * F_model.
 struct Port {
   std::string name;
-  int mat = 0;          ///< a kSlice
-  int slice = 0;        ///< slice of the device, from 0
+  int mat = 0;   ///< a kSlice
+  int axis = 0;  ///< the coordinate: 0 x, 1 y, 2 z; one that moves
+  int slice =
+      -1;  ///< of the device, from 0, that moves it by itself; -1: an end-effector or nothing
+  int agent = -1;       ///< index in Scene::agents, -1: none
   double offset = 0.0;  ///< m
   double position_scale = 1.0;
   double force_scale = 1.0;
@@ -305,6 +322,7 @@ struct Scene {
   std::vector<Section> sections;
   std::vector<Mat> mats;
   std::vector<Lia> lias;
+  std::vector<Agent> agents;
   std::vector<Port> ports;
   std::vector<Input> inputs;
   std::vector<Output> outputs;

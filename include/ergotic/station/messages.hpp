@@ -6,6 +6,8 @@
 
 #include "ergotic/physics/instrument.hpp"
 #include "ergotic/tgr/driver.hpp"
+#include "ergotic/tgr/fault.hpp"
+#include "ergotic/tgr/rig.hpp"
 
 /// What crosses between the real-time thread and the others: plain structs only.
 namespace ergotic::station {
@@ -13,10 +15,11 @@ namespace ergotic::station {
 /// State of the force output. Force never comes back by itself.
 enum class ForceState : std::uint8_t {
   kDisconnected,  ///< no driver open
+  kUncalibrated,  ///< as kReady, but a slice in use has no calibration: `engage` is refused
   kReady,         ///< running, forces held at zero until `engage`
   kEngaging,      ///< ramping in
   kPlaying,       ///< forces reach the hand
-  kFault,         ///< latched at zero; see the event with its reason; `engage` clears it
+  kFault,         ///< latched at zero; see the event with its reason; `recover` clears it
 };
 const char* toString(ForceState state);
 
@@ -31,13 +34,27 @@ struct Command {
     kSwap,       ///< take `performer`, hand the old one back
     kParameter,  ///< take `coefficients`, prepared by the performer submitted last; index and value
                  ///< say which parameter got which value, for the record
-    kKeyframe,   ///< copy the state for a recording that starts now, or after the fade of a swap
+    kConfigure,  ///< force to zero, state Ready; take `rig`, made for the performer submitted last
+    kRecover,    ///< from Fault to Ready
+    kEmergencyStop,  ///< Fault at once
+    kPresence,       ///< value: 1 the player holds the switch, 0 not
+    kInject,         ///< index: InjectedModelFault, value: ticks; for tests
+    kKeyframe,  ///< copy the state for a recording that starts now, or after the fade of a swap
   };
   Type type = Type::kStop;
   int index = 0;
   double value = 0.0;
   Performer* performer = nullptr;
   physics::Coefficients* coefficients = nullptr;
+  tgr::Rig* rig = nullptr;
+};
+
+/// What can be made to go wrong in the model's forces, before the safety chain sees them. The
+/// numbers are part of the ROS interface (InjectFault.srv).
+enum class InjectedModelFault : std::uint8_t {
+  kNotANumber = 16,  ///< a force that is not a number
+  kBlowUp = 17,      ///< forces that double with every tick, from 1 N on
+  kActive = 18,      ///< a spring of negative stiffness between hand and model
 };
 
 /// From the tick to everyone, in order, stamped with the tick at which it took effect.
@@ -67,20 +84,12 @@ struct Event {
   double value = 0.0;
   Performer* performer = nullptr;
   physics::Coefficients* coefficients = nullptr;
+  tgr::Rig* rig = nullptr;
 };
 
 enum class LateCause : std::uint8_t { kWakeUp, kDevice, kCompute };
 
-enum class FaultReason : std::uint8_t {
-  kNone,
-  kDeviceLost,
-  kMissingSamples,
-  kBadPosition,  ///< NaN or beyond the range of a slice
-  kModelBlowUp,  ///< NaN or infinite force or displacement
-  kStall,        ///< longer than max_stall
-  kMadeSafe,     ///< by a signal or a watchdog
-};
-const char* toString(FaultReason reason);
+using tgr::FaultReason;
 
 /// One tick as recorded: enough, with the scene, to play it again bit for bit.
 struct GestureTick {

@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "ergotic/tgr/device_clock.hpp"
+
 namespace ergotic::tgr {
 
 constexpr int kMaxSlices = 64;
@@ -16,6 +18,7 @@ enum ExchangeFlag : std::uint32_t {
   kMissingSample = 1U << 0U,  ///< at least one position is not fresh
   kDeviceLost = 1U << 1U,     ///< the device does not answer any more
   kMadeSafe = 1U << 2U,       ///< forces are latched to zero by makeSafe()
+  kWriteFailed = 1U << 3U,    ///< at least one force was not taken by the device
 };
 
 /// A force-feedback device, an impedance device: it gives positions and takes forces.
@@ -33,12 +36,18 @@ class Driver {
   /// Zero force, then gives the device back. Idempotent. Realtime: no. Thread: setup
   virtual void close() noexcept = 0;
 
+  /// Tries to get a lost device back, while ticks go on: exchange says kDeviceLost until then.
+  /// No effect on a device that is well. The force stays at zero until the caller's chain wants it.
+  /// Realtime: no. Thread: setup, while exchange runs in the tick's
+  /// \throws DeviceError if it is still lost
+  virtual void reconnect() {}
+
   /// Number of slices, 1...kMaxSlices, constant after open.
   virtual int slices() const noexcept = 0;
 
   /// One transaction: the forces of the last tick go out, positions come in.
-  /// \param[in]  forces     [slices] N, positive along the slice's axis (up)
-  /// \param[out] positions  [slices] m, relative to the slice's rest
+  /// \param[in]  forces     [slices] N, positive along the slice's axis (up); V if `isRaw`
+  /// \param[out] positions  [slices] m, relative to the slice's rest; V if `isRaw`
   /// \return ExchangeFlag bits
   /// Realtime: yes. Thread: tick
   virtual std::uint32_t exchange(const double* forces, double* positions) noexcept = 0;
@@ -50,8 +59,38 @@ class Driver {
   /// Allows force again after makeSafe; the caller's chain ramps it in. Thread: setup
   virtual void rearm() noexcept = 0;
 
-  /// Ticks of delay the driver adds to the loop's one (0 for a synchronous device).
+  /// Ticks of delay the driver adds to the loop's one (0 for a synchronous device). Constant after
+  /// open.
   virtual int extraDelayTicks() const noexcept { return 0; }
+
+  /// True if `exchange` speaks volts: a CalibratedDriver has to stand in front.
+  virtual bool isRaw() const noexcept { return false; }
+
+  /// Slices that have no calibration, a bit each: they may not get force. Changes while ticks go
+  /// on. Realtime: yes. Thread: any
+  virtual std::uint64_t uncalibrated() const noexcept { return 0; }
+
+  /// Damping of a slice by itself, N s/m, as far as it is known: passivity limits rest on it.
+  virtual double damping() const noexcept { return 2.0; }
+
+  /// Not null if the device says when ticks are due. Constant after open.
+  virtual DeviceClock* clock() noexcept { return nullptr; }
+
+  /// Where the hand of a virtual device wants slice `slice`, m, from now on. Thread: one, any
+  /// \return false if there is no such hand or slice, the target is not within +-0.1 m, or the ring
+  ///         of pending targets is full
+  virtual bool setTarget(int /*slice*/, double /*target_m*/) noexcept { return false; }
+};
+
+/// Makes drivers of one kind; what a plugin exports.
+class DriverFactory {
+ public:
+  virtual ~DriverFactory() = default;
+  /// \param settings  YAML map of the driver's own settings, `{}`: none
+  /// \param place     of the settings, for messages: `file:line`
+  /// \throws Exception naming setting, value and allowed range
+  virtual std::unique_ptr<Driver> make(const std::string& settings,
+                                       const std::string& place) const = 0;
 };
 
 }  // namespace ergotic::tgr

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "ergotic/tgr/driver.hpp"
+#include "ergotic/tgr/fault.hpp"
 
 namespace ergotic::tgr {
 
@@ -14,14 +15,6 @@ struct SafetyConfig {
   double resume_ramp_s = 0.05;    ///< the same after a stall or a swap, 0.005...10
   double position_limit_m = 0.1;  ///< |x| of a slice beyond this is a bad sample, 0.001...1
   int max_missing = 20;           ///< ticks a missing sample is held before a Fault, 0...1000
-};
-
-enum class SafetyFault : std::uint8_t {
-  kNone,
-  kDeviceLost,
-  kMissingSamples,
-  kBadPosition,
-  kBadForce
 };
 
 /// The last word on every force, between the instrument and the driver.
@@ -34,30 +27,33 @@ class SafetyChain {
   /// \throws Exception if a setting is outside its range
   SafetyChain(const SafetyConfig& config, int slices, double tick_s);
 
-  /// Opens the gate with a ramp from zero; clears a fault. No effect while already open.
+  /// Opens the gate with a ramp from zero. No effect while it is open, or after a fault.
   void engage() noexcept;
   /// Closes the gate at once.
   void disengage() noexcept;
   /// Force to zero at once, and back within `resume_ramp_s`: after a stall or a swap the hand meets
   /// a model that has moved on. The gate stays as it is.
   void resume() noexcept;
+  /// Forgets a fault and all that detectors remember; the gate stays closed.
+  void recover() noexcept;
 
   /// Replaces bad or missing positions by the last good ones.
   /// \param[in,out] positions  [slices] m
-  /// \param flags  ExchangeFlag bits of the driver
+  /// \param flags        ExchangeFlag bits of the driver
+  /// \param host_missed  ticks that the host let pass since the last call: no sample was asked for
   /// \return slices held, a bit each; a fault if a slice is bad, or missing for too long
-  std::uint64_t validate(double* positions, std::uint32_t flags) noexcept;
+  std::uint64_t validate(double* positions, std::uint32_t flags, std::int64_t host_missed) noexcept;
 
   /// \param[in,out] forces  [slices] N; afterwards finite and within the limit, 0 if gate closed
   void limit(double* forces) noexcept;
 
   bool isOpen() const noexcept { return open_; }
   double gain() const noexcept { return gain_; }  ///< 0...1, of the ramp after engage
-  SafetyFault fault() const noexcept { return fault_; }
+  FaultReason fault() const noexcept { return fault_; }
   int faultSlice() const noexcept { return fault_slice_; }
 
  private:
-  void raise(SafetyFault fault, int slice) noexcept;
+  void raise(FaultReason fault, int slice) noexcept;
 
   SafetyConfig config_;
   int slices_;
@@ -67,7 +63,7 @@ class SafetyChain {
   double gain_ = 0.0;
   double resume_gain_ = 1.0;
   int missing_ = 0;
-  SafetyFault fault_ = SafetyFault::kNone;
+  FaultReason fault_ = FaultReason::kNone;
   int fault_slice_ = -1;
   std::array<double, kMaxSlices> last_good_{};
 };

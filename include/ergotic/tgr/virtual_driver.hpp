@@ -39,17 +39,9 @@ struct VirtualDriverConfig {
   std::string shared_memory;
 };
 
-/// The virtual TGR. Its targets can be moved from one other thread while it runs.
-class VirtualDriver : public Driver {
- public:
-  /// Where the virtual hand wants slice `slice`, m, from now on (overrides the gesture file for
-  /// that slice). Thread: one, any
-  /// \return false if the slice does not exist, the target is not within +-0.1 m, or the ring of
-  ///         pending targets is full
-  virtual bool setTarget(int slice, double target_m) noexcept = 0;
-};
-
+/// The virtual TGR. Its targets can be moved from one other thread while it runs; they override the
+/// gesture file.
 /// \throws TextError from the gesture file, Exception if a setting is outside its range
-std::unique_ptr<VirtualDriver> makeVirtualDriver(const VirtualDriverConfig& config);
+std::unique_ptr<Driver> makeVirtualDriver(const VirtualDriverConfig& config);
 
 }  // namespace ergotic::tgr

@@ -14,7 +14,7 @@ namespace ergotic::tgr {
 ///
 /// As on a real device, the forces of an exchange act from there to the next one, so the positions
 /// that this exchange reads do not know them yet. Same settings, file and forces: same bits.
-class InProcessDriver final : public VirtualDriver {
+class InProcessDriver final : public Driver {
  public:
   /// \throws as makeVirtualDriver
   explicit InProcessDriver(const VirtualDriverConfig& config);

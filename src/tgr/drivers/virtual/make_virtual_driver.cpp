@@ -5,7 +5,7 @@
 
 namespace ergotic::tgr {
 
-std::unique_ptr<VirtualDriver> makeVirtualDriver(const VirtualDriverConfig& config) {
+std::unique_ptr<Driver> makeVirtualDriver(const VirtualDriverConfig& config) {
   if (config.shared_memory.empty()) {
     return std::make_unique<InProcessDriver>(config);
   }

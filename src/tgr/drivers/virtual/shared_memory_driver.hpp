@@ -12,7 +12,7 @@ namespace ergotic::tgr {
 
 /// The driver's side of a virtual device that is a process of its own. Never waits for it: it
 /// leaves the forces, and takes the newest positions.
-class SharedMemoryDriver final : public VirtualDriver {
+class SharedMemoryDriver final : public Driver {
  public:
   /// \throws Exception if a setting is outside its range or belongs to the device process
   explicit SharedMemoryDriver(const VirtualDriverConfig& config);

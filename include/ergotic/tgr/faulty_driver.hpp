@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "ergotic/tgr/driver.hpp"
+
+namespace ergotic::tgr {
+
+/// What can be made to go wrong between a device and its station. The numbers are part of the ROS
+/// interface (InjectFault.srv).
+enum class InjectedFault : std::uint8_t {
+  kNotANumber = 0,  ///< position NaN
+  kInfinite = 1,    ///< position infinite
+  kJump = 2,        ///< position off by `amount` m
+  kFrozen = 3,      ///< position stays as it is
+  kRail = 4,        ///< position at +`amount` m
+  kMissing = 5,     ///< samples missing
+  kSlow = 6,        ///< exchange takes `amount` s longer
+  kWriteFails = 7,  ///< forces are not taken
+  kUnplugged = 8,   ///< the device does not answer until reconnected
+  kNoise = 9,       ///< position with noise of `amount` m rms
+};
+
+struct FaultOrder {
+  InjectedFault kind = InjectedFault::kMissing;
+  int slice = -1;          ///< -1: all
+  std::int64_t ticks = 1;  ///< how long; kUnplugged: until reconnect
+  double amount = 0.0;     ///< as the kind says
+};
+
+/// A device between which and the station faults can be injected. Without orders it is exactly the
+/// device inside.
+class FaultyDriver : public Driver {
+ public:
+  /// Takes effect with the next exchange, in place of an earlier order. Thread: operator
+  /// \throws Exception if a number is out of its range
+  virtual void inject(const FaultOrder& order) = 0;
+};
+std::unique_ptr<FaultyDriver> makeFaultyDriver(std::unique_ptr<Driver> inside);
+
+/// By its name, as `frozen`. \throws Exception naming those that exist
+InjectedFault faultNamed(const std::string& name);
+
+}  // namespace ergotic::tgr

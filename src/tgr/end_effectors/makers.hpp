@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "ergotic/tgr/end_effector.hpp"
+
+/// One maker for each type, given numbers within their ranges.
+namespace ergotic::tgr {
+
+std::unique_ptr<Kinematics> makeKey(const EndEffectorConfig& config);
+std::unique_ptr<Kinematics> makeBow(const EndEffectorConfig& config);
+std::unique_ptr<Kinematics> makeStick(const EndEffectorConfig& config);
+
+}  // namespace ergotic::tgr

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <string>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/rt/clock.hpp"
+#include "ergotic/tgr/safety/watchdog.hpp"
+
+namespace ergotic::tgr {
+namespace {
+
+constexpr WatchdogOptions kQuick{0.004, 0};
+constexpr std::int64_t kPeriodNs = 4'000'000;
+
+void pause(int ms) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(ms));
+}
+
+class WatchdogThreadsTest : public ::testing::Test {
+ protected:
+  /// \return longest time between two, ns
+  std::int64_t tickFor(int ms) {
+    std::int64_t last_ns = rt::monotonicNs();
+    const std::int64_t end_ns = last_ns + ms * std::int64_t{1'000'000};
+    std::int64_t longest_ns = 0;
+    while (last_ns < end_ns) {
+      ++ticks_;
+      std::this_thread::yield();
+      const std::int64_t now_ns = rt::monotonicNs();
+      longest_ns = std::max(longest_ns, now_ns - last_ns);
+      last_ns = now_ns;
+    }
+    return longest_ns;
+  }
+  /// Ticks and stops until it has acted `count` times.
+  void stopUntilBites(int count) {
+    while (dog_.bites() < count) {
+      tickFor(5);  // it looks every millisecond
+      pause(10);
+    }
+  }
+
+  std::atomic<std::int64_t> ticks_{0};
+  std::atomic<int> calls_{0};
+  std::atomic<std::int64_t> told_ns_{0};
+  Watchdog dog_{ticks_, [this](std::int64_t silence_ns) {
+                  told_ns_ = silence_ns;
+                  ++calls_;
+                }};
+};
+
+TEST_F(WatchdogThreadsTest, ActsOncePerStopAndTellsHowLong) {
+  constexpr int kRounds = 20;
+  dog_.start(kQuick);
+  for (int round = 1; round <= kRounds; ++round) {
+    dog_.arm();
+    stopUntilBites(round);
+    EXPECT_FALSE(dog_.isArmed());
+    EXPECT_GE(told_ns_, kPeriodNs);
+    EXPECT_EQ(dog_.silenceNs(), told_ns_);
+  }
+  pause(20);
+  dog_.stop();
+  EXPECT_EQ(calls_, kRounds);
+  EXPECT_EQ(dog_.bites(), kRounds);
+}
+
+TEST_F(WatchdogThreadsTest, StaysQuietWhileTicksGoOn) {
+  dog_.start(kQuick);
+  dog_.arm();
+  const std::int64_t longest_ns = tickFor(300);
+  dog_.disarm();
+  const bool ticks_were_late = longest_ns >= kPeriodNs;  // another process had this processor
+  EXPECT_TRUE(dog_.bites() == 0 || ticks_were_late) << longest_ns << " ns";
+}
+
+TEST_F(WatchdogThreadsTest, StaysQuietUnlessArmed) {
+  dog_.start(kQuick);
+  tickFor(10);
+  pause(30);
+  dog_.arm();
+  pause(30);  // no tick since
+  EXPECT_EQ(dog_.bites(), 0);
+  dog_.disarm();
+  tickFor(10);
+  pause(30);
+  dog_.stop();
+  EXPECT_EQ(calls_, 0);
+}
+
+TEST_F(WatchdogThreadsTest, MayBeArmedFromItsOwnActAndFromOtherThreads) {
+  std::atomic<int> acts{0};
+  Watchdog* self = nullptr;
+  Watchdog dog(ticks_, [&](std::int64_t) {
+    ++acts;
+    self->arm();
+  });
+  self = &dog;
+  dog.start(kQuick);
+  dog.arm();
+  std::atomic<bool> done{false};
+  std::thread operators([&] {
+    while (!done) {
+      dog.arm();
+      std::this_thread::yield();
+    }
+  });
+  while (acts < 5) {
+    ++ticks_;
+    pause(10);
+  }
+  done = true;
+  operators.join();
+  dog.stop();
+  EXPECT_EQ(acts, dog.bites());
+}
+
+TEST_F(WatchdogThreadsTest, StartsAndStopsAgain) {
+  for (int i = 1; i <= 3; ++i) {
+    dog_.start(kQuick);
+    EXPECT_TRUE(dog_.isRunning());
+    EXPECT_FALSE(dog_.isArmed());
+    dog_.arm();
+    stopUntilBites(i);
+    dog_.stop();
+    dog_.stop();
+    EXPECT_FALSE(dog_.isRunning());
+  }
+}
+
+TEST_F(WatchdogThreadsTest, SaysWhatItCouldNotGet) {
+  dog_.start({0.02, 80});
+  // Either the system gives the priority or it says why not.
+  EXPECT_TRUE(dog_.isRunning());
+  EXPECT_TRUE(dog_.warning().empty() || dog_.warning().find("priority") != std::string::npos)
+      << dog_.warning();
+}
+
+TEST_F(WatchdogThreadsTest, RefusesOptionsOutsideTheirRange) {
+  EXPECT_THROW(dog_.start({0.003, 0}), Exception);
+  EXPECT_THROW(dog_.start({1.1, 0}), Exception);
+  EXPECT_THROW(dog_.start({0.02, -1}), Exception);
+  EXPECT_THROW(dog_.start({0.02, 100}), Exception);
+  dog_.start(kQuick);
+  EXPECT_THROW(dog_.start(kQuick), Exception);
+}
+
+}  // namespace
+}  // namespace ergotic::tgr

@@ -19,9 +19,10 @@ function(ergotic_add_gtests room)
     TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${room})
 endfunction()
 
-foreach(room rt scene tgr station audio golden)
+foreach(room rt scene station audio golden)
   ergotic_add_gtests(${room})
 endforeach()
+ergotic_add_gtests(tgr yaml-cpp)  # places of settings are seen in their nodes
 foreach(room physics tools)  # physics is compared with the tools' plain implementation
   ergotic_add_gtests(${room} ergotic_tool_support)
 endforeach()

@@ -17,8 +17,8 @@ namespace ergotic::tgr {
 /// One device of a station: a driver, its settings, and the calibration of its slices.
 struct DeviceConfig {
   std::string driver;           ///< name: virtual, replay, comedi, jack, or a plugin's
-  std::string settings = "{}";  ///< YAML map, the driver's own
-  std::string place;            ///< of the settings, for messages
+  std::string settings = "{}";  ///< YAML map, the driver's own, see DriverFactory::make
+  std::string place;            ///< name of the file that they are from, for messages
   std::optional<Calibration> calibration;
 };
 

@@ -86,8 +86,9 @@ class Driver {
 class DriverFactory {
  public:
   virtual ~DriverFactory() = default;
-  /// \param settings  YAML map of the driver's own settings, `{}`: none
-  /// \param place     of the settings, for messages: `file:line`
+  /// \param settings  YAML map of the driver's own settings, `{}`: none. What comes from a file
+  ///                  stands on the line and in the column that it has there
+  /// \param place     name of that file, for messages `place:line:col: error: ...`
   /// \throws Exception naming setting, value and allowed range
   virtual std::unique_ptr<Driver> make(const std::string& settings,
                                        const std::string& place) const = 0;

@@ -5,7 +5,8 @@
 
 namespace ergotic::test {
 
-using DriverRigs = ::testing::Types<InProcessRig, SharedMemoryRig, ReplayRig>;
+using DriverRigs =
+    ::testing::Types<InProcessRig, SharedMemoryRig, ReplayRig, FaultyRig, CombinedRig>;
 INSTANTIATE_TYPED_TEST_SUITE_P(Drivers, DriverContractTest, DriverRigs);
 
 }  // namespace ergotic::test

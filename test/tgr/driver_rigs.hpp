@@ -6,8 +6,12 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "ergotic/rt/clock.hpp"
+#include "ergotic/tgr/combined_driver.hpp"
+#include "ergotic/tgr/faulty_driver.hpp"
 #include "ergotic/tgr/replay_driver.hpp"
 #include "ergotic/tgr/virtual_driver.hpp"
 #include "tgr/drivers/virtual/virtual_device.hpp"
@@ -30,14 +34,41 @@ inline std::string freshSegmentName() {
   return "ergotic_test_" + std::to_string(::getpid()) + "_" + std::to_string(count++);
 }
 
+inline std::unique_ptr<tgr::Driver> makePlainVirtual(int slices) {
+  tgr::VirtualDriverConfig config;
+  config.slices = slices;
+  config.slice = plainSlice();
+  return tgr::makeVirtualDriver(config);
+}
+
 class InProcessRig {
  public:
   static constexpr bool kFeelsForce = true;
-  InProcessRig() {
-    tgr::VirtualDriverConfig config;
-    config.slices = 3;
-    config.slice = plainSlice();
-    driver_ = tgr::makeVirtualDriver(config);
+  tgr::Driver& driver() { return *driver_; }
+  void elapse() {}
+
+ private:
+  std::unique_ptr<tgr::Driver> driver_ = makePlainVirtual(3);
+};
+
+class FaultyRig {
+ public:
+  static constexpr bool kFeelsForce = true;
+  tgr::Driver& driver() { return *driver_; }
+  void elapse() {}
+
+ private:
+  std::unique_ptr<tgr::Driver> driver_ = tgr::makeFaultyDriver(makePlainVirtual(3));
+};
+
+class CombinedRig {
+ public:
+  static constexpr bool kFeelsForce = true;
+  CombinedRig() {
+    std::vector<std::unique_ptr<tgr::Driver>> devices;
+    devices.push_back(makePlainVirtual(3));
+    devices.push_back(makePlainVirtual(2));
+    driver_ = tgr::combine(std::move(devices));
   }
   tgr::Driver& driver() { return *driver_; }
   void elapse() {}

@@ -18,10 +18,12 @@ struct SliceCalibration {
   double low_volts = -10.0;      ///< the sensor's range; at or beyond it the sensor is at its rail
   double high_volts = 10.0;
   double volts_per_newton = 0.0;  ///< not 0
-  double zero_volts = 0.0;        ///< output at zero force
-  double max_volts = 10.0;        ///< the output's range is +-max_volts
-  double residual_m = 0.0;        ///< rms of the fit
-  double noise_m = 0.0;           ///< rms of the sensor at rest
+  /// Output at zero force, at most 0.1 N away from 0 V: at 0 V is a device that was made safe, or
+  /// whose station died.
+  double zero_volts = 0.0;
+  double max_volts = 10.0;  ///< the output's range is +-max_volts
+  double residual_m = 0.0;  ///< rms of the fit
+  double noise_m = 0.0;     ///< rms of the sensor at rest
 };
 
 /// Calibrations of the slices of a device, from slice 0 on.

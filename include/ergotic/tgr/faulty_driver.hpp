@@ -18,8 +18,8 @@ enum class InjectedFault : std::uint8_t {
   kFrozen = 3,      ///< position stays as it is
   kRail = 4,        ///< position at +`amount` m
   kMissing = 5,     ///< samples missing
-  kSlow = 6,        ///< exchange takes `amount` s longer
-  kWriteFails = 7,  ///< forces are not taken
+  kSlow = 6,        ///< exchange takes `amount` s longer: busy up to 1 ms, asleep beyond
+  kWriteFails = 7,  ///< forces are not taken: the last one stays, until made safe
   kUnplugged = 8,   ///< the device does not answer until reconnected
   kNoise = 9,       ///< position with noise of `amount` m rms
 };
@@ -35,7 +35,8 @@ struct FaultOrder {
 /// device inside.
 class FaultyDriver : public Driver {
  public:
-  /// Takes effect with the next exchange, in place of an earlier order. Thread: operator
+  /// Takes effect with the next exchange, in place of an earlier order; but what is unplugged stays
+  /// so until `reconnect` or `open`. Thread: operator
   /// \throws Exception if a number is out of its range
   virtual void inject(const FaultOrder& order) = 0;
 };

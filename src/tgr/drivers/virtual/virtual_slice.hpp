@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "ergotic/tgr/virtual_driver.hpp"
-#include "tgr/drivers/virtual/sensor_noise.hpp"
+#include "tgr/sensor_noise.hpp"
 
 namespace ergotic::tgr {
 

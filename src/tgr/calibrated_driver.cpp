@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/rt/mailbox.hpp"
+#include "ergotic/rt/realtime.hpp"
+#include "ergotic/tgr/calibration.hpp"
+#include "tgr/calibration_rules.hpp"
+#include "tgr/require.hpp"
+
+namespace ergotic::tgr {
+namespace {
+
+using Slices = std::array<double, kMaxSlices>;
+using Table = std::array<SliceCalibration, kMaxSlices>;
+
+ERGOTIC_REALTIME double positionOf(double volts, const SliceCalibration& c) noexcept {
+  if (!c.is_calibrated) {
+    return 0.0;
+  }
+  const bool is_inside = volts > c.low_volts && volts < c.high_volts;  // false if not a number
+  return is_inside ? c.metres_per_volt * (volts - c.rest_volts)
+                   : std::numeric_limits<double>::quiet_NaN();
+}
+
+ERGOTIC_REALTIME double voltsOf(double force, const SliceCalibration& c) noexcept {
+  if (!c.is_calibrated || std::isnan(force)) {
+    return c.zero_volts;
+  }
+  const double able = std::clamp(force, -kAbsoluteForceLimitN, kAbsoluteForceLimitN);
+  return std::clamp(c.zero_volts + c.volts_per_newton * able, -c.max_volts, c.max_volts);
+}
+
+class CalibratedDriverOverRaw final : public CalibratedDriver {
+ public:
+  CalibratedDriverOverRaw(std::unique_ptr<Driver> raw, Calibration calibration)
+      : raw_(std::move(raw)), calibration_(std::move(calibration)) {
+    if (!raw_->isRaw()) {
+      throw Exception("a calibration of a device that speaks metres and newtons already");
+    }
+    fitToDevice();
+  }
+
+  void open(double tick_rate_hz) override {
+    raw_->open(tick_rate_hz);
+    try {
+      fitToDevice();  // some know their slices only now
+    } catch (...) {
+      raw_->close();
+      throw;
+    }
+  }
+  void close() noexcept override { raw_->close(); }
+  void reconnect() override { raw_->reconnect(); }
+  int slices() const noexcept override { return raw_->slices(); }
+  void makeSafe() noexcept override { raw_->makeSafe(); }
+  void rearm() noexcept override { raw_->rearm(); }
+  int extraDelayTicks() const noexcept override { return raw_->extraDelayTicks(); }
+  std::uint64_t uncalibrated() const noexcept override { return uncalibrated_; }
+  double damping() const noexcept override { return raw_->damping(); }
+  DeviceClock* clock() noexcept override { return raw_->clock(); }
+  bool setTarget(int slice, double target_m) noexcept override {
+    return raw_->setTarget(slice, target_m);
+  }
+
+  void set(int slice, const SliceCalibration& calibration) override {
+    requireWithin("slice of the calibration", slice, 0, slices() - 1, "");
+    checkCalibration(calibration, " of slice " + std::to_string(slice));
+    calibration_.slices[static_cast<std::size_t>(slice)] = calibration;
+    publish();
+  }
+  const Calibration& calibration() const noexcept override { return calibration_; }
+
+  void readVolts(double* volts) noexcept override {
+    volts_.refresh();
+    std::copy_n(volts_.latest().begin(), slices(), volts);
+  }
+
+  ERGOTIC_REALTIME std::uint32_t exchange(const double* forces,
+                                          double* positions) noexcept override {
+    table_.refresh();
+    const Table& table = table_.latest();
+    const auto count = static_cast<std::size_t>(slices());
+    for (std::size_t i = 0; i < count; ++i) {
+      outputs_[i] = voltsOf(forces[i], table[i]);
+    }
+    Slices& sensors = volts_.draft();
+    const std::uint32_t flags = raw_->exchange(outputs_.data(), sensors.data());
+    if ((flags & kDeviceLost) == 0) {
+      for (std::size_t i = 0; i < count; ++i) {
+        positions_[i] = positionOf(sensors[i], table[i]);
+      }
+      volts_.publish();
+    }
+    std::copy_n(positions_.begin(), count, positions);
+    return flags;
+  }
+
+ private:
+  void fitToDevice() {
+    const auto count = static_cast<std::size_t>(slices());
+    if (calibration_.slices.size() > count) {
+      throw Exception("calibrations of " + std::to_string(calibration_.slices.size()) +
+                      " slices, allowed: at most " + std::to_string(count) +
+                      ", as many as the device has");
+    }
+    calibration_.slices.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      checkCalibration(calibration_.slices[i], " of slice " + std::to_string(i));
+    }
+    publish();
+  }
+
+  void publish() noexcept {
+    std::uint64_t missing = 0;
+    Table& table = table_.draft();
+    for (std::size_t i = 0; i < calibration_.slices.size(); ++i) {
+      table[i] = calibration_.slices[i];
+      missing |= table[i].is_calibrated ? 0U : std::uint64_t{1} << i;
+    }
+    table_.publish();
+    uncalibrated_ = missing;
+  }
+
+  std::unique_ptr<Driver> raw_;
+  Calibration calibration_;                     // the operator's
+  std::atomic<std::uint64_t> uncalibrated_{0};  // bits
+  rt::Mailbox<Table> table_;                    // to the tick
+  rt::Mailbox<Slices> volts_;                   // to the operator
+
+  // The tick's own.
+  Slices outputs_{};    // V
+  Slices positions_{};  // m
+};
+
+}  // namespace
+
+std::unique_ptr<CalibratedDriver> makeCalibratedDriver(std::unique_ptr<Driver> raw,
+                                                       Calibration calibration) {
+  return std::make_unique<CalibratedDriverOverRaw>(std::move(raw), std::move(calibration));
+}
+
+}  // namespace ergotic::tgr

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/tgr/driver.hpp"
+
+namespace ergotic::test {
+
+/// A device of which a test says all it does and sees all it gets, also when it is deep inside
+/// others: both are in a `Script` that the test keeps.
+struct Script {
+  int slices = 2;
+  bool is_raw = false;
+  bool has_clock = false;
+  bool opens = true;
+  bool reconnects = true;
+  int extra_delay_ticks = 0;
+  double damping = 2.0;
+  std::uint64_t uncalibrated = 0;
+  std::uint32_t flags = 0;
+  std::array<double, tgr::kMaxSlices> positions{};
+
+  std::array<double, tgr::kMaxSlices> forces{};  ///< of the last exchange
+  int exchanges = 0;
+  bool is_open = false;
+  bool is_safe = false;
+  int reconnections = 0;
+  std::pair<int, double> target{-1, 0.0};
+};
+
+class ScriptedDriver final : public tgr::Driver, private tgr::DeviceClock {
+ public:
+  explicit ScriptedDriver(Script& script) : script_(script) {}
+
+  void open(double) override {
+    if (!script_.opens) {
+      throw DeviceError("it does not open");
+    }
+    script_.is_open = true;
+  }
+  void close() noexcept override { script_.is_open = false; }
+  void reconnect() override {
+    ++script_.reconnections;
+    if (!script_.reconnects) {
+      throw DeviceError("still lost");
+    }
+  }
+  int slices() const noexcept override { return script_.slices; }
+  std::uint32_t exchange(const double* forces, double* positions) noexcept override {
+    ++script_.exchanges;
+    for (int i = 0; i < script_.slices; ++i) {
+      const auto slot = static_cast<std::size_t>(i);
+      script_.forces[slot] = forces[i];
+      positions[i] = script_.positions[slot];
+    }
+    return script_.flags;
+  }
+  void makeSafe() noexcept override { script_.is_safe = true; }
+  void rearm() noexcept override { script_.is_safe = false; }
+  int extraDelayTicks() const noexcept override { return script_.extra_delay_ticks; }
+  bool isRaw() const noexcept override { return script_.is_raw; }
+  std::uint64_t uncalibrated() const noexcept override { return script_.uncalibrated; }
+  double damping() const noexcept override { return script_.damping; }
+  tgr::DeviceClock* clock() noexcept override { return script_.has_clock ? this : nullptr; }
+  bool setTarget(int slice, double target_m) noexcept override {
+    script_.target = {slice, target_m};
+    return true;
+  }
+
+ private:
+  void start(tgr::TickTarget&) override {}
+  void stop() noexcept override {}
+
+  Script& script_;
+};
+
+/// What an action complains of; empty if it does not.
+template <class Action>
+std::string complaintOf(Action action) {
+  try {
+    action();
+  } catch (const Exception& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace ergotic::test

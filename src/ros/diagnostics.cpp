@@ -51,7 +51,9 @@ void Diagnostics::reportForce(Report& report) {
     default:
       report.summary(Level::OK, status_.state_text);
   }
-  report.add("device", status_.driver);
+  for (const std::string& device : status_.devices) {
+    report.add("device", device);
+  }
   report.add("slices", status_.slices);
   report.add("peak force (N)", status_.peak_force);
 }

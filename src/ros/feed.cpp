@@ -38,7 +38,7 @@ void Feed::configure(const Parameters& parameters) {
   station_config_ = toYaml(parameters);
   display_zoom_ = parameters.display_zoom;
   motion_period_ns_ = static_cast<std::int64_t>(1e9 / parameters.display_rate);
-  status_.driver = parameters.driver;
+  status_.devices = {parameters.driver};
   if (parameters.compile.metered) {
     model_energy_ = node_.advertise<ModelEnergy>("model_energy", kQueue);
   }

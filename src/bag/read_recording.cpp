@@ -45,7 +45,14 @@ Block fromMessage(const GestureBlock& message, const std::string& path) {
                     std::to_string(message.ticks) + " ticks of " + std::to_string(message.slices) +
                     " slices");
   }
-  return {message.first_tick, message.slices, message.flags, message.positions};
+  if (message.port_positions.size() != std::size_t{message.ticks} * message.ports) {
+    throw Exception(path + ": the gesture block of tick " + std::to_string(message.first_tick) +
+                    " has " + std::to_string(message.port_positions.size()) + " positions for " +
+                    std::to_string(message.ticks) + " ticks of " + std::to_string(message.ports) +
+                    " ports");
+  }
+  return {message.first_tick, message.slices,    message.ports,
+          message.flags,      message.positions, message.port_positions};
 }
 
 /// The message of this type in a recorded message, or null if it is another one.

@@ -18,19 +18,22 @@ GestureBlocks::GestureBlocks(double tick_rate_hz)
 
 std::optional<GestureBlock> GestureBlocks::add(const station::GestureTick& tick) {
   std::optional<GestureBlock> finished;
-  const bool follows =
-      tick.tick == block_.first_tick + block_.ticks && tick.slices == block_.slices;
+  const bool follows = tick.tick == block_.first_tick + block_.ticks &&
+                       tick.slices == block_.slices && tick.ports == block_.ports;
   if (block_.ticks > 0 && !follows) {
     finished = take();
   }
   if (block_.ticks == 0) {
     block_.first_tick = tick.tick;
     block_.slices = tick.slices;
+    block_.ports = tick.ports;
   }
   block_.flags.push_back(tick.flags);
   block_.positions.insert(block_.positions.end(), tick.position.begin(),
                           tick.position.begin() + tick.slices);
   block_.forces.insert(block_.forces.end(), tick.force.begin(), tick.force.begin() + tick.slices);
+  block_.port_positions.insert(block_.port_positions.end(), tick.port.begin(),
+                               tick.port.begin() + tick.ports);
   ++block_.ticks;
   if (!finished && block_.ticks >= ticks_per_block_) {
     finished = take();

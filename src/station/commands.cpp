@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What operators ask of the tick, and the swap that follows from it.
+#include <algorithm>
 #include <utility>
 
 #include "ergotic/exception.hpp"
@@ -12,11 +13,13 @@ namespace {
 constexpr int kCommandsPerTick = 16;
 
 bool carriesOwnership(Command::Type type) {
-  return type == Command::Type::kSwap || type == Command::Type::kParameter;
+  return type == Command::Type::kSwap || type == Command::Type::kParameter ||
+         type == Command::Type::kConfigure;
 }
 
 bool carriesOwnership(Event::Type type) {
-  return type == Event::Type::kSwapped || type == Event::Type::kParameter;
+  return type == Event::Type::kSwapped || type == Event::Type::kParameter ||
+         type == Event::Type::kConfigured;
 }
 
 }  // namespace
@@ -31,12 +34,15 @@ bool Station::submit(const Command& command) {
   if (command.type == Command::Type::kParameter && command.coefficients == nullptr) {
     throw Exception("a parameter change needs coefficients");
   }
+  if (command.type == Command::Type::kConfigure && command.rig == nullptr) {
+    throw Exception("a configuration needs a rig");
+  }
   // The event ring keeps `command_ring` places for what is handed back: it can never be lost.
   const bool owes = carriesOwnership(command.type);
   if (owes && owed_ >= config_.command_ring) {
     return false;
   }
-  if (command.type == Command::Type::kEngage) {
+  if (command.type == Command::Type::kRecover) {
     driver_->rearm();
   }
   if (!commands_.push(command)) {
@@ -80,10 +86,22 @@ void Station::obey(const Command& command) noexcept {
       takeCoefficients(command);
       break;
     case Command::Type::kConfigure:
+      takeRig(command.rig);
+      break;
     case Command::Type::kRecover:
-    case Command::Type::kEmergencyStop:
+      recover();
+      break;
     case Command::Type::kPresence:
+      present_ = command.value > 0.0;
+      absent_ = 0;
+      break;
     case Command::Type::kInject:
+      if (config_.allow_fault_injection) {
+        injected_ = static_cast<InjectedModelFault>(command.index);
+        inject_ticks_ = static_cast<std::int64_t>(command.value);
+        inject_age_ = 0;
+        inject_from_ = position_;
+      }
       break;
     case Command::Type::kKeyframe:
       ++keyframes_wanted_;
@@ -92,19 +110,48 @@ void Station::obey(const Command& command) noexcept {
 }
 
 void Station::engage() noexcept {
-  if (blown_up_) {
-    state_ = ForceState::kReady;  // the refusal is told each time
-    fault(FaultReason::kModelBlowUp, -1);
-    return;
+  if (state_ == ForceState::kFault) {
+    return refuse(Refusal::kFault);
   }
-  // From zero in any case: the driver may have been made safe and re-armed within one tick.
-  chain_.recover();
+  if (state_ == ForceState::kUncalibrated) {
+    return refuse(Refusal::kUncalibrated);
+  }
+  if (presence_ticks_ > 0 && !present_) {
+    return refuse(Refusal::kPresence);
+  }
+  if (gliding_ > 0) {
+    return refuse(Refusal::kBusy);
+  }
+  chain_.disengage();  // from zero in any case
   chain_.engage();
   state_ = ForceState::kEngaging;
-  fault_ = FaultReason::kNone;
   Event engaged = event(Event::Type::kEngaged);
   engaged.value = config_.safety.ramp_s;
   tell(engaged);
+}
+
+void Station::refuse(Refusal refusal) noexcept {
+  Event refused = event(Event::Type::kRefused);
+  refused.index = static_cast<std::int64_t>(refusal);
+  tell(refused);
+}
+
+void Station::recover() noexcept {
+  const bool anew = blown_up_;
+  if (anew && performer_->instrument->isUnderWay()) {
+    return refuse(Refusal::kBusy);
+  }
+  if (anew) {
+    performer_->restart();
+    blown_up_ = false;
+  }
+  inject_ticks_ = 0;
+  chain_.recover();
+  state_ = ForceState::kReady;
+  fault_ = FaultReason::kNone;
+  Event recovered = event(Event::Type::kRecovered);
+  recovered.index = anew ? 1 : 0;
+  tell(recovered);
 }
 
 void Station::stop() noexcept {
@@ -140,6 +187,7 @@ void Station::advanceSwap() noexcept {
   }
   performer_.swap(incoming_);
   blown_up_ = false;
+  gliding_ = 0;
   fade_.startIn();
   chain_.resume();
   Event swapped = event(Event::Type::kSwapped);
@@ -161,6 +209,28 @@ void Station::takeCoefficients(const Command& command) noexcept {
       target.instrument->exchange(std::unique_ptr<physics::Coefficients>(command.coefficients))
           .release();
   handBack(taken);
+}
+
+/// What the ports of the present model did under the old rig, they leave in a glide: the model is
+/// not struck by a change of hands.
+void Station::takeRig(tgr::Rig* next) noexcept {
+  Event configured = event(Event::Type::kConfigured);
+  if (incoming_ != nullptr) {
+    configured.rig = incoming_->rig.release();
+    incoming_->rig.reset(next);
+    return handBack(configured);
+  }
+  stop();
+  configured.rig = performer_->rig.release();
+  performer_->rig.reset(next);
+  std::copy(performer_->positions.begin(), performer_->positions.end(), glide_.begin());
+  const double time_s = 1e-9 * tick_ns_ * static_cast<double>(performer_->ticks);
+  next->toModel(position_.data(), time_s, performer_->positions.data());
+  for (std::size_t i = 0; i < performer_->positions.size(); ++i) {
+    glide_[i] -= performer_->positions[i];
+  }
+  gliding_ = glide_ticks_;
+  handBack(configured);
 }
 
 void Station::takeKeyframe() noexcept {

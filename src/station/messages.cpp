@@ -21,4 +21,18 @@ const char* toString(ForceState state) {
   return "?";
 }
 
+const char* toString(Refusal refusal) {
+  switch (refusal) {
+    case Refusal::kFault:
+      return "there was a fault: recover first";
+    case Refusal::kUncalibrated:
+      return "a slice in use is not calibrated: calibrate it first";
+    case Refusal::kPresence:
+      return "the presence switch is not held";
+    case Refusal::kBusy:
+      return "the model is still busy, try again in a moment";
+  }
+  return "?";
+}
+
 }  // namespace ergotic::station

@@ -25,16 +25,6 @@ std::size_t samples(const physics::Instrument& instrument, int channels) {
   return static_cast<std::size_t>(instrument.rates().ratio) * static_cast<std::size_t>(channels);
 }
 
-void checkSlices(const scene::Scene& scene, int slices) {
-  for (const scene::Port& port : scene.ports) {
-    if (port.slice >= slices) {
-      throw TextError(scene.file, port.place.line, port.place.column,
-                      "port '" + port.name + "' needs slice " + std::to_string(port.slice) +
-                          ", the device has 0..." + std::to_string(slices - 1));
-    }
-  }
-}
-
 bool isAllowed(physics::Verdict verdict, const PerformerPolicy& policy) {
   switch (verdict) {
     case physics::Verdict::kPassive:
@@ -59,27 +49,31 @@ bool isAllowed(physics::Verdict verdict, const PerformerPolicy& policy) {
 /// Every page of the state becomes resident; its content stays.
 void warm(Performer& performer) {
   physics::Instrument& instrument = *performer.instrument;
-  std::vector<unsigned char> state(instrument.stateSize());
-  instrument.saveState(state.data());
-  instrument.loadState(state.data());
+  instrument.saveState(performer.initial.data());
+  instrument.loadState(performer.initial.data());
   performer.publishMotion(0);
 }
 
 }  // namespace
 
-Performer::Performer(std::unique_ptr<physics::Instrument> made)
+Performer::Performer(std::unique_ptr<physics::Instrument> made, std::unique_ptr<tgr::Rig> between)
     : instrument(std::move(made)),
+      rig(std::move(between)),
       positions(instrument->scene().ports.size()),
       forces(instrument->scene().ports.size()),
       inputs(samples(*instrument, instrument->inputChannels())),
       outputs(samples(*instrument, instrument->outputChannels())),
-      motion(emptyMotion(*instrument)) {
-  for (const scene::Port& port : instrument->scene().ports) {
-    slice_of_port.push_back(port.slice);
-  }
+      motion(emptyMotion(*instrument)),
+      initial(instrument->stateSize()) {
+  instrument->saveState(initial.data());
   for (const scene::Parameter& parameter : instrument->scene().parameters) {
     parameters.push_back(parameter.value);
   }
+}
+
+void Performer::restart() noexcept {
+  instrument->loadState(initial.data());
+  ticks = 0;
 }
 
 void Performer::publishMotion(std::int64_t tick) noexcept {
@@ -102,17 +96,19 @@ std::unique_ptr<Performer> makePerformer(scene::Scene scene,
   };
   tell("validate and settle");
   scene::validate(scene);
-  checkSlices(scene, policy.slices);
+  auto rig = tgr::makeRig(scene, policy.end_effectors, policy.slices);
   const std::vector<std::string> warnings = scene.warnings;
   physics::Settled settled = physics::settle(std::move(scene), rates);
   tell("certify");
-  physics::Certificate certificate = physics::certify(settled.scene, rates);
+  physics::Certificate certificate = physics::certify(settled.scene, rates, policy.device);
   if (!isAllowed(certificate.verdict, policy)) {
     refuse(settled.scene, certificate);
   }
   tell("compile");
-  auto performer = std::make_unique<Performer>(physics::compile(
-      std::make_shared<const scene::Scene>(std::move(settled.scene)), rates, options));
+  auto performer = std::make_unique<Performer>(
+      physics::compile(std::make_shared<const scene::Scene>(std::move(settled.scene)), rates,
+                       options),
+      std::move(rig));
   performer->warnings = warnings;
   const auto warn = [&](const std::vector<std::string>& said) {
     performer->warnings.insert(performer->warnings.end(), said.begin(), said.end());

@@ -15,6 +15,8 @@ void Station::record(const Slices& positions, std::uint32_t flags) noexcept {
     gesture.position[s] = positions[s];
     gesture.force[s] = static_cast<float>(force_[s]);
   }
+  gesture.ports = static_cast<std::uint32_t>(performer_->positions.size());
+  std::copy(performer_->positions.begin(), performer_->positions.end(), gesture.port.begin());
   if (!gestures_.push(gesture)) {
     ++counters_.dropped_records;
   }

@@ -28,6 +28,8 @@ const StationConfig& checked(const StationConfig& config) {
   checkRange("input channels", config.input_channels, 0, 256);
   checkRange("max_stall (s)", config.max_stall_s, 0.001, 1.0);
   checkRange("display rate (Hz)", config.display_hz, 1.0, 1000.0);
+  checkRange("presence (s)", config.presence_s, 0.0, 10.0);
+  checkRange("glide (s)", config.glide_s, 0.001, 10.0);
   return config;
 }
 
@@ -38,6 +40,19 @@ int openDriver(tgr::Driver& driver, double tick_rate_hz) {
 
 std::int64_t atLeastOne(double value) {
   return std::max<std::int64_t>(1, std::llround(value));
+}
+
+std::uint64_t allSlices(int slices) {
+  return ~std::uint64_t{0} >> static_cast<unsigned>(tgr::kMaxSlices - slices);
+}
+
+int lowestBit(std::uint64_t bits) {
+  int bit = 0;
+  while ((bits & 1U) == 0 && bit < tgr::kMaxSlices) {
+    bits >>= 1U;
+    ++bit;
+  }
+  return bit;
 }
 
 std::size_t samples(int frames, int channels) {
@@ -55,6 +70,9 @@ Station::Station(const StationConfig& config,
       display_ticks_(atLeastOne(config.rates.gesturalHz() / config.display_hz)),
       driver_(std::move(driver)),
       slices_(openDriver(*driver_, config.rates.gesturalHz())),
+      glide_ticks_(atLeastOne(config.glide_s * config.rates.gesturalHz())),
+      presence_ticks_(
+          config.presence_s > 0.0 ? atLeastOne(config.presence_s * config.rates.gesturalHz()) : 0),
       chain_(config.safety, slices_, 1e-9 * tick_ns_),
       fade_(static_cast<int>(std::ceil(kSwapFadeS * config.rates.gesturalHz())),
             config.rates.ratio),
@@ -75,11 +93,13 @@ Station::~Station() {
   while (commands_.pop(command)) {
     std::unique_ptr<Performer> performer(command.performer);
     std::unique_ptr<physics::Coefficients> coefficients(command.coefficients);
+    std::unique_ptr<tgr::Rig> rig(command.rig);
   }
   Event event;
   while (events_.pop(event)) {
     std::unique_ptr<Performer> performer(event.performer);
     std::unique_ptr<physics::Coefficients> coefficients(event.coefficients);
+    std::unique_ptr<tgr::Rig> rig(event.rig);
   }
 }
 
@@ -91,20 +111,20 @@ void Station::checkFits(const Performer& performer) const {
                     std::to_string(config_.rates.audio_hz) + " Hz, " +
                     std::to_string(config_.rates.ratio));
   }
-  for (const scene::Port& port : performer.instrument->scene().ports) {
-    if (port.slice < 0 || port.slice >= slices_) {
-      throw Exception("port '" + port.name + "' needs slice " + std::to_string(port.slice) +
-                      ", the device has 0..." + std::to_string(slices_ - 1));
-    }
+  const std::uint64_t beyond = performer.rig->slicesInUse() & ~allSlices(slices_);
+  if (beyond != 0) {
+    throw Exception("the end-effectors need slice " + std::to_string(lowestBit(beyond)) +
+                    ", the device has 0..." + std::to_string(slices_ - 1));
   }
 }
 
 void Station::cycle(const Timing& timing) noexcept {
+  heartbeat_.fetch_add(1, std::memory_order_relaxed);
   const std::int64_t begin = rt::monotonicNs();
   Slices positions{};
   const std::uint32_t met = driver_->exchange(force_.data(), positions.data());
   const std::int64_t exchanged = rt::monotonicNs();
-  const std::uint32_t flags = accept(positions, met);
+  const std::uint32_t flags = accept(positions, met, 0);
   runTick(positions, flags);
   classify(timing, exchanged - begin, rt::monotonicNs() - exchanged);
 }
@@ -113,10 +133,11 @@ void Station::catchUp(std::int64_t ticks, std::int64_t stall_ns) noexcept {
   if (ticks < 1) {
     return;
   }
+  heartbeat_.fetch_add(1, std::memory_order_relaxed);
   force_.fill(0.0);
   Slices target{};
   const std::uint32_t met = driver_->exchange(force_.data(), target.data());
-  const std::uint32_t flags = accept(target, met) | GestureTick::kCatchUp;
+  const std::uint32_t flags = accept(target, met, ticks - 1) | GestureTick::kCatchUp;
   const std::int64_t run = std::min(ticks, max_catch_up_);
   Event stalled = event(Event::Type::kStall);
   stalled.index = run;
@@ -151,22 +172,28 @@ void Station::rest() noexcept {
   if (state_ != ForceState::kFault) {
     state_ = ForceState::kReady;
   }
+  present_ = false;
   Slices positions{};
   driver_->exchange(force_.data(), positions.data());
 }
 
-void Station::makeSafe() noexcept {
+void Station::makeSafe(FaultReason reason) noexcept {
   driver_->makeSafe();
-  make_safe_.store(true, std::memory_order_release);
+  FaultReason none = FaultReason::kNone;  // the first reason is the one to tell
+  make_safe_.compare_exchange_strong(none, reason, std::memory_order_acq_rel);
 }
 
-std::uint32_t Station::accept(Slices& positions, std::uint32_t exchange_flags) noexcept {
-  const std::uint64_t held = chain_.validate(positions.data(), exchange_flags, 0);
-  const bool made_safe = make_safe_.exchange(false, std::memory_order_acq_rel) ||
-                         (exchange_flags & tgr::kMadeSafe) != 0;
+std::uint32_t Station::accept(Slices& positions,
+                              std::uint32_t exchange_flags,
+                              std::int64_t host_missed) noexcept {
+  const std::uint64_t held = chain_.validate(positions.data(), exchange_flags, host_missed);
+  FaultReason made_safe = make_safe_.exchange(FaultReason::kNone, std::memory_order_acq_rel);
+  if (made_safe == FaultReason::kNone && (exchange_flags & tgr::kMadeSafe) != 0) {
+    made_safe = FaultReason::kMadeSafe;
+  }
   if (state_ != ForceState::kFault) {
-    if (made_safe) {
-      fault(FaultReason::kMadeSafe, -1);
+    if (made_safe != FaultReason::kNone) {
+      fault(made_safe, -1);
     } else if (chain_.fault() != FaultReason::kNone) {
       fault(chain_.fault(), chain_.faultSlice());
     }
@@ -177,10 +204,12 @@ std::uint32_t Station::accept(Slices& positions, std::uint32_t exchange_flags) n
 void Station::runTick(const Slices& positions, std::uint32_t flags) noexcept {
   advanceSwap();
   drainCommands();
+  followPresence();
   if (pullInputs()) {
     flags |= GestureTick::kAudioInput;
   }
-  tickInstrument(positions);
+  movePorts(positions);
+  tickInstrument();
   pushFrames();
   updateForces((flags & GestureTick::kCatchUp) != 0);
   record(positions, flags);
@@ -214,20 +243,33 @@ bool Station::pullInputs() noexcept {
   return true;
 }
 
-void Station::tickInstrument(const Slices& positions) noexcept {
+void Station::movePorts(const Slices& positions) noexcept {
   for (std::size_t s = 0; s < static_cast<std::size_t>(slices_); ++s) {
     velocity_[s] = (positions[s] - position_[s]) * config_.rates.gesturalHz();
   }
   position_ = positions;
+  Performer& p = *performer_;
+  const double time_s = 1e-9 * tick_ns_ * static_cast<double>(p.ticks++);
+  const std::uint64_t beyond = p.rig->toModel(positions.data(), time_s, p.positions.data());
+  if (beyond != 0) {
+    fault(FaultReason::kWorkspace, lowestBit(beyond));
+  }
+  if (gliding_ > 0) {
+    const double left = static_cast<double>(--gliding_) / static_cast<double>(glide_ticks_);
+    for (std::size_t i = 0; i < p.positions.size(); ++i) {
+      p.positions[i] += left * glide_[i];
+    }
+    if (gliding_ == 0) {
+      chain_.resume();
+    }
+  }
+}
+
+void Station::tickInstrument() noexcept {
   if (blown_up_) {
     return;
   }
   Performer& p = *performer_;
-  const std::vector<scene::Port>& ports = p.instrument->scene().ports;
-  for (std::size_t i = 0; i < ports.size(); ++i) {
-    const double hand = positions[static_cast<std::size_t>(p.slice_of_port[i])];
-    p.positions[i] = (hand - ports[i].offset) / ports[i].position_scale;
-  }
   p.instrument->tick({p.positions.data(), p.forces.data(), p.inputs.data(), p.outputs.data()});
   const auto finite = [](double f) { return std::isfinite(f); };
   const bool look_inside = tick_ % display_ticks_ == 0;
@@ -262,16 +304,17 @@ void Station::pushFrames() noexcept {
 
 void Station::updateForces(bool muted) noexcept {
   force_.fill(0.0);
-  if (muted || blown_up_) {
+  followCalibration();
+  if (muted || blown_up_ || gliding_ > 0) {
     return;
   }
-  const Performer& p = *performer_;
-  const double gain = fade_.isFadingOut() ? fade_.gainAt(config_.rates.ratio - 1) : 1.0;
-  const std::vector<scene::Port>& ports = p.instrument->scene().ports;
-  for (std::size_t i = 0; i < ports.size(); ++i) {
-    force_[static_cast<std::size_t>(p.slice_of_port[i])] +=
-        gain * ports[i].force_scale * p.forces[i];
+  performer_->rig->toDevice(performer_->forces.data(), force_.data());
+  if (fade_.isFadingOut()) {
+    const double gain = fade_.gainAt(config_.rates.ratio - 1);
+    std::transform(force_.begin(), force_.end(), force_.begin(),
+                   [gain](double force) { return gain * force; });
   }
+  injectModelFault();
   chain_.limit(force_.data());
   if (chain_.fault() != FaultReason::kNone && state_ != ForceState::kFault) {
     fault(chain_.fault(), chain_.faultSlice());
@@ -283,21 +326,6 @@ void Station::updateForces(bool muted) noexcept {
     state_ = ForceState::kPlaying;
     tell(event(Event::Type::kPlaying));
   }
-}
-
-/// The first reason is the one to tell; later ones find the force latched at zero already.
-void Station::fault(FaultReason reason, int slice) noexcept {
-  chain_.disengage();
-  force_.fill(0.0);
-  if (state_ == ForceState::kFault) {
-    return;
-  }
-  state_ = ForceState::kFault;
-  fault_ = reason;
-  Event told = event(Event::Type::kFault);
-  told.index = static_cast<std::int64_t>(reason);
-  told.value = slice;
-  tell(told);
 }
 
 void Station::blowUp() noexcept {

@@ -43,7 +43,7 @@ TEST(PerformerTest, HoldsBuffersForEveryPortAndChannelOfATick) {
   EXPECT_EQ(performer->forces.size(), 1U);
   EXPECT_EQ(performer->inputs.size(), 0U);
   EXPECT_EQ(performer->outputs.size(), 14U);
-  EXPECT_EQ(performer->slice_of_port, std::vector<int>{3});
+  EXPECT_EQ(performer->rig->slicesInUse(), 1U << 3U);
   EXPECT_EQ(performer->motion.draft().displacement.size(), 3U);
 }
 

@@ -41,7 +41,7 @@ struct Live {
     StationConfig config = test::Bench::quickConfig();
     config.rates = kRates;
     auto driver = std::make_unique<test::ScriptedDriver>(1, log, [](std::int64_t n, int) {
-      return 0.005 * static_cast<double>(n % 2000 - 1000) / 1000.0;
+      return 0.005 * (static_cast<double>(std::abs(n % 2000 - 1000)) / 500.0 - 1.0);
     });
     PerformerPolicy policy;
     policy.allow_unproven = true;
@@ -50,11 +50,13 @@ struct Live {
         makePerformer(pluckedString(), kRates, physics::Precision::kDouble, policy));
     next = makePerformer(pluckedString(), kRates, physics::Precision::kDouble, policy);
     coefficients = next->instrument->prepare({2.5e4});
+    rig = tgr::makeRig(next->instrument->scene(), {}, 1);
   }
   test::DriverLog log;
   std::unique_ptr<Station> station;
   std::unique_ptr<Performer> next;
   std::unique_ptr<physics::Coefficients> coefficients;
+  std::unique_ptr<tgr::Rig> rig;
 };
 
 TEST(AllocationScopeTest, CountsTheHeapCallsOfItsThreadOnly) {
@@ -101,8 +103,17 @@ TEST(StationNoAllocTest, TickNeverTouchesTheHeapWhateverIsAsked) {
       command.type = Command::Type::kSwap;
       command.performer = live.next.release();
       ASSERT_TRUE(station.submit(command));
+    } else if (n == 60'000) {
+      Command command;
+      command.type = Command::Type::kConfigure;
+      command.rig = live.rig.release();
+      ASSERT_TRUE(station.submit(command));
     } else if (n % 25'000 == 20'000) {
       at(Command::Type::kStop);
+    } else if (n == 70'000) {
+      station.makeSafe(FaultReason::kEmergencyStop);
+    } else if (n == 71'000) {
+      at(Command::Type::kRecover);
     }
     if (n % 30'000 == 29'999) {
       station.catchUp(100, 30'000'000);
@@ -113,13 +124,19 @@ TEST(StationNoAllocTest, TickNeverTouchesTheHeapWhateverIsAsked) {
   }
   EXPECT_EQ(heap_calls, 0);
   int handed_back = 0;
+  int recovered = 0;
   Event event;
   while (station.poll(event)) {
-    handed_back += event.performer != nullptr || event.coefficients != nullptr ? 1 : 0;
+    const bool owns =
+        event.performer != nullptr || event.coefficients != nullptr || event.rig != nullptr;
+    handed_back += owns ? 1 : 0;
+    recovered += event.type == Event::Type::kRecovered ? 1 : 0;
     delete event.performer;
     delete event.coefficients;
+    delete event.rig;
   }
-  EXPECT_EQ(handed_back, 2) << "swap and parameter took place";
+  EXPECT_EQ(handed_back, 3) << "swap, parameter and configuration took place";
+  EXPECT_EQ(recovered, 1);
   const Snapshot* snapshot = station.snapshot();
   ASSERT_NE(snapshot, nullptr);
   EXPECT_GT(snapshot->counters.peak_force_n, 0.0) << "the string was touched";

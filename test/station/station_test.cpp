@@ -166,7 +166,7 @@ TEST(StationTest, ShowsStatePositionsAndForcesAtTheDisplayRate) {
   EXPECT_FALSE(last->audio_running);
 }
 
-TEST(StationTest, MakeSafeZeroesForceAndLatchesUntilEngaged) {
+TEST(StationTest, MakeSafeZeroesForceAndLatchesUntilRecovered) {
   Bench bench;
   bench.command(Command::Type::kEngage);
   bench.run(kRampTicks);
@@ -177,18 +177,37 @@ TEST(StationTest, MakeSafeZeroesForceAndLatchesUntilEngaged) {
   const auto events = bench.events();
   EXPECT_EQ(test::firstOf(events, Event::Type::kFault).index,
             static_cast<int>(FaultReason::kMadeSafe));
+  bench.command(Command::Type::kEngage);
   bench.run(kRampTicks);
-  EXPECT_EQ(bench.log.forces[0], 0.0);
+  EXPECT_EQ(bench.log.forces[0], 0.0) << "recover comes first";
+  const auto refused = bench.events();
+  EXPECT_EQ(test::firstOf(refused, Event::Type::kRefused).index, static_cast<int>(Refusal::kFault));
+  bench.command(Command::Type::kRecover);
+  bench.run(kRampTicks);
+  EXPECT_EQ(bench.log.forces[0], 0.0) << "force never comes back by itself";
   bench.command(Command::Type::kEngage);
   bench.run(kRampTicks);
   EXPECT_EQ(bench.log.forces[0], -1.0);
 }
 
-TEST(StationTest, EngagingRightAfterMakeSafeStillRampsFromZero) {
+TEST(StationTest, TellsTheReasonGivenWithMakeSafe) {
+  Bench bench;
+  bench.station->makeSafe(FaultReason::kEmergencyStop);
+  bench.station->makeSafe(FaultReason::kWatchdog);
+  bench.run(1);
+  EXPECT_EQ(test::firstOf(bench.events(), Event::Type::kFault).index,
+            static_cast<int>(FaultReason::kEmergencyStop));
+}
+
+TEST(StationTest, EngagingAndRecoveringAgainStillRampsFromZero) {
   Bench bench;
   bench.command(Command::Type::kEngage);
   bench.run(kRampTicks);
-  bench.log.safe.store(true);  // the device's own watchdog, within the same tick as the engage
+  bench.log.safe.store(true);  // the device's own watchdog, within the same tick as the commands
+  bench.command(Command::Type::kRecover);
+  bench.command(Command::Type::kEngage);
+  bench.run(2);
+  EXPECT_LE(std::abs(bench.log.forces[0]), 0.01);
   bench.command(Command::Type::kEngage);
   bench.run(2);
   EXPECT_LE(std::abs(bench.log.forces[0]), 0.01);
@@ -250,11 +269,31 @@ TEST_P(BlowUpTest, MutesForceAndAudioUntilASwap) {
   swap.performer = test::makeSpring().release();
   ASSERT_TRUE(bench.station->submit(swap));
   bench.run(100);
+  bench.command(Command::Type::kRecover);
   bench.command(Command::Type::kEngage);
   bench.run(kRampTicks);
   EXPECT_EQ(bench.log.forces[0], -1.0);
   EXPECT_EQ(frames.samples.back(), 0.5F);
-  delete test::firstOf(bench.events(), Event::Type::kSwapped).performer;
+  const auto events = bench.events();
+  delete test::firstOf(events, Event::Type::kSwapped).performer;
+  EXPECT_EQ(test::firstOf(events, Event::Type::kRecovered).index, 0);
+}
+
+TEST_P(BlowUpTest, BeginsAnewOnRecovery) {
+  SpringInstrument::Setting setting;
+  setting.*GetParam() = 600;
+  setting.count_frames = true;
+  Bench bench(setting);
+  test::FrameLog frames(2);
+  bench.station->setFramePort(&frames);
+  bench.run(700);
+  bench.command(Command::Type::kRecover);
+  bench.run(1);
+  EXPECT_EQ(frames.samples.back(), 13.0F) << "the first tick of the model";
+  bench.command(Command::Type::kEngage);
+  bench.run(kRampTicks);
+  EXPECT_EQ(bench.log.forces[0], -1.0);
+  EXPECT_EQ(test::firstOf(bench.events(), Event::Type::kRecovered).index, 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(ForceSampleDisplacement,

@@ -112,7 +112,9 @@ bool SpringInstrument::isFinite() const noexcept {
 }
 
 std::unique_ptr<station::Performer> makeSpring(const SpringInstrument::Setting& setting) {
-  return std::make_unique<station::Performer>(std::make_unique<SpringInstrument>(setting));
+  auto spring = std::make_unique<SpringInstrument>(setting);
+  auto rig = tgr::makeRig(spring->scene(), {}, tgr::kMaxSlices);
+  return std::make_unique<station::Performer>(std::move(spring), std::move(rig));
 }
 
 Bench::Bench(const SpringInstrument::Setting& setting,

@@ -41,7 +41,9 @@ class ScriptedDriver : public tgr::Driver {
   std::uint32_t exchange(const double* forces, double* positions) noexcept override;
   void makeSafe() noexcept override { log_.safe.store(true); }
   void rearm() noexcept override { log_.safe.store(false); }
+  std::uint64_t uncalibrated() const noexcept override { return uncalibrated_slices; }
 
+  std::uint64_t uncalibrated_slices = 0;
   Watch watch;                                          ///< may be empty
   std::function<std::uint32_t(std::int64_t)> flags_of;  ///< may be empty: kExchangeOk
 

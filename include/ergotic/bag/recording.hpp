@@ -32,8 +32,10 @@ struct Keyframe {
 struct Block {
   std::int64_t first_tick = 0;
   std::size_t slices = 0;
+  std::size_t ports = 0;
   std::vector<std::uint32_t> flags;  ///< [ticks] station::GestureTick::Flag
-  std::vector<double> positions;     ///< [ticks][slices] m, validated, as the instrument got them
+  std::vector<double> positions;     ///< [ticks][slices] m, validated
+  std::vector<double> ports_at;      ///< [ticks][ports] m, in the model, as the instrument got them
 
   std::int64_t endTick() const { return first_tick + static_cast<std::int64_t>(flags.size()); }
 };

@@ -35,11 +35,10 @@ struct Command {
     kParameter,  ///< take `coefficients`, prepared by the performer submitted last; index and value
                  ///< say which parameter got which value, for the record
     kConfigure,  ///< force to zero, state Ready; take `rig`, made for the performer submitted last
-    kRecover,    ///< from Fault to Ready
-    kEmergencyStop,  ///< Fault at once
-    kPresence,       ///< value: 1 the player holds the switch, 0 not
-    kInject,         ///< index: InjectedModelFault, value: ticks; for tests
-    kKeyframe,  ///< copy the state for a recording that starts now, or after the fade of a swap
+    kRecover,    ///< from Fault to Ready; a model that blew up starts anew
+    kPresence,   ///< value: 1 the player holds the switch, 0 not; to be repeated
+    kInject,     ///< index: InjectedModelFault, value: ticks; if the configuration allows it
+    kKeyframe,   ///< copy the state for a recording that starts now, or after the fade of a swap
   };
   Type type = Type::kStop;
   int index = 0;
@@ -76,6 +75,9 @@ struct Event {
     kAudioSkipped,  ///< as kUnderrun, but the host itself left these frames out: nothing sounded
     kAudioStarted,  ///< frame: station frame; value: JACK frame time at which it sounds
     kAudioStopped,
+    kConfigured,  ///< rig: the old one, to be freed; force is zero, state Ready
+    kRecovered,   ///< from Fault to Ready; index: 1 the model began anew
+    kRefused,     ///< index: Refusal; an `engage` or `recover` that was not obeyed
   };
   Type type = Type::kStopped;
   std::int64_t tick = 0;
@@ -87,6 +89,15 @@ struct Event {
   tgr::Rig* rig = nullptr;
 };
 
+/// Why a command was not obeyed.
+enum class Refusal : std::uint8_t {
+  kFault = 1,     ///< `recover` first
+  kUncalibrated,  ///< a slice in use has no calibration
+  kPresence,      ///< the presence switch is not held
+  kBusy,          ///< the model still glides to other end-effectors, or finishes a tick
+};
+const char* toString(Refusal refusal);
+
 enum class LateCause : std::uint8_t { kWakeUp, kDevice, kCompute };
 
 using tgr::FaultReason;
@@ -96,14 +107,16 @@ struct GestureTick {
   enum Flag : std::uint32_t {
     kCatchUp = 1U << 0U,  ///< run after a stall, position interpolated, force muted
     kHeld = 1U << 1U,     ///< a position was missing or rejected and held
-    /// Live audio entered the instrument: a replay from positions alone is not exact.
+    /// Live audio entered the instrument: a replay from ports alone is not exact.
     kAudioInput = 1U << 2U,
   };
   std::int64_t tick = 0;
   std::uint32_t flags = 0;
   std::uint32_t slices = 0;
-  std::array<double, tgr::kMaxSlices> position{};  ///< m, validated, as given to the instrument
+  std::array<double, tgr::kMaxSlices> position{};  ///< m, validated
   std::array<float, tgr::kMaxSlices> force{};      ///< N, as sent to the device after this tick
+  std::uint32_t ports = 0;
+  std::array<double, tgr::kMaxPorts> port{};  ///< m, in the model, as given to the instrument
 };
 
 /// Counters, latest value.

@@ -12,6 +12,7 @@
 #include "ergotic/physics/instrument.hpp"
 #include "ergotic/rt/mailbox.hpp"
 #include "ergotic/tgr/driver.hpp"
+#include "ergotic/tgr/rig.hpp"
 
 namespace ergotic::station {
 
@@ -26,23 +27,29 @@ struct MotionFrame {
 /// An instrument ready to play: everything the tick needs for it is allocated here.
 /// Made and destroyed outside the real-time thread.
 struct Performer {
-  /// \pre `made` is not null. Realtime: no. Thread: any
-  explicit Performer(std::unique_ptr<physics::Instrument> made);
+  /// \pre neither is null, and `between` was made for the scene of `made`. Realtime: no. Thread:
+  /// any
+  Performer(std::unique_ptr<physics::Instrument> made, std::unique_ptr<tgr::Rig> between);
 
   /// Puts what the instrument does now into `motion`. Realtime: yes. Thread: tick
   /// Cost: O(modules + links)
   void publishMotion(std::int64_t tick) noexcept;
 
+  /// Back to how it was made, but for the parameters. Realtime: yes. Thread: tick
+  void restart() noexcept;
+
   std::unique_ptr<physics::Instrument> instrument;
+  std::unique_ptr<tgr::Rig> rig;      ///< between device and ports
+  std::int64_t ticks = 0;             ///< that it played; the time of its agents
   physics::Certificate certificate;   ///< filled by makePerformer
   std::vector<std::string> warnings;  ///< of scene and certificate, and notes of `settle`
-  std::vector<int> slice_of_port;
-  std::vector<double> parameters;  ///< [parameters] values now in force; written by the tick
-  std::vector<double> positions;   ///< [ports] m, in the model
-  std::vector<double> forces;      ///< [ports] N, in the model
-  std::vector<double> inputs;      ///< [R][input channels]
-  std::vector<double> outputs;     ///< [R][output channels]
+  std::vector<double> parameters;     ///< [parameters] values now in force; written by the tick
+  std::vector<double> positions;      ///< [ports] m, in the model
+  std::vector<double> forces;         ///< [ports] N, in the model
+  std::vector<double> inputs;         ///< [R][input channels]
+  std::vector<double> outputs;        ///< [R][output channels]
   rt::Mailbox<MotionFrame> motion;
+  std::vector<unsigned char> initial;  ///< state of the instrument as it was made
 };
 
 /// What makePerformer accepts.
@@ -50,6 +57,8 @@ struct PerformerPolicy {
   bool allow_unproven = false;   ///< play what has no bound
   bool allow_unstable = false;   ///< play even what is known to blow up
   int slices = tgr::kMaxSlices;  ///< of the device that it will be played with
+  physics::DeviceTraits device;  ///< what its passivity depends on
+  tgr::EndEffectors end_effectors;
   /// Told what is done next, as in `certify 198003 modules and links`, for whoever waits.
   std::function<void(const std::string& stage)> on_stage;
 };

@@ -27,7 +27,10 @@ struct StationConfig {
   tgr::SafetyConfig safety;
   double max_stall_s = 0.05;               ///< longer ones are a Fault, 0.001...1
   double display_hz = 60.0;                ///< how often snapshots and motion are published
-  std::size_t record_ring = 1U << 15U;     ///< gesture ticks
+  double presence_s = 0.0;                 ///< longest time between kPresence; 0: no switch
+  double glide_s = 0.1;                    ///< of the ports to another configuration, 0.001...10
+  bool allow_fault_injection = false;      ///< obey kInject
+  std::size_t record_ring = 1U << 14U;     ///< gesture ticks
   std::size_t event_ring = 1U << 12U;      ///< events, beside those that hand something back
   std::size_t command_ring = 1U << 8U;     ///< commands
   std::size_t keyframe_bytes = 1U << 24U;  ///< largest state that a keyframe can hold
@@ -43,8 +46,9 @@ struct Keyframe {
 /// The room around the instrument. One thread, the tick's, calls `cycle` and `catchUp`; one other
 /// thread, the operator's, calls everything below "operator".
 ///
-/// Tick n: driver.exchange(F[n-1]) -> x[n]; validate; commands; instrument.tick(x[n]) -> F[n], R
-/// frames; safety chain; records. F[n] goes out with the exchange that reads x[n+1].
+/// Tick n: driver.exchange(F[n-1]) -> x[n]; validate; commands; rig: slices to ports;
+/// instrument.tick -> R frames; rig: forces of ports to slices, F[n]; safety chain; records. F[n]
+/// goes out with the exchange that reads x[n+1].
 ///
 /// Tick n makes the station frames n R ... n R + R - 1, always: ticks that never ran (a stall
 /// beyond max_stall) still count in the tick index, and their frames are never pushed.
@@ -96,15 +100,17 @@ class Station {
   int swapDelayTicks() const noexcept { return fade_.ticks() + 1; }
 
   // Any thread:
-  /// Forces to zero at once, latched (Fault kMadeSafe): for signals and watchdogs.
+  /// Forces to zero at once, latched until kRecover: for signals, watchdogs, emergency stops.
   /// Realtime: as the driver's. Thread: any
-  void makeSafe() noexcept;
+  void makeSafe(FaultReason reason = FaultReason::kMadeSafe) noexcept;
+  /// Counts up with every cycle and catchUp: what a watchdog looks at. Realtime: yes. Thread: any
+  std::int64_t heartbeat() const noexcept { return heartbeat_.load(std::memory_order_relaxed); }
 
   // Operator:
-  /// Hands a command over. An engage also re-arms the driver. What a command points to belongs to
+  /// Hands a command over. A recovery also re-arms the driver. What a command points to belongs to
   /// the station from here on, and comes back through exactly one event.
-  /// \return false if the ring is full, or too many swaps and parameters wait for `poll`; nothing
-  ///         is taken then
+  /// \return false if the ring is full, or too many swaps, parameters and rigs wait for `poll`;
+  ///         nothing is taken then
   /// \throws Exception if a performer does not fit this station (nothing is taken)
   /// Realtime: no. Thread: operator
   bool submit(const Command& command);
@@ -130,12 +136,18 @@ class Station {
   using Slices = std::array<double, tgr::kMaxSlices>;
 
   // One tick, step by step (station.cpp).
-  std::uint32_t accept(Slices& positions, std::uint32_t exchange_flags) noexcept;
+  std::uint32_t accept(Slices& positions,
+                       std::uint32_t exchange_flags,
+                       std::int64_t host_missed) noexcept;
   void runTick(const Slices& positions, std::uint32_t flags) noexcept;
   bool pullInputs() noexcept;
-  void tickInstrument(const Slices& positions) noexcept;
+  void movePorts(const Slices& positions) noexcept;
+  void tickInstrument() noexcept;
   void pushFrames() noexcept;
   void updateForces(bool muted) noexcept;
+  void followCalibration() noexcept;
+  void followPresence() noexcept;
+  void injectModelFault() noexcept;
   void record(const Slices& positions, std::uint32_t flags) noexcept;
   void publish() noexcept;
   void relayAudioEvents() noexcept;
@@ -150,6 +162,9 @@ class Station {
   void takeSwap(Performer* next) noexcept;
   void advanceSwap() noexcept;
   void takeCoefficients(const Command& command) noexcept;
+  void takeRig(tgr::Rig* next) noexcept;
+  void recover() noexcept;
+  void refuse(Refusal refusal) noexcept;
   void takeKeyframe() noexcept;
 
   void fault(FaultReason reason, int slice) noexcept;
@@ -166,6 +181,8 @@ class Station {
   std::unique_ptr<tgr::Driver> driver_;
   int slices_;
   FramePort* frame_port_ = nullptr;
+  std::int64_t glide_ticks_;     // length of a glide
+  std::int64_t presence_ticks_;  // longest time between two kPresence; 0: no switch
 
   // The tick's own.
   tgr::SafetyChain chain_;
@@ -176,16 +193,25 @@ class Station {
   ForceState state_ = ForceState::kReady;
   FaultReason fault_ = FaultReason::kNone;
   bool blown_up_ = false;
-  int keyframes_wanted_ = 0;  // wait for the end of a fade
-  Slices force_{};            // N, of the last tick, for the next exchange
-  Slices position_{};         // m, of the last tick
-  Slices velocity_{};         // m/s
+  int keyframes_wanted_ = 0;                    // wait for the end of a fade
+  Slices force_{};                              // N, of the last tick, for the next exchange
+  Slices position_{};                           // m, of the last tick
+  Slices velocity_{};                           // m/s
+  std::array<double, tgr::kMaxPorts> glide_{};  // m, of each port: where it comes from
+  std::int64_t gliding_ = 0;                    // ticks left of it
+  std::int64_t absent_ = 0;                     // ticks since the last one
+  bool present_ = false;
+  InjectedModelFault injected_{};
+  std::int64_t inject_ticks_ = 0;  // left of it
+  std::int64_t inject_age_ = 0;    // ticks that it has lasted
+  Slices inject_from_{};           // m, where the slices were when it began
   std::vector<float> frames_out_;
   std::vector<float> frames_in_;
   Counters counters_;
 
   // Shared.
-  std::atomic<bool> make_safe_{false};
+  std::atomic<FaultReason> make_safe_{FaultReason::kNone};
+  std::atomic<std::int64_t> heartbeat_{0};
   rt::Ring<Command> commands_;
   rt::Ring<Event> events_;
   rt::Ring<GestureTick> gestures_;
@@ -193,7 +219,7 @@ class Station {
   Keyframe keyframe_;
 
   // The operator's own.
-  std::size_t owed_ = 0;  // swaps and parameters submitted whose event was not yet polled
+  std::size_t owed_ = 0;  // what was submitted with a pointer and did not yet come back
 };
 
 }  // namespace ergotic::station

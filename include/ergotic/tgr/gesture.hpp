@@ -40,7 +40,7 @@ std::unique_ptr<PerformanceSink> writePositionsCsv(const std::string& path, int 
 
 /// The two kinds of gesture files.
 enum class GestureKind {
-  kTargets,   ///< `time_s,slice,target_m`: where a virtual hand wants to be, for a Driver
+  kTargets,   ///< `time_s,slice,target_m`: where a virtual hand wants to be
   kPositions  ///< `tick,x0,...`: where the slices were, for `readPositionsCsv`
 };
 

@@ -88,8 +88,10 @@ class HandPlayer final : public Player {
           std::make_unique<EndingSource>(tgr::readPositionsCsv(csv), ended));
     }
     tgr::VirtualDriverConfig config;
-    for (const int slice : performer.slice_of_port) {
-      config.slices = std::max(config.slices, slice + 1);
+    for (int slice = 0; slice < tgr::kMaxSlices; ++slice) {
+      if ((performer.rig->slicesInUse() >> static_cast<unsigned>(slice) & 1U) != 0) {
+        config.slices = std::max(config.slices, slice + 1);
+      }
     }
     config.gesture_file = csv;
     return tgr::makeVirtualDriver(config);

@@ -51,6 +51,19 @@ struct Replay::Source final : tgr::GestureSource {
   const std::vector<double>& position;
 };
 
+/// The ports of that tick, whatever moved them. Nobody feels their forces.
+struct Replay::Ports final : tgr::Rig {
+  Ports(const std::vector<double>& from, std::size_t ports) : position(from), count(ports) {}
+  std::uint64_t toModel(const double* /*slices*/, double /*time_s*/, double* to) noexcept override {
+    std::copy_n(position.begin(), std::min(count, position.size()), to);
+    return 0;
+  }
+  void toDevice(const double* /*ports*/, double* /*slices*/) const noexcept override {}
+  std::uint64_t slicesInUse() const noexcept override { return 0; }
+  const std::vector<double>& position;
+  std::size_t count;  // of the scene
+};
+
 Replay::Replay(bag::Recording recording,
                const station::PerformerPolicy& policy,
                CompileChoice choice)
@@ -100,8 +113,11 @@ std::size_t Replay::findStart() const {
 
 /// As when it was swapped in: with the parameters of its text, from its initial state.
 std::unique_ptr<station::Performer> Replay::perform(const bag::Keyframe& keyframe) const {
-  return station::makePerformer(sceneOf(keyframe), keyframe.rates,
-                                chosenOptions(choice_, recordedOptions(keyframe)), policy_);
+  auto performer =
+      station::makePerformer(sceneOf(keyframe), keyframe.rates,
+                             chosenOptions(choice_, recordedOptions(keyframe)), policy_);
+  performer->rig = std::make_unique<Ports>(ports_, performer->positions.size());
+  return performer;
 }
 
 /// As it was at the keyframe.
@@ -149,6 +165,7 @@ bool Replay::next(double* frames) {
     submitParameters();
     submitKeyframe();
     station_->cycle(frames, [this](const station::Event& event) { hear(event); });
+    checkPorts();
   }
   ++tick_;
   return true;
@@ -181,11 +198,24 @@ void Replay::takePositions() {
                     std::to_string(position_.size()) + " at its start");
   }
   const auto row = static_cast<std::size_t>(tick_ - block.first_tick);
-  std::copy_n(block.positions.begin() + static_cast<std::ptrdiff_t>(row * block.slices),
-              block.slices, position_.begin());
+  const auto copyRow = [row](const std::vector<double>& from, std::vector<double>& to) {
+    std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(row * to.size()), to.size(), to.begin());
+  };
+  copyRow(block.positions, position_);
+  ports_.resize(block.ports);
+  copyRow(block.ports_at, ports_);
   if ((block.flags[row] & station::GestureTick::kAudioInput) != 0 && !audio_input_told_) {
     audio_input_told_ = true;
     addFlaw(tick_, "live sound entered the model");
+  }
+}
+
+void Replay::checkPorts() {
+  const auto ports = static_cast<std::size_t>(playing_.instrument->ports());
+  if (!in_gap_ && !ports_differ_told_ && ports_.size() != ports) {
+    ports_differ_told_ = true;
+    addFlaw(tick_, std::to_string(ports_.size()) + " ports were recorded, the model has " +
+                       std::to_string(ports));
   }
 }
 

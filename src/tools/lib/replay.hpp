@@ -41,6 +41,7 @@ class Replay final : public Player {
 
  private:
   struct Source;
+  struct Ports;
   struct Tone {
     const physics::Instrument* instrument = nullptr;
     std::vector<double> parameters;
@@ -54,6 +55,7 @@ class Replay final : public Player {
   const bag::Keyframe& keyframeOfSwap(std::int64_t tick) const;
   bool wasLost(std::int64_t tick) const;
   void takePositions();
+  void checkPorts();
   void submitSwaps();
   void submitParameters();
   void submitKeyframe();
@@ -66,6 +68,7 @@ class Replay final : public Player {
   std::size_t start_;
   std::int64_t tick_;  // the one to be played next, as numbered in the recording
   std::vector<double> position_;
+  std::vector<double> ports_;
   std::size_t block_ = 0;             // the one that holds tick_, or the next one
   std::size_t swap_ = 0;              // events up to here were looked at for swaps,
   std::size_t change_ = 0;            // for parameters,
@@ -74,6 +77,7 @@ class Replay final : public Player {
   std::vector<station::Event> lost_;  // kTicksLost
   bool in_gap_ = false;
   bool audio_input_told_ = false;
+  bool ports_differ_told_ = false;
   Tone playing_;
   Tone incoming_;
   std::unique_ptr<OfflineStation> station_;

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What takes the force from the hand, beside the safety chain.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ergotic/station/station.hpp"
+
+namespace ergotic::station {
+
+/// A slice in use that has no calibration takes the force from all.
+void Station::followCalibration() noexcept {
+  if (state_ == ForceState::kFault) {
+    return;
+  }
+  const bool complete = (driver_->uncalibrated() & performer_->rig->slicesInUse()) == 0;
+  if (!complete && state_ != ForceState::kUncalibrated) {
+    stop();
+    state_ = ForceState::kUncalibrated;
+  } else if (complete && state_ == ForceState::kUncalibrated) {
+    state_ = ForceState::kReady;
+  }
+}
+
+/// The switch has to be told again and again: a program that hangs lets go of it.
+void Station::followPresence() noexcept {
+  if (presence_ticks_ == 0) {
+    return;
+  }
+  if (present_ && ++absent_ > presence_ticks_) {
+    present_ = false;
+  }
+  if (!present_ && (state_ == ForceState::kEngaging || state_ == ForceState::kPlaying)) {
+    fault(FaultReason::kPresence, -1);
+  }
+}
+
+void Station::injectModelFault() noexcept {
+  if (inject_ticks_ == 0) {
+    return;
+  }
+  constexpr double kBlowUpN = 1.0;
+  constexpr double kActiveNPerM = 1e4;
+  --inject_ticks_;
+  for (std::size_t s = 0; s < static_cast<std::size_t>(slices_); ++s) {
+    switch (injected_) {
+      case InjectedModelFault::kNotANumber:
+        force_[s] = std::numeric_limits<double>::quiet_NaN();
+        break;
+      case InjectedModelFault::kBlowUp:
+        force_[s] +=
+            std::ldexp(kBlowUpN, static_cast<int>(std::min<std::int64_t>(inject_age_, 1000)));
+        break;
+      case InjectedModelFault::kActive:
+        force_[s] += kActiveNPerM * (position_[s] - inject_from_[s]);
+        break;
+    }
+  }
+  ++inject_age_;
+}
+
+/// The first reason is the one to tell; later ones find the force latched at zero already.
+void Station::fault(FaultReason reason, int slice) noexcept {
+  chain_.disengage();
+  force_.fill(0.0);
+  if (state_ == ForceState::kFault) {
+    return;
+  }
+  state_ = ForceState::kFault;
+  fault_ = reason;
+  Event told = event(Event::Type::kFault);
+  told.index = static_cast<std::int64_t>(reason);
+  told.value = slice;
+  tell(told);
+}
+
+}  // namespace ergotic::station

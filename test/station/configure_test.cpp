@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/station/station.hpp"
+#include "ergotic/station/timer_source.hpp"
+#include "support/station_doubles.hpp"
+
+/// Other end-effectors while a model plays.
+namespace ergotic::station {
+namespace {
+
+using test::Bench;
+
+constexpr std::int64_t kRampTicks = 400;
+constexpr std::int64_t kGlideTicks = 315;  // 0.1 s at 3150 Hz
+
+/// The port moves by `gain` times the slice.
+class Lever : public tgr::Rig {
+ public:
+  explicit Lever(double gain, int* destroyed = nullptr) : gain_(gain), destroyed_(destroyed) {}
+  ~Lever() override {
+    if (destroyed_ != nullptr) {
+      ++*destroyed_;
+    }
+  }
+  std::uint64_t toModel(const double* slices, double /*time_s*/, double* ports) noexcept override {
+    ports[0] = gain_ * slices[0];
+    return std::abs(ports[0]) < 1.0 ? 0 : 1;
+  }
+  void toDevice(const double* ports, double* slices) const noexcept override {
+    slices[0] = gain_ * ports[0];
+  }
+  std::uint64_t slicesInUse() const noexcept override { return 1; }
+
+ private:
+  double gain_;
+  int* destroyed_;
+};
+
+void configure(Bench& bench, double gain, int* destroyed = nullptr) {
+  Command command;
+  command.type = Command::Type::kConfigure;
+  command.rig = new Lever(gain, destroyed);
+  ASSERT_TRUE(bench.station->submit(command));
+}
+
+/// Frees what comes back. \return events, without pointers
+std::vector<Event> take(Bench& bench) {
+  std::vector<Event> events = bench.events();
+  for (Event& event : events) {
+    delete event.rig;
+    event.rig = nullptr;
+  }
+  return events;
+}
+
+std::vector<GestureTick> recorded(Bench& bench) {
+  std::vector<GestureTick> ticks(1U << 14U);
+  ticks.resize(bench.station->pollGestures(ticks.data(), ticks.size()));
+  return ticks;
+}
+
+TEST(ConfigureTest, TakesTheForceAtOnceAndNeedsEngageAgain) {
+  Bench bench;  // the hand is at 0.01 m, the spring has 100 N/m
+  bench.command(Command::Type::kEngage);
+  bench.run(kRampTicks);
+  configure(bench, 2.0);
+  bench.run(2);
+  EXPECT_EQ(bench.log.forces[0], 0.0);
+  bench.run(kRampTicks);
+  EXPECT_EQ(bench.log.forces[0], 0.0);
+  bench.command(Command::Type::kEngage);
+  bench.run(kRampTicks);
+  EXPECT_EQ(bench.log.forces[0], -4.0) << "twice the way, twice the lever";
+  EXPECT_EQ(test::firstOf(take(bench), Event::Type::kConfigured).tick, kRampTicks);
+}
+
+TEST(ConfigureTest, GlidesThePortsFromWhereTheyWereInAStraightLine) {
+  Bench bench;
+  bench.run(10);
+  configure(bench, 3.0);
+  bench.run(kGlideTicks + 10);
+  const auto ticks = recorded(bench);
+  ASSERT_EQ(ticks.size(), static_cast<std::size_t>(kGlideTicks + 20));
+  EXPECT_EQ(ticks[9].ports, 1U);
+  EXPECT_EQ(ticks[9].port[0], 0.01);
+  for (std::int64_t n = 0; n < kGlideTicks; ++n) {
+    const double left = static_cast<double>(kGlideTicks - 1 - n) / kGlideTicks;
+    ASSERT_NEAR(ticks[static_cast<std::size_t>(10 + n)].port[0], 0.03 - 0.02 * left, 1e-15);
+  }
+  EXPECT_EQ(ticks.back().port[0], 0.03);
+  take(bench);
+}
+
+TEST(ConfigureTest, RefusesToEngageWhileItGlides) {
+  Bench bench;
+  configure(bench, 2.0);
+  bench.command(Command::Type::kEngage);
+  bench.run(1);
+  EXPECT_EQ(test::firstOf(take(bench), Event::Type::kRefused).index,
+            static_cast<int>(Refusal::kBusy));
+}
+
+TEST(ConfigureTest, GoesToTheModelThatIsOnItsWayIn) {
+  Bench bench;
+  Command swap;
+  swap.type = Command::Type::kSwap;
+  swap.performer = test::makeSpring().release();
+  ASSERT_TRUE(bench.station->submit(swap));
+  configure(bench, 5.0);
+  bench.run(200);
+  const auto ticks = recorded(bench);
+  EXPECT_EQ(ticks.front().port[0], 0.01) << "the old model keeps its hands";
+  EXPECT_EQ(ticks.back().port[0], 0.05);
+  delete test::firstOf(take(bench), Event::Type::kSwapped).performer;
+}
+
+TEST(ConfigureTest, GivesBackEveryRigOnce) {
+  int destroyed = 0;
+  {
+    Bench bench;
+    for (int i = 0; i < 5; ++i) {
+      configure(bench, 1.0, &destroyed);
+    }
+    bench.run(1);
+    take(bench);
+    EXPECT_EQ(destroyed, 4) << "the fifth is in use; the first one was the spring's own";
+    configure(bench, 1.0, &destroyed);  // never taken
+  }
+  EXPECT_EQ(destroyed, 6);
+}
+
+TEST(ConfigureTest, FaultsBeyondTheWorkspace) {
+  Bench bench;
+  configure(bench, 1000.0);
+  bench.run(2);
+  EXPECT_EQ(test::firstOf(take(bench), Event::Type::kFault).index,
+            static_cast<int>(FaultReason::kWorkspace));
+}
+
+TEST(ConfigureTest, RefusesARigThatIsNone) {
+  Bench bench;
+  Command command;
+  command.type = Command::Type::kConfigure;
+  EXPECT_THROW(bench.station->submit(command), Exception);
+}
+
+/// A thousand times at random, engaged in between: force grows by no more than the ramps allow, and
+/// falls to zero when hands change.
+TEST(ConfigureTest, AThousandChangesAtRandomMakeNoForceStep) {
+  Bench bench({},
+              [](std::int64_t n, int) { return 0.01 * std::sin(1e-3 * static_cast<double>(n)); });
+  double last = 0.0;
+  double steepest = 0.0;
+  std::int64_t moved = 0;
+  bench.driver->watch = [&](std::int64_t, const double* forces) {
+    steepest = std::max(steepest, std::abs(forces[0]) - std::abs(last));
+    moved += forces[0] != 0.0 ? 1 : 0;
+    last = forces[0];
+  };
+  std::mt19937 random(1);
+  int configured = 0;
+  for (int i = 0; i < 1000; ++i) {
+    configure(bench, 0.5 + 1e-3 * static_cast<double>(random() % 2000));
+    bench.run(static_cast<std::int64_t>(random() % 900));
+    bench.command(Command::Type::kEngage);
+    bench.run(static_cast<std::int64_t>(random() % 900));
+    const auto events = take(bench);
+    configured += test::count(events, Event::Type::kConfigured);
+    EXPECT_EQ(test::count(events, Event::Type::kFault), 0);
+    recorded(bench);
+  }
+  EXPECT_EQ(configured, 1000);
+  EXPECT_GT(moved, 100'000) << "or the test sees nothing";
+  // The ramp of 0.1 s and the motion: at most 6.25 N, at 1e-3 rad per tick.
+  EXPECT_LE(steepest, 6.25 / 315.0 + 6.25e-3 + 1e-12);
+  EXPECT_LE(steepest, bench.station->config().safety.slew_n_per_s / 3150.0);
+}
+
+}  // namespace
+}  // namespace ergotic::station

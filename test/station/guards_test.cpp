@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "ergotic/station/station.hpp"
+#include "support/station_doubles.hpp"
+
+/// What takes the force from the hand beside the safety chain.
+namespace ergotic::station {
+namespace {
+
+using test::Bench;
+
+constexpr std::int64_t kRampTicks = 400;
+constexpr double kHandM = 0.01;
+
+StationConfig withPresence(double seconds) {
+  StationConfig config = Bench::quickConfig();
+  config.presence_s = seconds;
+  return config;
+}
+
+StationConfig withInjection() {
+  StationConfig config = Bench::quickConfig();
+  config.allow_fault_injection = true;
+  return config;
+}
+
+double still(std::int64_t /*exchange*/, int /*slice*/) {
+  return kHandM;
+}
+
+void tellPresence(Bench& bench, bool present) {
+  Command command;
+  command.type = Command::Type::kPresence;
+  command.value = present ? 1.0 : 0.0;
+  ASSERT_TRUE(bench.station->submit(command));
+}
+
+FaultReason faultOf(Bench& bench) {
+  return static_cast<FaultReason>(test::firstOf(bench.events(), Event::Type::kFault).index);
+}
+
+ForceState stateOf(Bench& bench) {
+  bench.run(60);  // a snapshot comes 60 times a second
+  const Snapshot* snapshot = bench.station->snapshot();
+  return snapshot != nullptr ? snapshot->state : ForceState::kDisconnected;
+}
+
+TEST(CalibrationGuardTest, ForceNeedsEverySliceInUseToBeCalibrated) {
+  Bench bench;
+  bench.driver->uncalibrated_slices = 0b01;  // the port's slice
+  EXPECT_EQ(stateOf(bench), ForceState::kUncalibrated);
+  bench.command(Command::Type::kEngage);
+  bench.run(kRampTicks);
+  EXPECT_EQ(bench.log.forces[0], 0.0);
+  EXPECT_EQ(test::firstOf(bench.events(), Event::Type::kRefused).index,
+            static_cast<int>(Refusal::kUncalibrated));
+  bench.driver->uncalibrated_slices = 0b10;  // one that moves nothing
+  EXPECT_EQ(stateOf(bench), ForceState::kReady);
+  bench.command(Command::Type::kEngage);
+  bench.run(kRampTicks);
+  EXPECT_EQ(bench.log.forces[0], -1.0);
+}
+
+TEST(CalibrationGuardTest, LosingACalibrationTakesTheForceAtOnceAndForGood) {
+  Bench bench;
+  bench.command(Command::Type::kEngage);
+  bench.run(kRampTicks);
+  bench.driver->uncalibrated_slices = 0b01;
+  bench.run(2);
+  EXPECT_EQ(bench.log.forces[0], 0.0);
+  bench.driver->uncalibrated_slices = 0;
+  bench.run(kRampTicks);
+  EXPECT_EQ(bench.log.forces[0], 0.0) << "engage is needed again";
+}
+
+TEST(PresenceGuardTest, ForceNeedsTheSwitchToBeHeld) {
+  Bench bench({}, still, withPresence(0.2));
+  bench.command(Command::Type::kEngage);
+  bench.run(2);
+  EXPECT_EQ(test::firstOf(bench.events(), Event::Type::kRefused).index,
+            static_cast<int>(Refusal::kPresence));
+  tellPresence(bench, true);
+  bench.command(Command::Type::kEngage);
+  bench.run(kRampTicks);
+  EXPECT_EQ(bench.log.forces[0], -1.0);
+}
+
+TEST(PresenceGuardTest, LettingGoIsAFaultThatStays) {
+  Bench bench({}, still, withPresence(0.2));
+  tellPresence(bench, true);
+  bench.command(Command::Type::kEngage);
+  bench.run(kRampTicks);
+  tellPresence(bench, false);
+  bench.run(2);
+  EXPECT_EQ(bench.log.forces[0], 0.0);
+  EXPECT_EQ(faultOf(bench), FaultReason::kPresence);
+  tellPresence(bench, true);
+  bench.run(kRampTicks);
+  EXPECT_EQ(bench.log.forces[0], 0.0);
+}
+
+TEST(PresenceGuardTest, ASwitchThatIsNotToldAnyMoreIsLetGo) {
+  Bench bench({}, still, withPresence(0.2));  // 630 ticks
+  tellPresence(bench, true);
+  bench.command(Command::Type::kEngage);
+  bench.run(630);
+  EXPECT_EQ(bench.log.forces[0], -1.0);
+  bench.run(3);
+  EXPECT_EQ(bench.log.forces[0], 0.0);
+  EXPECT_EQ(faultOf(bench), FaultReason::kPresence);
+}
+
+class InjectionTest : public testing::TestWithParam<InjectedModelFault> {
+ protected:
+  static void inject(Bench& bench, double ticks) {
+    Command command;
+    command.type = Command::Type::kInject;
+    command.index = static_cast<int>(GetParam());
+    command.value = ticks;
+    ASSERT_TRUE(bench.station->submit(command));
+  }
+  /// A hand that a spring of negative stiffness drives away.
+  static double pushed(std::int64_t n, int /*slice*/) {
+    return n < kRampTicks ? kHandM : kHandM + 2e-5 * static_cast<double>(n - kRampTicks);
+  }
+};
+
+TEST_P(InjectionTest, DoesNothingUnlessItIsAllowed) {
+  Bench bench;
+  bench.command(Command::Type::kEngage);
+  bench.run(kRampTicks);
+  inject(bench, 100.0);
+  bench.run(100);
+  EXPECT_EQ(bench.log.forces[0], -1.0);
+}
+
+TEST_P(InjectionTest, GoesAfterItsTicks) {
+  Bench bench({}, still, withInjection());
+  inject(bench, 1.0);
+  bench.run(2);
+  bench.command(Command::Type::kRecover);
+  bench.command(Command::Type::kEngage);
+  bench.run(kRampTicks);
+  EXPECT_EQ(bench.log.forces[0], -1.0);
+}
+
+TEST_P(InjectionTest, IsAFaultThatTakesTheForce) {
+  Bench bench({}, pushed, withInjection());
+  bench.command(Command::Type::kEngage);
+  bench.run(kRampTicks);
+  inject(bench, 1e6);
+  bench.run(1000);
+  EXPECT_EQ(bench.log.forces[0], 0.0);
+  EXPECT_NE(faultOf(bench), FaultReason::kNone);
+}
+
+INSTANTIATE_TEST_SUITE_P(All,
+                         InjectionTest,
+                         testing::Values(InjectedModelFault::kNotANumber,
+                                         InjectedModelFault::kBlowUp,
+                                         InjectedModelFault::kActive));
+
+}  // namespace
+}  // namespace ergotic::station

@@ -102,6 +102,7 @@ TEST(StationThreadsTest, MakeSafeFromAnotherThreadAlwaysWins) {
   Bench bench;
   Station& station = *bench.station;
   for (int i = 0; i < 200; ++i) {
+    bench.command(Command::Type::kRecover);
     bench.command(Command::Type::kEngage);
     std::thread tick([&] { bench.run(500); });
     std::thread guard([&] { station.makeSafe(); });

@@ -104,7 +104,7 @@ class Station {
   /// Realtime: as the driver's. Thread: any
   void makeSafe(FaultReason reason = FaultReason::kMadeSafe) noexcept;
   /// Counts up with every cycle and catchUp: what a watchdog looks at. Realtime: yes. Thread: any
-  std::int64_t heartbeat() const noexcept { return heartbeat_.load(std::memory_order_relaxed); }
+  const std::atomic<std::int64_t>& heartbeat() const noexcept { return heartbeat_; }
 
   // Operator:
   /// Hands a command over. A recovery also re-arms the driver. What a command points to belongs to

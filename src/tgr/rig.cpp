@@ -51,10 +51,7 @@ struct Tool {
     for (int i = 0; i < kinematics->slices(); ++i) {
       q[at(i)] = device[slices[at(i)]];
     }
-    is_within = kinematics->forward(q.data(), x.data());
-    if (is_within) {
-      kinematics->jacobian(q.data(), jacobian.data());
-    }
+    is_within = kinematics->forward(q.data(), x.data(), jacobian.data());
   }
 
   /// Adds J^T F. \param force  [ports] N, at the device's side of the ports' own scales

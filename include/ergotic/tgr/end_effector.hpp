@@ -35,8 +35,8 @@ struct EndEffectorConfig {
   double arm = 0.1;                ///< stick: from its pivot to where the slices push, m
   double length = 0.3;             ///< stick: from its pivot to its tip, m
   double rod = 0.15;               ///< ball, handle: length of each rod, m
-  double base_radius = 0.08;       ///< ball, handle: of the circle on which the slices stand, m
-  double platform_radius = 0.03;   ///< ball, handle: of the circle on which the rods end, m
+  double base_radius = 0.1;        ///< ball, handle: of the circle on which the slices stand, m
+  double platform_radius = 0.05;   ///< ball, handle: of the circle on which the rods end, m
   std::vector<Eigen::Vector3d> points;  ///< handle: where its points are, from its centre, m
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< in tgr_base, for the picture
   scene::Place place;
@@ -62,14 +62,12 @@ class Kinematics {
   int slices() const noexcept { return slices_; }
   int coordinates() const noexcept { return coordinates_; }
 
-  /// \param q       [slices] m from rest
-  /// \param[out] x  [coordinates] m from where they are with all slices at rest; untouched if false
-  /// \return false beyond the workspace
-  virtual bool forward(const double* q, double* x) const noexcept = 0;
+  /// \param q              [slices] m from rest
+  /// \param[out] x         [coordinates] m from where they are with all slices at rest
   /// \param[out] jacobian  [coordinates][slices] dx/dq, row by row
-  /// \pre forward(q) is true
-  virtual void jacobian(const double* q, double* jacobian) const noexcept = 0;
-  /// Where it is, in its own frame, for the picture. \pre as jacobian
+  /// \return false beyond the workspace; nothing is written then
+  virtual bool forward(const double* q, double* x, double* jacobian) const noexcept = 0;
+  /// Where it is, in its own frame, for the picture. \pre forward(q) is true
   virtual Eigen::Isometry3d pose(const double* q) const noexcept = 0;
 
   static constexpr int kMaxSlicesOfOne = 6;

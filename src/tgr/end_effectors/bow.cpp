@@ -15,18 +15,17 @@ class Bow final : public Kinematics {
   Bow(double lever, double angle)
       : Kinematics(2, 2), matrix_(lever * Eigen::Rotation2Dd(angle).toRotationMatrix()) {}
 
-  ERGOTIC_REALTIME bool forward(const double* q, double* x) const noexcept override {
+  ERGOTIC_REALTIME bool forward(const double* q,
+                                double* x,
+                                double* jacobian) const noexcept override {
     if (!std::isfinite(q[0]) || !std::isfinite(q[1])) {
       return false;
     }
     Eigen::Map<Eigen::Vector2d> at(x);
     at.noalias() = matrix_ * Eigen::Vector2d(q[0], q[1]);
-    return true;
-  }
-
-  ERGOTIC_REALTIME void jacobian(const double* /*q*/, double* jacobian) const noexcept override {
     Eigen::Map<Eigen::Matrix<double, 2, 2, Eigen::RowMajor>> rows(jacobian);
     rows = matrix_;
+    return true;
   }
 
   /// It moves along x of its frame and is pressed along z.

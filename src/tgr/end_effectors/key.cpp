@@ -12,16 +12,15 @@ class Key final : public Kinematics {
  public:
   explicit Key(double lever) : Kinematics(1, 1), lever_(lever) {}
 
-  ERGOTIC_REALTIME bool forward(const double* q, double* x) const noexcept override {
+  ERGOTIC_REALTIME bool forward(const double* q,
+                                double* x,
+                                double* jacobian) const noexcept override {
     if (!std::isfinite(q[0])) {
       return false;
     }
     x[0] = lever_ * q[0];
-    return true;
-  }
-
-  ERGOTIC_REALTIME void jacobian(const double* /*q*/, double* jacobian) const noexcept override {
     jacobian[0] = lever_;
+    return true;
   }
 
   ERGOTIC_REALTIME Eigen::Isometry3d pose(const double* q) const noexcept override {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <stdexcept>
+
 #include "ergotic/exception.hpp"
 #include "scene/names.hpp"
 #include "tgr/end_effectors/fields.hpp"
@@ -32,10 +34,11 @@ std::unique_ptr<Kinematics> make(const EndEffectorConfig& config) {
     case EndEffectorType::kStick:
       return makeStick(config);
     case EndEffectorType::kBall:
+      return makeBall(config);
     case EndEffectorType::kHandle:
-      break;
+      return makeHandle(config);
   }
-  throw Exception("cannot be put together");
+  throw std::logic_error("unknown type of end-effector");
 }
 
 }  // namespace

@@ -6,10 +6,13 @@
 #include "ergotic/tgr/end_effector.hpp"
 
 /// One maker for each type, given numbers within their ranges.
+/// \throws Exception if the linkage cannot be put together
 namespace ergotic::tgr {
 
 std::unique_ptr<Kinematics> makeKey(const EndEffectorConfig& config);
 std::unique_ptr<Kinematics> makeBow(const EndEffectorConfig& config);
 std::unique_ptr<Kinematics> makeStick(const EndEffectorConfig& config);
+std::unique_ptr<Kinematics> makeBall(const EndEffectorConfig& config);
+std::unique_ptr<Kinematics> makeHandle(const EndEffectorConfig& config);
 
 }  // namespace ergotic::tgr

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kCosineOfMostTilt = 0.5;  // 60 degrees: the tip gains four times less than at rest
 constexpr double kShortest = 0.25;         // of its length: how far a stick slides in
+constexpr double kLongest = 4.0;           // and out
 
 /// Direction in which the slices push the stick over.
 struct Direction {
@@ -26,29 +27,28 @@ class Stick final : public Kinematics {
   Stick(int slices, double arm, double length)
       : Kinematics(slices, slices), arm_(arm), length_(length) {}
 
-  ERGOTIC_REALTIME bool forward(const double* q, double* x) const noexcept override {
+  ERGOTIC_REALTIME bool forward(const double* q,
+                                double* x,
+                                double* jacobian) const noexcept override {
     const Direction direction = directionOf(q);
     const double reach = reachOf(q);
-    if (!(direction.u.z() >= kCosineOfMostTilt && reach >= kShortest * length_)) {  // NaN, too
+    if (!(direction.u.z() >= kCosineOfMostTilt && reach >= kShortest * length_ &&
+          reach <= kLongest * length_)) {  // NaN, too
       return false;
     }
     const Eigen::Vector3d tip = reach * direction.u - length_ * Eigen::Vector3d::UnitZ();
     std::copy_n(tip.data(), coordinates(), x);
-    return true;
-  }
-
-  /// d u/dq = (1 - u u^T) (e_x, e_y) / norm; along the stick: u.
-  ERGOTIC_REALTIME void jacobian(const double* q, double* jacobian) const noexcept override {
-    const Direction direction = directionOf(q);
+    // du/dq = (1 - u u^T) (e_x, e_y) / norm; along the stick: u
     const Eigen::Vector3d& u = direction.u;
     Eigen::Matrix3d columns =
-        (Eigen::Matrix3d::Identity() - u * u.transpose()) * (reachOf(q) / direction.norm);
+        (Eigen::Matrix3d::Identity() - u * u.transpose()) * (reach / direction.norm);
     columns.col(2) = u;
     for (int row = 0; row < coordinates(); ++row) {
       for (int column = 0; column < slices(); ++column) {
         jacobian[row * slices() + column] = columns(row, column);
       }
     }
+    return true;
   }
 
   /// Turned about the pivot, slid along itself.

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "support/alloc_count.hpp"
+#include "tgr/kinematics_cases.hpp"
+
+/// What holds for every kind of end-effector.
+namespace ergotic::tgr {
+namespace {
+
+using test::Coordinates;
+using test::JacobianRows;
+using test::KinematicsCase;
+using test::Pose;
+using test::RandomPoses;
+
+class KinematicsTest : public ::testing::TestWithParam<KinematicsCase> {};
+
+TEST_P(KinematicsTest, RestsAtZeroWithAllSlicesAtRest) {
+  const auto kinematics = makeKinematics(GetParam().config, "hands.yaml");
+  const Pose q{};
+  Coordinates x{};
+  JacobianRows rows{};
+  ASSERT_TRUE(kinematics->forward(q.data(), x.data(), rows.data()));
+  for (const double coordinate : x) {
+    EXPECT_NEAR(coordinate, 0.0, 1e-16);
+  }
+  EXPECT_TRUE(kinematics->pose(q.data()).isApprox(Eigen::Isometry3d::Identity(), 1e-15));
+}
+
+TEST_P(KinematicsTest, PassesPowerUnchangedAtRandomPoses) {
+  RandomPoses poses(GetParam());
+  const int slices = poses.kinematics().slices();
+  const int coordinates = poses.kinematics().coordinates();
+  for (int n = 0; n < 100000; ++n) {
+    poses.nextWithin();
+    Pose speed{};
+    Pose force{};
+    for (double& v : speed) {
+      v = poses.anyNumber();
+    }
+    double hand = 0.0;
+    double gross = 0.0;  // without the signs: what the rounding errors are measured by
+    for (int c = 0; c < coordinates; ++c) {
+      const double pull = poses.anyNumber();
+      double v = 0.0;
+      for (int i = 0; i < slices; ++i) {
+        v += poses.jacobian(c, i) * speed[static_cast<std::size_t>(i)];
+        force[static_cast<std::size_t>(i)] += poses.jacobian(c, i) * pull;
+      }
+      hand += pull * v;
+      gross += std::abs(pull * v);
+    }
+    double device = 0.0;
+    for (int i = 0; i < slices; ++i) {
+      device += force[static_cast<std::size_t>(i)] * speed[static_cast<std::size_t>(i)];
+    }
+    ASSERT_NEAR(device, hand, 1e-12 * gross) << "pose " << n;
+  }
+}
+
+TEST_P(KinematicsTest, HasTheJacobianOfItsForwardMap) {
+  constexpr double kStep = 5e-5;  // fourth-order differences: errors of truncation and of rounding
+  KinematicsCase inner = GetParam();
+  inner.stroke *= 0.6;  // at the edge the map bends too much for differences
+  RandomPoses poses(inner, 2);
+  const Kinematics& kinematics = poses.kinematics();
+  JacobianRows unused{};
+  for (int n = 0; n < 2000; ++n) {
+    poses.nextWithin();
+    for (int i = 0; i < kinematics.slices(); ++i) {
+      const auto at = [&](double step) {
+        Pose q = poses.q();
+        q[static_cast<std::size_t>(i)] += step;
+        Coordinates x{};
+        EXPECT_TRUE(kinematics.forward(q.data(), x.data(), unused.data()));
+        return x;
+      };
+      const Coordinates x[4] = {at(-2.0 * kStep), at(-kStep), at(kStep), at(2.0 * kStep)};
+      for (int c = 0; c < kinematics.coordinates(); ++c) {
+        const auto k = static_cast<std::size_t>(c);
+        const double slope = (8.0 * (x[2][k] - x[1][k]) - (x[3][k] - x[0][k])) / (12.0 * kStep);
+        ASSERT_NEAR(poses.jacobian(c, i), slope, 1e-11) << "coordinate " << c << ", slice " << i;
+      }
+    }
+  }
+}
+
+TEST_P(KinematicsTest, DoesNotRememberWhereItWas) {
+  RandomPoses poses(GetParam(), 3);
+  RandomPoses others(GetParam(), 4);
+  for (int n = 0; n < 1000; ++n) {
+    poses.nextWithin();
+    others.next();
+    Coordinates x{};
+    JacobianRows rows{};
+    ASSERT_TRUE(poses.kinematics().forward(poses.q().data(), x.data(), rows.data()));
+    others.kinematics().forward(others.q().data(), x.data(), rows.data());
+    ASSERT_TRUE(others.kinematics().forward(poses.q().data(), x.data(), rows.data()));
+    ASSERT_EQ(std::vector<double>(x.begin(), x.begin() + poses.kinematics().coordinates()),
+              std::vector<double>(poses.x().begin(),
+                                  poses.x().begin() + poses.kinematics().coordinates()));
+  }
+}
+
+TEST_P(KinematicsTest, RefusesWhatIsNoNumberAndWritesNothing) {
+  const auto kinematics = makeKinematics(GetParam().config, "hands.yaml");
+  for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    for (int i = 0; i < kinematics->slices(); ++i) {
+      Pose q{};
+      q[static_cast<std::size_t>(i)] = bad;
+      Coordinates x{};
+      JacobianRows rows{};
+      EXPECT_FALSE(kinematics->forward(q.data(), x.data(), rows.data())) << bad << " at " << i;
+      EXPECT_EQ(x, Coordinates{});
+      EXPECT_EQ(rows, JacobianRows{});
+    }
+  }
+}
+
+TEST_P(KinematicsTest, AllocatesNothing) {
+  if (!test::AllocationScope::isAvailable()) {
+    GTEST_SKIP() << "the sanitizer has its own heap";
+  }
+  RandomPoses poses(GetParam(), 5);
+  double sum = 0.0;
+  const test::AllocationScope scope;
+  for (int n = 0; n < 1000; ++n) {
+    poses.nextWithin();
+    sum += poses.kinematics().pose(poses.q().data()).translation().x();
+  }
+  EXPECT_EQ(scope.calls(), 0);
+  EXPECT_TRUE(std::isfinite(sum));
+}
+
+INSTANTIATE_TEST_SUITE_P(All,
+                         KinematicsTest,
+                         ::testing::ValuesIn(test::kinematicsCases()),
+                         [](const auto& c) { return c.param.name; });
+
+}  // namespace
+}  // namespace ergotic::tgr

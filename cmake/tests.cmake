@@ -26,6 +26,21 @@ ergotic_add_gtests(tgr yaml-cpp)  # places of settings are seen in their nodes
 foreach(room physics tools)  # physics is compared with the tools' plain implementation
   ergotic_add_gtests(${room} ergotic_tool_support)
 endforeach()
+# The comedi driver before a stand-in for libcomedi, which takes its place when it is linked first, or
+# preloaded. The mechanics are its own copy, so that what preloads it meets no symbols of the core.
+file(GLOB standin_sources CONFIGURE_DEPENDS test/comedi/standin/*.cpp)
+add_library(comedi_standin SHARED ${standin_sources}
+  src/tgr/drivers/virtual/slice_bank.cpp src/tgr/drivers/virtual/target_gesture.cpp
+  src/tgr/drivers/virtual/virtual_slice.cpp src/tgr/csv.cpp src/tgr/require.cpp src/exception.cpp)
+set_target_properties(comedi_standin PROPERTIES CXX_VISIBILITY_PRESET hidden)
+target_include_directories(comedi_standin PUBLIC test PRIVATE include src)
+target_link_libraries(comedi_standin PRIVATE ergotic_flags Eigen3::Eigen)
+ergotic_add_gtests(comedi comedi_standin ergotic_comedi_driver)
+add_executable(comedi_probe test/comedi/probe/comedi_probe.cpp)
+target_link_libraries(comedi_probe PRIVATE ergotic_comedi_driver ergotic_flags)
+add_dependencies(ergotic_comedi_test comedi_probe)
+target_compile_definitions(ergotic_comedi_test PRIVATE
+  COMEDI_PROBE="$<TARGET_FILE:comedi_probe>" COMEDI_STANDIN="$<TARGET_FILE:comedi_standin>")
 # They run the tools as programs.
 add_dependencies(ergotic_golden_test render check)
 add_dependencies(ergotic_tools_test bench)

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "ergotic/tgr/driver.hpp"
+
+namespace ergotic::tgr {
+
+/// Makes drivers of measurement boards under comedi.
+class ComediFactory final : public DriverFactory {
+ public:
+  std::unique_ptr<Driver> make(const std::string& settings,
+                               const std::string& place) const override;
+};
+
+}  // namespace ergotic::tgr

@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pluginlib/class_list_macros.h>
+
+#include "tgr/drivers/comedi/comedi_factory.hpp"
+
+PLUGINLIB_EXPORT_CLASS(ergotic::tgr::ComediFactory, ergotic::tgr::DriverFactory)

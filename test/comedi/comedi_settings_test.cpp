@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tgr/drivers/comedi/comedi_settings.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "ergotic/exception.hpp"
+
+namespace ergotic::tgr {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::string complaintOf(const std::string& text) {
+  try {
+    readComediSettings(text, "devices.yaml:7");
+  } catch (const Exception& problem) {
+    return problem.what();
+  }
+  return "none";
+}
+
+std::string with(const std::string& more) {
+  return "{ai_channels: [0, 1], ao_channels: [0, 1], " + more + "}";
+}
+
+TEST(ComediSettingsTest, NeedsChannelsOnly) {
+  const ComediSettings s = readComediSettings("{ai_channels: [4, 2], ao_channels: [0, 1]}", "");
+  EXPECT_EQ(s.board, "/dev/comedi0");
+  EXPECT_EQ(s.slices(), 2);
+  EXPECT_THAT(s.ai_channels, ElementsAre(4, 2));
+  EXPECT_THAT(s.ao_channels, ElementsAre(0, 1));
+  EXPECT_EQ(s.ai_subdevice, -1);
+  EXPECT_EQ(s.ai_range.index, -1);
+  EXPECT_EQ(s.ai_range.low_volts, -10.0);
+  EXPECT_EQ(s.ai_range.high_volts, 10.0);
+  EXPECT_EQ(s.ai_reference, 0U);
+  EXPECT_EQ(s.average, 1);
+  EXPECT_THAT(s.safe_volts, ElementsAre(0.0, 0.0));
+}
+
+TEST(ComediSettingsTest, TakesWhatIsSaid) {
+  const ComediSettings s = readComediSettings(
+      with("board: /dev/comedi3, ai_subdevice: 4, ao_subdevice: 5, ai_range: 2, ao_range: [-5, "
+           "5.5], ai_reference: diff, ao_reference: common, discard: 1, average: 4, deglitch: "
+           "true, safe_volts: [0.5, -0.25]"),
+      "");
+  EXPECT_EQ(s.board, "/dev/comedi3");
+  EXPECT_EQ(s.ai_subdevice, 4);
+  EXPECT_EQ(s.ao_subdevice, 5);
+  EXPECT_EQ(s.ai_range.index, 2);
+  EXPECT_EQ(s.ao_range.index, -1);
+  EXPECT_EQ(s.ao_range.low_volts, -5.0);
+  EXPECT_EQ(s.ao_range.high_volts, 5.5);
+  EXPECT_EQ(s.ai_reference, 2U);
+  EXPECT_EQ(s.ao_reference, 1U);
+  EXPECT_EQ(s.discard, 1);
+  EXPECT_EQ(s.average, 4);
+  EXPECT_TRUE(s.deglitch);
+  EXPECT_THAT(s.safe_volts, ElementsAre(0.5, -0.25));
+}
+
+TEST(ComediSettingsTest, TakesOneSafeVoltageForAll) {
+  EXPECT_THAT(readComediSettings(with("safe_volts: 2.5"), "").safe_volts, ElementsAre(2.5, 2.5));
+}
+
+TEST(ComediSettingsTest, NamesPlaceSettingValueAndWhatIsAllowed) {
+  EXPECT_THAT(complaintOf(with("average: 65")),
+              AllOf(HasSubstr("devices.yaml:7: error: "), HasSubstr("'average'"),
+                    HasSubstr("= 65,"), HasSubstr("1...64")));
+  EXPECT_THAT(complaintOf(with("volume: 1")),
+              AllOf(HasSubstr("unknown setting 'volume'"), HasSubstr("board, ai_subdevice")));
+  EXPECT_THAT(complaintOf("{ai_channels: [0]}"), HasSubstr("'ao_channels' of comedi is missing"));
+}
+
+TEST(ComediSettingsTest, RefusesWhatNoBoardCanDo) {
+  EXPECT_THAT(complaintOf("[1, 2]"), HasSubstr("not a map"));
+  EXPECT_THAT(complaintOf("{ai_channels: ["), HasSubstr("devices.yaml:7: error: settings"));
+  EXPECT_THAT(complaintOf("{ai_channels: [0, 0], ao_channels: [0, 1]}"), HasSubstr("each once"));
+  EXPECT_THAT(complaintOf("{ai_channels: [], ao_channels: []}"), HasSubstr("1...64"));
+  EXPECT_THAT(complaintOf("{ai_channels: [0, 1], ao_channels: [0]}"), HasSubstr("as many"));
+  EXPECT_THAT(complaintOf("{ai_channels: [0.5], ao_channels: [0]}"), HasSubstr("whole numbers"));
+  EXPECT_THAT(complaintOf("{ai_channels: [-1], ao_channels: [0]}"), HasSubstr("0...255"));
+  EXPECT_THAT(complaintOf(with("board: [a]")), HasSubstr("the path of a device"));
+  EXPECT_THAT(complaintOf(with("ai_range: [5, -5]")), HasSubstr("[low, high]"));
+  EXPECT_THAT(complaintOf(with("ai_range: [0, .nan]")), HasSubstr("-100...100 V"));
+  EXPECT_THAT(complaintOf(with("ao_range: wide")), HasSubstr("0...255"));
+  EXPECT_THAT(complaintOf(with("ai_reference: earth")), HasSubstr("ground, common, diff, other"));
+  EXPECT_THAT(complaintOf(with("deglitch: 3")), HasSubstr("true, false"));
+  EXPECT_THAT(complaintOf(with("safe_volts: [0]")), HasSubstr("one for each"));
+  EXPECT_THAT(complaintOf(with("safe_volts: 1e9")), HasSubstr("-100...100 V"));
+}
+
+}  // namespace
+}  // namespace ergotic::tgr

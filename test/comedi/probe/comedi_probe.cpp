@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Opens a comedi board and says what it meets in so many ticks under constant volts. Linked as the
+// station's plugin is, against libcomedi alone.
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+#include "tgr/drivers/comedi/comedi_factory.hpp"
+
+int main(int argc, char** argv) {
+  using namespace ergotic;
+  if (argc != 4) {
+    std::fprintf(stderr, "usage: comedi_probe SETTINGS VOLTS TICKS\n");
+    return 2;
+  }
+  try {
+    const auto driver = tgr::ComediFactory().make(argv[1], "argument:1");
+    driver->open(1000.0);
+    std::array<double, tgr::kMaxSlices> outputs{};
+    std::array<double, tgr::kMaxSlices> inputs{};
+    outputs.fill(std::atof(argv[2]));
+    for (int tick = 0; tick < std::atoi(argv[3]); ++tick) {
+      const unsigned flags = driver->exchange(outputs.data(), inputs.data());
+      std::printf("%u %.17g\n", flags, inputs[0]);
+    }
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "%s\n", problem.what());
+    return 1;
+  }
+  return 0;
+}

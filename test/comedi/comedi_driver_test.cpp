@@ -124,14 +124,15 @@ TEST(ComediDriverTest, LimitsVoltsAndTakesWhatIsNoNumberForNoForce) {
 }
 
 TEST(ComediDriverTest, LeavesSafeVoltsBehind) {
-  ComediRig rig(plainBoard(), "{ai_channels: [0, 1], ao_channels: [0, 1], safe_volts: [1, -2]}");
+  ComediRig rig(plainBoard(),
+                "{ai_channels: [0, 1], ao_channels: [0, 1], safe_volts: [0.25, -0.5]}");
   rig.driver().open(1000.0);
-  EXPECT_NEAR(comediStandinOutputVolts(0), 1.0, kVoltsPerCount) << "from the start";
+  EXPECT_NEAR(comediStandinOutputVolts(0), 0.25, kVoltsPerCount) << "from the start";
   rig.exchange(5.0);
   EXPECT_NEAR(comediStandinOutputVolts(1), 5.0, kVoltsPerCount);
   rig.driver().close();
-  EXPECT_NEAR(comediStandinOutputVolts(0), 1.0, kVoltsPerCount);
-  EXPECT_NEAR(comediStandinOutputVolts(1), -2.0, kVoltsPerCount);
+  EXPECT_NEAR(comediStandinOutputVolts(0), 0.25, kVoltsPerCount);
+  EXPECT_NEAR(comediStandinOutputVolts(1), -0.5, kVoltsPerCount);
   EXPECT_EQ(ComediRig::counters().opened, 1);
   EXPECT_EQ(ComediRig::counters().closed, 1);
 }
@@ -180,8 +181,9 @@ TEST(ComediDriverTest, SaysWhatABoardHasInPlaceOfWhatWasAsked) {
               AllOf(HasSubstr("ai_reference common"), HasSubstr("ground diff")));
   EXPECT_THAT(complaintOnOpen(board, "{ai_channels: [0, 4], ao_channels: [0, 1]}"),
               AllOf(HasSubstr("no channel 4"), HasSubstr("0...3")));
-  EXPECT_THAT(complaintOnOpen(board, "{ai_channels: [0], ao_channels: [1], safe_volts: 11}"),
-              AllOf(HasSubstr("safe_volts of slice 0"), HasSubstr("[-10, 10] V")));
+  EXPECT_THAT(
+      complaintOnOpen(board, "{ai_channels: [0], ao_channels: [1], ao_range: 3, safe_volts: -0.1}"),
+      AllOf(HasSubstr("safe_volts of slice 0"), HasSubstr("[0, 10] V")));
   EXPECT_EQ(complaint("deglitch: true"), "none");
   board.can_deglitch = false;
   EXPECT_THAT(complaint("deglitch: true"), HasSubstr("deglitch"));

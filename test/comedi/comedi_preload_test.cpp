@@ -31,7 +31,8 @@ const std::string kPreload = "LD_PRELOAD=" COMEDI_STANDIN " ";
 const std::string kOneSlice = "'{ai_channels: [0], ao_channels: [0]}' ";
 
 TEST(ComediPreloadTest, TakesThePlaceOfLibcomedi) {
-  std::istringstream lines(outputOf(kPreload + "COMEDI_STANDIN_RATE_HZ=2000", kOneSlice + "0.5 2000"));
+  std::istringstream lines(
+      outputOf(kPreload + "COMEDI_STANDIN_RATE_HZ=2000", kOneSlice + "0.5 2000"));
   unsigned flags = 1;
   double volts = 0.0;
   int ticks = 0;

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstdio>
 #include <memory>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include "comedi/standin/standin.hpp"
 #include "tgr/drivers/comedi/comedi_factory.hpp"
@@ -24,6 +25,7 @@ inline ComediStandinBoard plainBoard() {
   board.channels = 4;
   board.no_force_volts = comediVolts(kMidCount);
   board.rest_volts = comediVolts(kMidCount);
+  board.slice.stop = 0.025;  // all of the stroke is within the sensor's range
   board.slice.dry_friction = 0.0;
   board.slice.quantum = 0.0;
   board.slice.noise_rms = 0.0;
@@ -32,8 +34,10 @@ inline ComediStandinBoard plainBoard() {
 
 /// Three slices, at channels in another order than they have.
 inline std::string threeSlices(const std::string& more = "") {
-  return "{ai_channels: [2, 0, 1], ao_channels: [2, 0, 1], safe_volts: " +
-         std::to_string(comediVolts(kMidCount)) + (more.empty() ? "" : ", " + more) + "}";
+  char safe[32];
+  std::snprintf(safe, sizeof safe, "%.17g", comediVolts(kMidCount));
+  return std::string("{ai_channels: [2, 0, 1], ao_channels: [2, 0, 1], safe_volts: ") + safe +
+         (more.empty() ? "" : ", " + more) + "}";
 }
 
 /// A new stand-in board and a driver for it, not yet open.
@@ -42,7 +46,7 @@ class ComediRig {
   explicit ComediRig(const ComediStandinBoard& board = plainBoard(),
                      const std::string& settings = threeSlices()) {
     comediStandinReset(&board);
-    driver_ = tgr::ComediFactory().make(settings, "here.yaml:1");
+    driver_ = tgr::ComediFactory().make(settings, "here.yaml");
   }
 
   tgr::Driver& driver() { return *driver_; }

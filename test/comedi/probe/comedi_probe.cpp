@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    const auto driver = tgr::ComediFactory().make(argv[1], "argument:1");
+    const auto driver = tgr::ComediFactory().make(argv[1], "argument");
     driver->open(1000.0);
     std::array<double, tgr::kMaxSlices> outputs{};
     std::array<double, tgr::kMaxSlices> inputs{};

@@ -34,8 +34,10 @@ bool reads(const comedi_insnlist& list) {
 const std::vector<comedi_range>& rangesOf(unsigned subdevice) {
   static const std::vector<comedi_range> inputs = {
       {-10.0, 10.0, UNIT_volt}, {-5.0, 5.0, UNIT_volt}, {0.0, 10.0, UNIT_volt}};
-  static const std::vector<comedi_range> outputs = {
-      {-10.0, 10.0, UNIT_volt}, {0.0, 20.0, UNIT_mA}, {-5.0, 5.0, UNIT_volt}};
+  static const std::vector<comedi_range> outputs = {{-10.0, 10.0, UNIT_volt},
+                                                    {0.0, 20.0, UNIT_mA},
+                                                    {-5.0, 5.0, UNIT_volt},
+                                                    {0.0, 10.0, UNIT_volt}};
   static const std::vector<comedi_range> none;
   return subdevice == kInputSubdevice ? inputs : subdevice == kOutputSubdevice ? outputs : none;
 }
@@ -146,7 +148,7 @@ int StandinBoard::write(unsigned channel, const comedi_range& range, const comed
   if (count > kComediMost || range.unit != UNIT_volt) {
     return EINVAL;
   }
-  outputs_[channel] = range.min + count * (range.max - range.min) / kComediMost;
+  outputs_[channel] = comediVolts(count, range.min, range.max);
   return 0;
 }
 

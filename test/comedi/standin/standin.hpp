@@ -60,9 +60,9 @@ struct ComediCounters {
 /// Resolution of all channels: 16 bits.
 constexpr unsigned kComediMost = 65535;
 
-/// The volts of a count in the range of +-10 V, which is the first one.
-constexpr double comediVolts(unsigned count) {
-  return -10.0 + count * 20.0 / kComediMost;
+/// The volts of a count in a range; that of +-10 V is the first one of both subdevices.
+constexpr double comediVolts(double count, double low = -10.0, double high = 10.0) {
+  return low + (high - low) * (count / kComediMost);
 }
 
 }  // namespace ergotic::test

@@ -59,8 +59,8 @@ std::string textOf(const comedi_range& range) {
 }  // namespace
 
 ERGOTIC_REALTIME lsampl_t ComediScale::toCount(double volts) const noexcept {
-  const double count = std::round((volts - low_volts) / volts_per_count);
-  return static_cast<lsampl_t>(std::clamp(count, 0.0, static_cast<double>(most)));
+  const double count = std::round((volts - low_volts) / (high_volts - low_volts) * most);
+  return static_cast<lsampl_t>(std::clamp(count, 0.0, most));
 }
 
 ComediBoard::ComediBoard(const ComediSettings& settings)
@@ -82,10 +82,10 @@ ComediBoard::ComediBoard(const ComediSettings& settings)
                   read_.data());
   for (std::size_t i = 0; i < slices_; ++i) {
     const ComediScale& scale = outputs_[i];
-    if (s.safe_volts[i] < scale.low_volts || s.safe_volts[i] > scale.toVolts(scale.most)) {
+    if (s.safe_volts[i] < scale.low_volts || s.safe_volts[i] > scale.high_volts) {
       fail("safe_volts of slice " + std::to_string(i) + " = " + std::to_string(s.safe_volts[i]) +
            " V is not in the range of its output, " +
-           textOf({scale.low_volts, scale.toVolts(scale.most), UNIT_volt}));
+           textOf({scale.low_volts, scale.high_volts, UNIT_volt}));
     }
     safe_[i] = scale.toCount(s.safe_volts[i]);
     safe_insns_[i].data = &safe_[i];
@@ -218,7 +218,7 @@ std::vector<ComediScale> ComediBoard::setUp(const Side& side, lsampl_t* data) {
       fail(std::string(side.name) + " channel " + std::to_string(channel) +
            " does not tell its resolution: " + comedi_strerror(comedi_errno()));
     }
-    scales.push_back({volts.min, (volts.max - volts.min) / most, most});
+    scales.push_back({volts.min, volts.max, static_cast<double>(most)});
     comedi_insn insn{};
     insn.insn = side.insn;
     insn.n = samples;

@@ -17,10 +17,13 @@ namespace ergotic::tgr {
 /// Between the volts and the numbers of one channel, linear over its range.
 struct ComediScale {
   double low_volts = 0.0;
-  double volts_per_count = 0.0;
-  lsampl_t most = 0;
+  double high_volts = 0.0;
+  double most = 0.0;  ///< the highest number
 
-  double toVolts(double count) const noexcept { return low_volts + volts_per_count * count; }
+  /// Exactly the end of the range at its ends: by this a sensor at its rail is known.
+  double toVolts(double count) const noexcept {
+    return low_volts + (high_volts - low_volts) * (count / most);
+  }
   /// The nearest within the range. \pre volts is a number
   lsampl_t toCount(double volts) const noexcept;
 };

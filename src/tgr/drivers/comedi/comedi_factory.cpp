@@ -6,8 +6,8 @@
 namespace ergotic::tgr {
 
 std::unique_ptr<Driver> ComediFactory::make(const std::string& settings,
-                                            const std::string& place) const {
-  return std::make_unique<ComediDriver>(readComediSettings(settings, place));
+                                            const std::string& file) const {
+  return std::make_unique<ComediDriver>(readComediSettings(settings, file));
 }
 
 }  // namespace ergotic::tgr

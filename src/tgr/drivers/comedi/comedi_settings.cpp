@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tgr/drivers/comedi/comedi_settings.hpp"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
-#include "ergotic/exception.hpp"
 #include "ergotic/tgr/driver.hpp"
+#include "tgr/settings.hpp"
 
 namespace ergotic::tgr {
 
@@ -16,197 +13,93 @@ const std::vector<std::string> kComediReferences = {"ground", "common", "diff", 
 
 namespace {
 
-constexpr int kMaxIndex = 255;  // what a packed channel has room for
-constexpr double kMaxVolts = 100.0;
+using scene::Limits;
+using scene::YamlMap;
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string all;
-  for (const std::string& word : words) {
-    all += (all.empty() ? "" : ", ") + word;
-  }
-  return all;
+constexpr Limits kIndexLimits{"", 0.0, 255.0};  // what comedi's words have room for
+constexpr Limits kVoltsLimits{"V", -100.0, 100.0};
+constexpr Limits kSafeVoltsLimits{"V", -0.5, 0.5};  // an amplifier's offset, not a bias
+constexpr Limits kDiscardLimits{"", 0.0, 16.0};
+constexpr Limits kAverageLimits{"", 1.0, 64.0};
+
+int integer(const YamlMap& map, const std::string& key, const Limits& limits, int otherwise) {
+  return map.has(key) ? map.integer(key, limits) : otherwise;
 }
 
-/// The map of settings, with messages that name place, key, value and what is allowed.
-class SettingsReader {
- public:
-  SettingsReader(const std::string& text, std::string place) : place_(std::move(place)) {
-    try {
-      map_ = YAML::Load(text);
-    } catch (const YAML::Exception& problem) {
-      throw Exception(place_ + ": error: settings of comedi: " + problem.what());
-    }
-    if (!map_.IsMap()) {
-      throw Exception(place_ + ": error: settings of comedi: not a map");
-    }
-  }
+unsigned reference(const YamlMap& map, const std::string& key) {
+  return map.has(key) ? static_cast<unsigned>(map.choice(key, kComediReferences)) : 0U;
+}
 
-  void allow(const std::vector<std::string>& keys) const {
-    for (const auto& entry : map_) {
-      const auto key = entry.first.as<std::string>("");
-      if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
-        throw Exception(place_ + ": error: unknown setting '" + key +
-                        "' of comedi, allowed: " + joined(keys));
-      }
-    }
-  }
-
-  YAML::Node at(const std::string& key) const { return map_[key]; }
-
-  [[noreturn]] void fail(const std::string& key, const std::string& allowed) const {
-    const YAML::Node node = map_[key];
-    std::ostringstream text;
-    text << place_ << ": error: setting '" << key << "' of comedi ";
-    if (node) {
-      text << "= " << YAML::Dump(node) << ", allowed: " << allowed;
-    } else {
-      text << "is missing, wanted: " << allowed;
-    }
-    throw Exception(text.str());
-  }
-
-  int whole(const std::string& key, int fallback, int low, int high) const {
-    return at(key) ? wholeIn(key, at(key), low, high) : fallback;
-  }
-
-  int wholeIn(const std::string& key, const YAML::Node& node, int low, int high) const {
-    const double value = number(node);
-    if (!(value >= low && value <= high) || value != std::floor(value)) {
-      fail(key, "whole numbers " + std::to_string(low) + "..." + std::to_string(high));
-    }
-    return static_cast<int>(value);
-  }
-
-  double volts(const std::string& key, const YAML::Node& node) const {
-    const double value = number(node);
-    if (!(std::abs(value) <= kMaxVolts)) {
-      fail(key, "-100...100 V");
-    }
-    return value;
-  }
-
-  bool flag(const std::string& key) const {
-    const YAML::Node node = at(key);
-    bool value = false;
-    if (node && !(node.IsScalar() && YAML::convert<bool>::decode(node, value))) {
-      fail(key, "true, false");
-    }
-    return value;
-  }
-
-  unsigned reference(const std::string& key) const {
-    if (!at(key)) {
-      return 0;
-    }
-    const auto word = at(key).IsScalar() ? at(key).Scalar() : std::string();
-    const auto found = std::find(kComediReferences.begin(), kComediReferences.end(), word);
-    if (found == kComediReferences.end()) {
-      fail(key, joined(kComediReferences));
-    }
-    return static_cast<unsigned>(found - kComediReferences.begin());
-  }
-
- private:
-  /// NaN if it is none.
-  static double number(const YAML::Node& node) {
-    double value = 0.0;
-    const bool ok = node.IsScalar() && YAML::convert<double>::decode(node, value);
-    return ok ? value : std::nan("");
-  }
-
-  YAML::Node map_;
-  std::string place_;
-};
-
-std::vector<int> channels(const SettingsReader& reader, const std::string& key) {
-  const YAML::Node node = reader.at(key);
-  const std::string allowed =
-      "a list of 1..." + std::to_string(kMaxSlices) + " channels, each once";
-  if (!node || !node.IsSequence() || node.size() < 1 || node.size() > kMaxSlices) {
-    reader.fail(key, allowed);
-  }
+std::vector<int> channels(const YamlMap& map, const std::string& key) {
   std::vector<int> list;
-  for (const YAML::Node& channel : node) {
-    list.push_back(reader.wholeIn(key, channel, 0, kMaxIndex));
-  }
-  std::vector<int> sorted = list;
-  std::sort(sorted.begin(), sorted.end());
-  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
-    reader.fail(key, allowed);
+  for (const double channel : map.numbers(key, 1, kMaxSlices, kIndexLimits)) {
+    const int whole = static_cast<int>(channel);
+    if (whole != channel || std::find(list.begin(), list.end(), whole) != list.end()) {
+      map.fail(key, key + ": allowed are whole numbers of channels, each once");
+    }
+    list.push_back(whole);
   }
   return list;
 }
 
-ComediRange range(const SettingsReader& reader, const std::string& key) {
+ComediRange range(const YamlMap& map, const std::string& key) {
   ComediRange range;
-  const YAML::Node node = reader.at(key);
-  if (!node) {
+  if (!map.has(key)) {
     return range;
   }
-  if (node.IsScalar()) {
-    range.index = reader.wholeIn(key, node, 0, kMaxIndex);
+  if (map.at(key).IsScalar()) {
+    range.index = map.integer(key, kIndexLimits);
     return range;
   }
-  const char* allowed = "the index of a range, or [low, high] in volts";
-  if (!node.IsSequence() || node.size() != 2) {
-    reader.fail(key, allowed);
+  const std::vector<double> volts = map.vector(key, 2, kVoltsLimits);
+  if (volts[0] >= volts[1]) {
+    map.fail(key, key + ": allowed are the number of a range, or [low, high] in volts");
   }
-  range.low_volts = reader.volts(key, node[0]);
-  range.high_volts = reader.volts(key, node[1]);
-  if (range.low_volts >= range.high_volts) {
-    reader.fail(key, allowed);
-  }
+  range.low_volts = volts[0];
+  range.high_volts = volts[1];
   return range;
 }
 
-std::vector<double> safeVolts(const SettingsReader& reader, std::size_t slices) {
-  const YAML::Node node = reader.at("safe_volts");
-  if (!node) {
+std::vector<double> safeVolts(const YamlMap& map, std::size_t slices) {
+  if (!map.has("safe_volts")) {
     return std::vector<double>(slices, 0.0);
   }
-  if (node.IsScalar()) {
-    return std::vector<double>(slices, reader.volts("safe_volts", node));
+  if (map.at("safe_volts").IsScalar()) {
+    return std::vector<double>(slices, map.number("safe_volts", kSafeVoltsLimits));
   }
-  if (!node.IsSequence() || node.size() != slices) {
-    reader.fail("safe_volts", "volts for all slices, or a list of one for each");
-  }
-  std::vector<double> volts;
-  for (const YAML::Node& one : node) {
-    volts.push_back(reader.volts("safe_volts", one));
-  }
-  return volts;
+  return map.vector("safe_volts", slices, kSafeVoltsLimits);
 }
 
 }  // namespace
 
-ComediSettings readComediSettings(const std::string& text, const std::string& place) {
-  const SettingsReader reader(text, place);
-  reader.allow({"board", "ai_subdevice", "ao_subdevice", "ai_channels", "ao_channels", "ai_range",
-                "ao_range", "ai_reference", "ao_reference", "discard", "average", "deglitch",
-                "safe_volts"});
-  ComediSettings settings;
-  if (reader.at("board")) {
-    settings.board = reader.at("board").IsScalar() ? reader.at("board").Scalar() : "";
-    if (settings.board.empty()) {
-      reader.fail("board", "the path of a device, as /dev/comedi0");
-    }
+ComediSettings readComediSettings(const std::string& text, const std::string& file) {
+  const Settings settings(text, file, "driver comedi");
+  const YamlMap& map = settings.top();
+  map.allow({"board", "ai_subdevice", "ao_subdevice", "ai_channels", "ao_channels", "ai_range",
+             "ao_range", "ai_reference", "ao_reference", "discard", "average", "deglitch",
+             "safe_volts"});
+  ComediSettings read;
+  if (map.has("board")) {
+    read.board = map.word("board");
   }
-  settings.ai_subdevice = reader.whole("ai_subdevice", -1, 0, kMaxIndex);
-  settings.ao_subdevice = reader.whole("ao_subdevice", -1, 0, kMaxIndex);
-  settings.ai_channels = channels(reader, "ai_channels");
-  settings.ao_channels = channels(reader, "ao_channels");
-  if (settings.ao_channels.size() != settings.ai_channels.size()) {
-    reader.fail("ao_channels", "as many as ai_channels, one each per slice");
+  read.ai_subdevice = integer(map, "ai_subdevice", kIndexLimits, -1);
+  read.ao_subdevice = integer(map, "ao_subdevice", kIndexLimits, -1);
+  read.ai_channels = channels(map, "ai_channels");
+  read.ao_channels = channels(map, "ao_channels");
+  if (read.ao_channels.size() != read.ai_channels.size()) {
+    map.fail("ao_channels", "ao_channels has " + std::to_string(read.ao_channels.size()) +
+                                " channels, allowed: as many as ai_channels, " +
+                                std::to_string(read.ai_channels.size()) + ", one per slice");
   }
-  settings.ai_range = range(reader, "ai_range");
-  settings.ao_range = range(reader, "ao_range");
-  settings.ai_reference = reader.reference("ai_reference");
-  settings.ao_reference = reader.reference("ao_reference");
-  settings.discard = reader.whole("discard", 0, 0, 16);
-  settings.average = reader.whole("average", 1, 1, 64);
-  settings.deglitch = reader.flag("deglitch");
-  settings.safe_volts = safeVolts(reader, settings.ai_channels.size());
-  return settings;
+  read.ai_range = range(map, "ai_range");
+  read.ao_range = range(map, "ao_range");
+  read.ai_reference = reference(map, "ai_reference");
+  read.ao_reference = reference(map, "ao_reference");
+  read.discard = integer(map, "discard", kDiscardLimits, read.discard);
+  read.average = integer(map, "average", kAverageLimits, read.average);
+  read.deglitch = map.flag("deglitch", false);
+  read.safe_volts = safeVolts(map, read.ai_channels.size());
+  return read;
 }
 
 }  // namespace ergotic::tgr

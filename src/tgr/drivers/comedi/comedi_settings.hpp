@@ -33,10 +33,10 @@ struct ComediSettings {
   int slices() const { return static_cast<int>(ai_channels.size()); }
 };
 
-/// \param text   YAML map, see docs/tgr.md
-/// \param place  of the text, for messages
-/// \throws Exception naming setting, value and allowed range
-ComediSettings readComediSettings(const std::string& text, const std::string& place);
+/// \param text  YAML map, see docs/tgr.md
+/// \param file  for messages
+/// \throws TextError with file:line:col, value and allowed range
+ComediSettings readComediSettings(const std::string& text, const std::string& file);
 
 /// By the index of the AREF_ constants.
 extern const std::vector<std::string> kComediReferences;

@@ -15,7 +15,7 @@ if(ergotic_tools)
 endif()
 
 install(DIRECTORY include/ergotic DESTINATION include FILES_MATCHING PATTERN "*.hpp")
-install(DIRECTORY models DESTINATION share/ergotic)
+install(DIRECTORY models config DESTINATION share/ergotic)
 if(ERGOTIC_ROS)
   install(DIRECTORY launch rviz urdf DESTINATION share/ergotic)
   install(FILES nodelet_plugins.xml DESTINATION share/ergotic)

@@ -84,6 +84,18 @@ TEST_F(ComediFaultsTest, SaysThatAnUnpluggedBoardIsLostUntilReconnected) {
   EXPECT_EQ(rig_.exchange(1.0), tgr::kExchangeOk);
 }
 
+TEST_F(ComediFaultsTest, FindsABoardThatComesBackByItself) {
+  ComediRig::inject(ComediFault::kUnplug, 1e-6);
+  EXPECT_EQ(rig_.exchange(1.0), tgr::kDeviceLost);
+  while (rig_.exchange(1.0) == tgr::kDeviceLost) {
+    try {
+      rig_.driver().reconnect();
+    } catch (const DeviceError&) {  // not yet
+    }
+  }
+  EXPECT_EQ(rig_.exchange(1.0), tgr::kExchangeOk);
+}
+
 TEST_F(ComediFaultsTest, MakesSafeALostBoardForWhenItComesBack) {
   ComediRig::inject(ComediFault::kUnplug);
   rig_.exchange(1.0);

@@ -11,6 +11,8 @@
 namespace ergotic::test {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 tgr::SliceBankConfig bankOf(const ComediStandinBoard& config) {
   tgr::SliceBankConfig bank;
   bank.slices = config.channels;
@@ -22,6 +24,10 @@ tgr::SliceBankConfig bankOf(const ComediStandinBoard& config) {
 int nextGeneration() {
   static int last = 0;
   return ++last;
+}
+
+Clock::duration secondsOf(double seconds) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
 bool reads(const comedi_insnlist& list) {
@@ -51,6 +57,13 @@ StandinBoard::StandinBoard(const ComediStandinBoard& config)
       railed_(outputs_.size()),
       generation_(nextGeneration()) {
   bank_.start(1.0 / config.rate_hz);
+}
+
+bool StandinBoard::isPluggedIn() {
+  if (!plugged_ && Clock::now() >= back_) {
+    plugIn();
+  }
+  return plugged_;
 }
 
 void StandinBoard::plugIn() {
@@ -93,6 +106,8 @@ StandinBoard::Trouble StandinBoard::meetFaults(const comedi_insnlist& list) {
         break;
       case ComediFault::kUnplug:
         plugged_ = false;
+        back_ =
+            fault.amount > 0.0 ? Clock::now() + secondsOf(fault.amount) : Clock::time_point::max();
         trouble.error = ENODEV;
         break;
       case ComediFault::kStuck:

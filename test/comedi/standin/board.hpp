@@ -3,7 +3,7 @@
 
 #include <comedilib.h>
 
-#include <mutex>
+#include <chrono>
 #include <vector>
 
 #include "comedi/standin/standin.hpp"
@@ -26,7 +26,7 @@ class StandinBoard {
   const ComediStandinBoard& config() const { return config_; }
   void inject(const ComediFaultOrder& order) { faults_.push_back(order); }
   void plugIn();
-  bool isPluggedIn() const { return plugged_; }
+  bool isPluggedIn();
   /// Handles know it from when they were opened; another one is dead.
   int generation() const { return generation_; }
   void hold(int channel, double target_m) { bank_.setTarget(channel, target_m); }
@@ -58,6 +58,7 @@ class StandinBoard {
   std::vector<bool> stuck_;
   std::vector<bool> railed_;
   bool plugged_ = true;
+  std::chrono::steady_clock::time_point back_;  // plugged in again by itself
   int generation_;
 };
 

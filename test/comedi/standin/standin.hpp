@@ -36,7 +36,7 @@ struct ComediStandinBoard {
 enum class ComediFault : std::uint8_t {
   kShort,   ///< only `amount` instructions of a list are run
   kError,   ///< none is run: EIO
-  kUnplug,  ///< ENODEV until plugged in again, after which old handles stay dead
+  kUnplug,  ///< ENODEV for `amount` s, 0: until plugged in; old handles stay dead
   kStuck,   ///< the input keeps saying what it said
   kRail,    ///< the input is at its highest value
   kSlow,    ///< a list takes `amount` s longer

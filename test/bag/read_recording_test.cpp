@@ -29,6 +29,8 @@ ergotic::GestureBlock block(std::int64_t first_tick) {
   message.flags = {0, ergotic::GestureBlock::CATCH_UP};
   message.positions = {0.1, 0.2, 0.3, 1.0 / 3.0};
   message.forces = {0, 0, 0, 0};
+  message.ports = 1;
+  message.port_positions = {0.5, 1.0 / 7.0};
   return message;
 }
 
@@ -83,6 +85,8 @@ TEST(ReadRecordingTest, GivesBackEveryFieldInTheOrderOfTicks) {
   EXPECT_EQ(recording.blocks[0].slices, 2U);
   EXPECT_THAT(recording.blocks[0].flags, ElementsAre(0, station::GestureTick::kCatchUp));
   EXPECT_THAT(recording.blocks[0].positions, ElementsAre(0.1, 0.2, 0.3, 1.0 / 3.0));
+  EXPECT_EQ(recording.blocks[0].ports, 1U);
+  EXPECT_THAT(recording.blocks[0].ports_at, ElementsAre(0.5, 1.0 / 7.0));
   ASSERT_EQ(recording.events.size(), 1U);
   EXPECT_EQ(recording.events[0].type, station::Event::Type::kParameter);
   EXPECT_EQ(recording.events[0].tick, 13);
@@ -121,13 +125,20 @@ TEST(ReadRecordingTest, SaysWhatIsMissing) {
 
 TEST(ReadRecordingTest, RefusesABlockThatContradictsItself) {
   const test::ScratchFile file;
-  {
-    rosbag::Bag bag(file.path(), rosbag::bagmode::Write);
-    ergotic::GestureBlock wrong = block(40);
-    wrong.positions.pop_back();
-    bag.write("/station/gesture", kStart, wrong);
-  }
-  EXPECT_THAT(errorOf(file.path()), HasSubstr("block of tick 40 has 3 positions"));
+  const auto refusalOf = [&](const ergotic::GestureBlock& wrong) {
+    {
+      rosbag::Bag bag(file.path(), rosbag::bagmode::Write);
+      bag.write("/station/gesture", kStart, wrong);
+    }
+    return errorOf(file.path());
+  };
+  ergotic::GestureBlock wrong = block(40);
+  wrong.positions.pop_back();
+  EXPECT_THAT(refusalOf(wrong), HasSubstr("block of tick 40 has 3 positions"));
+  wrong = block(40);
+  wrong.port_positions.clear();
+  EXPECT_THAT(refusalOf(wrong),
+              HasSubstr("block of tick 40 has 0 positions for 2 ticks of 1 ports"));
 }
 
 TEST(ReadRecordingTest, RefusesAKeyframeThatNoInstrumentCanContinue) {

@@ -53,6 +53,8 @@ void write(rosbag::Bag& bag, const bag::Block& block) {
   message.ticks = static_cast<std::uint32_t>(block.flags.size());
   message.flags = block.flags;
   message.positions = block.positions;
+  message.ports = static_cast<std::uint32_t>(block.ports);
+  message.port_positions = block.ports_at;
   bag.write("/station/gesture", ros::Time(1, 0), message);
 }
 

@@ -15,6 +15,8 @@ station::GestureTick tickAt(std::int64_t number) {
   tick.position[0] = 1.0 / static_cast<double>(number + 1);
   tick.position[1] = -tick.position[0];
   tick.force[1] = static_cast<float>(number);
+  tick.ports = 1;
+  tick.port[0] = 3.0 * tick.position[0];
   return tick;
 }
 
@@ -46,6 +48,7 @@ TEST(GestureBlocksTest, KeepEveryTickInOrderBitForBit) {
       EXPECT_EQ(received.positions[2 * i], tick.position[0]);
       EXPECT_EQ(received.positions[2 * i + 1], tick.position[1]);
       EXPECT_EQ(received.forces[2 * i + 1], tick.force[1]);
+      EXPECT_EQ(received.port_positions[i], tick.port[0]);
     }
   }
 }

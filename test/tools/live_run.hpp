@@ -78,6 +78,18 @@ class LiveRun : private station::FramePort {
     station_->submit(next);
   }
 
+  /// Every port moves with its slice, `gain` times as far.
+  void configure(double gain) {
+    scene::Scene scaled = playing_->scene();
+    for (scene::Port& port : scaled.ports) {
+      port.position_scale /= gain;
+    }
+    station::Command next;
+    next.type = station::Command::Type::kConfigure;
+    next.rig = tgr::makeRig(scaled, {}, tgr::kMaxSlices).release();
+    station_->submit(next);
+  }
+
   void takeKeyframe() {
     station::Command keyframe;
     keyframe.type = station::Command::Type::kKeyframe;
@@ -108,20 +120,25 @@ class LiveRun : private station::FramePort {
     station::GestureTick tick;
     while (station_->pollGestures(&tick, 1) == 1) {
       if (recording_.blocks.empty() || recording_.blocks.back().endTick() != tick.tick ||
+          recording_.blocks.back().ports != tick.ports ||
           recording_.blocks.back().flags.size() == 64) {
-        recording_.blocks.push_back({tick.tick, tick.slices, {}, {}});
+        recording_.blocks.push_back({tick.tick, tick.slices, tick.ports, {}, {}, {}});
       }
       bag::Block& block = recording_.blocks.back();
       block.flags.push_back(tick.flags);
       block.positions.insert(block.positions.end(), tick.position.begin(),
                              tick.position.begin() + tick.slices);
+      block.ports_at.insert(block.ports_at.end(), tick.port.begin(),
+                            tick.port.begin() + tick.ports);
     }
     station::Event event;
     while (station_->poll(event)) {
       const std::unique_ptr<station::Performer> performer(event.performer);
       const std::unique_ptr<physics::Coefficients> coefficients(event.coefficients);
       event.performer = nullptr;
+      const std::unique_ptr<tgr::Rig> rig(event.rig);
       event.coefficients = nullptr;
+      event.rig = nullptr;
       recording_.events.push_back(event);
       if (event.type == station::Event::Type::kKeyframe) {
         addKeyframe(station_->keyframe());

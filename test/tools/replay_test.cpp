@@ -83,6 +83,33 @@ TEST(ReplayTest, TakesParametersAtTheirTicks) {
   expectSame(again, live.sound());
 }
 
+TEST(ReplayTest, FollowsOtherEndEffectorsAndTheirGlide) {
+  LiveRun live(kScene);
+  live.takeKeyframe();
+  live.play(1003);
+  live.configure(1.5);
+  live.play(100);
+  live.configure(-0.5);  // within the glide of the first
+  live.play(2000);
+  live.takeKeyframe();
+  live.play(10);
+  const Replayed again = replay(live.recording());
+  EXPECT_THAT(again.flaws, ElementsAre());
+  expectSame(again, live.sound());
+}
+
+TEST(ReplayTest, SaysWhenTheModelHasOtherPorts) {
+  LiveRun live(kScene);
+  live.takeKeyframe();
+  live.play(100);
+  bag::Recording recording = live.recording();
+  for (bag::Block& block : recording.blocks) {
+    block.ports = 0;
+    block.ports_at.clear();
+  }
+  EXPECT_THAT(replay(recording).flaws, ElementsAre(HasSubstr("0 ports were recorded")));
+}
+
 TEST(ReplayTest, FollowsStallsAndLeavesLostTicksSilent) {
   LiveRun live(kScene);
   live.takeKeyframe();

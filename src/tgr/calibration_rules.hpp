@@ -24,6 +24,12 @@ constexpr double kMaxForceAtZeroVoltsN = 0.1;
 /// \throws Exception naming number and allowed range, if the numbers do not fit together
 void checkCalibration(const SliceCalibration& calibration, const std::string& of);
 
+/// Reads one slice. \param what  for messages. \throws TextError
+SliceCalibration readSliceCalibration(const Settings& settings,
+                                      const YAML::Node& node,
+                                      const std::string& what,
+                                      scene::Place fallback);
+
 /// Reads a list of slices. \throws TextError
 std::vector<SliceCalibration> readSliceCalibrations(const Settings& settings,
                                                     const YAML::Node& list,

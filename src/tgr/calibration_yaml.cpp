@@ -32,32 +32,6 @@ constexpr std::array<Field, 9> kFields{
      {"residual_m", &SliceCalibration::residual_m, kErrorLimits},
      {"noise_m", &SliceCalibration::noise_m, kErrorLimits}}};
 
-SliceCalibration readSlice(const Settings& settings,
-                           const YAML::Node& node,
-                           int slice,
-                           Place fallback) {
-  SliceCalibration calibration;
-  if (node.IsNull()) {
-    return calibration;
-  }
-  const Place place = scene::placeOf(node, fallback);
-  const YamlMap map(settings.builder(), node, "calibration of slice " + std::to_string(slice),
-                    place);
-  std::vector<std::string> keys;
-  for (const Field& field : kFields) {
-    keys.emplace_back(field.key);
-    calibration.*field.member = map.number(field.key, field.limits, calibration.*field.member);
-  }
-  map.allow(keys);
-  calibration.is_calibrated = map.has("metres_per_volt") && map.has("volts_per_newton");
-  try {
-    checkCalibration(calibration, " of slice " + std::to_string(slice));
-  } catch (const Exception& error) {
-    settings.builder().fail(place, error.what());
-  }
-  return calibration;
-}
-
 std::string sliceText(const SliceCalibration& calibration) {
   const SliceCalibration plain;
   std::string text;
@@ -74,6 +48,31 @@ std::string sliceText(const SliceCalibration& calibration) {
 
 }  // namespace
 
+SliceCalibration readSliceCalibration(const Settings& settings,
+                                      const YAML::Node& node,
+                                      const std::string& what,
+                                      Place fallback) {
+  SliceCalibration calibration;
+  if (node.IsNull()) {
+    return calibration;
+  }
+  const Place place = scene::placeOf(node, fallback);
+  const YamlMap map(settings.builder(), node, what, place);
+  std::vector<std::string> keys;
+  for (const Field& field : kFields) {
+    keys.emplace_back(field.key);
+    calibration.*field.member = map.number(field.key, field.limits, calibration.*field.member);
+  }
+  map.allow(keys);
+  calibration.is_calibrated = map.has("metres_per_volt") && map.has("volts_per_newton");
+  try {
+    checkCalibration(calibration, " of " + what);
+  } catch (const Exception& error) {
+    settings.builder().fail(place, error.what());
+  }
+  return calibration;
+}
+
 std::vector<SliceCalibration> readSliceCalibrations(const Settings& settings,
                                                     const YAML::Node& list,
                                                     Place place) {
@@ -84,7 +83,8 @@ std::vector<SliceCalibration> readSliceCalibrations(const Settings& settings,
   }
   std::vector<SliceCalibration> slices;
   for (const YAML::Node& node : list) {
-    slices.push_back(readSlice(settings, node, static_cast<int>(slices.size()), place));
+    slices.push_back(readSliceCalibration(
+        settings, node, "calibration of slice " + std::to_string(slices.size()), place));
   }
   return slices;
 }

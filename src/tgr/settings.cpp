@@ -159,6 +159,12 @@ std::string textInLine(const scene::SceneBuilder& builder, const YAML::Node& nod
   return flowText(builder, node, false);
 }
 
+std::string besideFile(const std::string& path, const std::string& file) {
+  const std::size_t slash = file.rfind('/');
+  const bool is_absolute = !path.empty() && path.front() == '/';
+  return is_absolute || slash == std::string::npos ? path : file.substr(0, slash + 1) + path;
+}
+
 std::string shortest(double value) {
   std::array<char, 32> text{};
   const auto result = std::to_chars(text.data(), text.data() + text.size(), value);

@@ -36,6 +36,9 @@ std::string textInPlace(const scene::SceneBuilder& builder, const YAML::Node& no
 /// The same on one line.
 std::string textInLine(const scene::SceneBuilder& builder, const YAML::Node& node);
 
+/// A path as it stands in a file: relative ones start where the file is.
+std::string besideFile(const std::string& path, const std::string& file);
+
 /// The shortest text that reads back as the very same number.
 std::string shortest(double value);
 

@@ -130,14 +130,17 @@ TEST(CalibrationYamlTest, SaysWhereATextIsWrong) {
             "c.yaml:3:23: error: 'metres_per_volt' of calibration of slice 1 = 11 m/V is out of "
             "range, allowed: -10...10 m/V");
   EXPECT_EQ(complaint("slices: [{metres_per_volt: 0.01, volts_per_newton: 0}]"),
-            "c.yaml:1:10: error: metres_per_volt = 0.01 and volts_per_newton = 0 of slice 0, "
+            "c.yaml:1:10: error: metres_per_volt = 0.01 and volts_per_newton = 0 of calibration of "
+            "slice 0, "
             "allowed: neither is 0 in a slice that is calibrated");
-  EXPECT_EQ(complaint("slices: [{low_volts: 3, high_volts: 3}]"),
-            "c.yaml:1:10: error: high_volts of slice 0 = 3 V is out of range, allowed: "
-            "above 3...1000 V");
-  EXPECT_EQ(complaint("slices: [{zero_volts: 0.2, volts_per_newton: 1}]"),
-            "c.yaml:1:10: error: zero_volts of slice 0 = 0.2 V is out of range, allowed: "
-            "-0.1...0.1 V");
+  EXPECT_EQ(
+      complaint("slices: [{low_volts: 3, high_volts: 3}]"),
+      "c.yaml:1:10: error: high_volts of calibration of slice 0 = 3 V is out of range, allowed: "
+      "above 3...1000 V");
+  EXPECT_EQ(
+      complaint("slices: [{zero_volts: 0.2, volts_per_newton: 1}]"),
+      "c.yaml:1:10: error: zero_volts of calibration of slice 0 = 0.2 V is out of range, allowed: "
+      "-0.1...0.1 V");
   EXPECT_EQ(complaint("slices: [{gain: 1}]").substr(0, 60),
             "c.yaml:1:11: error: unknown key 'gain' of calibration of sli");
   EXPECT_EQ(complaint("slices: 3").substr(0, 20), "c.yaml:1:9: error: c");

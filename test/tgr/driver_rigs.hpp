@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -25,6 +26,7 @@ inline tgr::VirtualSliceConfig plainSlice() {
   slice.dry_friction = 0.0;
   slice.quantum = 0.0;
   slice.noise_rms = 0.0;
+  slice.bandwidth = std::numeric_limits<double>::infinity();
   return slice;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -21,6 +22,7 @@ VirtualDriverConfig idealConfig() {
   config.slice.stop = 0.1;
   config.slice.quantum = 0.0;
   config.slice.noise_rms = 0.0;
+  config.slice.bandwidth = std::numeric_limits<double>::infinity();
   return config;
 }
 
@@ -61,7 +63,7 @@ TEST(InProcessDriverTest, IsStableUpToTheLimitOfOneTickOfDelayAndTheExtraOnes) {
 }
 
 TEST(InProcessDriverTest, DelaysForcesByOneTickAndTheExtraOnes) {
-  for (const int extra : {0, 1, 5, InProcessDriver::kMaxExtraDelayTicks}) {
+  for (const int extra : {0, 1, 5, kMaxExtraDelayTicks}) {
     VirtualDriverConfig config = idealConfig();
     config.extra_delay_ticks = extra;
     InProcessDriver driver(config);

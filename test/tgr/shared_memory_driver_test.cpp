@@ -21,6 +21,13 @@ namespace ergotic::tgr {
 namespace {
 
 using Slices = std::array<double, 3>;
+SharedTraits traits(int slices) {
+  SharedTraits result;
+  result.slices = slices;
+  result.step_rate_hz = 1000.0;
+  return result;
+}
+
 constexpr int kWatchdogSteps = 10;  // of 1 ms
 
 class SharedMemoryDriverTest : public ::testing::Test {
@@ -271,7 +278,7 @@ TEST(VirtualDeviceTest, StartsTheGestureWhenADriverOpens) {
 
 TEST(VirtualDeviceTest, RefusesANameThatALivingDeviceHas) {
   const test::SharedMemoryRig rig;
-  EXPECT_THROW(SharedSegment::create(rig.name(), 3, 1000.0), DeviceError);
+  EXPECT_THROW(SharedSegment::create(rig.name(), traits(3)), DeviceError);
   EXPECT_NO_THROW(SharedSegment::attach(rig.name()));
 }
 
@@ -280,26 +287,26 @@ TEST(VirtualDeviceTest, TakesTheNameOfADeviceThatWasKilled) {
   const pid_t child = ::fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
-    const SharedSegment segment = SharedSegment::create(name, 3, 1000.0);
+    const SharedSegment segment = SharedSegment::create(name, traits(3));
     ::raise(SIGKILL);
   }
   int status = 0;
   ASSERT_EQ(::waitpid(child, &status, 0), child);
-  ASSERT_EQ(SharedSegment::attach(name)->slices, 3) << "the killed device left its memory";
-  const SharedSegment segment = SharedSegment::create(name, 5, 1000.0);
-  EXPECT_EQ(SharedSegment::attach(name)->slices, 5);
+  ASSERT_EQ(SharedSegment::attach(name)->traits.slices, 3) << "the killed device left its memory";
+  const SharedSegment segment = SharedSegment::create(name, traits(5));
+  EXPECT_EQ(SharedSegment::attach(name)->traits.slices, 5);
 }
 
 TEST(VirtualDeviceTest, TakesItsNameAwayWhenItEnds) {
   const std::string name = test::freshSegmentName();
-  { const SharedSegment segment = SharedSegment::create(name, 3, 1000.0); }
+  { const SharedSegment segment = SharedSegment::create(name, traits(3)); }
   EXPECT_THROW(SharedSegment::attach(name), DeviceError);
 }
 
 TEST(VirtualDeviceTest, IsNotMistakenForOtherMemory) {
   const std::string name = test::freshSegmentName();
   {
-    const SharedSegment segment = SharedSegment::create(name, 3, 1000.0);
+    const SharedSegment segment = SharedSegment::create(name, traits(3));
     segment->version = SharedDevice::kVersion + 1;
     EXPECT_THROW(SharedSegment::attach(name), DeviceError);
     segment->version = SharedDevice::kVersion;
@@ -310,7 +317,7 @@ TEST(VirtualDeviceTest, IsNotMistakenForOtherMemory) {
     EXPECT_THROW(SharedSegment::attach(name), DeviceError);
   }
   for (const char* bad : {"", "/", "a/b", "/a/b"}) {
-    EXPECT_THROW(SharedSegment::create(bad, 3, 1000.0), DeviceError) << bad;
+    EXPECT_THROW(SharedSegment::create(bad, traits(3)), DeviceError) << bad;
   }
 }
 

@@ -21,6 +21,7 @@ VirtualSliceConfig idealConfig() {
   config.stop = 0.1;
   config.quantum = 0.0;
   config.noise_rms = 0.0;
+  config.bandwidth = std::numeric_limits<double>::infinity();
   return config;
 }
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
-#include <vector>
 
+#include "ergotic/tgr/calibration.hpp"
 #include "ergotic/tgr/driver.hpp"
 
 namespace ergotic::tgr {
@@ -13,6 +15,7 @@ namespace ergotic::tgr {
 /// Mechanics of one virtual slice and of the hand that holds it.
 ///
 ///   (m + m_hand) x'' = F + k_hand (target - x) + b_hand (target' - x') - b x' - dry(x')
+///   F' / (2 pi bandwidth) = saturated(asked(t - delay)) - F
 ///
 /// The defaults are plausible, not measured on a TGR.
 struct VirtualSliceConfig {
@@ -23,20 +26,30 @@ struct VirtualSliceConfig {
   double quantum = 1e-6;        ///< m, sensor resolution
   double noise_rms = 0.5e-6;    ///< m, sensor noise before quantisation
   double force_limit = 200.0;   ///< N, the actuator saturates
+  double bandwidth = 15'000.0;  ///< Hz, of the actuator, a first-order lag; infinite: no lag
+  double delay = 0.0;           ///< s, of the actuator
   double hand_mass = 0.1;       ///< kg
   double hand_stiffness = 500;  ///< N/m
   double hand_damping = 5.0;    ///< N s/m
+  /// What sensor and actuator truly are, if the device speaks volts: what a calibration should
+  /// find.
+  std::optional<SliceCalibration> volts;
 };
 
 struct VirtualDriverConfig {
   int slices = 12;
-  VirtualSliceConfig slice;
-  std::string gesture_file;  ///< CSV `time_s,slice,target_m`; empty: targets by setTarget only
-  std::uint64_t seed = 1;    ///< of the sensor noise
+  VirtualSliceConfig slice;                  ///< those that are not in `others`
+  std::map<int, VirtualSliceConfig> others;  ///< slices that differ; all speak volts, or none does
+  /// CSV `time_s,slice,target_m` or `tick,x0,...`: where the virtual hands want to be; empty:
+  /// targets by setTarget only
+  std::string gesture_file;
+  double gesture_rate = 0.0;  ///< Hz, of the ticks of a CSV of positions; 0: the tick rate
+  std::uint64_t seed = 1;     ///< of the sensor noise
   int extra_delay_ticks = 0;
   /// Name of a shared-memory segment of a device process (`virtual_tgr`); empty: the device lives
   /// inside the driver and is stepped by exchange, deterministically.
   std::string shared_memory;
+  bool is_raw = false;  ///< the device process speaks volts; one inside the driver: see `volts`
 };
 
 /// The virtual TGR. Its targets can be moved from one other thread while it runs; they override the

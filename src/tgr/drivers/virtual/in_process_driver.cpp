@@ -10,13 +10,13 @@
 namespace ergotic::tgr {
 
 InProcessDriver::InProcessDriver(const VirtualDriverConfig& config)
-    : bank_({config.slices, config.slice, config.gesture_file, config.seed}),
-      extra_delay_ticks_(config.extra_delay_ticks) {
-  requireWithin("extra_delay_ticks", extra_delay_ticks_, 0, kMaxExtraDelayTicks, "ticks");
+    : bank_(config), queue_ticks_(config.extra_delay_ticks) {
+  requireWithin("extra_delay_ticks", queue_ticks_, 0, kMaxExtraDelayTicks, "ticks");
 }
 
 void InProcessDriver::open(double tick_rate_hz) {
-  bank_.start(1.0 / tick_rate_hz);
+  bank_.start(1.0 / tick_rate_hz, tick_rate_hz);
+  actuator_ticks_ = static_cast<int>(std::ceil(bank_.delay() * tick_rate_hz));
   for (Forces& forces : queue_) {
     forces.fill(0.0);
   }
@@ -42,10 +42,10 @@ ERGOTIC_REALTIME std::uint32_t InProcessDriver::exchange(const double* forces,
   Forces& oldest = queue_[head_];
   bank_.step(oldest.data());
   bank_.read(last_positions_.data());
-  if (!safe) {
-    std::copy_n(forces, slices(), oldest.begin());
+  for (int i = 0; i < slices(); ++i) {
+    oldest[static_cast<std::size_t>(i)] = bank_.newtons(i, safe ? 0.0 : forces[i]);
   }
-  head_ = (head_ + 1) % static_cast<std::size_t>(extra_delay_ticks_ + 1);
+  head_ = (head_ + 1) % static_cast<std::size_t>(queue_ticks_ + 1);
   std::copy_n(last_positions_.begin(), slices(), positions);
   return made_safe;
 }

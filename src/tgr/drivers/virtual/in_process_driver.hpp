@@ -7,6 +7,7 @@
 #include "ergotic/rt/ring.hpp"
 #include "ergotic/tgr/virtual_driver.hpp"
 #include "tgr/drivers/virtual/slice_bank.hpp"
+#include "tgr/drivers/virtual/virtual_settings.hpp"
 
 namespace ergotic::tgr {
 
@@ -25,10 +26,10 @@ class InProcessDriver final : public Driver {
   std::uint32_t exchange(const double* forces, double* positions) noexcept override;
   void makeSafe() noexcept override { safe_ = true; }
   void rearm() noexcept override { safe_ = false; }
-  int extraDelayTicks() const noexcept override { return extra_delay_ticks_; }
+  int extraDelayTicks() const noexcept override { return queue_ticks_ + actuator_ticks_; }
+  bool isRaw() const noexcept override { return bank_.isRaw(); }
+  double damping() const noexcept override { return bank_.damping(); }
   bool setTarget(int slice, double target_m) noexcept override;
-
-  static constexpr int kMaxExtraDelayTicks = 16;
 
  private:
   struct Target {
@@ -41,7 +42,8 @@ class InProcessDriver final : public Driver {
   void takeTargets() noexcept;
 
   SliceBank bank_;
-  int extra_delay_ticks_;
+  int queue_ticks_;
+  int actuator_ticks_ = 0;                               // of its delay, rounded up
   std::array<Forces, kMaxExtraDelayTicks + 1> queue_{};  // forces under way, oldest at head_
   std::size_t head_ = 0;
   Forces last_positions_{};

@@ -16,6 +16,7 @@
 #include <sys/stat.h>
 
 #include "ergotic/exception.hpp"
+#include "ergotic/rt/clock.hpp"
 #include "ergotic/rt/realtime.hpp"
 
 namespace ergotic::tgr {
@@ -101,7 +102,7 @@ bool processLives(std::int32_t pid) noexcept {
   return pid > 0 && (::kill(pid, 0) == 0 || errno == EPERM);
 }
 
-SharedSegment SharedSegment::create(const std::string& given, int slices, double step_rate_hz) {
+SharedSegment SharedSegment::create(const std::string& given, const SharedTraits& traits) {
   const std::string name = segmentName(given);
   constexpr int kFlags = O_CREAT | O_EXCL | O_RDWR;
   constexpr mode_t kOwnerOnly = 0600;
@@ -118,8 +119,8 @@ SharedSegment SharedSegment::create(const std::string& given, int slices, double
     refuse(name, std::string("cannot be created: ") + std::generic_category().message(errno));
   }
   auto* const device = new (map(file, name)) SharedDevice;
-  device->slices = slices;
-  device->step_rate_hz = step_rate_hz;
+  device->traits = traits;
+  device->born_ns = rt::monotonicNs();
   for (std::atomic<double>& target : device->targets) {
     target = std::numeric_limits<double>::quiet_NaN();
   }

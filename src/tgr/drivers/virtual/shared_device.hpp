@@ -29,27 +29,36 @@ class SharedFrame {
   std::array<std::atomic<double>, kMaxSlices> values_{};
 };
 
+/// What a virtual device is, constant while it lives.
+struct SharedTraits {
+  std::int32_t slices = 0;
+  bool is_raw = false;  ///< positions and forces are volts
+  double step_rate_hz = 0.0;
+  double delay_s = 0.0;  ///< the longest of its actuators
+  double damping = 0.0;  ///< the least of its slices, N s/m
+};
+
 /// What a virtual device and its driver share when they are two processes.
 struct SharedDevice {
   static constexpr std::uint32_t kMagic = 0x54475256U;
-  static constexpr std::uint32_t kVersion = 1;
+  static constexpr std::uint32_t kVersion = 2;
 
   std::atomic<std::uint32_t> magic{0};  ///< kMagic once all the rest is in place
   std::uint32_t version = kVersion;
   std::uint64_t size = sizeof(SharedDevice);
-  std::int32_t slices = 0;
-  double step_rate_hz = 0.0;
+  SharedTraits traits;
+  std::int64_t born_ns = 0;  ///< CLOCK_MONOTONIC; tells a device from the one before it
 
   // The device writes:
   alignas(64) std::atomic<std::int32_t> device_pid{0};  ///< 0: the device has gone
   std::atomic<std::int64_t> heartbeat_ns{0};            ///< CLOCK_MONOTONIC of its last step
-  SharedFrame positions;                                ///< m
+  SharedFrame positions;                                ///< m, or V
 
   // The driver writes:
   alignas(64) std::atomic<std::int32_t> driver_pid{0};  ///< 0: no driver, so no force
   std::atomic<std::uint32_t> session{0};                ///< counts the times a driver opened
   std::atomic<std::uint64_t> exchanges{0};              ///< of this session: what the watchdog sees
-  SharedFrame forces;                                   ///< N
+  SharedFrame forces;                                   ///< N, or V
   std::array<std::atomic<double>, kMaxSlices> targets{};  ///< m; NaN: the gesture's
 
   // Both write:
@@ -68,7 +77,7 @@ class SharedSegment {
   /// Makes the segment, in place of one whose device has died; it goes with this object.
   /// \param name  with or without the leading slash
   /// \throws DeviceError if the name is not usable or a living device has it
-  static SharedSegment create(const std::string& name, int slices, double step_rate_hz);
+  static SharedSegment create(const std::string& name, const SharedTraits& traits);
 
   /// Maps the segment of a running device.
   /// \throws DeviceError if there is none, or it is of another version

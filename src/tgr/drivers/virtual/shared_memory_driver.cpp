@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/clock.hpp"
@@ -36,6 +37,16 @@ SharedSegment attachPatiently(const std::string& name) {
   }
 }
 
+bool isAlive(const SharedDevice& device) noexcept {
+  return device.device_pid != 0 &&
+         rt::monotonicNs() - device.heartbeat_ns <= SharedMemoryDriver::kMissingNs;
+}
+
+bool isSame(const SharedTraits& a, const SharedTraits& b) noexcept {
+  return a.slices == b.slices && a.is_raw == b.is_raw && a.step_rate_hz == b.step_rate_hz &&
+         a.delay_s == b.delay_s && a.damping == b.damping;
+}
+
 /// Makes this process the driver, with zero force, the gesture at its start and nothing latched.
 void takeOver(SharedDevice& device, const std::string& name) {
   std::int32_t owner = device.driver_pid;
@@ -46,7 +57,7 @@ void takeOver(SharedDevice& device, const std::string& name) {
   if (!device.driver_pid.compare_exchange_strong(owner, ::getpid())) {
     throw DeviceError("virtual device " + name + ": another driver opens it at the same moment");
   }
-  device.forces.write(kNoForce.data(), device.slices);
+  device.forces.write(kNoForce.data(), device.traits.slices);
   for (std::atomic<double>& target : device.targets) {
     target = std::numeric_limits<double>::quiet_NaN();
   }
@@ -58,7 +69,7 @@ void takeOver(SharedDevice& device, const std::string& name) {
 }  // namespace
 
 SharedMemoryDriver::SharedMemoryDriver(const VirtualDriverConfig& config)
-    : name_(config.shared_memory), slices_(config.slices) {
+    : name_(config.shared_memory), slices_(config.slices), is_raw_(config.is_raw) {
   requireWithin("slices", slices_, 1, kMaxSlices, "");
   if (!config.gesture_file.empty() || config.extra_delay_ticks != 0) {
     throw Exception("virtual device " + name_ +
@@ -74,14 +85,25 @@ SharedMemoryDriver::~SharedMemoryDriver() {
 void SharedMemoryDriver::open(double tick_rate_hz) {
   close();
   SharedSegment segment = attachPatiently(name_);
-  if (segment->slices != slices_) {
-    throw DeviceError("virtual device " + name_ + ": has " + std::to_string(segment->slices) +
+  const SharedTraits& traits = segment->traits;
+  if (traits.slices != slices_) {
+    throw DeviceError("virtual device " + name_ + ": has " + std::to_string(traits.slices) +
                       " slices, not the " + std::to_string(slices_) + " that were asked for");
   }
+  if (traits.is_raw != is_raw_) {
+    throw DeviceError("virtual device " + name_ + ": speaks " +
+                      (traits.is_raw ? "volts, allowed with: is_raw: true"
+                                     : "metres, allowed with: is_raw: false"));
+  }
   takeOver(*segment.get(), name_);
+  traits_ = traits;
   constexpr double kStepsOfDelay = 2.0;
-  extra_delay_ticks_ =
-      static_cast<int>(std::ceil(kStepsOfDelay * tick_rate_hz / segment->step_rate_hz));
+  extra_delay_ticks_ = static_cast<int>(
+      std::ceil((kStepsOfDelay / traits.step_rate_hz + traits.delay_s) * tick_rate_hz));
+  join(std::move(segment));
+}
+
+void SharedMemoryDriver::join(SharedSegment segment) {
   segments_.push_back(std::move(segment));
   SharedDevice* const device = segments_.back().get();
   device_ = device;
@@ -89,6 +111,29 @@ void SharedMemoryDriver::open(double tick_rate_hz) {
     device->safe = 1;
   }
   open_ = true;
+}
+
+void SharedMemoryDriver::reconnect() {
+  if (!open_) {
+    throw DeviceError("virtual device " + name_ + ": is not open");
+  }
+  SharedDevice& old = *device_.load();
+  if (isAlive(old)) {
+    return;
+  }
+  SharedSegment segment = SharedSegment::attach(name_);
+  if (!isAlive(*segment.get())) {
+    throw DeviceError("virtual device " + name_ + ": does not move; start it again");
+  }
+  if (segment->born_ns == old.born_ns) {
+    return;  // it was only slow
+  }
+  if (!isSame(segment->traits, traits_)) {
+    throw DeviceError("virtual device " + name_ +
+                      ": is another one now: start the station again, or the device as it was");
+  }
+  takeOver(*segment.get(), name_);
+  join(std::move(segment));
 }
 
 void SharedMemoryDriver::close() noexcept {

@@ -24,20 +24,29 @@ class SharedMemoryDriver final : public Driver {
   /// \throws DeviceError if there is no device, another driver has it, or its slices differ
   void open(double tick_rate_hz) override;
   void close() noexcept override;
+  /// Finds a device that was started again under the same name.
+  /// \throws DeviceError if there is none, or it is another one than was opened
+  void reconnect() override;
   int slices() const noexcept override { return slices_; }
   std::uint32_t exchange(const double* forces, double* positions) noexcept override;
   void makeSafe() noexcept override;
   void rearm() noexcept override;
   /// Worst case: a force waits for the device's next step, and the position is one step old.
   int extraDelayTicks() const noexcept override { return extra_delay_ticks_; }
+  bool isRaw() const noexcept override { return is_raw_; }
+  double damping() const noexcept override { return traits_.damping; }
   bool setTarget(int slice, double target_m) noexcept override;
 
   static constexpr std::int64_t kMissingNs = 20'000'000;  ///< age of the device's last step
   static constexpr std::int64_t kLostNs = 1'000'000'000;
 
  private:
+  void join(SharedSegment segment);
+
   std::string name_;
   int slices_;
+  bool is_raw_;
+  SharedTraits traits_;  // of the device that was opened
   int extra_delay_ticks_ = 0;
   std::list<SharedSegment> segments_;  // older ones stay: makeSafe may be in one, in any thread
   std::atomic<SharedDevice*> device_{nullptr};  // the newest, open or not

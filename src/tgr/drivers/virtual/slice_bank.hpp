@@ -11,24 +11,18 @@
 
 namespace ergotic::tgr {
 
-/// What a bank of virtual slices is made of.
-struct SliceBankConfig {
-  int slices = 12;
-  VirtualSliceConfig slice;
-  std::string gesture_file;  ///< empty: hands rest at 0
-  std::uint64_t seed = 1;    ///< of the sensor noise; each slice has its own sequence
-};
-
 /// All slices of a virtual device, stepped together. One thread, whoever steps it.
 /// Realtime: yes, all but the constructor and `start`.
 class SliceBank {
  public:
+  /// Of the settings it reads all but those of delay and shared memory.
   /// \throws TextError from the gesture file, Exception if a setting is outside its range
-  explicit SliceBank(const SliceBankConfig& config);
+  explicit SliceBank(const VirtualDriverConfig& config);
 
   /// Back to rest at 0, time 0, first noise sample; forgets the targets that were set.
-  /// \param step_s  time that `step` moves on. \throws Exception if it is outside its range
-  void start(double step_s);
+  /// \param step_s        time that `step` moves on. \throws Exception if it is outside its range
+  /// \param tick_rate_hz  of a gesture of positions that has no rate of its own
+  void start(double step_s, double tick_rate_hz);
 
   /// The gesture begins anew with the next step.
   void restartGesture() noexcept { steps_ = 0; }
@@ -36,16 +30,24 @@ class SliceBank {
   /// A hand's target in place of the gesture's, m; NaN gives the slice back to the gesture.
   void setTarget(int slice, double target_m) noexcept;
 
+  /// What is asked of an actuator that gets `force`, N, or volts if `isRaw`; saturated.
+  double newtons(int slice, double force) const noexcept;
+
   /// \param forces  [slices] N, held over the step
   void step(const double* forces) noexcept;
 
-  /// \param[out] positions  [slices] m, as the sensors say
+  /// \param[out] positions  [slices] m, as the sensors say; V if `isRaw`
   void read(double* positions) noexcept;
 
-  int slices() const noexcept { return config_.slices; }
+  bool isRaw() const noexcept { return configs_.front().volts.has_value(); }
+  double damping() const noexcept;  ///< the least of all slices, N s/m
+  double delay() const noexcept;    ///< the longest of all actuators, s
+  int slices() const noexcept { return static_cast<int>(configs_.size()); }
 
  private:
-  SliceBankConfig config_;
+  std::vector<VirtualSliceConfig> configs_;  // [slices]
+  std::uint64_t seed_;
+  double gesture_rate_;
   TargetGesture gesture_;
   std::vector<VirtualSlice> slices_;
   std::array<double, kMaxSlices> set_targets_{};  // NaN: the gesture's

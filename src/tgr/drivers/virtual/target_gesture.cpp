@@ -2,6 +2,7 @@
 #include "tgr/drivers/virtual/target_gesture.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <fstream>
 #include <system_error>
@@ -9,6 +10,7 @@
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/realtime.hpp"
 #include "tgr/csv.hpp"
+#include "tgr/require.hpp"
 
 namespace ergotic::tgr {
 namespace {
@@ -40,7 +42,7 @@ TargetGesture::TargetGesture(std::istream& in, const std::string& name, int slic
     const auto slice = static_cast<std::size_t>(csv.integer(1, "slice", 0, slices - 1));
     const double target_m = csv.number(2, "target_m", -kMaxTargetM, kMaxTargetM);
     std::vector<Knot>& knots = knots_[slice];
-    if (!knots.empty() && t_s <= knots.back().t_s) {
+    if (!knots.empty() && t_s <= knots.back().t) {
       csv.fail(0,
                "time_s '" + std::string(csv.text(0)) + "' is not after the slice's row before it");
     }
@@ -48,13 +50,36 @@ TargetGesture::TargetGesture(std::istream& in, const std::string& name, int slic
   }
 }
 
+TargetGesture::TargetGesture(GestureSource& positions, const std::string& name, int slices)
+    : TargetGesture(slices) {
+  if (positions.slices() > slices) {
+    throw Exception(name + ": positions of " + std::to_string(positions.slices()) +
+                    " slices, allowed: at most " + std::to_string(slices));
+  }
+  is_in_ticks_ = true;
+  std::array<double, kMaxSlices> x{};
+  for (double tick = 0.0; positions.next(x.data()); tick += 1.0) {
+    for (int i = 0; i < positions.slices(); ++i) {
+      const auto slot = static_cast<std::size_t>(i);
+      requireWithin(name + ": position of slice " + std::to_string(i), x[slot], -kMaxTargetM,
+                    kMaxTargetM, "m");
+      knots_[slot].push_back({tick, x[slot]});
+    }
+  }
+}
+
+void TargetGesture::setTickRate(double tick_rate_hz) noexcept {
+  per_second_ = is_in_ticks_ ? tick_rate_hz : 1.0;
+}
+
 ERGOTIC_REALTIME HandTarget TargetGesture::at(int slice, double t_s) const noexcept {
   const std::vector<Knot>& knots = knots_[static_cast<std::size_t>(slice)];
   if (knots.empty()) {
     return {};
   }
-  const auto next = std::upper_bound(knots.begin(), knots.end(), t_s,
-                                     [](double t, const Knot& knot) { return t < knot.t_s; });
+  const double now = t_s * per_second_;
+  const auto next = std::upper_bound(knots.begin(), knots.end(), now,
+                                     [](double t, const Knot& knot) { return t < knot.t; });
   if (next == knots.begin()) {
     return {knots.front().target_m, 0.0};
   }
@@ -62,13 +87,16 @@ ERGOTIC_REALTIME HandTarget TargetGesture::at(int slice, double t_s) const noexc
   if (next == knots.end()) {
     return {last.target_m, 0.0};
   }
-  const double velocity = (next->target_m - last.target_m) / (next->t_s - last.t_s);
-  return {last.target_m + (t_s - last.t_s) * velocity, velocity};
+  const double slope = (next->target_m - last.target_m) / (next->t - last.t);
+  return {last.target_m + (now - last.t) * slope, slope * per_second_};
 }
 
 TargetGesture readTargetGesture(const std::string& path, int slices) {
   if (path.empty()) {
     return TargetGesture(slices);
+  }
+  if (gestureKindOf(path) == GestureKind::kPositions) {
+    return {*readPositionsCsv(path), path, slices};
   }
   std::ifstream in(path);
   if (!in) {

@@ -5,34 +5,48 @@
 #include <string>
 #include <vector>
 
+#include "ergotic/tgr/gesture.hpp"
 #include "tgr/drivers/virtual/virtual_slice.hpp"
 
 namespace ergotic::tgr {
 
 constexpr double kMaxTargetM = 0.1;  ///< a hand does not want to be further from rest
 
-/// Where the virtual hands want to be over time: a CSV `time_s,slice,target_m` (that line may stand
-/// on top; `#` starts a comment line). Between the rows of a slice the target moves on a straight
-/// line; before its first row it is the first row's, after its last row the last one's; a slice
-/// without rows rests at 0. The rows of a slice come in increasing time; slices may interleave.
+/// Where the virtual hands want to be over time, from a CSV of one of two kinds:
+///
+/// - `time_s,slice,target_m` (that line may stand on top; `#` starts a comment line). The rows of a
+///   slice come in increasing time; slices may interleave.
+/// - `tick,x0,...`: what `readPositionsCsv` reads, as of a recording. The first row is time 0.
+///
+/// Between the rows of a slice the target moves on a straight line; before its first row it is the
+/// first row's, after its last row the last one's; a slice without rows rests at 0.
 class TargetGesture {
  public:
   /// All slices rest at 0.
   explicit TargetGesture(int slices) : knots_(static_cast<std::size_t>(slices)) {}
 
-  /// \param name  of the file, for messages
+  /// Targets. \param name  of the file, for messages
   /// \throws TextError with file:line:col
   TargetGesture(std::istream& in, const std::string& name, int slices);
+
+  /// Positions. \param name  as above
+  /// \throws Exception if they are of more slices, or beyond where a hand wants to be
+  TargetGesture(GestureSource& positions, const std::string& name, int slices);
+
+  /// Ticks per second; of targets without effect. \pre > 0
+  void setTickRate(double tick_rate_hz) noexcept;
 
   /// \param t_s  from the start of the gesture. Realtime: yes (binary search)
   HandTarget at(int slice, double t_s) const noexcept;
 
  private:
   struct Knot {
-    double t_s;
+    double t;  // s, or ticks
     double target_m;
   };
   std::vector<std::vector<Knot>> knots_;  // [slices]
+  bool is_in_ticks_ = false;
+  double per_second_ = 1.0;  // what `t` counts
 };
 
 /// An empty path stands for hands that rest at 0.

@@ -3,8 +3,10 @@
 
 #include <limits>
 
+#include "ergotic/exception.hpp"
 #include "ergotic/rt/clock.hpp"
 #include "ergotic/rt/realtime.hpp"
+#include "ergotic/tgr/gesture.hpp"
 #include "tgr/require.hpp"
 
 namespace ergotic::tgr {
@@ -13,6 +15,15 @@ namespace {
 constexpr double kNsPerS = 1e9;
 
 const VirtualDeviceConfig& checked(const VirtualDeviceConfig& config) {
+  if (!config.bank.shared_memory.empty() || config.bank.extra_delay_ticks != 0) {
+    throw Exception(
+        "shared_memory and extra_delay_ticks are settings of a driver, not of the device process");
+  }
+  if (!config.bank.gesture_file.empty() && config.bank.gesture_rate == 0.0 &&
+      gestureKindOf(config.bank.gesture_file) == GestureKind::kPositions) {
+    throw Exception(config.bank.gesture_file +
+                    ": positions per tick need a gesture_rate: a device process knows no ticks");
+  }
   requireWithin("rate", config.rate_hz, 100.0, 50'000.0, "Hz");
   requireWithin("watchdog", config.watchdog_s, 0.001, 10.0, "s");
   return config;
@@ -23,9 +34,11 @@ const VirtualDeviceConfig& checked(const VirtualDeviceConfig& config) {
 VirtualDevice::VirtualDevice(const VirtualDeviceConfig& config)
     : config_(checked(config)),
       bank_(config.bank),
-      shared_(SharedSegment::create(config.shared_memory, bank_.slices(), config.rate_hz)),
+      shared_(SharedSegment::create(
+          config.shared_memory,
+          {bank_.slices(), bank_.isRaw(), config.rate_hz, bank_.delay(), bank_.damping()})),
       watchdog_ns_(static_cast<std::int64_t>(config.watchdog_s * kNsPerS)) {
-  bank_.start(1.0 / config.rate_hz);
+  bank_.start(1.0 / config.rate_hz, config.rate_hz);
   shared_->heartbeat_ns = rt::monotonicNs();
 }
 
@@ -34,6 +47,7 @@ ERGOTIC_REALTIME bool VirtualDevice::mayPush(std::int64_t now_ns) noexcept {
     session_ = session;
     exchanges_ = 0;
     heard_ = false;
+    asked_.fill(0.0);
     bank_.restartGesture();
   }
   if (const std::uint64_t exchanges = shared_->exchanges; exchanges != exchanges_) {
@@ -51,14 +65,13 @@ ERGOTIC_REALTIME bool VirtualDevice::mayPush(std::int64_t now_ns) noexcept {
 }
 
 ERGOTIC_REALTIME void VirtualDevice::takeForces(std::int64_t now_ns) noexcept {
-  std::array<double, kMaxSlices> felt{};
-  if (mayPush(now_ns)) {
-    felt = forces_;  // stands if the driver is just writing
-    shared_->forces.read(felt.data(), bank_.slices());
+  const bool may_push = mayPush(now_ns);
+  if (may_push) {
+    shared_->forces.read(asked_.data(), bank_.slices());  // they stand if the driver just writes
   }
   for (int i = 0; i < bank_.slices(); ++i) {
     const auto slot = static_cast<std::size_t>(i);
-    const double force = saturated(felt[slot], config_.bank.slice.force_limit);
+    const double force = may_push ? bank_.newtons(i, asked_[slot]) : 0.0;
     if (force != forces_[slot]) {
       forces_[slot] = force;
       if (!records_.push({now_ns, i, force})) {

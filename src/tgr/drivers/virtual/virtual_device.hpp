@@ -15,7 +15,7 @@ namespace ergotic::tgr {
 
 struct VirtualDeviceConfig {
   std::string shared_memory;  ///< name of the segment
-  SliceBankConfig bank;
+  VirtualDriverConfig bank;   ///< its slices; delay and shared memory are not those of a process
   double rate_hz = 4000.0;    ///< of the mechanics, 100...50000
   double watchdog_s = 0.010;  ///< longest time between exchanges, 0.001...10
 };
@@ -62,6 +62,7 @@ class VirtualDevice {
   std::uint64_t exchanges_ = 0;
   std::int64_t last_exchange_ns_ = 0;
   bool heard_ = false;                       // exchanges come, and none has been late since
+  std::array<double, kMaxSlices> asked_{};   // by the driver, N or V
   std::array<double, kMaxSlices> forces_{};  // N, as felt
   rt::Ring<ForceRecord> records_{1U << 17U};
   std::atomic<std::int64_t> dropped_records_{0};

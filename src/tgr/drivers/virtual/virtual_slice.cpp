@@ -5,23 +5,11 @@
 #include <cmath>
 
 #include "ergotic/rt/realtime.hpp"
+#include "tgr/drivers/virtual/virtual_settings.hpp"
 #include "tgr/require.hpp"
 
 namespace ergotic::tgr {
 namespace {
-
-void check(const VirtualSliceConfig& c) {
-  requireWithin("mass", c.mass, 1e-3, 100.0, "kg");
-  requireWithin("damping", c.damping, 0.0, 1e4, "N s/m");
-  requireWithin("dry_friction", c.dry_friction, 0.0, 100.0, "N");
-  requireWithin("stop", c.stop, 1e-4, 0.1, "m");
-  requireWithin("quantum", c.quantum, 0.0, 1e-3, "m");
-  requireWithin("noise_rms", c.noise_rms, 0.0, 1e-3, "m");
-  requireWithin("force_limit", c.force_limit, 0.0, kAbsoluteForceLimitN, "N");
-  requireWithin("hand_mass", c.hand_mass, 0.0, 100.0, "kg");
-  requireWithin("hand_stiffness", c.hand_stiffness, 0.0, 1e6, "N/m");
-  requireWithin("hand_damping", c.hand_damping, 0.0, 1e4, "N s/m");
-}
 
 /// What is left of a drive after dry friction took its share.
 double afterFriction(double drive, double dry) noexcept {
@@ -36,31 +24,66 @@ ERGOTIC_REALTIME double saturated(double force, double limit) noexcept {
 
 VirtualSlice::VirtualSlice(const VirtualSliceConfig& config, double step_s, std::uint64_t seed)
     : config_(config), noise_(seed) {
-  check(config);
+  checkSlice(config);
   requireWithin("step", step_s, 1e-6, 0.1, "s");
-  substeps_ = static_cast<int>(std::ceil(step_s / kMaxSubstepS));
-  substep_s_ = step_s / substeps_;
-  momentum_factor_ = 2.0 * (config.mass + config.hand_mass) / substep_s_;
-  inverse_impedance_ = 1.0 / (momentum_factor_ + 0.5 * config.hand_stiffness * substep_s_ +
-                              config.damping + config.hand_damping);
+  constexpr double kWhole = 1e-9;  // of a step: nearer to a whole number of steps is one
+  const double whole_steps = std::floor(config.delay / step_s + kWhole);
+  const double rest_s = config.delay - whole_steps * step_s;
+  const double before_s = rest_s > kWhole * step_s ? rest_s : 0.0;
+  parts_ = {makePart(before_s), makePart(step_s - before_s)};
+  asked_.assign(static_cast<std::size_t>(whole_steps) + 2, 0.0);
+}
+
+VirtualSlice::Part VirtualSlice::makePart(double length_s) const {
+  if (length_s == 0.0) {
+    return {};
+  }
+  constexpr double kTwoPi = 6.283185307179586;
+  const double tau = 1.0 / (kTwoPi * config_.bandwidth);
+  Part part;
+  part.substeps = static_cast<int>(std::ceil(length_s / kMaxSubstepS));
+  part.substep_s = length_s / part.substeps;
+  part.momentum_factor = 2.0 * (config_.mass + config_.hand_mass) / part.substep_s;
+  part.inverse_impedance =
+      1.0 / (part.momentum_factor + 0.5 * config_.hand_stiffness * part.substep_s +
+             config_.damping + config_.hand_damping);
+  part.decay = std::exp(-part.substep_s / tau);
+  part.mean_share = (1.0 - part.decay) * tau / part.substep_s;
+  return part;
 }
 
 ERGOTIC_REALTIME void VirtualSlice::step(double force, const HandTarget& target) noexcept {
-  const double drive =
-      saturated(force, config_.force_limit) + config_.hand_damping * target.velocity;
-  for (int i = 0; i < substeps_; ++i) {
-    substep(drive, target.position + (i + 0.5) * substep_s_ * target.velocity);
+  const std::size_t count = asked_.size();
+  head_ = (head_ + 1) % count;
+  asked_[head_] = saturated(force, config_.force_limit);
+  const double older = asked_[(head_ + 1) % count];
+  const double newer = asked_[(head_ + 2) % count];
+  run(parts_[0], older, target, 0.0);
+  run(parts_[1], newer, target, parts_[0].substeps * parts_[0].substep_s);
+}
+
+ERGOTIC_REALTIME void VirtualSlice::run(const Part& part,
+                                        double force,
+                                        const HandTarget& target,
+                                        double start_s) noexcept {
+  for (int i = 0; i < part.substeps; ++i) {
+    const double behind = actuator_ - force;
+    actuator_ = force + behind * part.decay;
+    substep(part, force + behind * part.mean_share + config_.hand_damping * target.velocity,
+            target.position + (start_s + (i + 0.5) * part.substep_s) * target.velocity);
   }
 }
 
-ERGOTIC_REALTIME void VirtualSlice::substep(double force, double target) noexcept {
-  const double drive = momentum_factor_ * v_ + force + config_.hand_stiffness * (target - x_);
-  const double mean_velocity = afterFriction(drive, config_.dry_friction) * inverse_impedance_;
+ERGOTIC_REALTIME void VirtualSlice::substep(const Part& part,
+                                            double force,
+                                            double target) noexcept {
+  const double drive = part.momentum_factor * v_ + force + config_.hand_stiffness * (target - x_);
+  const double mean_velocity = afterFriction(drive, config_.dry_friction) * part.inverse_impedance;
   if (mean_velocity == 0.0) {  // friction holds: it stands, and does not swing about zero
     v_ = 0.0;
     return;
   }
-  const double x = x_ + substep_s_ * mean_velocity;
+  const double x = x_ + part.substep_s * mean_velocity;
   x_ = std::clamp(x, -config_.stop, config_.stop);
   v_ = x_ == x ? 2.0 * mean_velocity - v_ : 0.0;
 }

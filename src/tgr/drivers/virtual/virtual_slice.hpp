@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <vector>
 
 #include "ergotic/tgr/virtual_driver.hpp"
 #include "tgr/sensor_noise.hpp"
@@ -26,6 +28,9 @@ double saturated(double force, double limit) noexcept;
 /// |u| under a fixed target: friction only ever takes energy, at any step. Where it can hold the
 /// slice, the slice stands still. The end stops are rigid and lossy: the slice stops dead on them.
 ///
+/// The force asked for is held over each step, so the actuator's delay and lag are solved exactly:
+/// every substep gets the mean of its force, which has the same impulse.
+///
 /// Realtime: yes, all but the constructor.
 class VirtualSlice {
  public:
@@ -33,7 +38,7 @@ class VirtualSlice {
   /// \throws Exception if a setting is outside its range
   VirtualSlice(const VirtualSliceConfig& config, double step_s, std::uint64_t seed);
 
-  /// Moves on by one step with the force held. \param force  N, positive along x
+  /// Moves on by one step with the force held. \param force  asked for, N, positive along x
   void step(double force, const HandTarget& target) noexcept;
 
   /// What the sensor says now, m: with noise, quantised. Every call is a new sample.
@@ -45,13 +50,24 @@ class VirtualSlice {
   static constexpr double kMaxSubstepS = 50e-6;
 
  private:
-  void substep(double force, double target) noexcept;
+  /// Equal substeps of a part of a step over which the same force is asked of the actuator.
+  struct Part {
+    int substeps = 0;
+    double substep_s = 0.0;          // h
+    double momentum_factor = 0.0;    // 2 M / h
+    double inverse_impedance = 0.0;  // 1 / (2 M / h + k h / 2 + b + c)
+    double decay = 0.0;              // of what the actuator lags behind, exp(-h / tau)
+    double mean_share = 0.0;         // of it in the mean over a substep, (1 - decay) tau / h
+  };
+  Part makePart(double length_s) const;
+  void run(const Part& part, double force, const HandTarget& target, double start_s) noexcept;
+  void substep(const Part& part, double force, double target) noexcept;
 
   VirtualSliceConfig config_;
-  int substeps_;
-  double substep_s_;
-  double momentum_factor_;    // 2 M / h
-  double inverse_impedance_;  // 1 / (2 M / h + k h / 2 + b + c)
+  std::array<Part, 2> parts_;  // until the delayed change of force, and after it
+  std::vector<double> asked_;  // N, of the last steps, newest at head_: as many as the delay needs
+  std::size_t head_ = 0;
+  double actuator_ = 0.0;  // N
   double x_ = 0.0;
   double v_ = 0.0;
   SensorNoise noise_;

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tgr/drivers/virtual/virtual_settings.hpp"
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "ergotic/exception.hpp"
+#include "scene/number.hpp"
+#include "tgr/calibration_rules.hpp"
+#include "tgr/settings.hpp"
+
+namespace ergotic::tgr {
+namespace {
+
+using scene::Limits;
+using scene::Place;
+using scene::YamlMap;
+
+struct Field {
+  const char* key;
+  double VirtualSliceConfig::*member;
+  Limits limits;
+};
+
+constexpr double kNoMost = std::numeric_limits<double>::infinity();
+
+constexpr std::array<Field, 12> kFields{
+    {{"mass", &VirtualSliceConfig::mass, {"kg", 1e-3, 100.0}},
+     {"damping", &VirtualSliceConfig::damping, {"N s/m", 0.0, 1e4}},
+     {"dry_friction", &VirtualSliceConfig::dry_friction, {"N", 0.0, 100.0}},
+     {"stop", &VirtualSliceConfig::stop, {"m", 1e-4, 0.1}},
+     {"quantum", &VirtualSliceConfig::quantum, {"m", 0.0, 1e-3}},
+     {"noise_rms", &VirtualSliceConfig::noise_rms, {"m", 0.0, 1e-3}},
+     {"force_limit", &VirtualSliceConfig::force_limit, {"N", 0.0, kAbsoluteForceLimitN}},
+     {"bandwidth", &VirtualSliceConfig::bandwidth, {"Hz", 10.0, kNoMost}},
+     {"delay", &VirtualSliceConfig::delay, {"s", 0.0, 0.005}},
+     {"hand_mass", &VirtualSliceConfig::hand_mass, {"kg", 0.0, 100.0}},
+     {"hand_stiffness", &VirtualSliceConfig::hand_stiffness, {"N/m", 0.0, 1e6}},
+     {"hand_damping", &VirtualSliceConfig::hand_damping, {"N s/m", 0.0, 1e4}}}};
+
+/// Takes what the map names; the rest stays.
+void readMechanics(const YamlMap& map, VirtualSliceConfig& slice) {
+  for (const Field& field : kFields) {
+    slice.*field.member = map.number(field.key, field.limits, slice.*field.member);
+  }
+}
+
+void readVolts(const Settings& settings, const YamlMap& map, VirtualSliceConfig& slice) {
+  if (map.has("volts")) {
+    slice.volts =
+        readSliceCalibration(settings, map.at("volts"), "'volts' of " + map.what(), map.place());
+    if (!slice.volts->is_calibrated) {
+      map.fail("volts", "'volts' of " + map.what() +
+                            " lacks a number, allowed: metres_per_volt and volts_per_newton both");
+    }
+  }
+}
+
+std::vector<std::string> mechanicsKeys() {
+  std::vector<std::string> keys;
+  for (const Field& field : kFields) {
+    keys.emplace_back(field.key);
+  }
+  return keys;
+}
+
+int sliceIndex(const Settings& settings, const std::string& key, Place place, int slices) {
+  const std::optional<int> index = scene::parseInteger(key);
+  if (!index || *index < 0 || *index >= slices) {
+    settings.builder().fail(place, "slice " + scene::quoted(key) + " of 'others', allowed: 0..." +
+                                       std::to_string(slices - 1));
+  }
+  return *index;
+}
+
+void readOthers(const Settings& settings, VirtualDriverConfig& config) {
+  const YamlMap& top = settings.top();
+  if (!top.has("others")) {
+    return;
+  }
+  scene::forEachEntry(settings.builder(), top.at("others"), "'others' of " + top.what(),
+                      top.placeAt("others"),
+                      [&](const std::string& key, Place place, const YAML::Node& node) {
+                        const YamlMap map(settings.builder(), node, "slice " + key, place);
+                        std::vector<std::string> keys = mechanicsKeys();
+                        keys.emplace_back("volts");
+                        map.allow(keys);
+                        VirtualSliceConfig slice = config.slice;
+                        readMechanics(map, slice);
+                        readVolts(settings, map, slice);
+                        config.others[sliceIndex(settings, key, place, config.slices)] = slice;
+                      });
+}
+
+void readInProcess(const Settings& settings, VirtualDriverConfig& config) {
+  const YamlMap& top = settings.top();
+  top.allow({"slices", "seed", "gesture", "gesture_rate", "shared_memory", "extra_delay_ticks",
+             "mechanics", "volts", "others"});
+  if (top.has("seed")) {
+    config.seed = static_cast<std::uint64_t>(top.integer("seed", {"", 0.0, 2147483647.0}));
+  }
+  if (top.has("gesture")) {
+    config.gesture_file = besideFile(top.word("gesture"), settings.builder().scene().file);
+  }
+  config.gesture_rate = top.number("gesture_rate", {"Hz", 1.0, 1e6}, 0.0);
+  if (top.has("extra_delay_ticks")) {
+    constexpr Limits kTicks{"ticks", 0.0, static_cast<double>(kMaxExtraDelayTicks)};
+    config.extra_delay_ticks = top.integer("extra_delay_ticks", kTicks);
+  }
+  if (top.has("mechanics")) {
+    const YamlMap mechanics = top.map("mechanics");
+    mechanics.allow(mechanicsKeys());
+    readMechanics(mechanics, config.slice);
+  }
+  readVolts(settings, top, config.slice);
+  readOthers(settings, config);
+}
+
+}  // namespace
+
+VirtualDriverConfig readVirtualSettings(const std::string& text, const std::string& place) {
+  const Settings settings(text, place, "driver virtual");
+  const YamlMap& top = settings.top();
+  VirtualDriverConfig config;
+  if (top.has("slices")) {
+    config.slices = top.integer("slices", {"", 1.0, static_cast<double>(kMaxSlices)});
+  }
+  if (top.has("shared_memory")) {  // all the rest is the other process's
+    top.allow({"slices", "shared_memory", "is_raw"});
+    config.shared_memory = top.word("shared_memory");
+    config.is_raw = top.flag("is_raw", false);
+  } else {
+    readInProcess(settings, config);
+  }
+  return config;
+}
+
+void checkSlice(const VirtualSliceConfig& config) {
+  for (const Field& field : kFields) {
+    const double value = config.*field.member;
+    if (!(value >= field.limits.minimum && value <= field.limits.maximum)) {
+      throw Exception(scene::outOfRange(field.key, value, field.limits));
+    }
+  }
+  if (config.volts) {
+    checkCalibration(*config.volts, " of volts");
+    if (!config.volts->is_calibrated) {
+      throw Exception("volts of a virtual slice, allowed: those of a calibrated one");
+    }
+  }
+}
+
+}  // namespace ergotic::tgr

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "ergotic/tgr/virtual_driver.hpp"
+
+namespace ergotic::tgr {
+
+constexpr int kMaxExtraDelayTicks = 16;
+
+/// Settings of the driver `virtual`, see docs/tgr.md; paths are relative to the file.
+/// \param text, place  as DriverFactory::make
+/// \throws TextError
+VirtualDriverConfig readVirtualSettings(const std::string& text, const std::string& place);
+
+/// \throws Exception naming number, value and allowed range
+void checkSlice(const VirtualSliceConfig& config);
+
+}  // namespace ergotic::tgr

@@ -5,8 +5,8 @@
 
 namespace ergotic::test {
 
-using DriverRigs =
-    ::testing::Types<InProcessRig, SharedMemoryRig, ReplayRig, FaultyRig, CombinedRig>;
+using DriverRigs = ::testing::
+    Types<InProcessRig, SharedMemoryRig, ReplayRig, FaultyRig, CombinedRig, CalibratedRig>;
 INSTANTIATE_TYPED_TEST_SUITE_P(Drivers, DriverContractTest, DriverRigs);
 
 }  // namespace ergotic::test

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ergotic/rt/clock.hpp"
+#include "ergotic/tgr/calibration.hpp"
 #include "ergotic/tgr/combined_driver.hpp"
 #include "ergotic/tgr/faulty_driver.hpp"
 #include "ergotic/tgr/replay_driver.hpp"
@@ -61,6 +62,28 @@ class FaultyRig {
 
  private:
   std::unique_ptr<tgr::Driver> driver_ = tgr::makeFaultyDriver(makePlainVirtual(3));
+};
+
+/// A device that speaks volts, behind the calibration that it truly has.
+class CalibratedRig {
+ public:
+  static constexpr bool kFeelsForce = true;
+  CalibratedRig() {
+    tgr::SliceCalibration truth;
+    truth.is_calibrated = true;
+    truth.metres_per_volt = -0.005;
+    truth.volts_per_newton = 0.05;
+    tgr::VirtualDriverConfig config;
+    config.slices = 3;
+    config.slice = plainSlice();
+    config.slice.volts = truth;
+    driver_ = tgr::makeCalibratedDriver(tgr::makeVirtualDriver(config), {{truth, truth, truth}});
+  }
+  tgr::Driver& driver() { return *driver_; }
+  void elapse() {}
+
+ private:
+  std::unique_ptr<tgr::Driver> driver_;
 };
 
 class CombinedRig {

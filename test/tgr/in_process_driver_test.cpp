@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -238,6 +239,63 @@ TEST(InProcessDriverTest, DropsForcesUnderWayWhenMadeSafe) {
   }
 }
 
+TEST(InProcessDriverTest, DeclaresTheDelayOfItsActuatorsAndItsLeastDamping) {
+  VirtualDriverConfig config = idealConfig();
+  config.slices = 3;
+  config.extra_delay_ticks = 2;
+  config.slice.delay = 0.0012;
+  config.others[2] = config.slice;
+  config.others[2].delay = 0.0031;
+  config.others[2].damping = 0.4;
+  InProcessDriver driver(config);
+  EXPECT_EQ(driver.damping(), 0.4);
+  EXPECT_FALSE(driver.isRaw());
+  driver.open(1000.0);
+  EXPECT_EQ(driver.extraDelayTicks(), 2 + 4);
+  driver.open(3000.0);
+  EXPECT_EQ(driver.extraDelayTicks(), 2 + 10);
+}
+
+TEST(InProcessDriverTest, LetsEachSliceBeAsItIs) {
+  VirtualDriverConfig config = idealConfig();
+  config.slices = 2;
+  config.others[1] = config.slice;
+  config.others[1].hand_stiffness = 4.0 * config.slice.hand_stiffness;
+  InProcessDriver driver(config);
+  driver.open(1000.0);
+  const std::array<double, 2> forces{10.0, 10.0};
+  std::array<double, 2> x{};
+  for (int n = 0; n < 9000; ++n) {
+    driver.exchange(forces.data(), x.data());
+  }
+  EXPECT_NEAR(x[0], 10.0 / config.slice.hand_stiffness, 1e-12);
+  EXPECT_NEAR(x[1], 2.5 / config.slice.hand_stiffness, 1e-12);
+}
+
+TEST(InProcessDriverTest, TakesRecordedPositionsForTargetsAtTheirOwnRateOrItsOwn) {
+  std::string text = "tick,x0\n";
+  for (int tick = 0; tick < 1000; ++tick) {
+    text += std::to_string(tick + 77) + "," + std::to_string(2e-5 * tick) + "\n";
+  }
+  const test::ScratchFile file(text);
+  VirtualDriverConfig config = idealConfig();
+  config.gesture_file = file.path();
+  const double force = 0.0;
+  double x = 0.0;
+  for (const double gesture_rate : {0.0, 500.0}) {
+    config.gesture_rate = gesture_rate;
+    InProcessDriver driver(config);
+    driver.open(2000.0);
+    const int ticks = 900;
+    for (int n = 0; n < ticks; ++n) {
+      driver.exchange(&force, &x);
+    }
+    const double speed = 2e-5 * (gesture_rate > 0.0 ? gesture_rate : 2000.0);
+    const double lag = config.slice.damping * speed / config.slice.hand_stiffness;
+    EXPECT_NEAR(x, speed * ticks / 2000.0 - lag, 1e-4);
+  }
+}
+
 TEST(InProcessDriverTest, RefusesSettingsOutsideTheirRange) {
   const auto refuses = [](auto change) {
     VirtualDriverConfig config;
@@ -249,6 +307,8 @@ TEST(InProcessDriverTest, RefusesSettingsOutsideTheirRange) {
   refuses([](VirtualDriverConfig& c) { c.extra_delay_ticks = -1; });
   refuses([](VirtualDriverConfig& c) { c.extra_delay_ticks = 17; });
   refuses([](VirtualDriverConfig& c) { c.slice.mass = -0.3; });
+  refuses([](VirtualDriverConfig& c) { c.others[12] = c.slice; });
+  refuses([](VirtualDriverConfig& c) { c.others[3].mass = -0.3; });
   refuses([](VirtualDriverConfig& c) { c.gesture_file = "/nowhere/g.csv"; });
 }
 

@@ -172,6 +172,59 @@ TEST_F(SharedMemoryDriverTest, FindsADeviceThatWasEndedAndStartedAgainByOpening)
   play(4.0);
 }
 
+TEST_F(SharedMemoryDriverTest, ReconnectsToADeviceThatWasStartedAgain) {
+  play(5.0);
+  rig_.endDevice();
+  EXPECT_EQ(exchange(5.0), kDeviceLost);
+  EXPECT_THROW(rig_.driver().reconnect(), DeviceError);
+  rig_.restartDevice();
+  felt_ = 0.0;  // a new device tells of changes only
+  rig_.elapse();
+  EXPECT_EQ(exchange(5.0), kDeviceLost) << "not by itself";
+  rig_.driver().reconnect();
+  EXPECT_EQ(felt(), 0.0) << "nothing of before";
+  EXPECT_EQ(exchange(3.0), kExchangeOk);
+  EXPECT_EQ(felt(), 3.0);
+}
+
+TEST_F(SharedMemoryDriverTest, StaysSafeThroughAReconnection) {
+  play(5.0);
+  rig_.driver().makeSafe();
+  rig_.endDevice();
+  rig_.restartDevice();
+  felt_ = 0.0;  // a new device tells of changes only
+  rig_.elapse();
+  rig_.driver().reconnect();
+  EXPECT_EQ(exchange(5.0), kMadeSafe);
+  EXPECT_EQ(felt(), 0.0);
+  EXPECT_NE(SharedSegment::attach(rig_.name())->safe.load(), 0U);
+  rig_.driver().rearm();
+  EXPECT_EQ(exchange(5.0), kExchangeOk);
+  EXPECT_EQ(felt(), 5.0);
+}
+
+TEST_F(SharedMemoryDriverTest, LeavesADeviceThatIsWellAsItIsWhenAskedToReconnect) {
+  EXPECT_THROW(rig_.driver().reconnect(), DeviceError) << "not open";
+  play(5.0);
+  rig_.driver().reconnect();
+  EXPECT_EQ(felt(), 5.0);
+}
+
+TEST_F(SharedMemoryDriverTest, DoesNotReconnectToADeviceThatStandsStillOrToAnotherOne) {
+  play(5.0);
+  rig_.setNow(rt::monotonicNs() - SharedMemoryDriver::kLostNs - test::SharedMemoryRig::kStepNs);
+  rig_.elapse();
+  EXPECT_THROW(rig_.driver().reconnect(), DeviceError);
+  rig_.endDevice();
+  VirtualDeviceConfig other;
+  other.shared_memory = rig_.name();
+  other.rate_hz = 2.0 * test::SharedMemoryRig::kRateHz;
+  other.bank.slices = 3;
+  VirtualDevice device(other);
+  device.step(rt::monotonicNs() + 1'000'000'000);
+  EXPECT_THROW(rig_.driver().reconnect(), DeviceError);
+}
+
 TEST_F(SharedMemoryDriverTest, SetsTargetsOfTheHands) {
   EXPECT_FALSE(rig_.driver().setTarget(1, 0.01)) << "not open yet";
   rig_.driver().open(1000.0);
@@ -192,6 +245,38 @@ TEST_F(SharedMemoryDriverTest, DeclaresTheStepsThatForceAndPositionMayWait) {
   EXPECT_EQ(rig_.driver().extraDelayTicks(), 2);
   rig_.driver().open(100.0);
   EXPECT_EQ(rig_.driver().extraDelayTicks(), 1);
+}
+
+TEST(SharedMemoryTraitsTest, AreThoseOfTheDevice) {
+  VirtualDeviceConfig device_config;
+  device_config.shared_memory = test::freshSegmentName();
+  device_config.rate_hz = 1000.0;
+  device_config.bank.slices = 2;
+  device_config.bank.slice.delay = 0.0015;
+  device_config.bank.slice.damping = 0.6;
+  SliceCalibration volts;
+  volts.is_calibrated = true;
+  volts.metres_per_volt = 0.005;
+  volts.volts_per_newton = 0.05;
+  device_config.bank.slice.volts = volts;
+  VirtualDevice device(device_config);
+  VirtualDriverConfig config;
+  config.slices = 2;
+  config.shared_memory = device_config.shared_memory;
+  EXPECT_THROW(makeVirtualDriver(config)->open(1000.0), DeviceError) << "it speaks volts";
+  config.is_raw = true;
+  const auto driver = makeVirtualDriver(config);
+  EXPECT_TRUE(driver->isRaw());
+  driver->open(1000.0);
+  EXPECT_EQ(driver->extraDelayTicks(), 4) << "two steps and the actuator";
+  EXPECT_EQ(driver->damping(), 0.6);
+  const std::array<double, 2> forces{0.5, 0.0};  // V
+  std::array<double, 2> x{};
+  driver->exchange(forces.data(), x.data());
+  device.step(rt::monotonicNs());
+  ForceRecord record;
+  ASSERT_TRUE(device.pollForce(record));
+  EXPECT_DOUBLE_EQ(record.force_n, 10.0);
 }
 
 TEST_F(SharedMemoryDriverTest, RefusesADeviceThatAnotherDriverHas) {
@@ -329,6 +414,15 @@ TEST(VirtualDeviceTest, RefusesSettingsOutsideTheirRange) {
   config.rate_hz = 4000.0;
   config.watchdog_s = 0.0;
   EXPECT_THROW(VirtualDevice{config}, Exception);
+  config.watchdog_s = 0.01;
+  config.bank.extra_delay_ticks = 1;
+  EXPECT_THROW(VirtualDevice{config}, Exception);
+  config.bank.extra_delay_ticks = 0;
+  const test::ScratchFile positions("tick,x0\n0,0.01\n");
+  config.bank.gesture_file = positions.path();
+  EXPECT_THROW(VirtualDevice{config}, Exception) << "at which rate?";
+  config.bank.gesture_rate = 1000.0;
+  EXPECT_NO_THROW(VirtualDevice{config});
 }
 
 }  // namespace

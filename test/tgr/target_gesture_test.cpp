@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tgr/drivers/virtual/target_gesture.hpp"
 
+#include <algorithm>
+#include <array>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -52,6 +56,44 @@ TEST(TargetGestureTest, SkipsCommentsBlankLinesSpacesAndCarriageReturns) {
   const TargetGesture gesture =
       parse("# a pluck\r\n\r\n time_s , slice,target_m\r\n 0 , 1 , 0.02 \r\n");
   EXPECT_EQ(gesture.at(1, 0.0).position, 0.02);
+}
+
+class Rows final : public GestureSource {
+ public:
+  explicit Rows(std::vector<std::array<double, 2>> rows) : rows_(std::move(rows)) {}
+  int slices() const noexcept override { return 2; }
+  bool next(double* positions) noexcept override {
+    if (row_ == rows_.size()) {
+      return false;
+    }
+    std::copy_n(rows_[row_++].begin(), 2, positions);
+    return true;
+  }
+
+ private:
+  std::vector<std::array<double, 2>> rows_;
+  std::size_t row_ = 0;
+};
+
+TEST(TargetGestureTest, MovesOnStraightLinesBetweenRecordedTicks) {
+  Rows rows({{0.01, 0.0}, {0.03, -0.02}, {0.03, -0.06}});
+  TargetGesture gesture(rows, "p.csv", 3);
+  gesture.setTickRate(100.0);
+  EXPECT_DOUBLE_EQ(gesture.at(0, 0.0).position, 0.01);
+  EXPECT_DOUBLE_EQ(gesture.at(0, 0.005).position, 0.02);
+  EXPECT_DOUBLE_EQ(gesture.at(0, 0.005).velocity, 2.0);
+  EXPECT_DOUBLE_EQ(gesture.at(1, 0.015).position, -0.04);
+  EXPECT_DOUBLE_EQ(gesture.at(1, 0.015).velocity, -4.0);
+  EXPECT_EQ(gesture.at(1, 1.0).position, -0.06);
+  EXPECT_EQ(gesture.at(1, 1.0).velocity, 0.0);
+  EXPECT_EQ(gesture.at(2, 0.01).position, 0.0) << "was not recorded";
+}
+
+TEST(TargetGestureTest, RefusesRecordedPositionsThatNoHandCanFollow) {
+  Rows far({{0.0, 0.0}, {0.0, 0.11}});
+  EXPECT_THROW(TargetGesture(far, "p.csv", 2), Exception);
+  Rows many({{0.0, 0.0}});
+  EXPECT_THROW(TargetGesture(many, "p.csv", 1), Exception);
 }
 
 TEST(TargetGestureTest, SaysWhereARowIsWrong) {

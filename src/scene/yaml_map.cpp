@@ -290,4 +290,16 @@ YamlMap YamlMap::map(const std::string& key) const {
   return YamlMap(builder_, entry.value, named(key), entry.place);
 }
 
+Eigen::Isometry3d poseOf(const YamlMap& pose) {
+  pose.allow({"position", "rotation"});
+  const std::vector<double> position = pose.vector("position", 3, kMetreLimits);
+  const std::vector<double> rotation = pose.vector("rotation", 3, kAngleLimits);
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  result.translate(Eigen::Vector3d(position[0], position[1], position[2]));
+  result.rotate(Eigen::AngleAxisd(rotation[2], Eigen::Vector3d::UnitZ()) *
+                Eigen::AngleAxisd(rotation[1], Eigen::Vector3d::UnitY()) *
+                Eigen::AngleAxisd(rotation[0], Eigen::Vector3d::UnitX()));
+  return result;
+}
+
 }  // namespace ergotic::scene

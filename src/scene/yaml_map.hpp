@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "scene/limits.hpp"
 #include "scene/scene_builder.hpp"
 
@@ -120,5 +122,9 @@ class YamlMap {
   Place place_;
   std::vector<Entry> entries_;
 };
+
+/// A place and a direction: `{position: [x, y, z], rotation: [roll, pitch, yaw]}`, m and rad, about
+/// fixed axes, x first. What is missing is zero. \throws TextError as the getters
+Eigen::Isometry3d poseOf(const YamlMap& pose);
 
 }  // namespace ergotic::scene

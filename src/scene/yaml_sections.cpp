@@ -45,18 +45,6 @@ int readModes(const YamlMap& map) {
   return map.integer("modes", kModesLimits);
 }
 
-Eigen::Isometry3d readPose(const YamlMap& pose) {
-  pose.allow({"position", "rotation"});
-  const std::vector<double> position = pose.vector("position", 3, kMetreLimits);
-  const std::vector<double> rotation = pose.vector("rotation", 3, kAngleLimits);
-  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  result.translate(Eigen::Vector3d(position[0], position[1], position[2]));
-  result.rotate(Eigen::AngleAxisd(rotation[2], Eigen::Vector3d::UnitZ()) *
-                Eigen::AngleAxisd(rotation[1], Eigen::Vector3d::UnitY()) *
-                Eigen::AngleAxisd(rotation[0], Eigen::Vector3d::UnitX()));
-  return result;
-}
-
 Section readSection(const std::string& name, const YamlMap& map) {
   map.allow({"rate", "geometry", "pose", "gravity", "medium", "sleep", "modes"});
   Section section;
@@ -73,7 +61,7 @@ Section readSection(const std::string& name, const YamlMap& map) {
     section.modes = readModes(map);
   }
   if (map.has("pose")) {
-    section.pose = readPose(map.map("pose"));
+    section.pose = poseOf(map.map("pose"));
   }
   return section;
 }

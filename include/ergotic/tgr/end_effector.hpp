@@ -50,7 +50,8 @@ struct EndEffectors {
 };
 
 /// Reads `end_effectors: {name: {type: ..., slices: [...], ports: [...], ...}}`; an empty text is
-/// none. \throws TextError with file:line:col, value and allowed range
+/// none, and `devices` beside it is passed over. \throws TextError with file:line:col, value and
+/// allowed range
 EndEffectors readEndEffectors(const std::string& text, const std::string& name);
 std::string toYaml(const EndEffectors& end_effectors);
 

@@ -36,14 +36,17 @@ class Rig {
   virtual std::uint64_t slicesInUse() const noexcept = 0;
 };
 
-/// What one slice meets of a model.
+/// What a slice that moves something meets of a model.
 struct RenderedStiffness {
   int slice = 0;
-  double stiffness = 0.0;  ///< at the device, N/m, all slices at rest
-  double limit = 0.0;      ///< passive below: 2 b / ((1 + 2 d) T)
+  double stiffness = 0.0;  ///< at the device, N/m, when it moves and the others rest
+  /// The same where the slices of its end-effector move together in the stiffest way: the largest
+  /// eigenvalue. Slices of equal damping are passive if this stays below the limit.
+  double together = 0.0;
+  double limit = 0.0;  ///< passive below: 2 b / ((1 + 2 d) T)
 };
 
-/// Per slice, by the Jacobians at rest: K_slice = sum J^T K_port J force_scale / position_scale.
+/// Per slice in use, by the Jacobians at rest: K = sum J^T K_port J force_scale / position_scale.
 /// \param port_stiffness  [ports] N/m, physics::PortCertificate::stiffness (at the device, with the
 ///                        port's own scales)
 /// \param damping        of a slice, N s/m
@@ -54,6 +57,17 @@ std::vector<RenderedStiffness> renderedStiffness(const scene::Scene& scene,
                                                  double damping,
                                                  double tick_rate_hz,
                                                  double delay_ticks);
+
+constexpr double kWarnedStiffness = 0.5;   ///< of the limit
+constexpr double kRefusedStiffness = 2.0;  ///< of it
+
+/// What to say about end-effectors whose slices meet too much, `file:line:col: warning: ...`.
+struct StiffnessFindings {
+  std::vector<std::string> warnings;  ///< above kWarnedStiffness times the limit
+  std::vector<std::string> refusals;  ///< above kRefusedStiffness times: they will buzz or jump
+};
+StiffnessFindings judgeStiffness(const EndEffectors& end_effectors,
+                                 const std::vector<RenderedStiffness>& rendered);
 
 /// \param slices  of the device
 /// \throws TextError with the place of the end-effector if a slice or a port does not exist or is

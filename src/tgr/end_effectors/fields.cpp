@@ -55,6 +55,10 @@ const char* toString(EndEffectorType type) noexcept {
   return names[static_cast<std::size_t>(type)];
 }
 
+std::size_t coordinatesOf(const EndEffectorConfig& config) {
+  return config.type == EndEffectorType::kHandle ? 3 * config.points.size() : config.slices.size();
+}
+
 std::string sliceCountText(const TypeTraits& traits) {
   const std::string most = std::to_string(traits.most_slices);
   const std::string range = traits.fewest_slices == traits.most_slices

@@ -33,6 +33,9 @@ constexpr int kFewestPoints = 3;  ///< of a handle
 constexpr int kMostPoints = Kinematics::kMaxCoordinates / 3;
 constexpr scene::Limits kPointLimits{"m", -1.0, 1.0};
 
+/// Coordinates of one whose slices and points are given.
+std::size_t coordinatesOf(const EndEffectorConfig& config);
+
 /// `2 slices`, `2 to 3 slices`
 std::string sliceCountText(const TypeTraits& traits);
 

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <utility>
+
+#include "ergotic/tgr/end_effector.hpp"
+#include "tgr/end_effectors/fields.hpp"
+#include "tgr/settings.hpp"
+
+namespace ergotic::tgr {
+namespace {
+
+using scene::Place;
+using scene::SceneBuilder;
+using scene::YamlMap;
+
+std::vector<std::string> keysOf(const TypeTraits& traits, EndEffectorType type) {
+  std::vector<std::string> keys{"type", "slices", "ports", "position_scale", "force_scale", "pose"};
+  for (const Dimension& dimension : traits.dimensions) {
+    keys.emplace_back(dimension.key);
+  }
+  if (type == EndEffectorType::kHandle) {
+    keys.emplace_back("points");
+  }
+  return keys;
+}
+
+std::vector<int> readSlices(const YamlMap& map, const TypeTraits& traits) {
+  std::vector<int> slices;
+  for (const double number :
+       map.numbers("slices", static_cast<std::size_t>(traits.fewest_slices),
+                   static_cast<std::size_t>(traits.most_slices), scene::kSliceLimits)) {
+    if (number != std::floor(number)) {
+      map.fail("slices", "slice " + scene::numberText(number) + " of " + map.what() +
+                             " is not a whole number, allowed: " + scene::kSliceLimits.text());
+    }
+    slices.push_back(static_cast<int>(number));
+  }
+  return slices;
+}
+
+std::vector<Eigen::Vector3d> readPoints(const SceneBuilder& builder, const YamlMap& map) {
+  const YAML::Node& list = map.at("points");
+  const std::string what = "'points' of " + map.what();
+  if (!list.IsSequence() || list.size() < kFewestPoints || list.size() > kMostPoints) {
+    map.fail("points", what + ", allowed: a list of " + std::to_string(kFewestPoints) + " to " +
+                           std::to_string(kMostPoints) + " points [x, y, z]");
+  }
+  std::vector<Eigen::Vector3d> points;
+  for (const YAML::Node& node : list) {
+    const Place place = scene::placeOf(node, map.placeAt("points"));
+    if (!node.IsSequence() || node.size() != 3) {
+      builder.fail(place, "a point of " + map.what() + ", allowed: [x, y, z]");
+    }
+    Eigen::Vector3d point;
+    for (int axis = 0; axis < 3; ++axis) {
+      point[axis] =
+          scene::numberOf(builder, node[axis], "a point of " + map.what(), kPointLimits, place);
+    }
+    points.push_back(point);
+  }
+  return points;
+}
+
+std::vector<std::string> readPorts(const SceneBuilder& builder,
+                                   const YamlMap& map,
+                                   std::size_t coordinates) {
+  const YAML::Node& node = map.at("ports");
+  if (coordinates == 1 && node.IsScalar()) {
+    return {map.word("ports")};
+  }
+  if (!node.IsSequence() || node.size() != coordinates) {
+    map.fail("ports", "'ports' of " + map.what() + ", allowed: a list of " +
+                          std::to_string(coordinates) + ", one for each coordinate ('': none)");
+  }
+  std::vector<std::string> ports;
+  for (const YAML::Node& port : node) {
+    ports.push_back(scene::wordOf(builder, port, "a port of " + map.what(), map.placeAt("ports")));
+  }
+  return ports;
+}
+
+EndEffectorConfig readOne(const SceneBuilder& builder,
+                          const std::string& name,
+                          Place place,
+                          const YAML::Node& node) {
+  scene::checkName(builder, name, place);
+  const YamlMap map(builder, node, "end-effector '" + name + "'", place);
+  EndEffectorConfig config;
+  config.name = name;
+  config.place = place;
+  config.type = static_cast<EndEffectorType>(map.choice("type", typeNames()));
+  const TypeTraits& traits = traitsOf(config.type);
+  map.allow(keysOf(traits, config.type));
+  config.slices = readSlices(map, traits);
+  if (config.type == EndEffectorType::kHandle) {
+    config.points = readPoints(builder, map);
+  }
+  config.ports = readPorts(builder, map, coordinatesOf(config));
+  config.position_scale =
+      map.number("position_scale", scene::kPositionScaleLimits, config.position_scale);
+  config.force_scale = map.number("force_scale", scene::kForceScaleLimits, config.force_scale);
+  for (const Dimension& dimension : traits.dimensions) {
+    double& value = config.*dimension.member;
+    value = map.number(dimension.key, dimension.limits, value);
+  }
+  if (map.has("pose")) {
+    config.pose = scene::poseOf(map.map("pose"));
+  }
+  return config;
+}
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    result += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
+  }
+  return result + "\"";
+}
+
+template <class List, class Text>
+std::string listOf(const List& list, const Text& text) {
+  std::string result;
+  for (const auto& item : list) {
+    result += (result.empty() ? "" : ", ") + text(item);
+  }
+  return "[" + result + "]";
+}
+
+/// About fixed axes, x first. The first and the last turn about one line where the second is a
+/// right angle; that the first follows from the last keeps their sum.
+Eigen::Vector3d anglesOf(const Eigen::Matrix3d& r) {
+  const double yaw = std::atan2(r(1, 0), r(0, 0));
+  const double c = std::cos(yaw);
+  const double s = std::sin(yaw);
+  return {std::atan2(s * r(0, 2) - c * r(1, 2), c * r(1, 1) - s * r(0, 1)),
+          std::atan2(-r(2, 0), c * r(0, 0) + s * r(1, 0)), yaw};
+}
+
+std::string textOf(const EndEffectorConfig& config) {
+  const std::string line = "\n    ";
+  const auto vector = [](const Eigen::Vector3d& v) { return listOf(v, shortest); };
+  const TypeTraits& traits = traitsOf(config.type);
+  std::string text = "  " + quoted(config.name) + ":" + line + "type: " + traits.name;
+  text += line + "slices: " + listOf(config.slices, [](int s) { return std::to_string(s); });
+  text += line + "ports: " + listOf(config.ports, quoted);
+  text += line + "position_scale: " + shortest(config.position_scale);
+  text += line + "force_scale: " + shortest(config.force_scale);
+  for (const Dimension& dimension : traits.dimensions) {
+    text += line + dimension.key + ": " + shortest(config.*dimension.member);
+  }
+  if (config.type == EndEffectorType::kHandle) {
+    text += line + "points: " + listOf(config.points, vector);
+  }
+  return text + line + "pose: {position: " + vector(config.pose.translation()) +
+         ", rotation: " + vector(anglesOf(config.pose.linear())) + "}\n";
+}
+
+}  // namespace
+
+EndEffectors readEndEffectors(const std::string& text, const std::string& name) {
+  const Settings settings(text, name, "the file of devices and end-effectors");
+  settings.top().allow({"devices", "end_effectors"});
+  EndEffectors end_effectors;
+  end_effectors.file = name;
+  if (settings.top().has("end_effectors") && !settings.top().at("end_effectors").IsNull()) {
+    scene::forEachEntry(
+        settings.builder(), settings.top().at("end_effectors"), "'end_effectors'",
+        settings.top().keyPlaceAt("end_effectors"),
+        [&](const std::string& key, Place place, const YAML::Node& node) {
+          end_effectors.list.push_back(readOne(settings.builder(), key, place, node));
+        });
+  }
+  return end_effectors;
+}
+
+std::string toYaml(const EndEffectors& end_effectors) {
+  if (end_effectors.list.empty()) {
+    return "end_effectors: {}\n";
+  }
+  std::string text = "end_effectors:\n";
+  for (const EndEffectorConfig& config : end_effectors.list) {
+    text += textOf(config);
+  }
+  return text;
+}
+
+}  // namespace ergotic::tgr

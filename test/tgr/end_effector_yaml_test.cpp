@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "ergotic/exception.hpp"
+#include "tgr/kinematics_cases.hpp"
+
+namespace ergotic::tgr {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+const char* const kAll = R"(
+devices: [{driver: virtual}]
+end_effectors:
+  violin:
+    type: bow
+    slices: [4, 3]
+    ports: [across, pressure]
+    position_scale: 0.5
+    force_scale: 0.25
+    lever: 2
+    angle: 0.1
+    pose: {position: [0.1, 0.2, 0.3], rotation: [0, 0, 1.5707963267948966]}
+  c4: {type: key, slices: 0, ports: c4}
+  lever: {type: stick, slices: [1, 2], ports: ["", y], arm: 0.05, length: 0.4}
+  puck: {type: ball, slices: [5, 6, 7], ports: [a, b, c], rod: 0.2, base_radius: 0.12}
+  grip:
+    type: handle
+    slices: [8, 9, 10, 11, 12, 13]
+    ports: [p0, p1, p2, p3, p4, p5, p6, p7, p8]
+    points: [[0.1, 0, 0], [0, 0.1, 0], [0, 0, 0.1]]
+    platform_radius: 0.06
+)";
+
+std::string messageOf(const std::string& text) {
+  try {
+    readEndEffectors(text, "hands.yaml");
+  } catch (const TextError& e) {
+    return e.what();
+  }
+  return "nothing was thrown";
+}
+
+/// Of one end-effector in line 2, `a`.
+std::string refused(const std::string& rest) {
+  return messageOf("end_effectors:\n  a: {" + rest + "}");
+}
+
+TEST(EndEffectorYamlTest, ReadsEveryType) {
+  const EndEffectors read = readEndEffectors(kAll, "hands.yaml");
+  EXPECT_EQ(read.file, "hands.yaml");
+  ASSERT_EQ(read.list.size(), 5U);
+  const EndEffectorConfig& bow = read.list[0];
+  EXPECT_EQ(bow.name, "violin");
+  EXPECT_EQ(bow.type, EndEffectorType::kBow);
+  EXPECT_THAT(bow.slices, ElementsAre(4, 3));
+  EXPECT_THAT(bow.ports, ElementsAre("across", "pressure"));
+  EXPECT_EQ(bow.position_scale, 0.5);
+  EXPECT_EQ(bow.force_scale, 0.25);
+  EXPECT_EQ(bow.lever, 2.0);
+  EXPECT_EQ(bow.angle, 0.1);
+  EXPECT_EQ(bow.pose.translation(), Eigen::Vector3d(0.1, 0.2, 0.3));
+  EXPECT_NEAR(bow.pose.linear()(1, 0), 1.0, 1e-15);
+  EXPECT_EQ(bow.place.line, 4);
+  EXPECT_EQ(bow.place.column, 3);
+  EXPECT_THAT(read.list[1].slices, ElementsAre(0));
+  EXPECT_THAT(read.list[1].ports, ElementsAre("c4"));
+  EXPECT_EQ(read.list[1].lever, 1.0);
+  EXPECT_THAT(read.list[2].ports, ElementsAre("", "y"));
+  EXPECT_EQ(read.list[3].base_radius, 0.12);
+  EXPECT_EQ(read.list[4].points.at(2), Eigen::Vector3d(0, 0, 0.1));
+}
+
+TEST(EndEffectorYamlTest, TakesATextWithoutAnyForNone) {
+  for (const char* text : {"", "devices: []\n", "end_effectors:\n", "end_effectors: {}\n"}) {
+    EXPECT_TRUE(readEndEffectors(text, "hands.yaml").list.empty()) << text;
+  }
+}
+
+TEST(EndEffectorYamlTest, ReadsBackWhatItWrites) {
+  EndEffectors written = readEndEffectors(kAll, "hands.yaml");
+  for (const test::KinematicsCase& c : test::kinematicsCases()) {
+    EndEffectorConfig config = c.config;
+    config.name = c.name;
+    config.lever = 0.1 + 0.2;  // not a number of few digits
+    config.ports.assign(config.points.empty() ? config.slices.size() : 12, "a \"b\\");
+    config.pose.linear() = Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitY()) *
+                           Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX()).toRotationMatrix();
+    written.list.push_back(config);
+  }
+  const EndEffectors read = readEndEffectors(toYaml(written), "again.yaml");
+  ASSERT_EQ(read.list.size(), written.list.size());
+  for (std::size_t i = 0; i < read.list.size(); ++i) {
+    const EndEffectorConfig& a = written.list[i];
+    const EndEffectorConfig& b = read.list[i];
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.type, b.type);
+    EXPECT_EQ(a.slices, b.slices);
+    EXPECT_EQ(a.ports, b.ports);
+    EXPECT_EQ(a.points, b.points);
+    EXPECT_EQ(a.position_scale, b.position_scale);
+    EXPECT_EQ(a.force_scale, b.force_scale);
+    EXPECT_EQ(a.pose.translation(), b.pose.translation());
+    EXPECT_LT((a.pose.linear() - b.pose.linear()).norm(), 1e-15) << a.name;
+  }
+  EXPECT_EQ(read.list[5].lever, 0.1 + 0.2);
+  EXPECT_TRUE(readEndEffectors(toYaml(EndEffectors{}), "").list.empty());
+}
+
+TEST(EndEffectorYamlTest, SaysWhereAndWhatIsWrong) {
+  EXPECT_EQ(messageOf("end_effector: {}"),
+            "hands.yaml:1:1: error: unknown key 'end_effector' of the file of devices and "
+            "end-effectors; did you mean 'end_effectors'?");
+  EXPECT_THAT(messageOf("end_effectors: [1]"), StartsWith("hands.yaml:1:16: error: "));
+  EXPECT_THAT(messageOf("end_effectors: {a b: {}}"), HasSubstr("1:17: error: name 'a b'"));
+  EXPECT_THAT(messageOf("end_effectors: {a: {}, a: {}}"), HasSubstr("missing key 'type'"));
+  EXPECT_THAT(refused("type: keys"), HasSubstr("2:13: error: unknown type 'keys'"));
+  EXPECT_THAT(refused("type: key, slices: 0, ports: x, angle: 1"),
+              HasSubstr("hands.yaml:2:39: error: unknown key 'angle' of end-effector 'a'"));
+  EXPECT_THAT(refused("type: key, slices: 64, ports: x"),
+              HasSubstr("2:26: error: 'slices' of end-effector 'a' = 64 is out of range, allowed: "
+                        "0...63"));
+  EXPECT_THAT(refused("type: key, slices: 0.5, ports: x"),
+              HasSubstr("slice 0.5 of end-effector 'a' is not a whole number, allowed: 0...63"));
+  EXPECT_THAT(refused("type: bow, slices: [0], ports: [x, y]"),
+              HasSubstr("a list of 1, allowed: a list of 2 numbers"));
+  EXPECT_THAT(refused("type: bow, slices: [0, 1], ports: [x]"),
+              HasSubstr("2:41: error: 'ports' of end-effector 'a', allowed: a list of 2, one for "
+                        "each coordinate"));
+  EXPECT_THAT(refused("type: key, slices: 0, ports: x, lever: 0"),
+              HasSubstr("2:46: error: 'lever' of end-effector 'a' = 0 m/m is out of range, "
+                        "allowed: 0.01...100 m/m"));
+  EXPECT_THAT(refused("type: key, slices: 0, ports: x, force_scale: .nan"),
+              HasSubstr("'force_scale' of end-effector 'a' = '.nan' is not a finite number"));
+}
+
+TEST(EndEffectorYamlTest, RefusesPointsThatAreNone) {
+  const std::string handle = "type: handle, slices: [0, 1, 2, 3, 4, 5], ports: [], points: ";
+  EXPECT_THAT(refused(handle + "[[0, 0, 0]]"), HasSubstr("allowed: a list of 3 to 8 points"));
+  EXPECT_THAT(refused(handle + "[[0, 0, 0], [1, 0, 0], [0, 1]]"),
+              HasSubstr("a point of end-effector 'a', allowed: [x, y, z]"));
+  EXPECT_THAT(refused(handle + "[[0, 0, 0], [1, 0, 0], [0, 1, 1.5]]"),
+              HasSubstr("a point of end-effector 'a' = 1.5 m is out of range, allowed: -1...1 m"));
+}
+
+}  // namespace
+}  // namespace ergotic::tgr

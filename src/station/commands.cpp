@@ -96,12 +96,7 @@ void Station::obey(const Command& command) noexcept {
       absent_ = 0;
       break;
     case Command::Type::kInject:
-      if (config_.allow_fault_injection) {
-        injected_ = static_cast<InjectedModelFault>(command.index);
-        inject_ticks_ = static_cast<std::int64_t>(command.value);
-        inject_age_ = 0;
-        inject_from_ = position_;
-      }
+      takeInjection(command);
       break;
     case Command::Type::kKeyframe:
       ++keyframes_wanted_;
@@ -231,6 +226,22 @@ void Station::takeRig(tgr::Rig* next) noexcept {
   }
   gliding_ = glide_ticks_;
   handBack(configured);
+}
+
+void Station::takeInjection(const Command& command) noexcept {
+  if (!config_.allow_fault_injection) {
+    return;
+  }
+  if (command.index >= static_cast<int>(InjectedModelFault::kNotANumber)) {
+    injected_ = static_cast<InjectedModelFault>(command.index);
+    inject_ticks_ = static_cast<std::int64_t>(command.value);
+    inject_age_ = 0;
+    inject_from_ = position_;
+  }
+  Event injected = event(Event::Type::kInjected);
+  injected.index = command.index;
+  injected.value = command.value;
+  tell(injected);
 }
 
 void Station::takeKeyframe() noexcept {

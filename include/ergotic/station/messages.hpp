@@ -37,7 +37,8 @@ struct Command {
     kConfigure,  ///< force to zero, state Ready; take `rig`, made for the performer submitted last
     kRecover,    ///< from Fault to Ready; a model that blew up starts anew
     kPresence,   ///< value: 1 the player holds the switch, 0 not; to be repeated
-    kInject,     ///< index: InjectedModelFault, value: ticks; if the configuration allows it
+    kInject,     ///< index: InjectedModelFault, value: ticks; if the configuration allows it. Other
+                 ///< indices are told, no more: faults that are made elsewhere
     kKeyframe,   ///< copy the state for a recording that starts now, or after the fade of a swap
   };
   Type type = Type::kStop;
@@ -78,6 +79,7 @@ struct Event {
     kConfigured,  ///< rig: the old one, to be freed; force is zero, state Ready
     kRecovered,   ///< from Fault to Ready; index: 1 the model began anew
     kRefused,     ///< index: Refusal; an `engage` or `recover` that was not obeyed
+    kInjected,    ///< a fault is made on purpose, from this tick on; index: of the command
   };
   Type type = Type::kStopped;
   std::int64_t tick = 0;

@@ -165,6 +165,7 @@ class Station {
   void takeRig(tgr::Rig* next) noexcept;
   void recover() noexcept;
   void refuse(Refusal refusal) noexcept;
+  void takeInjection(const Command& command) noexcept;
   void takeKeyframe() noexcept;
 
   void fault(FaultReason reason, int slice) noexcept;

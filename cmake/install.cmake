@@ -18,6 +18,6 @@ install(DIRECTORY include/ergotic DESTINATION include FILES_MATCHING PATTERN "*.
 install(DIRECTORY models config DESTINATION share/ergotic)
 if(ERGOTIC_ROS)
   install(DIRECTORY launch rviz urdf DESTINATION share/ergotic)
-  install(FILES nodelet_plugins.xml DESTINATION share/ergotic)
+  install(FILES nodelet_plugins.xml tgr_driver_plugins.xml DESTINATION share/ergotic)
   install(PROGRAMS scripts/play_gesture DESTINATION lib/ergotic)
 endif()

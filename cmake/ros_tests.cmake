@@ -2,6 +2,14 @@
 # Tests that need ROS: messages and conversions as gtests, the station as rostests, launch files.
 # All of them run under plain ctest, in the devel space.
 ergotic_add_gtests(ros ergotic_ros)
+target_compile_definitions(ergotic_ros_test PRIVATE ERGOTIC_DEVEL_DIR="${CATKIN_DEVEL_PREFIX}")
+# A device of somebody else, which no list of ours knows of.
+add_library(third_party_device SHARED test/third_party_device/still_device.cpp)
+set_target_properties(third_party_device PROPERTIES
+  LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/third_party/lib)
+target_link_libraries(third_party_device
+  PRIVATE ergotic_core ergotic_messages ergotic_flags yaml-cpp ${class_loader_LIBRARIES})
+add_dependencies(ergotic_ros_test third_party_device)
 ergotic_add_gtests(bag ergotic_bag)
 add_dependencies(ergotic_bag_test render)
 

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "ergotic/station/health.hpp"
+#include "ros/end_effectors.hpp"
 #include "ros/model_loader.hpp"
 
 namespace ergotic::node {
@@ -18,10 +19,38 @@ constexpr std::uint8_t number(T value) {
 }
 static_assert(ModelStructure::POINT == number(scene::MatType::kPoint));
 static_assert(ModelStructure::CONDITIONAL == number(scene::LiaType::kConditional));
-static_assert(Event::AUDIO_STOPPED == number(EventType::kAudioStopped));
 static_assert(Event::FAULT == number(EventType::kFault));
-static_assert(Status::FAULT == number(station::ForceState::kFault));
-static_assert(Status::FAULT_MADE_SAFE == number(station::FaultReason::kMadeSafe));
+static_assert(Event::AUDIO_STOPPED == number(EventType::kAudioStopped));
+static_assert(Event::CONFIGURED == number(EventType::kConfigured));
+static_assert(Event::RECOVERED == number(EventType::kRecovered));
+static_assert(Event::REFUSED == number(EventType::kRefused));
+static_assert(Event::INJECTED == number(EventType::kInjected));
+
+using station::ForceState;
+static_assert(Status::DISCONNECTED == number(ForceState::kDisconnected));
+static_assert(Status::UNCALIBRATED == number(ForceState::kUncalibrated));
+static_assert(Status::READY == number(ForceState::kReady));
+static_assert(Status::ENGAGING == number(ForceState::kEngaging));
+static_assert(Status::PLAYING == number(ForceState::kPlaying));
+static_assert(Status::FAULT == number(ForceState::kFault));
+
+using tgr::FaultReason;
+static_assert(Status::FAULT_NONE == number(FaultReason::kNone));
+static_assert(Status::FAULT_DEVICE_LOST == number(FaultReason::kDeviceLost));
+static_assert(Status::FAULT_MISSING_SAMPLES == number(FaultReason::kMissingSamples));
+static_assert(Status::FAULT_BAD_POSITION == number(FaultReason::kBadPosition));
+static_assert(Status::FAULT_MODEL_BLOW_UP == number(FaultReason::kModelBlowUp));
+static_assert(Status::FAULT_STALL == number(FaultReason::kStall));
+static_assert(Status::FAULT_MADE_SAFE == number(FaultReason::kMadeSafe));
+static_assert(Status::FAULT_JUMP == number(FaultReason::kJump));
+static_assert(Status::FAULT_FROZEN == number(FaultReason::kFrozen));
+static_assert(Status::FAULT_WRITE_FAILED == number(FaultReason::kWriteFailed));
+static_assert(Status::FAULT_FORCE_TOO_HIGH == number(FaultReason::kForceTooHigh));
+static_assert(Status::FAULT_ENERGY == number(FaultReason::kEnergy));
+static_assert(Status::FAULT_EMERGENCY_STOP == number(FaultReason::kEmergencyStop));
+static_assert(Status::FAULT_PRESENCE == number(FaultReason::kPresence));
+static_assert(Status::FAULT_WORKSPACE == number(FaultReason::kWorkspace));
+static_assert(Status::FAULT_WATCHDOG == number(FaultReason::kWatchdog));
 
 const char* toString(station::LateCause cause) {
   switch (cause) {
@@ -89,29 +118,27 @@ std::string textOf(const station::Event& event, const scene::Scene* scene) {
     case EventType::kAudioStopped:
       text << "no sound: the audio server is gone";
       break;
+    case EventType::kConfigured:
+      text << "other end-effectors are in place";
+      break;
+    case EventType::kRecovered:
+      text << "recovered" << (event.index != 0 ? ", the model began anew" : "");
+      break;
+    case EventType::kRefused:
+      text << toString(static_cast<station::Refusal>(event.index));
+      break;
+    case EventType::kInjected:
+      text << "a fault is made on purpose, for " << event.value << " ticks";
+      break;
   }
   return text.str();
-}
-
-geometry_msgs::Pose poseOf(const Eigen::Isometry3d& pose) {
-  const Eigen::Vector3d position = pose.translation();
-  const Eigen::Quaterniond orientation(pose.linear());
-  geometry_msgs::Pose message;
-  message.position.x = position.x();
-  message.position.y = position.y();
-  message.position.z = position.z();
-  message.orientation.x = orientation.x();
-  message.orientation.y = orientation.y();
-  message.orientation.z = orientation.z();
-  message.orientation.w = orientation.w();
-  return message;
 }
 
 void addSections(const scene::Scene& scene, const physics::Rates& rates, ModelStructure& message) {
   for (const scene::Section& section : scene.sections) {
     message.section_names.push_back(section.name);
     message.section_rates.push_back(rates.audio_hz / physics::divisorOf(section, rates));
-    message.section_poses.push_back(poseOf(section.pose));
+    message.section_poses.push_back(toPose(section.pose));
     message.section_dimensions.push_back(
         static_cast<std::uint8_t>(scene::dimensionsOf(section.geometry)));
   }
@@ -174,7 +201,7 @@ void fillStatus(const station::Snapshot& snapshot, Status& status) {
   status.fault = number(snapshot.fault);
   status.state_text = station::toString(snapshot.state);
   if (snapshot.fault != station::FaultReason::kNone) {
-    status.state_text += std::string(": ") + station::toString(snapshot.fault);
+    status.state_text += std::string(": ") + toString(snapshot.fault);
   }
   status.slices = static_cast<std::uint32_t>(snapshot.slices);
   status.audio_running = snapshot.audio_running;
@@ -193,6 +220,15 @@ void fillStatus(const station::Snapshot& snapshot, Status& status) {
   status.load_mean = counters.load_mean;
   status.load_peak = counters.load_peak;
   status.peak_force = counters.peak_force_n;
+}
+
+void fillStatus(std::uint64_t uncalibrated, Status& status) {
+  status.uncalibrated.clear();
+  for (std::uint32_t slice = 0; slice < std::uint32_t{tgr::kMaxSlices}; ++slice) {
+    if ((uncalibrated >> slice & 1U) != 0) {
+      status.uncalibrated.push_back(slice);
+    }
+  }
 }
 
 void fillStatus(const physics::Instrument& instrument, Status& status) {

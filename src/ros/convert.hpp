@@ -26,6 +26,9 @@ sensor_msgs::JointState toJointState(const station::Snapshot& snapshot);
 /// Fills state, fault and counters of `status`.
 void fillStatus(const station::Snapshot& snapshot, Status& status);
 
+/// Fills the list of slices without calibration. \param uncalibrated  a bit each
+void fillStatus(std::uint64_t uncalibrated, Status& status);
+
 /// Fills name, rates, sizes and compile options of `status`.
 void fillStatus(const physics::Instrument& instrument, Status& status);
 

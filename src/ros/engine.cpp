@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/engine.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -11,19 +12,18 @@
 namespace ergotic::node {
 namespace {
 
-std::unique_ptr<tgr::Driver> makeDriver(const Parameters& parameters) {
-  tgr::VirtualDriverConfig config;
-  config.gesture_file = parameters.gesture;
-  config.shared_memory = parameters.virtual_shared_memory;
-  return tgr::makeVirtualDriver(config);
-}
+// The presence switch says that it is held at least this often.
+constexpr double kPresenceS = 0.2;
+constexpr int kMaxPriority = 99;
+constexpr int kWatchdogAboveTick = 5;  // it must not wait for a tick that never ends
 
 station::StationConfig stationConfig(const Parameters& parameters, const physics::Rates& rates) {
   station::StationConfig config;
   config.rates = rates;
-  config.safety.force_limit_n = parameters.force_limit;
-  config.safety.ramp_s = parameters.ramp;
+  config.safety = parameters.safety;
   config.max_stall_s = parameters.max_stall;
+  config.presence_s = parameters.presence ? kPresenceS : 0.0;
+  config.allow_fault_injection = parameters.allow_fault_injection;
   return config;
 }
 
@@ -62,13 +62,13 @@ class RateProbe : public rt::BlockProcessor {
 
 }  // namespace
 
-Engine::Engine(const Parameters& parameters, std::unique_ptr<station::Performer> performer)
-    : parameters_(parameters) {
+Engine::Engine(const Parameters& parameters,
+               std::unique_ptr<Hands> hands,
+               std::unique_ptr<station::Performer> performer)
+    : parameters_(parameters), hands_(std::move(hands)) {
   const physics::Rates rates = performer->instrument->rates();
   const station::StationConfig config = stationConfig(parameters, rates);
-  auto driver = makeDriver(parameters);
-  hand_ = driver.get();
-  station_ = std::make_unique<station::Station>(config, std::move(driver), std::move(performer));
+  station_ = std::make_unique<station::Station>(config, hands_->takeDriver(), std::move(performer));
   if (parameters.jack) {
     station::AudioBridgeConfig bridge;
     bridge.rates = rates;
@@ -81,6 +81,7 @@ Engine::Engine(const Parameters& parameters, std::unique_ptr<station::Performer>
   source_ = std::make_unique<station::TimerSource>(*station_, bridge_.get());
   source_->start(timerOptions(parameters));
   warnings_ = source_->warnings();
+  startWatchdog();
   if (parameters.realtime == Realtime::kRequire && !warnings_.empty()) {
     source_->stop();
     throw DeviceError("realtime:=require, but " + warnings_.front());
@@ -97,9 +98,32 @@ Engine::Engine(const Parameters& parameters, std::unique_ptr<station::Performer>
 }
 
 Engine::~Engine() {
+  watchdog_->disarm();
   station_->makeSafe();
   source_->stop();
+  watchdog_->stop();
   station_.reset();  // the device is given back before JACK, which may take its time
+}
+
+void Engine::startWatchdog() {
+  watchdog_ = std::make_unique<tgr::Watchdog>(station_->heartbeat(), [this](std::int64_t) {
+    station_->makeSafe(tgr::FaultReason::kWatchdog);
+  });
+  tgr::WatchdogOptions options;
+  options.period_s = parameters_.watchdog;
+  options.priority = parameters_.realtime != Realtime::kOff
+                         ? std::min(kMaxPriority, parameters_.priority + kWatchdogAboveTick)
+                         : 0;
+  watchdog_->start(options);
+  if (!watchdog_->warning().empty()) {
+    warnings_.push_back(watchdog_->warning());
+  }
+  watchdog_->arm();
+}
+
+void Engine::recover() {
+  station_->driver().reconnect();
+  watchdog_->arm();
 }
 
 std::optional<audio::JackStatus> Engine::jackStatus() const {

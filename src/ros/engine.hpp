@@ -10,7 +10,8 @@
 #include "ergotic/station/audio_bridge.hpp"
 #include "ergotic/station/station.hpp"
 #include "ergotic/station/timer_source.hpp"
-#include "ergotic/tgr/virtual_driver.hpp"
+#include "ergotic/tgr/safety/watchdog.hpp"
+#include "ros/hands.hpp"
 #include "ros/parameters.hpp"
 
 namespace ergotic::node {
@@ -18,9 +19,12 @@ namespace ergotic::node {
 /// A running station with its device, its real-time thread and its audio host.
 class Engine {
  public:
-  /// Opens the device, starts to tick, looks for a JACK server. Forces stay at zero.
-  /// \throws DeviceError, TextError (gesture file) or Exception saying what is missing
-  Engine(const Parameters& parameters, std::unique_ptr<station::Performer> performer);
+  /// Opens the devices, starts to tick, looks for a JACK server. Forces stay at zero.
+  /// \param hands  probed at the performer's rate
+  /// \throws DeviceError or Exception saying what is missing
+  Engine(const Parameters& parameters,
+         std::unique_ptr<Hands> hands,
+         std::unique_ptr<station::Performer> performer);
   /// Forces to zero, threads ended, device closed.
   ~Engine();
   Engine(const Engine&) = delete;
@@ -28,9 +32,11 @@ class Engine {
 
   station::Station& station() { return *station_; }
   const Parameters& parameters() const { return parameters_; }
+  Hands& hands() { return *hands_; }
 
-  /// Where the hand of the virtual device wants a slice to be, m. Thread: operator
-  bool setTarget(int slice, double target_m) { return hand_->setTarget(slice, target_m); }
+  /// Gets lost devices back and watches the ticks again. Thread: operator
+  /// \throws DeviceError if a device is still lost
+  void recover();
 
   /// \return nothing if it plays without JACK. Thread: any
   std::optional<audio::JackStatus> jackStatus() const;
@@ -38,12 +44,15 @@ class Engine {
   std::vector<std::string> takeWarnings();
 
  private:
+  void startWatchdog();
+
   Parameters parameters_;
-  tgr::Driver* hand_ = nullptr;  // owned by the station
+  std::unique_ptr<Hands> hands_;  // outlives the station, which has its drivers
   std::unique_ptr<station::Station> station_;
   std::unique_ptr<station::AudioBridge> bridge_;
   std::unique_ptr<station::TimerSource> source_;
   std::unique_ptr<audio::JackHost> jack_;
+  std::unique_ptr<tgr::Watchdog> watchdog_;
   std::vector<std::string> warnings_;
 };
 

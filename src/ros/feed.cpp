@@ -7,6 +7,7 @@
 
 #include "ergotic/rt/build_id.hpp"
 #include "ergotic/rt/clock.hpp"
+#include "ros/end_effectors.hpp"
 
 namespace ergotic::node {
 namespace {
@@ -34,15 +35,25 @@ Feed::Feed(const ::ros::NodeHandle& node) : node_(node) {
   showSilence("no model yet");
 }
 
-void Feed::configure(const Parameters& parameters) {
-  station_config_ = toYaml(parameters);
+void Feed::configure(const Parameters& parameters, const tgr::StationDevices& devices) {
+  station_config_ = toYaml(parameters, devices);
   display_zoom_ = parameters.display_zoom;
   motion_period_ns_ = static_cast<std::int64_t>(1e9 / parameters.display_rate);
-  status_.devices = {parameters.driver};
+  status_.devices.clear();
+  for (const tgr::DeviceConfig& device : devices.devices) {
+    status_.devices.push_back(device.driver);
+  }
   if (parameters.compile.metered) {
     model_energy_ = node_.advertise<ModelEnergy>("model_energy", kQueue);
   }
   blocks_.reset();
+}
+
+void Feed::show(const tgr::EndEffectors& end_effectors) {
+  frames_ = EndEffectorFrames(end_effectors);
+  status_.end_effectors = toMessages(end_effectors);
+  markers_topic_.publish(Markers::eraseAll());  // those that are gone
+  sendStatus();
 }
 
 void Feed::showModel(const station::Performer& performer, const std::string& note) {
@@ -102,15 +113,21 @@ void Feed::show(const station::GestureTick* ticks, std::size_t count) {
   }
 }
 
-void Feed::show(const station::Snapshot& snapshot) {
+void Feed::show(const station::Snapshot& snapshot, std::uint64_t uncalibrated) {
+  const ::ros::Time now = ::ros::Time::now();
   sensor_msgs::JointState joints = toJointState(snapshot);
-  joints.header.stamp = ::ros::Time::now();
+  joints.header.stamp = now;
   joint_states_.publish(joints);
+  if (const auto& transforms = frames_.at(snapshot, now); !transforms.empty()) {
+    transforms_.sendTransform(transforms);
+  }
 
   const Status before = status_;
   fillStatus(snapshot, status_);
+  fillStatus(uncalibrated, status_);
   if (before.state != status_.state || before.fault != status_.fault ||
-      before.audio_running != status_.audio_running) {
+      before.audio_running != status_.audio_running ||
+      before.uncalibrated != status_.uncalibrated) {
     sendStatus();
   }
 }
@@ -138,6 +155,9 @@ void Feed::show(const station::MotionFrame& motion, const scene::Scene& scene) {
   }
   if (markers_topic_.getNumSubscribers() > 0) {
     markers_topic_.publish(markers_->draw(motion.displacement, now));
+    if (const auto& shapes = frames_.shapes(now); !shapes.markers.empty()) {
+      markers_topic_.publish(shapes);
+    }
   }
 }
 

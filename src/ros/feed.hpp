@@ -9,9 +9,11 @@
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
+#include <tf2_ros/transform_broadcaster.h>
 
 #include "ergotic/station/station.hpp"
 #include "ros/convert.hpp"
+#include "ros/end_effector_frames.hpp"
 #include "ros/gesture_blocks.hpp"
 #include "ros/markers.hpp"
 #include "ros/parameters.hpp"
@@ -23,8 +25,10 @@ class Feed {
  public:
   explicit Feed(const ::ros::NodeHandle& node);
 
-  /// A station with these parameters begins to play.
-  void configure(const Parameters& parameters);
+  /// A station with these parameters and devices begins to play.
+  void configure(const Parameters& parameters, const tgr::StationDevices& devices);
+  /// These end-effectors stand on the slices from now on.
+  void show(const tgr::EndEffectors& end_effectors);
   /// Another model plays from now on.
   void showModel(const station::Performer& performer, const std::string& note);
   /// Nothing plays any more, or nothing yet; `message` says why.
@@ -36,7 +40,8 @@ class Feed {
   /// \return what was sent
   Event show(const station::Event& event, const scene::Scene* scene);
   void show(const station::GestureTick* ticks, std::size_t count);
-  void show(const station::Snapshot& snapshot);
+  /// \param uncalibrated  slices, a bit each
+  void show(const station::Snapshot& snapshot, std::uint64_t uncalibrated);
   void show(const station::MotionFrame& motion, const scene::Scene& scene);
   void show(const station::Keyframe& keyframe, const physics::Instrument& instrument);
 
@@ -67,10 +72,13 @@ class Feed {
   ::ros::Publisher events_;
   ::ros::Publisher status_topic_;
 
+  tf2_ros::TransformBroadcaster transforms_;
+
   Status status_;
   std::string note_;  // of the model that plays; status_.message adds the latest news
   std::optional<GestureBlocks> blocks_;
   std::optional<Markers> markers_;
+  EndEffectorFrames frames_;
   std::int64_t motion_due_ns_ = 0;
   std::int64_t status_due_ns_ = 0;
 };

@@ -87,6 +87,8 @@ Answer Loader::play(scene::Scene scene, bool allow_unproven, std::string& verdic
   policy.on_stage = logStage;
   policy.allow_unproven = allow_unproven || terms->parameters.allow_unproven;
   policy.slices = terms->slices;
+  policy.device = terms->device;
+  policy.end_effectors = terms->end_effectors;
   const physics::Rates rates =
       physics::chooseRates(scene, terms->rates.audio_hz, terms->rates.gesturalHz());
   return operator_.swap(
@@ -95,14 +97,20 @@ Answer Loader::play(scene::Scene scene, bool allow_unproven, std::string& verdic
 
 Answer Loader::start(scene::Scene scene, bool allow_unproven, std::string& verdict) {
   const Parameters parameters = readParameters(node_);
+  auto hands = std::make_unique<Hands>(readDevices(parameters), parameters.allow_fault_injection);
+  const physics::Rates rates =
+      physics::chooseRates(scene, audioRateFor(parameters), parameters.gestural_rate);
+  hands->probe(rates.gesturalHz());
   station::PerformerPolicy policy;
   policy.on_stage = logStage;
   policy.allow_unproven = allow_unproven || parameters.allow_unproven;
-  const physics::Rates rates =
-      physics::chooseRates(scene, audioRateFor(parameters), parameters.gestural_rate);
+  policy.slices = hands->slices();
+  policy.device = hands->traits();
+  policy.end_effectors = hands->config().end_effectors;
   auto performer = makePerformer(std::move(scene), rates, parameters.compile, policy, verdict);
   station::Performer* const first = performer.get();
-  return operator_.begin(std::make_unique<Engine>(parameters, std::move(performer)), first);
+  return operator_.begin(
+      std::make_unique<Engine>(parameters, std::move(hands), std::move(performer)), first);
 }
 
 }  // namespace ergotic::node

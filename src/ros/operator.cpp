@@ -22,7 +22,7 @@ Operator::Operator(Feed& feed, Diagnostics& diagnostics)
 }
 
 Operator::~Operator() {
-  performance_.makeSafe();
+  performance_.makeSafe(tgr::FaultReason::kMadeSafe);
   {
     const std::lock_guard lock(mutex_);
     quit_ = true;
@@ -78,6 +78,10 @@ Answer Operator::engage() {
   return ask([this](const Promise& promise) { performance_.engage(promise); });
 }
 
+Answer Operator::recover() {
+  return ask([this](const Promise& promise) { performance_.recover(promise); });
+}
+
 Answer Operator::stop() {
   return ask([this](const Promise& promise) { performance_.stop(promise); });
 }
@@ -90,12 +94,38 @@ Answer Operator::setTarget(int slice, double target_m) {
   return ask([=](const Promise& promise) { performance_.setTarget(slice, target_m, promise); });
 }
 
+Answer Operator::configure(const tgr::EndEffectors& end_effectors) {
+  return ask([=](const Promise& promise) { performance_.configure(end_effectors, promise); });
+}
+
+Calibrate::Response Operator::calibrate(const Calibrate::Request& request) {
+  const auto measured = std::make_shared<Calibrate::Response>();
+  const Answer answer =
+      ask([=](const Promise& promise) { performance_.calibrate(request, measured, promise); });
+  Calibrate::Response response;
+  if (answer.ok) {  // otherwise it may still be written
+    response = *measured;
+  }
+  response.success = answer.ok ? 1U : 0U;
+  response.message = answer.message;
+  return response;
+}
+
+Answer Operator::inject(const InjectFault::Request& request) {
+  return ask([=](const Promise& promise) { performance_.inject(request, promise); });
+}
+
+void Operator::setPresence(bool present) {
+  post([this, present] { performance_.setPresence(present); });
+}
+
 std::optional<Operator::Terms> Operator::terms() {
   const auto terms = std::make_shared<std::optional<Terms>>();
   ask([this, terms](const Promise& promise) {
     if (Engine* engine = performance_.engine()) {
-      station::Station& station = engine->station();
-      *terms = Terms{station.config().rates, station.driver().slices(), engine->parameters()};
+      const Hands& hands = engine->hands();
+      *terms = Terms{engine->station().config().rates, hands.slices(), hands.traits(),
+                     hands.config().end_effectors, engine->parameters()};
     }
     promise->set_value({true, ""});
   });

@@ -10,6 +10,9 @@
 #include <string>
 #include <thread>
 
+#include <ergotic/Calibrate.h>
+#include <ergotic/InjectFault.h>
+
 #include "ros/diagnostics.hpp"
 #include "ros/performance.hpp"
 
@@ -31,19 +34,27 @@ class Operator {
   Answer begin(std::unique_ptr<Engine> engine, station::Performer* performer);
   /// Plays another model; answers when it plays.
   Answer swap(std::unique_ptr<station::Performer> performer);
-  /// Lets force ramp in; answers when it does.
+  /// Lets force ramp in; answers when it does, or why it may not.
   Answer engage();
+  /// Gets lost devices back and ends a fault; answers when it has ended. Force stays at zero.
+  Answer recover();
   /// Force to zero; answers when it is.
   Answer stop();
   /// Answers when the tick plays with the new value.
   Answer setParameter(const std::string& name, double value);
-  /// Moves the hand of the virtual device.
+  /// Moves the hand of a virtual device.
   Answer setTarget(int slice, double target_m);
+  /// Puts other end-effectors on the slices; answers when they are in place, with force at zero.
+  Answer configure(const tgr::EndEffectors& end_effectors);
+  Calibrate::Response calibrate(const Calibrate::Request& request);
+  Answer inject(const InjectFault::Request& request);
 
   /// What a new model must fit.
   struct Terms {
     physics::Rates rates;
     int slices = 0;
+    physics::DeviceTraits device;
+    tgr::EndEffectors end_effectors;
     Parameters parameters;
   };
   /// \return nothing if no engine runs
@@ -54,7 +65,9 @@ class Operator {
   /// Says why nothing plays, to those who look at the status. No effect while something does.
   void tell(const std::string& message);
   /// Force to zero at once, latched.
-  void makeSafe() { performance_.makeSafe(); }
+  void makeSafe(tgr::FaultReason reason) { performance_.makeSafe(reason); }
+  /// The presence switch is held, or not.
+  void setPresence(bool present);
 
   /// Forces to zero, device closed, no engine taken any more; waits for it, 0.9 s at most.
   /// Thread: any

@@ -3,6 +3,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <fstream>
 #include <map>
 #include <sstream>
 
@@ -18,7 +19,7 @@ const std::map<std::string, physics::Precision> kPrecisions = {
 const std::map<std::string, bool> kJack = {{"auto", true}, {"none", false}};
 const std::map<std::string, Realtime> kRealtime = {
     {"try", Realtime::kTry}, {"require", Realtime::kRequire}, {"off", Realtime::kOff}};
-const std::map<std::string, std::string> kDrivers = {{"virtual", "virtual"}};
+const std::map<std::string, bool> kPresence = {{"topic", true}, {"none", false}};
 
 std::map<std::string, rt::Isa> isas() {
   std::map<std::string, rt::Isa> choices{{"best", rt::bestIsa()}};
@@ -99,15 +100,68 @@ std::string wordOf(const T& value, const std::map<std::string, T>& choices) {
   return "";
 }
 
+void readSafety(const Reader& read, Parameters& p) {
+  tgr::SafetyConfig& safety = p.safety;
+  read.number("force_limit", safety.force_limit_n, 0.0, tgr::kAbsoluteForceLimitN);
+  read.number("ramp", safety.ramp_s, 0.1, 10.0);
+  read.number("resume_ramp", safety.resume_ramp_s, 0.005, 10.0);
+  read.number("position_limit", safety.position_limit_m, 0.001, 1.0);
+  read.integer("max_missing", safety.max_missing, 0, 1000);
+  read.number("max_stall", p.max_stall, 0.001, 1.0);
+  read.number("watchdog", p.watchdog, 0.004, 1.0);
+  read.choice("presence", p.presence, kPresence);
+  read.flag("allow_fault_injection", p.allow_fault_injection);
+}
+
+/// A path, or a text of more than one line.
+struct Text {
+  std::string text;
+  std::string name;
+};
+Text textOrFile(const std::string& value, const std::string& inline_name) {
+  if (value.find('\n') != std::string::npos) {
+    return {value, inline_name};
+  }
+  std::ifstream file(value);
+  if (!file) {
+    throw Exception(value + ": cannot be read, allowed: a path, or YAML of more than one line");
+  }
+  std::ostringstream text;
+  text << file.rdbuf();
+  return {text.str(), value};
+}
+
+/// One device without calibration, as `driver` and the settings of the virtual one say.
+tgr::StationDevices plainDevice(const Parameters& p) {
+  YAML::Emitter settings;
+  settings << YAML::Flow << YAML::BeginMap;
+  if (!p.gesture.empty()) {
+    settings << YAML::Key << "gesture" << YAML::Value << p.gesture;
+  }
+  if (!p.virtual_shared_memory.empty()) {
+    settings << YAML::Key << "shared_memory" << YAML::Value << p.virtual_shared_memory;
+  }
+  settings << YAML::EndMap;
+  tgr::StationDevices devices;
+  devices.file = "parameters";
+  devices.devices.resize(1);
+  devices.devices.front().driver = p.driver;
+  devices.devices.front().settings = settings.c_str();
+  devices.devices.front().place = "parameter driver";
+  return devices;
+}
+
 }  // namespace
 
 Parameters readParameters(const ::ros::NodeHandle& node) {
   Parameters p;
   const Reader read(node);
   read.text("model", p.model);
-  read.choice("driver", p.driver, kDrivers);
+  read.text("device", p.device);
+  read.text("driver", p.driver);
   read.text("gesture", p.gesture);
   read.text("virtual_shared_memory", p.virtual_shared_memory);
+  read.text("end_effectors", p.end_effectors);
   read.number("audio_rate", p.audio_rate, 8000.0, 192000.0);
   read.number("gestural_rate", p.gestural_rate, 0.0, 192000.0);
   read.choice("precision", p.compile.precision, kPrecisions);
@@ -120,9 +174,7 @@ Parameters readParameters(const ::ros::NodeHandle& node) {
   read.number("jack_wait", p.jack_wait, 0.0, 60.0);
   read.flag("jack_connect", p.jack_connect);
   read.integer("ring_depth", p.ring_depth, 1, station::AudioBridge::kMaxLatencyFrames);
-  read.number("force_limit", p.force_limit, 0.0, tgr::kAbsoluteForceLimitN);
-  read.number("ramp", p.ramp, 0.1, 10.0);
-  read.number("max_stall", p.max_stall, 0.001, 1.0);
+  readSafety(read, p);
   read.integer("priority", p.priority, 1, 99);
   read.integer("cpu", p.cpu, -1, 1023);
   read.choice("realtime", p.realtime, kRealtime);
@@ -133,15 +185,28 @@ Parameters readParameters(const ::ros::NodeHandle& node) {
   return p;
 }
 
-std::string toYaml(const Parameters& p) {
+tgr::StationDevices readDevices(const Parameters& p) {
+  tgr::StationDevices devices;
+  if (p.device.empty()) {
+    devices = plainDevice(p);
+  } else {
+    const Text device = textOrFile(p.device, "device");
+    devices = tgr::readDevices(device.text, device.name);
+  }
+  if (!p.end_effectors.empty()) {
+    const Text text = textOrFile(p.end_effectors, "end_effectors");
+    devices.end_effectors = tgr::readEndEffectors(text.text, text.name);
+  }
+  return devices;
+}
+
+std::string toYaml(const Parameters& p, const tgr::StationDevices& devices) {
   YAML::Emitter out;
   const auto entry = [&out](const char* name, const auto& value) {
     out << YAML::Key << name << YAML::Value << value;
   };
   out << YAML::BeginMap;
-  entry("driver", p.driver);
-  entry("gesture", p.gesture);
-  entry("virtual_shared_memory", p.virtual_shared_memory);
+  entry("device", tgr::toYaml(devices));
   entry("audio_rate", p.audio_rate);
   entry("gestural_rate", p.gestural_rate);
   entry("precision", nameOf(p.compile.precision));
@@ -153,9 +218,15 @@ std::string toYaml(const Parameters& p) {
   entry("jack_wait", p.jack_wait);
   entry("jack_connect", p.jack_connect);
   entry("ring_depth", p.ring_depth);
-  entry("force_limit", p.force_limit);
-  entry("ramp", p.ramp);
+  entry("force_limit", p.safety.force_limit_n);
+  entry("ramp", p.safety.ramp_s);
+  entry("resume_ramp", p.safety.resume_ramp_s);
+  entry("position_limit", p.safety.position_limit_m);
+  entry("max_missing", p.safety.max_missing);
   entry("max_stall", p.max_stall);
+  entry("watchdog", p.watchdog);
+  entry("presence", wordOf(p.presence, kPresence));
+  entry("allow_fault_injection", p.allow_fault_injection);
   entry("priority", p.priority);
   entry("cpu", p.cpu);
   entry("realtime", wordOf(p.realtime, kRealtime));

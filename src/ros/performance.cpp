@@ -15,9 +15,8 @@ namespace {
 
 using CommandType = station::Command::Type;
 using EventType = station::Event::Type;
-using station::ForceState;
 
-constexpr std::int64_t kStateTimeoutNs = 1'000'000'000;
+constexpr std::int64_t kObeyTimeoutNs = 1'000'000'000;
 constexpr std::size_t kGestureBatch = 256;
 constexpr double kLogPeriodS = 5.0;
 const char kNothingPlays[] = "nothing plays: load a model first";
@@ -25,14 +24,6 @@ const char kTooMany[] = "too many requests wait for the real-time thread";
 
 void answer(const Promise& promise, bool ok, std::string message) {
   promise->set_value({ok, std::move(message)});
-}
-
-bool forceFlows(ForceState state) {
-  return state == ForceState::kEngaging || state == ForceState::kPlaying;
-}
-
-bool forceRests(ForceState state) {
-  return !forceFlows(state);
 }
 
 void log(const Event& event) {
@@ -62,10 +53,11 @@ void Performance::begin(std::unique_ptr<Engine> engine, station::Performer* perf
   gestures_.resize(kGestureBatch);
   submitted_ = performer;
   parameters_ = performer->parameters;
-  feed_.configure(engine_->parameters());
+  feed_.configure(engine_->parameters(), engine_->hands().config());
+  show(endEffectors());
   play(performer);
   if (engine_->parameters().autoengage) {
-    command(CommandType::kEngage);
+    engage(std::make_shared<std::promise<Answer>>());
   }
 }
 
@@ -78,6 +70,9 @@ void Performance::swap(std::unique_ptr<station::Performer> performer, const Prom
   swap.performer = performer.get();
   const std::vector<double> parameters = performer->parameters;  // the tick's from now on
   try {
+    // End-effectors may have changed while the model was made.
+    performer->rig =
+        tgr::makeRig(performer->instrument->scene(), endEffectors(), engine_->hands().slices());
     if (!engine_->station().submit(swap)) {
       return answer(promise, false, kTooMany);
     }
@@ -90,19 +85,28 @@ void Performance::swap(std::unique_ptr<station::Performer> performer, const Prom
 }
 
 void Performance::engage(const Promise& promise) {
-  if (!engine_) {
-    return answer(promise, false, kNothingPlays);
+  if (guide_.isUnderWay()) {
+    return answer(promise, false, "a slice is being calibrated: finish or abort first");
   }
-  command(CommandType::kEngage);
-  awaitState(&forceFlows, promise);
+  request(CommandType::kEngage, requests_, promise);
+}
+
+void Performance::recover(const Promise& promise) {
+  if (engine_) {
+    try {
+      engine_->recover();
+    } catch (const DeviceError& failure) {
+      return answer(promise, false, failure.what());
+    }
+  }
+  request(CommandType::kRecover, requests_, promise);
 }
 
 void Performance::stop(const Promise& promise) {
   if (!engine_) {
     return answer(promise, true, "nothing plays");
   }
-  command(CommandType::kStop);
-  awaitState(&forceRests, promise);
+  request(CommandType::kStop, stops_, promise);
 }
 
 void Performance::setParameter(const std::string& name, double value, const Promise& promise) {
@@ -141,20 +145,38 @@ void Performance::setTarget(int slice, double target_m, const Promise& promise) 
   if (!engine_) {
     return answer(promise, false, kNothingPlays);
   }
-  const bool taken = engine_->setTarget(slice, target_m);
-  answer(promise, taken, taken ? "" : "no such slice, or the target is not within -0.1...0.1 m");
+  const bool taken = engine_->station().driver().setTarget(slice, target_m);
+  answer(
+      promise, taken,
+      taken ? "" : "no such slice with a virtual hand, or the target is not within -0.1...0.1 m");
 }
 
-void Performance::command(CommandType type) {
-  station::Command command;
-  command.type = type;
-  if (!engine_->station().submit(command)) {
-    ROS_ERROR_STREAM(kTooMany);
+void Performance::setPresence(bool present) {
+  if (engine_) {
+    command(CommandType::kPresence, 0, present ? 1.0 : 0.0);
   }
 }
 
-void Performance::awaitState(StateTest is_met, const Promise& promise) {
-  waiters_.push_back({is_met, promise, rt::monotonicNs() + kStateTimeoutNs});
+bool Performance::command(CommandType type, int index, double value) {
+  station::Command command;
+  command.type = type;
+  command.index = index;
+  command.value = value;
+  const bool taken = engine_->station().submit(command);
+  if (!taken) {
+    ROS_ERROR_STREAM(kTooMany);
+  }
+  return taken;
+}
+
+void Performance::request(CommandType type, std::deque<Waiter>& waiters, const Promise& promise) {
+  if (!engine_) {
+    return answer(promise, false, kNothingPlays);
+  }
+  if (!command(type)) {
+    return answer(promise, false, kTooMany);
+  }
+  waiters.push_back({promise, rt::monotonicNs() + kObeyTimeoutNs});
 }
 
 void Performance::poll() {
@@ -168,33 +190,69 @@ void Performance::poll() {
   while (engine_->station().poll(event)) {
     take(event);
   }
+  pollGestures();
+  if (const station::Snapshot* snapshot = engine_->station().snapshot()) {
+    feed_.show(*snapshot, engine_->station().driver().uncalibrated());
+  }
+  if (playing_->motion.refresh()) {
+    feed_.show(playing_->motion.latest(), playing_->instrument->scene());
+  }
+  pollCalibration();
+  giveUp(requests_);
+  giveUp(stops_);
+  reportWarnings();
+}
+
+void Performance::pollGestures() {
   std::size_t count = 0;
   do {
     count = engine_->station().pollGestures(gestures_.data(), gestures_.size());
     feed_.show(gestures_.data(), count);
   } while (count == gestures_.size());
-  if (const station::Snapshot* snapshot = engine_->station().snapshot()) {
-    feed_.show(*snapshot);
-    answerWaiters(*snapshot);
-  }
-  if (playing_->motion.refresh()) {
-    feed_.show(playing_->motion.latest(), playing_->instrument->scene());
-  }
-  giveUpWaiters();
-  reportWarnings();
 }
 
 void Performance::take(const station::Event& event) {
-  log(feed_.show(event, &playing_->instrument->scene()));
-  if (event.type == EventType::kSwapped) {
-    takeSwapped(event);
-  } else if (event.type == EventType::kParameter) {
-    const std::unique_ptr<physics::Coefficients> old(event.coefficients);
-    answer(changes_.front().promise, true, changes_.front().name + " is set");
-    changes_.pop_front();
-  } else if (event.type == EventType::kKeyframe) {
-    takeKeyframe(event);
+  const Event told = feed_.show(event, &playing_->instrument->scene());
+  log(told);
+  switch (event.type) {
+    case EventType::kSwapped:
+      return takeSwapped(event);
+    case EventType::kParameter: {
+      const std::unique_ptr<physics::Coefficients> old(event.coefficients);
+      answer(changes_.front().promise, true, changes_.front().name + " is set");
+      return changes_.pop_front();
+    }
+    case EventType::kConfigured:
+      return takeConfigured(event);
+    case EventType::kKeyframe:
+      return takeKeyframe(event);
+    default:
+      return takeObeyed(event, told.text);
   }
+}
+
+void Performance::takeObeyed(const station::Event& event, const std::string& text) {
+  const bool refused = event.type == EventType::kRefused;
+  if (refused || event.type == EventType::kEngaged || event.type == EventType::kRecovered) {
+    if (!requests_.empty()) {
+      answer(requests_.front().promise, !refused, text);
+      requests_.pop_front();
+    }
+  } else if (event.type == EventType::kStopped) {
+    for (const Waiter& waiter : stops_) {
+      answer(waiter.promise, true, text);
+    }
+    stops_.clear();
+  }
+}
+
+void Performance::takeConfigured(const station::Event& event) {
+  const std::unique_ptr<tgr::Rig> old(event.rig);
+  const Configuration done = configurations_.front();
+  configurations_.pop_front();
+  show(done.end_effectors);
+  answer(done.promise, true,
+         std::to_string(done.end_effectors.list.size()) + " end-effectors are in place");
 }
 
 void Performance::takeSwapped(const station::Event& event) {
@@ -222,27 +280,13 @@ void Performance::takeKeyframe(const station::Event& event) {
   }
 }
 
-void Performance::answerWaiters(const station::Snapshot& snapshot) {
-  const auto is_done = [this, &snapshot](const Waiter& waiter) {
-    const bool met = waiter.is_met(snapshot.state);
-    if (met) {
-      answer(waiter.promise, true, feed_.status().state_text);
-    }
-    return met;
-  };
-  waiters_.erase(std::remove_if(waiters_.begin(), waiters_.end(), is_done), waiters_.end());
-}
-
-void Performance::giveUpWaiters() {
+void Performance::giveUp(std::deque<Waiter>& waiters) {
   const std::int64_t now_ns = rt::monotonicNs();
-  const auto is_over = [this, now_ns](const Waiter& waiter) {
-    const bool over = now_ns > waiter.deadline_ns;
-    if (over) {
-      answer(waiter.promise, false, "not obeyed, the station is: " + feed_.status().state_text);
-    }
-    return over;
-  };
-  waiters_.erase(std::remove_if(waiters_.begin(), waiters_.end(), is_over), waiters_.end());
+  while (!waiters.empty() && now_ns > waiters.front().deadline_ns) {
+    answer(waiters.front().promise, false,
+           "not obeyed, the station is: " + feed_.status().state_text);
+    waiters.pop_front();
+  }
 }
 
 void Performance::play(station::Performer* performer) {
@@ -263,7 +307,11 @@ void Performance::close() {
   submitted_ = nullptr;
   incoming_.clear();
   changes_.clear();
-  waiters_.clear();
+  configurations_.clear();
+  requests_.clear();
+  stops_.clear();
+  guide_.abort();
+  sampled_.reset();
   std::unique_ptr<Engine> closing;
   {
     const std::lock_guard lock(engine_mutex_);
@@ -275,11 +323,12 @@ void Performance::close() {
   }
 }
 
-void Performance::makeSafe() {
+bool Performance::makeSafe(tgr::FaultReason reason) {
   const std::lock_guard lock(engine_mutex_);
   if (engine_) {
-    engine_->station().makeSafe();
+    engine_->station().makeSafe(reason);
   }
+  return engine_ != nullptr;
 }
 
 }  // namespace ergotic::node

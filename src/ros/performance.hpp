@@ -11,6 +11,10 @@
 #include <string>
 #include <vector>
 
+#include <ergotic/Calibrate.h>
+#include <ergotic/InjectFault.h>
+
+#include "ros/calibration_guide.hpp"
 #include "ros/engine.hpp"
 #include "ros/feed.hpp"
 
@@ -40,9 +44,17 @@ class Performance {
   void begin(std::unique_ptr<Engine> engine, station::Performer* performer);
   void swap(std::unique_ptr<station::Performer> performer, const Promise& promise);
   void engage(const Promise& promise);
+  void recover(const Promise& promise);
   void stop(const Promise& promise);
   void setParameter(const std::string& name, double value, const Promise& promise);
   void setTarget(int slice, double target_m, const Promise& promise);
+  void configure(const tgr::EndEffectors& end_effectors, const Promise& promise);
+  /// \param measured  written before a promise is kept that says that all went well
+  void calibrate(const Calibrate::Request& request,
+                 const std::shared_ptr<Calibrate::Response>& measured,
+                 const Promise& promise);
+  void inject(const InjectFault::Request& request, const Promise& promise);
+  void setPresence(bool present);
 
   /// Brings the news of the station to ROS and to those who wait for them.
   void poll();
@@ -50,11 +62,10 @@ class Performance {
   /// Forces to zero, device closed, waiting requests refused.
   void close();
 
-  /// Force to zero at once, latched. Thread: any
-  void makeSafe();
+  /// Force to zero at once, latched. \return false if there is no device. Thread: any
+  bool makeSafe(tgr::FaultReason reason);
 
  private:
-  using StateTest = bool (*)(station::ForceState);
   /// A model on its way into the station, which owns it.
   struct Incoming {
     station::Performer* performer = nullptr;
@@ -65,20 +76,32 @@ class Performance {
     std::string name;
     Promise promise;
   };
-  /// Somebody waits for a state of the force.
+  /// Other end-effectors on their way into the station, whose event brings the old rig back.
+  struct Configuration {
+    tgr::EndEffectors end_effectors;
+    Promise promise;
+  };
+  /// Somebody waits for the tick to obey.
   struct Waiter {
-    StateTest is_met = nullptr;
     Promise promise;
     std::int64_t deadline_ns = 0;
   };
 
-  void command(station::Command::Type type);
-  void awaitState(StateTest is_met, const Promise& promise);
+  bool command(station::Command::Type type, int index = 0, double value = 0.0);
+  void request(station::Command::Type type, std::deque<Waiter>& waiters, const Promise& promise);
+  const tgr::EndEffectors& endEffectors() const;
+  void show(const tgr::EndEffectors& end_effectors);
+  void begin(int slice);
+  std::string finish(const Calibrate::Request& request, Calibrate::Response& measured);
+  void pollCalibration();
+  void tellInjected(int index, std::int64_t ticks);
+  void pollGestures();
   void take(const station::Event& event);
+  void takeObeyed(const station::Event& event, const std::string& text);
+  void takeConfigured(const station::Event& event);
   void takeSwapped(const station::Event& event);
   void takeKeyframe(const station::Event& event);
-  void answerWaiters(const station::Snapshot& snapshot);
-  void giveUpWaiters();
+  void giveUp(std::deque<Waiter>& waiters);
   void play(station::Performer* performer);
   void reportWarnings();
 
@@ -90,7 +113,12 @@ class Performance {
   std::vector<double> parameters_;           // of submitted_, as submitted
   std::deque<Incoming> incoming_;
   std::deque<Change> changes_;
-  std::vector<Waiter> waiters_;
+  std::deque<Configuration> configurations_;
+  std::deque<Waiter> requests_;  // engage and recover: each is obeyed or refused, in their order
+  std::deque<Waiter> stops_;
+  CalibrationGuide guide_;
+  std::shared_ptr<Calibrate::Response> measured_;  // of the sample under way
+  Promise sampled_;
   std::vector<station::GestureTick> gestures_;
 };
 

@@ -3,6 +3,9 @@
 
 #include <ros/console.h>
 
+#include "ergotic/exception.hpp"
+#include "ros/end_effectors.hpp"
+
 namespace ergotic::node {
 namespace {
 
@@ -22,6 +25,14 @@ void complain(const std::string& topic, const Answer& answer) {
   }
 }
 
+Answer configure(Operator& operator_thread, const std::vector<EndEffector>& end_effectors) {
+  try {
+    return operator_thread.configure(fromMessages(end_effectors));
+  } catch (const Exception& refusal) {
+    return {false, refusal.what()};
+  }
+}
+
 }  // namespace
 
 Services::Services(::ros::NodeHandle node, Operator& operator_thread)
@@ -29,28 +40,41 @@ Services::Services(::ros::NodeHandle node, Operator& operator_thread)
       loader_(node, operator_thread),
       node_(node),
       loading_node_(node),
-      loading_spinner_(1, &loading_queue_) {
+      loading_spinner_(1, &loading_queue_),
+      safety_node_(node),
+      safety_spinner_(1, &safety_queue_) {
   loading_node_.setCallbackQueue(&loading_queue_);
+  safety_node_.setCallbackQueue(&safety_queue_);
   servers_ = {
       loading_node_.advertiseService("load_model", &Services::onLoadModel, this),
       node_.advertiseService("engage", &Services::onEngage, this),
       node_.advertiseService("stop", &Services::onStop, this),
       node_.advertiseService("set_parameter", &Services::onSetParameter, this),
+      node_.advertiseService("recover", &Services::onRecover, this),
+      node_.advertiseService("configure_end_effectors", &Services::onConfigure, this),
+      node_.advertiseService("calibrate", &Services::onCalibrate, this),
+      node_.advertiseService("inject_fault", &Services::onInjectFault, this),
+      safety_node_.advertiseService("emergency_stop", &Services::onEmergencyStop, this),
   };
   subscribers_ = {
       loading_node_.subscribe("model", 1, &Services::onModel, this),
       node_.subscribe("parameters", kQueue, &Services::onParameter, this),
       node_.subscribe("hand_target", kQueue, &Services::onHandTarget, this),
+      node_.subscribe("end_effectors", 1, &Services::onEndEffectors, this),
+      safety_node_.subscribe("emergency_stop", 1, &Services::onEmergencyTopic, this),
+      safety_node_.subscribe("presence", kQueue, &Services::onPresence, this),
   };
   constexpr bool kOnce = true;
   first_load_ = loading_node_.createWallTimer(
       ::ros::WallDuration(0.0), [this](const auto& /*event*/) { loader_.loadFromParameters(); },
       kOnce);
+  safety_spinner_.start();
   loading_spinner_.start();
 }
 
 Services::~Services() {
   loading_spinner_.stop();  // after the load that runs, if one does
+  safety_spinner_.stop();
 }
 
 bool Services::onLoadModel(LoadModel::Request& request, LoadModel::Response& response) {
@@ -80,6 +104,41 @@ void Services::onParameter(const ParameterValue& parameter) {
 
 void Services::onHandTarget(const SliceTarget& target) {
   complain("hand_target", operator_.setTarget(static_cast<int>(target.slice), target.target));
+}
+
+bool Services::onRecover(Trigger::Request& /*request*/, Trigger::Response& response) {
+  return fill(response, operator_.recover());
+}
+
+bool Services::onConfigure(ConfigureEndEffectors::Request& request,
+                           ConfigureEndEffectors::Response& response) {
+  return fill(response, configure(operator_, request.end_effectors));
+}
+
+void Services::onEndEffectors(const EndEffectors& end_effectors) {
+  complain("end_effectors", configure(operator_, end_effectors.end_effectors));
+}
+
+bool Services::onCalibrate(Calibrate::Request& request, Calibrate::Response& response) {
+  response = operator_.calibrate(request);
+  return true;
+}
+
+bool Services::onInjectFault(InjectFault::Request& request, InjectFault::Response& response) {
+  return fill(response, operator_.inject(request));
+}
+
+bool Services::onEmergencyStop(Trigger::Request& /*request*/, Trigger::Response& response) {
+  operator_.makeSafe(tgr::FaultReason::kEmergencyStop);
+  return fill(response, {true, "force is latched at zero until recover"});
+}
+
+void Services::onEmergencyTopic(const std_msgs::Empty& /*stop*/) {
+  operator_.makeSafe(tgr::FaultReason::kEmergencyStop);
+}
+
+void Services::onPresence(const std_msgs::Bool& present) {
+  operator_.setPresence(present.data != 0U);
 }
 
 }  // namespace ergotic::node

@@ -32,7 +32,7 @@ class StationNodelet : public nodelet::Nodelet {
       feed_ = std::make_unique<Feed>(node);
       operator_ = std::make_unique<Operator>(*feed_, *diagnostics_);
       guard_ = std::make_unique<SignalGuard>([this] {
-        operator_->makeSafe();
+        operator_->makeSafe(tgr::FaultReason::kMadeSafe);
         operator_->close();
       });
       services_ = std::make_unique<Services>(node, *operator_);

@@ -94,7 +94,7 @@ TEST(ConvertTest, JointsAreNamedAfterTheirSlices) {
 
 TEST(ConvertTest, EveryEventHasWordsOfItsOwn) {
   std::vector<std::string> texts;
-  for (std::uint8_t type = Event::ENGAGED; type <= Event::AUDIO_STOPPED; ++type) {
+  for (std::uint8_t type = Event::ENGAGED; type <= Event::INJECTED; ++type) {
     station::Event event;
     event.type = static_cast<station::Event::Type>(type);
     const Event message = toEvent(event, nullptr);
@@ -128,6 +128,14 @@ TEST(ConvertTest, StatusSaysWhyForceIsGone) {
   EXPECT_EQ(status.fault, Status::FAULT_STALL);
   EXPECT_EQ(status.underruns, 7);
   EXPECT_NE(status.state_text.find(toString(station::FaultReason::kStall)), std::string::npos);
+}
+
+TEST(ConvertTest, StatusListsSlicesWithoutCalibration) {
+  Status status;
+  fillStatus(std::uint64_t{1} << 63U | 5U, status);
+  EXPECT_EQ(status.uncalibrated, (std::vector<std::uint32_t>{0, 2, 63}));
+  fillStatus(std::uint64_t{0}, status);
+  EXPECT_TRUE(status.uncalibrated.empty());
 }
 
 TEST(ConvertTest, EnergyKeepsSectionsAndCouplingsApart) {

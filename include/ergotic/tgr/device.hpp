@@ -37,6 +37,7 @@ std::string toYaml(const StationDevices& devices);
 /// The drivers of a station, one inside the other; the station owns `driver`, and with it the rest.
 struct DriverStack {
   struct Part {
+    int device = 0;       ///< index in StationDevices::devices
     int first_slice = 0;  ///< valid after open
     CalibratedDriver* calibrated = nullptr;
   };

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "ergotic/tgr/device.hpp"
+
+namespace ergotic::node {
+
+/// Takes the operator of a device through the calibration of one slice: where it stands, told by
+/// the operator, against what its sensor says, read here.
+/// Thread: operator. Realtime: no
+class CalibrationGuide {
+ public:
+  static constexpr int kReadings = 100;  ///< of a sample, one per `poll`
+  static constexpr double kUsualResidualM = 1e-4;
+
+  /// \param slice  counted over all devices
+  /// \throws Exception if a calibration is under way, or the slice needs none or does not exist
+  void begin(const tgr::DriverStack& drivers, int slice);
+  /// Starts to read the sensor. \throws Exception if nothing is being calibrated, a sample is under
+  /// way, or the position is not within +-1 m
+  void sample(double position_m);
+  /// Reads the sensor once, if a sample is under way. \return the sample when it is complete
+  std::optional<tgr::CalibrationPoint> poll();
+  /// Fits a line through the samples; the device uses it from now on. The calibration is over then.
+  /// \param volts_per_newton  of the slice's amplifier; 0: as it was
+  /// \throws Exception from `tgr::fit`: the calibration goes on
+  tgr::SliceCalibration finish(double max_residual_m, double volts_per_newton);
+  /// The calibration is over, nothing has changed. Idempotent
+  void abort() { part_.reset(); }
+
+  bool isUnderWay() const { return part_.has_value(); }
+  std::size_t samples() const { return points_.size(); }
+
+ private:
+  void requireUnderWay() const;
+
+  std::optional<tgr::DriverStack::Part> part_;  // whose slice it is
+  int slice_ = 0;                               // within the part
+  std::vector<tgr::CalibrationPoint> points_;
+  std::vector<double> readings_;  // V, of the sample under way
+  bool sampling_ = false;
+  double position_m_ = 0.0;
+};
+
+}  // namespace ergotic::node

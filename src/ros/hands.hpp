@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "ergotic/physics/certify.hpp"
+#include "ergotic/station/performer.hpp"
+#include "ergotic/tgr/device.hpp"
+#include "ros/driver_plugins.hpp"
+
+namespace ergotic::node {
+
+/// The devices of a station and what stands on their slices. The drivers go to the station, which
+/// this has to outlive: it holds their code.
+/// Thread: loader while it is made, then operator. Realtime: no
+class Hands {
+ public:
+  /// Makes the drivers; opens none.
+  /// \throws Exception from the drivers, or naming those that exist
+  Hands(tgr::StationDevices devices, bool allow_fault_injection);
+
+  /// Opens the devices and closes them again, for what they say of themselves.
+  /// \throws DeviceError saying what is wrong and what to do
+  void probe(double tick_rate_hz);
+
+  // After `probe`.
+  int slices() const { return slices_; }
+  const physics::DeviceTraits& traits() const { return traits_; }
+  /// True if a device says when ticks are due.
+  bool haveClock() const { return have_clock_; }
+
+  /// The drivers, for the station that is about to be made. Once
+  std::unique_ptr<tgr::Driver> takeDriver() { return std::move(drivers_.driver); }
+
+  /// \throws Exception if end-effectors would make a slice stiffer than twice what is passive
+  void refuseTooStiff(const station::Performer& performer,
+                      const tgr::EndEffectors& end_effectors) const;
+
+  const tgr::StationDevices& config() const { return config_; }
+  const tgr::DriverStack& drivers() const { return drivers_; }
+  void setEndEffectors(tgr::EndEffectors end_effectors) {
+    config_.end_effectors = std::move(end_effectors);
+  }
+  /// Devices with the calibrations that they have now, as a YAML file.
+  /// \throws Exception if it cannot be written
+  void save(const std::string& path);
+
+ private:
+  DriverPlugins plugins_;
+  tgr::StationDevices config_;
+  tgr::DriverStack drivers_;
+  int slices_ = 0;
+  physics::DeviceTraits traits_;
+  bool have_clock_ = false;
+};
+
+}  // namespace ergotic::node

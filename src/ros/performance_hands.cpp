@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the hands hold, how it is calibrated, and what may go wrong with it on purpose.
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/tgr/faulty_driver.hpp"
+#include "ros/performance.hpp"
+
+namespace ergotic::node {
+namespace {
+
+using CommandType = station::Command::Type;
+using station::InjectedModelFault;
+
+const char kNothingPlays[] = "nothing plays: load a model first";
+const char kNotAllowed[] = "faults can be injected only with the parameter allow_fault_injection";
+constexpr std::int64_t kMostTicks = 1'000'000;
+
+const std::map<std::string, InjectedModelFault> kModelFaults = {
+    {"model_not_a_number", InjectedModelFault::kNotANumber},
+    {"model_blow_up", InjectedModelFault::kBlowUp},
+    {"model_active", InjectedModelFault::kActive}};
+
+void answer(const Promise& promise, bool ok, std::string message) {
+  promise->set_value({ok, std::move(message)});
+}
+
+}  // namespace
+
+const tgr::EndEffectors& Performance::endEffectors() const {
+  return configurations_.empty() ? engine_->hands().config().end_effectors
+                                 : configurations_.back().end_effectors;
+}
+
+void Performance::show(const tgr::EndEffectors& end_effectors) {
+  engine_->hands().setEndEffectors(end_effectors);
+  feed_.show(end_effectors);
+}
+
+void Performance::configure(const tgr::EndEffectors& end_effectors, const Promise& promise) {
+  if (!engine_) {
+    return answer(promise, false, kNothingPlays);
+  }
+  try {
+    Hands& hands = engine_->hands();
+    auto rig = tgr::makeRig(submitted_->instrument->scene(), end_effectors, hands.slices());
+    if (!engine_->parameters().allow_unproven) {
+      hands.refuseTooStiff(*submitted_, end_effectors);
+    }
+    station::Command configure;
+    configure.type = CommandType::kConfigure;
+    configure.rig = rig.get();
+    if (!engine_->station().submit(configure)) {
+      return answer(promise, false, "too many configurations wait for the real-time thread");
+    }
+    static_cast<void>(rig.release());  // the old one comes back with its event
+  } catch (const Exception& refusal) {
+    return answer(promise, false, refusal.what());
+  }
+  configurations_.push_back({end_effectors, promise});
+}
+
+void Performance::calibrate(const Calibrate::Request& request,
+                            const std::shared_ptr<Calibrate::Response>& measured,
+                            const Promise& promise) {
+  if (!engine_) {
+    return answer(promise, false, kNothingPlays);
+  }
+  try {
+    switch (request.action) {
+      case Calibrate::Request::BEGIN:
+        begin(static_cast<int>(request.slice));
+        return answer(promise, true, "hold the slice at a known place, then SAMPLE");
+      case Calibrate::Request::SAMPLE:
+        guide_.sample(request.position);
+        measured_ = measured;
+        sampled_ = promise;
+        return;  // pollCalibration answers
+      case Calibrate::Request::FINISH:
+        return answer(promise, true, finish(request, *measured));
+      case Calibrate::Request::ABORT:
+        guide_.abort();
+        if (sampled_) {
+          answer(std::exchange(sampled_, nullptr), false, "the calibration was aborted");
+        }
+        return answer(promise, true, "nothing has changed");
+      default:
+        throw Exception("action is " + std::to_string(request.action) + ", allowed: 0..." +
+                        std::to_string(Calibrate::Request::ABORT));
+    }
+  } catch (const Exception& refusal) {
+    answer(promise, false, refusal.what());
+  }
+}
+
+void Performance::begin(int slice) {
+  const std::uint8_t state = feed_.status().state;
+  if (state == Status::ENGAGING || state == Status::PLAYING) {
+    throw Exception("force is on: stop first");
+  }
+  guide_.begin(engine_->hands().drivers(), slice);
+}
+
+std::string Performance::finish(const Calibrate::Request& request, Calibrate::Response& measured) {
+  const tgr::SliceCalibration fitted = guide_.finish(
+      request.max_residual > 0.0 ? request.max_residual : CalibrationGuide::kUsualResidualM,
+      request.volts_per_newton);
+  measured.gain = fitted.metres_per_volt;
+  measured.rest = fitted.rest_volts;
+  measured.residual = fitted.residual_m;
+  measured.noise = fitted.noise_m / std::abs(fitted.metres_per_volt);
+  if (request.file.empty()) {
+    return "in use; no file was asked for";
+  }
+  try {
+    engine_->hands().save(request.file);
+  } catch (const Exception& failure) {
+    return std::string("in use, but not kept: ") + failure.what();
+  }
+  return "in use, and written to " + request.file;
+}
+
+void Performance::pollCalibration() {
+  const auto point = guide_.poll();
+  if (!point) {
+    return;
+  }
+  measured_->volts = point->mean_volts;
+  measured_->noise = point->rms_volts;
+  answer(std::exchange(sampled_, nullptr), true,
+         std::to_string(guide_.samples()) + (guide_.samples() < 2
+                                                 ? " sample: at least one more at another place"
+                                                 : " samples: more, or FINISH"));
+}
+
+/// Told first, so that the record never shows an effect before its cause.
+void Performance::tellInjected(int index, std::int64_t ticks) {
+  if (!command(CommandType::kInject, index, static_cast<double>(ticks))) {
+    throw Exception("too many requests wait for the real-time thread");
+  }
+}
+
+void Performance::inject(const InjectFault::Request& request, const Promise& promise) {
+  if (!engine_) {
+    return answer(promise, false, kNothingPlays);
+  }
+  if (engine_->hands().drivers().faulty == nullptr) {
+    return answer(promise, false, kNotAllowed);
+  }
+  try {
+    const std::int64_t ticks = request.ticks == 0 ? 1 : request.ticks;
+    if (ticks < 1 || ticks > kMostTicks) {
+      throw Exception("ticks is " + std::to_string(ticks) + ", allowed: 0...1000000");
+    }
+    const auto model_fault = kModelFaults.find(request.kind);
+    if (request.kind == "signal") {
+      tellInjected(-1, ticks);
+      engine_->station().makeSafe();
+    } else if (model_fault != kModelFaults.end()) {
+      tellInjected(static_cast<int>(model_fault->second), ticks);
+    } else {
+      const tgr::FaultOrder order{tgr::faultNamed(request.kind), request.slice, ticks,
+                                  request.amount};
+      tellInjected(static_cast<int>(order.kind), ticks);
+      engine_->hands().drivers().faulty->inject(order);
+    }
+    answer(promise, true, "");
+  } catch (const Exception& refusal) {
+    answer(promise, false, refusal.what());
+  }
+}
+
+}  // namespace ergotic::node

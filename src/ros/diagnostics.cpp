@@ -24,9 +24,9 @@ Diagnostics::Diagnostics(const ::ros::NodeHandle& node,
   updater_.add("model", this, &Diagnostics::reportModel);
 }
 
-bool Diagnostics::isDue() {
+bool Diagnostics::isDue(const Status& status) {
   const std::int64_t now_ns = rt::monotonicNs();
-  if (now_ns < due_ns_) {
+  if (now_ns < due_ns_ && status.state == status_.state) {
     return false;
   }
   due_ns_ = now_ns + kPeriodNs;
@@ -48,6 +48,9 @@ void Diagnostics::reportForce(Report& report) {
     case Status::DISCONNECTED:
       report.summary(Level::ERROR, status_.message);
       break;
+    case Status::UNCALIBRATED:
+      report.summary(Level::WARN, status_.state_text);
+      break;
     default:
       report.summary(Level::OK, status_.state_text);
   }
@@ -55,6 +58,10 @@ void Diagnostics::reportForce(Report& report) {
     report.add("device", device);
   }
   report.add("slices", status_.slices);
+  report.add("slices without calibration", status_.uncalibrated.size());
+  for (const EndEffector& end_effector : status_.end_effectors) {
+    report.add("end-effector", end_effector.name);
+  }
   report.add("peak force (N)", status_.peak_force);
 }
 

@@ -12,7 +12,8 @@
 
 namespace ergotic::node {
 
-/// What /diagnostics says: force, real time, sound, model; once a second.
+/// What /diagnostics says: force, real time, sound, model; once a second, and at once when the
+/// state of the force changes.
 /// Thread: operator, all but the constructor
 class Diagnostics {
  public:
@@ -20,11 +21,11 @@ class Diagnostics {
               const ::ros::NodeHandle& private_node,
               const std::string& name);
 
-  /// Publishes if a second has passed.
+  /// Publishes if a second has passed, or the state of the force has changed.
   /// \param jack  asked only then; may give nothing: it plays without JACK
   template <class JackStatusSource>
   void refresh(const Status& status, const JackStatusSource& jack) {
-    if (isDue()) {
+    if (isDue(status)) {
       publish(status, jack());
     }
   }
@@ -32,7 +33,7 @@ class Diagnostics {
  private:
   using Report = diagnostic_updater::DiagnosticStatusWrapper;
 
-  bool isDue();
+  bool isDue(const Status& status);
   void publish(const Status& status, const std::optional<audio::JackStatus>& jack);
   void reportForce(Report& report);
   void reportRealtime(Report& report);

@@ -104,13 +104,15 @@ EndEffectorFrames::EndEffectorFrames(const tgr::EndEffectors& end_effectors) {
 const std::vector<geometry_msgs::TransformStamped>& EndEffectorFrames::at(
     const station::Snapshot& snapshot, const ::ros::Time& stamp) {
   std::array<double, tgr::Kinematics::kMaxSlicesOfOne> q{};
-  std::array<double, tgr::Kinematics::kMaxCoordinates> x{};
+  constexpr std::size_t kCoordinates = tgr::Kinematics::kMaxCoordinates;
+  std::array<double, kCoordinates> x{};
+  std::array<double, kCoordinates * tgr::Kinematics::kMaxSlicesOfOne> jacobian{};
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const Part& part = parts_[i];
     for (std::size_t k = 0; k < part.config.slices.size(); ++k) {
       q[k] = snapshot.slice_position[static_cast<std::size_t>(part.config.slices[k])];
     }
-    if (part.kinematics->forward(q.data(), x.data())) {
+    if (part.kinematics->forward(q.data(), x.data(), jacobian.data())) {
       transforms_[i].transform = toTransform(part.config.pose * part.kinematics->pose(q.data()));
     }
     transforms_[i].header.stamp = stamp;

@@ -64,8 +64,8 @@ class Operator {
 
   /// Says why nothing plays, to those who look at the status. No effect while something does.
   void tell(const std::string& message);
-  /// Force to zero at once, latched.
-  void makeSafe(tgr::FaultReason reason) { performance_.makeSafe(reason); }
+  /// Force to zero at once, latched. \return false if there is no device
+  bool makeSafe(tgr::FaultReason reason) { return performance_.makeSafe(reason); }
   /// The presence switch is held, or not.
   void setPresence(bool present);
 

@@ -129,8 +129,9 @@ bool Services::onInjectFault(InjectFault::Request& request, InjectFault::Respons
 }
 
 bool Services::onEmergencyStop(Trigger::Request& /*request*/, Trigger::Response& response) {
-  operator_.makeSafe(tgr::FaultReason::kEmergencyStop);
-  return fill(response, {true, "force is latched at zero until recover"});
+  const bool latched = operator_.makeSafe(tgr::FaultReason::kEmergencyStop);
+  return fill(response, {true, latched ? "force is latched at zero until recover"
+                                       : "no device is open: there is no force"});
 }
 
 void Services::onEmergencyTopic(const std_msgs::Empty& /*stop*/) {

@@ -10,8 +10,6 @@
 namespace ergotic::node {
 namespace {
 
-constexpr double kMostOverLimit = 2.0;
-
 tgr::DriverStack makeDrivers(DriverPlugins& plugins,
                              const tgr::StationDevices& devices,
                              bool allow_fault_injection) {
@@ -34,29 +32,7 @@ void Hands::probe(double tick_rate_hz) {
   slices_ = driver.slices();
   traits_.damping = driver.damping();
   traits_.delay_ticks = 1.0 + driver.extraDelayTicks();
-  have_clock_ = driver.clock() != nullptr;
   driver.close();
-}
-
-void Hands::refuseTooStiff(const station::Performer& performer,
-                           const tgr::EndEffectors& end_effectors) const {
-  const physics::Instrument& instrument = *performer.instrument;
-  std::vector<double> stiffness(instrument.scene().ports.size());
-  for (const physics::PortCertificate& port : performer.certificate.ports) {
-    stiffness[static_cast<std::size_t>(port.port)] = port.stiffness;
-  }
-  const auto slices =
-      tgr::renderedStiffness(instrument.scene(), end_effectors, stiffness, traits_.damping,
-                             instrument.rates().gesturalHz(), traits_.delay_ticks);
-  for (const tgr::RenderedStiffness& slice : slices) {
-    if (slice.stiffness > kMostOverLimit * slice.limit) {
-      throw Exception("slice " + std::to_string(slice.slice) + " would be " +
-                      std::to_string(slice.stiffness) +
-                      " N/m stiff, allowed: " + std::to_string(kMostOverLimit * slice.limit) +
-                      " N/m, twice what is passive; raise position_scale, or lower force_scale or "
-                      "the stiffness of the model");
-    }
-  }
 }
 
 void Hands::save(const std::string& path) {
@@ -69,6 +45,27 @@ void Hands::save(const std::string& path) {
   if (!file.flush()) {
     throw Exception(path + ": cannot be written");
   }
+}
+
+std::vector<std::string> checkStiffness(const station::Performer& performer,
+                                        const tgr::EndEffectors& end_effectors,
+                                        const physics::DeviceTraits& device,
+                                        bool allow_unproven) {
+  const physics::Instrument& instrument = *performer.instrument;
+  std::vector<double> stiffness(instrument.scene().ports.size());
+  for (const physics::PortCertificate& port : performer.certificate.ports) {
+    stiffness[static_cast<std::size_t>(port.port)] = port.stiffness;
+  }
+  const auto rendered =
+      tgr::renderedStiffness(instrument.scene(), end_effectors, stiffness, device.damping,
+                             instrument.rates().gesturalHz(), device.delay_ticks);
+  tgr::StiffnessFindings findings = tgr::judgeStiffness(end_effectors, rendered);
+  if (!findings.refusals.empty() && !allow_unproven) {
+    throw Exception(findings.refusals.front());
+  }
+  findings.warnings.insert(findings.warnings.end(), findings.refusals.begin(),
+                           findings.refusals.end());
+  return findings.warnings;
 }
 
 }  // namespace ergotic::node

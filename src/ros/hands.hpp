@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "ergotic/physics/certify.hpp"
 #include "ergotic/station/performer.hpp"
@@ -28,15 +29,9 @@ class Hands {
   // After `probe`.
   int slices() const { return slices_; }
   const physics::DeviceTraits& traits() const { return traits_; }
-  /// True if a device says when ticks are due.
-  bool haveClock() const { return have_clock_; }
 
   /// The drivers, for the station that is about to be made. Once
   std::unique_ptr<tgr::Driver> takeDriver() { return std::move(drivers_.driver); }
-
-  /// \throws Exception if end-effectors would make a slice stiffer than twice what is passive
-  void refuseTooStiff(const station::Performer& performer,
-                      const tgr::EndEffectors& end_effectors) const;
 
   const tgr::StationDevices& config() const { return config_; }
   const tgr::DriverStack& drivers() const { return drivers_; }
@@ -53,7 +48,13 @@ class Hands {
   tgr::DriverStack drivers_;
   int slices_ = 0;
   physics::DeviceTraits traits_;
-  bool have_clock_ = false;
 };
+
+/// Warnings of slices that end-effectors make stiffer than what is silent.
+/// \throws Exception for those that would buzz or jump, unless that is allowed
+std::vector<std::string> checkStiffness(const station::Performer& performer,
+                                        const tgr::EndEffectors& end_effectors,
+                                        const physics::DeviceTraits& device,
+                                        bool allow_unproven);
 
 }  // namespace ergotic::node

@@ -21,6 +21,10 @@ std::unique_ptr<station::Performer> makePerformer(scene::Scene scene,
   try {
     auto performer = station::makePerformer(std::move(scene), rates, options, policy);
     verdict = physics::toString(performer->certificate.verdict);
+    for (std::string& warning :
+         checkStiffness(*performer, policy.end_effectors, policy.device, policy.allow_unproven)) {
+      performer->warnings.push_back(std::move(warning));
+    }
     return performer;
   } catch (const station::RefusedScene& refusal) {
     verdict = physics::toString(refusal.verdict());

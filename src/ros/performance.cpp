@@ -246,15 +246,6 @@ void Performance::takeObeyed(const station::Event& event, const std::string& tex
   }
 }
 
-void Performance::takeConfigured(const station::Event& event) {
-  const std::unique_ptr<tgr::Rig> old(event.rig);
-  const Configuration done = configurations_.front();
-  configurations_.pop_front();
-  show(done.end_effectors);
-  answer(done.promise, true,
-         std::to_string(done.end_effectors.list.size()) + " end-effectors are in place");
-}
-
 void Performance::takeSwapped(const station::Event& event) {
   const std::unique_ptr<station::Performer> done(event.performer);
   if (event.index == 0) {  // it never played

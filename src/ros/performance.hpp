@@ -79,6 +79,7 @@ class Performance {
   /// Other end-effectors on their way into the station, whose event brings the old rig back.
   struct Configuration {
     tgr::EndEffectors end_effectors;
+    std::vector<std::string> warnings;
     Promise promise;
   };
   /// Somebody waits for the tick to obey.

@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include <ros/console.h>
+
 #include "ergotic/exception.hpp"
 #include "ergotic/tgr/faulty_driver.hpp"
 #include "ros/performance.hpp"
@@ -44,11 +46,10 @@ void Performance::configure(const tgr::EndEffectors& end_effectors, const Promis
     return answer(promise, false, kNothingPlays);
   }
   try {
-    Hands& hands = engine_->hands();
+    const Hands& hands = engine_->hands();
     auto rig = tgr::makeRig(submitted_->instrument->scene(), end_effectors, hands.slices());
-    if (!engine_->parameters().allow_unproven) {
-      hands.refuseTooStiff(*submitted_, end_effectors);
-    }
+    const auto warnings = checkStiffness(*submitted_, end_effectors, hands.traits(),
+                                         engine_->parameters().allow_unproven);
     station::Command configure;
     configure.type = CommandType::kConfigure;
     configure.rig = rig.get();
@@ -56,10 +57,23 @@ void Performance::configure(const tgr::EndEffectors& end_effectors, const Promis
       return answer(promise, false, "too many configurations wait for the real-time thread");
     }
     static_cast<void>(rig.release());  // the old one comes back with its event
+    configurations_.push_back({end_effectors, warnings, promise});
   } catch (const Exception& refusal) {
-    return answer(promise, false, refusal.what());
+    answer(promise, false, refusal.what());
   }
-  configurations_.push_back({end_effectors, promise});
+}
+
+void Performance::takeConfigured(const station::Event& event) {
+  const std::unique_ptr<tgr::Rig> old(event.rig);
+  const Configuration done = configurations_.front();
+  configurations_.pop_front();
+  show(done.end_effectors);
+  std::string message = std::to_string(done.end_effectors.list.size()) + " end-effectors in place";
+  for (const std::string& warning : done.warnings) {
+    ROS_WARN_STREAM(warning);
+    message += "\n" + warning;
+  }
+  answer(done.promise, true, message);
 }
 
 void Performance::calibrate(const Calibrate::Request& request,

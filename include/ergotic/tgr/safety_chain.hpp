@@ -1,71 +1,76 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <vector>
 
 #include "ergotic/tgr/driver.hpp"
 #include "ergotic/tgr/fault.hpp"
+#include "ergotic/tgr/safety/gate.hpp"
+#include "ergotic/tgr/safety/missing_samples.hpp"
+#include "ergotic/tgr/safety/safety_config.hpp"
+#include "ergotic/tgr/safety/slice_chain.hpp"
 
 namespace ergotic::tgr {
 
-struct SafetyConfig {
-  double force_limit_n = 20.0;    ///< per slice, 0...kAbsoluteForceLimitN
-  double ramp_s = 2.0;            ///< from zero to full gain after engage, 0.1...10
-  double resume_ramp_s = 0.05;    ///< the same after a stall or a swap, 0.005...10
-  double position_limit_m = 0.1;  ///< |x| of a slice beyond this is a bad sample, 0.001...1
-  int max_missing = 20;           ///< ticks a missing sample is held before a Fault, 0...1000
-};
-
 /// The last word on every force, between the instrument and the driver.
 ///
-/// Step 1 of every tick: `validate` the positions. Step 2: `limit` the forces: detectors, gate and
-/// ramp, force limit. Whatever happens |F| may fall at once; it grows again only after `engage`.
+/// Once per tick, after the exchange: `validate` the positions, then `limit` the forces:
+/// detectors, gate and ramp, slew, force limit, port energy clamp. Whatever happens |F| may fall at
+/// once; after a fault it grows again only after `recover` and `engage`.
 /// Realtime: yes, all but the constructor. Thread: tick
 class SafetyChain {
  public:
+  /// \param extra_delay_ticks  Driver::extraDelayTicks()
   /// \throws Exception if a setting is outside its range
-  SafetyChain(const SafetyConfig& config, int slices, double tick_s);
+  SafetyChain(const SafetyConfig& config, int slices, double tick_s, int extra_delay_ticks = 0);
 
   /// Opens the gate with a ramp from zero. No effect while it is open, or after a fault.
   void engage() noexcept;
   /// Closes the gate at once.
   void disengage() noexcept;
   /// Force to zero at once, and back within `resume_ramp_s`: after a stall or a swap the hand meets
-  /// a model that has moved on. The gate stays as it is.
+  /// a model that has moved on. The force of the last `limit` is taken as never sent. The gate
+  /// stays as it is.
   void resume() noexcept;
-  /// Forgets a fault and all that detectors remember; the gate stays closed.
+  /// Forgets a fault and all that the chain remembers; the gate stays closed.
   void recover() noexcept;
+
+  /// Slices that move something, a bit each; all of them at first. The others get no force and
+  /// raise no fault. One that comes into use is met afresh: its sample may be anywhere.
+  void setInUse(std::uint64_t slices) noexcept;
 
   /// Replaces bad or missing positions by the last good ones.
   /// \param[in,out] positions  [slices] m
   /// \param flags        ExchangeFlag bits of the driver
   /// \param host_missed  ticks that the host let pass since the last call: no sample was asked for
-  /// \return slices held, a bit each; a fault if a slice is bad, or missing for too long
+  /// \return slices held, a bit each; a fault if a slice in use is bad, or missing for too long
   std::uint64_t validate(double* positions, std::uint32_t flags, std::int64_t host_missed) noexcept;
 
   /// \param[in,out] forces  [slices] N; afterwards finite and within the limit, 0 if gate closed
   void limit(double* forces) noexcept;
 
-  bool isOpen() const noexcept { return open_; }
-  double gain() const noexcept { return gain_; }  ///< 0...1, of the ramp after engage
+  bool isOpen() const noexcept { return gate_.isOpen(); }
+  double gain() const noexcept { return gate_.ramp(); }  ///< 0...1, of the ramp after engage
   FaultReason fault() const noexcept { return fault_; }
-  int faultSlice() const noexcept { return fault_slice_; }
+  int faultSlice() const noexcept { return fault_slice_; }  ///< -1: all of them, or none
+  /// \pre 0 <= slice < slices
+  SliceReading reading(int slice) const noexcept {
+    return slices_[static_cast<std::size_t>(slice)].reading();
+  }
 
  private:
+  bool isInUse(std::size_t slice) const noexcept { return (in_use_ >> slice & 1U) != 0; }
+  std::uint64_t all() const noexcept;
+  bool hasSample(std::uint32_t flags) noexcept;
   void raise(FaultReason fault, int slice) noexcept;
 
-  SafetyConfig config_;
-  int slices_;
-  double gain_step_;
-  double resume_step_;
-  bool open_ = false;
-  double gain_ = 0.0;
-  double resume_gain_ = 1.0;
-  int missing_ = 0;
+  Gate gate_;
+  MissingSamples missing_;
+  std::vector<SliceChain> slices_;
+  std::uint64_t in_use_;
   FaultReason fault_ = FaultReason::kNone;
   int fault_slice_ = -1;
-  std::array<double, kMaxSlices> last_good_{};
 };
 
 }  // namespace ergotic::tgr

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace ergotic::tgr {
+
+/// Energy that a port took from the hand, from the forces that really acted. Realtime: yes, all but
+/// the constructor.
+///
+///   E <- min(E - F_app dx + b dx^2 / T + supply, cap + |F| |x - x0|),   dx = x[n] - x[n-1]
+///
+/// F_app is the force that the device held from the sample n - 1 to the sample n; under such a
+/// force -F_app dx is exact (Stramigioli, Secchi, van der Schaft, Fantuzzi 2005). b is the damping
+/// of the slice itself: while there is force, what it takes is no gift to the hand. The bound keeps
+/// what was dissipated long ago from paying for what is given out now: x0 is where the force was
+/// last 0, so that all comes back that any spring, soft or stiff, can have stored under the force
+/// F.
+///
+/// A force issued at tick n is sent by the exchange of tick n + 1, and acts from there on: with a
+/// device's own delay of e ticks, F_app was issued at n - 2 - e, and d = 1 + e forces are under
+/// way.
+class PortEnergy {
+ public:
+  struct Rules {
+    double cap_j = 0.0;
+    double supply_w = 0.0;
+    double damping = 0.0;  ///< b, N s/m
+    double tick_s = 0.0;
+    int delay_ticks = 1;  ///< d, 1...kMaxDelayTicks
+  };
+  explicit PortEnergy(const Rules& rules);
+
+  /// A sample came. \param dx  m. \param ticks  since the last one
+  void moved(double dx, std::int64_t ticks) noexcept;
+
+  /// What it will be, but for the force that is now to be issued, if every tick moves by `dx`: J.
+  double predicted(double dx) const noexcept;
+
+  /// This force will be sent by the next exchange.
+  void issue(double force) noexcept;
+  /// The force issued last is not sent, but zero.
+  void withdraw() noexcept { under_way_[newest_] = 0.0; }
+  double issued() const noexcept { return under_way_[newest_]; }  ///< N
+
+  double energy() const noexcept { return energy_; }  ///< J
+  double least() const noexcept { return least_; }    ///< J, since `forget`
+
+  /// From 0; what is under way stays.
+  void restart() noexcept { energy_ = 0.0; }
+  void forget() noexcept;
+
+  static constexpr int kMaxDelayTicks = 256;
+
+ private:
+  double cap_j_;
+  double supply_j_;                // per tick
+  double damping_j_;               // per m^2 and tick
+  std::vector<double> under_way_;  // d + 1 forces: d under way, and the one before them
+  std::size_t newest_ = 0;
+  double energy_ = 0.0;
+  double least_ = 0.0;
+  double way_ = 0.0;  // since the force was 0, m
+};
+
+}  // namespace ergotic::tgr

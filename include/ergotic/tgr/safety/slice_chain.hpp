@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "ergotic/tgr/fault.hpp"
+#include "ergotic/tgr/safety/blow_up_detector.hpp"
+#include "ergotic/tgr/safety/energy_detector.hpp"
+#include "ergotic/tgr/safety/force_limit.hpp"
+#include "ergotic/tgr/safety/passivity.hpp"
+#include "ergotic/tgr/safety/port_energy.hpp"
+#include "ergotic/tgr/safety/position_check.hpp"
+#include "ergotic/tgr/safety/safety_config.hpp"
+#include "ergotic/tgr/safety/slew_limit.hpp"
+
+namespace ergotic::tgr {
+
+/// What a slice's chain has seen since the last `recover`, for diagnostics.
+struct SliceReading {
+  double energy_j = 0.0;           ///< of the port, now
+  double least_energy_j = 0.0;     ///< of the port; below 0: so much it gave out
+  std::int64_t clamped_ticks = 0;  ///< in which the energy clamp cut the force
+  double peak_raw_force_n = 0.0;   ///< of the model
+};
+
+/// All steps of the safety chain that one slice has for itself. Realtime: yes, all but the
+/// constructor.
+class SliceChain {
+ public:
+  /// \param delay_ticks  of the whole loop, 1...PortEnergy::kMaxDelayTicks
+  SliceChain(const SafetyConfig& config, double tick_s, int delay_ticks);
+
+  /// A sample came. \param[in,out] x  m, replaced if bad. \param ticks  since the last call
+  FaultReason accept(double& x, std::int64_t ticks) noexcept;
+  /// No sample came. \param[out] x  m
+  void hold(double& x, std::int64_t ticks) noexcept;
+
+  /// Detectors. \param raw  N, as the model wants it, for the position of this tick
+  FaultReason inspect(double raw) noexcept;
+
+  /// Ramp, passivity controller, slew, limit, energy clamp. \return N, to be sent
+  double limited(double raw, double gain) noexcept;
+  /// No force is sent.
+  void release() noexcept { port_.issue(0.0); }
+
+  void engage() noexcept { port_.restart(); }
+  /// No force was sent, and the model moved on without a look.
+  void resume() noexcept;
+  void forget() noexcept;
+
+  SliceReading reading() const noexcept;
+
+ private:
+  void moved(double x, std::int64_t ticks) noexcept;
+
+  PositionCheck position_;
+  BlowUpDetector blow_up_;
+  EnergyDetector detector_;
+  PassivityController controller_;
+  bool controls_;
+  SlewLimit slew_;
+  ForceLimit force_limit_;
+  PortEnergy port_;
+  bool knows_x_ = false;
+  double x_ = 0.0;
+  double dx_ = 0.0;
+  std::int64_t clamped_ticks_ = 0;
+  double peak_raw_ = 0.0;
+};
+
+}  // namespace ergotic::tgr

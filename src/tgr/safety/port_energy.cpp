@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ergotic/tgr/safety/port_energy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "ergotic/rt/realtime.hpp"
+
+namespace ergotic::tgr {
+
+PortEnergy::PortEnergy(const Rules& rules)
+    : cap_j_(rules.cap_j),
+      supply_j_(rules.supply_w * rules.tick_s),
+      damping_j_(rules.damping / rules.tick_s),
+      under_way_(static_cast<std::size_t>(rules.delay_ticks) + 1) {}
+
+ERGOTIC_REALTIME void PortEnergy::moved(double dx, std::int64_t ticks) noexcept {
+  const double acted = under_way_[(newest_ + 1) % under_way_.size()];
+  const auto passed = static_cast<double>(ticks);
+  const double taken = acted != 0.0 ? damping_j_ * dx * dx / passed : 0.0;
+  way_ += dx;
+  const double most = cap_j_ + std::abs(issued() * way_);
+  energy_ = std::min(energy_ - acted * dx + taken + supply_j_ * passed, most);
+  least_ = std::min(least_, energy_);
+}
+
+ERGOTIC_REALTIME double PortEnergy::predicted(double dx) const noexcept {
+  const double oldest = under_way_[(newest_ + 1) % under_way_.size()];
+  const double sum = std::accumulate(under_way_.begin(), under_way_.end(), 0.0) - oldest;
+  return energy_ - sum * dx;
+}
+
+ERGOTIC_REALTIME void PortEnergy::issue(double force) noexcept {
+  if (force * issued() <= 0.0) {
+    way_ = 0.0;
+  }
+  newest_ = (newest_ + 1) % under_way_.size();
+  under_way_[newest_] = force;
+}
+
+ERGOTIC_REALTIME void PortEnergy::forget() noexcept {
+  std::fill(under_way_.begin(), under_way_.end(), 0.0);
+  energy_ = 0.0;
+  least_ = 0.0;
+  way_ = 0.0;
+}
+
+}  // namespace ergotic::tgr

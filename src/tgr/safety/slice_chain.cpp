@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ergotic/tgr/safety/slice_chain.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ergotic/rt/realtime.hpp"
+
+namespace ergotic::tgr {
+
+SliceChain::SliceChain(const SafetyConfig& config, double tick_s, int delay_ticks)
+    : position_({config.position_limit_m, config.max_speed_m_per_s * tick_s,
+                 static_cast<std::int64_t>(std::ceil(config.frozen_s / tick_s))}),
+      blow_up_(config.force_limit_n, config.raw_force_limit_n),
+      detector_({config.force_limit_n, config.energy_limit_j,
+                 config.force_limit_n * config.position_limit_m, config.energy_supply_w},
+                tick_s),
+      controller_(config.slice_mass_kg, tick_s),
+      controls_(config.passivity_controller),
+      slew_(config.slew_n_per_s * tick_s),
+      force_limit_(config.force_limit_n),
+      port_({config.energy_cap_j, config.energy_supply_w, config.slice_damping, tick_s,
+             delay_ticks}) {}
+
+ERGOTIC_REALTIME FaultReason SliceChain::accept(double& x, std::int64_t ticks) noexcept {
+  const FaultReason reason = position_.accept(x, ticks);
+  moved(x, ticks);
+  return reason;
+}
+
+ERGOTIC_REALTIME void SliceChain::hold(double& x, std::int64_t ticks) noexcept {
+  position_.hold(x, ticks);
+  moved(x, ticks);
+}
+
+ERGOTIC_REALTIME void SliceChain::moved(double x, std::int64_t ticks) noexcept {
+  dx_ = knows_x_ ? x - x_ : 0.0;
+  knows_x_ = true;
+  x_ = x;
+  port_.moved(dx_, ticks);
+}
+
+ERGOTIC_REALTIME FaultReason SliceChain::inspect(double raw) noexcept {
+  const FaultReason reason = blow_up_.look(raw);
+  if (std::isfinite(raw)) {
+    peak_raw_ = std::max(peak_raw_, std::abs(raw));
+    if (!detector_.look(raw, dx_) && reason == FaultReason::kNone) {
+      return FaultReason::kEnergy;
+    }
+  }
+  return reason;
+}
+
+ERGOTIC_REALTIME double SliceChain::limited(double raw, double gain) noexcept {
+  double wanted = gain * raw;
+  if (controls_) {
+    wanted = controller_.damped(wanted, dx_, port_.energy());
+  }
+  const double limited = force_limit_.limited(slew_.limited(wanted, port_.issued()));
+  const double force = EnergyClamp::limited(limited, dx_, port_.predicted(dx_));
+  clamped_ticks_ += force != limited ? 1 : 0;
+  port_.issue(force);
+  return force;
+}
+
+ERGOTIC_REALTIME void SliceChain::resume() noexcept {
+  port_.withdraw();
+  blow_up_.forget();
+  detector_.forget();
+}
+
+ERGOTIC_REALTIME void SliceChain::forget() noexcept {
+  position_.forget();
+  blow_up_.forget();
+  detector_.forget();
+  port_.forget();
+  knows_x_ = false;
+  dx_ = 0.0;
+  clamped_ticks_ = 0;
+  peak_raw_ = 0.0;
+}
+
+ERGOTIC_REALTIME SliceReading SliceChain::reading() const noexcept {
+  return {port_.energy(), port_.least(), clamped_ticks_, peak_raw_};
+}
+
+}  // namespace ergotic::tgr

@@ -10,10 +10,13 @@ namespace ergotic::station {
 
 /// A slice in use that has no calibration takes the force from all.
 void Station::followCalibration() noexcept {
+  const std::uint64_t used = performer_->rig->slicesInUse();
+  const std::uint64_t uncalibrated = driver_->uncalibrated();
+  chain_.setInUse(used & ~uncalibrated);
   if (state_ == ForceState::kFault) {
     return;
   }
-  const bool complete = (driver_->uncalibrated() & performer_->rig->slicesInUse()) == 0;
+  const bool complete = (used & uncalibrated) == 0;
   if (!complete && state_ != ForceState::kUncalibrated) {
     stop();
     state_ = ForceState::kUncalibrated;

@@ -38,6 +38,12 @@ int openDriver(tgr::Driver& driver, double tick_rate_hz) {
   return driver.slices();
 }
 
+tgr::SafetyConfig safetyOf(const StationConfig& config, const tgr::Driver& driver) {
+  tgr::SafetyConfig safety = config.safety;
+  safety.slice_damping = driver.damping();
+  return safety;
+}
+
 std::int64_t atLeastOne(double value) {
   return std::max<std::int64_t>(1, std::llround(value));
 }
@@ -73,7 +79,7 @@ Station::Station(const StationConfig& config,
       glide_ticks_(atLeastOne(config.glide_s * config.rates.gesturalHz())),
       presence_ticks_(
           config.presence_s > 0.0 ? atLeastOne(config.presence_s * config.rates.gesturalHz()) : 0),
-      chain_(config.safety, slices_, 1e-9 * tick_ns_),
+      chain_(safetyOf(config, *driver_), slices_, 1e-9 * tick_ns_, driver_->extraDelayTicks()),
       fade_(static_cast<int>(std::ceil(kSwapFadeS * config.rates.gesturalHz())),
             config.rates.ratio),
       performer_(std::move(performer)),

@@ -125,6 +125,12 @@ ERGOTIC_REALTIME bool SafetyChain::hasSample(std::uint32_t flags) noexcept {
 ERGOTIC_REALTIME std::uint64_t SafetyChain::validate(double* positions,
                                                      std::uint32_t flags,
                                                      std::int64_t host_missed) noexcept {
+  if (!has_limited_) {
+    for (SliceChain& slice : slices_) {
+      slice.release();
+    }
+  }
+  has_limited_ = false;
   const std::int64_t ticks = 1 + std::max<std::int64_t>(host_missed, 0);
   if (!hasSample(flags)) {
     for (SliceChain& slice : slices_) {
@@ -145,6 +151,7 @@ ERGOTIC_REALTIME std::uint64_t SafetyChain::validate(double* positions,
 }
 
 ERGOTIC_REALTIME void SafetyChain::limit(double* forces) noexcept {
+  has_limited_ = true;
   for (std::size_t i = 0; i < slices_.size(); ++i) {
     if (!isInUse(i)) {
       continue;

@@ -132,6 +132,12 @@ station::StationConfig Bench::quickConfig() {
   config.output_channels = 2;
   config.input_channels = 1;
   config.safety.ramp_s = 0.1;
+  // Scripted hands jump, and what is sent shall be what was made.
+  config.safety.max_speed_m_per_s = 100.0;
+  config.safety.slew_n_per_s = 1e6;
+  config.safety.energy_cap_j = 10.0;
+  config.safety.energy_supply_w = 20.0;
+  config.safety.energy_limit_j = 100.0;
   config.record_ring = 1U << 12U;
   config.keyframe_bytes = 1U << 10U;
   return config;

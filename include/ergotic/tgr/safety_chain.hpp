@@ -16,9 +16,9 @@ namespace ergotic::tgr {
 /// The last word on every force, between the instrument and the driver.
 ///
 /// Once per tick, after the exchange: `validate` the positions, then `limit` the forces:
-/// detectors, gate and ramp, slew, force limit, port energy clamp. Whatever happens |F| may fall at
-/// once; after a fault it grows again only after `recover` and `engage`.
-/// Realtime: yes, all but the constructor. Thread: tick
+/// detectors, gate and ramp, slew, force limit, port energy clamp. If `limit` is left out, zero
+/// must be sent. Whatever happens |F| may fall at once; after a fault it grows again only after
+/// `recover` and `engage`. Realtime: yes, all but the constructor. Thread: tick
 class SafetyChain {
  public:
   /// \param extra_delay_ticks  Driver::extraDelayTicks()
@@ -69,6 +69,7 @@ class SafetyChain {
   MissingSamples missing_;
   std::vector<SliceChain> slices_;
   std::uint64_t in_use_;
+  bool has_limited_ = true;  // since the last validate
   FaultReason fault_ = FaultReason::kNone;
   int fault_slice_ = -1;
 };

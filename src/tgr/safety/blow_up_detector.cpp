@@ -9,16 +9,19 @@
 namespace ergotic::tgr {
 namespace {
 
-constexpr double kLeastLimitN = 4.0;  // below it a growth is nothing to speak of
+constexpr double kLeastLimitN = 4.0;  // of less a growth is nothing to speak of
 
 }  // namespace
 
 BlowUpDetector::BlowUpDetector(double limit, double raw_limit) noexcept
-    : limit_(std::max(limit, kLeastLimitN)), raw_limit_(raw_limit), least_change_(0.25 * limit_) {}
+    : limit_(std::max(limit, kLeastLimitN)),
+      raw_limit_(raw_limit),
+      least_base_(limit_ / 25.0),
+      least_change_(limit_ / 4.0) {}
 
 /// \return true if the last changes made it explode
 ERGOTIC_REALTIME bool BlowUpDetector::grows(double change) noexcept {
-  const bool grew = last_change_ > 0.0 && change >= kGrowth * last_change_;
+  const bool grew = last_change_ > least_base_ && change >= kGrowth * last_change_;
   growths_ = grew ? std::min(growths_ + 1, kGrowths) : 0;
   last_change_ = change;
   return growths_ == kGrowths && change > least_change_;

@@ -22,7 +22,8 @@ endfunction()
 foreach(room rt scene station audio golden)
   ergotic_add_gtests(${room})
 endforeach()
-ergotic_add_gtests(tgr yaml-cpp)  # places of settings are seen in their nodes
+pkg_check_modules(URDFDOM REQUIRED IMPORTED_TARGET urdfdom)  # reads what pictures are made of
+ergotic_add_gtests(tgr yaml-cpp PkgConfig::URDFDOM)  # places of settings are seen in their nodes
 foreach(room physics tools)  # physics is compared with the tools' plain implementation
   ergotic_add_gtests(${room} ergotic_tool_support)
 endforeach()

@@ -126,16 +126,6 @@ std::string listOf(const List& list, const Text& text) {
   return "[" + result + "]";
 }
 
-/// About fixed axes, x first. The first and the last turn about one line where the second is a
-/// right angle; that the first follows from the last keeps their sum.
-Eigen::Vector3d anglesOf(const Eigen::Matrix3d& r) {
-  const double yaw = std::atan2(r(1, 0), r(0, 0));
-  const double c = std::cos(yaw);
-  const double s = std::sin(yaw);
-  return {std::atan2(s * r(0, 2) - c * r(1, 2), c * r(1, 1) - s * r(0, 1)),
-          std::atan2(-r(2, 0), c * r(0, 0) + s * r(1, 0)), yaw};
-}
-
 std::string textOf(const EndEffectorConfig& config) {
   const std::string line = "\n    ";
   const auto vector = [](const Eigen::Vector3d& v) { return listOf(v, shortest); };
@@ -152,7 +142,7 @@ std::string textOf(const EndEffectorConfig& config) {
     text += line + "points: " + listOf(config.points, vector);
   }
   return text + line + "pose: {position: " + vector(config.pose.translation()) +
-         ", rotation: " + vector(anglesOf(config.pose.linear())) + "}\n";
+         ", rotation: " + vector(fixedAxisAngles(config.pose.linear())) + "}\n";
 }
 
 }  // namespace

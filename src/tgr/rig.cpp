@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <utility>
 
 #include "ergotic/exception.hpp"
@@ -154,6 +155,7 @@ class RigMaker {
     }
     auto rig = std::make_unique<SceneRig>(scene_.ports, slices_);
     for (const EndEffectorConfig& config : end_effectors_.list) {
+      checkName(config);
       rig->add(toolOf(config));
     }
     for (std::size_t p = 0; p < scene_.ports.size(); ++p) {
@@ -182,6 +184,16 @@ class RigMaker {
   [[noreturn]] void fail(const EndEffectorConfig& config, const std::string& what) const {
     throw TextError(end_effectors_.file, config.place.line, config.place.column,
                     "end-effector " + scene::quoted(config.name) + ": " + what);
+  }
+
+  /// Names are also those of frames, beside those of the device.
+  void checkName(const EndEffectorConfig& config) {
+    if (config.name.empty() || config.name == "model" || config.name.rfind("tgr_", 0) == 0) {
+      fail(config, "not a name for one, allowed: all but '', 'model' and 'tgr_...'");
+    }
+    if (!names_.insert(config.name).second) {
+      fail(config, "the name comes twice");
+    }
   }
 
   void checkScale(const EndEffectorConfig& config,
@@ -261,6 +273,7 @@ class RigMaker {
   const scene::Scene& scene_;
   const EndEffectors& end_effectors_;
   int slices_;
+  std::set<std::string> names_;
   std::vector<const EndEffectorConfig*> owner_of_port_;
   std::array<const EndEffectorConfig*, kMaxSlices> owner_of_slice_{};
 };

@@ -214,6 +214,19 @@ TEST(RigTest, RefusesWhatIsTakenTwice) {
             "hands.yaml:4:2: error: end-effector 'b': slice 0 is taken by end-effector 'key'");
 }
 
+TEST(RigTest, RefusesNamesThatOtherFramesHave) {
+  const test::PortScene ports;
+  EndEffectorConfig a = endEffector(EndEffectorType::kKey, {0}, {""});
+  EndEffectorConfig b = endEffector(EndEffectorType::kKey, {1}, {""});
+  EXPECT_EQ(messageOf(ports.scene, endEffectors({a, b}), 2),
+            "hands.yaml:4:2: error: end-effector 'key': the name comes twice");
+  for (const char* name : {"", "model", "tgr_base"}) {
+    b.name = name;
+    EXPECT_THAT(messageOf(ports.scene, endEffectors({a, b}), 2),
+                HasSubstr("not a name for one, allowed: all but '', 'model' and 'tgr_...'"));
+  }
+}
+
 TEST(RigTest, RefusesPortsThatTheSceneDoesNotHaveOrAnAgentMoves) {
   test::PortScene ports;
   ports.scene.agents.push_back({"partner", {{0.0, 0.0}}, 0.0, {}});

@@ -2,6 +2,7 @@
 #include "tgr/end_effectors/fields.hpp"
 
 #include <array>
+#include <cmath>
 
 namespace ergotic::tgr {
 namespace {
@@ -57,6 +58,14 @@ const char* toString(EndEffectorType type) noexcept {
 
 std::size_t coordinatesOf(const EndEffectorConfig& config) {
   return config.type == EndEffectorType::kHandle ? 3 * config.points.size() : config.slices.size();
+}
+
+Eigen::Vector3d fixedAxisAngles(const Eigen::Matrix3d& r) {
+  const double yaw = std::atan2(r(1, 0), r(0, 0));
+  const double c = std::cos(yaw);
+  const double s = std::sin(yaw);
+  return {std::atan2(s * r(0, 2) - c * r(1, 2), c * r(1, 1) - s * r(0, 1)),
+          std::atan2(-r(2, 0), c * r(0, 0) + s * r(1, 0)), yaw};
 }
 
 std::string sliceCountText(const TypeTraits& traits) {

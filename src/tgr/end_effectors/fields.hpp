@@ -36,6 +36,10 @@ constexpr scene::Limits kPointLimits{"m", -1.0, 1.0};
 /// Coordinates of one whose slices and points are given.
 std::size_t coordinatesOf(const EndEffectorConfig& config);
 
+/// Roll, pitch and yaw: a rotation as turns about fixed axes, x first. Where pitch is a right angle
+/// the other two turn about one line; roll then makes up for whatever yaw is.
+Eigen::Vector3d fixedAxisAngles(const Eigen::Matrix3d& rotation);
+
 /// `2 slices`, `2 to 3 slices`
 std::string sliceCountText(const TypeTraits& traits);
 

@@ -44,18 +44,20 @@ class CalibratedDriverOverRaw final : public CalibratedDriver {
     if (!raw_->isRaw()) {
       throw Exception("a calibration of a device that speaks metres and newtons already");
     }
-    fitToDevice();
+    const auto count = static_cast<std::size_t>(slices());
+    if (calibration_.slices.size() > count) {
+      throw Exception("calibrations of " + std::to_string(calibration_.slices.size()) +
+                      " slices, allowed: at most " + std::to_string(count) +
+                      ", as many as the device has");
+    }
+    calibration_.slices.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      checkCalibration(calibration_.slices[i], " of slice " + std::to_string(i));
+    }
+    publish();
   }
 
-  void open(double tick_rate_hz) override {
-    raw_->open(tick_rate_hz);
-    try {
-      fitToDevice();  // some know their slices only now
-    } catch (...) {
-      raw_->close();
-      throw;
-    }
-  }
+  void open(double tick_rate_hz) override { raw_->open(tick_rate_hz); }
   void close() noexcept override { raw_->close(); }
   void reconnect() override { raw_->reconnect(); }
   int slices() const noexcept override { return raw_->slices(); }
@@ -103,20 +105,6 @@ class CalibratedDriverOverRaw final : public CalibratedDriver {
   }
 
  private:
-  void fitToDevice() {
-    const auto count = static_cast<std::size_t>(slices());
-    if (calibration_.slices.size() > count) {
-      throw Exception("calibrations of " + std::to_string(calibration_.slices.size()) +
-                      " slices, allowed: at most " + std::to_string(count) +
-                      ", as many as the device has");
-    }
-    calibration_.slices.resize(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      checkCalibration(calibration_.slices[i], " of slice " + std::to_string(i));
-    }
-    publish();
-  }
-
   void publish() noexcept {
     std::uint64_t missing = 0;
     Table& table = table_.draft();

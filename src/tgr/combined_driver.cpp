@@ -34,7 +34,6 @@ class CombinedDriver final : public Driver {
       for (; opened < drivers_.size(); ++opened) {
         drivers_[opened]->open(tick_rate_hz);
       }
-      check();  // some know their slices only now
     } catch (...) {
       for (std::size_t i = 0; i < opened; ++i) {
         drivers_[i]->close();

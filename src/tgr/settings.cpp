@@ -149,7 +149,7 @@ std::string flowText(const scene::SceneBuilder& builder, const YAML::Node& node,
 }  // namespace
 
 Settings::Settings(const std::string& text, const std::string& file, const std::string& what)
-    : builder_(file, text), top_(builder_, parse(builder_, text), what, {1, 1}) {}
+    : builder_(file, text), node_(parse(builder_, text)), top_(builder_, node_, what, {1, 1}) {}
 
 std::string textInPlace(const scene::SceneBuilder& builder, const YAML::Node& node) {
   return flowText(builder, node, true);

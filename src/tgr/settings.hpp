@@ -20,11 +20,13 @@ class Settings {
   Settings& operator=(const Settings&) = delete;
 
   const scene::YamlMap& top() const noexcept { return top_; }
+  const YAML::Node& node() const noexcept { return node_; }
   /// For `scene::YamlMap`s of maps that are deeper inside.
   const scene::SceneBuilder& builder() const noexcept { return builder_; }
 
  private:
   scene::SceneBuilder builder_;
+  YAML::Node node_;
   scene::YamlMap top_;
 };
 

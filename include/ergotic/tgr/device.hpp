@@ -38,7 +38,7 @@ std::string toYaml(const StationDevices& devices);
 struct DriverStack {
   struct Part {
     int device = 0;       ///< index in StationDevices::devices
-    int first_slice = 0;  ///< valid after open
+    int first_slice = 0;  ///< of the whole
     CalibratedDriver* calibrated = nullptr;
   };
   std::unique_ptr<Driver> driver;

@@ -42,7 +42,7 @@ class Driver {
   /// \throws DeviceError if it is still lost
   virtual void reconnect() {}
 
-  /// Number of slices, 1...kMaxSlices, constant after open.
+  /// Number of slices, 1...kMaxSlices, constant.
   virtual int slices() const noexcept = 0;
 
   /// One transaction: the forces of the last tick go out, positions come in.

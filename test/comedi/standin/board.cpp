@@ -13,8 +13,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-tgr::SliceBankConfig bankOf(const ComediStandinBoard& config) {
-  tgr::SliceBankConfig bank;
+tgr::VirtualDriverConfig bankOf(const ComediStandinBoard& config) {
+  tgr::VirtualDriverConfig bank;
   bank.slices = config.channels;
   bank.slice = config.slice;
   bank.gesture_file = config.gesture_file;
@@ -56,7 +56,7 @@ StandinBoard::StandinBoard(const ComediStandinBoard& config)
       stuck_(outputs_.size()),
       railed_(outputs_.size()),
       generation_(nextGeneration()) {
-  bank_.start(1.0 / config.rate_hz);
+  bank_.start(1.0 / config.rate_hz, config.rate_hz);
 }
 
 bool StandinBoard::isPluggedIn() {

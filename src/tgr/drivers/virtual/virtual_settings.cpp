@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tgr/drivers/virtual/virtual_settings.hpp"
 
-#include <array>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "ergotic/exception.hpp"
 #include "scene/number.hpp"
 #include "tgr/calibration_rules.hpp"
+#include "tgr/drivers/virtual/virtual_slice_fields.hpp"
 #include "tgr/settings.hpp"
 
 namespace ergotic::tgr {
@@ -19,31 +17,9 @@ using scene::Limits;
 using scene::Place;
 using scene::YamlMap;
 
-struct Field {
-  const char* key;
-  double VirtualSliceConfig::*member;
-  Limits limits;
-};
-
-constexpr double kNoMost = std::numeric_limits<double>::infinity();
-
-constexpr std::array<Field, 12> kFields{
-    {{"mass", &VirtualSliceConfig::mass, {"kg", 1e-3, 100.0}},
-     {"damping", &VirtualSliceConfig::damping, {"N s/m", 0.0, 1e4}},
-     {"dry_friction", &VirtualSliceConfig::dry_friction, {"N", 0.0, 100.0}},
-     {"stop", &VirtualSliceConfig::stop, {"m", 1e-4, 0.1}},
-     {"quantum", &VirtualSliceConfig::quantum, {"m", 0.0, 1e-3}},
-     {"noise_rms", &VirtualSliceConfig::noise_rms, {"m", 0.0, 1e-3}},
-     {"force_limit", &VirtualSliceConfig::force_limit, {"N", 0.0, kAbsoluteForceLimitN}},
-     {"bandwidth", &VirtualSliceConfig::bandwidth, {"Hz", 10.0, kNoMost}},
-     {"delay", &VirtualSliceConfig::delay, {"s", 0.0, 0.005}},
-     {"hand_mass", &VirtualSliceConfig::hand_mass, {"kg", 0.0, 100.0}},
-     {"hand_stiffness", &VirtualSliceConfig::hand_stiffness, {"N/m", 0.0, 1e6}},
-     {"hand_damping", &VirtualSliceConfig::hand_damping, {"N s/m", 0.0, 1e4}}}};
-
 /// Takes what the map names; the rest stays.
 void readMechanics(const YamlMap& map, VirtualSliceConfig& slice) {
-  for (const Field& field : kFields) {
+  for (const VirtualSliceField& field : kVirtualSliceFields) {
     slice.*field.member = map.number(field.key, field.limits, slice.*field.member);
   }
 }
@@ -61,7 +37,7 @@ void readVolts(const Settings& settings, const YamlMap& map, VirtualSliceConfig&
 
 std::vector<std::string> mechanicsKeys() {
   std::vector<std::string> keys;
-  for (const Field& field : kFields) {
+  for (const VirtualSliceField& field : kVirtualSliceFields) {
     keys.emplace_back(field.key);
   }
   return keys;
@@ -136,21 +112,6 @@ VirtualDriverConfig readVirtualSettings(const std::string& text, const std::stri
     readInProcess(settings, config);
   }
   return config;
-}
-
-void checkSlice(const VirtualSliceConfig& config) {
-  for (const Field& field : kFields) {
-    const double value = config.*field.member;
-    if (!(value >= field.limits.minimum && value <= field.limits.maximum)) {
-      throw Exception(scene::outOfRange(field.key, value, field.limits));
-    }
-  }
-  if (config.volts) {
-    checkCalibration(*config.volts, " of volts");
-    if (!config.volts->is_calibrated) {
-      throw Exception("volts of a virtual slice, allowed: those of a calibrated one");
-    }
-  }
 }
 
 }  // namespace ergotic::tgr

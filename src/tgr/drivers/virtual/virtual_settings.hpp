@@ -14,7 +14,4 @@ constexpr int kMaxExtraDelayTicks = 16;
 /// \throws TextError
 VirtualDriverConfig readVirtualSettings(const std::string& text, const std::string& place);
 
-/// \throws Exception naming number, value and allowed range
-void checkSlice(const VirtualSliceConfig& config);
-
 }  // namespace ergotic::tgr

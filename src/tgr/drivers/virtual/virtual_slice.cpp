@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "ergotic/rt/realtime.hpp"
-#include "tgr/drivers/virtual/virtual_settings.hpp"
+#include "tgr/drivers/virtual/virtual_slice_fields.hpp"
 #include "tgr/require.hpp"
 
 namespace ergotic::tgr {

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ergotic/tgr/device.hpp"
+
+#include <utility>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/tgr/gesture.hpp"
+#include "ergotic/tgr/replay_driver.hpp"
+#include "ergotic/tgr/virtual_driver.hpp"
+#include "scene/names.hpp"
+#include "tgr/drivers/virtual/virtual_settings.hpp"
+#include "tgr/settings.hpp"
+
+namespace ergotic::tgr {
+namespace {
+
+std::unique_ptr<Driver> makeReplay(const std::string& text, const std::string& place) {
+  const Settings settings(text, place, "driver replay");
+  settings.top().allow({"file"});
+  return makeReplayDriver(readPositionsCsv(besideFile(settings.top().word("file"), place)));
+}
+
+/// What the messages of a device begin with, if they do not name a place.
+std::string titleOf(const StationDevices& devices, std::size_t index) {
+  return devices.file + ": error: device " + std::to_string(index) + " (" +
+         devices.devices[index].driver + "): ";
+}
+
+}  // namespace
+
+std::unique_ptr<Driver> makeCoreDriver(const std::string& driver,
+                                       const std::string& settings,
+                                       const std::string& place) {
+  if (driver == "virtual") {
+    return makeVirtualDriver(readVirtualSettings(settings, place));
+  }
+  if (driver == "replay") {
+    return makeReplay(settings, place);
+  }
+  throw Exception("no driver has the name " + scene::quoted(driver) +
+                  ", allowed: virtual, replay, and those of plugins where these are loaded");
+}
+
+DriverStack makeDrivers(const StationDevices& devices,
+                        const DriverMaker& make,
+                        bool allow_fault_injection) {
+  DriverStack stack;
+  std::vector<std::unique_ptr<Driver>> drivers;
+  int first_slice = 0;
+  for (std::size_t i = 0; i < devices.devices.size(); ++i) {
+    const DeviceConfig& config = devices.devices[i];
+    try {
+      std::unique_ptr<Driver> driver = make(config.driver, config.settings, config.place);
+      if (driver->isRaw() || config.calibration) {
+        auto calibrated =
+            makeCalibratedDriver(std::move(driver), config.calibration.value_or(Calibration{}));
+        stack.raw_parts.push_back({static_cast<int>(i), first_slice, calibrated.get()});
+        driver = std::move(calibrated);
+      }
+      first_slice += driver->slices();
+      drivers.push_back(std::move(driver));
+    } catch (const TextError&) {
+      throw;
+    } catch (const DeviceError&) {
+      throw;
+    } catch (const Exception& error) {
+      throw Exception(titleOf(devices, i) + error.what());
+    }
+  }
+  stack.driver = drivers.size() == 1 ? std::move(drivers.front()) : combine(std::move(drivers));
+  if (allow_fault_injection) {
+    auto faulty = makeFaultyDriver(std::move(stack.driver));
+    stack.faulty = faulty.get();
+    stack.driver = std::move(faulty);
+  }
+  return stack;
+}
+
+}  // namespace ergotic::tgr

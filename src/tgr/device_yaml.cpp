@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cctype>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/tgr/device.hpp"
+#include "scene/names.hpp"
+#include "tgr/calibration_rules.hpp"
+#include "tgr/settings.hpp"
+
+namespace ergotic::tgr {
+namespace {
+
+using scene::Place;
+using scene::YamlMap;
+
+/// As `virtual`, or a plugin's `package/name`.
+std::string driverName(const YamlMap& map) {
+  const std::string name = map.word("driver");
+  const auto is_legal = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '/';
+  };
+  if (name.empty() || !std::all_of(name.begin(), name.end(), is_legal)) {
+    map.fail("driver", "driver " + scene::quoted(name) +
+                           " is no name, allowed: letters, digits, '_', '-', '/'");
+  }
+  return name;
+}
+
+DeviceConfig readDevice(const Settings& file, const YAML::Node& node, Place fallback) {
+  const YamlMap map(file.builder(), node, "a device", scene::placeOf(node, fallback));
+  map.allow({"driver", "settings", "calibration"});
+  DeviceConfig device;
+  device.driver = driverName(map);
+  device.place = file.builder().scene().file;
+  if (map.has("settings") && !map.at("settings").IsNull()) {
+    device.settings = textInPlace(file.builder(), map.at("settings"));
+  }
+  if (map.has("calibration")) {
+    device.calibration =
+        Calibration{readSliceCalibrations(file, map.at("calibration"), map.placeAt("calibration"))};
+  }
+  return device;
+}
+
+std::string deviceText(const DeviceConfig& device) {
+  const Settings settings(device.settings, device.place, "settings");
+  std::string text = "  - driver: " + device.driver +
+                     "\n    settings: " + textInLine(settings.builder(), settings.node()) + "\n";
+  if (device.calibration) {
+    text += "    calibration: " + sliceCalibrationsText(*device.calibration) + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+StationDevices readDevices(const std::string& text, const std::string& name) {
+  const Settings file(text, name, "the file of devices");
+  const YamlMap& top = file.top();
+  top.allow({"devices", "end_effectors"});
+  StationDevices result;
+  result.file = name;
+  const YAML::Node& list = top.at("devices");
+  const Place place = top.placeAt("devices");
+  if (!list.IsSequence() || list.size() == 0 || list.size() > kMaxSlices) {
+    file.builder().fail(place, "devices, allowed: a list of 1 to " + std::to_string(kMaxSlices) +
+                                   " maps {driver: ..., settings: {...}, calibration: [...]}");
+  }
+  for (const YAML::Node& node : list) {
+    result.devices.push_back(readDevice(file, node, place));
+  }
+  result.end_effectors = readEndEffectors(text, name);
+  return result;
+}
+
+std::string toYaml(const StationDevices& devices) {
+  std::string text = "devices:\n";
+  for (const DeviceConfig& device : devices.devices) {
+    text += deviceText(device);
+  }
+  return text + toYaml(devices.end_effectors);
+}
+
+}  // namespace ergotic::tgr

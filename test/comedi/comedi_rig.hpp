@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -29,6 +30,7 @@ inline ComediStandinBoard plainBoard() {
   board.slice.dry_friction = 0.0;
   board.slice.quantum = 0.0;
   board.slice.noise_rms = 0.0;
+  board.slice.bandwidth = std::numeric_limits<double>::infinity();
   return board;
 }
 

@@ -24,6 +24,9 @@ StationConfig withPresence(double seconds) {
 StationConfig withInjection() {
   StationConfig config = Bench::quickConfig();
   config.allow_fault_injection = true;
+  const tgr::SafetyConfig usual;
+  config.safety.energy_limit_j = usual.energy_limit_j;
+  config.safety.energy_supply_w = usual.energy_supply_w;
   return config;
 }
 
@@ -122,6 +125,10 @@ class InjectionTest : public testing::TestWithParam<InjectedModelFault> {
     command.value = ticks;
     ASSERT_TRUE(bench.station->submit(command));
   }
+  /// A hand that gives way to the force of a spring of negative stiffness.
+  static double giving(std::int64_t n, int /*slice*/) {
+    return n < kRampTicks ? kHandM : kHandM + 5e-5 * static_cast<double>(n - kRampTicks);
+  }
 };
 
 TEST_P(InjectionTest, DoesNothingUnlessItIsAllowed) {
@@ -141,6 +148,18 @@ TEST_P(InjectionTest, GoesAfterItsTicks) {
   bench.command(Command::Type::kEngage);
   bench.run(kRampTicks);
   EXPECT_EQ(bench.log.forces[0], -1.0);
+}
+
+TEST_P(InjectionTest, IsAFaultThatTakesTheForce) {
+  Bench bench({}, giving, withInjection());
+  bench.command(Command::Type::kEngage);
+  bench.run(kRampTicks);
+  inject(bench, 1e6);
+  bench.run(1000);
+  EXPECT_EQ(bench.log.forces[0], 0.0);
+  const FaultReason reason = faultOf(bench);
+  EXPECT_EQ(reason, GetParam() == InjectedModelFault::kActive ? FaultReason::kEnergy
+                                                              : FaultReason::kModelBlowUp);
 }
 
 INSTANTIATE_TEST_SUITE_P(All,

@@ -14,6 +14,7 @@
 #include "tools/lib/check_names.hpp"
 #include "tools/lib/check_sections.hpp"
 #include "tools/lib/cost.hpp"
+#include "tools/lib/end_effectors.hpp"
 #include "tools/lib/load_figures.hpp"
 #include "tools/lib/report.hpp"
 #include "tools/lib/target.hpp"
@@ -243,6 +244,42 @@ Report reportOn(const physics::Settled& settled,
   return report.add("notes", texts(settled.notes)).add("warnings", texts(warnings));
 }
 
+/// Adds what each slice meets, and says what is too much.
+tgr::StiffnessFindings addSlices(const tgr::EndEffectors& end_effectors,
+                                 const Scene& scene,
+                                 const physics::Rates& rates,
+                                 const physics::Certificate& certificate,
+                                 Report& report) {
+  const auto rendered =
+      renderedStiffness(scene, rates, certificate, physics::DeviceTraits{}, end_effectors);
+  report.add("slices", slicesReport(end_effectors, rendered));
+  return tgr::judgeStiffness(end_effectors, rendered);
+}
+
+/// Prints the report, then what is wrong. \return the exit code
+int finish(const Report& report,
+           bool json,
+           const std::string& file,
+           physics::Verdict verdict,
+           const tgr::StiffnessFindings& findings) {
+  if (json) {
+    report.printJson(std::cout);
+    std::cout << '\n';
+  } else {
+    report.printText(std::cout);
+  }
+  for (const auto* lines : {&findings.warnings, &findings.refusals}) {
+    for (const std::string& line : *lines) {
+      std::cerr << line << '\n';
+    }
+  }
+  if (verdict == physics::Verdict::kUnstable) {
+    std::cerr << file << ": unstable at these rates\n";
+    return kRefused;
+  }
+  return findings.refusals.empty() ? kSuccess : kFailure;
+}
+
 }  // namespace
 
 void addOptions(CLI::App& app, CheckOptions& options) {
@@ -252,6 +289,7 @@ void addOptions(CLI::App& app, CheckOptions& options) {
   addOptions(app, options.scene);
   addOptions(app, options.compile);
   addTargetOption(app, options.target, "propose the cheapest setting that plays this accurately");
+  addEndEffectorsOption(app, options.end_effectors);
   app.add_flag("--json", options.json, "for a program to read");
   app.add_option("--filter-response", options.filter_response,
                  "write what the chaplets of the scene let through to this table")
@@ -259,6 +297,7 @@ void addOptions(CLI::App& app, CheckOptions& options) {
 }
 
 int check(const CheckOptions& options) {
+  const tgr::EndEffectors end_effectors = readEndEffectors(options.end_effectors);
   LoadFigures load;
   load.begin("read_s", "read " + options.scene.scene);
   Scene scene = readScene(options.scene);
@@ -274,20 +313,14 @@ int check(const CheckOptions& options) {
     report.add("target", targetReport(readScene(options.scene), rates, compile, options.target,
                                       freedomOf(options.scene, options.compile)));
   }
+  tgr::StiffnessFindings findings;
+  if (!options.end_effectors.empty()) {
+    findings = addSlices(end_effectors, settled.scene, rates, certificate, report);
+  }
   if (!options.filter_response.empty()) {
     writeFilterResponse(options.filter_response, settled.scene, rates);
   }
-  if (options.json) {
-    report.printJson(std::cout);
-    std::cout << '\n';
-  } else {
-    report.printText(std::cout);
-  }
-  if (certificate.verdict != physics::Verdict::kUnstable) {
-    return kSuccess;
-  }
-  std::cerr << settled.scene.file << ": unstable at these rates\n";
-  return kRefused;
+  return finish(report, options.json, settled.scene.file, certificate.verdict, findings);
 }
 
 }  // namespace ergotic::tools

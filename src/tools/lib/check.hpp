@@ -11,6 +11,7 @@ namespace ergotic::tools {
 struct CheckOptions {
   SceneOptions scene;
   CompileChoice compile;
+  std::string end_effectors;  ///< file; empty: ports move with their own slices
   bool json = false;
   std::string target;           ///< empty: nothing is proposed
   std::string filter_response;  ///< empty: not written
@@ -19,7 +20,7 @@ struct CheckOptions {
 void addOptions(CLI::App& app, CheckOptions& options);
 
 /// Says on stdout what a scene is made of, whether it is stable, and what it costs.
-/// \return kSuccess, or kRefused if it is unstable
+/// \return kSuccess, kRefused if it is unstable, or kFailure if an end-effector renders too much
 /// \throws TextError, Exception
 int check(const CheckOptions& options);
 

@@ -74,12 +74,22 @@ class HandPlayer final : public Player {
 
   bool next(double* frames) override {
     if (!ended_) {
-      station_.cycle(frames);
+      station_.cycle(frames, [this](const station::Event& event) { hear(event); });
     }
     return !ended_;
   }
 
+  std::string trouble() const override { return trouble_; }
+
  private:
+  void hear(const station::Event& event) {
+    if (event.type == station::Event::Type::kFault) {
+      const double time_s = static_cast<double>(event.frame) / rates().audio_hz;
+      trouble_ = "warning: no force from " + std::to_string(time_s) +
+                 " s on: " + tgr::toString(static_cast<tgr::FaultReason>(event.index));
+    }
+  }
+
   static std::unique_ptr<tgr::Driver> makeDriver(const std::string& csv,
                                                  const station::Performer& performer,
                                                  bool& ended) {
@@ -98,6 +108,7 @@ class HandPlayer final : public Player {
   }
 
   bool ended_ = false;
+  std::string trouble_;
   int outputs_;
   const physics::Instrument& instrument_;  // the station's: nobody swaps it
   std::unique_ptr<tgr::Driver> driver_;    // on its way into the station

@@ -25,6 +25,9 @@ class Player {
   /// \throws Exception if the model blows up
   virtual bool next(double* frames) = 0;
 
+  /// What went wrong so far, though the sound is good; empty: nothing.
+  virtual std::string trouble() const { return {}; }
+
   /// Ticks that are left to play; -1: no end.
   virtual std::int64_t ticksLeft() const { return -1; }
 };

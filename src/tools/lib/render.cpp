@@ -15,6 +15,7 @@
 #include "ergotic/rt/thread.hpp"
 #include "ergotic/station/health.hpp"
 #include "ergotic/tgr/gesture.hpp"
+#include "tools/lib/end_effectors.hpp"
 #include "tools/lib/frame_writer.hpp"
 #include "tools/lib/player.hpp"
 #include "tools/lib/progress.hpp"
@@ -81,6 +82,7 @@ std::unique_ptr<Player> playScene(const RenderOptions& options) {
   SoundInputs inputs(options.inputs, scene, rates.audio_hz);
   const std::string note = conversionNote(scene, rates);
   station::PerformerPolicy policy = policyOf(options);
+  policy.end_effectors = readEndEffectors(options.end_effectors);
   policy.on_stage = [&](const std::string& stage) { stages.show(stage); };
   auto performer = station::makePerformer(std::move(scene), rates, compile, policy);
   stages.clear();
@@ -136,10 +138,11 @@ void requireBooks(const RenderOptions& options, const bag::Keyframe& keyframe) {
 void requireNothingElse(const RenderOptions& options) {
   const SceneOptions& scene = options.scene;
   if (!scene.set.empty() || scene.rate_hz > 0.0 || scene.gestural_rate_hz > 0.0 ||
-      !options.compile.precision.empty() || !options.inputs.empty() || !options.target.empty()) {
+      !options.compile.precision.empty() || !options.inputs.empty() || !options.target.empty() ||
+      !options.end_effectors.empty()) {
     throw CLI::ValidationError("--gesture",
                                "a recording says itself what --set, --rate, --gestural-rate, "
-                               "--precision, --target and --input would");
+                               "--precision, --target, --end-effectors and --input would");
   }
 }
 
@@ -234,6 +237,7 @@ void addOptions(CLI::App& app, RenderOptions& options) {
   app.add_option("--gesture", options.gesture,
                  "who plays: targets of a hand or recorded positions (CSV), or a recording (bag)")
       ->type_name("F.csv|F.bag");
+  addEndEffectorsOption(app, options.end_effectors);
   addTargetOption(app, options.target,
                   "play it in the cheapest way that is this accurate, within --rate, "
                   "--gestural-rate and --precision if they are given");
@@ -267,6 +271,9 @@ int render(const RenderOptions& options) {
   writer.finish();
   say(summary(*player, writer, work_s));
   sayHowLinksFared(player->instrument());
+  if (const std::string trouble = player->trouble(); !trouble.empty()) {
+    say(trouble);
+  }
   if (options.energies) {
     printEnergies(player->instrument(), std::cerr);
   }

@@ -124,7 +124,9 @@ CaptureReport capture(const CaptureConfig& config,
   report.sample_rate_hz = session->sampleRate();
   Recorder recorder(channels, static_cast<std::size_t>(kRingSeconds * report.sample_rate_hz));
   WavWriter file(config.path, report.sample_rate_hz, channels, WavFormat::kFloat);
-  session->registerPorts(channels, 0, 0);
+  JackConfig ports;
+  ports.inputs = channels;
+  session->registerPorts(ports);
   session->activate(recorder);
   for (int i = 0; i < channels; ++i) {
     session->connectInput(i, sources[static_cast<std::size_t>(i)]);

@@ -23,9 +23,20 @@ void requirePorts(int count, const char* what) {
   }
 }
 
+void requireOneEach(const std::vector<std::string>& words, int ports, const char* what) {
+  if (!words.empty() && words.size() != static_cast<std::size_t>(ports)) {
+    throw Exception(std::string("JACK ") + what + ": " + std::to_string(words.size()) + " for " +
+                    std::to_string(ports) + " ports, allowed: none or one each");
+  }
+}
+
 void validate(const JackConfig& config) {
   requirePorts(config.inputs, "inputs");
   requirePorts(config.outputs, "outputs");
+  requireOneEach(config.input_names, config.inputs, "names of inputs");
+  requireOneEach(config.output_names, config.outputs, "names of outputs");
+  requireOneEach(config.input_peers, config.inputs, "peers of inputs");
+  requireOneEach(config.output_peers, config.outputs, "peers of outputs");
   if (config.name.empty() || config.name.size() > kMaxNameLength ||
       config.name.find(':') != std::string::npos) {
     throw Exception("JACK client name `" + config.name + "`, allowed: 1..." +
@@ -52,6 +63,7 @@ struct JackHost::Impl {
   void step();
   void start();
   void follow();
+  void mendWires();
   void updateStatus();
   void say(const std::string& message);
 
@@ -60,6 +72,7 @@ struct JackHost::Impl {
   std::shared_ptr<Semaphore> wake = std::make_shared<Semaphore>();
   std::atomic<bool> quit{false};
   std::unique_ptr<JackSession> session;  // the supervisor's
+  bool complained_of_wires = false;      // so is this
   mutable std::mutex mutex;              // of status
   JackStatus status;
   std::thread supervisor;
@@ -91,11 +104,12 @@ void JackHost::Impl::step() {
   } else if (session->takeChange()) {
     follow();
   }
+  mendWires();
 }
 
 void JackHost::Impl::start() {
   session = std::make_unique<JackSession>(config.server, config.name, wake);
-  session->registerPorts(config.inputs, config.outputs, config.latency_frames);
+  session->registerPorts(config);
   session->activate(processor);
   follow();
   if (config.connect) {
@@ -120,12 +134,29 @@ void JackHost::Impl::follow() {
   ++status.starts;
 }
 
+/// A peer that is not there yet, or not any more, ends nothing.
+void JackHost::Impl::mendWires() {
+  try {
+    session->mendWires();
+    if (complained_of_wires) {
+      complained_of_wires = false;
+      say("");
+    }
+  } catch (const DeviceError& error) {
+    complained_of_wires = true;
+    say(error.what());
+  }
+}
+
 void JackHost::Impl::updateStatus() {
   const std::lock_guard<std::mutex> lock(mutex);
   status.running = session && session->isFlowing();
   status.freewheeling = session && session->isFreewheeling();
   status.client = session ? session->clientName() : "";
+  status.wired = session && session->isWired();
   if (session) {
+    status.input_latency_frames = session->inputLatency();
+    status.output_latency_frames = session->outputLatency();
     status.xruns += session->takeXruns();
     status.sample_rate_hz = session->sampleRate();
     status.period_frames = session->periodFrames();

@@ -10,7 +10,9 @@
 
 #include "audio/frame_counter.hpp"
 #include "audio/gate.hpp"
+#include "audio/jack_latency.hpp"
 #include "audio/jack_library.hpp"
+#include "audio/jack_wires.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/thread.hpp"
 
@@ -37,22 +39,20 @@ std::int64_t jackClockOffset() {
   return std::abs(offset) <= kNsPerUs + narrowest ? 0 : offset;
 }
 
-struct FreePorts {
-  void operator()(const char** ports) const { jack_free(static_cast<void*>(ports)); }
-};
-using PortNames = std::unique_ptr<const char*, FreePorts>;
-
-std::vector<std::string> namesOf(const PortNames& ports) {
-  std::vector<std::string> names;
-  for (const char** port = ports.get(); port != nullptr && *port != nullptr; ++port) {
-    names.emplace_back(*port);
-  }
-  return names;
-}
-
 [[noreturn]] void fail(const std::string& what) {
   const std::string reason = jack_library::takeMessage();
   throw DeviceError("JACK: " + what + (reason.empty() ? "" : ": " + reason));
+}
+
+/// Those that were given, else numbered ones.
+std::vector<std::string> portNames(const std::vector<std::string>& given,
+                                   int count,
+                                   const std::string& prefix) {
+  std::vector<std::string> names = given;
+  for (int i = 1; given.empty() && i <= count; ++i) {
+    names.push_back(prefix + std::to_string(i));
+  }
+  return names;
 }
 
 }  // namespace
@@ -64,6 +64,9 @@ struct JackSession::Core {
   rt::BlockProcessor* processor = nullptr;
   std::vector<jack_port_t*> inputs, outputs;
   std::uint32_t latency_frames = 0;
+  std::optional<JackTerminal> terminal;
+  std::vector<JackWires> wires;
+  std::vector<jack_port_t*> wired_ports;
 
   // Written while the gate is closed, read inside it.
   std::vector<const float*> input_buffers;
@@ -77,6 +80,7 @@ struct JackSession::Core {
   std::atomic<bool> changed{false};
   std::atomic<bool> freewheeling{false};
   std::atomic<std::int64_t> xruns{0};
+  std::atomic<bool> wired{false};  // as of the last look
 
   void noteChange() noexcept {
     if (!changed.exchange(true)) {
@@ -89,6 +93,12 @@ struct JackSession::Core {
       auto* buffer = static_cast<float*>(jack_port_get_buffer(port, nframes));
       std::fill_n(buffer, nframes, 0.0F);
     }
+  }
+
+  /// A wire that breaks shows here at once, one that is shared at the next look.
+  bool wiresHold() const noexcept {
+    const auto hold = [](jack_port_t* port) { return jack_port_connected(port) == 1; };
+    return wires.empty() || (wired && std::all_of(wired_ports.begin(), wired_ports.end(), hold));
   }
 
   rt::FrameTime startOfCycle() noexcept {
@@ -119,6 +129,7 @@ struct JackSession::Core {
     block.outputs = output_buffers.data();
     block.input_channels = static_cast<int>(inputs.size());
     block.output_channels = static_cast<int>(outputs.size());
+    block.wired = wiresHold();
     processor->process(block);
   }
 
@@ -162,6 +173,10 @@ struct JackSession::Core {
     core.noteChange();
   }
 
+  static void onConnect(jack_port_id_t, jack_port_id_t, int, void* self) {
+    static_cast<Core*>(self)->wake->post();
+  }
+
   static void onShutdown(void* self) {
     auto& core = *static_cast<Core*>(self);
     core.lost = true;
@@ -169,24 +184,23 @@ struct JackSession::Core {
   }
 
   /// What arrives at our inputs (or leaves from our outputs) is our latency older (younger) at the
-  /// other side.
+  /// other side; with a terminal it begins and ends here.
   static void onLatency(jack_latency_callback_mode_t mode, void* self) {
     auto& core = *static_cast<Core*>(self);
     const bool capture = mode == JackCaptureLatency;
-    const auto& from = capture ? core.inputs : core.outputs;
-    const auto& to = capture ? core.outputs : core.inputs;
-    jack_latency_range_t total{0, 0};
-    for (std::size_t i = 0; i < from.size(); ++i) {
-      jack_latency_range_t range{};
-      jack_port_get_latency_range(from[i], mode, &range);
-      total.min = i == 0 ? range.min : std::min(total.min, range.min);
-      total.max = std::max(total.max, range.max);
+    if (core.terminal) {
+      const JackTerminal& end = *core.terminal;
+      const std::uint32_t frames =
+          capture ? end.output_latency_frames
+                  : end.input_latency_frames +
+                        end.input_latency_periods * jack_get_buffer_size(core.client);
+      setLatency(capture ? core.outputs : core.inputs, mode, {frames, frames});
+      return;
     }
+    jack_latency_range_t total = latencyOf(capture ? core.inputs : core.outputs, mode);
     total.min += core.latency_frames;
     total.max += core.latency_frames;
-    for (jack_port_t* port : to) {
-      jack_port_set_latency_range(port, mode, &total);
-    }
+    setLatency(capture ? core.outputs : core.inputs, mode, total);
   }
 
   jack_port_t* registerPort(const std::string& name, unsigned long flags) {
@@ -197,13 +211,20 @@ struct JackSession::Core {
     return port;
   }
 
+  void addWires(const std::vector<jack_port_t*>& ports,
+                const std::vector<std::string>& peers,
+                bool into_us) {
+    wires.emplace_back(client, ports, peers, into_us);
+    wired_ports.insert(wired_ports.end(), ports.begin(), ports.end());
+  }
+
   void setCallbacks() {
     const bool ok = jack_set_process_callback(client, onProcess, this) == 0 &&
                     jack_set_xrun_callback(client, onXrun, this) == 0 &&
                     jack_set_buffer_size_callback(client, onBufferSize, this) == 0 &&
                     jack_set_freewheel_callback(client, onFreewheel, this) == 0 &&
                     jack_set_latency_callback(client, onLatency, this) == 0;
-    if (!ok) {
+    if (!ok || (!wires.empty() && jack_set_port_connect_callback(client, onConnect, this) != 0)) {
       fail("callbacks are refused");
     }
     jack_on_shutdown(client, onShutdown, this);
@@ -241,16 +262,24 @@ JackSession::~JackSession() {
   jack_library::callPatiently([core = core_] { jack_client_close(core->client); });
 }
 
-void JackSession::registerPorts(int inputs, int outputs, std::uint32_t latency_frames) {
-  for (int i = 1; i <= inputs; ++i) {
-    core_->inputs.push_back(core_->registerPort("in_" + std::to_string(i), JackPortIsInput));
+void JackSession::registerPorts(const JackConfig& config) {
+  const unsigned long end = config.terminal ? 0UL + JackPortIsTerminal : 0UL;
+  for (const std::string& name : portNames(config.input_names, config.inputs, "in_")) {
+    core_->inputs.push_back(core_->registerPort(name, JackPortIsInput | end));
   }
-  for (int i = 1; i <= outputs; ++i) {
-    core_->outputs.push_back(core_->registerPort("out_" + std::to_string(i), JackPortIsOutput));
+  for (const std::string& name : portNames(config.output_names, config.outputs, "out_")) {
+    core_->outputs.push_back(core_->registerPort(name, JackPortIsOutput | end));
   }
   core_->input_buffers.resize(core_->inputs.size());
   core_->output_buffers.resize(core_->outputs.size());
-  core_->latency_frames = latency_frames;
+  core_->latency_frames = config.latency_frames;
+  core_->terminal = config.terminal;
+  if (!config.input_peers.empty()) {
+    core_->addWires(core_->inputs, config.input_peers, true);
+  }
+  if (!config.output_peers.empty()) {
+    core_->addWires(core_->outputs, config.output_peers, false);
+  }
 }
 
 void JackSession::activate(rt::BlockProcessor& processor) {
@@ -303,8 +332,7 @@ std::uint32_t JackSession::periodFrames() const noexcept {
 }
 
 std::vector<std::string> JackSession::findSources(const std::string& regex) const {
-  return namesOf(PortNames(
-      jack_get_ports(core_->client, regex.c_str(), JACK_DEFAULT_AUDIO_TYPE, JackPortIsOutput)));
+  return jackPorts(core_->client, regex.c_str(), JackPortIsOutput);
 }
 
 bool JackSession::isSource(const std::string& exact) const {
@@ -320,13 +348,38 @@ void JackSession::connectInput(int input, const std::string& source) {
 }
 
 void JackSession::connectToPlayback() {
-  const auto sinks = namesOf(PortNames(jack_get_ports(
-      core_->client, nullptr, JACK_DEFAULT_AUDIO_TYPE, JackPortIsInput | JackPortIsPhysical)));
+  const auto sinks = jackPorts(core_->client, nullptr, JackPortIsInput | JackPortIsPhysical);
   for (std::size_t i = 0; i < std::min(sinks.size(), core_->outputs.size()); ++i) {
     if (jack_connect(core_->client, jack_port_name(core_->outputs[i]), sinks[i].c_str()) != 0) {
       fail(std::string(jack_port_name(core_->outputs[i])) + " cannot be connected to " + sinks[i]);
     }
   }
+}
+
+void JackSession::mendWires() {
+  bool mended = false;
+  try {
+    for (const JackWires& wires : core_->wires) {
+      mended = wires.mend() || mended;
+    }
+  } catch (const DeviceError&) {
+    core_->wired = false;
+    throw;
+  }
+  if (mended) {
+    jack_recompute_total_latencies(core_->client);
+  }
+  core_->wired = true;
+}
+
+bool JackSession::isWired() const noexcept {
+  return core_->wired;
+}
+std::uint32_t JackSession::inputLatency() const noexcept {
+  return latencyOf(core_->inputs, JackCaptureLatency).max;
+}
+std::uint32_t JackSession::outputLatency() const noexcept {
+  return latencyOf(core_->outputs, JackPlaybackLatency).max;
 }
 
 }  // namespace ergotic::audio

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "audio/semaphore.hpp"
+#include "ergotic/audio/jack_client.hpp"
 #include "ergotic/rt/block_io.hpp"
 
 namespace ergotic::audio {
@@ -25,8 +26,8 @@ class JackSession {
   JackSession(const JackSession&) = delete;
   JackSession& operator=(const JackSession&) = delete;
 
-  /// \throws DeviceError
-  void registerPorts(int inputs, int outputs, std::uint32_t latency_frames);
+  /// Ports, their names, latencies and peers are those of the configuration. \throws DeviceError
+  void registerPorts(const JackConfig& config);
 
   /// Callbacks begin, silent until `resume`. \throws DeviceError
   void activate(rt::BlockProcessor& processor);
@@ -55,6 +56,13 @@ class JackSession {
   void connectInput(int input, const std::string& source);
   /// out_i to the i-th physical playback port; what is connected there stays.
   void connectToPlayback();
+  /// Connects the ports with their peers as far as they are not. No effect without peers.
+  /// \throws DeviceError saying which wire is missing or shared; blocks are not `wired` then
+  void mendWires();
+  bool isWired() const noexcept;
+  /// Largest latencies of our ports by JACK, frames.
+  std::uint32_t inputLatency() const noexcept;
+  std::uint32_t outputLatency() const noexcept;
 
  private:
   struct Core;

@@ -3,11 +3,20 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "ergotic/rt/block_io.hpp"
 
 namespace ergotic::audio {
+
+/// Of a client at which signals begin and end, as a sound card does; it passes no latency on.
+struct JackTerminal {
+  std::uint32_t input_latency_frames = 0;   ///< from our inputs out into the world
+  std::uint32_t input_latency_periods = 0;  ///< and as many periods
+  std::uint32_t output_latency_frames = 0;  ///< from the world to our outputs
+};
 
 struct JackConfig {
   std::string name = "ergotic";      ///< of the client; JACK appends a number if it is taken
@@ -16,6 +25,12 @@ struct JackConfig {
   int outputs = 0;                   ///< ports `out_1`... , 0...kMaxPorts
   bool connect = false;              ///< out_i to the i-th physical playback port, at every start
   std::uint32_t latency_frames = 0;  ///< added between our inputs and outputs, declared to JACK
+  std::vector<std::string> input_names;   ///< of the ports, instead of `in_1`... ; empty: those
+  std::vector<std::string> output_names;  ///< as above
+  /// What is wired to each port and to it alone, looked after as long as the host lives: a full
+  /// name, `client:port`, or `physical N`, the N-th (1...) physical port. Empty: nothing.
+  std::vector<std::string> input_peers, output_peers;
+  std::optional<JackTerminal> terminal;
 };
 
 constexpr int kMaxPorts = 256;
@@ -28,8 +43,11 @@ struct JackStatus {
   std::uint32_t period_frames = 0;  ///< as above
   std::int64_t xruns = 0;           ///< since construction
   std::int64_t starts = 0;          ///< how often blocks began to flow
-  std::string client;               ///< name as JACK knows it, empty without a server
-  std::string message;              ///< what is wrong and what is done about it, empty: nothing
+  bool wired = false;               ///< all peers are connected, and nothing else to them or to us
+  std::uint32_t input_latency_frames = 0;   ///< by JACK: age of what arrives, at most
+  std::uint32_t output_latency_frames = 0;  ///< by JACK: until what leaves is out, at most
+  std::string client;                       ///< name as JACK knows it, empty without a server
+  std::string message;  ///< what is wrong and what is done about it, empty: nothing
 };
 
 /// A supervised JACK client: it is there whenever a server is.
@@ -44,11 +62,16 @@ struct JackStatus {
 /// then comes twice. If audioStarted throws, the message is
 /// kept and the start repeated later.
 ///
+/// Wires to peers are mended within a second; `Block::wired` is false from the first block on that
+/// misses one. A wire is one to one: a second source at an input of ours, or at what an output of
+/// ours feeds, counts as a broken one; what others connected stays.
+///
 /// Realtime: no. Thread: any, one at a time; the processor must outlive the host
 class JackHost {
  public:
   /// Returns at once, server or not.
-  /// \throws Exception if the number of ports or the name is out of range
+  /// \throws Exception if the number of ports, of their names or of their peers, or the name is out
+  ///         of range
   JackHost(const JackConfig& config, rt::BlockProcessor& processor);
   ~JackHost();  ///< the processor is not called any more
   JackHost(const JackHost&) = delete;

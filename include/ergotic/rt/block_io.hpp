@@ -18,6 +18,7 @@ struct Block {
   float* const* outputs = nullptr;       ///< [output channels][nframes], to be filled wholly
   int input_channels = 0;
   int output_channels = 0;
+  bool wired = true;  ///< all channels are connected as the host was told to connect them
 };
 
 class BlockProcessor {

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <jack/jack.h>
+
+/// What JACK's latency callback asks of a client. Realtime: no.
+namespace ergotic::audio {
+
+/// Smallest and largest latency of ports; 0 if there are none.
+jack_latency_range_t latencyOf(const std::vector<jack_port_t*>& ports,
+                               jack_latency_callback_mode_t mode) noexcept;
+
+void setLatency(const std::vector<jack_port_t*>& ports,
+                jack_latency_callback_mode_t mode,
+                jack_latency_range_t range) noexcept;
+
+}  // namespace ergotic::audio

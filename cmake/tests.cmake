@@ -44,6 +44,7 @@ target_link_libraries(comedi_probe PRIVATE ergotic_comedi_driver ergotic_flags)
 add_dependencies(ergotic_comedi_test comedi_probe)
 target_compile_definitions(ergotic_comedi_test PRIVATE
   COMEDI_PROBE="$<TARGET_FILE:comedi_probe>" COMEDI_STANDIN="$<TARGET_FILE:comedi_standin>")
+ergotic_add_gtests(tgr_jack ergotic_jack_driver)
 # They run the tools as programs.
 add_dependencies(ergotic_golden_test render check)
 add_dependencies(ergotic_tools_test bench)

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tgr/drivers/jack/jack_driver.hpp"
+
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/rt/clock.hpp"
+#include "tgr/require.hpp"
+
+namespace ergotic::tgr {
+namespace {
+
+std::vector<std::string> numbered(const std::string& prefix, int count) {
+  std::vector<std::string> names;
+  for (int i = 1; i <= count; ++i) {
+    names.push_back(prefix + std::to_string(i));
+  }
+  return names;
+}
+
+audio::JackConfig jackConfig(const JackDriverConfig& driver) {
+  audio::JackConfig config;
+  config.name = driver.client;
+  config.server = driver.server;
+  config.inputs = static_cast<int>(driver.position_ports.size());
+  config.outputs = static_cast<int>(driver.force_ports.size());
+  config.input_names = numbered("position_", config.inputs);
+  config.output_names = numbered("force_", config.outputs);
+  config.input_peers = driver.position_ports;
+  config.output_peers = driver.force_ports;
+  if (!driver.heartbeat_port.empty()) {
+    ++config.outputs;
+    config.output_names.emplace_back("heartbeat");
+    config.output_peers.push_back(driver.heartbeat_port);
+  }
+  return config;
+}
+
+}  // namespace
+
+JackDriver::JackDriver(const JackDriverConfig& config)
+    : config_(config),
+      slices_(static_cast<int>(config.position_ports.size())),
+      ticks_(slices_, config.volts_per_unit) {
+  requireWithin("slices", slices_, 1, kMaxSlices, "");
+  requireWithin("force ports", static_cast<double>(config.force_ports.size()), slices_, slices_,
+                "");
+}
+
+void JackDriver::open(double tick_rate_hz) {
+  close();
+  ticks_.open(tick_rate_hz);
+  try {
+    host_ = std::make_unique<audio::JackHost>(jackConfig(config_), ticks_);
+    const audio::JackStatus status = waitForDevice();
+    round_trip_frames_ = roundTrip(status);
+  } catch (const Exception&) {
+    close();
+    throw;
+  }
+  ticks_.pin();
+  const int ratio = ticks_.ratio();
+  extra_delay_ticks_ = (round_trip_frames_ + ratio - 1) / ratio;
+}
+
+void JackDriver::close() noexcept {
+  ticks_.close();
+  host_.reset();
+}
+
+void JackDriver::reconnect() {
+  if (!host_) {
+    throw DeviceError("jack device " + config_.client + " is not open");
+  }
+  waitForDevice();
+}
+
+audio::JackStatus JackDriver::waitForDevice() const {
+  constexpr std::int64_t kPauseNs = 20'000'000;
+  const std::int64_t end_ns = rt::monotonicNs() + std::llround(config_.wait_s * 1e9);
+  while (true) {
+    const audio::JackStatus status = host_->status();
+    if (status.running && status.wired) {
+      return status;
+    }
+    const std::string refusal = ticks_.refusal();
+    if (!refusal.empty()) {
+      throw DeviceError("jack device " + config_.client + ": " + refusal);
+    }
+    const std::int64_t now_ns = rt::monotonicNs();
+    if (now_ns >= end_ns) {
+      std::ostringstream message;
+      message << "jack device " << config_.client << ": waited " << config_.wait_s
+              << " s: " << (status.message.empty() ? "JACK does not answer" : status.message);
+      throw DeviceError(message.str());
+    }
+    rt::sleepUntilNs(now_ns + kPauseNs);
+  }
+}
+
+/// What was measured counts more than what JACK has been told; nothing is faster than a period.
+int JackDriver::roundTrip(const audio::JackStatus& status) const {
+  const auto period = static_cast<int>(status.period_frames);
+  const auto declared =
+      static_cast<int>(status.input_latency_frames + status.output_latency_frames);
+  const int frames = config_.round_trip_frames > 0 ? config_.round_trip_frames : declared;
+  if (frames < period) {
+    throw DeviceError("jack device " + config_.client + ": the round trip is " +
+                      std::to_string(frames) + " frames " +
+                      (frames == declared ? "by JACK" : "by round_trip_frames") +
+                      ", allowed: at least the period, " + std::to_string(period));
+  }
+  return frames;
+}
+
+std::unique_ptr<Driver> JackFactory::make(const std::string& settings,
+                                          const std::string& place) const {
+  return std::make_unique<JackDriver>(readJackSettings(settings, place));
+}
+
+}  // namespace ergotic::tgr

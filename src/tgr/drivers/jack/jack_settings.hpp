@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace ergotic::tgr {
+
+/// A TGR wired to a DC-coupled sound card.
+struct JackDriverConfig {
+  std::string client = "ergotic_tgr";       ///< name of our JACK client
+  std::string server;                       ///< empty: $JACK_DEFAULT_SERVER, else `default`
+  std::vector<std::string> position_ports;  ///< `client:port` or `physical N`, one for each slice
+  std::vector<std::string> force_ports;     ///< as above, as many
+  std::string heartbeat_port;               ///< as above; empty: none
+  double volts_per_unit = 1.0;              ///< volts at full scale, both ways
+  int round_trip_frames = 0;                ///< as measured; 0: what JACK says
+  double wait_s = 5.0;                      ///< for server and ports to appear
+};
+
+/// Reads the settings of the driver, see docs/tgr.md. \param file  for messages
+/// \throws TextError with file:line:col, value and allowed range
+JackDriverConfig readJackSettings(const std::string& text, const std::string& file);
+
+}  // namespace ergotic::tgr

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <signal.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "ergotic/audio/jack_client.hpp"
+#include "ergotic/exception.hpp"
+#include "ergotic/rt/clock.hpp"
+#include "tgr/drivers/jack/jack_device.hpp"
+#include "tgr/drivers/jack/step_meter.hpp"
+#include "tgr/require.hpp"
+
+namespace ergotic {
+namespace {
+
+struct Options {
+  tgr::JackDeviceConfig device;
+  std::string client = "jack_tgr";
+  std::string server;
+  std::string log;
+  double watchdog_ms = 0.0;
+  bool undeclared = false;
+  double seconds = 0.0;
+  int measure = 0;
+  std::vector<std::string> cable;
+  int slice = 0;
+  tgr::StepMeterConfig meter;
+};
+
+void declare(CLI::App& app, Options& options) {
+  tgr::JackDeviceConfig& device = options.device;
+  app.add_option("--client", options.client, "name of the JACK client")->capture_default_str();
+  app.add_option("--server", options.server, "of JACK; empty: the default one");
+  app.add_option("--slices", device.bank.slices, "1...64")->capture_default_str();
+  app.add_option("--gesture", device.bank.gesture_file,
+                 "CSV time_s,slice,target_m: where the virtual hands want to be");
+  app.add_option("--metres-per-unit", device.metres_per_unit, "position at full scale")
+      ->capture_default_str();
+  app.add_option("--newtons-per-unit", device.newtons_per_unit, "force at full scale")
+      ->capture_default_str();
+  app.add_option("--latency-frames", device.latency_frames, "of its converters")
+      ->capture_default_str();
+  app.add_flag("--undeclared", options.undeclared, "JACK is not told of that latency");
+  app.add_option("--watchdog-ms", options.watchdog_ms,
+                 "no force when the heartbeat was missing for so long; 0: no watchdog, as behind "
+                 "any plain sound card")
+      ->capture_default_str();
+  app.add_option("--log", options.log, "CSV time_ns,slice,force_n: every change of force");
+  app.add_option("--seconds", options.seconds, "end after so long; 0: at SIGINT or SIGTERM")
+      ->capture_default_str();
+  app.add_option("--measure", options.measure,
+                 "do not move; step a position so often and count the frames to its force");
+  app.add_option("--cable", options.cable,
+                 "with --measure: no device; from this port through a cable back to that one")
+      ->expected(2);
+  app.add_option("--slice", options.slice, "of the steps, from 0 on")->capture_default_str();
+  app.add_option("--step", options.meter.step, "of a position, of full scale")
+      ->capture_default_str();
+  app.add_option("--threshold", options.meter.threshold, "what counts as an answer, of full scale")
+      ->capture_default_str();
+}
+
+/// SIGINT and SIGTERM, blocked in this thread and in those that it starts.
+class Signals {
+ public:
+  Signals() {
+    sigemptyset(&set_);
+    sigaddset(&set_, SIGINT);
+    sigaddset(&set_, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &set_, nullptr);
+  }
+  /// Calls `each` every 10 ms until it is false, a signal comes, or the time (0: none) is over.
+  void attend(double seconds, const std::function<bool()>& each) const {
+    constexpr timespec kPause{0, 10'000'000};
+    const std::int64_t start_ns = rt::monotonicNs();
+    const auto isOver = [&] {
+      return seconds > 0.0 && static_cast<double>(rt::monotonicNs() - start_ns) > seconds * 1e9;
+    };
+    while (sigtimedwait(&set_, nullptr, &kPause) < 0 && each() && !isOver()) {
+    }
+  }
+
+ private:
+  sigset_t set_{};
+};
+
+/// Prints what JACK has to say whenever that changes.
+class Teller {
+ public:
+  explicit Teller(const audio::JackHost& host) : host_(host) {}
+  void look() {
+    const std::string message = host_.status().message;
+    if (message != last_ && !message.empty()) {
+      std::cerr << "jack_tgr: " << message << '\n';
+    }
+    last_ = message;
+  }
+
+ private:
+  const audio::JackHost& host_;
+  std::string last_;
+};
+
+int play(const Options& options, const Signals& signals) {
+  std::ofstream log;
+  if (!options.log.empty()) {
+    log.open(options.log);
+    log << "time_ns,slice,force_n\n" << std::flush;
+    if (!log) {
+      throw Exception(options.log + ": cannot be written");
+    }
+  }
+  tgr::JackDevice device(options.device);
+  {
+    const audio::JackHost host(device.jackConfig(options.client, options.server), device);
+    Teller teller(host);
+    signals.attend(options.seconds, [&] {
+      teller.look();
+      tgr::drainForces(device, log);
+      log.flush();
+      return true;
+    });
+  }
+  tgr::drainForces(device, log);
+  log.flush();
+  if (!options.log.empty() && (!log || device.droppedRecords() > 0)) {
+    throw Exception(options.log + ": incomplete, " + std::to_string(device.droppedRecords()) +
+                    " records dropped");
+  }
+  return EXIT_SUCCESS;
+}
+
+audio::JackConfig cableConfig(const Options& options) {
+  audio::JackConfig config;
+  config.name = options.client;
+  config.server = options.server;
+  config.inputs = 1;
+  config.outputs = 1;
+  config.output_peers = {options.cable[0]};
+  config.input_peers = {options.cable[1]};
+  return config;
+}
+
+/// A line of JSON. \return whether the round trip is known
+bool report(const tgr::StepSummary& summary, bool cable, std::int64_t declared) {
+  const bool known = summary.answered > 0;
+  std::cout << "{\"steps\": " << summary.answered + summary.unanswered + summary.disturbed
+            << ", \"answered\": " << summary.answered << ", \"disturbed\": " << summary.disturbed
+            << ", \"fewest_frames\": " << summary.fewest_frames
+            << ", \"most_frames\": " << summary.most_frames;
+  if (known) {
+    // The tick that sees the whole step answers as many frames later as a tick has.
+    const std::int64_t tick = summary.most_frames - summary.fewest_frames + 1;
+    std::cout << ", \"round_trip_frames\": " << summary.most_frames - (cable ? 0 : tick);
+    if (!cable) {
+      std::cout << ", \"tick_frames\": " << tick;
+    }
+  }
+  std::cout << ", \"declared_frames\": " << declared << "}\n";
+  return known;
+}
+
+int measure(const Options& options, const Signals& signals) {
+  tgr::requireWithin("slice", options.slice, 0, options.device.bank.slices - 1, "");
+  const bool cable = !options.cable.empty();
+  const tgr::JackDevice device(options.device);
+  tgr::StepMeterConfig config = options.meter;
+  config.channel = cable ? 0 : options.slice;
+  tgr::StepMeter meter(config);
+  const audio::JackHost host(
+      cable ? cableConfig(options) : device.jackConfig(options.client, options.server), meter);
+  Teller teller(host);
+  std::vector<tgr::StepAnswer> answers;
+  signals.attend(options.seconds, [&] {
+    teller.look();
+    tgr::StepAnswer answer;
+    while (meter.poll(answer)) {
+      answers.push_back(answer);
+    }
+    return static_cast<int>(answers.size()) < options.measure;
+  });
+  const audio::JackStatus status = host.status();
+  const std::int64_t declared = cable ? status.input_latency_frames + status.output_latency_frames
+                                      : device.declaredFrames(status.period_frames);
+  return report(tgr::summaryOf(answers), cable, declared) ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+}  // namespace
+}  // namespace ergotic
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "A virtual TGR behind a sound card, as a JACK client; `driver: jack` is wired to its ports.\n"
+      "Behind a real card there is no watchdog unless the amplifier has one for the heartbeat.");
+  ergotic::Options options;
+  ergotic::declare(app, options);
+  CLI11_PARSE(app, argc, argv);
+  constexpr double kSPerMs = 1e-3;
+  options.device.watchdog_s = options.watchdog_ms * kSPerMs;
+  options.device.declares_latency = !options.undeclared;
+  try {
+    const ergotic::Signals signals;
+    const bool measures = options.measure > 0 || !options.cable.empty();
+    return measures ? ergotic::measure(options, signals) : ergotic::play(options, signals);
+  } catch (const ergotic::Exception& error) {
+    std::cerr << "jack_tgr: " << error.what() << '\n';
+    return EXIT_FAILURE;
+  }
+}

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tgr/drivers/jack/jack_driver.hpp"
+
+#include <cmath>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include "ergotic/exception.hpp"
+#include "tgr_jack/jack_rigs.hpp"
+
+namespace ergotic::tgr {
+namespace {
+
+using test::eventually;
+using test::JackServer;
+using test::TickCounter;
+
+constexpr int kRate = 48000;
+
+std::string openError(JackDriver& driver, double tick_rate_hz) {
+  try {
+    driver.open(tick_rate_hz);
+  } catch (const DeviceError& error) {
+    return error.what();
+  }
+  return "opened";
+}
+
+TEST(JackDriverTest, SaysWhatIsNotThere) {
+  JackServer server("absent", test::serverSettings(kRate, 64));
+  JackDriverConfig config = test::jackDriver(server);
+  config.wait_s = 0.3;
+  JackDriver driver(config);
+  EXPECT_NE(openError(driver, 3000.0).find("no JACK server `" + server.name()), std::string::npos);
+  server.start();
+  config.wait_s = 5.0;
+  JackDriver later(config);
+  EXPECT_NE(openError(later, 3000.0).find("no port `device:position_1`"), std::string::npos);
+}
+
+TEST(JackDriverTest, RefusesATickThatDoesNotDivideThePeriodAndTakesOneThatDoes) {
+  JackServer server("period", test::serverSettings(kRate, 64));
+  server.start();
+  const test::JackDeviceClient device(server, test::jackDevice());
+  JackDriver driver(test::jackDriver(server));
+  EXPECT_NE(openError(driver, 4000.0).find("period is 64 frames, a tick is 12"), std::string::npos);
+  EXPECT_NE(openError(driver, 3100.0).find("no multiple of the 3100 Hz"), std::string::npos);
+  EXPECT_EQ(openError(driver, 3000.0), "opened");
+  EXPECT_EQ(driver.roundTripFrames(), 64);
+  EXPECT_EQ(driver.extraDelayTicks(), 4);
+}
+
+TEST(JackDriverTest, FindsTheSoundCardsPortsByTheirNumbers) {
+  JackServer server("physical", test::serverSettings(kRate, 128));
+  server.start();
+  JackDriverConfig config = test::jackDriver(server, 1);
+  config.position_ports = {"physical 2"};
+  config.force_ports = {"physical 2"};
+  JackDriver driver(config);
+  driver.open(6000.0);
+  EXPECT_EQ(server.tool("jack_lsp -c system:playback_2 | grep -q '   ergotic_tgr:force_1'"), 0);
+  EXPECT_EQ(server.tool("jack_lsp -c system:capture_2 | grep -q '   ergotic_tgr:position_1'"), 0);
+  EXPECT_EQ(driver.roundTripFrames(), 2 * 128) << "one period each way on a synchronous server";
+  EXPECT_EQ(driver.extraDelayTicks(), 32);
+}
+
+TEST(JackDriverTest, CountsOnTheRoundTripThatWasMeasured) {
+  JackServer server("override", test::serverSettings(kRate, 64));
+  server.start();
+  const test::JackDeviceClient device(server, test::jackDevice());
+  JackDriverConfig config = test::jackDriver(server);
+  config.round_trip_frames = 211;
+  JackDriver driver(config);
+  driver.open(3000.0);
+  EXPECT_EQ(driver.roundTripFrames(), 211);
+  EXPECT_EQ(driver.extraDelayTicks(), 14);
+  config.round_trip_frames = 63;
+  JackDriver impossible(config);
+  EXPECT_NE(openError(impossible, 3000.0)
+                .find("63 frames by round_trip_frames, allowed: at least "
+                      "the period, 64"),
+            std::string::npos);
+}
+
+/// Sees all that a driver sends, sample by sample.
+class ForceProbe : public rt::BlockProcessor {
+ public:
+  explicit ForceProbe(std::uint32_t ratio) : ratio_(ratio) {}
+  void audioStarted(double, std::uint32_t) override {}
+  void audioStopped() noexcept override {}
+  void xrun() noexcept override {}
+  void process(const rt::Block& block) noexcept override {
+    const float* force = block.inputs[0];
+    const bool jump = block.start.frames != next_frame_;
+    next_frame_ = block.start.frames + block.nframes;
+    for (std::uint32_t i = 0; i < block.nframes; i += ratio_) {
+      for (std::uint32_t r = 1; r < ratio_; ++r) {
+        torn += force[i + r] == force[i] ? 0 : 1;
+      }
+      const bool next = force[i] == std::fmod(last_ + 1.0F / 1024.0F, 1.0F);
+      if (last_ != 0.0F && force[i] != 0.0F) {
+        wrong += next || jump || jumped_before_ ? 0 : 1;
+        right += next ? 1 : 0;
+      }
+      last_ = force[i];
+    }
+    jumped_before_ = jump;
+    is_zero = std::all_of(force, force + block.nframes, [](float f) { return f == 0.0F; });
+    ++blocks;
+    last_nonzero = is_zero ? last_nonzero.load() : blocks.load();
+  }
+  std::atomic<std::int64_t> blocks{0};
+  std::atomic<std::int64_t> last_nonzero{0};  ///< number of the block
+  std::atomic<std::int64_t> torn{0};          ///< samples that are not those of their tick
+  std::atomic<std::int64_t> wrong{0};         ///< ticks that do not follow the one before
+  std::atomic<std::int64_t> right{0};
+  std::atomic<bool> is_zero{true};
+
+ private:
+  std::uint32_t ratio_;
+  std::int64_t next_frame_ = 0;
+  bool jumped_before_ = false;  // the driver may have met it a block later
+  float last_ = 0.0F;
+};
+
+/// Force n is n/1024, exact in a float.
+class CountingTarget : public TickCounter {
+ public:
+  using TickCounter::TickCounter;
+
+ protected:
+  void computeForces(std::int64_t tick) noexcept override {
+    forces_.fill(static_cast<double>(tick % 1024) / 1024.0);
+  }
+};
+
+class JackForcesTest : public ::testing::Test {
+ protected:
+  JackForcesTest() {
+    server_.start();
+    device_.emplace(test::JackDeviceClient(server_, test::jackDevice())
+                        .device.jackConfig("device", server_.name()),
+                    probe_);
+    driver_.open(kRate / 16.0);
+    driver_.clock()->start(target_);
+  }
+  ~JackForcesTest() override { driver_.clock()->stop(); }
+
+  JackServer server_{"forces", test::serverSettings(kRate, 64)};
+  ForceProbe probe_{16};
+  std::optional<audio::JackHost> device_;
+  JackDriver driver_{test::jackDriver(server_)};
+  CountingTarget target_{driver_};
+};
+
+TEST_F(JackForcesTest, ReachTheDeviceSampleBySample) {
+  ASSERT_TRUE(eventually([&] { return probe_.right > 3000; }));
+  EXPECT_EQ(probe_.torn, 0);
+  EXPECT_EQ(probe_.wrong, 0);
+  EXPECT_EQ(target_.lost, 0);
+}
+
+TEST_F(JackForcesTest, AreZeroFromTheNextBlockOnWhenMadeSafe) {
+  ASSERT_TRUE(eventually([&] { return probe_.right > 100; }));
+  driver_.makeSafe();
+  // One block may be under way to the device, one is what JACK's loop holds back.
+  const std::int64_t last_allowed = probe_.blocks + 2;
+  ASSERT_TRUE(eventually([&] { return probe_.blocks > last_allowed + 200; }));
+  EXPECT_LE(probe_.last_nonzero, last_allowed);
+  const std::int64_t safe_blocks = probe_.blocks;
+  driver_.rearm();
+  EXPECT_TRUE(eventually([&] { return probe_.last_nonzero > safe_blocks; }));
+}
+
+TEST_F(JackForcesTest, AreZeroWithoutTicks) {
+  ASSERT_TRUE(eventually([&] { return probe_.right > 100; }));
+  driver_.clock()->stop();
+  const std::int64_t ticks = target_.ticks;
+  const std::int64_t last_allowed = probe_.blocks + 2;
+  ASSERT_TRUE(eventually([&] { return probe_.blocks > last_allowed + 100; }));
+  EXPECT_LE(probe_.last_nonzero, last_allowed);
+  EXPECT_EQ(target_.ticks, ticks);
+}
+
+TEST_F(JackForcesTest, AreZeroWhileAnotherSourceIsAtTheSamePort) {
+  ASSERT_TRUE(eventually([&] { return probe_.right > 100; }));
+  ASSERT_EQ(server_.tool("jack_connect system:capture_1 device:force_1"), 0);
+  ASSERT_TRUE(eventually([&] { return target_.lost > 100 && probe_.is_zero; }));
+  EXPECT_NE(driver_.status().message.find("connected with `system:capture_1` too"),
+            std::string::npos)
+      << driver_.status().message;
+  ASSERT_EQ(server_.tool("jack_disconnect system:capture_1 device:force_1"), 0);
+  driver_.reconnect();
+  const std::int64_t well = target_.well;
+  EXPECT_TRUE(eventually([&] { return target_.well > well + 100 && !probe_.is_zero; }));
+}
+
+TEST_F(JackForcesTest, ComeBackWithTheDevice) {
+  ASSERT_TRUE(eventually([&] { return target_.well > 100; }));
+  const audio::JackConfig config =
+      JackDevice(test::jackDevice()).jackConfig("device", server_.name());
+  device_.reset();
+  ASSERT_TRUE(eventually([&] { return target_.lost > 100; }));
+  const std::int64_t blocks = probe_.blocks;
+  device_.emplace(config, probe_);
+  driver_.reconnect();
+  EXPECT_TRUE(eventually([&] { return probe_.last_nonzero > blocks; }));
+}
+
+TEST_F(JackForcesTest, OutliveAServerThatIsKilledAndRestarted) {
+  ASSERT_TRUE(eventually([&] { return target_.well > 100; }));
+  const std::int64_t missed_before = target_.missed_ticks;
+  const std::int64_t killed_ns = rt::monotonicNs();
+  server_.kill();
+  ASSERT_TRUE(eventually([&] { return !driver_.status().running; }));
+  const std::int64_t ticks = target_.ticks;
+  const double back_s = 1e-9 * static_cast<double>(rt::monotonicNs() - killed_ns);
+  server_.start();
+  ASSERT_TRUE(eventually([&] { return target_.ticks > ticks + 100; }));
+  driver_.reconnect();
+  const std::int64_t well = target_.well;
+  EXPECT_TRUE(eventually([&] { return target_.well > well + 100 && !probe_.is_zero; }));
+  EXPECT_GE(target_.missed_ticks - missed_before, std::llround(0.9 * back_s * kRate / 16.0))
+      << "the time without a server";
+  EXPECT_EQ(driver_.extraDelayTicks(), 4);
+}
+
+}  // namespace
+}  // namespace ergotic::tgr

@@ -173,6 +173,7 @@ int measure(const Options& options, const Signals& signals) {
   const tgr::JackDevice device(options.device);
   tgr::StepMeterConfig config = options.meter;
   config.channel = cable ? 0 : options.slice;
+  config.latency_frames = cable ? 0 : options.device.latency_frames;
   tgr::StepMeter meter(config);
   const audio::JackHost host(
       cable ? cableConfig(options) : device.jackConfig(options.client, options.server), meter);

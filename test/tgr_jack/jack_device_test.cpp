@@ -99,7 +99,7 @@ TEST(JackDeviceTest, FeelsNothingWhenTheHeartbeatStandsStill) {
     played.play(0.1F, n % 2 == 0 ? 0.5F : -0.5F);
   }
   EXPECT_NEAR(played.newest(), 20.0, 1e-5);
-  for (int n = 0; n < 7; ++n) {
+  for (int n = 0; n < 6; ++n) {
     played.play(0.1F, -0.5F);  // a block that is repeated, as by a stalled driver
   }
   EXPECT_EQ(played.newest(), -1.0);

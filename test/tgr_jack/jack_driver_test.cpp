@@ -75,6 +75,7 @@ TEST(JackDriverTest, CountsOnTheRoundTripThatWasMeasured) {
   driver.open(3000.0);
   EXPECT_EQ(driver.roundTripFrames(), 211);
   EXPECT_EQ(driver.extraDelayTicks(), 14);
+  driver.close();
   config.round_trip_frames = 63;
   JackDriver impossible(config);
   EXPECT_NE(openError(impossible, 3000.0)

@@ -8,9 +8,11 @@ namespace ergotic::tgr {
 
 void StepMeter::audioStarted(double /*sample_rate_hz*/, std::uint32_t period_frames) {
   waiting_ = false;
+  in_touch_ = false;
   is_first_ = true;
   level_ = 0.0F;
-  config_.rest_frames = std::max<int>(config_.rest_frames, 4 * static_cast<int>(period_frames));
+  config_.rest_frames =
+      std::max(config_.rest_frames, config_.latency_frames + 4 * static_cast<int>(period_frames));
 }
 
 void StepMeter::process(const rt::Block& block) noexcept {
@@ -37,18 +39,21 @@ void StepMeter::process(const rt::Block& block) noexcept {
       disturbed_ = false;
       ++steps_;
     }
-    out[i] = level_;
+    const bool is_out = now - step_at_ >= config_.latency_frames || !waiting_;
+    out[i] = is_out ? level_ : static_cast<float>(config_.step) - level_;
     const bool answered = std::abs(in[i] - before_) > static_cast<float>(config_.threshold);
     if (waiting_ && (answered || now - step_at_ >= config_.rest_frames)) {
-      note({now - step_at_, answered, disturbed_});
+      note(now - step_at_, answered);
       step_at_ = now + config_.rest_frames;
     }
   }
 }
 
-void StepMeter::note(const StepAnswer& answer) noexcept {
+void StepMeter::note(std::int64_t frames, bool answered) noexcept {
   waiting_ = false;
-  answers_.push(answer);  // who does not poll does not want to know
+  // Who does not poll does not want to know.
+  answers_.push({frames, answered, answered && (disturbed_ || !in_touch_)});
+  in_touch_ = answered;
 }
 
 StepSummary summaryOf(const std::vector<StepAnswer>& answers) {

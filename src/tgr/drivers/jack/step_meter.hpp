@@ -15,6 +15,7 @@ struct StepMeterConfig {
   int channel = 0;          ///< of the step and of its answer, the same
   double step = 0.1;        ///< full scale units
   double threshold = 1e-5;  ///< change of the answer that counts, units
+  int latency_frames = 0;   ///< of converters that a step has to pass on its way out
   int rest_frames = 4800;   ///< between steps, and how long an answer may take
 };
 
@@ -22,7 +23,8 @@ struct StepMeterConfig {
 struct StepAnswer {
   std::int64_t frames = 0;  ///< from the step to the first changed sample of the answer
   bool answered = false;
-  bool disturbed = false;  ///< blocks were left out meanwhile: `frames` is worth nothing
+  bool disturbed = false;  ///< `frames` is worth nothing: blocks were left out meanwhile, or the
+                           ///< step before was not answered
 };
 
 /// Measures how many frames a step on an output needs to show on the input of the same number,
@@ -45,7 +47,7 @@ class StepMeter final : public rt::BlockProcessor {
   bool poll(StepAnswer& answer) noexcept { return answers_.pop(answer); }
 
  private:
-  void note(const StepAnswer& answer) noexcept;
+  void note(std::int64_t frames, bool answered) noexcept;
 
   StepMeterConfig config_;
   std::int64_t frame_ = 0;    // host frame of the block that comes next
@@ -55,7 +57,8 @@ class StepMeter final : public rt::BlockProcessor {
   float before_ = 0.0F;   // of the answer
   bool waiting_ = false;  // for an answer
   bool disturbed_ = false;
-  bool is_first_ = true;  // block
+  bool is_first_ = true;   // block
+  bool in_touch_ = false;  // the last step was answered
   rt::Ring<StepAnswer> answers_{1U << 10U};
 };
 

@@ -40,7 +40,9 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--server", options.server, "of JACK; empty: the default one");
   app.add_option("--slices", device.bank.slices, "1...64")->capture_default_str();
   app.add_option("--gesture", device.bank.gesture_file,
-                 "CSV time_s,slice,target_m: where the virtual hands want to be");
+                 "CSV time_s,slice,target_m or tick,x0,...: where the virtual hands want to be");
+  app.add_option("--gesture-rate", device.bank.gesture_rate,
+                 "ticks per second of a gesture tick,x0,...");
   app.add_option("--metres-per-unit", device.metres_per_unit, "position at full scale")
       ->capture_default_str();
   app.add_option("--newtons-per-unit", device.newtons_per_unit, "force at full scale")

@@ -7,6 +7,7 @@
 
 #include "ergotic/exception.hpp"
 #include "support/alloc_count.hpp"
+#include "support/scratch_file.hpp"
 #include "tgr_jack/jack_rigs.hpp"
 
 namespace ergotic::tgr {
@@ -128,6 +129,10 @@ TEST(JackDeviceTest, RefusesNumbersOutOfRange) {
   refuses([](JackDeviceConfig& c) { c.latency_frames = -1; });
   refuses([](JackDeviceConfig& c) { c.watchdog_s = 11.0; });
   refuses([](JackDeviceConfig& c) { c.bank.slices = 0; });
+  refuses([](JackDeviceConfig& c) { c.bank.slice.volts.emplace(); });
+  refuses([](JackDeviceConfig& c) { c.bank.extra_delay_ticks = 1; });
+  const test::ScratchFile positions("tick,x0\n0,0.01\n");
+  refuses([&](JackDeviceConfig& c) { c.bank.gesture_file = positions.path(); });
 }
 
 TEST(JackDeviceTest, AllocatesNothingInABlock) {

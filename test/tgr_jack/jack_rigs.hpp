@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <thread>
@@ -29,6 +30,7 @@ inline tgr::VirtualSliceConfig bareSlice() {
   slice.dry_friction = 0.0;
   slice.quantum = 0.0;
   slice.noise_rms = 0.0;
+  slice.bandwidth = std::numeric_limits<double>::infinity();
   return slice;
 }
 

@@ -25,7 +25,7 @@ TEST(JackSettingsTest, ReadsAllOfThem) {
   const JackDriverConfig config = readJackSettings(
       "client: hand\nserver: second\nslices: 2\nposition_ports: {physical: 3}\n"
       "force_ports: [5, \"card:out 1\"]\nheartbeat_port: 8\nvolts_per_unit: 10\n"
-      "round_trip_frames: 211\nwait_s: 0.5\n",
+      "damping: 3.5\nround_trip_frames: 211\nwait_s: 0.5\n",
       "s.yaml");
   EXPECT_EQ(config.client, "hand");
   EXPECT_EQ(config.server, "second");
@@ -33,6 +33,8 @@ TEST(JackSettingsTest, ReadsAllOfThem) {
   EXPECT_EQ(config.force_ports, (Names{"physical 5", "card:out 1"}));
   EXPECT_EQ(config.heartbeat_port, "physical 8");
   EXPECT_EQ(config.volts_per_unit, 10.0);
+  EXPECT_EQ(config.damping, 3.5);
+  EXPECT_EQ(JackDriver(config).damping(), 3.5);
   EXPECT_EQ(config.round_trip_frames, 211);
   EXPECT_EQ(config.wait_s, 0.5);
 }

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "tgr/drivers/virtual/virtual_slice.hpp"
+#include "ergotic/exception.hpp"
+#include "ergotic/tgr/gesture.hpp"
 #include "tgr/require.hpp"
 
 namespace ergotic::tgr {
@@ -14,6 +15,17 @@ namespace {
 constexpr double kNsPerS = 1e9;
 
 const JackDeviceConfig& checked(const JackDeviceConfig& config) {
+  const VirtualDriverConfig& bank = config.bank;
+  if (!bank.shared_memory.empty() || bank.extra_delay_ticks != 0 || bank.slice.volts) {
+    throw Exception(
+        "shared_memory, extra_delay_ticks and volts are settings of a driver, not of a device "
+        "behind a sound card");
+  }
+  if (!bank.gesture_file.empty() && bank.gesture_rate == 0.0 &&
+      gestureKindOf(bank.gesture_file) == GestureKind::kPositions) {
+    throw Exception(bank.gesture_file +
+                    ": positions per tick need a gesture rate: a device knows no ticks");
+  }
   requireWithin("metres per unit", config.metres_per_unit, 1e-4, 1.0, "m");
   requireWithin("newtons per unit", config.newtons_per_unit, 0.1, 1000.0, "N");
   requireWithin("latency", config.latency_frames, 0, 1 << 16, "frames");
@@ -55,7 +67,7 @@ int JackDevice::declaredFrames(std::uint32_t period) const noexcept {
 }
 
 void JackDevice::audioStarted(double sample_rate_hz, std::uint32_t /*period_frames*/) {
-  bank_.start(1.0 / sample_rate_hz);
+  bank_.start(1.0 / sample_rate_hz, sample_rate_hz);
   std::fill(delayed_.begin(), delayed_.end(), 0.0F);
   oldest_ = 0;
   frame_ns_ = kNsPerS / sample_rate_hz;
@@ -89,7 +101,7 @@ void JackDevice::takeForces(const rt::Block& block, std::uint32_t frame) noexcep
   const std::int64_t now_ns = block.start.time_ns + std::llround(frame * frame_ns_);
   for (std::size_t i = 0; i < forces_.size(); ++i) {
     const double asked = may_push ? static_cast<double>(block.inputs[i][frame]) : 0.0;
-    feel(i, saturated(asked * config_.newtons_per_unit, config_.bank.slice.force_limit), now_ns);
+    feel(i, bank_.newtons(static_cast<int>(i), asked * config_.newtons_per_unit), now_ns);
   }
 }
 

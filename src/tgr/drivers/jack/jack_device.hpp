@@ -16,7 +16,7 @@
 namespace ergotic::tgr {
 
 struct JackDeviceConfig {
-  SliceBankConfig bank;
+  VirtualDriverConfig bank;       ///< its slices, in metres and newtons; nothing of a driver
   double metres_per_unit = 0.05;  ///< position at full scale, 1e-4...1
   double newtons_per_unit = 200;  ///< force at full scale, 0.1...1000
   int latency_frames = 0;         ///< of its converters, in the way of the positions, 0...65536

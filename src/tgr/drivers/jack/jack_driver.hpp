@@ -40,6 +40,7 @@ class JackDriver final : public Driver {
   void rearm() noexcept override { ticks_.rearm(); }
   int extraDelayTicks() const noexcept override { return extra_delay_ticks_; }
   bool isRaw() const noexcept override { return true; }
+  double damping() const noexcept override { return config_.damping; }
   DeviceClock* clock() noexcept override { return &ticks_; }
 
   /// Frames from a position at the plug to the force of the same tick at the plug. \pre open

@@ -13,6 +13,7 @@ namespace {
 constexpr scene::Limits kSliceCount{"", 1.0, kMaxSlices};
 constexpr scene::Limits kPhysical{"", 1.0, 1024.0};
 constexpr scene::Limits kVolts{"V", 1e-3, 1e3};
+constexpr scene::Limits kDamping{"N s/m", 0.0, 1e4};
 constexpr scene::Limits kRoundTrip{"frames", 1.0, 1 << 16};
 constexpr scene::Limits kWait{"s", 0.0, 60.0};
 
@@ -76,7 +77,7 @@ JackDriverConfig readJackSettings(const std::string& text, const std::string& fi
   const Settings settings(text, file, "driver jack");
   const scene::YamlMap& top = settings.top();
   top.allow({"client", "server", "slices", "position_ports", "force_ports", "heartbeat_port",
-             "volts_per_unit", "round_trip_frames", "wait_s"});
+             "volts_per_unit", "damping", "round_trip_frames", "wait_s"});
   JackDriverConfig config;
   const int slices = top.integer("slices", kSliceCount);
   if (top.has("client")) {
@@ -95,6 +96,7 @@ JackDriverConfig readJackSettings(const std::string& text, const std::string& fi
     }
   }
   config.volts_per_unit = top.number("volts_per_unit", kVolts, config.volts_per_unit);
+  config.damping = top.number("damping", kDamping, config.damping);
   if (top.has("round_trip_frames")) {
     config.round_trip_frames = top.integer("round_trip_frames", kRoundTrip);
   }

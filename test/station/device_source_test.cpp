@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ergotic/station/device_source.hpp"
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/rt/clock.hpp"
+#include "support/audio_host.hpp"
+#include "support/station_doubles.hpp"
+
+namespace ergotic::station {
+namespace {
+
+using test::Bench;
+using test::SpringInstrument;
+
+/// A device whose clock is the test.
+class ClockedDriver final : public test::ScriptedDriver, public tgr::DeviceClock {
+ public:
+  using ScriptedDriver::ScriptedDriver;
+  tgr::DeviceClock* clock() noexcept override { return this; }
+  void start(tgr::TickTarget& to) override { target = &to; }
+  void stop() noexcept override { target = nullptr; }
+
+  tgr::TickTarget* target = nullptr;
+};
+
+class DeviceSourceTest : public ::testing::Test {
+ protected:
+  explicit DeviceSourceTest(const SpringInstrument::Setting& setting = {}) {
+    auto made = std::make_unique<ClockedDriver>(2, log_, [](std::int64_t, int) { return 0.01; });
+    driver_ = made.get();
+    station_ =
+        std::make_unique<Station>(Bench::quickConfig(), std::move(made), test::makeSpring(setting));
+  }
+  void tick(int count) {
+    for (int n = 0; n < count; ++n) {
+      driver_->target->tick(0);
+    }
+  }
+  int eventsOf(Event::Type type) {
+    int count = 0;
+    Event event;
+    while (station_->poll(event)) {
+      count += event.type == type ? 1 : 0;
+    }
+    return count;
+  }
+
+  test::DriverLog log_;
+  ClockedDriver* driver_ = nullptr;
+  std::unique_ptr<Station> station_;
+};
+
+TEST_F(DeviceSourceTest, NeedsADeviceWithAClock) {
+  const Bench bench;
+  EXPECT_THROW(DeviceSource(*bench.station, nullptr), Exception);
+}
+
+TEST_F(DeviceSourceTest, TicksWhenTheDeviceSays) {
+  DeviceSource source(*station_, nullptr);
+  EXPECT_FALSE(source.isRunning());
+  source.start(false);
+  EXPECT_TRUE(source.isRunning());
+  EXPECT_THROW(source.start(false), Exception);
+  tick(7);
+  EXPECT_EQ(station_->nextTick(), 7);
+  EXPECT_EQ(log_.exchanges, 7);
+}
+
+TEST_F(DeviceSourceTest, CatchesUpWhatTheDeviceMissed) {
+  DeviceSource source(*station_, nullptr);
+  source.start(false);
+  tick(3);
+  driver_->target->missed(5, 1'600'000);
+  EXPECT_EQ(station_->nextTick(), 8);
+  EXPECT_EQ(log_.exchanges, 4) << "one exchange for all of them";
+  EXPECT_EQ(eventsOf(Event::Type::kStall), 1);
+  driver_->target->missed(1000, 320'000'000);
+  EXPECT_EQ(station_->nextTick(), 1008);
+  EXPECT_EQ(eventsOf(Event::Type::kFault), 1) << "longer than max_stall";
+}
+
+TEST_F(DeviceSourceTest, LeavesTheDeviceWithoutForce) {
+  DeviceSource source(*station_, nullptr);
+  source.start(false);
+  Command engage;
+  engage.type = Command::Type::kEngage;
+  ASSERT_TRUE(station_->submit(engage));
+  tick(500);
+  ASSERT_LT(log_.forces[0], -0.5);
+  source.stop();
+  EXPECT_EQ(driver_->target, nullptr);
+  EXPECT_EQ(log_.forces[0], 0.0);
+  const std::int64_t exchanges = log_.exchanges;
+  source.stop();
+  EXPECT_EQ(log_.exchanges, exchanges) << "a source that does not run leaves the device alone";
+  source.start(false);
+  tick(100);
+  EXPECT_EQ(log_.forces[0], 0.0) << "another engage is needed";
+}
+
+SpringInstrument::Setting frameCounter() {
+  SpringInstrument::Setting setting;
+  setting.count_frames = true;
+  return setting;
+}
+
+/// Device and audio host are two clients of one server: both are called for each block.
+class DeviceSourceSoundTest : public DeviceSourceTest {
+ protected:
+  static constexpr std::uint32_t kPeriod = 56;
+  DeviceSourceSoundTest() : DeviceSourceTest(frameCounter()) {
+    station_->setFramePort(&bridge_);
+    host_.start(kPeriod, 5000, rt::monotonicNs());
+    source_.start(false);
+  }
+  static AudioBridgeConfig bridgeConfig() {
+    AudioBridgeConfig config;
+    config.output_channels = 2;
+    config.input_channels = 1;
+    return config;
+  }
+  /// The block of the device, then that of the sound. \return host frame less station frame, of
+  /// all frames that are not silent
+  std::set<std::int64_t> play(int blocks) {
+    std::set<std::int64_t> offsets;
+    for (int n = 0; n < blocks; ++n) {
+      for (std::uint32_t frame = 0; frame < kPeriod; frame += 14) {
+        const std::int64_t due_ns = host_.timeOf(host_.nextFrame() + frame);
+        driver_->target->tick(rt::monotonicNs() - due_ns);
+      }
+      const std::int64_t first = host_.nextFrame();
+      const std::vector<float> out = host_.block();
+      for (std::uint32_t i = 0; i < kPeriod; ++i) {
+        if (out[i] != 0.0F) {
+          offsets.insert(first + i - static_cast<std::int64_t>(out[i]));
+        }
+      }
+    }
+    return offsets;
+  }
+
+  AudioBridge bridge_{bridgeConfig()};
+  test::AudioHost host_{bridge_, 2, 1, 44100.0};
+  DeviceSource source_{*station_, &bridge_};
+};
+
+TEST_F(DeviceSourceSoundTest, KeepsFramesAtTheirPlacesThroughBlocksThatAreLeftOut) {
+  const std::set<std::int64_t> before = play(60);
+  ASSERT_EQ(before.size(), 1U);
+  constexpr int kLostBlocks = 3;
+  host_.skip(kLostBlocks * kPeriod);
+  driver_->target->missed(kLostBlocks * kPeriod / 14, 3'800'000);
+  EXPECT_EQ(play(60), before);
+  EXPECT_EQ(bridge_.status().underruns, 0);
+}
+
+TEST_F(DeviceSourceSoundTest, IsSilentOnceStopped) {
+  ASSERT_FALSE(play(60).empty());
+  source_.stop();
+  host_.block();
+  EXPECT_EQ(host_.block(), std::vector<float>(kPeriod, 0.0F));
+}
+
+}  // namespace
+}  // namespace ergotic::station

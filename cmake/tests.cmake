@@ -48,6 +48,7 @@ ergotic_add_gtests(tgr_jack ergotic_jack_driver)
 # They run the tools as programs.
 add_dependencies(ergotic_golden_test render check)
 add_dependencies(ergotic_tools_test bench)
+add_dependencies(ergotic_tgr_jack_test jack_tgr)
 if(ERGOTIC_ROS)
   include(cmake/ros_tests.cmake)
 endif()

@@ -76,13 +76,15 @@ void JackDevice::audioStarted(double sample_rate_hz, std::uint32_t /*period_fram
 }
 
 void JackDevice::audioStopped() noexcept {
+  const std::int64_t now_ns = std::max(rt::monotonicNs(), end_ns_);
   for (std::size_t i = 0; i < forces_.size(); ++i) {
-    feel(i, 0.0, rt::monotonicNs());
+    feel(i, 0.0, now_ns);
   }
 }
 
 void JackDevice::process(const rt::Block& block) noexcept {
   const auto slices = forces_.size();
+  end_ns_ = block.start.time_ns + std::llround(block.nframes * frame_ns_);
   for (std::uint32_t frame = 0; frame < block.nframes; ++frame) {
     bank_.read(positions_.data());
     for (std::size_t i = 0; i < slices; ++i) {

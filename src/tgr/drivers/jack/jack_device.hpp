@@ -64,6 +64,7 @@ class JackDevice final : public rt::BlockProcessor {
   std::vector<float> delayed_;     // [latency][slices] units under way
   std::size_t oldest_ = 0;
   double frame_ns_ = 0.0;
+  std::int64_t end_ns_ = 0;  // of the last block, in which forces are felt ahead of time
   std::int64_t watchdog_frames_ = 0;
   std::int64_t since_beat_ = 0;  // frames
   bool beat_ = false;            // its last sign

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <signal.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <thread>
 
@@ -13,13 +16,19 @@
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/clock.hpp"
 #include "ergotic/rt/thread.hpp"
+#include "ergotic/tgr/device.hpp"
 #include "tgr/drivers/virtual/virtual_device.hpp"
+#include "tgr/drivers/virtual/virtual_settings.hpp"
 
 namespace ergotic {
 namespace {
 
 struct Options {
   tgr::VirtualDeviceConfig device;
+  std::string file;
+  std::optional<int> slices;
+  std::optional<std::string> gesture;
+  std::optional<double> gesture_rate;
   std::string log;
   double watchdog_ms = 10.0;
   double seconds = 0.0;
@@ -28,9 +37,12 @@ struct Options {
 
 void declare(CLI::App& app, Options& options) {
   app.add_option("--shm", options.device.shared_memory, "name of the shared memory")->required();
-  app.add_option("--slices", options.device.bank.slices, "1...64")->capture_default_str();
-  app.add_option("--gesture", options.device.bank.gesture_file,
-                 "CSV time_s,slice,target_m: where the virtual hands want to be");
+  app.add_option("--device", options.file,
+                 "YAML file of devices: the settings of the first whose driver is `virtual`");
+  app.add_option("--slices", options.slices, "1...64, in place of the file's; without one: 12");
+  app.add_option("--gesture", options.gesture,
+                 "CSV time_s,slice,target_m or tick,x0,...: where the virtual hands want to be");
+  app.add_option("--gesture-rate", options.gesture_rate, "Hz, of the ticks of a CSV tick,x0,...");
   app.add_option("--rate", options.device.rate_hz, "steps of the mechanics, Hz")
       ->capture_default_str();
   app.add_option("--watchdog-ms", options.watchdog_ms,
@@ -41,6 +53,37 @@ void declare(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_option("--priority", options.priority, "SCHED_FIFO priority, 1...99; 0: none")
       ->capture_default_str();
+}
+
+/// Of the first virtual device in a file.
+tgr::VirtualDriverConfig readDevice(const std::string& path) {
+  std::ifstream in(path);
+  std::ostringstream text;
+  if (!(text << in.rdbuf())) {
+    throw Exception(path + ": cannot be read");
+  }
+  const tgr::StationDevices devices = tgr::readDevices(text.str(), path);
+  const auto found =
+      std::find_if(devices.devices.begin(), devices.devices.end(),
+                   [](const tgr::DeviceConfig& device) { return device.driver == "virtual"; });
+  if (found == devices.devices.end()) {
+    throw Exception(path + ": no device of it has the driver virtual");
+  }
+  return tgr::readVirtualSettings(found->settings, found->place);
+}
+
+/// The device of the file, if there is one, changed by what the command line says.
+tgr::VirtualDeviceConfig deviceOf(const Options& options) {
+  tgr::VirtualDeviceConfig device = options.device;
+  if (!options.file.empty()) {
+    device.bank = readDevice(options.file);
+  }
+  device.bank.slices = options.slices.value_or(device.bank.slices);
+  device.bank.gesture_file = options.gesture.value_or(device.bank.gesture_file);
+  device.bank.gesture_rate = options.gesture_rate.value_or(device.bank.gesture_rate);
+  constexpr double kSPerMs = 1e-3;
+  device.watchdog_s = options.watchdog_ms * kSPerMs;
+  return device;
 }
 
 /// SIGINT and SIGTERM, blocked in this thread and in those that it starts.
@@ -81,7 +124,7 @@ int run(const Options& options) {
       throw Exception(options.log + ": cannot be written");
     }
   }
-  tgr::VirtualDevice device(options.device);
+  tgr::VirtualDevice device(deviceOf(options));
   std::atomic<bool> stop{false};
   std::thread mechanics([&] {
     if (options.priority > 0) {
@@ -111,8 +154,6 @@ int main(int argc, char** argv) {
   ergotic::Options options;
   ergotic::declare(app, options);
   CLI11_PARSE(app, argc, argv);
-  constexpr double kSPerMs = 1e-3;
-  options.device.watchdog_s = options.watchdog_ms * kSPerMs;
   try {
     return ergotic::run(options);
   } catch (const ergotic::Exception& error) {

@@ -2,13 +2,17 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <thread>
 
 #include <gtest/gtest.h>
 
+#include "ergotic/exception.hpp"
 #include "ergotic/tgr/driver.hpp"
+#include "support/alloc_count.hpp"
 
 /// What every tgr::Driver must do. A driver takes part with a Rig, default constructible:
 ///
@@ -159,6 +163,115 @@ TYPED_TEST_P(DriverContractTest, StaysFiniteWhateverTheForce) {
   }
 }
 
+TYPED_TEST_P(DriverContractTest, SaysTheSameOfItselfAsLongAsItIsOpen) {
+  this->open();
+  const int delay = this->driver().extraDelayTicks();
+  const std::uint64_t uncalibrated = this->driver().uncalibrated();
+  const double damping = this->driver().damping();
+  const bool is_raw = this->driver().isRaw();
+  const tgr::DeviceClock* const clock = this->driver().clock();
+  const auto isSame = [&] {
+    return this->driver().slices() == this->slices_ && this->driver().extraDelayTicks() == delay &&
+           this->driver().uncalibrated() == uncalibrated && this->driver().damping() == damping &&
+           this->driver().isRaw() == is_raw && this->driver().clock() == clock;
+  };
+  EXPECT_TRUE(std::isfinite(damping));
+  EXPECT_GE(damping, 0.0);
+  if (this->slices_ < tgr::kMaxSlices) {
+    EXPECT_EQ(uncalibrated >> static_cast<unsigned>(this->slices_), 0U) << "slices it has not";
+  }
+  this->madeSafe(20, 15.0);
+  EXPECT_TRUE(isSame());
+  this->driver().makeSafe();
+  this->madeSafe(5, 15.0);
+  this->driver().rearm();
+  this->driver().reconnect();
+  this->madeSafe(5, 15.0);
+  EXPECT_TRUE(isSame());
+}
+
+TYPED_TEST_P(DriverContractTest, TakesAReconnectionOfAWellDeviceForNothing) {
+  this->open();
+  std::atomic<bool> done{false};
+  std::atomic<int> begun{0};  // exchanges
+  int refused = 0;
+  std::thread operators([&] {
+    constexpr int kTimes = 200;
+    for (int n = 0; n < kTimes; ++n) {
+      try {
+        this->driver().reconnect();
+      } catch (const Exception&) {
+        ++refused;
+      }
+      const int from = begun;
+      while (begun < from + 1) {
+        std::this_thread::yield();
+      }
+    }
+    done = true;
+  });
+  int lost = 0;
+  while (!done) {
+    ++begun;
+    const std::uint32_t flags = this->exchange(0.0);
+    lost += (flags & (tgr::kDeviceLost | tgr::kMadeSafe | tgr::kWriteFailed)) != 0 ? 1 : 0;
+  }
+  operators.join();
+  EXPECT_EQ(lost, 0);
+  EXPECT_EQ(refused, 0);
+  if (TypeParam::kFeelsForce) {
+    EXPECT_TRUE(this->isAtRest());
+  }
+}
+
+TYPED_TEST_P(DriverContractTest, StaysSafeThroughAReconnection) {
+  this->open();
+  this->driver().makeSafe();
+  this->driver().reconnect();
+  EXPECT_EQ(this->madeSafe(20, 15.0), 20);
+  if (TypeParam::kFeelsForce) {
+    EXPECT_TRUE(this->isAtRest());
+  }
+}
+
+TYPED_TEST_P(DriverContractTest, IsSafeFromTheExchangeOnThatFollowsAMakeSafeOfAnotherThread) {
+  this->open();
+  for (int n = 0; n < 20; ++n) {
+    EXPECT_EQ(this->madeSafe(1, 0.0), 0);
+    std::thread([this] { this->driver().makeSafe(); }).join();
+    EXPECT_EQ(this->madeSafe(3, 15.0), 3);
+    this->driver().rearm();
+  }
+  if (TypeParam::kFeelsForce) {
+    EXPECT_TRUE(this->isAtRest());
+  }
+}
+
+TYPED_TEST_P(DriverContractTest, AllocatesNothingInExchangeAndMakeSafe) {
+  if (!AllocationScope::isAvailable()) {
+    GTEST_SKIP() << "the sanitizer has its own heap";
+  }
+  this->open();
+  std::array<double, tgr::kMaxSlices> forces{};
+  std::int64_t calls = 0;
+  for (int n = 0; n < 300; ++n) {
+    forces.fill(n % 2 == 0 ? 10.0 : std::numeric_limits<double>::quiet_NaN());
+    {
+      const AllocationScope scope;
+      this->driver().exchange(forces.data(), this->positions_.data());
+      if (n % 100 == 50) {
+        this->driver().makeSafe();
+      }
+      if (n % 100 == 60) {
+        this->driver().rearm();
+      }
+      calls += scope.calls();
+    }
+    this->rig_.elapse();
+  }
+  EXPECT_EQ(calls, 0);
+}
+
 REGISTER_TYPED_TEST_SUITE_P(DriverContractTest,
                             HasSlicesWithinTheLimit,
                             WritesItsOwnSlicesOnly,
@@ -168,6 +281,11 @@ REGISTER_TYPED_TEST_SUITE_P(DriverContractTest,
                             RemembersAMakeSafeFromBeforeOpen,
                             SaysThatTheDeviceIsLostBeforeOpenAndAfterClose,
                             ClosesTwiceAndOpensAgainWithZeroForce,
-                            StaysFiniteWhateverTheForce);
+                            StaysFiniteWhateverTheForce,
+                            SaysTheSameOfItselfAsLongAsItIsOpen,
+                            TakesAReconnectionOfAWellDeviceForNothing,
+                            StaysSafeThroughAReconnection,
+                            IsSafeFromTheExchangeOnThatFollowsAMakeSafeOfAnotherThread,
+                            AllocatesNothingInExchangeAndMakeSafe);
 
 }  // namespace ergotic::test

@@ -2,12 +2,16 @@
 #include "ergotic/tgr/device.hpp"
 
 #include <array>
+#include <fstream>
 #include <memory>
+#include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "support/scratch_file.hpp"
+#include "tgr/drivers/virtual/virtual_settings.hpp"
+#include "tgr/drivers/virtual/virtual_slice_fields.hpp"
 #include "tgr/scripted_driver.hpp"
 
 namespace ergotic::tgr {
@@ -159,6 +163,37 @@ TEST(MakeDriversTest, PutsCalibrationsInFrontOfRawDevicesAndFaultsInFrontOfAll) 
   stack.faulty->inject({InjectedFault::kRail, 3, 1, 0.5});
   stack.driver->exchange(forces.data(), x.data());
   EXPECT_EQ(x[3], 0.5);
+}
+
+StationDevices installed(const std::string& name) {
+  const std::string path = std::string(ERGOTIC_SOURCE_DIR) + "/config/" + name;
+  std::ifstream in(path);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return readDevices(text.str(), path);
+}
+
+TEST(DeviceFilesTest, OfTheVirtualDeviceSaysAllItsDefaults) {
+  const StationDevices devices = installed("virtual.yaml");
+  ASSERT_EQ(devices.devices.size(), 1U);
+  const std::string& settings = devices.devices[0].settings;
+  const VirtualDriverConfig read = readVirtualSettings(settings, "virtual.yaml");
+  const VirtualDriverConfig plain;
+  for (const VirtualSliceField& field : kVirtualSliceFields) {
+    EXPECT_EQ(read.slice.*field.member, plain.slice.*field.member) << field.key;
+    EXPECT_NE(settings.find(std::string(field.key) + ":"), std::string::npos) << field.key;
+  }
+  EXPECT_EQ(read.slices, plain.slices);
+  EXPECT_EQ(read.seed, plain.seed);
+  EXPECT_EQ(read.extra_delay_ticks, plain.extra_delay_ticks);
+}
+
+TEST(DeviceFilesTest, OfARawVirtualDeviceLeavesItsSlicesToBeCalibrated) {
+  const DriverStack stack = makeDrivers(installed("virtual_raw.yaml"), makeCoreDriver, false);
+  ASSERT_EQ(stack.raw_parts.size(), 1U);
+  EXPECT_EQ(stack.driver->slices(), 3);
+  EXPECT_EQ(stack.driver->uncalibrated(), 7U);
+  EXPECT_EQ(stack.raw_parts[0].calibrated->calibration().slices[2].volts_per_newton, -0.05);
 }
 
 TEST(MakeCoreDriverTest, FindsTheFileOfAReplayBesideTheFileOfTheDevices) {

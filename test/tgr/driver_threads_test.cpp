@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cmath>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -109,6 +110,62 @@ TEST(DriverThreadsTest, MadeSafeInSharedMemoryByAnotherThreadIsSafeFromTheNextEx
 
 TEST(DriverThreadsTest, MadeSafeInReplayByAnotherThreadIsSafeFromTheNextExchangeOn) {
   exchangeWhileMadeSafe<test::ReplayRig>();
+}
+
+TEST(DriverThreadsTest, MadeSafeInsideOthersByAnotherThreadIsSafeFromTheNextExchangeOn) {
+  exchangeWhileMadeSafe<test::FaultyRig>();
+  exchangeWhileMadeSafe<test::CombinedRig>();
+  exchangeWhileMadeSafe<test::CalibratedRig>();
+}
+
+TEST(DriverThreadsTest, TakesCalibrationsAndFaultsWhileTicksGoOn) {
+  constexpr int kRounds = 2000;
+  SliceCalibration narrow;
+  narrow.is_calibrated = true;
+  narrow.metres_per_volt = 0.001;
+  narrow.volts_per_newton = 0.05;
+  SliceCalibration wide = narrow;
+  wide.metres_per_volt = 0.002;
+  VirtualDriverConfig config;
+  config.slices = 1;
+  config.slice = test::plainSlice();
+  config.slice.volts = narrow;
+  auto calibrated = makeCalibratedDriver(makeVirtualDriver(config), {{narrow}});
+  CalibratedDriver& calibration = *calibrated;
+  const auto faulty = makeFaultyDriver(std::move(calibrated));
+  faulty->open(1000.0);
+  const double force = 2.0;  // 4 mm: 4 V
+  double settled = 0.0;
+  for (int n = 0; n < 3000; ++n) {
+    faulty->exchange(&force, &settled);
+  }
+  std::atomic<bool> done{false};
+  std::thread operators([&] {
+    for (int round = 0; round < kRounds; ++round) {
+      calibration.set(0, round % 2 == 0 ? wide : narrow);
+      faulty->inject({InjectedFault::kJump, 0, 1, 0.5});
+      double volts = 0.0;
+      calibration.readVolts(&volts);
+      std::this_thread::yield();
+    }
+    done = true;
+  });
+  int other = 0;
+  int jumps = 0;
+  while (!done) {
+    double x = 0.0;
+    faulty->exchange(&force, &x);
+    const bool jumped = x > 0.4;
+    jumps += jumped ? 1 : 0;
+    const double place = jumped ? x - 0.5 : x;
+    const bool is_either =
+        std::abs(place - settled) < 1e-6 || std::abs(place - 2.0 * settled) < 1e-6;
+    other += is_either ? 0 : 1;
+    std::this_thread::yield();
+  }
+  operators.join();
+  EXPECT_EQ(other, 0) << "neither of the two calibrations";
+  EXPECT_GT(jumps, 0);
 }
 
 TEST(DriverThreadsTest, TakesEveryTargetThatAnotherThreadSets) {

@@ -67,6 +67,28 @@ TEST_F(TgrNoAllocTest, SharedMemoryDriverAndItsDeviceAllocateNothing) {
   EXPECT_EQ(heapCalls(rig), 0);
 }
 
+TEST_F(TgrNoAllocTest, DriversInsideOthersAllocateNothing) {
+  test::CombinedRig combined;
+  EXPECT_EQ(heapCalls(combined), 0);
+  test::CalibratedRig calibrated;
+  EXPECT_EQ(heapCalls(calibrated), 0);
+  const auto heapCallsOf = [](InjectedFault kind) {
+    const auto faulty = makeFaultyDriver(test::makePlainVirtual(3));
+    faulty->open(1000.0);
+    faulty->inject({kind, -1, 20, 1e-6});
+    const Slices forces{};
+    Slices positions{};
+    const test::AllocationScope scope;
+    for (int n = 0; n < 30; ++n) {
+      faulty->exchange(forces.data(), positions.data());
+    }
+    return scope.calls();
+  };
+  for (int kind = 0; kind <= static_cast<int>(InjectedFault::kNoise); ++kind) {
+    EXPECT_EQ(heapCallsOf(static_cast<InjectedFault>(kind)), 0) << kind;
+  }
+}
+
 TEST_F(TgrNoAllocTest, ReplayOfACsvAllocatesNothing) {
   const test::ScratchFile file("tick,x0\n0,0.01\n1,0.02\n2,0.03\n");
   const auto driver = makeReplayDriver(readPositionsCsv(file.path()));

@@ -7,8 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "ergotic/exception.hpp"
-
 namespace ergotic::tgr {
 namespace {
 
@@ -211,22 +209,184 @@ TEST_F(SafetyChainTest, NamesEverySliceOfAFullBank) {
   EXPECT_EQ(chain.validate(positions.data(), kExchangeOk, 0), ~std::uint64_t{0});
 }
 
-TEST(SafetyConfigTest, RefusesSettingsOutsideTheirRange) {
-  const auto refuses = [](auto change) {
-    SafetyConfig config;
-    change(config);
-    EXPECT_THROW(SafetyChain(config, 12, kTick), Exception);
+TEST_F(SafetyChainTest, FaultsAtOnceWhenAForceWasNotTaken) {
+  openFully();
+  EXPECT_EQ(validated(0.01, 0.02, kWriteFailed), 0U) << "the positions are good";
+  EXPECT_EQ(chain_.fault(), FaultReason::kWriteFailed);
+  EXPECT_EQ(limited(5.0), 0.0);
+}
+
+TEST_F(SafetyChainTest, DoesNotCountTicksThatTheHostMissed) {
+  validated(0.0, 0.0);
+  std::array<double, 2> positions{};
+  for (int n = 0; n < 3; ++n) {
+    chain_.validate(positions.data(), kMissingSample, 1000);
+  }
+  EXPECT_EQ(chain_.fault(), FaultReason::kNone);
+}
+
+TEST_F(SafetyChainTest, HoldsAJumpAndFaultsUnlessTheHostMissedTheTicksBetween) {
+  validated(0.01, 0.02);
+  std::array<double, 2> far{0.02, 0.02};
+  EXPECT_EQ(chain_.validate(far.data(), kExchangeOk, 2), 0U);
+  EXPECT_EQ(chain_.fault(), FaultReason::kNone);
+  EXPECT_EQ(validated(0.03, 0.02), 0b01U);
+  EXPECT_EQ(positions_, (std::array<double, 2>{0.02, 0.02}));
+  EXPECT_EQ(chain_.fault(), FaultReason::kJump);
+  EXPECT_EQ(chain_.faultSlice(), 0);
+}
+
+TEST_F(SafetyChainTest, FaultsWhenASensorIsFrozenIfAskedTo) {
+  SafetyConfig config = quickConfig();
+  config.frozen_s = 10.0 * kTick;
+  SafetyChain chain(config, 1, kTick);
+  for (int n = 0; n < 10; ++n) {
+    double x = 0.01;
+    chain.validate(&x, kExchangeOk, 0);
+    EXPECT_EQ(chain.fault(), FaultReason::kNone);
+  }
+  double x = 0.01;
+  EXPECT_EQ(chain.validate(&x, kExchangeOk, 0), 0U);
+  EXPECT_EQ(chain.fault(), FaultReason::kFrozen);
+}
+
+TEST_F(SafetyChainTest, MindsNeitherPositionsNorForcesOfSlicesOutOfUse) {
+  chain_.setInUse(0b01U);
+  openFully();
+  EXPECT_EQ(validated(0.0, kNan), 0b10U) << "held all the same";
+  EXPECT_EQ(validated(0.0, 0.09), 0U);
+  EXPECT_EQ(validated(0.0, -0.09), 0b10U);
+  std::array<double, 2> forces{5.0, kNan};
+  chain_.limit(forces.data());
+  EXPECT_EQ(forces, (std::array<double, 2>{5.0, 0.0}));
+  EXPECT_EQ(chain_.fault(), FaultReason::kNone);
+}
+
+TEST_F(SafetyChainTest, MeetsASliceAfreshThatComesIntoUse) {
+  chain_.setInUse(0b01U);
+  validated(0.0, -0.09);
+  chain_.setInUse(0b11U);
+  EXPECT_EQ(validated(0.0, 0.09), 0U);
+  chain_.setInUse(0b11U);
+  validated(0.0, -0.09);
+  EXPECT_EQ(chain_.fault(), FaultReason::kJump) << "it was in use already";
+}
+
+TEST_F(SafetyChainTest, LimitsTheGrowthOfForceButNotItsFall) {
+  SafetyConfig config = quickConfig();
+  config.slew_n_per_s = 1024.0;  // 1 N per tick
+  SafetyChain chain(config, 1, kTick);
+  const auto limited = [&](double force) {
+    chain.limit(&force);
+    return force;
   };
-  refuses([](SafetyConfig& c) { c.force_limit_n = kAbsoluteForceLimitN + 0.1; });
-  refuses([](SafetyConfig& c) { c.force_limit_n = -1.0; });
-  refuses([](SafetyConfig& c) { c.force_limit_n = kNan; });
-  refuses([](SafetyConfig& c) { c.ramp_s = 0.0; });
-  refuses([](SafetyConfig& c) { c.ramp_s = 11.0; });
-  refuses([](SafetyConfig& c) { c.resume_ramp_s = 0.0; });
-  refuses([](SafetyConfig& c) { c.position_limit_m = 0.0; });
-  refuses([](SafetyConfig& c) { c.max_missing = -1; });
-  EXPECT_THROW(SafetyChain(SafetyConfig{}, 0, kTick), Exception);
-  EXPECT_THROW(SafetyChain(SafetyConfig{}, kMaxSlices + 1, kTick), Exception);
+  chain.engage();
+  for (int n = 0; n < 128; ++n) {
+    limited(0.0);
+  }
+  EXPECT_EQ(limited(10.0), 1.0);
+  EXPECT_EQ(limited(10.0), 2.0);
+  EXPECT_EQ(limited(0.5), 0.5);
+  EXPECT_EQ(limited(-10.0), -1.0);
+}
+
+TEST_F(SafetyChainTest, ClampsTheEnergyOfAPortLastOfAll) {
+  openFully();
+  validated(0.0, 0.0);
+  limited(10.0);
+  validated(0.0, 0.0);
+  EXPECT_EQ(limited(10.0), 10.0) << "it does not move";
+  validated(0.001, 0.0);  // the first 10 N gave out 10 mJ, the second are about to do so
+  EXPECT_EQ(limited(10.0), 0.0);
+  EXPECT_EQ(limited(-10.0), -10.0) << "what takes energy may go on";
+  const SliceReading reading = chain_.reading(0);
+  EXPECT_EQ(reading.clamped_ticks, 1);
+  EXPECT_NEAR(reading.least_energy_j, -0.01, 1e-4);
+  EXPECT_EQ(reading.peak_raw_force_n, 10.0);
+}
+
+TEST_F(SafetyChainTest, KnowsThatNothingWasSentWhereItDidNotLimit) {
+  openFully();
+  validated(0.0, 0.0);
+  limited(10.0);
+  validated(0.0, 0.0);  // 10 N went out and act until the next exchange
+  validated(0.001, 0.0);
+  validated(0.003, 0.0);
+  validated(0.005, 0.0);
+  EXPECT_NEAR(chain_.reading(0).least_energy_j, -0.01, 1e-4) << "from the first of these ways only";
+}
+
+TEST_F(SafetyChainTest, TakesAForceForNeverSentThatAResumeMutes) {
+  openFully();
+  validated(0.0, 0.0);
+  limited(10.0);
+  validated(0.0, 0.0);  // a stall: zeros went out in place of it
+  chain_.resume();
+  validated(0.001, 0.0);
+  validated(0.002, 0.0);
+  EXPECT_GE(chain_.reading(0).least_energy_j, 0.0);
+}
+
+TEST_F(SafetyChainTest, FaultsWhenTheModelDiverges) {
+  openFully();
+  double raw = 1.0;
+  while (chain_.fault() == FaultReason::kNone) {
+    limited(raw);
+    raw *= 2.0;
+    ASSERT_LE(raw, 128.0);
+  }
+  EXPECT_EQ(chain_.fault(), FaultReason::kModelBlowUp);
+  EXPECT_EQ(chain_.faultSlice(), 0);
+  EXPECT_EQ(limited(1.0), 0.0);
+}
+
+TEST_F(SafetyChainTest, FaultsWhenTheModelAsksForTooMuch) {
+  openFully();
+  double raw = 0.0;
+  while (chain_.fault() == FaultReason::kNone) {
+    limited(raw += 10.0);
+  }
+  EXPECT_EQ(chain_.fault(), FaultReason::kForceTooHigh);
+  EXPECT_EQ(raw, 5010.0);
+}
+
+TEST_F(SafetyChainTest, FaultsWhenTheModelPushesTheHandAlong) {
+  openFully();
+  double x = 0.0;
+  double given_out = 0.0;
+  while (chain_.fault() == FaultReason::kNone) {
+    validated(x += 1e-4, 0.0);
+    given_out += 1e-4 * limited(15.0);
+    ASSERT_LT(x, 0.09);
+  }
+  EXPECT_EQ(chain_.fault(), FaultReason::kEnergy);
+  EXPECT_LT(given_out, 0.01) << "the clamp held what the detector saw";
+}
+
+TEST_F(SafetyChainTest, ForgetsAllOnRecovery) {
+  openFully();
+  validated(0.0, 0.0);
+  limited(10.0);
+  validated(0.0, 0.0);
+  limited(10.0);
+  validated(0.001, 0.0);
+  validated(kNan, 0.0);
+  ASSERT_LT(chain_.reading(0).least_energy_j, 0.0);
+  chain_.recover();
+  EXPECT_FALSE(chain_.isOpen());
+  EXPECT_EQ(chain_.fault(), FaultReason::kNone);
+  EXPECT_EQ(chain_.reading(0).least_energy_j, 0.0);
+  EXPECT_EQ(chain_.reading(0).peak_raw_force_n, 0.0);
+  EXPECT_EQ(validated(-0.09, 0.09), 0U) << "hands may be elsewhere";
+  EXPECT_EQ(limited(5.0), 0.0) << "and no force comes by itself";
+}
+
+TEST_F(SafetyChainTest, EngagesNeverAfterAFault) {
+  validated(kNan, 0.0);
+  chain_.engage();
+  EXPECT_FALSE(chain_.isOpen());
+  chain_.resume();
+  EXPECT_EQ(limited(5.0), 0.0);
 }
 
 }  // namespace

@@ -51,6 +51,7 @@ class WallLoop {
   }
 
   void engage() { chain_.engage(); }
+  void recover() { chain_.recover(); }
   void aimAt(double target_m) { driver_->setTarget(0, target_m); }
 
   /// Runs for `seconds` with raw force `force(x, v)`, N, x in m, v the backward difference, m/s.

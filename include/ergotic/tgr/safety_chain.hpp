@@ -15,10 +15,12 @@ namespace ergotic::tgr {
 
 /// The last word on every force, between the instrument and the driver.
 ///
-/// Once per tick, after the exchange: `validate` the positions, then `limit` the forces:
-/// detectors, gate and ramp, slew, force limit, port energy clamp. If `limit` is left out, zero
-/// must be sent. Whatever happens |F| may fall at once; after a fault it grows again only after
-/// `recover` and `engage`. Realtime: yes, all but the constructor. Thread: tick
+/// Once per tick, after the exchange: `validate` the positions, then `limit` the forces: detectors,
+/// gate and ramp, slew, force limit, port energy clamp. A caller that leaves `limit` out sends
+/// zeros. Whatever happens |F| may fall at once; after a fault it grows again only after `recover`
+/// and `engage`.
+///
+/// Realtime: yes, all but the constructor. Thread: tick
 class SafetyChain {
  public:
   /// \param extra_delay_ticks  Driver::extraDelayTicks()

@@ -13,7 +13,7 @@ namespace ergotic::tgr {
 ///   - a force that is not finite;
 ///   - |F| > limit after kGrowths changes in a row that were each kGrowth times the one before, the
 ///     first of those more than limit / 25, the last of all more than limit / 4. p <= 2 never gets
-///     there; p = 2.5 would have to go from nothing to 6 times the limit within 4 ticks;
+///     there; p = 2.5 would have to go from nothing to 3 times the limit within 4 ticks;
 ///   - a swing from beyond the limit on one side to beyond it on the other, within a tick.
 /// kForceTooHigh is a force beyond `raw_limit`, however it came about.
 class BlowUpDetector {

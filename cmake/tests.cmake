@@ -54,7 +54,7 @@ if(ERGOTIC_ROS)
 endif()
 
 # The scripts: what measures a demo and a peer; what users do in the devel and in an install space.
-foreach(script demo_report bench_faust)
+foreach(script demo_report bench_faust play_gesture)
   add_test(NAME scripts.${script}
     COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/${script}_test.py)
 endforeach()

@@ -1,0 +1,70 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What scripts/play_gesture reads and writes."""
+import importlib.machinery
+import importlib.util
+import os
+import tempfile
+import types
+import unittest
+
+SCRIPT = os.path.join(os.path.dirname(__file__), "..", "..", "scripts", "play_gesture")
+loader = importlib.machinery.SourceFileLoader("play_gesture", SCRIPT)
+play_gesture = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
+loader.exec_module(play_gesture)
+
+
+def block(first_tick, *rows):
+    return types.SimpleNamespace(first_tick=first_tick, tick_rate_hz=1000.0, slices=2,
+                                 ticks=len(rows), positions=[x for row in rows for x in row])
+
+
+class PlayGestureTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def write(self, text):
+        path = os.path.join(self.folder.name, "g.csv")
+        with open(path, "w") as file:
+            file.write(text)
+        return path
+
+    def test_reads_targets(self):
+        path = self.write("# a comment\ntime_s,slice,target_m\n0,1,0\n2,1,0.02\n")
+        gesture = play_gesture.read_csv(path, None)
+        self.assertEqual(gesture.length, 2.0)
+        self.assertEqual(gesture.at(1.0), [(1, 0.01)])
+        self.assertEqual(gesture.at(9.0), [(1, 0.02)])
+
+    def test_reads_positions_per_tick(self):
+        path = self.write("tick,x0,x1\n7,0,0.01\n8,0.02,0.03\n")
+        gesture = play_gesture.read_csv(path, 100.0)
+        self.assertEqual(gesture.length, 0.01)
+        self.assertEqual(gesture.at(0.0), [(0, 0.0), (1, 0.01)])
+        self.assertAlmostEqual(gesture.at(0.005)[0][1], 0.01)
+
+    def test_says_what_is_wrong(self):
+        for text, rate, expected in [
+                ("tick,x0\n0,0\n", None, "--rate"),
+                ("time_s,slice,target_m\n0,1\n", None, "g.csv:2: error: expected time_s"),
+                ("tick,x0\n0,zero\n", 100.0, "g.csv:2: error: expected tick"),
+                ("# nothing\n", None, "no targets")]:
+            with self.assertRaises(SystemExit) as refused:
+                play_gesture.read_csv(self.write(text), rate)
+            self.assertIn(expected, str(refused.exception))
+
+    def test_takes_each_recorded_tick_once_and_fills_gaps(self):
+        blocks = [block(5, (0.1, 0.2), (0.3, 0.4)), block(6, (9.0, 9.0)), block(9, (0.5, 0.6))]
+        gesture = play_gesture.gesture_of(blocks)
+        self.assertEqual(gesture.times[0], [0.0, 0.001, 0.004])
+        self.assertEqual(gesture.targets[1], [0.2, 0.4, 0.6])
+        path = os.path.join(self.folder.name, "saved.csv")
+        play_gesture.save(blocks, path)
+        with open(path) as file:
+            self.assertEqual(file.read(), "tick,x0,x1\n5,0.1,0.2\n6,0.3,0.4\n7,0.3,0.4\n"
+                                          "8,0.3,0.4\n9,0.5,0.6\n")
+
+
+if __name__ == "__main__":
+    unittest.main()

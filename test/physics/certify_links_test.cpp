@@ -30,7 +30,8 @@ TEST(CertifyLinksTest, DecimatedContactsAreJudgedByTheSlowerStep) {
     SceneBuilder b;
     const int l = b.link(LiaType::kContact, b.slice(0), b.mass(1.0), kappa * kRate * kRate);
     b.scene.lias[at(l)].coupling = coupling;
-    return certify(b.scene, {kRate, 14}, 1e6).verdict;  // the hand's own limit is not the matter
+    return certify(b.scene, {kRate, 14}, {1e6, 1.0})
+        .verdict;  // the hand's own limit is not the matter
   };
   EXPECT_EQ(verdict(0.04, scene::Coupling::kHold), Verdict::kPassive);
   EXPECT_EQ(verdict(0.04 / 196.0, scene::Coupling::kDecimate), Verdict::kPassive);

@@ -78,8 +78,7 @@ Engine::Engine(const Parameters& parameters,
     bridge_ = std::make_unique<station::AudioBridge>(bridge);
     station_->setFramePort(bridge_.get());
   }
-  source_ = std::make_unique<station::TimerSource>(*station_, bridge_.get());
-  source_->start(timerOptions(parameters));
+  source_ = station::startTicks(*station_, bridge_.get(), timerOptions(parameters));
   warnings_ = source_->warnings();
   startWatchdog();
   if (parameters.realtime == Realtime::kRequire && !warnings_.empty()) {

@@ -50,7 +50,7 @@ class Engine {
   std::unique_ptr<Hands> hands_;  // outlives the station, which has its drivers
   std::unique_ptr<station::Station> station_;
   std::unique_ptr<station::AudioBridge> bridge_;
-  std::unique_ptr<station::TimerSource> source_;
+  std::unique_ptr<station::TickSource> source_;
   std::unique_ptr<audio::JackHost> jack_;
   std::unique_ptr<tgr::Watchdog> watchdog_;
   std::vector<std::string> warnings_;

@@ -7,6 +7,7 @@
 
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/clock.hpp"
+#include "ergotic/station/timer_source.hpp"
 #include "support/audio_host.hpp"
 #include "support/station_doubles.hpp"
 
@@ -68,6 +69,21 @@ TEST_F(DeviceSourceTest, TicksWhenTheDeviceSays) {
   tick(7);
   EXPECT_EQ(station_->nextTick(), 7);
   EXPECT_EQ(log_.exchanges, 7);
+}
+
+TEST_F(DeviceSourceTest, IsWhatTicksADeviceWithAClockAndATimerAnyOther) {
+  TimerOptions options;
+  options.lock_memory = false;
+  options.priority = 0;
+  Bench bench;
+  const auto timer = startTicks(*bench.station, nullptr, options);
+  EXPECT_NE(dynamic_cast<TimerSource*>(timer.get()), nullptr);
+  EXPECT_TRUE(timer->isRunning());
+  timer->stop();
+  const auto device = startTicks(*station_, nullptr, options);
+  EXPECT_NE(dynamic_cast<DeviceSource*>(device.get()), nullptr);
+  tick(2);
+  EXPECT_EQ(station_->nextTick(), 2);
 }
 
 TEST_F(DeviceSourceTest, CatchesUpWhatTheDeviceMissed) {

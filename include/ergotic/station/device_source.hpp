@@ -6,6 +6,7 @@
 
 #include "ergotic/station/audio_bridge.hpp"
 #include "ergotic/station/station.hpp"
+#include "ergotic/station/tick_source.hpp"
 #include "ergotic/tgr/device_clock.hpp"
 
 namespace ergotic::station {
@@ -15,7 +16,7 @@ namespace ergotic::station {
 /// Sound stays in step only if device and audio host share a clock, as two clients of one JACK
 /// server do: station frames then belong to host frames as they do with a timer. No ticks, no
 /// sound: what stops the device stops the model.
-class DeviceSource final : public tgr::TickTarget {
+class DeviceSource final : public TickSource, public tgr::TickTarget {
  public:
   /// \param bridge  may be null: no audio host, ever. Both must outlive the source.
   /// \throws Exception if the device has no clock of its own. Realtime: no. Thread: setup
@@ -27,11 +28,9 @@ class DeviceSource final : public tgr::TickTarget {
   /// \param lock_memory  of the whole process; what the system refuses becomes a warning
   /// \pre not running. Realtime: no. Thread: setup
   void start(bool lock_memory);
-  /// Ends after the present tick, with zero force sent. Idempotent. Realtime: no. Thread: setup
-  void stop() noexcept;
-  bool isRunning() const noexcept { return running_; }
-  /// What `start` could not get, and what to do about it.
-  const std::vector<std::string>& warnings() const noexcept { return warnings_; }
+  void stop() noexcept override;
+  bool isRunning() const noexcept override { return running_; }
+  const std::vector<std::string>& warnings() const noexcept override { return warnings_; }
 
   ERGOTIC_REALTIME void tick(std::int64_t late_ns) noexcept override;
   ERGOTIC_REALTIME void missed(std::int64_t ticks, std::int64_t stall_ns) noexcept override;

@@ -10,6 +10,7 @@
 #include "ergotic/station/audio_bridge.hpp"
 #include "ergotic/station/station.hpp"
 #include "ergotic/station/tick_schedule.hpp"
+#include "ergotic/station/tick_source.hpp"
 
 namespace ergotic::station {
 
@@ -23,12 +24,12 @@ struct TimerOptions {
 /// the audio host's frame clock while there is one, evenly spaced ones otherwise.
 ///
 /// All functions: Realtime: no. Thread: setup
-class TimerSource {
+class TimerSource final : public TickSource {
  public:
   /// \param bridge  may be null: no audio host, ever. Both must outlive the source.
   TimerSource(Station& station, AudioBridge* bridge) noexcept
       : station_(station), bridge_(bridge) {}
-  ~TimerSource() { stop(); }
+  ~TimerSource() override { stop(); }
   TimerSource(const TimerSource&) = delete;
   TimerSource& operator=(const TimerSource&) = delete;
 
@@ -37,12 +38,9 @@ class TimerSource {
   /// if an option is outside its range
   void start(const TimerOptions& options);
 
-  /// Ends after the present tick, with zero force sent. Idempotent.
-  void stop() noexcept;
-
-  bool isRunning() const noexcept { return thread_.joinable(); }
-  /// What `start` could not get, and what to do about it.
-  const std::vector<std::string>& warnings() const noexcept { return warnings_; }
+  void stop() noexcept override;
+  bool isRunning() const noexcept override { return thread_.joinable(); }
+  const std::vector<std::string>& warnings() const noexcept override { return warnings_; }
 
  private:
   void setUpThread(const TimerOptions& options);

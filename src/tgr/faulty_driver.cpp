@@ -104,17 +104,17 @@ class FaultyDriverOverAnother final : public FaultyDriver {
     if (unplugged_) {  // the device itself lets go of a force that nobody renews
       taken_.fill(0.0);
       const std::uint32_t flags = inside_->exchange(taken_.data(), positions);
-      std::copy_n(given_.begin(), slices(), positions);
+      std::copy_n(seen_.begin(), slices(), positions);
       return flags | kDeviceLost;
     }
     const bool is_active = ticks_left_ > 0;
     std::uint32_t flags = is_active ? spoilForces(forces) : takeForces(forces);
     flags |= inside_->exchange(taken_.data(), positions);
+    std::copy_n(positions, slices(), seen_.begin());
     if (is_active) {
       flags |= spoilPositions(positions);
       --ticks_left_;
     }
-    std::copy_n(positions, slices(), given_.begin());
     return flags;
   }
 
@@ -125,7 +125,7 @@ class FaultyDriverOverAnother final : public FaultyDriver {
     if (orders_.refresh()) {
       order_ = orders_.latest();
       ticks_left_ = order_.kind == InjectedFault::kUnplugged ? 0 : order_.ticks;
-      frozen_ = given_;
+      frozen_ = seen_;
     }
   }
 
@@ -188,7 +188,7 @@ class FaultyDriverOverAnother final : public FaultyDriver {
   // The tick's own.
   FaultOrder order_;
   std::int64_t ticks_left_ = 0;
-  Slices given_{};   // positions of the last exchange
+  Slices seen_{};    // positions that the device gave last
   Slices frozen_{};  // those before the order
   Slices taken_{};   // forces that the device has
   SensorNoise noise_{1};

@@ -112,6 +112,19 @@ TEST_F(FaultyDriverTest, HoldsAndFlagsWhatIsMissing) {
   }
 }
 
+TEST_F(FaultyDriverTest, HoldsWhatTheDeviceSawNotWhatAnotherFaultMadeOfIt) {
+  inject(InjectedFault::kNotANumber, -1, 5);
+  exchange(0.01);
+  const auto before = true_;
+  inject(InjectedFault::kMissing, -1, 1);
+  exchange(0.02);
+  EXPECT_EQ(positions_, before);
+  const auto later = true_;
+  inject(InjectedFault::kUnplugged, -1, 1);
+  exchange(0.03);
+  EXPECT_EQ(positions_, later);
+}
+
 TEST_F(FaultyDriverTest, LeavesTheLastForceWhereAWriteFails) {
   inject(InjectedFault::kWriteFails, 1, 2);
   forces_ = {10.0, 20.0, 30.0};

@@ -11,6 +11,7 @@
 namespace ergotic::station {
 namespace {
 
+constexpr double kTrustedDamping = 0.5;  // of what a driver says of its device
 constexpr double kSwapFadeS = 0.005;
 constexpr std::size_t kMaxKeyframeParameters = 1U << 12U;
 
@@ -40,7 +41,7 @@ int openDriver(tgr::Driver& driver, double tick_rate_hz) {
 
 tgr::SafetyConfig safetyOf(const StationConfig& config, const tgr::Driver& driver) {
   tgr::SafetyConfig safety = config.safety;
-  safety.slice_damping = driver.damping();
+  safety.slice_damping = kTrustedDamping * driver.damping();
   return safety;
 }
 

@@ -99,7 +99,7 @@ SafetyConfig quickDefaults() {
 struct Case {
   double rate_hz;
   double times_limit;
-  double most_j;  ///< NUMERICS' figure
+  double most_j;  ///< to be given out, in docs/safety.md
 };
 
 class ClampedWallTest : public ::testing::TestWithParam<Case> {};
@@ -124,6 +124,15 @@ TEST_P(ClampedWallTest, GivesOutLittleEnergyWithThePassivityControllerToo) {
   const Push push_in = push(c.rate_hz, c.times_limit, config);
   EXPECT_EQ(push_in.fault, FaultReason::kNone);
   EXPECT_LT(push_in.given_out_j, c.most_j);
+}
+
+TEST_P(ClampedWallTest, GivesTheHandNoMoreWhenTheSliceDampsItself) {
+  const Case& c = GetParam();
+  SafetyConfig config = quickDefaults();
+  config.slice_damping = 2.0;
+  const Push push_in = push(c.rate_hz, c.times_limit, config);
+  EXPECT_LT(-push_in.reading.least_energy_j, c.most_j) << "beyond what the slice itself takes";
+  EXPECT_LT(push_in.given_out_j, 0.0025);
 }
 
 INSTANTIATE_TEST_SUITE_P(Walls,

@@ -25,7 +25,8 @@ struct SafetyConfig {
   double energy_limit_j = 0.3;    ///< given out by a model before it is a Fault, 0.001...100
   double energy_cap_j = 0.02;     ///< of what a port dissipated it remembers this, 0.001...10
   double energy_supply_w = 5e-5;  ///< that a port may give out of its own, 0...20
-  double slice_damping = 0.0;  ///< of a slice by itself, N s/m, 0...100; a station asks its driver
+  double slice_damping =
+      0.0;  ///< of a slice by itself, N s/m, 0...100; a station sets it by its driver
   bool passivity_controller = false;
   double slice_mass_kg = 0.3;  ///< bounds the damping of the passivity controller, 0.01...100
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A virtual hand pushes into a virtual wall through the safety chain. The figures of docs/safety.md
 // are from here.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -171,6 +172,38 @@ TEST(ClampTest, MakesUpForNoMoreThanTheCapWhenMuchWasDissipatedBefore) {
     EXPECT_LT(loop.peakSpeed(2.0, wall), 0.5) << "the hand";
     EXPECT_LT(-loop.leastEnergy(), config.energy_cap_j + 0.001);
   }
+}
+
+/// As `push`, at 3 kHz and 1.2 times the limit, through a clamp and a slew limit that also slows
+/// the fall of a force. \return energy given out, J
+double givenOutWithASlowFall(bool clamp_is_last) {
+  const double rate_hz = 3000.0;
+  const double step_n = 500.0 / rate_hz;
+  const Wall wall{1.2 * stiffnessLimit(rate_hz), 0.0, 0.0};
+  const auto driver = makeVirtualDriver(plainDevice());
+  driver->open(rate_hz);
+  PortEnergy port({10.0, 0.0, 0.0, 1.0 / rate_hz, 1});
+  double last_x = 0.0;
+  for (int n = 0; n < 6600; ++n) {
+    driver->setTarget(0, std::max(-0.01, 0.002 - 0.012 * n / 300.0));
+    double x = 0.0;
+    const double last = port.issued();
+    driver->exchange(&last, &x);
+    const double dx = x - last_x;
+    last_x = x;
+    port.moved(dx, 1);
+    const auto clamped = [&](double f) { return EnergyClamp::limited(f, dx, port.predicted(dx)); };
+    const auto slewed = [&](double f) { return std::clamp(f, last - step_n, last + step_n); };
+    const double wanted = std::min(wall(x, 0.0), 20.0);
+    port.issue(clamp_is_last ? clamped(slewed(wanted)) : slewed(clamped(wanted)));
+  }
+  return -port.least();
+}
+
+TEST(ClampTest, IsLastBecauseAnythingThatSlowsTheFallOfForceAfterItGivesOutEnergy) {
+  EXPECT_GT(givenOutWithASlowFall(false), 100.0 * givenOutWithASlowFall(true));
+  EXPECT_LT(givenOutWithASlowFall(true), 0.00028);
+  EXPECT_GT(givenOutWithASlowFall(false), 0.05);
 }
 
 /// Push to 15 mm and out again, three times. \return largest cut of the force, N

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "audio/jack_session.hpp"
+#include "audio/jack_wires.hpp"
 #include "audio/semaphore.hpp"
 #include "ergotic/exception.hpp"
 
@@ -48,7 +49,7 @@ void validate(const JackConfig& config) {
 
 struct JackHost::Impl {
   Impl(const JackConfig& host_config, rt::BlockProcessor& block_processor)
-      : config(host_config), processor(block_processor) {
+      : config(host_config), processor(block_processor), sinks(host_config.output_peers) {
     supervisor = std::thread([this] { supervise(); });
   }
   ~Impl() {
@@ -69,6 +70,7 @@ struct JackHost::Impl {
 
   const JackConfig config;
   rt::BlockProcessor& processor;
+  const ReservedSinks sinks;
   std::shared_ptr<Semaphore> wake = std::make_shared<Semaphore>();
   std::atomic<bool> quit{false};
   std::unique_ptr<JackSession> session;  // the supervisor's

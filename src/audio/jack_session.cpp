@@ -350,7 +350,8 @@ void JackSession::connectInput(int input, const std::string& source) {
 void JackSession::connectToPlayback() {
   const auto sinks = jackPorts(core_->client, nullptr, JackPortIsInput | JackPortIsPhysical);
   for (std::size_t i = 0; i < std::min(sinks.size(), core_->outputs.size()); ++i) {
-    if (jack_connect(core_->client, jack_port_name(core_->outputs[i]), sinks[i].c_str()) != 0) {
+    if (!ReservedSinks::has(sinks[i], i + 1) &&
+        jack_connect(core_->client, jack_port_name(core_->outputs[i]), sinks[i].c_str()) != 0) {
       fail(std::string(jack_port_name(core_->outputs[i])) + " cannot be connected to " + sinks[i]);
     }
   }

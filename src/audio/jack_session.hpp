@@ -54,7 +54,8 @@ class JackSession {
   bool isSource(const std::string& exact) const;
   /// \param input  index of our port. \throws DeviceError
   void connectInput(int input, const std::string& source);
-  /// out_i to the i-th physical playback port; what is connected there stays.
+  /// out_i to the i-th physical playback port, unless another output of this process is wired to
+  /// it; what is connected there stays.
   void connectToPlayback();
   /// Connects the ports with their peers as far as they are not. No effect without peers.
   /// \throws DeviceError saying which wire is missing or shared; blocks are not `wired` then

@@ -3,6 +3,8 @@
 
 #include <cstdlib>
 #include <memory>
+#include <mutex>
+#include <set>
 
 #include "audio/jack_library.hpp"
 #include "ergotic/exception.hpp"
@@ -24,6 +26,9 @@ std::vector<std::string> namesIn(const char** names) {
   return all;
 }
 
+std::mutex reserved_mutex;
+std::multiset<std::string> reserved;
+
 /// A wire has nothing else at its ends.
 void requireAlone(const std::vector<std::string>& connected,
                   const std::string& port,
@@ -40,6 +45,23 @@ void requireAlone(const std::vector<std::string>& connected,
 
 std::vector<std::string> jackPorts(jack_client_t* client, const char* regex, unsigned long flags) {
   return namesIn(jack_get_ports(client, regex, JACK_DEFAULT_AUDIO_TYPE, flags));
+}
+
+ReservedSinks::ReservedSinks(const std::vector<std::string>& peers) : peers_(peers) {
+  const std::lock_guard<std::mutex> lock(reserved_mutex);
+  reserved.insert(peers_.begin(), peers_.end());
+}
+
+ReservedSinks::~ReservedSinks() {
+  const std::lock_guard<std::mutex> lock(reserved_mutex);
+  for (const std::string& peer : peers_) {
+    reserved.erase(reserved.find(peer));
+  }
+}
+
+bool ReservedSinks::has(const std::string& sink, std::size_t physical) {
+  const std::lock_guard<std::mutex> lock(reserved_mutex);
+  return reserved.count(sink) > 0 || reserved.count("physical " + std::to_string(physical)) > 0;
 }
 
 JackWires::JackWires(jack_client_t* client,

@@ -11,6 +11,24 @@ namespace ergotic::audio {
 /// Port names of one direction. \param flags  of jack_get_ports
 std::vector<std::string> jackPorts(jack_client_t* client, const char* regex, unsigned long flags);
 
+/// Keeps what outputs of this process are wired to, while it lives, from being connected to by
+/// `JackConfig::connect`: a force-feedback device is no loudspeaker. Whatever the server, which may
+/// go by two names. Thread: any
+class ReservedSinks {
+ public:
+  /// \param peers  as JackConfig::output_peers
+  explicit ReservedSinks(const std::vector<std::string>& peers);
+  ~ReservedSinks();
+  ReservedSinks(const ReservedSinks&) = delete;
+  ReservedSinks& operator=(const ReservedSinks&) = delete;
+
+  /// \param physical  its number among the physical ports, from 1 on
+  static bool has(const std::string& sink, std::size_t physical);
+
+ private:
+  std::vector<std::string> peers_;
+};
+
 /// Connections one to one between our ports and those of others.
 /// Realtime: no. Thread: one
 class JackWires {

@@ -174,6 +174,54 @@ TEST(JackHostTest, ConnectsToPlaybackOnlyIfAskedAndTakesNothingAway) {
   EXPECT_TRUE(connected("ergotic:out_3", "system:playback_1"));
 }
 
+TEST(JackHostTest, ConnectsNothingToWhatAnotherHostIsWiredTo) {
+  JackServer server("wired");
+  server.start();
+  BlockProbe device_probe;
+  BlockProbe sound_probe;
+  JackConfig wired = configFor(server);
+  wired.name = "device";
+  wired.inputs = 0;
+  wired.outputs = 1;
+  wired.output_peers = {"physical 2"};
+  const JackHost device(wired, device_probe);
+  ASSERT_TRUE(eventually([&] { return device.status().wired; })) << device.status().message;
+  JackConfig config = configFor(server);
+  config.connect = true;
+  const JackHost sound(config, sound_probe);
+  const auto isConnected = [&](const std::string& out, const std::string& sink) {
+    return server.tool("jack_lsp -c " + sink + " | grep -q '   " + out + "$'") == 0;
+  };
+  ASSERT_TRUE(eventually([&] { return isConnected("ergotic:out_1", "system:playback_1"); }));
+  ASSERT_TRUE(eventually([&] { return sound.status().running; }));  // its outputs are connected
+  EXPECT_FALSE(isConnected("ergotic:out_2", "system:playback_2"));
+  EXPECT_TRUE(isConnected("device:out_1", "system:playback_2"));
+}
+
+TEST(JackHostTest, MendsAWireAndSaysWhenItIsShared) {
+  JackServer server("mended");
+  server.start();
+  BlockProbe probe;
+  JackConfig config = configFor(server);
+  config.input_names = {"left", "right"};
+  config.input_peers = {"system:capture_2", "physical 1"};
+  const JackHost host(config, probe);
+  ASSERT_TRUE(eventually([&] { return host.status().wired; })) << host.status().message;
+  EXPECT_EQ(host.status().input_latency_frames, 256U) << "of the dummy card";
+  ASSERT_EQ(server.tool("jack_disconnect system:capture_2 ergotic:left"), 0);
+  EXPECT_TRUE(eventually([&] {
+    return server.tool("jack_lsp -c system:capture_2 | grep -q '   ergotic:left$'") == 0;
+  }));
+  ASSERT_EQ(server.tool("jack_connect system:capture_1 ergotic:left"), 0);
+  EXPECT_TRUE(eventually([&] { return !host.status().wired; }));
+  EXPECT_NE(host.status().message.find("`ergotic:left` is wired to `system:capture_2` alone, but "
+                                       "connected with `system:capture_1` too"),
+            std::string::npos)
+      << host.status().message;
+  ASSERT_EQ(server.tool("jack_disconnect system:capture_1 ergotic:left"), 0);
+  EXPECT_TRUE(eventually([&] { return host.status().wired && host.status().message.empty(); }));
+}
+
 TEST(JackHostTest, DeclaresItsLatencyOnTopOfTheInputs) {
   JackServer server("latency");
   server.start();
@@ -201,6 +249,12 @@ TEST(JackHostTest, RefusesSettingsOutOfRange) {
   config.outputs = -1;
   EXPECT_THROW(JackHost(config, probe), Exception);
   config.outputs = 1;
+  config.output_peers = {"a:b", "a:c"};
+  EXPECT_THROW(JackHost(config, probe), Exception);
+  config.output_peers.clear();
+  config.output_names = {"left", "right"};
+  EXPECT_THROW(JackHost(config, probe), Exception);
+  config.output_names.clear();
   config.name = "";
   EXPECT_THROW(JackHost(config, probe), Exception);
   config.name = "a:b";

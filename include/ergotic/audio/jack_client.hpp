@@ -64,7 +64,8 @@ struct JackStatus {
 ///
 /// Wires to peers are mended within a second; `Block::wired` is false from the first block on that
 /// misses one. A wire is one to one: a second source at an input of ours, or at what an output of
-/// ours feeds, counts as a broken one; what others connected stays.
+/// ours feeds, counts as a broken one; what others connected stays. `connect` passes over what
+/// another host of this process is wired to.
 ///
 /// Realtime: no. Thread: any, one at a time; the processor must outlive the host
 class JackHost {

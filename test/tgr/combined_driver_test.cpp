@@ -3,9 +3,12 @@
 
 #include <array>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "tgr/driver_rigs.hpp"
 #include "tgr/scripted_driver.hpp"
 
 namespace ergotic::tgr {
@@ -109,6 +112,37 @@ TEST_F(CombinedDriverTest, ReconnectsTheOthersAlthoughOneStaysLost) {
   EXPECT_THROW(driver->reconnect(), DeviceError);
   EXPECT_EQ(scripts_[1].reconnections, 1);
   EXPECT_EQ(scripts_[2].reconnections, 1);
+}
+
+/// Two devices of 40 and 24 slices; a spring between slice i of the first and slice i of the
+/// second.
+TEST(CombinedDevicesTest, FeelEachOtherThroughASpringBetweenThem) {
+  std::vector<std::unique_ptr<Driver>> devices;
+  devices.push_back(test::makePlainVirtual(40));
+  devices.push_back(test::makePlainVirtual(24));
+  const auto driver = combine(std::move(devices));
+  driver->open(3000.0);
+  ASSERT_EQ(driver->slices(), kMaxSlices);
+  const double stiffness = 800.0;
+  const double hand = VirtualSliceConfig{}.hand_stiffness;
+  std::array<double, kMaxSlices> forces{};
+  std::array<double, kMaxSlices> x{};
+  for (int i = 0; i < 24; ++i) {
+    ASSERT_TRUE(driver->setTarget(i, 1e-3 * i));
+  }
+  for (int n = 0; n < 12000; ++n) {
+    driver->exchange(forces.data(), x.data());
+    for (std::size_t i = 0; i < 24; ++i) {
+      forces[i] = stiffness * (x[40 + i] - x[i]);
+      forces[40 + i] = -forces[i];
+    }
+  }
+  for (std::size_t i = 0; i < 24; ++i) {
+    const double stretch = 1e-3 * static_cast<double>(i) * hand / (hand + 2.0 * stiffness);
+    EXPECT_NEAR(x[i] - x[40 + i], stretch, 1e-9) << i;
+    EXPECT_NEAR(x[40 + i], stiffness * stretch / hand, 1e-9) << i;
+  }
+  EXPECT_EQ(x[30], 0.0) << "has no spring";
 }
 
 TEST_F(CombinedDriverTest, RefusesWhatDoesNotGoTogether) {

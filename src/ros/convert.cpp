@@ -219,7 +219,10 @@ void fillStatus(const station::Snapshot& snapshot, Status& status) {
   status.dropped_records = counters.dropped_records;
   status.load_mean = counters.load_mean;
   status.load_peak = counters.load_peak;
+  status.late_worst = counters.late_worst_s;
   status.peak_force = counters.peak_force_n;
+  status.port_energy_min = counters.port_energy_min_j;
+  status.clamped_ticks = counters.clamped_ticks;
 }
 
 void fillStatus(std::uint64_t uncalibrated, Status& status) {

@@ -63,6 +63,8 @@ void Diagnostics::reportForce(Report& report) {
     report.add("end-effector", end_effector.name);
   }
   report.add("peak force (N)", status_.peak_force);
+  report.add("least energy of a slice (J)", status_.port_energy_min);
+  report.add("ticks in which the energy clamp acted", status_.clamped_ticks);
 }
 
 void Diagnostics::reportRealtime(Report& report) {
@@ -79,6 +81,7 @@ void Diagnostics::reportRealtime(Report& report) {
   report.add("gestural rate (Hz)", status_.gestural_rate);
   report.add("ticks", status_.ticks);
   report.add("late: woken late", status_.late_wake_up);
+  report.add("latest wake-up (s)", status_.late_worst);
   report.add("late: slow device", status_.late_device);
   report.add("late: long computation", status_.late_compute);
   report.add("stalls", status_.stalls);

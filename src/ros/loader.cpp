@@ -7,6 +7,7 @@
 #include <ros/console.h>
 
 #include "ergotic/exception.hpp"
+#include "ros/description.hpp"
 #include "ros/model_loader.hpp"
 
 namespace ergotic::node {
@@ -113,8 +114,10 @@ Answer Loader::start(scene::Scene scene, bool allow_unproven, std::string& verdi
   policy.end_effectors = hands->config().end_effectors;
   auto performer = makePerformer(std::move(scene), rates, parameters.compile, policy, verdict);
   station::Performer* const first = performer.get();
-  return operator_.begin(
+  Answer answer = operator_.begin(
       std::make_unique<Engine>(parameters, std::move(hands), std::move(performer)), first);
+  setDescription(node_, operator_);
+  return answer;
 }
 
 }  // namespace ergotic::node

@@ -14,6 +14,8 @@
 namespace ergotic::node {
 namespace {
 
+constexpr double kFrozenS = 0.1;  // the sensors of a TGR are noisier than their quantum
+
 const std::map<std::string, physics::Precision> kPrecisions = {
     {"float", physics::Precision::kFloat}, {"double", physics::Precision::kDouble}};
 const std::map<std::string, bool> kJack = {{"auto", true}, {"none", false}};
@@ -105,7 +107,14 @@ void readSafety(const Reader& read, Parameters& p) {
   read.number("force_limit", safety.force_limit_n, 0.0, tgr::kAbsoluteForceLimitN);
   read.number("ramp", safety.ramp_s, 0.1, 10.0);
   read.number("resume_ramp", safety.resume_ramp_s, 0.005, 10.0);
+  read.number("slew", safety.slew_n_per_s, 10.0, 1e6);
+  read.number("raw_force_limit", safety.raw_force_limit_n, 1.0, 1e6);
+  read.number("energy_limit", safety.energy_limit_j, 0.001, 100.0);
+  read.flag("passivity_controller", safety.passivity_controller);
   read.number("position_limit", safety.position_limit_m, 0.001, 1.0);
+  read.number("max_speed", safety.max_speed_m_per_s, 0.1, 100.0);
+  safety.frozen_s = kFrozenS;
+  read.number("frozen", safety.frozen_s, 0.0, 10.0);
   read.integer("max_missing", safety.max_missing, 0, 1000);
   read.number("max_stall", p.max_stall, 0.001, 1.0);
   read.number("watchdog", p.watchdog, 0.004, 1.0);
@@ -221,7 +230,13 @@ std::string toYaml(const Parameters& p, const tgr::StationDevices& devices) {
   entry("force_limit", p.safety.force_limit_n);
   entry("ramp", p.safety.ramp_s);
   entry("resume_ramp", p.safety.resume_ramp_s);
+  entry("slew", p.safety.slew_n_per_s);
+  entry("raw_force_limit", p.safety.raw_force_limit_n);
+  entry("energy_limit", p.safety.energy_limit_j);
+  entry("passivity_controller", p.safety.passivity_controller);
   entry("position_limit", p.safety.position_limit_m);
+  entry("max_speed", p.safety.max_speed_m_per_s);
+  entry("frozen", p.safety.frozen_s);
   entry("max_missing", p.safety.max_missing);
   entry("max_stall", p.max_stall);
   entry("watchdog", p.watchdog);

@@ -4,6 +4,7 @@
 #include <ros/console.h>
 
 #include "ergotic/exception.hpp"
+#include "ros/description.hpp"
 #include "ros/end_effectors.hpp"
 
 namespace ergotic::node {
@@ -22,14 +23,6 @@ bool fill(Response& response, const Answer& answer) {
 void complain(const std::string& topic, const Answer& answer) {
   if (!answer.ok) {
     ROS_WARN_STREAM_THROTTLE(kLogPeriodS, topic << ": " << answer.message);
-  }
-}
-
-Answer configure(Operator& operator_thread, const std::vector<EndEffector>& end_effectors) {
-  try {
-    return operator_thread.configure(fromMessages(end_effectors));
-  } catch (const Exception& refusal) {
-    return {false, refusal.what()};
   }
 }
 
@@ -110,13 +103,25 @@ bool Services::onRecover(Trigger::Request& /*request*/, Trigger::Response& respo
   return fill(response, operator_.recover());
 }
 
+Answer Services::configure(const std::vector<EndEffector>& end_effectors) {
+  try {
+    Answer answer = operator_.configure(fromMessages(end_effectors));
+    if (answer.ok) {
+      setDescription(node_, operator_);
+    }
+    return answer;
+  } catch (const Exception& refusal) {
+    return {false, refusal.what()};
+  }
+}
+
 bool Services::onConfigure(ConfigureEndEffectors::Request& request,
                            ConfigureEndEffectors::Response& response) {
-  return fill(response, configure(operator_, request.end_effectors));
+  return fill(response, configure(request.end_effectors));
 }
 
 void Services::onEndEffectors(const EndEffectors& end_effectors) {
-  complain("end_effectors", configure(operator_, end_effectors.end_effectors));
+  complain("end_effectors", configure(end_effectors.end_effectors));
 }
 
 bool Services::onCalibrate(Calibrate::Request& request, Calibrate::Response& response) {

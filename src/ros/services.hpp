@@ -44,6 +44,7 @@ class Services {
   bool onSetParameter(SetParameter::Request& request, SetParameter::Response& response);
   void onParameter(const ParameterValue& parameter);
   void onHandTarget(const SliceTarget& target);
+  Answer configure(const std::vector<EndEffector>& end_effectors);
   bool onRecover(Trigger::Request& request, Trigger::Response& response);
   bool onConfigure(ConfigureEndEffectors::Request& request,
                    ConfigureEndEffectors::Response& response);

@@ -35,6 +35,11 @@ void Station::publish() noexcept {
   s.counters.underrun_frames = audio.underrun_frames;
   s.counters.xruns = audio.xruns;
   s.counters.dropped_records += audio.dropped_records;
+  for (int slice = 0; slice < slices_; ++slice) {
+    const tgr::SliceReading reading = chain_.reading(slice);
+    s.counters.port_energy_min_j = std::min(s.counters.port_energy_min_j, reading.least_energy_j);
+    s.counters.clamped_ticks += reading.clamped_ticks;
+  }
   s.slice_position = position_;
   s.slice_velocity = velocity_;
   s.slice_force = force_;
@@ -65,6 +70,8 @@ void Station::classify(const Timing& timing,
   if (timing.freewheel) {
     return;
   }
+  counters_.late_worst_s =
+      std::max(counters_.late_worst_s, 1e-9 * static_cast<double>(timing.late_ns));
   late(LateCause::kWakeUp, counters_.late_wake_up, timing.late_ns);
   late(LateCause::kDevice, counters_.late_device, exchange_ns);
   late(LateCause::kCompute, counters_.late_compute, compute_ns);

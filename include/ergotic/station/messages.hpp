@@ -134,8 +134,11 @@ struct Counters {
   std::int64_t underrun_frames = 0;
   std::int64_t xruns = 0;
   std::int64_t dropped_records = 0;  ///< gesture ticks or events that found their ring full
+  double late_worst_s = 0.0;         ///< latest wake-up
   double peak_force_n = 0.0;
-  double load_mean = 0.0;  ///< compute time over tick period, smoothed over about a second
+  double port_energy_min_j = 0.0;  ///< least of any slice; below 0: so much it gave out
+  std::int64_t clamped_ticks = 0;  ///< in which the energy clamp cut a force, summed over slices
+  double load_mean = 0.0;          ///< compute time over tick period, smoothed over about a second
   double load_peak = 0.0;
 };
 

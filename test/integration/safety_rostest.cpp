@@ -72,14 +72,24 @@ class SafetyTest : public ::testing::Test {
     return joints.effort.empty() ? 0.0 : joints.effort.front();
   }
 
-  /// Until the hand meets 15 N.
+  static void moveHand(double target_m) {
+    SliceTarget target;
+    target.target = target_m;
+    the_world->hand.publish(target);
+  }
+
+  /// Until the hand meets 15 N. It comes from outside: a wall that appears where the hand already is
+  /// may not push it away, for it never got the energy.
   static void push() {
     the_world->presence.hold();
+    moveHand(0.0);
+    ASSERT_TRUE(eventually([] {
+      const auto joints = the_world->joints.latest();
+      return !joints.position.empty() && std::abs(joints.position.front()) < 0.001;
+    }));
     ASSERT_TRUE(eventually([] { return call("engage").success != 0U; }));
     ASSERT_TRUE(stateBecomes(Status::PLAYING));
-    SliceTarget target;
-    target.target = kTargetM;
-    the_world->hand.publish(target);
+    moveHand(kTargetM);
     ASSERT_TRUE(eventually([] { return effort() < -0.95 * kForceN; })) << effort();
   }
 

@@ -54,7 +54,7 @@ lias:
 ports:
   left: {mat: left, slice: 0}
   right: {mat: right, slice: 2}
-  press: {mat: press}
+  press: {mat: press, slice: 4}
 )";
 constexpr double kMetresPerVolt = -0.004;
 constexpr double kRestVolts = 1.5;

@@ -78,8 +78,8 @@ class SafetyTest : public ::testing::Test {
     the_world->hand.publish(target);
   }
 
-  /// Until the hand meets 15 N. It comes from outside: a wall that appears where the hand already is
-  /// may not push it away, for it never got the energy.
+  /// Until the hand meets 15 N. It comes from outside: a wall that appears where the hand already
+  /// is may not push it away, for it never got the energy.
   static void push() {
     the_world->presence.hold();
     moveHand(0.0);
@@ -87,6 +87,7 @@ class SafetyTest : public ::testing::Test {
       const auto joints = the_world->joints.latest();
       return !joints.position.empty() && std::abs(joints.position.front()) < 0.001;
     }));
+    ASSERT_TRUE(call("recover").success);
     ASSERT_TRUE(eventually([] { return call("engage").success != 0U; }));
     ASSERT_TRUE(stateBecomes(Status::PLAYING));
     moveHand(kTargetM);

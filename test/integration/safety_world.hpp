@@ -20,7 +20,11 @@
 
 namespace ergotic::test {
 
-// A wall of 1000 N/m; the hand (500 N/m) wants to be 46 mm inside, and so meets 15 N at 15 mm.
+// A wall of 1000 N/m; the hand (2000 N/m) wants to be 22.5 mm inside, and so meets 15 N at 15 mm.
+inline const char kDevice[] = R"(devices:
+  - driver: virtual
+    settings: {mechanics: {hand_stiffness: 2000, hand_damping: 30}}
+)";
 inline const char kWall[] = R"(ergotic: 1
 name: wall
 sections:
@@ -34,7 +38,7 @@ ports:
   key: {mat: key, slice: 0}
 )";
 constexpr double kForceN = 15.0;
-constexpr double kTargetM = 0.046;
+constexpr double kTargetM = 0.0225;
 constexpr double kForceLimitN = 20.0;
 
 /// Tells the station five times as often as it needs that somebody is there.
@@ -69,6 +73,7 @@ class PresenceSwitch {
 struct SafetyWorld {
   SafetyWorld() {
     node.setParam("/station/model", kWall);
+    node.setParam("/station/device", kDevice);
     node.setParam("/station/jack", "none");
     node.setParam("/station/ramp", 0.1);
     node.setParam("/station/presence", "topic");

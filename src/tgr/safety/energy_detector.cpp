@@ -2,6 +2,7 @@
 #include "ergotic/tgr/safety/energy_detector.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "ergotic/rt/realtime.hpp"
 
@@ -13,21 +14,30 @@ constexpr double kForgetS = 1.0;
 }  // namespace
 
 EnergyDetector::EnergyDetector(const Rules& rules, double tick_s) noexcept
-    : rules_(rules), supply_j_(rules.supply_w * tick_s), kept_(1.0 - tick_s / kForgetS) {}
+    : rules_(rules),
+      supply_j_(rules.supply_w * tick_s),
+      kept_(1.0 - tick_s / kForgetS),
+      most_j_(rules.force_limit_n * rules.range_m) {}
 
 ERGOTIC_REALTIME bool EnergyDetector::look(double force, double dx) noexcept {
-  energy_ = std::min(energy_ - last_force_ * dx + supply_j_, rules_.cap_j);
-  last_force_ = std::clamp(force, -rules_.force_limit_n, rules_.force_limit_n);
+  way_ += dx;
+  energy_ = std::min(energy_ - last_force_ * dx + supply_j_, most_j_);
   const bool fine = energy_ >= -rules_.limit_j;
-  if (energy_ < 0.0) {
-    energy_ *= kept_;
+  // Between the bounds nothing is forgotten; beyond them the distance to the nearer one shrinks.
+  const double bound = std::clamp(energy_, 0.0, rules_.cap_j + std::abs(last_force_ * way_));
+  energy_ = bound + kept_ * (energy_ - bound);
+  const double next = std::clamp(force, -rules_.force_limit_n, rules_.force_limit_n);
+  if (next * last_force_ <= 0.0) {
+    way_ = 0.0;
   }
+  last_force_ = next;
   return fine;
 }
 
 ERGOTIC_REALTIME void EnergyDetector::forget() noexcept {
   energy_ = 0.0;
   last_force_ = 0.0;
+  way_ = 0.0;
 }
 
 }  // namespace ergotic::tgr

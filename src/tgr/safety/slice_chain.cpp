@@ -7,14 +7,25 @@
 #include "ergotic/rt/realtime.hpp"
 
 namespace ergotic::tgr {
+namespace {
+
+EnergyDetector::Rules energyRules(const SafetyConfig& config) {
+  EnergyDetector::Rules rules;
+  rules.force_limit_n = config.force_limit_n;
+  rules.range_m = config.position_limit_m;
+  rules.limit_j = config.energy_limit_j;
+  rules.cap_j = config.energy_cap_j;
+  rules.supply_w = config.energy_supply_w;
+  return rules;
+}
+
+}  // namespace
 
 SliceChain::SliceChain(const SafetyConfig& config, double tick_s, int delay_ticks)
     : position_({config.position_limit_m, config.max_speed_m_per_s * tick_s,
                  static_cast<std::int64_t>(std::ceil(config.frozen_s / tick_s))}),
       blow_up_(config.force_limit_n, config.raw_force_limit_n),
-      detector_({config.force_limit_n, config.energy_limit_j,
-                 config.force_limit_n * config.position_limit_m, config.energy_supply_w},
-                tick_s),
+      detector_(energyRules(config), tick_s),
       controller_(config.slice_mass_kg, tick_s),
       controls_(config.passivity_controller),
       slew_(config.slew_n_per_s * tick_s),

@@ -6,17 +6,19 @@ namespace ergotic::tgr {
 /// Does a model give out more energy than it may? Looks at the raw force of one slice, cut to what
 /// the hand may meet, and at the hand's way. Realtime: yes
 ///
-///   E <- min(E - F[n-1] (x[n] - x[n-1]) + supply, cap),   E < 0: E <- (1 - T / 1 s) E
+///   E <- min(E - F[n-1] dx + supply, limit of F times range of x),   dx = x[n] - x[n-1]
 ///
 /// F and x are the model's own, without the delays of the device, so that a passive model stays
-/// above minus what it had stored, but for what sampling adds; the forgetting covers that. Under
-/// the cut force no passive model can store more than the cap.
+/// above minus what it had stored, but for what sampling adds. Within a second it forgets what was
+/// given out, and of what was taken in all but `cap_j` and |F| |x - x0|: what any spring can have
+/// stored since the force was last 0, at x0.
 class EnergyDetector {
  public:
   struct Rules {
     double force_limit_n = 0.0;
+    double range_m = 0.0;
     double limit_j = 0.0;   ///< given out
-    double cap_j = 0.0;     ///< taken in
+    double cap_j = 0.0;     ///< taken in and remembered, beside what is in a spring
     double supply_w = 0.0;  ///< it may give
   };
   EnergyDetector(const Rules& rules, double tick_s) noexcept;
@@ -31,8 +33,10 @@ class EnergyDetector {
  private:
   Rules rules_;
   double supply_j_;  // per tick
-  double kept_;      // of what was given out
+  double kept_;      // of what is forgotten, per tick
+  double most_j_;    // taken in
   double energy_ = 0.0;
+  double way_ = 0.0;  // since the force was 0, m
   double last_force_ = 0.0;
 };
 

@@ -20,11 +20,16 @@ EnergyMeter<Real>::EnergyMeter(const scene::Scene& scene, const Layout& layout, 
       newton_(1.0 / (scene.time_unit_s * scene.time_unit_s)),
       everything_(everythingOf(layout)),
       forced_of_section_(layout.sections.size()) {
-  for (std::size_t m = 0; m < scene.mats.size(); ++m) {
-    const scene::MatType type = scene.mats[m].type;
-    if (type == scene::MatType::kSlice || type == scene::MatType::kDriven) {
-      forced_of_section_[at(scene.mats[m].section)].push_back(forced_.size());
-      forced_.push_back({layout.slot_of_mat[m], type == scene::MatType::kSlice});
+  const auto force = [this](int section, int slot, bool by_device) {
+    forced_of_section_[at(section)].push_back(forced_.size());
+    forced_.push_back({slot, by_device});
+  };
+  for (const int slot : layout.port_slots) {
+    force(scene.mats[at(layout.mat_of_slot[at(slot)])].section, slot, true);
+  }
+  for (const Feed& feed : layout.feeds) {
+    if (feed.quantity == scene::Quantity::kPosition) {
+      force(feed.section, feed.slot, false);
     }
   }
   const auto couple = [this](int one, int other) {

@@ -67,7 +67,7 @@ class EnergyMeter {
     double from_parameters;
     double before_change;
   };
-  /// A module that something moves: a slice or a driven one.
+  /// A coordinate that something moves: of a slice, or of a driven module.
   struct Forced {
     int slot;
     bool device;

@@ -188,7 +188,8 @@ Layout makeLayout(const scene::Scene& scene,
   placeConnections(scene, layout);
   placeLinks(scene, layout);
   for (const scene::Port& port : scene.ports) {
-    layout.port_slots.push_back(layout.slot_of_mat[at(port.mat)]);
+    layout.port_slots.push_back(layout.slot_of_mat[at(port.mat)] +
+                                port.axis * layout.strideOf(scene, port.mat));
   }
   for (const scene::Output& output : scene.outputs) {
     layout.taps.push_back(describeTap(scene, rates, output, layout));

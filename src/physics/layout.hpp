@@ -174,7 +174,7 @@ struct Layout {
   std::vector<ProjectedPoint> projections;
   std::vector<DecimatedPoint> decimations;
   std::vector<LinkRun> runs;
-  std::vector<int> port_slots;
+  std::vector<int> port_slots;  ///< [ports] of the coordinate that it moves
   std::vector<Tap> taps;
   std::vector<Feed> feeds;
   std::vector<Follower> followers;

@@ -155,6 +155,7 @@ class Rewriter {
   void renumber() {
     for (scene::Port& port : to_.scene.ports) {
       port.mat = newIndex(port.mat);
+      port.filter = port.filter < 0 ? -1 : newIndex(port.filter);
     }
     for (scene::Input& input : to_.scene.inputs) {
       input.mat = newIndex(input.mat);

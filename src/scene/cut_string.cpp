@@ -135,6 +135,7 @@ class Cutter {
   void moveOthers(int string) {
     for (Port& port : to_.ports) {
       port.mat = moved(port.mat);
+      port.filter = moved(port.filter);
     }
     for (Connection& connection : to_.connections) {
       connection.mat = moved(connection.mat);

@@ -51,6 +51,8 @@ constexpr Limits kOffsetLimits{"m", -1.0, 1.0};
 constexpr Limits kPositionScaleLimits{"", 1e-6, 1e6};
 constexpr Limits kForceScaleLimits{"", 0.0, 1e6};
 
+constexpr Limits kDampingRatioLimits{"", 0.0, 2.0};
+
 constexpr int kMaxMats = 2'000'000;
 constexpr std::size_t kMaxTextBytes = std::size_t{64} << 20U;
 constexpr std::size_t kMaxNameBytes = 64;

@@ -143,9 +143,10 @@ Scene readYaml(const std::string& text, const std::string& name, const Overrides
   SceneBuilder builder(name, text);
   const std::vector<YAML::Node> documents = parse(builder, text);
   const YamlMap top(builder, documents.front(), "the scene", {1, 1});
-  YamlTables tables(builder, documents.size() > 1 ? &documents.back() : nullptr);
+  PointFiles files(builder, documents.size() > 1 ? &documents.back() : nullptr);
+  YamlTables tables(builder, files);
   top.allow({"ergotic", "name", "gestural_rate", "parameters", "sections", "mats", "generators",
-             "lias", "ports", "inputs", "outputs"});
+             "lias", "agents", "ports", "inputs", "outputs"});
   readHead(builder, top, overrides);
   readParameters(builder, top);
   overrideParameters(builder, overrides);
@@ -154,8 +155,10 @@ Scene readYaml(const std::string& text, const std::string& name, const Overrides
   readGenerators(builder, top);
   readPoints(builder, top);
   readLias(builder, top, tables);
-  tables.finish();
   readPorts(builder, top);
+  readAgents(builder, top, files);
+  files.finish();
+  readPortFilters(builder, top);
   readInputs(builder, top);
   readOutputs(builder, top);
   warnOfLooseEnds(builder);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
+#include <optional>
 #include <vector>
 
 #include "ergotic/exception.hpp"
@@ -10,6 +10,7 @@
 #include "ergotic/scene/table.hpp"
 #include "scene/lia_rules.hpp"
 #include "scene/limits.hpp"
+#include "scene/mover_rules.hpp"
 #include "scene/names.hpp"
 
 namespace ergotic::scene {
@@ -36,8 +37,11 @@ class Validator {
     each(scene_.lias, "link", &Validator::lia);
     each(scene_.inputs, "input", &Validator::input);
     each(scene_.outputs, "output", &Validator::output);
+    each(scene_.agents, "agent", &Validator::agent);
     each(scene_.ports, "port", &Validator::port);
-    exclusive();
+    if (const std::optional<Fault> fault = movedTwice(scene_)) {
+      fail(fault->place, fault->text);
+    }
     for (const StringInfo& s : scene_.strings) {
       string(s);
     }
@@ -337,10 +341,38 @@ class Validator {
     number(place, "axis" + of, coordinate, {"", 0.0, dimensionsOf(section.geometry) - 1.0});
   }
 
+  void agent(const Agent& a) const {
+    const std::string of = " of agent " + quoted(a.name);
+    if (a.knots.empty()) {
+      fail(a.place, "agent " + quoted(a.name) + " has no points, allowed: at least 1");
+    }
+    Limits times{"s", 0.0};
+    for (const auto& [time, position] : a.knots) {
+      number(a.place, "time" + of, time, times);
+      number(a.place, "position" + of, position, kMetreLimits);
+      times = {"s", time, kInfinity, true};
+    }
+    if (a.period_s != 0.0) {
+      number(a.place, "period" + of, a.period_s, {"s", a.knots.back().first});
+    }
+  }
+
   void port(const Port& p) const {
     const std::string of = " of port " + quoted(p.name);
+    if (p.agent != -1) {
+      index(p.place, "agent" + of, p.agent, scene_.agents.size());
+    }
+    if (p.filter != -1) {
+      index(p.place, "filter" + of, p.filter, scene_.mats.size());
+    }
+    if (p.agent != -1 && p.slice != -1) {
+      fail(p.place, "port " + quoted(p.name) + " has a slice and an agent, allowed: one of them");
+    }
     index(p.place, "module" + of, p.mat, scene_.mats.size());
-    number(p.place, "slice" + of, p.slice, kSliceLimits);
+    if (p.slice != -1) {
+      number(p.place, "slice" + of, p.slice, kSliceLimits);
+    }
+    axis(p.place, of, p.axis, p.mat);
     number(p.place, "offset" + of, p.offset, kOffsetLimits);
     number(p.place, "position_scale" + of, p.position_scale, kPositionScaleLimits);
     number(p.place, "force_scale" + of, p.force_scale, kForceScaleLimits);
@@ -348,37 +380,6 @@ class Validator {
     if (m.type != MatType::kSlice) {
       fail(p.place, "port " + quoted(p.name) + " is on module " + quoted(m.name) +
                         ", allowed: modules of type slice");
-    }
-  }
-
-  /// One port for a slice, one port for a module, one position input for a driven module.
-  void exclusive() const {
-    std::unordered_map<int, const Port*> by_slice;
-    std::unordered_map<int, const Port*> by_mat;
-    for (const Port& p : scene_.ports) {
-      const auto same_slice = by_slice.emplace(p.slice, &p);
-      if (!same_slice.second) {
-        fail(p.place, "port " + quoted(p.name) + " is on slice " + std::to_string(p.slice) +
-                          ", which port " + quoted(same_slice.first->second->name) + " has");
-      }
-      const auto same_mat = by_mat.emplace(p.mat, &p);
-      if (!same_mat.second) {
-        fail(p.place, "port " + quoted(p.name) + " is on module " +
-                          quoted(scene_.mats[static_cast<std::size_t>(p.mat)].name) +
-                          ", which port " + quoted(same_mat.first->second->name) + " has");
-      }
-    }
-    std::unordered_map<int, const Input*> by_driven;
-    for (const Input& in : scene_.inputs) {
-      if (in.quantity != Quantity::kPosition) {
-        continue;
-      }
-      const auto same = by_driven.emplace(in.mat, &in);
-      if (!same.second) {
-        fail(in.place, "input " + quoted(in.name) + " sets the position of module " +
-                           quoted(scene_.mats[static_cast<std::size_t>(in.mat)].name) +
-                           ", which input " + quoted(same.first->second->name) + " does");
-      }
     }
   }
 

@@ -24,18 +24,6 @@ Point readPoint(SceneBuilder& builder, const YamlMap& map) {
   return {pointAt(builder, text, place), -1, 0.0};
 }
 
-/// The coordinate of a module, one that moves.
-int readAxis(const SceneBuilder& builder, const YamlMap& map, int mat) {
-  if (!map.has("axis")) {
-    return 0;
-  }
-  std::vector<std::string> axes = {"x", "y", "z"};
-  const Scene& scene = builder.scene();
-  const Section& section = scene.sectionOf(scene.mats[static_cast<std::size_t>(mat)]);
-  axes.resize(static_cast<std::size_t>(dimensionsOf(section.geometry)));
-  return static_cast<int>(map.choice("axis", axes));
-}
-
 Quantity readQuantity(const YamlMap& map, const std::vector<std::string>& words) {
   constexpr Quantity kQuantities[] = {Quantity::kPosition, Quantity::kForce, Quantity::kVelocity};
   return kQuantities[map.choice("quantity", words)];
@@ -59,31 +47,7 @@ Input readInput(SceneBuilder& builder, const std::string& name, const YamlMap& m
   return input;
 }
 
-Port readPort(const SceneBuilder& builder, const std::string& name, const YamlMap& map) {
-  map.allow({"mat", "slice", "offset", "position_scale", "force_scale"});
-  Port port;
-  port.name = name;
-  port.place = map.place();
-  port.mat = builder.mat(map.word("mat"), map.placeAt("mat"));
-  port.slice = map.integer("slice", kSliceLimits);
-  port.offset = map.number("offset", kOffsetLimits, 0.0);
-  port.position_scale = map.number("position_scale", kPositionScaleLimits, 1.0);
-  port.force_scale = map.number("force_scale", kForceScaleLimits, 1.0);
-  const Mat& mat = builder.scene().mats[static_cast<std::size_t>(port.mat)];
-  if (mat.type != MatType::kSlice) {
-    map.fail("mat",
-             map.what() + " is on module " + quoted(mat.name) + ", allowed: modules of type slice");
-  }
-  return port;
-}
-
 }  // namespace
-
-void readPorts(SceneBuilder& builder, const YamlMap& top) {
-  forEachElement(builder, top, "ports", "port", [&](const std::string& name, const YamlMap& map) {
-    builder.scene().ports.push_back(readPort(builder, name, map));
-  });
-}
 
 void readInputs(SceneBuilder& builder, const YamlMap& top) {
   forEachElement(builder, top, "inputs", "input", [&](const std::string& name, const YamlMap& map) {

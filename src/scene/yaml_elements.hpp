@@ -13,6 +13,7 @@
 /// order, because later parts name what earlier ones define. All throw TextError.
 namespace ergotic::scene {
 
+class PointFiles;
 class YamlTables;
 
 void readSections(SceneBuilder& builder, const YamlMap& top);
@@ -21,6 +22,8 @@ void readGenerators(SceneBuilder& builder, const YamlMap& top);
 void readPoints(SceneBuilder& builder, const YamlMap& top);  ///< of `mats`: they lie on grids
 void readLias(SceneBuilder& builder, const YamlMap& top, YamlTables& tables);
 void readPorts(SceneBuilder& builder, const YamlMap& top);
+void readAgents(SceneBuilder& builder, const YamlMap& top, PointFiles& files);
+void readPortFilters(SceneBuilder& builder, const YamlMap& top);  ///< when all links are there
 void readInputs(SceneBuilder& builder, const YamlMap& top);
 void readOutputs(SceneBuilder& builder, const YamlMap& top);
 
@@ -47,6 +50,10 @@ Eigen::Vector3d readMoving(const Section& section,
                            const std::string& key,
                            const Limits& limits,
                            const Eigen::Vector3d& otherwise);
+
+/// The coordinate under the key `axis`, one that moves in the section of the module; x if the key
+/// is missing.
+int readAxis(const SceneBuilder& builder, const YamlMap& map, int mat);
 
 /// \throws TextError if a key is given that has no meaning in the geometry of the section
 void refuseIn(const SceneBuilder& builder,

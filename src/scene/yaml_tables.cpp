@@ -1,86 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/yaml_tables.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cerrno>
-#include <charconv>
-#include <cstring>
-
-#include "ergotic/exception.hpp"
-#include "scene/source_text.hpp"
 #include "scene/table_csv.hpp"
 
 namespace ergotic::scene {
 namespace {
 
-constexpr const char* kPart = "tables";
-constexpr std::size_t kMaxFileNameBytes = 255;
-
 std::string countText() {
   return "2..." + std::to_string(kMaxTablePoints);
 }
 
-/// Where a table file is: beside the scene.
-std::string pathBeside(const std::string& scene_file, const std::string& name) {
-  const std::size_t slash = scene_file.rfind('/');
-  return slash == std::string::npos ? name : scene_file.substr(0, slash + 1) + name;
-}
-
-bool isFileName(const std::string& name) {
-  const auto is_control = [](char c) {
-    return static_cast<unsigned char>(c) < 0x20U || c == '\x7F';
-  };
-  return !name.empty() && name.size() <= kMaxFileNameBytes && name.front() != '/' &&
-         std::none_of(name.begin(), name.end(), is_control);
-}
-
-/// The shortest text that reads back to the same bits.
-void appendNumber(std::string& text, double value) {
-  std::array<char, 32> digits{};
-  const std::to_chars_result end = std::to_chars(digits.begin(), digits.end(), value);
-  text.append(digits.data(), end.ptr);
-}
-
-/// `"name": [[x, y], ...]`
-void appendTable(std::string& text, const std::string& name, const Table& table) {
-  text += '"';
-  for (const char c : name) {
-    text += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
-  }
-  text += "\": [";
-  const char* comma = "";
-  for (const auto& [x, y] : table.points) {
-    text += comma;
-    text += '[';
-    appendNumber(text, x);
-    text += ", ";
-    appendNumber(text, y);
-    text += ']';
-    comma = ", ";
-  }
-  text += ']';
-}
-
 }  // namespace
-
-YamlTables::YamlTables(SceneBuilder& builder, const YAML::Node* appended) : builder_(builder) {
-  if (appended == nullptr) {
-    return;
-  }
-  self_contained_ = true;
-  const Place place = placeOf(*appended, {1, 1});
-  if (!appended->IsMap() || appended->size() != 1 || !appended->begin()->first.IsScalar() ||
-      appended->begin()->first.Scalar() != kPart) {
-    builder_.fail(place,
-                  "a second document, allowed: one in each file, and one after it that "
-                  "begins with 'tables:'");
-  }
-  forEachEntry(builder_, appended->begin()->second, "'tables' of the second document", place,
-               [this](const std::string& name, Place at, const YAML::Node& points) {
-                 appended_[name] = {points, at};
-               });
-}
 
 Table YamlTables::read(const YamlMap& map, const std::string& key) {
   const YAML::Node& node = map.at(key);
@@ -109,7 +39,7 @@ Table YamlTables::readNamed(const YamlMap& spec) {
   }
   Table table = spec.has("points")
                     ? readPoints(spec.at("points"), spec.what(), spec.placeAt("points"))
-                    : readFile(spec, spec.word("file"));
+                    : readFile(spec);
   table.smooth =
       spec.has("interpolation") && spec.choice("interpolation", {"linear", "monotone"}) == 1;
   return table;
@@ -138,58 +68,24 @@ Table YamlTables::readPoints(const YAML::Node& points, const std::string& what, 
   return table;
 }
 
-Table YamlTables::readFile(const YamlMap& spec, const std::string& name) {
-  if (!isFileName(name)) {
-    spec.fail("file", "file " + quoted(name) + " of " + spec.what() +
-                          " is no path from the scene's folder, allowed: 1..." +
-                          std::to_string(kMaxFileNameBytes) + " bytes that do not begin with '/'");
-  }
-  if (self_contained_) {
-    const auto found = appended_.find(name);
-    if (found == appended_.end()) {
+Table YamlTables::readFile(const YamlMap& spec) {
+  const std::string name = PointFiles::nameOf(spec);
+  if (files_.isSelfContained()) {
+    const PointFiles::Appended* appended = files_.find(PointFiles::Part::kTables, name);
+    if (appended == nullptr) {
       spec.fail("file", "file " + quoted(name) + " of " + spec.what() +
                             " is not among the tables of the second document");
     }
-    used_.insert(name);
-    return readPoints(found->second.points, "table " + quoted(name), found->second.place);
+    return readPoints(appended->points, "table " + quoted(name), appended->place);
   }
-  const auto known = files_.find(name);
-  if (known != files_.end()) {
+  const auto known = known_.find(name);
+  if (known != known_.end()) {
     return known->second;
   }
-  const std::string path = pathBeside(builder_.scene().file, name);
-  const std::optional<std::string> text = readBytes(path);
-  if (!text) {
-    spec.fail("file",
-              "cannot read " + quoted(path) + " of " + spec.what() + ": " + std::strerror(errno));
-  }
-  return files_[name] = readTableCsv(*text, path);
-}
-
-void YamlTables::finish() {
-  for (const auto& [name, table] : appended_) {
-    if (used_.count(name) == 0) {
-      builder_.fail(table.place, "table " + quoted(name) + " is used by no link");
-    }
-  }
-  if (files_.empty()) {
-    return;
-  }
-  std::string& text = builder_.scene().text;
-  const std::size_t written = text.size();
-  text += text.empty() || text.back() == '\n' ? "---\n" : "\n---\n";
-  const char* separator = "tables: {";
-  for (const auto& [name, table] : files_) {
-    text += separator;
-    appendTable(text, name, table);
-    separator = ",\n  ";
-  }
-  text += "}\n";
-  if (text.size() > kMaxTextBytes) {
-    builder_.fail({1, 1}, "the text has " + std::to_string(written) + " bytes and its tables " +
-                              std::to_string(text.size() - written) + ", allowed: at most " +
-                              std::to_string(kMaxTextBytes) + " in all");
-  }
+  const PointFiles::File file = files_.open(spec);
+  Table table = readTableCsv(file.text, file.path);
+  files_.keep(PointFiles::Part::kTables, name, table.points);
+  return known_[name] = std::move(table);
 }
 
 }  // namespace ergotic::scene

@@ -99,6 +99,14 @@ SceneBuilder stringAndHand(LiaType type, Geometry geometry = Geometry::kScalar) 
   return b;
 }
 
+/// The hand moves its module along every coordinate.
+void holdAlongAllAxes(SceneBuilder& b) {
+  for (int axis = 1; axis < dimensionsOf(b.scene.sections[1].geometry); ++axis) {
+    b.scene.ports.push_back(b.scene.ports.front());
+    b.scene.ports.back().axis = axis;
+  }
+}
+
 /// The same with a link inside the string that is guarded.
 SceneBuilder guardedString(LiaType type, Geometry geometry = Geometry::kScalar) {
   SceneBuilder b = stringAndHand(LiaType::kSpringDamper, geometry);
@@ -160,10 +168,12 @@ TEST_P(EnergyTest, EveryGeometryBalancesWithEveryOther) {
     for (const LiaType type : {LiaType::kSpringDamper, LiaType::kCubic, LiaType::kSmoothBow}) {
       SceneBuilder b =
           type == LiaType::kCubic ? guardedString(type, geometry) : stringAndHand(type, geometry);
+      holdAlongAllAxes(b);
       b.scene.sections[0].medium = {1e-4};
       EXPECT_LT(largestResidual(b.scene, {kRate, GetParam()}, 2000), kUnbalanced)
           << static_cast<int>(geometry) << " " << static_cast<int>(type);
       b.scene.sections[1].geometry = Geometry::kScalar;  // links are projected
+      b.scene.ports.resize(1);
       EXPECT_LT(largestResidual(b.scene, {kRate, GetParam()}, 2000), kUnbalanced)
           << static_cast<int>(geometry) << " " << static_cast<int>(type) << " and scalar";
     }

@@ -52,7 +52,7 @@ TEST(PassivityTest, LimitIsTwiceTheDampingOverThreeTicks) {
   EXPECT_EQ(c.ports[0].port, 0);
   EXPECT_DOUBLE_EQ(c.ports[0].stiffness, 1000.0);
   EXPECT_DOUBLE_EQ(c.ports[0].limit, kLimit);
-  EXPECT_DOUBLE_EQ(certify(wall(1000.0).scene, kRates, 5.0).ports[0].limit, 2.5 * kLimit);
+  EXPECT_DOUBLE_EQ(certify(wall(1000.0).scene, kRates, {5.0, 1.0}).ports[0].limit, 2.5 * kLimit);
 }
 
 TEST(PassivityTest, ADeviceOnAWallIsStableBelowTheLimitAndNotMuchAbove) {
@@ -102,6 +102,37 @@ TEST(PassivityTest, ThroughAChapletTheSeriesCounts) {
   b.spring(second, b.ground(), 20000.0);
   EXPECT_NEAR(certify(b.scene, kRates).ports[0].stiffness,
               1.0 / (1.0 / 800.0 + 1.0 / 6000.0 + 1.0 / 20000.0), 1e-9);
+}
+
+TEST(PassivityTest, EveryAxisMeetsItsShareOfALinkThatActsAlongOne) {
+  SceneBuilder b;
+  const int slice = b.slice(0);
+  b.scene.sections[SceneBuilder::kGestural].geometry = scene::Geometry::kSpace;
+  b.scene.sections[SceneBuilder::kGestural].pose.rotate(
+      Eigen::AngleAxisd(0.8, Eigen::Vector3d(1.0, -2.0, 0.5).normalized()));
+  for (int axis = 1; axis < 3; ++axis) {
+    b.scene.ports.push_back(b.scene.ports[0]);
+    b.scene.ports.back().axis = axis;
+  }
+  b.spring(slice, b.ground(), 1000.0);
+  const Certificate c = certify(b.scene, kRates);
+  const Eigen::Matrix3d turned = b.scene.sections[SceneBuilder::kGestural].pose.linear();
+  double sum = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double stiffness = c.ports[static_cast<std::size_t>(axis)].stiffness;
+    EXPECT_NEAR(stiffness, 1000.0 * turned(0, axis) * turned(0, axis), 1e-9);
+    sum += stiffness;
+  }
+  EXPECT_NEAR(sum, 1000.0, 1e-9);
+}
+
+TEST(PassivityTest, AnyAxisMayMeetAllOfALinkInSpace) {
+  SceneBuilder b;
+  const int slice = b.slice(0);
+  b.scene.sections[SceneBuilder::kGestural].geometry = scene::Geometry::kSpace;
+  b.scene.ports[0].axis = 2;
+  b.spring(slice, b.ground(0.0, SceneBuilder::kGestural), 1000.0);
+  EXPECT_DOUBLE_EQ(certify(b.scene, kRates).ports[0].stiffness, 1000.0);
 }
 
 TEST(PassivityTest, SteepestSlopeOfALawCounts) {

@@ -66,6 +66,8 @@ const Damage kDamages[] = {
     {"first number in the table",
      [](Scene& s) { s.lias.back().law.edit().table.points[1].first = 0.0; }},
     {"has a table", [](Scene& s) { s.lias.back().type = LiaType::kCubic; }},
+    {"slice of port 'o' = -2", [](Scene& s) { s.ports[0].slice = -2; }},
+    {"axis of port 'o' = 1 is out of range, allowed: 0...0", [](Scene& s) { s.ports[0].axis = 1; }},
     {"slice of port 'o' = 64", [](Scene& s) { s.ports[0].slice = 64; }},
     {"allowed: modules of type slice", [](Scene& s) { s.ports[0].mat = 0; }},
     {"is on slice 0, which port 'o' has",

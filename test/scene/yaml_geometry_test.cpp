@@ -249,5 +249,40 @@ TEST(YamlGeometryTest, WrongGeneratorsAreRefusedAtTheirPlace) {
   }
 }
 
+TEST(YamlGeometryTest, PortsMoveAnyCoordinateThatMoves) {
+  const std::string mats =
+      "  tip: {type: slice, section: space2, at: [1, 2, 3]}\n"
+      "  key: {type: slice, section: scalar}\n"
+      "ports:\n"
+      "  up: {mat: tip, axis: z}\n"
+      "  along: {mat: tip, slice: 3}\n"
+      "  across: {mat: tip, axis: y, offset: 0.5}\n"
+      "  key: {mat: key, axis: x, slice: 0}\n";
+  std::string sections = kSections;
+  sections += "  space2: {geometry: space, rate: gestural}\n";
+  const Scene s = readYaml(sections + "mats:\n" + mats, "geometry.yaml");
+  const std::pair<int, int> expected[] = {{2, -1}, {0, 3}, {1, -1}, {0, 0}};
+  ASSERT_EQ(s.ports.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(std::make_pair(s.ports[i].axis, s.ports[i].slice), expected[i]) << i;
+  }
+  EXPECT_EQ(s.ports[2].offset, 0.5);
+  EXPECT_TRUE(s.warnings.empty());
+}
+
+#define TWO_AXES                                                   \
+  "ergotic: 1\nsections: {p: {geometry: plane, rate: gestural}}\n" \
+  "mats: {k: {type: slice}}\n"
+const BadText kBadPorts[] = {
+    {TWO_AXES "ports: {a: {mat: k, axis: <!>z}}\n", "unknown axis 'z' of port 'a'"},
+    {TWO_AXES "ports: {a: {mat: k, axis: y}, <!>b: {mat: k, axis: y}}\n",
+     "port 'b' moves module 'k' along y, which port 'a' does"},
+};
+TEST(YamlGeometryTest, PortsOfAxesThatDoNotMoveOrAreTakenAreRefused) {
+  for (const BadText& bad : kBadPorts) {
+    expectRefused(bad, "geometry.yaml");
+  }
+}
+
 }  // namespace
 }  // namespace ergotic::scene

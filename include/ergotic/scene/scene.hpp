@@ -257,6 +257,7 @@ struct Port {
   int slice =
       -1;  ///< of the device, from 0, that moves it by itself; -1: an end-effector or nothing
   int agent = -1;       ///< index in Scene::agents, -1: none
+  int filter = -1;      ///< the mass that all links of `mat` hang on against sensor noise, -1: none
   double offset = 0.0;  ///< m
   double position_scale = 1.0;
   double force_scale = 1.0;

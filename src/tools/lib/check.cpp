@@ -12,6 +12,7 @@
 #include "ergotic/scene/pitch.hpp"
 #include "tools/lib/check_filters.hpp"
 #include "tools/lib/check_names.hpp"
+#include "tools/lib/check_ports.hpp"
 #include "tools/lib/check_sections.hpp"
 #include "tools/lib/cost.hpp"
 #include "tools/lib/end_effectors.hpp"
@@ -70,28 +71,6 @@ Report pointsOf(const Scene& scene) {
     }
     if (point.guide >= 0) {
       entry.add("guide", Report::text(matAt(scene, point.guide).name));
-    }
-    report.add(std::move(entry));
-  }
-  return report;
-}
-
-Report portsOf(const Scene& scene, const physics::Certificate& certificate) {
-  Report report = Report::list();
-  for (std::size_t p = 0; p < scene.ports.size(); ++p) {
-    const scene::Port& port = scene.ports[p];
-    Report entry = Report::map();
-    entry.add("name", Report::text(port.name))
-        .add("slice", Report::number(port.slice))
-        .add("module", Report::text(matAt(scene, port.mat).name))
-        .add("offset_m", Report::number(port.offset))
-        .add("position_scale", Report::number(port.position_scale))
-        .add("force_scale", Report::number(port.force_scale));
-    for (const physics::PortCertificate& c : certificate.ports) {
-      if (c.port == static_cast<int>(p)) {
-        entry.add("stiffness_n_per_m", Report::number(c.stiffness))
-            .add("passive_up_to_n_per_m", Report::number(c.limit));
-      }
     }
     report.add(std::move(entry));
   }
@@ -216,6 +195,7 @@ Report reportOn(const physics::Settled& settled,
                 const physics::Rates& rates,
                 const physics::Certificate& certificate,
                 const physics::CompileOptions& options,
+                const DeviceChoice& device,
                 Report load) {
   const Scene& scene = settled.scene;
   std::vector<std::string> warnings = scene.warnings;
@@ -233,7 +213,8 @@ Report reportOn(const physics::Settled& settled,
       .add("sections", sectionsReport(scene, rates, certificate))
       .add("links", linksOf(scene))
       .add("points", pointsOf(scene))
-      .add("ports", portsOf(scene, certificate))
+      .add("ports", portsReport(scene, rates, certificate, device.noise))
+      .add("agents", agentsReport(scene))
       .add("inputs", inputsOf(scene))
       .add("outputs", outputsOf(scene))
       .add("parameters", parametersOf(scene))
@@ -290,6 +271,7 @@ void addOptions(CLI::App& app, CheckOptions& options) {
   addOptions(app, options.compile);
   addTargetOption(app, options.target, "propose the cheapest setting that plays this accurately");
   addEndEffectorsOption(app, options.end_effectors);
+  addOptions(app, options.device);
   app.add_flag("--json", options.json, "for a program to read");
   app.add_option("--filter-response", options.filter_response,
                  "write what the chaplets of the scene let through to this table")
@@ -305,10 +287,11 @@ int check(const CheckOptions& options) {
   load.begin("settle_s", "settle " + sizeText(scene));
   const physics::Settled settled = physics::settle(std::move(scene), rates);
   load.begin("certify_s", "certify " + sizeText(settled.scene));
-  const physics::Certificate certificate = physics::certify(settled.scene, rates);
+  const physics::Certificate certificate =
+      physics::certify(settled.scene, rates, options.device.traits);
   const physics::CompileOptions compile = chosenOptions(options.compile);
-  Report report =
-      reportOn(settled, rates, certificate, compile, loadOf(settled.scene, rates, compile, load));
+  Report report = reportOn(settled, rates, certificate, compile, options.device,
+                           loadOf(settled.scene, rates, compile, load));
   if (!options.target.empty()) {
     report.add("target", targetReport(readScene(options.scene), rates, compile, options.target,
                                       freedomOf(options.scene, options.compile)));

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "tools/lib/check_ports.hpp"
 #include "tools/lib/options.hpp"
 
 namespace ergotic::tools {
@@ -12,6 +13,7 @@ struct CheckOptions {
   SceneOptions scene;
   CompileChoice compile;
   std::string end_effectors;  ///< file; empty: ports move with their own slices
+  DeviceChoice device;
   bool json = false;
   std::string target;           ///< empty: nothing is proposed
   std::string filter_response;  ///< empty: not written

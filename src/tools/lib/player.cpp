@@ -25,6 +25,7 @@ class FreePlayer final : public Player {
   const physics::Instrument& instrument() const override { return *performer_->instrument; }
 
   bool next(double* frames) override {
+    moveAgents();
     inputs_.read(frame_, rates().ratio, performer_->inputs.data());
     performer_->instrument->tick({performer_->positions.data(), performer_->forces.data(),
                                   performer_->inputs.data(), frames});
@@ -33,6 +34,17 @@ class FreePlayer final : public Player {
   }
 
  private:
+  void moveAgents() {
+    const scene::Scene& scene = performer_->instrument->scene();
+    const double time_s = static_cast<double>(frame_) / rates().audio_hz;
+    for (std::size_t p = 0; p < scene.ports.size(); ++p) {
+      if (scene.ports[p].agent >= 0) {
+        const auto agent = static_cast<std::size_t>(scene.ports[p].agent);
+        performer_->positions[p] = scene.agents[agent].at(time_s);
+      }
+    }
+  }
+
   std::unique_ptr<station::Performer> performer_;
   SoundInputs inputs_;
   std::int64_t frame_ = 0;

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "ergotic/scene/scene.hpp"
+
+namespace ergotic::physics {
+
+/// The links of every module, to see from a port what its hand meets. All in the model's units.
+class PortLinks {
+ public:
+  explicit PortLinks(const scene::Scene& scene);
+
+  /// What everything resists the slow motion of a port with, at most.
+  double stiffness(const scene::Port& port) const;
+  /// The link that gives most of it, -1: none.
+  int worst(const scene::Port& port) const;
+
+  /// What the links of a module resist a step of it with, everything else held.
+  struct Resistance {
+    double stiffness = 0.0;
+    double damping = 0.0;
+  };
+  /// Of the slice itself.
+  Resistance atSlice(const scene::Port& port) const;
+  /// Of the mass of its filter, but for what it hangs on. \pre port.filter >= 0
+  Resistance behindFilter(const scene::Port& port) const;
+
+ private:
+  const scene::Lia& lia(int l) const { return scene_.lias[static_cast<std::size_t>(l)]; }
+  int otherEnd(int l, int mat) const { return lia(l).a == mat ? lia(l).b : lia(l).a; }
+  bool isHanging(const scene::Port& port, int l) const;
+  /// Links behind the filter, or of the slice if it has none.
+  std::vector<int> linksOf(const scene::Port& port) const;
+  double share(const scene::Port& port, int mat, int l) const;
+  double along(const scene::Port& port, int l) const;
+  double slope(int l) const;
+  double series(int from, int l) const;
+  Resistance sum(const scene::Port& port, int mat, const std::vector<int>& links) const;
+
+  const scene::Scene& scene_;
+  std::vector<std::vector<int>> links_of_;  // [mats]
+};
+
+}  // namespace ergotic::physics

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "ergotic/physics/certify.hpp"
+#include "ergotic/physics/noise.hpp"
+#include "ergotic/scene/scene.hpp"
+#include "tools/lib/report.hpp"
+
+namespace ergotic::tools {
+
+/// The device that a scene is checked for.
+struct DeviceChoice {
+  physics::DeviceTraits traits;
+  physics::SensorNoise noise;
+};
+void addOptions(CLI::App& app, DeviceChoice& choice);
+
+/// Who moves what, how stiff it is, and how much of the sensors' noise is felt.
+Report portsReport(const scene::Scene& scene,
+                   const physics::Rates& rates,
+                   const physics::Certificate& certificate,
+                   const physics::SensorNoise& noise);
+Report agentsReport(const scene::Scene& scene);
+
+}  // namespace ergotic::tools

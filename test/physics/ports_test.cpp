@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Slices that ports move along some of their coordinates.
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/scene_builder.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+using Eigen::Vector3d;
+using scene::Geometry;
+using test::Player;
+using test::SceneBuilder;
+
+constexpr Rates kRates{44100.0, 14};
+const double kTick = 14.0 / 44100.0;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// A hand in a gestural section of this geometry, moved along these axes.
+struct Held : SceneBuilder {
+  explicit Held(Geometry geometry, const std::vector<int>& axes) : hand(slice(0)) {
+    scene.sections[kGestural].geometry = geometry;
+    scene.ports.front().axis = axes.front();
+    for (std::size_t i = 1; i < axes.size(); ++i) {
+      scene.ports.push_back(scene.ports.front());
+      scene.ports.back().name += std::to_string(i);
+      scene.ports.back().axis = axes[i];
+      scene.ports.back().slice = -1;
+    }
+    validate(scene);
+  }
+  int massAt(const Vector3d& place, double kg) {
+    return placed(mass(kg, 0.0, 0.0, kGestural), place);
+  }
+  int groundAt(const Vector3d& place) { return placed(ground(0.0, kGestural), place); }
+  int placed(int mat, const Vector3d& place) {
+    scene.mats[at(mat)].rest = scene.mats[at(mat)].position = place;
+    return mat;
+  }
+
+  int hand;
+};
+
+Vector3d displacementOf(const Player& player, int mat) {
+  std::vector<float> all(at(player.instrument->scene().coordinates()));
+  player.instrument->readDisplacements(all.data());
+  return {all[at(3 * mat)], all[at(3 * mat + 1)], all[at(3 * mat + 2)]};
+}
+
+class PortsTest : public testing::TestWithParam<Precision> {
+ protected:
+  double tolerance() const { return GetParam() == Precision::kFloat ? 2e-4 : 1e-11; }
+};
+
+TEST_P(PortsTest, SpringDragsAMassInSpaceAlongEveryAxisByItself) {
+  constexpr double kStiffness = 300.0;
+  constexpr double kMass = 0.05;
+  Held b(Geometry::kSpace, {2, 0, 1});
+  const int mass = b.massAt(Vector3d::Zero(), kMass);
+  b.spring(mass, b.hand, kStiffness);
+  Player player(b.scene, kRates, GetParam());
+  const Vector3d target(0.01, -0.02, 0.005);
+  player.positions = {target.z(), target.x(), target.y()};
+  const double omega = std::acos(1.0 - 0.5 * kTick * kTick * kStiffness / kMass);
+  for (int n = 0; n < 200; ++n) {
+    player.tick();
+    const double gone = 1.0 - std::cos(omega * (n + 0.5)) / std::cos(0.5 * omega);
+    const Vector3d seen(player.forces[1], player.forces[2], player.forces[0]);
+    EXPECT_LT((seen - kStiffness * (gone - 1.0) * target).norm(), tolerance() * 6.0) << n;
+    EXPECT_LT((displacementOf(player, mass) - gone * target).norm(), 1e-6) << n;
+  }
+}
+
+TEST_P(PortsTest, SliceStaysAtRestAlongAxesWithoutAPort) {
+  Held b(Geometry::kSpace, {1});
+  const Vector3d anchor(0.03, 0.04, 0.12);
+  b.spring(b.groundAt(anchor), b.hand, 200.0);
+  Player player(b.scene, kRates, GetParam());
+  for (int n = 0; n < 50; ++n) {
+    player.positions[0] = 1e-3 * n;
+    player.tick();
+    EXPECT_LT((displacementOf(player, b.hand) - Vector3d(0.0, 1e-3 * n, 0.0)).norm(), 1e-8);
+    EXPECT_NEAR(player.forces[0], 200.0 * (anchor.y() - 1e-3 * n), tolerance() * 8.0);
+  }
+}
+
+TEST_P(PortsTest, PositionIsCountedFromRestAlongEveryAxis) {
+  Held b(Geometry::kPlane, {0, 1});
+  b.placed(b.hand, {0.5, -0.25, 0.0});
+  b.spring(b.groundAt({0.5, -0.25, 0.0}), b.hand, 100.0);
+  Player player(b.scene, kRates, GetParam());
+  player.positions = {0.0, 0.0};
+  player.tick();
+  EXPECT_NEAR(player.forces[0], 0.0, tolerance());
+  EXPECT_NEAR(player.forces[1], 0.0, tolerance());
+  player.positions = {0.03, -0.01};
+  player.tick();
+  EXPECT_NEAR(player.forces[0], -3.0, tolerance());
+  EXPECT_NEAR(player.forces[1], 1.0, tolerance());
+}
+
+TEST_P(PortsTest, HandThatIsElsewhereAtTheStartDidNotJumpAlongAnyAxis) {
+  Held b(Geometry::kSpace, {0, 1, 2});
+  b.spring(b.groundAt({0.0, 0.0, 0.4}), b.hand, 0.0, 10.0);
+  Player player(b.scene, kRates, GetParam());
+  player.positions = {0.01, 0.02, 0.03};
+  player.tick();
+  EXPECT_EQ(player.forces, std::vector<double>(3, 0.0));
+  player.positions = {0.01, 0.02, 0.0301};
+  player.tick();
+  const Vector3d line = Vector3d(0.01, 0.02, 0.0301 - 0.4).normalized();
+  const Vector3d force = -10.0 * line.z() * 1e-4 / kTick * line;
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(player.forces[at(k)], force[k], tolerance() * 4.0);
+  }
+}
+
+TEST_P(PortsTest, WorkOfTheHandIsThatOfAllItsAxes) {
+  Held b(Geometry::kSpace, {0, 1, 2});
+  const int mass = b.massAt({0.0, 0.0, 0.1}, 0.05);
+  b.spring(mass, b.hand, 300.0, 0.5);
+  b.spring(mass, b.groundAt({0.1, 0.2, 0.2}), 200.0, 0.1);
+  Player player(b.scene, kRates, GetParam());
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> step(-1e-3, 1e-3);
+  double work = 0.0;
+  for (int n = 0; n < 500; ++n) {
+    const std::vector<double> last_positions = player.positions;
+    const std::vector<double> last_forces = player.forces;
+    for (double& x : player.positions) {
+      x += n == 0 ? 0.0 : step(random);
+    }
+    player.tick();
+    for (std::size_t k = 0; k < 3; ++k) {
+      work -= 0.5 * (player.positions[k] - last_positions[k]) * (player.forces[k] + last_forces[k]);
+    }
+  }
+  Energies energies = player.instrument->makeEnergies();
+  player.instrument->readEnergies(energies);
+  EXPECT_GT(std::abs(work), 1e-2);
+  EXPECT_NEAR(energies.sections[SceneBuilder::kGestural].from_device, work,
+              tolerance() * std::abs(work) * 100.0);
+}
+
+TEST_P(PortsTest, SpaceMovedAlongXAloneIsALine) {
+  const auto play = [](Geometry geometry, const std::vector<int>& axes) {
+    Held b(geometry, axes);
+    const int near = b.massAt({0.1, 0.0, 0.0}, 0.05);
+    const int far = b.massAt({0.25, 0.0, 0.0}, 0.02);
+    b.spring(near, b.hand, 400.0, 0.3);
+    b.spring(far, near, 500.0, 0.1);
+    b.scene.lias.back().rest_length = 0.15;
+    b.spring(far, b.groundAt({0.3, 0.0, 0.0}), 100.0);
+    Player player(b.scene, kRates, GetParam());
+    std::vector<double> felt;
+    for (int n = 0; n < 400; ++n) {
+      player.positions[0] = 0.01 * std::sin(0.05 * n);
+      player.tick();
+      felt.push_back(player.forces[0]);
+    }
+    return felt;
+  };
+  const std::vector<double> alone = play(Geometry::kSpace, {0});
+  EXPECT_EQ(play(Geometry::kSpace, {0, 1, 2}), alone);
+  const std::vector<double> line = play(Geometry::kLine, {0});
+  for (std::size_t n = 0; n < line.size(); ++n) {
+    EXPECT_NEAR(alone[n], line[n], tolerance() * 40.0) << n;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Precisions,
+                         PortsTest,
+                         testing::Values(Precision::kFloat, Precision::kDouble));
+
+}  // namespace
+}  // namespace ergotic::physics

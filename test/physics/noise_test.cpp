@@ -102,7 +102,7 @@ TEST(NoiseTest, AFilterIsALowPassOfSecondOrderForWhatIsBehind) {
 }
 
 TEST(NoiseTest, ASofterFilterBeforeAStiffWallGivesLessForceNoise) {
-  scene::Scene scene = wall(", filter: {mass: 0.001, frequency: 100}");
+  scene::Scene scene = wall(", filter: {mass: 0.001, frequency: 100, damping_ratio: 0.2}");
   scene.lias[0].stiffness = {4000.0};
   const NoiseFloor floor = noiseFloors(scene, kRates).at(0);
   EXPECT_LT(floor.force, 0.6 * floor.unfiltered);

@@ -2,6 +2,7 @@
 #include "tools/lib/player.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "ergotic/tgr/replay_driver.hpp"
@@ -14,18 +15,15 @@ namespace {
 class FreePlayer final : public Player {
  public:
   FreePlayer(std::unique_ptr<station::Performer> performer, SoundInputs inputs)
-      : performer_(std::move(performer)), inputs_(std::move(inputs)) {
-    const std::vector<scene::Port>& ports = performer_->instrument->scene().ports;
-    std::transform(ports.begin(), ports.end(), performer_->positions.begin(),
-                   [](const scene::Port& port) { return -port.offset / port.position_scale; });
-  }
+      : performer_(std::move(performer)), inputs_(std::move(inputs)) {}
 
   const physics::Rates& rates() const override { return performer_->instrument->rates(); }
   int outputChannels() const override { return performer_->instrument->outputChannels(); }
   const physics::Instrument& instrument() const override { return *performer_->instrument; }
 
   bool next(double* frames) override {
-    moveAgents();
+    const double time_s = static_cast<double>(frame_) / rates().audio_hz;
+    performer_->rig->toModel(at_rest_.data(), time_s, performer_->positions.data());
     inputs_.read(frame_, rates().ratio, performer_->inputs.data());
     performer_->instrument->tick({performer_->positions.data(), performer_->forces.data(),
                                   performer_->inputs.data(), frames});
@@ -34,19 +32,9 @@ class FreePlayer final : public Player {
   }
 
  private:
-  void moveAgents() {
-    const scene::Scene& scene = performer_->instrument->scene();
-    const double time_s = static_cast<double>(frame_) / rates().audio_hz;
-    for (std::size_t p = 0; p < scene.ports.size(); ++p) {
-      if (scene.ports[p].agent >= 0) {
-        const auto agent = static_cast<std::size_t>(scene.ports[p].agent);
-        performer_->positions[p] = scene.agents[agent].at(time_s);
-      }
-    }
-  }
-
   std::unique_ptr<station::Performer> performer_;
   SoundInputs inputs_;
+  std::array<double, tgr::kMaxSlices> at_rest_{};  // nobody holds them
   std::int64_t frame_ = 0;
 };
 

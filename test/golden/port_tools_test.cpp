@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What `check` says of those who play, and `render` of those who play by themselves.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "ergotic/audio/wav.hpp"
+#include "support/scratch_file.hpp"
+#include "support/tool_process.hpp"
+
+namespace ergotic {
+namespace {
+
+using test::Outcome;
+using test::run;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string kDuet = std::string(ERGOTIC_SOURCE_DIR) + "/models/duet.yaml";
+
+TEST(PortToolsTest, CheckTellsPortsFromAgentsAndSaysWhatNoiseTheyBring) {
+  const Outcome outcome = run("check", kDuet);
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_THAT(
+      outcome.text,
+      AllOf(HasSubstr("findings: none"), HasSubstr("warnings: none"),
+            HasSubstr("  - name: damper\n    module: damper_key\n    axis: x\n    slice: 0\n"),
+            HasSubstr("noise: {position_m: 5.7735e-07, force_n: "), HasSubstr("behind_filter_m: "),
+            HasSubstr("agents:\n  - {name: plucker, axis: x, module: thumb, "
+                      "stiffness_n_per_m: 1500, damping_n_s_per_m: 12, points: 6, "
+                      "ends_s: 1, period_s: 1}\n")));
+  EXPECT_THAT(outcome.text, Not(HasSubstr("name: plucker.target")));
+}
+
+TEST(PortToolsTest, CheckIsForTheDeviceThatIsAskedFor) {
+  const Outcome outcome =
+      run("check", kDuet +
+                       " --device-damping 6 --device-delay 0 --sensor-noise 3e-6 "
+                       "--sensor-quantum 0");
+  EXPECT_THAT(outcome.text, AllOf(HasSubstr("passive_up_to_n_per_m: 37800\n"),
+                                  HasSubstr("noise: {position_m: 3e-06, ")));
+  EXPECT_EQ(run("check", kDuet + " --device-damping 0").code, 2);
+  EXPECT_EQ(run("check", kDuet + " --device-delay -1").code, 2);
+}
+
+TEST(PortToolsTest, AnAgentPlaysOnceASecondWithoutAPlayer) {
+  const test::ScratchFile sound;
+  const Outcome outcome = run("render", kDuet + " --seconds 2.2 --out " + sound.path());
+  ASSERT_EQ(outcome.code, 0) << outcome.text;
+  const std::vector<double> frames = audio::WavReader(sound.path()).readAll();
+  const auto peakIn = [&frames](double from_s, double to_s) {
+    double peak = 0.0;
+    const auto frame = [](double s) { return static_cast<std::size_t>(s * 44100.0); };
+    for (std::size_t n = frame(from_s); n < frame(to_s); ++n) {
+      peak = std::max(peak, std::abs(frames.at(2 * n)));
+    }
+    return peak;
+  };
+  EXPECT_LT(peakIn(0.0, 0.2), 1e-6);
+  EXPECT_GT(peakIn(0.2, 0.7), 0.02);
+  EXPECT_GT(peakIn(1.2, 1.7), 0.02);
+  EXPECT_LT(peakIn(0.0, 2.2), 1.0);
+}
+
+}  // namespace
+}  // namespace ergotic

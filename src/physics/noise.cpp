@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/physics/noise.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include <Eigen/Core>
 
 #include "port_links.hpp"
 
@@ -14,36 +16,60 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-/// A numerator, powers of 1/z.
-using Taps = std::array<double, 4>;
+/// A slice that moves by itself in each tick, the mass that hangs on it, and what holds that.
+struct Hanging {
+  PortLinks::Resistance link;
+  PortLinks::Resistance behind;
+  double mass = 0.0;
+  double step = 0.0;  // of the mass
+  int steps = 1;      // in a tick
+};
 
-/// White noise of rms 1 through b(1/z)/(1 + a1/z + a2/z^2): the rms of what comes out.
-double rmsThrough(const Taps& b, double a1, double a2) {
-  if (!(std::abs(a2) < 1.0 && std::abs(a1) < 1.0 + a2)) {
-    return std::numeric_limits<double>::infinity();
+/// Of white positions of rms 1.
+struct Response {
+  double force = std::numeric_limits<double>::infinity();   // on the slice, rms
+  double behind = std::numeric_limits<double>::infinity();  // of the mass, rms
+};
+
+/// One tick is linear in the mass's position, step and force, the last position and the present
+/// one; the covariance of these is what it makes of itself (a Lyapunov equation, by doubling).
+Response responseOf(const Hanging& hanging) {
+  using Row = Eigen::Matrix<double, 1, 5>;
+  constexpr int kDoublings = 60;
+  Row y = Row::Unit(0);
+  Row d = Row::Unit(1);
+  Row f = Row::Unit(2);
+  const Row jump = Row::Unit(4) - Row::Unit(3);
+  Row force = Row::Zero();
+  for (int k = 0; k < hanging.steps; ++k) {
+    d += hanging.step * hanging.step / hanging.mass * f;
+    y += d;
+    const Row moved = (k == 0 ? jump : Row(Row::Zero())) - d;
+    const Row pull =
+        hanging.link.stiffness * (Row::Unit(4) - y) + hanging.link.damping / hanging.step * moved;
+    f = pull - hanging.behind.stiffness * y - hanging.behind.damping / hanging.step * d;
+    force -= pull / hanging.steps;
   }
-  Taps lags{};  // autocorrelation of 1/(1 + a1/z + a2/z^2)
-  lags[0] = (1.0 + a2) / ((1.0 - a2) * ((1.0 + a2) * (1.0 + a2) - a1 * a1));
-  lags[1] = -a1 / (1.0 + a2) * lags[0];
-  for (std::size_t n = 2; n < lags.size(); ++n) {
-    lags[n] = -a1 * lags[n - 1] - a2 * lags[n - 2];
+  Eigen::Matrix<double, 4, 5> tick;
+  tick << y, d, f, Row::Unit(4);
+  Eigen::Matrix4d map = tick.leftCols<4>();
+  Eigen::Matrix4d covariance = tick.col(4) * tick.col(4).transpose();
+  for (int n = 0; n < kDoublings && map.allFinite(); ++n) {
+    covariance += (map * covariance * map.transpose()).eval();
+    map = (map * map).eval();
   }
-  double power = 0.0;
-  for (std::size_t i = 0; i < b.size(); ++i) {
-    for (std::size_t k = 0; k < b.size(); ++k) {
-      power += b[i] * b[k] * lags[i < k ? k - i : i - k];
-    }
+  if (!map.isZero(1e-9)) {
+    return {};
   }
-  return std::sqrt(power);
+  const Eigen::Matrix<double, 1, 4> by_state = force.leftCols<4>();
+  return {std::sqrt(by_state * covariance * by_state.transpose() + force[4] * force[4]),
+          std::sqrt(covariance(0, 0))};
 }
 
-/// Force of a link on a step: `now` times this position less `before` times the last.
-struct Difference {
-  Difference(const PortLinks::Resistance& link, double tick)
-      : now(link.stiffness + link.damping / tick), before(link.damping / tick) {}
-  double now;
-  double before;
-};
+/// Without a filter: F[n] = (K + Z/T) x[n] - Z/T x[n-1].
+double forceOf(const PortLinks::Resistance& link, double tick) {
+  return std::hypot(link.stiffness + link.damping / tick, link.damping / tick);
+}
 
 }  // namespace
 
@@ -64,28 +90,19 @@ std::vector<NoiseFloor> noiseFloors(const scene::Scene& scene,
       continue;
     }
     const double at_device = newton * noise.total() * port.force_scale / port.position_scale;
-    const Difference slice(links.atSlice(port), tick);
     NoiseFloor floor;
     floor.port = p;
     floor.position = floor.behind = noise.total();
-    floor.force = floor.unfiltered = at_device * std::hypot(slice.now, slice.before);
+    floor.force = floor.unfiltered = at_device * forceOf(links.atSlice(port), tick);
     if (port.filter >= 0) {
-      // T^2/m of its mass: y (1 + a1/z + a2/z^2) = g (slice.now/z - slice.before/z^2) x
-      const double g = tick * tick / scene.valueOf(scene.mats[at(port.filter)].mass);
-      const Difference behind(links.behindFilter(port), tick);
-      const double a1 = g * (slice.now + behind.now) - 2.0;
-      const double a2 = 1.0 - g * (slice.before + behind.before);
-      const double b1 = g * slice.now;
-      const double b2 = -g * slice.before;
-      // (slice.now - slice.before/z) (y - x)
-      const Taps stretch = {-1.0, b1 - a1, b2 - a2, 0.0};
-      Taps force{};
-      for (std::size_t n = 0; n < force.size(); ++n) {
-        force[n] = slice.now * stretch[n] - (n > 0 ? slice.before * stretch[n - 1] : 0.0);
-      }
-      floor.behind = noise.total() * rmsThrough({0.0, b1, b2, 0.0}, a1, a2);
-      floor.force = at_device * rmsThrough(force, a1, a2);
-      floor.unfiltered = at_device * std::hypot(behind.now, behind.before);
+      const scene::Mat& mass = scene.mats[at(port.filter)];
+      Hanging hanging{links.atSlice(port), links.behindFilter(port), scene.valueOf(mass.mass)};
+      hanging.steps = std::max(1, rates.ratio / divisorOf(scene.sectionOf(mass), rates));
+      hanging.step = tick / hanging.steps;
+      const Response response = responseOf(hanging);
+      floor.force = at_device * response.force;
+      floor.behind = noise.total() * response.behind;
+      floor.unfiltered = at_device * forceOf(hanging.behind, tick);
     }
     floors.push_back(floor);
   }

@@ -37,12 +37,21 @@ struct NoiseFilter {
   double mass = 0.0;  // kg
   double stiffness = 0.0;
   double damping = 0.0;
+  int section = 0;
 };
 
 /// Stable by itself at the wanted gestural rate: (wh)^2 + 4 z wh < 4.
-NoiseFilter readFilter(const SceneBuilder& builder, const YamlMap& map) {
-  map.allow({"mass", "frequency", "damping_ratio"});
+NoiseFilter readFilter(const SceneBuilder& builder, const YamlMap& map, const Mat& slice) {
+  map.allow({"mass", "frequency", "damping_ratio", "section"});
   NoiseFilter filter;
+  filter.section = map.has("section") ? sectionOf(builder, map) : slice.section;
+  const Section& from = builder.scene().sectionOf(slice);
+  const Section& to = builder.scene().sections[static_cast<std::size_t>(filter.section)];
+  const bool is_scalar = from.geometry == Geometry::kScalar;
+  if (to.geometry != from.geometry || !(is_scalar || to.pose.matrix() == from.pose.matrix())) {
+    map.fail("section", map.what() + " is in a section of another geometry or pose than that of " +
+                            quoted(slice.name) + ", allowed: the same");
+  }
   filter.mass = map.number("mass", kMassLimits);
   const double ratio = map.number("damping_ratio", kDampingRatioLimits, 0.7);
   const double highest_hz =
@@ -74,6 +83,7 @@ void hang(SceneBuilder& builder,
   mass.name = name;
   mass.type = MatType::kMass;
   mass.mass = {filter.mass};
+  mass.section = filter.section;
   mass.place = port.place;
   const int m = builder.add(std::move(mass));
   for (Lia& lia : scene.lias) {
@@ -133,7 +143,8 @@ void readPortFilters(SceneBuilder& builder, const YamlMap& top) {
                                                  " has a filter and so has another port "
                                                  "of its module, allowed: one for each module");
     }
-    hang(builder, port, readFilter(builder, map.map("filter")), name + ".filter");
+    const Mat& slice = builder.scene().mats[static_cast<std::size_t>(port.mat)];
+    hang(builder, port, readFilter(builder, map.map("filter"), slice), name + ".filter");
   });
 }
 

@@ -81,7 +81,9 @@ TEST(NoiseTest, ForceOfWhiteNoiseIsAsPredicted) {
     for (const std::string port :
          {"", ", position_scale: 0.25, force_scale: 4",
           ", filter: {mass: 0.002, frequency: 150, damping_ratio: 0.7}",
-          ", filter: {mass: 0.02, frequency: 60, damping_ratio: 0.2}, force_scale: 3"}) {
+          ", filter: {mass: 0.02, frequency: 60, damping_ratio: 0.2}, force_scale: 3",
+          ", filter: {mass: 0.002, frequency: 150, section: wall}",
+          ", filter: {mass: 0.01, frequency: 90, damping_ratio: 0.1, section: wall}"}) {
       const scene::Scene scene = wall(port, rate);
       const NoiseFloor floor = noiseFloors(scene, kRates, {2e-6, 0.0}).at(0);
       const Played played = play(scene, 2e-6);

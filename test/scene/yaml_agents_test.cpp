@@ -242,9 +242,9 @@ TEST_F(GestureFileTest, WhatIsWrongIsToldWithItsLine) {
   expectRefused("tick,x0\n0.5,1\n", "slice: 0, tick_rate: 1000",
                 "g.csv:2:1: error: tick = 0.5, allowed: whole numbers");
   expectRefused("tick,x0\n0,1\n", "slice: 0",
-                "scene.yaml:5:44: error: 'g.csv' counts ticks, allowed: with 'tick_rate'");
+                "scene.yaml:5:36: error: 'g.csv' counts ticks, allowed: with 'tick_rate'");
   expectRefused("0,0,1\n", "slice: 0, tick_rate: 1000",
-                "scene.yaml:5:44: error: 'g.csv' is in seconds, allowed: without 'tick_rate'");
+                "scene.yaml:5:36: error: 'g.csv' is in seconds, allowed: without 'tick_rate'");
 }
 
 }  // namespace

@@ -58,16 +58,29 @@ TEST(YamlPortFilterTest, InSpaceAllPortsOfASliceShareItAndItIsDampedAlongAllAxes
   EXPECT_EQ(s.lias[1].damping.factor, 0.0);
 }
 
+TEST(YamlPortFilterTest, ItsMassMayMoveInAFasterSection) {
+  const Scene s = readYaml(
+      "ergotic: 1\nsections: {h: {rate: gestural}, a: {}}\nmats: {k: {type: slice, section: h}}\n"
+      "ports: {p: {mat: k, slice: 0, filter: {mass: 0.01, frequency: 100, section: a}}}\n",
+      "a.yaml");
+  EXPECT_EQ(s.mats[1].section, 1);
+  EXPECT_EQ(s.mats.at(static_cast<std::size_t>(s.lias[0].b)).section, 0);
+}
+
 #define FILTER(fields)                                                 \
   "ergotic: 1\ngestural_rate: 3000\nsections: {h: {rate: gestural}}\n" \
   "mats: {k: {type: slice}}\nports: {p: {mat: k, filter: {" fields "}}}\n"
 const BadText kBad[] = {
     {FILTER("mass: <!>0, frequency: 100"), "= 0 kg is out of range, allowed: > 0 kg"},
-    {FILTER("mass: 1, frequency: <!>0"), "allowed: above 0...497.199"},
-    {FILTER("mass: 1, frequency: <!>498"), "= 498 Hz is out of range, allowed: above 0...497.199"},
+    {FILTER("mass: 1, frequency: <!>0"), "allowed: above 0...497.189"},
+    {FILTER("mass: 1, frequency: <!>498"), "= 498 Hz is out of range, allowed: above 0...497.189"},
     {FILTER("mass: 1, frequency: <!>955, damping_ratio: 0"), "allowed: above 0...954.929"},
     {FILTER("mass: 1, frequency: 100, damping_ratio: <!>3"), "allowed: 0...2"},
     {FILTER("mass: 1, frequency: 100, <!>stiffness: 3"), "unknown key 'stiffness'"},
+    {"ergotic: 1\nsections: {h: {rate: gestural}, l: {geometry: line}}\n"
+     "mats: {k: {type: slice, section: h}}\n"
+     "ports: {p: {mat: k, filter: {mass: 1, frequency: 9, section: <!>l}}}\n",
+     "in a section of another geometry or pose than that of 'k', allowed: the same"},
     {"ergotic: 1\nsections: {h: {rate: gestural, geometry: plane}}\n"
      "mats: {k: {type: slice}}\n"
      "ports: {x: {mat: k, filter: {mass: 1, frequency: 9}},\n"

@@ -119,6 +119,31 @@ TEST(NoiseTest, AFilterThatIsNotDampedOrNotStableHasNoFloor) {
   EXPECT_EQ(certify(settle(scene, kRates).scene, kRates).verdict, Verdict::kUnstable);
 }
 
+TEST(NoiseTest, InAPlaneAFilterDoesNotGoOnCircling) {
+  Player player(
+      scene::readYaml(
+          "ergotic: 1\nsections: {hand: {rate: gestural, geometry: plane}}\n"
+          "mats: {key: {type: slice}}\n"
+          "ports: {x: {mat: key, filter: {mass: 0.01, frequency: 50, damping_ratio: 0.1}},\n"
+          "        y: {mat: key, axis: y}}\n",
+          "plane.yaml"),
+      kRates);
+  const auto play = [&player](int ticks, double radius) {
+    double force = 0.0;
+    for (int n = 0; n < ticks; ++n) {
+      const double angle = 2.0 * 3.14159265358979323846 * 50.0 * n / kRates.gesturalHz();
+      player.positions = {radius * std::cos(angle), radius * std::sin(angle)};
+      player.tick();
+      force = std::hypot(player.forces[0], player.forces[1]);
+    }
+    return force;
+  };
+  // At resonance it goes 1/(2 z) as far, a quarter of a turn behind.
+  const double stiffness = 0.01 * std::pow(2.0 * 3.14159265358979323846 * 50.0, 2.0);
+  EXPECT_NEAR(play(3000, 1e-3), 5.1 * stiffness * 1e-3, 0.1 * 5.1 * stiffness * 1e-3);
+  EXPECT_LT(play(3000, 0.0), 1e-6 * stiffness * 1e-3);
+}
+
 TEST(NoiseTest, AHandMeetsTheFilterAndWhatIsBehindInSeries) {
   const double omega = 2.0 * 3.14159265358979323846 * 150.0;
   scene::Scene scene = wall(", filter: {mass: 0.002, frequency: 150}");

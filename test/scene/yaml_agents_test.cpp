@@ -216,7 +216,7 @@ TEST_F(GestureFileTest, TextHoldsTablesAndGesturesSideBySide) {
       readYaml(kHead +
                    "lias: {l: {type: bow, between: [m, s.1], table: {file: t.csv}}}\n"
                    "generators: [{type: string, name: s, section: sound, masses: 2, mass: 1, "
-                   "stiffness: 1}]\n"
+                   "stiffness: 1, to: [1, 0]}]\n"
                    "agents:\n"
                    "  a: {mat: m, stiffness: 1, gesture: {file: g.csv, slice: 0}}\n"
                    "  b: {mat: s.1, stiffness: 1, gesture: {file: g.csv, slice: 0}}\n",

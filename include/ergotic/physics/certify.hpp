@@ -29,8 +29,9 @@ struct SectionCertificate {
   double stable_rate_hz = 0;  ///< lowest section rate known to be stable; exact as `lambda` is
 };
 
-/// What a hand meets at a port, along its coordinate, if a slice moves it by itself. Ports of agents
-/// have none. Findings are on ports with a slice; end-effectors are for tgr::renderedStiffness.
+/// What a hand meets at a port, along its coordinate, if a slice moves it by itself. Ports of
+/// agents have none. Findings are on ports with a slice; end-effectors are for
+/// tgr::renderedStiffness.
 struct PortCertificate {
   int port = 0;            ///< index in Scene::ports
   double stiffness = 0.0;  ///< the largest, at the device, N/m

@@ -230,9 +230,9 @@ tgr::StiffnessFindings addSlices(const tgr::EndEffectors& end_effectors,
                                  const Scene& scene,
                                  const physics::Rates& rates,
                                  const physics::Certificate& certificate,
+                                 const physics::DeviceTraits& device,
                                  Report& report) {
-  const auto rendered =
-      renderedStiffness(scene, rates, certificate, physics::DeviceTraits{}, end_effectors);
+  const auto rendered = renderedStiffness(scene, rates, certificate, device, end_effectors);
   report.add("slices", slicesReport(end_effectors, rendered));
   return tgr::judgeStiffness(end_effectors, rendered);
 }
@@ -298,7 +298,8 @@ int check(const CheckOptions& options) {
   }
   tgr::StiffnessFindings findings;
   if (!options.end_effectors.empty()) {
-    findings = addSlices(end_effectors, settled.scene, rates, certificate, report);
+    findings =
+        addSlices(end_effectors, settled.scene, rates, certificate, options.device.traits, report);
   }
   if (!options.filter_response.empty()) {
     writeFilterResponse(options.filter_response, settled.scene, rates);

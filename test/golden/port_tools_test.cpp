@@ -31,9 +31,9 @@ TEST(PortToolsTest, CheckTellsPortsFromAgentsAndSaysWhatNoiseTheyBring) {
       AllOf(HasSubstr("findings: none"), HasSubstr("warnings: none"),
             HasSubstr("  - name: damper\n    module: damper_key\n    axis: x\n    slice: 0\n"),
             HasSubstr("noise: {position_m: 5.7735e-07, force_n: "), HasSubstr("behind_filter_m: "),
-            HasSubstr("agents:\n  - {name: plucker, axis: x, module: thumb, "
-                      "stiffness_n_per_m: 1500, damping_n_s_per_m: 12, points: 6, "
-                      "ends_s: 1, period_s: 1}\n")));
+            HasSubstr("agents:\n  - name: plucker\n    axis: x\n    module: thumb\n"
+                      "    stiffness_n_per_m: 1500\n    damping_n_s_per_m: 12\n    points: 6\n"
+                      "    ends_s: 1\n    period_s: 1\n")));
   EXPECT_THAT(outcome.text, Not(HasSubstr("name: plucker.target")));
 }
 

@@ -47,14 +47,14 @@ target_compile_definitions(ergotic_comedi_test PRIVATE
 ergotic_add_gtests(tgr_jack ergotic_jack_driver)
 # They run the tools as programs.
 add_dependencies(ergotic_golden_test render check)
-add_dependencies(ergotic_tools_test bench)
+add_dependencies(ergotic_tools_test bench latency)
 add_dependencies(ergotic_tgr_jack_test jack_tgr)
 if(ERGOTIC_ROS)
   include(cmake/ros_tests.cmake)
 endif()
 
 # The scripts: what measures a demo and a peer; what users do in the devel and in an install space.
-foreach(script demo_report bench_faust play_gesture)
+foreach(script demo_report bench_faust latency play_gesture)
   add_test(NAME scripts.${script}
     COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/${script}_test.py)
 endforeach()

@@ -72,6 +72,9 @@ void Station::classify(const Timing& timing,
   }
   counters_.late_worst_s =
       std::max(counters_.late_worst_s, 1e-9 * static_cast<double>(timing.late_ns));
+  if (meter_ != nullptr) {
+    meter_->add(timing.late_ns, exchange_ns, compute_ns);
+  }
   late(LateCause::kWakeUp, counters_.late_wake_up, timing.late_ns);
   late(LateCause::kDevice, counters_.late_device, exchange_ns);
   late(LateCause::kCompute, counters_.late_compute, compute_ns);

@@ -150,6 +150,9 @@ void Station::catchUp(std::int64_t ticks, std::int64_t stall_ns) noexcept {
   stalled.index = run;
   stalled.value = 1e-9 * static_cast<double>(stall_ns);
   tell(stalled);
+  if (meter_ != nullptr) {
+    meter_->wake_up.add(stall_ns);
+  }
   ++counters_.stalls;
   counters_.catch_up_ticks += run;
   if (run < ticks) {

@@ -15,6 +15,7 @@
 #include "ergotic/station/messages.hpp"
 #include "ergotic/station/performer.hpp"
 #include "ergotic/station/swap_fade.hpp"
+#include "ergotic/station/tick_meter.hpp"
 #include "ergotic/tgr/driver.hpp"
 #include "ergotic/tgr/safety_chain.hpp"
 
@@ -68,6 +69,10 @@ class Station {
 
   /// Where audio goes; null: nowhere. \pre no tick is running. Realtime: no. Thread: setup
   void setFramePort(FramePort* port) noexcept { frame_port_ = port; }
+
+  /// Where the cost of ticks is counted; null: nowhere. \pre no tick is running, and it outlives
+  /// them. Realtime: no. Thread: setup
+  void setMeter(TickMeter* meter) noexcept { meter_ = meter; }
 
   /// How late a tick began, told by the tick source.
   struct Timing {
@@ -182,6 +187,7 @@ class Station {
   std::unique_ptr<tgr::Driver> driver_;
   int slices_;
   FramePort* frame_port_ = nullptr;
+  TickMeter* meter_ = nullptr;
   std::int64_t glide_ticks_;     // length of a glide
   std::int64_t presence_ticks_;  // longest time between two kPresence; 0: no switch
 

@@ -2,10 +2,10 @@
 #include "tools/lib/bench_report.hpp"
 
 #include <cstdio>
-#include <fstream>
 #include <thread>
 
 #include "ergotic/rt/build_id.hpp"
+#include "tools/lib/machine.hpp"
 #include "tools/lib/options.hpp"
 
 namespace ergotic::tools {
@@ -16,17 +16,6 @@ constexpr const char* kCompiler = "clang " __VERSION__;
 #else
 constexpr const char* kCompiler = "gcc " __VERSION__;
 #endif
-
-std::string processorName() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);) {
-    const std::size_t colon = line.find(": ");
-    if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
-      return line.substr(colon + 2);
-    }
-  }
-  return "unknown";
-}
 
 double realTimeFactor(double frame_ns) {
   return 1e9 / (frame_ns * benchRates().audio_hz);

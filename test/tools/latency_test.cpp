@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/lib/latency.hpp"
+
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/scratch_file.hpp"
+#include "support/tool_process.hpp"
+
+namespace ergotic::tools {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string textOf(const Report& report) {
+  std::ostringstream text;
+  report.printJson(text);
+  return text.str();
+}
+
+TEST(LatencyTest, GivesQuantilesInMicrosecondsAndAsSharesOfThePeriod) {
+  station::TickHistogram histogram;
+  for (int n = 0; n < 99; ++n) {
+    histogram.add(16);
+  }
+  histogram.add(50'000);
+  const std::string text = textOf(histogramReport(histogram, 100.0, true));
+  EXPECT_THAT(text, HasSubstr("\"count\": 100"));
+  EXPECT_THAT(text, HasSubstr("\"p50\": 0.016"));
+  EXPECT_THAT(text, HasSubstr("\"p50\": 0.00016"));
+  EXPECT_THAT(text, HasSubstr("\"max\": 50"));
+  EXPECT_THAT(text, HasSubstr("\"max\": 0.5"));
+  EXPECT_THAT(text, HasSubstr("counts"));
+  EXPECT_THAT(textOf(histogramReport(histogram, 100.0, false)),
+              ::testing::Not(HasSubstr("counts")));
+}
+
+/// Whatever the machine does meanwhile, every tick is in the histograms or was caught up.
+TEST(LatencyTest, CountsEveryTickThatItPlayed) {
+  const test::ScratchFile json;
+  const test::Outcome outcome = test::run(
+      "latency", "--modules 100 --ratio 14 --seconds 0.5 --priority 0 --json " + json.path());
+  EXPECT_THAT(outcome.text, HasSubstr("slices: 12"));
+  FILE* pipe = popen(("/usr/bin/python3 -c \"import json; r = json.load(open('" + json.path() +
+                      "')); t = r['ticks'];"
+                      "cycles = r['tick']['count'];"
+                      "print(r['wake_up']['count'] - t['stalls'] - cycles >= 0,"
+                      "cycles + t['caught_up'] >= t['ticks'] - t['lost'] > 100,"
+                      "all(sum(r[k]['counts']) == r[k]['count'] for k in ('wake_up', 'exchange', "
+                      "'compute', 'tick')))\"")
+                         .c_str(),
+                     "r");
+  char said[64] = "";
+  EXPECT_NE(fgets(said, sizeof said, pipe), nullptr);
+  pclose(pipe);
+  EXPECT_STREQ(said, "True True True\n") << outcome.text;
+}
+
+TEST(LatencyTest, RefusesWhatItCannotDo) {
+  EXPECT_EQ(test::run("latency", "--ratio 0").code, kUsage);
+  EXPECT_EQ(test::run("latency", "--modules 3").code, kUsage);
+  EXPECT_EQ(test::run("latency", "/nowhere.yaml").code, kFailure);
+  EXPECT_THAT(test::run("latency", "--modules 100 --seconds 0.1 --json /nowhere/a.json").text,
+              HasSubstr("/nowhere/a.json: cannot be written"));
+}
+
+}  // namespace
+}  // namespace ergotic::tools

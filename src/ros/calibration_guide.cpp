@@ -29,7 +29,9 @@ tgr::CalibrationPoint pointOf(double position_m, const std::vector<double>& volt
 
 }  // namespace
 
-void CalibrationGuide::begin(const tgr::DriverStack& drivers, int slice) {
+void CalibrationGuide::begin(const std::vector<tgr::DriverStack::Part>& raw_parts,
+                             int slices,
+                             int slice) {
   if (isUnderWay()) {
     throw Exception("slice " + std::to_string(part_->first_slice + slice_) +
                     " is being calibrated: finish or abort first");
@@ -37,13 +39,12 @@ void CalibrationGuide::begin(const tgr::DriverStack& drivers, int slice) {
   const auto holds = [slice](const tgr::DriverStack::Part& part) {
     return slice >= part.first_slice && slice < part.first_slice + part.calibrated->slices();
   };
-  const auto found = std::find_if(drivers.raw_parts.begin(), drivers.raw_parts.end(), holds);
-  if (found == drivers.raw_parts.end()) {
-    const bool exists = slice >= 0 && slice < drivers.driver->slices();
-    throw Exception(
-        "slice " + std::to_string(slice) +
-        (exists ? " needs no calibration: its device speaks metres"
-                : " does not exist, allowed: 0..." + std::to_string(drivers.driver->slices() - 1)));
+  const auto found = std::find_if(raw_parts.begin(), raw_parts.end(), holds);
+  if (found == raw_parts.end()) {
+    const bool exists = slice >= 0 && slice < slices;
+    throw Exception("slice " + std::to_string(slice) +
+                    (exists ? " needs no calibration: its device speaks metres"
+                            : " does not exist, allowed: 0..." + std::to_string(slices - 1)));
   }
   part_ = *found;
   slice_ = slice - found->first_slice;

@@ -18,9 +18,11 @@ class CalibrationGuide {
   static constexpr int kReadings = 100;  ///< of a sample, one per `poll`
   static constexpr double kUsualResidualM = 1e-4;
 
-  /// \param slice  counted over all devices
+  /// \param raw_parts  the devices that speak volts
+  /// \param slices     of all devices
+  /// \param slice      counted over all devices
   /// \throws Exception if a calibration is under way, or the slice needs none or does not exist
-  void begin(const tgr::DriverStack& drivers, int slice);
+  void begin(const std::vector<tgr::DriverStack::Part>& raw_parts, int slices, int slice);
   /// Starts to read the sensor. \throws Exception if nothing is being calibrated, a sample is under
   /// way, or the position is not within +-1 m
   void sample(double position_m);

@@ -34,7 +34,10 @@ class Hands {
   std::unique_ptr<tgr::Driver> takeDriver() { return std::move(drivers_.driver); }
 
   const tgr::StationDevices& config() const { return config_; }
-  const tgr::DriverStack& drivers() const { return drivers_; }
+  /// The devices that speak volts.
+  const std::vector<tgr::DriverStack::Part>& rawParts() const { return drivers_.raw_parts; }
+  /// \return null unless faults may be injected
+  tgr::FaultyDriver* faulty() const { return drivers_.faulty; }
   void setEndEffectors(tgr::EndEffectors end_effectors) {
     config_.end_effectors = std::move(end_effectors);
   }
@@ -45,7 +48,7 @@ class Hands {
  private:
   DriverPlugins plugins_;
   tgr::StationDevices config_;
-  tgr::DriverStack drivers_;
+  tgr::DriverStack drivers_;  // of which the station has the driver, once it is taken
   int slices_ = 0;
   physics::DeviceTraits traits_;
 };

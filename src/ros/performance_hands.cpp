@@ -114,7 +114,8 @@ void Performance::begin(int slice) {
   if (state == Status::ENGAGING || state == Status::PLAYING) {
     throw Exception("force is on: stop first");
   }
-  guide_.begin(engine_->hands().drivers(), slice);
+  const Hands& hands = engine_->hands();
+  guide_.begin(hands.rawParts(), hands.slices(), slice);
 }
 
 std::string Performance::finish(const Calibrate::Request& request, Calibrate::Response& measured) {
@@ -160,7 +161,7 @@ void Performance::inject(const InjectFault::Request& request, const Promise& pro
   if (!engine_) {
     return answer(promise, false, kNothingPlays);
   }
-  if (engine_->hands().drivers().faulty == nullptr) {
+  if (engine_->hands().faulty() == nullptr) {
     return answer(promise, false, kNotAllowed);
   }
   try {
@@ -178,7 +179,7 @@ void Performance::inject(const InjectFault::Request& request, const Promise& pro
       const tgr::FaultOrder order{tgr::faultNamed(request.kind), request.slice, ticks,
                                   request.amount};
       tellInjected(static_cast<int>(order.kind), ticks);
-      engine_->hands().drivers().faulty->inject(order);
+      engine_->hands().faulty()->inject(order);
     }
     answer(promise, true, "");
   } catch (const Exception& refusal) {

@@ -44,12 +44,8 @@ class RawDevice : public tgr::CalibratedDriver {
 
 class CalibrationGuideTest : public ::testing::Test {
  protected:
-  CalibrationGuideTest() {
-    auto device = std::make_unique<RawDevice>();
-    device_ = device.get();
-    drivers_.raw_parts.push_back({0, 0, device_});
-    drivers_.driver = std::move(device);
-  }
+  CalibrationGuideTest() { raw_parts_.push_back({0, 0, &device_}); }
+  void begin(int slice) { guide_.begin(raw_parts_, 2, slice); }
 
   tgr::CalibrationPoint sampleAt(double position_m) {
     guide_.sample(position_m);
@@ -71,47 +67,47 @@ class CalibrationGuideTest : public ::testing::Test {
     return "taken";
   }
 
-  RawDevice* device_ = nullptr;
-  tgr::DriverStack drivers_;
+  RawDevice device_;
+  std::vector<tgr::DriverStack::Part> raw_parts_;
   CalibrationGuide guide_;
 };
 
 TEST_F(CalibrationGuideTest, FitsALineThroughPlacesAndVolts) {
-  guide_.begin(drivers_, 1);
+  begin(1);
   for (const double place : {-0.02, 0.01, 0.02}) {
-    device_->volts_ = 2.0 + place / 0.005;
+    device_.volts_ = 2.0 + place / 0.005;
     const tgr::CalibrationPoint point = sampleAt(place);
     EXPECT_EQ(point.position_m, place);
-    EXPECT_NEAR(point.mean_volts, device_->volts_, 1e-12);
+    EXPECT_NEAR(point.mean_volts, device_.volts_, 1e-12);
     EXPECT_NEAR(point.rms_volts, 0.001, 1e-12);
   }
   const tgr::SliceCalibration fitted = guide_.finish(1e-4, 0.05);
   EXPECT_NEAR(fitted.metres_per_volt, 0.005, 1e-12);
   EXPECT_NEAR(fitted.rest_volts, 2.0, 1e-9);
   EXPECT_EQ(fitted.volts_per_newton, 0.05);
-  EXPECT_EQ(device_->calibration().slices[1].metres_per_volt, fitted.metres_per_volt);
-  EXPECT_FALSE(device_->calibration().slices[0].is_calibrated);
+  EXPECT_EQ(device_.calibration().slices[1].metres_per_volt, fitted.metres_per_volt);
+  EXPECT_FALSE(device_.calibration().slices[0].is_calibrated);
   EXPECT_FALSE(guide_.isUnderWay());
 }
 
 TEST_F(CalibrationGuideTest, GoesOnWhenTheFitIsNotGoodEnough) {
-  guide_.begin(drivers_, 1);
+  begin(1);
   for (const double place : {-0.02, 0.0, 0.02}) {
-    device_->volts_ = std::abs(place) / 0.005 + place;  // not a line
+    device_.volts_ = std::abs(place) / 0.005 + place;  // not a line
     sampleAt(place);
   }
   EXPECT_NE(refusalOf([this] { guide_.finish(1e-4, 0.05); }), "taken");
   EXPECT_TRUE(guide_.isUnderWay());
   EXPECT_EQ(guide_.samples(), 3U);
-  EXPECT_FALSE(device_->calibration().slices[1].is_calibrated);
+  EXPECT_FALSE(device_.calibration().slices[1].is_calibrated);
 }
 
 TEST_F(CalibrationGuideTest, ForgetsItsSamplesWhenItIsAborted) {
-  guide_.begin(drivers_, 1);
+  begin(1);
   sampleAt(0.0);
   guide_.abort();
   EXPECT_FALSE(guide_.isUnderWay());
-  guide_.begin(drivers_, 1);
+  begin(1);
   EXPECT_EQ(guide_.samples(), 0U);
 }
 
@@ -119,10 +115,10 @@ TEST_F(CalibrationGuideTest, SaysWhatIsWrongWithAStep) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(refusalOf([this] { guide_.sample(0.0); }), HasSubstr("begin first"));
   EXPECT_THAT(refusalOf([this] { guide_.finish(1e-4, 0.0); }), HasSubstr("begin first"));
-  EXPECT_THAT(refusalOf([this] { guide_.begin(drivers_, 2); }), HasSubstr("allowed: 0...1"));
-  EXPECT_THAT(refusalOf([this] { guide_.begin(drivers_, -1); }), HasSubstr("allowed: 0...1"));
-  guide_.begin(drivers_, 1);
-  EXPECT_THAT(refusalOf([this] { guide_.begin(drivers_, 0); }), HasSubstr("slice 1"));
+  EXPECT_THAT(refusalOf([this] { begin(2); }), HasSubstr("allowed: 0...1"));
+  EXPECT_THAT(refusalOf([this] { begin(-1); }), HasSubstr("allowed: 0...1"));
+  begin(1);
+  EXPECT_THAT(refusalOf([this] { begin(0); }), HasSubstr("slice 1"));
   EXPECT_THAT(refusalOf([=] { guide_.sample(nan); }), HasSubstr("allowed: -1...1"));
   guide_.sample(0.0);
   EXPECT_THAT(refusalOf([this] { guide_.sample(0.0); }), HasSubstr("under way"));
@@ -130,8 +126,8 @@ TEST_F(CalibrationGuideTest, SaysWhatIsWrongWithAStep) {
 }
 
 TEST_F(CalibrationGuideTest, HasNothingToDoWithDevicesThatSpeakMetres) {
-  drivers_.raw_parts.clear();
-  EXPECT_THAT(refusalOf([this] { guide_.begin(drivers_, 1); }), HasSubstr("speaks metres"));
+  raw_parts_.clear();
+  EXPECT_THAT(refusalOf([this] { begin(1); }), HasSubstr("speaks metres"));
 }
 
 }  // namespace

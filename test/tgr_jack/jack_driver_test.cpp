@@ -140,9 +140,7 @@ class JackForcesTest : public ::testing::Test {
  protected:
   JackForcesTest() {
     server_.start();
-    device_.emplace(test::JackDeviceClient(server_, test::jackDevice())
-                        .device.jackConfig("device", server_.name()),
-                    probe_);
+    device_.emplace(JackDevice(test::jackDevice()).jackConfig("device", server_.name()), probe_);
     driver_.open(kRate / 16.0);
     driver_.clock()->start(target_);
   }

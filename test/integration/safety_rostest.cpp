@@ -228,9 +228,13 @@ void SafetyTest::addRow(const FaultCase& fault, const Outcome& outcome) {
   const std::string prefix = "fault: ";
   std::ostringstream row;
   row << std::fixed << std::setprecision(1) << "| " << fault.name << " | "
-      << outcome.says.substr(std::min(prefix.size(), outcome.says.size())) << " | "
-      << outcome.released_ms << " ms | " << fault.limit_says << " | " << 1e3 * outcome.recovered_s
-      << " ms |";
+      << outcome.says.substr(std::min(prefix.size(), outcome.says.size())) << " | ";
+  if (fault.stops_ticks) {
+    row << "before the next tick";
+  } else {
+    row << outcome.released_ms << " ms";
+  }
+  row << " | " << fault.limit_says << " | " << 1e3 * outcome.recovered_s << " ms |";
   the_world->table.push_back(row.str());
 }
 

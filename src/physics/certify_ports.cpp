@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 
 #include "certify_parts.hpp"
@@ -12,6 +13,11 @@ constexpr double kTooMuch = 2.0;  // of it
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
+}
+
+bool isTaken(int port, const DeviceTraits& device) {
+  const auto& taken = device.taken_ports;
+  return std::find(taken.begin(), taken.end(), port) != taken.end();
 }
 
 }  // namespace
@@ -38,7 +44,8 @@ std::vector<PortCertificate> judgePorts(const SceneNetwork& networks,
         2.0 * device.damping * networks.rates().gesturalHz() / (1.0 + 2.0 * device.delay_ticks);
     certificates.push_back(certificate);
     // What an end-effector makes of a port is known where that is.
-    if (port.slice < 0 || certificate.stiffness <= kWarned * certificate.limit) {
+    if (port.slice < 0 || isTaken(p, device) ||
+        certificate.stiffness <= kWarned * certificate.limit) {
       continue;
     }
     const std::string link = scene.lias[at(links.worst(port))].name;

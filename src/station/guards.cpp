@@ -69,6 +69,9 @@ void Station::fault(FaultReason reason, int slice) noexcept {
   if (state_ == ForceState::kFault) {
     return;
   }
+  if (reason == FaultReason::kWriteFailed || reason == FaultReason::kDeviceLost) {
+    driver_->makeSafe();  // the zero of the next exchange may not arrive either
+  }
   state_ = ForceState::kFault;
   fault_ = reason;
   Event told = event(Event::Type::kFault);

@@ -100,7 +100,9 @@ std::unique_ptr<Performer> makePerformer(scene::Scene scene,
   const std::vector<std::string> warnings = scene.warnings;
   physics::Settled settled = physics::settle(std::move(scene), rates);
   tell("certify");
-  physics::Certificate certificate = physics::certify(settled.scene, rates, policy.device);
+  physics::DeviceTraits device = policy.device;
+  device.taken_ports = tgr::takenPorts(settled.scene, policy.end_effectors);
+  physics::Certificate certificate = physics::certify(settled.scene, rates, device);
   if (!isAllowed(certificate.verdict, policy)) {
     refuse(settled.scene, certificate);
   }

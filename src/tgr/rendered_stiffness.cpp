@@ -80,6 +80,24 @@ double largestEigenvalue(const Eigen::MatrixXd& matrix, const std::vector<int>& 
 
 }  // namespace
 
+std::vector<int> takenPorts(const scene::Scene& scene, const EndEffectors& end_effectors) {
+  const auto has = [](const auto& list, const auto& wanted) {
+    return std::find(list.begin(), list.end(), wanted) != list.end();
+  };
+  std::vector<int> taken;
+  for (std::size_t p = 0; p < scene.ports.size(); ++p) {
+    const scene::Port& port = scene.ports[p];
+    const auto& list = end_effectors.list;
+    if (port.slice >= 0 &&
+        std::any_of(list.begin(), list.end(), [&](const EndEffectorConfig& config) {
+          return has(config.ports, port.name) || has(config.slices, port.slice);
+        })) {
+      taken.push_back(static_cast<int>(p));
+    }
+  }
+  return taken;
+}
+
 std::vector<RenderedStiffness> renderedStiffness(const scene::Scene& scene,
                                                  const EndEffectors& end_effectors,
                                                  const std::vector<double>& port_stiffness,

@@ -17,8 +17,8 @@ using test::SceneBuilder;
 
 constexpr double kRate = 44100.0;
 constexpr Rates kRates{kRate, 14};
-constexpr double kDeviceDamping = DeviceTraits{}.damping;
-constexpr double kLimit = 2.0 * kDeviceDamping * (kRate / 14.0) / 3.0;  // 2 b / ((1 + 2 d) T)
+const double kDeviceDamping = DeviceTraits{}.damping;
+const double kLimit = 2.0 * kDeviceDamping * (kRate / 14.0) / 3.0;  // 2 b / ((1 + 2 d) T)
 
 SceneBuilder wall(double stiffness, LiaType type = LiaType::kContact) {
   SceneBuilder b;
@@ -53,6 +53,16 @@ TEST(PassivityTest, LimitIsTwiceTheDampingOverThreeTicks) {
   EXPECT_DOUBLE_EQ(c.ports[0].stiffness, 1000.0);
   EXPECT_DOUBLE_EQ(c.ports[0].limit, kLimit);
   EXPECT_DOUBLE_EQ(certify(wall(1000.0).scene, kRates, {5.0, 1.0}).ports[0].limit, 2.5 * kLimit);
+}
+
+TEST(PassivityTest, APortThatAnEndEffectorTookIsJudgedThere) {
+  const scene::Scene scene = wall(2.5 * kLimit).scene;
+  EXPECT_EQ(certify(scene, kRates).verdict, Verdict::kUnproven);
+  DeviceTraits device;
+  device.taken_ports = {0};
+  const Certificate certificate = certify(scene, kRates, device);
+  EXPECT_EQ(certificate.verdict, Verdict::kPassive);
+  EXPECT_GT(certificate.ports.at(0).stiffness, 2.0 * kLimit) << "it is told all the same";
 }
 
 TEST(PassivityTest, ADeviceOnAWallIsStableBelowTheLimitAndNotMuchAbove) {

@@ -32,6 +32,17 @@ TEST(RenderedStiffnessTest, IsThatOfThePortsWhereASliceMovesThemByItself) {
   EXPECT_DOUBLE_EQ(rendered[0].limit, 4000.0);  // 2 * 2 / (3 / 3000)
 }
 
+TEST(TakenPortsTest, AreThoseWhosePortOrSliceAnEndEffectorHas) {
+  test::PortScene ports;
+  ports.port("own", 0);
+  ports.port("claimed", 1);
+  ports.port("robbed", 2);
+  ports.port("free");
+  const EndEffectorConfig key = endEffector(EndEffectorType::kKey, {2}, {"claimed"});
+  EXPECT_THAT(takenPorts(ports.scene, {}), IsEmpty());
+  EXPECT_THAT(takenPorts(ports.scene, endEffectors({key})), ElementsAre(1, 2));
+}
+
 TEST(RenderedStiffnessTest, GrowsWithTheSquareOfALever) {
   test::PortScene ports;
   ports.port("key");

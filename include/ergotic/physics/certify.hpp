@@ -51,6 +51,8 @@ struct Certificate {
 struct DeviceTraits {
   double damping = 2.0;      ///< of each slice by itself, N s/m, > 0
   double delay_ticks = 1.0;  ///< from a position to the force that answers it
+  /// Indices in Scene::ports: their slice does not move them by itself, whatever the scene says.
+  std::vector<int> taken_ports = {};
 };
 
 /// Tells before running whether a scene can blow up at these rates.

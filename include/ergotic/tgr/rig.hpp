@@ -36,6 +36,10 @@ class Rig {
   virtual std::uint64_t slicesInUse() const noexcept = 0;
 };
 
+/// Ports that no slice moves by itself under these end-effectors, though the scene says so: an
+/// end-effector has the port, or its slice. Indices in Scene::ports.
+std::vector<int> takenPorts(const scene::Scene& scene, const EndEffectors& end_effectors);
+
 /// What a slice that moves something meets of a model.
 struct RenderedStiffness {
   int slice = 0;

@@ -54,7 +54,7 @@ std::unique_ptr<physics::Instrument> bareWall(double stiffness, const physics::R
 /// between ticks it moves exactly. True if it calms down.
 bool calmsDown(double stiffness, const physics::Rates& rates) {
   constexpr double kMass = 0.3;
-  constexpr double kDamping = physics::DeviceTraits{}.damping;
+  const double kDamping = physics::DeviceTraits{}.damping;
   const auto wall = bareWall(stiffness, rates);
   const double t = 1.0 / rates.gesturalHz();
   const double decay = std::exp(-kDamping / kMass * t);

@@ -287,8 +287,9 @@ int check(const CheckOptions& options) {
   load.begin("settle_s", "settle " + sizeText(scene));
   const physics::Settled settled = physics::settle(std::move(scene), rates);
   load.begin("certify_s", "certify " + sizeText(settled.scene));
-  const physics::Certificate certificate =
-      physics::certify(settled.scene, rates, options.device.traits);
+  physics::DeviceTraits device = options.device.traits;
+  device.taken_ports = tgr::takenPorts(settled.scene, end_effectors);
+  const physics::Certificate certificate = physics::certify(settled.scene, rates, device);
   const physics::CompileOptions compile = chosenOptions(options.compile);
   Report report = reportOn(settled, rates, certificate, compile, options.device,
                            loadOf(settled.scene, rates, compile, load));

@@ -18,6 +18,10 @@ namespace {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
+/// Sizes at run time, none on the heap: unrolled, this would take a sanitizing compiler many
+/// minutes.
+using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+using Solver = Eigen::PartialPivLU<Square>;
 using Circle = Eigen::Matrix<double, 3, 6>;
 
 constexpr int kRods = 6;
@@ -45,6 +49,13 @@ Circle onCircle(double radius, double (*angle)(int)) {
     points.col(i) << radius * std::cos(angle(i)), radius * std::sin(angle(i)), 0.0;
   }
   return points;
+}
+
+/// Squares of the singular values, ascending.
+Eigen::VectorXd squaredGains(const Eigen::MatrixXd& matrix) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix.transpose() * matrix,
+                                                        Eigen::EigenvaluesOnly)
+      .eigenvalues();
 }
 
 /// A platform, and its rods as they stand.
@@ -79,8 +90,8 @@ class Handle final : public Kinematics {
         rest_(restHeight(config.rod, (platform_.col(0) - base_.col(0)).norm())),
         points_(config.points) {
     const Matrix6d at_rest = scaled(jacobianOf(atRest(0.0)));
-    const Vector6d gains = at_rest.jacobiSvd().singularValues();
-    const double condition = gains[0] / gains[kRods - 1];
+    const Eigen::VectorXd squares = squaredGains(at_rest);
+    const double condition = std::sqrt(squares[kRods - 1] / squares[0]);
     if (!(condition <= kWorstCondition)) {
       throw Exception("rod = " + scene::numberText(rod_) +
                       " m on these radii holds no platform sideways: condition " +
@@ -150,7 +161,7 @@ class Handle final : public Kinematics {
       place(q, stance);
       const Vector6d error =
           0.5 * (stance.rods.colwise().squaredNorm().array() - rod_ * rod_).matrix().transpose();
-      const Vector6d step = stance.constraints().partialPivLu().solve(-error);
+      const Vector6d step = Solver(stance.constraints()).solve(-error);
       const Eigen::Vector3d turn = step.tail<3>();
       const double angle = turn.norm();
       const double size = std::max(step.head<3>().norm(), platform_radius_ * angle);
@@ -173,7 +184,7 @@ class Handle final : public Kinematics {
   /// Motion and turning of the platform by the slices: l_i (v + w x arm_i - e_z dq_i) = 0.
   static Matrix6d jacobianOf(const Stance& stance) noexcept {
     const Matrix6d heights = stance.rods.row(2).asDiagonal();
-    return stance.constraints().partialPivLu().solve(heights);
+    return Solver(stance.constraints()).solve(heights);
   }
 
   Matrix6d scaled(Matrix6d jacobian) const noexcept {
@@ -207,7 +218,7 @@ void checkPoints(const std::vector<Eigen::Vector3d>& points) {
     all.col(i) = point;
   }
   all.colwise() -= all.rowwise().mean().eval();
-  const double width = all.jacobiSvd().singularValues()[1] / std::sqrt(count);
+  const double width = std::sqrt(squaredGains(all.transpose())[1] / count);
   if (width < kThinnest) {
     throw Exception("its points lie within " + scene::numberText(width) +
                     " m (rms) of a line and do not feel turns about it, allowed: >= " +

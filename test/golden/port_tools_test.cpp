@@ -48,23 +48,43 @@ TEST(PortToolsTest, CheckIsForTheDeviceThatIsAskedFor) {
   EXPECT_EQ(run("check", kDuet + " --device-delay -1").code, 2);
 }
 
+double peakBetween(const std::vector<double>& stereo, double from_s, double to_s) {
+  const auto frame = [](double s) { return static_cast<std::size_t>(s * 44100.0); };
+  double peak = 0.0;
+  for (std::size_t n = frame(from_s); n < frame(to_s); ++n) {
+    peak = std::max(peak, std::abs(stereo.at(2 * n)));
+  }
+  return peak;
+}
+
+TEST(PortToolsTest, ABallStrikesTheDrumAndAHandleMutesIt) {
+  const std::string drum = std::string(ERGOTIC_SOURCE_DIR) + "/models/drum";
+  const std::string hands =
+      " --end-effectors " + std::string(ERGOTIC_SOURCE_DIR) + "/config/hands.yaml";
+  const Outcome checked = run("check", drum + ".yaml" + hands);
+  EXPECT_EQ(checked.code, 0) << checked.text;
+  EXPECT_THAT(checked.text, AllOf(HasSubstr("findings: none"), HasSubstr("warnings: none")));
+  const test::ScratchFile sound;
+  const Outcome played = run("render", drum + ".yaml" + hands + " --gesture " + drum +
+                                           "_demo.csv --seconds 2.7 --out " + sound.path());
+  ASSERT_EQ(played.code, 0) << played.text;
+  const std::vector<double> heard = audio::WavReader(sound.path()).readAll();
+  EXPECT_EQ(peakBetween(heard, 0.0, 0.25), 0.0);
+  EXPECT_GT(peakBetween(heard, 0.3, 0.4), 0.1);
+  const double open = peakBetween(heard, 1.3, 1.45) / peakBetween(heard, 0.9, 1.0);
+  const double muted = peakBetween(heard, 2.5, 2.65) / peakBetween(heard, 2.1, 2.2);
+  EXPECT_LT(muted, 0.7 * open);
+}
+
 TEST(PortToolsTest, AnAgentPlaysOnceASecondWithoutAPlayer) {
   const test::ScratchFile sound;
   const Outcome outcome = run("render", kDuet + " --seconds 2.2 --out " + sound.path());
   ASSERT_EQ(outcome.code, 0) << outcome.text;
   const std::vector<double> frames = audio::WavReader(sound.path()).readAll();
-  const auto peakIn = [&frames](double from_s, double to_s) {
-    double peak = 0.0;
-    const auto frame = [](double s) { return static_cast<std::size_t>(s * 44100.0); };
-    for (std::size_t n = frame(from_s); n < frame(to_s); ++n) {
-      peak = std::max(peak, std::abs(frames.at(2 * n)));
-    }
-    return peak;
-  };
-  EXPECT_LT(peakIn(0.0, 0.2), 1e-6);
-  EXPECT_GT(peakIn(0.2, 0.7), 0.02);
-  EXPECT_GT(peakIn(1.2, 1.7), 0.02);
-  EXPECT_LT(peakIn(0.0, 2.2), 1.0);
+  EXPECT_LT(peakBetween(frames, 0.0, 0.2), 1e-6);
+  EXPECT_GT(peakBetween(frames, 0.2, 0.7), 0.02);
+  EXPECT_GT(peakBetween(frames, 1.2, 1.7), 0.02);
+  EXPECT_LT(peakBetween(frames, 0.0, 2.2), 1.0);
 }
 
 }  // namespace

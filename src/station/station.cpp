@@ -319,13 +319,8 @@ void Station::updateForces(bool muted) noexcept {
     return;
   }
   performer_->rig->toDevice(performer_->forces.data(), force_.data());
-  if (fade_.isFadingOut()) {
-    const double gain = fade_.gainAt(config_.rates.ratio - 1);
-    std::transform(force_.begin(), force_.end(), force_.begin(),
-                   [gain](double force) { return gain * force; });
-  }
   injectModelFault();
-  chain_.limit(force_.data());
+  chain_.limit(force_.data(), fade_.isFadingOut() ? fade_.gainAt(config_.rates.ratio - 1) : 1.0);
   if (chain_.fault() != FaultReason::kNone && state_ != ForceState::kFault) {
     fault(chain_.fault(), chain_.faultSlice());
   }

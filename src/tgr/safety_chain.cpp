@@ -79,7 +79,7 @@ ERGOTIC_REALTIME void SafetyChain::recover() noexcept {
   gate_.close();
   missing_.cameAgain();
   for (SliceChain& slice : slices_) {
-    slice.forget();
+    slice.recover();
   }
   fault_ = FaultReason::kNone;
   fault_slice_ = -1;
@@ -150,19 +150,19 @@ ERGOTIC_REALTIME std::uint64_t SafetyChain::validate(double* positions,
   return held;
 }
 
-ERGOTIC_REALTIME void SafetyChain::limit(double* forces) noexcept {
+ERGOTIC_REALTIME void SafetyChain::limit(double* forces, double fade) noexcept {
   has_limited_ = true;
   for (std::size_t i = 0; i < slices_.size(); ++i) {
     if (!isInUse(i)) {
       continue;
     }
-    const FaultReason reason = slices_[i].inspect(forces[i]);
+    const FaultReason reason = slices_[i].inspect(forces[i], gate_.isOpen());
     if (reason != FaultReason::kNone) {
       raise(reason, static_cast<int>(i));
     }
   }
   const bool open = gate_.isOpen();
-  const double gain = open ? gate_.next() : 0.0;
+  const double gain = open ? fade * gate_.next() : 0.0;
   for (std::size_t i = 0; i < slices_.size(); ++i) {
     if (open && isInUse(i)) {
       forces[i] = slices_[i].limited(forces[i], gain);

@@ -133,5 +133,19 @@ TEST(EnergyDetectorTest, ForgetsOnRequest) {
   EXPECT_TRUE(detector.look(0.0, 1.0)) << "no force acted";
 }
 
+TEST(EnergyDetectorTest, StartsAgainFromWhatAnySpringCanHaveStored) {
+  EnergyDetector detector(rules(), kTick);
+  detector.look(20.0, 0.0);
+  detector.restart();
+  EXPECT_TRUE(detector.look(20.0, -0.03));
+  EXPECT_NEAR(detector.energy(), 0.6, 1e-12);
+  EXPECT_TRUE(detector.look(0.0, 0.03)) << "all of it, and no more";
+  EXPECT_NEAR(detector.energy(), 0.0, 1e-3);
+  detector.look(20.0, 0.0);
+  detector.restart();
+  EXPECT_TRUE(detector.look(20.0, 0.03)) << "judges nothing";
+  EXPECT_EQ(detector.energy(), 0.0) << "no spring pushes away from where it is at rest";
+}
+
 }  // namespace
 }  // namespace ergotic::tgr

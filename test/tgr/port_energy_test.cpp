@@ -53,6 +53,7 @@ TEST(PortEnergyTest, GivesBackAllThatASpringHasStored) {
     for (int n = 0; n < 2000; ++n) {
       port.moved(step, 1);
       x += step;
+      port.follow(-stiffness * x);
       port.issue(-stiffness * x);
     }
     EXPECT_NEAR(port.energy(), 0.5 * stiffness * x * x, 0.005 * stiffness * x * x);
@@ -66,8 +67,10 @@ TEST(PortEnergyTest, RemembersNoMoreThanTheCapOfWhatWasDissipated) {
   for (int n = 0; n < 1000; ++n) {
     const double v = std::sin(0.1 * n);
     port.moved(1e-3 * v, 1);
+    port.follow(-20.0 * v);
     port.issue(-20.0 * v);
   }
+  port.follow(0.0);
   port.issue(0.0);
   port.moved(0.0, 1);
   EXPECT_LE(port.energy(), 0.02);
@@ -124,6 +127,52 @@ TEST(PortEnergyTest, ForgetsOnRequest) {
   port.forget();
   EXPECT_EQ(port.least(), 0.0);
   EXPECT_EQ(port.issued(), 0.0);
+}
+
+/// A port that a spring pushed back over 20 mm up to 10 N, without a force that went out.
+PortEnergy unfeltSpring() {
+  PortEnergy port(rules());
+  for (int n = 1; n <= 20; ++n) {
+    port.moved(-1e-3, 1);
+    port.follow(0.5 * n);
+  }
+  return port;
+}
+
+TEST(PortEnergyTest, GivesARampWhatALinearSpringHasStored) {
+  PortEnergy port = unfeltSpring();
+  EXPECT_EQ(port.energy(), 0.0);
+  const double stored = 0.5 * 10.0 * 0.019;  // the first force was met 1 mm inside
+  port.lift(0.25);
+  EXPECT_DOUBLE_EQ(port.energy(), 0.25 * stored);
+  port.lift(0.75);
+  EXPECT_DOUBLE_EQ(port.energy(), stored);
+  port.lift(-0.5);
+  EXPECT_DOUBLE_EQ(port.energy(), 0.5 * stored);
+}
+
+TEST(PortEnergyTest, TakesNoMoreThanThereIsWhenTheGainFalls) {
+  PortEnergy port = unfeltSpring();
+  port.lift(-1.0);
+  EXPECT_EQ(port.energy(), 0.0);
+  port.issue(5.0);
+  port.issue(5.0);
+  port.moved(1e-3, 1);
+  port.lift(-1.0);
+  EXPECT_EQ(port.energy(), -5e-3);
+  EXPECT_EQ(port.least(), -5e-3);
+}
+
+TEST(PortEnergyTest, GivesARampNothingForAForceThatPointsAwayFromWhereItBegan) {
+  PortEnergy port(rules());
+  port.follow(5.0);
+  port.moved(0.02, 1);
+  port.lift(1.0);
+  EXPECT_EQ(port.energy(), 0.0);
+  port.moved(-0.04, 1);
+  port.follow(-5.0);  // begins here
+  port.lift(1.0);
+  EXPECT_EQ(port.energy(), 0.0);
 }
 
 TEST(EnergyClampTest, GivesOutWhatThereIsAndNoMore) {

@@ -136,6 +136,15 @@ TEST_P(ClampedWallTest, GivesTheHandNoMoreWhenTheSliceDampsItself) {
   EXPECT_LT(push_in.given_out_j, 0.0025);
 }
 
+TEST_P(ClampedWallTest, GivesOutAMillijouleWithTheShareOfTheDampingThatAStationReliesOn) {
+  const Case& c = GetParam();
+  SafetyConfig config = quickDefaults();
+  config.slice_damping = 1.0;
+  const Push push_in = push(c.rate_hz, c.times_limit, config);
+  EXPECT_LT(-push_in.reading.least_energy_j, c.most_j) << "beyond that share";
+  EXPECT_LT(push_in.given_out_j, c.times_limit < 1.0 ? c.most_j : 0.0012);
+}
+
 INSTANTIATE_TEST_SUITE_P(Walls,
                          ClampedWallTest,
                          ::testing::Values(Case{1000.0, 0.5, 0.00005},
@@ -195,6 +204,7 @@ double givenOutWithASlowFall(bool clamp_is_last) {
     const auto clamped = [&](double f) { return EnergyClamp::limited(f, dx, port.predicted(dx)); };
     const auto slewed = [&](double f) { return std::clamp(f, last - step_n, last + step_n); };
     const double wanted = std::min(wall(x, 0.0), 20.0);
+    port.follow(wanted);
     port.issue(clamp_is_last ? clamped(slewed(wanted)) : slewed(clamped(wanted)));
   }
   return -port.least();

@@ -51,7 +51,16 @@ class WallLoop {
   }
 
   void engage() { chain_.engage(); }
+  void disengage() { chain_.disengage(); }
   void recover() { chain_.recover(); }
+  /// A stall or a swap: zero goes out in place of the last force, and for `muted` ticks more.
+  void resume(int muted) {
+    chain_.resume();
+    force_ = 0.0;
+    for (int n = 0; n < muted; ++n) {
+      sense();
+    }
+  }
   void aimAt(double target_m) { driver_->setTarget(0, target_m); }
 
   /// Runs for `seconds` with raw force `force(x, v)`, N, x in m, v the backward difference, m/s.
@@ -65,15 +74,8 @@ class WallLoop {
 
   template <class Force>
   void tick(Force force) {
-    double x = x_;
-    const std::uint32_t flags = driver_->exchange(&force_, &x);
-    energy_ -= acting_ * (x - x_);
-    least_energy_ = std::min(least_energy_, energy_);
-    acting_ = force_;
-    chain_.validate(&x, flags, 0);
-    velocity_ = (x - x_) * rate_hz_;
-    x_ = x;
-    force_ = force(x, velocity_);
+    sense();
+    force_ = force(x_, velocity_);
     chain_.limit(&force_);
   }
 
@@ -98,6 +100,17 @@ class WallLoop {
   const tgr::SafetyChain& chain() const { return chain_; }
 
  private:
+  void sense() {
+    double x = x_;
+    const std::uint32_t flags = driver_->exchange(&force_, &x);
+    energy_ -= acting_ * (x - x_);
+    least_energy_ = std::min(least_energy_, energy_);
+    acting_ = force_;
+    chain_.validate(&x, flags, 0);
+    velocity_ = (x - x_) * rate_hz_;
+    x_ = x;
+  }
+
   double rate_hz_;
   std::unique_ptr<tgr::Driver> driver_;
   tgr::SafetyChain chain_;

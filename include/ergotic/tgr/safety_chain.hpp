@@ -35,7 +35,8 @@ class SafetyChain {
   /// a model that has moved on. The force of the last `limit` is taken as never sent. The gate
   /// stays as it is.
   void resume() noexcept;
-  /// Forgets a fault and all that the chain remembers; the gate stays closed.
+  /// Forgets a fault and all that the chain remembers, but where the model's forces were zero; the
+  /// gate stays closed.
   void recover() noexcept;
 
   /// Slices that move something, a bit each; all of them at first. The others get no force and
@@ -50,7 +51,8 @@ class SafetyChain {
   std::uint64_t validate(double* positions, std::uint32_t flags, std::int64_t host_missed) noexcept;
 
   /// \param[in,out] forces  [slices] N; afterwards finite and within the limit, 0 if gate closed
-  void limit(double* forces) noexcept;
+  /// \param fade  0...1, multiplies all forces as the ramps do
+  void limit(double* forces, double fade = 1.0) noexcept;
 
   bool isOpen() const noexcept { return gate_.isOpen(); }
   double gain() const noexcept { return gate_.ramp(); }  ///< 0...1, of the ramp after engage

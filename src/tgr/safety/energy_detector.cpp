@@ -31,6 +31,11 @@ ERGOTIC_REALTIME bool EnergyDetector::look(double force, double dx) noexcept {
     way_ = 0.0;
   }
   last_force_ = next;
+  if (anew_) {
+    anew_ = false;
+    energy_ = std::max(-last_force_ * way_, 0.0);
+    return true;
+  }
   return fine;
 }
 
@@ -38,6 +43,7 @@ ERGOTIC_REALTIME void EnergyDetector::forget() noexcept {
   energy_ = 0.0;
   last_force_ = 0.0;
   way_ = 0.0;
+  anew_ = false;
 }
 
 }  // namespace ergotic::tgr

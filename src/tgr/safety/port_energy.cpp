@@ -20,7 +20,7 @@ ERGOTIC_REALTIME void PortEnergy::moved(double dx, std::int64_t ticks) noexcept 
   const auto passed = static_cast<double>(ticks);
   const double taken = acted != 0.0 ? damping_j_ * dx * dx / passed : 0.0;
   way_ += dx;
-  const double most = cap_j_ + std::abs(issued() * way_);
+  const double most = cap_j_ + std::abs(wanted_ * way_);
   energy_ = std::min(energy_ - acted * dx + taken + supply_j_ * passed, most);
   least_ = std::min(least_, energy_);
 }
@@ -31,10 +31,20 @@ ERGOTIC_REALTIME double PortEnergy::predicted(double dx) const noexcept {
   return energy_ - sum * dx;
 }
 
-ERGOTIC_REALTIME void PortEnergy::issue(double force) noexcept {
-  if (force * issued() <= 0.0) {
+ERGOTIC_REALTIME void PortEnergy::follow(double force) noexcept {
+  if (force * wanted_ <= 0.0) {
     way_ = 0.0;
   }
+  wanted_ = force;
+}
+
+ERGOTIC_REALTIME void PortEnergy::lift(double gain_change) noexcept {
+  const double stored = 0.5 * std::max(-wanted_ * way_, 0.0);
+  const double least = std::min(energy_, 0.0);
+  energy_ = std::max(energy_ + gain_change * stored, least);
+}
+
+ERGOTIC_REALTIME void PortEnergy::issue(double force) noexcept {
   newest_ = (newest_ + 1) % under_way_.size();
   under_way_[newest_] = force;
 }
@@ -43,7 +53,6 @@ ERGOTIC_REALTIME void PortEnergy::forget() noexcept {
   std::fill(under_way_.begin(), under_way_.end(), 0.0);
   energy_ = 0.0;
   least_ = 0.0;
-  way_ = 0.0;
 }
 
 }  // namespace ergotic::tgr

@@ -48,14 +48,21 @@ ERGOTIC_REALTIME void SliceChain::moved(double x, std::int64_t ticks) noexcept {
   dx_ = knows_x_ ? x - x_ : 0.0;
   knows_x_ = true;
   x_ = x;
+  way_ += dx_;
   port_.moved(dx_, ticks);
 }
 
-ERGOTIC_REALTIME FaultReason SliceChain::inspect(double raw) noexcept {
+ERGOTIC_REALTIME FaultReason SliceChain::inspect(double raw, bool open) noexcept {
   const FaultReason reason = blow_up_.look(raw);
   if (std::isfinite(raw)) {
     peak_raw_ = std::max(peak_raw_, std::abs(raw));
-    if (!detector_.look(raw, dx_) && reason == FaultReason::kNone) {
+    port_.follow(force_limit_.limited(raw));
+    if (!open) {
+      detector_.restart();
+    }
+    const bool fine = detector_.look(raw, way_);
+    way_ = 0.0;
+    if (!fine && reason == FaultReason::kNone) {
       return FaultReason::kEnergy;
     }
   }
@@ -63,6 +70,7 @@ ERGOTIC_REALTIME FaultReason SliceChain::inspect(double raw) noexcept {
 }
 
 ERGOTIC_REALTIME double SliceChain::limited(double raw, double gain) noexcept {
+  turnTo(gain);
   double wanted = gain * raw;
   if (controls_) {
     wanted = controller_.damped(wanted, dx_, port_.energy());
@@ -74,21 +82,45 @@ ERGOTIC_REALTIME double SliceChain::limited(double raw, double gain) noexcept {
   return force;
 }
 
+ERGOTIC_REALTIME void SliceChain::turnTo(double gain) noexcept {
+  port_.lift(gain - gain_);
+  gain_ = gain;
+}
+
+ERGOTIC_REALTIME void SliceChain::release() noexcept {
+  turnTo(0.0);
+  port_.issue(0.0);
+}
+
+ERGOTIC_REALTIME void SliceChain::engage() noexcept {
+  port_.restart();
+  gain_ = 0.0;
+}
+
 ERGOTIC_REALTIME void SliceChain::resume() noexcept {
+  turnTo(0.0);
   port_.withdraw();
   blow_up_.forget();
-  detector_.forget();
+  detector_.restart();
+}
+
+ERGOTIC_REALTIME void SliceChain::recover() noexcept {
+  position_.forget();
+  blow_up_.forget();
+  detector_.restart();
+  port_.forget();
+  gain_ = 0.0;
+  clamped_ticks_ = 0;
+  peak_raw_ = 0.0;
 }
 
 ERGOTIC_REALTIME void SliceChain::forget() noexcept {
-  position_.forget();
-  blow_up_.forget();
+  recover();
   detector_.forget();
-  port_.forget();
+  port_.follow(0.0);
   knows_x_ = false;
   dx_ = 0.0;
-  clamped_ticks_ = 0;
-  peak_raw_ = 0.0;
+  way_ = 0.0;
 }
 
 ERGOTIC_REALTIME SliceReading SliceChain::reading() const noexcept {

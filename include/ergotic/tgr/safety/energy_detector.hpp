@@ -11,7 +11,8 @@ namespace ergotic::tgr {
 /// F and x are the model's own, without the delays of the device, so that a passive model stays
 /// above minus what it had stored, but for what sampling adds. Within a second it forgets what was
 /// given out, and of what was taken in all but `cap_j` and |F| |x - x0|: what any spring can have
-/// stored since the force was last 0, at x0.
+/// stored since the force was last 0, at x0. After `restart` it starts from that if F points to x0:
+/// it cannot know what the model stored while nobody looked.
 class EnergyDetector {
  public:
   struct Rules {
@@ -27,6 +28,8 @@ class EnergyDetector {
   /// \param dx     m, from the last position to this one
   /// \return false if too much was given out
   bool look(double force, double dx) noexcept;
+  /// The next look judges nothing.
+  void restart() noexcept { anew_ = true; }
   void forget() noexcept;
   double energy() const noexcept { return energy_; }  ///< J
 
@@ -38,6 +41,7 @@ class EnergyDetector {
   double energy_ = 0.0;
   double way_ = 0.0;  // since the force was 0, m
   double last_force_ = 0.0;
+  bool anew_ = false;
 };
 
 }  // namespace ergotic::tgr

@@ -10,13 +10,15 @@ namespace ergotic::tgr {
 /// the constructor.
 ///
 ///   E <- min(E - F_app dx + b dx^2 / T + supply, cap + |F| |x - x0|),   dx = x[n] - x[n-1]
+///   E <- max(E + dg max(-F (x - x0), 0) / 2, min(E, 0))
 ///
 /// F_app is the force that the device held from the sample n - 1 to the sample n; under such a
 /// force -F_app dx is exact (Stramigioli, Secchi, van der Schaft, Fantuzzi 2005). b is the damping
 /// of the slice itself: while there is force, what it takes is no gift to the hand. The bound keeps
-/// what was dissipated long ago from paying for what is given out now: x0 is where the force was
-/// last 0, so that all comes back that any spring, soft or stiff, can have stored under the force
-/// F.
+/// what was dissipated long ago from paying for what is given out now: F is the force that the
+/// model wants, cut to its limit, and x0 where it was last 0, whether it goes out or not, so that
+/// all comes back that any spring, soft or stiff, can have stored. dg is the change of the gain
+/// that the force is multiplied by: by so much it changes what a linear spring gives back.
 ///
 /// A force issued at tick n is sent by the exchange of tick n + 1, and acts from there on: with a
 /// device's own delay of e ticks, F_app was issued at n - 2 - e, and d = 1 + e forces are under
@@ -38,6 +40,11 @@ class PortEnergy {
   /// What it will be, but for the force that is now to be issued, if every tick moves by `dx`: J.
   double predicted(double dx) const noexcept;
 
+  /// The model wants this force, at the position of the last `moved`. \param force  N, limited
+  void follow(double force) noexcept;
+  /// The gain of the force has changed.
+  void lift(double gain_change) noexcept;
+
   /// This force will be sent by the next exchange.
   void issue(double force) noexcept;
   /// The force issued last is not sent, but zero.
@@ -49,6 +56,7 @@ class PortEnergy {
 
   /// From 0; what is under way stays.
   void restart() noexcept { energy_ = 0.0; }
+  /// All but what the model wants.
   void forget() noexcept;
 
   static constexpr int kMaxDelayTicks = 256;
@@ -61,7 +69,8 @@ class PortEnergy {
   std::size_t newest_ = 0;
   double energy_ = 0.0;
   double least_ = 0.0;
-  double way_ = 0.0;  // since the force was 0, m
+  double wanted_ = 0.0;  // by the model, N
+  double way_ = 0.0;     // since that was 0, m
 };
 
 }  // namespace ergotic::tgr

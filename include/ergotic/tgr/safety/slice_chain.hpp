@@ -36,22 +36,27 @@ class SliceChain {
   void hold(double& x, std::int64_t ticks) noexcept;
 
   /// Detectors. \param raw  N, as the model wants it, for the position of this tick
-  FaultReason inspect(double raw) noexcept;
+  /// \param open  force goes out: only then is energy judged
+  FaultReason inspect(double raw, bool open) noexcept;
 
   /// Ramp, passivity controller, slew, limit, energy clamp. \return N, to be sent
   double limited(double raw, double gain) noexcept;
   /// No force is sent.
-  void release() noexcept { port_.issue(0.0); }
+  void release() noexcept;
 
-  void engage() noexcept { port_.restart(); }
+  /// \pre the gain starts from 0
+  void engage() noexcept;
   /// No force was sent, and the model moved on without a look.
   void resume() noexcept;
+  /// All but where the model's force was 0: hands may still be inside a wall.
+  void recover() noexcept;
   void forget() noexcept;
 
   SliceReading reading() const noexcept;
 
  private:
   void moved(double x, std::int64_t ticks) noexcept;
+  void turnTo(double gain) noexcept;
 
   PositionCheck position_;
   BlowUpDetector blow_up_;
@@ -64,6 +69,8 @@ class SliceChain {
   bool knows_x_ = false;
   double x_ = 0.0;
   double dx_ = 0.0;
+  double way_ = 0.0;   // since the last look, m
+  double gain_ = 0.0;  // of the last force
   std::int64_t clamped_ticks_ = 0;
   double peak_raw_ = 0.0;
 };

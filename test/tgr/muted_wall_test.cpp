@@ -60,7 +60,14 @@ class MutedWallTest : public ::testing::TestWithParam<Hand> {
     EXPECT_EQ(loop_.chain().fault(), FaultReason::kNone);
   }
 
-  SafetyConfig config_;
+  /// Less than what the walls store, so that it would tell if that were not known to be theirs.
+  static SafetyConfig strictOnModels() {
+    SafetyConfig config;
+    config.energy_limit_j = 0.03;
+    return config;
+  }
+
+  SafetyConfig config_ = strictOnModels();
   Wall wall_{GetParam().wall_n_per_m, 0.0, 0.0};
   WallLoop loop_{noisyDevice(GetParam().hand_n_per_m), config_, GetParam().rate_hz};
 
@@ -135,6 +142,24 @@ INSTANTIATE_TEST_SUITE_P(Hands,
                                            Hand{1000.0, 50000.0, 1000.0},
                                            Hand{3000.0, 500.0, 3000.0},
                                            Hand{3000.0, 50000.0, 300.0}));
+
+TEST(ClosedGateTest, NoEnergyIsJudgedThatReachesNoHand) {
+  SafetyChain chain(SafetyConfig(), 1, 1e-3);
+  const auto push = [&](double from, double to) {
+    for (int n = 0; n <= 1000; ++n) {
+      double x = from + (to - from) * n / 1000.0;
+      chain.validate(&x, kExchangeOk, 0);
+      double force = 15.0;
+      chain.limit(&force);
+    }
+  };
+  push(-0.09, 0.09);
+  push(0.09, -0.09);
+  EXPECT_EQ(chain.fault(), FaultReason::kNone);
+  chain.engage();
+  push(-0.09, 0.09);
+  EXPECT_EQ(chain.fault(), FaultReason::kEnergy);
+}
 
 TEST(FadedForceTest, KeepsItsPlaceWhileAnotherModelTakesOver) {
   const double tick = 1e-3;

@@ -31,6 +31,10 @@ foreach(rostest ${rostests})
     RUN_SERIAL TRUE TIMEOUT 300 LABELS integration)
 endforeach()
 
+target_compile_definitions(drivers_rostest PRIVATE COMEDI_STANDIN="$<TARGET_FILE:comedi_standin>")
+add_dependencies(drivers_rostest
+  ergotic_ros ergotic_comedi_plugin ergotic_jack_plugin comedi_standin jack_tgr)
+
 # roslaunch reads the file, finds every package and every substitution, and names the nodes.
 file(GLOB launch_files CONFIGURE_DEPENDS launch/*.launch)
 foreach(launch ${launch_files})

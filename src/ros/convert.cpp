@@ -195,14 +195,18 @@ sensor_msgs::JointState toJointState(const station::Snapshot& snapshot) {
   return message;
 }
 
+void fillStatus(station::ForceState state, tgr::FaultReason fault, Status& status) {
+  status.state = number(state);
+  status.fault = number(fault);
+  status.state_text = station::toString(state);
+  if (fault != tgr::FaultReason::kNone) {
+    status.state_text += std::string(": ") + toString(fault);
+  }
+}
+
 void fillStatus(const station::Snapshot& snapshot, Status& status) {
   const station::Counters& counters = snapshot.counters;
-  status.state = number(snapshot.state);
-  status.fault = number(snapshot.fault);
-  status.state_text = station::toString(snapshot.state);
-  if (snapshot.fault != station::FaultReason::kNone) {
-    status.state_text += std::string(": ") + toString(snapshot.fault);
-  }
+  fillStatus(snapshot.state, snapshot.fault, status);
   status.slices = static_cast<std::uint32_t>(snapshot.slices);
   status.audio_running = snapshot.audio_running;
   status.clock_locked = snapshot.clock_locked;

@@ -23,6 +23,9 @@ Event toEvent(const station::Event& event, const scene::Scene* scene);
 /// Joints `slice_<i>`: m, m/s, N.
 sensor_msgs::JointState toJointState(const station::Snapshot& snapshot);
 
+/// Fills state and fault of `status`, in numbers and words.
+void fillStatus(station::ForceState state, tgr::FaultReason fault, Status& status);
+
 /// Fills state, fault and counters of `status`.
 void fillStatus(const station::Snapshot& snapshot, Status& status);
 

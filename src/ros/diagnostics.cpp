@@ -58,6 +58,7 @@ void Diagnostics::reportForce(Report& report) {
     report.add("device", device);
   }
   report.add("slices", status_.slices);
+  report.add("delay (ticks)", status_.delay_ticks);
   report.add("slices without calibration", status_.uncalibrated.size());
   for (const EndEffector& end_effector : status_.end_effectors) {
     report.add("end-effector", end_effector.name);

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <sstream>
 #include <utility>
 
 #include "ergotic/exception.hpp"
@@ -15,6 +16,8 @@ namespace {
 // The presence switch says that it is held at least this often.
 constexpr double kPresenceS = 0.2;
 constexpr int kMaxPriority = 99;
+constexpr double kPeriodsOfSilence = 3.0;
+constexpr double kMaxWatchdogS = 1.0;
 constexpr int kWatchdogAboveTick = 5;  // it must not wait for a tick that never ends
 
 station::StationConfig stationConfig(const Parameters& parameters, const physics::Rates& rates) {
@@ -34,6 +37,14 @@ station::TimerOptions timerOptions(const Parameters& parameters) {
   options.lock_memory = realtime;
   options.cpu = parameters.cpu;
   return options;
+}
+
+/// As asked for, unless ticks come in bursts between which nothing is wrong.
+double watchdogPeriod(double asked_s, tgr::Driver& driver) {
+  const tgr::DeviceClock* const clock = driver.clock();
+  const double least_s =
+      clock == nullptr ? 0.0 : std::min(kPeriodsOfSilence * clock->periodS(), kMaxWatchdogS);
+  return std::max(asked_s, least_s);
 }
 
 /// Hears of the server's rate, plays nothing.
@@ -85,6 +96,12 @@ Engine::Engine(const Parameters& parameters,
     source_->stop();
     throw DeviceError("realtime:=require, but " + warnings_.front());
   }
+  if (watchdog_s_ > parameters.watchdog) {
+    std::ostringstream raised;
+    raised << "watchdog is " << parameters.watchdog << " s, which is raised to " << watchdog_s_
+           << " s, three periods of the device, whose ticks come in bursts";
+    warnings_.push_back(raised.str());
+  }
   if (parameters.jack) {
     audio::JackConfig jack;
     jack.name = parameters.jack_name;
@@ -107,9 +124,11 @@ Engine::~Engine() {
 void Engine::startWatchdog() {
   watchdog_ = std::make_unique<tgr::Watchdog>(station_->heartbeat(), [this](std::int64_t) {
     station_->makeSafe(tgr::FaultReason::kWatchdog);
+    silent_at_ = station_->heartbeat().load();
   });
+  watchdog_s_ = watchdogPeriod(parameters_.watchdog, station_->driver());
   tgr::WatchdogOptions options;
-  options.period_s = parameters_.watchdog;
+  options.period_s = watchdog_s_;
   options.priority = parameters_.realtime != Realtime::kOff
                          ? std::min(kMaxPriority, parameters_.priority + kWatchdogAboveTick)
                          : 0;

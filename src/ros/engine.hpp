@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,6 +40,9 @@ class Engine {
   /// \throws DeviceError if a device is still lost
   void recover();
 
+  /// The watchdog acted and no tick came since: the station cannot say so itself. Thread: any
+  bool standsStill() const { return silent_at_ == station_->heartbeat(); }
+
   /// \return nothing if it plays without JACK. Thread: any
   std::optional<audio::JackStatus> jackStatus() const;
   /// What the real-time thread could not get and what the audio host asked for since the last call.
@@ -53,6 +58,8 @@ class Engine {
   std::unique_ptr<station::TickSource> source_;
   std::unique_ptr<audio::JackHost> jack_;
   std::unique_ptr<tgr::Watchdog> watchdog_;
+  double watchdog_s_ = 0.0;
+  std::atomic<std::int64_t> silent_at_{-1};  // tick after which the watchdog acted last
   std::vector<std::string> warnings_;
 };
 

@@ -35,14 +35,15 @@ Feed::Feed(const ::ros::NodeHandle& node) : node_(node) {
   showSilence("no model yet");
 }
 
-void Feed::configure(const Parameters& parameters, const tgr::StationDevices& devices) {
-  station_config_ = toYaml(parameters, devices);
+void Feed::configure(const Parameters& parameters, const Hands& hands) {
+  station_config_ = toYaml(parameters, hands.config());
   display_zoom_ = parameters.display_zoom;
   motion_period_ns_ = static_cast<std::int64_t>(1e9 / parameters.display_rate);
   status_.devices.clear();
-  for (const tgr::DeviceConfig& device : devices.devices) {
+  for (const tgr::DeviceConfig& device : hands.config().devices) {
     status_.devices.push_back(device.driver);
   }
+  status_.delay_ticks = hands.traits().delay_ticks;
   if (parameters.compile.metered) {
     model_energy_ = node_.advertise<ModelEnergy>("model_energy", kQueue);
   }
@@ -128,6 +129,13 @@ void Feed::show(const station::Snapshot& snapshot, std::uint64_t uncalibrated) {
   if (before.state != status_.state || before.fault != status_.fault ||
       before.audio_running != status_.audio_running ||
       before.uncalibrated != status_.uncalibrated) {
+    sendStatus();
+  }
+}
+
+void Feed::showStandstill() {
+  if (status_.state != Status::FAULT) {
+    fillStatus(station::ForceState::kFault, tgr::FaultReason::kWatchdog, status_);
     sendStatus();
   }
 }

@@ -15,6 +15,7 @@
 #include "ros/convert.hpp"
 #include "ros/end_effector_frames.hpp"
 #include "ros/gesture_blocks.hpp"
+#include "ros/hands.hpp"
 #include "ros/markers.hpp"
 #include "ros/parameters.hpp"
 
@@ -26,7 +27,7 @@ class Feed {
   explicit Feed(const ::ros::NodeHandle& node);
 
   /// A station with these parameters and devices begins to play.
-  void configure(const Parameters& parameters, const tgr::StationDevices& devices);
+  void configure(const Parameters& parameters, const Hands& hands);
   /// These end-effectors stand on the slices from now on.
   void show(const tgr::EndEffectors& end_effectors);
   /// Another model plays from now on.
@@ -42,6 +43,8 @@ class Feed {
   void show(const station::GestureTick* ticks, std::size_t count);
   /// \param uncalibrated  slices, a bit each
   void show(const station::Snapshot& snapshot, std::uint64_t uncalibrated);
+  /// No ticks come, so no snapshot will say that force is latched at zero.
+  void showStandstill();
   void show(const station::MotionFrame& motion, const scene::Scene& scene);
   void show(const station::Keyframe& keyframe, const physics::Instrument& instrument);
 

@@ -53,7 +53,7 @@ void Performance::begin(std::unique_ptr<Engine> engine, station::Performer* perf
   gestures_.resize(kGestureBatch);
   submitted_ = performer;
   parameters_ = performer->parameters;
-  feed_.configure(engine_->parameters(), engine_->hands().config());
+  feed_.configure(engine_->parameters(), engine_->hands());
   show(endEffectors());
   play(performer);
   if (engine_->parameters().autoengage) {
@@ -193,6 +193,9 @@ void Performance::poll() {
   pollGestures();
   if (const station::Snapshot* snapshot = engine_->station().snapshot()) {
     feed_.show(*snapshot, engine_->station().driver().uncalibrated());
+  }
+  if (engine_->standsStill()) {
+    feed_.showStandstill();
   }
   if (playing_->motion.refresh()) {
     feed_.show(playing_->motion.latest(), playing_->instrument->scene());

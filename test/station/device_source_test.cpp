@@ -24,6 +24,7 @@ class ClockedDriver final : public test::ScriptedDriver, public tgr::DeviceClock
   tgr::DeviceClock* clock() noexcept override { return this; }
   void start(tgr::TickTarget& to) override { target = &to; }
   void stop() noexcept override { target = nullptr; }
+  double periodS() const noexcept override { return 0.001; }
 
   tgr::TickTarget* target = nullptr;
 };

@@ -175,6 +175,7 @@ TYPED_TEST_P(DriverContractTest, SaysTheSameOfItselfAsLongAsItIsOpen) {
            this->driver().uncalibrated() == uncalibrated && this->driver().damping() == damping &&
            this->driver().isRaw() == is_raw && this->driver().clock() == clock;
   };
+  EXPECT_TRUE(clock == nullptr || clock->periodS() > 0.0);
   EXPECT_TRUE(std::isfinite(damping));
   EXPECT_GE(damping, 0.0);
   if (this->slices_ < tgr::kMaxSlices) {

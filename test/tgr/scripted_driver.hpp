@@ -76,6 +76,7 @@ class ScriptedDriver final : public tgr::Driver, private tgr::DeviceClock {
  private:
   void start(tgr::TickTarget&) override {}
   void stop() noexcept override {}
+  double periodS() const noexcept override { return 0.001; }
 
   Script& script_;
 };

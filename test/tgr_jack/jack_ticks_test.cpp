@@ -174,6 +174,10 @@ TEST_F(JackTicksTest, FallsSilentWhenTheClockIsStoppedAndTakesNoForceOutsideOfTi
   EXPECT_GT(log_.positions.size(), seen);
 }
 
+TEST_F(JackTicksTest, BurstsOnceABlock) {
+  EXPECT_DOUBLE_EQ(ticks_.periodS(), static_cast<double>(kPeriod) / kRateHz);
+}
+
 TEST_F(JackTicksTest, CountsFramesThatTheHostLeftOutAsMissedTicks) {
   host_.block();
   host_.skip(2 * kPeriod + 24);

@@ -25,6 +25,9 @@ class DeviceClock {
   virtual void start(TickTarget& target) = 0;
   /// No tick runs after the return. Idempotent. Realtime: no. Thread: setup
   virtual void stop() noexcept = 0;
+  /// Time between its bursts of ticks, s: without harm no tick may come for so long. \pre the
+  /// driver is open. Realtime: no. Thread: any
+  virtual double periodS() const noexcept = 0;
 };
 
 }  // namespace ergotic::tgr

@@ -59,6 +59,8 @@ class JackTicks final : public rt::BlockProcessor, public DeviceClock {
   // DeviceClock
   void start(TickTarget& target) override;
   void stop() noexcept override { gate_.close(); }
+  /// Of a block of the host.
+  double periodS() const noexcept override { return period_ / (ratio_ * tick_rate_hz_); }
 
   // The host
   /// \throws Exception if rate or period do not fit the ticks

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Drivers that are plugins, each under a station of its own: they play, lose their device, and play
+// again when they have it back.
+#include <std_srvs/Trigger.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <ergotic/GestureBlock.h>
+#include <ergotic/Status.h>
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+
+#include "integration/child_process.hpp"
+#include "integration/listener.hpp"
+#include "support/jack_server.hpp"
+#include "support/scratch_file.hpp"
+
+namespace ergotic::test {
+namespace {
+
+using Environment = std::map<std::string, std::string>;
+
+constexpr int kAudioHz = 48000;
+constexpr int kTickHz = 3000;
+constexpr double kHandStiffness = 500.0;  // N/m, of both virtual devices
+constexpr double kTargetM = 0.015;        // far from the ends of the sensors, also if it overshoots
+constexpr double kLongS = 60.0;           // a busy machine is slow
+
+/// Force on a hand that wants to be at kTargetM behind a wall.
+constexpr double forceBehind(double wall) {
+  return -wall * kTargetM * kHandStiffness / (kHandStiffness + wall);
+}
+
+/// A wall whose surface is where the hand rests.
+std::string wallOf(double stiffness) {
+  std::ostringstream text;
+  text << R"(ergotic: 1
+name: wall
+sections:
+  hand: {rate: gestural}
+mats:
+  key: {type: slice, section: hand}
+  ground: {type: ground, section: hand, at: [0, 0]}
+lias:
+  wall: {type: spring_damper, between: [key, ground], damping: 0.5, stiffness: )"
+       << stiffness << R"(}
+ports:
+  key: {mat: key, slice: 0}
+)";
+  return text.str();
+}
+
+/// A hand that presses for half a second, every two seconds. From outside each time: a wall that
+/// appears where the hand already is may not push it away, for it never got the energy.
+std::string pressesOfAHand() {
+  constexpr int kPresses = 150;
+  std::ostringstream rows;
+  for (int n = 0; n < kPresses; ++n) {
+    rows << 2.0 * n << ",0,0\n"
+         << 2.0 * n + 0.5 << ",0,0\n"
+         << 2.0 * n + 1.0 << ",0," << kTargetM << '\n'
+         << 2.0 * n + 1.5 << ",0," << kTargetM << '\n';
+  }
+  return rows.str();
+}
+
+/// A station in a process of its own, and all that it tells.
+class StationProcess {
+ public:
+  StationProcess(const std::string& device,
+                 double wall,
+                 const std::string& jack,
+                 const Environment& environment) {
+    node_.setParam("/station/model", wallOf(wall));
+    node_.setParam("/station/device", device);
+    node_.setParam("/station/jack", jack);
+    node_.setParam("/station/jack_wait", kLongS);
+    node_.setParam("/station/audio_rate", kAudioHz);
+    node_.setParam("/station/gestural_rate", kTickHz);
+    node_.setParam("/station/ramp", 0.1);
+    node_.setParam("/station/max_stall", 1.0);
+    process_ = std::make_unique<ChildProcess>(
+        std::vector<std::string>{"/usr/lib/nodelet/nodelet", "standalone", "ergotic/Station",
+                                 "__name:=station"},
+        environment);
+  }
+  ~StationProcess() {
+    process_->signal(SIGTERM);
+    EXPECT_TRUE(process_->wait(kLongS)) << "the station does not end";
+  }
+  StationProcess(const StationProcess&) = delete;
+  StationProcess& operator=(const StationProcess&) = delete;
+
+  Status status() const { return status_.latest(); }
+  bool becomes(std::uint8_t state) const {
+    return eventually([&] { return status_.count() > 0 && status().state == state; }, kLongS);
+  }
+  std_srvs::Trigger::Response call(const std::string& service) const {
+    std_srvs::Trigger trigger;
+    EXPECT_TRUE(::ros::service::call("/station/" + service, trigger)) << service;
+    return trigger.response;
+  }
+
+  /// A hand that presses from now on meets the wall with this force, or more while it swings.
+  void expectPushesBackWith(double force) const {
+    const std::size_t from = gesture_.count();
+    EXPECT_TRUE(eventually([&] { return strongest(from) < 0.95 * force; }, kLongS))
+        << strongest(from) << " N, " << status().state_text;
+    EXPECT_GT(strongest(from), 1.5 * force);
+  }
+  /// Whether from now on a second of ticks is without force.
+  bool isWithoutForce() const {
+    const std::size_t from = gesture_.count() + 1;  // one may be under way
+    std::int64_t ticks = 0;
+    const bool enough = eventually(
+        [&] {
+          const auto blocks = gesture_.messages();
+          ticks = 0;
+          for (std::size_t i = from; i < blocks.size(); ++i) {
+            ticks += blocks[i].ticks;
+          }
+          return ticks >= kTickHz;
+        },
+        kLongS);
+    return enough && strongest(from) == 0.0;
+  }
+  void expectDiagnosticsError() const {
+    const std::size_t before = diagnostics_.count();
+    EXPECT_TRUE(eventually([&] {
+      const auto seen = diagnostics_.messages();
+      return std::any_of(seen.begin() + static_cast<std::ptrdiff_t>(before), seen.end(),
+                         [&](const auto& array) {
+                           const auto& force = array.status.front();
+                           return force.level == diagnostic_msgs::DiagnosticStatus::ERROR &&
+                                  force.message == status().state_text;
+                         });
+    }));
+  }
+  /// From a fault, with the device back, to force. \param force  as `expectPushesBackWith`
+  void expectComesBack(double force) const {
+    std_srvs::Trigger::Response answer;
+    double took_s = 0.0;
+    const bool recovered = eventually(
+        [&] {
+          const auto before = std::chrono::steady_clock::now();
+          answer = call("recover");
+          took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+          return answer.success != 0U;
+        },
+        kLongS);
+    ASSERT_TRUE(recovered) << answer.message;
+    std::cout << "recovered in " << took_s << " s\n";
+    EXPECT_TRUE(becomes(Status::READY));
+    EXPECT_TRUE(isWithoutForce()) << "force came back by itself";
+    answer = call("engage");
+    ASSERT_TRUE(answer.success) << answer.message;
+    expectPushesBackWith(force);
+  }
+
+ private:
+  /// Most negative force of slice 0 in the blocks from this one on.
+  double strongest(std::size_t from) const {
+    double least = 0.0;
+    const auto blocks = gesture_.messages();
+    for (std::size_t n = from; n < blocks.size(); ++n) {
+      for (std::uint32_t i = 0; i < blocks[n].ticks; ++i) {
+        least = std::min(least,
+                         static_cast<double>(blocks[n].forces[std::size_t{i} * blocks[n].slices]));
+      }
+    }
+    return least;
+  }
+
+  ::ros::NodeHandle node_;
+  Listener<Status> status_{node_, "/station/status"};
+  Listener<GestureBlock> gesture_{node_, "/station/gesture"};
+  Listener<diagnostic_msgs::DiagnosticArray> diagnostics_{node_, "/diagnostics"};
+  std::unique_ptr<ChildProcess> process_;
+};
+
+// The board falls out of its slot after so many ticks, in which the station has to have played.
+constexpr int kPluggedInS = 25;
+constexpr int kUnpluggedS = 2;
+constexpr double kBoardWall = 1000.0;  // N/m
+
+TEST(ComediStationTest, PlaysUntilItsBoardIsGoneAndAgainWhenItIsBack) {
+  const ScratchFile gesture(pressesOfAHand());
+  const StationProcess station(
+      ERGOTIC_SOURCE_DIR "/config/comedi.yaml", kBoardWall, "none",
+      {{"LD_PRELOAD", COMEDI_STANDIN},
+       {"COMEDI_STANDIN_RATE_HZ", std::to_string(kTickHz)},
+       {"COMEDI_STANDIN_GESTURE", gesture.path()},
+       {"COMEDI_STANDIN_FAULTS", "unplug:0:" + std::to_string(kPluggedInS * kTickHz) +
+                                     ":1:" + std::to_string(kUnpluggedS)}});
+  ASSERT_TRUE(station.becomes(Status::READY)) << station.status().message;
+  EXPECT_EQ(station.status().devices, std::vector<std::string>{"comedi"});
+  EXPECT_EQ(station.status().delay_ticks, 1.0);
+  EXPECT_EQ(station.status().gestural_rate, kTickHz);
+
+  ASSERT_TRUE(station.call("engage").success);
+  station.expectPushesBackWith(forceBehind(kBoardWall));
+
+  ASSERT_TRUE(station.becomes(Status::FAULT));
+  EXPECT_EQ(station.status().fault, Status::FAULT_DEVICE_LOST) << station.status().state_text;
+  station.expectDiagnosticsError();
+  EXPECT_TRUE(station.isWithoutForce());
+  station.expectComesBack(forceBehind(kBoardWall));
+}
+
+// A period so long that the watchdog has to be told, and a wall that is soft enough for it.
+constexpr int kPeriod = 512;
+constexpr double kCardWall = 100.0;  // N/m
+
+const char kCard[] = R"(devices:
+  - driver: jack
+    settings:
+      slices: 1
+      position_ports: ["jack_tgr:position_1"]
+      force_ports: ["jack_tgr:force_1"]
+      heartbeat_port: "jack_tgr:heartbeat"
+      volts_per_unit: 10
+      wait_s: 3
+    calibration:
+      - {metres_per_volt: 0.005, volts_per_newton: 0.05}
+)";
+
+class JackStationTest : public ::testing::Test {
+ protected:
+  JackStationTest() {
+    server_.start();
+    plugIn();
+  }
+  void plugIn() {
+    device_.emplace(std::vector<std::string>{std::string(ERGOTIC_TOOLS_DIR) + "/jack_tgr",
+                                             "--server", server_.name(), "--slices", "1",
+                                             "--gesture", gesture_.path(), "--watchdog-ms", "500"});
+  }
+
+  JackServer server_{"drivers", {kAudioHz, kPeriod, 2}};
+  const ScratchFile gesture_{pressesOfAHand()};
+  std::optional<ChildProcess> device_;
+};
+
+TEST_F(JackStationTest, PlaysUntilItsCardIsGoneAndAgainWhenItIsBack) {
+  const StationProcess station(kCard, kCardWall, "auto", {{"JACK_DEFAULT_SERVER", server_.name()}});
+  ASSERT_TRUE(station.becomes(Status::READY)) << station.status().message;
+  EXPECT_EQ(station.status().devices, std::vector<std::string>{"jack"});
+  EXPECT_EQ(station.status().delay_ticks, 1.0 + kPeriod * kTickHz / kAudioHz);
+  EXPECT_TRUE(eventually([&] { return station.status().audio_running != 0U; }));
+  EXPECT_TRUE(eventually([&] {
+    return station.status().message.find("watchdog is 0.02 s, which is raised to 0.032 s") !=
+           std::string::npos;
+  })) << station.status().message;
+
+  ASSERT_TRUE(station.call("engage").success);
+  station.expectPushesBackWith(forceBehind(kCardWall));
+
+  device_->signal(SIGKILL);
+  ASSERT_TRUE(station.becomes(Status::FAULT));
+  EXPECT_TRUE(station.status().fault == Status::FAULT_DEVICE_LOST ||
+              station.status().fault == Status::FAULT_WATCHDOG ||
+              station.status().fault == Status::FAULT_STALL)  // JACK waits for the dead client
+      << station.status().state_text;
+  station.expectDiagnosticsError();
+  EXPECT_TRUE(station.isWithoutForce());
+  const auto refused = station.call("recover");
+  EXPECT_FALSE(refused.success) << "there is no device";
+  EXPECT_NE(refused.message.find("jack_tgr"), std::string::npos) << refused.message;
+
+  plugIn();
+  station.expectComesBack(forceBehind(kCardWall));
+}
+
+TEST_F(JackStationTest, SaysThatItsServerIsGoneThoughNothingTicks) {
+  const StationProcess station(kCard, kCardWall, "auto", {{"JACK_DEFAULT_SERVER", server_.name()}});
+  ASSERT_TRUE(station.becomes(Status::READY)) << station.status().message;
+  ASSERT_TRUE(station.call("engage").success);
+  station.expectPushesBackWith(forceBehind(kCardWall));
+
+  server_.kill();
+  ASSERT_TRUE(station.becomes(Status::FAULT));
+  EXPECT_EQ(station.status().fault, Status::FAULT_WATCHDOG) << station.status().state_text;
+  station.expectDiagnosticsError();
+  EXPECT_FALSE(station.call("recover").success) << "there is no server";
+
+  server_.start();
+  station.expectComesBack(forceBehind(kCardWall));
+}
+
+}  // namespace
+}  // namespace ergotic::test
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ::ros::init(argc, argv, "drivers_rostest");
+  ::ros::AsyncSpinner spinner(2);
+  spinner.start();
+  return RUN_ALL_TESTS();
+}

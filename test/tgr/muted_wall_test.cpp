@@ -60,6 +60,16 @@ class MutedWallTest : public ::testing::TestWithParam<Hand> {
     EXPECT_EQ(loop_.chain().fault(), FaultReason::kNone);
   }
 
+  void moveTo(double target) {
+    const double from = aim_;
+    for (int i = 1; i <= 500; ++i) {
+      aim_ = from + (target - from) * i / 500.0;
+      loop_.aimAt(aim_);
+      loop_.run(0.001, wall_);
+    }
+    loop_.run(0.5, wall_);
+  }
+
   /// Less than what the walls store, so that it would tell if that were not known to be theirs.
   static SafetyConfig strictOnModels() {
     SafetyConfig config;
@@ -72,15 +82,6 @@ class MutedWallTest : public ::testing::TestWithParam<Hand> {
   WallLoop loop_{noisyDevice(GetParam().hand_n_per_m), config_, GetParam().rate_hz};
 
  private:
-  void moveTo(double target) {
-    const double from = aim_;
-    for (int i = 1; i <= 500; ++i) {
-      aim_ = from + (target - from) * i / 500.0;
-      loop_.aimAt(aim_);
-      loop_.run(0.001, wall_);
-    }
-    loop_.run(0.5, wall_);
-  }
   double aim_ = 0.0;
 };
 
@@ -101,6 +102,19 @@ TEST_P(MutedWallTest, ComesWholeToAHandThatIsInside) {
   loop_.resume(10);
   loop_.run(config_.resume_ramp_s, wall_);
   expectTheWholeWall();
+}
+
+/// Its force was not seen to grow from nothing.
+TEST_P(MutedWallTest, ComesWholeToAHandThatIsInsideWhenTheModelComes) {
+  const Wall wall = wall_;
+  wall_ = {0.0, 0.0, 0.0};
+  engage();
+  moveTo(-kDepthM);
+  wall_ = wall;
+  loop_.resume(10);
+  loop_.run(config_.resume_ramp_s + 1.0, wall_);  // soft hands are pushed out, and come again
+  EXPECT_GT(leastShare(), 0.98);
+  EXPECT_EQ(loop_.chain().fault(), FaultReason::kNone);
 }
 
 TEST_P(MutedWallTest, IsNoFaultForAHandThatGoesOutAfterwards) {

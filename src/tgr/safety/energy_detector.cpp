@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ergotic/rt/realtime.hpp"
+#include "ergotic/tgr/safety/port_energy.hpp"
 
 namespace ergotic::tgr {
 namespace {
@@ -28,7 +29,7 @@ ERGOTIC_REALTIME bool EnergyDetector::look(double force, double dx) noexcept {
   energy_ = bound + kept_ * (energy_ - bound);
   const double next = std::clamp(force, -rules_.force_limit_n, rules_.force_limit_n);
   if (next * last_force_ <= 0.0) {
-    way_ = 0.0;
+    way_ = anew_ && next != 0.0 ? -std::copysign(PortEnergy::kUnknownWayM, next) : 0.0;
   }
   last_force_ = next;
   if (anew_) {

@@ -33,9 +33,10 @@ ERGOTIC_REALTIME double PortEnergy::predicted(double dx) const noexcept {
 
 ERGOTIC_REALTIME void PortEnergy::follow(double force) noexcept {
   if (force * wanted_ <= 0.0) {
-    way_ = 0.0;
+    way_ = is_lost_ && force != 0.0 ? -std::copysign(kUnknownWayM, force) : 0.0;
   }
   wanted_ = force;
+  is_lost_ = false;
 }
 
 ERGOTIC_REALTIME void PortEnergy::lift(double gain_change) noexcept {

@@ -31,7 +31,9 @@ SliceChain::SliceChain(const SafetyConfig& config, double tick_s, int delay_tick
       slew_(config.slew_n_per_s * tick_s),
       force_limit_(config.force_limit_n),
       port_({config.energy_cap_j, config.energy_supply_w, config.slice_damping, tick_s,
-             delay_ticks}) {}
+             delay_ticks}) {
+  port_.loseTrack();
+}
 
 ERGOTIC_REALTIME FaultReason SliceChain::accept(double& x, std::int64_t ticks) noexcept {
   const FaultReason reason = position_.accept(x, ticks);
@@ -100,6 +102,7 @@ ERGOTIC_REALTIME void SliceChain::engage() noexcept {
 ERGOTIC_REALTIME void SliceChain::resume() noexcept {
   turnTo(0.0);
   port_.withdraw();
+  port_.loseTrack();
   blow_up_.forget();
   detector_.restart();
 }
@@ -118,6 +121,7 @@ ERGOTIC_REALTIME void SliceChain::forget() noexcept {
   recover();
   detector_.forget();
   port_.follow(0.0);
+  port_.loseTrack();
   knows_x_ = false;
   dx_ = 0.0;
   way_ = 0.0;

@@ -42,6 +42,9 @@ class PortEnergy {
 
   /// The model wants this force, at the position of the last `moved`. \param force  N, limited
   void follow(double force) noexcept;
+  /// Nobody knows where the force that comes next was 0: it is taken to be kUnknownWayM away, to
+  /// where it pushes. A hand that rests in a wall when a model comes is to feel all of it.
+  void loseTrack() noexcept { is_lost_ = true; }
   /// The gain of the force has changed.
   void lift(double gain_change) noexcept;
 
@@ -60,6 +63,7 @@ class PortEnergy {
   void forget() noexcept;
 
   static constexpr int kMaxDelayTicks = 256;
+  static constexpr double kUnknownWayM = 0.02;
 
  private:
   double cap_j_;
@@ -71,6 +75,7 @@ class PortEnergy {
   double least_ = 0.0;
   double wanted_ = 0.0;  // by the model, N
   double way_ = 0.0;     // since that was 0, m
+  bool is_lost_ = false;
 };
 
 }  // namespace ergotic::tgr

@@ -142,6 +142,12 @@ Text textOrFile(const std::string& value, const std::string& inline_name) {
 
 /// One device without calibration, as `driver` and the settings of the virtual one say.
 tgr::StationDevices plainDevice(const Parameters& p) {
+  const bool is_virtual = !p.gesture.empty() || !p.virtual_shared_memory.empty();
+  if (is_virtual && !p.driver_settings.empty()) {
+    throw Exception(
+        "parameter driver_settings stands beside gesture or virtual_shared_memory, allowed: all "
+        "of them in driver_settings");
+  }
   YAML::Emitter settings;
   settings << YAML::Flow << YAML::BeginMap;
   if (!p.gesture.empty()) {
@@ -155,8 +161,9 @@ tgr::StationDevices plainDevice(const Parameters& p) {
   devices.file = "parameters";
   devices.devices.resize(1);
   devices.devices.front().driver = p.driver;
-  devices.devices.front().settings = settings.c_str();
-  devices.devices.front().place = "parameter driver";
+  devices.devices.front().settings =
+      p.driver_settings.empty() ? settings.c_str() : p.driver_settings;
+  devices.devices.front().place = "parameter driver_settings";
   return devices;
 }
 
@@ -168,6 +175,7 @@ Parameters readParameters(const ::ros::NodeHandle& node) {
   read.text("model", p.model);
   read.text("device", p.device);
   read.text("driver", p.driver);
+  read.text("driver_settings", p.driver_settings);
   read.text("gesture", p.gesture);
   read.text("virtual_shared_memory", p.virtual_shared_memory);
   read.text("end_effectors", p.end_effectors);

@@ -25,6 +25,7 @@ struct Parameters {
   std::string device;                 ///< devices: path of a file, or its YAML text; empty: one,
                                       ///< made of the next three
   std::string driver = "virtual";     ///< name, see DriverPlugins
+  std::string driver_settings;        ///< YAML map, of that driver; empty: none
   std::string gesture;                ///< CSV that the virtual hand follows; empty: none
   std::string virtual_shared_memory;  ///< segment of a `virtual_tgr`; empty: device inside
   double audio_rate = 44100.0;        ///< Hz, without a JACK server

@@ -206,6 +206,15 @@ void Station::takeCoefficients(const Command& command) noexcept {
   handBack(taken);
 }
 
+/// From `glide_`, where the ports were, to where they are now.
+void Station::glideFromThere() noexcept {
+  const std::vector<double>& there = performer_->positions;
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    glide_[i] -= there[i];
+  }
+  gliding_ = glide_ticks_;
+}
+
 /// What the ports of the present model did under the old rig, they leave in a glide: the model is
 /// not struck by a change of hands.
 void Station::takeRig(tgr::Rig* next) noexcept {
@@ -221,10 +230,7 @@ void Station::takeRig(tgr::Rig* next) noexcept {
   std::copy(performer_->positions.begin(), performer_->positions.end(), glide_.begin());
   const double time_s = 1e-9 * tick_ns_ * static_cast<double>(performer_->ticks);
   next->toModel(position_.data(), time_s, performer_->positions.data());
-  for (std::size_t i = 0; i < performer_->positions.size(); ++i) {
-    glide_[i] -= performer_->positions[i];
-  }
-  gliding_ = glide_ticks_;
+  glideFromThere();
   handBack(configured);
 }
 

@@ -11,7 +11,8 @@
 namespace ergotic::station {
 namespace {
 
-constexpr double kTrustedDamping = 0.5;  // of what a driver says of its device
+constexpr double kTrustedDamping = 0.5;        // of what a driver says of its device
+constexpr double kMostTrustedDamping = 100.0;  // N s/m
 constexpr double kSwapFadeS = 0.005;
 constexpr std::size_t kMaxKeyframeParameters = 1U << 12U;
 
@@ -41,7 +42,7 @@ int openDriver(tgr::Driver& driver, double tick_rate_hz) {
 
 tgr::SafetyConfig safetyOf(const StationConfig& config, const tgr::Driver& driver) {
   tgr::SafetyConfig safety = config.safety;
-  safety.slice_damping = kTrustedDamping * driver.damping();
+  safety.slice_damping = std::min(kTrustedDamping * driver.damping(), kMostTrustedDamping);
   return safety;
 }
 
@@ -84,6 +85,7 @@ Station::Station(const StationConfig& config,
       fade_(static_cast<int>(std::ceil(kSwapFadeS * config.rates.gesturalHz())),
             config.rates.ratio),
       performer_(std::move(performer)),
+      uncalibrated_(driver_->uncalibrated()),
       frames_out_(samples(config.rates.ratio, config.output_channels)),
       frames_in_(samples(config.rates.ratio, config.input_channels)),
       commands_(config.command_ring),
@@ -260,7 +262,16 @@ void Station::movePorts(const Slices& positions) noexcept {
   position_ = positions;
   Performer& p = *performer_;
   const double time_s = 1e-9 * tick_ns_ * static_cast<double>(p.ticks++);
+  const std::uint64_t uncalibrated = driver_->uncalibrated();
+  const std::uint64_t changed = std::exchange(uncalibrated_, uncalibrated) ^ uncalibrated;
+  const bool other_scale = (changed & p.rig->slicesInUse()) != 0;
+  if (other_scale) {
+    std::copy(p.positions.begin(), p.positions.end(), glide_.begin());
+  }
   const std::uint64_t beyond = p.rig->toModel(positions.data(), time_s, p.positions.data());
+  if (other_scale) {
+    glideFromThere();
+  }
   if (beyond != 0) {
     fault(FaultReason::kWorkspace, lowestBit(beyond));
   }

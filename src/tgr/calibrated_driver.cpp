@@ -18,7 +18,11 @@ namespace ergotic::tgr {
 namespace {
 
 using Slices = std::array<double, kMaxSlices>;
-using Table = std::array<SliceCalibration, kMaxSlices>;
+/// What the tick goes by.
+struct Table {
+  std::array<SliceCalibration, kMaxSlices> slices;
+  std::uint64_t uncalibrated = 0;  // bits
+};
 
 ERGOTIC_REALTIME double positionOf(double volts, const SliceCalibration& c) noexcept {
   if (!c.is_calibrated) {
@@ -55,6 +59,8 @@ class CalibratedDriverOverRaw final : public CalibratedDriver {
       checkCalibration(calibration_.slices[i], " of slice " + std::to_string(i));
     }
     publish();
+    table_.refresh();
+    uncalibrated_ = table_.latest().uncalibrated;
   }
 
   void open(double tick_rate_hz) override { raw_->open(tick_rate_hz); }
@@ -87,7 +93,8 @@ class CalibratedDriverOverRaw final : public CalibratedDriver {
   ERGOTIC_REALTIME std::uint32_t exchange(const double* forces,
                                           double* positions) noexcept override {
     table_.refresh();
-    const Table& table = table_.latest();
+    const auto& table = table_.latest().slices;
+    uncalibrated_ = table_.latest().uncalibrated;  // with the positions that it goes with
     const auto count = static_cast<std::size_t>(slices());
     for (std::size_t i = 0; i < count; ++i) {
       outputs_[i] = voltsOf(forces[i], table[i]);
@@ -106,14 +113,13 @@ class CalibratedDriverOverRaw final : public CalibratedDriver {
 
  private:
   void publish() noexcept {
-    std::uint64_t missing = 0;
     Table& table = table_.draft();
+    table.uncalibrated = 0;
     for (std::size_t i = 0; i < calibration_.slices.size(); ++i) {
-      table[i] = calibration_.slices[i];
-      missing |= table[i].is_calibrated ? 0U : std::uint64_t{1} << i;
+      table.slices[i] = calibration_.slices[i];
+      table.uncalibrated |= table.slices[i].is_calibrated ? 0U : std::uint64_t{1} << i;
     }
     table_.publish();
-    uncalibrated_ = missing;
   }
 
   std::unique_ptr<Driver> raw_;

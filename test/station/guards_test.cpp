@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -62,9 +64,29 @@ TEST(CalibrationGuardTest, ForceNeedsEverySliceInUseToBeCalibrated) {
             static_cast<int>(Refusal::kUncalibrated));
   bench.driver->uncalibrated_slices = 0b10;  // one that moves nothing
   EXPECT_EQ(stateOf(bench), ForceState::kReady);
+  bench.run(kRampTicks);  // the port glides to where the hand is
   bench.command(Command::Type::kEngage);
   bench.run(kRampTicks);
   EXPECT_EQ(bench.log.forces[0], -1.0);
+}
+
+TEST(CalibrationGuardTest, AFirstCalibrationLetsThePortGlideToWhereTheHandIs) {
+  bool calibrated = false;
+  Bench bench({}, [&](std::int64_t, int) { return calibrated ? 0.02 : 0.0; });
+  bench.driver->uncalibrated_slices = 0b01;
+  bench.run(10);
+  calibrated = true;
+  bench.driver->uncalibrated_slices = 0;
+  bench.run(400);
+  std::vector<GestureTick> ticks(500);
+  ASSERT_EQ(bench.station->pollGestures(ticks.data(), ticks.size()), 410U);
+  double largest = 0.0;
+  for (std::size_t n = 1; n < 410; ++n) {
+    largest = std::max(largest, std::abs(ticks[n].port[0] - ticks[n - 1].port[0]));
+  }
+  EXPECT_LE(largest, 0.02 / 314.0) << "0.1 s at 3150 Hz";
+  EXPECT_EQ(ticks[409].port[0], 0.02);
+  EXPECT_EQ(test::count(bench.events(), Event::Type::kFault), 0);
 }
 
 TEST(CalibrationGuardTest, LosingACalibrationTakesTheForceAtOnceAndForGood) {

@@ -119,8 +119,9 @@ std::unique_ptr<station::Performer> makeSpring(const SpringInstrument::Setting& 
 
 Bench::Bench(const SpringInstrument::Setting& setting,
              ScriptedDriver::Position position,
-             const station::StationConfig& config) {
-  auto made = std::make_unique<ScriptedDriver>(2, log, std::move(position));
+             const station::StationConfig& config,
+             int slices) {
+  auto made = std::make_unique<ScriptedDriver>(slices, log, std::move(position));
   driver = made.get();
   auto performer = makeSpring(setting);
   instrument = static_cast<SpringInstrument*>(performer->instrument.get());

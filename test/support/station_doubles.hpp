@@ -114,7 +114,8 @@ struct Bench {
   explicit Bench(
       const SpringInstrument::Setting& setting = {},
       ScriptedDriver::Position position = [](std::int64_t, int) { return 0.01; },
-      const station::StationConfig& config = quickConfig());
+      const station::StationConfig& config = quickConfig(),
+      int slices = 2);
   /// Short ramp, small rings.
   static station::StationConfig quickConfig();
 

@@ -150,13 +150,13 @@ TEST(MakeDriversTest, PutsCalibrationsInFrontOfRawDevicesAndFaultsInFrontOfAll) 
   EXPECT_EQ(stack.raw_parts[0].first_slice, 2);
   EXPECT_EQ(stack.driver->uncalibrated(), 0b1000U);
   stack.raw_parts[0].calibrated->set(1, stack.raw_parts[0].calibrated->calibration().slices[0]);
-  EXPECT_EQ(stack.driver->uncalibrated(), 0U);
   stack.driver->open(1000.0);
   scripts[0].positions = {0.01, 0.02};
   scripts[1].positions = {1.0, 2.0};
   const std::array<double, 4> forces{1.0, 2.0, 3.0, 4.0};
   std::array<double, 4> x{};
   stack.driver->exchange(forces.data(), x.data());
+  EXPECT_EQ(stack.driver->uncalibrated(), 0U);
   EXPECT_EQ(x, (std::array<double, 4>{0.01, 0.02, 0.005, 0.01}));
   EXPECT_DOUBLE_EQ(scripts[1].forces[1], 0.2);
   ASSERT_NE(stack.faulty, nullptr);

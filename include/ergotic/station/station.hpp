@@ -147,6 +147,7 @@ class Station {
   void runTick(const Slices& positions, std::uint32_t flags) noexcept;
   bool pullInputs() noexcept;
   void movePorts(const Slices& positions) noexcept;
+  void glideFromThere() noexcept;
   void tickInstrument() noexcept;
   void pushFrames() noexcept;
   void updateForces(bool muted) noexcept;
@@ -196,6 +197,7 @@ class Station {
   SwapFade fade_;
   std::unique_ptr<Performer> performer_;
   std::unique_ptr<Performer> incoming_;  // waits for the fade-out
+  std::uint64_t uncalibrated_;           // slices, as of the last tick
   std::int64_t tick_ = 0;
   ForceState state_ = ForceState::kReady;
   FaultReason fault_ = FaultReason::kNone;

@@ -57,7 +57,7 @@ SliceCalibration fit(const std::vector<CalibrationPoint>& points,
 /// change while ticks go on.
 class CalibratedDriver : public Driver {
  public:
-  /// Takes effect with a later exchange. Thread: operator
+  /// Takes effect with a later exchange, which `uncalibrated` then tells of. Thread: operator
   /// \throws Exception if a slice does not exist or a number is out of range
   virtual void set(int slice, const SliceCalibration& calibration) = 0;
   /// Thread: operator

@@ -55,11 +55,13 @@ ERGOTIC_REALTIME void SliceChain::moved(double x, std::int64_t ticks) noexcept {
 }
 
 ERGOTIC_REALTIME FaultReason SliceChain::inspect(double raw, bool open) noexcept {
-  const FaultReason reason = blow_up_.look(raw);
+  FaultReason reason = blow_up_.look(raw);
   if (std::isfinite(raw)) {
     peak_raw_ = std::max(peak_raw_, std::abs(raw));
     port_.follow(force_limit_.limited(raw));
-    if (!open) {
+    if (!open) {  // a force that nobody feels may do what it likes
+      reason = FaultReason::kNone;
+      blow_up_.forget();
       detector_.restart();
     }
     const bool fine = detector_.look(raw, way_);

@@ -56,7 +56,7 @@ inline std::vector<FaultCase> faultCases() {
        2.0,
        {Status::FAULT_STALL, Status::FAULT_WATCHDOG},
        10.0,
-       "the device's own watchdog",
+       "max_stall, once it goes on; before, only a watchdog of the device",
        true},
       {"device: does not take forces", "write_fails", kLong, 0.0, {Status::FAULT_WRITE_FAILED}},
       {"device: unplugged", "unplugged", kLong, 0.0, {Status::FAULT_DEVICE_LOST}},

@@ -165,8 +165,11 @@ TEST(HostileModelsTest, NoForceLeavesTheChainThatMayNot) {
     std::int64_t faults = 0;
     for (std::int64_t n = 0; n < allTicks() / 2; ++n) {
       std::array<double, kSlices> x{};
+      std::array<double, kSlices> v{};
       for (std::size_t i = 0; i < kSlices; ++i) {
+        const double before = hand[i];
         hand[i] = 0.999 * hand[i] + 2e-4 * chance.gauss();
+        v[i] = (hand[i] - before) * kRateHz;
         x[i] = hostileSample(hand[i], chance);
       }
       operate(chain, chance);
@@ -176,7 +179,7 @@ TEST(HostileModelsTest, NoForceLeavesTheChainThatMayNot) {
       }
       std::array<double, kSlices> force{};
       for (std::size_t i = 0; i < kSlices; ++i) {
-        force[i] = models[i](x[i], 0.0);
+        force[i] = models[i](x[i], v[i]);
       }
       const bool was_well = chain.fault() == FaultReason::kNone;
       chain.limit(force.data());

@@ -89,11 +89,11 @@ TEST_F(ComediCalibrationTest, FindsPositionsAndForcesOfACrookedBoard) {
   EXPECT_NEAR(calibration.metres_per_volt, board_.metres_per_volt, 1e-6);
   EXPECT_NEAR(calibration.rest_volts, board_.rest_volts, 1e-3);
   driver_->set(0, calibration);
-  EXPECT_EQ(driver_->uncalibrated(), 0U);
   constexpr double kCountM = 0.0028 * kVoltsPerCount;  // of the input
   const double output_count_m = 17.0 * kVoltsPerCount / board_.slice.hand_stiffness;
   comediStandinHold(0, 0.005);
   EXPECT_NEAR(settle(0.0)[0], 0.005, 2.0 * kCountM);
+  EXPECT_EQ(driver_->uncalibrated(), 0U) << "from the first exchange with the new calibration on";
   EXPECT_NEAR(settle(3.0)[0], 0.005 + 3.0 / board_.slice.hand_stiffness,
               2.0 * kCountM + output_count_m);
   EXPECT_NEAR(settle(-3.0)[0], 0.005 - 3.0 / board_.slice.hand_stiffness,

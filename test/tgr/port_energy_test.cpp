@@ -91,6 +91,48 @@ TEST(PortEnergyTest, GivesCreditForTheDampingOfTheSliceWhileThereIsForce) {
   EXPECT_DOUBLE_EQ(port.energy(), -2e-3 + 2.0 * 1e-6 / 1e-3 * 1.25);
 }
 
+/// A spring is pushed to and fro at up to 0.1 m/s. \return lowest energy in the last 50 ms, J
+double leastOfASpring(PortEnergy& port, double stiffness, double seconds) {
+  constexpr double kTick = 1e-3;
+  constexpr double kDepthM = 0.002;
+  const auto ticks = static_cast<int>(seconds / kTick);
+  double least = 0.0;
+  double last = 0.0;
+  for (int n = 0; n < ticks; ++n) {
+    const double x = kDepthM * (std::cos(50.0 * kTick * n) - 1.0);
+    port.moved(n == 0 ? 0.0 : x - last, 1);
+    last = x;
+    port.follow(-stiffness * x);
+    port.issue(-stiffness * x);
+    least = n >= ticks - 50 ? std::min(least, port.energy()) : least;
+  }
+  return least;
+}
+
+TEST(PortEnergyTest, GivesCreditAsLongAsTheDampingIsEnoughForWhatSamplingGivesOut) {
+  PortEnergy::Rules damped = rules();
+  damped.damping = 2.0;
+  const double passive = 2.0 * damped.damping / (3.0 * damped.tick_s);
+  PortEnergy soft(damped);
+  EXPECT_GE(leastOfASpring(soft, 0.95 * passive, 1.0), 0.0);
+  PortEnergy stiff(damped);
+  PortEnergy alone(rules());
+  EXPECT_DOUBLE_EQ(leastOfASpring(stiff, 1.05 * passive, 1.0),
+                   leastOfASpring(alone, 1.05 * passive, 1.0));
+  EXPECT_LT(stiff.energy(), -0.01) << "it pays for itself";
+}
+
+TEST(PortEnergyTest, SoonForgetsHowStiffAContactWas) {
+  PortEnergy::Rules damped = rules();
+  damped.damping = 2.0;
+  const double passive = 2.0 * damped.damping / (3.0 * damped.tick_s);
+  PortEnergy port(damped);
+  leastOfASpring(port, 2.0 * passive, 0.5);
+  leastOfASpring(port, 0.5 * passive, 0.2);
+  port.restart();
+  EXPECT_GE(leastOfASpring(port, 0.5 * passive, 1.0), 0.0);
+}
+
 TEST(PortEnergyTest, SuppliesPowerUpToTheCap) {
   PortEnergy::Rules supplied = rules();
   supplied.supply_w = 1.0;

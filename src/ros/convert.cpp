@@ -227,6 +227,7 @@ void fillStatus(const station::Snapshot& snapshot, Status& status) {
   status.peak_force = counters.peak_force_n;
   status.port_energy_min = counters.port_energy_min_j;
   status.clamped_ticks = counters.clamped_ticks;
+  status.muted_ticks = counters.muted_ticks;
 }
 
 void fillStatus(std::uint64_t uncalibrated, Status& status) {

@@ -66,6 +66,7 @@ void Diagnostics::reportForce(Report& report) {
   report.add("peak force (N)", status_.peak_force);
   report.add("least energy of a slice (J)", status_.port_energy_min);
   report.add("ticks in which the energy clamp acted", status_.clamped_ticks);
+  report.add("ticks in which a still sensor muted its slice", status_.muted_ticks);
 }
 
 void Diagnostics::reportRealtime(Report& report) {

@@ -39,6 +39,7 @@ void Station::publish() noexcept {
     const tgr::SliceReading reading = chain_.reading(slice);
     s.counters.port_energy_min_j = std::min(s.counters.port_energy_min_j, reading.least_energy_j);
     s.counters.clamped_ticks += reading.clamped_ticks;
+    s.counters.muted_ticks += reading.muted_ticks;
   }
   s.slice_position = position_;
   s.slice_velocity = velocity_;

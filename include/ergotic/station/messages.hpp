@@ -138,6 +138,7 @@ struct Counters {
   double peak_force_n = 0.0;
   double port_energy_min_j = 0.0;  ///< least of any slice; below 0: so much it gave out
   std::int64_t clamped_ticks = 0;  ///< in which the energy clamp cut a force, summed over slices
+  std::int64_t muted_ticks = 0;    ///< in which a sensor stood still, without force, summed as well
   double load_mean = 0.0;          ///< compute time over tick period, smoothed over about a second
   double load_peak = 0.0;
 };

@@ -3,11 +3,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "ergotic/rt/realtime.hpp"
 
 namespace ergotic::tgr {
 namespace {
+
+constexpr double kStillS = 0.009;
+constexpr std::int64_t kLeastStill = 24;  // samples: fewer may be the same by chance
+
+std::int64_t ticksOf(double seconds, double tick_s) {
+  return static_cast<std::int64_t>(std::ceil(seconds / tick_s));
+}
+
+PositionCheck::Rules positionRules(const SafetyConfig& config, double tick_s) {
+  PositionCheck::Rules rules;
+  rules.limit_m = config.position_limit_m;
+  rules.max_step_m = config.max_speed_m_per_s * tick_s;
+  if (config.frozen_s > 0.0) {
+    rules.frozen_ticks = ticksOf(config.frozen_s, tick_s);
+    rules.still_ticks = std::max(ticksOf(kStillS, tick_s), kLeastStill);
+  }
+  return rules;
+}
 
 EnergyDetector::Rules energyRules(const SafetyConfig& config) {
   EnergyDetector::Rules rules;
@@ -22,16 +41,16 @@ EnergyDetector::Rules energyRules(const SafetyConfig& config) {
 }  // namespace
 
 SliceChain::SliceChain(const SafetyConfig& config, double tick_s, int delay_ticks)
-    : position_({config.position_limit_m, config.max_speed_m_per_s * tick_s,
-                 static_cast<std::int64_t>(std::ceil(config.frozen_s / tick_s))}),
+    : position_(positionRules(config, tick_s)),
       blow_up_(config.force_limit_n, config.raw_force_limit_n),
       detector_(energyRules(config), tick_s),
       controller_(config.slice_mass_kg, tick_s),
       controls_(config.passivity_controller),
       slew_(config.slew_n_per_s * tick_s),
       force_limit_(config.force_limit_n),
-      port_({config.energy_cap_j, config.energy_supply_w, config.slice_damping, tick_s,
-             delay_ticks}) {
+      port_(
+          {config.energy_cap_j, config.energy_supply_w, config.slice_damping, tick_s, delay_ticks}),
+      trust_step_(tick_s / config.resume_ramp_s) {
   port_.loseTrack();
 }
 
@@ -73,9 +92,19 @@ ERGOTIC_REALTIME FaultReason SliceChain::inspect(double raw, bool open) noexcept
   return reason;
 }
 
+/// A sensor that may be frozen gives no force until it moves; then force comes back by a ramp.
+ERGOTIC_REALTIME double SliceChain::trust() noexcept {
+  if (position_.isStill()) {
+    trust_ = 0.0;
+    ++muted_ticks_;
+    return trust_;
+  }
+  return std::exchange(trust_, std::min(1.0, trust_ + trust_step_));
+}
+
 ERGOTIC_REALTIME double SliceChain::limited(double raw, double gain) noexcept {
-  turnTo(gain);
-  double wanted = gain * raw;
+  turnTo(trust() * gain);
+  double wanted = gain_ * raw;
   if (controls_) {
     wanted = controller_.damped(wanted, dx_, port_.energy());
   }
@@ -115,7 +144,9 @@ ERGOTIC_REALTIME void SliceChain::recover() noexcept {
   detector_.restart();
   port_.forget();
   gain_ = 0.0;
+  trust_ = 1.0;
   clamped_ticks_ = 0;
+  muted_ticks_ = 0;
   peak_raw_ = 0.0;
 }
 
@@ -130,7 +161,7 @@ ERGOTIC_REALTIME void SliceChain::forget() noexcept {
 }
 
 ERGOTIC_REALTIME SliceReading SliceChain::reading() const noexcept {
-  return {port_.energy(), port_.least(), clamped_ticks_, peak_raw_};
+  return {port_.energy(), port_.least(), clamped_ticks_, muted_ticks_, peak_raw_};
 }
 
 }  // namespace ergotic::tgr

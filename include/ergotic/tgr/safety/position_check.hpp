@@ -17,6 +17,7 @@ class PositionCheck {
     double limit_m = 0.0;
     double max_step_m = 0.0;        ///< per tick
     std::int64_t frozen_ticks = 0;  ///< 0: a value may stay the same for ever
+    std::int64_t still_ticks = 0;   ///< that make it doubtful; 0: never
   };
   explicit PositionCheck(const Rules& rules) noexcept : rules_(rules) {}
 
@@ -28,6 +29,9 @@ class PositionCheck {
 
   /// No sample came. \param[out] x  the last good one, m
   void hold(double& x, std::int64_t ticks) noexcept;
+
+  /// Has its value been the very same for so long that it should move nobody?
+  bool isStill() const noexcept { return rules_.still_ticks > 0 && same_ >= rules_.still_ticks; }
 
   /// The next good sample may be anywhere within the limit.
   void forget() noexcept;

@@ -20,6 +20,7 @@ struct SliceReading {
   double energy_j = 0.0;           ///< of the port, now
   double least_energy_j = 0.0;     ///< of the port; below 0: so much it gave out
   std::int64_t clamped_ticks = 0;  ///< in which the energy clamp cut the force
+  std::int64_t muted_ticks = 0;    ///< in which its sensor stood still and its force was 0
   double peak_raw_force_n = 0.0;   ///< of the model
 };
 
@@ -39,7 +40,7 @@ class SliceChain {
   /// \param open  force goes out: only then is energy judged
   FaultReason inspect(double raw, bool open) noexcept;
 
-  /// Ramp, passivity controller, slew, limit, energy clamp. \return N, to be sent
+  /// Ramps, passivity controller, slew, limit, energy clamp. \return N, to be sent
   double limited(double raw, double gain) noexcept;
   /// No force is sent.
   void release() noexcept;
@@ -56,6 +57,7 @@ class SliceChain {
 
  private:
   void moved(double x, std::int64_t ticks) noexcept;
+  double trust() noexcept;
   void turnTo(double gain) noexcept;
 
   PositionCheck position_;
@@ -69,9 +71,12 @@ class SliceChain {
   bool knows_x_ = false;
   double x_ = 0.0;
   double dx_ = 0.0;
-  double way_ = 0.0;   // since the last look, m
-  double gain_ = 0.0;  // of the last force
+  double way_ = 0.0;    // since the last look, m
+  double gain_ = 0.0;   // of the last force
+  double trust_ = 1.0;  // in the sensor, a gain as well
+  double trust_step_;
   std::int64_t clamped_ticks_ = 0;
+  std::int64_t muted_ticks_ = 0;
   double peak_raw_ = 0.0;
 };
 

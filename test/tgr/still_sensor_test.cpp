@@ -145,7 +145,7 @@ double mutedByChance(double noise, double seconds) {
     last = muted;
   }
   EXPECT_EQ(chain.fault(), FaultReason::kNone);
-return times / seconds;
+  return times / seconds;
 }
 
 TEST(StillSensorChanceTest, MutesNobodyWhoseSensorIsNoisierThanItsStep) {

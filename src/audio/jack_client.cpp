@@ -73,6 +73,7 @@ struct JackHost::Impl {
   const ReservedSinks sinks;
   std::shared_ptr<Semaphore> wake = std::make_shared<Semaphore>();
   std::atomic<bool> quit{false};
+  std::atomic<bool> drop{false};
   std::unique_ptr<JackSession> session;  // the supervisor's
   bool complained_of_wires = false;      // so is this
   mutable std::mutex mutex;              // of status
@@ -99,8 +100,11 @@ void JackHost::Impl::supervise() {
 
 /// One look at the server. What throws here ends the session; the next look tries again.
 void JackHost::Impl::step() {
+  const bool dropped = drop.exchange(false);
   if (!session) {
     start();
+  } else if (dropped) {
+    throw DeviceError("the JACK client was ended on purpose; it comes back");
   } else if (session->isLost()) {
     throw DeviceError("the JACK server went away; waiting for it to come back");
   } else if (session->takeChange()) {
@@ -180,6 +184,15 @@ JackHost::~JackHost() = default;
 JackStatus JackHost::status() const {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
   return impl_->status;
+}
+
+void JackHost::look() {
+  impl_->wake->post();
+}
+
+void JackHost::drop() {
+  impl_->drop = true;
+  look();
 }
 
 }  // namespace ergotic::audio

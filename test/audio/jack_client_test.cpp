@@ -107,6 +107,21 @@ TEST(JackHostTest, BeginsAnewWhenTheServerEndsInGoodOrder) {
   EXPECT_TRUE(blocksFlow(probe, 50));
 }
 
+TEST(JackHostTest, BeginsAnewWhenItIsDropped) {
+  JackServer server("dropped");
+  server.start();
+  BlockProbe probe;
+  JackHost host(configFor(server), probe);
+  ASSERT_TRUE(blocksFlow(probe, 50));
+  host.drop();
+  ASSERT_TRUE(eventually([&] { return probe.counts.stops == 1; }));
+  host.look();
+  EXPECT_TRUE(eventually([&] { return probe.counts.starts == 2; })) << host.status().message;
+  EXPECT_TRUE(blocksFlow(probe, 50));
+  EXPECT_EQ(host.status().message, "");
+  expectOrderlyBlocks(probe);
+}
+
 TEST(JackHostTest, BeginsAnewWithTheNewPeriod) {
   JackServer server("period");
   server.start();

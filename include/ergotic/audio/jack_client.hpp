@@ -81,6 +81,13 @@ class JackHost {
   /// Thread: any
   JackStatus status() const;
 
+  /// Does soon what it would do within a second: mends wires, looks for a server. Thread: any
+  void look();
+
+  /// Ends its client as if the server had gone, and begins anew with the next look: a fault on
+  /// purpose. Thread: any
+  void drop();
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -81,6 +81,7 @@ audio::JackStatus JackDriver::waitForDevice() const {
   constexpr std::int64_t kPauseNs = 20'000'000;
   const std::int64_t end_ns = rt::monotonicNs() + std::llround(config_.wait_s * 1e9);
   while (true) {
+    host_->look();
     const audio::JackStatus status = host_->status();
     if (status.running && status.wired) {
       return status;

@@ -2,7 +2,9 @@
 // What the hands hold, how it is calibrated, and what may go wrong with it on purpose.
 #include <cmath>
 #include <map>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <ros/console.h>
 
@@ -24,6 +26,18 @@ const std::map<std::string, InjectedModelFault> kModelFaults = {
     {"model_not_a_number", InjectedModelFault::kNotANumber},
     {"model_blow_up", InjectedModelFault::kBlowUp},
     {"model_active", InjectedModelFault::kActive}};
+
+const char kSignal[] = "signal";
+
+/// \throws Exception naming all that can be injected
+tgr::InjectedFault deviceFaultNamed(const std::string& name) {
+  std::vector<std::string> others;
+  for (const auto& [other, unused] : kModelFaults) {
+    others.push_back(other);
+  }
+  others.emplace_back(kSignal);
+  return tgr::faultNamed(name, others);
+}
 
 void answer(const Promise& promise, bool ok, std::string message) {
   promise->set_value({ok, std::move(message)});
@@ -170,13 +184,13 @@ void Performance::inject(const InjectFault::Request& request, const Promise& pro
       throw Exception("ticks is " + std::to_string(ticks) + ", allowed: 0...1000000");
     }
     const auto model_fault = kModelFaults.find(request.kind);
-    if (request.kind == "signal") {
+    if (request.kind == kSignal) {
       tellInjected(-1, ticks);
       engine_->station().makeSafe();
     } else if (model_fault != kModelFaults.end()) {
       tellInjected(static_cast<int>(model_fault->second), ticks);
     } else {
-      const tgr::FaultOrder order{tgr::faultNamed(request.kind), request.slice, ticks,
+      const tgr::FaultOrder order{deviceFaultNamed(request.kind), request.slice, ticks,
                                   request.amount};
       tellInjected(static_cast<int>(order.kind), ticks);
       engine_->hands().faulty()->inject(order);

@@ -200,12 +200,14 @@ std::unique_ptr<FaultyDriver> makeFaultyDriver(std::unique_ptr<Driver> inside) {
   return std::make_unique<FaultyDriverOverAnother>(std::move(inside));
 }
 
-InjectedFault faultNamed(const std::string& name) {
+InjectedFault faultNamed(const std::string& name, const std::vector<std::string>& others) {
   const auto* const found = std::find(kNames.begin(), kNames.end(), name);
   if (found == kNames.end()) {
+    std::vector<std::string> all(kNames.begin(), kNames.end());
+    all.insert(all.end(), others.begin(), others.end());
     std::string known;
-    for (const char* const each : kNames) {
-      known += std::string(known.empty() ? "" : ", ") + each;
+    for (const std::string& each : all) {
+      known += (known.empty() ? "" : ", ") + each;
     }
     throw Exception("fault '" + name + "' is not known, allowed: " + known);
   }

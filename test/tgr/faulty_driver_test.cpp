@@ -227,6 +227,11 @@ TEST(FaultNamesTest, AreTheKinds) {
   EXPECT_EQ(complaintOf([] { faultNamed("gremlin"); }),
             "fault 'gremlin' is not known, allowed: not_a_number, infinite, jump, frozen, rail, "
             "missing, slow, write_fails, unplugged, noise");
+  EXPECT_EQ(complaintOf([] {
+              faultNamed("gremlin", {"model_sulks", "signal"});
+            }),
+            "fault 'gremlin' is not known, allowed: not_a_number, infinite, jump, frozen, rail, "
+            "missing, slow, write_fails, unplugged, noise, model_sulks, signal");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "ergotic/tgr/driver.hpp"
 
@@ -42,7 +43,9 @@ class FaultyDriver : public Driver {
 };
 std::unique_ptr<FaultyDriver> makeFaultyDriver(std::unique_ptr<Driver> inside);
 
-/// By its name, as `frozen`. \throws Exception naming those that exist
-InjectedFault faultNamed(const std::string& name);
+/// By its name, as `frozen`.
+/// \param others  names of faults that are not of this kind, for the message
+/// \throws Exception naming those that exist
+InjectedFault faultNamed(const std::string& name, const std::vector<std::string>& others = {});
 
 }  // namespace ergotic::tgr

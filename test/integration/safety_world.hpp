@@ -1,13 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <atomic>
+#include <std_srvs/Trigger.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <ergotic/Event.h>
+#include <ergotic/InjectFault.h>
 #include <ergotic/SliceTarget.h>
 #include <ergotic/Status.h>
 #include <ros/ros.h>
@@ -15,31 +27,28 @@
 #include <std_msgs/Bool.h>
 #include <std_msgs/Empty.h>
 
+#include "ergotic/rt/clock.hpp"
 #include "integration/child_process.hpp"
+#include "integration/device_log.hpp"
+#include "integration/fault_table.hpp"
 #include "integration/listener.hpp"
+#include "integration/reference_thread.hpp"
+#include "integration/wall.hpp"
 
 namespace ergotic::test {
 
-// A wall of 1000 N/m; the hand (2000 N/m) wants to be 22.5 mm inside, and so meets 15 N at 15 mm.
+// The hand (2000 N/m) wants to be 22.5 mm inside the wall, and so meets 15 N at 15 mm. A stick on
+// the other slices has no more than 60 degrees to either side.
 inline const char kDevice[] = R"(devices:
   - driver: virtual
-    settings: {mechanics: {hand_stiffness: 2000, hand_damping: 30}}
+    settings: {slices: 3, mechanics: {hand_stiffness: 2000, hand_damping: 30}}
 )";
-inline const char kWall[] = R"(ergotic: 1
-name: wall
-sections:
-  hand: {rate: gestural}
-mats:
-  key: {type: slice, section: hand}
-  ground: {type: ground, section: hand, at: [0, 0]}
-lias:
-  wall: {type: spring_damper, between: [key, ground], stiffness: 1000, damping: 2}
-ports:
-  key: {mat: key, slice: 0}
+inline const char kStick[] = R"(end_effectors:
+  stick: {type: stick, slices: [1, 2], ports: [tip_x, tip_y], arm: 0.01, length: 0.05}
 )";
-constexpr double kForceN = 15.0;
 constexpr double kTargetM = 0.0225;
 constexpr double kForceLimitN = 20.0;
+constexpr double kReachM = 0.01732;  // of slice 1, from where on the stick is tilted too far
 
 /// Tells the station five times as often as it needs that somebody is there.
 class PresenceSwitch {
@@ -47,33 +56,55 @@ class PresenceSwitch {
   explicit PresenceSwitch(::ros::NodeHandle& node)
       : topic_(node.advertise<std_msgs::Bool>("/station/presence", 10)),
         timer_(node.createWallTimer(::ros::WallDuration(0.04), [this](const auto& /*event*/) {
+          const std::lock_guard lock(mutex_);
           if (speaks_) {
             say(true);
           }
         })) {}
-  void hold() { speaks_ = true; }
-  void fallSilent() { speaks_ = false; }
+  void hold() {
+    const std::lock_guard lock(mutex_);
+    speaks_ = true;
+  }
+  void fallSilent() {
+    const std::lock_guard lock(mutex_);
+    speaks_ = false;
+  }
   void release() {
+    const std::lock_guard lock(mutex_);
     speaks_ = false;
     say(false);
+  }
+  /// Just before it spoke last, CLOCK_MONOTONIC.
+  std::int64_t spokeNs() const {
+    const std::lock_guard lock(mutex_);
+    return spoke_ns_;
   }
 
  private:
   void say(bool present) {
     std_msgs::Bool message;
     message.data = present ? 1U : 0U;
+    spoke_ns_ = rt::monotonicNs();
     topic_.publish(message);
   }
+  mutable std::mutex mutex_;
+  bool speaks_ = true;
+  std::int64_t spoke_ns_ = 0;
   ::ros::Publisher topic_;
-  std::atomic<bool> speaks_{true};
   ::ros::WallTimer timer_;
 };
 
-/// A station under a wall, in a process of its own, and all that it tells.
-struct SafetyWorld {
+/// A device and a station, each in a process of its own, and all that they tell.
+class SafetyWorld {
+ public:
   SafetyWorld() {
+    std::filesystem::create_directories(folder_);
+    std::ofstream(folder_ / "device.yaml") << kDevice;
+    startDevice(kUsualWatchdogMs);
     node.setParam("/station/model", kWall);
-    node.setParam("/station/device", kDevice);
+    node.setParam("/station/device",
+                  "devices:\n  - driver: virtual\n    settings: {slices: 3, shared_memory: " +
+                      segment_ + "}\n" + kStick);
     node.setParam("/station/jack", "none");
     node.setParam("/station/ramp", 0.1);
     node.setParam("/station/presence", "topic");
@@ -82,17 +113,90 @@ struct SafetyWorld {
     station = std::make_unique<ChildProcess>(std::vector<std::string>{
         "/usr/lib/nodelet/nodelet", "standalone", "ergotic/Station", "__name:=station"});
   }
+  ~SafetyWorld() {
+    station.reset();  // it has the device open
+    device_.reset();
+    std::filesystem::remove_all(folder_);
+  }
+  SafetyWorld(const SafetyWorld&) = delete;
+  SafetyWorld& operator=(const SafetyWorld&) = delete;
+
+  /// A device with another watchdog is another process; `recover` then finds it.
+  void setDeviceWatchdog(double watchdog_ms) {
+    if (watchdog_ms != watchdog_ms_) {
+      device_->signal(SIGTERM);
+      device_->wait(10.0);
+      startDevice(watchdog_ms);
+    }
+  }
+
+  void moveHand(std::uint32_t slice, double target_m) {
+    SliceTarget target;
+    target.slice = slice;
+    target.target = target_m;
+    hand_.publish(target);
+  }
+  /// To where it meets 15 N, slowly: a device that pauses for some milliseconds must not make its
+  /// positions jump further than a hand can move.
+  void pushHand() {
+    constexpr int kSteps = 10;
+    for (int step = 1; step <= kSteps; ++step) {
+      moveHand(0, kTargetM * step / kSteps);
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  }
+  /// Whether the device felt 15 N for a while: longer than between two messages of the presence
+  /// switch, so that also at the last of them there was all the force.
+  bool isPushed() const {
+    constexpr std::int64_t kSteadyNs = 100'000'000;
+    const std::vector<ForceRecord>& forces = log->read();
+    const std::int64_t from_ns = forces.empty() ? 0 : forces.back().time_ns - kSteadyNs;
+    return !forces.empty() && forces.front().time_ns < from_ns &&
+           std::all_of(forces.begin(), forces.end(), [from_ns](const ForceRecord& at) {
+             return at.time_ns < from_ns || std::abs(at.force_n + kForceN) < 0.05 * kForceN;
+           });
+  }
+  bool handIsConnected() const { return hand_.getNumSubscribers() > 0; }
+  double effort() const {
+    const auto joints = joints_.latest();
+    return joints.effort.empty() ? 0.0 : joints.effort.front();
+  }
+  bool isNear(std::size_t slice, double position_m) const {
+    const auto joints = joints_.latest();
+    return joints.position.size() > slice && std::abs(joints.position[slice] - position_m) < 0.001;
+  }
 
   ::ros::NodeHandle node;
   Listener<Status> status{node, "/station/status"};
   Listener<Event> events{node, "/station/events"};
-  Listener<sensor_msgs::JointState> joints{node, "/station/joint_states"};
   Listener<diagnostic_msgs::DiagnosticArray> diagnostics{node, "/diagnostics"};
-  ::ros::Publisher hand = node.advertise<SliceTarget>("/station/hand_target", 10);
   ::ros::Publisher stop = node.advertise<std_msgs::Empty>("/station/emergency_stop", 1);
   PresenceSwitch presence{node};
   std::unique_ptr<ChildProcess> station;
-  std::vector<std::string> table;
+  std::unique_ptr<DeviceLog> log;  // of the present device
+  ReferenceThread reference;
+  FaultTable table;
+
+ private:
+  static constexpr double kUsualWatchdogMs = 10.0;
+
+  void startDevice(double watchdog_ms) {
+    const auto path = folder_ / ("forces_" + std::to_string(++devices_) + ".csv");
+    device_ = std::make_unique<ChildProcess>(std::vector<std::string>{
+        std::string(ERGOTIC_TOOLS_DIR) + "/virtual_tgr", "--shm", segment_, "--device",
+        (folder_ / "device.yaml").string(), "--log", path.string(), "--priority", "70",
+        "--watchdog-ms", std::to_string(watchdog_ms)});
+    log = std::make_unique<DeviceLog>(path);
+    watchdog_ms_ = watchdog_ms;
+  }
+
+  const std::string segment_ = "/ergotic_safety_" + std::to_string(getpid());
+  const std::filesystem::path folder_ = std::filesystem::temp_directory_path() / segment_.substr(1);
+  Listener<sensor_msgs::JointState> joints_{node, "/station/joint_states"};
+  ::ros::Publisher hand_ = node.advertise<SliceTarget>("/station/hand_target", 10);
+  std::unique_ptr<ChildProcess> device_;
+  int devices_ = 0;
+  double watchdog_ms_ = 0.0;
 };
 
 }  // namespace ergotic::test

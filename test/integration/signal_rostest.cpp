@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <unistd.h>
 
-#include <algorithm>
-#include <atomic>
-#include <cmath>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <mutex>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -22,9 +16,11 @@
 #include <sys/wait.h>
 
 #include "ergotic/rt/clock.hpp"
-#include "ergotic/rt/thread.hpp"
 #include "integration/child_process.hpp"
+#include "integration/device_log.hpp"
 #include "integration/listener.hpp"
+#include "integration/reference_thread.hpp"
+#include "integration/wall.hpp"
 
 namespace ergotic::test {
 namespace {
@@ -33,95 +29,10 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kLimitNs = 10 * kMs;
-constexpr std::int64_t kGapNs = 5 * kMs;
+constexpr double kTargetM = 0.046;  // of a hand of 500 N/m, which so meets 15 N at 15 mm
 constexpr int kAttempts = 5;
 constexpr int kNeededPasses = 3;
 constexpr int kMaxSpoiled = 10;  // attempts in which a stall had muted the force before the signal
-
-// A wall of 1000 N/m; the hand (500 N/m) wants to be 46 mm inside, and so meets 15 N at 15 mm.
-const char kWall[] = R"(ergotic: 1
-name: wall
-sections:
-  hand: {rate: gestural}
-mats:
-  key: {type: slice, section: hand}
-  ground: {type: ground, section: hand, at: [0, 0]}
-lias:
-  wall: {type: spring_damper, between: [key, ground], stiffness: 1000, damping: 2}
-ports:
-  key: {mat: key, slice: 0}
-)";
-constexpr double kForceN = 15.0;
-
-/// A thread that nothing in this test outranks notes when the machine did not let it run.
-class ReferenceThread {
- public:
-  ReferenceThread() : thread_([this] { run(); }) {}
-  ~ReferenceThread() {
-    stop_ = true;
-    thread_.join();
-  }
-  ReferenceThread(const ReferenceThread&) = delete;
-  ReferenceThread& operator=(const ReferenceThread&) = delete;
-
-  /// Whether a gap of `kGapNs` or more began, went on or ended between these times.
-  bool sawGap(std::int64_t from_ns, std::int64_t to_ns) const {
-    const std::lock_guard lock(mutex_);
-    return std::any_of(gaps_.begin(), gaps_.end(), [=](const Gap& gap) {
-      return gap.start_ns <= to_ns && gap.end_ns >= from_ns;
-    });
-  }
-
- private:
-  struct Gap {
-    std::int64_t start_ns = 0;
-    std::int64_t end_ns = 0;
-  };
-
-  void run() {
-    if (const rt::Outcome outcome = rt::makeRealtime(90); !outcome.ok) {
-      std::cerr << "reference thread: " << outcome.message << '\n';
-    }
-    std::int64_t last = rt::monotonicNs();
-    while (!stop_) {
-      rt::sleepUntilNs(last + kMs);
-      const std::int64_t now = rt::monotonicNs();
-      if (now - last >= kGapNs) {
-        const std::lock_guard lock(mutex_);
-        gaps_.push_back({last, now});
-      }
-      last = now;
-    }
-  }
-
-  std::atomic<bool> stop_{false};
-  mutable std::mutex mutex_;
-  std::vector<Gap> gaps_;
-  std::thread thread_;
-};
-
-struct ForceRecord {
-  std::int64_t time_ns = 0;
-  double force_n = 0.0;
-};
-
-std::vector<ForceRecord> forcesOfSliceZero(const fs::path& log) {
-  std::vector<ForceRecord> records;
-  std::ifstream file(log);
-  std::string line;
-  std::getline(file, line);  // the names of the columns
-  while (std::getline(file, line)) {
-    std::istringstream fields(line);
-    ForceRecord record;
-    int slice = -1;
-    char comma = 0;
-    fields >> record.time_ns >> comma >> slice >> comma >> record.force_n;
-    if (fields && slice == 0) {
-      records.push_back(record);
-    }
-  }
-  return records;
-}
 
 /// One station under 15 N, one signal, and what the device felt.
 class SignalTest : public ::testing::TestWithParam<int> {
@@ -137,7 +48,7 @@ class SignalTest : public ::testing::TestWithParam<int> {
     fs::create_directories(folder_);
     std::ofstream(folder_ / "wall.yaml") << kWall;
     std::ofstream(folder_ / "gesture.csv")
-        << "time_s,slice,target_m\n0,0,0\n0.2,0,0.046\n60,0,0.046\n";
+        << "time_s,slice,target_m\n0,0,0\n0.2,0," << kTargetM << "\n60,0," << kTargetM << '\n';
   }
   ~SignalTest() override { fs::remove_all(folder_); }
 
@@ -173,7 +84,7 @@ class SignalTest : public ::testing::TestWithParam<int> {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     device.signal(SIGTERM);
     EXPECT_EQ(device.wait(10.0), 0);
-    attempt.forces = forcesOfSliceZero(log);
+    attempt.forces = DeviceLog(log).read();
     return attempt;
   }
 
@@ -184,16 +95,6 @@ class SignalTest : public ::testing::TestWithParam<int> {
 /// When force was zero for good. \pre there was force
 std::int64_t releaseTime(const std::vector<ForceRecord>& forces) {
   return forces.back().force_n == 0.0 ? forces.back().time_ns : INT64_MAX;
-}
-
-double forceAt(const std::vector<ForceRecord>& forces, std::int64_t time_ns) {
-  double force = 0.0;
-  for (const ForceRecord& record : forces) {
-    if (record.time_ns <= time_ns) {
-      force = record.force_n;
-    }
-  }
-  return force;
 }
 
 void expectUsualStatus(int signal, int status) {

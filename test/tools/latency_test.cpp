@@ -2,6 +2,7 @@
 #include "tools/lib/latency.hpp"
 
 #include <sstream>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -56,6 +57,15 @@ TEST(LatencyTest, CountsEveryTickThatItPlayed) {
   EXPECT_NE(fgets(said, sizeof said, pipe), nullptr);
   pclose(pipe);
   EXPECT_STREQ(said, "True True True\n") << outcome.text;
+}
+
+/// The plate nearest to 1000 modules has 995.
+TEST(LatencyTest, PlaysNoFewerModulesThanAskedFor) {
+  const test::Outcome outcome = test::run("latency", "--modules 1000 --seconds 0.1 --priority 0");
+  const std::string key = "  modules: ";
+  const std::size_t found = outcome.text.find(key);
+  ASSERT_NE(found, std::string::npos) << outcome.text;
+  EXPECT_GE(std::stoi(outcome.text.substr(found + key.size())), 1000);
 }
 
 TEST(LatencyTest, RefusesWhatItCannotDo) {

@@ -22,9 +22,19 @@ namespace {
 constexpr int kSlices = 12;
 constexpr const char* kScene = "station7k";  // of bench, at another size
 
+/// A plate comes in whole rows and columns, so the one nearest to a number may have fewer.
+scene::Scene plateOfAtLeast(int modules) {
+  for (int asked = modules;; asked += 1 + asked / 100) {
+    scene::Scene scene = benchKindNamed(kScene).make(asked);
+    if (modulesOf(scene) >= static_cast<std::size_t>(modules)) {
+      return scene;
+    }
+  }
+}
+
 scene::Scene sceneOf(const LatencyOptions& options) {
   if (options.scene.empty()) {
-    return benchKindNamed(kScene).make(options.modules);
+    return plateOfAtLeast(options.modules);
   }
   SceneOptions read;
   read.scene = options.scene;
@@ -203,7 +213,7 @@ void addOptions(CLI::App& app, LatencyOptions& options) {
   constexpr double kMaxSeconds = 86400.0;
   app.add_option("scene", options.scene,
                  "path of a scene (default: a plate that 12 slices play at 6 places)");
-  app.add_option("--modules", options.modules, "masses and links of that plate")
+  app.add_option("--modules", options.modules, "masses and links of that plate, at least")
       ->capture_default_str()
       ->check(CLI::Range(kMinBenchModules, kMaxBenchModules));
   app.add_option("--rate", options.rate_hz, "audio rate, Hz")

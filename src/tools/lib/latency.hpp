@@ -12,7 +12,7 @@ namespace ergotic::tools {
 /// What `latency` is asked for.
 struct LatencyOptions {
   std::string scene;   ///< path; empty: a plate that 12 slices play, of `modules`
-  int modules = 1000;  ///< masses and links
+  int modules = 1000;  ///< masses and links of that plate, at least
   double rate_hz = 44100.0;
   int ratio = 4;  ///< audio frames per tick
   CompileChoice compile;

@@ -20,6 +20,7 @@ namespace {
 using test::Outcome;
 using test::run;
 using test::ScratchFile;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -54,9 +55,9 @@ class EndEffectorsToolTest : public testing::Test {
   void SetUp() override { std::rename(scene_.path().c_str(), (scene_.path() + ".yaml").c_str()); }
   void TearDown() override { std::remove((scene_.path() + ".yaml").c_str()); }
 
-  Outcome check(const std::string& end_effectors) {
+  Outcome check(const std::string& end_effectors, const std::string& errors = "&1") {
     const ScratchFile file(end_effectors);
-    return run("check", scene_.path() + ".yaml --end-effectors " + file.path());
+    return run("check", scene_.path() + ".yaml --end-effectors " + file.path(), errors);
   }
 
   ScratchFile scene_{test::struckBar("{quantity: position, at: bar, channel: 1, gain: 100}")};
@@ -117,6 +118,7 @@ TEST_F(EndEffectorsToolTest, CheckPrintsTheStiffnessOfEachSlice) {
   EXPECT_THAT(outcome.text, HasSubstr("end_effector: mallet"));
   EXPECT_THAT(outcome.text, HasSubstr("together_n_per_m: 2000"));
   EXPECT_THAT(outcome.text, HasSubstr("passive_up_to_n_per_m: 4200"));
+  EXPECT_THAT(outcome.text, HasSubstr("\nslice_findings: none\n"));
   EXPECT_THAT(outcome.text, Not(HasSubstr("renders up to")));
 }
 
@@ -129,6 +131,16 @@ TEST_F(EndEffectorsToolTest, CheckWarnsAboveHalfTheLimitAndRefusesAboveTwice) {
   EXPECT_EQ(refused.code, 1) << refused.text;
   EXPECT_THAT(refused.text,
               HasSubstr(":3:3: error: end-effector 'mallet' renders up to 10000 N/m"));
+}
+
+TEST_F(EndEffectorsToolTest, CheckReportsWhatSlicesMeetTooMuchAndEndsWithWhatIsRefused) {
+  const ScratchFile errors;
+  const Outcome warned = check(keyOf(", force_scale: 1.1"), errors.path());
+  EXPECT_THAT(warned.text, ContainsRegex("\nslice_findings:\n  - [^ ]*:3:3: warning: "));
+  EXPECT_EQ(errors.text(), "");
+  const Outcome refused = check(keyOf(", force_scale: 5"), errors.path());
+  EXPECT_THAT(refused.text, ContainsRegex("\nslice_findings:\n  - [^ ]*:3:3: error: "));
+  EXPECT_THAT(errors.text(), ContainsRegex("^[^ ]*:3:3: error: end-effector 'mallet' renders"));
 }
 
 }  // namespace

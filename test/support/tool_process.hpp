@@ -32,12 +32,15 @@ inline std::string toolPath(const std::string& name) {
 
 struct Outcome {
   int code = -1;
-  std::string text;  ///< stdout and stderr together
+  std::string text;  ///< stdout and, unless it went elsewhere, stderr
 };
 
-inline Outcome run(const std::string& tool, const std::string& arguments) {
+/// \param errors  where stderr goes, as a shell says it
+inline Outcome run(const std::string& tool,
+                   const std::string& arguments,
+                   const std::string& errors = "&1") {
   Outcome outcome;
-  FILE* pipe = popen((toolPath(tool) + " " + arguments + " 2>&1").c_str(), "r");
+  FILE* pipe = popen((toolPath(tool) + " " + arguments + " 2>" + errors).c_str(), "r");
   std::array<char, 4096> buffer{};
   while (const std::size_t got = fread(buffer.data(), 1, buffer.size(), pipe)) {
     outcome.text.append(buffer.data(), got);

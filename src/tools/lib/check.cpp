@@ -225,40 +225,41 @@ Report reportOn(const physics::Settled& settled,
   return report.add("notes", texts(settled.notes)).add("warnings", texts(warnings));
 }
 
-/// Adds what each slice meets, and says what is too much.
-tgr::StiffnessFindings addSlices(const tgr::EndEffectors& end_effectors,
-                                 const Scene& scene,
-                                 const physics::Rates& rates,
-                                 const physics::Certificate& certificate,
-                                 const physics::DeviceTraits& device,
-                                 Report& report) {
+/// Adds what each slice meets and what is too much. \return what is refused
+std::vector<std::string> addSlices(const tgr::EndEffectors& end_effectors,
+                                   const Scene& scene,
+                                   const physics::Rates& rates,
+                                   const physics::Certificate& certificate,
+                                   const physics::DeviceTraits& device,
+                                   Report& report) {
   const auto rendered = renderedStiffness(scene, rates, certificate, device, end_effectors);
-  report.add("slices", slicesReport(end_effectors, rendered));
-  return tgr::judgeStiffness(end_effectors, rendered);
+  const tgr::StiffnessFindings findings = tgr::judgeStiffness(end_effectors, rendered);
+  std::vector<std::string> all = findings.refusals;
+  all.insert(all.end(), findings.warnings.begin(), findings.warnings.end());
+  report.add("slices", slicesReport(end_effectors, rendered)).add("slice_findings", texts(all));
+  return findings.refusals;
 }
 
-/// Prints the report, then what is wrong. \return the exit code
+/// Prints the report, then why the scene cannot be played. \return the exit code
 int finish(const Report& report,
            bool json,
            const std::string& file,
            physics::Verdict verdict,
-           const tgr::StiffnessFindings& findings) {
+           const std::vector<std::string>& refusals) {
   if (json) {
     report.printJson(std::cout);
     std::cout << '\n';
   } else {
     report.printText(std::cout);
   }
-  for (const auto* lines : {&findings.warnings, &findings.refusals}) {
-    for (const std::string& line : *lines) {
-      std::cerr << line << '\n';
-    }
+  for (const std::string& line : refusals) {
+    std::cerr << line << '\n';
   }
   if (verdict == physics::Verdict::kUnstable) {
     std::cerr << file << ": unstable at these rates\n";
     return kRefused;
   }
-  return findings.refusals.empty() ? kSuccess : kFailure;
+  return refusals.empty() ? kSuccess : kFailure;
 }
 
 }  // namespace
@@ -297,15 +298,15 @@ int check(const CheckOptions& options) {
     report.add("target", targetReport(readScene(options.scene), rates, compile, options.target,
                                       freedomOf(options.scene, options.compile)));
   }
-  tgr::StiffnessFindings findings;
+  std::vector<std::string> refusals;
   if (!options.end_effectors.empty()) {
-    findings =
+    refusals =
         addSlices(end_effectors, settled.scene, rates, certificate, options.device.traits, report);
   }
   if (!options.filter_response.empty()) {
     writeFilterResponse(options.filter_response, settled.scene, rates);
   }
-  return finish(report, options.json, settled.scene.file, certificate.verdict, findings);
+  return finish(report, options.json, settled.scene.file, certificate.verdict, refusals);
 }
 
 }  // namespace ergotic::tools

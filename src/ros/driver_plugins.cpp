@@ -73,7 +73,7 @@ std::unique_ptr<tgr::Driver> DriverPlugins::make(const std::string& driver,
   }
   const std::string plugin = pluginNamed(driver);
   if (!loader_->isClassAvailable(plugin)) {
-    throw Exception("there is no driver '" + driver + "', there are: " + loader_->existing());
+    throw Exception("there is no driver '" + driver + "', allowed: " + loader_->existing());
   }
   try {
     return loader_->createUniqueInstance(plugin)->make(settings, place);

@@ -158,7 +158,7 @@ tgr::StationDevices plainDevice(const Parameters& p) {
   }
   settings << YAML::EndMap;
   tgr::StationDevices devices;
-  devices.file = "parameters";
+  devices.file = "parameter driver";
   devices.devices.resize(1);
   devices.devices.front().driver = p.driver;
   devices.devices.front().settings =

@@ -2,6 +2,7 @@
 #include "scene/yaml_map.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <unordered_set>
 #include <utility>
 
@@ -9,19 +10,6 @@
 
 namespace ergotic::scene {
 namespace {
-
-const char* kindOf(const YAML::Node& node) {
-  switch (node.Type()) {
-    case YAML::NodeType::Scalar:
-      return "a single value";
-    case YAML::NodeType::Sequence:
-      return "a list";
-    case YAML::NodeType::Map:
-      return "a map";
-    default:
-      return "empty";
-  }
-}
 
 bool isLetter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
@@ -32,6 +20,19 @@ bool isNameCharacter(char c) {
 }
 
 }  // namespace
+
+std::string kindOf(const YAML::Node& node) {
+  switch (node.Type()) {
+    case YAML::NodeType::Scalar:
+      return "a single value";
+    case YAML::NodeType::Sequence:
+      return "a list of " + std::to_string(node.size());
+    case YAML::NodeType::Map:
+      return "a map";
+    default:
+      return "empty";
+  }
+}
 
 Place placeOf(const YAML::Node& node, Place fallback) {
   const YAML::Mark mark = node.Mark();  // of a missing value: wherever the next token is
@@ -191,6 +192,11 @@ Place YamlMap::placeAt(const std::string& key) const {
   return placeOf(entry.value, entry.place);
 }
 
+Place YamlMap::placeAt(const std::string& key, std::size_t index) const {
+  const YAML::Node& value = at(key);
+  return placeOf(value.IsSequence() ? value[index] : value, placeAt(key));
+}
+
 Place YamlMap::keyPlaceAt(const std::string& key) const {
   return require(key).place;
 }
@@ -252,18 +258,33 @@ std::vector<double> YamlMap::numbers(const std::string& key,
   return list(key, fewest, most, limits);
 }
 
+std::vector<int> YamlMap::integers(const std::string& key,
+                                   std::size_t fewest,
+                                   std::size_t most,
+                                   const Limits& limits) const {
+  std::vector<int> result;
+  for (const double number : numbers(key, fewest, most, limits)) {
+    if (number != std::floor(number)) {
+      builder_.fail(placeAt(key, result.size()),
+                    named(key) + " = " + numberText(number) +
+                        " is not a whole number, allowed: " + limits.text());
+    }
+    result.push_back(static_cast<int>(number));
+  }
+  return result;
+}
+
 std::vector<double> YamlMap::list(const std::string& key,
                                   std::size_t fewest,
                                   std::size_t most,
                                   const Limits& limits) const {
   const YAML::Node& node = at(key);
   if (!node.IsSequence() || node.size() < fewest || node.size() > most) {
-    const std::string found =
-        node.IsSequence() ? "a list of " + std::to_string(node.size()) : std::string(kindOf(node));
     const std::string count =
         std::to_string(fewest) + (most > fewest ? " to " + std::to_string(most) : std::string());
-    fail(key, named(key) + " is " + found + ", allowed: " + (fewest == 1 ? "a number or " : "") +
-                  "a list of " + count + (most == 1 ? " number" : " numbers"));
+    fail(key, named(key) + " is " + kindOf(node) +
+                  ", allowed: " + (fewest == 1 ? "a number or " : "") + "a list of " + count +
+                  (most == 1 ? " number" : " numbers"));
   }
   std::vector<double> result;
   for (const YAML::Node& item : node) {

@@ -19,6 +19,9 @@ namespace ergotic::scene {
 /// Where a node begins; `fallback` if it is empty or yaml-cpp does not know.
 Place placeOf(const YAML::Node& node, Place fallback);
 
+/// What a node is, for messages, as in `a list of 3`.
+std::string kindOf(const YAML::Node& node);
+
 /// Text of a scalar. \throws TextError if it is not one
 std::string wordOf(const SceneBuilder& builder,
                    const YAML::Node& node,
@@ -81,6 +84,8 @@ class YamlMap {
   bool has(const std::string& key) const { return find(key) != nullptr; }
   const YAML::Node& at(const std::string& key) const;
   Place placeAt(const std::string& key) const;  ///< of the value
+  /// Of an item of a list, or of the number that stands in place of a list.
+  Place placeAt(const std::string& key, std::size_t index) const;
   Place keyPlaceAt(const std::string& key) const;
   Place place() const { return place_; }
   const std::string& what() const { return what_; }
@@ -98,6 +103,11 @@ class YamlMap {
                               std::size_t fewest,
                               std::size_t most,
                               const Limits& limits) const;
+  /// The same of whole numbers.
+  std::vector<int> integers(const std::string& key,
+                            std::size_t fewest,
+                            std::size_t most,
+                            const Limits& limits) const;
   /// `true` or `false`.
   bool flag(const std::string& key, bool otherwise) const;
   /// As `valueOf`.

@@ -77,7 +77,8 @@ std::vector<SliceCalibration> readSliceCalibrations(const Settings& settings,
                                                     const YAML::Node& list,
                                                     Place place) {
   if (!list.IsSequence() || list.size() > kMaxSlices) {
-    settings.builder().fail(place, "calibration of the slices, allowed: a list of at most " +
+    settings.builder().fail(place, "calibration of the slices is " + scene::kindOf(list) +
+                                       ", allowed: a list of at most " +
                                        std::to_string(kMaxSlices) +
                                        " maps, one for each slice from 0 on");
   }

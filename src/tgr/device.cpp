@@ -20,10 +20,21 @@ std::unique_ptr<Driver> makeReplay(const std::string& text, const std::string& p
   return makeReplayDriver(readPositionsCsv(besideFile(settings.top().word("file"), place)));
 }
 
-/// What the messages of a device begin with, if they do not name a place.
-std::string titleOf(const StationDevices& devices, std::size_t index) {
-  return devices.file + ": error: device " + std::to_string(index) + " (" +
-         devices.devices[index].driver + "): ";
+/// What goes wrong without a place of its own is told with this one.
+template <class Action>
+auto at(const std::string& file,
+        scene::Place place,
+        const std::string& title,
+        const Action& action) {
+  try {
+    return action();
+  } catch (const TextError&) {
+    throw;
+  } catch (const DeviceError&) {
+    throw;
+  } catch (const Exception& error) {
+    throw TextError(file, place.line, place.column, title + error.what());
+  }
 }
 
 }  // namespace
@@ -49,25 +60,23 @@ DriverStack makeDrivers(const StationDevices& devices,
   int first_slice = 0;
   for (std::size_t i = 0; i < devices.devices.size(); ++i) {
     const DeviceConfig& config = devices.devices[i];
-    try {
-      std::unique_ptr<Driver> driver = make(config.driver, config.settings, config.place);
-      if (driver->isRaw() || config.calibration) {
-        auto calibrated =
-            makeCalibratedDriver(std::move(driver), config.calibration.value_or(Calibration{}));
-        stack.raw_parts.push_back({static_cast<int>(i), first_slice, calibrated.get()});
-        driver = std::move(calibrated);
-      }
-      first_slice += driver->slices();
-      drivers.push_back(std::move(driver));
-    } catch (const TextError&) {
-      throw;
-    } catch (const DeviceError&) {
-      throw;
-    } catch (const Exception& error) {
-      throw Exception(titleOf(devices, i) + error.what());
+    const std::string title = "device " + std::to_string(i) + " (" + config.driver + "): ";
+    std::unique_ptr<Driver> driver = at(devices.file, config.driver_at, title, [&] {
+      return make(config.driver, config.settings, config.place);
+    });
+    if (driver->isRaw() || config.calibration) {
+      auto calibrated = at(devices.file, config.calibration_at, title, [&] {
+        return makeCalibratedDriver(std::move(driver), config.calibration.value_or(Calibration{}));
+      });
+      stack.raw_parts.push_back({static_cast<int>(i), first_slice, calibrated.get()});
+      driver = std::move(calibrated);
     }
+    first_slice += driver->slices();
+    drivers.push_back(std::move(driver));
   }
-  stack.driver = drivers.size() == 1 ? std::move(drivers.front()) : combine(std::move(drivers));
+  stack.driver = drivers.size() == 1 ? std::move(drivers.front())
+                                     : at(devices.file, devices.devices_at, "",
+                                          [&] { return combine(std::move(drivers)); });
   if (allow_fault_injection) {
     auto faulty = makeFaultyDriver(std::move(stack.driver));
     stack.faulty = faulty.get();

@@ -32,13 +32,15 @@ DeviceConfig readDevice(const Settings& file, const YAML::Node& node, Place fall
   map.allow({"driver", "settings", "calibration"});
   DeviceConfig device;
   device.driver = driverName(map);
+  device.driver_at = map.placeAt("driver");
   device.place = file.builder().scene().file;
   if (map.has("settings") && !map.at("settings").IsNull()) {
     device.settings = textInPlace(file.builder(), map.at("settings"));
   }
   if (map.has("calibration")) {
+    device.calibration_at = map.placeAt("calibration");
     device.calibration =
-        Calibration{readSliceCalibrations(file, map.at("calibration"), map.placeAt("calibration"))};
+        Calibration{readSliceCalibrations(file, map.at("calibration"), device.calibration_at)};
   }
   return device;
 }
@@ -62,13 +64,14 @@ StationDevices readDevices(const std::string& text, const std::string& name) {
   StationDevices result;
   result.file = name;
   const YAML::Node& list = top.at("devices");
-  const Place place = top.placeAt("devices");
+  result.devices_at = top.placeAt("devices");
   if (!list.IsSequence() || list.size() == 0 || list.size() > kMaxSlices) {
-    file.builder().fail(place, "devices, allowed: a list of 1 to " + std::to_string(kMaxSlices) +
-                                   " maps {driver: ..., settings: {...}, calibration: [...]}");
+    top.fail("devices", "'devices' is " + scene::kindOf(list) + ", allowed: a list of 1 to " +
+                            std::to_string(kMaxSlices) +
+                            " maps {driver: ..., settings: {...}, calibration: [...]}");
   }
   for (const YAML::Node& node : list) {
-    result.devices.push_back(readDevice(file, node, place));
+    result.devices.push_back(readDevice(file, node, result.devices_at));
   }
   result.end_effectors = readEndEffectors(text, name);
   return result;

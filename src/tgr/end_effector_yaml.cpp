@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
 #include <utility>
 
 #include "ergotic/tgr/end_effector.hpp"
@@ -24,32 +23,19 @@ std::vector<std::string> keysOf(const TypeTraits& traits, EndEffectorType type) 
   return keys;
 }
 
-std::vector<int> readSlices(const YamlMap& map, const TypeTraits& traits) {
-  std::vector<int> slices;
-  for (const double number :
-       map.numbers("slices", static_cast<std::size_t>(traits.fewest_slices),
-                   static_cast<std::size_t>(traits.most_slices), scene::kSliceLimits)) {
-    if (number != std::floor(number)) {
-      map.fail("slices", "slice " + scene::numberText(number) + " of " + map.what() +
-                             " is not a whole number, allowed: " + scene::kSliceLimits.text());
-    }
-    slices.push_back(static_cast<int>(number));
-  }
-  return slices;
-}
-
 std::vector<Eigen::Vector3d> readPoints(const SceneBuilder& builder, const YamlMap& map) {
   const YAML::Node& list = map.at("points");
-  const std::string what = "'points' of " + map.what();
   if (!list.IsSequence() || list.size() < kFewestPoints || list.size() > kMostPoints) {
-    map.fail("points", what + ", allowed: a list of " + std::to_string(kFewestPoints) + " to " +
+    map.fail("points", "'points' of " + map.what() + " is " + scene::kindOf(list) +
+                           ", allowed: a list of " + std::to_string(kFewestPoints) + " to " +
                            std::to_string(kMostPoints) + " points [x, y, z]");
   }
   std::vector<Eigen::Vector3d> points;
   for (const YAML::Node& node : list) {
     const Place place = scene::placeOf(node, map.placeAt("points"));
     if (!node.IsSequence() || node.size() != 3) {
-      builder.fail(place, "a point of " + map.what() + ", allowed: [x, y, z]");
+      builder.fail(place, "a point of " + map.what() + " is " + scene::kindOf(node) +
+                              ", allowed: [x, y, z]");
     }
     Eigen::Vector3d point;
     for (int axis = 0; axis < 3; ++axis) {
@@ -69,8 +55,9 @@ std::vector<std::string> readPorts(const SceneBuilder& builder,
     return {map.word("ports")};
   }
   if (!node.IsSequence() || node.size() != coordinates) {
-    map.fail("ports", "'ports' of " + map.what() + ", allowed: a list of " +
-                          std::to_string(coordinates) + ", one for each coordinate ('': none)");
+    map.fail("ports", "'ports' of " + map.what() + " is " + scene::kindOf(node) +
+                          ", allowed: a list of " + std::to_string(coordinates) +
+                          ", one for each coordinate ('': none)");
   }
   std::vector<std::string> ports;
   for (const YAML::Node& port : node) {
@@ -91,7 +78,8 @@ EndEffectorConfig readOne(const SceneBuilder& builder,
   config.type = static_cast<EndEffectorType>(map.choice("type", typeNames()));
   const TypeTraits& traits = traitsOf(config.type);
   map.allow(keysOf(traits, config.type));
-  config.slices = readSlices(map, traits);
+  config.slices = map.integers("slices", static_cast<std::size_t>(traits.fewest_slices),
+                               static_cast<std::size_t>(traits.most_slices), scene::kSliceLimits);
   if (config.type == EndEffectorType::kHandle) {
     config.points = readPoints(builder, map);
   }

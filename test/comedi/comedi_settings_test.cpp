@@ -75,13 +75,20 @@ TEST(ComediSettingsTest, NamesPlaceSettingValueAndWhatIsAllowed) {
 }
 
 TEST(ComediSettingsTest, RefusesWhatNoBoardCanDo) {
-  EXPECT_THAT(complaintOf("{ai_channels: [0, 0], ao_channels: [0, 1]}"), HasSubstr("each once"));
+  EXPECT_EQ(complaintOf("{ai_channels: [3, 3], ao_channels: [0, 1]}"),
+            "devices.yaml:1:19: error: ai_channels: channel 3 comes twice, allowed: each once");
   EXPECT_THAT(complaintOf("{ai_channels: [], ao_channels: []}"), HasSubstr("'ai_channels'"));
   EXPECT_THAT(complaintOf("{ai_channels: [0, 1], ao_channels: [0]}"), HasSubstr("as many"));
-  EXPECT_THAT(complaintOf("{ai_channels: [0.5], ao_channels: [0]}"), HasSubstr("whole numbers"));
+  EXPECT_EQ(complaintOf("{ai_channels: [1, 0.5], ao_channels: [0]}"),
+            "devices.yaml:1:19: error: 'ai_channels' of driver comedi = 0.5 is not a whole number, "
+            "allowed: 0...255");
+  EXPECT_THAT(complaintOf("{ai_channels: 0.5, ao_channels: [0]}"),
+              HasSubstr("devices.yaml:1:15: error: 'ai_channels' of driver comedi = 0.5 is not a"));
   EXPECT_THAT(complaintOf("{ai_channels: [-1], ao_channels: [0]}"), HasSubstr("0...255"));
   EXPECT_THAT(complaintOf(with("board: [a]")), HasSubstr("a single value"));
-  EXPECT_THAT(complaintOf(with("ai_range: [5, -5]")), HasSubstr("[low, high]"));
+  EXPECT_THAT(complaintOf(with("ai_range: [5, -5]")),
+              AllOf(HasSubstr("devices.yaml:1:54: error: "), HasSubstr("[5, -5] V, allowed: "),
+                    HasSubstr("[low, high]")));
   EXPECT_THAT(complaintOf(with("ai_range: [0, .nan]")), HasSubstr("'ai_range'"));
   EXPECT_THAT(complaintOf(with("ao_range: wide")), HasSubstr("0...255"));
   EXPECT_THAT(complaintOf(with("ai_reference: earth")), HasSubstr("ground, common, diff, other"));

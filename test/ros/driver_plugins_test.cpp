@@ -56,7 +56,7 @@ TEST_F(DriverPluginsTest, FindTheirOwnByTheShortName) {
 
 TEST_F(DriverPluginsTest, NameTheDriversThereAreWhenOneIsNot) {
   const std::string refusal = refusalOf("virtuel", "{}");
-  EXPECT_THAT(refusal, HasSubstr("there is no driver 'virtuel', there are: "));
+  EXPECT_THAT(refusal, HasSubstr("there is no driver 'virtuel', allowed: "));
   for (const char* name :
        {"virtual", "replay", "ergotic/comedi", "ergotic/jack", "third_party_device/still"}) {
     EXPECT_THAT(refusal, HasSubstr(name));

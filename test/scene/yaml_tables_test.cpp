@@ -242,7 +242,7 @@ const BadText kBad[] = {
     {BOW "{file: t.csv}}}\n---\n<!>tables: {t.csv: [[0, 0], [1, 1]]}\nmore: 1\n",
      "a second document, allowed: one in each file, and one after it that begins with 'tables:'"},
     {BOW "{file: t.csv}}}\n---\n<!>[tables]\n", "a second document"},
-    {BOW "{file: t.csv}}}\n---\ntables: <!>[1]\n", "is a list, allowed: a map"},
+    {BOW "{file: t.csv}}}\n---\ntables: <!>[1]\n", "is a list of 1, allowed: a map"},
     {BOW "{file: t.csv}}}\n---\ntables: {t.csv: [[0, 0], [1, 1]]}\n---\n<!>a: 1\n",
      "a third document, allowed: at most two"},
 };

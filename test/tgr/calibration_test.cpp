@@ -143,8 +143,11 @@ TEST(CalibrationYamlTest, SaysWhereATextIsWrong) {
       "-0.1...0.1 V");
   EXPECT_EQ(complaint("slices: [{gain: 1}]").substr(0, 60),
             "c.yaml:1:11: error: unknown key 'gain' of calibration of sli");
-  EXPECT_EQ(complaint("slices: 3").substr(0, 20), "c.yaml:1:9: error: c");
-  EXPECT_EQ(complaint("slices: [3]").substr(0, 21), "c.yaml:1:10: error: c");
+  EXPECT_EQ(complaint("slices: 3"),
+            "c.yaml:1:9: error: calibration of the slices is a single value, allowed: a list of at "
+            "most 64 maps, one for each slice from 0 on");
+  EXPECT_EQ(complaint("slices: [3]"),
+            "c.yaml:1:10: error: calibration of slice 0 is a single value, allowed: a map");
   EXPECT_EQ(complaint("{}").substr(0, 27), "c.yaml:1:1: error: missing ");
 }
 

@@ -76,8 +76,13 @@ TEST(ReadDevicesTest, SaysWhereATextIsWrong) {
     return complaintOf([&] { readDevices(text, "tgr.yaml"); });
   };
   EXPECT_EQ(complaint(""), "tgr.yaml:1:1: error: missing key 'devices' of the file of devices");
-  EXPECT_EQ(complaint("devices: []").substr(0, 39), "tgr.yaml:1:10: error: devices, allowed:");
-  EXPECT_EQ(complaint("devices: 3").substr(0, 39), "tgr.yaml:1:10: error: devices, allowed:");
+  const std::string allowed =
+      ", allowed: a list of 1 to 64 maps {driver: ..., settings: {...}, calibration: [...]}";
+  EXPECT_EQ(complaint("devices: []"), "tgr.yaml:1:10: error: 'devices' is a list of 0" + allowed);
+  EXPECT_EQ(complaint("devices: 3"), "tgr.yaml:1:10: error: 'devices' is a single value" + allowed);
+  EXPECT_EQ(complaint("devices:\n"), "tgr.yaml:1:1: error: 'devices' is empty" + allowed);
+  EXPECT_EQ(complaint("devices: [3]"),
+            "tgr.yaml:1:11: error: a device is a single value, allowed: a map");
   EXPECT_EQ(complaint("devices:\n  - {settings: {}}"),
             "tgr.yaml:2:5: error: missing key 'driver' of a device");
   EXPECT_EQ(complaint("devices:\n  - driver: 'a b'"),
@@ -102,14 +107,19 @@ TEST(MakeDriversTest, SaysWhereSettingsAreWrongInTheWholeFile) {
   EXPECT_EQ(complaint("devices:\n  - driver: virtual\n    settings: 7\n").substr(0, 21),
             "tgr.yaml:3:15: error:");
   EXPECT_EQ(complaint("devices:\n  - driver: gremlin\n"),
-            "tgr.yaml: error: device 0 (gremlin): no driver has the name 'gremlin', allowed: "
+            "tgr.yaml:2:13: error: device 0 (gremlin): no driver has the name 'gremlin', allowed: "
             "virtual, replay, and those of plugins where these are loaded");
-  EXPECT_EQ(complaint("devices:\n  - driver: virtual\n    calibration: []\n"),
-            "tgr.yaml: error: device 0 (virtual): a calibration of a device that speaks metres and "
-            "newtons already");
+  EXPECT_EQ(
+      complaint("devices:\n  - driver: virtual\n    calibration: []\n"),
+      "tgr.yaml:3:18: error: device 0 (virtual): a calibration of a device that speaks metres "
+      "and newtons already");
   EXPECT_EQ(complaint("devices:\n  - {driver: virtual, settings: {slices: 40}}\n"
                       "  - {driver: virtual, settings: {slices: 25}}\n"),
-            "65 slices in all devices together, allowed: at most 64");
+            "tgr.yaml:2:3: error: 65 slices in all devices together, allowed: at most 64");
+  EXPECT_EQ(
+      complaint("devices:\n  - {driver: replay, settings: {file: /nowhere.csv}}\n"),
+      "tgr.yaml:2:14: error: device 0 (replay): /nowhere.csv: cannot be read: No such file or "
+      "directory");
 }
 
 TEST(MakeDriversTest, MakesOneDriverOfThem) {

@@ -127,12 +127,15 @@ TEST(EndEffectorYamlTest, SaysWhereAndWhatIsWrong) {
               HasSubstr("2:26: error: 'slices' of end-effector 'a' = 64 is out of range, allowed: "
                         "0...63"));
   EXPECT_THAT(refused("type: key, slices: 0.5, ports: x"),
-              HasSubstr("slice 0.5 of end-effector 'a' is not a whole number, allowed: 0...63"));
+              HasSubstr("2:26: error: 'slices' of end-effector 'a' = 0.5 is not a whole number, "
+                        "allowed: 0...63"));
+  EXPECT_THAT(refused("type: bow, slices: [0, 1.5], ports: [x, y]"),
+              HasSubstr("2:30: error: 'slices' of end-effector 'a' = 1.5 is not a whole number"));
   EXPECT_THAT(refused("type: bow, slices: [0], ports: [x, y]"),
               HasSubstr("a list of 1, allowed: a list of 2 numbers"));
   EXPECT_THAT(refused("type: bow, slices: [0, 1], ports: [x]"),
-              HasSubstr("2:41: error: 'ports' of end-effector 'a', allowed: a list of 2, one for "
-                        "each coordinate"));
+              HasSubstr("2:41: error: 'ports' of end-effector 'a' is a list of 1, allowed: a list "
+                        "of 2, one for each coordinate"));
   EXPECT_THAT(refused("type: key, slices: 0, ports: x, lever: 0"),
               HasSubstr("2:46: error: 'lever' of end-effector 'a' = 0 m/m is out of range, "
                         "allowed: 0.01...100 m/m"));
@@ -142,9 +145,12 @@ TEST(EndEffectorYamlTest, SaysWhereAndWhatIsWrong) {
 
 TEST(EndEffectorYamlTest, RefusesPointsThatAreNone) {
   const std::string handle = "type: handle, slices: [0, 1, 2, 3, 4, 5], ports: [], points: ";
-  EXPECT_THAT(refused(handle + "[[0, 0, 0]]"), HasSubstr("allowed: a list of 3 to 8 points"));
+  EXPECT_THAT(refused(handle + "[[0, 0, 0]]"),
+              HasSubstr("2:68: error: 'points' of end-effector 'a' is a list of 1, "
+                        "allowed: a list of 3 to 8 points"));
   EXPECT_THAT(refused(handle + "[[0, 0, 0], [1, 0, 0], [0, 1]]"),
-              HasSubstr("a point of end-effector 'a', allowed: [x, y, z]"));
+              HasSubstr("2:91: error: a point of end-effector 'a' is a list of 2, allowed: "
+                        "[x, y, z]"));
   EXPECT_THAT(refused(handle + "[[0, 0, 0], [1, 0, 0], [0, 1, 1.5]]"),
               HasSubstr("a point of end-effector 'a' = 1.5 m is out of range, allowed: -1...1 m"));
 }

@@ -28,7 +28,7 @@ TEST(SettingsTest, TakesNothingForAnEmptyMap) {
 
 TEST(SettingsTest, SaysWhatIsNotAMapOrNotYaml) {
   EXPECT_EQ(errorOf([] { Settings("\n [1, 2]", "s.yaml", "it"); }),
-            "s.yaml:2:2: error: it is a list, allowed: a map");
+            "s.yaml:2:2: error: it is a list of 2, allowed: a map");
   EXPECT_EQ(errorOf([] { Settings("a: 1\nb: [", "s.yaml", "it"); }).substr(0, 32),
             "s.yaml:2:1: error: not valid YAM");
   EXPECT_EQ(errorOf([] { Settings(std::string("a: 1\n\0", 6), "s.yaml", "it"); }).substr(0, 11),

@@ -52,15 +52,19 @@ TEST(JackSettingsTest, SaysWhereASettingIsWrongAndWhatIsAllowed) {
   EXPECT_NE(errorOf("{}").find("slices"), std::string::npos);
   EXPECT_EQ(errorOf("slices: 2\nports: 3").substr(0, 18), "s.yaml:2:1: error:");
   EXPECT_EQ(errorOf("slices: 65").substr(0, 18), "s.yaml:1:9: error:");
-  EXPECT_EQ(errorOf("slices: 2\nforce_ports: [1]").substr(0, 19), "s.yaml:2:14: error:");
+  EXPECT_EQ(
+      errorOf("slices: 2\nforce_ports: [1]"),
+      "s.yaml:2:14: error: force_ports is a list of 1, allowed: a list of one port for each of "
+      "the 2 slices, or {physical: N}");
   EXPECT_EQ(errorOf("slices: 2\nforce_ports: [1, 1]"),
-            "s.yaml:2:18: error: force_ports: `physical 1` comes twice");
+            "s.yaml:2:18: error: force_ports: `physical 1` comes twice, allowed: each port once");
   EXPECT_EQ(errorOf("slices: 2\nforce_ports: [1, 0]").substr(0, 19), "s.yaml:2:18: error:");
   EXPECT_EQ(errorOf("slices: 1\nposition_ports: [left]"),
             "s.yaml:2:18: error: port of position_ports is `left`, allowed: a JACK port, as "
             "`system:capture_1`, or the number of a physical port, from 1 on");
   EXPECT_EQ(errorOf("slices: 1\nheartbeat_port: 1"),
-            "s.yaml:2:17: error: heartbeat_port is one of force_ports");
+            "s.yaml:2:17: error: heartbeat_port is `physical 1`, one of force_ports, allowed: any "
+            "other port");
   EXPECT_EQ(errorOf("slices: 1\nvolts_per_unit: 0").substr(0, 19), "s.yaml:2:17: error:");
   EXPECT_EQ(errorOf("slices: 1\nround_trip_frames: 1.5").substr(0, 19), "s.yaml:2:20: error:");
 }

@@ -20,6 +20,8 @@ struct DeviceConfig {
   std::string settings = "{}";  ///< YAML map, the driver's own, see DriverFactory::make
   std::string place;            ///< name of the file that they are from, for messages
   std::optional<Calibration> calibration;
+  scene::Place driver_at{1, 1};  ///< of the name of the driver, in the file of the devices
+  scene::Place calibration_at{1, 1};
 };
 
 /// All that a station's hands hold, as one YAML file: `devices: [{driver: ..., settings: {...},
@@ -27,6 +29,7 @@ struct DeviceConfig {
 struct StationDevices {
   std::string file;
   std::vector<DeviceConfig> devices;  ///< at least one
+  scene::Place devices_at{1, 1};      ///< of the list of them
   EndEffectors end_effectors;
 };
 
@@ -55,7 +58,9 @@ std::unique_ptr<Driver> makeCoreDriver(const std::string& driver,
                                        const std::string& settings,
                                        const std::string& place);
 
-/// \throws Exception from the makers, or if a device that does not speak volts has a calibration
+/// \throws TextError with the place of the device where the settings or the maker name none, or if
+///         a device that does not speak volts has a calibration, or devices do not go together;
+///         DeviceError from the makers
 DriverStack makeDrivers(const StationDevices& devices,
                         const DriverMaker& make,
                         bool allow_fault_injection);

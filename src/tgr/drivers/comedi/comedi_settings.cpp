@@ -2,7 +2,6 @@
 #include "tgr/drivers/comedi/comedi_settings.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "ergotic/tgr/driver.hpp"
 #include "tgr/settings.hpp"
@@ -30,14 +29,15 @@ unsigned reference(const YamlMap& map, const std::string& key) {
   return map.has(key) ? static_cast<unsigned>(map.choice(key, kComediReferences)) : 0U;
 }
 
-std::vector<int> channels(const YamlMap& map, const std::string& key) {
-  std::vector<int> list;
-  for (const double channel : map.numbers(key, 1, kMaxSlices, kIndexLimits)) {
-    const int whole = static_cast<int>(channel);
-    if (whole != channel || std::find(list.begin(), list.end(), whole) != list.end()) {
-      map.fail(key, key + ": allowed are whole numbers of channels, each once");
+std::vector<int> channels(const Settings& settings, const std::string& key) {
+  const YamlMap& map = settings.top();
+  std::vector<int> list = map.integers(key, 1, kMaxSlices, kIndexLimits);
+  for (auto channel = list.begin(); channel != list.end(); ++channel) {
+    if (std::find(list.begin(), channel, *channel) != channel) {
+      settings.builder().fail(
+          map.placeAt(key, static_cast<std::size_t>(channel - list.begin())),
+          key + ": channel " + std::to_string(*channel) + " comes twice, allowed: each once");
     }
-    list.push_back(whole);
   }
   return list;
 }
@@ -53,7 +53,8 @@ ComediRange range(const YamlMap& map, const std::string& key) {
   }
   const std::vector<double> volts = map.vector(key, 2, kVoltsLimits);
   if (volts[0] >= volts[1]) {
-    map.fail(key, key + ": allowed are the number of a range, or [low, high] in volts");
+    map.fail(key, key + " = [" + scene::numberText(volts[0]) + ", " + scene::numberText(volts[1]) +
+                      "] V, allowed: the number of a range, or [low, high] in volts, low < high");
   }
   range.low_volts = volts[0];
   range.high_volts = volts[1];
@@ -84,8 +85,8 @@ ComediSettings readComediSettings(const std::string& text, const std::string& fi
   }
   read.ai_subdevice = integer(map, "ai_subdevice", kIndexLimits, -1);
   read.ao_subdevice = integer(map, "ao_subdevice", kIndexLimits, -1);
-  read.ai_channels = channels(map, "ai_channels");
-  read.ao_channels = channels(map, "ao_channels");
+  read.ai_channels = channels(settings, "ai_channels");
+  read.ao_channels = channels(settings, "ao_channels");
   if (read.ao_channels.size() != read.ai_channels.size()) {
     map.fail("ao_channels", "ao_channels has " + std::to_string(read.ao_channels.size()) +
                                 " channels, allowed: as many as ai_channels, " +

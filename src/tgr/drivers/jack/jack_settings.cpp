@@ -58,14 +58,16 @@ std::vector<std::string> portsOf(const Settings& settings, const std::string& ke
   }
   const YAML::Node& list = top.at(key);
   if (!list.IsSequence() || list.size() != static_cast<std::size_t>(slices)) {
-    top.fail(key, key + ": allowed are a list of one port for each of the " +
-                      std::to_string(slices) + " slices, or {physical: N}");
+    top.fail(key, key + " is " + scene::kindOf(list) +
+                      ", allowed: a list of one port for each of the " + std::to_string(slices) +
+                      " slices, or {physical: N}");
   }
   for (const YAML::Node& node : list) {
     ports.push_back(portOf(settings, node, key));
     if (std::count(ports.begin(), ports.end(), ports.back()) > 1) {
-      settings.builder().fail(scene::placeOf(node, top.placeAt(key)),
-                              key + ": `" + ports.back() + "` comes twice");
+      settings.builder().fail(
+          scene::placeOf(node, top.placeAt(key)),
+          key + ": `" + ports.back() + "` comes twice, allowed: each port once");
     }
   }
   return ports;
@@ -92,7 +94,8 @@ JackDriverConfig readJackSettings(const std::string& text, const std::string& fi
     config.heartbeat_port = portOf(settings, top.at("heartbeat_port"), "heartbeat_port");
     const auto& forces = config.force_ports;
     if (std::count(forces.begin(), forces.end(), config.heartbeat_port) > 0) {
-      top.fail("heartbeat_port", "heartbeat_port is one of force_ports");
+      top.fail("heartbeat_port", "heartbeat_port is `" + config.heartbeat_port +
+                                     "`, one of force_ports, allowed: any other port");
     }
   }
   config.volts_per_unit = top.number("volts_per_unit", kVolts, config.volts_per_unit);

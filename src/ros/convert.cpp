@@ -225,6 +225,7 @@ void fillStatus(const station::Snapshot& snapshot, Status& status) {
   status.load_peak = counters.load_peak;
   status.late_worst = counters.late_worst_s;
   status.peak_force = counters.peak_force_n;
+  status.peak_raw_force = counters.peak_raw_force_n;
   status.port_energy_min = counters.port_energy_min_j;
   status.clamped_ticks = counters.clamped_ticks;
   status.muted_ticks = counters.muted_ticks;

@@ -11,6 +11,10 @@ constexpr double kHighLoad = 0.8;
 
 using Level = diagnostic_msgs::DiagnosticStatus;
 
+double seconds(std::int64_t ns) {
+  return 1e-9 * static_cast<double>(ns);
+}
+
 }  // namespace
 
 Diagnostics::Diagnostics(const ::ros::NodeHandle& node,
@@ -33,10 +37,14 @@ bool Diagnostics::isDue(const Status& status) {
   return true;
 }
 
-void Diagnostics::publish(const Status& status, const std::optional<audio::JackStatus>& jack) {
+void Diagnostics::refresh(const Status& status, const Engine* engine) {
+  if (!isDue(status)) {
+    return;
+  }
   last_ = status_;
   status_ = status;
-  jack_ = jack;
+  jack_ = engine != nullptr ? engine->jackStatus() : std::nullopt;
+  watchdog_ = engine != nullptr ? engine->watchdogReading() : tgr::WatchdogReading{};
   updater_.force_update();
 }
 
@@ -64,6 +72,7 @@ void Diagnostics::reportForce(Report& report) {
     report.add("end-effector", end_effector.name);
   }
   report.add("peak force (N)", status_.peak_force);
+  report.add("peak force that the model asked for (N)", status_.peak_raw_force);
   report.add("least energy of a slice (J)", status_.port_energy_min);
   report.add("ticks in which the energy clamp acted", status_.clamped_ticks);
   report.add("ticks in which a still sensor muted its slice", status_.muted_ticks);
@@ -92,6 +101,10 @@ void Diagnostics::reportRealtime(Report& report) {
   report.add("records dropped", status_.dropped_records);
   report.add("load, mean", status_.load_mean);
   report.add("load, peak", status_.load_peak);
+  report.add("watchdog: times it acted", watchdog_.bites);
+  report.add("watchdog: silence when it acted last (s)", seconds(watchdog_.silence_ns));
+  report.add("stalls of the whole machine", watchdog_.machine_stalls);
+  report.add("longest of these (s)", seconds(watchdog_.longest_stall_ns));
 }
 
 void Diagnostics::reportSound(Report& report) {

@@ -8,7 +8,7 @@
 
 #include <ergotic/Status.h>
 
-#include "ergotic/audio/jack_client.hpp"
+#include "ros/engine.hpp"
 
 namespace ergotic::node {
 
@@ -22,19 +22,13 @@ class Diagnostics {
               const std::string& name);
 
   /// Publishes if a second has passed, or the state of the force has changed.
-  /// \param jack  asked only then; may give nothing: it plays without JACK
-  template <class JackStatusSource>
-  void refresh(const Status& status, const JackStatusSource& jack) {
-    if (isDue(status)) {
-      publish(status, jack());
-    }
-  }
+  /// \param engine  asked only then; null: nothing plays
+  void refresh(const Status& status, const Engine* engine);
 
  private:
   using Report = diagnostic_updater::DiagnosticStatusWrapper;
 
   bool isDue(const Status& status);
-  void publish(const Status& status, const std::optional<audio::JackStatus>& jack);
   void reportForce(Report& report);
   void reportRealtime(Report& report);
   void reportSound(Report& report);
@@ -44,6 +38,7 @@ class Diagnostics {
   Status status_;
   Status last_;  // a second ago
   std::optional<audio::JackStatus> jack_;
+  tgr::WatchdogReading watchdog_;
   std::int64_t due_ns_ = 0;
 };
 

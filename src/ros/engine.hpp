@@ -43,6 +43,7 @@ class Engine {
   /// The watchdog acted and no tick came since: the station cannot say so itself. Thread: any
   bool standsStill() const { return silent_at_ == station_->heartbeat(); }
 
+  tgr::WatchdogReading watchdogReading() const { return watchdog_->reading(); }  ///< Thread: any
   /// \return nothing if it plays without JACK. Thread: any
   std::optional<audio::JackStatus> jackStatus() const;
   /// What the real-time thread could not get and what the audio host asked for since the last call.

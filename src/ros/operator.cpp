@@ -172,10 +172,7 @@ void Operator::run() {
     runTasks();
     performance_.poll();
     feed_.refresh();
-    diagnostics_.refresh(feed_.status(), [this]() -> std::optional<audio::JackStatus> {
-      Engine* engine = performance_.engine();
-      return engine != nullptr ? engine->jackStatus() : std::nullopt;
-    });
+    diagnostics_.refresh(feed_.status(), performance_.engine());
   }
   performance_.close();
   const std::lock_guard lock(mutex_);

@@ -40,6 +40,7 @@ void Station::publish() noexcept {
     s.counters.port_energy_min_j = std::min(s.counters.port_energy_min_j, reading.least_energy_j);
     s.counters.clamped_ticks += reading.clamped_ticks;
     s.counters.muted_ticks += reading.muted_ticks;
+    s.counters.peak_raw_force_n = std::max(s.counters.peak_raw_force_n, reading.peak_raw_force_n);
   }
   s.slice_position = position_;
   s.slice_velocity = velocity_;

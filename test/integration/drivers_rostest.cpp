@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <iostream>
 #include <map>
@@ -145,6 +146,17 @@ class StationProcess {
                                   force.message == status().state_text;
                          });
     }));
+  }
+  /// The newest number in the diagnostics under this name; not a number if there is none.
+  double diagnosed(const std::string& name) const {
+    for (const auto& status : diagnostics_.latest().status) {
+      for (const auto& entry : status.values) {
+        if (entry.key == name) {
+          return std::stod(entry.value);
+        }
+      }
+    }
+    return std::nan("");
   }
   /// From a fault, with the device back, to force. \param force  as `expectPushesBackWith`
   void expectComesBack(double force) const {
@@ -291,6 +303,12 @@ TEST_F(JackStationTest, SaysThatItsServerIsGoneThoughNothingTicks) {
   ASSERT_TRUE(station.becomes(Status::FAULT));
   EXPECT_EQ(station.status().fault, Status::FAULT_WATCHDOG) << station.status().state_text;
   station.expectDiagnosticsError();
+  EXPECT_TRUE(eventually([&] { return station.diagnosed("watchdog: times it acted") >= 1.0; }));
+  EXPECT_GE(station.diagnosed("watchdog: silence when it acted last (s)"), 0.03);  // of 0.032
+  EXPECT_GE(station.diagnosed("stalls of the whole machine"), 0.0);
+  EXPECT_GE(station.diagnosed("longest of these (s)"), 0.0);
+  EXPECT_GE(station.diagnosed("peak force that the model asked for (N)"),
+            -0.95 * forceBehind(kCardWall));
   EXPECT_FALSE(station.call("recover").success) << "there is no server";
 
   server_.start();

@@ -121,12 +121,16 @@ TEST(ConvertTest, StatusSaysWhyForceIsGone) {
   snapshot.state = station::ForceState::kFault;
   snapshot.fault = station::FaultReason::kStall;
   snapshot.counters.underruns = 7;
+  snapshot.counters.peak_force_n = 20.0;
+  snapshot.counters.peak_raw_force_n = 60.0;
   Status status;
   fillStatus(snapshot, status);
   status = sentAndReceived(status);
   EXPECT_EQ(status.state, Status::FAULT);
   EXPECT_EQ(status.fault, Status::FAULT_STALL);
   EXPECT_EQ(status.underruns, 7);
+  EXPECT_EQ(status.peak_force, 20.0);
+  EXPECT_EQ(status.peak_raw_force, 60.0);
   EXPECT_NE(status.state_text.find(toString(station::FaultReason::kStall)), std::string::npos);
 }
 

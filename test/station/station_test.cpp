@@ -54,6 +54,17 @@ TEST(StationTest, ForceOfATickGoesOutWithTheExchangeThatReadsTheNextPosition) {
   EXPECT_EQ(proof.wrong, 0);
 }
 
+TEST(StationTest, TellsWhatTheModelAskedForBesideWhatWasSent) {
+  SpringInstrument::Setting setting;
+  setting.stiffness = 5000.0;  // 50 N at 0.01 m
+  Bench bench(setting);
+  bench.run(kRampTicks);
+  const Snapshot* snapshot = bench.station->snapshot();
+  ASSERT_NE(snapshot, nullptr);
+  EXPECT_EQ(snapshot->counters.peak_raw_force_n, 50.0);
+  EXPECT_EQ(snapshot->counters.peak_force_n, 0.0) << "nobody engaged";
+}
+
 TEST(StationTest, ScalesPositionsAndForcesByThePort) {
   SpringInstrument::Setting setting;
   setting.port.slice = 1;

@@ -62,7 +62,8 @@ TEST_F(WatchdogThreadsTest, ActsOncePerStopAndTellsHowLong) {
     stopUntilBites(round);
     EXPECT_FALSE(dog_.isArmed());
     EXPECT_GE(told_ns_, kPeriodNs);
-    EXPECT_EQ(dog_.silenceNs(), told_ns_);
+    EXPECT_EQ(dog_.reading().silence_ns, told_ns_);
+    EXPECT_EQ(dog_.reading().bites, round);
   }
   pause(20);
   dog_.stop();

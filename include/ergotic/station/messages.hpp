@@ -136,6 +136,7 @@ struct Counters {
   std::int64_t dropped_records = 0;  ///< gesture ticks or events that found their ring full
   double late_worst_s = 0.0;         ///< latest wake-up
   double peak_force_n = 0.0;
+  double peak_raw_force_n = 0.0;   ///< that the model asked for since the last `recover`
   double port_energy_min_j = 0.0;  ///< least of any slice; below 0: so much it gave out
   std::int64_t clamped_ticks = 0;  ///< in which the energy clamp cut a force, summed over slices
   std::int64_t muted_ticks = 0;    ///< in which a sensor stood still, without force, summed as well

@@ -16,6 +16,14 @@ struct WatchdogOptions {
   int priority = 80;
 };
 
+/// What a watchdog has seen since it was made, for diagnostics.
+struct WatchdogReading {
+  std::int64_t bites = 0;           ///< times it acted
+  std::int64_t silence_ns = 0;      ///< since the last tick when it acted last
+  std::int64_t machine_stalls = 0;  ///< of the whole machine, or the process, longer than a period
+  std::int64_t longest_stall_ns = 0;  ///< of these
+};
+
 /// Makes a device safe when ticks stop coming: a thread outside the real-time one that looks at a
 /// counter of ticks four times in a period.
 ///
@@ -50,13 +58,11 @@ class Watchdog {
   /// False after it acted. Realtime: yes. Thread: any
   bool isArmed() const noexcept { return wanted_; }
 
-  // Realtime: yes. Thread: any
-  std::int64_t bites() const noexcept { return bites_; }  ///< times it acted
-  /// Since the last tick when it acted last, ns.
-  std::int64_t silenceNs() const noexcept { return silence_ns_; }
-  /// Times the whole machine, or the process, stood still for longer than a period.
-  std::int64_t machineStalls() const noexcept { return machine_stalls_; }
-  std::int64_t longestStallNs() const noexcept { return longest_stall_ns_; }
+  std::int64_t bites() const noexcept { return bites_; }  ///< times it acted. Thread: any
+  /// Realtime: yes. Thread: any
+  WatchdogReading reading() const noexcept {
+    return {bites_, silence_ns_, machine_stalls_, longest_stall_ns_};
+  }
 
  private:
   void setUpThread(int priority);

@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <signal.h>
-
 #include <cstdlib>
-#include <fstream>
-#include <functional>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -12,10 +8,10 @@
 
 #include "ergotic/audio/jack_client.hpp"
 #include "ergotic/exception.hpp"
-#include "ergotic/rt/clock.hpp"
 #include "tgr/drivers/jack/jack_device.hpp"
 #include "tgr/drivers/jack/step_meter.hpp"
 #include "tgr/require.hpp"
+#include "tools/lib/device_process.hpp"
 
 namespace ergotic {
 namespace {
@@ -69,30 +65,6 @@ void declare(CLI::App& app, Options& options) {
       ->capture_default_str();
 }
 
-/// SIGINT and SIGTERM, blocked in this thread and in those that it starts.
-class Signals {
- public:
-  Signals() {
-    sigemptyset(&set_);
-    sigaddset(&set_, SIGINT);
-    sigaddset(&set_, SIGTERM);
-    pthread_sigmask(SIG_BLOCK, &set_, nullptr);
-  }
-  /// Calls `each` every 10 ms until it is false, a signal comes, or the time (0: none) is over.
-  void attend(double seconds, const std::function<bool()>& each) const {
-    constexpr timespec kPause{0, 10'000'000};
-    const std::int64_t start_ns = rt::monotonicNs();
-    const auto isOver = [&] {
-      return seconds > 0.0 && static_cast<double>(rt::monotonicNs() - start_ns) > seconds * 1e9;
-    };
-    while (sigtimedwait(&set_, nullptr, &kPause) < 0 && each() && !isOver()) {
-    }
-  }
-
- private:
-  sigset_t set_{};
-};
-
 /// Prints what JACK has to say whenever that changes.
 class Teller {
  public:
@@ -110,32 +82,19 @@ class Teller {
   std::string last_;
 };
 
-int play(const Options& options, const Signals& signals) {
-  std::ofstream log;
-  if (!options.log.empty()) {
-    log.open(options.log);
-    log << "time_ns,slice,force_n\n" << std::flush;
-    if (!log) {
-      throw Exception(options.log + ": cannot be written");
-    }
-  }
+int play(const Options& options, const tools::Signals& signals) {
+  tools::ForceLog log(options.log);
   tgr::JackDevice device(options.device);
   {
     const audio::JackHost host(device.jackConfig(options.client, options.server), device);
     Teller teller(host);
     signals.attend(options.seconds, [&] {
       teller.look();
-      tgr::drainForces(device, log);
-      log.flush();
+      log.drain(device);
       return true;
     });
   }
-  tgr::drainForces(device, log);
-  log.flush();
-  if (!options.log.empty() && (!log || device.droppedRecords() > 0)) {
-    throw Exception(options.log + ": incomplete, " + std::to_string(device.droppedRecords()) +
-                    " records dropped");
-  }
+  log.finish(device);
   return EXIT_SUCCESS;
 }
 
@@ -169,7 +128,7 @@ bool report(const tgr::StepSummary& summary, bool cable, std::int64_t declared) 
   return known;
 }
 
-int measure(const Options& options, const Signals& signals) {
+int measure(const Options& options, const tools::Signals& signals) {
   tgr::requireWithin("slice", options.slice, 0, options.device.bank.slices - 1, "");
   const bool cable = !options.cable.empty();
   const tgr::JackDevice device(options.device);
@@ -209,7 +168,7 @@ int main(int argc, char** argv) {
   options.device.watchdog_s = options.watchdog_ms * kSPerMs;
   options.device.declares_latency = !options.undeclared;
   try {
-    const ergotic::Signals signals;
+    const ergotic::tools::Signals signals;
     const bool measures = options.measure > 0 || !options.cable.empty();
     return measures ? ergotic::measure(options, signals) : ergotic::play(options, signals);
   } catch (const ergotic::Exception& error) {

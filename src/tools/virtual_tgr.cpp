@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <signal.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
@@ -14,11 +12,11 @@
 #include <CLI/CLI.hpp>
 
 #include "ergotic/exception.hpp"
-#include "ergotic/rt/clock.hpp"
 #include "ergotic/rt/thread.hpp"
 #include "ergotic/tgr/device.hpp"
 #include "tgr/drivers/virtual/virtual_device.hpp"
 #include "tgr/drivers/virtual/virtual_settings.hpp"
+#include "tools/lib/device_process.hpp"
 
 namespace ergotic {
 namespace {
@@ -86,44 +84,9 @@ tgr::VirtualDeviceConfig deviceOf(const Options& options) {
   return device;
 }
 
-/// SIGINT and SIGTERM, blocked in this thread and in those that it starts.
-sigset_t blockSignals() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  return signals;
-}
-
-/// Drains the records until the time is over or a signal comes.
-void attend(tgr::VirtualDevice& device,
-            std::ostream& log,
-            double seconds,
-            const sigset_t& signals) {
-  constexpr double kNsPerS = 1e9;
-  constexpr timespec kPause{0, 10'000'000};
-  const std::int64_t start_ns = rt::monotonicNs();
-  int signal = -1;
-  bool over = false;
-  while (signal < 0 && !over) {
-    signal = sigtimedwait(&signals, nullptr, &kPause);
-    tgr::drainForces(device, log);
-    log.flush();
-    over = seconds > 0.0 && static_cast<double>(rt::monotonicNs() - start_ns) > seconds * kNsPerS;
-  }
-}
-
 int run(const Options& options) {
-  const sigset_t signals = blockSignals();
-  std::ofstream log;
-  if (!options.log.empty()) {
-    log.open(options.log);
-    log << "time_ns,slice,force_n\n" << std::flush;
-    if (!log) {
-      throw Exception(options.log + ": cannot be written");
-    }
-  }
+  const tools::Signals signals;
+  tools::ForceLog log(options.log);
   tgr::VirtualDevice device(deviceOf(options));
   std::atomic<bool> stop{false};
   std::thread mechanics([&] {
@@ -134,15 +97,13 @@ int run(const Options& options) {
     }
     device.run(stop);
   });
-  attend(device, log, options.seconds, signals);
+  signals.attend(options.seconds, [&] {
+    log.drain(device);
+    return true;
+  });
   stop = true;
   mechanics.join();
-  tgr::drainForces(device, log);
-  log.flush();
-  if (!options.log.empty() && (!log || device.droppedRecords() > 0)) {
-    throw Exception(options.log + ": incomplete, " + std::to_string(device.droppedRecords()) +
-                    " records dropped");
-  }
+  log.finish(device);
   return EXIT_SUCCESS;
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "ergotic/exception.hpp"
 #include "ergotic/tgr/gesture.hpp"
@@ -125,14 +124,6 @@ void JackDevice::feel(std::size_t slice, double force, std::int64_t time_ns) noe
   forces_[slice] = force;
   if (!records_.push({time_ns, static_cast<std::int32_t>(slice), force})) {
     dropped_records_.fetch_add(1, std::memory_order_relaxed);
-  }
-}
-
-void drainForces(JackDevice& device, std::ostream& out) {
-  out.precision(std::numeric_limits<double>::max_digits10);
-  ForceRecord record;
-  while (device.pollForce(record)) {
-    out << record.time_ns << ',' << record.slice << ',' << record.force_n << '\n';
   }
 }
 

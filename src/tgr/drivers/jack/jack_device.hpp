@@ -3,15 +3,14 @@
 
 #include <atomic>
 #include <cstdint>
-#include <ostream>
 #include <vector>
 
 #include "ergotic/audio/jack_client.hpp"
 #include "ergotic/rt/block_io.hpp"
 #include "ergotic/rt/realtime.hpp"
 #include "ergotic/rt/ring.hpp"
+#include "tgr/drivers/virtual/force_record.hpp"
 #include "tgr/drivers/virtual/slice_bank.hpp"
-#include "tgr/drivers/virtual/virtual_device.hpp"
 
 namespace ergotic::tgr {
 
@@ -72,8 +71,5 @@ class JackDevice final : public rt::BlockProcessor {
   std::atomic<std::int64_t> dropped_records_{0};
   std::atomic<std::int64_t> xruns_{0};
 };
-
-/// Writes the records that wait as CSV rows `time_ns,slice,force_n`.
-void drainForces(JackDevice& device, std::ostream& out);
 
 }  // namespace ergotic::tgr

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tgr/drivers/virtual/virtual_device.hpp"
 
-#include <limits>
-
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/clock.hpp"
 #include "ergotic/rt/realtime.hpp"
@@ -106,14 +104,6 @@ void VirtualDevice::run(const std::atomic<bool>& stop) noexcept {
       n = 0;
     }
     step(now_ns);
-  }
-}
-
-void drainForces(VirtualDevice& device, std::ostream& out) {
-  out.precision(std::numeric_limits<double>::max_digits10);
-  ForceRecord record;
-  while (device.pollForce(record)) {
-    out << record.time_ns << ',' << record.slice << ',' << record.force_n << '\n';
   }
 }
 

@@ -4,10 +4,10 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
-#include <ostream>
 #include <string>
 
 #include "ergotic/rt/ring.hpp"
+#include "tgr/drivers/virtual/force_record.hpp"
 #include "tgr/drivers/virtual/shared_device.hpp"
 #include "tgr/drivers/virtual/slice_bank.hpp"
 
@@ -18,13 +18,6 @@ struct VirtualDeviceConfig {
   VirtualDriverConfig bank;   ///< its slices; delay and shared memory are not those of a process
   double rate_hz = 4000.0;    ///< of the mechanics, 100...50000
   double watchdog_s = 0.010;  ///< longest time between exchanges, 0.001...10
-};
-
-/// A change of the force that a slice feels.
-struct ForceRecord {
-  std::int64_t time_ns = 0;  ///< CLOCK_MONOTONIC of the mechanics' step
-  std::int32_t slice = 0;
-  double force_n = 0.0;
 };
 
 /// A virtual device that outlives its driver: mechanics on a clock of its own, met through shared
@@ -67,8 +60,5 @@ class VirtualDevice {
   rt::Ring<ForceRecord> records_{1U << 17U};
   std::atomic<std::int64_t> dropped_records_{0};
 };
-
-/// Writes the records that wait as CSV rows `time_ns,slice,force_n`.
-void drainForces(VirtualDevice& device, std::ostream& out);
 
 }  // namespace ergotic::tgr

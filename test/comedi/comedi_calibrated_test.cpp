@@ -6,6 +6,8 @@
 
 #include "comedi/comedi_rig.hpp"
 #include "ergotic/tgr/calibration.hpp"
+#include "ergotic/tgr/device.hpp"
+#include "scene/source_text.hpp"
 #include "support/driver_contract.hpp"
 
 /// The driver as a station uses it: made to speak metres and newtons.
@@ -103,6 +105,32 @@ TEST_F(ComediCalibrationTest, FindsPositionsAndForcesOfACrookedBoard) {
 TEST_F(ComediCalibrationTest, GivesNoForceToAnUncalibratedSlice) {
   settle(10.0);
   EXPECT_NEAR(comediStandinOutputVolts(0), 0.005, 0.5 * kVoltsPerCount);
+}
+
+TEST(ComediRailTest, ASliceAtItsEndStopHasAPosition) {
+  const ComediStandinBoard board;
+  comediStandinReset(&board);
+  const std::string file = ERGOTIC_SOURCE_DIR "/config/comedi.yaml";
+  const tgr::DriverStack stack = tgr::makeDrivers(
+      tgr::readDevices(*scene::readBytes(file), file),
+      [](const std::string&, const std::string& settings, const std::string& place) {
+        return tgr::ComediFactory().make(settings, place);
+      },
+      false);
+  stack.driver->open(board.rate_hz);
+  const Volts forces{};
+  Volts positions{};
+  for (const double beyond : {0.1, -0.1}) {
+    comediStandinHold(0, beyond);
+    for (int n = 0; n < 3000; ++n) {
+      ASSERT_EQ(stack.driver->exchange(forces.data(), positions.data()), tgr::kExchangeOk);
+      ASSERT_TRUE(std::isfinite(positions[0])) << n;
+    }
+    EXPECT_NEAR(positions[0], std::copysign(board.slice.stop, beyond), 1e-3);
+  }
+  ComediRig::inject(ComediFault::kRail);
+  stack.driver->exchange(forces.data(), positions.data());
+  EXPECT_TRUE(std::isnan(positions[0]));
 }
 
 TEST(ComediRailTest, ASensorAtItsRailHasNoPosition) {

@@ -18,7 +18,7 @@ using Volts = std::array<double, tgr::kMaxSlices>;
 constexpr unsigned kMidCount = 32768;  // the count nearest to 0 V
 constexpr double kVoltsPerCount = 20.0 / kComediMost;
 constexpr double kNewtonsPerVolt = 20.0;
-constexpr double kMetresPerVolt = 0.003;
+constexpr double kMetresPerVolt = 0.004;
 
 /// Slices that move by force alone, with no force and rest at exactly `kMidCount`.
 inline ComediStandinBoard plainBoard() {
@@ -26,7 +26,6 @@ inline ComediStandinBoard plainBoard() {
   board.channels = 4;
   board.no_force_volts = comediVolts(kMidCount);
   board.rest_volts = comediVolts(kMidCount);
-  board.slice.stop = 0.025;  // all of the stroke is within the sensor's range
   board.slice.dry_friction = 0.0;
   board.slice.quantum = 0.0;
   board.slice.noise_rms = 0.0;

@@ -206,6 +206,21 @@ TEST(DeviceFilesTest, OfARawVirtualDeviceLeavesItsSlicesToBeCalibrated) {
   EXPECT_EQ(stack.raw_parts[0].calibrated->calibration().slices[2].volts_per_newton, -0.05);
 }
 
+/// A slice at a stop is no fault, a sensor at its rail is one.
+TEST(DeviceFilesTest, OfVoltsTellAnEndStopFromARail) {
+  const VirtualSliceConfig slice;
+  for (const char* name : {"comedi.yaml", "jack.yaml"}) {
+    const StationDevices devices = installed(name);
+    for (const SliceCalibration& c : devices.devices.at(0).calibration->slices) {
+      const double stop = slice.stop / c.metres_per_volt;
+      EXPECT_GT(c.rest_volts - 1.2 * stop, c.low_volts) << name;
+      EXPECT_LT(c.rest_volts + 1.2 * stop, c.high_volts) << name;
+      EXPECT_GT(c.low_volts, -10.0) << name << ": a rail of an input that reaches +-10 V";
+      EXPECT_LT(c.high_volts, 10.0) << name;
+    }
+  }
+}
+
 TEST(MakeCoreDriverTest, FindsTheFileOfAReplayBesideTheFileOfTheDevices) {
   EXPECT_EQ(complaintOf([] { makeCoreDriver("replay", "{file: x.csv}", "/nowhere/tgr.yaml"); }),
             "/nowhere/x.csv: cannot be read: No such file or directory");

@@ -25,7 +25,7 @@ struct ComediStandinBoard {
   int channels = 16;               ///< of each subdevice
   double newtons_per_volt = 20.0;  ///< of each actuator
   double no_force_volts = 0.0;     ///< of each actuator
-  double metres_per_volt = 0.003;  ///< of each sensor
+  double metres_per_volt = 0.004;  ///< of each sensor
   double rest_volts = 0.0;         ///< of each sensor
   bool can_deglitch = true;        ///< its outputs
   int open_error = 0;              ///< errno of comedi_open; 0: it opens

@@ -9,7 +9,7 @@ endif()
 set(CATKIN_ENABLE_TESTING OFF CACHE BOOL "The tests of ergotic run under ctest")
 set(ergotic_ros_packages
   diagnostic_updater geometry_msgs nodelet pluginlib rosbag_storage roscpp sensor_msgs std_msgs
-  std_srvs tf2_ros visualization_msgs)
+  std_srvs tf2_ros visualization_msgs xmlrpcpp)
 find_package(catkin REQUIRED COMPONENTS ${ergotic_ros_packages} message_generation)
 
 file(GLOB ergotic_messages RELATIVE ${PROJECT_SOURCE_DIR}/msg CONFIGURE_DEPENDS msg/*.msg)

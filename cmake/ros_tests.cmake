@@ -34,6 +34,7 @@ endforeach()
 target_sources(safety_rostest
   PRIVATE test/integration/fault_injection.cpp test/integration/fault_table.cpp)
 add_dependencies(safety_rostest ergotic_ros virtual_tgr)
+add_dependencies(master_rostest ergotic_ros virtual_tgr)
 target_compile_definitions(drivers_rostest PRIVATE COMEDI_STANDIN="$<TARGET_FILE:comedi_standin>")
 add_dependencies(drivers_rostest
   ergotic_ros ergotic_comedi_plugin ergotic_jack_plugin comedi_standin jack_tgr)

@@ -51,6 +51,7 @@ static_assert(Status::FAULT_EMERGENCY_STOP == number(FaultReason::kEmergencyStop
 static_assert(Status::FAULT_PRESENCE == number(FaultReason::kPresence));
 static_assert(Status::FAULT_WORKSPACE == number(FaultReason::kWorkspace));
 static_assert(Status::FAULT_WATCHDOG == number(FaultReason::kWatchdog));
+static_assert(Status::FAULT_MASTER_LOST == number(FaultReason::kMasterLost));
 
 const char* toString(station::LateCause cause) {
   switch (cause) {

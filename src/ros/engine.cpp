@@ -116,6 +116,7 @@ Engine::Engine(const Parameters& parameters,
 Engine::~Engine() {
   watchdog_->disarm();
   station_->makeSafe();
+  master_watch_.reset();
   source_->stop();
   watchdog_->stop();
   station_.reset();  // the device is given back before JACK, which may take its time
@@ -137,6 +138,11 @@ void Engine::startWatchdog() {
     warnings_.push_back(watchdog_->warning());
   }
   watchdog_->arm();
+}
+
+void Engine::watchMaster(const std::string& service) {
+  master_watch_ = std::make_unique<MasterWatch>(
+      service, [this] { station_->makeSafe(tgr::FaultReason::kMasterLost); });
 }
 
 void Engine::recover() {

@@ -14,6 +14,7 @@
 #include "ergotic/station/timer_source.hpp"
 #include "ergotic/tgr/safety/watchdog.hpp"
 #include "ros/hands.hpp"
+#include "ros/master_watch.hpp"
 #include "ros/parameters.hpp"
 
 namespace ergotic::node {
@@ -35,6 +36,10 @@ class Engine {
   station::Station& station() { return *station_; }
   const Parameters& parameters() const { return parameters_; }
   Hands& hands() { return *hands_; }
+
+  /// Forces to zero as soon as the ROS master does not know this service any more, and as long.
+  /// Thread: setup
+  void watchMaster(const std::string& service);
 
   /// Gets lost devices back and watches the ticks again. Thread: operator
   /// \throws DeviceError if a device is still lost
@@ -59,6 +64,7 @@ class Engine {
   std::unique_ptr<station::TickSource> source_;
   std::unique_ptr<audio::JackHost> jack_;
   std::unique_ptr<tgr::Watchdog> watchdog_;
+  std::unique_ptr<MasterWatch> master_watch_;
   double watchdog_s_ = 0.0;
   std::atomic<std::int64_t> silent_at_{-1};  // tick after which the watchdog acted last
   std::vector<std::string> warnings_;

@@ -114,8 +114,11 @@ Answer Loader::start(scene::Scene scene, bool allow_unproven, std::string& verdi
   policy.end_effectors = hands->config().end_effectors;
   auto performer = makePerformer(std::move(scene), rates, parameters.compile, policy, verdict);
   station::Performer* const first = performer.get();
-  Answer answer = operator_.begin(
-      std::make_unique<Engine>(parameters, std::move(hands), std::move(performer)), first);
+  auto engine = std::make_unique<Engine>(parameters, std::move(hands), std::move(performer));
+  if (parameters.require_master) {
+    engine->watchMaster(node_.resolveName("emergency_stop"));
+  }
+  Answer answer = operator_.begin(std::move(engine), first);
   setDescription(node_, operator_);
   return answer;
 }

@@ -119,6 +119,7 @@ void readSafety(const Reader& read, Parameters& p) {
   read.number("max_stall", p.max_stall, 0.001, 1.0);
   read.number("watchdog", p.watchdog, 0.004, 1.0);
   read.choice("presence", p.presence, kPresence);
+  read.flag("require_master", p.require_master);
   read.flag("allow_fault_injection", p.allow_fault_injection);
 }
 
@@ -249,6 +250,7 @@ std::string toYaml(const Parameters& p, const tgr::StationDevices& devices) {
   entry("max_stall", p.max_stall);
   entry("watchdog", p.watchdog);
   entry("presence", wordOf(p.presence, kPresence));
+  entry("require_master", p.require_master);
   entry("allow_fault_injection", p.allow_fault_injection);
   entry("priority", p.priority);
   entry("cpu", p.cpu);

@@ -38,9 +38,10 @@ struct Parameters {
   bool jack_connect = true;           ///< out_i to the i-th physical playback port
   int ring_depth = 768;               ///< audio frames from a tick's due time to its sound
   tgr::SafetyConfig safety;
-  double max_stall = 0.05;  ///< s, longer stalls are a fault
-  double watchdog = 0.02;   ///< s without a tick after which the device is made safe
-  bool presence = false;    ///< force needs messages of the presence switch
+  double max_stall = 0.05;     ///< s, longer stalls are a fault
+  double watchdog = 0.02;      ///< s without a tick after which the device is made safe
+  bool presence = false;       ///< force needs messages of the presence switch
+  bool require_master = true;  ///< force needs a ROS master that knows the station
   bool allow_fault_injection = false;
   int priority = 75;  ///< SCHED_FIFO priority of the tick
   int cpu = -1;       ///< processor of the tick, -1: any

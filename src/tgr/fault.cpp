@@ -37,6 +37,8 @@ const char* toString(FaultReason reason) noexcept {
       return "an end-effector is where its linkage cannot be";
     case FaultReason::kWatchdog:
       return "ticks stopped coming";
+    case FaultReason::kMasterLost:
+      return "the ROS master does not answer, or does not know the station any more";
   }
   return "?";
 }

@@ -23,6 +23,7 @@ enum class FaultReason : std::uint8_t {
   kPresence = 13,       ///< the presence switch was released, or its messages stopped
   kWorkspace = 14,      ///< an end-effector is where its linkage cannot be
   kWatchdog = 15,       ///< ticks stopped coming
+  kMasterLost = 16,     ///< the ROS master is gone, and with it the way to an emergency stop
 };
 
 /// In words, for operators. Realtime: yes.

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <ergotic/Status.h>
+#include <ros/ros.h>
+
+#include "integration/child_process.hpp"
+#include "integration/device_log.hpp"
+#include "integration/listener.hpp"
+#include "integration/wall.hpp"
+
+namespace ergotic::test {
+
+/// A hand that a wall pushes with 15 N: its device in a process of its own, which notes the force,
+/// a station in another. Settings are such that a stall of the machine is no fault.
+class PushedStation {
+ public:
+  /// \param environment  of the station
+  explicit PushedStation(const std::map<std::string, std::string>& environment = {}) {
+    node_.setParam("/station/model", kWall);
+    node_.setParam("/station/virtual_shared_memory", segment_);
+    node_.setParam("/station/jack", "none");
+    node_.setParam("/station/ramp", 0.1);
+    node_.setParam("/station/max_stall", 1.0);
+    node_.setParam("/station/watchdog", 1.0);
+    node_.setParam("/station/max_missing", 1000);
+    node_.setParam("/station/max_speed", 100.0);
+    node_.setParam("/station/frozen", 0.0);
+    node_.setParam("/station/autoengage", true);
+    std::filesystem::create_directories(folder_);
+    std::ofstream(folder_ / "gesture.csv") << "time_s,slice,target_m\n0,0,0\n0.2,0,0.046\n";
+    device_ = std::make_unique<ChildProcess>(
+        std::vector<std::string>{std::string(ERGOTIC_TOOLS_DIR) + "/virtual_tgr", "--shm", segment_,
+                                 "--gesture", (folder_ / "gesture.csv").string(), "--log",
+                                 log_.string(), "--priority", "70", "--watchdog-ms", "2000"});
+    station_ = std::make_unique<ChildProcess>(
+        std::vector<std::string>{"/usr/lib/nodelet/nodelet", "standalone", "ergotic/Station",
+                                 "__name:=station"},
+        environment);
+  }
+  ~PushedStation() {
+    station_.reset();
+    device_->signal(SIGTERM);
+    device_->wait(10.0);
+    std::filesystem::remove_all(folder_);
+  }
+  PushedStation(const PushedStation&) = delete;
+  PushedStation& operator=(const PushedStation&) = delete;
+
+  const std::filesystem::path& folder() const { return folder_; }
+  ChildProcess& process() { return *station_; }
+  Status status() const { return statuses_.latest(); }
+  std::size_t statuses() const { return statuses_.count(); }
+
+  /// What the device felt last, N.
+  double force() {
+    const auto& forces = device_log_.read();
+    return forces.empty() ? 0.0 : forces.back().force_n;
+  }
+  bool isPushed() {
+    return eventually([this] { return force() < -0.95 * kForceN; }, kLongS);
+  }
+  bool becomes(std::uint8_t state) const {
+    return eventually([&] { return statuses() > 0 && status().state == state; }, kLongS);
+  }
+  /// Whether two more reports come, of a station that plays on.
+  bool ticksOn() const {
+    const std::size_t before = statuses();
+    const std::int64_t tick = status().ticks;
+    return eventually([&] { return statuses() >= before + 2; }, kLongS) && status().ticks > tick;
+  }
+  static constexpr double kLongS = 60.0;  // a busy machine is slow
+
+ private:
+  const std::string segment_ = "/ergotic_pushed_" + std::to_string(getpid());
+  const std::filesystem::path folder_ = std::filesystem::temp_directory_path() / segment_.substr(1);
+  const std::filesystem::path log_ = folder_ / "forces.csv";
+  ::ros::NodeHandle node_;
+  Listener<Status> statuses_{node_, "/station/status"};
+  DeviceLog device_log_{log_};
+  std::unique_ptr<ChildProcess> device_;
+  std::unique_ptr<ChildProcess> station_;
+};
+
+}  // namespace ergotic::test

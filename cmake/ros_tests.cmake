@@ -34,6 +34,12 @@ endforeach()
 target_sources(safety_rostest
   PRIVATE test/integration/fault_injection.cpp test/integration/fault_table.cpp)
 add_dependencies(safety_rostest ergotic_ros virtual_tgr)
+# A wall clock that jumps, for programs that have it preloaded.
+add_library(clock_shift SHARED test/clock_shift/clock_shift.cpp)
+target_include_directories(clock_shift PRIVATE test)
+target_link_libraries(clock_shift PRIVATE ergotic_flags ${CMAKE_DL_LIBS})
+target_compile_definitions(outside_rostest PRIVATE CLOCK_SHIFT="$<TARGET_FILE:clock_shift>")
+add_dependencies(outside_rostest ergotic_ros virtual_tgr render clock_shift)
 add_dependencies(master_rostest ergotic_ros virtual_tgr)
 target_compile_definitions(drivers_rostest PRIVATE COMEDI_STANDIN="$<TARGET_FILE:comedi_standin>")
 add_dependencies(drivers_rostest

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What goes wrong around a station, and is nothing to it: 15 N stay where they are.
+#include <fcntl.h>
+#include <sndfile.h>
+#include <std_srvs/Trigger.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <ergotic/ModelState.h>
+#include <ergotic/Status.h>
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+#include <std_msgs/Bool.h>
+#include <sys/mman.h>
+
+#include "clock_shift/clock_shift.hpp"
+#include "ergotic/rt/clock.hpp"
+#include "integration/child_process.hpp"
+#include "integration/listener.hpp"
+#include "integration/pushed_station.hpp"
+#include "support/scratch_file.hpp"
+#include "support/tool_process.hpp"
+
+namespace ergotic::test {
+namespace {
+
+constexpr double kHourS = 3600.0;
+constexpr int kAttempts = 5;
+
+/// The wall clock of a program that has the library preloaded.
+class WallClock {
+ public:
+  WallClock() : file_(std::string(sizeof(Shift), '\0')) {
+    const int file = open(file_.path().c_str(), O_RDWR | O_CLOEXEC);
+    void* const page = mmap(nullptr, sizeof(Shift), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    close(file);
+    if (page == MAP_FAILED) {
+      throw std::runtime_error("no memory to shift a clock with");
+    }
+    shift_ = static_cast<Shift*>(page);
+  }
+  ~WallClock() { munmap(shift_, sizeof(Shift)); }
+  WallClock(const WallClock&) = delete;
+  WallClock& operator=(const WallClock&) = delete;
+
+  std::map<std::string, std::string> environment() const {
+    return {{"LD_PRELOAD", CLOCK_SHIFT}, {kClockShiftFile, file_.path()}};
+  }
+  void shift(double seconds) { *shift_ = static_cast<std::int64_t>(1e9 * seconds); }
+
+ private:
+  using Shift = std::atomic<std::int64_t>;
+  const ScratchFile file_;
+  Shift* shift_;
+};
+
+/// Whether more of these come, which tell the shifted time.
+template <class Message>
+bool comeAt(double shift_s, const Listener<Message>& listener) {
+  const std::size_t before = listener.count();
+  return eventually([&] {
+    const double ahead_s = (listener.latest().header.stamp - ::ros::Time::now()).toSec();
+    return listener.count() > before + 1 && std::abs(ahead_s - shift_s) < 0.1 * kHourS;
+  });
+}
+
+/// Tells a station eight times as often as it needs that somebody is there.
+class HeldSwitch {
+ public:
+  explicit HeldSwitch(::ros::NodeHandle& node)
+      : topic_(node.advertise<std_msgs::Bool>("/station/presence", 10)),
+        timer_(node.createWallTimer(::ros::WallDuration(0.025), [this](const auto& /*event*/) {
+          const std::int64_t now = rt::monotonicNs();
+          longest_ns_ = std::max(longest_ns_.load(), now - std::exchange(spoke_ns_, now));
+          std_msgs::Bool held;
+          held.data = 1U;
+          topic_.publish(held);
+        })) {}
+  /// Whether the machine kept it from speaking, and so perhaps the station from hearing.
+  bool wasLate() const { return longest_ns_ > 100'000'000; }
+
+ private:
+  ::ros::Publisher topic_;
+  std::int64_t spoke_ns_ = rt::monotonicNs();
+  std::atomic<std::int64_t> longest_ns_{0};
+  ::ros::WallTimer timer_;
+};
+
+class ClockTest : public ::testing::Test {
+ protected:
+  /// An hour ahead, an hour behind, and back.
+  /// \return FAULT_NONE if force stayed
+  std::uint8_t playThroughJumps() {
+    WallClock clock;
+    PushedStation station(clock.environment());
+    EXPECT_TRUE(eventually([] {  // as soon as it heard of the switch
+      std_srvs::Trigger engage;
+      return ::ros::service::call("/station/engage", engage) && engage.response.success != 0U;
+    }));
+    for (const double shift_s : {0.0, kHourS, -kHourS, 0.0}) {
+      clock.shift(shift_s);
+      EXPECT_TRUE(comeAt(shift_s, status_));
+      EXPECT_TRUE(comeAt(shift_s, joints_));
+      EXPECT_TRUE(comeAt(shift_s, motion_));
+      EXPECT_TRUE(comeAt(shift_s, diagnostics_));
+      EXPECT_TRUE(station.ticksOn());
+      const bool pushed = station.isPushed();
+      if (const Status status = station.status(); status.state == Status::FAULT) {
+        return status.fault;
+      }
+      EXPECT_TRUE(pushed);
+    }
+    return Status::FAULT_NONE;
+  }
+
+  ::ros::NodeHandle node_;
+  const Listener<Status> status_{node_, "/station/status"};
+  const Listener<sensor_msgs::JointState> joints_{node_, "/station/joint_states"};
+  const Listener<ModelState> motion_{node_, "/station/model_state"};
+  const Listener<diagnostic_msgs::DiagnosticArray> diagnostics_{node_, "/diagnostics"};
+};
+
+TEST_F(ClockTest, IsNothingToAStationWhenItJumpsByAnHour) {
+  node_.setParam("/station/presence", "topic");
+  std::uint8_t fault = Status::FAULT_PRESENCE;
+  bool excused = true;
+  for (int n = 0; n < kAttempts && fault != Status::FAULT_NONE && excused; ++n) {
+    const HeldSwitch presence(node_);
+    fault = playThroughJumps();
+    excused = fault == Status::FAULT_PRESENCE && presence.wasLate();
+  }
+  node_.deleteParam("/station/presence");
+  EXPECT_EQ(fault, Status::FAULT_NONE)
+      << (excused ? "the machine stalls too often to be tested on" : "");
+}
+
+/// Frames of a WAV file, 0 if there is none.
+std::int64_t framesIn(const std::string& path) {
+  SF_INFO info{};
+  SNDFILE* const file = sf_open(path.c_str(), SFM_READ, &info);
+  sf_close(file);
+  return info.frames;
+}
+
+// A file that may not become larger refuses what is written to it, as a full disk does. (On a disk
+// that is nearly full the recorder stops by itself.)
+TEST(DiskTest, IsNothingToAStationWhenItIsFull) {
+  PushedStation station;
+  ASSERT_TRUE(station.isPushed()) << station.status().state_text;
+  const std::string take = (station.folder() / "take").string();
+  ChildProcess recorder({"/bin/bash", "-c",
+                         "trap '' XFSZ; ulimit -c 0 -f 4096; "
+                         "exec /usr/lib/rosbag/record --all --chunksize=64 -O " +
+                             take + ".bag"});
+  const auto status = recorder.wait(PushedStation::kLongS);
+  ASSERT_TRUE(status.has_value()) << "the recorder found room";
+  EXPECT_NE(*status, 0);
+  EXPECT_TRUE(station.ticksOn());
+  EXPECT_EQ(station.status().state, Status::PLAYING) << station.status().state_text;
+  EXPECT_TRUE(station.isPushed());
+
+  const std::string unfinished = take + ".bag.active";
+  ASSERT_EQ(std::system(("/usr/bin/rosbag reindex --quiet " + unfinished).c_str()), 0);
+  std::filesystem::rename(unfinished, take + ".bag");
+  const Outcome rendered = run("render", "--gesture " + take + ".bag --out " + take + ".wav");
+  EXPECT_EQ(rendered.code, 0) << rendered.text;
+  EXPECT_GT(framesIn(take + ".wav"), 44100) << "a second at the least";
+}
+
+}  // namespace
+}  // namespace ergotic::test
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ::ros::init(argc, argv, "outside_rostest");
+  ::ros::AsyncSpinner spinner(2);
+  spinner.start();
+  return RUN_ALL_TESTS();
+}

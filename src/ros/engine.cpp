@@ -150,6 +150,12 @@ void Engine::recover() {
   watchdog_->arm();
 }
 
+void Engine::requireJack() const {
+  if (!jack_) {
+    throw Exception("there is no sound to lose: jack is none");
+  }
+}
+
 std::optional<audio::JackStatus> Engine::jackStatus() const {
   return jack_ ? std::optional(jack_->status()) : std::nullopt;
 }

@@ -51,6 +51,11 @@ class Engine {
   tgr::WatchdogReading watchdogReading() const { return watchdog_->reading(); }  ///< Thread: any
   /// \return nothing if it plays without JACK. Thread: any
   std::optional<audio::JackStatus> jackStatus() const;
+  /// \throws Exception if it plays without JACK
+  void requireJack() const;
+  /// Ends the client that makes the sound, which then begins anew: a fault on purpose.
+  /// \pre requireJack()
+  void dropJack() { jack_->drop(); }
   /// What the real-time thread could not get and what the audio host asked for since the last call.
   std::vector<std::string> takeWarnings();
 

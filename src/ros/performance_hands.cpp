@@ -11,6 +11,7 @@
 #include "ergotic/exception.hpp"
 #include "ergotic/tgr/faulty_driver.hpp"
 #include "ros/performance.hpp"
+#include "ros/process_faults.hpp"
 
 namespace ergotic::node {
 namespace {
@@ -27,7 +28,20 @@ const std::map<std::string, InjectedModelFault> kModelFaults = {
     {"model_blow_up", InjectedModelFault::kBlowUp},
     {"model_active", InjectedModelFault::kActive}};
 
-const char kSignal[] = "signal";
+struct ProgramFault {
+  void (*check)(const Engine&, double amount);  // throws what is not allowed
+  void (*act)(Engine&, double amount);
+};
+const auto kAnyAmount = [](const Engine& /*engine*/, double /*amount*/) {};
+const std::map<std::string, ProgramFault> kProgramFaults = {
+    {"signal", {kAnyAmount, [](Engine& engine, double) { engine.station().makeSafe(); }}},
+    {"stopped",
+     {[](const Engine&, double amount) { requireStop(amount); },
+      [](Engine&, double amount) { stopThisProcess(amount); }}},
+    {"killed", {kAnyAmount, [](Engine&, double) { killThisProcess(); }}},
+    {"jack_lost",
+     {[](const Engine& engine, double) { engine.requireJack(); },
+      [](Engine& engine, double) { engine.dropJack(); }}}};
 
 /// \throws Exception naming all that can be injected
 tgr::InjectedFault deviceFaultNamed(const std::string& name) {
@@ -35,7 +49,9 @@ tgr::InjectedFault deviceFaultNamed(const std::string& name) {
   for (const auto& [other, unused] : kModelFaults) {
     others.push_back(other);
   }
-  others.emplace_back(kSignal);
+  for (const auto& [other, unused] : kProgramFaults) {
+    others.push_back(other);
+  }
   return tgr::faultNamed(name, others);
 }
 
@@ -184,9 +200,11 @@ void Performance::inject(const InjectFault::Request& request, const Promise& pro
       throw Exception("ticks is " + std::to_string(ticks) + ", allowed: 0...1000000");
     }
     const auto model_fault = kModelFaults.find(request.kind);
-    if (request.kind == kSignal) {
+    const auto program_fault = kProgramFaults.find(request.kind);
+    if (program_fault != kProgramFaults.end()) {
+      program_fault->second.check(*engine_, request.amount);
       tellInjected(-1, ticks);
-      engine_->station().makeSafe();
+      program_fault->second.act(*engine_, request.amount);
     } else if (model_fault != kModelFaults.end()) {
       tellInjected(static_cast<int>(model_fault->second), ticks);
     } else {

@@ -10,6 +10,7 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <ergotic/Event.h>
 #include <ergotic/GestureBlock.h>
+#include <ergotic/InjectFault.h>
 #include <ergotic/Keyframe.h>
 #include <ergotic/LoadModel.h>
 #include <ergotic/ModelEnergy.h>
@@ -54,6 +55,7 @@ class StationTest : public ::testing::Test {
       node.setParam("/station/ramp", 0.1);
       node.setParam("/station/jack_wait", 30.0);
       node.setParam("/station/jack_connect", false);
+      node.setParam("/station/allow_fault_injection", true);
       load_nodelet();
     }
     void load_nodelet() {
@@ -300,6 +302,25 @@ TEST_F(StationTest, ReportsDiagnostics) {
              array.status.front().message == world_->status.latest().state_text;
     });
   }));
+}
+
+TEST_F(StationTest, KeepsItsForceWhileSoundIsLostAndComesBack) {
+  ASSERT_EQ(world_->status.latest().state, Status::PLAYING);
+  const std::size_t before = world_->events.count();
+  InjectFault inject;
+  inject.request.kind = "jack_lost";
+  ASSERT_TRUE(::ros::service::call("/station/inject_fault", inject));
+  ASSERT_TRUE(inject.response.success) << inject.response.message;
+  const auto told = [before](std::uint8_t type) {
+    const auto events = world_->events.messages();
+    return std::any_of(events.begin() + static_cast<std::ptrdiff_t>(before), events.end(),
+                       [type](const Event& event) { return event.type == type; });
+  };
+  EXPECT_TRUE(eventually([&] { return told(Event::AUDIO_STOPPED); }));
+  EXPECT_TRUE(eventually([&] { return told(Event::AUDIO_STARTED); }));
+  EXPECT_FALSE(told(Event::STOPPED));
+  const bool machine_stalled = told(Event::TICKS_LOST);  // which is a fault of its own
+  EXPECT_TRUE(machine_stalled || world_->status.latest().state == Status::PLAYING);
 }
 
 TEST_F(StationTest, StopsForceOnRequest) {

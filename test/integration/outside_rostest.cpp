@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What goes wrong around a station, and is nothing to it: 15 N stay where they are.
+// What goes wrong around a station, and is nothing to it: 15 N stay where they are. And faults of
+// its whole process, made by itself.
 #include <fcntl.h>
 #include <sndfile.h>
 #include <std_srvs/Trigger.h>
@@ -8,15 +9,18 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <ergotic/InjectFault.h>
 #include <ergotic/ModelState.h>
 #include <ergotic/Status.h>
 #include <gtest/gtest.h>
@@ -24,6 +28,7 @@
 #include <sensor_msgs/JointState.h>
 #include <std_msgs/Bool.h>
 #include <sys/mman.h>
+#include <sys/wait.h>
 
 #include "clock_shift/clock_shift.hpp"
 #include "ergotic/rt/clock.hpp"
@@ -177,6 +182,61 @@ TEST(DiskTest, IsNothingToAStationWhenItIsFull) {
   const Outcome rendered = run("render", "--gesture " + take + ".bag --out " + take + ".wav");
   EXPECT_EQ(rendered.code, 0) << rendered.text;
   EXPECT_GT(framesIn(take + ".wav"), 44100) << "a second at the least";
+}
+
+class ProcessFaultTest : public ::testing::Test {
+ protected:
+  ProcessFaultTest() { node_.setParam("/station/allow_fault_injection", true); }
+  ~ProcessFaultTest() override { node_.deleteParam("/station/allow_fault_injection"); }
+
+  /// \return nothing if the service did not answer
+  static std::optional<InjectFault::Response> inject(const std::string& kind, double amount = 0.0) {
+    InjectFault inject;
+    inject.request.kind = kind;
+    inject.request.amount = amount;
+    const bool answered = ::ros::service::call("/station/inject_fault", inject);
+    return answered ? std::optional(inject.response) : std::nullopt;
+  }
+
+ private:
+  ::ros::NodeHandle node_;
+};
+
+TEST_F(ProcessFaultTest, StopsTheProcessForAsLongAsAsked) {
+  constexpr double kStoppedS = 0.3;  // of the second that this station may stand still
+  PushedStation station;
+  ASSERT_TRUE(station.isPushed()) << station.status().state_text;
+  const std::int64_t caught_up = station.status().catch_up_ticks;
+  const auto answer = inject("stopped", kStoppedS);
+  ASSERT_TRUE(answer && answer->success) << (answer ? answer->message : "no answer");
+  EXPECT_TRUE(station.ticksOn());
+  EXPECT_GE(station.status().catch_up_ticks - caught_up,
+            static_cast<std::int64_t>(0.9 * kStoppedS * station.status().gestural_rate));
+  EXPECT_TRUE(station.isPushed()) << station.status().state_text;
+}
+
+TEST_F(ProcessFaultTest, SaysWhatItCannotDo) {
+  PushedStation station;
+  ASSERT_TRUE(station.isPushed()) << station.status().state_text;
+  for (const double amount : {0.0, 10.1, -1.0, std::nan("")}) {
+    const auto refused = inject("stopped", amount);
+    ASSERT_TRUE(refused && !refused->success) << amount;
+    EXPECT_NE(refused->message.find("allowed: 0.001...10"), std::string::npos) << refused->message;
+  }
+  const auto silent = inject("jack_lost");
+  ASSERT_TRUE(silent && !silent->success);
+  EXPECT_NE(silent->message.find("jack is none"), std::string::npos) << silent->message;
+  EXPECT_TRUE(station.isPushed()) << station.status().state_text;
+}
+
+TEST_F(ProcessFaultTest, KillsTheProcess) {
+  PushedStation station;
+  ASSERT_TRUE(station.isPushed()) << station.status().state_text;
+  EXPECT_FALSE(inject("killed")) << "nobody is left to answer";
+  const auto status = station.process().wait(PushedStation::kLongS);
+  ASSERT_TRUE(status.has_value());
+  EXPECT_TRUE(WIFSIGNALED(*status) && WTERMSIG(*status) == SIGKILL) << *status;
+  EXPECT_TRUE(eventually([&] { return station.force() == 0.0; })) << "by the device's watchdog";
 }
 
 }  // namespace

@@ -354,7 +354,7 @@ TEST_F(SafetyTest, RefusesFaultsThatDoNotExist) {
   EXPECT_EQ(inject.response.message,
             "fault 'gremlins' is not known, allowed: not_a_number, infinite, jump, frozen, rail, "
             "missing, slow, write_fails, unplugged, noise, model_active, model_blow_up, "
-            "model_not_a_number, signal");
+            "model_not_a_number, jack_lost, killed, signal, stopped");
 }
 
 /// Ends the world, and writes the table if that is asked for.

@@ -2,6 +2,8 @@
 // What `check` says of those who play, and `render` of those who play by themselves.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,7 @@ namespace {
 using test::Outcome;
 using test::run;
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -46,6 +49,70 @@ TEST(PortToolsTest, CheckIsForTheDeviceThatIsAskedFor) {
                                   HasSubstr("noise: {position_m: 3e-06, ")));
   EXPECT_EQ(run("check", kDuet + " --device-damping 0").code, 2);
   EXPECT_EQ(run("check", kDuet + " --device-delay -1").code, 2);
+}
+
+/// A wall, N/m, and the port in front of it.
+std::string wallOf(double stiffness, const std::string& port) {
+  return "ergotic: 1\nname: wall\nsections:\n  hand: {rate: gestural}\nmats:\n"
+         "  key: {type: slice, section: hand}\n"
+         "  ground: {type: ground, section: hand, at: [0, 0]}\n"
+         "lias:\n  wall: {type: spring_damper, between: [key, ground], damping: 0.5, stiffness: " +
+         std::to_string(stiffness) + "}\nports:\n  key: " + port + "\n";
+}
+
+/// At 3150 Hz, where a slice of 2 N s/m bears 2 b / (3 T) = 4200 N/m.
+/// \param errors  where stderr goes
+Outcome checkOf(const std::string& scene,
+                const std::string& options = "",
+                const std::string& errors = "&1") {
+  const test::ScratchFile place;
+  const std::string path = place.path() + ".yaml";
+  std::ofstream(path) << scene;
+  Outcome outcome = run("check", path + " --gestural-rate 3150" + options, errors);
+  std::remove(path.c_str());
+  return outcome;
+}
+
+TEST(PortToolsTest, CheckRefusesAPortAboveTwiceWhatItsSliceBears) {
+  const test::ScratchFile errors;
+  const Outcome refused = checkOf(wallOf(9000, "{mat: key, slice: 0}"), "", errors.path());
+  EXPECT_EQ(refused.code, 1) << refused.text;
+  EXPECT_THAT(refused.text, AllOf(HasSubstr("stiffness_n_per_m: 9000\n"),
+                                  HasSubstr("passive_up_to_n_per_m: 4200\n")));
+  EXPECT_THAT(errors.text(),
+              ContainsRegex("^[^ ]*:11:3: error: port 'key' renders up to 9000 N/m at "
+                            "its slice, which is passive up to 4200 N/m"));
+}
+
+TEST(PortToolsTest, CheckWarnsOfAPortBelowTwiceWhatItsSliceBears) {
+  const test::ScratchFile errors;
+  const Outcome warned = checkOf(wallOf(8000, "{mat: key, slice: 0}"), "", errors.path());
+  EXPECT_EQ(warned.code, 0) << warned.text;
+  EXPECT_THAT(warned.text, HasSubstr("warning: port 'key': the hand may meet 8000 N/m"));
+  EXPECT_EQ(errors.text(), "");
+}
+
+TEST(PortToolsTest, CheckRefusesByTheDeviceThatIsAskedFor) {
+  const std::string wall = wallOf(9000, "{mat: key, slice: 0}");
+  EXPECT_EQ(checkOf(wall, " --device-damping 3").code, 0);
+  EXPECT_EQ(checkOf(wallOf(8000, "{mat: key, slice: 0}"), " --device-delay 2").code, 1);
+}
+
+TEST(PortToolsTest, CheckRefusesByTheScalesOfThePortAndNoneThatNoSliceMoves) {
+  EXPECT_EQ(checkOf(wallOf(9000, "{mat: key, slice: 0, force_scale: 0.5}")).code, 0);
+  EXPECT_EQ(checkOf(wallOf(9000, "{mat: key}")).code, 0);
+}
+
+TEST(PortToolsTest, CheckJudgesAPortThatAnEndEffectorTakesThroughThatAlone) {
+  const std::string wall = wallOf(9000, "{mat: key, slice: 0}");
+  const std::string file =
+      "end_effectors:\n  soft: {type: key, slices: 1, force_scale: 0.5, ports: ";
+  const test::ScratchFile takes_it(file + "key}\n");
+  EXPECT_EQ(checkOf(wall, " --end-effectors " + takes_it.path()).code, 0);
+  const test::ScratchFile leaves_it(file + "''}\n");
+  const Outcome refused = checkOf(wall, " --end-effectors " + leaves_it.path());
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.text, HasSubstr(":11:3: error: port 'key' renders up to 9000 N/m"));
 }
 
 double peakBetween(const std::vector<double>& stereo, double from_s, double to_s) {

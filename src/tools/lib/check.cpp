@@ -298,10 +298,11 @@ int check(const CheckOptions& options) {
     report.add("target", targetReport(readScene(options.scene), rates, compile, options.target,
                                       freedomOf(options.scene, options.compile)));
   }
-  std::vector<std::string> refusals;
+  std::vector<std::string> refusals = refusedPorts(settled.scene, certificate, device);
   if (!options.end_effectors.empty()) {
-    refusals =
-        addSlices(end_effectors, settled.scene, rates, certificate, options.device.traits, report);
+    const auto of_slices =
+        addSlices(end_effectors, settled.scene, rates, certificate, device, report);
+    refusals.insert(refusals.end(), of_slices.begin(), of_slices.end());
   }
   if (!options.filter_response.empty()) {
     writeFilterResponse(options.filter_response, settled.scene, rates);

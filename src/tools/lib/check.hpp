@@ -22,7 +22,7 @@ struct CheckOptions {
 void addOptions(CLI::App& app, CheckOptions& options);
 
 /// Says on stdout what a scene is made of, whether it is stable, and what it costs.
-/// \return kSuccess, kRefused if it is unstable, or kFailure if an end-effector renders too much
+/// \return kSuccess, kRefused if it is unstable, or kFailure if a slice meets too much
 /// \throws TextError, Exception
 int check(const CheckOptions& options);
 

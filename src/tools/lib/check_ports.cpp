@@ -5,6 +5,10 @@
 #include <string>
 #include <utility>
 
+#include "ergotic/tgr/rig.hpp"
+#include "scene/limits.hpp"
+#include "scene/names.hpp"
+
 namespace ergotic::tools {
 namespace {
 
@@ -102,6 +106,28 @@ Report agentsReport(const Scene& scene) {
     report.add(std::move(entry));
   }
   return report;
+}
+
+std::vector<std::string> refusedPorts(const Scene& scene,
+                                      const physics::Certificate& certificate,
+                                      const physics::DeviceTraits& device) {
+  const auto& taken = device.taken_ports;
+  std::vector<std::string> refused;
+  for (const physics::PortCertificate& met : certificate.ports) {
+    const scene::Port& port = scene.ports[static_cast<std::size_t>(met.port)];
+    const bool moved_by_slice =
+        port.slice >= 0 && std::find(taken.begin(), taken.end(), met.port) == taken.end();
+    if (moved_by_slice && met.stiffness > tgr::kRefusedStiffness * met.limit) {
+      refused.push_back(
+          scene.file + ":" + std::to_string(port.place.line) + ":" +
+          std::to_string(port.place.column) + ": error: port " + scene::quoted(port.name) +
+          " renders up to " + scene::numberText(met.stiffness) +
+          " N/m at its slice, which is passive up to " + scene::numberText(met.limit) +
+          " N/m: it will buzz or jump. Soften what it touches, lower its "
+          "force_scale, or raise the gestural rate");
+    }
+  }
+  return refused;
 }
 
 }  // namespace ergotic::tools

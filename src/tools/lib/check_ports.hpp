@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <CLI/CLI.hpp>
 
 #include "ergotic/physics/certify.hpp"
@@ -23,5 +26,11 @@ Report portsReport(const scene::Scene& scene,
                    const physics::Certificate& certificate,
                    const physics::SensorNoise& noise);
 Report agentsReport(const scene::Scene& scene);
+
+/// Ports above tgr::kRefusedStiffness times what the slice that moves them bears, those that an
+/// end-effector takes left out: `file:line:col: error: ...`. The station refuses them, too.
+std::vector<std::string> refusedPorts(const scene::Scene& scene,
+                                      const physics::Certificate& certificate,
+                                      const physics::DeviceTraits& device);
 
 }  // namespace ergotic::tools

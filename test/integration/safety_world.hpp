@@ -22,6 +22,7 @@
 #include <ergotic/InjectFault.h>
 #include <ergotic/SliceTarget.h>
 #include <ergotic/Status.h>
+#include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 #include <std_msgs/Bool.h>
@@ -115,7 +116,7 @@ class SafetyWorld {
   }
   ~SafetyWorld() {
     station.reset();  // it has the device open
-    device_.reset();
+    endDevice();
     std::filesystem::remove_all(folder_);
   }
   SafetyWorld(const SafetyWorld&) = delete;
@@ -124,8 +125,7 @@ class SafetyWorld {
   /// A device with another watchdog is another process; `recover` then finds it.
   void setDeviceWatchdog(double watchdog_ms) {
     if (watchdog_ms != watchdog_ms_) {
-      device_->signal(SIGTERM);
-      device_->wait(10.0);
+      endDevice();
       startDevice(watchdog_ms);
     }
   }
@@ -179,6 +179,7 @@ class SafetyWorld {
 
  private:
   static constexpr double kUsualWatchdogMs = 10.0;
+  static constexpr double kLongS = 60.0;  // a busy machine is slow
 
   void startDevice(double watchdog_ms) {
     const auto path = folder_ / ("forces_" + std::to_string(++devices_) + ".csv");
@@ -188,6 +189,12 @@ class SafetyWorld {
         "--watchdog-ms", std::to_string(watchdog_ms)});
     log = std::make_unique<DeviceLog>(path);
     watchdog_ms_ = watchdog_ms;
+  }
+  /// A device that is killed leaves its shared memory behind.
+  void endDevice() {
+    device_->signal(SIGTERM);
+    EXPECT_TRUE(device_->wait(kLongS)) << "the device does not end";
+    device_.reset();
   }
 
   const std::string segment_ = "/ergotic_safety_" + std::to_string(getpid());

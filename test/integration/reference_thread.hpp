@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <iostream>
 #include <mutex>
+#include <numeric>
 #include <thread>
 #include <vector>
 
@@ -32,6 +33,17 @@ class ReferenceThread {
     return std::any_of(gaps_.begin(), gaps_.end(), [=](const Gap& gap) {
       return gap.start_ns <= to_ns && gap.end_ns >= from_ns;
     });
+  }
+
+  /// How long such gaps lasted between these times of CLOCK_MONOTONIC, together.
+  std::int64_t gapsNs(std::int64_t from_ns, std::int64_t to_ns) const {
+    const std::lock_guard lock(mutex_);
+    return std::accumulate(gaps_.begin(), gaps_.end(), std::int64_t{0},
+                           [=](std::int64_t sum, const Gap& gap) {
+                             const std::int64_t within_ns =
+                                 std::min(gap.end_ns, to_ns) - std::max(gap.start_ns, from_ns);
+                             return sum + std::max(within_ns, std::int64_t{0});
+                           });
   }
 
   static constexpr std::int64_t kGapNs = 5'000'000;

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Tests that need ROS: messages and conversions as gtests, the station as rostests, launch files.
 # All of them run under plain ctest, in the devel space.
-ergotic_add_gtests(ros ergotic_ros)
+ergotic_add_gtests(ros ergotic_ros yaml-cpp)
 target_compile_definitions(ergotic_ros_test PRIVATE ERGOTIC_DEVEL_DIR="${CATKIN_DEVEL_PREFIX}")
 # A device of somebody else, which no list of ours knows of.
 add_library(third_party_device SHARED test/third_party_device/still_device.cpp)

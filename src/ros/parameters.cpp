@@ -3,16 +3,23 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <cmath>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "ergotic/exception.hpp"
 #include "ergotic/station/audio_bridge.hpp"
 #include "ergotic/tgr/driver.hpp"
+#include "scene/names.hpp"
 
 namespace ergotic::node {
 namespace {
+
+using Value = XmlRpc::XmlRpcValue;
 
 constexpr double kFrozenS = 0.1;  // the sensors of a TGR are noisier than their quantum
 
@@ -31,33 +38,43 @@ std::map<std::string, rt::Isa> isas() {
   return choices;
 }
 
+// Read in the same namespace by the diagnostic_updater, and by nodelet where the station is its
+// own.
+const std::vector<std::string> kReadByOthers = {"diagnostic_period", "num_worker_threads"};
+
 /// Reads parameters of one node; every refusal says name, value and what is allowed.
 class Reader {
  public:
-  explicit Reader(const ::ros::NodeHandle& node) : node_(node) {}
-
-  void text(const std::string& name, std::string& value) const { typed(name, value, "a string"); }
-  void flag(const std::string& name, bool& value) const { typed(name, value, "true or false"); }
-
-  void number(const std::string& name, double& value, double minimum, double maximum) const {
-    typed(name, value, "a number");
-    if (!(value >= minimum && value <= maximum)) {
-      std::ostringstream range;
-      range << minimum << "..." << maximum;
-      refuse(name, std::to_string(value), range.str());
+  Reader(const Value& values, std::string node) : node_(std::move(node)) {
+    if (values.getType() == Value::TypeStruct) {
+      unread_.insert(values.begin(), values.end());
     }
   }
 
-  void integer(const std::string& name, int& value, int minimum, int maximum) const {
-    typed(name, value, "an integer");
-    if (value < minimum || value > maximum) {
-      refuse(name, std::to_string(value),
-             std::to_string(minimum) + "..." + std::to_string(maximum));
+  void text(const std::string& name, std::string& value) {
+    typed(name, value, Value::TypeString, "a string");
+  }
+  void flag(const std::string& name, bool& value) {
+    typed(name, value, Value::TypeBoolean, "true or false");
+  }
+
+  void number(const std::string& name, double& value, double minimum, double maximum) {
+    within(name, value, minimum, maximum, shown(minimum) + "..." + shown(maximum));
+  }
+
+  void integer(const std::string& name, int& value, int minimum, int maximum) {
+    const std::string allowed =
+        std::to_string(minimum) + "..." + std::to_string(maximum) + ", whole numbers";
+    double number = value;
+    within(name, number, minimum, maximum, allowed);
+    if (number != std::round(number)) {
+      refuse(name, shown(number), allowed);
     }
+    value = static_cast<int>(number);
   }
 
   template <class T>
-  void choice(const std::string& name, T& value, const std::map<std::string, T>& choices) const {
+  void choice(const std::string& name, T& value, const std::map<std::string, T>& choices) {
     std::string word;
     text(name, word);
     if (word.empty()) {
@@ -65,31 +82,89 @@ class Reader {
     }
     const auto found = choices.find(word);
     if (found == choices.end()) {
-      std::string allowed;
+      std::vector<std::string> words;
       for (const auto& [key, unused] : choices) {
-        allowed += (allowed.empty() ? "" : ", ") + key;
+        words.push_back(key);
       }
-      refuse(name, word, allowed);
+      refuse(name, word, listed(words));
     }
     value = found->second;
   }
 
+  /// After all others: what none of them asked for is misspelt.
+  void refuseUnread() {
+    for (const std::string& name : kReadByOthers) {
+      take(name);
+    }
+    if (unread_.empty()) {
+      return;
+    }
+    const std::string& name = unread_.begin()->first;
+    const std::string nearest = scene::suggestion(name, known_);
+    throw Exception("parameter " + node_ + "/" + name + " is not known" +
+                    (nearest.empty() ? ", allowed: " + listed(known_) : nearest));
+  }
+
  private:
+  static std::string shown(double number) {
+    std::ostringstream text;
+    text << number;
+    return text.str();
+  }
+
+  static std::string listed(const std::vector<std::string>& words) {
+    std::string list;
+    for (const std::string& word : words) {
+      list += (list.empty() ? "" : ", ") + word;
+    }
+    return list;
+  }
+
+  /// \return its value if it was given
+  std::optional<Value> take(const std::string& name) {
+    known_.push_back(name);
+    const auto node = unread_.extract(name);
+    return node ? std::optional(node.mapped()) : std::nullopt;
+  }
+
   template <class T>
-  void typed(const std::string& name, T& value, const std::string& what) const {
-    if (node_.hasParam(name) && !node_.getParam(name, value)) {
-      refuse(name, "of another type", what);
+  void typed(const std::string& name, T& value, Value::Type type, const std::string& allowed) {
+    if (const auto given = take(name)) {
+      if (given->getType() != type) {
+        refuse(name, "of another type", allowed);
+      }
+      value = static_cast<const T&>(*given);
+    }
+  }
+
+  void within(const std::string& name,
+              double& value,
+              double minimum,
+              double maximum,
+              const std::string& allowed) {
+    if (const auto given = take(name)) {
+      if (given->getType() == Value::TypeInt) {
+        value = static_cast<const int&>(*given);
+      } else if (given->getType() == Value::TypeDouble) {
+        value = static_cast<const double&>(*given);
+      } else {
+        refuse(name, "of another type", allowed);
+      }
+      if (!(value >= minimum && value <= maximum)) {
+        refuse(name, shown(value), allowed);
+      }
     }
   }
 
   [[noreturn]] void refuse(const std::string& name,
                            const std::string& value,
                            const std::string& allowed) const {
-    throw Exception("parameter " + node_.resolveName(name) + " is " + value +
-                    ", allowed: " + allowed);
+    throw Exception("parameter " + node_ + "/" + name + " is " + value + ", allowed: " + allowed);
   }
 
-  const ::ros::NodeHandle& node_;
+  std::string node_;
+  Value::ValueStruct unread_;
+  std::vector<std::string> known_;
 };
 
 template <class T>
@@ -102,7 +177,7 @@ std::string wordOf(const T& value, const std::map<std::string, T>& choices) {
   return "";
 }
 
-void readSafety(const Reader& read, Parameters& p) {
+void readSafety(Reader& read, Parameters& p) {
   tgr::SafetyConfig& safety = p.safety;
   read.number("force_limit", safety.force_limit_n, 0.0, tgr::kAbsoluteForceLimitN);
   read.number("ramp", safety.ramp_s, 0.1, 10.0);
@@ -110,6 +185,9 @@ void readSafety(const Reader& read, Parameters& p) {
   read.number("slew", safety.slew_n_per_s, 10.0, 1e6);
   read.number("raw_force_limit", safety.raw_force_limit_n, 1.0, 1e6);
   read.number("energy_limit", safety.energy_limit_j, 0.001, 100.0);
+  read.number("energy_cap", safety.energy_cap_j, 0.001, 10.0);
+  read.number("energy_supply", safety.energy_supply_w, 0.0, 20.0);
+  read.number("slice_mass", safety.slice_mass_kg, 0.01, 100.0);
   read.flag("passivity_controller", safety.passivity_controller);
   read.number("position_limit", safety.position_limit_m, 0.001, 1.0);
   read.number("max_speed", safety.max_speed_m_per_s, 0.1, 100.0);
@@ -171,8 +249,14 @@ tgr::StationDevices plainDevice(const Parameters& p) {
 }  // namespace
 
 Parameters readParameters(const ::ros::NodeHandle& node) {
+  Value values;
+  node.getParam(node.getNamespace(), values);
+  return readParameters(values, node.getNamespace());
+}
+
+Parameters readParameters(const Value& values, const std::string& node) {
   Parameters p;
-  const Reader read(node);
+  Reader read(values, node);
   read.text("model", p.model);
   read.text("device", p.device);
   read.text("driver", p.driver);
@@ -200,6 +284,7 @@ Parameters readParameters(const ::ros::NodeHandle& node) {
   read.flag("autoengage", p.autoengage);
   read.number("display_rate", p.display_rate, 1.0, 60.0);
   read.number("display_zoom", p.display_zoom, 0.0, 1e6);
+  read.refuseUnread();
   return p;
 }
 
@@ -242,6 +327,9 @@ std::string toYaml(const Parameters& p, const tgr::StationDevices& devices) {
   entry("slew", p.safety.slew_n_per_s);
   entry("raw_force_limit", p.safety.raw_force_limit_n);
   entry("energy_limit", p.safety.energy_limit_j);
+  entry("energy_cap", p.safety.energy_cap_j);
+  entry("energy_supply", p.safety.energy_supply_w);
+  entry("slice_mass", p.safety.slice_mass_kg);
   entry("passivity_controller", p.safety.passivity_controller);
   entry("position_limit", p.safety.position_limit_m);
   entry("max_speed", p.safety.max_speed_m_per_s);

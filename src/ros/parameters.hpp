@@ -4,6 +4,7 @@
 #include <string>
 
 #include <ros/node_handle.h>
+#include <xmlrpcpp/XmlRpcValue.h>
 
 #include "ergotic/physics/instrument.hpp"
 #include "ergotic/tgr/device.hpp"
@@ -52,8 +53,13 @@ struct Parameters {
   double display_zoom = 5.0;    ///< of x in markers, about x = 0
 };
 
-/// \throws Exception naming parameter, value and allowed range
+/// \param node  private
+/// \throws Exception naming parameter, value and allowed range; also for one that nobody reads
 Parameters readParameters(const ::ros::NodeHandle& node);
+/// The same.
+/// \param values  a map of them; invalid: there are none
+/// \param node    its name, for messages
+Parameters readParameters(const XmlRpc::XmlRpcValue& values, const std::string& node);
 
 /// What the hands hold, as `device`, `end_effectors` and the rest say.
 /// \throws TextError with file:line:col, Exception if a file cannot be read

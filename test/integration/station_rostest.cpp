@@ -360,6 +360,10 @@ TEST_F(StationTest, CompilesAsItsParametersSayAndSaysWhatIsWrongInThem) {
   EXPECT_FALSE(load(kModel).success);
   EXPECT_TRUE(saysOf("threads", "9, allowed: 1...8")) << world_->status.latest().message;
   world_->node.setParam("/station/threads", 2);
+  world_->node.setParam("/station/force_limt", 5);
+  EXPECT_EQ(load(kModel).message,
+            "parameter /station/force_limt is not known; did you mean 'force_limit'?");
+  world_->node.deleteParam("/station/force_limt");
   ASSERT_TRUE(load(kModel).success);
   EXPECT_TRUE(eventually([] { return world_->status.latest().precision == "double"; }));
   EXPECT_EQ(world_->status.latest().isa, "baseline");

@@ -180,7 +180,8 @@ void Performance::pollCalibration() {
                                                  : " samples: more, or FINISH"));
 }
 
-/// Told first, so that the record never shows an effect before its cause.
+/// Told before it is made, so that the record never shows an effect before its cause; and only what
+/// nothing refuses any more.
 void Performance::tellInjected(int index, std::int64_t ticks) {
   if (!command(CommandType::kInject, index, static_cast<double>(ticks))) {
     throw Exception("too many requests wait for the real-time thread");
@@ -210,6 +211,7 @@ void Performance::inject(const InjectFault::Request& request, const Promise& pro
     } else {
       const tgr::FaultOrder order{deviceFaultNamed(request.kind), request.slice, ticks,
                                   request.amount};
+      engine_->hands().faulty()->check(order);
       tellInjected(static_cast<int>(order.kind), ticks);
       engine_->hands().faulty()->inject(order);
     }

@@ -22,7 +22,7 @@ constexpr std::array<const char*, 10> kNames{"not_a_number", "infinite", "jump",
                                              "rail",         "missing",  "slow", "write_fails",
                                              "unplugged",    "noise"};
 
-void check(const FaultOrder& order, int slices) {
+void requireInjectable(const FaultOrder& order, int slices) {
   const auto kind = static_cast<std::size_t>(order.kind);
   if (kind >= kNames.size()) {
     throw Exception("fault " + std::to_string(kind) + " is not known, allowed: 0..." +
@@ -89,8 +89,9 @@ class FaultyDriverOverAnother final : public FaultyDriver {
     return inside_->setTarget(slice, target_m);
   }
 
+  void check(const FaultOrder& order) const override { requireInjectable(order, slices()); }
   void inject(const FaultOrder& order) override {
-    check(order, slices());
+    check(order);
     orders_.draft() = order;
     orders_.publish();
     if (order.kind == InjectedFault::kUnplugged) {

@@ -18,8 +18,10 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <ergotic/Event.h>
 #include <ergotic/InjectFault.h>
 #include <ergotic/ModelState.h>
 #include <ergotic/Status.h>
@@ -227,6 +229,41 @@ TEST_F(ProcessFaultTest, SaysWhatItCannotDo) {
   ASSERT_TRUE(silent && !silent->success);
   EXPECT_NE(silent->message.find("jack is none"), std::string::npos) << silent->message;
   EXPECT_TRUE(station.isPushed()) << station.status().state_text;
+}
+
+// Events come in the order in which they were told: none can come later than that of the last
+// fault.
+TEST_F(ProcessFaultTest, TellsOnlyOfFaultsThatItMakes) {
+  constexpr std::int64_t kTicks = 7;
+  ::ros::NodeHandle node;
+  const Listener<Event> events(node, "/station/events");
+  PushedStation station;
+  ASSERT_TRUE(station.isPushed()) << station.status().state_text;
+  const auto jump = [](std::int32_t slice, std::int64_t ticks, double amount) {
+    InjectFault inject;
+    inject.request.kind = "jump";
+    inject.request.slice = slice;
+    inject.request.ticks = ticks;
+    inject.request.amount = amount;
+    EXPECT_TRUE(::ros::service::call("/station/inject_fault", inject));
+    return inject.response;
+  };
+  EXPECT_EQ(jump(99, 1, 0.0).message, "slice of the fault: 99 , allowed -1...11");
+  EXPECT_EQ(jump(0, 1, 1.1).message, "amount of jump: 1.1 m, allowed -1...1");
+  EXPECT_EQ(jump(0, -1, 0.0).message, "ticks is -1, allowed: 0...1000000");
+  const auto made = jump(0, kTicks, 0.0);
+  ASSERT_TRUE(made.success) << made.message;
+  const auto told = [&events] {
+    std::vector<double> ticks;
+    for (const Event& event : events.messages()) {
+      if (event.type == Event::INJECTED) {
+        ticks.push_back(event.value);
+      }
+    }
+    return ticks;
+  };
+  EXPECT_TRUE(eventually([&] { return !told().empty() && told().back() == kTicks; }));
+  EXPECT_EQ(told(), std::vector<double>{kTicks});
 }
 
 TEST_F(ProcessFaultTest, KillsTheProcess) {

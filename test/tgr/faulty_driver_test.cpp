@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -217,6 +218,18 @@ TEST_F(FaultyDriverTest, RefusesOrdersOutsideTheirRange) {
             "fault 77 is not known, allowed: 0...9");
   exchange(0.02);
   EXPECT_TRUE(isTrue());
+}
+
+TEST_F(FaultyDriverTest, ChecksAnOrderWithoutTakingIt) {
+  const FaultOrder order{InjectedFault::kJump, 1, 3, 0.1};
+  driver_->check(order);
+  exchange(0.02);
+  EXPECT_TRUE(isTrue());
+  FaultOrder beyond = order;
+  beyond.amount = 1.1;
+  const std::string complaint = complaintOf([&] { driver_->check(beyond); });
+  EXPECT_EQ(complaint, "amount of jump: 1.1 m, allowed -1...1");
+  EXPECT_EQ(complaint, complaintOf([&] { driver_->inject(beyond); }));
 }
 
 TEST(FaultNamesTest, AreTheKinds) {

@@ -36,9 +36,12 @@ struct FaultOrder {
 /// device inside.
 class FaultyDriver : public Driver {
  public:
+  /// What `inject` would refuse. Thread: operator, after `open`
+  /// \throws Exception if a number is out of its range
+  virtual void check(const FaultOrder& order) const = 0;
   /// Takes effect with the next exchange, in place of an earlier order; but what is unplugged stays
   /// so until `reconnect` or `open`. Thread: operator
-  /// \throws Exception if a number is out of its range
+  /// \throws Exception as `check`
   virtual void inject(const FaultOrder& order) = 0;
 };
 std::unique_ptr<FaultyDriver> makeFaultyDriver(std::unique_ptr<Driver> inside);

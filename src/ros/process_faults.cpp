@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <string>
@@ -24,20 +25,22 @@ void requireStop(double seconds) {
   }
 }
 
+/// A shell does all of it, one after the other: were the stop ours, the wake-up might come first.
 void stopThisProcess(double seconds) {
+  const std::string process = std::to_string(getpid());
   std::string shell = "sh";
   std::string option = "-c";
   std::string script =
-      "sleep " + std::to_string(seconds) + "; kill -CONT " + std::to_string(getpid());
+      "kill -STOP " + process + " && sleep " + std::to_string(seconds) + "; kill -CONT " + process;
   const std::array<char*, 4> command{shell.data(), option.data(), script.data(), nullptr};
-  pid_t waker = 0;
-  const int error = posix_spawn(&waker, "/bin/sh", nullptr, nullptr, command.data(), environ);
+  pid_t stopper = 0;
+  const int error = posix_spawn(&stopper, "/bin/sh", nullptr, nullptr, command.data(), environ);
   if (error != 0) {
-    throw DeviceError(std::string("nothing that would wake the process: /bin/sh: ") +
+    throw DeviceError(std::string("nothing that would stop the process: /bin/sh: ") +
                       std::strerror(error));
   }
-  ::kill(getpid(), SIGSTOP);
-  ::waitpid(waker, nullptr, 0);
+  while (::waitpid(stopper, nullptr, 0) < 0 && errno == EINTR) {
+  }
 }
 
 void killThisProcess() {

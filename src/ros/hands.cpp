@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/hands.hpp"
 
+#include <filesystem>
 #include <fstream>
+#include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -18,6 +21,27 @@ tgr::DriverStack makeDrivers(DriverPlugins& plugins,
     return plugins.make(driver, settings, place);
   };
   return tgr::makeDrivers(devices, make, allow_fault_injection);
+}
+
+/// All of it or nothing: written beside the old one, which goes only when the new one is complete.
+void replaceFile(const std::string& path, const std::string& text) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path file = fs::weakly_canonical(path, error);  // a link stays one
+  if (error || (fs::exists(file, error) && !fs::is_regular_file(file, error))) {
+    throw Exception(path + ": cannot be written, allowed: a file");
+  }
+  const fs::path draft = file.string() + ".new";
+  std::ofstream out(draft);
+  out << text;
+  out.close();
+  if (out) {
+    fs::rename(draft, file, error);
+  }
+  if (!out || error) {
+    fs::remove(draft, error);
+    throw Exception(path + ": cannot be written");
+  }
 }
 
 }  // namespace
@@ -40,11 +64,7 @@ void Hands::save(const std::string& path) {
     config_.devices[static_cast<std::size_t>(part.device)].calibration =
         part.calibrated->calibration();
   }
-  std::ofstream file(path);
-  file << tgr::toYaml(config_);
-  if (!file.flush()) {
-    throw Exception(path + ": cannot be written");
-  }
+  replaceFile(path, tgr::toYaml(config_));
 }
 
 std::vector<std::string> checkStiffness(const station::Performer& performer,

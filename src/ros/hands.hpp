@@ -42,7 +42,7 @@ class Hands {
     config_.end_effectors = std::move(end_effectors);
   }
   /// Devices with the calibrations that they have now, as a YAML file.
-  /// \throws Exception if it cannot be written
+  /// \throws Exception naming the file if it cannot be written; an old one is left as it was then
   void save(const std::string& path);
 
  private:

@@ -146,6 +146,11 @@ void Performance::begin(int slice) {
   }
   const Hands& hands = engine_->hands();
   guide_.begin(hands.rawParts(), hands.slices(), slice);
+  // An engage may be on its way whose state nobody could see yet. Later ones are refused.
+  if (!command(CommandType::kStop)) {
+    guide_.abort();
+    throw Exception("too many requests wait for the real-time thread");
+  }
 }
 
 std::string Performance::finish(const Calibrate::Request& request, Calibrate::Response& measured) {

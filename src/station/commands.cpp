@@ -219,12 +219,12 @@ void Station::glideFromThere() noexcept {
 /// not struck by a change of hands.
 void Station::takeRig(tgr::Rig* next) noexcept {
   Event configured = event(Event::Type::kConfigured);
+  stop();
   if (incoming_ != nullptr) {
     configured.rig = incoming_->rig.release();
     incoming_->rig.reset(next);
     return handBack(configured);
   }
-  stop();
   configured.rig = performer_->rig.release();
   performer_->rig.reset(next);
   std::copy(performer_->positions.begin(), performer_->positions.end(), glide_.begin());

@@ -42,7 +42,7 @@ int openDriver(tgr::Driver& driver, double tick_rate_hz) {
 
 tgr::SafetyConfig safetyOf(const StationConfig& config, const tgr::Driver& driver) {
   tgr::SafetyConfig safety = config.safety;
-  safety.slice_damping = std::min(kTrustedDamping * driver.damping(), kMostTrustedDamping);
+  safety.slice_damping = std::min(kTrustedDamping * driver.declaredDamping(), kMostTrustedDamping);
   return safety;
 }
 

@@ -72,6 +72,7 @@ class CalibratedDriverOverRaw final : public CalibratedDriver {
   int extraDelayTicks() const noexcept override { return raw_->extraDelayTicks(); }
   std::uint64_t uncalibrated() const noexcept override { return uncalibrated_; }
   double damping() const noexcept override { return raw_->damping(); }
+  double declaredDamping() const noexcept override { return raw_->declaredDamping(); }
   DeviceClock* clock() noexcept override { return raw_->clock(); }
   bool setTarget(int slice, double target_m) noexcept override {
     return raw_->setTarget(slice, target_m);

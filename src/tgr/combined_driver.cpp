@@ -109,13 +109,8 @@ class CombinedDriver final : public Driver {
     return bits;
   }
 
-  double damping() const noexcept override {
-    double least = drivers_.front()->damping();
-    for (const auto& driver : drivers_) {
-      least = std::min(least, driver->damping());
-    }
-    return least;
-  }
+  double damping() const noexcept override { return least(&Driver::damping); }
+  double declaredDamping() const noexcept override { return least(&Driver::declaredDamping); }
 
   DeviceClock* clock() noexcept override {
     for (const auto& driver : drivers_) {
@@ -137,6 +132,14 @@ class CombinedDriver final : public Driver {
   }
 
  private:
+  double least(double (Driver::*quantity)() const noexcept) const noexcept {
+    double least = (drivers_.front().get()->*quantity)();
+    for (const auto& driver : drivers_) {
+      least = std::min(least, (driver.get()->*quantity)());
+    }
+    return least;
+  }
+
   void check() const {
     if (const int count = slices(); count > kMaxSlices) {
       throw Exception(std::to_string(count) + " slices in all devices together, allowed: at most " +

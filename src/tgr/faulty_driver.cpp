@@ -84,6 +84,7 @@ class FaultyDriverOverAnother final : public FaultyDriver {
   bool isRaw() const noexcept override { return inside_->isRaw(); }
   std::uint64_t uncalibrated() const noexcept override { return inside_->uncalibrated(); }
   double damping() const noexcept override { return inside_->damping(); }
+  double declaredDamping() const noexcept override { return inside_->declaredDamping(); }
   DeviceClock* clock() noexcept override { return inside_->clock(); }
   bool setTarget(int slice, double target_m) noexcept override {
     return inside_->setTarget(slice, target_m);

@@ -39,14 +39,16 @@ TEST(ComediSettingsTest, NeedsChannelsOnly) {
   EXPECT_EQ(s.ai_reference, 0U);
   EXPECT_EQ(s.average, 1);
   EXPECT_THAT(s.safe_volts, ElementsAre(0.0, 0.0));
+  EXPECT_FALSE(s.damping.has_value());
 }
 
 TEST(ComediSettingsTest, TakesWhatIsSaid) {
   const ComediSettings s = readComediSettings(
       with("board: /dev/comedi3, ai_subdevice: 4, ao_subdevice: 5, ai_range: 2, ao_range: [-5, "
            "5.5], ai_reference: diff, ao_reference: common, discard: 1, average: 4, deglitch: "
-           "true, safe_volts: [0.5, -0.25]"),
+           "true, safe_volts: [0.5, -0.25], damping: 1.5"),
       "");
+  EXPECT_EQ(s.damping, 1.5);
   EXPECT_EQ(s.board, "/dev/comedi3");
   EXPECT_EQ(s.ai_subdevice, 4);
   EXPECT_EQ(s.ao_subdevice, 5);

@@ -236,6 +236,27 @@ TEST_F(HandsTest, LetsOneHandFeelTheOtherThroughTheModel) {
   moveHand(2, 0.0);
 }
 
+// So soon after `engage` that no state has told of it.
+TEST_F(HandsTest, TakesAwayAForceThatWasJustAskedForToCalibrate) {
+  ASSERT_TRUE(call("stop").success);
+  ASSERT_TRUE(stateBecomes(Status::READY));
+  const std::size_t before = world_->events.count();
+  ASSERT_TRUE(call("engage").success);
+  const auto begun = calibrate(Calibrate::Request::BEGIN, 0);
+  if (begun.success) {
+    EXPECT_TRUE(eventually([before] {
+      const auto events = world_->events.messages();
+      return events.size() > before && events.back().type == Event::STOPPED;
+    }));
+    EXPECT_TRUE(stateBecomes(Status::READY));
+    EXPECT_FALSE(call("engage").success) << "a slice is being calibrated";
+    EXPECT_TRUE(calibrate(Calibrate::Request::ABORT).success);
+  } else {
+    EXPECT_NE(begun.message.find("stop first"), std::string::npos) << begun.message;
+    EXPECT_TRUE(call("stop").success);
+  }
+}
+
 TEST_F(HandsTest, PutsOtherEndEffectorsInPlaceWithForceAtZero) {
   const auto answer = configure({bow()});
   ASSERT_TRUE(answer.success) << answer.message;

@@ -114,12 +114,17 @@ TEST(ConfigureTest, RefusesToEngageWhileItGlides) {
 
 TEST(ConfigureTest, GoesToTheModelThatIsOnItsWayIn) {
   Bench bench;
+  bench.command(Command::Type::kEngage);
+  bench.run(kRampTicks);
+  ASSERT_EQ(bench.log.forces[0], -1.0);
+  recorded(bench);
   Command swap;
   swap.type = Command::Type::kSwap;
   swap.performer = test::makeSpring().release();
   ASSERT_TRUE(bench.station->submit(swap));
   configure(bench, 5.0);
   bench.run(200);
+  EXPECT_EQ(bench.log.forces[0], 0.0) << "other hands need engage again, whatever model they meet";
   const auto ticks = recorded(bench);
   EXPECT_EQ(ticks.front().port[0], 0.01) << "the old model keeps its hands";
   EXPECT_EQ(ticks.back().port[0], 0.05);

@@ -256,6 +256,7 @@ TEST_F(CalibratedDriverTest, PassesTheRestOn) {
   open({});
   EXPECT_EQ(driver_->extraDelayTicks(), 2);
   EXPECT_EQ(driver_->damping(), 1.5);
+  EXPECT_DOUBLE_EQ(driver_->declaredDamping(), 0.15);
   EXPECT_NE(driver_->clock(), nullptr);
   EXPECT_TRUE(driver_->setTarget(1, 0.01));
   EXPECT_EQ(script_.target, std::make_pair(1, 0.01));

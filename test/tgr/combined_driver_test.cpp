@@ -72,6 +72,7 @@ TEST_F(CombinedDriverTest, MeetsWhatAnyOfThemMeets) {
   EXPECT_EQ(driver->extraDelayTicks(), 3);
   scripts_[1].damping = 0.5;
   EXPECT_EQ(driver->damping(), 0.5) << "what is passive with the least is passive with all";
+  EXPECT_EQ(driver->declaredDamping(), 0.05);
 }
 
 TEST_F(CombinedDriverTest, MakesAllOfThemSafeAndRearmsAll) {

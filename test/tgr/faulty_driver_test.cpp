@@ -56,6 +56,7 @@ TEST_F(FaultyDriverTest, IsTheDeviceInsideWithoutOrders) {
   EXPECT_EQ(script_.forces[2], 3.0);
   EXPECT_EQ(driver_->extraDelayTicks(), 4);
   EXPECT_EQ(driver_->damping(), 0.7);
+  EXPECT_DOUBLE_EQ(driver_->declaredDamping(), 0.07);
   EXPECT_EQ(driver_->uncalibrated(), 5U);
   EXPECT_NE(driver_->clock(), nullptr);
   EXPECT_TRUE(driver_->setTarget(2, 0.01));

@@ -249,6 +249,7 @@ TEST(InProcessDriverTest, DeclaresTheDelayOfItsActuatorsAndItsLeastDamping) {
   config.others[2].damping = 0.4;
   InProcessDriver driver(config);
   EXPECT_EQ(driver.damping(), 0.4);
+  EXPECT_EQ(driver.declaredDamping(), 0.4);
   EXPECT_FALSE(driver.isRaw());
   driver.open(1000.0);
   EXPECT_EQ(driver.extraDelayTicks(), 2 + 4);

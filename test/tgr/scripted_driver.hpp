@@ -67,6 +67,7 @@ class ScriptedDriver final : public tgr::Driver, private tgr::DeviceClock {
   bool isRaw() const noexcept override { return script_.is_raw; }
   std::uint64_t uncalibrated() const noexcept override { return script_.uncalibrated; }
   double damping() const noexcept override { return script_.damping; }
+  double declaredDamping() const noexcept override { return 0.1 * script_.damping; }
   tgr::DeviceClock* clock() noexcept override { return script_.has_clock ? this : nullptr; }
   bool setTarget(int slice, double target_m) noexcept override {
     script_.target = {slice, target_m};

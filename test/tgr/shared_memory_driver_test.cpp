@@ -259,6 +259,7 @@ TEST(SharedMemoryTraitsTest, AreThoseOfTheDevice) {
   driver->open(1000.0);
   EXPECT_EQ(driver->extraDelayTicks(), 4) << "two steps and the actuator";
   EXPECT_EQ(driver->damping(), 0.6);
+  EXPECT_EQ(driver->declaredDamping(), 0.6);
   const std::array<double, 2> forces{0.5, 0.0};  // V
   std::array<double, 2> x{};
   driver->exchange(forces.data(), x.data());

@@ -107,7 +107,7 @@ class SlowStillSensorTest : public StillSensorTest {
 };
 
 TEST_F(SlowStillSensorTest, NeedsMoreThanAHandfulOfSamples) {
-  EXPECT_EQ(samplesUntilMuted(), 24);
+  EXPECT_EQ(samplesUntilMuted(), 20);
 }
 
 class PatientStillSensorTest : public StillSensorTest {

@@ -138,6 +138,25 @@ TEST_P(ClampedWallTest, GivesOutNoMoreWhenTheSliceDampsItself) {
   }
 }
 
+/// A device that hardly damps itself, and of which nobody declared that it does.
+TEST(ClampTest, HoldsASliceOfUnknownDamping) {
+  const double rate_hz = 3000.0;
+  VirtualDriverConfig device = plainDevice();
+  device.slice.damping = 0.1;
+  device.slice.hand_damping = 0.3;
+  WallLoop loop(device, quickDefaults(), rate_hz);
+  const Wall wall{1900.0, 0.0, 0.0};
+  loop.aimAt(0.002);
+  loop.run(kRestS, wall);
+  loop.engage();
+  loop.run(0.2, wall);
+  loop.startMeter();
+  loop.aimAt(-0.02);
+  loop.run(4.0, wall);
+  EXPECT_LT(-loop.leastEnergy(), 0.001);
+  EXPECT_GT(loop.chain().reading(0).clamped_ticks, 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Walls,
                          ClampedWallTest,
                          ::testing::Values(Case{1000.0, 0.5, 0.00005},

@@ -18,6 +18,8 @@ TEST(JackSettingsTest, TakesPhysicalPortsInTheirOrderUnlessToldOthers) {
   EXPECT_EQ(config.heartbeat_port, "");
   EXPECT_EQ(config.client, "ergotic_tgr");
   EXPECT_EQ(config.volts_per_unit, 1.0);
+  EXPECT_EQ(JackDriver(config).damping(), kSupposedDamping);
+  EXPECT_EQ(JackDriver(config).declaredDamping(), 0.0);
   EXPECT_EQ(config.round_trip_frames, 0);
 }
 
@@ -35,6 +37,7 @@ TEST(JackSettingsTest, ReadsAllOfThem) {
   EXPECT_EQ(config.volts_per_unit, 10.0);
   EXPECT_EQ(config.damping, 3.5);
   EXPECT_EQ(JackDriver(config).damping(), 3.5);
+  EXPECT_EQ(JackDriver(config).declaredDamping(), 3.5);
   EXPECT_EQ(config.round_trip_frames, 211);
   EXPECT_EQ(config.wait_s, 0.5);
 }

@@ -21,6 +21,9 @@ enum ExchangeFlag : std::uint32_t {
   kWriteFailed = 1U << 3U,    ///< at least one force was not taken by the device
 };
 
+/// N s/m, of a slice of which nobody knows more.
+constexpr double kSupposedDamping = 2.0;
+
 /// A force-feedback device, an impedance device: it gives positions and takes forces.
 ///
 /// The order of calls is open, any number of exchange, close. `makeSafe` may come at any time.
@@ -70,8 +73,11 @@ class Driver {
   /// on. Realtime: yes. Thread: any
   virtual std::uint64_t uncalibrated() const noexcept { return 0; }
 
-  /// Damping of a slice by itself, N s/m, as far as it is known: passivity limits rest on it.
-  virtual double damping() const noexcept { return 2.0; }
+  /// Damping of a slice by itself, N s/m, known or supposed: what scenes may ask for rests on it.
+  virtual double damping() const noexcept { return kSupposedDamping; }
+  /// As much of it as somebody has declared, N s/m; 0: nobody did. What may be given out to a hand
+  /// rests on it.
+  virtual double declaredDamping() const noexcept { return 0.0; }
 
   /// Not null if the device says when ticks are due. Constant after open.
   virtual DeviceClock* clock() noexcept { return nullptr; }

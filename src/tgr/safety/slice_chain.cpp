@@ -11,7 +11,7 @@ namespace ergotic::tgr {
 namespace {
 
 constexpr double kStillS = 0.009;
-constexpr std::int64_t kLeastStill = 24;  // samples: fewer may be the same by chance
+constexpr std::int64_t kLeastStill = 20;  // samples: fewer may be the same by chance
 
 std::int64_t ticksOf(double seconds, double tick_s) {
   return static_cast<std::int64_t>(std::ceil(seconds / tick_s));

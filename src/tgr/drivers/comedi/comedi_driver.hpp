@@ -35,6 +35,8 @@ class ComediDriver final : public Driver {
   void makeSafe() noexcept override;
   void rearm() noexcept override { safe_ = false; }
   bool isRaw() const noexcept override { return true; }
+  double damping() const noexcept override { return settings_.damping.value_or(kSupposedDamping); }
+  double declaredDamping() const noexcept override { return settings_.damping.value_or(0.0); }
 
  private:
   void takeBoard();

@@ -18,6 +18,7 @@ using scene::YamlMap;
 constexpr Limits kIndexLimits{"", 0.0, 255.0};  // what comedi's words have room for
 constexpr Limits kVoltsLimits{"V", -100.0, 100.0};
 constexpr Limits kSafeVoltsLimits{"V", -0.5, 0.5};  // an amplifier's offset, not a bias
+constexpr Limits kDampingLimits{"N s/m", 0.0, 10'000.0};
 constexpr Limits kDiscardLimits{"", 0.0, 16.0};
 constexpr Limits kAverageLimits{"", 1.0, 64.0};
 
@@ -78,7 +79,7 @@ ComediSettings readComediSettings(const std::string& text, const std::string& fi
   const YamlMap& map = settings.top();
   map.allow({"board", "ai_subdevice", "ao_subdevice", "ai_channels", "ao_channels", "ai_range",
              "ao_range", "ai_reference", "ao_reference", "discard", "average", "deglitch",
-             "safe_volts"});
+             "safe_volts", "damping"});
   ComediSettings read;
   if (map.has("board")) {
     read.board = map.word("board");
@@ -100,6 +101,9 @@ ComediSettings readComediSettings(const std::string& text, const std::string& fi
   read.average = integer(map, "average", kAverageLimits, read.average);
   read.deglitch = map.flag("deglitch", false);
   read.safe_volts = safeVolts(map, read.ai_channels.size());
+  if (map.has("damping")) {
+    read.damping = map.number("damping", kDampingLimits);
+  }
   return read;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct ComediSettings {
   int average = 1;  ///< conversions averaged after these, 1...64
   bool deglitch = false;
   std::vector<double> safe_volts;  ///< one per slice: what the amplifier takes as no force
+  std::optional<double> damping;   ///< of a slice by itself, N s/m, if it is known
 
   int slices() const { return static_cast<int>(ai_channels.size()); }
 };

@@ -40,7 +40,8 @@ class JackDriver final : public Driver {
   void rearm() noexcept override { ticks_.rearm(); }
   int extraDelayTicks() const noexcept override { return extra_delay_ticks_; }
   bool isRaw() const noexcept override { return true; }
-  double damping() const noexcept override { return config_.damping; }
+  double damping() const noexcept override { return config_.damping.value_or(kSupposedDamping); }
+  double declaredDamping() const noexcept override { return config_.damping.value_or(0.0); }
   DeviceClock* clock() noexcept override { return &ticks_; }
 
   /// Frames from a position at the plug to the force of the same tick at the plug. \pre open

@@ -99,7 +99,9 @@ JackDriverConfig readJackSettings(const std::string& text, const std::string& fi
     }
   }
   config.volts_per_unit = top.number("volts_per_unit", kVolts, config.volts_per_unit);
-  config.damping = top.number("damping", kDamping, config.damping);
+  if (top.has("damping")) {
+    config.damping = top.number("damping", kDamping);
+  }
   if (top.has("round_trip_frames")) {
     config.round_trip_frames = top.integer("round_trip_frames", kRoundTrip);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@ struct JackDriverConfig {
   std::vector<std::string> force_ports;     ///< as above, as many
   std::string heartbeat_port;               ///< as above; empty: none
   double volts_per_unit = 1.0;              ///< volts at full scale, both ways
-  double damping = 2.0;                     ///< of a slice by itself, N s/m
+  std::optional<double> damping;            ///< of a slice by itself, N s/m, if it is known
   int round_trip_frames = 0;                ///< as measured; 0: what JACK says
   double wait_s = 5.0;                      ///< for server and ports to appear
 };

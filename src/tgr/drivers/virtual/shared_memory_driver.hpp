@@ -35,6 +35,7 @@ class SharedMemoryDriver final : public Driver {
   int extraDelayTicks() const noexcept override { return extra_delay_ticks_; }
   bool isRaw() const noexcept override { return is_raw_; }
   double damping() const noexcept override { return traits_.damping; }
+  double declaredDamping() const noexcept override { return damping(); }
   bool setTarget(int slice, double target_m) noexcept override;
 
   static constexpr std::int64_t kMissingNs = 20'000'000;  ///< age of the device's last step

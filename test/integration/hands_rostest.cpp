@@ -246,7 +246,8 @@ TEST_F(HandsTest, TakesAwayAForceThatWasJustAskedForToCalibrate) {
   if (begun.success) {
     EXPECT_TRUE(eventually([before] {
       const auto events = world_->events.messages();
-      return events.size() > before && events.back().type == Event::STOPPED;
+      return std::any_of(events.begin() + static_cast<std::ptrdiff_t>(before), events.end(),
+                         [](const Event& event) { return event.type == Event::STOPPED; });
     }));
     EXPECT_TRUE(stateBecomes(Status::READY));
     EXPECT_FALSE(call("engage").success) << "a slice is being calibrated";

@@ -2,12 +2,12 @@
 #include "ros/driver_plugins.hpp"
 
 #include <array>
-#include <cstdlib>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "ergotic/exception.hpp"
+#include "ros/package_path.hpp"
 
 namespace ergotic::node {
 namespace {
@@ -18,8 +18,7 @@ using testing::HasSubstr;
 class DriverPluginsTest : public ::testing::Test {
  protected:
   DriverPluginsTest() {
-    setenv("ROS_PACKAGE_PATH", ERGOTIC_SOURCE_DIR ":" ERGOTIC_SOURCE_DIR "/test", 1);
-    setenv("CMAKE_PREFIX_PATH", ERGOTIC_DEVEL_DIR ":" ERGOTIC_BINARY_DIR "/third_party", 1);
+    test::findBuiltPackages();
     plugins_ = std::make_unique<DriverPlugins>();
   }
 

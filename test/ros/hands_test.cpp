@@ -11,6 +11,7 @@
 #include <sys/resource.h>
 
 #include "ergotic/exception.hpp"
+#include "ros/package_path.hpp"
 #include "support/scratch_file.hpp"
 
 namespace ergotic::node {
@@ -43,6 +44,7 @@ class FullDisk {
 class HandsTest : public ::testing::Test {
  protected:
   static tgr::StationDevices devices() {
+    test::findBuiltPackages();
     return tgr::readDevices("devices:\n- {driver: virtual, settings: {slices: 2}}\n", "d.yaml");
   }
   std::string refusalOf(const std::string& path) {

@@ -74,6 +74,7 @@ struct JackHost::Impl {
   std::shared_ptr<Semaphore> wake = std::make_shared<Semaphore>();
   std::atomic<bool> quit{false};
   std::atomic<bool> drop{false};
+  std::atomic<bool> look_asked{false};   // and not begun yet: looks do not pile up
   std::unique_ptr<JackSession> session;  // the supervisor's
   bool complained_of_wires = false;      // so is this
   mutable std::mutex mutex;              // of status
@@ -83,12 +84,14 @@ struct JackHost::Impl {
 
 void JackHost::Impl::supervise() {
   while (!quit) {
+    look_asked = false;
     try {
       step();
     } catch (const std::exception& error) {
       session.reset();
       say(error.what());
       wake->forget();  // what the ended session posted
+      look_asked = false;
     }
     updateStatus();
     if (!quit) {
@@ -187,7 +190,9 @@ JackStatus JackHost::status() const {
 }
 
 void JackHost::look() {
-  impl_->wake->post();
+  if (!impl_->look_asked.exchange(true)) {
+    impl_->wake->post();
+  }
 }
 
 void JackHost::drop() {

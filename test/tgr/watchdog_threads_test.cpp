@@ -39,7 +39,7 @@ class WatchdogThreadsTest : public ::testing::Test {
   }
   /// Ticks and stops until it has acted `count` times.
   void stopUntilBites(int count) {
-    while (dog_.bites() < count) {
+    while (dog_.reading().bites < count) {
       tickFor(5);  // it looks every millisecond
       pause(10);
     }
@@ -68,7 +68,7 @@ TEST_F(WatchdogThreadsTest, ActsOncePerStopAndTellsHowLong) {
   pause(20);
   dog_.stop();
   EXPECT_EQ(calls_, kRounds);
-  EXPECT_EQ(dog_.bites(), kRounds);
+  EXPECT_EQ(dog_.reading().bites, kRounds);
 }
 
 TEST_F(WatchdogThreadsTest, StaysQuietWhileTicksGoOn) {
@@ -77,7 +77,7 @@ TEST_F(WatchdogThreadsTest, StaysQuietWhileTicksGoOn) {
   const std::int64_t longest_ns = tickFor(300);
   dog_.disarm();
   const bool ticks_were_late = longest_ns >= kPeriodNs;  // another process had this processor
-  EXPECT_TRUE(dog_.bites() == 0 || ticks_were_late) << longest_ns << " ns";
+  EXPECT_TRUE(dog_.reading().bites == 0 || ticks_were_late) << longest_ns << " ns";
 }
 
 TEST_F(WatchdogThreadsTest, StaysQuietUnlessArmed) {
@@ -86,7 +86,7 @@ TEST_F(WatchdogThreadsTest, StaysQuietUnlessArmed) {
   pause(30);
   dog_.arm();
   pause(30);  // no tick since
-  EXPECT_EQ(dog_.bites(), 0);
+  EXPECT_EQ(dog_.reading().bites, 0);
   dog_.disarm();
   tickFor(10);
   pause(30);
@@ -118,7 +118,7 @@ TEST_F(WatchdogThreadsTest, MayBeArmedFromItsOwnActAndFromOtherThreads) {
   done = true;
   operators.join();
   dog.stop();
-  EXPECT_EQ(acts, dog.bites());
+  EXPECT_EQ(acts, dog.reading().bites);
 }
 
 TEST_F(WatchdogThreadsTest, StartsAndStopsAgain) {

@@ -58,7 +58,6 @@ class Watchdog {
   /// False after it acted. Realtime: yes. Thread: any
   bool isArmed() const noexcept { return wanted_; }
 
-  std::int64_t bites() const noexcept { return bites_; }  ///< times it acted. Thread: any
   /// Realtime: yes. Thread: any
   WatchdogReading reading() const noexcept {
     return {bites_, silence_ns_, machine_stalls_, longest_stall_ns_};

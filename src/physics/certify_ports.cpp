@@ -42,10 +42,11 @@ std::vector<PortCertificate> judgePorts(const SceneNetwork& networks,
                             (std::abs(port.position_scale) * scene.time_unit_s * scene.time_unit_s);
     certificate.limit =
         2.0 * device.damping * networks.rates().gesturalHz() / (1.0 + 2.0 * device.delay_ticks);
-    certificates.push_back(certificate);
     // What an end-effector makes of a port is known where that is.
-    if (port.slice < 0 || isTaken(p, device) ||
-        certificate.stiffness <= kWarned * certificate.limit) {
+    const bool is_judged = port.slice >= 0 && !isTaken(p, device);
+    certificate.is_refused = is_judged && certificate.stiffness > kTooMuch * certificate.limit;
+    certificates.push_back(certificate);
+    if (!is_judged || certificate.stiffness <= kWarned * certificate.limit) {
       continue;
     }
     const std::string link = scene.lias[at(links.worst(port))].name;
@@ -57,7 +58,7 @@ std::vector<PortCertificate> judgePorts(const SceneNetwork& networks,
                              " N/m at " + wholeHz(networks.rates().gesturalHz()) + " Hz";
     const std::string advice =
         ". Soften the link, scale the force down, or raise the gestural rate";
-    if (certificate.stiffness > kTooMuch * certificate.limit) {
+    if (certificate.is_refused) {
       findings.add(Verdict::kUnproven, port.place, text + ": it will buzz or jump" + advice);
     } else {
       findings.add(Verdict::kPassive, port.place, text + " (silent below half of it)" + advice);

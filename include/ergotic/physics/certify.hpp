@@ -33,9 +33,10 @@ struct SectionCertificate {
 /// agents have none. Findings are on ports with a slice; end-effectors are for
 /// tgr::renderedStiffness.
 struct PortCertificate {
-  int port = 0;            ///< index in Scene::ports
-  double stiffness = 0.0;  ///< the largest, at the device, N/m
-  double limit = 0.0;      ///< passive below, N/m
+  int port = 0;             ///< index in Scene::ports
+  double stiffness = 0.0;   ///< the largest, at the device, N/m
+  double limit = 0.0;       ///< passive below, N/m
+  bool is_refused = false;  ///< a slice moves it, and it is above twice the limit
 };
 
 struct Certificate {

@@ -298,7 +298,7 @@ int check(const CheckOptions& options) {
     report.add("target", targetReport(readScene(options.scene), rates, compile, options.target,
                                       freedomOf(options.scene, options.compile)));
   }
-  std::vector<std::string> refusals = refusedPorts(settled.scene, certificate, device);
+  std::vector<std::string> refusals = refusedPorts(settled.scene, certificate);
   if (!options.end_effectors.empty()) {
     const auto of_slices =
         addSlices(end_effectors, settled.scene, rates, certificate, device, report);

@@ -5,7 +5,6 @@
 #include <string>
 #include <utility>
 
-#include "ergotic/tgr/rig.hpp"
 #include "scene/limits.hpp"
 #include "scene/names.hpp"
 
@@ -108,16 +107,11 @@ Report agentsReport(const Scene& scene) {
   return report;
 }
 
-std::vector<std::string> refusedPorts(const Scene& scene,
-                                      const physics::Certificate& certificate,
-                                      const physics::DeviceTraits& device) {
-  const auto& taken = device.taken_ports;
+std::vector<std::string> refusedPorts(const Scene& scene, const physics::Certificate& certificate) {
   std::vector<std::string> refused;
   for (const physics::PortCertificate& met : certificate.ports) {
     const scene::Port& port = scene.ports[static_cast<std::size_t>(met.port)];
-    const bool moved_by_slice =
-        port.slice >= 0 && std::find(taken.begin(), taken.end(), met.port) == taken.end();
-    if (moved_by_slice && met.stiffness > tgr::kRefusedStiffness * met.limit) {
+    if (met.is_refused) {
       refused.push_back(
           scene.file + ":" + std::to_string(port.place.line) + ":" +
           std::to_string(port.place.column) + ": error: port " + scene::quoted(port.name) +

@@ -27,10 +27,9 @@ Report portsReport(const scene::Scene& scene,
                    const physics::SensorNoise& noise);
 Report agentsReport(const scene::Scene& scene);
 
-/// Ports above tgr::kRefusedStiffness times what the slice that moves them bears, those that an
-/// end-effector takes left out: `file:line:col: error: ...`. The station refuses them, too.
+/// Why the ports that the certificate refuses cannot be played, as the station says, too:
+/// `file:line:col: error: ...`.
 std::vector<std::string> refusedPorts(const scene::Scene& scene,
-                                      const physics::Certificate& certificate,
-                                      const physics::DeviceTraits& device);
+                                      const physics::Certificate& certificate);
 
 }  // namespace ergotic::tools

@@ -159,6 +159,7 @@ void JackHost::Impl::mendWires() {
 
 void JackHost::Impl::updateStatus() {
   const std::lock_guard<std::mutex> lock(mutex);
+  ++status.looks;
   status.running = session && session->isFlowing();
   status.freewheeling = session && session->isFreewheeling();
   status.client = session ? session->clientName() : "";

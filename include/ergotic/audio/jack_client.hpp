@@ -43,6 +43,7 @@ struct JackStatus {
   std::uint32_t period_frames = 0;  ///< as above
   std::int64_t xruns = 0;           ///< since construction
   std::int64_t starts = 0;          ///< how often blocks began to flow
+  std::int64_t looks = 0;           ///< how often all this was looked at
   bool wired = false;               ///< all peers are connected, and nothing else to them or to us
   std::uint32_t input_latency_frames = 0;   ///< by JACK: age of what arrives, at most
   std::uint32_t output_latency_frames = 0;  ///< by JACK: until what leaves is out, at most

@@ -80,10 +80,12 @@ void JackDriver::reconnect() {
 audio::JackStatus JackDriver::waitForDevice() const {
   constexpr std::int64_t kPauseNs = 20'000'000;
   const std::int64_t end_ns = rt::monotonicNs() + std::llround(config_.wait_s * 1e9);
+  // What was seen before is no proof, nor is the look that may be under way.
+  const std::int64_t fresh = host_->status().looks + 2;
   while (true) {
     host_->look();
     const audio::JackStatus status = host_->status();
-    if (status.running && status.wired) {
+    if (status.looks >= fresh && status.running && status.wired) {
       return status;
     }
     const std::string refusal = ticks_.refusal();

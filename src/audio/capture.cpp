@@ -126,8 +126,7 @@ CaptureReport capture(const CaptureConfig& config,
   WavWriter file(config.path, report.sample_rate_hz, channels, WavFormat::kFloat);
   JackConfig ports;
   ports.inputs = channels;
-  session->registerPorts(ports);
-  session->activate(recorder);
+  session->activate(ports, recorder);
   for (int i = 0; i < channels; ++i) {
     session->connectInput(i, sources[static_cast<std::size_t>(i)]);
   }

@@ -118,8 +118,7 @@ void JackHost::Impl::step() {
 
 void JackHost::Impl::start() {
   session = std::make_unique<JackSession>(config.server, config.name, wake);
-  session->registerPorts(config);
-  session->activate(processor);
+  session->activate(config, processor);
   follow();
   if (config.connect) {
     try {
@@ -165,8 +164,9 @@ void JackHost::Impl::updateStatus() {
   status.client = session ? session->clientName() : "";
   status.wired = session && session->isWired();
   if (session) {
-    status.input_latency_frames = session->inputLatency();
+    // In this order: JACK tells everybody of inputs before it tells anybody of outputs.
     status.output_latency_frames = session->outputLatency();
+    status.input_latency_frames = session->inputLatency();
     status.xruns += session->takeXruns();
     status.sample_rate_hz = session->sampleRate();
     status.period_frames = session->periodFrames();

@@ -76,6 +76,7 @@ struct JackSession::Core {
 
   Gate gate;
   std::atomic<std::uint32_t> period{0};
+  std::atomic<bool> has_ports{false};  // all of them; callbacks do not look at them before
   std::atomic<bool> lost{false};
   std::atomic<bool> changed{false};
   std::atomic<bool> freewheeling{false};
@@ -135,6 +136,9 @@ struct JackSession::Core {
 
   static int onProcess(jack_nframes_t nframes, void* self) {
     auto& core = *static_cast<Core*>(self);
+    if (!core.has_ports) {
+      return 0;
+    }
     if (!core.gate.enter()) {
       core.silence(nframes);
       return 0;
@@ -187,6 +191,9 @@ struct JackSession::Core {
   /// other side; with a terminal it begins and ends here.
   static void onLatency(jack_latency_callback_mode_t mode, void* self) {
     auto& core = *static_cast<Core*>(self);
+    if (!core.has_ports) {
+      return;
+    }
     const bool capture = mode == JackCaptureLatency;
     if (core.terminal) {
       const JackTerminal& end = *core.terminal;
@@ -218,13 +225,32 @@ struct JackSession::Core {
     wired_ports.insert(wired_ports.end(), ports.begin(), ports.end());
   }
 
-  void setCallbacks() {
+  void registerPorts(const JackConfig& config) {
+    const unsigned long end = config.terminal ? 0UL + JackPortIsTerminal : 0UL;
+    for (const std::string& name : portNames(config.input_names, config.inputs, "in_")) {
+      inputs.push_back(registerPort(name, JackPortIsInput | end));
+    }
+    for (const std::string& name : portNames(config.output_names, config.outputs, "out_")) {
+      outputs.push_back(registerPort(name, JackPortIsOutput | end));
+    }
+    input_buffers.resize(inputs.size());
+    output_buffers.resize(outputs.size());
+    if (!config.input_peers.empty()) {
+      addWires(inputs, config.input_peers, true);
+    }
+    if (!config.output_peers.empty()) {
+      addWires(outputs, config.output_peers, false);
+    }
+    has_ports = true;
+  }
+
+  void setCallbacks(bool follows_wires) {
     const bool ok = jack_set_process_callback(client, onProcess, this) == 0 &&
                     jack_set_xrun_callback(client, onXrun, this) == 0 &&
                     jack_set_buffer_size_callback(client, onBufferSize, this) == 0 &&
                     jack_set_freewheel_callback(client, onFreewheel, this) == 0 &&
                     jack_set_latency_callback(client, onLatency, this) == 0;
-    if (!ok || (!wires.empty() && jack_set_port_connect_callback(client, onConnect, this) != 0)) {
+    if (!ok || (follows_wires && jack_set_port_connect_callback(client, onConnect, this) != 0)) {
       fail("callbacks are refused");
     }
     jack_on_shutdown(client, onShutdown, this);
@@ -262,33 +288,19 @@ JackSession::~JackSession() {
   jack_library::callPatiently([core = core_] { jack_client_close(core->client); });
 }
 
-void JackSession::registerPorts(const JackConfig& config) {
-  const unsigned long end = config.terminal ? 0UL + JackPortIsTerminal : 0UL;
-  for (const std::string& name : portNames(config.input_names, config.inputs, "in_")) {
-    core_->inputs.push_back(core_->registerPort(name, JackPortIsInput | end));
-  }
-  for (const std::string& name : portNames(config.output_names, config.outputs, "out_")) {
-    core_->outputs.push_back(core_->registerPort(name, JackPortIsOutput | end));
-  }
-  core_->input_buffers.resize(core_->inputs.size());
-  core_->output_buffers.resize(core_->outputs.size());
+/// A server believes a client before it has it in its graph: wires to one that is only about to be
+/// activated let a synchronous server wait for it, for 20 s, and pass over its latencies. Therefore
+/// nobody sees the ports before.
+void JackSession::activate(const JackConfig& config, rt::BlockProcessor& processor) {
+  core_->processor = &processor;
   core_->latency_frames = config.latency_frames;
   core_->terminal = config.terminal;
-  if (!config.input_peers.empty()) {
-    core_->addWires(core_->inputs, config.input_peers, true);
-  }
-  if (!config.output_peers.empty()) {
-    core_->addWires(core_->outputs, config.output_peers, false);
-  }
-}
-
-void JackSession::activate(rt::BlockProcessor& processor) {
-  core_->processor = &processor;
   core_->period = jack_get_buffer_size(core_->client);  // activation reports it: not a change
-  core_->setCallbacks();
+  core_->setCallbacks(!config.input_peers.empty() || !config.output_peers.empty());
   if (jack_activate(core_->client) != 0) {
     fail("the client cannot be activated");
   }
+  core_->registerPorts(config);
 }
 
 void JackSession::resume() {

@@ -14,7 +14,7 @@ namespace ergotic::audio {
 
 /// One life of a JACK client: from a server that is there until it goes.
 ///
-/// The order of calls is constructor, registerPorts, activate, then any number of pause and resume.
+/// The order of calls is constructor, activate, then any number of pause and resume.
 /// Realtime: no. Thread: one
 class JackSession {
  public:
@@ -26,11 +26,9 @@ class JackSession {
   JackSession(const JackSession&) = delete;
   JackSession& operator=(const JackSession&) = delete;
 
-  /// Ports, their names, latencies and peers are those of the configuration. \throws DeviceError
-  void registerPorts(const JackConfig& config);
-
-  /// Callbacks begin, silent until `resume`. \throws DeviceError
-  void activate(rt::BlockProcessor& processor);
+  /// Callbacks begin, silent until `resume`; then the ports appear. Ports, their names, latencies
+  /// and peers are those of the configuration. \throws DeviceError
+  void activate(const JackConfig& config, rt::BlockProcessor& processor);
 
   /// audioStarted, then blocks flow. \throws what audioStarted throws; stays paused then
   void resume();

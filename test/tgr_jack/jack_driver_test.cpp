@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <optional>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -81,6 +82,40 @@ TEST(JackDriverTest, CountsOnTheRoundTripThatWasMeasured) {
   EXPECT_NE(openError(impossible, 3000.0)
                 .find("63 frames by round_trip_frames, allowed: at least "
                       "the period, 64"),
+            std::string::npos);
+}
+
+TEST(JackDriverTest, KnowsTheRoundTripOfADeviceThatAppearsWhileItWaits) {
+  JackServer server("late", test::serverSettings(kRate, 64));
+  server.start();
+  JackDeviceConfig config = test::jackDevice();
+  config.latency_frames = 100;
+  for (int i = 0; i < 20; ++i) {
+    JackDriver driver(test::jackDriver(server));
+    std::optional<test::JackDeviceClient> device;
+    std::thread later([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(40 + i));
+      device.emplace(server, config);
+    });
+    const std::string error = openError(driver, 3000.0);
+    later.join();
+    ASSERT_EQ(error, "opened") << "time " << i;
+    ASSERT_EQ(driver.roundTripFrames(), 64 + 100) << "time " << i;
+  }
+}
+
+TEST(JackDriverTest, DoesNotCountOnADeviceThatIsFasterThanAPeriod) {
+  JackServer server("instant", test::serverSettings(kRate, 64));
+  server.start();
+  JackDevice device(test::jackDevice());
+  audio::JackConfig instant = device.jackConfig("device", server.name());
+  instant.terminal = audio::JackTerminal{};
+  const audio::JackHost host(instant, device);
+  JackDriverConfig config = test::jackDriver(server);
+  config.wait_s = 3.0;
+  JackDriver driver(config);
+  EXPECT_NE(openError(driver, 3000.0)
+                .find("the round trip is 0 frames by JACK, allowed: at least the period, 64"),
             std::string::npos);
 }
 

@@ -54,8 +54,8 @@ void JackDriver::open(double tick_rate_hz) {
   ticks_.open(tick_rate_hz);
   try {
     host_ = std::make_unique<audio::JackHost>(jackConfig(config_), ticks_);
-    const audio::JackStatus status = waitForDevice();
-    round_trip_frames_ = roundTrip(status);
+    waitForDevice();
+    round_trip_frames_ = waitForRoundTrip();
   } catch (const Exception&) {
     close();
     throw;
@@ -77,16 +77,48 @@ void JackDriver::reconnect() {
   waitForDevice();
 }
 
-audio::JackStatus JackDriver::waitForDevice() const {
-  constexpr std::int64_t kPauseNs = 20'000'000;
-  const std::int64_t end_ns = rt::monotonicNs() + std::llround(config_.wait_s * 1e9);
+void JackDriver::waitForDevice() const {
   // What was seen before is no proof, nor is the look that may be under way.
   const std::int64_t fresh = host_->status().looks + 2;
+  const bool is_there = lookUntil([fresh](const audio::JackStatus& status) {
+    return status.looks >= fresh && status.running && status.wired;
+  });
+  if (!is_there) {
+    const std::string message = host_->status().message;
+    std::ostringstream error;
+    error << "jack device " << config_.client << ": waited " << config_.wait_s
+          << " s: " << (message.empty() ? "JACK does not answer" : message);
+    throw DeviceError(error.str());
+  }
+}
+
+/// What was measured counts more than what JACK has been told; nothing is faster than a period.
+/// JACK tells of latencies when it gets round to it, some time after the wires are there.
+int JackDriver::waitForRoundTrip() const {
+  const auto is_possible = [this](const audio::JackStatus& status) {
+    return roundTrip(status) >= status.period_frames;
+  };
+  const bool is_measured = config_.round_trip_frames > 0;
+  const bool is_well = is_measured ? is_possible(host_->status()) : lookUntil(is_possible);
+  const audio::JackStatus status = host_->status();
+  if (!is_well) {
+    throw DeviceError("jack device " + config_.client + ": the round trip is " +
+                      std::to_string(roundTrip(status)) + " frames " +
+                      (is_measured ? "by round_trip_frames" : "by JACK") +
+                      ", allowed: at least the period, " + std::to_string(status.period_frames));
+  }
+  return static_cast<int>(roundTrip(status));
+}
+
+/// \return false if nothing that suits is seen within `wait_s`. \throws DeviceError if the rate or
+/// the period does not
+bool JackDriver::lookUntil(const std::function<bool(const audio::JackStatus&)>& suits) const {
+  constexpr std::int64_t kPauseNs = 20'000'000;
+  const std::int64_t end_ns = rt::monotonicNs() + std::llround(config_.wait_s * 1e9);
   while (true) {
     host_->look();
-    const audio::JackStatus status = host_->status();
-    if (status.looks >= fresh && status.running && status.wired) {
-      return status;
+    if (suits(host_->status())) {
+      return true;
     }
     const std::string refusal = ticks_.refusal();
     if (!refusal.empty()) {
@@ -94,28 +126,15 @@ audio::JackStatus JackDriver::waitForDevice() const {
     }
     const std::int64_t now_ns = rt::monotonicNs();
     if (now_ns >= end_ns) {
-      std::ostringstream message;
-      message << "jack device " << config_.client << ": waited " << config_.wait_s
-              << " s: " << (status.message.empty() ? "JACK does not answer" : status.message);
-      throw DeviceError(message.str());
+      return false;
     }
     rt::sleepUntilNs(now_ns + kPauseNs);
   }
 }
 
-/// What was measured counts more than what JACK has been told; nothing is faster than a period.
-int JackDriver::roundTrip(const audio::JackStatus& status) const {
-  const auto period = static_cast<int>(status.period_frames);
-  const auto declared =
-      static_cast<int>(status.input_latency_frames + status.output_latency_frames);
-  const int frames = config_.round_trip_frames > 0 ? config_.round_trip_frames : declared;
-  if (frames < period) {
-    throw DeviceError("jack device " + config_.client + ": the round trip is " +
-                      std::to_string(frames) + " frames " +
-                      (frames == declared ? "by JACK" : "by round_trip_frames") +
-                      ", allowed: at least the period, " + std::to_string(period));
-  }
-  return frames;
+std::uint32_t JackDriver::roundTrip(const audio::JackStatus& status) const noexcept {
+  return config_.round_trip_frames > 0 ? static_cast<std::uint32_t>(config_.round_trip_frames)
+                                       : status.input_latency_frames + status.output_latency_frames;
 }
 
 std::unique_ptr<Driver> JackFactory::make(const std::string& settings,

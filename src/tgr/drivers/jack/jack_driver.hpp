@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -24,7 +25,7 @@ class JackDriver final : public Driver {
   JackDriver(const JackDriver&) = delete;
   JackDriver& operator=(const JackDriver&) = delete;
 
-  /// Waits up to `wait_s` for server and ports.
+  /// Waits up to `wait_s` for server and ports, and as long for JACK to know the round trip.
   /// \throws DeviceError if they are not there, or rate, period or round trip do not fit
   void open(double tick_rate_hz) override;
   void close() noexcept override;
@@ -50,8 +51,10 @@ class JackDriver final : public Driver {
   audio::JackStatus status() const { return host_->status(); }
 
  private:
-  audio::JackStatus waitForDevice() const;
-  int roundTrip(const audio::JackStatus& status) const;
+  void waitForDevice() const;
+  int waitForRoundTrip() const;
+  bool lookUntil(const std::function<bool(const audio::JackStatus&)>& suits) const;
+  std::uint32_t roundTrip(const audio::JackStatus& status) const noexcept;  ///< frames
 
   JackDriverConfig config_;
   int slices_;

@@ -125,7 +125,7 @@ class StationProcess {
   /// A hand that presses from now on meets the wall with this force, or more while it swings. A
   /// stall mutes the force, and the hand then swings farther: such a press does not tell how far.
   void expectPushesBackWith(double force) const {
-    constexpr int kAttempts = 5;
+    constexpr int kAttempts = 10;
     for (int n = 0; n < kAttempts; ++n) {
       const std::size_t from = gesture_.count();
       ASSERT_TRUE(eventually([&] { return strongest(from) < 0.95 * force; }, kLongS))

@@ -44,7 +44,7 @@ namespace ergotic::test {
 namespace {
 
 constexpr double kHourS = 3600.0;
-constexpr int kAttempts = 5;
+constexpr int kAttempts = 10;
 
 /// The wall clock of a program that has the library preloaded.
 class WallClock {

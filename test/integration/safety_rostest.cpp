@@ -29,7 +29,7 @@ namespace ergotic::test {
 namespace {
 
 constexpr double kReleased = 0.01;
-constexpr int kAttempts = 5;  // of which each may meet a stall of the machine
+constexpr int kAttempts = 10;  // of which each may meet a stall of the machine
 constexpr double kPatienceS = 5.0;
 constexpr std::int64_t kUncertainNs = 500'000;
 constexpr double kActiveNPerM = 1e4;   // of model_active

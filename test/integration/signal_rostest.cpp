@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kWatchdogNs = 10 * kMs;  // of the device, unless it is told another
 constexpr double kTargetM = 0.046;  // of a hand of 500 N/m, which so meets 15 N at 15 mm
-constexpr int kAttempts = 5;
+constexpr int kAttempts = 10;
 constexpr int kNeededPasses = 3;
 constexpr int kMaxSpoiled = 10;  // attempts in which a stall had muted the force before the signal
 

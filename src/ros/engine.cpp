@@ -146,6 +146,11 @@ void Engine::watchMaster(const std::string& service) {
 }
 
 void Engine::recover() {
+  if (master_watch_ && master_watch_->isMissing()) {
+    throw Exception(
+        "the ROS master does not know this station, so nobody could find emergency_stop: start the "
+        "station again where a master is, or with require_master: false");
+  }
   station_->driver().reconnect();
   watchdog_->arm();
 }

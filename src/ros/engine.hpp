@@ -42,7 +42,7 @@ class Engine {
   void watchMaster(const std::string& service);
 
   /// Gets lost devices back and watches the ticks again. Thread: operator
-  /// \throws DeviceError if a device is still lost
+  /// \throws DeviceError if a device is still lost, Exception if the ROS master is
   void recover();
 
   /// The watchdog acted and no tick came since: the station cannot say so itself. Thread: any

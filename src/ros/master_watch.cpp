@@ -35,7 +35,8 @@ MasterWatch::~MasterWatch() {
 void MasterWatch::run() {
   RepeatedFailure lost;
   while (!stopped()) {
-    if (lost.note(!masterKnows()) && !stopped()) {
+    missing_ = !masterKnows();
+    if (lost.note(missing_) && !stopped()) {
       on_lost_();
     }
     std::unique_lock lock(mutex_);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
@@ -37,6 +38,9 @@ class MasterWatch {
   MasterWatch(const MasterWatch&) = delete;
   MasterWatch& operator=(const MasterWatch&) = delete;
 
+  /// Whether the last question failed. Thread: any
+  bool isMissing() const noexcept { return missing_; }
+
  private:
   void run();
   bool masterKnows();
@@ -47,6 +51,7 @@ class MasterWatch {
   std::mutex mutex_;  // of stop_
   std::condition_variable woken_;
   bool stop_ = false;
+  std::atomic<bool> missing_{false};
   std::thread thread_;
 };
 

@@ -95,7 +95,7 @@ void Performance::recover(const Promise& promise) {
   if (engine_) {
     try {
       engine_->recover();
-    } catch (const DeviceError& failure) {
+    } catch (const Exception& failure) {
       return answer(promise, false, failure.what());
     }
   }

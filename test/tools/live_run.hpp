@@ -20,8 +20,10 @@ namespace ergotic::test {
 /// replay is measured against.
 class LiveRun : private station::FramePort {
  public:
-  explicit LiveRun(const std::string& scene_text, const physics::CompileOptions& options = {})
-      : scene_text_(scene_text), options_(options) {
+  explicit LiveRun(const std::string& scene_text,
+                   const physics::CompileOptions& options = {},
+                   const station::PerformerPolicy& policy = {})
+      : scene_text_(scene_text), options_(options), policy_(policy) {
     station::StationConfig config;
     config.rates = kRates;
     config.output_channels = 1;
@@ -90,6 +92,12 @@ class LiveRun : private station::FramePort {
     station_->submit(next);
   }
 
+  void recover() {
+    station::Command recover;
+    recover.type = station::Command::Type::kRecover;
+    station_->submit(recover);
+  }
+
   void takeKeyframe() {
     station::Command keyframe;
     keyframe.type = station::Command::Type::kKeyframe;
@@ -104,7 +112,7 @@ class LiveRun : private station::FramePort {
 
  private:
   std::unique_ptr<station::Performer> perform(const std::string& text) const {
-    return station::makePerformer(scene::readYaml(text, "live.yaml"), kRates, options_);
+    return station::makePerformer(scene::readYaml(text, "live.yaml"), kRates, options_, policy_);
   }
 
   void push(std::int64_t first, const float* frames, int nframes) noexcept override {
@@ -164,6 +172,7 @@ class LiveRun : private station::FramePort {
 
   std::string scene_text_;
   physics::CompileOptions options_;
+  station::PerformerPolicy policy_;
   std::vector<float> sound_;
   bag::Recording recording_;
   const physics::Instrument* playing_ = nullptr;

@@ -31,8 +31,10 @@ struct Replayed {
   physics::CompileOptions options;
 };
 
-Replayed replay(const bag::Recording& recording, const CompileChoice& choice = {}) {
-  Replay player(recording, {}, choice);
+Replayed replay(const bag::Recording& recording,
+                const CompileChoice& choice = {},
+                const station::PerformerPolicy& policy = {}) {
+  Replay player(recording, policy, choice);
   Replayed result;
   result.options = player.instrument().options();
   result.first_tick = player.start().tick;
@@ -138,6 +140,45 @@ TEST(ReplayTest, SwapsModelsWithTheSameFade) {
   const Replayed again = replay(live.recording());
   EXPECT_THAT(again.flaws, ElementsAre());
   expectSame(again, live.sound());
+}
+
+TEST(ReplayTest, BlowsUpAndBeginsAnewAsThePerformanceDid) {
+  std::string unstable = kScene;
+  unstable.replace(unstable.find("[1000, 8000]"), 12, "[1000, 9e6]");
+  unstable.replace(unstable.find("type: cell,"), 11, "type: cell, matched: false,");
+  station::PerformerPolicy policy;
+  policy.allow_unstable = true;
+  LiveRun live(unstable, {}, policy);
+  live.takeKeyframe();
+  live.play(900);
+  live.setParameter(0, 9e6);
+  live.play(300);
+  live.setParameter(0, 3000.0);
+  live.play(5);
+  live.recover();
+  live.play(2000);
+  live.takeKeyframe();
+  live.play(10);
+  const std::vector<float>& sound = live.sound();
+  const auto silent = std::count(sound.begin(), sound.end(), 0.0F);
+  EXPECT_GT(silent, 100 * LiveRun::kRates.ratio) << "it did not blow up";
+  const Replayed again = replay(live.recording(), {}, policy);
+  EXPECT_THAT(again.flaws, ElementsAre());
+  expectSame(again, sound);
+  bag::Recording untold = live.recording();
+  for (station::Event& event : untold.events) {
+    event.type =
+        event.type == station::Event::Type::kFault ? station::Event::Type::kStopped : event.type;
+  }
+  EXPECT_THAT(replay(untold, {}, policy).flaws,
+              ElementsAre(HasSubstr("the model blows up, which it did not then at tick 90")));
+  bag::Recording stable = live.recording();
+  for (station::Event& event : stable.events) {
+    event.value = event.type == station::Event::Type::kParameter ? 3000.0 : event.value;
+  }
+  EXPECT_THAT(replay(stable, {}, policy).flaws,
+              ElementsAre(HasSubstr("had blown up, which it does not now at tick"),
+                          HasSubstr("not in the recorded state")));
 }
 
 /// A performance with a keyframe in its middle and one near its end.

@@ -11,6 +11,9 @@
 
 namespace ergotic::tools {
 
+/// The model is not finite any more: silence from here on, until it begins anew or another plays.
+bool isBlowUp(const station::Event& event);
+
 /// A station without a clock, whose sound is taken tick by tick.
 class OfflineStation : private station::FramePort {
  public:
@@ -29,7 +32,6 @@ class OfflineStation : private station::FramePort {
 
   /// Runs one tick; then what it told, freed of what it handed back, goes to `hear`.
   /// \param[out] frames  [R][output channels]
-  /// \throws Exception if the model blows up
   void cycle(double* frames, const std::function<void(const station::Event&)>& hear = nullptr);
 
   const station::Keyframe& keyframe() const { return station_.keyframe(); }

@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "ergotic/exception.hpp"
 #include "ergotic/tgr/replay_driver.hpp"
 #include "ergotic/tgr/virtual_driver.hpp"
 #include "tools/lib/offline_station.hpp"
@@ -83,6 +84,10 @@ class HandPlayer final : public Player {
 
  private:
   void hear(const station::Event& event) {
+    if (isBlowUp(event)) {
+      throw Exception("the sound or a force is not finite from frame " +
+                      std::to_string(event.frame) + " on: the model blows up; nothing is kept");
+    }
     if (event.type == station::Event::Type::kFault) {
       const double time_s = static_cast<double>(event.frame) / rates().audio_hz;
       trouble_ = "warning: no force from " + std::to_string(time_s) +

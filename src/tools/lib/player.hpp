@@ -22,7 +22,7 @@ class Player {
 
   /// \param[out] frames  [R][output channels], where R frames make a tick
   /// \return false if there is no more; `frames` is untouched then
-  /// \throws Exception if the model blows up
+  /// \throws Exception if the model blows up; a recorded one does what it did
   virtual bool next(double* frames) = 0;
 
   /// What went wrong so far, though the sound is good; empty: nothing.

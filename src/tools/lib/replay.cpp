@@ -38,6 +38,10 @@ bool isSwap(const station::Event& event) {
   return event.type == EventType::kSwapped && event.index == 1;
 }
 
+bool beginsAnew(const station::Event& event) {
+  return event.type == EventType::kRecovered && event.index == 1;
+}
+
 }  // namespace
 
 /// The positions of the tick that the replay is at.
@@ -162,7 +166,7 @@ bool Replay::next(double* frames) {
   } else {
     takePositions();
     submitSwaps();
-    submitParameters();
+    submitChanges();
     submitKeyframe();
     station_->cycle(frames, [this](const station::Event& event) { hear(event); });
     checkPorts();
@@ -248,23 +252,30 @@ void Replay::submitSwaps() {
   }
 }
 
-void Replay::submitParameters() {
+void Replay::submitChanges() {
   while (change_ < recording_.events.size() && recording_.events[change_].tick <= tick_) {
     const station::Event& event = recording_.events[change_++];
-    if (event.type != EventType::kParameter) {
-      continue;
+    if (event.type == EventType::kParameter) {
+      submitParameter(event);
+    } else if (beginsAnew(event)) {
+      station::Command recover;
+      recover.type = station::Command::Type::kRecover;
+      station_->submit(recover);
     }
-    Tone& tone = incoming_.instrument != nullptr && tick_ < swap_tick_ ? incoming_ : playing_;
-    tone.parameters.at(static_cast<std::size_t>(event.index)) = event.value;
-    auto coefficients = tone.instrument->prepare(tone.parameters);
-    station::Command change;
-    change.type = station::Command::Type::kParameter;
-    change.index = static_cast<int>(event.index);
-    change.value = event.value;
-    change.coefficients = coefficients.get();
-    station_->submit(change);
-    coefficients.release();
   }
+}
+
+void Replay::submitParameter(const station::Event& event) {
+  Tone& tone = incoming_.instrument != nullptr && tick_ < swap_tick_ ? incoming_ : playing_;
+  tone.parameters.at(static_cast<std::size_t>(event.index)) = event.value;
+  auto coefficients = tone.instrument->prepare(tone.parameters);
+  station::Command change;
+  change.type = station::Command::Type::kParameter;
+  change.index = static_cast<int>(event.index);
+  change.value = event.value;
+  change.coefficients = coefficients.get();
+  station_->submit(change);
+  coefficients.release();
 }
 
 /// Every later keyframe is a check of the replay.
@@ -287,10 +298,27 @@ void Replay::hear(const station::Event& event) {
       addFlaw(tick_, "a swap was under way at the keyframe that the replay starts from");
     }
   }
+  if (isBlowUp(event) && !wasAtFault()) {
+    addFlaw(tick_, "the model blows up, which it did not then");
+  }
+  if (event.type == EventType::kRecovered && !beginsAnew(event)) {
+    addFlaw(tick_, "the model had blown up, which it does not now");
+  }
   if (event.type == EventType::kKeyframe &&
       station_->keyframe().state != recording_.keyframes[keyframe_].state) {
     addFlaw(tick_, "the model is not in the recorded state");
   }
+}
+
+/// Blow-ups are told where there is no fault yet.
+bool Replay::wasAtFault() const {
+  bool fault = false;
+  for (const station::Event& event : recording_.events) {
+    if (event.tick <= tick_) {
+      fault = event.type == EventType::kFault || (fault && event.type != EventType::kRecovered);
+    }
+  }
+  return fault;
 }
 
 void Replay::addFlaw(std::int64_t tick, const std::string& what) {

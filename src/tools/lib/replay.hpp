@@ -13,8 +13,9 @@
 
 namespace ergotic::tools {
 
-/// Plays a recorded performance again in a station: the recorded positions, parameter changes and
-/// swaps at their ticks. The same build gives the same samples, bit for bit, on any processor.
+/// Plays a recorded performance again in a station: the recorded positions, parameter changes,
+/// swaps and new beginnings after a blow-up at their ticks. The same build gives the same samples,
+/// bit for bit, on any processor.
 ///
 /// Ticks that never ran when it was recorded are silence; ticks that ran but are missing from the
 /// recording are played with the last position held, and told of in `flaws`.
@@ -57,7 +58,9 @@ class Replay final : public Player {
   void takePositions();
   void checkPorts();
   void submitSwaps();
-  void submitParameters();
+  void submitChanges();
+  void submitParameter(const station::Event& event);
+  bool wasAtFault() const;
   void submitKeyframe();
   void hear(const station::Event& event);
   void addFlaw(std::int64_t tick, const std::string& what);
@@ -71,7 +74,7 @@ class Replay final : public Player {
   std::vector<double> ports_;
   std::size_t block_ = 0;             // the one that holds tick_, or the next one
   std::size_t swap_ = 0;              // events up to here were looked at for swaps,
-  std::size_t change_ = 0;            // for parameters,
+  std::size_t change_ = 0;            // for other changes,
   std::size_t keyframe_ = 0;          // and keyframes up to here
   std::int64_t swap_tick_ = -1;       // at which the swap under way has to happen, -1: none
   std::vector<station::Event> lost_;  // kTicksLost

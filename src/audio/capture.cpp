@@ -120,12 +120,13 @@ CaptureReport capture(const CaptureConfig& config,
   const auto channels = static_cast<int>(sources.size());
 
   CaptureReport report;
-  std::unique_ptr<JackSession> session = search.takeSession();
-  report.sample_rate_hz = session->sampleRate();
+  std::unique_ptr<JackSession> found = search.takeSession();
+  report.sample_rate_hz = found->sampleRate();
   Recorder recorder(channels, static_cast<std::size_t>(kRingSeconds * report.sample_rate_hz));
   WavWriter file(config.path, report.sample_rate_hz, channels, WavFormat::kFloat);
   JackConfig ports;
   ports.inputs = channels;
+  const std::unique_ptr<JackSession> session = std::move(found);  // ends before what it calls
   session->activate(ports, recorder);
   for (int i = 0; i < channels; ++i) {
     session->connectInput(i, sources[static_cast<std::size_t>(i)]);

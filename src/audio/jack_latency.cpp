@@ -17,6 +17,16 @@ jack_latency_range_t latencyOf(const std::vector<jack_port_t*>& ports,
   return total;
 }
 
+jack_latency_range_t latencyOf(const JackTerminal& terminal,
+                               jack_latency_callback_mode_t mode,
+                               std::uint32_t period_frames) noexcept {
+  const std::uint32_t frames =
+      mode == JackCaptureLatency
+          ? terminal.output_latency_frames
+          : terminal.input_latency_frames + terminal.input_latency_periods * period_frames;
+  return {frames, frames};
+}
+
 void setLatency(const std::vector<jack_port_t*>& ports,
                 jack_latency_callback_mode_t mode,
                 jack_latency_range_t range) noexcept {

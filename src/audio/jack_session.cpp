@@ -195,18 +195,14 @@ struct JackSession::Core {
       return;
     }
     const bool capture = mode == JackCaptureLatency;
+    jack_latency_range_t total{};
     if (core.terminal) {
-      const JackTerminal& end = *core.terminal;
-      const std::uint32_t frames =
-          capture ? end.output_latency_frames
-                  : end.input_latency_frames +
-                        end.input_latency_periods * jack_get_buffer_size(core.client);
-      setLatency(capture ? core.outputs : core.inputs, mode, {frames, frames});
-      return;
+      total = latencyOf(*core.terminal, mode, jack_get_buffer_size(core.client));
+    } else {
+      total = latencyOf(capture ? core.inputs : core.outputs, mode);
+      total.min += core.latency_frames;
+      total.max += core.latency_frames;
     }
-    jack_latency_range_t total = latencyOf(capture ? core.inputs : core.outputs, mode);
-    total.min += core.latency_frames;
-    total.max += core.latency_frames;
     setLatency(capture ? core.outputs : core.inputs, mode, total);
   }
 
@@ -242,6 +238,7 @@ struct JackSession::Core {
       addWires(outputs, config.output_peers, false);
     }
     has_ports = true;
+    jack_recompute_total_latencies(client);  // that callback did nothing until here
   }
 
   void setCallbacks(bool follows_wires) {
@@ -380,6 +377,7 @@ void JackSession::mendWires() {
     throw;
   }
   if (mended) {
+    jack_port_connected(core_->wired_ports.back());  // waits for the graph that has the wires
     jack_recompute_total_latencies(core_->client);
   }
   core_->wired = true;

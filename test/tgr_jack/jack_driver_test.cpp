@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tgr/drivers/jack/jack_driver.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <optional>
 #include <thread>
@@ -112,7 +113,7 @@ TEST(JackDriverTest, DoesNotCountOnADeviceThatIsFasterThanAPeriod) {
   instant.terminal = audio::JackTerminal{};
   const audio::JackHost host(instant, device);
   JackDriverConfig config = test::jackDriver(server);
-  config.wait_s = 3.0;
+  config.wait_s = 10.0;
   JackDriver driver(config);
   EXPECT_NE(openError(driver, 3000.0)
                 .find("the round trip is 0 frames by JACK, allowed: at least the period, 64"),

@@ -80,10 +80,10 @@ void JackDriver::reconnect() {
 void JackDriver::waitForDevice() const {
   // What was seen before is no proof, nor is the look that may be under way.
   const std::int64_t fresh = host_->status().looks + 2;
-  const bool is_there = lookUntil([fresh](const audio::JackStatus& status) {
+  const auto there = lookUntil([fresh](const audio::JackStatus& status) {
     return status.looks >= fresh && status.running && status.wired;
   });
-  if (!is_there) {
+  if (!there) {
     const std::string message = host_->status().message;
     std::ostringstream error;
     error << "jack device " << config_.client << ": waited " << config_.wait_s
@@ -95,13 +95,12 @@ void JackDriver::waitForDevice() const {
 /// What was measured counts more than what JACK has been told; nothing is faster than a period.
 /// JACK tells of latencies when it gets round to it, some time after the wires are there.
 int JackDriver::waitForRoundTrip() const {
-  const auto is_possible = [this](const audio::JackStatus& status) {
-    return roundTrip(status) >= status.period_frames;
-  };
   const bool is_measured = config_.round_trip_frames > 0;
-  const bool is_well = is_measured ? is_possible(host_->status()) : lookUntil(is_possible);
-  const audio::JackStatus status = host_->status();
-  if (!is_well) {
+  const auto known = lookUntil([&](const audio::JackStatus& status) {
+    return is_measured || (status.wired && roundTrip(status) >= status.period_frames);
+  });
+  const audio::JackStatus status = known.value_or(host_->status());
+  if (roundTrip(status) < status.period_frames) {
     throw DeviceError("jack device " + config_.client + ": the round trip is " +
                       std::to_string(roundTrip(status)) + " frames " +
                       (is_measured ? "by round_trip_frames" : "by JACK") +
@@ -110,15 +109,17 @@ int JackDriver::waitForRoundTrip() const {
   return static_cast<int>(roundTrip(status));
 }
 
-/// \return false if nothing that suits is seen within `wait_s`. \throws DeviceError if the rate or
-/// the period does not
-bool JackDriver::lookUntil(const std::function<bool(const audio::JackStatus&)>& suits) const {
+/// \return nothing if no status that suits is seen within `wait_s`. \throws DeviceError if rate or
+/// period do not fit
+std::optional<audio::JackStatus> JackDriver::lookUntil(
+    const std::function<bool(const audio::JackStatus&)>& suits) const {
   constexpr std::int64_t kPauseNs = 20'000'000;
   const std::int64_t end_ns = rt::monotonicNs() + std::llround(config_.wait_s * 1e9);
   while (true) {
     host_->look();
-    if (suits(host_->status())) {
-      return true;
+    const audio::JackStatus status = host_->status();
+    if (suits(status)) {
+      return status;
     }
     const std::string refusal = ticks_.refusal();
     if (!refusal.empty()) {
@@ -126,7 +127,7 @@ bool JackDriver::lookUntil(const std::function<bool(const audio::JackStatus&)>& 
     }
     const std::int64_t now_ns = rt::monotonicNs();
     if (now_ns >= end_ns) {
-      return false;
+      return std::nullopt;
     }
     rt::sleepUntilNs(now_ns + kPauseNs);
   }

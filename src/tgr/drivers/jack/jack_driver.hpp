@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "ergotic/audio/jack_client.hpp"
@@ -53,7 +54,8 @@ class JackDriver final : public Driver {
  private:
   void waitForDevice() const;
   int waitForRoundTrip() const;
-  bool lookUntil(const std::function<bool(const audio::JackStatus&)>& suits) const;
+  std::optional<audio::JackStatus> lookUntil(
+      const std::function<bool(const audio::JackStatus&)>& suits) const;
   std::uint32_t roundTrip(const audio::JackStatus& status) const noexcept;  ///< frames
 
   JackDriverConfig config_;

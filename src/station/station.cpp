@@ -14,6 +14,7 @@ namespace {
 constexpr double kTrustedDamping = 0.5;        // of what a driver says of its device
 constexpr double kMostTrustedDamping = 100.0;  // N s/m
 constexpr double kSwapFadeS = 0.005;
+constexpr std::int64_t kLookInsideTicks = 50;  // a replay must look at the same ticks
 constexpr std::size_t kMaxKeyframeParameters = 1U << 12U;
 
 void checkRange(const char* what, double value, double low, double high) {
@@ -32,6 +33,7 @@ const StationConfig& checked(const StationConfig& config) {
   checkRange("display rate (Hz)", config.display_hz, 1.0, 1000.0);
   checkRange("presence (s)", config.presence_s, 0.0, 10.0);
   checkRange("glide (s)", config.glide_s, 0.001, 10.0);
+  checkRange("first tick", static_cast<double>(config.first_tick), 0.0, 1e15);
   return config;
 }
 
@@ -86,6 +88,7 @@ Station::Station(const StationConfig& config,
             config.rates.ratio),
       performer_(std::move(performer)),
       uncalibrated_(driver_->uncalibrated()),
+      tick_(config.first_tick),
       frames_out_(samples(config.rates.ratio, config.output_channels)),
       frames_in_(samples(config.rates.ratio, config.input_channels)),
       commands_(config.command_ring),
@@ -162,7 +165,7 @@ void Station::catchUp(std::int64_t ticks, std::int64_t stall_ns) noexcept {
     lost.index = ticks - run;
     tell(lost);
     counters_.lost_ticks += ticks - run;
-    tick_ += ticks - run;
+    skip(ticks - run);
     fault(FaultReason::kStall, -1);
   }
   chain_.resume();
@@ -293,7 +296,7 @@ void Station::tickInstrument() noexcept {
   Performer& p = *performer_;
   p.instrument->tick({p.positions.data(), p.forces.data(), p.inputs.data(), p.outputs.data()});
   const auto finite = [](double f) { return std::isfinite(f); };
-  const bool look_inside = tick_ % display_ticks_ == 0;
+  const bool look_inside = tick_ % kLookInsideTicks == 0;
   if (!std::all_of(p.forces.begin(), p.forces.end(), finite) ||
       (look_inside && !p.instrument->isFinite())) {
     blowUp();

@@ -35,6 +35,7 @@ struct StationConfig {
   std::size_t event_ring = 1U << 12U;      ///< events, beside those that hand something back
   std::size_t command_ring = 1U << 8U;     ///< commands
   std::size_t keyframe_bytes = 1U << 24U;  ///< largest state that a keyframe can hold
+  std::int64_t first_tick = 0;             ///< number of the tick that runs first, >= 0
 };
 
 /// State of an instrument at the start of a recording.
@@ -93,6 +94,9 @@ class Station {
   /// Force gate closed and zero force sent: the last act of a tick source. A later source must
   /// engage again. Realtime: yes. Thread: tick
   ERGOTIC_REALTIME void rest() noexcept;
+
+  /// These ticks will never run, but count. Realtime: yes. Thread: tick
+  void skip(std::int64_t ticks) noexcept { tick_ += ticks; }
 
   /// Index of the tick that runs next. Realtime: yes. Thread: tick
   std::int64_t nextTick() const noexcept { return tick_; }
@@ -198,7 +202,7 @@ class Station {
   std::unique_ptr<Performer> performer_;
   std::unique_ptr<Performer> incoming_;  // waits for the fade-out
   std::uint64_t uncalibrated_;           // slices, as of the last tick
-  std::int64_t tick_ = 0;
+  std::int64_t tick_;
   ForceState state_ = ForceState::kReady;
   FaultReason fault_ = FaultReason::kNone;
   bool blown_up_ = false;

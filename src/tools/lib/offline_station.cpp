@@ -9,12 +9,16 @@
 namespace ergotic::tools {
 namespace {
 
-station::StationConfig configOf(const physics::Rates& rates, int inputs, int outputs) {
+station::StationConfig configOf(const physics::Rates& rates,
+                                int inputs,
+                                int outputs,
+                                std::int64_t first_tick) {
   station::StationConfig config;
   config.rates = rates;
   config.input_channels = inputs;
   config.output_channels = outputs;
   config.record_ring = 1;  // nobody reads it
+  config.first_tick = first_tick;
   return config;
 }
 
@@ -28,11 +32,12 @@ bool isBlowUp(const station::Event& event) {
 OfflineStation::OfflineStation(std::unique_ptr<station::Performer> performer,
                                std::unique_ptr<tgr::Driver> driver,
                                SoundInputs inputs,
-                               int output_channels)
+                               int output_channels,
+                               std::int64_t first_tick)
     : inputs_(std::move(inputs)),
       output_channels_(output_channels),
       rates_(performer->instrument->rates()),
-      station_(configOf(rates_, inputs_.channels(), output_channels),
+      station_(configOf(rates_, inputs_.channels(), output_channels, first_tick),
                std::move(driver),
                std::move(performer)) {
   sound_.resize(static_cast<std::size_t>(rates_.ratio * output_channels_));

@@ -18,11 +18,13 @@ bool isBlowUp(const station::Event& event);
 class OfflineStation : private station::FramePort {
  public:
   /// \param output_channels  of the widest model that will play, >= 1
+  /// \param first_tick       number of the tick that runs first
   /// \throws Exception if performer and driver do not fit
   OfflineStation(std::unique_ptr<station::Performer> performer,
                  std::unique_ptr<tgr::Driver> driver,
                  SoundInputs inputs,
-                 int output_channels);
+                 int output_channels,
+                 std::int64_t first_tick = 0);
 
   const physics::Rates& rates() const { return rates_; }
   int outputChannels() const { return output_channels_; }
@@ -33,6 +35,9 @@ class OfflineStation : private station::FramePort {
   /// Runs one tick; then what it told, freed of what it handed back, goes to `hear`.
   /// \param[out] frames  [R][output channels]
   void cycle(double* frames, const std::function<void(const station::Event&)>& hear = nullptr);
+
+  /// The next tick never runs, but counts.
+  void skip() { station_.skip(1); }
 
   const station::Keyframe& keyframe() const { return station_.keyframe(); }
   int swapDelayTicks() const { return station_.swapDelayTicks(); }

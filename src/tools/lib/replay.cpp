@@ -88,7 +88,7 @@ Replay::Replay(bag::Recording recording,
   std::unique_ptr<station::Performer> performer = resume(start());
   playing_ = {performer->instrument.get(), performer->parameters};
   station_ = std::make_unique<OfflineStation>(std::move(performer), makeDriver(),
-                                              SoundInputs({}, {}, 0.0), widestModel());
+                                              SoundInputs({}, {}, 0.0), widestModel(), tick_);
 }
 
 Replay::~Replay() = default;
@@ -162,6 +162,7 @@ bool Replay::next(double* frames) {
   }
   if (wasLost(tick_)) {
     std::fill_n(frames, rates().ratio * outputChannels(), 0.0);
+    station_->skip();
     in_gap_ = false;
   } else {
     takePositions();
@@ -310,12 +311,16 @@ void Replay::hear(const station::Event& event) {
   }
 }
 
-/// Blow-ups are told where there is no fault yet.
+/// Whether the performance was at fault at this tick: blow-ups are told only where it was not.
 bool Replay::wasAtFault() const {
   bool fault = false;
   for (const station::Event& event : recording_.events) {
-    if (event.tick <= tick_) {
-      fault = event.type == EventType::kFault || (fault && event.type != EventType::kRecovered);
+    const bool begins = event.type == EventType::kFault;
+    if (begins || event.type == EventType::kRecovered) {
+      if (event.tick > tick_) {
+        return fault || !begins;  // what ends there may have begun before the recording
+      }
+      fault = begins;
     }
   }
   return fault;

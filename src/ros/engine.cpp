@@ -146,12 +146,12 @@ void Engine::watchMaster(const std::string& service) {
 }
 
 void Engine::recover() {
+  station_->driver().reconnect();  // may take its time
   if (master_watch_ && master_watch_->isMissing()) {
     throw Exception(
-        "the ROS master does not know this station, so nobody could find emergency_stop: start the "
-        "station again where a master is, or with require_master: false");
+        "the ROS master does not answer, or does not know this station: nobody could find "
+        "emergency_stop. If it does not come back, start the station again under a new one");
   }
-  station_->driver().reconnect();
   watchdog_->arm();
 }
 

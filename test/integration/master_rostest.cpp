@@ -126,9 +126,14 @@ TEST_F(MasterTest, IsMissedWhenItDiesAndNoNewOneTakesItsPlace) {
   expectMasterIsMissed();
   the_master->start();
   ASSERT_TRUE(eventually([] { return ::ros::master::check(); }));
-  EXPECT_FALSE(call(recover));
+  std_srvs::Trigger refused;
+  ASSERT_TRUE(recover.call(refused));
+  EXPECT_FALSE(refused.response.success);
+  EXPECT_NE(refused.response.message.find("the ROS master"), std::string::npos)
+      << refused.response.message;
   EXPECT_FALSE(call(engage));
-  expectMasterIsMissed();
+  EXPECT_EQ(station_->status().fault, Status::FAULT_MASTER_LOST);
+  EXPECT_EQ(station_->force(), 0.0);
   station_->process().signal(SIGTERM);
   EXPECT_TRUE(station_->process().wait(PushedStation::kLongS)) << "the station does not end";
 }

@@ -26,7 +26,7 @@
 #include "ergotic/rt/clock.hpp"
 #include "integration/child_process.hpp"
 #include "integration/listener.hpp"
-#include "integration/reference_thread.hpp"
+#include "integration/reference_threads.hpp"
 #include "support/jack_server.hpp"
 #include "support/scratch_file.hpp"
 
@@ -180,7 +180,7 @@ class StationProcess {
   }
   /// From a fault, with the device back, to force. \param force  as `expectPushesBackWith`
   void expectComesBack(double force) const {
-    const ReferenceThread reference;
+    const ReferenceThreads reference;
     std_srvs::Trigger::Response answer;
     std::int64_t from_ns = 0;
     std::int64_t to_ns = 0;

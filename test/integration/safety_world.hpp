@@ -33,7 +33,7 @@
 #include "integration/device_log.hpp"
 #include "integration/fault_table.hpp"
 #include "integration/listener.hpp"
-#include "integration/reference_thread.hpp"
+#include "integration/reference_threads.hpp"
 #include "integration/wall.hpp"
 
 namespace ergotic::test {
@@ -174,7 +174,7 @@ class SafetyWorld {
   PresenceSwitch presence{node};
   std::unique_ptr<ChildProcess> station;
   std::unique_ptr<DeviceLog> log;  // of the present device
-  ReferenceThread reference;
+  ReferenceThreads reference;
   FaultTable table;
 
  private:

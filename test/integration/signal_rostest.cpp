@@ -19,7 +19,7 @@
 #include "integration/child_process.hpp"
 #include "integration/device_log.hpp"
 #include "integration/listener.hpp"
-#include "integration/reference_thread.hpp"
+#include "integration/reference_threads.hpp"
 #include "integration/wall.hpp"
 
 namespace ergotic::test {
@@ -125,7 +125,7 @@ void expectUsualStatus(int signal, int status) {
 
 TEST_P(SignalTest, ReleasesFifteenNewtonsInTime) {
   const std::int64_t limit_ns = limitNs(GetParam());
-  const ReferenceThread reference;
+  const ReferenceThreads reference;
   int passes = 0;
   int attempts = 0;
   for (int number = 0; attempts < kAttempts && passes < kNeededPasses; ++number) {

@@ -66,6 +66,10 @@ class SignalTest : public ::testing::TestWithParam<int> {
     node_.setParam("/station/virtual_shared_memory", segment);
     node_.setParam("/station/jack", "none");
     node_.setParam("/station/ramp", 0.1);
+    // A stall of the machine shall be no fault.
+    node_.setParam("/station/max_stall", 1.0);
+    node_.setParam("/station/max_missing", 1000);
+    node_.setParam("/station/max_speed", 100.0);
     node_.setParam("/station/autoengage", true);
   }
 

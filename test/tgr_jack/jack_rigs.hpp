@@ -108,7 +108,8 @@ class TickCounter : public tgr::TickTarget {
 };
 
 /// A driver with a clock of its own, exchanged from a thread that has none: an exchange takes place
-/// in the next tick, and ticks in between repeat the last forces.
+/// in the next tick, and ticks in between are without force: none may go out between a `rearm` and
+/// the exchange after it.
 class TickedDriver final : public tgr::Driver, private tgr::TickTarget {
  public:
   explicit TickedDriver(std::unique_ptr<tgr::Driver> inside) : inside_(std::move(inside)) {}
@@ -119,7 +120,6 @@ class TickedDriver final : public tgr::Driver, private tgr::TickTarget {
   void open(double tick_rate_hz) override {
     close();
     inside_->open(tick_rate_hz);
-    forces_.fill(0.0);
     inside_->clock()->start(*this);
     open_ = true;
   }
@@ -148,11 +148,10 @@ class TickedDriver final : public tgr::Driver, private tgr::TickTarget {
  private:
   void tick(std::int64_t /*late_ns*/) noexcept override {
     const bool asked = is_asked_;
-    if (asked) {
-      forces_ = asked_;
-    }
+    const std::array<double, tgr::kMaxSlices> no_force{};
     std::array<double, tgr::kMaxSlices> positions{};
-    const std::uint32_t met = inside_->exchange(forces_.data(), positions.data());
+    const std::uint32_t met =
+        inside_->exchange(asked ? asked_.data() : no_force.data(), positions.data());
     if (asked) {
       positions_ = positions;
       met_ = met;
@@ -163,7 +162,6 @@ class TickedDriver final : public tgr::Driver, private tgr::TickTarget {
 
   std::unique_ptr<tgr::Driver> inside_;
   bool open_ = false;
-  std::array<double, tgr::kMaxSlices> forces_{};  // the tick's
   std::array<double, tgr::kMaxSlices> asked_{};
   std::array<double, tgr::kMaxSlices> positions_{};
   std::uint32_t met_ = 0;

@@ -44,6 +44,13 @@ struct Mark {
   std::int64_t request_ns = 0;
 };
 
+/// A device that comes late while the hand moves shows all of its way at once, and a model that
+/// pushes it on answers with a leap of the force.
+bool isLeap(const FaultCase& fault, const Outcome& outcome) {
+  return fault.start == Start::kEnergy &&
+         (outcome.reason == Status::FAULT_JUMP || outcome.reason == Status::FAULT_MODEL_BLOW_UP);
+}
+
 class SafetyTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -188,12 +195,8 @@ Outcome SafetyTest::release(const FaultCase& fault) const {
   expectDiagnosticsError();
   EXPECT_EQ(the_world->status.latest().state, Status::FAULT) << "it is latched";
   waitUntilOver(fault);
-  // A device that comes late while the hand moves shows all of its way at once, and a model that
-  // pushes it on answers with a leap of the force.
-  const bool leapt =
-      outcome.reason == Status::FAULT_JUMP || outcome.reason == Status::FAULT_MODEL_BLOW_UP;
   const std::int64_t fault_tick = firstEvent(mark.events, Event::FAULT).value_or(Event()).tick;
-  if (fault.start == Start::kEnergy && leapt && record_->stoodStill(fault_tick, 0)) {
+  if (isLeap(fault, outcome) && record_->stoodStill(fault_tick, 0)) {
     outcome.excuse = "the device stood still";
     return outcome;
   }
@@ -272,9 +275,9 @@ void SafetyTest::expectDiagnosticsError() {
 
 /// A stall may come first, and latch what it does.
 void SafetyTest::expectReason(const FaultCase& fault, const Outcome& outcome) {
-  const auto stalls = {Status::FAULT_STALL, Status::FAULT_WATCHDOG, Status::FAULT_MADE_SAFE,
-                       Status::FAULT_JUMP, Status::FAULT_MODEL_BLOW_UP};
-  const bool of_stall = std::find(stalls.begin(), stalls.end(), outcome.reason) != stalls.end();
+  const bool of_stall = outcome.reason == Status::FAULT_STALL ||
+                        outcome.reason == Status::FAULT_WATCHDOG ||
+                        outcome.reason == Status::FAULT_MADE_SAFE || isLeap(fault, outcome);
   EXPECT_TRUE(outcome.reason == fault.reason || (!outcome.excuse.empty() && of_stall))
       << outcome.says;
 }

@@ -56,7 +56,7 @@ if(bag_sources)
   target_compile_definitions(ergotic_tool_support PUBLIC ERGOTIC_HAVE_BAG)
 endif()
 
-file(GLOB ros_sources CONFIGURE_DEPENDS src/ros/*.cpp)
+file(GLOB_RECURSE ros_sources CONFIGURE_DEPENDS src/ros/*.cpp)
 add_library(ergotic_ros SHARED ${ros_sources})
 target_include_directories(ergotic_ros PUBLIC src)
 target_compile_definitions(ergotic_ros PRIVATE ERGOTIC_VERSION="${ergotic_VERSION}")

@@ -11,7 +11,7 @@ target_link_libraries(ergotic_test_support
 include(GoogleTest)
 # The tests of one folder as one program: ergotic_add_gtests(ROOM LIBRARIES...)
 function(ergotic_add_gtests room)
-  file(GLOB sources CONFIGURE_DEPENDS test/${room}/*_test.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS test/${room}/*_test.cpp)
   add_executable(ergotic_${room}_test ${sources})
   target_link_libraries(ergotic_${room}_test
     PRIVATE ergotic_test_support GTest::gtest_main ergotic_flags ${ARGN})
@@ -24,7 +24,7 @@ foreach(room rt scene station audio golden)
 endforeach()
 pkg_check_modules(URDFDOM REQUIRED IMPORTED_TARGET urdfdom)  # reads what pictures are made of
 ergotic_add_gtests(tgr yaml-cpp PkgConfig::URDFDOM)  # places of settings are seen in their nodes
-foreach(room physics tools)  # physics is compared with the tools' plain implementation
+foreach(room physics advice tools)  # physics is compared with the tools' plain implementation
   ergotic_add_gtests(${room} ergotic_tool_support)
 endforeach()
 # The comedi driver before a stand-in for libcomedi, which takes its place when it is linked first, or

@@ -4,11 +4,11 @@
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "ros/diagnostics.hpp"
-#include "ros/feed.hpp"
-#include "ros/operator.hpp"
-#include "ros/services.hpp"
-#include "ros/signal_guard.hpp"
+#include "ros/conversation/diagnostics.hpp"
+#include "ros/conversation/feed.hpp"
+#include "ros/conversation/operator.hpp"
+#include "ros/conversation/services.hpp"
+#include "ros/device/signal_guard.hpp"
 
 namespace ergotic::node {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "ergotic/exception.hpp"
-#include "ergotic/physics/settle.hpp"
+#include "ergotic/physics/settling/settle.hpp"
 #include "ergotic/scene/scene.hpp"
 
 namespace ergotic::station {

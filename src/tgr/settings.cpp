@@ -7,7 +7,7 @@
 #include <array>
 #include <charconv>
 
-#include "scene/source_text.hpp"
+#include "scene/text/source_text.hpp"
 
 namespace ergotic::tgr {
 namespace {

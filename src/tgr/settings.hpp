@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scene/yaml_map.hpp"
+#include "scene/yaml/yaml_map.hpp"
 
 namespace ergotic::tgr {
 

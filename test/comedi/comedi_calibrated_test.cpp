@@ -7,7 +7,7 @@
 #include "comedi/comedi_rig.hpp"
 #include "ergotic/tgr/calibration.hpp"
 #include "ergotic/tgr/device.hpp"
-#include "scene/source_text.hpp"
+#include "scene/text/source_text.hpp"
 #include "support/driver_contract.hpp"
 
 /// The driver as a station uses it: made to speak metres and newtons.

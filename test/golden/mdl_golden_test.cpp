@@ -14,8 +14,8 @@
 
 #include <gtest/gtest.h>
 
-#include "ergotic/physics/instrument.hpp"
-#include "ergotic/scene/read_scene.hpp"
+#include "ergotic/physics/engine/instrument.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
 #include "support/mdl_simulator.hpp"
 
 namespace ergotic {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "ergotic/exception.hpp"
-#include "ergotic/scene/read_scene.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
 
 namespace ergotic::scene {
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "ergotic/scene/read_scene.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
 #include "ergotic/station/performer.hpp"
 #include "support/alloc_count.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "ergotic/scene/read_scene.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
 #include "ergotic/station/audio_bridge.hpp"
 #include "ergotic/station/station.hpp"
 #include "support/alloc_count.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ergotic/exception.hpp"
-#include "physics/layout.hpp"
+#include "physics/layout/layout.hpp"
 #include "support/scene_builder.hpp"
 
 /// The same scene with and without blocks (physics/blocks.hpp).

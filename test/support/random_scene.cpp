@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "ergotic/physics/certify.hpp"
-#include "ergotic/physics/settle.hpp"
+#include "ergotic/physics/certificate/certify.hpp"
+#include "ergotic/physics/settling/settle.hpp"
 #include "support/scene_builder.hpp"
 
 namespace ergotic::test {

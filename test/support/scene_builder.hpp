@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "ergotic/physics/instrument.hpp"
-#include "ergotic/physics/settle.hpp"
+#include "ergotic/physics/engine/instrument.hpp"
+#include "ergotic/physics/settling/settle.hpp"
 
 namespace ergotic::test {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "ergotic/physics/certify.hpp"
+#include "ergotic/physics/certificate/certify.hpp"
 #include "support/scene_builder.hpp"
 #include "support/wrong_coupling.hpp"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "ergotic/physics/instrument.hpp"
+#include "ergotic/physics/engine/instrument.hpp"
 #include "ergotic/station/performer.hpp"
 #include "ergotic/station/station.hpp"
 #include "ergotic/tgr/driver.hpp"

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "ergotic/physics/accuracy.hpp"
+#include "ergotic/advice/accuracy.hpp"
 
 namespace ergotic::tools {
 namespace {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "ergotic/exception.hpp"
-#include "ergotic/physics/certify.hpp"
+#include "ergotic/physics/certificate/certify.hpp"
 #include "support/plain_difference.hpp"
 #include "support/scratch_file.hpp"
 #include "support/tool_process.hpp"

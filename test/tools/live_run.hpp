@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "ergotic/bag/recording.hpp"
-#include "ergotic/scene/read_scene.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
 #include "ergotic/station/station.hpp"
 #include "ergotic/tgr/virtual_driver.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is proposed for a target, played and measured.
-#include "ergotic/physics/target.hpp"
+#include "ergotic/advice/target.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +9,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "ergotic/advice/accuracy.hpp"
 #include "ergotic/exception.hpp"
-#include "ergotic/physics/accuracy.hpp"
-#include "ergotic/physics/certify.hpp"
-#include "ergotic/scene/read_scene.hpp"
+#include "ergotic/physics/certificate/certify.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
 #include "support/measure.hpp"
 #include "support/scene_builder.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ergotic/physics/instrument.hpp"
+#include "ergotic/physics/engine/instrument.hpp"
 #include "ergotic/station/messages.hpp"
 
 /// What a rosbag of a station holds of a performance, as plain data.

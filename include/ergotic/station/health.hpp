@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "ergotic/physics/energy.hpp"
+#include "ergotic/physics/engine/energy.hpp"
 #include "ergotic/scene/scene.hpp"
 
 /// Whether what plays is what the scene says. Realtime: no.

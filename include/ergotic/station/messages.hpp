@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "ergotic/physics/instrument.hpp"
+#include "ergotic/physics/engine/instrument.hpp"
 #include "ergotic/tgr/driver.hpp"
 #include "ergotic/tgr/fault.hpp"
 #include "ergotic/tgr/rig.hpp"

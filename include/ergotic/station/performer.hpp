@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "ergotic/exception.hpp"
-#include "ergotic/physics/certify.hpp"
-#include "ergotic/physics/instrument.hpp"
+#include "ergotic/physics/certificate/certify.hpp"
+#include "ergotic/physics/engine/instrument.hpp"
 #include "ergotic/rt/mailbox.hpp"
 #include "ergotic/tgr/driver.hpp"
 #include "ergotic/tgr/rig.hpp"

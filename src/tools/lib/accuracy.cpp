@@ -7,10 +7,10 @@
 #include <ctime>
 #include <utility>
 
-#include "ergotic/physics/certify.hpp"
-#include "ergotic/physics/settle.hpp"
+#include "ergotic/physics/certificate/certify.hpp"
+#include "ergotic/physics/settling/settle.hpp"
 #include "ergotic/rt/thread.hpp"
-#include "ergotic/scene/read_scene.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
 
 namespace ergotic::tools {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ergotic/physics/instrument.hpp"
+#include "ergotic/physics/engine/instrument.hpp"
 
 /// How wrong an instrument plays and what it costs, setting by setting: five problems whose right
 /// answer is known (docs/physics.md, "Speed against accuracy").

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "ergotic/physics/accuracy.hpp"
+#include "ergotic/advice/accuracy.hpp"
 #include "tools/lib/accuracy.hpp"
 #include "tools/lib/partials.hpp"
 

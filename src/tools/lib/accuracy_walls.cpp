@@ -3,10 +3,10 @@
 #include <memory>
 #include <sstream>
 
-#include "ergotic/physics/certify.hpp"
-#include "ergotic/physics/instrument.hpp"
-#include "ergotic/physics/settle.hpp"
-#include "ergotic/scene/read_scene.hpp"
+#include "ergotic/physics/certificate/certify.hpp"
+#include "ergotic/physics/engine/instrument.hpp"
+#include "ergotic/physics/settling/settle.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
 #include "tools/lib/accuracy.hpp"
 
 namespace ergotic::tools {

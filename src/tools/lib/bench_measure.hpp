@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "ergotic/physics/instrument.hpp"
+#include "ergotic/physics/engine/instrument.hpp"
 #include "tools/lib/bench_scenes.hpp"
 #include "tools/lib/bench_work.hpp"
 

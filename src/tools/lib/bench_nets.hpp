@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <random>
 
-#include "scene/generators.hpp"
+#include "scene/generate/generators.hpp"
 
 /// What the scenes of `bench` are made of: masses of a gram at 44.1 kHz.
 namespace ergotic::tools {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "ergotic/exception.hpp"
-#include "ergotic/physics/settle.hpp"
+#include "ergotic/physics/settling/settle.hpp"
 #include "tools/lib/bench_nets.hpp"
 
 namespace ergotic::tools {

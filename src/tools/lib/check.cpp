@@ -6,10 +6,10 @@
 #include <memory>
 #include <utility>
 
-#include "ergotic/physics/certify.hpp"
-#include "ergotic/physics/instrument.hpp"
-#include "ergotic/physics/settle.hpp"
-#include "ergotic/scene/pitch.hpp"
+#include "ergotic/physics/certificate/certify.hpp"
+#include "ergotic/physics/engine/instrument.hpp"
+#include "ergotic/physics/settling/settle.hpp"
+#include "ergotic/scene/generate/pitch.hpp"
 #include "tools/lib/check_filters.hpp"
 #include "tools/lib/check_names.hpp"
 #include "tools/lib/check_ports.hpp"

@@ -6,8 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "ergotic/physics/certify.hpp"
-#include "ergotic/physics/noise.hpp"
+#include "ergotic/advice/noise.hpp"
+#include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/scene/scene.hpp"
 #include "tools/lib/report.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "ergotic/physics/certify.hpp"
+#include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/scene/scene.hpp"
 #include "tools/lib/report.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "ergotic/physics/instrument.hpp"
+#include "ergotic/physics/engine/instrument.hpp"
 
 namespace ergotic::tools {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "ergotic/exception.hpp"
-#include "scene/source_text.hpp"
+#include "scene/text/source_text.hpp"
 
 namespace ergotic::tools {
 

@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "ergotic/physics/certify.hpp"
+#include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/physics/rates.hpp"
 #include "ergotic/tgr/rig.hpp"
 #include "tools/lib/report.hpp"

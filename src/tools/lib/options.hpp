@@ -10,7 +10,7 @@
 
 #include "ergotic/physics/options.hpp"
 #include "ergotic/physics/rates.hpp"
-#include "ergotic/scene/read_scene.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
 
 namespace ergotic::tools {
 

@@ -3,7 +3,7 @@
 
 #include <ostream>
 
-#include "ergotic/physics/instrument.hpp"
+#include "ergotic/physics/engine/instrument.hpp"
 
 namespace ergotic::tools {
 

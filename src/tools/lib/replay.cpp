@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "ergotic/exception.hpp"
-#include "ergotic/scene/read_scene.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
 #include "ergotic/tgr/replay_driver.hpp"
 
 namespace ergotic::tools {

@@ -4,8 +4,8 @@
 #include <sstream>
 #include <utility>
 
-#include "ergotic/physics/instrument.hpp"
-#include "ergotic/physics/settle.hpp"
+#include "ergotic/physics/engine/instrument.hpp"
+#include "ergotic/physics/settling/settle.hpp"
 #include "tools/lib/cost.hpp"
 
 namespace ergotic::tools {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "ergotic/physics/target.hpp"
+#include "ergotic/advice/target.hpp"
 #include "tools/lib/options.hpp"
 #include "tools/lib/report.hpp"
 

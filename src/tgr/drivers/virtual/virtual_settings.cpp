@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/number.hpp"
+#include "scene/text/number.hpp"
 #include "tgr/calibration_rules.hpp"
 #include "tgr/drivers/virtual/virtual_slice_fields.hpp"
 #include "tgr/settings.hpp"

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "ergotic/scene/generate/cut_string.hpp"
+#include "ergotic/scene/scene.hpp"
+
+/// How wrong is what is played, foretold: closed forms where there are any, else what `accuracy`
+/// measures, as a power of the step. All errors are relative: 1 is as much as the right value.
+/// Realtime: no. Thread: any. Source: docs/physics.md, "Speed against accuracy".
+namespace ergotic::physics {
+
+constexpr int kJudgedPartials = 10;
+
+/// The first ten partials of an undamped string under the explicit scheme, cycles per step; NaN
+/// where it has no such mode, and all of them if it is unstable or cannot be fitted at this step.
+/// \param pitch  its fundamental in continuous time, cycles per step
+std::vector<double> partialsOf(const scene::StringCut& cut, double pitch);
+
+/// The worst of the first ten partials against the ideal string; infinity if one is missing.
+double stringError(const scene::StringCut& cut, double pitch);
+
+/// A mode of a linear network that is stepped explicitly, against continuous time.
+/// \param angle  w h, rad; infinity from 2 on, where it is unstable
+double modeError(double angle);
+
+/// A mass thrown at F = K p^a so that it goes `depth` deep: how long they touch.
+/// \param mass   reduced, kg
+double contactDuration(double exponent, double stiffness, double mass, double depth);
+
+/// What of a contact is judged.
+enum class ContactFigure { kDuration, kPeakForce };
+
+/// \param steps  in the duration of the contact
+double contactError(ContactFigure figure, scene::Scheme scheme, double exponent, double steps);
+
+/// Sound of a contact across two rates whose slower end is held, bare or behind a chaplet.
+/// \param slow_steps  in the duration of the contact
+double heldContactError(bool filtered, double slow_steps);
+
+/// A hand that moves at this frequency, held between its steps: what is heard of the steps.
+/// \param slow_steps  in a period
+double heldHandError(bool filtered, double slow_steps);
+
+/// Pitch of stick and slip.
+/// \param steps  in a period
+double bowError(scene::Scheme scheme, double steps);
+
+/// What single precision adds to a pitch or a duration, and to a whole sound.
+constexpr double kFloatPitchError = 1e-6;
+constexpr double kFloatSoundError = 2e-4;
+
+}  // namespace ergotic::physics

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ergotic/advice/accuracy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "ergotic/scene/generate/coarse_string.hpp"
+#include "physics/settling/coarse_string.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+constexpr double kChapletStop = 0.025;  // of the steps, at least 32 dB less
+
+/// Measured: (steps, error), both ascending in the first.
+using Measured = std::vector<std::pair<double, double>>;
+
+/// A felt hammer on a string, by how many slow steps they touch: docs/speed-accuracy.csv.
+const Measured kHeldBare{{10.6, 0.115},  {16.6, 0.061},   {33.3, 6.1e-3},
+                         {66.6, 1.3e-3}, {116.5, 4.0e-4}, {233.0, 9.0e-5}};
+const Measured kHeldFiltered{{10.6, 0.91}, {16.6, 0.87}, {33.3, 0.85}, {66.6, 0.60}, {116.5, 0.40}};
+
+/// Straight lines between the logarithms, beyond the ends too.
+double valueAt(const Measured& points, double x) {
+  auto upper = std::lower_bound(points.begin() + 1, points.end() - 1, std::pair(x, 0.0));
+  const auto lower = upper - 1;
+  const double slope =
+      std::log(upper->second / lower->second) / std::log(upper->first / lower->first);
+  return lower->second * std::pow(x / lower->first, slope);
+}
+
+/// h^2 w^2 of every mode in continuous time; empty if that cannot be had.
+std::vector<double> eigenvaluesOf(const scene::StringCut& cut, double pitch) {
+  std::vector<double> values;
+  if (cut.coarse) {
+    const int fitted = fittedPartials(cut.masses);
+    if (cut.masses < scene::kFewestCoarseMasses || fitted * pitch >= 0.5) {
+      return values;
+    }
+    const CoarseFit fit = fitCoarseString(cut.masses, pitch, fitted);
+    for (int mode = 1; mode <= cut.masses; ++mode) {
+      values.push_back(coarseEigenvalue(fit, cut.masses, mode));
+    }
+    return values;
+  }
+  const double half = kPi / (2.0 * (cut.masses + 1));
+  for (int mode = 1; mode <= cut.masses; ++mode) {
+    values.push_back(std::pow(2.0 * kPi * pitch * std::sin(mode * half) / std::sin(half), 2));
+  }
+  return values;
+}
+
+}  // namespace
+
+std::vector<double> partialsOf(const scene::StringCut& cut, double pitch) {
+  std::vector<double> partials(kJudgedPartials, std::numeric_limits<double>::quiet_NaN());
+  const std::vector<double> values = eigenvaluesOf(cut, pitch);
+  const auto holds = [](double value) { return value > 0.0 && value < 4.0; };
+  if (std::all_of(values.begin(), values.end(), holds)) {
+    const std::size_t count = std::min(partials.size(), values.size());
+    std::transform(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count),
+                   partials.begin(),
+                   [](double value) { return std::asin(std::sqrt(value) / 2.0) / kPi; });
+  }
+  return partials;
+}
+
+double stringError(const scene::StringCut& cut, double pitch) {
+  double worst = 0.0;
+  double ideal = 0.0;
+  for (const double partial : partialsOf(cut, pitch)) {
+    ideal += pitch;
+    const double error = std::abs(partial / ideal - 1.0);
+    worst = error >= worst ? error : std::isnan(error) ? kInfinity : worst;
+  }
+  return worst;
+}
+
+double modeError(double angle) {
+  return angle < 2.0 ? 2.0 * std::asin(angle / 2.0) / angle - 1.0 : kInfinity;
+}
+
+double contactDuration(double exponent, double stiffness, double mass, double depth) {
+  const double share = 1.0 / (exponent + 1.0);
+  const double integral = std::sqrt(kPi) * std::tgamma(1.0 + share) / std::tgamma(0.5 + share);
+  const double speed =
+      std::sqrt(2.0 * stiffness * std::pow(depth, exponent + 1.0) / ((exponent + 1.0) * mass));
+  return 2.0 * integral * depth / speed;
+}
+
+double contactError(ContactFigure figure, scene::Scheme scheme, double exponent, double steps) {
+  const double above = exponent - 1.0;
+  const bool duration = figure == ContactFigure::kDuration;
+  if (scheme == scene::Scheme::kGuarded) {
+    const double size = duration ? 0.17 * std::exp(1.1 * above) : 1.15 * std::exp(1.2 * above);
+    return std::min(size / std::pow(steps, 4), 1.0);
+  }
+  const double size = duration ? kPi * kPi / 24.0 + 0.19 * above : 0.56 + 0.58 * above;
+  return std::min(size / (steps * steps), 1.0);
+}
+
+double heldContactError(bool filtered, double slow_steps) {
+  return std::min(valueAt(filtered ? kHeldFiltered : kHeldBare, slow_steps), 1.0);
+}
+
+double heldHandError(bool filtered, double slow_steps) {
+  // The slope times a time that is anything within half a step: w T / sqrt(12).
+  const double steps = std::min(2.0 * kPi / std::sqrt(12.0) / slow_steps, 1.0);
+  return filtered ? steps * kChapletStop : steps;
+}
+
+double bowError(scene::Scheme scheme, double steps) {
+  return std::min((scheme == scene::Scheme::kGuarded ? 0.2 : 1.0) / steps, 1.0);
+}
+
+}  // namespace ergotic::physics

@@ -1,0 +1,382 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+
+#include "advice/target_parts.hpp"
+#include "ergotic/advice/accuracy.hpp"
+#include "ergotic/scene/generate/chaplet.hpp"
+#include "physics/laws/slopes.hpp"
+#include "physics/network/linear_network.hpp"
+#include "physics/settling/scheme_choice.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+using scene::LiaType;
+using scene::MatType;
+using scene::Scheme;
+
+constexpr double kDepth = 1e-3;   // m, of a contact that is judged
+constexpr double kHandHz = 20.0;  // of the hand's motion
+constexpr int kIterations = 30;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// The linear networks of all sections, made when they are needed.
+class Networks {
+ public:
+  explicit Networks(const scene::Scene& scene) : scene_(scene) {}
+  const LinearNetwork& around(int mat) {
+    const int section = scene_.mats[at(mat)].section;
+    return networks_.try_emplace(section, scene_, section).first->second;
+  }
+
+ private:
+  const scene::Scene& scene_;
+  std::map<int, LinearNetwork> networks_;
+};
+
+/// One end of a link: what it weighs, and the waves that leave from there.
+struct End {
+  double mass = std::numeric_limits<double>::infinity();  // kg
+  double impedance = 0.0;                                 // kg/s
+  scene::Section section;
+  bool is_hand = false;
+};
+
+End endAt(const scene::Scene& scene, Networks& networks, int mat) {
+  End end;
+  end.section = scene.sectionOf(scene.mats[at(mat)]);
+  end.is_hand = scene.mats[at(mat)].type == MatType::kSlice;
+  const LinearNetwork& network = networks.around(mat);
+  if (network.moves(mat)) {
+    end.mass = network.massAt(mat);
+    end.impedance = network.impedanceAt(mat);
+  }
+  return end;
+}
+
+double reduced(double a, double b) {
+  return 1.0 / (1.0 / a + 1.0 / b);
+}
+
+/// What a link has at stake, whatever is judged of it.
+struct Touch {
+  int lia = 0;
+  std::string name;
+  Scheme scheme = Scheme::kExplicit;  // as the scene has it
+  bool is_guardable = false;
+  End a;
+  End b;
+
+  /// Rate of the faster end, Hz, and of the slower.
+  double fastHz(const Rates& rates) const {
+    return rates.audio_hz / std::min(divisorOf(a.section, rates), divisorOf(b.section, rates));
+  }
+  double slowHz(const Rates& rates) const {
+    return rates.audio_hz / std::max(divisorOf(a.section, rates), divisorOf(b.section, rates));
+  }
+  const End& slowEnd(const Rates& rates) const {
+    return divisorOf(a.section, rates) > divisorOf(b.section, rates) ? a : b;
+  }
+  bool crosses(const Rates& rates) const { return slowHz(rates) != fastHz(rates); }
+  double lightest() const { return reduced(a.mass, b.mass); }
+};
+
+Touch touchOf(const scene::Scene& scene, Networks& networks, int index) {
+  const scene::Lia& lia = scene.lias[at(index)];
+  return {index,
+          lia.name,
+          lia.scheme,
+          scene::isGuardable(lia),
+          endAt(scene, networks, lia.a),
+          endAt(scene, networks, lia.b)};
+}
+
+/// A link whose scheme may be chosen.
+class SchemePart : public TargetPart {
+ public:
+  explicit SchemePart(Touch touch) : touch_(std::move(touch)) {}
+
+  std::string name() const override { return "link '" + touch_.name + "'"; }
+
+  PartOption asItIs(const Rates& rates) const override {
+    const bool guarded =
+        touch_.scheme == Scheme::kGuarded ||
+        (touch_.scheme == Scheme::kAuto && canBeGuarded(rates) && mustBeGuarded(rates));
+    return option(guarded ? Scheme::kGuarded : Scheme::kExplicit, rates);
+  }
+
+  PartOption choose(const Rates& rates, double allowed) const override {
+    const PartOption present = asItIs(rates);
+    if (present.error <= allowed || present.scheme == Scheme::kGuarded || !canBeGuarded(rates)) {
+      return present;
+    }
+    PartOption guarded = option(Scheme::kGuarded, rates);
+    guarded.change = "explicit -> guarded";
+    return guarded.error < present.error ? guarded : present;
+  }
+
+  void apply(scene::Scene& scene, const PartOption& option) const override {
+    if (!option.change.empty()) {
+      scene.lias[at(touch_.lia)].scheme = option.scheme;
+    }
+  }
+
+ protected:
+  const Touch& touch() const { return touch_; }
+  virtual bool mustBeGuarded(const Rates& rates) const = 0;
+  virtual double errorOf(Scheme scheme, const Rates& rates) const = 0;
+
+ private:
+  /// Not onto a slower mass: there the guard is not proven.
+  bool canBeGuarded(const Rates& rates) const {
+    const bool onto_slow_mass = touch_.crosses(rates) && std::isfinite(touch_.slowEnd(rates).mass);
+    return touch_.is_guardable && !onto_slow_mass;
+  }
+  PartOption option(Scheme scheme, const Rates& rates) const {
+    PartOption result;
+    result.scheme = scheme;
+    result.error = errorOf(scheme, rates);
+    result.cost =
+        touch_.fastHz(rates) * (scheme == Scheme::kGuarded ? kGuardedCost : kNonlinearCost);
+    return result;
+  }
+
+  Touch touch_;
+};
+
+class ContactPart final : public SchemePart {
+ public:
+  ContactPart(Touch touch, double stiffness, double exponent, Target::Unit unit)
+      : SchemePart(std::move(touch)), stiffness_(stiffness), exponent_(exponent), unit_(unit) {
+    // An end is as heavy as what its waves reach while they touch.
+    for (int i = 0; i < kIterations; ++i) {
+      const double mass = reduced(this->touch().a.mass + this->touch().a.impedance * duration_s_,
+                                  this->touch().b.mass + this->touch().b.impedance * duration_s_);
+      duration_s_ = contactDuration(exponent_, stiffness_, mass, kDepth);
+    }
+  }
+
+  std::string figure() const override {
+    return unit_ == Target::Unit::kCents      ? "duration"
+           : unit_ == Target::Unit::kDecibels ? "force"
+                                              : "duration and force";
+  }
+
+ private:
+  bool mustBeGuarded(const Rates& rates) const override {
+    const double square = std::pow(touch().fastHz(rates), 2);
+    return exponent_ > 1.0 || stiffness_ / (touch().lightest() * square) > kExplicitSwitch;
+  }
+  double errorOf(Scheme scheme, const Rates& rates) const override {
+    const double steps = duration_s_ * touch().fastHz(rates);
+    double worst = 0.0;
+    if (unit_ != Target::Unit::kDecibels) {
+      worst = contactError(ContactFigure::kDuration, scheme, exponent_, steps);
+    }
+    if (unit_ != Target::Unit::kCents) {
+      worst = std::max(worst, contactError(ContactFigure::kPeakForce, scheme, exponent_, steps));
+      if (touch().crosses(rates) && !touch().slowEnd(rates).is_hand) {
+        worst = std::max(worst, heldContactError(false, duration_s_ * touch().slowHz(rates)));
+      }
+    }
+    return worst;
+  }
+
+  double stiffness_;
+  double exponent_;
+  Target::Unit unit_;
+  double duration_s_ = 0.0;
+};
+
+class BowPart final : public SchemePart {
+ public:
+  /// \param rise, fall  steepest slopes, N s/m
+  BowPart(Touch touch, double pitch_hz, FrictionSlopes slopes)
+      : SchemePart(std::move(touch)), pitch_hz_(pitch_hz), slopes_(slopes) {}
+
+  std::string figure() const override { return "pitch of stick and slip"; }
+
+ private:
+  bool mustBeGuarded(const Rates& rates) const override {
+    const double unit = 1.0 / (touch().lightest() * touch().fastHz(rates));
+    return unit * slopes_.rise >= kExplicitFriction || unit * slopes_.fall >= kExplicitFalling;
+  }
+  double errorOf(Scheme scheme, const Rates& rates) const override {
+    return bowError(scheme, touch().fastHz(rates) / pitch_hz_);
+  }
+
+  double pitch_hz_;
+  FrictionSlopes slopes_;
+};
+
+/// A hand at a faster structure: what is heard of its steps.
+class HandPart final : public TargetPart {
+ public:
+  HandPart(Touch touch, bool filtered, bool can_be_filtered)
+      : touch_(std::move(touch)), filtered_(filtered), can_be_filtered_(can_be_filtered) {}
+
+  std::string name() const override { return "hand at link '" + touch_.name + "'"; }
+  std::string figure() const override { return "steps of a hand that moves at 20 Hz"; }
+  PartOption asItIs(const Rates& rates) const override { return option(filtered_, rates); }
+  PartOption choose(const Rates& rates, double allowed) const override {
+    const PartOption present = asItIs(rates);
+    const double ratio = touch_.fastHz(rates) / touch_.slowHz(rates);
+    if (present.error <= allowed || !can_be_filtered_ || ratio < scene::kChapletC2LowestRatio) {
+      return present;
+    }
+    PartOption filtered = option(true, rates);
+    filtered.change = "with a chaplet (filter: auto)";
+    return filtered;
+  }
+  void apply(scene::Scene& scene, const PartOption& option) const override {
+    scene.lias[at(touch_.lia)].filtered = option.filtered;
+  }
+
+ private:
+  PartOption option(bool filtered, const Rates& rates) const {
+    PartOption result;
+    result.filtered = filtered;
+    result.error =
+        touch_.crosses(rates) ? heldHandError(filtered, touch_.slowHz(rates) / kHandHz) : 0.0;
+    result.cost = filtered ? kChapletCost * touch_.fastHz(rates) : 0.0;
+    return result;
+  }
+
+  Touch touch_;
+  bool filtered_;
+  bool can_be_filtered_;
+};
+
+/// Pitch of the string that a module or point belongs to, Hz; 0: it is on none.
+double pitchAt(const scene::Scene& scene, int mat) {
+  for (const scene::StringInfo& string : scene.strings) {
+    const auto is_on = [&](int module) {
+      return module >= string.first && module < string.first + string.count;
+    };
+    const bool by_point = std::any_of(scene.connections.begin(), scene.connections.end(),
+                                      [&](const scene::Connection& c) {
+                                        return c.mat == mat && is_on(scene.grids[at(c.grid)].first);
+                                      });
+    if (is_on(mat) || by_point) {
+      return scene::idealPitchHz(scene, string);
+    }
+  }
+  return 0.0;
+}
+
+/// What a bow makes sound: its string, else the lowest mode of what it rubs.
+double bowedPitchHz(const scene::Scene& scene, Networks& networks, const scene::Lia& lia) {
+  for (const int mat : {lia.a, lia.b}) {
+    const double pitch_hz = pitchAt(scene, mat);
+    if (pitch_hz > 0.0) {
+      return pitch_hz;
+    }
+    const LinearNetwork& network = networks.around(mat);
+    if (network.moves(mat) && network.stiffnessAt(mat) > 0.0) {
+      return std::sqrt(network.stiffnessAt(mat) / network.massAt(mat)) / (2.0 * M_PI);
+    }
+  }
+  return 0.0;
+}
+
+bool isContact(LiaType type) {
+  return type == LiaType::kContact || type == LiaType::kPowerContact ||
+         type == LiaType::kCubicContact;
+}
+
+/// Adds what a link has at stake.
+class Finder {
+ public:
+  Finder(const scene::Scene& scene,
+         const std::vector<std::string>& chaplets,
+         Target::Unit unit,
+         Parts& parts)
+      : scene_(scene), networks_(scene), chaplets_(chaplets), unit_(unit), parts_(parts) {}
+
+  void add(int index) {
+    const scene::Lia& lia = scene_.lias[at(index)];
+    const bool is_bow = lia.type == LiaType::kBow || lia.type == LiaType::kSmoothBow;
+    if (isContact(lia.type)) {
+      addContact(index, lia);
+    } else if (is_bow && unit_ != Target::Unit::kDecibels) {
+      addBow(index, lia);
+    }
+    if (unit_ != Target::Unit::kCents) {
+      addHand(index, lia);
+    }
+  }
+
+ private:
+  void addContact(int index, const scene::Lia& lia) {
+    const Touch touch = touchOf(scene_, networks_, index);
+    const double unit = std::pow(scene_.time_unit_s, -2);
+    const double stiffness =
+        unit * (lia.type == LiaType::kPowerContact ? scene_.valueOf(lia.stiffness)
+                                                   : slopesOf(scene_, lia).stiffness.highest);
+    const double exponent =
+        lia.type == LiaType::kPowerContact ? scene_.valueOf(lia.law->exponent) : 1.0;
+    if (stiffness > 0.0 && std::isfinite(touch.lightest())) {
+      parts_.push_back(std::make_unique<ContactPart>(touch, stiffness, exponent, unit_));
+    }
+  }
+
+  void addBow(int index, const scene::Lia& lia) {
+    const Touch touch = touchOf(scene_, networks_, index);
+    const double pitch_hz = bowedPitchHz(scene_, networks_, lia);
+    if (pitch_hz > 0.0) {
+      const FrictionSlopes slopes = frictionSlopesOf(scene_, lia);
+      const double unit = 1.0 / scene_.time_unit_s;
+      parts_.push_back(std::make_unique<BowPart>(
+          touch, pitch_hz, FrictionSlopes{unit * slopes.rise, unit * slopes.fall}));
+    }
+  }
+
+  void addHand(int index, const scene::Lia& lia) {
+    const scene::Mat& a = scene_.mats[at(lia.a)];
+    const scene::Mat& b = scene_.mats[at(lia.b)];
+    const bool from_a = a.type == MatType::kSlice;
+    if (from_a == (b.type == MatType::kSlice) || a.section == b.section) {
+      return;
+    }
+    const int other = from_a ? lia.b : lia.a;
+    const scene::Geometry geometry = scene_.sectionOf(from_a ? a : b).geometry;
+    const bool can_be_filtered = scene::dimensionsOf(geometry) == 1 &&
+                                 lia.coupling == scene::Coupling::kHold &&
+                                 networks_.around(other).moves(other) && !isOfChaplet(other);
+    parts_.push_back(std::make_unique<HandPart>(
+        touchOf(scene_, networks_, index), lia.filtered || isOfChaplet(other), can_be_filtered));
+  }
+
+  bool isOfChaplet(int mat) const {
+    const std::string& name = scene_.mats[at(mat)].name;
+    return std::find(chaplets_.begin(), chaplets_.end(), name.substr(0, name.rfind('.'))) !=
+           chaplets_.end();
+  }
+
+  const scene::Scene& scene_;
+  Networks networks_;
+  const std::vector<std::string>& chaplets_;
+  Target::Unit unit_;
+  Parts& parts_;
+};
+
+}  // namespace
+
+void addLinkParts(const scene::Scene& scene,
+                  const std::vector<std::string>& chaplets,
+                  Target::Unit unit,
+                  Parts& parts) {
+  Finder finder(scene, chaplets, unit, parts);
+  for (int l = 0; l < static_cast<int>(scene.lias.size()); ++l) {
+    finder.add(l);
+  }
+}
+
+}  // namespace ergotic::physics

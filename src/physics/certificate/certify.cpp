@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ergotic/physics/certificate/certify.hpp"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include "physics/certificate/certify_parts.hpp"
+#include "physics/network/network_analysis.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+class Certifier {
+ public:
+  Certifier(const scene::Scene& scene, const Rates& rates)
+      : scene_(scene), networks_(scene, rates), findings_(scene.file) {}
+
+  Certificate run(const DeviceTraits& device) {
+    Certificate result;
+    std::map<int, SectionCertificate> of_rate;
+    for (int s = 0; s < static_cast<int>(scene_.sections.size()); ++s) {
+      const int divisor = divisorOf(scene_.sections[at(s)], networks_.rates());
+      const auto [known, is_new] = of_rate.try_emplace(divisor);
+      if (is_new) {
+        known->second = certifyRate(s, divisor);
+      }
+      result.sections.push_back(known->second);
+      result.sections.back().section = s;
+    }
+    judgeCouplings(networks_, findings_);
+    for (const scene::AudioParameter& parameter : scene_.audio_parameters) {
+      findings_.add(Verdict::kUnproven, parameter.place,
+                    "'" + parameter.name +
+                        "' follows an audio input, which has no range: nothing is proven of what "
+                        "it moves");
+    }
+    judgeLinks(networks_, findings_);
+    result.ports = judgePorts(networks_, device, findings_);
+    findings_.giveTo(result);
+    return result;
+  }
+
+ private:
+  /// All sections of one rate are one network; slower ends are held, so fixed.
+  SectionCertificate certifyRate(int s, int divisor) {
+    const NetworkBound network = networks_.atOwnRate(divisor);
+    judgeSigns(networks_, network, findings_);
+    NetworkAnalysis analysis = analyse(network);
+    if (networks_.hasLinkedMatched(divisor)) {
+      // Matched modules change with the step in their own way, but stay below plain ones.
+      const double plain =
+          analyse(networks_.atOwnRate(divisor, SceneNetwork::kAll, true)).stable_step;
+      analysis.stable_step = analysis.isProven() ? std::max(plain, network.step()) : plain;
+    }
+    SectionCertificate result;
+    result.section = s;
+    result.rate_hz = networks_.rates().audio_hz / divisor;
+    result.lambda = analysis.lambda;
+    result.exact = analysis.is_exact;
+    result.link_bound = analysis.link_bound;
+    result.worst_lia = analysis.worst_link;
+    result.worst_mat = analysis.worst_owner;
+    result.stable_rate_hz = 1.0 / (analysis.stable_step * scene_.time_unit_s);
+    if (!analysis.isProven()) {
+      refuse(result, analysis);
+    }
+    return result;
+  }
+
+  void refuse(const SectionCertificate& section, const NetworkAnalysis& analysis) {
+    const bool is_link = section.worst_lia >= 0;
+    const scene::Mat& mat = scene_.mats[at(std::max(section.worst_mat, 0))];
+    const scene::Place place = is_link ? scene_.lias[at(section.worst_lia)].place : mat.place;
+    std::string text = "section '" + scene_.sections[at(section.section)].name + "' at " +
+                       wholeHz(section.rate_hz) + " Hz: " +
+                       (is_link ? "link '" + scene_.lias[at(section.worst_lia)].name + "'"
+                                : "module '" + mat.name + "'") +
+                       " is too stiff or too damped, bound " + describe(section.lambda) +
+                       ", allowed below 4. Soften it, make its masses heavier, or run the section "
+                       "at " +
+                       wholeHz(section.stable_rate_hz) + " Hz or more";
+    if (analysis.is_too_large) {
+      text += ". It is only a bound: the network is too large to be tested exactly";
+    } else if (analysis.is_bound) {
+      text += ". It is only a bound: several points that move were taken at their worst together";
+    }
+    findings_.add(
+        analysis.is_too_large || analysis.is_bound ? Verdict::kUnproven : Verdict::kUnstable, place,
+        text);
+  }
+
+  const scene::Scene& scene_;
+  SceneNetwork networks_;
+  Findings findings_;
+};
+
+}  // namespace
+
+void judgeSigns(const SceneNetwork& networks, const NetworkBound& network, Findings& findings) {
+  if (isSemidefinite(network)) {
+    return;
+  }
+  for (const NetworkBound::Link& link : network.links()) {
+    if (link.stiffness.lowest >= 0.0 && link.damping.lowest >= 0.0) {
+      continue;
+    }
+    const scene::Lia& lia = networks.scene().lias[at(std::max(link.label, 0))];
+    findings.add(Verdict::kUnproven, lia.place,
+                 "link '" + lia.name +
+                     "' has a negative stiffness or damping that the links around it do not make "
+                     "up for: it gives energy, no bound holds. Make it weaker or those stronger");
+    return;
+  }
+}
+
+const char* toString(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kPassive:
+      return "passive";
+    case Verdict::kBounded:
+      return "bounded";
+    case Verdict::kUnproven:
+      return "unproven";
+    case Verdict::kUnstable:
+      return "unstable";
+  }
+  return "";
+}
+
+double Certificate::margin() const {
+  double lambda = 0.0;
+  for (const SectionCertificate& section : sections) {
+    lambda = std::max(lambda, section.lambda);
+  }
+  return 1.0 - lambda / NetworkBound::kLimit;
+}
+
+Certificate certify(const scene::Scene& scene, const Rates& rates, const DeviceTraits& device) {
+  for (const scene::Lia& lia : scene.lias) {
+    if (lia.scheme == scene::Scheme::kAuto) {
+      throw std::logic_error("link '" + lia.name + "' is not settled: nobody chose its scheme");
+    }
+  }
+  return Certifier(scene, rates).run(device);
+}
+
+}  // namespace ergotic::physics

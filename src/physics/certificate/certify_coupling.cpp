@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "ergotic/physics/certificate/monodromy.hpp"
+#include "physics/certificate/certify_parts.hpp"
+#include "physics/certificate/coupled_group.hpp"
+#include "physics/certificate/linear_stepper.hpp"
+#include "physics/network/network_analysis.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr int kMostMasses = 300;         // whose eigenvalues are worked out
+constexpr double kRounding = 1e-9;       // of a radius of 1
+constexpr double kCertainGrowth = 1e-2;  // per period
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// What joins two rates in one group of modules.
+struct Group {
+  std::set<int> slow_divisors;
+  std::set<int> fast_divisors;
+  int slow_section = 0;  // of the slowest module that a link joins to a faster section
+  int slowest = 0;       // its divisor
+  double coupling_damping = 0.0;
+  bool has_fast_modules = false;
+  bool decimates = false;
+  const scene::Lia* nonlinear = nullptr;  // a link on a module of the group
+};
+
+/// What the linear model does over one period of its slowest section.
+struct Trial {
+  double radius = 0.0;
+  double period_s = 0.0;
+  double growthPerSecond() const { return std::log(radius) / period_s; }
+};
+
+class CouplingJudge {
+ public:
+  CouplingJudge(const SceneNetwork& networks, Findings& findings)
+      : networks_(networks), scene_(networks.scene()), findings_(findings) {}
+
+  void run() {
+    for (const auto& [name, group] : groups()) {
+      judge(name, group);
+    }
+  }
+
+ private:
+  std::map<int, Group> groups() const {
+    std::map<int, Group> found;
+    for (std::size_t l = 0; l < scene_.lias.size(); ++l) {
+      const scene::Lia& lia = scene_.lias[l];
+      const int slow = networks_.slowEnd(lia);
+      if (!networks_.isExplicit(lia) || !networks_.crossesRates(lia) ||
+          !(networks_.inverseMass(slow) > 0.0)) {
+        continue;
+      }
+      const int fast = networks_.fastEnd(lia);
+      Group& group = found[networks_.groupOf(lia)];
+      group.slow_divisors.insert(networks_.divisorOfMat(slow));
+      group.fast_divisors.insert(networks_.divisorOfMat(fast));
+      if (networks_.divisorOfMat(slow) > group.slowest) {
+        group.slowest = networks_.divisorOfMat(slow);
+        group.slow_section = scene_.mats[at(slow)].section;
+      }
+      const Slopes& slopes = networks_.slopes(static_cast<int>(l));
+      group.coupling_damping = std::max(group.coupling_damping, slopes.damping.highest);
+      group.has_fast_modules |= networks_.inverseMass(fast) > 0.0;
+      group.decimates |= lia.coupling == scene::Coupling::kDecimate;
+    }
+    for (const scene::Lia& lia : scene_.lias) {
+      if (lia.type == scene::LiaType::kSpringDamper && networks_.isExplicit(lia)) {
+        continue;
+      }
+      for (const int name :
+           {networks_.groupOf(lia), networks_.groupOf(lia.a), networks_.groupOf(lia.b)}) {
+        const auto group = found.find(name);
+        if (group != found.end()) {
+          group->second.nonlinear = &lia;
+        }
+      }
+    }
+    return found;
+  }
+
+  /// The slow network with the couplings and the fast masses they touch must be stable at the slow
+  /// rate; that is enough while the fast section has no modes above half of it.
+  void judge(int name, const Group& group) {
+    if (group.nonlinear != nullptr) {
+      say(group, Verdict::kUnproven,
+          "is coupled to a faster one, and link '" + group.nonlinear->name +
+              "' acts beside it, which is not linear: hold and mean make no energy on the average "
+              "only, and it may keep what they lend. Put all of that in one section, or let a hand "
+              "hold the slower end");
+    }
+    double bound = 0.0;
+    for (const int divisor : group.slow_divisors) {
+      const NetworkBound network = networks_.atSlowRate(divisor, name);
+      judgeSigns(networks_, network, findings_);
+      bound = std::max(bound, analyse(network).lambda);
+    }
+    const bool is_soft = bound < NetworkBound::kLimit;
+    const bool is_low = !reachesAboveHalf(name, group);
+    if (is_soft && is_low) {
+      return;
+    }
+    const std::string what =
+        is_soft ? "is coupled to a faster one whose modes reach above half the slower rate"
+                : "is coupled to a faster one too stiffly for its rate, bound " + describe(bound) +
+                      ", proven below 4";
+    const CoupledGroup members(networks_, name);
+    if (group.decimates && !is_low) {
+      say(group, Verdict::kUnproven,
+          what +
+              " by a link that is decimated: its impulses can drive these modes. Use scheme A "
+              "(coupling: hold)");
+    } else if (members.masses() > kMostMasses) {
+      watch(members, group, what);
+    } else {
+      tryEigenvalues(members, group, what);
+    }
+  }
+
+  double highestModeHz(int divisor, int name) const {
+    const double lambda =
+        std::min(analyse(networks_.atOwnRate(divisor, name)).lambda, NetworkBound::kLimit);
+    return std::asin(std::sqrt(lambda) / 2.0) / kPi * networks_.rates().audio_hz / divisor;
+  }
+
+  bool reachesAboveHalf(int name, const Group& group) const {
+    const double half_hz = 0.5 * networks_.rates().audio_hz / group.slowest;
+    return group.has_fast_modules &&
+           std::any_of(group.fast_divisors.begin(), group.fast_divisors.end(),
+                       [&](int divisor) { return highestModeHz(divisor, name) > half_hz; });
+  }
+
+  void say(const Group& group, Verdict verdict, const std::string& text) {
+    const scene::Section& section = scene_.sections[at(group.slow_section)];
+    findings_.add(verdict, section.place, "section '" + section.name + "' " + text);
+  }
+
+  void tryEigenvalues(const CoupledGroup& members, const Group& group, const std::string& what) {
+    Trial worst;
+    for (const scene::Scene& scene : members.cases()) {
+      const LinearStepper stepper(linearPart(scene), networks_.rates());
+      const Trial trial{spectralRadius(monodromy(scene, networks_.rates())),
+                        stepper.periodSeconds()};
+      worst = trial.radius >= worst.radius ? trial : worst;
+    }
+    if (worst.radius > 1.0 + kRounding || std::isnan(worst.radius)) {
+      const bool is_certain = !(worst.radius <= 1.0 + kCertainGrowth);
+      say(group, is_certain ? Verdict::kUnstable : Verdict::kUnproven,
+          what + ", and grows by a factor of exp(" + describe(worst.growthPerSecond()) +
+              ") per second: the largest eigenvalue over one of its steps is 1 + " +
+              describe(worst.radius - 1.0) + ". " + advice(group));
+    } else if (const std::string doubt = members.doubt(); !doubt.empty()) {
+      say(group, Verdict::kUnproven,
+          what + ". No eigenvalue over one of its steps is above 1, but " + doubt);
+    }
+  }
+
+  void watch(const CoupledGroup& members, const Group& group, const std::string& what) {
+    GrowthSeen worst;
+    for (const scene::Scene& scene : members.cases()) {
+      const GrowthSeen seen = watchGrowth(linearPart(scene), networks_.rates());
+      worst = worst.periods == 0 || seen.per_second > worst.per_second ? seen : worst;
+    }
+    std::string how = "neither grew nor shrank";
+    if (worst.is_visible) {
+      how = (worst.per_second > 0.0 ? "grew" : "shrank") + std::string(" by a factor of exp(") +
+            describe(worst.per_second) + ") per second";
+    }
+    say(group, Verdict::kUnproven,
+        what + ". With " + std::to_string(members.masses()) +
+            " masses it is too large for its eigenvalues; in " + std::to_string(worst.periods) +
+            " of its steps from a random state it " + how + ", which proves nothing. " +
+            advice(group));
+  }
+
+  std::string advice(const Group& group) const {
+    std::string text =
+        "Put a chaplet between, run the slow section at a higher rate, move its "
+        "masses to the faster section";
+    const double lambda = analyse(networks_.atOwnRate(group.slowest)).lambda;
+    const double damping = group.coupling_damping * std::min(lambda, NetworkBound::kLimit) / 8.0;
+    return text + (damping > 0.0 ? ", or damp the coupled slow masses to the ground, by " +
+                                       describe(damping) + " N s/m or more"
+                                 : ", or give its modes a little damping");
+  }
+
+  const SceneNetwork& networks_;
+  const scene::Scene& scene_;
+  Findings& findings_;
+};
+
+}  // namespace
+
+void judgeCouplings(const SceneNetwork& networks, Findings& findings) {
+  CouplingJudge(networks, findings).run();
+}
+
+}  // namespace ergotic::physics

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "physics/certificate/certify_parts.hpp"
+#include "physics/settling/scheme_choice.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+using scene::Lia;
+using scene::LiaType;
+
+constexpr double kWarnedSwitch = 0.25;  // h^2 K (1/Ma + 1/Mb): gains a few per cent a hit
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+class LinkJudge {
+ public:
+  LinkJudge(const SceneNetwork& networks, Findings& findings)
+      : networks_(networks), findings_(findings) {}
+
+  void judge(int l) {
+    const Lia& lia = networks_.scene().lias[at(l)];
+    const Slopes& slopes = networks_.slopes(l);
+    if (lia.scheme == scene::Scheme::kGuarded) {
+      judgeGuarded(lia);
+      return;
+    }
+    judgeSignOfMoving(lia, slopes);
+    noteTurning(lia, slopes);
+    switch (lia.type) {
+      case LiaType::kSpringDamper:
+        return;
+      case LiaType::kPluck:
+      case LiaType::kConditional:
+        findings_.worsen(Verdict::kBounded);
+        return;
+      case LiaType::kBow:
+      case LiaType::kSmoothBow:
+        findings_.worsen(Verdict::kBounded);
+        judgeFriction(lia);
+        return;
+      case LiaType::kQuadratic:
+      case LiaType::kCubic:
+      case LiaType::kPowerContact:
+        if (slopes.is_unbounded) {
+          judgeGrowing(lia);
+        } else if (lia.type == LiaType::kPowerContact) {
+          judgeSwitching(lia, slopes);
+        }
+        return;
+      case LiaType::kTable:
+        judgeTable(lia, slopes);
+        return;
+      default:
+        judgeSwitching(lia, slopes);
+    }
+  }
+
+  /// What concerns many links at once.
+  void finish() {
+    for (const auto& [place, turning] : turning_) {
+      const std::string more =
+          turning.links > 1 ? " and " + std::to_string(turning.links - 1) + " more" : "";
+      findings_.add(Verdict::kUnproven, turning.first->place,
+                    "link '" + turning.first->name + "'" + more +
+                        " has a rest length and acts along a line that turns: stable while it "
+                        "moves little against its length, but large motion may feed energy in. "
+                        "Use rest length 0, scheme: guarded, or a scalar section");
+    }
+  }
+
+ private:
+  /// Links of one place in the text: a generator makes many.
+  struct Turning {
+    const Lia* first = nullptr;
+    int links = 0;
+  };
+
+  /// A distance is linear in the coordinates only if the link wants to have none.
+  void noteTurning(const Lia& lia, const Slopes& slopes) {
+    const auto isScalar = [this](int mat) {
+      return networks_.scene().sectionOf(networks_.scene().mats[at(mat)]).geometry ==
+             scene::Geometry::kScalar;
+    };
+    const bool has_rest = slopes.stiffness.highest > 0.0 && lia.rest_length > 0.0;
+    if (has_rest && !isScalar(lia.a) && !isScalar(lia.b) && networks_.inverseMassStep2(lia) > 0.0) {
+      Turning& turning = turning_[{lia.place.line, lia.place.column}];
+      turning.first = turning.links++ == 0 ? &lia : turning.first;
+    }
+  }
+
+  void judgeGuarded(const Lia& lia) {
+    if (lia.type == LiaType::kBow || lia.type == LiaType::kSmoothBow ||
+        (lia.type == LiaType::kTable && !isRising(lia))) {
+      findings_.worsen(Verdict::kBounded);
+    }
+    if (networks_.crossesRates(lia) && (networks_.inverseMass(networks_.slowEnd(lia)) > 0.0 ||
+                                        lia.coupling == scene::Coupling::kDecimate)) {
+      findings_.add(Verdict::kUnproven, lia.place,
+                    "guarded link '" + lia.name +
+                        "' acts on a slower module, which its guard cannot follow. Move that "
+                        "module to the faster section, or put a module of that section between");
+    }
+  }
+
+  /// Signs of links at rest are judged as a network.
+  void judgeSignOfMoving(const Lia& lia, const Slopes& slopes) {
+    if ((slopes.stiffness.lowest < 0.0 || slopes.damping.lowest < 0.0) && networks_.isMoving(lia)) {
+      findings_.add(Verdict::kUnproven, lia.place,
+                    "link '" + lia.name +
+                        "' has a negative stiffness or damping and an end that moves: it gives "
+                        "energy, no bound holds");
+    }
+  }
+
+  /// Never a matter of the verdict: whether it is stable, the network has told.
+  void judgeFriction(const Lia& lia) {
+    const FrictionSlopes slopes = frictionSlopesOf(networks_.scene(), lia);
+    const double unit = networks_.inverseMassStep(lia);
+    const double rise = unit * slopes.rise;
+    const double fall = unit * slopes.fall;
+    if (rise >= kExplicitFriction) {
+      findings_.add(Verdict::kPassive, lia.place,
+                    "friction of link '" + lia.name +
+                        "' is steep for the step, h max F' (1/Ma + "
+                        "1/Mb) = " +
+                        describe(rise) + " (silent below " + describe(kExplicitFriction) +
+                        "): it overshoots. Use scheme: guarded, or raise the rate");
+    }
+    if (fall >= kExplicitFalling) {
+      findings_.add(Verdict::kPassive, lia.place,
+                    "friction of link '" + lia.name +
+                        "' falls fast for the step, h max(-F') "
+                        "(1/Ma + 1/Mb) = " +
+                        describe(fall) + " (silent below " + describe(kExplicitFalling) +
+                        "): stick and slip will be inaccurate. Use scheme: guarded, or raise the "
+                        "rate");
+    }
+  }
+
+  /// Two-sided springs and power contacts: nothing holds at every amplitude.
+  void judgeGrowing(const Lia& lia) {
+    const double unit = networks_.inverseMassStep2(lia);
+    if (!(unit > 0.0)) {
+      return;  // no force moves either end
+    }
+    const double limit = lia.type == LiaType::kPowerContact ? kWarnedSwitch : NetworkBound::kLimit;
+    const double reach = elongationOf(networks_.scene(), lia, limit / unit);
+    const bool is_decimated =
+        networks_.crossesRates(lia) && lia.coupling == scene::Coupling::kDecimate;
+    const std::string how = lia.type == LiaType::kPowerContact
+                                ? "; it would count as soft up to an overlap of "
+                                : "; no motion can be stable beyond an elongation of ";
+    findings_.add(Verdict::kUnproven, lia.place,
+                  "the slope of link '" + lia.name +
+                      "' grows with its amplitude: stable only while it moves little" + how +
+                      describe(reach) + " m. Use " + (is_decimated ? "coupling: hold and " : "") +
+                      "scheme: guarded");
+  }
+
+  void judgeTable(const Lia& lia, const Slopes& slopes) {
+    if (!lia.law->viscous_table.empty()) {
+      judgeFriction(lia);
+    }
+    const double kappa = slopes.stiffness.highest * networks_.inverseMassStep2(lia);
+    if (!isRising(lia) || kappa > kWarnedSwitch) {
+      findings_.worsen(Verdict::kBounded);  // what it can give is held at its ends
+    } else {
+      judgeSwitching(lia, slopes);
+    }
+  }
+
+  /// A stiffness that switches pumps energy: by little if it is soft for the step.
+  void judgeSwitching(const Lia& lia, const Slopes& slopes) {
+    const double kappa = slopes.stiffness.highest * networks_.inverseMassStep2(lia);
+    if (kappa <= kExplicitSwitch) {
+      return;
+    }
+    const std::string text =
+        "link '" + lia.name + "' switches its stiffness, h^2 K (1/Ma + 1/Mb) = " + describe(kappa);
+    const std::string harm =
+        kappa <= kWarnedSwitch
+            ? "hard hits come back a few per cent faster, and undamped ones add up"
+            : "it may feed energy in at every hit";
+    findings_.add(
+        Verdict::kUnproven, lia.place,
+        text + ", silent below " + describe(kExplicitSwitch) + ": " + harm +
+            ". Use scheme: guarded, soften it, make its masses heavier, or raise the rate");
+  }
+
+  const SceneNetwork& networks_;
+  Findings& findings_;
+  std::map<std::pair<int, int>, Turning> turning_;  // by line and column
+};
+
+}  // namespace
+
+void judgeLinks(const SceneNetwork& networks, Findings& findings) {
+  LinkJudge judge(networks, findings);
+  for (int l = 0; l < static_cast<int>(networks.scene().lias.size()); ++l) {
+    judge.judge(l);
+  }
+  judge.finish();
+}
+
+}  // namespace ergotic::physics

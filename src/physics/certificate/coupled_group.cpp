@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/certificate/coupled_group.hpp"
+
+#include <algorithm>
+
+namespace ergotic::physics {
+namespace {
+
+using scene::LiaType;
+using scene::MatType;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+bool isFree(const scene::Mat& mat) {
+  return mat.type == MatType::kMass || mat.type == MatType::kCell;
+}
+
+/// Links whose stiffness comes and goes.
+bool switches(const scene::Lia& lia) {
+  switch (lia.type) {
+    case LiaType::kContact:
+    case LiaType::kClippedCubic:
+    case LiaType::kCubicContact:
+    case LiaType::kPowerContact:
+    case LiaType::kTable:
+    case LiaType::kConditional:
+      return true;
+    default:
+      return false;
+  }
+}
+
+void setParameters(scene::Scene& scene, double scene::Parameter::*end) {
+  for (scene::Parameter& parameter : scene.parameters) {
+    parameter.value = parameter.*end;
+  }
+}
+
+/// True if a section is to be played by fewer modes than it has free modules.
+bool leavesModesOut(const scene::Scene& scene, int section) {
+  const int most = scene.sections[at(section)].modes;
+  return most > scene::kNoModes &&
+         std::count_if(scene.mats.begin(), scene.mats.end(), [section](const scene::Mat& mat) {
+           return mat.section == section && isFree(mat);
+         }) > most;
+}
+
+}  // namespace
+
+CoupledGroup::CoupledGroup(const SceneNetwork& networks, int group)
+    : networks_(networks), group_(group) {
+  const std::vector<scene::Mat>& mats = networks.scene().mats;
+  for (int m = 0; m < static_cast<int>(mats.size()); ++m) {
+    masses_ += isFree(mats[at(m)]) && networks.groupOf(m) == group ? 1 : 0;
+  }
+}
+
+bool CoupledGroup::isMember(const scene::Lia& lia) const {
+  return networks_.isExplicit(lia) && networks_.groupOf(lia) == group_;
+}
+
+scene::Scene CoupledGroup::isolated() const {
+  scene::Scene scene = networks_.scene();
+  for (int m = 0; m < static_cast<int>(scene.mats.size()); ++m) {
+    if (isFree(scene.mats[at(m)]) && networks_.groupOf(m) != group_) {
+      scene.mats[at(m)].type = MatType::kGround;
+    }
+  }
+  scene.lias.erase(std::remove_if(scene.lias.begin(), scene.lias.end(),
+                                  [&](const scene::Lia& lia) { return !isMember(lia); }),
+                   scene.lias.end());
+  return scene;
+}
+
+scene::Scene CoupledGroup::closed(scene::Scene scene) const {
+  for (scene::Lia& lia : scene.lias) {
+    if (switches(lia)) {
+      const Slopes slopes = slopesOf(scene, lia);
+      lia.type = LiaType::kSpringDamper;
+      lia.stiffness = {slopes.stiffness.highest};
+      lia.damping = {slopes.damping.highest};
+    }
+  }
+  return scene;
+}
+
+std::vector<scene::Scene> CoupledGroup::cases() const {
+  std::vector<scene::Scene> result{isolated()};
+  if (std::any_of(result[0].lias.begin(), result[0].lias.end(), switches)) {
+    result.push_back(closed(result[0]));
+  }
+  if (followsParameters()) {
+    const std::vector<scene::Scene> present = result;
+    for (double scene::Parameter::*end : {&scene::Parameter::minimum, &scene::Parameter::maximum}) {
+      for (scene::Scene scene : present) {
+        setParameters(scene, end);
+        result.push_back(std::move(scene));
+      }
+    }
+  }
+  return result;
+}
+
+bool CoupledGroup::follows(const scene::Value& v) const {
+  const Span span = spanOf(networks_.scene(), v);
+  return span.lowest != span.highest;
+}
+
+bool CoupledGroup::followsParameters() const {
+  const scene::Scene& scene = networks_.scene();
+  for (int m = 0; m < static_cast<int>(scene.mats.size()); ++m) {
+    const scene::Mat& mat = scene.mats[at(m)];
+    if (isFree(mat) && networks_.groupOf(m) == group_ &&
+        (follows(mat.mass) || follows(mat.stiffness) || follows(mat.damping) ||
+         follows(scene.sectionOf(mat).medium))) {
+      return true;
+    }
+  }
+  return std::any_of(scene.lias.begin(), scene.lias.end(), [&](const scene::Lia& lia) {
+    return isMember(lia) && (follows(lia.stiffness) || follows(lia.damping) ||
+                             follows(lia.law->nonlinearity) || follows(lia.law->stiffness_limit) ||
+                             follows(lia.law->limit_damping) || follows(lia.law->exponent));
+  });
+}
+
+std::string CoupledGroup::doubt() const {
+  const scene::Scene& scene = networks_.scene();
+  for (const scene::Lia& lia : scene.lias) {
+    if (!isMember(lia)) {
+      continue;
+    }
+    if (networks_.isMoving(lia)) {
+      return "the ends of link '" + lia.name + "' move: that is so where they are at the start";
+    }
+    for (const int end : {lia.a, lia.b}) {
+      const scene::Section& section = scene.sectionOf(scene.mats[at(end)]);
+      if (leavesModesOut(scene, scene.mats[at(end)].section)) {
+        return "they were worked out with all modes of section '" + section.name +
+               "', of which some are left out. Use modes: all";
+      }
+      if (section.geometry != scene::Geometry::kScalar && lia.rest_length != 0.0) {
+        return "link '" + lia.name + "' turns and has a length at rest: no matrix describes it";
+      }
+    }
+  }
+  if (followsParameters()) {
+    return "that is so at the present values of its parameters and at both ends of their ranges, "
+           "not proven between";
+  }
+  return {};
+}
+
+}  // namespace ergotic::physics

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "physics/network/scene_network.hpp"
+
+namespace ergotic::physics {
+
+/// The modules of one group by themselves, as scenes to be stepped.
+class CoupledGroup {
+ public:
+  CoupledGroup(const SceneNetwork& networks, int group);
+
+  int masses() const { return masses_; }
+
+  /// With everything outside held: contacts open and, if there are any, closed at their steepest;
+  /// each with the present values of the parameters that it follows and with both ends of their
+  /// ranges.
+  std::vector<scene::Scene> cases() const;
+
+  /// Why eigenvalues of these cases are no proof; empty: they are one.
+  std::string doubt() const;
+
+ private:
+  bool isMember(const scene::Lia& lia) const;
+  bool follows(const scene::Value& v) const;
+  bool followsParameters() const;
+  scene::Scene isolated() const;
+  scene::Scene closed(scene::Scene scene) const;
+
+  const SceneNetwork& networks_;
+  int group_;
+  int masses_ = 0;
+};
+
+}  // namespace ergotic::physics

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ergotic/physics/certificate/certify.hpp"
+
+namespace ergotic::physics {
+
+/// Collects what the certificate has to say.
+class Findings {
+ public:
+  explicit Findings(std::string file) : file_(std::move(file)) {}
+
+  /// Worsens the verdict, without words.
+  void worsen(Verdict verdict);
+  /// `file:line:col: error|warning: text`; only what is unstable is an error.
+  void add(Verdict verdict, const scene::Place& place, const std::string& text);
+
+  /// Moves verdict and texts, worst first.
+  void giveTo(Certificate& certificate);
+
+ private:
+  struct Finding {
+    Verdict verdict;
+    std::string text;
+  };
+  std::string file_;
+  Verdict worst_ = Verdict::kPassive;
+  std::vector<Finding> findings_;
+};
+
+/// A number to four digits.
+std::string describe(double value);
+/// Rounded up: a rate that is still enough.
+std::string wholeHz(double hz);
+
+}  // namespace ergotic::physics

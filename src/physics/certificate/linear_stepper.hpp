@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "ergotic/physics/engine/instrument.hpp"
+
+namespace ergotic::physics {
+
+/// The linear part of a scene, see monodromy(): at rest at 0, nothing pulls, nobody touches it.
+scene::Scene linearPart(scene::Scene scene);
+
+/// Steps an instrument from states of one's own, one period of its slowest section at a time.
+/// Realtime: no.
+class LinearStepper {
+ public:
+  LinearStepper(const scene::Scene& linear, const Rates& rates);
+
+  /// Numbers of each of the three parts of a state: positions, differences, forces.
+  int slots() const { return static_cast<int>(slots_.size()); }
+  double periodSeconds() const { return period_s_; }
+  int ticks() const { return ticks_; }  ///< per period
+
+  /// \param state  positions, differences, forces, shape (3 slots), at the start of a period
+  /// \return       the same one period later
+  Eigen::VectorXd step(const Eigen::VectorXd& state);
+
+ private:
+  double& number(int which, std::size_t slot);
+  /// Calls `visit(index, number)` for all numbers of the present state.
+  template <class Visit>
+  void visitNumbers(const Visit& visit);
+
+  std::vector<std::size_t> slots_;  // whose state counts
+
+  std::unique_ptr<Instrument> instrument_;
+  std::vector<std::byte> rest_;  // the state at time 0
+  std::vector<std::byte> state_;
+  std::size_t offsets_[3] = {0, 0, 0};
+  int ticks_;
+  double period_s_;
+  std::vector<double> positions_;
+  std::vector<double> forces_;
+  std::vector<double> inputs_;
+  std::vector<double> outputs_;
+};
+
+/// What 2000 periods show of a linear scene that is too large for its eigenvalues: the slope of the
+/// logarithm of its size over the second half. Shows growth, never proves that there is none.
+struct GrowthSeen {
+  double per_second = 0.0;
+  bool is_visible = false;  ///< larger, of either sign, than what the method scatters by
+  int periods = 0;          ///< less than 2000 in very large scenes
+};
+GrowthSeen watchGrowth(const scene::Scene& linear, const Rates& rates);
+
+}  // namespace ergotic::physics

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/certificate/port_links.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "physics/laws/slopes.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+constexpr double kHandDepth = 1e-3;     // m, where a slope grows with it
+constexpr int kLongestSeries = 100000;  // links in a row
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+PortLinks::PortLinks(const scene::Scene& scene) : scene_(scene), links_of_(scene.mats.size()) {
+  for (int l = 0; l < static_cast<int>(scene.lias.size()); ++l) {
+    links_of_[at(lia(l).a)].push_back(l);
+    links_of_[at(lia(l).b)].push_back(l);
+  }
+}
+
+double PortLinks::stiffness(const scene::Port& port) const {
+  double sum = 0.0;
+  for (const int l : linksOf(port)) {
+    sum += along(port, l);
+  }
+  if (port.filter < 0 || sum == 0.0) {
+    return sum;
+  }
+  // What is faster than the filter its own damper brings to rest.
+  return 1.0 / (1.0 / sum + 1.0 / atSlice(port).stiffness);
+}
+
+int PortLinks::worst(const scene::Port& port) const {
+  const std::vector<int> links = linksOf(port);
+  const auto found = std::max_element(
+      links.begin(), links.end(), [&](int a, int b) { return along(port, a) < along(port, b); });
+  return found == links.end() ? -1 : *found;
+}
+
+PortLinks::Resistance PortLinks::atSlice(const scene::Port& port) const {
+  return sum(port, port.mat, links_of_[at(port.mat)]);
+}
+
+PortLinks::Resistance PortLinks::behindFilter(const scene::Port& port) const {
+  return sum(port, port.filter, linksOf(port));
+}
+
+bool PortLinks::isHanging(const scene::Port& port, int l) const {
+  return otherEnd(l, port.filter) == port.mat;
+}
+
+std::vector<int> PortLinks::linksOf(const scene::Port& port) const {
+  if (port.filter < 0) {
+    return links_of_[at(port.mat)];
+  }
+  std::vector<int> links;
+  const std::vector<int>& all = links_of_[at(port.filter)];
+  std::copy_if(all.begin(), all.end(), std::back_inserter(links),
+               [&](int l) { return !isHanging(port, l); });
+  return links;
+}
+
+/// Where a link acts in a frame with fewer coordinates than the module has, these are seen along
+/// its axes; else its line may lie along any of them.
+double PortLinks::share(const scene::Port& port, int mat, int l) const {
+  const scene::Section& from = scene_.sectionOf(scene_.mats[at(mat)]);
+  const scene::Section& to = scene_.sectionOf(scene_.mats[at(otherEnd(l, mat))]);
+  if (to.geometry >= from.geometry) {
+    return 1.0;
+  }
+  const Eigen::Vector3d axis = to.pose.linear().transpose() * from.pose.linear().col(port.axis);
+  double seen = 0.0;
+  for (int k = 0; k < dimensionsOf(to.geometry); ++k) {
+    seen += axis[k] * axis[k];
+  }
+  return seen;
+}
+
+double PortLinks::along(const scene::Port& port, int l) const {
+  const int mat = port.filter < 0 ? port.mat : port.filter;
+  return share(port, mat, l) * series(mat, l);
+}
+
+double PortLinks::slope(int l) const {
+  return std::abs(stiffnessAt(scene_, lia(l), kHandDepth));
+}
+
+/// One link after the other through masses that nothing else holds; what comes then is held.
+double PortLinks::series(int from, int l) const {
+  double stiffness = slope(l);
+  for (int links = 1; links < kLongestSeries && stiffness > 0.0; ++links) {
+    const int mat = otherEnd(l, from);
+    const std::vector<int>& here = links_of_[at(mat)];
+    if (scene_.mats[at(mat)].type != scene::MatType::kMass || here.size() != 2) {
+      break;
+    }
+    from = mat;
+    l = here[0] == l ? here[1] : here[0];
+    stiffness = 1.0 / (1.0 / stiffness + 1.0 / slope(l));
+  }
+  return stiffness;
+}
+
+PortLinks::Resistance PortLinks::sum(const scene::Port& port,
+                                     int mat,
+                                     const std::vector<int>& links) const {
+  Resistance sum;
+  for (const int l : links) {
+    const double part = share(port, mat, l);
+    sum.stiffness += part * slope(l);
+    sum.damping += part * slopesOf(scene_, lia(l)).damping.highest;
+  }
+  return sum;
+}
+
+}  // namespace ergotic::physics

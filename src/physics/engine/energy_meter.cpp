@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/engine/energy_meter.hpp"
+
+#include <algorithm>
+
+#include "physics/engine/stored_energy.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+template <class Real>
+EnergyMeter<Real>::EnergyMeter(const scene::Scene& scene, const Layout& layout, State<Real>& state)
+    : layout_(layout),
+      newton_(1.0 / (scene.time_unit_s * scene.time_unit_s)),
+      everything_(everythingOf(layout)),
+      forced_of_section_(layout.sections.size()) {
+  const auto force = [this](int section, int slot, bool by_device) {
+    forced_of_section_[at(section)].push_back(forced_.size());
+    forced_.push_back({slot, by_device});
+  };
+  for (const int slot : layout.port_slots) {
+    force(scene.mats[at(layout.mat_of_slot[at(slot)])].section, slot, true);
+  }
+  for (const Feed& feed : layout.feeds) {
+    if (feed.quantity == scene::Quantity::kPosition) {
+      force(feed.section, feed.slot, false);
+    }
+  }
+  const auto couple = [this](int one, int other) {
+    const int a = std::min(one, other);
+    const int b = std::max(one, other);
+    const auto found = std::find_if(couplings_.begin(), couplings_.end(),
+                                    [&](const Coupled& c) { return c.a == a && c.b == b; });
+    if (found == couplings_.end()) {
+      couplings_.push_back({a, b});
+      return couplings_.size() - 1;
+    }
+    return static_cast<std::size_t>(found - couplings_.begin());
+  };
+  for (const LinkRun& run : layout.runs) {
+    coupling_of_run_.push_back(
+        run.section_a == run.section_b ? kInside : couple(run.section_a, run.section_b));
+  }
+  for (const DecimatedPoint& point : layout.decimations) {
+    coupling_of_decimation_.push_back(couple(point.section, point.of.section));
+  }
+  scratch_ = make();
+  if (!state.isMetered()) {
+    return;
+  }
+  Arena& arena = state.arena();
+  books_at_ = arena.add<SectionBooks>("section_energy", layout.sections.size());
+  forced_at_ = arena.add<Feeding>("slice_forces", forced_.size());
+  feeds_at_ = arena.add<Feeding>("input_forces", layout.feeds.size());
+  places_at_ = arena.add<Feeding>("place_forces", coordinatesOf(layout.places));
+  decimations_at_ = arena.add<Feeding>("decimated_forces", coordinatesOf(layout.decimations));
+  decimation_work_at_ = arena.add<double>("decimated_work", layout.decimations.size());
+  totals_at_ = arena.add<Totals>("energy_totals", 1);
+}
+
+template <class Real>
+void EnergyMeter<Real>::addDissipated(int section,
+                                      double energy,
+                                      State<Real>& state) const noexcept {
+  if (state.isMetered()) {
+    state.arena().template at<SectionBooks>(books_at_)[section].dissipated += energy;
+  }
+}
+
+template <class Real>
+template <class StateType, class Book>
+void EnergyMeter<Real>::forEachSource(const Group& group,
+                                      StateType& state,
+                                      const Book& book) const noexcept {
+  auto& arena = state.arena();
+  const Real* d = state.d();
+  const Real* moved = state.moved();
+  const Real* f = state.f();
+  auto* feedings = arena.template at<Feeding>(forced_at_);
+  for (const int section : group.sections) {
+    for (const std::size_t i : forced_of_section_[at(section)]) {
+      const int slot = forced_[i].slot;
+      book(section, forced_[i].device ? Source::kDevice : Source::kInputs, 0, -d[slot], -d[slot],
+           feedings[i], f[slot]);
+    }
+  }
+  feedings = arena.template at<Feeding>(feeds_at_);
+  for (const std::size_t k : group.feeds) {
+    const Feed& feed = layout_.feeds[k];
+    book(feed.section, Source::kInputs, 0, d[feed.slot], d[feed.slot], feedings[k],
+         feedings[k].mean);
+  }
+  for (const std::size_t p : group.places) {
+    const PlacePoint& point = layout_.places[p];
+    const Real* place_d = state.placeD() + point.coordinate;
+    auto* feeding = arena.template at<Feeding>(places_at_) + point.coordinate;
+    for (int k = point.slot; k < point.slot + point.dimensions; ++k, ++feeding, ++place_d) {
+      book(point.section, Source::kInputs, 0, d[k] - moved[k], *place_d - moved[k], *feeding,
+           feeding->mean);
+    }
+  }
+  for (const std::size_t p : group.decimations) {
+    const DecimatedPoint& point = layout_.decimations[p];
+    auto* feeding = arena.template at<Feeding>(decimations_at_) + point.coordinate;
+    for (int k = 0; k < point.dimensions; ++k, ++feeding) {
+      const Real moved_by = d[point.of.slot + k * point.of.stride];
+      book(point.of.section, Source::kDecimated, p, moved_by, moved_by, *feeding,
+           static_cast<Real>(point.impulse) * feeding->mean);
+    }
+  }
+}
+
+template <class Real>
+void EnergyMeter<Real>::endFrame(const Group& group,
+                                 std::int64_t now,
+                                 State<Real>& state) const noexcept {
+  if (!state.isMetered()) {
+    return;
+  }
+  auto* books = state.arena().template at<SectionBooks>(books_at_);
+  auto* decimated = state.arena().template at<double>(decimation_work_at_);
+  collectPointForces(group, state);
+  forEachSource(group, state,
+                [&](int section, Source source, std::size_t p, Real moved, Real moved_last,
+                    Feeding& feeding, Real force) noexcept {
+                  if (!endsStep(section, now)) {
+                    return;
+                  }
+                  double& book = source == Source::kDecimated ? decimated[p]
+                                 : source == Source::kDevice  ? books[section].from_device
+                                                              : books[section].from_inputs;
+                  book += 0.5 * static_cast<double>(moved * force + moved_last * feeding.last);
+                  feeding = {Real(0), force};
+                });
+}
+
+/// Points give their forces away in every frame: their means are collected here.
+template <class Real>
+void EnergyMeter<Real>::collectPointForces(const Group& group, State<Real>& state) const noexcept {
+  const auto collect = [&](const auto& point, std::size_t feedings_at) {
+    auto* feeding = state.arena().template at<Feeding>(feedings_at) + point.coordinate;
+    for (int k = 0; k < point.dimensions; ++k) {
+      feeding[k].mean += state.f()[point.slot + k];
+    }
+  };
+  for (const std::size_t p : group.places) {
+    collect(layout_.places[p], places_at_);
+  }
+  for (const std::size_t p : group.decimations) {
+    collect(layout_.decimations[p], decimations_at_);
+  }
+}
+
+template <class Real>
+double EnergyMeter<Real>::storedIn(int section,
+                                   const CoefficientsOf<Real>& c,
+                                   const State<Real>& state) const noexcept {
+  const SectionRange& range = layout_.sections[at(section)];
+  double energy = kineticOf(range, c.masses, state) + potentialOf(range, c.masses, state);
+  for (std::size_t r = 0; r < layout_.runs.size(); ++r) {
+    if (coupling_of_run_[r] == kInside && layout_.runs[r].section == section) {
+      energy += storedIn(r, c, state);
+    }
+  }
+  return energy;
+}
+
+template <class Real>
+double EnergyMeter<Real>::storedIn(std::size_t run,
+                                   const CoefficientsOf<Real>& c,
+                                   const State<Real>& state) const noexcept {
+  if (!remembers(layout_.runs[run])) {
+    return springsOf(layout_.runs[run], c.runs[run], state);
+  }
+  if (!state.isMetered()) {
+    const LinkRun& asked = layout_.runs[run];
+    const bool is_spring = asked.law == Law::kSpringDamper && !asked.guarded;
+    return is_spring && coupling_of_run_[run] == kInside ? springsOf(asked, c.runs[run], state)
+                                                         : 0.0;
+  }
+  const kernels::Work work = workOf(run, state);
+  return work.initial + work.stored;
+}
+
+template <class Real>
+Energies EnergyMeter<Real>::make() const {
+  Energies energies;
+  energies.sections.resize(layout_.sections.size());
+  for (const Coupled& pair : couplings_) {
+    energies.couplings.push_back({pair.a, pair.b, 0.0, 0.0, 0.0});
+  }
+  return energies;
+}
+
+template <class Real>
+void EnergyMeter<Real>::addSections(const CoefficientsOf<Real>& c,
+                                    const State<Real>& state,
+                                    Energies& to) const noexcept {
+  for (std::size_t s = 0; s < layout_.sections.size(); ++s) {
+    const SectionRange& range = layout_.sections[s];
+    SectionBooks books{};
+    if (state.isMetered()) {
+      books = state.arena().template at<SectionBooks>(books_at_)[s];
+    }
+    to.sections[s] = {kineticOf(range, c.masses, state),
+                      potentialOf(range, c.masses, state),
+                      books.dissipated,
+                      books.from_device,
+                      books.from_inputs,
+                      0.0};
+  }
+}
+
+template <class Real>
+void EnergyMeter<Real>::addLinks(const CoefficientsOf<Real>& c,
+                                 const State<Real>& state,
+                                 Energies& to) const noexcept {
+  for (std::size_t r = 0; r < layout_.runs.size(); ++r) {
+    const LinkRun& run = layout_.runs[r];
+    const kernels::Work work = workOf(r, state);
+    const double stored = storedIn(r, c, state);
+    if (coupling_of_run_[r] == kInside) {
+      to.sections[at(run.section)].potential += stored;
+      to.sections[at(run.section)].dissipated += work.dissipated;
+      continue;
+    }
+    CouplingEnergy& coupling = to.couplings[coupling_of_run_[r]];
+    coupling.stored += stored;
+    coupling.dissipated += work.dissipated;
+    coupling.breathing += work.stored + work.dissipated;
+    if (run.decimated != LinkRun::Decimated::kA) {
+      coupling.breathing += work.on_a;
+      to.sections[at(run.section_a)].from_links += work.on_a;
+    }
+    if (run.decimated != LinkRun::Decimated::kB) {
+      coupling.breathing += work.on_b;
+      to.sections[at(run.section_b)].from_links += work.on_b;
+    }
+  }
+}
+
+/// The work of a run, with that of the steps under way.
+template <class Real>
+kernels::Work EnergyMeter<Real>::workOf(std::size_t r, const State<Real>& state) const noexcept {
+  if (!state.isMetered()) {
+    return {};
+  }
+  const LinkRun& run = layout_.runs[r];
+  kernels::Work work = state.work()[r];
+  const bool is_slow_done = layout_.isBetweenSlowSteps(run, state.frame());
+  const bool is_done =
+      !run.guarded || state.frame() % layout_.sections[at(run.section)].divisor == 0;
+  if (is_slow_done && is_done) {
+    return work;
+  }
+  const kernels::Memory<const Real> memory = state.memory(r);
+  const std::size_t links = run.ends.size();
+  for (std::size_t i = 0; i < state.remembered(r); ++i) {
+    const LinkEnds& ends = run.ends[i % links];
+    const int k = static_cast<int>(i / links);
+    const Real moved_a = state.moved()[ends.a + k * run.stride_a];
+    const Real moved_b = state.moved()[ends.b + k * run.stride_b];
+    if (!is_slow_done) {
+      kernels::addSlowWork(run, memory, i, static_cast<double>(run.slow_is_a ? moved_a : moved_b),
+                           work);
+    }
+    if (!is_done) {
+      // Its force comes with the last frame of the step.
+      kernels::addHalfWork(run, moved_a, moved_b, {memory.elastic[i], memory.viscous[i]}, work);
+    }
+  }
+  return work;
+}
+
+/// What moves modules: the books, and the steps under way.
+template <class Real>
+void EnergyMeter<Real>::addSources(const State<Real>& state, Energies& to) const noexcept {
+  if (!state.isMetered()) {
+    return;
+  }
+  const auto* decimated = state.arena().template at<double>(decimation_work_at_);
+  const auto give = [&](std::size_t p, double work) {
+    to.couplings[coupling_of_decimation_[p]].breathing += work;
+    to.sections[at(layout_.decimations[p].of.section)].from_links += work;
+  };
+  for (std::size_t p = 0; p < layout_.decimations.size(); ++p) {
+    give(p, decimated[p]);
+  }
+  forEachSource(everything_, state,
+                [&](int section, Source source, std::size_t p, Real moved, Real moved_last,
+                    const Feeding& feeding, Real force) {
+                  if (state.frame() % layout_.sections[at(section)].divisor == 0) {
+                    return;
+                  }
+                  const double work =
+                      0.5 * static_cast<double>(moved * force + moved_last * feeding.last);
+                  SectionEnergy& energy = to.sections[at(section)];
+                  if (source == Source::kDecimated) {
+                    give(p, work);
+                  } else {
+                    (source == Source::kDevice ? energy.from_device : energy.from_inputs) += work;
+                  }
+                });
+}
+
+/// Everything but the residual, in the scene's unit of energy. \return the balance
+template <class Real>
+double EnergyMeter<Real>::collect(const CoefficientsOf<Real>& c,
+                                  const State<Real>& state,
+                                  Energies& to) const noexcept {
+  for (CouplingEnergy& coupling : to.couplings) {
+    coupling.stored = coupling.dissipated = coupling.breathing = 0.0;
+  }
+  addSections(c, state, to);
+  addLinks(c, state, to);
+  addSources(state, to);
+  to.stored = 0.0;
+  double balance = 0.0;
+  for (const SectionEnergy& s : to.sections) {
+    to.stored += s.kinetic + s.potential;
+    balance += s.dissipated - s.from_device - s.from_inputs;
+  }
+  for (const CouplingEnergy& coupling : to.couplings) {
+    to.stored += coupling.stored;
+    balance += coupling.dissipated - coupling.breathing;
+  }
+  return balance + to.stored;
+}
+
+template <class Real>
+void EnergyMeter<Real>::start(const CoefficientsOf<Real>& c, State<Real>& state) noexcept {
+  if (state.isMetered()) {
+    totals(state).reference = collect(c, state, scratch_);
+  }
+}
+
+template <class Real>
+void EnergyMeter<Real>::beginChange(const CoefficientsOf<Real>& c, State<Real>& state) noexcept {
+  if (state.isMetered()) {
+    totals(state).before_change = collect(c, state, scratch_);
+  }
+}
+
+template <class Real>
+void EnergyMeter<Real>::endChange(const CoefficientsOf<Real>& c, State<Real>& state) noexcept {
+  if (state.isMetered()) {
+    totals(state).from_parameters += collect(c, state, scratch_) - totals(state).before_change;
+  }
+}
+
+template <class Real>
+void EnergyMeter<Real>::read(const CoefficientsOf<Real>& c,
+                             const State<Real>& state,
+                             Energies& to) const noexcept {
+  const double balance = collect(c, state, to);
+  Totals totals{};
+  totals.reference = balance;
+  if (state.isMetered()) {
+    totals = *state.arena().template at<Totals>(totals_at_);
+  }
+  to.residual = newton_ * (balance - totals.reference - totals.from_parameters);
+  to.from_parameters = newton_ * totals.from_parameters;
+  to.stored *= newton_;
+  for (SectionEnergy& s : to.sections) {
+    for (double* value :
+         {&s.kinetic, &s.potential, &s.dissipated, &s.from_device, &s.from_inputs, &s.from_links}) {
+      *value *= newton_;
+    }
+  }
+  for (CouplingEnergy& coupling : to.couplings) {
+    for (double* value : {&coupling.stored, &coupling.dissipated, &coupling.breathing}) {
+      *value *= newton_;
+    }
+  }
+}
+
+template class EnergyMeter<float>;
+template class EnergyMeter<double>;
+
+}  // namespace ergotic::physics

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "ergotic/physics/engine/energy.hpp"
+#include "physics/layout/groups.hpp"
+#include "physics/layout/layout.hpp"
+#include "physics/state/coefficients.hpp"
+#include "physics/state/state.hpp"
+
+namespace ergotic::physics {
+
+/// Keeps the books of energy. Links book their own work while they step (link_kernels.hpp); this
+/// adds what comes in through slices, driven modules, force inputs and moving places, and works the
+/// balance out from positions. Unmetered it books nothing, and knows what positions alone say.
+/// Source: docs/physics.md, "Energy".
+template <class Real>
+class EnergyMeter {
+ public:
+  /// Adds its entries to the arena. \pre the arena is not allocated
+  EnergyMeter(const scene::Scene& scene, const Layout& layout, State<Real>& state);
+
+  /// Books what a section's own modules dissipated in a step, or lost by falling asleep.
+  void addDissipated(int section, double energy, State<Real>& state) const noexcept;
+
+  /// Books the force of an input in this frame. `k`: index in Layout::feeds
+  void addFeed(std::size_t k, Real force, State<Real>& state) const noexcept {
+    if (state.isMetered()) {
+      state.arena().template at<Feeding>(feeds_at_)[k].mean += force;
+    }
+  }
+
+  /// Closes the books of the sections of a group whose steps end with this frame.
+  void endFrame(const Group& group, std::int64_t now, State<Real>& state) const noexcept;
+
+  /// The balance is counted from here on.
+  void start(const CoefficientsOf<Real>& c, State<Real>& state) noexcept;
+
+  /// What changed in between is work of the parameters. Call before the first and after the last
+  /// frame that mixes forces of old and new coefficients.
+  void beginChange(const CoefficientsOf<Real>& c, State<Real>& state) noexcept;
+  void endChange(const CoefficientsOf<Real>& c, State<Real>& state) noexcept;
+
+  /// Room for `read`. Realtime: no.
+  Energies make() const;
+  void read(const CoefficientsOf<Real>& c, const State<Real>& state, Energies& to) const noexcept;
+
+  /// Kinetic and potential energy of a section and its links, in the scene's unit.
+  double storedIn(int section,
+                  const CoefficientsOf<Real>& c,
+                  const State<Real>& state) const noexcept;
+
+ private:
+  struct SectionBooks {
+    double dissipated;
+    double from_device;
+    double from_inputs;
+  };
+  /// A force over one step of its section: the mean so far, and that of the step before.
+  struct Feeding {
+    Real mean;
+    Real last;
+  };
+  struct Totals {
+    double reference;
+    double from_parameters;
+    double before_change;
+  };
+  /// A coordinate that something moves: of a slice, or of a driven module.
+  struct Forced {
+    int slot;
+    bool device;
+  };
+  struct Coupled {
+    int a;
+    int b;
+  };
+  enum class Source { kDevice, kInputs, kDecimated };
+  static constexpr std::size_t kInside = static_cast<std::size_t>(-1);
+
+  bool endsStep(int section, std::int64_t now) const noexcept {
+    return (now + 1) % layout_.sections[static_cast<std::size_t>(section)].divisor == 0;
+  }
+  Totals& totals(State<Real>& state) const noexcept {
+    return *state.arena().template at<Totals>(totals_at_);
+  }
+  /// Calls `book(section, source, decimated point, moved under the force of this step, moved under
+  /// that of the last, feeding, force of this step)` for all that moves modules of a group.
+  template <class StateType, class Book>
+  void forEachSource(const Group& group, StateType& state, const Book& book) const noexcept;
+  void collectPointForces(const Group& group, State<Real>& state) const noexcept;
+
+  double storedIn(std::size_t run,
+                  const CoefficientsOf<Real>& c,
+                  const State<Real>& state) const noexcept;
+  kernels::Work workOf(std::size_t run, const State<Real>& state) const noexcept;
+  void addSections(const CoefficientsOf<Real>& c,
+                   const State<Real>& state,
+                   Energies& to) const noexcept;
+  void addLinks(const CoefficientsOf<Real>& c,
+                const State<Real>& state,
+                Energies& to) const noexcept;
+  void addSources(const State<Real>& state, Energies& to) const noexcept;
+  double collect(const CoefficientsOf<Real>& c,
+                 const State<Real>& state,
+                 Energies& to) const noexcept;
+
+  const Layout& layout_;
+  double newton_;     // from the scene's units to joule
+  Group everything_;  // sections and what moves modules
+  std::vector<Forced> forced_;
+  std::vector<std::vector<std::size_t>> forced_of_section_;
+  std::vector<Coupled> couplings_;                   // pairs of sections
+  std::vector<std::size_t> coupling_of_run_;         // [runs] kInside: inside a section
+  std::vector<std::size_t> coupling_of_decimation_;  // [decimated points]
+  Energies scratch_;
+  std::size_t books_at_ = 0;
+  std::size_t forced_at_ = 0;       // Feeding [forced]
+  std::size_t feeds_at_ = 0;        // Feeding [feeds]
+  std::size_t places_at_ = 0;       // Feeding [coordinates of places]
+  std::size_t decimations_at_ = 0;  // Feeding [coordinates of decimated points]
+  std::size_t decimation_work_at_ = 0;
+  std::size_t totals_at_ = 0;
+};
+
+extern template class EnergyMeter<float>;
+extern template class EnergyMeter<double>;
+
+}  // namespace ergotic::physics

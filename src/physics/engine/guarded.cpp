@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/engine/guarded.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ergotic::physics {
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Sets the direction of a link along u. Without a length it has none, and no force.
+/// \return the length, with the sign `sense`
+template <class Real>
+Real direct(const Real (&u)[3], Real sense, GuardedMotion<Real>& m) noexcept {
+  const Real length = std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+  for (int k = 0; k < 3; ++k) {
+    m.gradient[k] = length > Real(0) ? sense * u[k] / length : Real(0);
+  }
+  return sense * length;
+}
+
+}  // namespace
+
+template <class Real>
+GuardedLinks<Real>::GuardedLinks(const std::vector<GuardedLink>& links,
+                                 std::vector<GuardedModule<Real>>& modules)
+    : motions_(links.size()), modules_(modules) {
+  for (const GuardedLink& link : links) {
+    const std::size_t capacity = std::max(link.capacity, link.terms.size());
+    const bool euclidean = link.dimensions > 0;
+    links_.push_back({euclidean, std::max(1, link.dimensions), terms_.size(), 0, {}});
+    terms_.resize(terms_.size() + capacity);
+    setTerms(links_.size() - 1, link.terms.data(), link.terms.size(), link.offset);
+  }
+}
+
+/// Terms of one module lie side by side; a coordinate that both ends reach becomes one term.
+template <class Real>
+ERGOTIC_REALTIME void GuardedLinks<Real>::setTerms(std::size_t link,
+                                                   const GuardedTerm* terms,
+                                                   std::size_t count,
+                                                   const double (&offset)[3]) noexcept {
+  Link& to = links_[link];
+  Term* const first = terms_.data() + to.first;
+  Term* last = first;
+  for (const GuardedTerm* t = terms; t != terms + count; ++t) {
+    Term* same = std::find_if(first, last, [t](const Term& k) { return k.slot == t->slot; });
+    if (same == last) {
+      Term* after = first;
+      while (after != last && after->module != t->module) {
+        ++after;
+      }
+      const bool opens = after == last;
+      after += opens ? 0 : 1;
+      std::move_backward(after, last, last + 1);
+      *after = {t->slot, t->module, t->component, t->slow_section, t->is_modal, opens, {}};
+      same = after;
+      ++last;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      same->weight[k] += static_cast<Real>(t->weight[k]);
+    }
+  }
+  to.count = static_cast<std::size_t>(last - first);
+  std::transform(offset, offset + 3, to.offset, [](double o) { return static_cast<Real>(o); });
+}
+
+template <class Real>
+bool GuardedLinks<Real>::isFree(const GuardedView<Real>& view, const Term& term) const noexcept {
+  return term.slow_section < 0 && view.inverse_mass[term.module] > Real(0);
+}
+
+/// Elongation or compression and its direction.
+template <class Real>
+void GuardedLinks<Real>::place(const GuardedView<Real>& view,
+                               const GuardedLaw<Real>& law,
+                               const Link& link,
+                               Motion& m) const noexcept {
+  Real u[3] = {link.offset[0], link.offset[1], link.offset[2]};
+  for (std::size_t t = link.first; t < link.first + link.count; ++t) {
+    const Term& term = terms_[t];
+    for (int k = 0; k < link.dimensions; ++k) {
+      u[k] += term.weight[k] * view.x[term.slot];
+    }
+  }
+  const Real length = law.isContact() ? -law.length : law.length;
+  if (!link.euclidean) {
+    m.p = u[0] - length;
+    m.gradient[0] = Real(1);
+    return;
+  }
+  const Real sense = law.isContact() ? Real(-1) : Real(1);
+  m.p = direct(u, sense, m) - length;
+}
+
+/// The step of a module to come.
+template <class Real>
+Real stepOf(const GuardedView<Real>& v, int i, Real now) noexcept {
+  return now - (v.lose[i] * now + v.pull[i] * v.x[i]) + (v.inverse_mass[i] * v.f[i] + v.drift[i]);
+}
+
+/// How far end a moves against end b: in the step just made, in the one to come if nothing guarded
+/// pushes, and the part of both by modules that forces do not move.
+template <class Real>
+struct GuardedLinks<Real>::Course {
+  Real now[3] = {Real(0), Real(0), Real(0)};
+  Real next[3] = {Real(0), Real(0), Real(0)};
+  Real fixed_now[3] = {Real(0), Real(0), Real(0)};
+  Real fixed_next[3] = {Real(0), Real(0), Real(0)};
+};
+
+template <class Real>
+typename GuardedLinks<Real>::Course GuardedLinks<Real>::courseOf(const GuardedView<Real>& v,
+                                                                 const Link& link) const noexcept {
+  Course c;
+  for (std::size_t t = link.first; t < link.first + link.count; ++t) {
+    const Term& term = terms_[t];
+    const int i = term.slot;
+    const bool is_held = term.slow_section >= 0;
+    // A held module moved when its section did, and will stay until that does again.
+    const Real now = is_held && v.due[term.slow_section] == 0 ? Real(0) : v.d[i];
+    const Real next = is_held ? Real(0) : term.is_modal ? v.ahead[i] : stepOf(v, i, now);
+    const Real fixed = isFree(v, term) ? Real(0) : Real(1);
+    for (int k = 0; k < link.dimensions; ++k) {
+      c.now[k] += term.weight[k] * now;
+      c.next[k] += term.weight[k] * next;
+      c.fixed_now[k] += fixed * term.weight[k] * now;
+      c.fixed_next[k] += fixed * term.weight[k] * next;
+    }
+  }
+  return c;
+}
+
+/// Where the link is, how it opens if left alone, and whether it has a say.
+template <class Real>
+GuardedMotion<Real> GuardedLinks<Real>::measure(const GuardedView<Real>& view,
+                                                const GuardedLaw<Real>& law,
+                                                const Link& link,
+                                                GuardedState<Real>& state) const noexcept {
+  Motion m;
+  m.is_friction = law.isFriction();
+  const Course c = courseOf(view, link);
+  if (m.is_friction && link.euclidean) {
+    // In space friction is along the slip.
+    const Real u[3] = {c.now[0] + c.next[0], c.now[1] + c.next[1], c.now[2] + c.next[2]};
+    direct(u, Real(1), m);
+  } else {
+    place(view, law, link, m);
+  }
+  Real opened = Real(0);
+  Real moved = Real(0);
+  for (int k = 0; k < link.dimensions; ++k) {
+    opened -= m.gradient[k] * c.now[k];
+    m.opening -= m.gradient[k] * c.next[k];
+    m.foreseen -= m.gradient[k] * c.fixed_next[k];
+    moved -= state.gradient[k] * c.fixed_now[k];
+  }
+  m.opening += opened;
+  m.coasting = Real(2) * opened;
+  payArrears(moved, state);
+  // A contact that closes within this step begins to push in it.
+  const Real soonest = m.p - std::min(Real(0), m.coasting / Real(2));
+  m.is_pushing = !m.is_friction && (soonest > Real(0) || !law.isContact());
+  m.is_active = m.is_friction || m.is_pushing || state.tank > Real(0);
+  return m;
+}
+
+template <class Real>
+void GuardedLinks<Real>::countActive(const GuardedView<Real>& view,
+                                     const Link& link,
+                                     const Motion& m) noexcept {
+  for (std::size_t t = link.first; t < link.first + link.count; ++t) {
+    if (m.is_active && terms_[t].opens_module && isFree(view, terms_[t])) {
+      modules_[at(terms_[t].module)].links += Real(1);
+    }
+  }
+}
+
+/// Force on a coordinate per force of the link.
+template <class Real>
+Real GuardedLinks<Real>::leverOf(const Term& term, const Motion& m) noexcept {
+  return -(term.weight[0] * m.gradient[0] + term.weight[1] * m.gradient[1] +
+           term.weight[2] * m.gradient[2]);
+}
+
+/// How far a force opens the link, alone and if all links of its modules act as it does.
+template <class Real>
+void GuardedLinks<Real>::yieldOf(const GuardedView<Real>& view,
+                                 const Link& link,
+                                 Motion& m) const noexcept {
+  for (std::size_t t = link.first; t < link.first + link.count; ++t) {
+    const Term& term = terms_[t];
+    if (isFree(view, term)) {
+      const Real lever = leverOf(term, m);
+      const Real own = lever * lever * view.inverse_mass[term.module];
+      m.own_give += own;
+      m.give += modules_[at(term.module)].links * own;
+    }
+  }
+}
+
+template <class Real>
+void GuardedLinks<Real>::load(const Link& link, const Motion& m) noexcept {
+  for (std::size_t t = link.first; t < link.first + link.count; ++t) {
+    const Term& term = terms_[t];
+    modules_[at(term.module)].load[term.component] += leverOf(term, m) * m.total();
+  }
+}
+
+/// Visits each module that the link shares, with how far less than the link was charged for it
+/// really opens there: h^2 (c F - sum F) / M. Times F/2 and over all links of the module that adds
+/// up to h^2 (c sum F^2 - |sum F|^2) / (2M), which is never negative.
+template <class Real>
+template <class Visit>
+void GuardedLinks<Real>::visitShared(const GuardedView<Real>& view,
+                                     const Link& link,
+                                     const Motion& m,
+                                     const Visit& visit) noexcept {
+  const std::size_t end = link.first + link.count;
+  for (std::size_t t = link.first; t < end;) {
+    const int slot = terms_[t].module;
+    Module& module = modules_[at(slot)];
+    const bool is_shared = module.links > Real(1) && isFree(view, terms_[t]);
+    Real swing = Real(0);
+    for (; t < end && terms_[t].module == slot; ++t) {
+      const Real lever = leverOf(terms_[t], m);
+      swing += lever * (module.links * lever * m.total() - module.load[terms_[t].component]);
+    }
+    if (is_shared) {
+      visit(module, swing * view.inverse_mass[slot]);
+    }
+  }
+}
+
+/// Links that were charged too little pay the rest, as far as they can.
+template <class Real>
+void GuardedLinks<Real>::collect(const GuardedView<Real>& view,
+                                 const Link& link,
+                                 Motion& m,
+                                 GuardedState<Real>& state) noexcept {
+  visitShared(view, link, m, [&](Module& module, Real swing) {
+    const Real excess = m.total() * swing / Real(2);
+    if (excess < Real(0)) {
+      const Real purse = std::max(Real(0), state.tank + m.heat);
+      const Real part = std::min(Real(1), purse / -excess);
+      takeBack(part * swing, m, state);
+      module.arrears -= (Real(1) - part) * excess;
+    } else {
+      module.refunds += excess;
+    }
+  });
+}
+
+/// The others get back what they were charged too much, less their part of what is missing.
+template <class Real>
+void GuardedLinks<Real>::refund(const GuardedView<Real>& view,
+                                const Link& link,
+                                Motion& m,
+                                GuardedState<Real>& state) noexcept {
+  visitShared(view, link, m, [&](const Module& module, Real swing) {
+    if (m.total() * swing > Real(0)) {
+      const Real missing = std::min(Real(1), module.arrears / module.refunds);
+      takeBack((Real(1) - missing) * swing, m, state);
+    }
+  });
+}
+
+template <class Real>
+ERGOTIC_REALTIME void GuardedLinks<Real>::step(const GuardedView<Real>& view,
+                                               const GuardedLaw<Real>* laws,
+                                               GuardedState<Real>* states) noexcept {
+  const std::size_t links = links_.size();
+  const auto isIdle = [&view](std::size_t l) { return view.idle != nullptr && view.idle[l] != 0; };
+  for (std::size_t l = 0; l < links; ++l) {
+    motions_[l] = isIdle(l) ? Motion{} : measure(view, laws[l], links_[l], states[l]);
+    countActive(view, links_[l], motions_[l]);
+  }
+  for (std::size_t l = 0; l < links; ++l) {
+    if (motions_[l].is_active) {
+      yieldOf(view, links_[l], motions_[l]);
+      exertForce(motions_[l], laws[l], states[l]);
+      load(links_[l], motions_[l]);
+    }
+    payWork(motions_[l], states[l]);
+  }
+  for (std::size_t l = 0; l < links; ++l) {
+    if (motions_[l].is_active) {
+      collect(view, links_[l], motions_[l], states[l]);
+    }
+  }
+  for (std::size_t l = 0; l < links; ++l) {
+    if (motions_[l].is_active) {
+      refund(view, links_[l], motions_[l], states[l]);
+    }
+    closeStep(motions_[l], states[l]);
+  }
+  for (const Link& link : links_) {
+    for (std::size_t t = link.first; t < link.first + link.count; ++t) {
+      modules_[at(terms_[t].module)] = Module{};
+    }
+  }
+}
+
+template <class Real>
+void GuardedLinks<Real>::start(const GuardedView<Real>& view,
+                               const GuardedLaw<Real>* laws,
+                               GuardedState<Real>* states) const noexcept {
+  for (std::size_t l = 0; l < links_.size(); ++l) {
+    states[l].tank = stored(view, laws[l], l);
+  }
+}
+
+template <class Real>
+ERGOTIC_REALTIME Real GuardedLinks<Real>::stored(const GuardedView<Real>& view,
+                                                 const GuardedLaw<Real>& law,
+                                                 std::size_t link) const noexcept {
+  Motion m;
+  place(view, law, links_[link], m);
+  const bool is_open = law.isContact() && !(m.p > Real(0));
+  return is_open ? Real(0) : std::max(Real(0), law.potential(m.p));
+}
+
+template <class Real>
+ERGOTIC_REALTIME void GuardedLinks<Real>::retune(const GuardedView<Real>& view,
+                                                 const GuardedLaw<Real>* from,
+                                                 const GuardedLaw<Real>* to,
+                                                 GuardedState<Real>* states) const noexcept {
+  for (std::size_t l = 0; l < links_.size(); ++l) {
+    const Real change = stored(view, to[l], l) - stored(view, from[l], l);
+    states[l].tank = std::max(Real(0), states[l].tank + change);
+  }
+}
+
+template class GuardedLinks<float>;
+template class GuardedLinks<double>;
+
+}  // namespace ergotic::physics

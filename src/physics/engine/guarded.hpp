@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "physics/laws/guarded_force.hpp"
+#include "physics/laws/guarded_laws.hpp"
+
+namespace ergotic::physics {
+
+/// One coordinate of a module that a guarded link reaches: at its end itself, or through points.
+struct GuardedTerm {
+  int slot = 0;                  ///< of the coordinate
+  int module = 0;                ///< slot of the module's first coordinate
+  int component = 0;             ///< 0 x, 1 y, 2 z
+  double weight[3] = {1, 0, 0};  ///< in each coordinate of end a less end b
+  int slow_section = -1;         ///< where the module is stepped, if more slowly than the link
+  bool is_modal = false;         ///< a sum of modes: its next step is in GuardedView::ahead
+};
+
+struct GuardedLink {
+  int dimensions = 0;  ///< 0: scalar; otherwise it works along the line that joins its ends
+  std::vector<GuardedTerm> terms;
+  std::size_t capacity = 0;      ///< most terms it will ever have; 0: as many as now
+  double offset[3] = {0, 0, 0};  ///< end a less end b while all displacements are 0, m
+};
+
+/// The modules as links see them within a step; `f`: forces of everything else.
+template <class Real>
+struct GuardedView {
+  const Real* x = nullptr;
+  const Real* d = nullptr;  ///< x[n] - x[n-1]
+  const Real* f = nullptr;
+  // The step to come is d <- d - (lose d + pull x) + inverse_mass f + drift.
+  const Real* inverse_mass = nullptr;  ///< h^2/M; 0: forces do not move it
+  const Real* drift = nullptr;
+  const Real* lose = nullptr;
+  const Real* pull = nullptr;
+  const unsigned char* due = nullptr;   ///< [sections] 1 if it moved in this step
+  const unsigned char* idle = nullptr;  ///< [links] 1 if it sleeps; none: all are awake
+  const Real* ahead = nullptr;          ///< [slots] the step to come of sums of modes
+};
+
+/// A module as the guarded links on it see it.
+template <class Real>
+struct GuardedModule {
+  Real links = Real(0);                        // that are active
+  Real load[3] = {Real(0), Real(0), Real(0)};  // sum of their forces
+  Real refunds = Real(0);                      // due to those that were charged too much
+  Real arrears = Real(0);                      // that the others cannot pay
+};
+
+/// Links that never give more energy than they took, of one rate, all together: those that share
+/// masses know of each other.
+///
+/// Each has a tank: the work its force has absorbed. Its force is that of the law at a point a
+/// little ahead (fourth order in contact time and rebound), cut to what the tank can pay for.
+/// Friction has no tank, so it can only slow the slip down, at most to rest.
+/// Source: docs/physics.md, "Guarded links".
+template <class Real>
+class GuardedLinks {
+ public:
+  /// \param modules  [slots] all zero between steps; those who share no modules may share it.
+  /// Realtime: no
+  GuardedLinks(const std::vector<GuardedLink>& links, std::vector<GuardedModule<Real>>& modules);
+
+  std::size_t size() const noexcept { return links_.size(); }
+
+  /// Fills the tanks with the energy that the links hold where the modules are.
+  /// \param laws, states  [size()], here and below
+  void start(const GuardedView<Real>& view,
+             const GuardedLaw<Real>* laws,
+             GuardedState<Real>* states) const noexcept;
+
+  /// Works out the forces of this step, see GuardedState. End b receives them along the gradient,
+  /// end a against it. Realtime: yes. Cost: O(links)
+  void step(const GuardedView<Real>& view,
+            const GuardedLaw<Real>* laws,
+            GuardedState<Real>* states) noexcept;
+
+  /// Other laws come: their tanks follow, by work of whoever turned the knob.
+  /// Realtime: yes. Cost: O(links)
+  void retune(const GuardedView<Real>& view,
+              const GuardedLaw<Real>* from,
+              const GuardedLaw<Real>* to,
+              GuardedState<Real>* states) const noexcept;
+
+  /// Other modules for a link whose end has moved along a string.
+  /// \pre at most `capacity` of the link. Realtime: yes. Cost: O(count^2)
+  void setTerms(std::size_t link,
+                const GuardedTerm* terms,
+                std::size_t count,
+                const double (&offset)[3]) noexcept;
+
+  /// Energy stored in a link of this law where the modules are now. Realtime: yes
+  Real stored(const GuardedView<Real>& view,
+              const GuardedLaw<Real>& law,
+              std::size_t link) const noexcept;
+
+ private:
+  struct Term {
+    int slot;
+    int module;
+    int component;
+    int slow_section;
+    bool is_modal;
+    bool opens_module;  // first term of the link on this module
+    Real weight[3];
+  };
+  struct Link {
+    bool euclidean;
+    int dimensions;
+    std::size_t first;
+    std::size_t count;
+    Real offset[3];
+  };
+  using Motion = GuardedMotion<Real>;
+  using Module = GuardedModule<Real>;
+
+  bool isFree(const GuardedView<Real>& view, const Term& term) const noexcept;
+  Motion measure(const GuardedView<Real>& view,
+                 const GuardedLaw<Real>& law,
+                 const Link& link,
+                 GuardedState<Real>& state) const noexcept;
+  void place(const GuardedView<Real>& view,
+             const GuardedLaw<Real>& law,
+             const Link& link,
+             Motion& motion) const noexcept;
+  struct Course;
+  Course courseOf(const GuardedView<Real>& view, const Link& link) const noexcept;
+  void countActive(const GuardedView<Real>& view, const Link& link, const Motion& m) noexcept;
+  void yieldOf(const GuardedView<Real>& view, const Link& link, Motion& m) const noexcept;
+  void load(const Link& link, const Motion& m) noexcept;
+  static Real leverOf(const Term& term, const Motion& m) noexcept;
+  template <class Visit>
+  void visitShared(const GuardedView<Real>& view,
+                   const Link& link,
+                   const Motion& m,
+                   const Visit& visit) noexcept;
+  void collect(const GuardedView<Real>& view,
+               const Link& link,
+               Motion& m,
+               GuardedState<Real>& state) noexcept;
+  void refund(const GuardedView<Real>& view,
+              const Link& link,
+              Motion& m,
+              GuardedState<Real>& state) noexcept;
+
+  std::vector<Link> links_;
+  std::vector<Term> terms_;
+  std::vector<Motion> motions_;
+  std::vector<Module>& modules_;
+};
+
+extern template class GuardedLinks<float>;
+extern template class GuardedLinks<double>;
+
+}  // namespace ergotic::physics

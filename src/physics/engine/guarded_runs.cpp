@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/engine/guarded_runs.hpp"
+
+#include <algorithm>
+
+namespace ergotic::physics {
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+template <class Real>
+GuardedRuns<Real>::GuardedRuns(const scene::Scene& scene,
+                               const Layout& layout,
+                               const Groups& groups,
+                               const Points<Real>& points,
+                               State<Real>& state)
+    : layout_(layout),
+      points_(points),
+      place_of_slot_(at(layout.slots()), -1),
+      projection_of_slot_(at(layout.slots()), -1),
+      modal_of_slot_(at(layout.slots()), -1),
+      ahead_(layout.modal_places.empty() ? 0 : at(layout.slots())),
+      members_(guardedGroupsOf(layout)),
+      modules_(members_.empty() ? 0 : at(layout.slots())),
+      forces_(members_.empty() ? 0 : at(layout.slots()), Real(0)) {
+  for (const scene::Mat& mat : scene.mats) {
+    rests_.push_back(mat.rest);
+  }
+  for (std::size_t p = 0; p < layout.places.size(); ++p) {
+    place_of_slot_[at(layout.places[p].slot)] = static_cast<int>(p);
+  }
+  for (std::size_t p = 0; p < layout.projections.size(); ++p) {
+    projection_of_slot_[at(layout.projections[p].slot)] = static_cast<int>(p);
+  }
+  for (std::size_t p = 0; p < layout.modal_places.size(); ++p) {
+    modal_of_slot_[at(layout.modal_places[p].slot)] = static_cast<int>(p);
+  }
+  for (const GuardedGroup& members : members_) {
+    addLinks(members, state);
+    reached_.push_back(reachedBy(
+        members.group == LinkRun::kHeldGroup ? groups.held : groups.running[at(members.group)]));
+  }
+}
+
+template <class Real>
+void GuardedRuns<Real>::addLinks(const GuardedGroup& members, State<Real>& state) {
+  const std::vector<double> somewhere(2 * layout_.places.size(), 0.0);
+  std::vector<GuardedLink> links;
+  std::vector<std::size_t> moving;
+  std::vector<std::size_t> modal;
+  std::vector<int> slow;
+  for (const GuardedRef& ref : members.links) {
+    const LinkRun& run = layout_.runs[ref.run];
+    if (isOnPlace(run.ends[ref.link].a) || isOnPlace(run.ends[ref.link].b)) {
+      moving.push_back(links.size());
+    }
+    for (const int end : {run.ends[ref.link].a, run.ends[ref.link].b}) {
+      if (const int p = modalPlaceUnder(end); p >= 0) {
+        modal.push_back(at(p));
+      }
+    }
+    if (run.slow_section >= 0 && (slow.empty() || slow.back() != run.slow_section)) {
+      slow.push_back(run.slow_section);
+    }
+    links.push_back(describe(ref, somewhere.data()));
+  }
+  std::sort(modal.begin(), modal.end());
+  modal.erase(std::unique(modal.begin(), modal.end()), modal.end());
+  const std::string name = "guarded" + std::to_string(links_.size());
+  links_.push_back({GuardedLinks<Real>(links, modules_), moving, modal,
+                    std::vector<unsigned char>(links.size(), 0), slow,
+                    std::vector<unsigned char>(layout_.sections.size(), 0),
+                    state.arena().template add<GuardedState<Real>>(name, links.size())});
+}
+
+/// The ends of guarded links, all points, and the modules that points hand their forces to. Sums of
+/// modes hand theirs to the modes themselves.
+template <class Real>
+std::vector<int> GuardedRuns<Real>::reachedBy(const Group& group) const {
+  std::vector<int> reached;
+  const auto add = [&reached](int slot, int stride, int count) {
+    for (int k = 0; k < count; ++k) {
+      reached.push_back(slot + k * stride);
+    }
+  };
+  for (const std::size_t g : group.guarded) {
+    for (const GuardedRef& ref : members_[g].links) {
+      const LinkRun& run = layout_.runs[ref.run];
+      const LinkEnds& ends = run.ends[ref.link];
+      add(ends.a, run.stride_a, std::max(1, run.dimensions));
+      add(ends.b, run.stride_b, std::max(1, run.dimensions));
+    }
+  }
+  for (const std::size_t p : group.decimations) {
+    const DecimatedPoint& point = layout_.decimations[p];
+    add(point.slot, 1, point.dimensions);
+    add(point.of.slot, point.of.stride, point.dimensions);
+  }
+  for (const std::size_t p : group.projections) {
+    const ProjectedPoint& point = layout_.projections[p];
+    add(point.slot, 1, point.dimensions);
+    add(point.of.slot, point.of.stride, point.source_dimensions);
+  }
+  for (const std::size_t p : group.places) {
+    const PlacePoint& point = layout_.places[p];
+    add(point.slot, 1, point.dimensions);
+    for (const int slot : points_.slotsUnder(p)) {
+      add(slot, point.stride, point.dimensions);
+    }
+  }
+  std::sort(reached.begin(), reached.end());
+  reached.erase(std::unique(reached.begin(), reached.end()), reached.end());
+  return reached;
+}
+
+template <class Real>
+bool GuardedRuns<Real>::isOnPlace(int slot) const noexcept {
+  const int projection = projection_of_slot_[at(slot)];
+  return place_of_slot_[at(slot)] >= 0 ||
+         (projection >= 0 && isOnPlace(layout_.projections[at(projection)].of.slot));
+}
+
+/// The sum of modes that an end is, or that is seen there in another frame; -1: none.
+template <class Real>
+int GuardedRuns<Real>::modalPlaceUnder(int slot) const noexcept {
+  const int projection = projection_of_slot_[at(slot)];
+  return projection >= 0 ? modalPlaceUnder(layout_.projections[at(projection)].of.slot)
+                         : modal_of_slot_[at(slot)];
+}
+
+/// \pre forces of everything else are on the modes
+template <class Real>
+void GuardedRuns<Real>::lookAhead(std::size_t g,
+                                  const CoefficientsOf<Real>& c,
+                                  const State<Real>& state) noexcept {
+  for (const std::size_t p : links_[g].modal) {
+    ahead_[at(layout_.modal_places[p].slot)] =
+        points_.modal().stepAhead(p, c.masses, state.x(), state.d(), state.f());
+  }
+}
+
+template <class Real>
+GuardedLink GuardedRuns<Real>::describe(const GuardedRef& ref, const double* places) const {
+  const Reach reach = reachOf(ref, places);
+  GuardedLink link;
+  link.dimensions = layout_.runs[ref.run].dimensions;
+  link.terms.assign(reach.terms.begin(), reach.terms.begin() + reach.count);
+  link.capacity = reach.terms.size();
+  std::copy_n(reach.offset, 3, link.offset);
+  return link;
+}
+
+template <class Real>
+typename GuardedRuns<Real>::Reach GuardedRuns<Real>::reachOf(const GuardedRef& ref,
+                                                             const double* places) const noexcept {
+  const LinkRun& run = layout_.runs[ref.run];
+  const int divisor = layout_.sections[at(run.section)].divisor;
+  const auto slowOf = [&](int section) {
+    return layout_.sections[at(section)].divisor > divisor ? section : -1;
+  };
+  const int dimensions = std::max(1, run.dimensions);
+  const LinkEnds& ends = run.ends[ref.link];
+  const Eigen::Matrix3d map = Eigen::Matrix3d::Identity();
+  Reach reach;
+  Eigen::Map<Eigen::Vector3d>(reach.offset) = run.rests[ref.link];
+  reachEnd(ends.a, run.stride_a, dimensions, map, slowOf(run.section_a), places, reach);
+  reachEnd(ends.b, run.stride_b, dimensions, -map, slowOf(run.section_b), places, reach);
+  return reach;
+}
+
+/// \param map  from the coordinates of the end to those of the link, signed
+template <class Real>
+void GuardedRuns<Real>::reachEnd(int slot,
+                                 int stride,
+                                 int dimensions,
+                                 const Eigen::Matrix3d& map,
+                                 int slow_section,
+                                 const double* places,
+                                 Reach& to) const noexcept {
+  const auto add = [&](int module, int step, double weight) {
+    for (int c = 0; c < dimensions; ++c) {
+      GuardedTerm& term = to.terms[to.count++];
+      const bool is_modal = modal_of_slot_[at(module)] >= 0;
+      term = {module + c * step, module, c, {}, slow_section, is_modal};
+      Eigen::Map<Eigen::Vector3d>(term.weight) = weight * map.col(c);
+    }
+  };
+  const int projection = projection_of_slot_[at(slot)];
+  const int place = place_of_slot_[at(slot)];
+  if (projection >= 0) {
+    const ProjectedPoint& point = layout_.projections[at(projection)];
+    Eigen::Matrix3d seen = Eigen::Matrix3d::Zero();
+    seen.topRows(point.dimensions) = point.axes.topRows(point.dimensions);
+    reachEnd(point.of.slot, point.of.stride, point.source_dimensions, map * seen, slow_section,
+             places, to);
+  } else if (place >= 0) {
+    const PlacePoint& point = layout_.places[at(place)];
+    const scene::GridPlace around = points_.around(at(place), places);
+    const Eigen::Vector3d& rest = rests_[at(layout_.mat_of_slot[at(slot)])];
+    for (int i = 0; i < around.count; ++i) {
+      const double weight = around.weights[at(i)];
+      add(points_.slotOf(around, i), point.stride, weight);
+      const Eigen::Vector3d apart = rests_[at(around.mats[at(i)])] - rest;
+      for (int c = 0; c < dimensions; ++c) {
+        Eigen::Map<Eigen::Vector3d>(to.offset) += weight * apart[c] * map.col(c);
+      }
+    }
+  } else {
+    add(slot, stride, 1.0);
+  }
+}
+
+template <class Real>
+GuardedView<Real> GuardedRuns<Real>::viewOf(const Links& links,
+                                            const CoefficientsOf<Real>& c,
+                                            State<Real>& state) const noexcept {
+  GuardedView<Real> view;
+  view.x = state.x();
+  view.d = state.d();
+  view.f = state.f();
+  view.inverse_mass = c.masses.inverse_mass.data();
+  view.drift = c.masses.drift.data();
+  view.lose = c.masses.lose.data();
+  view.pull = c.masses.pull.data();
+  view.ahead = ahead_.data();
+  view.due = links.due.data();
+  view.idle = links.idle.data();
+  return view;
+}
+
+template <class Real>
+void GuardedRuns<Real>::followPlaces(std::size_t g, State<Real>& state) noexcept {
+  for (const std::size_t l : links_[g].moving) {
+    const Reach reach = reachOf(members_[g].links[l], state.places());
+    links_[g].links.setTerms(l, reach.terms.data(), reach.count, reach.offset);
+  }
+}
+
+template <class Real>
+void GuardedRuns<Real>::markIdle(std::size_t g, State<Real>& state) noexcept {
+  for (std::size_t l = 0; l < members_[g].links.size(); ++l) {
+    const LinkRun& run = layout_.runs[members_[g].links[l].run];
+    const bool is_inside = run.section_a == run.section_b;
+    links_[g].idle[l] = is_inside ? state.asleep()[run.section_a] : 0;
+  }
+}
+
+template <class Real>
+void GuardedRuns<Real>::markDue(std::size_t g, std::int64_t began) noexcept {
+  for (const int section : links_[g].slow) {
+    links_[g].due[at(section)] = layout_.isDue(section, began) ? 1 : 0;
+  }
+}
+
+/// Hands the forces to both ends, as explicit links do.
+template <class Real>
+void GuardedRuns<Real>::exchange(std::size_t g,
+                                 std::int64_t began,
+                                 const Stepper<Real>& stepper,
+                                 State<Real>& state) noexcept {
+  const GuardedState<Real>* all = states(g, state);
+  for (std::size_t l = 0; l < members_[g].links.size(); ++l) {
+    const GuardedRef& ref = members_[g].links[l];
+    const LinkRun& run = layout_.runs[ref.run];
+    if (links_[g].idle[l] != 0) {
+      continue;
+    }
+    kernels::Frame<Real> frame = stepper.frameOf(ref.run, began, state);
+    frame.f = forces_.data();
+    for (int k = 0; k < std::max(1, run.dimensions); ++k) {
+      const int a = run.ends[ref.link].a + k * run.stride_a;
+      const int b = run.ends[ref.link].b + k * run.stride_b;
+      const std::size_t index = at(k) * run.ends.size() + ref.link;
+      const Real n = all[l].gradient[k];
+      kernels::exchangeForce(run, frame, index, a, b, {n * all[l].force, n * all[l].damper});
+      if (frame.slow_ends) {
+        kernels::closeSlowStep(run, frame, index, a, b);
+      }
+    }
+  }
+}
+
+/// What its tanks hold is what a run stores; the rest of what it took is gone.
+template <class Real>
+void GuardedRuns<Real>::closeBooks(std::size_t g, bool starts, State<Real>& state) const noexcept {
+  if (!state.isMetered()) {
+    return;
+  }
+  const GuardedState<Real>* all = states(g, state);
+  const std::vector<GuardedRef>& links = members_[g].links;
+  for (std::size_t l = 0; l < links.size();) {
+    const std::size_t run = links[l].run;
+    double stored = 0.0;
+    for (; l < links.size() && links[l].run == run; ++l) {
+      stored += starts ? static_cast<double>(all[l].tank) : all[l].stored;
+    }
+    kernels::Work& work = state.work()[run];
+    if (starts) {
+      work.initial = stored;
+    }
+    const double gone = work.initial + work.stored - stored;
+    work.stored -= gone;
+    work.dissipated += gone;
+  }
+}
+
+template <class Real>
+ERGOTIC_REALTIME void GuardedRuns<Real>::step(const Group& group,
+                                              std::int64_t first,
+                                              std::int64_t last,
+                                              const CoefficientsOf<Real>& c,
+                                              const Stepper<Real>& stepper,
+                                              State<Real>& state) noexcept {
+  bool any = false;
+  for (const std::size_t g : group.guarded) {
+    const GuardedView<Real> view = viewOf(links_[g], c, state);
+    if (first == 0) {
+      followPlaces(g, state);
+      links_[g].links.start(view, c.guarded[g].data(), states(g, state));
+      closeBooks(g, true, state);
+    }
+    if ((last + 1) % members_[g].divisor != 0) {
+      continue;
+    }
+    any = true;
+    followPlaces(g, state);
+    lookAhead(g, c, state);
+    markIdle(g, state);
+    const std::int64_t began = last + 1 - members_[g].divisor;
+    markDue(g, began);
+    links_[g].links.step(view, c.guarded[g].data(), states(g, state));
+    exchange(g, began, stepper, state);
+    closeBooks(g, false, state);
+  }
+  if (any) {
+    points_.scatterToModules(group, forces_.data(), state.places());
+    points_.scatterToModes(group, forces_.data(), state.f());
+    for (const int slot : reached_[group.guarded.front()]) {
+      state.f()[slot] += forces_[at(slot)];
+      forces_[at(slot)] = Real(0);
+    }
+  }
+}
+
+template <class Real>
+ERGOTIC_REALTIME void GuardedRuns<Real>::retune(const CoefficientsOf<Real>& from,
+                                                const CoefficientsOf<Real>& to,
+                                                State<Real>& state) noexcept {
+  for (std::size_t g = 0; g < links_.size(); ++g) {
+    const GuardedView<Real> view = viewOf(links_[g], from, state);
+    const auto book = [&](double sign) {
+      for (std::size_t l = 0; state.isMetered() && l < members_[g].links.size(); ++l) {
+        state.work()[members_[g].links[l].run].stored +=
+            sign * static_cast<double>(states(g, state)[l].tank);
+      }
+    };
+    book(-1.0);
+    links_[g].links.retune(view, from.guarded[g].data(), to.guarded[g].data(), states(g, state));
+    book(1.0);
+  }
+}
+
+template <class Real>
+std::vector<GuardReport> GuardedRuns<Real>::makeReports() const {
+  std::vector<GuardReport> reports;
+  for (const GuardedGroup& members : members_) {
+    for (const GuardedRef& ref : members.links) {
+      reports.push_back({layout_.runs[ref.run].lias[ref.link], 0, 0});
+    }
+  }
+  return reports;
+}
+
+template <class Real>
+ERGOTIC_REALTIME void GuardedRuns<Real>::read(const State<Real>& state,
+                                              std::vector<GuardReport>& to) const noexcept {
+  std::size_t next = 0;
+  for (const Links& group : links_) {
+    const auto* all = state.arena().template at<GuardedState<Real>>(group.states_at);
+    for (std::size_t l = 0; l < group.links.size(); ++l) {
+      to[next].active = static_cast<std::int64_t>(all[l].active);
+      to[next].clipped = static_cast<std::int64_t>(all[l].clipped);
+      ++next;
+    }
+  }
+}
+
+template class GuardedRuns<float>;
+template class GuardedRuns<double>;
+
+}  // namespace ergotic::physics

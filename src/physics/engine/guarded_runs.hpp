@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "physics/engine/guarded.hpp"
+#include "physics/engine/points.hpp"
+#include "physics/engine/stepper.hpp"
+#include "physics/layout/groups.hpp"
+#include "physics/layout/guarded_groups.hpp"
+#include "physics/state/coefficients.hpp"
+#include "physics/state/state.hpp"
+
+namespace ergotic::physics {
+
+/// The guarded links of an instrument: finds the modules behind their ends, steps those of one rate
+/// together, and keeps their books of energy.
+template <class Real>
+class GuardedRuns {
+ public:
+  /// Adds its entries to the arena. \pre the arena is not allocated
+  GuardedRuns(const scene::Scene& scene,
+              const Layout& layout,
+              const Groups& groups,
+              const Points<Real>& points,
+              State<Real>& state);
+
+  /// Steps the guarded links of a group whose steps end with frame `last`, adds their forces to
+  /// modules and points. Only then are all other forces of these steps there: links to faster
+  /// sections give theirs frame by frame. \pre so are those of the frames from `first` to `last`.
+  /// Realtime: yes
+  void step(const Group& group,
+            std::int64_t first,
+            std::int64_t last,
+            const CoefficientsOf<Real>& c,
+            const Stepper<Real>& stepper,
+            State<Real>& state) noexcept;
+
+  /// Tanks follow other coefficients. Realtime: yes
+  void retune(const CoefficientsOf<Real>& from,
+              const CoefficientsOf<Real>& to,
+              State<Real>& state) noexcept;
+
+  std::vector<GuardReport> makeReports() const;
+  /// Realtime: yes
+  void read(const State<Real>& state, std::vector<GuardReport>& to) const noexcept;
+
+ private:
+  /// The modules behind both ends of a link.
+  struct Reach {
+    std::array<GuardedTerm, 24> terms;
+    std::size_t count = 0;
+    double offset[3] = {0.0, 0.0, 0.0};
+  };
+  /// Links of one rate in one group.
+  struct Links {
+    GuardedLinks<Real> links;
+    std::vector<std::size_t> moving;  // those with an end on a place
+    std::vector<std::size_t> modal;   // modal places that they reach
+    std::vector<unsigned char> idle;  // [links]
+    std::vector<int> slow;            // sections that are stepped more slowly
+    std::vector<unsigned char> due;   // [sections] of these, that moved as the present step began
+    std::size_t states_at;
+  };
+
+  void addLinks(const GuardedGroup& members, State<Real>& state);
+  GuardedLink describe(const GuardedRef& ref, const double* places) const;
+  Reach reachOf(const GuardedRef& ref, const double* places) const noexcept;
+  void reachEnd(int slot,
+                int stride,
+                int dimensions,
+                const Eigen::Matrix3d& map,
+                int slow_section,
+                const double* places,
+                Reach& to) const noexcept;
+  bool isOnPlace(int slot) const noexcept;
+  int modalPlaceUnder(int slot) const noexcept;
+  void lookAhead(std::size_t g, const CoefficientsOf<Real>& c, const State<Real>& state) noexcept;
+  std::vector<int> reachedBy(const Group& group) const;
+  GuardedView<Real> viewOf(const Links& links,
+                           const CoefficientsOf<Real>& c,
+                           State<Real>& state) const noexcept;
+  void followPlaces(std::size_t g, State<Real>& state) noexcept;
+  void markIdle(std::size_t g, State<Real>& state) noexcept;
+  void markDue(std::size_t g, std::int64_t began) noexcept;
+  void exchange(std::size_t g,
+                std::int64_t began,
+                const Stepper<Real>& stepper,
+                State<Real>& state) noexcept;
+  void closeBooks(std::size_t g, bool starts, State<Real>& state) const noexcept;
+  GuardedState<Real>* states(std::size_t g, State<Real>& state) const noexcept {
+    return state.arena().template at<GuardedState<Real>>(links_[g].states_at);
+  }
+
+  const Layout& layout_;
+  const Points<Real>& points_;
+  std::vector<Eigen::Vector3d> rests_;        // [mats]
+  std::vector<int> place_of_slot_;            // -1: none
+  std::vector<int> projection_of_slot_;       // -1: none
+  std::vector<int> modal_of_slot_;            // -1: none
+  std::vector<Real> ahead_;                   // [slots] how far sums of modes will go
+  std::vector<GuardedGroup> members_;         // guardedGroupsOf
+  std::vector<GuardedModule<Real>> modules_;  // [slots]
+  std::vector<Links> links_;                  // [members_]
+  std::vector<Real> forces_;                  // [slots], of guarded links; zero between steps
+  std::vector<std::vector<int>> reached_;     // [members_] slots that those of its group can be on
+};
+
+extern template class GuardedRuns<float>;
+extern template class GuardedRuns<double>;
+
+}  // namespace ergotic::physics

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/laws/guarded_force.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ergotic::physics {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kEmptyTank = 1e-6;
+constexpr double kShortContact = 3.0;  // kt above which a contact is over before a sample sees it
+
+/// The largest force whose work F (opening + give F) / 2 is at most `energy`.
+template <class Real>
+Real largestForce(Real energy, Real opening, Real give) noexcept {
+  const Real root = std::sqrt(opening * opening + Real(8) * give * energy);
+  if (opening > Real(0)) {
+    return Real(4) * energy / (opening + root);  // without cancellation, and for give = 0
+  }
+  return give > Real(0) ? (root - opening) / (Real(2) * give) : std::numeric_limits<Real>::max();
+}
+
+/// How far ahead the law is taken. 1/12 cancels the second-order error of the step in time and
+/// energy; 1/4 - 1/(2 kt) is the least that is stable on a stiffness that does not change.
+template <class Real>
+Real lookAhead(Real kt, bool is_contact) noexcept {
+  if (kt > Real(kShortContact)) {
+    return Real(0.25) - Real(1) / (Real(2) * kt);
+  }
+  // At given amplitude a two-sided spring is more accurate without.
+  return is_contact || kt > Real(1) ? Real(1) / Real(12) : Real(0);
+}
+
+/// Ratio of the speeds after and before an impact of an oscillator with this damper.
+template <class Real>
+Real restitution(Real damping, Real slope, Real give) noexcept {
+  const Real z = damping * std::sqrt(give / slope) / Real(2);
+  return z < Real(1) ? std::exp(-static_cast<Real>(kPi) * z / std::sqrt(Real(1) - z * z)) : Real(0);
+}
+
+/// The link has let go: what is left in its tank goes back, once it opens. If something pushes it
+/// to again before that, it keeps the rest for the next contact.
+template <class Real>
+void release(GuardedMotion<Real>& m, const GuardedState<Real>& state) noexcept {
+  m.empties = m.opening > Real(0);
+  m.force = m.empties ? largestForce(state.tank, m.opening, m.give) : Real(0);
+}
+
+/// A damped contact so short that a damper would never see it: restitution takes its place. Where
+/// the link turns from closing to opening, its tank keeps e^2 of what it holds.
+template <class Real>
+Real rebound(GuardedMotion<Real>& m, Real e, Real wanted, GuardedState<Real>& state) noexcept {
+  // Empty but for rounding, against the energy of the motion.
+  const bool is_empty =
+      m.give * state.tank <= Real(kEmptyTank) * m.coasting * m.coasting && m.give > Real(0);
+  if (is_empty && m.coasting < Real(0)) {
+    // It closes and could not open on its own: this step stands for the whole impact.
+    state.lost += static_cast<double>(state.tank);
+    state.tank = Real(0);
+    state.rebounding = Real(0);
+    const Real load = m.opening - m.coasting;
+    const Real high = (-load - m.coasting * (Real(1) + e) / Real(2)) / m.give;
+    m.forfeits = wanted > high;
+    return std::max(Real(0), high);
+  }
+  Real high = largestForce(state.tank, m.opening, m.give);
+  const bool is_opening = m.opening + m.give * std::clamp(wanted, Real(0), high) > Real(0);
+  if (is_opening && state.rebounding == Real(0)) {
+    const Real kept = e * e * state.tank;
+    state.lost += static_cast<double>(state.tank - kept);
+    state.tank = kept;
+    high = largestForce(kept, m.opening, m.give);
+  }
+  state.rebounding = is_opening ? Real(1) : Real(0);
+  return high;
+}
+
+/// The force of the law a little ahead.
+template <class Real>
+Real wantedForce(const GuardedMotion<Real>& m,
+                 const GuardedForce<Real>& at,
+                 Real kt,
+                 bool is_contact) noexcept {
+  const Real ahead = lookAhead(kt, is_contact);
+  return (at.force - ahead * at.slope * (m.opening - m.coasting)) / (Real(1) + ahead * kt);
+}
+
+/// The same of a contact that lasts for several steps. Its slope changes at the first touch, at a
+/// time that no sample knows; the mean of the law over the steps on both sides, which is what the
+/// motion feels, does. It depends on the velocity, hence the passes.
+template <class Real>
+Real wantedMean(const GuardedMotion<Real>& m,
+                const GuardedLaw<Real>& law,
+                GuardedForce<Real> at,
+                Real kt) noexcept {
+  Real wanted = at.force;
+  for (int pass = 0; pass < 3; ++pass) {
+    at.force = law.meanPush(m.p, (m.opening + m.give * wanted) / Real(2));
+    wanted = wantedForce(m, at, kt, true);
+  }
+  return wanted;
+}
+
+template <class Real>
+void exertElastic(GuardedMotion<Real>& m,
+                  const GuardedLaw<Real>& law,
+                  GuardedState<Real>& state) noexcept {
+  const bool is_contact = law.isContact();
+  const bool is_open = is_contact && !(m.p > Real(0));
+  const GuardedForce<Real> at = is_open ? GuardedForce<Real>{} : law.push(m.p);
+  const Real kt = m.give * std::max(Real(0), at.slope);
+  const Real deepest = m.p + std::abs(m.coasting) / Real(2);
+  const bool is_long = is_contact && m.give * law.push(deepest).slope <= Real(kShortContact);
+  if (is_open && !is_long) {
+    return;
+  }
+  const Real wanted = is_long ? wantedMean(m, law, at, kt) : wantedForce(m, at, kt, is_contact);
+  const Real z = is_open ? Real(0) : law.dampingAt(m.p, -m.coasting / Real(2));
+  const bool is_impact = is_contact && z > Real(0) && kt > Real(1);
+  const Real damping = is_impact ? Real(0) : z;
+  const Real drag = Real(1) + m.give * damping / Real(2);
+  const Real budget = state.tank * drag;
+  const Real high = is_impact ? rebound(m, restitution(z, at.slope, m.own_give), wanted, state)
+                              : largestForce(budget, m.opening, m.give);
+  const Real low = is_contact ? Real(0) : -largestForce(budget, -m.opening, m.give);
+  m.force = std::clamp(wanted, low, high);
+  m.damper = -damping * (m.opening + m.give * m.force) / (Real(2) * drag);
+  const bool is_clipped = wanted > high || (!is_contact && wanted < low);
+  state.active += 1.0;
+  state.clipped += is_clipped ? 1.0 : 0.0;
+}
+
+/// Two passes of Newton's method from the backward slip, each kept between no force and the force
+/// that stops the slip.
+template <class Real>
+void exertFriction(GuardedMotion<Real>& m,
+                   const GuardedLaw<Real>& law,
+                   GuardedState<Real>& state) noexcept {
+  const Real unbounded = std::copysign(std::numeric_limits<Real>::max(), -m.opening);
+  const Real stop = m.give > Real(0) ? -m.opening / m.give : unbounded;
+  const Real low = std::min(Real(0), stop);
+  const Real high = std::max(Real(0), stop);
+  Real slip = -m.coasting / Real(2);
+  bool is_clipped = false;
+  for (int pass = 0; pass < 2; ++pass) {
+    const GuardedForce<Real> at = law.slip(slip);
+    // Below that slope a centred step has more than one solution.
+    const Real slope = m.give > Real(0) ? std::max(at.slope, Real(-1) / m.give) : at.slope;
+    const Real wanted =
+        (at.force - slope * (m.opening / Real(2) + slip)) / (Real(1) + slope * m.give / Real(2));
+    m.damper = std::clamp(wanted, low, high);
+    is_clipped = std::abs(wanted) > std::abs(m.damper);
+    slip = -m.swing() / Real(2);
+  }
+  state.active += m.damper != Real(0) ? 1.0 : 0.0;
+  state.clipped += is_clipped ? 1.0 : 0.0;
+}
+
+}  // namespace
+
+template <class Real>
+void exertForce(GuardedMotion<Real>& m,
+                const GuardedLaw<Real>& law,
+                GuardedState<Real>& state) noexcept {
+  if (m.is_friction) {
+    exertFriction(m, law, state);
+  } else if (m.is_pushing) {
+    exertElastic(m, law, state);
+  } else {
+    state.rebounding = Real(0);
+    release(m, state);
+  }
+}
+
+template <class Real>
+void payWork(GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept {
+  const Real swing = m.swing();
+  const Real work = m.force * swing / Real(2);
+  state.stored = static_cast<double>(state.tank - m.force * m.coasting / Real(4));
+  m.heat = -m.damper * swing / Real(2);
+  if (m.forfeits && work < Real(0)) {
+    m.heat -= work;
+  } else {
+    state.tank -= work;
+  }
+  if (m.empties) {
+    m.heat += state.tank;
+    state.tank = Real(0);
+  }
+  state.force = m.force;
+  state.damper = m.damper;
+  state.foreseen = m.foreseen;
+  std::copy_n(m.gradient, 3, state.gradient);
+}
+
+template <class Real>
+void payArrears(Real moved, GuardedState<Real>& state) noexcept {
+  const Real unforeseen = (moved - state.foreseen) / Real(2);
+  state.lost -= static_cast<double>(state.damper * unforeseen);
+  state.tank -= state.force * unforeseen;
+  if (state.tank < Real(0)) {
+    state.lost += static_cast<double>(state.tank);
+    state.tank = Real(0);
+  }
+}
+
+template void exertForce(GuardedMotion<float>&,
+                         const GuardedLaw<float>&,
+                         GuardedState<float>&) noexcept;
+template void exertForce(GuardedMotion<double>&,
+                         const GuardedLaw<double>&,
+                         GuardedState<double>&) noexcept;
+template void payWork(GuardedMotion<float>&, GuardedState<float>&) noexcept;
+template void payWork(GuardedMotion<double>&, GuardedState<double>&) noexcept;
+template void payArrears(float, GuardedState<float>&) noexcept;
+template void payArrears(double, GuardedState<double>&) noexcept;
+
+}  // namespace ergotic::physics

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+
+#include "physics/laws/guarded_laws.hpp"
+
+namespace ergotic::physics {
+
+/// What a guarded link remembers; all 0 before it starts. Energies in force unit times m.
+template <class Real>
+struct GuardedState {
+  double stored = 0.0;      ///< at this step: the tank, with the first half of the step's work
+  double lost = 0.0;        ///< energy dissipated since the start
+  double active = 0.0;      ///< steps in which it pushed
+  double clipped = 0.0;     ///< of these, with less force than its law asks for
+  Real tank = Real(0);      ///< energy it may still give
+  Real force = Real(0);     ///< of the last step, elastic
+  Real damper = Real(0);    ///< of the last step, damping or friction
+  Real foreseen = Real(0);  ///< how far what forces do not move was to open it
+  Real gradient[3] = {Real(0), Real(0), Real(0)};  ///< of the last step
+  Real rebounding = Real(0);                       ///< 1 once this impact has turned around
+};
+
+/// What a guarded link sees and does in one step. It opens while p falls.
+template <class Real>
+struct GuardedMotion {
+  Real p = Real(0);                                ///< compression or elongation, m
+  Real gradient[3] = {Real(0), Real(0), Real(0)};  ///< of p over end a less end b
+  Real coasting = Real(0);  ///< how far it would open over two steps at its present velocity, m
+  Real opening = Real(0);   ///< the same with all forces but those of guarded links
+  Real foreseen = Real(0);  ///< part of that in the step to come, by what forces do not move
+  Real give = Real(0);      ///< opening per force, inflated by the links that share its masses
+  Real own_give = Real(0);  ///< the same if it were alone
+  Real force = Real(0);     ///< elastic, closed links push: > 0
+  Real damper = Real(0);    ///< damping or friction
+  Real heat = Real(0);      ///< what it dissipates in this step
+  bool is_friction = false;
+  bool is_pushing = false;  ///< in contact, or two-sided
+  bool is_active = false;   ///< may have a force
+  bool empties = false;     ///< its tank is void after this step
+  bool forfeits = false;    ///< what it absorbs in this step is lost
+
+  Real total() const noexcept { return force + damper; }
+  /// How far it opens over two steps. With shared masses that is the most its force is charged for.
+  Real swing() const noexcept { return opening + give * total(); }
+};
+
+/// Works out force and damper. \pre all that is above them in `m` is known
+/// Realtime: yes. Source: docs/physics.md, "Guarded links".
+template <class Real>
+void exertForce(GuardedMotion<Real>& m,
+                const GuardedLaw<Real>& law,
+                GuardedState<Real>& state) noexcept;
+
+/// Pays the work of this step from the tank, as if no other link were on its masses. Realtime: yes
+template <class Real>
+void payWork(GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept;
+
+/// Takes back what it was charged too much: `swing` is how far it opened more than it really will.
+/// Realtime: yes
+template <class Real>
+void takeBack(Real swing, GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept {
+  state.tank += m.force * swing / Real(2);
+  m.heat += m.damper * swing / Real(2);
+}
+
+/// Ends the step: neither tank nor heat stays below 0, each pays for the other. Realtime: yes
+template <class Real>
+void closeStep(const GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept {
+  const Real both = state.tank + m.heat;
+  state.tank = std::clamp(state.tank, Real(0), std::max(Real(0), both));
+  state.lost += static_cast<double>(both - state.tank);
+}
+
+/// Pays what the force of the last step did beyond what was foreseen then.
+/// \param moved  how far what forces do not move has opened the link since. Realtime: yes
+template <class Real>
+void payArrears(Real moved, GuardedState<Real>& state) noexcept;
+
+}  // namespace ergotic::physics

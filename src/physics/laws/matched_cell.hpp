@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "physics/laws/slopes.hpp"
+
+namespace ergotic::physics {
+
+/// Upper bound of M (kappa + 2 zeta) of a module with matched coefficients, kg, over all that its
+/// stiffness, damping and mass can be; exact if they are constant. With links attached it
+/// enters the network with it; alone it is stable at any step.
+/// Source: docs/physics.md, "Stability".
+double matchedLoad(Span stiffness, Span damping, Span mass, double step);
+
+}  // namespace ergotic::physics

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <map>
+#include <numeric>
+
+#include "physics/layout/blocks/block_parts.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+using scene::LiaType;
+using scene::Mat;
+using scene::MatType;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+bool follows(const scene::Value& value) {
+  return value.audio >= 0;
+}
+
+/// Modules that blocks can hold: free ones and grounds.
+bool isFree(const Mat& mat) {
+  return mat.type == MatType::kMass ||
+         (mat.type == MatType::kCell && !follows(mat.stiffness) && !follows(mat.damping));
+}
+
+bool isLinear(const scene::Scene& scene, const scene::Lia& lia) {
+  const Mat& a = scene.mats[at(lia.a)];
+  const Mat& b = scene.mats[at(lia.b)];
+  const bool a_free = isFree(a);
+  const bool b_free = isFree(b);
+  return lia.type == LiaType::kSpringDamper && lia.scheme == scene::Scheme::kExplicit &&
+         a.section == b.section && lia.a != lia.b &&
+         scene.sectionOf(a).geometry == scene::Geometry::kScalar && !follows(lia.stiffness) &&
+         !follows(lia.damping) && (a_free || b_free) && (a_free || a.type == MatType::kGround) &&
+         (b_free || b.type == MatType::kGround);
+}
+
+/// Disjoint sets of modules.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  int of(int i) {
+    while (parent_[at(i)] != i) {
+      parent_[at(i)] = parent_[at(parent_[at(i)])];
+      i = parent_[at(i)];
+    }
+    return i;
+  }
+  void join(int a, int b) { parent_[at(of(a))] = of(b); }
+
+ private:
+  std::vector<int> parent_;
+};
+
+/// Which set each ground belongs to: kNone, or kShared if there are several.
+class Grounds {
+ public:
+  static constexpr int kNone = -1;
+  static constexpr int kShared = -2;
+  Grounds(const scene::Scene& scene, const std::vector<int>& lias, Sets& sets)
+      : set_(scene.mats.size(), kNone) {
+    for (const int l : lias) {
+      const scene::Lia& lia = scene.lias[at(l)];
+      note(scene, lia.a, lia.b, sets);
+      note(scene, lia.b, lia.a, sets);
+    }
+  }
+  int of(int mat) const { return set_[at(mat)]; }
+
+ private:
+  void note(const scene::Scene& scene, int ground, int other, Sets& sets) {
+    if (scene.mats[at(ground)].type == MatType::kGround) {
+      int& set = set_[at(ground)];
+      const int found = sets.of(other);
+      set = set == kNone || set == found ? found : kShared;
+    }
+  }
+  std::vector<int> set_;
+};
+
+}  // namespace
+
+std::vector<Component> findComponents(const scene::Scene& scene) {
+  std::vector<int> linear;
+  Sets sets(scene.mats.size());
+  for (int l = 0; l < static_cast<int>(scene.lias.size()); ++l) {
+    const scene::Lia& lia = scene.lias[at(l)];
+    if (isLinear(scene, lia)) {
+      linear.push_back(l);
+      if (isFree(scene.mats[at(lia.a)]) && isFree(scene.mats[at(lia.b)])) {
+        sets.join(lia.a, lia.b);
+      }
+    }
+  }
+  const Grounds grounds(scene, linear, sets);
+  std::vector<int> component_of_set(scene.mats.size(), -1);
+  std::vector<Component> components;
+  const auto componentOf = [&](int set) -> Component& {
+    int& index = component_of_set[at(set)];
+    if (index < 0) {
+      index = static_cast<int>(components.size());
+      components.push_back({scene.mats[at(set)].section, {}, {}});
+    }
+    return components[at(index)];
+  };
+  for (const int l : linear) {
+    const scene::Lia& lia = scene.lias[at(l)];
+    if (grounds.of(lia.a) != Grounds::kShared && grounds.of(lia.b) != Grounds::kShared) {
+      componentOf(sets.of(isFree(scene.mats[at(lia.a)]) ? lia.a : lia.b)).lias.push_back(l);
+    }
+  }
+  for (int m = 0; m < static_cast<int>(scene.mats.size()); ++m) {
+    const int set = isFree(scene.mats[at(m)]) ? sets.of(m) : grounds.of(m);
+    if (set >= 0 && component_of_set[at(set)] >= 0) {
+      components[at(component_of_set[at(set)])].mats.push_back(m);
+    }
+  }
+  return components;
+}
+
+std::vector<int> chainOrder(const scene::Scene& scene,
+                            const Component& component,
+                            const std::vector<int>& places) {
+  const int count = static_cast<int>(component.mats.size());
+  if (static_cast<int>(component.lias.size()) != count - 1) {
+    return {};
+  }
+  std::vector<std::array<int, 2>> neighbours(at(count), {-1, -1});
+  for (const int l : component.lias) {
+    const scene::Lia& lia = scene.lias[at(l)];
+    const int ends[2] = {places[at(lia.a)], places[at(lia.b)]};
+    for (const int k : {0, 1}) {
+      std::array<int, 2>& mine = neighbours[at(ends[k])];
+      if (mine[1] >= 0) {
+        return {};  // a third neighbour
+      }
+      mine[mine[0] < 0 ? 0 : 1] = ends[1 - k];
+    }
+  }
+  int here = 0;
+  while (here < count && neighbours[at(here)][1] >= 0) {
+    ++here;
+  }
+  std::vector<int> order;
+  for (int last = -1; here >= 0 && static_cast<int>(order.size()) < count;) {
+    order.push_back(component.mats[at(here)]);
+    const std::array<int, 2>& next = neighbours[at(here)];
+    const int on = next[0] != last ? next[0] : next[1];
+    last = here;
+    here = on;
+  }
+  return static_cast<int>(order.size()) == count ? order : std::vector<int>{};
+}
+
+std::vector<OffsetCount> offsetsOf(const scene::Scene& scene,
+                                   const Component& component,
+                                   const std::vector<int>& places) {
+  std::map<int, int> histogram;
+  for (const int l : component.lias) {
+    const scene::Lia& lia = scene.lias[at(l)];
+    ++histogram[std::abs(places[at(lia.a)] - places[at(lia.b)])];
+  }
+  std::vector<OffsetCount> counts;
+  for (const auto& [offset, links] : histogram) {
+    counts.push_back({offset, links});
+  }
+  std::stable_sort(counts.begin(), counts.end(),
+                   [](const OffsetCount& a, const OffsetCount& b) { return a.links > b.links; });
+  return counts;
+}
+
+}  // namespace ergotic::physics

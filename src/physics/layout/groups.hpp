@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "physics/layout/layout.hpp"
+
+namespace ergotic::physics {
+
+/// A coordinate of a held module as one group sees it. It has a slot of its own, so that no two
+/// groups write to one place: its position comes before the group is stepped, its force goes to the
+/// module after all groups were.
+struct Proxy {
+  int slot = 0;
+  int of = 0;  ///< slot of the module or point
+};
+
+/// A block that nothing but its own links acts on while it runs (Block::is_alone), and what is
+/// heard of it.
+struct LoneBlock {
+  std::size_t block = 0;                 ///< Layout::blocks
+  std::vector<std::size_t> taps;         ///< Layout::taps
+  std::vector<std::size_t> tap_columns;  ///< [taps] index in Group::channels
+};
+
+/// What needs each other at the same instant, as indices: it is stepped by one thread.
+struct Group {
+  std::vector<int> sections;              ///< Layout::sections
+  std::vector<std::size_t> runs;          ///< Layout::runs, explicit ones
+  std::vector<std::size_t> guarded;       ///< guardedGroupsOf
+  std::vector<std::size_t> modal_places;  ///< Layout::modal_places
+  std::vector<std::size_t> places;        ///< Layout::places
+  std::vector<std::size_t> projections;   ///< Layout::projections
+  std::vector<std::size_t> decimations;   ///< Layout::decimations
+  std::vector<std::size_t> feeds;         ///< Layout::feeds
+  std::vector<std::size_t> followers;     ///< Layout::followers
+  std::vector<std::size_t> taps;          ///< Layout::taps
+  std::vector<int> channels;              ///< of outputs that the taps are heard on, each once
+  std::vector<std::size_t> tap_columns;   ///< [taps] index in `channels`
+  std::vector<LoneBlock> lone;
+  bool has_only_lone = false;  ///< there is nothing to do frame by frame
+  std::vector<Proxy> proxies;
+  std::int64_t modules = 0;
+  std::int64_t cost = 0;  ///< steps of coordinates in a tick
+};
+
+/// The order inside a tick: held sections move, groups are stepped through all frames of the tick,
+/// the forces on held sections are summed. Sections that are stepped once per tick or more slowly
+/// are held, unless something needs one of them at the same instant as a section that runs.
+struct Groups {
+  Group held;
+  std::vector<Group> running;  ///< the expensive ones first
+};
+
+/// One group of all sections, feeds and points. Realtime: no
+Group everythingOf(const Layout& layout);
+
+/// What is stepped together, a line each. Realtime: no
+std::vector<std::string> describeGroups(const scene::Scene& scene,
+                                        const Groups& groups,
+                                        int threads);
+
+/// Decides what belongs together. Gives links from running to held sections proxies for their held
+/// ends, and sets LinkRun::group. Realtime: no
+Groups splitIntoGroups(const scene::Scene& scene, const Rates& rates, Layout& layout);
+
+}  // namespace ergotic::physics

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "physics/layout/layout.hpp"
+
+namespace ergotic::physics {
+
+struct GuardedRef {
+  std::size_t run = 0;  ///< index in Layout::runs
+  std::size_t link = 0;
+};
+
+/// Guarded links that are stepped together. Those of one run follow one another.
+struct GuardedGroup {
+  int divisor = 1;                  ///< audio frames per step
+  int group = LinkRun::kHeldGroup;  ///< LinkRun::group
+  std::vector<GuardedRef> links;
+};
+
+/// All guarded links of a layout, by group and rate. Realtime: no.
+inline std::vector<GuardedGroup> guardedGroupsOf(const Layout& layout) {
+  std::vector<GuardedGroup> groups;
+  for (std::size_t r = 0; r < layout.runs.size(); ++r) {
+    const LinkRun& run = layout.runs[r];
+    if (!run.guarded) {
+      continue;
+    }
+    const int divisor = layout.sections[static_cast<std::size_t>(run.section)].divisor;
+    auto group = std::find_if(groups.begin(), groups.end(), [&](const GuardedGroup& g) {
+      return g.divisor == divisor && g.group == run.group;
+    });
+    if (group == groups.end()) {
+      group = groups.insert(groups.end(), {divisor, run.group, {}});
+    }
+    for (std::size_t l = 0; l < run.ends.size(); ++l) {
+      group->links.push_back({r, l});
+    }
+  }
+  return groups;
+}
+
+}  // namespace ergotic::physics

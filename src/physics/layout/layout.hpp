@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "ergotic/physics/rates.hpp"
+#include "ergotic/scene/scene.hpp"
+#include "physics/kernels/spatial_kernels.hpp"
+#include "physics/layout/blocks/blocks.hpp"
+#include "physics/modes/modal_scene.hpp"
+
+namespace ergotic::physics {
+
+/// Force laws as kernels; tables are laws of their own.
+enum class Law {
+  kSpringDamper,
+  kContact,
+  kQuadratic,
+  kCubic,
+  kClippedCubic,
+  kCubicContact,
+  kPluck,
+  kBow,
+  kSmoothBow,
+  kPluckTable,
+  kBowTable,
+  kPowerContact,
+  kTable,
+  kConditional,
+};
+Law lawOf(const scene::Lia& lia);
+
+/// Slots of a section. A slot is one coordinate of one module. Each coordinate of a section fills
+/// `stride` slots in a row: blocks (blocks.hpp; their grounds are masses that no force moves),
+/// cells, masses, then modules that forces do not move; those of y follow those of x. The ranges
+/// are those of x.
+struct SectionRange {
+  int divisor = 1;  ///< audio frames per step
+  int dimensions = 1;
+  int stride = 0;
+  int first = 0;   ///< slot, of blocks
+  int cells = 0;   ///< first slot
+  int masses = 0;  ///< first slot
+  int fixed = 0;   ///< first slot
+  int end = 0;
+};
+
+/// One end of a link: coordinate c lies in slot + c * stride.
+struct End {
+  int slot = 0;
+  int stride = 0;
+  int section = 0;
+  Eigen::Vector3d rest = Eigen::Vector3d::Zero();
+};
+
+using kernels::LinkEnds;
+using kernels::LinkSpan;
+
+/// A run of links with one law, stepped with one section. Where `slow_section` is set, end a (or
+/// b) belongs to that slower section: its position is held between its steps and it receives
+/// `share` of the force at every step, so the mean over its own step.
+struct LinkRun {
+  Law law = Law::kSpringDamper;
+  bool guarded = false;
+  int dimensions = 0;  ///< 0: scalar, else the coordinates a distance is taken over
+  int section = 0;     ///< whose steps it follows
+  int section_a = 0;   ///< of the modules
+  int section_b = 0;
+  enum class Decimated { kNone, kA, kB };
+  Decimated decimated = Decimated::kNone;  ///< the end that is seen at the slower rate (scheme B)
+  int slow_section = -1;
+  bool slow_is_a = false;
+  double share = 1.0;
+  static constexpr int kHeldGroup = -1;
+  int group = kHeldGroup;  ///< that steps it, index in Groups::running
+  int block = -1;          ///< index in Layout::blocks: its sweep works these links out
+  int stride_a = 0;
+  int stride_b = 0;
+  std::vector<int> lias;               ///< [links] index in Scene::lias
+  std::vector<LinkEnds> ends;          ///< [links]
+  std::vector<Eigen::Vector3d> rests;  ///< [links] rest of a less rest of b
+  std::vector<LinkSpan> spans;  ///< all links, as spatial kernels take them; empty: one by one
+};
+
+/// A connection: its slots follow one another.
+struct PlacePoint {
+  int slot = 0;
+  int dimensions = 1;
+  int coordinate = 0;  ///< first of its own among those of all places
+  int section = 0;     ///< of the grid
+  int stride = 0;      ///< of the modules around it
+  int connection = 0;  ///< index in Scene::connections
+  int guide = -1;      ///< slot
+};
+
+/// A module that is a weighted sum of modes, which lie in consecutive slots.
+struct ModalPlace {
+  int slot = 0;
+  int section = 0;
+  int first = 0;  ///< slot of its first mode
+  int count = 0;
+  double offset = 0.0;          ///< m, where all modes are at 0
+  std::vector<double> weights;  ///< [count]
+};
+
+/// A module seen in the frame of a section with fewer coordinates: y = axes x.
+struct ProjectedPoint {
+  int slot = 0;
+  int dimensions = 1;         ///< of what is seen
+  End of;                     ///< what is seen
+  int source_dimensions = 1;  ///< coordinates of `of`
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+};
+
+/// A module of a faster section as a link at the slower rate sees it (scheme B).
+struct DecimatedPoint {
+  int slot = 0;
+  int dimensions = 1;
+  int coordinate = 0;  ///< first of its own among those of all decimated points
+  int section = 0;     ///< the slower one, that of its steps
+  End of;
+  double impulse = 1.0;  ///< steps of the faster section per step of the slower
+};
+
+/// Coordinates of all of these places, or decimated points.
+template <class Point>
+std::size_t coordinatesOf(const std::vector<Point>& points) {
+  return points.empty()
+             ? 0
+             : static_cast<std::size_t>(points.back().coordinate + points.back().dimensions);
+}
+
+struct Tap {
+  scene::Quantity quantity = scene::Quantity::kPosition;
+  int slot = 0;
+  int next = -1;
+  double fraction = 0.0;
+  double rest = 0.0;      ///< added to displacements, m
+  double velocity = 1.0;  ///< from step difference to m/time_unit
+  int divisor = 1;        ///< of the module's section
+  int channel = 0;
+};
+
+struct Feed {
+  scene::Quantity quantity = scene::Quantity::kForce;
+  int slot = 0;
+  double rest = 0.0;
+  int section = 0;
+  double share = 1.0;  ///< 1 / divisor: forces on slow modules are averaged
+  int channel = 0;
+};
+
+/// A link or a module whose coefficients follow an audio input.
+struct Follower {
+  int run = 0;    ///< index in Layout::runs; -1: a module
+  int index = 0;  ///< of the link in its run, or slot of the module
+  int section = 0;
+};
+
+/// Where everything of a scene lies in the arrays of an instrument.
+struct Layout {
+  std::vector<int> slot_of_mat;  ///< of the x coordinate
+  std::vector<int> mat_of_slot;  ///< -1: internal point
+  std::vector<int> component;    ///< [slots] 0 x, 1 y, 2 z
+  std::vector<SectionRange> sections;
+  std::vector<Block> blocks;  ///< by section, then by slot
+  std::vector<ModalPlace> modal_places;
+  std::vector<PlacePoint> places;
+  std::vector<ProjectedPoint> projections;
+  std::vector<DecimatedPoint> decimations;
+  std::vector<LinkRun> runs;
+  std::vector<int> port_slots;  ///< [ports] of the coordinate that it moves
+  std::vector<Tap> taps;
+  std::vector<Feed> feeds;
+  std::vector<Follower> followers;
+
+  int slots() const { return static_cast<int>(mat_of_slot.size()); }
+  int strideOf(const scene::Scene& scene, int mat) const;
+
+  /// True if a section moves in frame `now`.
+  bool isDue(int section, std::int64_t now) const noexcept {
+    const int divisor = divisorOf(section);
+    return divisor == 1 || now % divisor == 0;
+  }
+  /// Index of the block that a slot is in, -1: none.
+  int blockOf(int slot) const noexcept {
+    const auto past = std::upper_bound(blocks.begin(), blocks.end(), slot,
+                                       [](int s, const Block& block) { return s < block.first; });
+    return past != blocks.begin() && slot < (past - 1)->first + (past - 1)->elements
+               ? static_cast<int>(past - blocks.begin()) - 1
+               : -1;
+  }
+
+  /// True if the step of a run that began with frame `now` is the last in that of its slower end.
+  bool endsSlowStep(const LinkRun& run, std::int64_t now) const noexcept {
+    return run.slow_section >= 0 &&
+           (now + divisorOf(run.section)) % divisorOf(run.slow_section) == 0;
+  }
+  /// True if at the start of frame `now` that last step is behind, and the next one is to come.
+  /// Guarded runs give their force with the last frame of a step, others with the first.
+  bool isBetweenSlowSteps(const LinkRun& run, std::int64_t now) const noexcept {
+    const int step = run.guarded ? 1 : divisorOf(run.section);
+    return run.slow_section < 0 || (now + step - 1) % divisorOf(run.slow_section) < step;
+  }
+
+ private:
+  int divisorOf(int section) const noexcept {
+    return sections[static_cast<std::size_t>(section)].divisor;
+  }
+};
+
+/// \param modal_points  of a scene in which modes stand in for modules
+/// \throws Exception if links join sections whose divisors do not divide one another
+Layout makeLayout(const scene::Scene& scene,
+                  const Rates& rates,
+                  const std::vector<ModalPoint>& modal_points = {});
+
+}  // namespace ergotic::physics

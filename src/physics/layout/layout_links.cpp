@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/layout/layout_links.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <tuple>
+
+#include "ergotic/exception.hpp"
+#include "physics/layout/link_spans.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+using scene::Geometry;
+using scene::LiaType;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Slots for a point: those of its coordinates follow one another.
+int addSlots(Layout& layout, int dimensions, int mat) {
+  const int first = layout.slots();
+  for (int c = 0; c < dimensions; ++c) {
+    layout.mat_of_slot.push_back(mat);
+    layout.component.push_back(c);
+  }
+  return first;
+}
+
+/// Where a link's end moves, and in which frame.
+class Ends {
+ public:
+  Ends(const scene::Scene& scene, Layout& layout) : scene_(scene), layout_(layout) {}
+
+  End of(int mat) const {
+    const scene::Mat& m = scene_.mats[at(mat)];
+    return {layout_.slot_of_mat[at(mat)], layout_.strideOf(scene_, mat), m.section, m.rest};
+  }
+
+  /// The module as it is seen in another section's frame.
+  End projected(int mat, int section) {
+    const auto [known, is_new] = projections_.try_emplace({mat, section});
+    if (is_new) {
+      known->second = project(mat, section);
+    }
+    return known->second;
+  }
+
+  /// The module as a link that is stepped with a slower section sees it.
+  End decimated(const End& end, int section, int dimensions) {
+    const auto [known, is_new] = decimations_.try_emplace({end.slot, section});
+    if (is_new) {
+      DecimatedPoint point;
+      point.slot = addSlots(layout_, dimensions, -1);
+      point.dimensions = dimensions;
+      point.coordinate = static_cast<int>(coordinatesOf(layout_.decimations));
+      point.section = section;
+      point.of = end;
+      point.impulse = static_cast<double>(divisor(section)) / divisor(end.section);
+      layout_.decimations.push_back(point);
+      known->second = {point.slot, 1, section, end.rest};
+    }
+    return known->second;
+  }
+
+  const std::string& file() const { return scene_.file; }
+  int divisor(int section) const { return layout_.sections[at(section)].divisor; }
+
+ private:
+  End project(int mat, int section) {
+    const scene::Section& to = scene_.sections[at(section)];
+    const scene::Section& from = scene_.sectionOf(scene_.mats[at(mat)]);
+    const Eigen::Isometry3d map = to.pose.inverse() * from.pose;
+    ProjectedPoint point;
+    point.dimensions = dimensionsOf(to.geometry);
+    point.of = of(mat);
+    point.source_dimensions = dimensionsOf(from.geometry);
+    point.axes = map.linear();
+    point.slot = addSlots(layout_, point.dimensions, -1);
+    layout_.projections.push_back(point);
+    return {point.slot, 1, point.of.section, map * point.of.rest};
+  }
+
+  const scene::Scene& scene_;
+  Layout& layout_;
+  std::map<std::pair<int, int>, End> projections_;
+  std::map<std::pair<int, int>, End> decimations_;
+};
+
+/// The frame in which two modules meet: that of the one with fewer coordinates.
+struct Frame {
+  int section = 0;
+  bool projects_a = false;
+  bool projects_b = false;
+};
+
+Frame frameOf(const scene::Scene& scene, const scene::Lia& lia) {
+  const int sa = scene.mats[at(lia.a)].section;
+  const int sb = scene.mats[at(lia.b)].section;
+  const scene::Section& a = scene.sections[at(sa)];
+  const scene::Section& b = scene.sections[at(sb)];
+  if (a.geometry == b.geometry) {
+    // Scalar sections have one axis in common whatever their place in the picture.
+    const bool same =
+        sa == sb || a.geometry == Geometry::kScalar || a.pose.matrix() == b.pose.matrix();
+    return {sa, false, !same};
+  }
+  return a.geometry < b.geometry ? Frame{sa, false, true} : Frame{sb, true, false};
+}
+
+/// Whose steps a link follows: the faster of its two sections, the slower one for scheme B.
+void setRates(const scene::Lia& lia, const End& a, const End& b, const Ends& ends, LinkRun& run) {
+  const int da = ends.divisor(a.section);
+  const int db = ends.divisor(b.section);
+  const int fast = std::min(da, db);
+  const int slow = std::max(da, db);
+  if (slow % fast != 0) {
+    throw TextError(ends.file(), lia.place.line, lia.place.column,
+                    "link '" + lia.name + "' joins sections stepped every " + std::to_string(fast) +
+                        " and " + std::to_string(slow) +
+                        " audio frames: one must be a multiple of the other");
+  }
+  run.section = da <= db ? a.section : b.section;
+  if (da != db) {
+    run.slow_is_a = da > db;
+    run.slow_section = run.slow_is_a ? a.section : b.section;
+    run.share = static_cast<double>(fast) / slow;
+  }
+}
+
+void placeLink(const scene::Scene& scene, int l, Ends& ends, LinkRun& run, End& a, End& b) {
+  const scene::Lia& lia = scene.lias[at(l)];
+  const Frame frame = frameOf(scene, lia);
+  const Geometry geometry = scene.sections[at(frame.section)].geometry;
+  a = frame.projects_a ? ends.projected(lia.a, frame.section) : ends.of(lia.a);
+  b = frame.projects_b ? ends.projected(lia.b, frame.section) : ends.of(lia.b);
+  run.law = lawOf(lia);
+  run.guarded = lia.scheme == scene::Scheme::kGuarded;
+  run.dimensions = geometry == Geometry::kScalar ? 0 : dimensionsOf(geometry);
+  run.section_a = a.section;
+  run.section_b = b.section;
+  const int da = ends.divisor(a.section);
+  const int db = ends.divisor(b.section);
+  if (lia.coupling == scene::Coupling::kDecimate && da != db) {
+    End& fast = da < db ? a : b;
+    fast = ends.decimated(fast, da < db ? b.section : a.section, dimensionsOf(geometry));
+    run.decimated = da < db ? LinkRun::Decimated::kA : LinkRun::Decimated::kB;
+  }
+  setRates(lia, a, b, ends, run);
+  run.stride_a = run.dimensions == 0 ? 0 : a.stride;
+  run.stride_b = run.dimensions == 0 ? 0 : b.stride;
+}
+
+}  // namespace
+
+Law lawOf(const scene::Lia& lia) {
+  switch (lia.type) {
+    case LiaType::kSpringDamper:
+      return Law::kSpringDamper;
+    case LiaType::kContact:
+      return Law::kContact;
+    case LiaType::kQuadratic:
+      return Law::kQuadratic;
+    case LiaType::kCubic:
+      return Law::kCubic;
+    case LiaType::kClippedCubic:
+      return Law::kClippedCubic;
+    case LiaType::kCubicContact:
+      return Law::kCubicContact;
+    case LiaType::kPluck:
+      return lia.law->table.empty() ? Law::kPluck : Law::kPluckTable;
+    case LiaType::kBow:
+      return lia.law->table.empty() ? Law::kBow : Law::kBowTable;
+    case LiaType::kSmoothBow:
+      return Law::kSmoothBow;
+    case LiaType::kPowerContact:
+      return Law::kPowerContact;
+    case LiaType::kTable:
+      return Law::kTable;
+    case LiaType::kConditional:
+      return Law::kConditional;
+  }
+  throw Exception("link '" + lia.name + "' has no force law");
+}
+
+void placeModalPoints(const scene::Scene& scene,
+                      const std::vector<ModalPoint>& points,
+                      Layout& layout) {
+  for (const ModalPoint& point : points) {
+    ModalPlace place;
+    place.slot = addSlots(layout, 1, point.mat);
+    place.section = scene.mats[at(point.mat)].section;
+    place.first = layout.slot_of_mat[at(point.first)];
+    place.count = static_cast<int>(point.weights.size());
+    place.offset = point.offset;
+    place.weights = point.weights;
+    for (int i = 0; i < place.count; ++i) {
+      if (layout.slot_of_mat[at(point.first + i)] != place.first + i) {
+        throw Exception("modes do not lie side by side");
+      }
+    }
+    layout.slot_of_mat[at(point.mat)] = place.slot;
+    layout.modal_places.push_back(std::move(place));
+  }
+}
+
+void placeConnections(const scene::Scene& scene, Layout& layout) {
+  for (int k = 0; k < static_cast<int>(scene.connections.size()); ++k) {
+    const scene::Connection& connection = scene.connections[at(k)];
+    PlacePoint point;
+    point.section = scene.mats[at(scene.grids[at(connection.grid)].first)].section;
+    const SectionRange& range = layout.sections[at(point.section)];
+    point.dimensions = range.dimensions;
+    point.stride = range.stride;
+    point.coordinate = static_cast<int>(coordinatesOf(layout.places));
+    point.slot = addSlots(layout, point.dimensions, connection.mat);
+    point.connection = k;
+    point.guide = connection.guide < 0 ? -1 : layout.slot_of_mat[at(connection.guide)];
+    layout.slot_of_mat[at(connection.mat)] = point.slot;
+    layout.places.push_back(point);
+  }
+}
+
+void placeLinks(const scene::Scene& scene, Layout& layout) {
+  using Key = std::tuple<Law, bool, int, int, int, int, int, int, int, int>;
+  std::map<Key, std::size_t> known;
+  Ends ends(scene, layout);
+  std::vector<int> block_of_lia(scene.lias.size(), -1);
+  for (int b = 0; b < static_cast<int>(layout.blocks.size()); ++b) {
+    for (const int l : layout.blocks[at(b)].lias) {
+      block_of_lia[at(l)] = b;
+    }
+    layout.blocks[at(b)].lias = {};
+  }
+  for (int l = 0; l < static_cast<int>(scene.lias.size()); ++l) {
+    LinkRun run;
+    End a;
+    End b;
+    placeLink(scene, l, ends, run, a, b);
+    run.block = block_of_lia[at(l)];
+    const Key key{run.law,       run.guarded,  run.dimensions, run.section,      run.section_a,
+                  run.section_b, run.stride_a, run.stride_b,   run.slow_section, run.block};
+    const auto [found, is_new] = known.emplace(key, layout.runs.size());
+    if (is_new) {
+      layout.runs.push_back(std::move(run));
+    }
+    LinkRun& target = layout.runs[found->second];
+    target.lias.push_back(l);
+    target.ends.push_back({a.slot, b.slot});
+    if (run.block < 0) {
+      target.rests.push_back(a.rest - b.rest);
+    }
+  }
+  for (LinkRun& run : layout.runs) {
+    arrangeInSpans(run);
+  }
+}
+
+}  // namespace ergotic::physics

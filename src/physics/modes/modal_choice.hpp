@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "physics/modes/modal_cache.hpp"
+#include "physics/modes/modal_parts.hpp"
+
+namespace ergotic::physics {
+
+/// Time of one step on one core in float, ns, as the kernels were measured to take.
+struct ModalCost {
+  int modules = 0;  ///< masses and links that modes stand in for
+  int modes = 0;
+  double network_ns = 0.0;
+  double modal_ns = 0.0;
+};
+/// \param points  [parts] places of the part that are touched
+ModalCost predictCost(const scene::Scene& scene,
+                      const std::vector<LinearPart>& parts,
+                      const std::vector<int>& points);
+
+/// A part with its modes as the places that are touched see them. Modal coordinates are in
+/// m kg^1/2, so that every mode has the mass 1 kg.
+struct ModalPart {
+  std::shared_ptr<const Modes> modes;
+  Eigen::VectorXd pull;         ///< [modes] as MassCoefficients; >= 0
+  Eigen::VectorXd loss;         ///< [modes] as MassCoefficients::lose
+  Eigen::MatrixXd weights;      ///< [points][modes] kg^-1/2
+  Eigen::VectorXd x;            ///< [modes] at the start
+  Eigen::VectorXd d;            ///< per step
+  Eigen::VectorXd constant;     ///< force
+  Eigen::VectorXd first_force;  ///< only in the first step: takes back what springs would do in it
+  std::vector<int> kept;        ///< modes that are played, ascending
+};
+
+/// What leaving modes out changes, where forces and first motion are what they are.
+struct ModalError {
+  /// Largest part of the static give of a touched place that is missing; between two places it is
+  /// no more of the geometric mean of theirs. Exact.
+  double static_share = 0.0;
+  /// Bound of the missing displacement of any touched place at any time, m, after forces on touched
+  /// places whose impulses add up to 1 N s.
+  double per_impulse = 0.0;
+  /// Bound of that which the motion and the constant forces at the start make, m.
+  double at_start = 0.0;
+};
+
+/// Keeps the modes that matter most to these bounds, `most` in all parts together.
+/// \param step  s
+ModalError keepModes(std::vector<ModalPart>& parts, int most, double step);
+
+/// Largest |x| that a mode reaches after d = 1 from rest, at most; infinite if it goes away.
+double peakAfterKick(double pull, double loss);
+
+}  // namespace ergotic::physics

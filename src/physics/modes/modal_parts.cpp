@@ -1,0 +1,389 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/modes/modal_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+#include "physics/laws/oscillator.hpp"
+#include "physics/note.hpp"
+#include "physics/step_units.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+using scene::LiaType;
+using scene::MatType;
+
+constexpr double kSame = 1e-9;       // of numbers that are meant to be equal
+constexpr double kLossShare = 0.38;  // of losses in what decides about modes; nothing special
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+bool isConstant(const scene::Value& v) {
+  return v.parameter < 0 && v.audio < 0;
+}
+
+bool isFree(const scene::Mat& mat) {
+  return mat.type == MatType::kMass || mat.type == MatType::kCell;
+}
+
+bool isClose(double a, double b) {
+  return std::abs(a - b) <= kSame * std::max(std::abs(a), std::abs(b));
+}
+
+double largestOf(const Eigen::SparseMatrix<double>& matrix) {
+  double largest = 0.0;
+  for (int column = 0; column < matrix.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it; ++it) {
+      largest = std::max(largest, std::abs(it.value()));
+    }
+  }
+  return largest;
+}
+
+StepUnits unitsOf(const scene::Scene& scene, const Rates& rates, int section) {
+  return {scene, rates, divisorOf(scene.sections[at(section)], rates)};
+}
+
+class Finder {
+ public:
+  Finder(const scene::Scene& scene, const Rates& rates, int section)
+      : scene_(scene), rates_(rates), section_(section), units_(unitsOf(scene, rates, section)) {
+    found_.part_of.assign(scene.mats.size(), -1);
+    found_.is_in.assign(scene.lias.size(), 0);
+    is_heard_.assign(scene.mats.size(), 0);
+    for (const scene::Output& output : scene.outputs) {
+      if (output.quantity == scene::Quantity::kForce) {
+        is_heard_[at(output.point.mat)] = 1;
+      }
+    }
+  }
+
+  LinearParts run() {
+    std::vector<int> others;
+    for (LinearPart& part : gather(springs())) {
+      if (sharesModes(part)) {
+        keep(std::move(part));
+      } else {
+        others.insert(others.end(), part.lias.begin(), part.lias.end());
+      }
+    }
+    // Those may do without the links that are damped in a way of their own.
+    const double ratio = commonRatio(others);
+    std::vector<int> alike;
+    for (const int l : others) {
+      if (isClose(ratioOf(l), ratio)) {
+        alike.push_back(l);
+      } else {
+        offend(lia(l).place, "link '" + lia(l).name + "' has damping / stiffness = " +
+                                 shortly(ratioOf(l)) + ", most have " + shortly(ratio) +
+                                 ": modes need the same everywhere, or an even net");
+      }
+    }
+    for (LinearPart& part : gather(alike)) {
+      if (sharesModes(part)) {
+        keep(std::move(part));
+      } else {
+        offendByModule(part, ratio / units_.step);
+      }
+    }
+    return std::move(found_);
+  }
+
+ private:
+  const scene::Lia& lia(int l) const { return scene_.lias[at(l)]; }
+  const scene::Mat& mat(int m) const { return scene_.mats[at(m)]; }
+  double ratioOf(int l) const { return lia(l).damping.factor / lia(l).stiffness.factor; }
+
+  void offend(const scene::Place& place, const std::string& what) {
+    ++found_.offences;
+    if (!found_.offence) {
+      found_.offence = Offence{place, what};
+    }
+  }
+
+  bool hasConstants(int m) const {
+    return isConstant(mat(m).mass) && isConstant(mat(m).stiffness) && isConstant(mat(m).damping) &&
+           isConstant(scene_.sections[at(section_)].medium);
+  }
+
+  /// Free modules, and grounds on which no force is to be heard.
+  bool canEnd(int m) {
+    if (mat(m).section != section_ || (mat(m).type == MatType::kGround && is_heard_[at(m)] != 0)) {
+      return false;
+    }
+    if (!isFree(mat(m))) {
+      return mat(m).type == MatType::kGround;
+    }
+    if (!hasConstants(m)) {
+      offend(mat(m).place, "module '" + mat(m).name +
+                               "' or its medium follows a parameter: modes need constants");
+      return false;
+    }
+    if (is_heard_[at(m)] != 0) {
+      offend(mat(m).place, "the force on module '" + mat(m).name +
+                               "' is an output: modes do not tell the forces between modules");
+      return false;
+    }
+    return true;
+  }
+
+  /// Springs with constant coefficients between modules of the section.
+  std::vector<int> springs() {
+    std::vector<int> found;
+    for (int l = 0; l < static_cast<int>(scene_.lias.size()); ++l) {
+      const bool is_spring = lia(l).type == LiaType::kSpringDamper &&
+                             (lia(l).stiffness.factor != 0.0 || !isConstant(lia(l).stiffness));
+      if (!is_spring || !canEnd(lia(l).a) || !canEnd(lia(l).b) ||
+          (!isFree(mat(lia(l).a)) && !isFree(mat(lia(l).b)))) {
+        continue;
+      }
+      if (isConstant(lia(l).stiffness) && isConstant(lia(l).damping)) {
+        found.push_back(l);
+      } else {
+        offend(lia(l).place,
+               "link '" + lia(l).name + "' follows a parameter: modes need constants");
+      }
+    }
+    return found;
+  }
+
+  /// Damping over stiffness of most links, time units.
+  double commonRatio(const std::vector<int>& candidates) const {
+    std::vector<double> ratios;
+    for (const int l : candidates) {
+      ratios.push_back(ratioOf(l));
+    }
+    std::sort(ratios.begin(), ratios.end());
+    double best = 0.0;
+    std::size_t most = 0;
+    for (std::size_t first = 0; first < ratios.size();) {
+      std::size_t last = first;
+      while (last < ratios.size() && isClose(ratios[last], ratios[first])) {
+        ++last;
+      }
+      if (last - first > most) {
+        most = last - first;
+        best = ratios[first];
+      }
+      first = last;
+    }
+    return best;
+  }
+
+  int root(int m) {
+    while (parent_[at(m)] != m) {
+      parent_[at(m)] = parent_[at(parent_[at(m)])];
+      m = parent_[at(m)];
+    }
+    return m;
+  }
+
+  /// Modules that these springs join, part by part.
+  std::vector<LinearPart> gather(const std::vector<int>& lias) {
+    parent_.resize(scene_.mats.size());
+    std::iota(parent_.begin(), parent_.end(), 0);
+    std::vector<unsigned char> is_joined(scene_.mats.size(), 0);
+    for (const int l : lias) {
+      for (const int end : {lia(l).a, lia(l).b}) {
+        is_joined[at(end)] = isFree(mat(end)) ? 1 : 0;
+      }
+      if (isFree(mat(lia(l).a)) && isFree(mat(lia(l).b))) {
+        parent_[at(root(lia(l).a))] = root(lia(l).b);
+      }
+    }
+    std::map<int, LinearPart> by_root;
+    for (int m = 0; m < static_cast<int>(scene_.mats.size()); ++m) {
+      if (is_joined[at(m)] != 0) {
+        by_root[root(m)].mats.push_back(m);
+      }
+    }
+    for (const int l : lias) {
+      const int free_end = isFree(mat(lia(l).a)) ? lia(l).a : lia(l).b;
+      by_root[root(free_end)].lias.push_back(l);
+    }
+    std::vector<LinearPart> parts;
+    for (auto& [name, part] : by_root) {
+      parts.push_back(std::move(part));
+    }
+    return parts;
+  }
+
+  /// Both matrices have the same eigenvectors if their order does not matter.
+  bool sharesModes(const LinearPart& part) const {
+    const PartMatrices matrices = matricesOf(scene_, rates_, part);
+    const Eigen::SparseMatrix<double> one = matrices.pull * matrices.loss;
+    const Eigen::SparseMatrix<double> other = matrices.loss * matrices.pull;
+    return largestOf(one - other) <= kSame * largestOf(matrices.pull) * largestOf(matrices.loss);
+  }
+
+  void offendByModule(const LinearPart& part, double alpha) {
+    const double first = ownDecay(part.mats.front(), alpha);
+    for (const int m : part.mats) {
+      const double own = ownDecay(m, alpha);
+      if (!isClose(own, first)) {
+        offend(mat(m).place, "module '" + mat(m).name + "' loses " + shortly(own) +
+                                 " of its speed per step by itself, '" +
+                                 mat(part.mats.front()).name + "' " + shortly(first) +
+                                 ": modes need the same everywhere");
+        return;
+      }
+    }
+  }
+
+  /// What a module loses by itself per step, beyond alpha times its own spring.
+  double ownDecay(int m, double alpha) const {
+    const OscillatorCoefficients own = oscillatorOf(scene_, mat(m), units_);
+    return own.lose - alpha * own.pull;
+  }
+
+  void keep(LinearPart part) {
+    for (const int m : part.mats) {
+      found_.part_of[at(m)] = static_cast<int>(found_.parts.size());
+    }
+    for (const int l : part.lias) {
+      found_.is_in[at(l)] = 1;
+    }
+    found_.parts.push_back(std::move(part));
+  }
+
+  const scene::Scene& scene_;
+  Rates rates_;
+  int section_;
+  StepUnits units_;
+  std::vector<unsigned char> is_heard_;  // [mats] the force on it is an output
+  std::vector<int> parent_;              // [mats]
+  LinearParts found_;
+};
+
+std::unordered_map<int, int> rowsOf(const LinearPart& part) {
+  std::unordered_map<int, int> rows;
+  for (int i = 0; i < static_cast<int>(part.mats.size()); ++i) {
+    rows[part.mats[at(i)]] = i;
+  }
+  return rows;
+}
+
+int sectionOf(const scene::Scene& scene, const LinearPart& part) {
+  return scene.mats[at(part.mats.front())].section;
+}
+
+double massOf(const scene::Scene& scene, int mat) {
+  return scene.valueOf(scene.mats[at(mat)].mass);
+}
+
+/// From rest, where it is at the start.
+double displacementOf(const scene::Mat& mat) {
+  return mat.position.x() - mat.rest.x();
+}
+
+}  // namespace
+
+LinearParts linearPartsOf(const scene::Scene& scene, const Rates& rates, int section) {
+  return Finder(scene, rates, section).run();
+}
+
+PartMatrices matricesOf(const scene::Scene& scene, const Rates& rates, const LinearPart& part) {
+  const StepUnits units = unitsOf(scene, rates, sectionOf(scene, part));
+  const std::unordered_map<int, int> rows = rowsOf(part);
+  std::vector<Eigen::Triplet<double>> pull;
+  std::vector<Eigen::Triplet<double>> loss;
+  for (const int m : part.mats) {
+    const OscillatorCoefficients own = oscillatorOf(scene, scene.mats[at(m)], units);
+    pull.emplace_back(rows.at(m), rows.at(m), own.pull);
+    loss.emplace_back(rows.at(m), rows.at(m), own.lose);
+  }
+  for (const int l : part.lias) {
+    const scene::Lia& lia = scene.lias[at(l)];
+    for (const int to : {lia.a, lia.b}) {
+      for (const int from : {lia.a, lia.b}) {
+        const auto row = rows.find(to);
+        const auto column = rows.find(from);
+        if (row != rows.end() && column != rows.end()) {
+          const double unit = (to == from ? 1.0 : -1.0) * units.step /
+                              std::sqrt(massOf(scene, to) * massOf(scene, from));
+          pull.emplace_back(row->second, column->second, unit * units.step * lia.stiffness.factor);
+          loss.emplace_back(row->second, column->second, unit * lia.damping.factor);
+        }
+      }
+    }
+  }
+  const auto size = static_cast<Eigen::Index>(part.mats.size());
+  PartMatrices matrices{Eigen::SparseMatrix<double>(size, size),
+                        Eigen::SparseMatrix<double>(size, size)};
+  matrices.pull.setFromTriplets(pull.begin(), pull.end());
+  matrices.loss.setFromTriplets(loss.begin(), loss.end());
+  return matrices;
+}
+
+ModalMatrix mixtureOf(const PartMatrices& matrices) {
+  const double pull = matrices.pull.diagonal().sum();
+  const double loss = matrices.loss.diagonal().sum();
+  const Eigen::SparseMatrix<double> both =
+      matrices.pull + (loss > 0.0 ? kLossShare * pull / loss : 0.0) * matrices.loss;
+  ModalMatrix mixture;
+  mixture.size = static_cast<int>(both.rows());
+  for (int column = 0; column < both.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(both, column); it; ++it) {
+      if (it.row() >= column) {
+        mixture.entries.push_back({static_cast<int>(it.row()), column, it.value()});
+      }
+    }
+  }
+  return mixture;
+}
+
+PartStart startOf(const scene::Scene& scene, const Rates& rates, const LinearPart& part) {
+  const int section = sectionOf(scene, part);
+  const StepUnits units = unitsOf(scene, rates, section);
+  const std::unordered_map<int, int> rows = rowsOf(part);
+  const auto size = static_cast<Eigen::Index>(part.mats.size());
+  PartStart start;
+  for (Eigen::VectorXd* v :
+       {&start.mass, &start.x, &start.velocity, &start.constant, &start.of_springs}) {
+    v->setZero(size);
+  }
+  for (const int m : part.mats) {
+    const scene::Mat& mat = scene.mats[at(m)];
+    const int i = rows.at(m);
+    start.mass[i] = massOf(scene, m);
+    start.x[i] = displacementOf(mat);
+    start.velocity[i] = mat.push->velocity.x();
+    const double pull = oscillatorOf(scene, mat, units).pull / (units.step * units.step);
+    // The spring of a cell ends at 0, wherever the cell rests.
+    start.constant[i] =
+        mat.push->force.x() +
+        start.mass[i] * (scene.sections[at(section)].gravity.x() - pull * mat.rest.x());
+  }
+  for (const int l : part.lias) {
+    const scene::Lia& lia = scene.lias[at(l)];
+    const scene::Mat& a = scene.mats[at(lia.a)];
+    const scene::Mat& b = scene.mats[at(lia.b)];
+    // Grounds stay where they are: what their displacement does is constant.
+    const auto held = [](const scene::Mat& mat) { return isFree(mat) ? 0.0 : displacementOf(mat); };
+    const auto speed = [](const scene::Mat& mat) {
+      return isFree(mat) ? mat.push->velocity.x() : 0.0;
+    };
+    const double k = lia.stiffness.factor;
+    const double rest = a.rest.x() - b.rest.x() - lia.rest_length;
+    const double constant = k * (held(a) - held(b) + rest);
+    const double now = k * (displacementOf(a) - displacementOf(b) + rest) +
+                       lia.damping.factor * (speed(a) - speed(b));
+    for (const auto& [end, sign] : {std::pair{lia.a, -1.0}, std::pair{lia.b, 1.0}}) {
+      const auto row = rows.find(end);
+      if (row != rows.end()) {
+        start.constant[row->second] += sign * constant;
+        start.of_springs[row->second] += sign * now;
+      }
+    }
+  }
+  return start;
+}
+
+}  // namespace ergotic::physics

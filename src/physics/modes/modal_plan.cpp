@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/modes/modal_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/scene/grid.hpp"
+#include "physics/note.hpp"
+#include "physics/step_units.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+using scene::Scene;
+
+constexpr double kRounding = 1e-10;    // of the largest eigenvalue
+constexpr double kIndependent = 1e-9;  // of how far two places move each other
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+bool moves(const Scene& scene, const scene::Connection& place) {
+  const auto changes = [](const scene::Value& v) { return v.parameter >= 0 || v.audio >= 0; };
+  const bool has_rows = scene.grids[at(place.grid)].rows > 1;
+  return place.guide >= 0 || changes(place.along) || (has_rows && changes(place.across));
+}
+
+class Planner {
+ public:
+  Planner(const Scene& scene, const Rates& rates, ModalPlan& plan)
+      : scene_(scene),
+        section_(scene.sections[at(plan.section)]),
+        rates_(rates),
+        plan_(plan),
+        touch_of_(scene.mats.size(), -1) {}
+
+  /// \return what is in the way, if anything is
+  std::optional<Offence> findParts() {
+    plan_.linear = linearPartsOf(scene_, rates_, plan_.section);
+    std::size_t springs = 0;
+    for (const LinearPart& part : plan_.linear.parts) {
+      springs += part.lias.size();
+    }
+    if (at(plan_.linear.offences) >= springs) {
+      return plan_.linear.offence.value_or(
+          Offence{section_.place, "no springs join free modules in it"});
+    }
+    for (const LinearPart& part : plan_.linear.parts) {
+      if (part.mats.size() > at(kMostModalModules)) {
+        return Offence{section_.place, "springs join " + std::to_string(part.mats.size()) +
+                                           " modules, allowed: at most " +
+                                           std::to_string(kMostModalModules) + " for modes"};
+      }
+    }
+    if (std::optional<Offence> offence = findTouches()) {
+      return offence;
+    }
+    if (plan_.touches.size() > at(kMostTouches)) {
+      const std::string count = std::to_string(plan_.touches.size()) +
+                                " of its modules are touched by what is not part of the modes, "
+                                "allowed: at most " +
+                                std::to_string(kMostTouches);
+      const std::optional<Offence>& offence = plan_.linear.offence;
+      return offence ? Offence{offence->place, offence->what + "; " + count}
+                     : Offence{section_.place, count};
+    }
+    return std::nullopt;
+  }
+
+  std::vector<int> touchesOfParts() const {
+    std::vector<int> counts(plan_.linear.parts.size(), 0);
+    for (const ModalTouch& touch : plan_.touches) {
+      if (touch.part >= 0) {
+        ++counts[at(touch.part)];
+      }
+    }
+    return counts;
+  }
+
+  std::optional<Offence> findModes(std::vector<std::string>& notes) {
+    for (std::size_t p = 0; p < plan_.linear.parts.size(); ++p) {
+      const LinearPart& part = plan_.linear.parts[p];
+      ModalPart to;
+      const PartMatrices matrices = matricesOf(scene_, rates_, part);
+      to.modes = modesOf(mixtureOf(matrices), notes);
+      const Eigen::MatrixXd& vectors = to.modes->vectors;
+      to.pull = vectors.cwiseProduct(matrices.pull * vectors).colwise().sum();
+      to.loss = vectors.cwiseProduct(matrices.loss * vectors).colwise().sum();
+      if (to.pull.minCoeff() < -kRounding * to.pull.maxCoeff()) {
+        return Offence{section_.place,
+                       "springs of negative stiffness push its modules apart: no modes"};
+      }
+      to.pull = to.pull.cwiseMax(0.0);
+      describe(static_cast<int>(p), to);
+      plan_.parts.push_back(std::move(to));
+    }
+    return std::nullopt;
+  }
+
+  /// Guarded links on two places know of each other only if these move by themselves.
+  std::optional<Offence> checkGuarded() const {
+    std::vector<const scene::Lia*> guarded;
+    for (const scene::Lia& lia : scene_.lias) {
+      const bool is_here = touch_of_[at(lia.a)] >= 0 || touch_of_[at(lia.b)] >= 0;
+      if (lia.scheme == scene::Scheme::kGuarded && is_here) {
+        guarded.push_back(&lia);
+      }
+    }
+    for (const scene::Lia* one : guarded) {
+      for (const scene::Lia* other : guarded) {
+        if (actTogether(*one, *other)) {
+          return Offence{one->place, "guarded link '" + one->name + "' acts at one place and '" +
+                                         other->name +
+                                         "' at another that moves in the same step, as modes "
+                                         "are left out or both lie between the same modules"};
+        }
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  std::optional<Offence> findTouches() {
+    for (std::size_t l = 0; l < scene_.lias.size(); ++l) {
+      if (plan_.linear.is_in[l] == 0) {
+        touch(scene_.lias[l].a);
+        touch(scene_.lias[l].b);
+      }
+    }
+    for (const scene::Input& input : scene_.inputs) {
+      touch(input.mat);
+    }
+    for (const scene::Output& output : scene_.outputs) {
+      touch(output.point.mat);
+      if (output.point.next >= 0) {
+        touch(output.point.next);
+      }
+    }
+    for (const scene::Connection& place : scene_.connections) {
+      if (place.guide >= 0) {
+        touch(place.guide);
+      }
+    }
+    for (int c = 0; c < static_cast<int>(scene_.connections.size()); ++c) {
+      if (isOnParts(scene_.connections[at(c)])) {
+        if (std::optional<Offence> offence = touchBetween(c)) {
+          return offence;
+        }
+      }
+    }
+    return std::nullopt;
+  }
+
+  void touch(int mat) {
+    const int part = plan_.linear.part_of[at(mat)];
+    if (part >= 0 && touch_of_[at(mat)] < 0) {
+      add({mat, part, {{mat, 1.0}}, 0.0});
+    }
+  }
+
+  void add(ModalTouch touch) {
+    touch_of_[at(touch.mat)] = static_cast<int>(plan_.touches.size());
+    plan_.touches.push_back(std::move(touch));
+  }
+
+  bool isOnParts(const scene::Connection& place) const {
+    const scene::Grid& grid = scene_.grids[at(place.grid)];
+    const auto first = plan_.linear.part_of.begin() + grid.first;
+    return std::any_of(first, first + grid.columns * grid.rows, [](int part) { return part >= 0; });
+  }
+
+  std::optional<Offence> touchBetween(int c) {
+    const scene::Connection& place = scene_.connections[at(c)];
+    const scene::Mat& point = scene_.mats[at(place.mat)];
+    const std::string who = "point '" + point.name + "' ";
+    if (moves(scene_, place)) {
+      return Offence{place.place, who + "can move, allowed on modes: points that stay"};
+    }
+    const double along =
+        std::clamp(scene_.valueOf(place.along), place.along_minimum, place.along_maximum);
+    const scene::GridPlace around =
+        scene::placeOn(scene_.grids[at(place.grid)], along, scene_.valueOf(place.across));
+    ModalTouch touch{place.mat, -1, {}, -point.rest.x()};
+    for (int i = 0; i < around.count; ++i) {
+      const int m = around.mats[at(i)];
+      const double weight = around.weights[at(i)];
+      const scene::Mat& mat = scene_.mats[at(m)];
+      const int part = plan_.linear.part_of[at(m)];
+      touch.offset += weight * mat.rest.x();
+      if (weight == 0.0) {
+        continue;
+      }
+      if (part >= 0 && (touch.part < 0 || touch.part == part)) {
+        touch.part = part;
+        touch.shares.emplace_back(m, weight);
+      } else if (part < 0 && mat.type == scene::MatType::kGround && !isForceHeard(m)) {
+        touch.offset += weight * (mat.position.x() - mat.rest.x());
+      } else {
+        return Offence{place.place,
+                       who +
+                           "lies between modules that do not share their modes, or on one "
+                           "whose force is an output"};
+      }
+    }
+    plan_.connections.push_back(c);
+    add(std::move(touch));
+    return std::nullopt;
+  }
+
+  bool isForceHeard(int mat) const {
+    return std::any_of(
+        scene_.outputs.begin(), scene_.outputs.end(), [mat](const scene::Output& output) {
+          return output.quantity == scene::Quantity::kForce && output.point.mat == mat;
+        });
+  }
+
+  void describe(int p, ModalPart& to) const {
+    const LinearPart& part = plan_.linear.parts[at(p)];
+    const Eigen::MatrixXd& vectors = to.modes->vectors;
+    const PartStart start = startOf(scene_, rates_, part);
+    const double step = StepUnits(scene_, rates_, divisorOf(section_, rates_)).step;
+    const Eigen::VectorXd root = start.mass.cwiseSqrt();
+    const auto project = [&](const Eigen::VectorXd& v) { return vectors.transpose() * v; };
+    to.x = project(start.x.cwiseProduct(root));
+    to.d = step * project(start.velocity.cwiseProduct(root));
+    to.constant = project(start.constant.cwiseQuotient(root));
+    to.first_force = project(start.of_springs.cwiseQuotient(root)) * -1.0;
+    std::vector<const ModalTouch*> touches;
+    for (const ModalTouch& touch : plan_.touches) {
+      if (touch.part == p) {
+        touches.push_back(&touch);
+      }
+    }
+    to.weights.setZero(static_cast<Eigen::Index>(touches.size()), vectors.cols());
+    for (std::size_t t = 0; t < touches.size(); ++t) {
+      for (const auto& [m, weight] : touches[t]->shares) {
+        const auto row = std::lower_bound(part.mats.begin(), part.mats.end(), m);
+        const Eigen::Index i = row - part.mats.begin();
+        to.weights.row(static_cast<Eigen::Index>(t)) += weight / root[i] * vectors.row(i);
+      }
+    }
+  }
+
+  bool areCoupled(int one, int other) const {
+    if (one < 0 || other < 0) {
+      return false;
+    }
+    const ModalTouch& a = plan_.touches[at(one)];
+    const ModalTouch& b = plan_.touches[at(other)];
+    if (a.part < 0 || a.part != b.part) {
+      return false;
+    }
+    const ModalPart& part = plan_.parts[at(a.part)];
+    double own_a = 0.0;
+    double own_b = 0.0;
+    double both = 0.0;
+    for (const int k : part.kept) {
+      const double wa = part.weights(rowOf(one), k);
+      const double wb = part.weights(rowOf(other), k);
+      own_a += wa * wa;
+      own_b += wb * wb;
+      both += wa * wb;
+    }
+    return std::abs(both) > kIndependent * std::sqrt(own_a * own_b);
+  }
+
+  bool actTogether(const scene::Lia& one, const scene::Lia& other) const {
+    for (const int a : {one.a, one.b}) {
+      for (const int b : {other.a, other.b}) {
+        if (a < b && areCoupled(touch_of_[at(a)], touch_of_[at(b)])) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  /// Of a touch among those of its part.
+  Eigen::Index rowOf(int touch) const {
+    const int part = plan_.touches[at(touch)].part;
+    return std::count_if(plan_.touches.begin(), plan_.touches.begin() + touch,
+                         [part](const ModalTouch& t) { return t.part == part; });
+  }
+
+  const Scene& scene_;
+  const scene::Section& section_;
+  Rates rates_;
+  ModalPlan& plan_;
+  std::vector<int> touch_of_;  // [mats] index in plan_.touches, -1: none
+};
+
+std::string costText(const ModalCost& cost) {
+  return shortly(cost.modal_ns / 1000.0) + " us per step predicted, as a network of " +
+         std::to_string(cost.modules) + " modules " + shortly(cost.network_ns / 1000.0) + " us";
+}
+
+std::string errorText(const ModalPlan& plan, int kept, int all) {
+  if (kept == all) {
+    return "all of them, so exact";
+  }
+  std::string text = std::to_string(all - kept) + " are left out: where forces are given, ";
+  if (!plan.touches.empty()) {
+    text += "touched places give " + shortly(100.0 * plan.error.static_share) +
+            " % less at most when pushed for long, and are off by at most " +
+            shortly(plan.error.per_impulse) +
+            " m at any time after impulses of 1 N s in all, and by at most " +
+            shortly(plan.error.at_start) + " m by their motion at the start";
+  }
+  return text;
+}
+
+std::string stayText(const LinearParts& linear) {
+  return linear.offence ? "; some stay modules: " + linear.offence->what : "";
+}
+
+}  // namespace
+
+bool planModes(const Scene& scene,
+               const Rates& rates,
+               int index,
+               ModalPlan& plan,
+               std::vector<std::string>& notes) {
+  const scene::Section& section = scene.sections[at(index)];
+  const bool is_free_to_choose = section.modes == scene::kAutomaticModes;
+  const std::string who = "section '" + section.name + "' ";
+  const auto refuse = [&](const Offence& offence) {
+    if (!is_free_to_choose) {
+      throw TextError(scene.file, offence.place.line, offence.place.column,
+                      who + "cannot be played by its modes: " + offence.what);
+    }
+    notes.push_back(noteAt(scene, section.place) + who + "stays a network: " + offence.what);
+    return false;
+  };
+  plan = ModalPlan{};
+  plan.section = index;
+  Planner planner(scene, rates, plan);
+  if (const std::optional<Offence> offence = planner.findParts()) {
+    return refuse(*offence);
+  }
+  ModalCost cost = predictCost(scene, plan.linear.parts, planner.touchesOfParts());
+  if (is_free_to_choose && !(cost.modal_ns < cost.network_ns)) {
+    notes.push_back(noteAt(scene, section.place) + who + "stays a network: by " +
+                    std::to_string(cost.modes) + " modes, touched at " +
+                    std::to_string(plan.touches.size()) + " places, " + costText(cost));
+    return false;
+  }
+  if (const std::optional<Offence> offence = planner.findModes(notes)) {
+    return refuse(*offence);
+  }
+  const double step = StepUnits(scene, rates, divisorOf(section, rates)).step;
+  const int kept = is_free_to_choose ? cost.modes : std::min(section.modes, cost.modes);
+  plan.error = keepModes(plan.parts, kept, step);
+  if (const std::optional<Offence> offence = planner.checkGuarded()) {
+    return refuse(*offence);
+  }
+  cost.modal_ns *= static_cast<double>(kept) / cost.modes;
+  notes.push_back(noteAt(scene, section.place) + who + "is played by " + std::to_string(kept) +
+                  " modes, touched at " + std::to_string(plan.touches.size()) +
+                  " places: " + costText(cost) + "; " + errorText(plan, kept, cost.modes) +
+                  stayText(plan.linear));
+  return true;
+}
+
+}  // namespace ergotic::physics

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ergotic/physics/rates.hpp"
+#include "ergotic/scene/scene.hpp"
+#include "physics/modes/modal_choice.hpp"
+#include "physics/modes/modal_parts.hpp"
+
+namespace ergotic::physics {
+
+/// A place of a part that something touches: a module, or one between modules.
+struct ModalTouch {
+  int mat = 0;
+  int part = -1;                               ///< -1: it does not move
+  std::vector<std::pair<int, double>> shares;  ///< module of the part, weight
+  double offset = 0.0;                         ///< where these are at 0, m from rest
+};
+
+/// What modes stand in for in one section, and where it is touched.
+struct ModalPlan {
+  int section = 0;
+  LinearParts linear;
+  std::vector<ModalTouch> touches;
+  std::vector<int> connections;  ///< in Scene::connections, those among the touches
+  std::vector<ModalPart> parts;  ///< [linear.parts]
+  ModalError error;              ///< of leaving modes out
+};
+
+constexpr int kMostModalModules =
+    3000;                         ///< of one part: eigenvectors fill 8 bytes times its square
+constexpr int kMostTouches = 64;  ///< of one section
+
+/// Plans the modes of one section. \return false if it stays a network, which only
+/// kAutomaticModes allows; `notes` is told in either case
+/// \throws TextError with the place of what is in the way
+bool planModes(const scene::Scene& scene,
+               const Rates& rates,
+               int section,
+               ModalPlan& plan,
+               std::vector<std::string>& notes);
+
+}  // namespace ergotic::physics

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "ergotic/physics/network/chaplet.hpp"
+#include "physics/network/linear_network.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+using scene::LiaType;
+using scene::MatType;
+using scene::Scene;
+
+constexpr double kRounding = 1e-6;
+constexpr double kPi = 3.14159265358979323846;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+bool areClose(double a, double b) {
+  return std::abs(a - b) <= kRounding * std::abs(b);
+}
+
+/// Finds the C2 that hang on slower modules.
+class Finder {
+ public:
+  Finder(const Scene& scene, const Rates& rates)
+      : scene_(scene), rates_(rates), lias_of_(scene.mats.size()) {
+    for (std::size_t i = 0; i < scene.lias.size(); ++i) {
+      lias_of_[at(scene.lias[i].a)].push_back(static_cast<int>(i));
+      lias_of_[at(scene.lias[i].b)].push_back(static_cast<int>(i));
+    }
+  }
+
+  std::vector<FoundChaplet> find() const {
+    std::vector<FoundChaplet> found;
+    for (std::size_t i = 0; i < scene_.mats.size(); ++i) {
+      if (auto chaplet = chapletFrom(static_cast<int>(i))) {
+        found.push_back(std::move(*chaplet));
+      }
+    }
+    return found;
+  }
+
+ private:
+  int divisor(int mat) const { return divisorOf(scene_.sectionOf(scene_.mats[at(mat)]), rates_); }
+  int farEnd(int lia, int mat) const {
+    return scene_.lias[at(lia)].a == mat ? scene_.lias[at(lia)].b : scene_.lias[at(lia)].a;
+  }
+
+  /// One whose first mass this is: between the two links of a chaplet, the first one to a module
+  /// that is slower.
+  std::optional<FoundChaplet> chapletFrom(int first) const {
+    const std::vector<int>& lias = lias_of_[at(first)];
+    if (scene_.mats[at(first)].type != MatType::kMass || lias.size() != 2) {
+      return std::nullopt;
+    }
+    const bool ordered = divisor(farEnd(lias[0], first)) > divisor(first);
+    const int hanging = ordered ? lias[0] : lias[1];
+    const int between = ordered ? lias[1] : lias[0];
+    const int last = farEnd(between, first);
+    const int slow_divisor = divisor(farEnd(hanging, first));
+    if (scene_.mats[at(last)].type != MatType::kMass ||
+        scene_.mats[at(last)].section != scene_.mats[at(first)].section ||
+        slow_divisor <= divisor(first) || slow_divisor % divisor(first) != 0) {
+      return std::nullopt;
+    }
+    std::vector<scene::ChapletStage> stages{stageOf(hanging, first), stageOf(between, last)};
+    if (!hasProportions(stages, hanging, between)) {
+      return std::nullopt;
+    }
+    const Chaplet chaplet(std::move(stages), divisor(first) / rates_.audio_hz,
+                          slow_divisor / divisor(first));
+    return FoundChaplet{nameOf(first), chaplet, loadOn(last, first, chaplet)};
+  }
+
+  scene::ChapletStage stageOf(int lia, int mat) const {
+    const double unit = scene_.time_unit_s;
+    return {scene_.valueOf(scene_.lias[at(lia)].stiffness) / (unit * unit),
+            scene_.valueOf(scene_.lias[at(lia)].damping) / unit,
+            scene_.valueOf(scene_.mats[at(mat)].mass)};
+  }
+
+  bool hasProportions(const std::vector<scene::ChapletStage>& stages,
+                      int hanging,
+                      int between) const {
+    const auto& table = scene::kChapletC2;
+    return scene_.lias[at(hanging)].type == LiaType::kSpringDamper &&
+           scene_.lias[at(between)].type == LiaType::kSpringDamper && stages[1].damping == 0.0 &&
+           areClose(stages[0].mass * table[1].mass, stages[1].mass * table[0].mass) &&
+           areClose(stages[0].stiffness * table[1].stiffness,
+                    stages[1].stiffness * table[0].stiffness) &&
+           areClose(std::pow(stages[0].damping / table[0].damping, 2),
+                    stages[0].stiffness * stages[0].mass / (table[0].stiffness * table[0].mass));
+  }
+
+  std::string nameOf(int first) const {
+    const std::string& name = scene_.mats[at(first)].name;
+    const std::size_t dot = name.rfind('.');
+    return dot == std::string::npos ? name : name.substr(0, dot);
+  }
+
+  /// Everything that its last mass can touch.
+  ChapletLoad loadOn(int last, int first, const Chaplet& chaplet) const {
+    ChapletLoad load;
+    for (const int lia : lias_of_[at(last)]) {
+      const int touched = farEnd(lia, last);
+      if (touched == first) {
+        continue;
+      }
+      const LinearNetwork network(scene_, scene_.mats[at(touched)].section, last);
+      if (network.moves(touched)) {
+        const ChapletLoad more = loadAt(network, touched, 2.0 * kPi * chaplet.nyquistHz());
+        load.stiffness += more.stiffness;
+        load.damping += more.damping;
+      }
+    }
+    return load;
+  }
+
+  const Scene& scene_;
+  const Rates& rates_;
+  std::vector<std::vector<int>> lias_of_;  // [mats]
+};
+
+}  // namespace
+
+std::vector<FoundChaplet> findChaplets(const Scene& scene, const Rates& rates) {
+  return Finder(scene, rates).find();
+}
+
+}  // namespace ergotic::physics

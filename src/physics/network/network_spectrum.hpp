@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Sparse>
+
+#include "physics/network/network_bound.hpp"
+
+namespace ergotic::physics {
+
+/// The exact answers about a network, by sparse LDL^T: a symmetric matrix is positive definite if
+/// and only if all its pivots are positive. Coefficients are those of the stiffest case.
+/// Realtime: no. Cost: some tens of factorisations; moving links: as many solutions as places for
+/// each of them.
+class NetworkSpectrum {
+ public:
+  /// \param network  must outlive this
+  explicit NetworkSpectrum(const NetworkBound& network);
+
+  /// False if coefficients overflow: then nothing here means anything.
+  bool isFinite() const { return finite_; }
+
+  /// The largest eigenvalue of M^-1 (h^2 K + 2 h Z), rounded up by at most 1e-6 of it. It is below
+  /// 4 if and only if 4 (1 - 1e-9) M - h^2 K - 2 h Z is positive definite. With moving links: of
+  /// the worst places; an upper bound if there are several such links.
+  double lambda();
+
+  /// The longest step that keeps lambda() below 4, time units, rounded down by at most 1e-6 of it;
+  /// infinity if any will do. \pre lambda() was called
+  double longestStep();
+
+  /// Label of the link that takes the largest part of the energy of the mode that lambda() belongs
+  /// to, and owner of its end that moves most; -1: none. \pre lambda() was called
+  int worstLink() const { return worst_link_; }
+  int worstOwner() const { return worst_owner_; }
+
+  /// True if the softest case of K (of Z) is positive semidefinite, to 1e-9 of its norm.
+  static bool isStiffnessSemidefinite(const NetworkBound& network);
+  static bool isDampingSemidefinite(const NetworkBound& network);
+
+ private:
+  using Matrix = Eigen::SparseMatrix<double>;
+
+  /// limit I - t^2 K - 2 t Z for unit masses, definite below some t: lower triangles, all of one
+  /// pattern. Moving links load it by (t^2 k + 2 t z) u u^T.
+  struct Pencil {
+    Matrix stiffness;
+    Matrix damping;
+    std::vector<double> moving_stiffness;
+    std::vector<double> moving_damping;
+    double limit = 0.0;
+  };
+
+  bool isDefinite(const Pencil& pencil, double t);  // without moving links; factorises
+  bool holds(const Pencil& pencil, double t);       // with them
+  double reach(const Pencil& pencil) const;         // what the present mode refutes
+  double longest(const Pencil& pencil, double proven);
+  double longestAtRest(const Pencil& pencil, double proven);
+  double placeCompliance(const NetworkBound::MovingLink& link) const;
+  void findWorst();
+
+  const NetworkBound& network_;
+  Eigen::VectorXd scale_;  // M^-1/2
+  Eigen::VectorXd mode_;   // of unit masses
+  Pencil pencil_;          // of the longest step
+  Eigen::SimplicialLDLT<Matrix> solver_;
+  double bound_ = 0.0;  // of lambda
+  double lambda_ = 0.0;
+  int worst_link_ = -1;
+  int worst_owner_ = -1;
+  bool finite_ = true;
+};
+
+}  // namespace ergotic::physics

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "ergotic/physics/rates.hpp"
+#include "ergotic/scene/scene.hpp"
+#include "physics/laws/slopes.hpp"
+#include "physics/network/network_bound.hpp"
+
+namespace ergotic::physics {
+
+/// A scene as networks: its explicit links, at the worst ends of all ranges, between the modules
+/// that forces move. Euclidean sections enter as the scalar network with the same links, which
+/// bounds them whatever the directions, as a projected link has direction cosines of at most 1.
+class SceneNetwork {
+ public:
+  static constexpr int kAll = -1;
+
+  /// \param scene  settled, must outlive this
+  SceneNetwork(const scene::Scene& scene, const Rates& rates);
+
+  const scene::Scene& scene() const { return scene_; }
+  const Rates& rates() const { return rates_; }
+  const Slopes& slopes(int lia) const { return slopes_[static_cast<std::size_t>(lia)]; }
+  int divisorOfMat(int mat) const;
+
+  /// Largest 1/M of a module, or of the lightest one that a point can lie on; 0: held.
+  double inverseMass(int mat) const;
+  /// h^2 (1/Ma + 1/Mb) and h (1/Ma + 1/Mb) of a link at the rate it is computed at.
+  double inverseMassStep2(const scene::Lia& lia) const;
+  double inverseMassStep(const scene::Lia& lia) const;
+  bool crossesRates(const scene::Lia& lia) const;
+  /// The end of a link across rates that is stepped less often, and the other.
+  int slowEnd(const scene::Lia& lia) const;
+  int fastEnd(const scene::Lia& lia) const;
+  bool isExplicit(const scene::Lia& lia) const;
+  /// True if an end is a point that can move.
+  bool isMoving(const scene::Lia& lia) const;
+  bool isMovingPoint(int mat) const;
+
+  /// Modules that explicit links join, at whatever rates, are one group, named by one of them.
+  int groupOf(int mat) const { return group_[static_cast<std::size_t>(mat)]; }
+  /// That of a link's modules; -1 if no force moves any.
+  int groupOf(const scene::Lia& lia) const;
+
+  /// Everything that is computed at one rate, slower ends held.
+  /// \param plain  matched modules as if they were not: a bound of them, at any step
+  NetworkBound atOwnRate(int divisor, int group = kAll, bool plain = false) const;
+  /// Modules of one rate, all their links, and the faster modules that these touch, at that rate.
+  NetworkBound atSlowRate(int divisor, int group = kAll) const;
+  /// True if a module of this rate with matched coefficients has links.
+  bool hasLinkedMatched(int divisor) const;
+
+ private:
+  using Places = std::vector<std::vector<Share>>;  // of modules rather than nodes
+  struct Builder;
+
+  double stepOf(const scene::Lia& lia) const;  // at the rate it is computed at
+  void joinGroups();
+  Places placesOf(int mat) const;
+  Places placesOf(const scene::Connection& connection) const;
+  std::vector<Share> freeShares(std::vector<Share> shares) const;
+  bool isFreeModule(int mat) const;
+  bool isMatched(int mat) const;
+  void addModules(Builder& to, bool plain) const;
+  void addLink(Builder& to, int lia, bool hold_a, bool hold_b) const;
+  void addCells(Builder& to) const;
+
+  const scene::Scene& scene_;
+  Rates rates_;
+  std::vector<Slopes> slopes_;            // [lias]
+  std::vector<int> connection_of_;        // [mats], -1: none
+  std::vector<int> group_;                // [mats]
+  std::vector<unsigned char> is_linked_;  // [mats] by an explicit link
+};
+
+}  // namespace ergotic::physics

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/settling/automatic_rate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/physics/certificate/certify.hpp"
+#include "physics/note.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+using scene::MatType;
+
+constexpr double kPi = 3.14159265358979323846;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+bool hasSlice(const scene::Scene& scene, int section) {
+  return std::any_of(scene.mats.begin(), scene.mats.end(), [&](const scene::Mat& mat) {
+    return mat.section == section && mat.type == MatType::kSlice;
+  });
+}
+
+/// The section with everything around it held. Cells count as plain ones: matched, each would be
+/// exact at any rate, but not heard above half of it.
+scene::Scene isolated(scene::Scene scene, int section) {
+  const auto is_outside = [&](int m) { return scene.mats[at(m)].section != section; };
+  auto& connections = scene.connections;
+  connections.erase(
+      std::remove_if(connections.begin(), connections.end(),
+                     [&](const scene::Connection& each) { return is_outside(each.mat); }),
+      connections.end());
+  scene.ports.clear();
+  scene.inputs.clear();
+  scene.outputs.clear();
+  for (scene::Mat& mat : scene.mats) {
+    mat.matched = false;
+    if (mat.section != section) {
+      mat.type = MatType::kGround;
+      mat.section = section;
+    }
+  }
+  return scene;
+}
+
+/// What a rate would mean for a section.
+struct Trial {
+  double lambda = std::numeric_limits<double>::infinity();
+  Verdict verdict = Verdict::kUnstable;
+};
+
+class Chooser {
+ public:
+  Chooser(scene::Scene& scene, const Rates& rates, const Complete& complete)
+      : scene_(scene), rates_(rates), complete_(complete) {}
+
+  std::string choose(int s) {
+    scene::Section& section = scene_.sections[at(s)];
+    section.automatic_rate = false;
+    if (hasSlice(scene_, s)) {
+      section.gestural = true;
+      return say(s, "is gestural: slices of the device are in it");
+    }
+    const Trial fastest = tryDivisor(s, 1);
+    for (int d = rates_.ratio; d > 1; --d) {
+      if (rates_.ratio % d == 0 && suitsNeighbours(s, d)) {
+        const Trial trial = tryDivisor(s, d);
+        if (trial.lambda < kSlowEnough && trial.verdict <= fastest.verdict) {
+          section.divisor = d;
+          return say(s, describe(d, trial.lambda));
+        }
+      }
+    }
+    section.divisor = 1;
+    return say(s, describe(1, fastest.lambda));
+  }
+
+ private:
+  Trial tryDivisor(int s, int d) const {
+    scene::Scene candidate = scene_;
+    candidate.sections[at(s)].divisor = d;
+    for (scene::Section& section : candidate.sections) {
+      section.automatic_rate = false;
+    }
+    try {
+      candidate = complete_(std::move(candidate));
+    } catch (const Exception&) {
+      return {};  // something in the scene cannot be at this rate
+    }
+    Trial trial;
+    trial.verdict = certify(candidate, rates_).verdict;
+    trial.lambda = certify(isolated(std::move(candidate), s), rates_).sections[at(s)].lambda;
+    return trial;
+  }
+
+  bool suitsNeighbours(int s, int d) const {
+    return std::all_of(scene_.lias.begin(), scene_.lias.end(), [&](const scene::Lia& lia) {
+      const int a = scene_.mats[at(lia.a)].section;
+      const int b = scene_.mats[at(lia.b)].section;
+      if ((a == s) == (b == s)) {
+        return true;
+      }
+      const scene::Section& other = scene_.sections[at(a == s ? b : a)];
+      const int theirs = divisorOf(other, rates_);
+      return other.automatic_rate || d % theirs == 0 || theirs % d == 0;
+    });
+  }
+
+  std::string describe(int d, double lambda) const {
+    const double rate_hz = rates_.audio_hz / d;
+    std::string text = "runs at " + shortly(rate_hz) + " Hz";
+    if (!(lambda < 4.0)) {
+      return text + ", the fastest there is: its modes are not known to be below half of it";
+    }
+    const double half = std::sqrt(lambda) / 2.0;
+    return text + ": its modes reach up to " + shortly(std::asin(half) / kPi * rate_hz) +
+           " Hz at most, where the step makes them " + shortly(raisedCents(lambda)) +
+           " cents too high";
+  }
+
+  std::string say(int s, const std::string& what) const {
+    const scene::Section& section = scene_.sections[at(s)];
+    return noteAt(scene_, section.place) + "section '" + section.name + "' " + what;
+  }
+
+  scene::Scene& scene_;
+  Rates rates_;
+  const Complete& complete_;
+};
+
+}  // namespace
+
+double raisedCents(double lambda) {
+  const double half = std::sqrt(lambda) / 2.0;
+  return half > 0.0 ? 1200.0 * std::log2(std::asin(half) / half) : 0.0;
+}
+
+void chooseAutomaticRates(scene::Scene& scene,
+                          const Rates& rates,
+                          const Complete& complete,
+                          std::vector<std::string>& notes) {
+  Chooser chooser(scene, rates, complete);
+  for (std::size_t s = 0; s < scene.sections.size(); ++s) {
+    if (scene.sections[s].automatic_rate) {
+      notes.push_back(chooser.choose(static_cast<int>(s)));
+    }
+  }
+}
+
+}  // namespace ergotic::physics

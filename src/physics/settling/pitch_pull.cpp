@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/settling/pitch_pull.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/note.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+constexpr double kAudibleCents = 3.0;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// How far from its line a string is held at the start, over its length.
+double pluckOf(const scene::Scene& scene, const scene::StringInfo& string, double length) {
+  double height = 0.0;
+  for (int m = string.first; m < string.first + string.count; ++m) {
+    const scene::Mat& mat = scene.mats[at(m)];
+    height = std::max(height, (mat.position - mat.rest).norm());
+  }
+  return height / length;
+}
+
+std::string noteOn(const scene::Scene& scene, const scene::StringInfo& string) {
+  const scene::Mat& first = scene.mats[at(string.first)];
+  const scene::Mat& last = scene.mats[at(string.first + string.count - 1)];
+  const double length = (last.rest - first.rest).norm();
+  const double slack = scene.lias[at(string.first_lia)].rest_length * (string.count - 1) / length;
+  std::string text = noteAt(scene, first.place) + "string '" + string.name + "' ";
+  if (!(slack < 1.0)) {
+    return text + "is not stretched: its links are at rest";
+  }
+  text += "sounds " + shortly(pitchPullCents(slack, 0.001)) +
+          " cents higher at an amplitude of 0.1 % of its length, " +
+          shortly(pitchPullCents(slack, 0.01)) + " at 1 %";
+  double judged = pitchPullCents(slack, 0.01);
+  const double pluck = pluckOf(scene, string, length);
+  if (pluck > 0.0) {
+    judged = pitchPullCents(slack, pluck);
+    text += ", " + shortly(judged) + " as it is plucked at the start";
+  }
+  return judged < kAudibleCents ? text + ": geometry: scalar would hardly sound different" : text;
+}
+
+}  // namespace
+
+double pitchPullCents(double slack, double amplitude) {
+  return 1602.0 * slack / (1.0 - slack) * amplitude * amplitude;
+}
+
+void notePitchPull(const scene::Scene& scene, std::vector<std::string>& notes) {
+  for (const scene::StringInfo& string : scene.strings) {
+    const scene::Geometry geometry = scene.sectionOf(scene.mats[at(string.first)]).geometry;
+    if (geometry == scene::Geometry::kPlane || geometry == scene::Geometry::kSpace) {
+      notes.push_back(noteOn(scene, string));
+    }
+  }
+}
+
+}  // namespace ergotic::physics

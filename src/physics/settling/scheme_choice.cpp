@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/settling/scheme_choice.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "physics/laws/slopes.hpp"
+#include "physics/network/scene_network.hpp"
+#include "physics/note.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+using scene::LiaType;
+using scene::Scheme;
+
+/// The largest stiffness that a link switches on and off.
+double stiffest(const scene::Scene& scene, const scene::Lia& lia) {
+  return lia.type == LiaType::kPowerContact ? largest(scene, lia.stiffness)
+                                            : slopesOf(scene, lia).stiffness.highest;
+}
+
+/// Why a link is guarded: a figure that is larger than the explicit scheme bears.
+struct Reason {
+  const char* figure = nullptr;  ///< null: it may stay explicit
+  double value = 0.0;
+  double allowed = 0.0;
+};
+
+class Chooser {
+ public:
+  Chooser(scene::Scene& scene, const Rates& rates, std::vector<std::string>& notes)
+      : scene_(scene), networks_(scene, rates), notes_(notes) {}
+
+  void run() {
+    for (scene::Lia& lia : scene_.lias) {
+      if (lia.scheme == Scheme::kAuto) {
+        lia.scheme = choose(lia);
+      }
+    }
+    for (const auto& [key, group] : groups_) {
+      notes_.push_back(noteOn(group));
+    }
+  }
+
+ private:
+  /// Links of one place (a generator makes many), of one type, with one reason and one outcome.
+  struct Group {
+    const scene::Lia* first = nullptr;
+    int links = 0;
+    Reason worst;
+    bool guarded = false;
+  };
+
+  /// The guard counts on knowing how far both ends go in a step: not so across rates.
+  bool isOntoSlowMass(const scene::Lia& lia) const {
+    return networks_.crossesRates(lia) && (lia.coupling == scene::Coupling::kDecimate ||
+                                           networks_.inverseMass(networks_.slowEnd(lia)) > 0.0);
+  }
+
+  Reason reasonFor(const scene::Lia& lia) const {
+    const double per_stiffness = networks_.inverseMassStep2(lia);
+    const double per_damping = networks_.inverseMassStep(lia);
+    if (!(per_stiffness > 0.0)) {
+      return {};
+    }
+    switch (lia.type) {
+      case LiaType::kPowerContact:
+        if (largest(scene_, lia.law->exponent) > 1.0) {
+          return {"exponent", largest(scene_, lia.law->exponent), 1.0};
+        }
+        return switching(lia, per_stiffness);
+      case LiaType::kContact:
+      case LiaType::kClippedCubic:
+      case LiaType::kCubicContact:
+        return switching(lia, per_stiffness);
+      case LiaType::kQuadratic:
+      case LiaType::kCubic: {
+        const double q = largest(scene_, lia.law->nonlinearity);
+        return q > 0.0 ? Reason{"nonlinearity", q, 0.0} : Reason{};
+      }
+      case LiaType::kTable:
+        if (!lia.law->table.empty()) {
+          return switching(lia, per_stiffness);
+        }
+        return lia.law->viscous_table.empty() ? Reason{} : sliding(lia, per_damping);
+      case LiaType::kBow:
+      case LiaType::kSmoothBow:
+        return sliding(lia, per_damping);
+      default:
+        return {};
+    }
+  }
+
+  Reason switching(const scene::Lia& lia, double unit) const {
+    const double kappa = unit * stiffest(scene_, lia);
+    return kappa > kExplicitSwitch ? Reason{"h^2 K (1/Ma + 1/Mb)", kappa, kExplicitSwitch}
+                                   : Reason{};
+  }
+
+  Reason sliding(const scene::Lia& lia, double unit) const {
+    const FrictionSlopes slopes = frictionSlopesOf(scene_, lia);
+    if (unit * slopes.rise >= kExplicitFriction) {
+      return {"h max F' (1/Ma + 1/Mb)", unit * slopes.rise, kExplicitFriction};
+    }
+    if (unit * slopes.fall >= kExplicitFalling) {
+      return {"h max(-F') (1/Ma + 1/Mb)", unit * slopes.fall, kExplicitFalling};
+    }
+    return {};
+  }
+
+  Scheme choose(const scene::Lia& lia) {
+    const Reason reason = reasonFor(lia);
+    if (reason.figure == nullptr) {
+      return Scheme::kExplicit;
+    }
+    const bool guarded = !isOntoSlowMass(lia);
+    Group& group = groups_[{lia.place.line, lia.place.column, reason.figure, guarded}];
+    if (group.links++ == 0) {
+      group.first = &lia;
+      group.guarded = guarded;
+    }
+    if (reason.value >= group.worst.value) {
+      group.worst = reason;
+    }
+    return guarded ? Scheme::kGuarded : Scheme::kExplicit;
+  }
+
+  std::string noteOn(const Group& group) const {
+    std::string who = "link '" + group.first->name + "'";
+    if (group.links > 1) {
+      who += " and " + std::to_string(group.links - 1) + " more";
+    }
+    const std::string why = std::string(group.worst.figure) + " = " + shortly(group.worst.value) +
+                            ", explicit bears " + shortly(group.worst.allowed);
+    return noteAt(scene_, group.first->place) + who +
+           (group.guarded
+                ? ": guarded (" + why + ")"
+                : ": explicit, because one end is a slower mass or decimated, although " + why);
+  }
+
+  using Key = std::tuple<int, int, std::string, bool>;  // place, figure, guarded
+
+  scene::Scene& scene_;
+  SceneNetwork networks_;
+  std::vector<std::string>& notes_;
+  std::map<Key, Group> groups_;
+};
+
+}  // namespace
+
+void chooseSchemes(scene::Scene& scene, const Rates& rates, std::vector<std::string>& notes) {
+  Chooser(scene, rates, notes).run();
+}
+
+}  // namespace ergotic::physics

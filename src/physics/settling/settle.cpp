@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ergotic/physics/settling/settle.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "physics/settling/automatic_rate.hpp"
+#include "physics/settling/coarse_string.hpp"
+#include "physics/settling/filters.hpp"
+#include "physics/settling/pitch_pull.hpp"
+#include "physics/settling/scheme_choice.hpp"
+#include "physics/settling/sleep_bound.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+/// Everything but the rates. A chaplet is tuned to the springs of what it touches; schemes depend
+/// on the masses that a link ends on.
+scene::Scene complete(scene::Scene scene, const Rates& rates, std::vector<std::string>& notes) {
+  fitCoarseStrings(scene, rates, notes);
+  insertFilters(scene, rates, notes);
+  chooseSchemes(scene, rates, notes);
+  return scene;
+}
+
+}  // namespace
+
+Settled settle(scene::Scene scene, const Rates& rates) {
+  Settled settled;
+  chooseAutomaticRates(
+      scene, rates,
+      [&](scene::Scene candidate) {
+        std::vector<std::string> unsaid;
+        return complete(std::move(candidate), rates, unsaid);
+      },
+      settled.notes);
+  settled.scene = complete(std::move(scene), rates, settled.notes);
+  noteSleep(settled.scene, settled.notes);
+  notePitchPull(settled.scene, settled.notes);
+  return settled;
+}
+
+bool isSettled(const scene::Scene& scene) {
+  const auto none = [](const auto& all, auto&& is_open) {
+    return std::none_of(all.begin(), all.end(), is_open);
+  };
+  return none(scene.sections, [](const scene::Section& s) { return s.automatic_rate; }) &&
+         none(scene.strings, [](const scene::StringInfo& s) { return s.corrected_hz > 0.0; }) &&
+         none(scene.lias, [](const scene::Lia& lia) {
+           return lia.filtered || lia.scheme == scene::Scheme::kAuto;
+         });
+}
+
+}  // namespace ergotic::physics

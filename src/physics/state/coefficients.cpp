@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/state/coefficients.hpp"
+
+#include <array>
+
+#include "ergotic/scene/table.hpp"
+#include "physics/laws/laws.hpp"
+#include "physics/laws/oscillator.hpp"
+#include "physics/layout/guarded_groups.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// The fields of one link, in the order that laws.hpp reads them.
+struct LinkFields {
+  std::array<double, 7> values{};
+  std::size_t count = 0;
+};
+
+/// \param rest  distance of the ends at rest, if it is not part of the elongation already
+LinkFields fieldsOf(const scene::Scene& scene,
+                    const scene::Lia& lia,
+                    const StepUnits& units,
+                    double rest) {
+  const double k = scene.valueOf(lia.stiffness);
+  const double z = units.damping(scene.valueOf(lia.damping));
+  const double width = scene.valueOf(lia.law->width);
+  const double q = scene.valueOf(lia.law->nonlinearity);
+  const double k_limit = scene.valueOf(lia.law->stiffness_limit);
+  const double z_limit = z + units.damping(scene.valueOf(lia.law->limit_damping));
+  // Displacements are stored from rest: the distance at rest is folded into the elongation.
+  const double offset = rest - lia.rest_length;
+  switch (lawOf(lia)) {
+    case Law::kSpringDamper:
+    case Law::kPluckTable:
+      return {{k, z, offset}, 3};
+    case Law::kContact:
+      return {{k, z, offset + width}, 3};
+    case Law::kQuadratic:
+    case Law::kCubic:
+      return {{k, z, offset, q}, 4};
+    case Law::kClippedCubic:
+      return {{k, z, offset, q, k_limit, z_limit, lia.law->tipping_point}, 7};
+    case Law::kCubicContact:
+      return {{k, z, offset + width, q, k_limit, z_limit, lia.law->tipping_point}, 7};
+    case Law::kPluck:
+      return {{k, z, offset, width}, 4};
+    case Law::kBow:
+      return {{z, units.velocity(width)}, 2};
+    case Law::kSmoothBow:
+      return {{z, 1.0 / units.velocity(width)}, 2};
+    case Law::kBowTable:
+      return {{1.0 / units.step}, 1};
+    case Law::kPowerContact:
+      return {{k, z, offset + width, scene.valueOf(lia.law->exponent)}, 4};
+    case Law::kTable:
+      return {{offset, 1.0 / units.step}, 2};
+    case Law::kConditional:
+      return {{k, z, offset, width, lia.law->release}, 5};
+  }
+  return {};
+}
+
+std::size_t fieldCount(Law law) {
+  switch (law) {
+    case Law::kSpringDamper:
+      return laws::SpringDamper<double>::kFields;
+    case Law::kContact:
+      return laws::Contact<double>::kFields;
+    case Law::kQuadratic:
+      return laws::Quadratic<double>::kFields;
+    case Law::kCubic:
+      return laws::Cubic<double>::kFields;
+    case Law::kClippedCubic:
+      return laws::ClippedCubic<double>::kFields;
+    case Law::kCubicContact:
+      return laws::CubicContact<double>::kFields;
+    case Law::kPluck:
+      return laws::Pluck<double>::kFields;
+    case Law::kBow:
+      return laws::Bow<double>::kFields;
+    case Law::kSmoothBow:
+      return laws::SmoothBow<double>::kFields;
+    case Law::kPluckTable:
+      return laws::PluckTable<double>::kFields;
+    case Law::kBowTable:
+      return laws::BowTable<double>::kFields;
+    case Law::kPowerContact:
+      return laws::PowerContact<double>::kFields;
+    case Law::kTable:
+      return laws::ElasticViscousTable<double>::kFields;
+    case Law::kConditional:
+      return laws::Conditional<double>::kFields;
+  }
+  return 0;
+}
+
+}  // namespace
+
+template <class Real>
+CoefficientsOf<Real>::CoefficientsOf(const scene::Scene& scene,
+                                     const Rates& rates,
+                                     const Layout& layout) {
+  fillMasses(scene, rates, layout);
+  fillPlaces(scene, rates, layout);
+  runs.resize(layout.runs.size());
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    fillRun(scene, rates, layout, r);
+  }
+  fillBlocks(scene, rates, layout);
+  fillGuarded(scene, rates, layout);
+  for (const scene::Output& output : scene.outputs) {
+    tap_gains.push_back(static_cast<Real>(scene.valueOf(output.gain)));
+  }
+  for (const scene::Input& input : scene.inputs) {
+    feed_gains.push_back(static_cast<Real>(scene.valueOf(input.gain)));
+  }
+}
+
+template <class Real>
+void CoefficientsOf<Real>::fillMasses(const scene::Scene& scene,
+                                      const Rates& rates,
+                                      const Layout& layout) {
+  const std::size_t slots = at(layout.slots());
+  masses.inverse_mass.assign(slots, Real(0));
+  masses.drift.assign(slots, Real(0));
+  masses.lose.assign(slots, Real(0));
+  masses.pull.assign(slots, Real(0));
+  masses.loss.assign(slots, Real(0));
+  for (const SectionRange& range : layout.sections) {
+    const StepUnits units(scene, rates, range.divisor);
+    for (int slot = range.first; slot < range.fixed; ++slot) {
+      const int mat = layout.mat_of_slot[at(slot)];
+      if (mat >= 0 && scene.mats[at(mat)].type != scene::MatType::kGround) {
+        setSlot(scene, units, layout, slot);
+      }
+    }
+  }
+  for (const ModalPlace& point : layout.modal_places) {
+    double inverse = 0.0;
+    for (int i = 0; i < point.count; ++i) {
+      const double weight = point.weights[at(i)];
+      inverse += weight * weight * static_cast<double>(masses.inverse_mass[at(point.first + i)]);
+    }
+    masses.inverse_mass[at(point.slot)] = static_cast<Real>(inverse);
+  }
+}
+
+template <class Real>
+void CoefficientsOf<Real>::setSlot(const scene::Scene& scene,
+                                   const StepUnits& units,
+                                   const Layout& layout,
+                                   int slot) {
+  const scene::Mat& mat = scene.mats[at(layout.mat_of_slot[at(slot)])];
+  const scene::Section& section = scene.sectionOf(mat);
+  const OscillatorCoefficients own = oscillatorOf(scene, mat, units);
+  const double inverse = units.inverseMass(scene.valueOf(mat.mass));
+  const int stride = layout.sections[at(mat.section)].stride;
+  for (int c = 0; c < dimensionsOf(section.geometry); ++c) {
+    const std::size_t here = at(slot + c * stride);
+    double drift = mat.push->force[c] * inverse + units.acceleration(section.gravity[c]);
+    if (section.geometry == scene::Geometry::kScalar) {
+      drift -= own.pull * mat.rest.x();  // its spring ends at 0, wherever it rests
+    }
+    masses.inverse_mass[here] = static_cast<Real>(inverse);
+    masses.lose[here] = static_cast<Real>(own.lose);
+    masses.pull[here] = static_cast<Real>(own.pull);
+    masses.drift[here] = static_cast<Real>(drift);
+    masses.loss[here] = static_cast<Real>(own.lose / inverse);
+  }
+}
+
+template <class Real>
+void CoefficientsOf<Real>::fillPlaces(const scene::Scene& scene,
+                                      const Rates& rates,
+                                      const Layout& layout) {
+  for (const PlacePoint& point : layout.places) {
+    const scene::Connection& from = scene.connections[at(point.connection)];
+    const SectionRange& range = layout.sections[at(point.section)];
+    const StepUnits units(scene, rates, range.divisor);
+    places.push_back({scene.valueOf(from.along), scene.valueOf(from.across), from.guide_scale,
+                      from.along_minimum, from.along_maximum, units.velocity(from.speed)});
+  }
+}
+
+template <class Real>
+void CoefficientsOf<Real>::setLink(
+    const scene::Scene& scene, const StepUnits& units, const LinkRun& run, std::size_t r, int l) {
+  const scene::Lia& lia = scene.lias[at(run.lias[at(l)])];
+  const double rest = run.block >= 0
+                          ? scene.mats[at(lia.a)].rest.x() - scene.mats[at(lia.b)].rest.x()
+                          : (run.dimensions == 0 ? run.rests[at(l)].x() : 0.0);
+  const LinkFields from = fieldsOf(scene, lia, units, rest);
+  for (std::size_t f = 0; f < from.count; ++f) {
+    runs[r].fields[f * run.lias.size() + at(l)] = static_cast<Real>(from.values[f]);
+  }
+}
+
+template <class Real>
+void CoefficientsOf<Real>::follow(const scene::Scene& scene,
+                                  const Rates& rates,
+                                  const Layout& layout,
+                                  const Follower& follower) noexcept {
+  const StepUnits units(scene, rates, layout.sections[at(follower.section)].divisor);
+  if (follower.run < 0) {
+    setSlot(scene, units, layout, follower.index);
+  } else {
+    setLink(scene, units, layout.runs[at(follower.run)], at(follower.run), follower.index);
+  }
+}
+
+template <class Real>
+void CoefficientsOf<Real>::fillRun(const scene::Scene& scene,
+                                   const Rates& rates,
+                                   const Layout& layout,
+                                   std::size_t r) {
+  const LinkRun& run = layout.runs[r];
+  const StepUnits units(scene, rates, layout.sections[at(run.section)].divisor);
+  RunCoefficients<Real>& to = runs[r];
+  to.fields.resize(fieldCount(run.law) * run.lias.size());
+  for (int l = 0; l < static_cast<int>(run.lias.size()); ++l) {
+    setLink(scene, units, run, r, l);
+    const scene::Lia& lia = scene.lias[at(run.lias[at(l)])];
+    to.table.add(lia.law->table);
+    to.viscous_table.add(lia.law->viscous_table);
+  }
+  for (int c = 0; c < run.dimensions; ++c) {
+    for (const Eigen::Vector3d& rest : run.rests) {
+      to.rests.push_back(static_cast<Real>(rest[c]));
+    }
+  }
+}
+
+template <class Real>
+void CoefficientsOf<Real>::fillGuarded(const scene::Scene& scene,
+                                       const Rates& rates,
+                                       const Layout& layout) {
+  for (const GuardedGroup& group : guardedGroupsOf(layout)) {
+    const StepUnits units(scene, rates, group.divisor);
+    guarded.emplace_back();
+    for (const GuardedRef& ref : group.links) {
+      const scene::Lia& lia = scene.lias[at(layout.runs[ref.run].lias[ref.link])];
+      guarded.back().push_back(GuardedLaw<Real>::make(scene, lia, units));
+    }
+  }
+}
+
+template <class Real>
+void TableCoefficients<Real>::add(const scene::Table& table) {
+  first.push_back(static_cast<int>(x.size()));
+  count.push_back(static_cast<int>(table.points.size()));
+  if (table.empty()) {
+    return;
+  }
+  const scene::Curve curve = scene::interpolate(table);
+  const auto push = [this](double from, std::initializer_list<double> numbers) {
+    x.push_back(static_cast<Real>(from));
+    for (const double number : numbers) {
+      cubic.push_back(static_cast<Real>(number));
+    }
+  };
+  for (const scene::CurvePiece& p : curve.pieces) {
+    push(p.begin, {p.c0, p.c1, p.c2, p.c3});
+  }
+  push(curve.end, {curve.end_value, 0.0, 0.0, 0.0});
+}
+
+template class CoefficientsOf<float>;
+template class CoefficientsOf<double>;
+
+}  // namespace ergotic::physics

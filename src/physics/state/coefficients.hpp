@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "ergotic/physics/engine/instrument.hpp"
+#include "physics/laws/guarded_laws.hpp"
+#include "physics/layout/layout.hpp"
+#include "physics/state/aligned.hpp"
+#include "physics/step_units.hpp"
+
+namespace ergotic::physics {
+
+/// Per-slot coefficients of d <- d - (lose d + pull x) + inverse_mass f + drift; x <- x + d. What
+/// is lost is stored, not what is left: close to 1 a float would round it to a few digits. Masses
+/// without a medium lose and pull nothing and use neither.
+template <class Real>
+struct MassCoefficients {
+  AlignedVector<Real> inverse_mass;
+  AlignedVector<Real> drift;  ///< constant force, gravity and the cell's rest, per step
+  AlignedVector<Real> lose;
+  AlignedVector<Real> pull;
+  AlignedVector<Real> loss;  ///< lose / inverse_mass; 0 where no force moves a module
+};
+
+/// Coefficients of the links of a block (blocks.hpp).
+template <class Real>
+struct BlockCoefficients {
+  AlignedVector<Real> k;  ///< [diagonals][guard + elements], chains: [rows, or 1 per lane][kLanes]
+  AlignedVector<Real> z;  ///< empty if `ratio` says it all
+  AlignedVector<Real> bias;     ///< [elements] force at rest, N; empty: none
+  std::vector<Real> uniform_k;  ///< [diagonals]
+  std::vector<Real> uniform_z;
+  Real ratio = Real(0);  ///< Z / K where that is one number
+};
+
+/// The tables of a run, one after the other.
+template <class Real>
+struct TableCoefficients {
+  std::vector<Real> x;
+  std::vector<Real> cubic;  ///< [points][4]
+  std::vector<int> first;   ///< [links]
+  std::vector<int> count;
+
+  void add(const scene::Table& table);
+};
+
+template <class Real>
+struct RunCoefficients {
+  std::vector<Real> fields;  ///< [fields of the law][links]
+  std::vector<Real> rests;   ///< [dimensions][links] rest of a less rest of b
+  TableCoefficients<Real> table;
+  TableCoefficients<Real> viscous_table;
+};
+
+/// Where a point of a grid is asked to be. `speed` is per step of its section.
+struct PlaceCoefficients {
+  double along = 0.0;
+  double across = 0.0;
+  double guide_scale = 0.0;
+  double minimum = 0.0;
+  double maximum = 1.0;
+  double speed = 0.0;
+};
+
+template <class Real>
+class CoefficientsOf final : public Coefficients {
+ public:
+  /// Converts every number of `scene` to steps. \pre layout was made from scene and rates
+  CoefficientsOf(const scene::Scene& scene, const Rates& rates, const Layout& layout);
+
+  /// Converts again what follows an audio input, from the present samples in `scene`.
+  /// Realtime: yes
+  void follow(const scene::Scene& scene,
+              const Rates& rates,
+              const Layout& layout,
+              const Follower& follower) noexcept;
+
+  MassCoefficients<Real> masses;
+  std::vector<RunCoefficients<Real>> runs;             ///< [Layout::runs]
+  std::vector<BlockCoefficients<Real>> blocks;         ///< [Layout::blocks]
+  std::vector<std::vector<GuardedLaw<Real>>> guarded;  ///< [guardedGroupsOf(layout)][links]
+  std::vector<Real> tap_gains;                         ///< [Layout::taps]
+  std::vector<Real> feed_gains;                        ///< [Layout::feeds]
+  std::vector<PlaceCoefficients> places;               ///< [Layout::places]
+
+ private:
+  void fillMasses(const scene::Scene& scene, const Rates& rates, const Layout& layout);
+  void setSlot(const scene::Scene& scene, const StepUnits& units, const Layout& layout, int slot);
+  void setLink(
+      const scene::Scene& scene, const StepUnits& units, const LinkRun& run, std::size_t r, int l);
+  void fillBlocks(const scene::Scene& scene, const Rates& rates, const Layout& layout);
+  void fillBlock(const Layout& layout, const LinkRun& run, const RunCoefficients<Real>& from);
+  void fillGuarded(const scene::Scene& scene, const Rates& rates, const Layout& layout);
+  void fillPlaces(const scene::Scene& scene, const Rates& rates, const Layout& layout);
+  void fillRun(const scene::Scene& scene, const Rates& rates, const Layout& layout, std::size_t r);
+};
+
+extern template class CoefficientsOf<float>;
+extern template class CoefficientsOf<double>;
+
+}  // namespace ergotic::physics

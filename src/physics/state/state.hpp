@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "physics/kernels/link_kernels.hpp"
+#include "physics/layout/layout.hpp"
+#include "physics/state/arena.hpp"
+
+namespace ergotic::physics {
+
+/// A run remembers its forces if they cannot be worked out from positions: nonlinear laws,
+/// distances, guarded links and links between sections.
+inline bool remembers(const LinkRun& run) {
+  return run.guarded || run.law != Law::kSpringDamper || run.dimensions > 0 ||
+         run.section_a != run.section_b || run.slow_section >= 0;
+}
+
+/// Everything mutable of an instrument, in one arena. Unmetered, nothing is kept that only the
+/// books of energy need: of links, what those between sections remember.
+template <class Real>
+class State {
+ public:
+  State(const Layout& layout, bool metered) : metered_(metered) {
+    const auto slots = static_cast<std::size_t>(layout.slots());
+    frame_at_ = arena_.add<std::int64_t>("frame", 1);
+    x_at_ = arena_.add<Real>("x", slots);
+    d_at_ = arena_.add<Real>("d", slots);
+    d_last_at_ = arena_.add<Real>("d_last", slots);
+    f_at_ = arena_.add<Real>("f", slots);
+    moved_at_ = layout.places.empty() ? d_at_ : arena_.add<Real>("moved", slots);
+    places_at_ = arena_.add<double>("places", 2 * layout.places.size());
+    place_d_at_ = arena_.add<Real>("place_d", coordinatesOf(layout.places));
+    held_at_ = arena_.add<Real>("held_force_outputs", layout.taps.size());
+    asleep_at_ = arena_.add<unsigned char>("asleep", layout.sections.size());
+    work_at_ = arena_.add<kernels::Work>("link_work", metered ? layout.runs.size() : 0);
+    for (const LinkRun& run : layout.runs) {
+      runs_.push_back(addRun(run));
+    }
+  }
+
+  void allocate() { arena_.allocate(); }
+  bool isMetered() const noexcept { return metered_; }
+  Arena& arena() noexcept { return arena_; }
+  const Arena& arena() const noexcept { return arena_; }
+
+  std::int64_t& frame() noexcept { return *arena_.at<std::int64_t>(frame_at_); }
+  std::int64_t frame() const noexcept { return *arena_.at<std::int64_t>(frame_at_); }
+  Real* x() noexcept { return arena_.at<Real>(x_at_); }
+  Real* d() noexcept { return arena_.at<Real>(d_at_); }
+  Real* dLast() noexcept { return arena_.at<Real>(d_last_at_); }
+  Real* f() noexcept { return arena_.at<Real>(f_at_); }
+  const Real* moved() const noexcept { return arena_.at<Real>(moved_at_); }
+  Real* moved() noexcept { return arena_.at<Real>(moved_at_); }  ///< d itself without places
+  const Real* x() const noexcept { return arena_.at<Real>(x_at_); }
+  const Real* d() const noexcept { return arena_.at<Real>(d_at_); }
+  const Real* f() const noexcept { return arena_.at<Real>(f_at_); }
+  /// [coordinates of places] what d would be had the place not moved
+  Real* placeD() noexcept { return arena_.at<Real>(place_d_at_); }
+  const Real* placeD() const noexcept { return arena_.at<Real>(place_d_at_); }
+  double* places() noexcept { return arena_.at<double>(places_at_); }
+  Real* held() noexcept { return arena_.at<Real>(held_at_); }
+  unsigned char* asleep() noexcept { return arena_.at<unsigned char>(asleep_at_); }
+  /// [runs], if metered
+  kernels::Work* work() noexcept { return arena_.at<kernels::Work>(work_at_); }
+  const kernels::Work* work() const noexcept { return arena_.at<kernels::Work>(work_at_); }
+
+  kernels::Memory<Real> memory(std::size_t run) noexcept {
+    return split<Real>(runs_[run], arena_.at<Real>(runs_[run].memory));
+  }
+  kernels::Memory<const Real> memory(std::size_t run) const noexcept {
+    return split<const Real>(runs_[run], arena_.at<Real>(runs_[run].memory));
+  }
+  Real* engaged(std::size_t run) noexcept { return arena_.at<Real>(runs_[run].engaged); }
+  /// Numbers in each array of the memory of a run; 0: it remembers nothing.
+  std::size_t remembered(std::size_t run) const noexcept { return runs_[run].links; }
+
+ private:
+  struct RunEntries {
+    std::size_t links = 0;
+    bool across = false;
+    std::size_t memory = 0;
+    std::size_t engaged = 0;
+  };
+
+  template <class T>
+  static kernels::Memory<T> split(const RunEntries& at, T* base) noexcept {
+    const std::size_t n = at.links;
+    if (n == 0) {
+      return {};
+    }
+    if (!at.across) {
+      return {base, base + n};
+    }
+    return {base, base + n, base + 2 * n, base + 3 * n, base + 4 * n, base + 5 * n};
+  }
+
+  RunEntries addRun(const LinkRun& run) {
+    RunEntries at;
+    const std::string name = "run" + std::to_string(runs_.size());
+    const bool is_inside = run.section_a == run.section_b && run.slow_section < 0;
+    if (remembers(run) && (metered_ || !is_inside)) {
+      at.links =
+          run.ends.size() * static_cast<std::size_t>(run.dimensions == 0 ? 1 : run.dimensions);
+      at.across = run.slow_section >= 0;
+      at.memory = arena_.add<Real>(name + ".forces", (at.across ? 6 : 2) * at.links);
+    }
+    if (run.law == Law::kConditional) {
+      at.engaged = arena_.add<Real>(name + ".engaged", run.ends.size());
+    }
+    return at;
+  }
+
+  bool metered_;
+  Arena arena_;
+  std::vector<RunEntries> runs_;
+  std::size_t frame_at_ = 0;
+  std::size_t x_at_ = 0;
+  std::size_t d_at_ = 0;
+  std::size_t d_last_at_ = 0;
+  std::size_t f_at_ = 0;
+  std::size_t moved_at_ = 0;
+  std::size_t places_at_ = 0;
+  std::size_t place_d_at_ = 0;
+  std::size_t held_at_ = 0;
+  std::size_t asleep_at_ = 0;
+  std::size_t work_at_ = 0;
+};
+
+}  // namespace ergotic::physics

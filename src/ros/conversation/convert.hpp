@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ergotic/Event.h>
+#include <ergotic/Keyframe.h>
+#include <ergotic/ModelEnergy.h>
+#include <ergotic/ModelStructure.h>
+#include <ergotic/Status.h>
+#include <sensor_msgs/JointState.h>
+
+#include "ergotic/physics/engine/instrument.hpp"
+#include "ergotic/station/messages.hpp"
+#include "ergotic/station/station.hpp"
+
+/// From our plain structs to messages. Stamps are the caller's.
+namespace ergotic::node {
+
+ModelStructure toModelStructure(const scene::Scene& scene, const physics::Rates& rates);
+
+/// \param scene  the one that plays, for names of parameters; null: none
+Event toEvent(const station::Event& event, const scene::Scene* scene);
+
+/// Joints `slice_<i>`: m, m/s, N.
+sensor_msgs::JointState toJointState(const station::Snapshot& snapshot);
+
+/// Fills state and fault of `status`, in numbers and words.
+void fillStatus(station::ForceState state, tgr::FaultReason fault, Status& status);
+
+/// Fills state, fault and counters of `status`.
+void fillStatus(const station::Snapshot& snapshot, Status& status);
+
+/// Fills the list of slices without calibration. \param uncalibrated  a bit each
+void fillStatus(std::uint64_t uncalibrated, Status& status);
+
+/// Fills name, rates, sizes and compile options of `status`.
+void fillStatus(const physics::Instrument& instrument, Status& status);
+
+/// Fills energies and the warning on guarded links of `status`.
+void fillStatus(const station::MotionFrame& motion, const scene::Scene& scene, Status& status);
+
+ModelEnergy toModelEnergy(const station::MotionFrame& motion);
+
+Keyframe toKeyframe(const station::Keyframe& keyframe,
+                    const physics::Instrument& instrument,
+                    std::uint32_t slices);
+
+}  // namespace ergotic::node

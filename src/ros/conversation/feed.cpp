@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/conversation/feed.hpp"
+
+#include <algorithm>
+
+#include <ergotic/ModelState.h>
+
+#include "ergotic/rt/build_id.hpp"
+#include "ergotic/rt/clock.hpp"
+#include "ros/device/end_effectors.hpp"
+
+namespace ergotic::node {
+namespace {
+
+constexpr std::uint32_t kQueue = 100;
+// A second of blocks at the highest rate: a recorder that is late loses nothing.
+constexpr std::uint32_t kGestureQueue = 1000;
+constexpr std::uint32_t kEventQueue = 10000;
+constexpr std::int64_t kStatusPeriodNs = 1'000'000'000;
+constexpr bool kLatched = true;
+
+}  // namespace
+
+Feed::Feed(const ::ros::NodeHandle& node) : node_(node) {
+  joint_states_ = node_.advertise<sensor_msgs::JointState>("joint_states", kQueue);
+  model_structure_ = node_.advertise<ModelStructure>("model_structure", 1, kLatched);
+  model_state_ = node_.advertise<ModelState>("model_state", kQueue);
+  markers_topic_ = node_.advertise<visualization_msgs::MarkerArray>("markers", 2);
+  keyframe_ = node_.advertise<Keyframe>("keyframe", kQueue, kLatched);
+  events_ = node_.advertise<Event>("events", kEventQueue);
+  status_topic_ = node_.advertise<Status>("status", 1, kLatched);
+  gesture_ = node_.advertise<GestureBlock>(
+      "gesture", kGestureQueue,
+      [this](const ::ros::SingleSubscriberPublisher& /*peer*/) { new_listener_ = true; });
+  showSilence("no model yet");
+}
+
+void Feed::configure(const Parameters& parameters, const Hands& hands) {
+  station_config_ = toYaml(parameters, hands.config());
+  display_zoom_ = parameters.display_zoom;
+  motion_period_ns_ = static_cast<std::int64_t>(1e9 / parameters.display_rate);
+  status_.devices.clear();
+  for (const tgr::DeviceConfig& device : hands.config().devices) {
+    status_.devices.push_back(device.driver);
+  }
+  status_.delay_ticks = hands.traits().delay_ticks;
+  if (parameters.compile.metered) {
+    model_energy_ = node_.advertise<ModelEnergy>("model_energy", kQueue);
+  }
+  blocks_.reset();
+}
+
+void Feed::show(const tgr::EndEffectors& end_effectors) {
+  frames_ = EndEffectorFrames(end_effectors);
+  status_.end_effectors = toMessages(end_effectors);
+  markers_topic_.publish(Markers::eraseAll());  // those that are gone
+  sendStatus();
+}
+
+void Feed::showModel(const station::Performer& performer, const std::string& note) {
+  const physics::Instrument& instrument = *performer.instrument;
+  fillStatus(instrument, status_);
+  status_.verdict = physics::toString(performer.certificate.verdict);
+  status_.message = note;
+  status_.guard_warning.clear();
+  note_ = note;
+  sendStatus();
+
+  ModelStructure structure = toModelStructure(instrument.scene(), instrument.rates());
+  structure.header.stamp = ::ros::Time::now();
+  model_structure_.publish(structure);
+
+  markers_topic_.publish(Markers::eraseAll());
+  markers_.emplace(instrument.scene(), display_zoom_);
+  if (!blocks_) {  // rates hold until the next `configure`
+    blocks_.emplace(instrument.rates().gesturalHz());
+  }
+}
+
+void Feed::showSilence(const std::string& message) {
+  status_.state = Status::DISCONNECTED;
+  status_.state_text = station::toString(station::ForceState::kDisconnected);
+  status_.audio_running = 0U;
+  status_.message = message;
+  note_ = message;
+  markers_.reset();
+  sendStatus();
+}
+
+void Feed::addMessage(const std::string& line) {
+  status_.message = note_ + (note_.empty() ? "" : "\n") + line;
+  sendStatus();
+}
+
+Event Feed::show(const station::Event& event, const scene::Scene* scene) {
+  Event message = toEvent(event, scene);
+  message.stamp = ::ros::Time::now();
+  events_.publish(message);
+  return message;
+}
+
+void Feed::show(const station::GestureTick* ticks, std::size_t count) {
+  if (count == 0 || !blocks_) {
+    return;
+  }
+  const ::ros::Time now = ::ros::Time::now();
+  const std::int64_t newest = ticks[count - 1].tick;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (auto block = blocks_->add(ticks[i])) {
+      const auto age = static_cast<double>(newest - block->first_tick);
+      block->header.stamp = now - ::ros::Duration(age / block->tick_rate_hz);
+      gesture_.publish(*block);
+    }
+  }
+}
+
+void Feed::show(const station::Snapshot& snapshot, std::uint64_t uncalibrated) {
+  const ::ros::Time now = ::ros::Time::now();
+  sensor_msgs::JointState joints = toJointState(snapshot);
+  joints.header.stamp = now;
+  joint_states_.publish(joints);
+  if (const auto& transforms = frames_.at(snapshot, now); !transforms.empty()) {
+    transforms_.sendTransform(transforms);
+  }
+
+  const Status before = status_;
+  fillStatus(snapshot, status_);
+  fillStatus(uncalibrated, status_);
+  if (before.state != status_.state || before.fault != status_.fault ||
+      before.audio_running != status_.audio_running ||
+      before.uncalibrated != status_.uncalibrated) {
+    sendStatus();
+  }
+}
+
+void Feed::showStandstill() {
+  if (status_.state != Status::FAULT) {
+    fillStatus(station::ForceState::kFault, tgr::FaultReason::kWatchdog, status_);
+    sendStatus();
+  }
+}
+
+void Feed::show(const station::MotionFrame& motion, const scene::Scene& scene) {
+  const std::int64_t now_ns = rt::monotonicNs();  // ROS time may jump
+  if (now_ns < motion_due_ns_ || !markers_) {
+    return;
+  }
+  motion_due_ns_ = std::max(motion_due_ns_ + motion_period_ns_, now_ns);
+  watch(motion, scene);
+  const ::ros::Time now = ::ros::Time::now();
+  if (model_energy_.getNumSubscribers() > 0) {
+    ModelEnergy message = toModelEnergy(motion);
+    message.header.stamp = now;
+    model_energy_.publish(message);
+  }
+  if (model_state_.getNumSubscribers() > 0) {
+    ModelState message;
+    message.header.stamp = now;
+    message.header.frame_id = "model";
+    message.tick = motion.tick;
+    message.displacement = motion.displacement;
+    model_state_.publish(message);
+  }
+  if (markers_topic_.getNumSubscribers() > 0) {
+    markers_topic_.publish(markers_->draw(motion.displacement, now));
+    if (const auto& shapes = frames_.shapes(now); !shapes.markers.empty()) {
+      markers_topic_.publish(shapes);
+    }
+  }
+}
+
+/// A link that begins to be cut too often is news, once.
+void Feed::watch(const station::MotionFrame& motion, const scene::Scene& scene) {
+  const bool known = !status_.guard_warning.empty();
+  fillStatus(motion, scene, status_);
+  if (!known && !status_.guard_warning.empty()) {
+    addMessage(status_.guard_warning);
+  }
+}
+
+void Feed::show(const station::Keyframe& keyframe, const physics::Instrument& instrument) {
+  Keyframe message = toKeyframe(keyframe, instrument, status_.slices);
+  message.header.stamp = ::ros::Time::now();
+  message.build = std::string(ERGOTIC_VERSION " ") + rt::buildId();
+  message.station_config = station_config_;
+  keyframe_.publish(message);
+}
+
+void Feed::refresh() {
+  if (rt::monotonicNs() >= status_due_ns_) {
+    sendStatus();
+  }
+}
+
+void Feed::sendStatus() {
+  status_due_ns_ = rt::monotonicNs() + kStatusPeriodNs;
+  status_.header.stamp = ::ros::Time::now();
+  status_topic_.publish(status_);
+}
+
+}  // namespace ergotic::node

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include "ergotic/station/station.hpp"
+#include "ros/conversation/convert.hpp"
+#include "ros/conversation/gesture_blocks.hpp"
+#include "ros/device/hands.hpp"
+#include "ros/device/parameters.hpp"
+#include "ros/display/end_effector_frames.hpp"
+#include "ros/display/markers.hpp"
+
+namespace ergotic::node {
+
+/// Everything the station tells ROS. All but the constructor: operator thread.
+class Feed {
+ public:
+  explicit Feed(const ::ros::NodeHandle& node);
+
+  /// A station with these parameters and devices begins to play.
+  void configure(const Parameters& parameters, const Hands& hands);
+  /// These end-effectors stand on the slices from now on.
+  void show(const tgr::EndEffectors& end_effectors);
+  /// Another model plays from now on.
+  void showModel(const station::Performer& performer, const std::string& note);
+  /// Nothing plays any more, or nothing yet; `message` says why.
+  void showSilence(const std::string& message);
+
+  /// Adds a line to the message of the status.
+  void addMessage(const std::string& line);
+
+  /// \return what was sent
+  Event show(const station::Event& event, const scene::Scene* scene);
+  void show(const station::GestureTick* ticks, std::size_t count);
+  /// \param uncalibrated  slices, a bit each
+  void show(const station::Snapshot& snapshot, std::uint64_t uncalibrated);
+  /// No ticks come, so no snapshot will say that force is latched at zero.
+  void showStandstill();
+  void show(const station::MotionFrame& motion, const scene::Scene& scene);
+  void show(const station::Keyframe& keyframe, const physics::Instrument& instrument);
+
+  /// True once for everybody who starts to listen to `gesture`, most likely to record it.
+  bool takeNewListener() { return new_listener_.exchange(false); }
+
+  /// Sends the status if it is a second old.
+  void refresh();
+
+  const Status& status() const { return status_; }
+
+ private:
+  void sendStatus();
+  void watch(const station::MotionFrame& motion, const scene::Scene& scene);
+
+  ::ros::NodeHandle node_;
+  std::atomic<bool> new_listener_{false};
+  std::string station_config_;
+  double display_zoom_ = 1.0;
+  std::int64_t motion_period_ns_ = 0;
+  ::ros::Publisher joint_states_;
+  ::ros::Publisher model_structure_;
+  ::ros::Publisher model_state_;
+  ::ros::Publisher model_energy_;  // only if the books are kept
+  ::ros::Publisher markers_topic_;
+  ::ros::Publisher gesture_;
+  ::ros::Publisher keyframe_;
+  ::ros::Publisher events_;
+  ::ros::Publisher status_topic_;
+
+  tf2_ros::TransformBroadcaster transforms_;
+
+  Status status_;
+  std::string note_;  // of the model that plays; status_.message adds the latest news
+  std::optional<GestureBlocks> blocks_;
+  std::optional<Markers> markers_;
+  EndEffectorFrames frames_;
+  std::int64_t motion_due_ns_ = 0;
+  std::int64_t status_due_ns_ = 0;
+};
+
+}  // namespace ergotic::node

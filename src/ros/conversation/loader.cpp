@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/conversation/loader.hpp"
+
+#include <exception>
+#include <utility>
+
+#include <ros/console.h>
+
+#include "ergotic/exception.hpp"
+#include "ros/conversation/model_loader.hpp"
+#include "ros/display/description.hpp"
+
+namespace ergotic::node {
+namespace {
+
+/// \param[out] verdict  also set when the model is refused for its sake
+std::unique_ptr<station::Performer> makePerformer(scene::Scene scene,
+                                                  const physics::Rates& rates,
+                                                  const physics::CompileOptions& options,
+                                                  const station::PerformerPolicy& policy,
+                                                  std::string& verdict) {
+  try {
+    auto performer = station::makePerformer(std::move(scene), rates, options, policy);
+    verdict = physics::toString(performer->certificate.verdict);
+    for (std::string& warning :
+         checkStiffness(*performer, policy.end_effectors, policy.device, policy.allow_unproven)) {
+      performer->warnings.push_back(std::move(warning));
+    }
+    return performer;
+  } catch (const station::RefusedScene& refusal) {
+    verdict = physics::toString(refusal.verdict());
+    throw;
+  }
+}
+
+void logStage(const std::string& stage) {
+  ROS_INFO_STREAM(stage);
+}
+
+double audioRateFor(const Parameters& parameters) {
+  if (parameters.jack) {
+    if (const auto found = findJackRate(parameters.jack_name, parameters.jack_wait)) {
+      return *found;
+    }
+    ROS_WARN_STREAM("no JACK server within "
+                    << parameters.jack_wait << " s: plays without sound at "
+                    << parameters.audio_rate << " Hz until one with that rate appears");
+  }
+  return parameters.audio_rate;
+}
+
+}  // namespace
+
+LoadModel::Response Loader::load(const std::string& model, bool allow_unproven) {
+  LoadModel::Response response;
+  Answer answer;
+  try {
+    answer = play(readModel(model), allow_unproven, response.verdict);
+  } catch (const std::exception& refusal) {
+    answer = {false, refusal.what()};
+  }
+  if (answer.ok) {
+    ROS_INFO_STREAM("plays (" << response.verdict << ")"
+                              << (answer.message.empty() ? "" : ": " + answer.message));
+  } else {
+    ROS_ERROR_STREAM(answer.message);
+    operator_.tell(answer.message);
+  }
+  response.success = answer.ok ? 1U : 0U;
+  response.message = answer.message;
+  return response;
+}
+
+void Loader::loadFromParameters() {
+  try {
+    const Parameters parameters = readParameters(node_);
+    if (!parameters.model.empty()) {
+      load(parameters.model, parameters.allow_unproven);
+    }
+  } catch (const Exception& refusal) {
+    ROS_ERROR_STREAM(refusal.what());
+    operator_.tell(refusal.what());
+  }
+}
+
+Answer Loader::play(scene::Scene scene, bool allow_unproven, std::string& verdict) {
+  const auto terms = operator_.terms();
+  if (!terms) {
+    return start(std::move(scene), allow_unproven, verdict);
+  }
+  station::PerformerPolicy policy;
+  policy.on_stage = logStage;
+  policy.allow_unproven = allow_unproven || terms->parameters.allow_unproven;
+  policy.slices = terms->slices;
+  policy.device = terms->device;
+  policy.end_effectors = terms->end_effectors;
+  const physics::Rates rates =
+      physics::chooseRates(scene, terms->rates.audio_hz, terms->rates.gesturalHz());
+  return operator_.swap(
+      makePerformer(std::move(scene), rates, terms->parameters.compile, policy, verdict));
+}
+
+Answer Loader::start(scene::Scene scene, bool allow_unproven, std::string& verdict) {
+  const Parameters parameters = readParameters(node_);
+  auto hands = std::make_unique<Hands>(readDevices(parameters), parameters.allow_fault_injection);
+  const physics::Rates rates =
+      physics::chooseRates(scene, audioRateFor(parameters), parameters.gestural_rate);
+  hands->probe(rates.gesturalHz());
+  station::PerformerPolicy policy;
+  policy.on_stage = logStage;
+  policy.allow_unproven = allow_unproven || parameters.allow_unproven;
+  policy.slices = hands->slices();
+  policy.device = hands->traits();
+  policy.end_effectors = hands->config().end_effectors;
+  auto performer = makePerformer(std::move(scene), rates, parameters.compile, policy, verdict);
+  station::Performer* const first = performer.get();
+  auto engine = std::make_unique<Engine>(parameters, std::move(hands), std::move(performer));
+  if (parameters.require_master) {
+    engine->watchMaster(node_.resolveName("emergency_stop"));
+  }
+  Answer answer = operator_.begin(std::move(engine), first);
+  setDescription(node_, operator_);
+  return answer;
+}
+
+}  // namespace ergotic::node

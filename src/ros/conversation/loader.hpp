@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <ergotic/LoadModel.h>
+#include <ros/node_handle.h>
+
+#include "ros/conversation/operator.hpp"
+
+namespace ergotic::node {
+
+/// Brings models from text to sound, outside the real-time thread.
+///
+/// The first model that can be played also starts the engine: device, real-time thread, JACK. As
+/// long as there is none, the parameters are read anew each time, so that what was wrong can be put
+/// right without starting again.
+/// Thread: one, which may take its time
+class Loader {
+ public:
+  Loader(::ros::NodeHandle private_node, Operator& operator_thread)
+      : node_(std::move(private_node)), operator_(operator_thread) {}
+
+  /// Plays a model. The one that plays keeps playing if this fails.
+  /// \param model  path or YAML text
+  LoadModel::Response load(const std::string& model, bool allow_unproven);
+
+  /// Plays the model that the parameter `model` names, if it names one.
+  void loadFromParameters();
+
+ private:
+  Answer play(scene::Scene scene, bool allow_unproven, std::string& verdict);
+  Answer start(scene::Scene scene, bool allow_unproven, std::string& verdict);
+
+  ::ros::NodeHandle node_;
+  Operator& operator_;
+};
+
+}  // namespace ergotic::node

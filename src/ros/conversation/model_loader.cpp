@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/conversation/model_loader.hpp"
+
+#include <cstdint>
+#include <cstdio>
+#include <sstream>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
+
+namespace ergotic::node {
+namespace {
+
+constexpr double kMdlRateHz = 44100.0;
+
+void addLine(std::string& text, const std::string& line) {
+  text += (text.empty() ? "" : "\n") + line;
+}
+
+}  // namespace
+
+scene::Scene readModel(const std::string& model) {
+  if (model.empty()) {
+    throw Exception("no model is named, allowed: a path, or YAML of more than one line");
+  }
+  scene::Scene scene = model.find('\n') == std::string::npos
+                           ? scene::readSceneFile(model)
+                           : scene::readYaml(model, "inline.yaml");
+  scene::validate(scene);
+  return scene;
+}
+
+std::string noteOn(const station::Performer& performer) {
+  const physics::Instrument& instrument = *performer.instrument;
+  const scene::Scene& scene = instrument.scene();
+  const double audio_hz = instrument.rates().audio_hz;
+  std::string note;
+  for (const std::string& warning : performer.warnings) {
+    addLine(note, warning);
+  }
+  if (scene.time_unit_s != 1.0 && audio_hz != kMdlRateHz) {
+    std::ostringstream text;
+    text << scene.file << ": counts in samples of " << kMdlRateHz << " Hz and runs at " << audio_hz
+         << " Hz: converted through SI units, it keeps its pitch but not its samples";
+    addLine(note, text.str());
+  }
+  return note;
+}
+
+std::string textHash(const std::string& text) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char c : text) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  }
+  char digits[17];
+  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
+  return digits;
+}
+
+}  // namespace ergotic::node

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include <ergotic/Calibrate.h>
+#include <ergotic/InjectFault.h>
+
+#include "ros/conversation/diagnostics.hpp"
+#include "ros/conversation/performance.hpp"
+
+namespace ergotic::node {
+
+/// The one thread that speaks to the station: it carries requests in and news out.
+///
+/// ROS callbacks never touch the station; they hand a request over here and wait for its answer.
+class Operator {
+ public:
+  Operator(Feed& feed, Diagnostics& diagnostics);
+  ~Operator();  ///< forces to zero, device closed
+  Operator(const Operator&) = delete;
+  Operator& operator=(const Operator&) = delete;
+
+  // Thread: any, but never this operator's own. All wait for their answer, 5 s at most.
+
+  /// Takes over a running engine and the performer it was made with. A closed operator destroys it.
+  Answer begin(std::unique_ptr<Engine> engine, station::Performer* performer);
+  /// Plays another model; answers when it plays.
+  Answer swap(std::unique_ptr<station::Performer> performer);
+  /// Lets force ramp in; answers when it does, or why it may not.
+  Answer engage();
+  /// Gets lost devices back and ends a fault; answers when it has ended. Force stays at zero.
+  Answer recover();
+  /// Force to zero; answers when it is.
+  Answer stop();
+  /// Answers when the tick plays with the new value.
+  Answer setParameter(const std::string& name, double value);
+  /// Moves the hand of a virtual device.
+  Answer setTarget(int slice, double target_m);
+  /// Puts other end-effectors on the slices; answers when they are in place, with force at zero.
+  Answer configure(const tgr::EndEffectors& end_effectors);
+  Calibrate::Response calibrate(const Calibrate::Request& request);
+  Answer inject(const InjectFault::Request& request);
+
+  /// What a new model must fit.
+  struct Terms {
+    physics::Rates rates;
+    int slices = 0;
+    physics::DeviceTraits device;
+    tgr::EndEffectors end_effectors;
+    Parameters parameters;
+  };
+  /// \return nothing if no engine runs
+  std::optional<Terms> terms();
+
+  // Thread: any. None of these waits.
+
+  /// Says why nothing plays, to those who look at the status. No effect while something does.
+  void tell(const std::string& message);
+  /// Force to zero at once, latched. \return false if there is no device
+  bool makeSafe(tgr::FaultReason reason) { return performance_.makeSafe(reason); }
+  /// The presence switch is held, or not.
+  void setPresence(bool present);
+
+  /// Forces to zero, device closed, no engine taken any more; waits for it, 0.9 s at most.
+  /// Thread: any
+  void close();
+
+ private:
+  using Task = std::function<void()>;
+
+  bool post(Task task);
+  Answer ask(const std::function<void(const Promise&)>& request);
+  void run();
+  void runTasks();
+
+  Feed& feed_;
+  Diagnostics& diagnostics_;
+  Performance performance_;
+
+  std::mutex mutex_;  // of what follows
+  std::condition_variable woken_;
+  std::deque<Task> tasks_;
+  bool quit_ = false;
+  bool closed_ = false;
+
+  std::thread thread_;
+};
+
+}  // namespace ergotic::node

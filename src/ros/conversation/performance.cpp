@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/conversation/performance.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <ros/console.h>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/rt/clock.hpp"
+#include "ros/conversation/model_loader.hpp"
+
+namespace ergotic::node {
+namespace {
+
+using CommandType = station::Command::Type;
+using EventType = station::Event::Type;
+
+constexpr std::int64_t kObeyTimeoutNs = 1'000'000'000;
+constexpr std::size_t kGestureBatch = 256;
+constexpr double kLogPeriodS = 5.0;
+const char kNothingPlays[] = "nothing plays: load a model first";
+const char kTooMany[] = "too many requests wait for the real-time thread";
+
+void answer(const Promise& promise, bool ok, std::string message) {
+  promise->set_value({ok, std::move(message)});
+}
+
+void log(const Event& event) {
+  switch (event.type) {
+    case Event::FAULT:
+    case Event::TICKS_LOST:
+      ROS_ERROR_STREAM("tick " << event.tick << ": " << event.text);
+      break;
+    case Event::LATE_TICK:
+    case Event::STALL:
+    case Event::UNDERRUN:
+    case Event::AUDIO_SKIPPED:
+      ROS_WARN_STREAM_THROTTLE(kLogPeriodS, "tick " << event.tick << ": " << event.text);
+      break;
+    default:
+      ROS_DEBUG_STREAM("tick " << event.tick << ": " << event.text);
+  }
+}
+
+}  // namespace
+
+void Performance::begin(std::unique_ptr<Engine> engine, station::Performer* performer) {
+  {
+    const std::lock_guard lock(engine_mutex_);
+    engine_ = std::move(engine);
+  }
+  gestures_.resize(kGestureBatch);
+  submitted_ = performer;
+  parameters_ = performer->parameters;
+  feed_.configure(engine_->parameters(), engine_->hands());
+  show(endEffectors());
+  play(performer);
+  if (engine_->parameters().autoengage) {
+    engage(std::make_shared<std::promise<Answer>>());
+  }
+}
+
+void Performance::swap(std::unique_ptr<station::Performer> performer, const Promise& promise) {
+  if (!engine_) {
+    return answer(promise, false, kNothingPlays);
+  }
+  station::Command swap;
+  swap.type = CommandType::kSwap;
+  swap.performer = performer.get();
+  const std::vector<double> parameters = performer->parameters;  // the tick's from now on
+  try {
+    // End-effectors may have changed while the model was made.
+    performer->rig =
+        tgr::makeRig(performer->instrument->scene(), endEffectors(), engine_->hands().slices());
+    if (!engine_->station().submit(swap)) {
+      return answer(promise, false, kTooMany);
+    }
+  } catch (const Exception& refusal) {
+    return answer(promise, false, refusal.what());
+  }
+  submitted_ = performer.release();
+  parameters_ = parameters;
+  incoming_.push_back({submitted_, promise});
+}
+
+void Performance::engage(const Promise& promise) {
+  if (guide_.isUnderWay()) {
+    return answer(promise, false, "a slice is being calibrated: finish or abort first");
+  }
+  request(CommandType::kEngage, requests_, promise);
+}
+
+void Performance::recover(const Promise& promise) {
+  if (engine_) {
+    try {
+      engine_->recover();
+    } catch (const Exception& failure) {
+      return answer(promise, false, failure.what());
+    }
+  }
+  request(CommandType::kRecover, requests_, promise);
+}
+
+void Performance::stop(const Promise& promise) {
+  if (!engine_) {
+    return answer(promise, true, "nothing plays");
+  }
+  request(CommandType::kStop, stops_, promise);
+}
+
+void Performance::setParameter(const std::string& name, double value, const Promise& promise) {
+  if (!engine_) {
+    return answer(promise, false, kNothingPlays);
+  }
+  const auto& known = submitted_->instrument->scene().parameters;
+  const auto found = std::find_if(known.begin(), known.end(), [&name](const auto& parameter) {
+    return parameter.name == name;
+  });
+  if (found == known.end()) {
+    return answer(promise, false, "the model has no parameter " + name);
+  }
+  const auto index = found - known.begin();
+  std::vector<double> values = parameters_;
+  values[static_cast<std::size_t>(index)] = value;
+  try {
+    auto coefficients = submitted_->instrument->prepare(values);
+    station::Command change;
+    change.type = CommandType::kParameter;
+    change.index = static_cast<int>(index);
+    change.value = value;
+    change.coefficients = coefficients.get();
+    if (!engine_->station().submit(change)) {
+      return answer(promise, false, kTooMany);
+    }
+    static_cast<void>(coefficients.release());  // comes back with its event
+  } catch (const Exception& refusal) {
+    return answer(promise, false, refusal.what());
+  }
+  parameters_ = std::move(values);
+  changes_.push_back({name, promise});
+}
+
+void Performance::setTarget(int slice, double target_m, const Promise& promise) {
+  if (!engine_) {
+    return answer(promise, false, kNothingPlays);
+  }
+  const bool taken = engine_->station().driver().setTarget(slice, target_m);
+  answer(
+      promise, taken,
+      taken ? "" : "no such slice with a virtual hand, or the target is not within -0.1...0.1 m");
+}
+
+void Performance::setPresence(bool present) {
+  if (engine_) {
+    command(CommandType::kPresence, 0, present ? 1.0 : 0.0);
+  }
+}
+
+bool Performance::command(CommandType type, int index, double value) {
+  station::Command command;
+  command.type = type;
+  command.index = index;
+  command.value = value;
+  const bool taken = engine_->station().submit(command);
+  if (!taken) {
+    ROS_ERROR_STREAM(kTooMany);
+  }
+  return taken;
+}
+
+void Performance::request(CommandType type, std::deque<Waiter>& waiters, const Promise& promise) {
+  if (!engine_) {
+    return answer(promise, false, kNothingPlays);
+  }
+  if (!command(type)) {
+    return answer(promise, false, kTooMany);
+  }
+  waiters.push_back({promise, rt::monotonicNs() + kObeyTimeoutNs});
+}
+
+void Performance::poll() {
+  if (!engine_) {
+    return;
+  }
+  if (feed_.takeNewListener()) {
+    command(CommandType::kKeyframe);
+  }
+  station::Event event;
+  while (engine_->station().poll(event)) {
+    take(event);
+  }
+  pollGestures();
+  if (const station::Snapshot* snapshot = engine_->station().snapshot()) {
+    feed_.show(*snapshot, engine_->station().driver().uncalibrated());
+  }
+  if (engine_->standsStill()) {
+    feed_.showStandstill();
+  }
+  if (playing_->motion.refresh()) {
+    feed_.show(playing_->motion.latest(), playing_->instrument->scene());
+  }
+  pollCalibration();
+  giveUp(requests_);
+  giveUp(stops_);
+  reportWarnings();
+}
+
+void Performance::pollGestures() {
+  std::size_t count = 0;
+  do {
+    count = engine_->station().pollGestures(gestures_.data(), gestures_.size());
+    feed_.show(gestures_.data(), count);
+  } while (count == gestures_.size());
+}
+
+void Performance::take(const station::Event& event) {
+  const Event told = feed_.show(event, &playing_->instrument->scene());
+  log(told);
+  switch (event.type) {
+    case EventType::kSwapped:
+      return takeSwapped(event);
+    case EventType::kParameter: {
+      const std::unique_ptr<physics::Coefficients> old(event.coefficients);
+      answer(changes_.front().promise, true, changes_.front().name + " is set");
+      return changes_.pop_front();
+    }
+    case EventType::kConfigured:
+      return takeConfigured(event);
+    case EventType::kKeyframe:
+      return takeKeyframe(event);
+    default:
+      return takeObeyed(event, told.text);
+  }
+}
+
+void Performance::takeObeyed(const station::Event& event, const std::string& text) {
+  const bool refused = event.type == EventType::kRefused;
+  if (refused || event.type == EventType::kEngaged || event.type == EventType::kRecovered) {
+    if (!requests_.empty()) {
+      answer(requests_.front().promise, !refused, text);
+      requests_.pop_front();
+    }
+  } else if (event.type == EventType::kStopped) {
+    for (const Waiter& waiter : stops_) {
+      answer(waiter.promise, true, text);
+    }
+    stops_.clear();
+  }
+}
+
+void Performance::takeSwapped(const station::Event& event) {
+  const std::unique_ptr<station::Performer> done(event.performer);
+  if (event.index == 0) {  // it never played
+    const auto lost = std::find_if(incoming_.begin(), incoming_.end(),
+                                   [&done](const auto& i) { return i.performer == done.get(); });
+    answer(lost->promise, false, "a newer model was loaded meanwhile");
+    incoming_.erase(lost);
+    return;
+  }
+  const Incoming next = incoming_.front();
+  incoming_.pop_front();
+  play(next.performer);
+  answer(next.promise, true, feed_.status().message);
+}
+
+void Performance::takeKeyframe(const station::Event& event) {
+  if (event.index != 0) {
+    feed_.show(engine_->station().keyframe(), *playing_->instrument);
+  } else {
+    ROS_WARN(
+        "the state of this model is too large for a keyframe: no recording of it can be "
+        "rendered");
+  }
+}
+
+void Performance::giveUp(std::deque<Waiter>& waiters) {
+  const std::int64_t now_ns = rt::monotonicNs();
+  while (!waiters.empty() && now_ns > waiters.front().deadline_ns) {
+    answer(waiters.front().promise, false,
+           "not obeyed, the station is: " + feed_.status().state_text);
+    waiters.pop_front();
+  }
+}
+
+void Performance::play(station::Performer* performer) {
+  playing_ = performer;
+  feed_.showModel(*performer, noteOn(*performer));
+  command(CommandType::kKeyframe);
+}
+
+void Performance::reportWarnings() {
+  for (const std::string& warning : engine_->takeWarnings()) {
+    ROS_WARN_STREAM(warning);
+    feed_.addMessage(warning);
+  }
+}
+
+void Performance::close() {
+  playing_ = nullptr;
+  submitted_ = nullptr;
+  incoming_.clear();
+  changes_.clear();
+  configurations_.clear();
+  requests_.clear();
+  stops_.clear();
+  guide_.abort();
+  sampled_.reset();
+  std::unique_ptr<Engine> closing;
+  {
+    const std::lock_guard lock(engine_mutex_);
+    closing = std::move(engine_);
+  }
+  if (closing) {
+    closing.reset();
+    feed_.showSilence("closed");
+  }
+}
+
+bool Performance::makeSafe(tgr::FaultReason reason) {
+  const std::lock_guard lock(engine_mutex_);
+  if (engine_) {
+    engine_->station().makeSafe(reason);
+  }
+  return engine_ != nullptr;
+}
+
+}  // namespace ergotic::node

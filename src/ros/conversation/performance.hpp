@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <ergotic/Calibrate.h>
+#include <ergotic/InjectFault.h>
+
+#include "ros/conversation/engine.hpp"
+#include "ros/conversation/feed.hpp"
+#include "ros/device/calibration_guide.hpp"
+
+namespace ergotic::node {
+
+/// Outcome of what a caller asked for, in words.
+struct Answer {
+  bool ok = false;
+  std::string message;
+};
+using Promise = std::shared_ptr<std::promise<Answer>>;
+
+/// What plays, and what was asked of it: the operator's side of the station.
+///
+/// Requests are answered when the real-time thread has obeyed, or said why not.
+/// Thread: operator, all but `makeSafe`
+class Performance {
+ public:
+  explicit Performance(Feed& feed) : feed_(feed) {}
+  ~Performance() { close(); }
+  Performance(const Performance&) = delete;
+  Performance& operator=(const Performance&) = delete;
+
+  Engine* engine() { return engine_.get(); }
+
+  /// Takes over a running engine and the performer it was made with.
+  void begin(std::unique_ptr<Engine> engine, station::Performer* performer);
+  void swap(std::unique_ptr<station::Performer> performer, const Promise& promise);
+  void engage(const Promise& promise);
+  void recover(const Promise& promise);
+  void stop(const Promise& promise);
+  void setParameter(const std::string& name, double value, const Promise& promise);
+  void setTarget(int slice, double target_m, const Promise& promise);
+  void configure(const tgr::EndEffectors& end_effectors, const Promise& promise);
+  /// \param measured  written before a promise is kept that says that all went well
+  void calibrate(const Calibrate::Request& request,
+                 const std::shared_ptr<Calibrate::Response>& measured,
+                 const Promise& promise);
+  void inject(const InjectFault::Request& request, const Promise& promise);
+  void setPresence(bool present);
+
+  /// Brings the news of the station to ROS and to those who wait for them.
+  void poll();
+
+  /// Forces to zero, device closed, waiting requests refused.
+  void close();
+
+  /// Force to zero at once, latched. \return false if there is no device. Thread: any
+  bool makeSafe(tgr::FaultReason reason);
+
+ private:
+  /// A model on its way into the station, which owns it.
+  struct Incoming {
+    station::Performer* performer = nullptr;
+    Promise promise;
+  };
+  /// Somebody waits for a parameter to take effect.
+  struct Change {
+    std::string name;
+    Promise promise;
+  };
+  /// Other end-effectors on their way into the station, whose event brings the old rig back.
+  struct Configuration {
+    tgr::EndEffectors end_effectors;
+    std::vector<std::string> warnings;
+    Promise promise;
+  };
+  /// Somebody waits for the tick to obey.
+  struct Waiter {
+    Promise promise;
+    std::int64_t deadline_ns = 0;
+  };
+
+  bool command(station::Command::Type type, int index = 0, double value = 0.0);
+  void request(station::Command::Type type, std::deque<Waiter>& waiters, const Promise& promise);
+  const tgr::EndEffectors& endEffectors() const;
+  void show(const tgr::EndEffectors& end_effectors);
+  void begin(int slice);
+  std::string finish(const Calibrate::Request& request, Calibrate::Response& measured);
+  void pollCalibration();
+  void tellInjected(int index, std::int64_t ticks);
+  void pollGestures();
+  void take(const station::Event& event);
+  void takeObeyed(const station::Event& event, const std::string& text);
+  void takeConfigured(const station::Event& event);
+  void takeSwapped(const station::Event& event);
+  void takeKeyframe(const station::Event& event);
+  void giveUp(std::deque<Waiter>& waiters);
+  void play(station::Performer* performer);
+  void reportWarnings();
+
+  Feed& feed_;
+  std::mutex engine_mutex_;  // held while engine_ changes, and by makeSafe
+  std::unique_ptr<Engine> engine_;
+  station::Performer* playing_ = nullptr;    // owned by the station
+  station::Performer* submitted_ = nullptr;  // the newest, owned by the station
+  std::vector<double> parameters_;           // of submitted_, as submitted
+  std::deque<Incoming> incoming_;
+  std::deque<Change> changes_;
+  std::deque<Configuration> configurations_;
+  std::deque<Waiter> requests_;  // engage and recover: each is obeyed or refused, in their order
+  std::deque<Waiter> stops_;
+  CalibrationGuide guide_;
+  std::shared_ptr<Calibrate::Response> measured_;  // of the sample under way
+  Promise sampled_;
+  std::vector<station::GestureTick> gestures_;
+};
+
+}  // namespace ergotic::node

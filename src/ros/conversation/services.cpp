@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/conversation/services.hpp"
+
+#include <ros/console.h>
+
+#include "ergotic/exception.hpp"
+#include "ros/device/end_effectors.hpp"
+#include "ros/display/description.hpp"
+
+namespace ergotic::node {
+namespace {
+
+constexpr std::uint32_t kQueue = 100;
+constexpr double kLogPeriodS = 1.0;
+
+template <class Response>
+bool fill(Response& response, const Answer& answer) {
+  response.success = answer.ok ? 1U : 0U;
+  response.message = answer.message;
+  return true;  // the call itself went well, whatever came of it
+}
+
+void complain(const std::string& topic, const Answer& answer) {
+  if (!answer.ok) {
+    ROS_WARN_STREAM_THROTTLE(kLogPeriodS, topic << ": " << answer.message);
+  }
+}
+
+}  // namespace
+
+Services::Services(::ros::NodeHandle node, Operator& operator_thread)
+    : operator_(operator_thread),
+      loader_(node, operator_thread),
+      node_(node),
+      loading_node_(node),
+      loading_spinner_(1, &loading_queue_),
+      safety_node_(node),
+      safety_spinner_(1, &safety_queue_) {
+  loading_node_.setCallbackQueue(&loading_queue_);
+  safety_node_.setCallbackQueue(&safety_queue_);
+  servers_ = {
+      loading_node_.advertiseService("load_model", &Services::onLoadModel, this),
+      node_.advertiseService("engage", &Services::onEngage, this),
+      node_.advertiseService("stop", &Services::onStop, this),
+      node_.advertiseService("set_parameter", &Services::onSetParameter, this),
+      node_.advertiseService("recover", &Services::onRecover, this),
+      node_.advertiseService("configure_end_effectors", &Services::onConfigure, this),
+      node_.advertiseService("calibrate", &Services::onCalibrate, this),
+      node_.advertiseService("inject_fault", &Services::onInjectFault, this),
+      safety_node_.advertiseService("emergency_stop", &Services::onEmergencyStop, this),
+  };
+  subscribers_ = {
+      loading_node_.subscribe("model", 1, &Services::onModel, this),
+      node_.subscribe("parameters", kQueue, &Services::onParameter, this),
+      node_.subscribe("hand_target", kQueue, &Services::onHandTarget, this),
+      node_.subscribe("end_effectors", 1, &Services::onEndEffectors, this),
+      safety_node_.subscribe("emergency_stop", 1, &Services::onEmergencyTopic, this),
+      safety_node_.subscribe("presence", kQueue, &Services::onPresence, this),
+  };
+  constexpr bool kOnce = true;
+  first_load_ = loading_node_.createWallTimer(
+      ::ros::WallDuration(0.0), [this](const auto& /*event*/) { loader_.loadFromParameters(); },
+      kOnce);
+  safety_spinner_.start();
+  loading_spinner_.start();
+}
+
+Services::~Services() {
+  loading_spinner_.stop();  // after the load that runs, if one does
+  safety_spinner_.stop();
+}
+
+bool Services::onLoadModel(LoadModel::Request& request, LoadModel::Response& response) {
+  response = loader_.load(request.model, request.allow_unproven != 0U);
+  return true;
+}
+
+void Services::onModel(const std_msgs::String& model) {
+  loader_.load(model.data, false);  // logs what goes wrong, and the status says it
+}
+
+bool Services::onEngage(Trigger::Request& /*request*/, Trigger::Response& response) {
+  return fill(response, operator_.engage());
+}
+
+bool Services::onStop(Trigger::Request& /*request*/, Trigger::Response& response) {
+  return fill(response, operator_.stop());
+}
+
+bool Services::onSetParameter(SetParameter::Request& request, SetParameter::Response& response) {
+  return fill(response, operator_.setParameter(request.name, request.value));
+}
+
+void Services::onParameter(const ParameterValue& parameter) {
+  complain("parameters", operator_.setParameter(parameter.name, parameter.value));
+}
+
+void Services::onHandTarget(const SliceTarget& target) {
+  complain("hand_target", operator_.setTarget(static_cast<int>(target.slice), target.target));
+}
+
+bool Services::onRecover(Trigger::Request& /*request*/, Trigger::Response& response) {
+  return fill(response, operator_.recover());
+}
+
+Answer Services::configure(const std::vector<EndEffector>& end_effectors) {
+  try {
+    Answer answer = operator_.configure(fromMessages(end_effectors));
+    if (answer.ok) {
+      setDescription(node_, operator_);
+    }
+    return answer;
+  } catch (const Exception& refusal) {
+    return {false, refusal.what()};
+  }
+}
+
+bool Services::onConfigure(ConfigureEndEffectors::Request& request,
+                           ConfigureEndEffectors::Response& response) {
+  return fill(response, configure(request.end_effectors));
+}
+
+void Services::onEndEffectors(const EndEffectors& end_effectors) {
+  complain("end_effectors", configure(end_effectors.end_effectors));
+}
+
+bool Services::onCalibrate(Calibrate::Request& request, Calibrate::Response& response) {
+  response = operator_.calibrate(request);
+  return true;
+}
+
+bool Services::onInjectFault(InjectFault::Request& request, InjectFault::Response& response) {
+  return fill(response, operator_.inject(request));
+}
+
+bool Services::onEmergencyStop(Trigger::Request& /*request*/, Trigger::Response& response) {
+  const bool latched = operator_.makeSafe(tgr::FaultReason::kEmergencyStop);
+  return fill(response, {true, latched ? "force is latched at zero until recover"
+                                       : "no device is open: there is no force"});
+}
+
+void Services::onEmergencyTopic(const std_msgs::Empty& /*stop*/) {
+  operator_.makeSafe(tgr::FaultReason::kEmergencyStop);
+}
+
+void Services::onPresence(const std_msgs::Bool& present) {
+  operator_.setPresence(present.data != 0U);
+}
+
+}  // namespace ergotic::node

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <std_srvs/Trigger.h>
+
+#include <ergotic/Calibrate.h>
+#include <ergotic/ConfigureEndEffectors.h>
+#include <ergotic/EndEffectors.h>
+#include <ergotic/InjectFault.h>
+#include <ergotic/LoadModel.h>
+#include <ergotic/ParameterValue.h>
+#include <ergotic/SetParameter.h>
+#include <ergotic/SliceTarget.h>
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+#include <std_msgs/Bool.h>
+#include <std_msgs/Empty.h>
+#include <std_msgs/String.h>
+
+#include "ros/conversation/loader.hpp"
+#include "ros/conversation/operator.hpp"
+
+namespace ergotic::node {
+
+/// What ROS can ask of the station. `engage`, `stop` and the topics come through the queue of
+/// `node`; everything that loads a model has a queue and a thread of its own, one at a time, so
+/// that a long load never delays a `stop`. So have emergency stops and the presence switch, which
+/// nothing may delay.
+class Services {
+ public:
+  Services(::ros::NodeHandle node, Operator& operator_thread);
+  ~Services();
+  Services(const Services&) = delete;
+  Services& operator=(const Services&) = delete;
+
+ private:
+  using Trigger = std_srvs::Trigger;
+
+  bool onLoadModel(LoadModel::Request& request, LoadModel::Response& response);
+  void onModel(const std_msgs::String& model);
+  bool onEngage(Trigger::Request& request, Trigger::Response& response);
+  bool onStop(Trigger::Request& request, Trigger::Response& response);
+  bool onSetParameter(SetParameter::Request& request, SetParameter::Response& response);
+  void onParameter(const ParameterValue& parameter);
+  void onHandTarget(const SliceTarget& target);
+  Answer configure(const std::vector<EndEffector>& end_effectors);
+  bool onRecover(Trigger::Request& request, Trigger::Response& response);
+  bool onConfigure(ConfigureEndEffectors::Request& request,
+                   ConfigureEndEffectors::Response& response);
+  void onEndEffectors(const EndEffectors& end_effectors);
+  bool onCalibrate(Calibrate::Request& request, Calibrate::Response& response);
+  bool onInjectFault(InjectFault::Request& request, InjectFault::Response& response);
+  bool onEmergencyStop(Trigger::Request& request, Trigger::Response& response);
+  void onEmergencyTopic(const std_msgs::Empty& stop);
+  void onPresence(const std_msgs::Bool& present);
+
+  Operator& operator_;
+  Loader loader_;
+  ::ros::NodeHandle node_;
+  ::ros::CallbackQueue loading_queue_;
+  ::ros::NodeHandle loading_node_;
+  ::ros::AsyncSpinner loading_spinner_;
+  ::ros::CallbackQueue safety_queue_;
+  ::ros::NodeHandle safety_node_;
+  ::ros::AsyncSpinner safety_spinner_;
+  ::ros::WallTimer first_load_;
+  std::vector<::ros::ServiceServer> servers_;
+  std::vector<::ros::Subscriber> subscribers_;
+};
+
+}  // namespace ergotic::node

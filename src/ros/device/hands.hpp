@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ergotic/physics/certificate/certify.hpp"
+#include "ergotic/station/performer.hpp"
+#include "ergotic/tgr/device.hpp"
+#include "ros/device/driver_plugins.hpp"
+
+namespace ergotic::node {
+
+/// The devices of a station and what stands on their slices. The drivers go to the station, which
+/// this has to outlive: it holds their code.
+/// Thread: loader while it is made, then operator. Realtime: no
+class Hands {
+ public:
+  /// Makes the drivers; opens none.
+  /// \throws Exception from the drivers, or naming those that exist
+  Hands(tgr::StationDevices devices, bool allow_fault_injection);
+
+  /// Opens the devices and closes them again, for what they say of themselves.
+  /// \throws DeviceError saying what is wrong and what to do
+  void probe(double tick_rate_hz);
+
+  // After `probe`.
+  int slices() const { return slices_; }
+  const physics::DeviceTraits& traits() const { return traits_; }
+
+  /// The drivers, for the station that is about to be made. Once
+  std::unique_ptr<tgr::Driver> takeDriver() { return std::move(drivers_.driver); }
+
+  const tgr::StationDevices& config() const { return config_; }
+  /// The devices that speak volts.
+  const std::vector<tgr::DriverStack::Part>& rawParts() const { return drivers_.raw_parts; }
+  /// \return null unless faults may be injected
+  tgr::FaultyDriver* faulty() const { return drivers_.faulty; }
+  void setEndEffectors(tgr::EndEffectors end_effectors) {
+    config_.end_effectors = std::move(end_effectors);
+  }
+  /// Devices with the calibrations that they have now, as a YAML file.
+  /// \throws Exception naming the file if it cannot be written; an old one is left as it was then
+  void save(const std::string& path);
+
+ private:
+  DriverPlugins plugins_;
+  tgr::StationDevices config_;
+  tgr::DriverStack drivers_;  // of which the station has the driver, once it is taken
+  int slices_ = 0;
+  physics::DeviceTraits traits_;
+};
+
+/// Warnings of slices that end-effectors make stiffer than what is silent.
+/// \throws Exception for those that would buzz or jump, unless that is allowed
+std::vector<std::string> checkStiffness(const station::Performer& performer,
+                                        const tgr::EndEffectors& end_effectors,
+                                        const physics::DeviceTraits& device,
+                                        bool allow_unproven);
+
+}  // namespace ergotic::node

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include <ros/node_handle.h>
+#include <xmlrpcpp/XmlRpcValue.h>
+
+#include "ergotic/physics/engine/instrument.hpp"
+#include "ergotic/tgr/device.hpp"
+#include "ergotic/tgr/safety_chain.hpp"
+
+/// The room `ros`. Its namespace is `node`, for generated messages live in `ergotic` and mean
+/// `::ros` when they say `ros`.
+namespace ergotic::node {
+
+enum class Realtime {
+  kTry,      ///< warn where it is not permitted
+  kRequire,  ///< refuse to play where it is not permitted
+  kOff,
+};
+
+/// Private parameters of the nodelet, read once; docs/ros.md says the same with more words.
+struct Parameters {
+  std::string model;                  ///< path of a scene, or its YAML text; empty: wait for one
+  std::string device;                 ///< devices: path of a file, or its YAML text; empty: one,
+                                      ///< made of the next three
+  std::string driver = "virtual";     ///< name, see DriverPlugins
+  std::string driver_settings;        ///< YAML map, of that driver; empty: none
+  std::string gesture;                ///< CSV that the virtual hand follows; empty: none
+  std::string virtual_shared_memory;  ///< segment of a `virtual_tgr`; empty: device inside
+  double audio_rate = 44100.0;        ///< Hz, without a JACK server
+  double gestural_rate = 0.0;         ///< Hz; 0: as the model wishes
+  std::string end_effectors;          ///< path or YAML text; empty: as the device file says
+  physics::CompileOptions compile;    ///< precision, isa, threads, energies (metered)
+  bool jack = true;                   ///< false: no sound card, ticks follow the system clock
+  std::string jack_name = "ergotic";  ///< of the JACK client
+  double jack_wait = 2.0;             ///< s, for a server to appear before the first model plays
+  bool jack_connect = true;           ///< out_i to the i-th physical playback port
+  int ring_depth = 768;               ///< audio frames from a tick's due time to its sound
+  tgr::SafetyConfig safety;
+  double max_stall = 0.05;     ///< s, longer stalls are a fault
+  double watchdog = 0.02;      ///< s without a tick after which the device is made safe
+  bool presence = false;       ///< force needs messages of the presence switch
+  bool require_master = true;  ///< force needs a ROS master that knows the station
+  bool allow_fault_injection = false;
+  int priority = 75;  ///< SCHED_FIFO priority of the tick
+  int cpu = -1;       ///< processor of the tick, -1: any
+  Realtime realtime = Realtime::kTry;
+  bool allow_unproven = false;  ///< play what the certificate cannot prove to be stable
+  bool autoengage = false;      ///< engage once the first model plays
+  double display_rate = 30.0;   ///< Hz, of model_state and markers
+  double display_zoom = 5.0;    ///< of x in markers, about x = 0
+};
+
+/// \param node  private
+/// \throws Exception naming parameter, value and allowed range; also for one that nobody reads
+Parameters readParameters(const ::ros::NodeHandle& node);
+/// The same.
+/// \param values  a map of them; invalid: there are none
+/// \param node    its name, for messages
+Parameters readParameters(const XmlRpc::XmlRpcValue& values, const std::string& node);
+
+/// What the hands hold, as `device`, `end_effectors` and the rest say.
+/// \throws TextError with file:line:col, Exception if a file cannot be read
+tgr::StationDevices readDevices(const Parameters& parameters);
+
+/// The same as YAML, for recordings; `device` is the text of `devices`, whatever it came from.
+std::string toYaml(const Parameters& parameters, const tgr::StationDevices& devices);
+
+}  // namespace ergotic::node

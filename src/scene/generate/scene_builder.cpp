@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/generate/scene_builder.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "ergotic/exception.hpp"
+#include "scene/limits.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+/// Room for many more; grows by half at least, as one scene may have thousands of generators.
+template <class T>
+void makeRoom(std::vector<T>& list, std::size_t more) {
+  const std::size_t wanted = list.size() + more;
+  if (wanted > list.capacity()) {
+    list.reserve(std::max(wanted, list.capacity() + list.capacity() / 2));
+  }
+}
+
+Place placeOf(const StringInfo& string, const Scene& scene) {
+  return scene.mats[static_cast<std::size_t>(string.first)].place;
+}
+
+Place placeOf(const Grid& grid, const Scene& scene) {
+  return scene.mats[static_cast<std::size_t>(grid.first)].place;
+}
+
+template <class T>
+Place placeOf(const T& item, const Scene&) {
+  return item.place;
+}
+
+}  // namespace
+
+SceneBuilder::SceneBuilder(const std::string& file, const std::string& text) {
+  scene_.file = file;
+  scene_.text = text;
+}
+
+Scene SceneBuilder::finish() {
+  scene_.mats.shrink_to_fit();
+  scene_.lias.shrink_to_fit();
+  validate(scene_);
+  return std::move(scene_);
+}
+
+template <class T>
+int SceneBuilder::append(std::vector<T>& list, NameTable& table, const char* kind, T item) {
+  const int index = static_cast<int>(list.size());
+  const int first = table.add(item.name, index);
+  if (first >= 0) {
+    const int line = placeOf(list[static_cast<std::size_t>(first)], scene_).line;
+    fail(placeOf(item, scene_), std::string(kind) + " " + quoted(item.name) +
+                                    " is defined twice, first in line " + std::to_string(line));
+  }
+  list.push_back(std::move(item));
+  return index;
+}
+
+int SceneBuilder::add(Parameter parameter) {
+  return append(scene_.parameters, parameters_, "parameter", std::move(parameter));
+}
+
+int SceneBuilder::add(Section section) {
+  return append(scene_.sections, sections_, "section", std::move(section));
+}
+
+int SceneBuilder::add(Mat mat) {
+  if (scene_.mats.size() >= static_cast<std::size_t>(kMaxMats)) {
+    reserve(1, 0, mat.place);
+  }
+  return append(scene_.mats, mats_, "module", std::move(mat));
+}
+
+int SceneBuilder::add(Lia lia) {
+  return append(scene_.lias, lias_, "link", std::move(lia));
+}
+
+int SceneBuilder::add(StringInfo string) {
+  return append(scene_.strings, strings_, "string", std::move(string));
+}
+
+int SceneBuilder::add(Grid grid) {
+  return append(scene_.grids, grids_, "string or mesh", std::move(grid));
+}
+
+void SceneBuilder::reserve(std::size_t mats, std::size_t lias, Place place) {
+  const std::size_t total = scene_.mats.size() + mats;
+  if (total > static_cast<std::size_t>(kMaxMats)) {
+    fail(place, "the scene would have " + std::to_string(total) + " modules, allowed: at most " +
+                    std::to_string(kMaxMats));
+  }
+  makeRoom(scene_.mats, mats);
+  makeRoom(scene_.lias, lias);
+  mats_.reserve(total);
+  lias_.reserve(scene_.lias.size() + lias);
+}
+
+int SceneBuilder::parameter(const std::string& name, Place place) const {
+  return find(parameters_, "parameter", name, place);
+}
+
+int SceneBuilder::section(const std::string& name, Place place) const {
+  return find(sections_, "section", name, place);
+}
+
+int SceneBuilder::mat(const std::string& name, Place place) const {
+  return find(mats_, "module", name, place);
+}
+
+int SceneBuilder::grid(const std::string& name, Place place) const {
+  return find(grids_, "string or mesh", name, place);
+}
+
+int SceneBuilder::find(const NameTable& table,
+                       const char* kind,
+                       const std::string& name,
+                       Place place) const {
+  const int index = table.find(name);
+  if (index < 0) {
+    fail(place,
+         std::string("unknown ") + kind + " " + quoted(name) + suggestion(name, table.names()));
+  }
+  return index;
+}
+
+void SceneBuilder::fail(Place place, const std::string& what) const {
+  throw TextError(scene_.file, place.line, place.column, what);
+}
+
+void SceneBuilder::warn(Place place, const std::string& what) {
+  scene_.warnings.push_back(scene_.file + ":" + std::to_string(place.line) + ":" +
+                            std::to_string(place.column) + ": warning: " + what);
+}
+
+}  // namespace ergotic::scene

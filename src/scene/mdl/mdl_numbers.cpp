@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/mdl/mdl_numbers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "scene/mdl/expression.hpp"
+#include "scene/text/number.hpp"
+#include "scene/text/overrides.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+// Params that refer to params that refer to ...: with the nesting of expressions, bounds the stack.
+constexpr int kLongestChain = 64;
+
+}  // namespace
+
+MdlNumbers::MdlNumbers(const SceneBuilder& builder,
+                       const std::vector<MdlLine>& lines,
+                       const Overrides& overrides)
+    : builder_(builder) {
+  for (const MdlLine& line : lines) {
+    if (line.keyword.text != "param") {
+      continue;
+    }
+    if (line.name == kGesturalRateName) {
+      builder.fail(line.place, "param name 'gestural_rate' is reserved");
+    }
+    if (line.arguments.size() != 1) {
+      builder.fail(line.place, "param " + quoted(line.name) + " has " +
+                                   std::to_string(line.arguments.size()) +
+                                   " arguments, allowed: 1 (value)");
+    }
+    const auto [entry, is_new] = params_.emplace(line.name, Param{&line});
+    if (!is_new) {
+      builder.fail(line.place, "param " + quoted(line.name) + " is defined twice, first in line " +
+                                   std::to_string(entry->second.line->place.line));
+    }
+    names_.push_back(line.name);
+  }
+  checkOverrides(overrides, names_, builder.scene().file);
+  for (const auto& [name, value] : overrides) {
+    const auto param = params_.find(name);
+    if (param != params_.end()) {
+      param->second.value = value;
+      param->second.known = true;
+    }
+  }
+}
+
+void MdlNumbers::check() {
+  for (const std::string& name : names_) {
+    paramValue(name, params_.at(name).line->place);
+  }
+}
+
+double MdlNumbers::paramValue(const std::string& name, Place place) {
+  const auto found = params_.find(name);
+  if (found == params_.end()) {
+    builder_.fail(place, "unknown param " + quoted(name) + suggestion(name, names_));
+  }
+  Param& param = found->second;
+  if (param.known) {
+    return param.value;
+  }
+  if (param.open) {
+    builder_.fail(place, "param " + quoted(name) + " is defined by itself");
+  }
+  if (++depth_ > kLongestChain) {
+    builder_.fail(place, "param " + quoted(name) + " ends a chain of more than " +
+                             std::to_string(kLongestChain) + " params");
+  }
+  param.open = true;
+  param.value = evaluateAt(param.line->arguments.front());
+  param.open = false;
+  param.known = true;
+  --depth_;
+  return param.value;
+}
+
+double MdlNumbers::evaluateAt(const MdlToken& token) {
+  const std::string& text = token.text;
+  const auto placeOf = [&token](std::size_t offset) {
+    return Place{token.place.line, token.place.column + static_cast<int>(offset)};
+  };
+  // A name may hold characters that no expression takes, so it is tried as a whole first.
+  const std::string whole = trimmed(text);
+  if (params_.count(whole) > 0) {
+    return paramValue(whole, token.place);
+  }
+  try {
+    return evaluate(text, [&](const std::string& name, std::size_t offset) {
+      return nameValue(name, placeOf(offset));
+    });
+  } catch (const ExpressionError& e) {
+    const Place place = placeOf(e.offset());
+    builder_.fail(place, e.what());
+  }
+}
+
+double MdlNumbers::nameValue(const std::string& name, Place place) {
+  const std::vector<AudioParameter>& audio = builder_.scene().audio_parameters;
+  const auto found = std::find_if(audio.begin(), audio.end(),
+                                  [&](const AudioParameter& p) { return p.name == name; });
+  if (found == audio.end()) {
+    return paramValue(name, place);
+  }
+  if (!sample_) {
+    builder_.fail(place, "audioParam " + quoted(name) +
+                             " stands here, allowed only in the stiffness, damping or "
+                             "nonlinearity of a link or an osc");
+  }
+  const int index = static_cast<int>(found - audio.begin());
+  if (followed_ >= 0 && followed_ != index) {
+    builder_.fail(place, "two audioParams in one number, allowed: one");
+  }
+  followed_ = index;
+  return *sample_;
+}
+
+double MdlNumbers::evaluateWith(const MdlToken& token, double sample) {
+  sample_ = sample;
+  const double value = number(token);
+  sample_.reset();
+  return value;
+}
+
+Value MdlNumbers::value(const MdlToken& token, const std::string& what, const Limits& limits) {
+  followed_ = -1;
+  const double one = evaluateWith(token, 1.0);
+  const int audio = followed_;
+  if (audio < 0) {
+    return {number(token, what, limits)};
+  }
+  const double none = evaluateWith(token, 0.0);
+  const double two = evaluateWith(token, 2.0);
+  if (none != 0.0 || two != 2.0 * one) {
+    builder_.fail(token.place, what + " is '" + token.text +
+                                   "', allowed with an audioParam: a constant times it");
+  }
+  return {one, -1, audio};
+}
+
+double MdlNumbers::number(const MdlToken& token) {
+  if (!token.text.empty() && token.text.front() == '@') {
+    builder_.fail(token.place, quoted(token.text) + " is a module, allowed here: a number");
+  }
+  return evaluateAt(token);
+}
+
+double MdlNumbers::number(const MdlToken& token, const std::string& what, const Limits& limits) {
+  const double value = number(token);
+  if (!limits.hold(value)) {
+    builder_.fail(token.place, outOfRange(what, value, limits, false));
+  }
+  return value;
+}
+
+MdlNumbers::Vector MdlNumbers::vector(const MdlToken& token) {
+  constexpr const char* kSeparators = " \t\r,";
+  std::array<double, 3> xyz{};
+  std::size_t count = 0;
+  std::size_t at = token.text.find_first_not_of(kSeparators);
+  while (token.kind == MdlToken::Kind::kBracket && at != std::string::npos) {
+    const std::size_t end = std::min(token.text.find_first_of(kSeparators, at), token.text.size());
+    const std::optional<double> value =
+        parseNumber(std::string_view(token.text).substr(at, end - at));
+    if (!value || count == xyz.size()) {
+      count = 0;
+      break;
+    }
+    xyz[count++] = *value;
+    at = token.text.find_first_not_of(kSeparators, end);
+  }
+  if (count == xyz.size()) {
+    return {xyz[0], xyz[1], xyz[2]};
+  }
+  const bool expression = token.text.find_first_of("+*/(") != std::string::npos ||
+                          token.text.find(" - ") != std::string::npos;
+  if (token.text.find_first_of(kSeparators) != std::string::npos && !expression) {
+    builder_.fail(token.place, "[" + token.text +
+                                   "] is not a vector of 3 finite numbers, allowed: [x y z] or a "
+                                   "single number");
+  }
+  return {0.0, 0.0, number(token)};
+}
+
+}  // namespace ergotic::scene

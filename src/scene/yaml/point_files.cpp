@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/yaml/point_files.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <optional>
+
+#include "ergotic/exception.hpp"
+#include "scene/text/source_text.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+using Part = PointFiles::Part;
+
+constexpr std::size_t kMaxFileNameBytes = 255;
+
+const char* keyOf(Part part) {
+  return part == Part::kTables ? "tables" : "gestures";
+}
+
+bool isPart(const std::string& key) {
+  return key == keyOf(Part::kTables) || key == keyOf(Part::kGestures);
+}
+
+/// A map of parts, of one at least.
+bool isDocument(const YAML::Node& node) {
+  return node.IsMap() && node.size() > 0 &&
+         std::all_of(node.begin(), node.end(), [](const auto& entry) {
+           return entry.first.IsScalar() && isPart(entry.first.Scalar());
+         });
+}
+
+/// Where a file is: beside the scene.
+std::string pathBeside(const std::string& scene_file, const std::string& name) {
+  const std::size_t slash = scene_file.rfind('/');
+  return slash == std::string::npos ? name : scene_file.substr(0, slash + 1) + name;
+}
+
+bool isFileName(const std::string& name) {
+  const auto is_control = [](char c) {
+    return static_cast<unsigned char>(c) < 0x20U || c == '\x7F';
+  };
+  return !name.empty() && name.size() <= kMaxFileNameBytes && name.front() != '/' &&
+         std::none_of(name.begin(), name.end(), is_control);
+}
+
+/// The shortest text that reads back to the same bits.
+void appendNumber(std::string& text, double value) {
+  std::array<char, 32> digits{};
+  const std::to_chars_result end = std::to_chars(digits.begin(), digits.end(), value);
+  text.append(digits.data(), end.ptr);
+}
+
+/// `"name": [[x, y], ...]`
+void appendPoints(std::string& text, const std::string& name, const PointList& points) {
+  text += '"';
+  for (const char c : name) {
+    text += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
+  }
+  text += "\": [";
+  const char* comma = "";
+  for (const auto& [x, y] : points) {
+    text += comma;
+    text += '[';
+    appendNumber(text, x);
+    text += ", ";
+    appendNumber(text, y);
+    text += ']';
+    comma = ", ";
+  }
+  text += ']';
+}
+
+}  // namespace
+
+PointFiles::PointFiles(SceneBuilder& builder, const YAML::Node* document) : builder_(builder) {
+  if (document == nullptr) {
+    return;
+  }
+  self_contained_ = true;
+  const Place place = placeOf(*document, {1, 1});
+  if (!isDocument(*document)) {
+    builder_.fail(place,
+                  "a second document, allowed: one in each file, and one after it that "
+                  "begins with 'tables:' or 'gestures:'");
+  }
+  forEachEntry(builder_, *document, "the second document", place,
+               [&](const std::string& key, Place, const YAML::Node& entries) {
+                 const Part part = key == keyOf(Part::kTables) ? Part::kTables : Part::kGestures;
+                 forEachEntry(builder_, entries, quoted(key) + " of the second document", place,
+                              [&](const std::string& name, Place at, const YAML::Node& points) {
+                                appended_[{part, name}] = {points, at};
+                              });
+               });
+}
+
+const PointFiles::Appended* PointFiles::find(Part part, const std::string& key) {
+  const auto found = appended_.find({part, key});
+  if (found == appended_.end()) {
+    return nullptr;
+  }
+  found->second.used = true;
+  return &found->second;
+}
+
+std::string PointFiles::nameOf(const YamlMap& spec) {
+  std::string name = spec.word("file");
+  if (!isFileName(name)) {
+    spec.fail("file", "file " + quoted(name) + " of " + spec.what() +
+                          " is no path from the scene's folder, allowed: 1..." +
+                          std::to_string(kMaxFileNameBytes) + " bytes that do not begin with '/'");
+  }
+  return name;
+}
+
+PointFiles::File PointFiles::open(const YamlMap& spec) const {
+  const std::string path = pathBeside(builder_.scene().file, nameOf(spec));
+  std::optional<std::string> text = readBytes(path);
+  if (!text) {
+    spec.fail("file",
+              "cannot read " + quoted(path) + " of " + spec.what() + ": " + std::strerror(errno));
+  }
+  return {std::move(*text), path};
+}
+
+void PointFiles::keep(Part part, const std::string& key, PointList points) {
+  kept_[{part, key}] = std::move(points);
+}
+
+void PointFiles::finish() {
+  for (const auto& [id, appended] : appended_) {
+    if (!appended.used) {
+      const bool is_table = id.first == Part::kTables;
+      builder_.fail(appended.place, (is_table ? "table " : "gesture ") + quoted(id.second) +
+                                        " is used by no " + (is_table ? "link" : "agent"));
+    }
+  }
+  if (!kept_.empty()) {
+    append();
+  }
+}
+
+void PointFiles::append() {
+  std::string& text = builder_.scene().text;
+  const std::size_t written = text.size();
+  text += text.empty() || text.back() == '\n' ? "---\n" : "\n---\n";
+  const std::pair<const std::pair<Part, std::string>, PointList>* last = nullptr;
+  for (const auto& entry : kept_) {
+    const Part part = entry.first.first;
+    if (last != nullptr && last->first.first == part) {
+      text += ",\n  ";
+    } else {
+      text += std::string(last != nullptr ? "}\n" : "") + keyOf(part) + ": {";
+    }
+    appendPoints(text, entry.first.second, entry.second);
+    last = &entry;
+  }
+  text += "}\n";
+  if (text.size() > kMaxTextBytes) {
+    builder_.fail({1, 1}, "the text has " + std::to_string(written) + " bytes and its tables " +
+                              std::to_string(text.size() - written) + ", allowed: at most " +
+                              std::to_string(kMaxTextBytes) + " in all");
+  }
+}
+
+}  // namespace ergotic::scene

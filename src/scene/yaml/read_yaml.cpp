@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <yaml-cpp/depthguard.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
+#include "scene/text/overrides.hpp"
+#include "scene/text/source_text.hpp"
+#include "scene/yaml/yaml_elements.hpp"
+#include "scene/yaml/yaml_rows.hpp"
+#include "scene/yaml/yaml_tables.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+constexpr int kFormatVersion = 1;
+
+/// The scene, and after it the tables of its files if the text has them.
+std::vector<YAML::Node> parse(const SceneBuilder& builder, const std::string& text) {
+  try {
+    std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.empty() || documents.front().IsNull()) {
+      builder.fail({1, 1}, "the scene is empty, allowed: a map that begins with 'ergotic: 1'");
+    }
+    if (documents.size() > 2) {
+      builder.fail(placeOf(documents[2], {1, 1}), "a third document, allowed: at most two");
+    }
+    return documents;
+  } catch (const YAML::DeepRecursion& e) {
+    builder.fail({std::max(e.mark.line, 0) + 1, std::max(e.mark.column, 0) + 1},
+                 "nested too deeply, allowed: as deep as a scene needs");
+  } catch (const YAML::Exception& e) {
+    builder.fail({std::max(e.mark.line, 0) + 1, std::max(e.mark.column, 0) + 1},
+                 "not valid YAML: " + e.msg);
+  }
+}
+
+void readHead(SceneBuilder& builder, const YamlMap& top, const Overrides& overrides) {
+  const int version = top.integer("ergotic", {});
+  if (version != kFormatVersion) {
+    top.fail("ergotic", "format version " + std::to_string(version) +
+                            " is not known, allowed: " + std::to_string(kFormatVersion));
+  }
+  Scene& scene = builder.scene();
+  scene.name = top.has("name") ? top.word("name") : stemOf(scene.file);
+  scene.gestural_rate_hz = overrideGesturalRate(
+      overrides, top.number("gestural_rate", kGesturalRateLimits, scene.gestural_rate_hz),
+      scene.file);
+}
+
+void readParameters(SceneBuilder& builder, const YamlMap& top) {
+  forEachElement(
+      builder, top, "parameters", "parameter", [&](const std::string& name, const YamlMap& map) {
+        map.allow({"value", "range"});
+        if (name == kGesturalRateName) {
+          builder.fail(map.place(), "parameter name 'gestural_rate' is reserved");
+        }
+        map.at("range");
+        const std::vector<double> range = map.vector("range", 2, {});
+        if (range[0] > range[1]) {
+          map.fail("range", "range of " + map.what() + " is [" + numberText(range[0]) + ", " +
+                                numberText(range[1]) + "], allowed: [lowest, highest]");
+        }
+        Parameter parameter;
+        parameter.name = name;
+        parameter.value = map.number("value", {"", range[0], range[1]});
+        parameter.minimum = range[0];
+        parameter.maximum = range[1];
+        parameter.place = map.place();
+        builder.add(std::move(parameter));
+      });
+}
+
+void overrideParameters(SceneBuilder& builder, const Overrides& overrides) {
+  Scene& scene = builder.scene();
+  std::vector<std::string> names;
+  for (const Parameter& parameter : scene.parameters) {
+    names.push_back(parameter.name);
+  }
+  checkOverrides(overrides, names, scene.file);
+  for (Parameter& parameter : scene.parameters) {
+    const auto found = overrides.find(parameter.name);
+    if (found == overrides.end()) {
+      continue;
+    }
+    const Limits limits{"", parameter.minimum, parameter.maximum};
+    if (!limits.hold(found->second)) {
+      throw Exception(scene.file + ": error: override " +
+                      outOfRange(quoted(parameter.name), found->second, limits));
+    }
+    parameter.value = found->second;
+  }
+}
+
+/// What is legal but hardly meant.
+void warnOfLooseEnds(SceneBuilder& builder) {
+  Scene& scene = builder.scene();
+  std::vector<bool> used(scene.mats.size(), false);
+  for (const Port& port : scene.ports) {
+    used[static_cast<std::size_t>(port.mat)] = true;
+  }
+  for (const Input& input : scene.inputs) {
+    used[static_cast<std::size_t>(input.mat)] = true;
+  }
+  for (std::size_t i = 0; i < scene.mats.size(); ++i) {
+    const Mat& mat = scene.mats[i];
+    if (mat.type == MatType::kSlice && !used[i]) {
+      builder.warn(mat.place, "no port moves slice " + quoted(mat.name) + ": it stays at rest");
+    }
+    if (mat.type == MatType::kDriven && !used[i]) {
+      builder.warn(mat.place, "no input moves module " + quoted(mat.name) + ": it stays at rest");
+    }
+  }
+}
+
+}  // namespace
+
+void forEachElement(const SceneBuilder& builder,
+                    const YamlMap& top,
+                    const std::string& part,
+                    const std::string& kind,
+                    const ElementReader& element) {
+  if (!top.has(part)) {
+    return;
+  }
+  forEachEntry(builder, top.at(part), "'" + part + "'", top.keyPlaceAt(part),
+               [&](const std::string& name, Place place, const YAML::Node& node) {
+                 checkName(builder, name, place);
+                 if (isTableOfElements(node)) {
+                   const YamlMap table(builder, node, "table " + quoted(name), place);
+                   forEachRow(builder, table, kind, element);
+                   return;
+                 }
+                 element(name, YamlMap(builder, node, kind + " " + quoted(name), place));
+               });
+}
+
+Scene readYaml(const std::string& text, const std::string& name, const Overrides& overrides) {
+  checkBytes(text, name, Bytes::kUtf8);
+  SceneBuilder builder(name, text);
+  const std::vector<YAML::Node> documents = parse(builder, text);
+  const YamlMap top(builder, documents.front(), "the scene", {1, 1});
+  PointFiles files(builder, documents.size() > 1 ? &documents.back() : nullptr);
+  YamlTables tables(builder, files);
+  top.allow({"ergotic", "name", "gestural_rate", "parameters", "sections", "mats", "generators",
+             "lias", "agents", "ports", "inputs", "outputs"});
+  readHead(builder, top, overrides);
+  readParameters(builder, top);
+  overrideParameters(builder, overrides);
+  readSections(builder, top);
+  readMats(builder, top);
+  readGenerators(builder, top);
+  readPoints(builder, top);
+  readLias(builder, top, tables);
+  readPorts(builder, top);
+  readAgents(builder, top, files);
+  files.finish();
+  readPortFilters(builder, top);
+  readInputs(builder, top);
+  readOutputs(builder, top);
+  warnOfLooseEnds(builder);
+  return builder.finish();
+}
+
+}  // namespace ergotic::scene

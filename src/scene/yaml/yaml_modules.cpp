@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <utility>
+#include <vector>
+
+#include "scene/yaml/points.hpp"
+#include "scene/yaml/yaml_elements.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+/// One type of module and the keys it takes beside `type`, `section` and `at`.
+struct MatKind {
+  const char* name;
+  MatType type;
+  std::vector<std::string> keys;
+  std::vector<std::string> scalar_keys;  ///< in scalar sections only
+};
+
+const std::vector<MatKind>& matKinds() {
+  static const std::vector<MatKind> kKinds = {
+      {"mass", MatType::kMass, {"mass", "x", "v"}, {"rest"}},
+      {"ground", MatType::kGround, {}, {"x"}},
+      {"cell", MatType::kCell, {"mass", "stiffness", "damping", "matched", "x", "v"}, {}},
+      {"driven", MatType::kDriven, {"x"}, {"rest"}},
+      {"slice", MatType::kSlice, {}, {"rest"}},
+      {"point", MatType::kPoint, {"along", "guide", "range", "speed"}, {}},
+  };
+  return kKinds;
+}
+
+const MatKind& kindOf(const YamlMap& map) {
+  static const auto kWords = [] {
+    std::vector<std::string> words;
+    for (const MatKind& each : matKinds()) {
+      words.emplace_back(each.name);
+    }
+    return words;
+  }();
+  return matKinds()[map.choice("type", kWords)];
+}
+
+void allowKeys(const YamlMap& map, const MatKind& kind) {
+  std::vector<std::string> keys = {"type", "section", "at"};
+  keys.insert(keys.end(), kind.keys.begin(), kind.keys.end());
+  keys.insert(keys.end(), kind.scalar_keys.begin(), kind.scalar_keys.end());
+  map.allow(keys);
+}
+
+/// Rest, position and velocity.
+void readPlaces(const SceneBuilder& builder, const YamlMap& map, const MatKind& kind, Mat& mat) {
+  const Section& section = builder.scene().sectionOf(mat);
+  mat.rest = readRest(section, map, "at");
+  if (section.geometry == Geometry::kScalar) {
+    mat.rest.x() = map.number("rest", kMetreLimits, 0.0);
+  } else {
+    refuseIn(builder, section, map, kind.scalar_keys, "'at'");
+  }
+  const int moving = dimensionsOf(section.geometry);
+  Eigen::Vector3d at_rest = Eigen::Vector3d::Zero();
+  at_rest.head(moving) = mat.rest.head(moving);
+  mat.position = readMoving(section, map, "x", kMetreLimits, at_rest);
+  if (map.has("v")) {
+    mat.push.edit().velocity =
+        readMoving(section, map, "v", kVelocityLimits, Eigen::Vector3d::Zero());
+  }
+  if (kind.type == MatType::kGround) {
+    mat.rest.head(moving) = mat.position.head(moving);
+  }
+}
+
+Mat readMat(const SceneBuilder& builder, const std::string& name, const YamlMap& map) {
+  const MatKind& kind = kindOf(map);
+  allowKeys(map, kind);
+  Mat mat;
+  mat.name = name;
+  mat.type = kind.type;
+  mat.section = sectionOf(builder, map);
+  mat.place = map.place();
+  if (kind.type == MatType::kMass || kind.type == MatType::kCell) {
+    mat.mass = map.value("mass", kMassLimits);
+  }
+  mat.stiffness = map.value("stiffness", kStiffnessLimits, {});
+  mat.damping = map.value("damping", kDampingLimits, {});
+  mat.matched = map.flag("matched", kind.type == MatType::kCell);
+  readPlaces(builder, map, kind, mat);
+  const Section& section = builder.scene().sectionOf(mat);
+  if (kind.type == MatType::kSlice && !section.gestural && !section.automatic_rate) {
+    builder.fail(map.has("section") ? map.placeAt("section") : map.place(),
+                 map.what() + " is a slice in a section that is not gestural, allowed: sections " +
+                     "with rate: gestural or auto");
+  }
+  return mat;
+}
+
+/// `at: u` on a string, `at: [u, v]` on a mesh.
+void readStart(const SceneBuilder& builder, const YamlMap& map, Connection& connection) {
+  const Grid& grid = builder.scene().grids[static_cast<std::size_t>(connection.grid)];
+  const Limits along{"", connection.along_minimum, connection.along_maximum};
+  if (grid.rows == 1) {
+    connection.along = map.value("at", along);
+    return;
+  }
+  const YAML::Node& pair = map.at("at");
+  if (!pair.IsSequence() || pair.size() != 2) {
+    map.fail("at", "'at' of " + map.what() + " is no place on mesh " + quoted(grid.name) +
+                       ", allowed: [along, across]");
+  }
+  const std::string what = " number of 'at' of " + map.what();
+  connection.along = valueOf(builder, pair[0], "first" + what, along, map.placeAt("at"));
+  connection.across =
+      valueOf(builder, pair[1], "second" + what, kFractionLimits, map.placeAt("at"));
+}
+
+void readGuide(const SceneBuilder& builder, const YamlMap& map, Connection& connection) {
+  if (!map.has("guide")) {
+    return;
+  }
+  const YamlMap guide = map.map("guide");
+  guide.allow({"mat", "scale"});
+  connection.guide = builder.mat(guide.word("mat"), guide.placeAt("mat"));
+  connection.guide_scale = guide.number("scale", kGuideScaleLimits);
+  const Mat& mat = builder.scene().mats[static_cast<std::size_t>(connection.guide)];
+  if (mat.type == MatType::kPoint) {
+    guide.fail("mat", map.what() + " is guided by point " + quoted(mat.name) +
+                          ", allowed: modules of any other type");
+  }
+}
+
+void readPoint(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
+  Connection connection;
+  connection.place = map.place();
+  if (map.has("section")) {
+    builder.fail(map.keyPlaceAt("section"),
+                 "'section' of " + map.what() + ", allowed: none, it is that of what it lies on");
+  }
+  connection.grid = builder.grid(map.word("along"), map.placeAt("along"));
+  if (map.has("range")) {
+    const std::vector<double> range = map.vector("range", 2, kFractionLimits);
+    if (range[0] > range[1]) {
+      map.fail("range", "'range' of " + map.what() + " is [" + numberText(range[0]) + ", " +
+                            numberText(range[1]) + "], allowed: [lowest, highest]");
+    }
+    connection.along_minimum = range[0];
+    connection.along_maximum = range[1];
+  }
+  readStart(builder, map, connection);
+  readGuide(builder, map, connection);
+  connection.speed = map.number("speed", kPointSpeedLimits, 0.0);
+  addPoint(builder, name, connection);
+}
+
+}  // namespace
+
+void readMats(SceneBuilder& builder, const YamlMap& top) {
+  forEachElement(builder, top, "mats", "module", [&](const std::string& name, const YamlMap& map) {
+    if (kindOf(map).type != MatType::kPoint) {
+      builder.add(readMat(builder, name, map));
+    }
+  });
+}
+
+void readPoints(SceneBuilder& builder, const YamlMap& top) {
+  forEachElement(builder, top, "mats", "module", [&](const std::string& name, const YamlMap& map) {
+    const MatKind& kind = kindOf(map);
+    if (kind.type == MatType::kPoint) {
+      allowKeys(map, kind);
+      readPoint(builder, name, map);
+    }
+  });
+}
+
+}  // namespace ergotic::scene

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "scene/generate/scene_builder.hpp"
+#include "scene/yaml/point_files.hpp"
+#include "scene/yaml/yaml_map.hpp"
+
+namespace ergotic::scene {
+
+/// The tables of a scene, wherever their points are: `[[x, y], ...]`, or
+/// `{points: [[x, y], ...], interpolation: ...}`, or `{file: name.csv, interpolation: ...}`.
+class YamlTables {
+ public:
+  YamlTables(SceneBuilder& builder, PointFiles& files) : builder_(builder), files_(files) {}
+
+  /// The table under a key.
+  /// \throws TextError with the place in the scene, or in the file of points
+  Table read(const YamlMap& map, const std::string& key);
+
+ private:
+  Table readPoints(const YAML::Node& points, const std::string& what, Place place) const;
+  Table readNamed(const YamlMap& spec);
+  Table readFile(const YamlMap& spec);
+
+  SceneBuilder& builder_;
+  PointFiles& files_;
+  std::map<std::string, Table> known_;  ///< by file
+  std::size_t points_ = 0;              ///< of all tables so far
+};
+
+}  // namespace ergotic::scene

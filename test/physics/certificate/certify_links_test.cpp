@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Verdicts on links that are more than springs and dampers.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "ergotic/physics/certificate/certify.hpp"
+#include "support/scene_builder.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+using scene::LiaType;
+using test::SceneBuilder;
+
+constexpr double kRate = 44100.0;
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+bool has(const Certificate& c, const std::string& text) {
+  return std::any_of(c.findings.begin(), c.findings.end(), [&](const std::string& finding) {
+    return finding.find(text) != std::string::npos;
+  });
+}
+
+/// A decimated contact is computed at the slower step, so it is harder for it by the square.
+TEST(CertifyLinksTest, DecimatedContactsAreJudgedByTheSlowerStep) {
+  const auto verdict = [](double kappa, scene::Coupling coupling) {
+    SceneBuilder b;
+    const int l = b.link(LiaType::kContact, b.slice(0), b.mass(1.0), kappa * kRate * kRate);
+    b.scene.lias[at(l)].coupling = coupling;
+    return certify(b.scene, {kRate, 14}, {1e6, 1.0})
+        .verdict;  // the hand's own limit is not the matter
+  };
+  EXPECT_EQ(verdict(0.04, scene::Coupling::kHold), Verdict::kPassive);
+  EXPECT_EQ(verdict(0.04 / 196.0, scene::Coupling::kDecimate), Verdict::kPassive);
+  EXPECT_EQ(verdict(0.06 / 196.0, scene::Coupling::kDecimate), Verdict::kUnproven);
+}
+
+/// Hold and mean make no energy on the average only: what is not linear may keep what they lend.
+TEST(CertifyLinksTest, NothingNonlinearIsProvenBesideACoupledSlowMass) {
+  const auto verdict = [](LiaType type, scene::Scheme scheme, bool by_hand) {
+    SceneBuilder b;
+    const int string = b.chain(10, 1e-3, 1e4, 0.1);
+    const int slow = by_hand ? b.slice(0) : b.mass(1.0, 0.0, 0.0, SceneBuilder::kGestural);
+    b.spring(slow, string + 4, 100.0);
+    scene::Lia& lia = b.scene.lias[at(b.link(type, string + 6, b.ground(), 10.0, 1e-3))];
+    lia.scheme = scheme;
+    lia.law.edit().width = {type == LiaType::kContact ? 0.0 : 1.0};
+    return certify(b.scene, {kRate, 14}).verdict;
+  };
+  for (const auto scheme : {scene::Scheme::kExplicit, scene::Scheme::kGuarded}) {
+    EXPECT_EQ(verdict(LiaType::kContact, scheme, false), Verdict::kUnproven);
+    EXPECT_EQ(verdict(LiaType::kContact, scheme, true), Verdict::kPassive);
+    EXPECT_EQ(verdict(LiaType::kBow, scheme, false), Verdict::kUnproven);
+    EXPECT_EQ(verdict(LiaType::kBow, scheme, true), Verdict::kBounded);
+  }
+  EXPECT_EQ(verdict(LiaType::kConditional, scene::Scheme::kExplicit, false), Verdict::kUnproven);
+  EXPECT_EQ(verdict(LiaType::kSpringDamper, scene::Scheme::kExplicit, false), Verdict::kPassive);
+}
+
+TEST(CertifyLinksTest, LinesThatTurnAreProvenOnlyWithoutRestLengthOrGuarded) {
+  const auto verdict = [](double rest_length, scene::Scheme scheme) {
+    SceneBuilder b;
+    b.scene.sections[0].geometry = scene::Geometry::kPlane;
+    scene::Lia& lia = b.scene.lias[at(b.spring(b.mass(1.0), b.ground(), 0.1 * kRate * kRate))];
+    lia.rest_length = rest_length;
+    lia.scheme = scheme;
+    return certify(b.scene, {kRate, 14});
+  };
+  EXPECT_EQ(verdict(0.0, scene::Scheme::kExplicit).verdict, Verdict::kPassive);
+  EXPECT_EQ(verdict(0.1, scene::Scheme::kExplicit).verdict, Verdict::kUnproven);
+  EXPECT_TRUE(has(verdict(0.1, scene::Scheme::kExplicit), "a line that turns"));
+  EXPECT_EQ(verdict(0.1, scene::Scheme::kGuarded).verdict, Verdict::kPassive);
+}
+
+TEST(CertifyLinksTest, SwitchingLinksAreJudgedByTheirKappa) {
+  const auto verdict = [](LiaType type, double kappa) {
+    SceneBuilder b;
+    const int mass = b.mass(1.0);
+    scene::Lia& lia = b.scene.lias[at(b.link(type, mass, b.ground(), kappa * kRate * kRate))];
+    lia.law.edit().stiffness_limit = lia.stiffness;
+    return certify(b.scene, {kRate, 14});
+  };
+  for (const LiaType type : {LiaType::kContact, LiaType::kCubicContact, LiaType::kClippedCubic}) {
+    EXPECT_EQ(verdict(type, 0.04).verdict, Verdict::kPassive);
+    EXPECT_TRUE(verdict(type, 0.04).findings.empty());
+    EXPECT_EQ(verdict(type, 0.2).verdict, Verdict::kUnproven);
+    EXPECT_TRUE(has(verdict(type, 0.2), "hard hits"));
+    EXPECT_EQ(verdict(type, 0.5).verdict, Verdict::kUnproven);
+    EXPECT_EQ(verdict(type, 4.1).verdict, Verdict::kUnstable);
+  }
+}
+
+TEST(CertifyLinksTest, SaturatingElementsAreBounded) {
+  for (const LiaType type : {LiaType::kPluck, LiaType::kBow, LiaType::kSmoothBow}) {
+    SceneBuilder b;
+    const int mass = b.mass(1.0);
+    scene::Lia& lia = b.scene.lias[at(b.link(type, mass, b.ground(), 0.0, 0.0))];
+    lia.law.edit().width = {0.1};
+    lia.damping = {0.1 * kRate};
+    EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
+    lia.damping = {3.5 * kRate};
+    EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnstable);
+  }
+}
+
+TEST(CertifyLinksTest, SteepestLineOfATableCounts) {
+  SceneBuilder b;
+  const int mass = b.mass(1.0);
+  scene::Lia& lia = b.scene.lias[at(b.link(LiaType::kPluck, mass, b.ground(), 0.0))];
+  const double k = 4.5 * kRate * kRate;
+  lia.law.edit().table.points = {{-0.01, 0.0}, {0.0, 0.0}, {0.001, 0.001 * k}, {0.002, 0.0}};
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnstable);
+  lia.law.edit().table.points[2].second *= 0.5;
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
+}
+
+TEST(CertifyLinksTest, WhatNoBoundCoversIsUnproven) {
+  SceneBuilder cubic;
+  const int mass = cubic.mass(1.0);
+  scene::Lia& lia = cubic.scene.lias[at(cubic.link(LiaType::kCubic, mass, cubic.ground(), 1.0))];
+  EXPECT_EQ(certify(cubic.scene, {kRate, 14}).verdict, Verdict::kPassive);
+  lia.law.edit().nonlinearity = {1.0};
+  EXPECT_EQ(certify(cubic.scene, {kRate, 14}).verdict, Verdict::kUnproven);
+
+  SceneBuilder negative;
+  const int free_mass = negative.mass(1.0);
+  negative.spring(free_mass, negative.ground(), 1.0, -0.1);
+  EXPECT_EQ(certify(negative.scene, {kRate, 14}).verdict, Verdict::kUnproven);
+}
+
+TEST(CertifyLinksTest, GuardedLinksMakeNoEnergy) {
+  const auto verdict = [](LiaType type, int section, scene::Scheme scheme) {
+    SceneBuilder b;
+    const int mass = b.mass(1.0, 0.0, 0.0, section);
+    const int other = b.mass(1.0);
+    scene::Lia& lia = b.scene.lias[at(b.link(type, mass, other, 50.0 * kRate * kRate))];
+    lia.scheme = scheme;
+    lia.law.edit().exponent = {1.5};
+    lia.law.edit().width = {0.1};
+    lia.damping = {type == LiaType::kBow ? 50.0 * kRate : 0.0};
+    return certify(b.scene, {kRate, 14}).verdict;
+  };
+  const auto guarded = scene::Scheme::kGuarded;
+  EXPECT_EQ(verdict(LiaType::kPowerContact, 0, guarded), Verdict::kPassive);
+  EXPECT_EQ(verdict(LiaType::kContact, 0, guarded), Verdict::kPassive);
+  EXPECT_EQ(verdict(LiaType::kBow, 0, guarded), Verdict::kBounded);
+  EXPECT_EQ(verdict(LiaType::kContact, SceneBuilder::kGestural, guarded), Verdict::kUnproven);
+  EXPECT_EQ(verdict(LiaType::kPowerContact, 0, scene::Scheme::kExplicit), Verdict::kUnproven);
+  EXPECT_EQ(verdict(LiaType::kContact, 0, scene::Scheme::kExplicit), Verdict::kUnstable);
+}
+
+TEST(CertifyLinksTest, PowerContactSaysHowDeepItWouldHold) {
+  SceneBuilder b;
+  const int mass = b.mass(1.0);
+  scene::Lia& lia =
+      b.scene.lias[at(b.link(LiaType::kPowerContact, mass, b.ground(), kRate * kRate))];
+  lia.law.edit().exponent = {2.0};  // slope 2 K p: h^2 2 K p / M = 0.25 at p = 0.125
+  const Certificate c = certify(b.scene, {kRate, 14});
+  EXPECT_EQ(c.verdict, Verdict::kUnproven);
+  EXPECT_TRUE(has(c, "up to an overlap of 0.125 m"));
+  lia.law.edit().exponent = {1.0};
+  lia.stiffness = {0.04 * kRate * kRate};
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kPassive);
+}
+
+TEST(CertifyLinksTest, TablesThatFallAreBoundedAndOthersSwitch) {
+  SceneBuilder b;
+  const int mass = b.mass(1.0);
+  scene::Lia& lia = b.scene.lias[at(b.link(LiaType::kTable, mass, b.ground(), 0.0))];
+  const double k = 0.04 * kRate * kRate;
+  lia.law.edit().table.points = {{-0.01, -0.01 * k}, {0.0, 0.0}, {0.01, 0.005 * k}};
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kPassive);
+  EXPECT_NEAR(certify(b.scene, {kRate, 14}).sections[0].lambda, 0.04, 1e-6);
+  lia.law.edit().viscous_table.points = {{-1.0, -0.1 * kRate}, {1.0, 0.1 * kRate}};
+  EXPECT_NEAR(certify(b.scene, {kRate, 14}).sections[0].lambda, 0.04 + 2.0 * 0.1, 1e-6);
+  lia.law.edit().table.points[2].second = -0.005 * k;
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
+  lia.law.edit().table.points[1].second = 2.0 * kRate * kRate;
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnstable);
+}
+
+TEST(CertifyLinksTest, ConditionalLinksAreBoundedAndCountClosed) {
+  SceneBuilder b;
+  const int mass = b.mass(1.0);
+  scene::Lia& lia =
+      b.scene.lias[at(b.link(LiaType::kConditional, mass, b.ground(), kRate * kRate))];
+  lia.law.edit().width = {0.01};
+  lia.law.edit().release = 0.02;
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
+  lia.stiffness = {4.1 * kRate * kRate};
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnstable);
+}
+
+TEST(CertifyLinksTest, SteepFrictionIsNoted) {
+  const auto certificate = [](double rise) {
+    SceneBuilder b;
+    const int mass = b.mass(1.0);
+    scene::Lia& lia = b.scene.lias[at(b.link(LiaType::kBow, mass, b.ground(), 0.0))];
+    lia.damping = {1.5 * rise * kRate};  // its steepest rise is 2/3 Z, its fall 1/3 Z
+    lia.law.edit().width = {0.1};
+    return certify(b.scene, {kRate, 14});
+  };
+  EXPECT_TRUE(certificate(0.39).findings.empty());
+  EXPECT_TRUE(has(certificate(0.41), "stick and slip will be inaccurate"));
+  EXPECT_FALSE(has(certificate(0.99), "overshoots"));
+  EXPECT_TRUE(has(certificate(1.01), "overshoots"));
+  EXPECT_EQ(certificate(1.99).verdict, Verdict::kBounded);
+  EXPECT_EQ(certificate(2.01).verdict, Verdict::kUnstable);
+}
+
+}  // namespace
+}  // namespace ergotic::physics

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/layout/groups.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/scene_builder.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+using test::SceneBuilder;
+
+constexpr Rates kRates{44100.0, 14};
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// One mass in each of several sections of some divisors; 0: gestural. Those of the builder are
+/// empty.
+class Sections {
+ public:
+  explicit Sections(const std::vector<int>& divisors) {
+    for (const int divisor : divisors) {
+      scene::Section section = b.scene.sections[0];
+      section.gestural = divisor == 0;
+      section.divisor = divisor == 0 ? 1 : divisor;
+      section.name = std::string(1, static_cast<char>('a' + masses_));
+      b.scene.sections.push_back(section);
+      b.mass(1.0, 0.0, 0.0, 2 + masses_++);
+    }
+  }
+
+  scene::Lia& guarded(int a, int other) {
+    scene::Lia& lia = b.scene.lias[at(b.link(scene::LiaType::kContact, a, other, 1.0))];
+    lia.scheme = scene::Scheme::kGuarded;
+    return lia;
+  }
+
+  Groups split(const Rates& rates = kRates) {
+    layout = makeLayout(b.scene, rates);
+    return splitIntoGroups(b.scene, rates, layout);
+  }
+
+  /// Names of what runs together, and after a colon of what is held.
+  std::string told(const Rates& rates = kRates) {
+    const Groups groups = split(rates);
+    std::vector<std::string> all;
+    for (const Group& group : groups.running) {
+      all.push_back(namesOf(group));
+    }
+    std::sort(all.begin(), all.end());
+    std::string text;
+    for (const std::string& names : all) {
+      text += names + ' ';
+    }
+    return text + ": " + namesOf(groups.held);
+  }
+
+  SceneBuilder b;
+  Layout layout;
+
+ private:
+  std::string namesOf(const Group& group) const {
+    std::string names;
+    for (const int section : group.sections) {
+      names += b.scene.sections[at(section)].name;
+    }
+    return names;
+  }
+
+  int masses_ = 0;
+};
+
+TEST(GroupsTest, SectionsWithoutLinksRunAlone) {
+  EXPECT_EQ(Sections({1, 1, 2, 0, 28}).told(), "a b c : de");
+}
+
+TEST(GroupsTest, LinksBetweenRunningSectionsJoinThem) {
+  Sections sections({1, 1, 2, 1, 0});
+  sections.b.spring(0, 1, 1.0);
+  sections.b.spring(2, 1, 1.0);
+  EXPECT_EQ(sections.told(), "abc d : e");
+}
+
+TEST(GroupsTest, LinksToHeldSectionsJoinNothing) {
+  Sections sections({1, 1, 0});
+  sections.b.spring(0, 2, 1.0);
+  sections.b.spring(1, 2, 1.0);
+  sections.guarded(1, 2);
+  EXPECT_EQ(sections.told(), "a b : c");
+  EXPECT_EQ(sections.told({44100.0, 1}), "abc : ") << "nothing is held where a tick is one frame";
+}
+
+TEST(GroupsTest, EachGroupSeesHeldModulesInSlotsOfItsOwn) {
+  Sections sections({1, 1, 0});
+  sections.b.spring(0, 2, 1.0);
+  sections.b.spring(2, 0, 1.0);
+  sections.b.spring(1, 2, 1.0);
+  const Groups groups = sections.split();
+  const int held = sections.layout.slot_of_mat[2];
+  std::vector<int> slots;
+  for (const Group& group : groups.running) {
+    ASSERT_EQ(group.proxies.size(), 1U) << "one for both links";
+    EXPECT_EQ(group.proxies[0].of, held);
+    slots.push_back(group.proxies[0].slot);
+  }
+  EXPECT_GE(std::abs(slots[0] - slots[1]), 16) << "on one cache line";
+  for (const LinkRun& run : sections.layout.runs) {
+    const int seen = run.section_a == 4 ? run.ends[0].a : run.ends[0].b;
+    EXPECT_EQ(seen, groups.running[at(run.group)].proxies[0].slot);
+  }
+}
+
+TEST(GroupsTest, PlacesRunWithWhatLeadsThem) {
+  for (const bool is_held : {false, true}) {
+    Sections sections({1, is_held ? 0 : 1, 0});
+    SceneBuilder& b = sections.b;
+    b.mass(1.0, 0.0, 0.0, 3);
+    b.scene.mats[1].section = 3;
+    // A string of two masses in b, a point on it led by a.
+    b.mass(1.0, 0.0, 0.0, 3);
+    b.scene.grids.push_back({"g", 3, 2, 1});
+    const int point = b.ground(0.0, 3);
+    b.scene.mats[at(point)].type = scene::MatType::kPoint;
+    scene::Connection connection;
+    connection.mat = point;
+    connection.guide = 0;
+    b.scene.connections.push_back(connection);
+    EXPECT_EQ(sections.told(), "ab : c") << "even if it would be held otherwise";
+    b.scene.connections[0].guide = 2;
+    EXPECT_EQ(sections.told(), is_held ? "a : bc" : "a b : c");
+  }
+}
+
+TEST(GroupsTest, GuardedLinksThatEndTheirStepsTogetherRunTogether) {
+  Sections sections({1, 0, 0});
+  sections.guarded(0, 1).coupling = scene::Coupling::kDecimate;
+  EXPECT_EQ(sections.told(), "ab : c");
+  sections.guarded(1, 2);
+  EXPECT_EQ(sections.told(), "abc : ") << "what is linked to one that runs now";
+}
+
+TEST(GroupsTest, ExpensiveGroupsComeFirst) {
+  Sections sections({7, 1, 1});
+  sections.b.spring(1, 2, 1.0);
+  const Groups groups = sections.split();
+  ASSERT_EQ(groups.running.size(), 2U);
+  EXPECT_EQ(groups.running[0].cost, 28);
+  EXPECT_EQ(groups.running[1].cost, 2);
+}
+
+TEST(GroupsTest, DescriptionTellsWhatThreadsCanShare) {
+  Sections sections({1, 1, 0});
+  std::vector<std::string> lines = describeGroups(sections.b.scene, sections.split(), 2);
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_EQ(lines[0], "held while the others run: 'c', 1 modules");
+  EXPECT_EQ(lines[1], "stepped together: 'a', 1 modules");
+  EXPECT_EQ(lines[3], "threads: 2 for 2 independent groups");
+  sections.b.spring(0, 1, 1.0);
+  lines = describeGroups(sections.b.scene, sections.split(), 1);
+  EXPECT_EQ(lines.back(), "threads: 1, as all that runs is one group; a section is never divided");
+}
+
+}  // namespace
+}  // namespace ergotic::physics

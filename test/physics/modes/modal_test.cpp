@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "ergotic/physics/certificate/certify.hpp"
+#include "physics/modes/modal_scenes.hpp"
+#include "support/mode_cache.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+using test::Player;
+using test::SceneBuilder;
+
+class ModalTest : public ::testing::Test {
+ private:
+  test::ModeCache cache_;
+};
+
+double largestResidual(const Player& player) {
+  Energies energies = player.instrument->makeEnergies();
+  player.instrument->readEnergies(energies);
+  double turned_over = energies.stored;
+  for (const SectionEnergy& s : energies.sections) {
+    turned_over += std::abs(s.dissipated) + std::abs(s.from_inputs) + std::abs(s.from_device);
+  }
+  return std::abs(energies.residual) / turned_over;
+}
+
+/// Plays both with noise on the inputs and a hand that strikes now and then.
+void play(Player& network, Player& modal, int frames) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise;
+  for (int n = 0; n * kRates.ratio < frames; ++n) {
+    for (std::size_t i = 0; i < network.inputs.size(); ++i) {
+      network.inputs[i] = modal.inputs[i] = 0.1 * noise(random);
+    }
+    for (std::size_t p = 0; p < network.positions.size(); ++p) {
+      network.positions[p] = modal.positions[p] = -1e-3 * std::sin(0.05 * n);
+    }
+    network.tick();
+    modal.tick();
+  }
+}
+
+void expectSameSound(const Player& network, const Player& modal, double tolerance) {
+  for (std::size_t c = 0; c < network.heard.size(); ++c) {
+    double peak = 0.0;
+    double off = 0.0;
+    for (std::size_t n = 0; n < network.heard[c].size(); ++n) {
+      peak = std::max(peak, std::abs(network.heard[c][n]));
+      off = std::max(off, std::abs(network.heard[c][n] - modal.heard[c][n]));
+    }
+    EXPECT_GT(peak, 0.0) << c;
+    EXPECT_LT(off, tolerance * peak) << c;
+  }
+}
+
+void expectSameGuards(const Player& network, const Player& modal) {
+  std::vector<GuardReport> expected = network.instrument->makeGuardReports();
+  std::vector<GuardReport> reports = modal.instrument->makeGuardReports();
+  ASSERT_EQ(reports.size(), expected.size());
+  network.instrument->readGuards(expected);
+  modal.instrument->readGuards(reports);
+  for (std::size_t g = 0; g < reports.size(); ++g) {
+    EXPECT_EQ(reports[g].lia, expected[g].lia);
+    EXPECT_GT(reports[g].active, 0);
+    EXPECT_EQ(reports[g].active, expected[g].active);
+    EXPECT_EQ(reports[g].clipped, expected[g].clipped);
+  }
+}
+
+void expectExact(const scene::Scene& scene) {
+  Player network(scene, kRates);
+  Player modal(withModes(scene, scene::kAllModes), kRates);
+  play(network, modal, 10000);
+  expectSameSound(network, modal, 1e-10);
+  EXPECT_LT(largestResidual(modal), 1e-11);
+  expectSameGuards(network, modal);
+}
+
+TEST_F(ModalTest, StringWithAllModesMovesAsItsNetwork) {
+  expectExact(dampedString().scene);
+}
+
+TEST_F(ModalTest, PlateWithAllModesMovesAsItsNetworkUnderContactsAndASlice) {
+  expectExact(playedPlate().scene);
+}
+
+TEST_F(ModalTest, EveryInstructionSetGivesTheSameBits) {
+  const scene::Scene scene = settle(withModes(playedPlate().scene, scene::kAllModes), kRates).scene;
+  for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
+    for (const rt::Isa isa : rt::isas()) {
+      CompileOptions options(precision);
+      options.isa = rt::Isa::kBaseline;
+      Player plain(compile(scene, kRates, options));
+      options.isa = isa;
+      Player fast(compile(scene, kRates, options));
+      play(plain, fast, 2000);
+      EXPECT_EQ(plain.heard, fast.heard) << rt::nameOf(isa);
+    }
+  }
+}
+
+TEST_F(ModalTest, EvenNetsHaveModesThoughDampingIsNotInProportion) {
+  Built b;
+  constexpr int kSide = 9;
+  const double k = 0.1 * 1e-3 * kRate * kRate;
+  const auto isEdge = [](int column, int row) {
+    return column == 0 || row == 0 || column == kSide - 1 || row == kSide - 1;
+  };
+  for (int i = 0; i < kSide * kSide; ++i) {
+    isEdge(i % kSide, i / kSide) ? b.ground() : b.mass(1e-3, 1e-4 * std::sin(1.3 * i));
+  }
+  const auto join = [&](int column, int row, int right, int down, double stiffness) {
+    const int to = column + right;
+    if (to >= 0 && to < kSide && row + down < kSide &&
+        !(isEdge(column, row) && isEdge(to, row + down))) {
+      b.spring(row * kSide + column, (row + down) * kSide + to, stiffness, 1e-7 * k);
+    }
+  };
+  for (int i = 0; i < kSide * kSide; ++i) {
+    join(i % kSide, i / kSide, 1, 0, k);
+    join(i % kSide, i / kSide, 0, 1, k);
+    join(i % kSide, i / kSide, 1, 1, 0.5 * k);
+    join(i % kSide, i / kSide, -1, 1, 0.5 * k);
+  }
+  b.scene.sections[0].medium = {1e-3};
+  b.hear(3 * kSide + 4, 0);
+  b.hear(5 * kSide + 2, 1);
+  b.force(2 * kSide + 2);
+  b.force(4 * kSide + 4);
+  expectExact(b.scene);
+  EXPECT_NE(described(withModes(b.scene, scene::kAllModes)).find("all of them, so exact"),
+            std::string::npos);
+  EXPECT_EQ(described(withModes(b.scene, scene::kAllModes)).find("stay modules"),
+            std::string::npos);
+}
+
+TEST_F(ModalTest, SlowerSectionsMoveAsTheirNetwork) {
+  Plate b = playedPlate();
+  b.scene.sections[0].divisor = 5;
+  for (scene::Lia& lia : b.scene.lias) {
+    lia.stiffness.factor /= 25.0;
+  }
+  for (scene::Lia& lia : b.scene.lias) {
+    lia.damping.factor /= 25.0;
+  }
+  expectExact(b.scene);
+}
+
+TEST_F(ModalTest, WholeStringsOfOneSectionHaveModesOfTheirOwn) {
+  Built b = dampedString();
+  const double k = 0.3 * 2e-3 * kRate * kRate;
+  const int other = b.chain(20, 2e-3, k, 1e-7 * k);
+  b.scene.mats[at(other + 4)].position.x() = 1e-3;
+  b.hear(other + 11, 4);
+  b.spring(other + 9, 8, 1e4, 0.1);
+  expectExact(b.scene);
+  EXPECT_NE(described(withModes(b.scene, scene::kAllModes)).find("is played by 50 modes"),
+            std::string::npos);
+}
+
+TEST_F(ModalTest, SectionsFallAsleepAndWakeAsTheirNetwork) {
+  Built b;
+  const double k = 0.3 * 1e-3 * kRate * kRate;
+  const int first = b.chain(20, 1e-3, k, 1e-6 * k);
+  b.scene.sections[0].medium = {0.5};
+  b.scene.sections[0].sleep_energy = 1e-9;
+  b.hear(first + 7);
+  b.force(first + 4);
+  Player network(b.scene, kRates);
+  Player modal(withModes(b.scene, scene::kAllModes), kRates);
+  for (int tick = 0; tick < 1000; ++tick) {
+    const double force = tick % 400 == 0 ? 1.0 : 0.0;
+    std::fill(network.inputs.begin(), network.inputs.end(), force);
+    modal.inputs = network.inputs;
+    network.tick();
+    modal.tick();
+  }
+  expectSameSound(network, modal, 1e-10);
+  EXPECT_EQ(modal.heard[0][3990], 0.0);
+  EXPECT_NE(modal.heard[0][4050], 0.0);
+}
+
+TEST_F(ModalTest, PictureShowsModulesThatNothingTouches) {
+  const Plate b = playedPlate();
+  Player network(b.scene, kRates);
+  Player modal(withModes(b.scene, scene::kAllModes), kRates);
+  play(network, modal, 3000);
+  std::vector<float> exact(at(b.scene.coordinates()));
+  std::vector<float> seen(exact.size());
+  network.instrument->readDisplacements(exact.data());
+  modal.instrument->readDisplacements(seen.data());
+  float largest = 0.0F;
+  for (const float x : exact) {
+    largest = std::max(largest, std::abs(x));
+  }
+  for (std::size_t m = 0; m < exact.size(); ++m) {
+    EXPECT_NEAR(seen[m], exact[m], 0.2F * largest) << m;
+  }
+  EXPECT_NEAR(seen[at(b.of(3, 4))], exact[at(b.of(3, 4))], 1e-6F * largest);
+}
+
+TEST_F(ModalTest, FewLinksThatAreDampedDifferentlyStayLinks) {
+  Built b = dampedString();
+  b.scene.lias[5].damping.factor *= 3.0;
+  b.scene.mats[21].mass.parameter = 0;
+  b.scene.parameters.push_back({"weight", 1.0, 0.5, 2.0, {}});
+  expectExact(b.scene);
+  EXPECT_NE(described(withModes(b.scene, scene::kAllModes)).find("some stay modules: module 'm21'"),
+            std::string::npos);
+}
+
+TEST_F(ModalTest, PlacesBetweenModulesAndGroundsAreFollowed) {
+  Built b = dampedString();
+  b.scene.outputs.pop_back();  // the force on the ground that the place leans on
+  const int place = b.point(0, 32, 1, 0.4 / 31.0, 0.0);
+  b.hear(place, 3);
+  b.spring(place, b.ground(3e-4), 2e3, 0.05);
+  expectExact(b.scene);
+}
+
+TEST_F(ModalTest, ForcesOnTheirModulesAreThoseOfOtherGeometriesToo) {
+  Built b = dampedString();
+  scene::Section plane;
+  plane.name = "plane";
+  plane.geometry = scene::Geometry::kPlane;
+  b.scene.sections.push_back(plane);
+  const int anchor = b.ground(0.0, 2);
+  b.scene.mats.back().position.y() = 0.05;
+  b.scene.mats.back().rest.y() = 0.05;
+  b.spring(anchor, 14, 3e3, 0.02);
+  expectExact(b.scene);
+}
+
+TEST_F(ModalTest, EigenvaluesAcrossRatesProveNothingOfFewerModes) {
+  Built b;
+  const double k = 0.9 * 1e-3 * kRate * kRate;
+  const int first = b.chain(20, 1e-3, k, 1e-7 * k);
+  const int slow = b.mass(0.05, 0.0, 0.0, SceneBuilder::kGestural);
+  b.spring(slow, b.ground(0.0, SceneBuilder::kGestural), 1e3, 0.1);
+  b.spring(slow, first + 5, 1e3, 0.1);
+  const Certificate all = certify(withModes(b.scene, scene::kAllModes), kRates);
+  const Certificate some = certify(withModes(b.scene, 10), kRates);
+  EXPECT_EQ(all.verdict, Verdict::kPassive);
+  EXPECT_EQ(some.verdict, Verdict::kUnproven);
+  ASSERT_EQ(some.findings.size(), 1U);
+  EXPECT_NE(some.findings[0].find("all modes"), std::string::npos);
+}
+
+TEST_F(ModalTest, CertificateIsThatOfTheNetwork) {
+  const Plate b = playedPlate();
+  const Certificate network = certify(b.scene, kRates);
+  const Certificate modal = certify(withModes(b.scene, scene::kAllModes), kRates);
+  EXPECT_EQ(modal.verdict, network.verdict);
+  EXPECT_EQ(modal.margin(), network.margin());
+}
+
+}  // namespace
+}  // namespace ergotic::physics

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/settling/sleep_bound.hpp"
+
+#include <cmath>
+#include <random>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "ergotic/physics/settling/settle.hpp"
+#include "support/scene_builder.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+using test::SceneBuilder;
+
+TEST(SleepBoundTest, ChainHasItsClosedForm) {
+  const double k = 2500.0;
+  for (const int masses : {1, 9, 100, 999}) {
+    SceneBuilder b;
+    b.chain(masses, 1e-4, k);
+    b.scene.sections[0].sleep_energy = 3e-12;
+    const double links = masses + 1;
+    // the middle of an even number of links; of an odd one, a little less
+    const double middle = std::floor(links / 2.0) * std::ceil(links / 2.0) / (links * k);
+    EXPECT_NEAR(sleepingDistance(b.scene, 0) / std::sqrt(2.0 * 3e-12 * middle), 1.0, 1e-9);
+    EXPECT_LE(sleepingDistance(b.scene, 0), std::sqrt(3e-12 * links / (2.0 * k)) * (1.0 + 1e-9));
+  }
+}
+
+TEST(SleepBoundTest, IsTheDiagonalOfTheInverseForAnyNetwork) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> stiffness(0.1, 10.0);
+  for (int round = 0; round < 30; ++round) {
+    SceneBuilder b;
+    const int ground = b.ground();
+    std::vector<int> masses;
+    for (int i = 0; i < 40; ++i) {
+      masses.push_back(b.mass(1.0));
+      const int other = static_cast<int>(random() % static_cast<unsigned>(masses.size()));
+      b.spring(i == 0 ? ground : other, masses.back(), stiffness(random));
+    }
+    for (int i = 0; i < 60; ++i) {
+      const auto any = [&] { return masses[random() % masses.size()]; };
+      const int a = any();
+      const int c = any();
+      if (a != c) {
+        b.spring(a, c, stiffness(random));
+      }
+    }
+    const Eigen::SparseMatrix<double> k = stiffnessOf(b.scene, 0);
+    const Eigen::MatrixXd inverse = Eigen::MatrixXd(k).inverse();
+    EXPECT_NEAR(largestCompliance(k) / inverse.diagonal().maxCoeff(), 1.0, 1e-10);
+  }
+}
+
+TEST(SleepBoundTest, NoMotionOfThatEnergyGoesFurther) {
+  SceneBuilder b;
+  b.chain(12, 1e-4, 800.0);
+  b.scene.lias[3].stiffness = {50.0};
+  const double energy = 1e-9;
+  b.scene.sections[0].sleep_energy = energy;
+  const double bound = sleepingDistance(b.scene, 0);
+  const Eigen::MatrixXd k(stiffnessOf(b.scene, 0));
+  double furthest = 0.0;
+  for (int i = 0; i < 12; ++i) {
+    // pulled at one module: the shape that goes furthest there for its energy
+    Eigen::VectorXd x = k.ldlt().solve(Eigen::VectorXd::Unit(12, i));
+    x *= std::sqrt(energy / (0.5 * x.dot(k * x)));
+    furthest = std::max(furthest, x.cwiseAbs().maxCoeff());
+  }
+  EXPECT_NEAR(furthest / bound, 1.0, 1e-9) << "and one reaches it";
+}
+
+TEST(SleepBoundTest, StretchedStringIsHeldAcrossByItsTension) {
+  // one mass between two links of length 1, rest length 0.75: along 2 k, across 2 k (1 - 0.75)
+  SceneBuilder b;
+  b.scene.sections[0].geometry = scene::Geometry::kPlane;
+  const int first = b.chain(1, 1e-4, 100.0);
+  for (int i = 0; i < 3; ++i) {
+    b.scene.mats[static_cast<std::size_t>(first + i)].rest.x() = i;
+  }
+  for (scene::Lia& lia : b.scene.lias) {
+    lia.rest_length = 0.75;
+  }
+  const Eigen::MatrixXd k(stiffnessOf(b.scene, 0));
+  EXPECT_NEAR(k(0, 0), 200.0, 1e-9);
+  EXPECT_NEAR(k(1, 1), 50.0, 1e-9);
+  EXPECT_NEAR(largestCompliance(Eigen::MatrixXd(k).sparseView()), 1.0 / 50.0, 1e-12);
+}
+
+TEST(SleepBoundTest, CellsAreHeldInEveryCoordinateThatMoves) {
+  SceneBuilder b;
+  b.scene.sections[0].geometry = scene::Geometry::kSpace;
+  b.cell(1e-3, 40.0, 0.0);
+  b.cell(1e-3, 10.0, 0.0);
+  const Eigen::MatrixXd k(stiffnessOf(b.scene, 0));
+  EXPECT_EQ(k.rows(), 6);
+  EXPECT_NEAR(largestCompliance(k.sparseView()), 1.0 / 10.0, 1e-12);
+}
+
+TEST(SleepBoundTest, NoteComparesWithTheStart) {
+  SceneBuilder b;
+  const int first = b.chain(9, 1e-4, 2000.0);
+  b.scene.mats[static_cast<std::size_t>(first + 5)].position.x() = 1e-3;
+  b.scene.sections[0].sleep_energy = 2e-3 * 1e-6;
+  b.hear(first + 2);
+  const Settled settled = settle(b.scene, {44100.0, 14});
+  ASSERT_EQ(settled.notes.size(), 1U);
+  // two springs of 2000 N/m stretched by 1 mm: 2e-3 J
+  EXPECT_NE(settled.notes[0].find("sleeps below 2e-09 J"), std::string::npos);
+  EXPECT_NE(settled.notes[0].find("at most 2.24e-06 m"), std::string::npos) << settled.notes[0];
+  EXPECT_NE(settled.notes[0].find("1e-06 of its energy at the start (-60 dB)"), std::string::npos);
+}
+
+TEST(SleepBoundTest, NothingIsPromisedOfWhatIsFree) {
+  SceneBuilder b;
+  b.chain(5, 1e-4, 100.0);
+  b.mass(1.0);
+  b.scene.sections[0].sleep_energy = 1e-9;
+  EXPECT_TRUE(std::isinf(sleepingDistance(b.scene, 0)));
+  const Settled settled = settle(b.scene, {44100.0, 14});
+  EXPECT_NE(settled.notes.at(0).find("has no bound"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ergotic::physics

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/device/parameters.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+#include "ergotic/exception.hpp"
+
+namespace ergotic::node {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+XmlRpcValue with(const std::string& name, const XmlRpcValue& value) {
+  XmlRpcValue values;
+  values[name] = value;
+  return values;
+}
+
+/// What is said of one parameter, "" if it is taken.
+std::string refusalOf(const std::string& name, const XmlRpcValue& value) {
+  try {
+    readParameters(with(name, value), "/station");
+  } catch (const Exception& refusal) {
+    return refusal.what();
+  }
+  return "";
+}
+
+TEST(ParametersTest, AreTheDefaultsWhereNothingIsSaid) {
+  const Parameters p = readParameters(XmlRpcValue(), "/station");
+  EXPECT_EQ(p.safety.force_limit_n, 20.0);
+  EXPECT_EQ(p.safety.frozen_s, 0.1);
+  EXPECT_EQ(p.driver, "virtual");
+  EXPECT_TRUE(p.jack);
+}
+
+TEST(ParametersTest, AreWhatIsSaid) {
+  XmlRpcValue values;
+  values["force_limit"] = 5;  // YAML does not tell 5 from 5.0
+  values["max_missing"] = 30.0;
+  values["ramp"] = 0.5;
+  values["driver"] = "jack";
+  values["jack"] = "none";
+  values["autoengage"] = true;
+  const Parameters p = readParameters(values, "/station");
+  EXPECT_EQ(p.safety.force_limit_n, 5.0);
+  EXPECT_EQ(p.safety.max_missing, 30);
+  EXPECT_EQ(p.safety.ramp_s, 0.5);
+  EXPECT_EQ(p.driver, "jack");
+  EXPECT_FALSE(p.jack);
+  EXPECT_TRUE(p.autoengage);
+}
+
+TEST(ParametersTest, SetWhatThePortMayGiveAndAreWrittenDown) {
+  XmlRpcValue values;
+  values["energy_cap"] = 0.5;
+  values["energy_supply"] = 0.25;
+  values["slice_mass"] = 2;
+  const Parameters p = readParameters(values, "/station");
+  EXPECT_EQ(p.safety.energy_cap_j, 0.5);
+  EXPECT_EQ(p.safety.energy_supply_w, 0.25);
+  EXPECT_EQ(p.safety.slice_mass_kg, 2.0);
+  const YAML::Node written = YAML::Load(toYaml(p, readDevices(p)));
+  EXPECT_EQ(written["energy_cap"].as<double>(), 0.5);
+  EXPECT_EQ(written["energy_supply"].as<double>(), 0.25);
+  EXPECT_EQ(written["slice_mass"].as<double>(), 2.0);
+}
+
+/// The chain refuses what is out of its own ranges: both say the same.
+TEST(ParametersTest, HaveTheRangesOfTheSafetyChain) {
+  for (const auto& [name, least, most] : {std::tuple{"energy_cap", 0.001, 10.0},
+                                          {"energy_supply", 0.0, 20.0},
+                                          {"slice_mass", 0.01, 100.0}}) {
+    for (const double end : {least, most}) {
+      const Parameters p = readParameters(with(name, end), "/station");
+      EXPECT_NO_THROW(tgr::SafetyChain(p.safety, 1, 1e-3)) << name << " " << end;
+    }
+    EXPECT_NE(refusalOf(name, std::nextafter(least, -1.0)), "") << name;
+    EXPECT_NE(refusalOf(name, std::nextafter(most, 1e9)), "") << name;
+  }
+}
+
+TEST(ParametersTest, AreRefusedWhereNobodyReadsThem) {
+  EXPECT_EQ(refusalOf("force_limt", 5),
+            "parameter /station/force_limt is not known; did you mean 'force_limit'?");
+  const std::string refusal = refusalOf("quux_of_the_player", 5);
+  EXPECT_EQ(
+      refusal.rfind("parameter /station/quux_of_the_player is not known, allowed: model, ", 0), 0U)
+      << refusal;
+  EXPECT_NE(refusal.find(", force_limit, "), std::string::npos) << refusal;
+  EXPECT_NE(refusalOf("safety", with("force_limit", 5)), "") << "a map is none of them either";
+}
+
+TEST(ParametersTest, LeaveToOthersWhatTheyRead) {
+  EXPECT_EQ(refusalOf("diagnostic_period", 0.5), "");
+  EXPECT_EQ(refusalOf("num_worker_threads", 2), "");
+}
+
+TEST(ParametersTest, AreRefusedOutsideTheirRange) {
+  EXPECT_EQ(refusalOf("force_limit", 200), "");
+  EXPECT_EQ(refusalOf("force_limit", 200.5),
+            "parameter /station/force_limit is 200.5, allowed: 0...200");
+  EXPECT_EQ(refusalOf("ramp", std::numeric_limits<double>::quiet_NaN()),
+            "parameter /station/ramp is nan, allowed: 0.1...10");
+  EXPECT_EQ(refusalOf("jack", "perhaps"),
+            "parameter /station/jack is perhaps, allowed: auto, none");
+}
+
+TEST(ParametersTest, AreRefusedWithAFractionWhereOnlyWholeNumbersAreMeant) {
+  EXPECT_EQ(refusalOf("max_missing", 2.5),
+            "parameter /station/max_missing is 2.5, allowed: 0...1000, whole numbers");
+  EXPECT_EQ(refusalOf("max_missing", 1001),
+            "parameter /station/max_missing is 1001, allowed: 0...1000, whole numbers");
+  EXPECT_NE(refusalOf("threads", 1e300), "");
+}
+
+TEST(ParametersTest, AreRefusedWhenOfAnotherType) {
+  EXPECT_EQ(refusalOf("force_limit", "5"),
+            "parameter /station/force_limit is of another type, allowed: 0...200");
+  EXPECT_EQ(refusalOf("max_missing", true),
+            "parameter /station/max_missing is of another type, allowed: 0...1000, whole numbers");
+  EXPECT_EQ(refusalOf("autoengage", 1),
+            "parameter /station/autoengage is of another type, allowed: true or false");
+  EXPECT_EQ(refusalOf("model", 5),
+            "parameter /station/model is of another type, allowed: a string");
+}
+
+}  // namespace
+}  // namespace ergotic::node

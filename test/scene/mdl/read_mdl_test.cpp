@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "ergotic/scene/text/read_scene.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string kTwo = "@a mass 1 0 0\n@b mass 1 0 0\n";
+
+Lia linkOf(const std::string& line) {
+  return readMdl(kTwo + line, "m.mdl").lias.at(0);
+}
+
+TEST(ReadMdlTest, SceneCountsTimeInSamplesOfOneAudioSection) {
+  const Scene s = readMdl(kTwo, "dir/two.mdl");
+  EXPECT_EQ(s.name, "two");
+  EXPECT_EQ(s.file, "dir/two.mdl");
+  EXPECT_EQ(s.text, kTwo);
+  EXPECT_EQ(s.time_unit_s, 1.0 / 44100.0);
+  ASSERT_EQ(s.sections.size(), 1U);
+  EXPECT_FALSE(s.sections[0].gestural);
+  EXPECT_EQ(s.sections[0].divisor, 1);
+  EXPECT_EQ(s.sections[0].gravity.x(), 0.0);
+}
+
+TEST(ReadMdlTest, MassTakesPlaceFromXYAndMotionFromZ) {
+  const Mat m = readMdl("@m mass 2.5 [1 2 3] [4 5 44.1]\n", "m.mdl").mats.at(0);
+  EXPECT_EQ(m.name, "m");
+  EXPECT_EQ(m.type, MatType::kMass);
+  EXPECT_EQ(m.mass.factor, 2.5);
+  EXPECT_EQ(m.rest.y(), 1.0);
+  EXPECT_EQ(m.rest.z(), 2.0);
+  EXPECT_EQ(m.position.x(), 3.0);
+  EXPECT_EQ(m.rest.x(), 0.0);
+  EXPECT_DOUBLE_EQ(m.push->velocity.x(), 0.001);
+  EXPECT_EQ(m.push->force.x(), 0.0);
+}
+
+TEST(ReadMdlTest, GravityIsAForceForEachStepWhateverTheMass) {
+  const Scene s = readMdl("@m mass 2 9.81 0 0\n@o osc 3 0.1 0.2 9.81 0 0\n", "m.mdl");
+  EXPECT_DOUBLE_EQ(s.mats[0].push->force.x(), -9.81 / 44100.0);
+  EXPECT_DOUBLE_EQ(s.mats[1].push->force.x(), -9.81 / 44100.0);
+}
+
+TEST(ReadMdlTest, OscIsACellThatRestsAtTheOrigin) {
+  const Mat m = readMdl("@o osc 3 0.1 0.2 [1 2 0.5] -1\n", "m.mdl").mats.at(0);
+  EXPECT_EQ(m.type, MatType::kCell);
+  EXPECT_EQ(m.mass.factor, 3.0);
+  EXPECT_EQ(m.stiffness.factor, 0.1);
+  EXPECT_EQ(m.damping.factor, 0.2);
+  EXPECT_EQ(m.position.x(), 0.5);
+  EXPECT_EQ(m.rest.x(), 0.0);
+  EXPECT_DOUBLE_EQ(m.push->velocity.x(), -1.0 / 44100.0);
+}
+
+TEST(ReadMdlTest, GroundRestsWhereItIs) {
+  const Mat m = readMdl("@g ground 1.5\n", "m.mdl").mats.at(0);
+  EXPECT_EQ(m.type, MatType::kGround);
+  EXPECT_EQ(m.position.x(), 1.5);
+  EXPECT_EQ(m.rest.x(), 1.5);
+}
+
+TEST(ReadMdlTest, PosInputIsADrivenModuleWithItsInput) {
+  const Scene s = readMdl("@in3 posInput [1 2 0.25]\n", "m.mdl");
+  EXPECT_EQ(s.mats.at(0).type, MatType::kDriven);
+  EXPECT_EQ(s.mats[0].position.x(), 0.25);
+  ASSERT_EQ(s.inputs.size(), 1U);
+  EXPECT_EQ(s.inputs[0].name, "in3");
+  EXPECT_EQ(s.inputs[0].quantity, Quantity::kPosition);
+  EXPECT_EQ(s.inputs[0].channel, 2);
+  EXPECT_EQ(s.inputs[0].mat, 0);
+  EXPECT_EQ(s.inputs[0].gain.factor, 1.0);
+}
+
+TEST(ReadMdlTest, ForceInputsMayShareAChannel) {
+  const Scene s = readMdl(kTwo + "@in2 frcInput @a\n@in2 frcInput @b\n", "m.mdl");
+  ASSERT_EQ(s.inputs.size(), 2U);
+  EXPECT_EQ(s.inputs[0].name, "in2");
+  EXPECT_EQ(s.inputs[0].quantity, Quantity::kForce);
+  EXPECT_EQ(s.inputs[0].mat, 0);
+  EXPECT_EQ(s.inputs[1].channel, 1);
+  EXPECT_EQ(s.inputs[1].mat, 1);
+  EXPECT_EQ(s.inputChannels(), 2);
+}
+
+TEST(ReadMdlTest, OutputsTapPositionAndForce) {
+  const Scene s = readMdl(kTwo + "@out4 posOutput @b\n@out1 frcOutput @a\n", "m.mdl");
+  EXPECT_EQ(s.outputs.at(0).name, "out4");
+  EXPECT_EQ(s.outputs[0].quantity, Quantity::kPosition);
+  EXPECT_EQ(s.outputs[0].channel, 3);
+  EXPECT_EQ(s.outputs[0].point.mat, 1);
+  EXPECT_EQ(s.outputs[0].point.next, -1);
+  EXPECT_EQ(s.outputs[1].quantity, Quantity::kForce);
+  EXPECT_EQ(s.outputs[1].channel, 0);
+  EXPECT_EQ(s.outputChannels(), 4);
+}
+
+TEST(ReadMdlTest, LinearLinksAreSpringDampers) {
+  const Lia spring = linkOf("@l spring @a @b 0.5\n");
+  EXPECT_EQ(spring.type, LiaType::kSpringDamper);
+  EXPECT_EQ(spring.name, "l");
+  EXPECT_EQ(spring.a, 0);
+  EXPECT_EQ(spring.b, 1);
+  EXPECT_EQ(spring.stiffness.factor, 0.5);
+  EXPECT_EQ(spring.damping.factor, 0.0);
+  const Lia damper = linkOf("@l damper @b @a 0.5\n");
+  EXPECT_EQ(damper.a, 1);
+  EXPECT_EQ(damper.stiffness.factor, 0.0);
+  EXPECT_EQ(damper.damping.factor, 0.5);
+  const Lia both = linkOf("@l springDamper @a @b 0.5 0.25\n");
+  EXPECT_EQ(both.type, LiaType::kSpringDamper);
+  EXPECT_EQ(both.stiffness.factor, 0.5);
+  EXPECT_EQ(both.damping.factor, 0.25);
+}
+
+TEST(ReadMdlTest, ContactsTakeAnOptionalThreshold) {
+  const Lia plain = linkOf("@l contact @a @b 1 2\n");
+  EXPECT_EQ(plain.type, LiaType::kContact);
+  EXPECT_EQ(plain.stiffness.factor, 1.0);
+  EXPECT_EQ(plain.damping.factor, 2.0);
+  EXPECT_EQ(plain.law->width.factor, 0.0);
+  EXPECT_EQ(linkOf("@l contact @a @b 1 2 -0.5\n").law->width.factor, -0.5);
+  const Lia cubic = linkOf("@l nlContact @a @b 1 2 3 4 0.5\n");
+  EXPECT_EQ(cubic.type, LiaType::kCubicContact);
+  EXPECT_EQ(cubic.stiffness.factor, 1.0);
+  EXPECT_EQ(cubic.law->nonlinearity.factor, 2.0);
+  EXPECT_EQ(cubic.law->stiffness_limit.factor, 3.0);
+  EXPECT_EQ(cubic.damping.factor, 4.0);
+  EXPECT_EQ(cubic.law->width.factor, 0.5);
+  EXPECT_EQ(linkOf("@l nlContact @a @b 1 2 3 4\n").law->width.factor, 0.0);
+}
+
+TEST(ReadMdlTest, NonlinearSpringsKeepTheOrderOfTheirArguments) {
+  const Lia square = linkOf("@l nlSpring2 @a @b 1 2 3\n");
+  EXPECT_EQ(square.type, LiaType::kQuadratic);
+  EXPECT_EQ(square.stiffness.factor, 1.0);
+  EXPECT_EQ(square.law->nonlinearity.factor, 2.0);
+  EXPECT_EQ(square.damping.factor, 3.0);
+  EXPECT_EQ(linkOf("@l nlSpring3 @a @b 1 -2 3\n").type, LiaType::kCubic);
+  EXPECT_EQ(linkOf("@l nlSpring3 @a @b 1 -2 3\n").law->nonlinearity.factor, -2.0);
+  const Lia clipped = linkOf("@l nlSpringDamper @a @b 1 2 3 4\n");
+  EXPECT_EQ(clipped.type, LiaType::kClippedCubic);
+  EXPECT_EQ(clipped.law->nonlinearity.factor, 2.0);
+  EXPECT_EQ(clipped.law->stiffness_limit.factor, 3.0);
+  EXPECT_EQ(clipped.damping.factor, 4.0);
+}
+
+TEST(ReadMdlTest, ClippedLawThatStartsAtItsLimitIsStraight) {
+  const Lia contact = linkOf("@l nlContact @a @b 3 2 3 4\n");
+  EXPECT_EQ(contact.type, LiaType::kContact);
+  EXPECT_EQ(contact.stiffness.factor, 3.0);
+  EXPECT_EQ(contact.damping.factor, 4.0);
+  EXPECT_EQ(contact.law->limit_damping.factor, 0.0);
+}
+
+TEST(ReadMdlTest, PluckAndBowTakeTheirOptionalArguments) {
+  const Lia pluck = linkOf("@l nlPluck @a @b 1 0.1\n");
+  EXPECT_EQ(pluck.type, LiaType::kPluck);
+  EXPECT_EQ(pluck.stiffness.factor, 1.0);
+  EXPECT_EQ(pluck.law->width.factor, 0.1);
+  EXPECT_EQ(pluck.damping.factor, 0.0);
+  EXPECT_EQ(linkOf("@l nlPluck @a @b 1 0.1 0.2\n").damping.factor, 0.2);
+  const Lia bow = linkOf("@l nlBow @a @b 0.3 0.01\n");
+  EXPECT_EQ(bow.type, LiaType::kBow);
+  EXPECT_EQ(bow.damping.factor, 0.3);
+  EXPECT_EQ(bow.law->width.factor, 0.01);
+  EXPECT_EQ(linkOf("@l nlBow @a @b 0.3 0.01 0\n").type, LiaType::kBow);
+  EXPECT_EQ(linkOf("@l nlBow @a @b 0.3 0.01 1\n").type, LiaType::kSmoothBow);
+  EXPECT_EQ(linkOf("@l nlBow @a @b 0.3 0.01 1\n").law->width.factor, 0.01);
+}
+
+TEST(ReadMdlTest, ExpressionsFollowTheUsualPrecedence) {
+  const auto massOf = [](const std::string& expression) {
+    return readMdl("@m mass " + expression + " 0 0\n@p param 3\n@q param [p + 1]\n", "m.mdl")
+        .mats.at(0)
+        .mass.factor;
+  };
+  EXPECT_EQ(massOf("p"), 3.0);
+  EXPECT_EQ(massOf("q"), 4.0);
+  EXPECT_EQ(massOf("0.5*p"), 1.5);
+  EXPECT_EQ(massOf("p-0.5"), 2.5);
+  EXPECT_EQ(massOf("[p + 2 * q - 4 / 2]"), 9.0);
+  EXPECT_EQ(massOf("[(p + 2) * -(1 - q)]"), 15.0);
+  EXPECT_EQ(massOf("12/p/2"), 2.0);
+  EXPECT_EQ(massOf("9-p-q"), 2.0);
+  EXPECT_EQ(massOf("'pow(2, p) + sqrt(q)'"), 10.0);
+  EXPECT_DOUBLE_EQ(massOf("[exp(1) + log(2) + sin(0.5) + cos(0.5) + abs(-1)]"),
+                   std::exp(1.0) + std::log(2.0) + std::sin(0.5) + std::cos(0.5) + 1.0);
+  EXPECT_EQ(massOf("[min(p, q) + 10 * max(p, q)]"), 43.0);
+  EXPECT_EQ(massOf("1e-3"), 1e-3);
+  EXPECT_EQ(massOf("[1e+3]"), 1000.0);
+  EXPECT_EQ(massOf(".5"), 0.5);
+}
+
+TEST(ReadMdlTest, CommentsGroupsAndProseAreSkipped) {
+  const Scene s = readMdl(
+      "This is a model of two masses.\n\n# @x mass 1 0 0\n~begin group\n"
+      "  \t@a mass 1 0 0 # [trailing @b mass]\n~end group\n"
+      "# caf\xE9 in Latin-1\n@b mass 1 0 0#close\n",
+      "m.mdl");
+  EXPECT_EQ(s.mats.size(), 2U);
+  EXPECT_TRUE(s.warnings.empty());
+}
+
+TEST(ReadMdlTest, LinksMayComeBeforeTheirModules) {
+  const Scene s =
+      readMdl("@out1 posOutput @b\n@l spring @b @a k\n" + kTwo + "@k param 1\n", "m.mdl");
+  EXPECT_EQ(s.lias.at(0).a, 1);
+  EXPECT_EQ(s.outputs.at(0).point.mat, 1);
+  EXPECT_EQ(s.mats[0].name, "a");
+}
+
+TEST(ReadMdlTest, WindowsLineEndsAndByteOrderMarkChangeNothing) {
+  const Scene s = readMdl("\xEF\xBB\xBF@a mass 1 [0 0 2] 0\r\n@b ground 3\r\n", "m.mdl");
+  ASSERT_EQ(s.mats.size(), 2U);
+  EXPECT_EQ(s.mats[0].position.x(), 2.0);
+  EXPECT_EQ(s.mats[1].position.x(), 3.0);
+}
+
+TEST(ReadMdlTest, VelocityWithoutAnyVectorIsWarnedOf) {
+  const Scene doubtful = readMdl("@a mass 1 0 0.5\n", "m.mdl");
+  ASSERT_EQ(doubtful.warnings.size(), 1U);
+  EXPECT_THAT(doubtful.warnings[0], HasSubstr("m.mdl:1:13: warning: the last number of '@a'"));
+  EXPECT_TRUE(readMdl("@a mass 1 0 [0 0 0.5]\n", "m.mdl").warnings.empty());
+}
+
+TEST(ReadMdlTest, ElementWithoutItsAtSignIsWarnedOf) {
+  const Scene s = readMdl("@a mass 1 0 0\n b mass 1 0 0\n", "m.mdl");
+  EXPECT_EQ(s.mats.size(), 1U);
+  ASSERT_EQ(s.warnings.size(), 1U);
+  EXPECT_THAT(s.warnings[0], HasSubstr("m.mdl:2:2: warning: this line is skipped"));
+}
+
+}  // namespace
+}  // namespace ergotic::scene

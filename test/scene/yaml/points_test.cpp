@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/yaml/points.hpp"
+
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/scene/grid.hpp"
+#include "scene/bad_text.hpp"
+#include "scene/generate/generators.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+const std::string kHead =
+    "ergotic: 1\nparameters: {finger: {value: 0.3, range: [0.1, 0.9]}}\n"
+    "sections: {a: {}, p: {geometry: plane}, h: {rate: gestural}}\n"
+    "generators:\n"
+    "  - {type: string, name: s, section: a, masses: 9, mass: 1, stiffness: 1, to: [1, 0],\n"
+    "     pluck: {at: 0.5, height: 0.01}}\n"
+    "  - {type: mesh, name: net, section: p, rows: 3, columns: 5, spacing: 0.1, mass: 1,\n"
+    "     stiffness: 1, at: [1, 2]}\n";
+
+Scene pointScene(const std::string& fields) {
+  return readYaml(kHead + "mats:\n  k: {type: slice, section: h}\n  q: {type: point, " + fields +
+                      "}\nports: {k: {mat: k, slice: 0}}\n",
+                  "point.yaml");
+}
+
+TEST(GridPlaceTest, WeightsAddUpToOneAndTheirMeanIsThePlace) {
+  const Grid net{"net", 10, 5, 3};
+  for (const double along : {0.0, 0.1, 0.25, 0.6, 1.0}) {
+    for (const double across : {0.0, 0.3, 0.5, 1.0}) {
+      const GridPlace place = placeOn(net, along, across);
+      ASSERT_EQ(place.count, 4);
+      double sum = 0.0;
+      double column = 0.0;
+      double row = 0.0;
+      for (std::size_t i = 0; i < 4; ++i) {
+        const int index = place.mats[i] - net.first;
+        EXPECT_GE(place.weights[i], 0.0);
+        EXPECT_LT(index, 15);
+        sum += place.weights[i];
+        column += place.weights[i] * (index % 5);
+        row += place.weights[i] * (index / 5);
+      }
+      EXPECT_NEAR(sum, 1.0, 1e-15);
+      EXPECT_NEAR(column, 4.0 * along, 1e-14);
+      EXPECT_NEAR(row, 2.0 * across, 1e-14);
+    }
+  }
+}
+
+TEST(GridPlaceTest, OfAStringIsBetweenTwoModulesWhateverIsAskedFor) {
+  const Grid string{"s", 3, 4, 1};
+  for (const double along : {-1.0, 0.0, 0.4, 1.0, 2.0}) {
+    const GridPlace place = placeOn(string, along, 0.7);
+    ASSERT_EQ(place.count, 2);
+    EXPECT_GE(place.mats[0], 3);
+    EXPECT_EQ(place.mats[1], place.mats[0] + 1);
+    EXPECT_LE(place.mats[1], 6);
+    EXPECT_NEAR(place.weights[0] + place.weights[1], 1.0, 1e-15);
+  }
+  EXPECT_EQ(placeOn(string, 2.0, 0.0).weights[1], 1.0);
+  EXPECT_NEAR(placeOn(string, 0.4, 0.0).weights[1], 0.2, 1e-15);
+}
+
+TEST(PointTest, OnAStringIsReadFieldByField) {
+  const Scene s =
+      pointScene("along: s, at: $finger, guide: {mat: k, scale: 5}, range: [0.1, 0.9], speed: 2");
+  ASSERT_EQ(s.connections.size(), 1U);
+  const Connection& c = s.connections[0];
+  const Mat& q = s.mats[static_cast<std::size_t>(c.mat)];
+  EXPECT_EQ(q.name, "q");
+  EXPECT_EQ(q.type, MatType::kPoint);
+  EXPECT_EQ(q.section, 0);
+  EXPECT_EQ(s.grids[static_cast<std::size_t>(c.grid)].name, "s");
+  EXPECT_EQ(c.along.parameter, 0);
+  EXPECT_EQ(c.across.factor, 0.0);
+  EXPECT_EQ(s.mats[static_cast<std::size_t>(c.guide)].name, "k");
+  EXPECT_EQ(c.guide_scale, 5.0);
+  EXPECT_EQ(c.along_minimum, 0.1);
+  EXPECT_EQ(c.along_maximum, 0.9);
+  EXPECT_EQ(c.speed, 2.0);
+  EXPECT_EQ(c.place.line, 11);
+  // 0.3 of the way is on mass 3 of a triangle whose top is 0.01 at mass 5.
+  EXPECT_NEAR(q.rest.y(), 0.3, 1e-15);
+  EXPECT_NEAR(q.position.x(), 0.006, 1e-15);
+}
+
+TEST(PointTest, OnAMeshStartsBetweenItsFourModules) {
+  const Scene s = pointScene("along: net, at: [0.3, 0.75]");
+  const Connection& c = s.connections.at(0);
+  const Mat& q = s.mats[static_cast<std::size_t>(c.mat)];
+  EXPECT_EQ(c.along.factor, 0.3);
+  EXPECT_EQ(c.across.factor, 0.75);
+  EXPECT_EQ(c.guide, -1);
+  EXPECT_EQ(c.speed, 0.0);
+  EXPECT_EQ(q.section, 1);
+  EXPECT_NEAR(q.rest.x(), 1.0 + 0.3 * 0.4, 1e-15);
+  EXPECT_NEAR(q.rest.y(), 2.0 + 0.75 * 0.2, 1e-15);
+  EXPECT_TRUE(q.position.isApprox(q.rest, 1e-15));
+}
+
+TEST(PointTest, CanBeNamedByLinksAndOutputs) {
+  const Scene s = readYaml(kHead +
+                               "mats: {q: {type: point, along: s, at: 0.35},\n"
+                               "  g: {type: ground, section: a}}\n"
+                               "lias: {l: {type: spring, between: [g, q], stiffness: 1}}\n"
+                               "outputs: {o: {at: q, quantity: velocity, channel: 1}}\n",
+                           "point.yaml");
+  EXPECT_EQ(s.lias.back().b, s.connections[0].mat);
+  EXPECT_EQ(s.outputs[0].point.mat, s.connections[0].mat);
+}
+
+TEST(PointTest, OfALinkEndIsMadeOnceForAllLinks) {
+  const Scene s = readYaml(kHead +
+                               "mats: {g: {type: ground, section: p}}\n"
+                               "lias:\n"
+                               "  l: {type: spring, between: [g, net@0.3:0.7], stiffness: 1}\n"
+                               "  m: {type: damper, between: [g, net@0.3:0.7], damping: 1}\n",
+                           "point.yaml");
+  ASSERT_EQ(s.connections.size(), 1U);
+  EXPECT_EQ(s.connections[0].along.factor, 0.3);
+  EXPECT_EQ(s.connections[0].across.factor, 0.7);
+  const std::size_t links = s.lias.size();
+  EXPECT_EQ(s.lias[links - 1].b, s.connections[0].mat);
+  EXPECT_EQ(s.lias[links - 2].b, s.connections[0].mat);
+}
+
+class PointAtTest : public testing::Test {
+ protected:
+  PointAtTest() {
+    builder_.add(Section{});
+    StringSpec string;
+    string.name = "s";
+    string.masses = 9;
+    string.mass = {1.0};
+    addString(builder_, string);
+    MeshSpec mesh;
+    mesh.name = "net";
+    mesh.rows = 3;
+    mesh.columns = 5;
+    mesh.mass = {1.0};
+    addMesh(builder_, mesh);
+  }
+  std::string nameAt(const std::string& text) {
+    return builder_.scene().mats[static_cast<std::size_t>(pointAt(builder_, text, {1, 1}))].name;
+  }
+  SceneBuilder builder_{"test.yaml", ""};
+};
+
+TEST_F(PointAtTest, IsTheModuleItselfWhereOneIs) {
+  EXPECT_EQ(nameAt("s.4"), "s.4");
+  EXPECT_EQ(nameAt("s@0"), "s.0");
+  EXPECT_EQ(nameAt("s@1"), "s.10");
+  EXPECT_EQ(nameAt("s@0.7"), "s.7");
+  EXPECT_EQ(nameAt("net@0.75:0.5"), "net.1.3");
+  EXPECT_TRUE(builder_.scene().connections.empty());
+}
+
+TEST_F(PointAtTest, IsMadeOnceAndFoundAgain) {
+  const int first = pointAt(builder_, "s@0.35", {3, 4});
+  EXPECT_EQ(pointAt(builder_, "s@0.350", {5, 6}), first);
+  EXPECT_EQ(nameAt("s@0.35"), "s@0.35");
+  EXPECT_EQ(nameAt("net@0.3:0.70"), "net@0.3:0.7");
+  ASSERT_EQ(builder_.scene().connections.size(), 2U);
+  const Connection& c = builder_.scene().connections[0];
+  EXPECT_EQ(c.mat, first);
+  EXPECT_EQ(c.along.factor, 0.35);
+  EXPECT_EQ(c.along_minimum, 0.0);
+  EXPECT_EQ(c.along_maximum, 1.0);
+  EXPECT_EQ(c.place.line, 3);
+  EXPECT_EQ(builder_.scene().connections[1].across.factor, 0.7);
+}
+
+TEST_F(PointAtTest, RefusesWhatIsNoPlace) {
+  const std::pair<const char*, const char*> texts[] = {
+      {"t@0.3", "unknown string or mesh 't'"},
+      {"s@1.5", "= 1.5 is out of range, allowed: 0...1"},
+      {"s@", "'' is not a finite number"},
+      {"s@0.3:0.5", "'s@0.3:0.5' is no point of 's', allowed: s@0.3 and the like"},
+      {"net@0.3", "'net@0.3' is no point of 'net', allowed: net@0.3:0.7 and the like"},
+      {"net@0.3:-1", "= -1 is out of range, allowed: 0...1"},
+      {"s.99", "unknown module 's.99'"},
+  };
+  for (const auto& [text, message] : texts) {
+    try {
+      pointAt(builder_, text, {7, 8});
+      ADD_FAILURE() << text;
+    } catch (const TextError& e) {
+      EXPECT_THAT(e.what(), testing::HasSubstr(message));
+      EXPECT_THAT(e.what(), testing::StartsWith("test.yaml:7:8: error: "));
+    }
+  }
+}
+
+#define SCENE                                                                                 \
+  "ergotic: 1\nsections: {a: {}}\nparameters: {p: {value: 0, range: [-1, 1]}}\ngenerators:\n" \
+  "  - {type: string, name: s, masses: 3, mass: 1, stiffness: 1, to: [1, 0]}\n"               \
+  "  - {type: mesh, name: net, rows: 3, columns: 3, spacing: 1, mass: 1, stiffness: 1}\nmats: "
+const BadText kPoints[] = {
+    {SCENE "{<!>q: {type: point, at: 0.3}}\n", "missing key 'along' of module 'q'"},
+    {SCENE "{<!>q: {type: point, along: s}}\n", "missing key 'at' of module 'q'"},
+    {SCENE "{q: {type: point, along: <!>z, at: 0.3}}\n", "unknown string or mesh 'z'"},
+    {SCENE "{q: {type: point, along: s, at: <!>2}}\n", "= 2 is out of range, allowed: 0...1"},
+    {SCENE "{q: {type: point, along: s, at: <!>$p}}\n",
+     "(where p = -1) = -1 is out of range, allowed: 0...1"},
+    {SCENE "{q: {type: point, along: s, at: <!>[0.3, 0.4]}}\n",
+     "is a list of 2, allowed: a single"},
+    {SCENE "{q: {type: point, along: net, at: <!>0.3}}\n",
+     "is no place on mesh 'net', allowed: [along, across]"},
+    {SCENE "{q: {type: point, along: net, at: [0.3, <!>7]}}\n",
+     "second number of 'at' of module 'q' = 7 is out of range, allowed: 0...1"},
+    {SCENE "{q: {type: point, along: s, at: <!>0.5, range: [0.1, 0.4]}}\n",
+     "= 0.5 is out of range, allowed: 0.1...0.4"},
+    {SCENE "{q: {type: point, along: s, at: 0.5, range: <!>[1, 0]}}\n",
+     "allowed: [lowest, highest]"},
+    {SCENE "{q: {type: point, along: s, at: 0.5, speed: <!>0}}\n",
+     "= 0 1/s is out of range, allowed: > 0 1/s"},
+    {SCENE "{q: {type: point, along: s, at: 0.5, <!>section: a}}\n",
+     "'section' of module 'q', allowed: none"},
+    {SCENE "{q: {type: point, along: s, at: 0.5, <!>mass: 1}}\n", "unknown key 'mass'"},
+    {SCENE "{q: {type: point, along: s, at: 0.5, guide: {mat: <!>k, scale: 1}}}\n",
+     "unknown module 'k'"},
+    {SCENE "{q: {type: point, along: s, at: 0.5, <!>guide: {mat: s.1}}}\n", "missing key 'scale'"},
+    {SCENE "{q: {type: point, along: s, at: 0.5},\n"
+           "  r: {type: point, along: s, at: 0.1, guide: {mat: <!>q, scale: 1}}}\n",
+     "is guided by point 'q', allowed: modules of any other type"},
+    {SCENE "{<!>s.1: {type: point, along: s, at: 0.5}}\n", "module 's.1' is defined twice"},
+};
+TEST(PointErrorsTest, AreRefusedAtTheirPlace) {
+  for (const BadText& bad : kPoints) {
+    expectRefused(bad, "bad.yaml");
+  }
+}
+
+}  // namespace
+}  // namespace ergotic::scene

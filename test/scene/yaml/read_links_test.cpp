@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
+#include "scene/bad_text.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+#define HEAD                                                                                    \
+  "ergotic: 1\n"                                                                                \
+  "parameters: {p: {value: 2, range: [1, 4]}, n: {value: 0, range: [-1, 1]}}\n"                 \
+  "sections: {a: {}, b: {}, c: {rate: {divisor: 4}}, h: {rate: gestural},\n"                    \
+  "  v: {geometry: space}, w: {geometry: plane}}\n"                                             \
+  "mats:\n"                                                                                     \
+  "  m: {type: mass, section: a, mass: 1}\n"                                                    \
+  "  n: {type: mass, section: a, mass: 1}\n"                                                    \
+  "  o: {type: mass, section: b, mass: 1}\n"                                                    \
+  "  q: {type: mass, section: c, mass: 1}\n"                                                    \
+  "  k: {type: slice, section: h}\n"                                                            \
+  "  l: {type: slice, section: h}\n"                                                            \
+  "  v: {type: mass, section: v, mass: 1}\n"                                                    \
+  "  w: {type: mass, section: w, mass: 1}\n"                                                    \
+  "generators: [{type: string, name: s, section: a, masses: 3, mass: 1, stiffness: 1, to: [1, " \
+  "0]}]\n"
+#define LINK HEAD "lias: {x: {"
+
+Lia last(const std::string& text) {
+  return readYaml(text, "links.yaml").lias.back();
+}
+
+TEST(ReadLinksTest, PowerContactIsReadFieldByField) {
+  const Lia l = last(LINK
+                     "type: power_contact, between: [m, n], stiffness: 1e5, exponent: 2.3, "
+                     "damping: 4, threshold: -0.1}}\n");
+  EXPECT_EQ(l.type, LiaType::kPowerContact);
+  EXPECT_EQ(l.stiffness.factor, 1e5);
+  EXPECT_EQ(l.law->exponent.factor, 2.3);
+  EXPECT_EQ(l.law->exponent.parameter, -1);
+  EXPECT_EQ(l.damping.factor, 4.0);
+  EXPECT_EQ(l.law->width.factor, -0.1);
+}
+
+TEST(ReadLinksTest, ExponentMayFollowAParameter) {
+  const Lia l = last(LINK "type: power_contact, between: [m, n], stiffness: 1, exponent: $p}}\n");
+  EXPECT_EQ(l.law->exponent.parameter, 0);
+  EXPECT_EQ(l.law->exponent.factor, 1.0);
+}
+
+TEST(ReadLinksTest, TableLinkHasAnElasticAndAViscousLaw) {
+  const Lia both = last(LINK
+                        "type: table, between: [m, n], elastic: [[-1, -2], [1, 3]], "
+                        "viscous: {points: [[-4, -5], [0, 0], [6, 7]], interpolation: monotone}, "
+                        "rest_length: 0.5}}\n");
+  EXPECT_EQ(both.type, LiaType::kTable);
+  ASSERT_EQ(both.law->table.points.size(), 2U);
+  EXPECT_EQ(both.law->table.points[1], std::make_pair(1.0, 3.0));
+  EXPECT_FALSE(both.law->table.smooth);
+  ASSERT_EQ(both.law->viscous_table.points.size(), 3U);
+  EXPECT_EQ(both.law->viscous_table.points[0], std::make_pair(-4.0, -5.0));
+  EXPECT_TRUE(both.law->viscous_table.smooth);
+  EXPECT_EQ(both.rest_length, 0.5);
+  const Lia viscous = last(LINK "type: table, between: [m, n], viscous: [[0, 0], [1, 1]]}}\n");
+  EXPECT_TRUE(viscous.law->table.empty());
+  EXPECT_EQ(viscous.law->viscous_table.points.size(), 2U);
+}
+
+TEST(ReadLinksTest, ConditionalLinkLetsGoWhereItEngagesUnlessTold) {
+  const std::string start = LINK "type: conditional, between: [m, n], stiffness: 3, ";
+  const Lia told = last(start + "damping: 4, engage: 0.1, release: 0.2, rest_length: 1}}\n");
+  EXPECT_EQ(told.type, LiaType::kConditional);
+  EXPECT_EQ(told.stiffness.factor, 3.0);
+  EXPECT_EQ(told.damping.factor, 4.0);
+  EXPECT_EQ(told.law->width.factor, 0.1);
+  EXPECT_EQ(told.law->release, 0.2);
+  EXPECT_EQ(told.rest_length, 1.0);
+  EXPECT_EQ(last(start + "engage: 0.1}}\n").law->release, 0.1);
+  const Lia moving = last(start + "engage: 0.5*$p, release: 2}}\n");
+  EXPECT_EQ(moving.law->width.parameter, 0);
+  EXPECT_EQ(moving.law->release, 2.0);
+}
+
+TEST(ReadLinksTest, LinearLinksMayBeNegative) {
+  const Lia spring = last(LINK "type: spring, between: [m, n], stiffness: -5}}\n");
+  EXPECT_EQ(spring.stiffness.factor, -5.0);
+  EXPECT_EQ(last(LINK "type: damper, between: [m, n], damping: -6}}\n").damping.factor, -6.0);
+  const Lia both =
+      last(LINK "type: spring_damper, between: [m, n], stiffness: 2*$n, damping: $n}}\n");
+  EXPECT_EQ(both.stiffness.factor, 2.0);
+  EXPECT_EQ(both.damping.parameter, 1);
+}
+
+/// What may stand after `between` of every type, and whether the link may be guarded.
+struct Kind {
+  const char* fields;
+  bool guardable;
+};
+const Kind kKinds[] = {
+    {"type: spring, stiffness: 1", false},
+    {"type: damper, damping: 1", false},
+    {"type: spring_damper, stiffness: 1, damping: 1", false},
+    {"type: contact, stiffness: 1", true},
+    {"type: power_contact, stiffness: 1, exponent: 1.5", true},
+    {"type: quadratic, stiffness: 1, nonlinearity: 1", true},
+    {"type: cubic, stiffness: 1, nonlinearity: 1", true},
+    {"type: clipped_cubic, stiffness: 1, nonlinearity: 1, stiffness_limit: 2", true},
+    // Without a cube this is a straight spring.
+    {"type: clipped_cubic, stiffness: 1, nonlinearity: 0, stiffness_limit: 2", false},
+    {"type: cubic_contact, stiffness: 1, nonlinearity: 1, stiffness_limit: 2", true},
+    {"type: pluck, stiffness: 1, width: 1", false},
+    {"type: pluck, table: [[0, 0], [1, 1]]", false},
+    {"type: bow, damping: 1, width: 1", true},
+    {"type: bow, table: [[0, 0], [1, 1]]", true},
+    {"type: smooth_bow, damping: 1, width: 1", true},
+    {"type: table, elastic: [[0, 0], [1, 1]]", true},
+    {"type: table, viscous: [[0, 0], [1, 1]]", false},
+    {"type: table, elastic: [[0, 0], [1, 1]], viscous: [[0, 0], [1, 1]]", false},
+    {"type: conditional, stiffness: 1, engage: 1", false},
+};
+
+TEST(ReadLinksTest, SchemeIsLeftToBeChosenWhereThereIsAChoice) {
+  for (const Kind& kind : kKinds) {
+    const std::string start = std::string(LINK "between: [m, n], ") + kind.fields;
+    const Scheme open = kind.guardable ? Scheme::kAuto : Scheme::kExplicit;
+    EXPECT_EQ(last(start + "}}\n").scheme, open) << kind.fields;
+    EXPECT_EQ(last(start + ", scheme: auto}}\n").scheme, open) << kind.fields;
+    EXPECT_EQ(last(start + ", scheme: explicit}}\n").scheme, Scheme::kExplicit) << kind.fields;
+    EXPECT_EQ(isGuardable(last(start + "}}\n")), kind.guardable) << kind.fields;
+  }
+}
+
+TEST(ReadLinksTest, GuardIsGivenOrRefusedAsTheTypeAllows) {
+  for (const Kind& kind : kKinds) {
+    const std::string text =
+        std::string(LINK "between: [m, n], ") + kind.fields + ", scheme: <!>guarded}}\n";
+    if (!kind.guardable) {
+      expectRefused({text.c_str(), "link 'x' cannot be guarded, it is "}, "bad.yaml");
+      continue;
+    }
+    std::string whole = text;
+    whole.erase(whole.find("<!>"), 3);
+    EXPECT_EQ(last(whole).scheme, Scheme::kGuarded) << kind.fields;
+  }
+}
+
+TEST(ReadLinksTest, LinksOfMdlFilesStayExplicit) {
+  const Scene s = readMdl("@a mass 1 0 0\n@b ground 0\n@c contact @a @b 0.1 0\n", "a.mdl");
+  EXPECT_EQ(s.lias[0].scheme, Scheme::kExplicit);
+  EXPECT_THROW(readMdl("@a mass 1 0 0\n@b ground 0\n@c spring @a @b -0.1\n", "a.mdl"), TextError);
+  EXPECT_THROW(readMdl("@a mass 1 0 0\n@b ground 0\n@c damper @a @b -0.1\n", "a.mdl"), TextError);
+}
+
+TEST(ReadLinksTest, CouplingIsHoldUnlessTheSceneSaysDecimate) {
+  const std::string start = LINK "type: spring, stiffness: 1, between: ";
+  EXPECT_EQ(last(start + "[m, k]}}\n").coupling, Coupling::kHold);
+  EXPECT_EQ(last(start + "[m, n], coupling: hold}}\n").coupling, Coupling::kHold);
+  EXPECT_EQ(last(start + "[m, k], coupling: decimate}}\n").coupling, Coupling::kDecimate);
+  EXPECT_EQ(last(start + "[m, q], coupling: decimate}}\n").coupling, Coupling::kDecimate);
+}
+
+TEST(ReadLinksTest, FilterIsAskedForBetweenHandAndStructure) {
+  const std::string start = LINK "type: contact, stiffness: 1, between: ";
+  EXPECT_FALSE(last(start + "[m, k]}}\n").filtered);
+  EXPECT_FALSE(last(start + "[m, k], filter: none}}\n").filtered);
+  EXPECT_TRUE(last(start + "[m, k], filter: auto}}\n").filtered);
+  EXPECT_TRUE(last(start + "[k, m], filter: auto}}\n").filtered);
+}
+
+TEST(ReadLinksTest, EndsMayBePointsOfAString) {
+  const Scene s = readYaml(LINK
+                           "type: spring, between: [s@0.3, m], stiffness: 1},\n"
+                           "  y: {type: spring, between: [n, s@0.3], stiffness: 1},\n"
+                           "  z: {type: spring, between: [s@0.3, s@0.7], stiffness: 1}}\n",
+                           "links.yaml");
+  const Lia& x = s.lias[s.lias.size() - 3];
+  const Lia& y = s.lias[s.lias.size() - 2];
+  const Lia& z = s.lias[s.lias.size() - 1];
+  EXPECT_EQ(s.mats[static_cast<std::size_t>(x.a)].type, MatType::kPoint);
+  EXPECT_EQ(s.mats[static_cast<std::size_t>(x.a)].name, "s@0.3");
+  EXPECT_EQ(s.mats[static_cast<std::size_t>(x.b)].name, "m");
+  EXPECT_EQ(y.b, x.a);
+  EXPECT_EQ(z.a, x.a);
+  EXPECT_NE(z.b, x.a);
+  EXPECT_EQ(s.connections.size(), 2U);
+}
+
+TEST(ReadLinksTest, RestLengthIsSignedOnlyAlongAnAxis) {
+  const std::string start = LINK "type: spring, stiffness: 1, ";
+  EXPECT_EQ(last(start + "between: [m, n], rest_length: -1}}\n").rest_length, -1.0);
+  EXPECT_EQ(last(start + "between: [v, m], rest_length: -1}}\n").rest_length, -1.0);
+  EXPECT_EQ(last(start + "between: [v, w], rest_length: 1}}\n").rest_length, 1.0);
+}
+
+const BadText kBad[] = {
+    {LINK "type: power_contact, between: [m, n], stiffness: <!>-1, exponent: 1}}\n",
+     "'stiffness' of link 'x' = -1 N/m^exponent is out of range, allowed: >= 0 N/m^exponent"},
+    {LINK "type: power_contact, between: [m, n], stiffness: 1, exponent: <!>0.9}}\n",
+     "'exponent' of link 'x' = 0.9 is out of range, allowed: 1...5"},
+    {LINK "type: power_contact, between: [m, n], stiffness: 1, exponent: <!>5.1}}\n",
+     "= 5.1 is out of range, allowed: 1...5"},
+    {LINK "type: power_contact, between: [m, n], stiffness: 1, exponent: <!>2*$p}}\n",
+     "(where p = 4) = 8 is out of range, allowed: 1...5"},
+    {LINK "type: power_contact, between: [m, n], stiffness: 1, exponent: 2, damping: <!>-1}}\n",
+     "= -1 N s/m is out of range, allowed: >= 0 N s/m"},
+    {HEAD "lias: {<!>x: {type: power_contact, between: [m, n], stiffness: 1}}\n",
+     "missing key 'exponent' of link 'x'"},
+    {LINK "type: contact, between: [m, n], stiffness: <!>-1}}\n",
+     "= -1 N/m is out of range, allowed: >= 0 N/m"},
+    {LINK "type: contact, between: [m, n], stiffness: 1, damping: <!>$n}}\n",
+     "(where n = -1) = -1 N s/m is out of range"},
+    {LINK "type: smooth_bow, between: [m, n], damping: <!>-1, width: 1}}\n",
+     "= -1 N s/m is out of range, allowed: >= 0 N s/m"},
+    {LINK "type: cubic, between: [m, n], stiffness: <!>-1, nonlinearity: 1}}\n",
+     "= -1 N/m is out of range"},
+    {LINK "type: spring, between: [m, n], stiffness: <!>inf}}\n",
+     "'inf' is not a finite number, allowed: any finite number of N/m"},
+    {HEAD "lias: {<!>x: {type: table, between: [m, n]}}\n",
+     "link 'x' has neither 'elastic' nor 'viscous', allowed: one or both"},
+    {LINK "type: table, between: [m, n], elastic: [[0, 0], [1, 1]], <!>stiffness: 1}}\n",
+     "unknown key 'stiffness' of link 'x'"},
+    {LINK "type: table, between: [m, n], viscous: <!>[[0, 0]]}}\n",
+     "'viscous' of link 'x' is not a list of points, allowed: 2...4096 pairs"},
+    {HEAD "lias: {<!>x: {type: table, between: [m, n], elastic: [[0, 0], [1e-300, 1e10]]}}\n",
+     "points in the table of link 'x' are too close to each other, allowed: finite slopes"},
+    {LINK "type: conditional, between: [m, n], stiffness: <!>-1, engage: 1}}\n",
+     "= -1 N/m is out of range, allowed: >= 0 N/m"},
+    {LINK "type: conditional, between: [m, n], stiffness: 1, engage: <!>0}}\n",
+     "'engage' of link 'x' = 0 m is out of range, allowed: > 0 m"},
+    {LINK "type: conditional, between: [m, n], stiffness: 1, engage: 1, release: <!>0.5}}\n",
+     "'release' of link 'x' = 0.5 m is out of range, allowed: >= 1 m"},
+    {LINK "type: conditional, between: [m, n], stiffness: 1, engage: $p, release: <!>3}}\n",
+     "= 3 m is out of range, allowed: >= 4 m"},
+    {HEAD "lias: {<!>x: {type: conditional, between: [m, n], stiffness: 1, engage: $p}}\n",
+     "missing key 'release' of link 'x', allowed without it: a constant 'engage'"},
+    {HEAD "lias: {<!>x: {type: conditional, between: [m, n], stiffness: 1}}\n",
+     "missing key 'engage' of link 'x'"},
+    {LINK "type: spring, between: [m, n], stiffness: 1, scheme: <!>best}}\n",
+     "unknown scheme 'best' of link 'x'; known: auto, explicit, guarded"},
+    {LINK "type: spring, between: [m, n], stiffness: 1, scheme: <!>guarded}}\n",
+     "link 'x' cannot be guarded, it is a linear spring or damper, allowed: auto, explicit"},
+    {LINK "type: pluck, between: [m, n], stiffness: 1, width: 1, scheme: <!>guarded}}\n",
+     "it is a pluck, allowed: auto, explicit"},
+    {LINK "type: conditional, between: [m, n], stiffness: 1, engage: 1, scheme: <!>guarded}}\n",
+     "it is conditional, allowed: auto, explicit"},
+    {LINK "type: table, between: [m, n], viscous: [[0, 0], [1, 1]], scheme: <!>guarded}}\n",
+     "it is a table with a viscous part, allowed: auto, explicit"},
+    {LINK "type: spring, between: [m, k], stiffness: 1, coupling: <!>mean}}\n",
+     "unknown coupling 'mean' of link 'x'; known: hold, decimate"},
+    {LINK "type: spring, between: [m, n], stiffness: 1, coupling: <!>decimate}}\n",
+     "link 'x' has nothing to decimate, both ends have the same rate, allowed: hold"},
+    {LINK "type: spring, between: [m, o], stiffness: 1, coupling: <!>decimate}}\n",
+     "both ends have the same rate, allowed: hold"},
+    {LINK "type: spring, between: [k, l], stiffness: 1, coupling: <!>decimate}}\n",
+     "both ends have the same rate, allowed: hold"},
+    {LINK "type: spring, between: [m, k], stiffness: 1, filter: <!>on}}\n",
+     "unknown filter 'on' of link 'x'; known: none, auto"},
+    {LINK "type: spring, between: [m, n], stiffness: 1, filter: <!>auto}}\n",
+     "link 'x' cannot be filtered, allowed: links between a gestural section and a faster one"},
+    {LINK "type: spring, between: [m, q], stiffness: 1, filter: <!>auto}}\n",
+     "allowed: links between a gestural section and a faster one"},
+    {LINK "type: spring, between: [k, l], stiffness: 1, filter: <!>auto}}\n",
+     "allowed: links between a gestural section and a faster one"},
+    {LINK "type: spring, between: [m, k], stiffness: 1, coupling: decimate, filter: <!>auto}}\n",
+     "link 'x' is decimated, so there is nothing to filter, allowed: coupling hold"},
+    {LINK "type: spring, between: <!>[s@0.3, s@0.3], stiffness: 1}}\n",
+     "joins module 's@0.3' to itself"},
+    {LINK "type: spring, between: <!>[s@0.5, s.2], stiffness: 1}}\n", "to itself"},
+    {LINK "type: spring, between: [m, <!>s@1.5], stiffness: 1}}\n",
+     "= 1.5 is out of range, allowed: 0...1"},
+    {LINK "type: spring, between: [m, <!>t@0.5], stiffness: 1}}\n", "'t'"},
+    {LINK "type: spring, between: [v, w], stiffness: 1, rest_length: <!>-1}}\n",
+     "'rest_length' of link 'x' = -1 m is out of range, allowed: >= 0 m"},
+};
+TEST(ReadLinksTest, WrongLinksAreRefusedAtTheirPlace) {
+  for (const BadText& bad : kBad) {
+    expectRefused(bad, "bad.yaml");
+  }
+}
+
+struct Damage {
+  const char* message;
+  void (*apply)(Scene&, Lia&);
+};
+const Damage kDamages[] = {
+    {"exponent of link 'x' = 0.5", [](Scene&, Lia& l) { l.law.edit().exponent = {0.5}; }},
+    {"parameter of exponent of link 'x' = 7",
+     [](Scene&, Lia& l) { l.law.edit().exponent.parameter = 7; }},
+    {"exponent of link 'x' = 8",
+     [](Scene&, Lia& l) {
+       l.law.edit().exponent = {2.0, 0};
+     }},
+    {"stiffness of link 'x' = -1 N/m^exponent", [](Scene&, Lia& l) { l.stiffness = {-1.0}; }},
+    {"link 'x' has a table, allowed: pluck, bow and table only",
+     [](Scene&, Lia& l) {
+       l.law.edit().viscous_table.points = {{0.0, 0.0}, {1.0, 1.0}};
+     }},
+    {"link 'x' has no table", [](Scene&, Lia& l) { l.type = LiaType::kTable; }},
+    {"one point in the table of link 'x'",
+     [](Scene&, Lia& l) {
+       l.type = LiaType::kTable;
+       l.law.edit().viscous_table.points = {{0.0, 0.0}};
+     }},
+    {"release of link 'x' = 0 m is out of range, allowed: >= 1 m",
+     [](Scene&, Lia& l) {
+       l.type = LiaType::kConditional;
+       l.law.edit().width = {1.0};
+     }},
+    {"engage of link 'x' = 0 m",
+     [](Scene&, Lia& l) {
+       l.type = LiaType::kConditional;
+       l.law.edit().width = {0.0};
+     }},
+    {"link 'x' cannot be guarded",
+     [](Scene&, Lia& l) {
+       l.type = LiaType::kPluck;
+       l.law.edit().width = {1.0};
+       l.scheme = Scheme::kGuarded;
+     }},
+    {"link 'x' has nothing to decimate", [](Scene&, Lia& l) { l.coupling = Coupling::kDecimate; }},
+    {"link 'x' cannot be filtered", [](Scene&, Lia& l) { l.filtered = true; }},
+    {"rest_length of link 'x' = -1 m is out of range, allowed: >= 0 m",
+     [](Scene& s, Lia& l) {
+       s.sections[0].geometry = Geometry::kLine;
+       l.rest_length = -1.0;
+     }},
+};
+TEST(ReadLinksTest, ValidateFindsEveryDamageOfALink) {
+  for (const Damage& damage : kDamages) {
+    Scene scene = readYaml(
+        LINK "type: power_contact, between: [m, n], stiffness: 1, exponent: 2}}\n", "links.yaml");
+    damage.apply(scene, scene.lias.back());
+    try {
+      validate(scene);
+      ADD_FAILURE() << "not found: " << damage.message;
+    } catch (const TextError& e) {
+      EXPECT_THAT(e.what(), testing::HasSubstr(damage.message));
+      EXPECT_THAT(e.what(), testing::StartsWith("links.yaml:15:8: error: "));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ergotic::scene

@@ -53,11 +53,14 @@ if(ERGOTIC_ROS)
   include(cmake/ros_tests.cmake)
 endif()
 
-# The scripts: what measures a demo and a peer; what users do in the devel and in an install space.
-foreach(script demo_report bench_faust latency play_gesture)
+# The scripts: what rooms may include, and how they are drawn; what measures a demo and a peer; what
+# users do in the devel and in an install space.
+foreach(script check_includes demo_report bench_faust latency play_gesture)
   add_test(NAME scripts.${script}
     COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/${script}_test.py)
 endforeach()
+add_test(NAME scripts.draw_rooms
+  COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/draw_rooms --check)
 if(ERGOTIC_ROS)
   add_test(NAME integration.spaces
     COMMAND ${PROJECT_SOURCE_DIR}/test/integration/spaces.sh

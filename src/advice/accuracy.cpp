@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "ergotic/scene/generate/coarse_string.hpp"
+#include "ergotic/scene/coarse_string.hpp"
 #include "physics/settling/coarse_string.hpp"
 
 namespace ergotic::physics {

@@ -6,7 +6,7 @@
 
 #include "advice/target_parts.hpp"
 #include "ergotic/advice/accuracy.hpp"
-#include "ergotic/scene/generate/coarse_string.hpp"
+#include "ergotic/scene/coarse_string.hpp"
 #include "physics/network/linear_network.hpp"
 #include "physics/note.hpp"
 

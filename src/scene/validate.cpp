@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "ergotic/exception.hpp"
-#include "ergotic/scene/generate/coarse_string.hpp"
+#include "ergotic/scene/coarse_string.hpp"
 #include "ergotic/scene/scene.hpp"
 #include "ergotic/scene/table.hpp"
 #include "scene/lia_rules.hpp"

@@ -2,7 +2,7 @@
 // The kernels, for one level of vector instructions: the including file sets ERGOTIC_LEVEL, the
 // namespace, and ERGOTIC_VECTOR_BYTES. Nothing here may be shared with other translation units,
 // which run on other processors: no standard library, everything in that namespace.
-#include "block_kernels.hpp"
+#include "physics/kernels/block_kernels.hpp"
 
 #define ERGOTIC_INLINE inline __attribute__((always_inline))
 

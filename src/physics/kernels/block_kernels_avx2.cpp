@@ -2,5 +2,5 @@
 #if defined(__x86_64__)
 #define ERGOTIC_LEVEL avx2
 #define ERGOTIC_VECTOR_BYTES 32
-#include "block_kernel_source.hpp"
+#include "physics/kernels/block_kernel_source.hpp"
 #endif

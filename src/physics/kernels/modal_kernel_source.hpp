@@ -2,7 +2,7 @@
 // Cells and sums over modes, for one level of vector instructions: the including file sets
 // ERGOTIC_LEVEL, the namespace. Nothing here may be shared with other translation units, which run
 // on other processors: no standard library, everything in that namespace.
-#include "modal_kernels.hpp"
+#include "physics/kernels/modal_kernels.hpp"
 
 namespace ergotic::physics::kernels::ERGOTIC_LEVEL {
 namespace {

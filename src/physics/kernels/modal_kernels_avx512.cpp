@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #if defined(__x86_64__)
 #define ERGOTIC_LEVEL avx512
-#include "modal_kernel_source.hpp"
+#include "physics/kernels/modal_kernel_source.hpp"
 #endif

@@ -1,3 +1,3 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #define ERGOTIC_LEVEL baseline
-#include "modal_kernel_source.hpp"
+#include "physics/kernels/modal_kernel_source.hpp"

@@ -2,8 +2,8 @@
 // The kernels of irregular networks, for one level of vector instructions: the including file sets
 // ERGOTIC_LEVEL, the namespace. Nothing here may be shared with other translation units, which run
 // on other processors: no standard library, everything in that namespace.
-#include "sparse_kernels.hpp"
-#include "sparse_pickers.hpp"
+#include "physics/kernels/sparse_kernels.hpp"
+#include "physics/kernels/sparse_pickers.hpp"
 
 namespace ergotic::physics::kernels::ERGOTIC_LEVEL {
 namespace {

@@ -1,3 +1,3 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #define ERGOTIC_LEVEL baseline
-#include "sparse_kernel_source.hpp"
+#include "physics/kernels/sparse_kernel_source.hpp"

@@ -3,7 +3,7 @@
 // including file sets ERGOTIC_LEVEL, the namespace, and ERGOTIC_VECTOR_BYTES. Nothing here may be
 // shared with other translation units, which run on other processors: no standard library,
 // everything in that namespace.
-#include "spatial_kernels.hpp"
+#include "physics/kernels/spatial_kernels.hpp"
 
 #define ERGOTIC_INLINE inline __attribute__((always_inline))
 

@@ -2,5 +2,5 @@
 #if defined(__x86_64__)
 #define ERGOTIC_LEVEL avx2
 #define ERGOTIC_VECTOR_BYTES 32
-#include "spatial_kernel_source.hpp"
+#include "physics/kernels/spatial_kernel_source.hpp"
 #endif

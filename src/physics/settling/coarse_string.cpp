@@ -7,7 +7,7 @@
 #include <Eigen/Dense>
 
 #include "ergotic/exception.hpp"
-#include "ergotic/scene/generate/coarse_string.hpp"
+#include "ergotic/scene/coarse_string.hpp"
 #include "physics/note.hpp"
 #include "physics/step_units.hpp"
 

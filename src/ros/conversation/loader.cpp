@@ -7,8 +7,8 @@
 #include <ros/console.h>
 
 #include "ergotic/exception.hpp"
+#include "ros/conversation/description.hpp"
 #include "ros/conversation/model_loader.hpp"
-#include "ros/display/description.hpp"
 
 namespace ergotic::node {
 namespace {

@@ -4,8 +4,8 @@
 #include <ros/console.h>
 
 #include "ergotic/exception.hpp"
+#include "ros/conversation/description.hpp"
 #include "ros/device/end_effectors.hpp"
-#include "ros/display/description.hpp"
 
 namespace ergotic::node {
 namespace {

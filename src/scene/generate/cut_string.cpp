@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "ergotic/scene/generate/coarse_string.hpp"
+#include "ergotic/scene/coarse_string.hpp"
 #include "ergotic/scene/grid.hpp"
 #include "scene/limits.hpp"
 

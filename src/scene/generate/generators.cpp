@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "ergotic/scene/coarse_string.hpp"
 #include "ergotic/scene/generate/chaplet.hpp"
-#include "ergotic/scene/generate/coarse_string.hpp"
 
 namespace ergotic::scene {
 namespace {

@@ -2,7 +2,7 @@
 #include <utility>
 #include <vector>
 
-#include "ergotic/scene/generate/coarse_string.hpp"
+#include "ergotic/scene/coarse_string.hpp"
 #include "scene/generate/generators.hpp"
 #include "scene/yaml/yaml_elements.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "ergotic/exception.hpp"
 #include "ergotic/physics/certificate/certify.hpp"
-#include "ergotic/scene/generate/coarse_string.hpp"
+#include "ergotic/scene/coarse_string.hpp"
 #include "ergotic/scene/generate/pitch.hpp"
 #include "support/scene_builder.hpp"
 

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "ergotic/scene/generate/coarse_string.hpp"
+#include "ergotic/scene/coarse_string.hpp"
 #include "ergotic/scene/generate/pitch.hpp"
 #include "ergotic/scene/grid.hpp"
 #include "ergotic/scene/text/read_scene.hpp"

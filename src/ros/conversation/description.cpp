@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/display/description.hpp"
+#include "ros/conversation/description.hpp"
 
 #include <ros/master.h>
 #include <ros/names.h>

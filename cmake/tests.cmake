@@ -53,14 +53,17 @@ if(ERGOTIC_ROS)
   include(cmake/ros_tests.cmake)
 endif()
 
-# The scripts: what rooms may include, and how they are drawn; what measures a demo and a peer; what
-# users do in the devel and in an install space.
+# The scripts: what rooms may include, and how they are drawn; what measures a demo, a peer and another
+# build; what users do in the devel and in an install space.
 foreach(script check_includes demo_report bench_faust latency play_gesture)
   add_test(NAME scripts.${script}
     COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/${script}_test.py)
 endforeach()
 add_test(NAME scripts.draw_rooms
   COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/draw_rooms --check)
+add_test(NAME scripts.compare_builds
+  COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/compare_builds_test.py
+          $<TARGET_FILE_DIR:render>)
 if(ERGOTIC_ROS)
   add_test(NAME integration.spaces
     COMMAND ${PROJECT_SOURCE_DIR}/test/integration/spaces.sh

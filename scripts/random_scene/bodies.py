@@ -4,7 +4,7 @@ import collections
 import math
 
 from random_scene.dice import DIMENSIONS, rounded
-from random_scene.laws import ACTIVE, CONTACTS, ELASTIC, FRICTION, Laws
+from random_scene.laws import ELASTIC, LAWS, Laws
 
 SPACING = 0.01  # m between modules
 
@@ -97,8 +97,11 @@ class Bodies(Laws):
         self.may_follow = False
         body = self.pick(self.string, self.mesh)(home)
         self.may_follow = True
+        made = self.generators[-1]
+        if made.get("neighbours") == 8:  # the same Z/K in all links
+            made["diagonal_stiffness"] = made["stiffness"]
         if self.chance(0.5):
-            self.generators[-1].pop("loss", None)
+            made.pop("loss", None)
         self.features[f"modes {section['modes'] if section['modes'] in ('all', 'auto') else 'N'}"] += 1
         return body
 
@@ -145,7 +148,7 @@ class Bodies(Laws):
         names = list(places)
         for i, name in enumerate(names[1:], start=1):
             for other in {names[max(0, i - self.random.randint(1, 4))], names[i - 1]}:
-                kinds = ELASTIC + CONTACTS + FRICTION + ACTIVE if self.chance(0.6) else ELASTIC[:2]
+                kinds = LAWS if self.chance(0.6) else ELASTIC[:2]
                 length = 0.0 if geometry == "scalar" else math.dist(places[name], places[other])
                 self.link(other, name, self.law(self.pick(*kinds), unit, length))
         moving = [n for n in names if self.parts["mats"][n]["type"] == "mass"]
@@ -169,6 +172,8 @@ class Bodies(Laws):
                                                                       places[names[other]])
                 rows.append([f"{name}.link.{len(rows)}", [names[other], names[i]],
                              rounded(self.within(0.02, 0.1) * unit.full), rounded(far)])
+        for row in self.random.sample(rows, 3):  # takes away of what another spring gives
+            rows.append([f"{name}.link.{len(rows)}", row[1], rounded(-0.1 * row[2]), row[3]])
         self.parts["lias"][name] = {
             "with": {"type": "spring_damper", "damping": self.losses(unit)},
             "columns": ["name", "between", "stiffness", "rest_length"], "rows": rows}

@@ -6,6 +6,7 @@ ELASTIC = ("spring", "spring_damper", "quadratic", "cubic", "clipped_cubic", "ta
 CONTACTS = ("contact", "power_contact", "cubic_contact")
 FRICTION = ("bow", "smooth_bow", "damper")
 ACTIVE = ("pluck", "conditional")
+LAWS = ELASTIC + CONTACTS + FRICTION + ACTIVE
 ALWAYS_EXPLICIT = ("spring", "spring_damper", "damper") + ACTIVE
 
 
@@ -30,7 +31,7 @@ class Laws(Dice):
         return {"type": kind, **keys}
 
     def law_spring(self, unit, stiff, damping):
-        return {"stiffness": self.value(stiff * self.pick(1, 1, 1, -0.05))}
+        return {"stiffness": self.value(stiff)}
 
     def law_damper(self, unit, stiff, damping):
         return {"damping": self.value(damping)}

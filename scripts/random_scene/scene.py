@@ -106,9 +106,10 @@ class Scene(Bodies):
         unit, other = self.hand_unit(body), self.place(body)
         is_scalar = "scalar" == geometry == self.section_of(body)["geometry"]
         rate = self.section_of(body)["rate"]
+        is_sleepy = "sleep" in self.section_of(body)
         if body.along and body.along.startswith("s") and not self.is_modal(body) and self.chance(0.4):
             other = self.moving_point(body, hand)
-        elif is_scalar and rate == "audio" and self.ratio >= 4 and self.chance(0.4):
+        elif is_scalar and rate == "audio" and self.ratio >= 4 and not is_sleepy and self.chance(0.4):
             other_end, name = other, f"ch{len(self.generators)}"
             self.generators.append({"type": "chaplet", "name": name, "section": body.section,
                                     "from": hand, "mass": self.value(20 * unit.mass)})

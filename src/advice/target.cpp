@@ -13,7 +13,7 @@
 #include "ergotic/advice/accuracy.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/physics/certificate/certify.hpp"
-#include "ergotic/physics/network/chaplet.hpp"
+#include "ergotic/physics/settling/chaplet.hpp"
 #include "ergotic/physics/settling/settle.hpp"
 #include "physics/note.hpp"
 

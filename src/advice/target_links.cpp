@@ -8,9 +8,9 @@
 #include "advice/target_parts.hpp"
 #include "ergotic/advice/accuracy.hpp"
 #include "ergotic/scene/generate/chaplet.hpp"
+#include "physics/certificate/explicit_limits.hpp"
 #include "physics/laws/slopes.hpp"
 #include "physics/network/linear_network.hpp"
-#include "physics/settling/scheme_choice.hpp"
 
 namespace ergotic::physics {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "physics/certificate/certify_parts.hpp"
-#include "physics/settling/scheme_choice.hpp"
+#include "physics/certificate/explicit_limits.hpp"
 
 namespace ergotic::physics {
 namespace {

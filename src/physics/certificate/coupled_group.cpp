@@ -104,7 +104,7 @@ std::vector<scene::Scene> CoupledGroup::cases() const {
 }
 
 bool CoupledGroup::follows(const scene::Value& v) const {
-  const Span span = spanOf(networks_.scene(), v);
+  const Range span = rangeOf(networks_.scene(), v);
   return span.lowest != span.highest;
 }
 

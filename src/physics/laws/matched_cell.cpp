@@ -6,7 +6,7 @@
 
 namespace ergotic::physics {
 
-double matchedLoad(Span stiffness, Span damping, Span mass, double step) {
+double matchedLoad(Range stiffness, Range damping, Range mass, double step) {
   constexpr double kPi = 3.14159265358979323846;
   const double slowest_decay = damping.lowest / (2.0 * mass.highest) * step;
   const double fastest_decay = damping.highest / (2.0 * mass.lowest) * step;

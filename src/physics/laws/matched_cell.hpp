@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "physics/laws/slopes.hpp"
+#include "physics/laws/range.hpp"
 
 namespace ergotic::physics {
 
@@ -9,6 +9,6 @@ namespace ergotic::physics {
 /// stiffness, damping and mass can be; exact if they are constant. With links attached it
 /// enters the network with it; alone it is stable at any step.
 /// Source: docs/physics.md, "Stability".
-double matchedLoad(Span stiffness, Span damping, Span mass, double step);
+double matchedLoad(Range stiffness, Range damping, Range mass, double step);
 
 }  // namespace ergotic::physics

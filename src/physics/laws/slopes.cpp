@@ -38,32 +38,9 @@ double clippedStiffness(const scene::Scene& scene, const scene::Lia& lia) {
 
 }  // namespace
 
-Span spanOf(const scene::Scene& scene, const scene::Value& v) {
-  if (v.audio >= 0) {
-    return {};
-  }
-  if (v.parameter < 0) {
-    return {v.factor, v.factor};
-  }
-  const scene::Parameter& p = scene.parameters[static_cast<std::size_t>(v.parameter)];
-  const double a = v.factor * p.minimum;
-  const double b = v.factor * p.maximum;
-  return {std::min(a, b), std::max(a, b)};
-}
-
-double largest(const scene::Scene& scene, const scene::Value& v) {
-  const Span span = spanOf(scene, v);
-  return std::max(std::abs(span.lowest), std::abs(span.highest));
-}
-
-double smallest(const scene::Scene& scene, const scene::Value& v) {
-  const Span span = spanOf(scene, v);
-  return std::min(std::abs(span.lowest), std::abs(span.highest));
-}
-
 Slopes slopesOf(const scene::Scene& scene, const scene::Lia& lia) {
-  const Span k = spanOf(scene, lia.stiffness);
-  const Span z = spanOf(scene, lia.damping);
+  const Range k = rangeOf(scene, lia.stiffness);
+  const Range z = rangeOf(scene, lia.damping);
   const double steepest_k = largest(scene, lia.stiffness);
   const double steepest_z = largest(scene, lia.damping);
   switch (lia.type) {

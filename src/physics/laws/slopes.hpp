@@ -2,22 +2,16 @@
 #pragma once
 
 #include "ergotic/scene/scene.hpp"
-#include "physics/network/network_bound.hpp"
+#include "physics/laws/range.hpp"
 
 namespace ergotic::physics {
-
-/// Both ends of what a value can be. What follows an audio input has no range and counts as 0.
-Span spanOf(const scene::Scene& scene, const scene::Value& v);
-/// The largest and the smallest absolute value.
-double largest(const scene::Scene& scene, const scene::Value& v);
-double smallest(const scene::Scene& scene, const scene::Value& v);
 
 /// The slopes of a link's force over elongation and over velocity, with every parameter at the
 /// worst end of its range. Nonlinear laws: the steepest slope, of either sign, where it is bounded;
 /// the linear part where it grows with amplitude.
 struct Slopes {
-  Span stiffness;
-  Span damping;
+  Range stiffness;
+  Range damping;
   bool is_unbounded = false;  ///< grows with amplitude
 };
 Slopes slopesOf(const scene::Scene& scene, const scene::Lia& lia);

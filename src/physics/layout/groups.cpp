@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include "physics/disjoint_sets.hpp"
 #include "physics/layout/guarded_groups.hpp"
 
 namespace ergotic::physics {
@@ -20,24 +21,18 @@ std::size_t at(int i) {
 class Split {
  public:
   Split(const scene::Scene& scene, const Rates& rates, const Layout& layout)
-      : scene_(scene), layout_(layout), above_(layout.sections.size()) {
+      : scene_(scene), layout_(layout), sets_(layout.sections.size()) {
     for (const SectionRange& range : layout.sections) {
       held_.push_back(rates.ratio > 1 && range.divisor >= rates.ratio);
     }
     while (releaseOne()) {
     }
-    std::iota(above_.begin(), above_.end(), 0);
     joinAll();
   }
 
   bool isHeld(int section) const { return held_[at(section)]; }
   /// One section that stands for all of its group.
-  int leaderOf(int section) const {
-    while (above_[at(section)] != section) {
-      section = above_[at(section)];
-    }
-    return section;
-  }
+  int leaderOf(int section) { return sets_.setOf(section); }
 
  private:
   int sectionOfGuide(const PlacePoint& point) const {
@@ -74,7 +69,7 @@ class Split {
     if (!isHeld(a) && !isHeld(b)) {
       const int one = leaderOf(a);
       const int other = leaderOf(b);
-      above_[at(std::max(one, other))] = std::min(one, other);
+      sets_.join(std::max(one, other), std::min(one, other));
     }
   }
 
@@ -105,7 +100,7 @@ class Split {
   const scene::Scene& scene_;
   const Layout& layout_;
   std::vector<bool> held_;
-  std::vector<int> above_;  // [sections] union-find
+  DisjointSets sets_;  // of sections
 };
 
 /// Deals everything out to the groups of its sections.
@@ -163,7 +158,7 @@ class Dealer {
 
   static constexpr int kHeld = LinkRun::kHeldGroup;
 
-  void makeGroups(const Split& split, const Rates& rates) {
+  void makeGroups(Split split, const Rates& rates) {
     std::map<int, Group> by_leader;
     for (int s = 0; s < static_cast<int>(layout_.sections.size()); ++s) {
       const SectionRange& range = layout_.sections[at(s)];

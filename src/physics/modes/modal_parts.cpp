@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <unordered_map>
 #include <utility>
 
+#include "physics/disjoint_sets.hpp"
 #include "physics/laws/oscillator.hpp"
 #include "physics/note.hpp"
 #include "physics/step_units.hpp"
@@ -177,39 +177,30 @@ class Finder {
     return best;
   }
 
-  int root(int m) {
-    while (parent_[at(m)] != m) {
-      parent_[at(m)] = parent_[at(parent_[at(m)])];
-      m = parent_[at(m)];
-    }
-    return m;
-  }
-
   /// Modules that these springs join, part by part.
   std::vector<LinearPart> gather(const std::vector<int>& lias) {
-    parent_.resize(scene_.mats.size());
-    std::iota(parent_.begin(), parent_.end(), 0);
+    DisjointSets sets(scene_.mats.size());
     std::vector<unsigned char> is_joined(scene_.mats.size(), 0);
     for (const int l : lias) {
       for (const int end : {lia(l).a, lia(l).b}) {
         is_joined[at(end)] = isFree(mat(end)) ? 1 : 0;
       }
       if (isFree(mat(lia(l).a)) && isFree(mat(lia(l).b))) {
-        parent_[at(root(lia(l).a))] = root(lia(l).b);
+        sets.join(lia(l).a, lia(l).b);
       }
     }
-    std::map<int, LinearPart> by_root;
+    std::map<int, LinearPart> by_set;
     for (int m = 0; m < static_cast<int>(scene_.mats.size()); ++m) {
       if (is_joined[at(m)] != 0) {
-        by_root[root(m)].mats.push_back(m);
+        by_set[sets.setOf(m)].mats.push_back(m);
       }
     }
     for (const int l : lias) {
       const int free_end = isFree(mat(lia(l).a)) ? lia(l).a : lia(l).b;
-      by_root[root(free_end)].lias.push_back(l);
+      by_set[sets.setOf(free_end)].lias.push_back(l);
     }
     std::vector<LinearPart> parts;
-    for (auto& [name, part] : by_root) {
+    for (auto& [name, part] : by_set) {
       parts.push_back(std::move(part));
     }
     return parts;
@@ -258,7 +249,6 @@ class Finder {
   int section_;
   StepUnits units_;
   std::vector<unsigned char> is_heard_;  // [mats] the force on it is an output
-  std::vector<int> parent_;              // [mats]
   LinearParts found_;
 };
 

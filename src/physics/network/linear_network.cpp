@@ -246,9 +246,4 @@ double LinearNetwork::highestModeAt(int mat) const {
   return bound;
 }
 
-ChapletLoad loadAt(const LinearNetwork& network, int mat, double nyquist) {
-  const double impedance = network.impedanceAt(mat);
-  return {network.stiffnessAt(mat), impedance > 0.0 ? impedance : nyquist * network.massAt(mat)};
-}
-
 }  // namespace ergotic::physics

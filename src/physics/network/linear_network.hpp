@@ -6,7 +6,6 @@
 
 #include <Eigen/SparseCore>
 
-#include "ergotic/physics/network/chaplet.hpp"
 #include "ergotic/scene/scene.hpp"
 
 namespace ergotic::physics {
@@ -77,10 +76,5 @@ class LinearNetwork {
   std::vector<double> damping_;  // to the ground
   std::vector<Spring> springs_;
 };
-
-/// The load at a module or point that is touched.
-/// \param nyquist  wN, rad/s: a module without links is a load wN M
-/// \pre network.moves(mat)
-ChapletLoad loadAt(const LinearNetwork& network, int mat, double nyquist);
 
 }  // namespace ergotic::physics

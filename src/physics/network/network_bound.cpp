@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
+
+#include "physics/disjoint_sets.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -16,16 +17,8 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-double positive(const Span& span) {
+double positive(const Range& span) {
   return std::max(span.highest, 0.0);
-}
-
-int find(std::vector<int>& parent, int node) {
-  while (parent[at(node)] != node) {
-    parent[at(node)] = parent[at(parent[at(node)])];
-    node = parent[at(node)];
-  }
-  return node;
 }
 
 }  // namespace
@@ -37,8 +30,8 @@ int NetworkBound::addNode(double mass, int owner) {
 }
 
 void NetworkBound::addLink(const std::vector<Share>& ends,
-                           Span stiffness,
-                           Span damping,
+                           Range stiffness,
+                           Range damping,
                            int label) {
   Link link{{}, stiffness, damping, label};
   for (const Share& share : ends) {
@@ -158,19 +151,19 @@ int NetworkBound::worstOwner() const {
 }
 
 std::vector<int> NetworkBound::components() const {
-  std::vector<int> parent(mass_.size());
-  std::iota(parent.begin(), parent.end(), 0);
+  DisjointSets sets(mass_.size());
   for (const Link& link : links_) {
     if (load(link) > 0.0) {
       for (const Share& share : link.ends) {
-        parent[at(find(parent, share.node))] = find(parent, link.ends.front().node);
+        sets.join(share.node, link.ends.front().node);
       }
     }
   }
+  std::vector<int> component(mass_.size());
   for (int node = 0; node < nodes(); ++node) {
-    parent[at(node)] = find(parent, node);
+    component[at(node)] = sets.setOf(node);
   }
-  return parent;
+  return component;
 }
 
 int NetworkBound::largestComponent() const {

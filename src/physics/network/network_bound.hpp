@@ -4,13 +4,9 @@
 #include <array>
 #include <vector>
 
-namespace ergotic::physics {
+#include "physics/laws/range.hpp"
 
-/// What a number can be: parameters move within a range.
-struct Span {
-  double lowest = 0.0;
-  double highest = 0.0;
-};
+namespace ergotic::physics {
 
 /// How much a node counts at an end of a link.
 struct Share {
@@ -32,8 +28,8 @@ class NetworkBound {
 
   struct Link {
     std::vector<Share> ends;  ///< every node once
-    Span stiffness;
-    Span damping;
+    Range stiffness;
+    Range damping;
     int label = -1;
   };
   /// A link with an end that may be at any of some places, here one after the other.
@@ -51,7 +47,7 @@ class NetworkBound {
   int addNode(double mass, int owner);
   /// \param ends   shares of one node add up; none: held at both ends, without effect
   /// \param label  whatever the caller wants back from worstLink()
-  void addLink(const std::vector<Share>& ends, Span stiffness, Span damping, int label);
+  void addLink(const std::vector<Share>& ends, Range stiffness, Range damping, int label);
   /// Four corners of a mesh between which links may lie, for cellBound(); -1: none there.
   void addCell(const std::array<int, 4>& nodes) { cells_.push_back(nodes); }
   /// \param places  more than one

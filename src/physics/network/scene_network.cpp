@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 #include <unordered_map>
 
 #include "ergotic/scene/grid.hpp"
+#include "physics/disjoint_sets.hpp"
 #include "physics/laws/matched_cell.hpp"
 #include "physics/step_units.hpp"
 
@@ -21,22 +21,14 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-int find(std::vector<int>& parent, int node) {
-  while (parent[at(node)] != node) {
-    parent[at(node)] = parent[at(parent[at(node)])];
-    node = parent[at(node)];
-  }
-  return node;
-}
-
 /// Grid lines between which a place can be: all of them, from the one before to the one after.
 struct Lines {
   std::vector<double> fractions;  // one: it does not move
 };
 
 Lines linesOf(
-    const scene::Scene& scene, const scene::Value& v, Span allowed, bool moves, int count) {
-  Span span = spanOf(scene, v);
+    const scene::Scene& scene, const scene::Value& v, Range allowed, bool moves, int count) {
+  Range span = rangeOf(scene, v);
   if (moves || v.audio >= 0) {
     span = allowed;
   }
@@ -87,7 +79,7 @@ SceneNetwork::SceneNetwork(const scene::Scene& scene, const Rates& rates)
 }
 
 void SceneNetwork::joinGroups() {
-  std::iota(group_.begin(), group_.end(), 0);
+  DisjointSets sets(group_.size());
   for (const scene::Lia& lia : scene_.lias) {
     if (!isExplicit(lia)) {
       continue;
@@ -98,13 +90,13 @@ void SceneNetwork::joinGroups() {
         for (const Share& share : place) {
           is_linked_[at(share.node)] = 1;
           first = first < 0 ? share.node : first;
-          group_[at(find(group_, share.node))] = find(group_, first);
+          sets.join(share.node, first);
         }
       }
     }
   }
   for (int m = 0; m < static_cast<int>(group_.size()); ++m) {
-    group_[at(m)] = find(group_, m);
+    group_[at(m)] = sets.setOf(m);
   }
 }
 
@@ -197,7 +189,7 @@ SceneNetwork::Places SceneNetwork::placesOf(int mat) const {
 /// The largest eigenvalue is convex in the place between two grid lines, so places on them suffice.
 SceneNetwork::Places SceneNetwork::placesOf(const scene::Connection& connection) const {
   const scene::Grid& grid = scene_.grids[at(connection.grid)];
-  const Span range{connection.along_minimum, connection.along_maximum};
+  const Range range{connection.along_minimum, connection.along_maximum};
   const Lines along = linesOf(scene_, connection.along, range, connection.guide >= 0, grid.columns);
   const Lines across = linesOf(scene_, connection.across, {0.0, 1.0}, false, grid.rows);
   Places places;
@@ -241,16 +233,16 @@ void SceneNetwork::addModules(Builder& to, bool plain) const {
         (is_alone && isMatched(m))) {
       continue;  // alone, its pole is that of the continuous oscillator: always stable
     }
-    Span k;
-    Span z = spanOf(scene_, scene_.sectionOf(mat).medium);
+    Range k;
+    Range z = rangeOf(scene_, scene_.sectionOf(mat).medium);
     if (mat.type == MatType::kCell) {
-      k = spanOf(scene_, mat.stiffness);
-      const Span own = spanOf(scene_, mat.damping);
+      k = rangeOf(scene_, mat.stiffness);
+      const Range own = rangeOf(scene_, mat.damping);
       z = {z.lowest + own.lowest, z.highest + own.highest};
     }
     if (isMatched(m) && !plain) {
       const double step = to.network.step();
-      k = {0.0, matchedLoad(k, z, spanOf(scene_, mat.mass), step) / (step * step)};
+      k = {0.0, matchedLoad(k, z, rangeOf(scene_, mat.mass), step) / (step * step)};
       z = {};
     }
     if (k.highest != 0.0 || z.highest != 0.0) {
@@ -272,8 +264,8 @@ void SceneNetwork::addLink(Builder& to, int l, bool hold_a, bool hold_b) const {
   const Places held{{}};
   const Places at_a = hold_a ? held : placesOf(lia.a);
   const Places at_b = hold_b ? held : placesOf(lia.b);
-  const Span& k = slopes(l).stiffness;
-  const Span& z = slopes(l).damping;
+  const Range& k = slopes(l).stiffness;
+  const Range& z = slopes(l).damping;
   if (at_a.size() > 1 && at_b.size() > 1) {
     // (u - v)(u - v)^T <= 2 u u^T + 2 v v^T: each end by itself.
     for (const Places& end : {at_a, at_b}) {

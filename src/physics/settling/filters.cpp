@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "ergotic/exception.hpp"
-#include "ergotic/physics/network/chaplet.hpp"
+#include "ergotic/physics/settling/chaplet.hpp"
 #include "ergotic/scene/grid.hpp"
-#include "physics/network/linear_network.hpp"
 #include "physics/note.hpp"
+#include "physics/settling/chaplet_load.hpp"
 
 namespace ergotic::physics {
 namespace {

@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "physics/certificate/explicit_limits.hpp"
 #include "physics/laws/slopes.hpp"
 #include "physics/network/scene_network.hpp"
 #include "physics/note.hpp"

@@ -77,15 +77,15 @@ Eigen::Vector3d moving(const Eigen::Vector3d& v, int dimensions) {
 
 /// Of the spring that a link is at least; 0 if it may let go.
 double springOf(const scene::Scene& scene, const scene::Lia& lia) {
-  const double k = spanOf(scene, lia.stiffness).lowest;
+  const double k = rangeOf(scene, lia.stiffness).lowest;
   switch (lia.type) {
     case LiaType::kSpringDamper:
       return k;
     case LiaType::kQuadratic:
     case LiaType::kCubic:
-      return spanOf(scene, lia.law->nonlinearity).lowest < 0.0 ? 0.0 : k;
+      return rangeOf(scene, lia.law->nonlinearity).lowest < 0.0 ? 0.0 : k;
     case LiaType::kClippedCubic:
-      return std::min(k, spanOf(scene, lia.law->stiffness_limit).lowest);
+      return std::min(k, rangeOf(scene, lia.law->stiffness_limit).lowest);
     default:
       return 0.0;
   }
@@ -114,7 +114,7 @@ class Assembly {
       const scene::Mat& mat = scene_.mats[m];
       if (row_[m] >= 0 && mat.type == MatType::kCell) {
         addBlock(row_[m], row_[m],
-                 spanOf(scene_, mat.stiffness).lowest * Eigen::Matrix3d::Identity());
+                 rangeOf(scene_, mat.stiffness).lowest * Eigen::Matrix3d::Identity());
       }
     }
     for (const scene::Lia& lia : scene_.lias) {

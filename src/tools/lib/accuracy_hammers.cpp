@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "ergotic/physics/network/chaplet.hpp"
+#include "ergotic/physics/settling/chaplet.hpp"
 #include "tools/lib/accuracy.hpp"
 #include "tools/lib/partials.hpp"
 

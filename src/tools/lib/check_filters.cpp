@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "ergotic/exception.hpp"
-#include "ergotic/physics/network/chaplet.hpp"
+#include "ergotic/physics/settling/chaplet.hpp"
 
 namespace ergotic::tools {
 namespace {

@@ -23,7 +23,7 @@ const std::vector<Share> kNothing;
 std::vector<Share> between(int a, int b) {
   return {{a, 1.0}, {b, -1.0}};
 }
-Span exactly(double value) {
+Range exactly(double value) {
   return {value, value};
 }
 void spring(NetworkBound& network, const std::vector<Share>& ends, double k, double z = 0.0) {

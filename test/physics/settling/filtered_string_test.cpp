@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "ergotic/physics/certificate/monodromy.hpp"
-#include "ergotic/physics/network/chaplet.hpp"
+#include "ergotic/physics/settling/chaplet.hpp"
 #include "ergotic/physics/settling/settle.hpp"
 #include "support/scene_builder.hpp"
 

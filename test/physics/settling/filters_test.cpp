@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "ergotic/exception.hpp"
-#include "ergotic/physics/network/chaplet.hpp"
-#include "physics/network/linear_network.hpp"
+#include "ergotic/physics/settling/chaplet.hpp"
+#include "physics/settling/chaplet_load.hpp"
 #include "support/scene_builder.hpp"
 
 namespace ergotic::physics {

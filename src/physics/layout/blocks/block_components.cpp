@@ -3,8 +3,8 @@
 #include <array>
 #include <cstdlib>
 #include <map>
-#include <numeric>
 
+#include "physics/disjoint_sets.hpp"
 #include "physics/layout/blocks/block_parts.hpp"
 
 namespace ergotic::physics {
@@ -40,31 +40,12 @@ bool isLinear(const scene::Scene& scene, const scene::Lia& lia) {
          (b_free || b.type == MatType::kGround);
 }
 
-/// Disjoint sets of modules.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int of(int i) {
-    while (parent_[at(i)] != i) {
-      parent_[at(i)] = parent_[at(parent_[at(i)])];
-      i = parent_[at(i)];
-    }
-    return i;
-  }
-  void join(int a, int b) { parent_[at(of(a))] = of(b); }
-
- private:
-  std::vector<int> parent_;
-};
-
 /// Which set each ground belongs to: kNone, or kShared if there are several.
 class Grounds {
  public:
   static constexpr int kNone = -1;
   static constexpr int kShared = -2;
-  Grounds(const scene::Scene& scene, const std::vector<int>& lias, Sets& sets)
+  Grounds(const scene::Scene& scene, const std::vector<int>& lias, DisjointSets& sets)
       : set_(scene.mats.size(), kNone) {
     for (const int l : lias) {
       const scene::Lia& lia = scene.lias[at(l)];
@@ -75,10 +56,10 @@ class Grounds {
   int of(int mat) const { return set_[at(mat)]; }
 
  private:
-  void note(const scene::Scene& scene, int ground, int other, Sets& sets) {
+  void note(const scene::Scene& scene, int ground, int other, DisjointSets& sets) {
     if (scene.mats[at(ground)].type == MatType::kGround) {
       int& set = set_[at(ground)];
-      const int found = sets.of(other);
+      const int found = sets.setOf(other);
       set = set == kNone || set == found ? found : kShared;
     }
   }
@@ -89,7 +70,7 @@ class Grounds {
 
 std::vector<Component> findComponents(const scene::Scene& scene) {
   std::vector<int> linear;
-  Sets sets(scene.mats.size());
+  DisjointSets sets(scene.mats.size());
   for (int l = 0; l < static_cast<int>(scene.lias.size()); ++l) {
     const scene::Lia& lia = scene.lias[at(l)];
     if (isLinear(scene, lia)) {
@@ -113,11 +94,11 @@ std::vector<Component> findComponents(const scene::Scene& scene) {
   for (const int l : linear) {
     const scene::Lia& lia = scene.lias[at(l)];
     if (grounds.of(lia.a) != Grounds::kShared && grounds.of(lia.b) != Grounds::kShared) {
-      componentOf(sets.of(isFree(scene.mats[at(lia.a)]) ? lia.a : lia.b)).lias.push_back(l);
+      componentOf(sets.setOf(isFree(scene.mats[at(lia.a)]) ? lia.a : lia.b)).lias.push_back(l);
     }
   }
   for (int m = 0; m < static_cast<int>(scene.mats.size()); ++m) {
-    const int set = isFree(scene.mats[at(m)]) ? sets.of(m) : grounds.of(m);
+    const int set = isFree(scene.mats[at(m)]) ? sets.setOf(m) : grounds.of(m);
     if (set >= 0 && component_of_set[at(set)] >= 0) {
       components[at(component_of_set[at(set)])].mats.push_back(m);
     }

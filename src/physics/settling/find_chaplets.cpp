@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
-#include "ergotic/physics/network/chaplet.hpp"
-#include "physics/network/linear_network.hpp"
+#include "ergotic/physics/settling/chaplet.hpp"
+#include "physics/settling/chaplet_load.hpp"
 
 namespace ergotic::physics {
 namespace {

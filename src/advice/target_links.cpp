@@ -348,7 +348,6 @@ class Finder {
     const int other = from_a ? lia.b : lia.a;
     const scene::Geometry geometry = scene_.sectionOf(from_a ? a : b).geometry;
     const bool can_be_filtered = scene::dimensionsOf(geometry) == 1 &&
-                                 lia.coupling == scene::Coupling::kHold &&
                                  networks_.around(other).moves(other) && !isOfChaplet(other);
     parts_.push_back(std::make_unique<HandPart>(
         touchOf(scene_, networks_, index), lia.filtered || isOfChaplet(other), can_be_filtered));

@@ -10,17 +10,6 @@ const Section& sectionAt(const Scene& scene, int mat) {
   return scene.sectionOf(scene.mats[static_cast<std::size_t>(mat)]);
 }
 
-/// True if the two are stepped together at any audio rate and any number of frames per tick.
-bool haveSameRate(const Section& a, const Section& b) {
-  if (&a == &b) {
-    return true;
-  }
-  if (a.automatic_rate || b.automatic_rate) {
-    return false;
-  }
-  return a.gestural == b.gestural && (a.gestural || a.divisor == b.divisor);
-}
-
 /// What no guard is defined for, nullptr if there is one.
 const char* unguarded(const Lia& lia) {
   switch (lia.type) {
@@ -68,15 +57,6 @@ std::string schemeFault(const Lia& lia) {
          ", allowed: auto, explicit";
 }
 
-std::string couplingFault(const Scene& scene, const Lia& lia) {
-  if (lia.coupling == Coupling::kHold ||
-      !haveSameRate(sectionAt(scene, lia.a), sectionAt(scene, lia.b))) {
-    return "";
-  }
-  return "link " + quoted(lia.name) +
-         " has nothing to decimate, both ends have the same rate, allowed: hold";
-}
-
 std::string filterFault(const Scene& scene, const Lia& lia) {
   if (!lia.filtered) {
     return "";
@@ -84,10 +64,6 @@ std::string filterFault(const Scene& scene, const Lia& lia) {
   if (sectionAt(scene, lia.a).gestural == sectionAt(scene, lia.b).gestural) {
     return "link " + quoted(lia.name) +
            " cannot be filtered, allowed: links between a gestural section and a faster one";
-  }
-  if (lia.coupling == Coupling::kDecimate) {
-    return "link " + quoted(lia.name) +
-           " is decimated, so there is nothing to filter, allowed: coupling hold";
   }
   return "";
 }

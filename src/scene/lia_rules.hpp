@@ -15,10 +15,9 @@ Limits restLengthLimits(const Scene& scene, const Lia& lia);
 /// |e| at which a conditional link lets go: not before it acts, whatever its parameters are.
 Limits releaseLimits(const Scene& scene, const Lia& lia);
 
-/// What is wrong with the scheme, coupling or filter of a link; empty if nothing is.
+/// What is wrong with the scheme or filter of a link; empty if nothing is.
 /// \pre the ends of the link exist
 std::string schemeFault(const Lia& lia);
-std::string couplingFault(const Scene& scene, const Lia& lia);
 std::string filterFault(const Scene& scene, const Lia& lia);
 
 }  // namespace ergotic::scene

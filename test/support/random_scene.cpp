@@ -170,14 +170,10 @@ class Maker {
   void addCouplings(int count) {
     const double softest = kMass * std::pow(made_.rates.gesturalHz(), 2);
     for (int i = 0; i < count; ++i) {
-      const bool is_decimated = chance(0.1);
-      const double k = is_soft_ || is_decimated ? softest * within(0.05, 0.5)
-                                                : kappa_ * kUnit * within(0.02, 0.5);
+      const double k = is_soft_ ? softest * within(0.05, 0.5) : kappa_ * kUnit * within(0.02, 0.5);
       const int slow = slow_[at(throwTo(static_cast<int>(slow_.size())))];
       const int fast = chance(0.4) ? pointOnString() : anyMoving();
       chance(0.5) ? spring(slow, fast, k) : spring(fast, slow, k);
-      b_.scene.lias.back().coupling =
-          is_decimated ? scene::Coupling::kDecimate : scene::Coupling::kHold;
     }
   }
 

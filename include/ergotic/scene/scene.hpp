@@ -157,12 +157,6 @@ enum class Scheme : std::uint8_t {
   kAuto,      ///< `settle` chooses by the rules of the certificate
 };
 
-/// How a link joins two rates.
-enum class Coupling : std::uint8_t {
-  kHold,      ///< computed at the faster rate: position held, force averaged (scheme A)
-  kDecimate,  ///< computed at the slower rate: position decimated, force as one impulse (scheme B)
-};
-
 /// Points (x, y) of a function, sorted by x, at least two if there are any.
 struct Table {
   std::vector<std::pair<double, double>> points;
@@ -202,7 +196,6 @@ struct Lia {
   Place place;
   LiaType type = LiaType::kSpringDamper;
   Scheme scheme = Scheme::kExplicit;
-  Coupling coupling = Coupling::kHold;
   bool filtered = false;  ///< `settle` puts a chaplet between the slower end and this link
 };
 /// True if the link may be guarded: all but linear springs and dampers, plucks, conditional links

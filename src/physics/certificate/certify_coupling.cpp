@@ -31,7 +31,6 @@ struct Group {
   int slowest = 0;       // its divisor
   double coupling_damping = 0.0;
   bool has_fast_modules = false;
-  bool decimates = false;
   const scene::Lia* nonlinear = nullptr;  // a link on a module of the group
 };
 
@@ -74,7 +73,6 @@ class CouplingJudge {
       const Slopes& slopes = networks_.slopes(static_cast<int>(l));
       group.coupling_damping = std::max(group.coupling_damping, slopes.damping.highest);
       group.has_fast_modules |= networks_.inverseMass(fast) > 0.0;
-      group.decimates |= lia.coupling == scene::Coupling::kDecimate;
     }
     for (const scene::Lia& lia : scene_.lias) {
       if (lia.type == scene::LiaType::kSpringDamper && networks_.isExplicit(lia)) {
@@ -117,12 +115,7 @@ class CouplingJudge {
                 : "is coupled to a faster one too stiffly for its rate, bound " + describe(bound) +
                       ", proven below 4";
     const CoupledGroup members(networks_, name);
-    if (group.decimates && !is_low) {
-      say(group, Verdict::kUnproven,
-          what +
-              " by a link that is decimated: its impulses can drive these modes. Use scheme A "
-              "(coupling: hold)");
-    } else if (members.masses() > kMostMasses) {
+    if (members.masses() > kMostMasses) {
       watch(members, group, what);
     } else {
       tryEigenvalues(members, group, what);

@@ -99,8 +99,7 @@ class LinkJudge {
         (lia.type == LiaType::kTable && !isRising(lia))) {
       findings_.worsen(Verdict::kBounded);
     }
-    if (networks_.crossesRates(lia) && (networks_.inverseMass(networks_.slowEnd(lia)) > 0.0 ||
-                                        lia.coupling == scene::Coupling::kDecimate)) {
+    if (networks_.crossesRates(lia) && networks_.inverseMass(networks_.slowEnd(lia)) > 0.0) {
       findings_.add(Verdict::kUnproven, lia.place,
                     "guarded link '" + lia.name +
                         "' acts on a slower module, which its guard cannot follow. Move that "
@@ -151,16 +150,13 @@ class LinkJudge {
     }
     const double limit = lia.type == LiaType::kPowerContact ? kWarnedSwitch : NetworkBound::kLimit;
     const double reach = elongationOf(networks_.scene(), lia, limit / unit);
-    const bool is_decimated =
-        networks_.crossesRates(lia) && lia.coupling == scene::Coupling::kDecimate;
     const std::string how = lia.type == LiaType::kPowerContact
                                 ? "; it would count as soft up to an overlap of "
                                 : "; no motion can be stable beyond an elongation of ";
     findings_.add(Verdict::kUnproven, lia.place,
                   "the slope of link '" + lia.name +
                       "' grows with its amplitude: stable only while it moves little" + how +
-                      describe(reach) + " m. Use " + (is_decimated ? "coupling: hold and " : "") +
-                      "scheme: guarded");
+                      describe(reach) + " m. Use scheme: guarded");
   }
 
   void judgeTable(const Lia& lia, const Slopes& slopes) {

@@ -47,9 +47,6 @@ EnergyMeter<Real>::EnergyMeter(const scene::Scene& scene, const Layout& layout, 
     coupling_of_run_.push_back(
         run.section_a == run.section_b ? kInside : couple(run.section_a, run.section_b));
   }
-  for (const DecimatedPoint& point : layout.decimations) {
-    coupling_of_decimation_.push_back(couple(point.section, point.of.section));
-  }
   scratch_ = make();
   if (!state.isMetered()) {
     return;
@@ -59,8 +56,6 @@ EnergyMeter<Real>::EnergyMeter(const scene::Scene& scene, const Layout& layout, 
   forced_at_ = arena.add<Feeding>("slice_forces", forced_.size());
   feeds_at_ = arena.add<Feeding>("input_forces", layout.feeds.size());
   places_at_ = arena.add<Feeding>("place_forces", coordinatesOf(layout.places));
-  decimations_at_ = arena.add<Feeding>("decimated_forces", coordinatesOf(layout.decimations));
-  decimation_work_at_ = arena.add<double>("decimated_work", layout.decimations.size());
   totals_at_ = arena.add<Totals>("energy_totals", 1);
 }
 
@@ -86,32 +81,22 @@ void EnergyMeter<Real>::forEachSource(const Group& group,
   for (const int section : group.sections) {
     for (const std::size_t i : forced_of_section_[at(section)]) {
       const int slot = forced_[i].slot;
-      book(section, forced_[i].device ? Source::kDevice : Source::kInputs, 0, -d[slot], -d[slot],
+      book(section, forced_[i].device ? Source::kDevice : Source::kInputs, -d[slot], -d[slot],
            feedings[i], f[slot]);
     }
   }
   feedings = arena.template at<Feeding>(feeds_at_);
   for (const std::size_t k : group.feeds) {
     const Feed& feed = layout_.feeds[k];
-    book(feed.section, Source::kInputs, 0, d[feed.slot], d[feed.slot], feedings[k],
-         feedings[k].mean);
+    book(feed.section, Source::kInputs, d[feed.slot], d[feed.slot], feedings[k], feedings[k].mean);
   }
   for (const std::size_t p : group.places) {
     const PlacePoint& point = layout_.places[p];
     const Real* place_d = state.placeD() + point.coordinate;
     auto* feeding = arena.template at<Feeding>(places_at_) + point.coordinate;
     for (int k = point.slot; k < point.slot + point.dimensions; ++k, ++feeding, ++place_d) {
-      book(point.section, Source::kInputs, 0, d[k] - moved[k], *place_d - moved[k], *feeding,
+      book(point.section, Source::kInputs, d[k] - moved[k], *place_d - moved[k], *feeding,
            feeding->mean);
-    }
-  }
-  for (const std::size_t p : group.decimations) {
-    const DecimatedPoint& point = layout_.decimations[p];
-    auto* feeding = arena.template at<Feeding>(decimations_at_) + point.coordinate;
-    for (int k = 0; k < point.dimensions; ++k, ++feeding) {
-      const Real moved_by = d[point.of.slot + k * point.of.stride];
-      book(point.of.section, Source::kDecimated, p, moved_by, moved_by, *feeding,
-           static_cast<Real>(point.impulse) * feeding->mean);
     }
   }
 }
@@ -124,17 +109,15 @@ void EnergyMeter<Real>::endFrame(const Group& group,
     return;
   }
   auto* books = state.arena().template at<SectionBooks>(books_at_);
-  auto* decimated = state.arena().template at<double>(decimation_work_at_);
   collectPointForces(group, state);
   forEachSource(group, state,
-                [&](int section, Source source, std::size_t p, Real moved, Real moved_last,
-                    Feeding& feeding, Real force) noexcept {
+                [&](int section, Source source, Real moved, Real moved_last, Feeding& feeding,
+                    Real force) noexcept {
                   if (!endsStep(section, now)) {
                     return;
                   }
-                  double& book = source == Source::kDecimated ? decimated[p]
-                                 : source == Source::kDevice  ? books[section].from_device
-                                                              : books[section].from_inputs;
+                  double& book = source == Source::kDevice ? books[section].from_device
+                                                           : books[section].from_inputs;
                   book += 0.5 * static_cast<double>(moved * force + moved_last * feeding.last);
                   feeding = {Real(0), force};
                 });
@@ -143,17 +126,12 @@ void EnergyMeter<Real>::endFrame(const Group& group,
 /// Points give their forces away in every frame: their means are collected here.
 template <class Real>
 void EnergyMeter<Real>::collectPointForces(const Group& group, State<Real>& state) const noexcept {
-  const auto collect = [&](const auto& point, std::size_t feedings_at) {
-    auto* feeding = state.arena().template at<Feeding>(feedings_at) + point.coordinate;
+  for (const std::size_t p : group.places) {
+    const PlacePoint& point = layout_.places[p];
+    auto* feeding = state.arena().template at<Feeding>(places_at_) + point.coordinate;
     for (int k = 0; k < point.dimensions; ++k) {
       feeding[k].mean += state.f()[point.slot + k];
     }
-  };
-  for (const std::size_t p : group.places) {
-    collect(layout_.places[p], places_at_);
-  }
-  for (const std::size_t p : group.decimations) {
-    collect(layout_.decimations[p], decimations_at_);
   }
 }
 
@@ -234,14 +212,10 @@ void EnergyMeter<Real>::addLinks(const CoefficientsOf<Real>& c,
     coupling.stored += stored;
     coupling.dissipated += work.dissipated;
     coupling.breathing += work.stored + work.dissipated;
-    if (run.decimated != LinkRun::Decimated::kA) {
-      coupling.breathing += work.on_a;
-      to.sections[at(run.section_a)].from_links += work.on_a;
-    }
-    if (run.decimated != LinkRun::Decimated::kB) {
-      coupling.breathing += work.on_b;
-      to.sections[at(run.section_b)].from_links += work.on_b;
-    }
+    coupling.breathing += work.on_a;
+    to.sections[at(run.section_a)].from_links += work.on_a;
+    coupling.breathing += work.on_b;
+    to.sections[at(run.section_b)].from_links += work.on_b;
   }
 }
 
@@ -284,28 +258,16 @@ void EnergyMeter<Real>::addSources(const State<Real>& state, Energies& to) const
   if (!state.isMetered()) {
     return;
   }
-  const auto* decimated = state.arena().template at<double>(decimation_work_at_);
-  const auto give = [&](std::size_t p, double work) {
-    to.couplings[coupling_of_decimation_[p]].breathing += work;
-    to.sections[at(layout_.decimations[p].of.section)].from_links += work;
-  };
-  for (std::size_t p = 0; p < layout_.decimations.size(); ++p) {
-    give(p, decimated[p]);
-  }
   forEachSource(everything_, state,
-                [&](int section, Source source, std::size_t p, Real moved, Real moved_last,
-                    const Feeding& feeding, Real force) {
+                [&](int section, Source source, Real moved, Real moved_last, const Feeding& feeding,
+                    Real force) {
                   if (state.frame() % layout_.sections[at(section)].divisor == 0) {
                     return;
                   }
                   const double work =
                       0.5 * static_cast<double>(moved * force + moved_last * feeding.last);
                   SectionEnergy& energy = to.sections[at(section)];
-                  if (source == Source::kDecimated) {
-                    give(p, work);
-                  } else {
-                    (source == Source::kDevice ? energy.from_device : energy.from_inputs) += work;
-                  }
+                  (source == Source::kDevice ? energy.from_device : energy.from_inputs) += work;
                 });
 }
 

@@ -76,7 +76,7 @@ class EnergyMeter {
     int a;
     int b;
   };
-  enum class Source { kDevice, kInputs, kDecimated };
+  enum class Source { kDevice, kInputs };
   static constexpr std::size_t kInside = static_cast<std::size_t>(-1);
 
   bool endsStep(int section, std::int64_t now) const noexcept {
@@ -85,8 +85,8 @@ class EnergyMeter {
   Totals& totals(State<Real>& state) const noexcept {
     return *state.arena().template at<Totals>(totals_at_);
   }
-  /// Calls `book(section, source, decimated point, moved under the force of this step, moved under
-  /// that of the last, feeding, force of this step)` for all that moves modules of a group.
+  /// Calls `book(section, source, moved under the force of this step, moved under that of the
+  /// last, feeding, force of this step)` for all that moves modules of a group.
   template <class StateType, class Book>
   void forEachSource(const Group& group, StateType& state, const Book& book) const noexcept;
   void collectPointForces(const Group& group, State<Real>& state) const noexcept;
@@ -111,16 +111,13 @@ class EnergyMeter {
   Group everything_;  // sections and what moves modules
   std::vector<Forced> forced_;
   std::vector<std::vector<std::size_t>> forced_of_section_;
-  std::vector<Coupled> couplings_;                   // pairs of sections
-  std::vector<std::size_t> coupling_of_run_;         // [runs] kInside: inside a section
-  std::vector<std::size_t> coupling_of_decimation_;  // [decimated points]
+  std::vector<Coupled> couplings_;            // pairs of sections
+  std::vector<std::size_t> coupling_of_run_;  // [runs] kInside: inside a section
   Energies scratch_;
   std::size_t books_at_ = 0;
-  std::size_t forced_at_ = 0;       // Feeding [forced]
-  std::size_t feeds_at_ = 0;        // Feeding [feeds]
-  std::size_t places_at_ = 0;       // Feeding [coordinates of places]
-  std::size_t decimations_at_ = 0;  // Feeding [coordinates of decimated points]
-  std::size_t decimation_work_at_ = 0;
+  std::size_t forced_at_ = 0;  // Feeding [forced]
+  std::size_t feeds_at_ = 0;   // Feeding [feeds]
+  std::size_t places_at_ = 0;  // Feeding [coordinates of places]
   std::size_t totals_at_ = 0;
 };
 

@@ -95,11 +95,6 @@ std::vector<int> GuardedRuns<Real>::reachedBy(const Group& group) const {
       add(ends.b, run.stride_b, std::max(1, run.dimensions));
     }
   }
-  for (const std::size_t p : group.decimations) {
-    const DecimatedPoint& point = layout_.decimations[p];
-    add(point.slot, 1, point.dimensions);
-    add(point.of.slot, point.of.stride, point.dimensions);
-  }
   for (const std::size_t p : group.projections) {
     const ProjectedPoint& point = layout_.projections[p];
     add(point.slot, 1, point.dimensions);

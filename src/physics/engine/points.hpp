@@ -14,7 +14,7 @@
 
 namespace ergotic::physics {
 
-/// Massless modules through which links see others: places on grids, other frames, other rates.
+/// Massless modules through which links see others: places on grids, other frames.
 /// Each takes its position as a weighted sum and hands its force back with the same weights, so
 /// that no work is lost between.
 template <class Real>
@@ -46,13 +46,6 @@ class Points {
     }
     for (const ProjectedPoint& point : layout_.projections) {
       gatherProjection(point, x, d);
-    }
-    for (const DecimatedPoint& point : layout_.decimations) {
-      // As if it had come here at its speed: it moves by the first of its faster steps.
-      for (int k = 0; k < point.dimensions; ++k) {
-        const int from = point.of.slot + k * point.of.stride;
-        x[point.slot + k] = x[from] - static_cast<Real>(point.impulse - 1.0) * d[from];
-      }
     }
   }
 
@@ -90,18 +83,6 @@ class Points {
         copyMoved(point.slot, point.dimensions, state);
       }
     }
-    for (const std::size_t p : group.decimations) {
-      const DecimatedPoint& point = layout_.decimations[p];
-      if (layout_.isDue(point.section, now)) {
-        keepLast(point.slot, point.dimensions, state);
-        for (int k = 0; k < point.dimensions; ++k) {
-          const Real position = x[point.of.slot + k * point.of.stride];
-          d[point.slot + k] = position - x[point.slot + k];
-          x[point.slot + k] = position;
-        }
-        copyMoved(point.slot, point.dimensions, state);
-      }
-    }
   }
 
   void clearForces(const Group& group, Real* f) const noexcept {
@@ -117,9 +98,6 @@ class Points {
     for (const std::size_t p : group.projections) {
       clear(layout_.projections[p]);
     }
-    for (const std::size_t p : group.decimations) {
-      clear(layout_.decimations[p]);
-    }
   }
 
   /// Forces go on to the modules, in the reverse order of gather().
@@ -129,13 +107,6 @@ class Points {
   }
   /// As far as modules that are sums of modes.
   void scatterToModules(const Group& group, Real* f, const double* places) const noexcept {
-    for (const std::size_t p : group.decimations) {
-      const DecimatedPoint& point = layout_.decimations[p];
-      for (int k = 0; k < point.dimensions; ++k) {
-        f[point.of.slot + k * point.of.stride] +=
-            static_cast<Real>(point.impulse) * f[point.slot + k];
-      }
-    }
     for (const std::size_t p : group.projections) {
       const ProjectedPoint& point = layout_.projections[p];
       for (int k = 0; k < point.dimensions; ++k) {

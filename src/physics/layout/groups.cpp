@@ -121,8 +121,6 @@ class Dealer {
     dealBySection(layout_.places, &Group::places, [](const auto& p) { return p.section; });
     dealBySection(layout_.projections, &Group::projections,
                   [](const auto& p) { return p.of.section; });
-    dealBySection(layout_.decimations, &Group::decimations,
-                  [](const auto& p) { return p.of.section; });
     dealBySection(layout_.feeds, &Group::feeds, [](const auto& f) { return f.section; });
     dealBySection(layout_.followers, &Group::followers, [](const auto& f) { return f.section; });
     dealLoneBlocks();
@@ -152,8 +150,8 @@ class Dealer {
     }
     return !has_modules && blocks == group.lone.size() && group.runs.empty() &&
            group.guarded.empty() && group.places.empty() && group.projections.empty() &&
-           group.decimations.empty() && group.feeds.empty() && group.followers.empty() &&
-           group.taps.empty() && group.proxies.empty();
+           group.feeds.empty() && group.followers.empty() && group.taps.empty() &&
+           group.proxies.empty();
   }
 
   static constexpr int kHeld = LinkRun::kHeldGroup;
@@ -220,9 +218,6 @@ class Dealer {
       }
     }
     for (const ProjectedPoint& point : layout_.projections) {
-      touch(point.of.slot);
-    }
-    for (const DecimatedPoint& point : layout_.decimations) {
       touch(point.of.slot);
     }
     for (const Feed& feed : layout_.feeds) {
@@ -334,7 +329,6 @@ Group everythingOf(const Layout& layout) {
   all(everything.modal_places, layout.modal_places.size());
   all(everything.places, layout.places.size());
   all(everything.projections, layout.projections.size());
-  all(everything.decimations, layout.decimations.size());
   return everything;
 }
 

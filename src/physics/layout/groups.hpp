@@ -34,7 +34,6 @@ struct Group {
   std::vector<std::size_t> modal_places;  ///< Layout::modal_places
   std::vector<std::size_t> places;        ///< Layout::places
   std::vector<std::size_t> projections;   ///< Layout::projections
-  std::vector<std::size_t> decimations;   ///< Layout::decimations
   std::vector<std::size_t> feeds;         ///< Layout::feeds
   std::vector<std::size_t> followers;     ///< Layout::followers
   std::vector<std::size_t> taps;          ///< Layout::taps

@@ -71,8 +71,6 @@ struct LinkRun {
   int section = 0;     ///< whose steps it follows
   int section_a = 0;   ///< of the modules
   int section_b = 0;
-  enum class Decimated { kNone, kA, kB };
-  Decimated decimated = Decimated::kNone;  ///< the end that is seen at the slower rate (scheme B)
   int slow_section = -1;
   bool slow_is_a = false;
   double share = 1.0;
@@ -117,19 +115,8 @@ struct ProjectedPoint {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 };
 
-/// A module of a faster section as a link at the slower rate sees it (scheme B).
-struct DecimatedPoint {
-  int slot = 0;
-  int dimensions = 1;
-  int coordinate = 0;  ///< first of its own among those of all decimated points
-  int section = 0;     ///< the slower one, that of its steps
-  End of;
-  double impulse = 1.0;  ///< steps of the faster section per step of the slower
-};
-
-/// Coordinates of all of these places, or decimated points.
-template <class Point>
-std::size_t coordinatesOf(const std::vector<Point>& points) {
+/// Coordinates of all of these places.
+inline std::size_t coordinatesOf(const std::vector<PlacePoint>& points) {
   return points.empty()
              ? 0
              : static_cast<std::size_t>(points.back().coordinate + points.back().dimensions);
@@ -172,7 +159,6 @@ struct Layout {
   std::vector<ModalPlace> modal_places;
   std::vector<PlacePoint> places;
   std::vector<ProjectedPoint> projections;
-  std::vector<DecimatedPoint> decimations;
   std::vector<LinkRun> runs;
   std::vector<int> port_slots;  ///< [ports] of the coordinate that it moves
   std::vector<Tap> taps;

@@ -48,23 +48,6 @@ class Ends {
     return known->second;
   }
 
-  /// The module as a link that is stepped with a slower section sees it.
-  End decimated(const End& end, int section, int dimensions) {
-    const auto [known, is_new] = decimations_.try_emplace({end.slot, section});
-    if (is_new) {
-      DecimatedPoint point;
-      point.slot = addSlots(layout_, dimensions, -1);
-      point.dimensions = dimensions;
-      point.coordinate = static_cast<int>(coordinatesOf(layout_.decimations));
-      point.section = section;
-      point.of = end;
-      point.impulse = static_cast<double>(divisor(section)) / divisor(end.section);
-      layout_.decimations.push_back(point);
-      known->second = {point.slot, 1, section, end.rest};
-    }
-    return known->second;
-  }
-
   const std::string& file() const { return scene_.file; }
   int divisor(int section) const { return layout_.sections[at(section)].divisor; }
 
@@ -86,7 +69,6 @@ class Ends {
   const scene::Scene& scene_;
   Layout& layout_;
   std::map<std::pair<int, int>, End> projections_;
-  std::map<std::pair<int, int>, End> decimations_;
 };
 
 /// The frame in which two modules meet: that of the one with fewer coordinates.
@@ -110,7 +92,7 @@ Frame frameOf(const scene::Scene& scene, const scene::Lia& lia) {
   return a.geometry < b.geometry ? Frame{sa, false, true} : Frame{sb, true, false};
 }
 
-/// Whose steps a link follows: the faster of its two sections, the slower one for scheme B.
+/// Whose steps a link follows: the faster of its two sections.
 void setRates(const scene::Lia& lia, const End& a, const End& b, const Ends& ends, LinkRun& run) {
   const int da = ends.divisor(a.section);
   const int db = ends.divisor(b.section);
@@ -141,13 +123,6 @@ void placeLink(const scene::Scene& scene, int l, Ends& ends, LinkRun& run, End& 
   run.dimensions = geometry == Geometry::kScalar ? 0 : dimensionsOf(geometry);
   run.section_a = a.section;
   run.section_b = b.section;
-  const int da = ends.divisor(a.section);
-  const int db = ends.divisor(b.section);
-  if (lia.coupling == scene::Coupling::kDecimate && da != db) {
-    End& fast = da < db ? a : b;
-    fast = ends.decimated(fast, da < db ? b.section : a.section, dimensionsOf(geometry));
-    run.decimated = da < db ? LinkRun::Decimated::kA : LinkRun::Decimated::kB;
-  }
   setRates(lia, a, b, ends, run);
   run.stride_a = run.dimensions == 0 ? 0 : a.stride;
   run.stride_b = run.dimensions == 0 ? 0 : b.stride;

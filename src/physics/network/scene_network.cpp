@@ -122,8 +122,7 @@ double SceneNetwork::inverseMass(int mat) const {
 double SceneNetwork::stepOf(const scene::Lia& lia) const {
   const int a = divisorOfMat(lia.a);
   const int b = divisorOfMat(lia.b);
-  const bool is_slow = lia.coupling == scene::Coupling::kDecimate;
-  return StepUnits(scene_, rates_, is_slow ? std::max(a, b) : std::min(a, b)).step;
+  return StepUnits(scene_, rates_, std::min(a, b)).step;
 }
 
 double SceneNetwork::inverseMassStep(const scene::Lia& lia) const {
@@ -319,9 +318,7 @@ NetworkBound SceneNetwork::atOwnRate(int divisor, int group, bool plain) const {
     const scene::Lia& lia = scene_.lias[at(l)];
     const int a = divisorOfMat(lia.a);
     const int b = divisorOfMat(lia.b);
-    const bool is_elsewhere = a != b && lia.coupling == scene::Coupling::kDecimate;
-    if (isExplicit(lia) && std::min(a, b) == divisor && !is_elsewhere &&
-        (group == kAll || groupOf(lia) == group)) {
+    if (isExplicit(lia) && std::min(a, b) == divisor && (group == kAll || groupOf(lia) == group)) {
       addLink(builder, l, a != divisor, b != divisor);
     }
   }

@@ -176,7 +176,6 @@ class Inserter {
     }
     scene::Lia& lia = scene_.lias[at(plan_.lia)];
     (lia.a == plan_.slow ? lia.a : lia.b) = last;
-    lia.coupling = scene::Coupling::kHold;
     lia.filtered = false;
   }
 

@@ -56,8 +56,7 @@ class Chooser {
 
   /// The guard counts on knowing how far both ends go in a step: not so across rates.
   bool isOntoSlowMass(const scene::Lia& lia) const {
-    return networks_.crossesRates(lia) && (lia.coupling == scene::Coupling::kDecimate ||
-                                           networks_.inverseMass(networks_.slowEnd(lia)) > 0.0);
+    return networks_.crossesRates(lia) && networks_.inverseMass(networks_.slowEnd(lia)) > 0.0;
   }
 
   Reason reasonFor(const scene::Lia& lia) const {
@@ -136,9 +135,8 @@ class Chooser {
     const std::string why = std::string(group.worst.figure) + " = " + shortly(group.worst.value) +
                             ", explicit bears " + shortly(group.worst.allowed);
     return noteAt(scene_, group.first->place) + who +
-           (group.guarded
-                ? ": guarded (" + why + ")"
-                : ": explicit, because one end is a slower mass or decimated, although " + why);
+           (group.guarded ? ": guarded (" + why + ")"
+                          : ": explicit, because one end is a slower mass, although " + why);
   }
 
   using Key = std::tuple<int, int, std::string, bool>;  // place, figure, guarded

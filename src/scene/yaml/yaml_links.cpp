@@ -148,10 +148,6 @@ void readTreatment(const Scene& scene, const YamlMap& map, Lia& lia) {
   if (!isGuardable(lia)) {
     lia.scheme = Scheme::kExplicit;
   }
-  if (map.has("coupling") && map.choice("coupling", {"hold", "decimate"}) == 1) {
-    lia.coupling = Coupling::kDecimate;
-    refuse(map, "coupling", couplingFault(scene, lia));
-  }
   if (map.has("filter")) {
     lia.filtered = map.choice("filter", {"none", "auto"}) == 1;
     refuse(map, "filter", filterFault(scene, lia));

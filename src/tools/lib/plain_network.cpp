@@ -39,7 +39,7 @@ void requirePlain(const Scene& scene) {
   }
   for (const scene::Lia& lia : scene.lias) {
     if ((lia.type != LiaType::kSpringDamper && lia.type != LiaType::kContact) ||
-        lia.scheme != scene::Scheme::kExplicit || lia.coupling != scene::Coupling::kHold) {
+        lia.scheme != scene::Scheme::kExplicit) {
       refuse("link like '" + lia.name + "'");
     }
   }

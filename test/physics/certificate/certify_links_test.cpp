@@ -24,20 +24,6 @@ bool has(const Certificate& c, const std::string& text) {
   });
 }
 
-/// A decimated contact is computed at the slower step, so it is harder for it by the square.
-TEST(CertifyLinksTest, DecimatedContactsAreJudgedByTheSlowerStep) {
-  const auto verdict = [](double kappa, scene::Coupling coupling) {
-    SceneBuilder b;
-    const int l = b.link(LiaType::kContact, b.slice(0), b.mass(1.0), kappa * kRate * kRate);
-    b.scene.lias[at(l)].coupling = coupling;
-    return certify(b.scene, {kRate, 14}, {1e6, 1.0})
-        .verdict;  // the hand's own limit is not the matter
-  };
-  EXPECT_EQ(verdict(0.04, scene::Coupling::kHold), Verdict::kPassive);
-  EXPECT_EQ(verdict(0.04 / 196.0, scene::Coupling::kDecimate), Verdict::kPassive);
-  EXPECT_EQ(verdict(0.06 / 196.0, scene::Coupling::kDecimate), Verdict::kUnproven);
-}
-
 /// Hold and mean make no energy on the average only: what is not linear may keep what they lend.
 TEST(CertifyLinksTest, NothingNonlinearIsProvenBesideACoupledSlowMass) {
   const auto verdict = [](LiaType type, scene::Scheme scheme, bool by_hand) {

@@ -274,21 +274,6 @@ TEST(CertifyTest, MovingPointsCountAtTheirWorstPlace) {
   EXPECT_EQ(certificate(1.35).verdict, Verdict::kUnstable);
 }
 
-TEST(CertifyTest, DecimatedLinksOntoModesAboveHalfTheSlowRateAreUnproven) {
-  const auto certificate = [](double fast_kappa) {
-    SceneBuilder b;
-    const int slow = b.mass(1.0, 0.0, 0.0, SceneBuilder::kGestural);
-    const int fast = b.mass(0.1);
-    const int link = b.spring(slow, fast, 0.0001 * kRate * kRate);
-    b.scene.lias[at(link)].coupling = scene::Coupling::kDecimate;
-    b.spring(fast, b.ground(), fast_kappa * 0.1 * kRate * kRate);
-    return certify(b.scene, {kRate, 14});
-  };
-  EXPECT_EQ(certificate(1e-3).verdict, Verdict::kPassive);
-  EXPECT_EQ(certificate(1.0).verdict, Verdict::kUnproven);
-  EXPECT_TRUE(has(certificate(1.0), "decimated"));
-}
-
 TEST(CertifyTest, SlowMassesOnHeldFastModulesCount) {
   SceneBuilder b;
   const int slow = b.mass(1.0, 0.0, 0.0, SceneBuilder::kGestural);

@@ -33,20 +33,19 @@ struct Pair {
   double slow_spring = 0.0;
   double fast_spring = 0.0;
 
-  SceneBuilder scene(scene::Coupling coupling) const {
+  SceneBuilder scene() const {
     SceneBuilder b;
     const double k = kRate * kRate;  // from kg/sample^2 to N/m
     const int slow = b.mass(slow_mass, 0.0, 0.0, SceneBuilder::kGestural);
     const int fast = b.mass(fast_mass);
-    const int link = b.spring(slow, fast, stiffness * k, damping * kRate);
-    b.scene.lias[at(link)].coupling = coupling;
+    b.spring(slow, fast, stiffness * k, damping * kRate);
     b.spring(slow, b.ground(0.0, SceneBuilder::kGestural), slow_spring * k);
     b.spring(fast, b.ground(), fast_spring * k);
     return b;
   }
 };
 
-/// The equations of hold and mean, and of decimate and impulse, from a state (X, X', x, x').
+/// The equations of hold and mean, from a state (X, X', x, x').
 using State = Eigen::Vector4d;
 
 State holdAndMean(const Pair& p, const State& from) {
@@ -65,22 +64,6 @@ State holdAndMean(const Pair& p, const State& from) {
   const double big_step2 = static_cast<double>(p.ratio * p.ratio);
   const double next =
       2.0 * from[0] - from[1] - big_step2 / p.slow_mass * (mean + p.slow_spring * from[0]);
-  return {next, from[0], x, before};
-}
-
-State decimateAndImpulse(const Pair& p, const State& from) {
-  double x = from[2];
-  double before = from[3];
-  const double f = p.stiffness * (from[0] - x);
-  for (int m = 0; m < p.ratio; ++m) {
-    const double impulse = m == 0 ? p.ratio * f : 0.0;
-    const double next = 2.0 * x - before + (impulse - p.fast_spring * x) / p.fast_mass;
-    before = x;
-    x = next;
-  }
-  const double big_step2 = static_cast<double>(p.ratio * p.ratio);
-  const double next =
-      2.0 * from[0] - from[1] - big_step2 / p.slow_mass * (f + p.slow_spring * from[0]);
   return {next, from[0], x, before};
 }
 
@@ -128,7 +111,7 @@ Pair tenthOfTheLimit(int ratio) {
 TEST(MonodromyTest, HoldAndMeanTurnByTheAnglesOfTheirEquations) {
   for (const int ratio : {4, 14, 44}) {
     const Pair p = tenthOfTheLimit(ratio);
-    const auto matrix = monodromy(p.scene(scene::Coupling::kHold).scene, {kRate, ratio});
+    const auto matrix = monodromy(p.scene().scene, {kRate, ratio});
     expectSameEigenvalues(matrix, matrixOf(p, holdAndMean));
     EXPECT_NEAR(spectralRadius(matrix), 1.0, 1e-12);
   }
@@ -138,18 +121,9 @@ TEST(MonodromyTest, DampedHoldAndMeanShrinkByTheRadiusOfTheirEquations) {
   for (const int ratio : {4, 14, 44}) {
     Pair p = tenthOfTheLimit(ratio);
     p.damping = 0.02 / ratio;
-    const auto matrix = monodromy(p.scene(scene::Coupling::kHold).scene, {kRate, ratio});
+    const auto matrix = monodromy(p.scene().scene, {kRate, ratio});
     expectSameEigenvalues(matrix, matrixOf(p, holdAndMean));
     EXPECT_LT(spectralRadius(matrix), 1.0);
-  }
-}
-
-TEST(MonodromyTest, DecimateAndImpulseTurnByTheAnglesOfTheirEquations) {
-  for (const int ratio : {4, 14, 44}) {
-    const Pair p = tenthOfTheLimit(ratio);
-    const auto matrix = monodromy(p.scene(scene::Coupling::kDecimate).scene, {kRate, ratio});
-    expectSameEigenvalues(matrix, matrixOf(p, decimateAndImpulse));
-    EXPECT_NEAR(spectralRadius(matrix), 1.0, 1e-12);
   }
 }
 
@@ -159,7 +133,7 @@ TEST(MonodromyTest, FirstUnstableCouplingIsThatOfTheEquations) {
     Pair p;
     p.fast_mass = 1.0;
     p.stiffness = 2.0 * u / 196.0;
-    const auto matrix = monodromy(p.scene(scene::Coupling::kHold).scene, {kRate, p.ratio});
+    const auto matrix = monodromy(p.scene().scene, {kRate, p.ratio});
     EXPECT_EQ(spectralRadius(matrix) > 1.0 + 1e-6, u > 1.48) << u;
   }
 }
@@ -182,12 +156,12 @@ TEST(MonodromyTest, RigidMotionIsNoGrowth) {
   Pair p = tenthOfTheLimit(14);
   p.slow_spring = 0.0;
   p.fast_spring = 0.0;
-  EXPECT_EQ(spectralRadius(monodromy(p.scene(scene::Coupling::kHold).scene, {kRate, 14})), 1.0);
+  EXPECT_EQ(spectralRadius(monodromy(p.scene().scene, {kRate, 14})), 1.0);
 }
 
 TEST(MonodromyTest, SectionsSlowerThanATickAreSteppedToTheirEnd) {
   Pair p = tenthOfTheLimit(28);
-  SceneBuilder b = p.scene(scene::Coupling::kHold);
+  SceneBuilder b = p.scene();
   b.scene.sections[SceneBuilder::kGestural].gestural = false;
   b.scene.sections[SceneBuilder::kGestural].divisor = 28;
   expectSameEigenvalues(monodromy(b.scene, {kRate, 14}), matrixOf(p, holdAndMean));
@@ -195,8 +169,8 @@ TEST(MonodromyTest, SectionsSlowerThanATickAreSteppedToTheirEnd) {
 
 TEST(MonodromyTest, TakesTheLinearPartOnly) {
   Pair p = tenthOfTheLimit(14);
-  const auto linear = monodromy(p.scene(scene::Coupling::kHold).scene, {kRate, 14});
-  SceneBuilder b = p.scene(scene::Coupling::kHold);
+  const auto linear = monodromy(p.scene().scene, {kRate, 14});
+  SceneBuilder b = p.scene();
   b.scene.sections[0].gravity.x() = -9.81;
   b.scene.mats[0].position.x() = 0.3;
   b.scene.mats[1].push.edit().velocity.x() = 2.0;

@@ -180,16 +180,6 @@ TEST_P(EnergyTest, EveryGeometryBalancesWithEveryOther) {
   }
 }
 
-TEST_P(EnergyTest, DecimatedCouplingBalances) {
-  SceneBuilder b;
-  const int cell = b.cell(1e-3, 0.5, 0.001, 1e-3);
-  b.scene.mats[at(cell)].matched = true;
-  const int slow = b.mass(0.1, 0.0, 0.3, SceneBuilder::kGestural);
-  b.spring(slow, cell, 2.0, 0.0001);
-  b.scene.lias.back().coupling = scene::Coupling::kDecimate;
-  EXPECT_LT(largestResidual(b.scene, {kRate, GetParam()}, 10000), kUnbalanced);
-}
-
 /// A point of the string that the hand pushes along, with one spring to the ground, one to the
 /// hand.
 TEST_P(EnergyTest, MovingPlaceBalances) {

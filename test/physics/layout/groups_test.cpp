@@ -35,10 +35,21 @@ class Sections {
     }
   }
 
-  scene::Lia& guarded(int a, int other) {
-    scene::Lia& lia = b.scene.lias[at(b.link(scene::LiaType::kContact, a, other, 1.0))];
-    lia.scheme = scene::Scheme::kGuarded;
-    return lia;
+  void guarded(int a, int other) {
+    b.scene.lias[at(b.link(scene::LiaType::kContact, a, other, 1.0))].scheme =
+        scene::Scheme::kGuarded;
+  }
+
+  /// A string of two masses in section b, and a point on it that module 0 leads: of section a.
+  void leadPointOfB() {
+    b.mass(1.0, 0.0, 0.0, 3);
+    b.mass(1.0, 0.0, 0.0, 3);
+    b.scene.grids.push_back({"g", static_cast<int>(b.scene.mats.size()) - 2, 2, 1});
+    scene::Connection connection;
+    connection.mat = b.ground(0.0, 3);
+    b.scene.mats[at(connection.mat)].type = scene::MatType::kPoint;
+    connection.guide = 0;
+    b.scene.connections.push_back(connection);
   }
 
   Groups split(const Rates& rates = kRates) {
@@ -119,27 +130,16 @@ TEST(GroupsTest, EachGroupSeesHeldModulesInSlotsOfItsOwn) {
 TEST(GroupsTest, PlacesRunWithWhatLeadsThem) {
   for (const bool is_held : {false, true}) {
     Sections sections({1, is_held ? 0 : 1, 0});
-    SceneBuilder& b = sections.b;
-    b.mass(1.0, 0.0, 0.0, 3);
-    b.scene.mats[1].section = 3;
-    // A string of two masses in b, a point on it led by a.
-    b.mass(1.0, 0.0, 0.0, 3);
-    b.scene.grids.push_back({"g", 3, 2, 1});
-    const int point = b.ground(0.0, 3);
-    b.scene.mats[at(point)].type = scene::MatType::kPoint;
-    scene::Connection connection;
-    connection.mat = point;
-    connection.guide = 0;
-    b.scene.connections.push_back(connection);
+    sections.leadPointOfB();
     EXPECT_EQ(sections.told(), "ab : c") << "even if it would be held otherwise";
-    b.scene.connections[0].guide = 2;
+    sections.b.scene.connections[0].guide = 2;
     EXPECT_EQ(sections.told(), is_held ? "a : bc" : "a b : c");
   }
 }
 
 TEST(GroupsTest, GuardedLinksThatEndTheirStepsTogetherRunTogether) {
   Sections sections({1, 0, 0});
-  sections.guarded(0, 1).coupling = scene::Coupling::kDecimate;
+  sections.leadPointOfB();
   EXPECT_EQ(sections.told(), "ab : c");
   sections.guarded(1, 2);
   EXPECT_EQ(sections.told(), "abc : ") << "what is linked to one that runs now";

@@ -154,14 +154,6 @@ TEST(ReadLinksTest, LinksOfMdlFilesStayExplicit) {
   EXPECT_THROW(readMdl("@a mass 1 0 0\n@b ground 0\n@c damper @a @b -0.1\n", "a.mdl"), TextError);
 }
 
-TEST(ReadLinksTest, CouplingIsHoldUnlessTheSceneSaysDecimate) {
-  const std::string start = LINK "type: spring, stiffness: 1, between: ";
-  EXPECT_EQ(last(start + "[m, k]}}\n").coupling, Coupling::kHold);
-  EXPECT_EQ(last(start + "[m, n], coupling: hold}}\n").coupling, Coupling::kHold);
-  EXPECT_EQ(last(start + "[m, k], coupling: decimate}}\n").coupling, Coupling::kDecimate);
-  EXPECT_EQ(last(start + "[m, q], coupling: decimate}}\n").coupling, Coupling::kDecimate);
-}
-
 TEST(ReadLinksTest, FilterIsAskedForBetweenHandAndStructure) {
   const std::string start = LINK "type: contact, stiffness: 1, between: ";
   EXPECT_FALSE(last(start + "[m, k]}}\n").filtered);
@@ -248,14 +240,6 @@ const BadText kBad[] = {
      "it is conditional, allowed: auto, explicit"},
     {LINK "type: table, between: [m, n], viscous: [[0, 0], [1, 1]], scheme: <!>guarded}}\n",
      "it is a table with a viscous part, allowed: auto, explicit"},
-    {LINK "type: spring, between: [m, k], stiffness: 1, coupling: <!>mean}}\n",
-     "unknown coupling 'mean' of link 'x'; known: hold, decimate"},
-    {LINK "type: spring, between: [m, n], stiffness: 1, coupling: <!>decimate}}\n",
-     "link 'x' has nothing to decimate, both ends have the same rate, allowed: hold"},
-    {LINK "type: spring, between: [m, o], stiffness: 1, coupling: <!>decimate}}\n",
-     "both ends have the same rate, allowed: hold"},
-    {LINK "type: spring, between: [k, l], stiffness: 1, coupling: <!>decimate}}\n",
-     "both ends have the same rate, allowed: hold"},
     {LINK "type: spring, between: [m, k], stiffness: 1, filter: <!>on}}\n",
      "unknown filter 'on' of link 'x'; known: none, auto"},
     {LINK "type: spring, between: [m, n], stiffness: 1, filter: <!>auto}}\n",
@@ -264,8 +248,6 @@ const BadText kBad[] = {
      "allowed: links between a gestural section and a faster one"},
     {LINK "type: spring, between: [k, l], stiffness: 1, filter: <!>auto}}\n",
      "allowed: links between a gestural section and a faster one"},
-    {LINK "type: spring, between: [m, k], stiffness: 1, coupling: decimate, filter: <!>auto}}\n",
-     "link 'x' is decimated, so there is nothing to filter, allowed: coupling hold"},
     {LINK "type: spring, between: <!>[s@0.3, s@0.3], stiffness: 1}}\n",
      "joins module 's@0.3' to itself"},
     {LINK "type: spring, between: <!>[s@0.5, s.2], stiffness: 1}}\n", "to itself"},
@@ -320,7 +302,6 @@ const Damage kDamages[] = {
        l.law.edit().width = {1.0};
        l.scheme = Scheme::kGuarded;
      }},
-    {"link 'x' has nothing to decimate", [](Scene&, Lia& l) { l.coupling = Coupling::kDecimate; }},
     {"link 'x' cannot be filtered", [](Scene&, Lia& l) { l.filtered = true; }},
     {"rest_length of link 'x' = -1 m is out of range, allowed: >= 0 m",
      [](Scene& s, Lia& l) {

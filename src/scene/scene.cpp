@@ -64,4 +64,14 @@ int Scene::outputChannels() const {
   return channelsOf(outputs);
 }
 
+bool isSettled(const Scene& scene) {
+  const auto none = [](const auto& all, auto&& is_open) {
+    return std::none_of(all.begin(), all.end(), is_open);
+  };
+  return none(scene.sections, [](const Section& s) { return s.automatic_rate; }) &&
+         none(scene.strings, [](const StringInfo& s) { return s.corrected_hz > 0.0; }) &&
+         none(scene.lias,
+              [](const Lia& lia) { return lia.filtered || lia.scheme == Scheme::kAuto; });
+}
+
 }  // namespace ergotic::scene

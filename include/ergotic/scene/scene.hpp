@@ -342,6 +342,10 @@ struct Scene {
   int outputChannels() const;
 };
 
+/// True if the scene leaves nothing open: no rate, scheme, chaplet or coarse string is still to be
+/// chosen (physics::settle does); `compile` and `certify` need that.
+bool isSettled(const Scene& scene);
+
 /// Checks every rule that does not depend on how the scene was written.
 /// \throws TextError with the place of the first offence, its value and the allowed range
 void validate(const Scene& scene);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "physics/engine/stored_energy.hpp"
+#include "physics/kernels/link_kernels.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -162,7 +163,7 @@ double EnergyMeter<Real>::storedIn(std::size_t run,
     return is_spring && coupling_of_run_[run] == kInside ? springsOf(asked, c.runs[run], state)
                                                          : 0.0;
   }
-  const kernels::Work work = workOf(run, state);
+  const LinkWork work = workOf(run, state);
   return work.initial + work.stored;
 }
 
@@ -201,7 +202,7 @@ void EnergyMeter<Real>::addLinks(const CoefficientsOf<Real>& c,
                                  Energies& to) const noexcept {
   for (std::size_t r = 0; r < layout_.runs.size(); ++r) {
     const LinkRun& run = layout_.runs[r];
-    const kernels::Work work = workOf(r, state);
+    const LinkWork work = workOf(r, state);
     const double stored = storedIn(r, c, state);
     if (coupling_of_run_[r] == kInside) {
       to.sections[at(run.section)].potential += stored;
@@ -221,19 +222,19 @@ void EnergyMeter<Real>::addLinks(const CoefficientsOf<Real>& c,
 
 /// The work of a run, with that of the steps under way.
 template <class Real>
-kernels::Work EnergyMeter<Real>::workOf(std::size_t r, const State<Real>& state) const noexcept {
+LinkWork EnergyMeter<Real>::workOf(std::size_t r, const State<Real>& state) const noexcept {
   if (!state.isMetered()) {
     return {};
   }
   const LinkRun& run = layout_.runs[r];
-  kernels::Work work = state.work()[r];
+  LinkWork work = state.work()[r];
   const bool is_slow_done = layout_.isBetweenSlowSteps(run, state.frame());
   const bool is_done =
       !run.guarded || state.frame() % layout_.sections[at(run.section)].divisor == 0;
   if (is_slow_done && is_done) {
     return work;
   }
-  const kernels::Memory<const Real> memory = state.memory(r);
+  const LinkMemory<const Real> memory = state.memory(r);
   const std::size_t links = run.ends.size();
   for (std::size_t i = 0; i < state.remembered(r); ++i) {
     const LinkEnds& ends = run.ends[i % links];

@@ -94,7 +94,7 @@ class EnergyMeter {
   double storedIn(std::size_t run,
                   const CoefficientsOf<Real>& c,
                   const State<Real>& state) const noexcept;
-  kernels::Work workOf(std::size_t run, const State<Real>& state) const noexcept;
+  LinkWork workOf(std::size_t run, const State<Real>& state) const noexcept;
   void addSections(const CoefficientsOf<Real>& c,
                    const State<Real>& state,
                    Energies& to) const noexcept;

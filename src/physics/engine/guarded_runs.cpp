@@ -293,7 +293,7 @@ void GuardedRuns<Real>::closeBooks(std::size_t g, bool starts, State<Real>& stat
     for (; l < links.size() && links[l].run == run; ++l) {
       stored += starts ? static_cast<double>(all[l].tank) : all[l].stored;
     }
-    kernels::Work& work = state.work()[run];
+    LinkWork& work = state.work()[run];
     if (starts) {
       work.initial = stored;
     }

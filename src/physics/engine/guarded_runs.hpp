@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "ergotic/physics/engine/instrument.hpp"
 #include "physics/engine/guarded.hpp"
 #include "physics/engine/points.hpp"
 #include "physics/engine/stepper.hpp"

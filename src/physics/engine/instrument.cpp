@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "ergotic/exception.hpp"
-#include "ergotic/physics/settling/settle.hpp"
 #include "ergotic/rt/thread.hpp"
 #include "physics/engine/group_stepper.hpp"
 #include "physics/engine/parts.hpp"
@@ -332,7 +331,7 @@ class InstrumentOf final : public Instrument {
 std::unique_ptr<Instrument> compile(std::shared_ptr<const scene::Scene> scene,
                                     const Rates& rates,
                                     const CompileOptions& options) {
-  if (!isSettled(*scene)) {
+  if (!scene::isSettled(*scene)) {
     throw Exception("scene '" + scene->name + "' is not settled: settle() comes before compile()");
   }
   if (options.threads < 1 || options.threads > kMaxThreads) {

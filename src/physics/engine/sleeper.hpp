@@ -104,7 +104,7 @@ class Sleeper {
              std::any_of(forces, forces + count, [](Real force) { return force != Real(0); });
     };
     for (const std::size_t r : limits_[static_cast<std::size_t>(section)].joins) {
-      const kernels::Memory<Real> memory = state.memory(r);
+      const LinkMemory<Real> memory = state.memory(r);
       const std::size_t count = state.remembered(r);
       if (is_touching(memory.elastic, count) || is_touching(memory.viscous, count) ||
           is_touching(memory.mean, count) || is_touching(memory.last_mean, count)) {

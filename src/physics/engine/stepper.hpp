@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "physics/engine/sweeper.hpp"
+#include "physics/kernels/link_kernels.hpp"
 #include "physics/kernels/modal_kernels.hpp"
+#include "physics/kernels/spatial_kernels.hpp"
 #include "physics/laws/laws.hpp"
 #include "physics/layout/layout.hpp"
 #include "physics/state/coefficients.hpp"
@@ -120,7 +122,7 @@ class Stepper {
  private:
   void stepSpans(std::size_t r, const RunCoefficients<Real>& c, State<Real>& state) const noexcept {
     const LinkRun& run = layout_.runs[r];
-    const kernels::Memory<Real> memory = state.memory(r);
+    const LinkMemory<Real> memory = state.memory(r);
     const std::size_t links = run.ends.size();
     const Real* fields = c.fields.data();
     const kernels::SpatialArguments<Real> arguments{

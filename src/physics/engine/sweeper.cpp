@@ -3,13 +3,10 @@
 
 #include <algorithm>
 
-#include "physics/layout/blocks/sparse_program.hpp"
+#include "physics/kernels/sparse_arguments.hpp"
 
 namespace ergotic::physics {
 namespace {
-
-using kernels::kLanes;
-using kernels::kMaxDiagonals;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -38,7 +35,8 @@ Sweeper<Real>::Sweeper(const Layout& layout, const CompileOptions& options)
   sums_.assign(any ? at(layout.slots()) : 0, Real(0));
   const bool pairs =
       std::any_of(layout.blocks.begin(), layout.blocks.end(), [&](const Block& block) {
-        return block.kind == Block::Kind::kSparse && block.program->needsPairs(isa_);
+        return block.kind == Block::Kind::kSparse &&
+               kernels::sparseNeedsPairs(isa_, block.program->pick.size());
       });
   pairs_.assign(pairs ? 2 * at(layout.slots()) : 0, Real(0));
 }
@@ -99,14 +97,14 @@ double Sweeper<Real>::sparse(const Block& block,
                              const BlockCoefficients<Real>& c,
                              const Arrays& a) const noexcept {
   double twice = kernels_.move(a.move, 0, block.elements);
-  kernels::SparseArguments<Real> links = block.program->template arguments<Real>();
+  kernels::SparseArguments<Real> links = kernels::sparseArguments<Real>(*block.program);
   links.ks = c.k.data();
   links.zs = c.z.data();
   links.x = a.move.x;
   links.d = a.move.d;
   links.d_last = a.move.d_last;
   links.f = a.f;
-  if (block.program->needsPairs(isa_)) {
+  if (kernels::sparseNeedsPairs(isa_, block.program->pick.size())) {
     sparse_kernels_.pair(links, a.pairs, 0, block.program->groups);
     links.pairs = a.pairs;
   }

@@ -53,10 +53,10 @@ class Sweeper {
 
  private:
   // Elements whose forces follow while their positions are still in the first-level cache.
-  static constexpr int kBand = 128 * kernels::kLanes;
+  static constexpr int kBand = 128 * kLanes;
   // In waves the bands of all steps together, kWave, lie in the second-level cache.
-  static constexpr int kBandInWaves = 64 * kernels::kLanes;
-  static constexpr int kWave = 512 * kernels::kLanes;
+  static constexpr int kBandInWaves = 64 * kLanes;
+  static constexpr int kWave = 512 * kLanes;
   static constexpr int kFitsBytes = 1'000'000;  // into that cache, with room for others
 
   /// The arrays of a block from its first element on, and what its links are.

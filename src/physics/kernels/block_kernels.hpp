@@ -4,16 +4,12 @@
 #include <cstddef>
 
 #include "ergotic/rt/isa.hpp"
+#include "physics/layout/blocks/lanes.hpp"
 
 /// What sweeps do to blocks of consecutive slots. One translation unit per level of vector
 /// instructions compiles the same source (block_kernel_source.hpp); all give the same bits, as
 /// nothing is contracted and every sum keeps `kLanes` lanes.
 namespace ergotic::physics::kernels {
-
-/// Blocks begin at multiples of this and are as long: one row of chains side by side.
-constexpr int kLanes = 16;
-/// Diagonals that one pass takes; more need further passes.
-constexpr int kMaxDiagonals = 4;
 
 /// Modules move: d <- d + inverse_mass f, or of cells d <- d - (lose d + pull x) + inverse_mass f +
 /// drift; x <- x + d. All arrays are indexed by slot.

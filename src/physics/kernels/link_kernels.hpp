@@ -6,33 +6,12 @@
 
 #include "physics/laws/laws.hpp"
 #include "physics/layout/layout.hpp"
+#include "physics/state/link_memory.hpp"
 
 /// What links do in one step: forces from positions, and the work they take and lose.
 /// Work over a step is d[n] (F[n-1] + F[n]) / 2, with F[n-1] remembered where it cannot be worked
 /// out from positions. Source: docs/physics.md, "Energy".
 namespace ergotic::physics::kernels {
-
-/// What a run has taken and given since the start, in the scene's unit of energy.
-struct Work {
-  double initial = 0.0;  ///< stored at the start
-  double stored = 0.0;   ///< since then, by elastic forces; of plain runs it follows from positions
-  double dissipated = 0.0;  ///< by viscous forces
-  double on_a = 0.0;        ///< done on the modules of side a; links between sections only
-  double on_b = 0.0;
-};
-
-/// What a run that remembers keeps for each link and coordinate: [coordinates][links]. Unmetered,
-/// runs inside one section do not.
-template <class Real>
-struct Memory {
-  Real* elastic = nullptr;  ///< force of the last step
-  Real* viscous = nullptr;
-  // Runs across rates only: means over the step of the slower end, so far and of the last.
-  Real* mean = nullptr;
-  Real* last_mean = nullptr;
-  Real* mean_viscous = nullptr;
-  Real* last_mean_viscous = nullptr;
-};
 
 /// The instrument's arrays, and how the ends of a run count in this frame.
 template <class Real>
@@ -47,8 +26,8 @@ struct Frame {
   Real share_a;  ///< of the force that an end receives in this frame
   Real share_b;
   bool slow_ends;  ///< the slower end's step ends with this frame
-  Memory<Real> memory;
-  Work* work;  ///< null: nobody asks
+  LinkMemory<Real> memory;
+  LinkWork* work;  ///< null: nobody asks
 };
 
 /// Plain runs: linear, scalar, inside one section.
@@ -95,8 +74,11 @@ void stepPlain(const LinkRun& run, const Law& law, const Frame<Real>& at) noexce
 /// with half of the force before it and half of that after it. Across rates a damper takes what
 /// both sides do against it: the jumps of a held end are no motion of anything.
 template <class Real>
-void addHalfWork(
-    const LinkRun& run, Real moved_a, Real moved_b, laws::Force<Real> force, Work& work) noexcept {
+void addHalfWork(const LinkRun& run,
+                 Real moved_a,
+                 Real moved_b,
+                 laws::Force<Real> force,
+                 LinkWork& work) noexcept {
   const Real sum = force.elastic + force.viscous;
   work.stored += 0.5 * static_cast<double>((moved_a - moved_b) * force.elastic);
   if (run.slow_section < 0) {
@@ -118,7 +100,7 @@ void exchangeForce(const LinkRun& run,
                    int a,
                    int b,
                    laws::Force<Real> force) noexcept {
-  const Memory<Real>& memory = at.memory;
+  const LinkMemory<Real>& memory = at.memory;
   if (at.work != nullptr) {
     const laws::Force<Real> both{force.elastic + memory.elastic[index],
                                  force.viscous + memory.viscous[index]};
@@ -141,10 +123,10 @@ void exchangeForce(const LinkRun& run,
 /// Work on the slower end, which moved by `moved`, with the mean force so far in its step.
 template <class Real>
 void addSlowWork(const LinkRun& run,
-                 const Memory<Real>& memory,
+                 const LinkMemory<Real>& memory,
                  std::size_t index,
                  double moved,
-                 Work& work) noexcept {
+                 LinkWork& work) noexcept {
   const double signed_moved = run.slow_is_a ? -moved : moved;
   const auto mean = static_cast<double>(memory.mean[index] + memory.last_mean[index]);
   const auto viscous =
@@ -161,7 +143,7 @@ void closeSlowStep(
     addSlowWork(run, at.memory, index, static_cast<double>(at.moved[run.slow_is_a ? a : b]),
                 *at.work);
   }
-  const Memory<Real>& memory = at.memory;
+  const LinkMemory<Real>& memory = at.memory;
   memory.last_mean[index] = memory.mean[index];
   memory.last_mean_viscous[index] = memory.mean_viscous[index];
   memory.mean[index] = Real(0);

@@ -4,26 +4,12 @@
 #include <cstddef>
 
 #include "ergotic/rt/isa.hpp"
+#include "physics/layout/blocks/link_ends.hpp"
 
 /// What links between points in the plane or in space do, inside one section. One translation unit
 /// per level of vector instructions compiles the same source (spatial_kernel_source.hpp); all give
 /// the same bits, as nothing is contracted and sums of work keep one part for each of 16 lanes.
 namespace ergotic::physics::kernels {
-
-/// Both ends of a link: slots of their x coordinate.
-struct LinkEnds {
-  int a = 0;
-  int b = 0;
-};
-
-/// Links that follow one another, as do their ends: those of link `first + i` are a + i and b + i.
-/// Where the ends do not, all are in `ends`, and a is -1.
-struct LinkSpan {
-  int first = 0;
-  int count = 0;
-  int a = -1;
-  int b = -1;
-};
 
 /// Forces -K (|u| + offset) u / |u| - Z v along the same line, u = x_a - x_b + rest; contacts push,
 /// and only while |u| < offset. Coordinate c of a slot lies in slot + c * stride, of a link in

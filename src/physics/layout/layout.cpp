@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "ergotic/exception.hpp"
-#include "physics/kernels/block_kernels.hpp"
+#include "physics/layout/blocks/lanes.hpp"
 #include "physics/layout/layout_links.hpp"
 #include "physics/step_units.hpp"
 
@@ -98,8 +98,8 @@ class MatPlacer {
       if (block.section != section) {
         continue;
       }
-      const int past = layout_.slots() % kernels::kLanes;
-      pad((past == 0 ? 0 : kernels::kLanes - past) + block.guard);
+      const int past = layout_.slots() % kLanes;
+      pad((past == 0 ? 0 : kLanes - past) + block.guard);
       block.first = layout_.slots();
       for (const int m : block.mats) {
         add(m, 0);

@@ -10,9 +10,9 @@
 
 #include "ergotic/physics/rates.hpp"
 #include "ergotic/scene/scene.hpp"
-#include "physics/kernels/spatial_kernels.hpp"
 #include "physics/layout/blocks/blocks.hpp"
-#include "physics/modes/modal_scene.hpp"
+#include "physics/layout/blocks/link_ends.hpp"
+#include "physics/layout/modal_point.hpp"
 
 namespace ergotic::physics {
 
@@ -57,9 +57,6 @@ struct End {
   int section = 0;
   Eigen::Vector3d rest = Eigen::Vector3d::Zero();
 };
-
-using kernels::LinkEnds;
-using kernels::LinkSpan;
 
 /// A run of links with one law, stepped with one section. Where `slow_section` is set, end a (or
 /// b) belongs to that slower section: its position is held between its steps and it receives

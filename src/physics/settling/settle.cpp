@@ -40,15 +40,4 @@ Settled settle(scene::Scene scene, const Rates& rates) {
   return settled;
 }
 
-bool isSettled(const scene::Scene& scene) {
-  const auto none = [](const auto& all, auto&& is_open) {
-    return std::none_of(all.begin(), all.end(), is_open);
-  };
-  return none(scene.sections, [](const scene::Section& s) { return s.automatic_rate; }) &&
-         none(scene.strings, [](const scene::StringInfo& s) { return s.corrected_hz > 0.0; }) &&
-         none(scene.lias, [](const scene::Lia& lia) {
-           return lia.filtered || lia.scheme == scene::Scheme::kAuto;
-         });
-}
-
 }  // namespace ergotic::physics

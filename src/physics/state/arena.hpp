@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ergotic/physics/engine/instrument.hpp"
+#include "ergotic/physics/state/state_entry.hpp"
 
 namespace ergotic::physics {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "physics/kernels/block_kernels.hpp"
+#include "physics/layout/blocks/lanes.hpp"
 #include "physics/layout/blocks/sparse_program.hpp"
 #include "physics/state/coefficients.hpp"
 
@@ -45,10 +45,10 @@ void CoefficientsOf<Real>::fillBlocks(const scene::Scene& scene,
     }
     const std::size_t elements = at(block.elements);
     if (block.kind == Block::Kind::kSparse) {
-      to.k.assign(block.program->slots() * kernels::kLanes, Real(0));
+      to.k.assign(block.program->slots() * kLanes, Real(0));
       to.z.assign(to.k.size(), Real(0));
     } else if (block.kind == Block::Kind::kChains) {
-      to.k.assign(block.per_lane ? kernels::kLanes : elements, Real(0));
+      to.k.assign(block.per_lane ? kLanes : elements, Real(0));
       to.z.assign(to.k.size(), Real(0));
     } else if (hasDifferent(block)) {
       to.k.assign(block.offsets.size() * (at(block.guard) + elements), Real(0));
@@ -88,8 +88,8 @@ void CoefficientsOf<Real>::fillBlock(const Layout& layout,
       to.k[sides.a] = to.k[sides.b] = k;
       to.z[sides.a] = to.z[sides.b] = z;
     } else if (block.per_lane) {
-      to.k[at(element % kernels::kLanes)] = k;
-      to.z[at(element % kernels::kLanes)] = z;
+      to.k[at(element % kLanes)] = k;
+      to.z[at(element % kLanes)] = z;
     } else if (!to.k.empty()) {
       const std::size_t place = placeOf(block, element, std::abs(a - b));
       to.k[place] += k;

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "ergotic/physics/engine/instrument.hpp"
+#include "ergotic/physics/state/coefficients.hpp"
 #include "physics/laws/guarded_laws.hpp"
 #include "physics/layout/layout.hpp"
 #include "physics/state/aligned.hpp"

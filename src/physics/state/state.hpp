@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "physics/kernels/link_kernels.hpp"
 #include "physics/layout/layout.hpp"
 #include "physics/state/arena.hpp"
+#include "physics/state/link_memory.hpp"
 
 namespace ergotic::physics {
 
@@ -34,7 +34,7 @@ class State {
     place_d_at_ = arena_.add<Real>("place_d", coordinatesOf(layout.places));
     held_at_ = arena_.add<Real>("held_force_outputs", layout.taps.size());
     asleep_at_ = arena_.add<unsigned char>("asleep", layout.sections.size());
-    work_at_ = arena_.add<kernels::Work>("link_work", metered ? layout.runs.size() : 0);
+    work_at_ = arena_.add<LinkWork>("link_work", metered ? layout.runs.size() : 0);
     for (const LinkRun& run : layout.runs) {
       runs_.push_back(addRun(run));
     }
@@ -63,13 +63,13 @@ class State {
   Real* held() noexcept { return arena_.at<Real>(held_at_); }
   unsigned char* asleep() noexcept { return arena_.at<unsigned char>(asleep_at_); }
   /// [runs], if metered
-  kernels::Work* work() noexcept { return arena_.at<kernels::Work>(work_at_); }
-  const kernels::Work* work() const noexcept { return arena_.at<kernels::Work>(work_at_); }
+  LinkWork* work() noexcept { return arena_.at<LinkWork>(work_at_); }
+  const LinkWork* work() const noexcept { return arena_.at<LinkWork>(work_at_); }
 
-  kernels::Memory<Real> memory(std::size_t run) noexcept {
+  LinkMemory<Real> memory(std::size_t run) noexcept {
     return split<Real>(runs_[run], arena_.at<Real>(runs_[run].memory));
   }
-  kernels::Memory<const Real> memory(std::size_t run) const noexcept {
+  LinkMemory<const Real> memory(std::size_t run) const noexcept {
     return split<const Real>(runs_[run], arena_.at<Real>(runs_[run].memory));
   }
   Real* engaged(std::size_t run) noexcept { return arena_.at<Real>(runs_[run].engaged); }
@@ -85,7 +85,7 @@ class State {
   };
 
   template <class T>
-  static kernels::Memory<T> split(const RunEntries& at, T* base) noexcept {
+  static LinkMemory<T> split(const RunEntries& at, T* base) noexcept {
     const std::size_t n = at.links;
     if (n == 0) {
       return {};

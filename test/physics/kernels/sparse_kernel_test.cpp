@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "physics/kernels/sparse_arguments.hpp"
 #include "physics/layout/blocks/sparse_networks.hpp"
 #include "physics/layout/blocks/sparse_program.hpp"
 
@@ -54,7 +55,7 @@ struct Instant {
     program.spread(k, ks.data());
     program.spread(z, zs.data());
     std::vector<Real> pairs(2 * x.size());
-    auto arguments = program.template arguments<Real>();
+    auto arguments = kernels::sparseArguments<Real>(program);
     arguments.x = x.data();
     arguments.d = d.data();
     arguments.d_last = metered ? d_last.data() : nullptr;
@@ -67,7 +68,7 @@ struct Instant {
       arguments.zs = zs.data();
     }
     const kernels::SparseKernels<Real>& kernels = kernels::sparseKernels<Real>(isa);
-    if (program.needsPairs(isa)) {
+    if (kernels::sparseNeedsPairs(isa, program.pick.size())) {
       kernels.pair(arguments, pairs.data(), 0, program.groups);
       arguments.pairs = pairs.data();
     }

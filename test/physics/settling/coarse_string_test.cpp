@@ -152,7 +152,7 @@ TEST(CoarseStringTest, NoteSaysTheErrorAndThePitchIsTheFittedOne) {
   const double pitch = stringPitchHz(settled.scene, settled.scene.strings[0], kRate);
   const CoarseFit fit = fitCoarseString(20, kHz / kRate, 10);
   EXPECT_NEAR(1200.0 * std::log2(pitch / kHz), fit.cents[0], 1e-6);
-  EXPECT_TRUE(isSettled(settled.scene));
+  EXPECT_TRUE(scene::isSettled(settled.scene));
 }
 
 TEST(CoarseStringTest, MassThatIsAParameterKeepsThePitch) {

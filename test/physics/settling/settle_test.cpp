@@ -75,7 +75,7 @@ TEST(SettleTest, EveryOpenChoiceMakesASceneUnsettled) {
     b.chain(4, 1e-4, 1000.0);
     b.scene.strings.push_back({});
     change(b.scene);
-    return !isSettled(b.scene);
+    return !scene::isSettled(b.scene);
   };
   EXPECT_FALSE(open([](scene::Scene&) {}));
   EXPECT_TRUE(open([](scene::Scene& s) { s.sections[1].automatic_rate = true; }));
@@ -92,7 +92,7 @@ TEST(SettleTest, SettledSceneIsLeftAlone) {
     lia.scheme = scene::Scheme::kAuto;
   }
   const Settled once = settle(b.scene, kRates);
-  EXPECT_TRUE(isSettled(once.scene));
+  EXPECT_TRUE(scene::isSettled(once.scene));
   const Settled twice = settle(once.scene, kRates);
   EXPECT_TRUE(twice.notes.empty());
   EXPECT_EQ(twice.scene.sections[0].divisor, once.scene.sections[0].divisor);

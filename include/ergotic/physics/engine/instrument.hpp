@@ -10,6 +10,8 @@
 #include "ergotic/physics/engine/energy.hpp"
 #include "ergotic/physics/options.hpp"
 #include "ergotic/physics/rates.hpp"
+#include "ergotic/physics/state/coefficients.hpp"
+#include "ergotic/physics/state/state_entry.hpp"
 #include "ergotic/scene/scene.hpp"
 
 namespace ergotic::physics {
@@ -20,19 +22,6 @@ struct TickIo {
   double* forces = nullptr;           ///< [ports] force on each slice, N, overwritten
   const double* inputs = nullptr;     ///< [R][input channels]
   double* outputs = nullptr;          ///< [R][output channels], overwritten
-};
-
-/// Every number of an instrument that parameters can change; made outside, switched by pointer.
-class Coefficients {
- public:
-  virtual ~Coefficients() = default;
-};
-
-/// One entry of the state arena.
-struct StateEntry {
-  std::string name;
-  std::size_t offset = 0;  ///< bytes
-  std::size_t size = 0;    ///< bytes
 };
 
 /// The instrument: flat arrays and one `tick`.

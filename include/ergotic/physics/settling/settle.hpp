@@ -23,7 +23,4 @@ struct Settled {
 /// rates (C2 below R = 4)
 Settled settle(scene::Scene scene, const Rates& rates);
 
-/// True if nothing is left for `settle` to choose; `compile` and `certify` need that.
-bool isSettled(const scene::Scene& scene);
-
 }  // namespace ergotic::physics

@@ -3,13 +3,12 @@
 #include <cmath>
 #include <map>
 
-#include "physics/kernels/block_kernels.hpp"
 #include "physics/layout/blocks/block_parts.hpp"
+#include "physics/layout/blocks/lanes.hpp"
 
 namespace ergotic::physics {
 namespace {
 
-using kernels::kLanes;
 using scene::Value;
 
 constexpr double kSameRatio = 1e-12;      // relative

@@ -6,21 +6,19 @@
 #include <map>
 #include <utility>
 
-#include "physics/kernels/block_kernels.hpp"
 #include "physics/layout/blocks/block_parts.hpp"
+#include "physics/layout/blocks/lanes.hpp"
 #include "physics/layout/blocks/sparse_program.hpp"
 
 namespace ergotic::physics {
 namespace {
-
-using kernels::kLanes;
 
 // Costs in vectors of kLanes elements, measured (docs/performance.md): side by side pays from here
 // on. The rest of a net may be this irregular, and a block must be this large to be worth a call.
 constexpr double kLanesFilled = 0.4;
 constexpr double kRegularShare = 0.75;
 constexpr double kDiagonalShare = 0.2;
-constexpr int kMostDiagonals = 2 * kernels::kMaxDiagonals;
+constexpr int kMostDiagonals = 2 * kMaxDiagonals;
 constexpr int kSmallest = 12;
 constexpr int kSmallestSparse = 24;
 

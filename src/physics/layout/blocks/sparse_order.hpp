@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "physics/layout/layout.hpp"
+#include "physics/layout/blocks/link_ends.hpp"
 
 namespace ergotic::physics {
 

@@ -15,7 +15,6 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr int kLanes = SparseProgram::kLanes;
 /// Time of a slot of picks, and of having any in a group, in slots of windows. As measured with
 /// AVX-512 for float, a little less, as windows gain less for double and at other levels.
 constexpr double kPickCost = 1.7;

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "physics/kernels/sparse_kernels.hpp"
-#include "physics/layout/layout.hpp"
+#include "physics/layout/blocks/lanes.hpp"
+#include "physics/layout/blocks/link_ends.hpp"
 
 namespace ergotic::physics {
 
@@ -15,8 +15,6 @@ namespace ergotic::physics {
 /// neighbour for each of the 16. Neighbours that lie close together are picked from a window of 32
 /// nodes, the others one by one.
 struct SparseProgram {
-  static constexpr int kLanes = 16;
-
   /// Where the coefficients of a link lie: index in the [slots][kLanes] of either end.
   struct Sides {
     std::size_t a = 0;
@@ -50,20 +48,6 @@ struct SparseProgram {
       to[sides[l].a] = to[sides[l].b] = static_cast<Real>(of_link[l]);
     }
   }
-
-  /// What the kernel reads of the program; coefficients and arrays of nodes are still to be set.
-  template <class Real>
-  kernels::SparseArguments<Real> arguments() const {
-    kernels::SparseArguments<Real> to{};
-    to.first_window = first_window.data();
-    to.first_pick = first_pick.data();
-    to.window = window.data();
-    to.lane = lane.data();
-    to.pick = pick.data();
-    to.present = present.data();
-    return to;
-  }
-  bool needsPairs(rt::Isa isa) const { return kernels::sparseNeedsPairs(isa, pick.size()); }
 };
 
 /// `links` join places of an order in which linked nodes are close. Realtime: no.

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "physics/layout/blocks/lanes.hpp"
 #include "support/nets.hpp"
 #include "support/one_by_one.hpp"
 
@@ -19,7 +20,6 @@ using test::Player;
 using test::SceneBuilder;
 
 constexpr double kRate = 44100.0;
-constexpr int kLanes = 16;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);

@@ -12,8 +12,6 @@
 /// Irregular networks for the tests of sparse programs and kernels.
 namespace ergotic::physics {
 
-constexpr int kLanes = SparseProgram::kLanes;
-
 inline std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }

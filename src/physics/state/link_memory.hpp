@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace ergotic::physics {
+
+/// What a run has taken and given since the start, in the scene's unit of energy.
+struct LinkWork {
+  double initial = 0.0;  ///< stored at the start
+  double stored = 0.0;   ///< since then, by elastic forces; of plain runs it follows from positions
+  double dissipated = 0.0;  ///< by viscous forces
+  double on_a = 0.0;        ///< done on the modules of side a; links between sections only
+  double on_b = 0.0;
+};
+
+/// What a run that remembers keeps for each link and coordinate: [coordinates][links]. Unmetered,
+/// runs inside one section do not.
+template <class Real>
+struct LinkMemory {
+  Real* elastic = nullptr;  ///< force of the last step
+  Real* viscous = nullptr;
+  // Runs across rates only: means over the step of the slower end, so far and of the last.
+  Real* mean = nullptr;
+  Real* last_mean = nullptr;
+  Real* mean_viscous = nullptr;
+  Real* last_mean_viscous = nullptr;
+};
+
+}  // namespace ergotic::physics

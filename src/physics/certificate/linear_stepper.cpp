@@ -39,7 +39,7 @@ int slowestDivisor(const scene::Scene& scene, const Rates& rates) {
 std::vector<std::size_t> movingSlots(const scene::Scene& scene, const Rates& rates) {
   const Layout layout = makeLayout(scene, rates);
   std::vector<std::size_t> slots;
-  for (int slot = 0; slot < layout.slots(); ++slot) {
+  for (int slot = 0; slot < layout.first_proxy; ++slot) {
     const int mat = layout.mat_of_slot[static_cast<std::size_t>(slot)];
     const bool is_in_block = std::any_of(
         layout.sections.begin(), layout.sections.end(),

@@ -43,7 +43,7 @@ struct Parts {
  private:
   Parts(const scene::Scene& scene, const Rates& rates, const CompileOptions& options, Layout&& made)
       : layout(std::move(made)),
-        groups(splitIntoGroups(scene, rates, layout)),
+        groups(makeGroups(scene, rates, layout)),
         coefficients(std::make_unique<CoefficientsOf<Real>>(scene, rates, layout)),
         state(layout, options.metered),
         meter(scene, layout, state),

@@ -10,14 +10,6 @@
 
 namespace ergotic::physics {
 
-/// A coordinate of a held module as one group sees it. It has a slot of its own, so that no two
-/// groups write to one place: its position comes before the group is stepped, its force goes to the
-/// module after all groups were.
-struct Proxy {
-  int slot = 0;
-  int of = 0;  ///< slot of the module or point
-};
-
 /// A block that nothing but its own links acts on while it runs (Block::is_alone), and what is
 /// heard of it.
 struct LoneBlock {
@@ -47,8 +39,7 @@ struct Group {
 };
 
 /// The order inside a tick: held sections move, groups are stepped through all frames of the tick,
-/// the forces on held sections are summed. Sections that are stepped once per tick or more slowly
-/// are held, unless something needs one of them at the same instant as a section that runs.
+/// the forces on held sections are summed. Which are which: partitionSections.
 struct Groups {
   Group held;
   std::vector<Group> running;  ///< the expensive ones first
@@ -62,8 +53,7 @@ std::vector<std::string> describeGroups(const scene::Scene& scene,
                                         const Groups& groups,
                                         int threads);
 
-/// Decides what belongs together. Gives links from running to held sections proxies for their held
-/// ends, and sets LinkRun::group. Realtime: no
-Groups splitIntoGroups(const scene::Scene& scene, const Rates& rates, Layout& layout);
+/// Deals everything of a layout out to the groups of its sections. Realtime: no
+Groups makeGroups(const scene::Scene& scene, const Rates& rates, const Layout& layout);
 
 }  // namespace ergotic::physics

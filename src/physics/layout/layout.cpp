@@ -7,6 +7,7 @@
 #include "ergotic/exception.hpp"
 #include "physics/layout/blocks/lanes.hpp"
 #include "physics/layout/layout_links.hpp"
+#include "physics/layout/partition.hpp"
 #include "physics/step_units.hpp"
 
 namespace ergotic::physics {
@@ -203,6 +204,10 @@ Layout makeLayout(const scene::Scene& scene,
         {input.quantity, slot, mat.rest[input.axis], mat.section, 1.0 / divisor, input.channel});
   }
   findFollowers(scene, layout);
+  layout.group_of_section = partitionSections(scene, rates, layout);
+  layout.first_proxy = layout.slots();
+  placeProxies(layout);
+  findLoneBlocks(scene, rates, layout);
   return layout;
 }
 

@@ -72,7 +72,7 @@ struct LinkRun {
   bool slow_is_a = false;
   double share = 1.0;
   static constexpr int kHeldGroup = -1;
-  int group = kHeldGroup;  ///< that steps it, index in Groups::running
+  int group = kHeldGroup;  ///< that steps it, as of Layout::group_of_section
   int block = -1;          ///< index in Layout::blocks: its sweep works these links out
   int stride_a = 0;
   int stride_b = 0;
@@ -146,6 +146,14 @@ struct Follower {
   int section = 0;
 };
 
+/// A coordinate of a held module as one group sees it. It has a slot of its own, so that no two
+/// groups write to one place: its position comes before the group is stepped, its force goes to the
+/// module after all groups were.
+struct Proxy {
+  int slot = 0;
+  int of = 0;  ///< slot of the module or point
+};
+
 /// Where everything of a scene lies in the arrays of an instrument.
 struct Layout {
   std::vector<int> slot_of_mat;  ///< of the x coordinate
@@ -161,6 +169,9 @@ struct Layout {
   std::vector<Tap> taps;
   std::vector<Feed> feeds;
   std::vector<Follower> followers;
+  std::vector<int> group_of_section;        ///< [sections] index of the group that steps it
+  std::vector<std::vector<Proxy>> proxies;  ///< [groups that run]
+  int first_proxy = 0;                      ///< slot; from here on there are proxies and gaps
 
   int slots() const { return static_cast<int>(mat_of_slot.size()); }
   int strideOf(const scene::Scene& scene, int mat) const;
@@ -197,6 +208,8 @@ struct Layout {
   }
 };
 
+/// Places everything, decides what is stepped together, and gives proxies to what groups see of
+/// held modules. Realtime: no
 /// \param modal_points  of a scene in which modes stand in for modules
 /// \throws Exception if links join sections whose divisors do not divide one another
 Layout makeLayout(const scene::Scene& scene,

@@ -19,10 +19,6 @@ using test::SceneBuilder;
 
 constexpr double kRate = 44100.0;
 
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// A slow mass on a slow spring, coupled to a fast mass on a fast spring. h = 1.
 struct Pair {
   int ratio = 14;

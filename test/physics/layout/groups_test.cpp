@@ -54,7 +54,7 @@ class Sections {
 
   Groups split(const Rates& rates = kRates) {
     layout = makeLayout(b.scene, rates);
-    return splitIntoGroups(b.scene, rates, layout);
+    return makeGroups(b.scene, rates, layout);
   }
 
   /// Names of what runs together, and after a colon of what is held.

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "physics/kernels/levels.hpp"
 #include "physics/kernels/modal_kernels.hpp"
 #include "physics/layout/layout.hpp"
 #include "physics/state/coefficients.hpp"
@@ -15,7 +16,7 @@ template <class Real>
 class ModalPoints {
  public:
   ModalPoints(const Layout& layout, rt::Isa isa)
-      : layout_(layout), kernels_(kernels::modalKernels<Real>(isa)) {
+      : layout_(layout), kernels_(kernels::kernelsOf<kernels::ModalKernels<Real>>(isa)) {
     for (const ModalPlace& point : layout.modal_places) {
       first_weight_.push_back(weights_.size());
       for (const double weight : point.weights) {

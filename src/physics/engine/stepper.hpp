@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "physics/engine/sweeper.hpp"
+#include "physics/kernels/levels.hpp"
 #include "physics/kernels/link_kernels.hpp"
 #include "physics/kernels/modal_kernels.hpp"
 #include "physics/kernels/spatial_kernels.hpp"
@@ -25,8 +26,8 @@ class Stepper {
   Stepper(const Layout& layout, const CompileOptions& options)
       : layout_(layout),
         sweeper_(layout, options),
-        cells_(kernels::modalKernels<Real>(options.isa)),
-        spatial_kernels_(kernels::spatialKernels<Real>(options.isa)),
+        cells_(kernels::kernelsOf<kernels::ModalKernels<Real>>(options.isa)),
+        spatial_kernels_(kernels::kernelsOf<kernels::SpatialKernels<Real>>(options.isa)),
         metered_(options.metered) {
     for (const Block& block : layout.blocks) {
       blocks_end_.resize(static_cast<std::size_t>(block.section) + 1, blocks());

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "physics/kernels/levels.hpp"
 #include "physics/kernels/sparse_arguments.hpp"
 
 namespace ergotic::physics {
@@ -26,8 +27,8 @@ struct Sweeper<Real>::Arrays {
 template <class Real>
 Sweeper<Real>::Sweeper(const Layout& layout, const CompileOptions& options)
     : layout_(layout),
-      kernels_(kernels::blockKernels<Real>(options.isa)),
-      sparse_kernels_(kernels::sparseKernels<Real>(options.isa)),
+      kernels_(kernels::kernelsOf<kernels::BlockKernels<Real>>(options.isa)),
+      sparse_kernels_(kernels::kernelsOf<kernels::SparseKernels<Real>>(options.isa)),
       isa_(options.isa),
       metered_(options.metered) {
   const bool any = std::any_of(layout.blocks.begin(), layout.blocks.end(),

@@ -3,11 +3,10 @@
 
 #include <cstddef>
 
-#include "ergotic/rt/isa.hpp"
 #include "physics/layout/blocks/lanes.hpp"
 
 /// What sweeps do to blocks of consecutive slots. One translation unit per level of vector
-/// instructions compiles the same source (block_kernel_source.hpp); all give the same bits, as
+/// instructions compiles the same source (block_kernels.cpp); all give the same bits, as
 /// nothing is contracted and every sum keeps `kLanes` lanes.
 namespace ergotic::physics::kernels {
 
@@ -85,24 +84,5 @@ struct BlockKernels {
   /// \return as of move and viscous together
   double (*chains)(const ChainArguments<Real>&, std::ptrdiff_t first, std::ptrdiff_t last) noexcept;
 };
-
-/// \pre this processor has the level
-template <class Real>
-const BlockKernels<Real>& blockKernels(rt::Isa isa) noexcept;
-
-namespace baseline {
-template <class Real>
-const BlockKernels<Real>& blockKernels() noexcept;
-}
-#if defined(__x86_64__)
-namespace avx2 {
-template <class Real>
-const BlockKernels<Real>& blockKernels() noexcept;
-}
-namespace avx512 {
-template <class Real>
-const BlockKernels<Real>& blockKernels() noexcept;
-}
-#endif
 
 }  // namespace ergotic::physics::kernels

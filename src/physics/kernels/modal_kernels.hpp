@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "ergotic/rt/isa.hpp"
-
 /// Cells, modes among them, and weighted sums over modes (modal_points.hpp). One translation unit
-/// per level of vector instructions compiles the same source (modal_kernel_source.hpp); all give
+/// per level of vector instructions compiles the same source (modal_kernels.cpp); all give
 /// the same bits.
 namespace ergotic::physics::kernels {
 
@@ -50,24 +48,5 @@ struct ModalKernels {
   /// weights . the step to come
   Real (*stepAhead)(const ModalArguments<Real>&) noexcept;
 };
-
-/// \pre this processor has the level
-template <class Real>
-const ModalKernels<Real>& modalKernels(rt::Isa isa) noexcept;
-
-namespace baseline {
-template <class Real>
-const ModalKernels<Real>& modalKernels() noexcept;
-}
-#if defined(__x86_64__)
-namespace avx2 {
-template <class Real>
-const ModalKernels<Real>& modalKernels() noexcept;
-}
-namespace avx512 {
-template <class Real>
-const ModalKernels<Real>& modalKernels() noexcept;
-}
-#endif
 
 }  // namespace ergotic::physics::kernels

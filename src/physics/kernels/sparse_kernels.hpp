@@ -7,7 +7,7 @@
 #include "ergotic/rt/isa.hpp"
 
 /// What sweeps do to irregular networks (sparse_program.hpp). One translation unit per level of
-/// vector instructions compiles the same source (sparse_kernel_source.hpp); all give the same bits.
+/// vector instructions compiles the same source (sparse_kernels.cpp); all give the same bits.
 namespace ergotic::physics::kernels {
 
 /// Forces of links as assignment: f = sum K (x' - x) + Z (d' - d) over the neighbours of each node.
@@ -42,29 +42,10 @@ struct SparseKernels {
   void (*pair)(const SparseArguments<Real>&, Real* pairs, int first, int last) noexcept;
 };
 
-/// \pre this processor has the level
-template <class Real>
-const SparseKernels<Real>& sparseKernels(rt::Isa isa) noexcept;
-
 /// True if `forces` reads pairs, which must then be filled for all nodes before. AVX-512 picks
 /// neighbours in windows from registers; all others come from memory, x and d at one go.
 inline bool sparseNeedsPairs(rt::Isa isa, std::size_t picks) noexcept {
   return isa != rt::Isa::kAvx512 || picks > 0;
 }
-
-namespace baseline {
-template <class Real>
-const SparseKernels<Real>& sparseKernels() noexcept;
-}
-#if defined(__x86_64__)
-namespace avx2 {
-template <class Real>
-const SparseKernels<Real>& sparseKernels() noexcept;
-}
-namespace avx512 {
-template <class Real>
-const SparseKernels<Real>& sparseKernels() noexcept;
-}
-#endif
 
 }  // namespace ergotic::physics::kernels

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How the sparse kernels fetch neighbours at one level of vector instructions: part of
-// sparse_kernel_source.hpp, under its rules.
+// sparse_kernels.cpp, under its rules.
 #if defined(__AVX512F__)
 #include <immintrin.h>
 // GCC 12 takes the undefined parts of its own intrinsics for mistakes.

@@ -3,11 +3,10 @@
 
 #include <cstddef>
 
-#include "ergotic/rt/isa.hpp"
 #include "physics/layout/blocks/link_ends.hpp"
 
 /// What links between points in the plane or in space do, inside one section. One translation unit
-/// per level of vector instructions compiles the same source (spatial_kernel_source.hpp); all give
+/// per level of vector instructions compiles the same source (spatial_kernels.cpp); all give
 /// the same bits, as nothing is contracted and sums of work keep one part for each of 16 lanes.
 namespace ergotic::physics::kernels {
 
@@ -45,24 +44,5 @@ struct SpatialKernels {
   SpatialWork (*springs[3])(const SpatialArguments<Real>&) noexcept;
   SpatialWork (*contacts[3])(const SpatialArguments<Real>&) noexcept;
 };
-
-/// \pre this processor has the level
-template <class Real>
-const SpatialKernels<Real>& spatialKernels(rt::Isa isa) noexcept;
-
-namespace baseline {
-template <class Real>
-const SpatialKernels<Real>& spatialKernels() noexcept;
-}
-#if defined(__x86_64__)
-namespace avx2 {
-template <class Real>
-const SpatialKernels<Real>& spatialKernels() noexcept;
-}
-namespace avx512 {
-template <class Real>
-const SpatialKernels<Real>& spatialKernels() noexcept;
-}
-#endif
 
 }  // namespace ergotic::physics::kernels

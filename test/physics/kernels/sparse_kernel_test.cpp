@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "physics/kernels/levels.hpp"
 #include "physics/kernels/sparse_arguments.hpp"
 #include "physics/layout/blocks/sparse_networks.hpp"
 #include "physics/layout/blocks/sparse_program.hpp"
@@ -67,7 +68,8 @@ struct Instant {
       arguments.ks = ks.data();
       arguments.zs = zs.data();
     }
-    const kernels::SparseKernels<Real>& kernels = kernels::sparseKernels<Real>(isa);
+    const kernels::SparseKernels<Real>& kernels =
+        kernels::kernelsOf<kernels::SparseKernels<Real>>(isa);
     if (kernels::sparseNeedsPairs(isa, program.pick.size())) {
       kernels.pair(arguments, pairs.data(), 0, program.groups);
       arguments.pairs = pairs.data();

@@ -1,6 +1,0 @@
-// SPDX-License-Identifier: BSD-3-Clause
-#if defined(__x86_64__)
-#define ERGOTIC_LEVEL avx2
-#define ERGOTIC_VECTOR_BYTES 32
-#include "physics/kernels/block_kernel_source.hpp"
-#endif

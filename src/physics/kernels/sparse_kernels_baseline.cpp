@@ -1,3 +1,0 @@
-// SPDX-License-Identifier: BSD-3-Clause
-#define ERGOTIC_LEVEL baseline
-#include "physics/kernels/sparse_kernel_source.hpp"

@@ -6,7 +6,7 @@ if(tool_library_sources)
   add_library(ergotic_tool_support STATIC ${tool_library_sources})
   target_include_directories(ergotic_tool_support PUBLIC src)
   target_link_libraries(ergotic_tool_support
-    PUBLIC ergotic_advice ergotic_audio CLI11::CLI11 PRIVATE ergotic_flags)
+    PUBLIC ergotic_advice ergotic_audio CLI11::CLI11 nlohmann_json::nlohmann_json PRIVATE ergotic_flags)
   string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
   get_target_property(ergotic_options ergotic_flags INTERFACE_COMPILE_OPTIONS)
   string(REPLACE ";" " " ergotic_options

@@ -8,6 +8,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tools/lib/report.hpp"
+
 namespace {
 
 std::atomic<bool> stop{false};
@@ -24,6 +26,8 @@ void stopOnSignals() {
 }
 
 }  // namespace
+
+using ergotic::tools::Report;
 
 int main(int argc, char** argv) {
   ergotic::audio::CaptureConfig config;
@@ -49,11 +53,15 @@ int main(int argc, char** argv) {
           }
           std::cerr << std::endl;
         });
-    std::cout << "{\"frames\":" << report.frames
-              << ",\"first_jack_frame\":" << report.first_jack_frame
-              << ",\"sample_rate\":" << static_cast<std::int64_t>(report.sample_rate_hz)
-              << ",\"dropped\":" << report.dropped << ",\"lost\":" << report.lost
-              << ",\"xruns\":" << report.xruns << "}" << std::endl;
+    Report::map()
+        .add("frames", Report::number(report.frames))
+        .add("first_jack_frame", Report::number(report.first_jack_frame))
+        .add("sample_rate", Report::number(static_cast<std::int64_t>(report.sample_rate_hz)))
+        .add("dropped", Report::number(report.dropped))
+        .add("lost", Report::number(report.lost))
+        .add("xruns", Report::number(report.xruns))
+        .printJsonLine(std::cout);
+    std::cout.flush();
     if (!report.message.empty()) {
       std::cerr << "capture: " << report.message << std::endl;
     }

@@ -56,9 +56,9 @@ TEST_F(JackTgrToolTest, MeasuresALatencyThatNobodyDeclared) {
   const Outcome outcome =
       outcomeOf("--measure 80 --slice 1 --latency-frames 37 --undeclared --seconds 60", 0.0);
   EXPECT_EQ(outcome.code, 0) << outcome.text;
-  EXPECT_NE(outcome.text.find("\"round_trip_frames\": 101, \"tick_frames\": 16, "
-                              "\"declared_frames\": 64}"),
-            std::string::npos)
+  EXPECT_NE(
+      outcome.text.find("\"round_trip_frames\":101,\"tick_frames\":16,\"declared_frames\":64}"),
+      std::string::npos)
       << outcome.text;
 }
 

@@ -53,13 +53,13 @@ Report machineReport(const MachineLimits& limits) {
   for (const MemoryLevel& level : limits.levels) {
     levels.add(Report::map()
                    .add("name", Report::text(level.name))
-                   .add("bytes", Report::count(level.bytes))
-                   .add("probed_bytes", Report::count(level.probed))
+                   .add("bytes", Report::number(level.bytes))
+                   .add("probed_bytes", Report::number(level.probed))
                    .add("gb_per_s", Report::number(level.gb_per_s)));
   }
   return Report::map()
       .add("processor", Report::text(processorName()))
-      .add("cores", Report::count(std::thread::hardware_concurrency()))
+      .add("cores", Report::number(std::thread::hardware_concurrency()))
       .add("levels", std::move(levels))
       .add("gflops", Report::number(limits.gflops));
 }
@@ -89,9 +89,9 @@ Report resultReport(const BenchResult& result, const MachineLimits& limits) {
   const double limit = result.work.limitNs(limits);
   Report report = Report::map();
   report.add("scene", Report::text(result.scene))
-      .add("modules", Report::count(result.modules))
-      .add("masses", Report::count(result.masses))
-      .add("links", Report::count(result.links))
+      .add("modules", Report::number(result.modules))
+      .add("masses", Report::number(result.masses))
+      .add("links", Report::number(result.links))
       .add("make_s", Report::number(result.make_s))
       .add("compile_s", Report::number(result.compile_s))
       .add("ns_per_frame", Report::number(ns))
@@ -105,7 +105,7 @@ Report resultReport(const BenchResult& result, const MachineLimits& limits) {
         .add("plain_ns_per_module", Report::number(nsPerModule(plain, result)))
         .add("ratio_to_plain", Report::number(ratioOf(result)));
   }
-  report.add("resident_bytes", Report::count(result.work.resident))
+  report.add("resident_bytes", Report::number(result.work.resident))
       .add("level", Report::text(limits.levelFor(result.work.resident).name))
       .add("bytes_per_frame", Report::number(result.work.bytes))
       .add("operations_per_frame", Report::number(result.work.operations))

@@ -32,7 +32,7 @@ const scene::Mat& matAt(const Scene& scene, int index) {
 Report counts(const std::map<std::string, std::size_t>& by_name) {
   Report report = Report::map();
   for (const auto& [name, count] : by_name) {
-    report.add(name, Report::count(count));
+    report.add(name, Report::number(count));
   }
   return report;
 }
@@ -48,10 +48,10 @@ Report linksOf(const Scene& scene) {
     between_sections += across ? 1 : 0;
   }
   return Report::map()
-      .add("count", Report::count(scene.lias.size()))
+      .add("count", Report::number(scene.lias.size()))
       .add("types", counts(by_type))
       .add("schemes", counts(by_scheme))
-      .add("between_sections", Report::count(between_sections));
+      .add("between_sections", Report::number(between_sections));
 }
 
 Report pointsOf(const Scene& scene) {
@@ -183,7 +183,7 @@ void addProgram(const Scene& scene,
     const Cost cost = measureCost(*instrument);
     costs.add(nameOf(precision),
               Report::map()
-                  .add("state_bytes", Report::count(instrument->stateSize()))
+                  .add("state_bytes", Report::number(instrument->stateSize()))
                   .add("tick_ns", Report::number(cost.tick_ns))
                   .add("step_ns", Report::number(cost.frame_ns))
                   .add("real_time_factor", Report::number(cost.real_time_factor)));
@@ -205,7 +205,7 @@ Report reportOn(const physics::Settled& settled,
   }
   Report report = Report::map();
   report.add("scene", Report::text(scene.name))
-      .add("modules", Report::count(scene.mats.size()))
+      .add("modules", Report::number(scene.mats.size()))
       .add("audio_rate_hz", Report::number(rates.audio_hz))
       .add("gestural_rate_hz", Report::number(rates.gesturalHz()))
       .add("frames_per_tick", Report::number(rates.ratio))

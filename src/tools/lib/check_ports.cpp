@@ -97,7 +97,7 @@ Report agentsReport(const Scene& scene) {
     Report entry = Report::map();
     entry.add("name", Report::text(agent.name)).add("axis", Report::text(axisOf(port)));
     addHand(scene, port, entry);
-    entry.add("points", Report::count(agent.knots.size()))
+    entry.add("points", Report::number(agent.knots.size()))
         .add("ends_s", Report::number(agent.knots.back().first));
     if (agent.period_s > 0.0) {
       entry.add("period_s", Report::number(agent.period_s));

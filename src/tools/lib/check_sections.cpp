@@ -35,7 +35,7 @@ Report modulesOf(const Scene& scene, int section) {
   }
   Report report = Report::map();
   for (const auto& [type, count] : by_type) {
-    report.add(type, Report::count(count));
+    report.add(type, Report::number(count));
   }
   return report;
 }

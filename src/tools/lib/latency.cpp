@@ -134,7 +134,7 @@ Report settingsReport(const LatencyOptions& options,
   }
   return Report::map()
       .add("scene", Report::text(options.scene.empty() ? kScene : options.scene))
-      .add("modules", Report::count(live.modules()))
+      .add("modules", Report::number(live.modules()))
       .add("slices", Report::number(kSlices))
       .add("rate_hz", Report::number(rates.audio_hz))
       .add("frames_per_tick", Report::number(rates.ratio))
@@ -149,7 +149,7 @@ Report settingsReport(const LatencyOptions& options,
 
 Report countersReport(const station::Snapshot& last) {
   const station::Counters& c = last.counters;
-  const auto number = [](std::int64_t value) { return Report::number(static_cast<double>(value)); };
+  const auto number = [](std::int64_t value) { return Report::number(value); };
   return Report::map()
       .add("ticks", number(c.ticks))
       .add("late_wake_up", number(c.late_wake_up))
@@ -171,7 +171,7 @@ Report reportOf(const LatencyOptions& options,
   return Report::map()
       .add("machine", Report::map()
                           .add("processor", Report::text(processorName()))
-                          .add("cores", Report::count(std::thread::hardware_concurrency()))
+                          .add("cores", Report::number(std::thread::hardware_concurrency()))
                           .add("kernel", Report::text(kernelName())))
       .add("settings", settingsReport(options, live, warnings))
       .add("ticks", countersReport(live.last()))
@@ -194,7 +194,7 @@ Report histogramReport(const station::TickHistogram& histogram, double period_us
     share.add(name, Report::number(value / period_us));
   }
   Report report = Report::map();
-  report.add("count", Report::number(static_cast<double>(histogram.count())))
+  report.add("count", Report::number(histogram.count()))
       .add("us", std::move(us))
       .add("share_of_period", std::move(share));
   if (bins) {
@@ -202,7 +202,7 @@ Report histogramReport(const station::TickHistogram& histogram, double period_us
     Report counts = Report::list();
     for (const station::TickHistogram::Bin& bin : histogram.bins()) {
       up_to.add(Report::number(1e-3 * static_cast<double>(bin.high_ns + 1)));
-      counts.add(Report::number(static_cast<double>(bin.count)));
+      counts.add(Report::number(bin.count));
     }
     report.add("up_to_us", std::move(up_to)).add("counts", std::move(counts));
   }

@@ -36,7 +36,7 @@ Report LoadFigures::finish(std::size_t parts) {
   const std::size_t heap = heapInUse();
   const std::size_t grown = heap - std::min(heap, heap_);
   const auto each = static_cast<double>(std::max<std::size_t>(parts, 1));
-  report_.add("bytes", Report::count(grown))
+  report_.add("bytes", Report::number(grown))
       .add("bytes_per_module_or_link", Report::number(static_cast<double>(grown) / each));
   return report_;
 }

@@ -3,50 +3,53 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
+
+#include <nlohmann/json.hpp>
 
 namespace ergotic::tools {
 namespace {
 
-constexpr int kDigits = 9;
+using Json = nlohmann::ordered_json;
+
 constexpr int kReadableDigits = 6;
 constexpr std::size_t kWidth = 100;  // characters of a line that holds a map or a list
-
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      result += '\\';
-      result += c;
-    } else if (c == '\n') {
-      result += "\\n";
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      char code[8];
-      std::snprintf(code, sizeof code, "\\u%04x", static_cast<unsigned>(c));
-      result += code;
-    } else {
-      result += c;
-    }
-  }
-  return result + '"';
-}
 
 std::string indent(int depth) {
   return std::string(static_cast<std::size_t>(depth) * 2, ' ');
 }
 
+std::string readable(double value) {
+  std::ostringstream text;
+  text.precision(kReadableDigits);
+  text << value;
+  return std::isfinite(value) ? text.str() : std::string("null");
+}
+
+/// Names of files may hold any bytes: what is no UTF-8 is replaced.
+std::string written(const Json& json, int spaces) {
+  return json.dump(spaces, ' ', false, Json::error_handler_t::replace);
+}
+
 }  // namespace
 
-Report Report::number(double value) {
-  const auto written = [value](int digits) {
-    std::ostringstream text;
-    text.precision(digits);
-    text << value;
-    return std::isfinite(value) ? text.str() : std::string("null");
-  };
-  Report report(Kind::kNumber, written(kDigits));
-  report.readable_ = written(kReadableDigits);
+Report Report::text(const std::string& value) {
+  Report report(Kind::kText);
+  report.text_ = value;
+  return report;
+}
+
+Report Report::real(double value) {
+  Report report(Kind::kReal);
+  report.real_ = value;
+  report.text_ = readable(value);
+  return report;
+}
+
+Report Report::whole(std::int64_t value) {
+  Report report(Kind::kWhole);
+  report.whole_ = value;
+  report.text_ = std::to_string(value);
   return report;
 }
 
@@ -55,38 +58,41 @@ Report& Report::add(const std::string& name, Report value) {
   return *this;
 }
 
-void Report::printJson(std::ostream& out, int depth) const {
-  if (isLeaf()) {
-    out << (kind_ == Kind::kText ? quoted(value_) : value_);
-    return;
+Json Report::json() const {
+  switch (kind_) {
+    case Kind::kText:
+      return text_;
+    case Kind::kReal:
+      return real_;
+    case Kind::kWhole:
+      return whole_;
+    case Kind::kMap:
+    case Kind::kList:
+      break;
   }
-  if (isVector()) {
-    const char* comma = "[";
-    for (const auto& child : children_) {
-      out << comma << child.second.value_;
-      comma = ", ";
-    }
-    out << ']';
-    return;
-  }
-  const bool map = kind_ == Kind::kMap;
-  out << (map ? "{" : "[");
-  const char* separator = "\n";
+  Json json = kind_ == Kind::kMap ? Json::object() : Json::array();
   for (const auto& [name, child] : children_) {
-    out << separator << indent(depth + 1);
-    if (map) {
-      out << quoted(name) << ": ";
+    if (kind_ == Kind::kMap) {
+      json[name] = child.json();
+    } else {
+      json.push_back(child.json());
     }
-    child.printJson(out, depth + 1);
-    separator = ",\n";
   }
-  out << (children_.empty() ? "" : "\n" + indent(depth)) << (map ? "}" : "]");
+  return json;
+}
+
+void Report::printJson(std::ostream& out) const {
+  out << written(json(), 2);
+}
+
+void Report::printJsonLine(std::ostream& out) const {
+  out << written(json(), -1) << '\n';
 }
 
 bool Report::isVector() const {
   return kind_ == Kind::kList && !children_.empty() &&
          std::all_of(children_.begin(), children_.end(),
-                     [](const auto& child) { return child.second.kind_ == Kind::kNumber; });
+                     [](const auto& child) { return child.second.isNumber(); });
 }
 
 bool Report::fitsInFlow() const {
@@ -100,7 +106,7 @@ bool Report::fitsInFlow() const {
 
 std::string Report::flow() const {
   if (isLeaf()) {
-    return readable_;
+    return text_;
   }
   const bool map = kind_ == Kind::kMap;
   std::string line;

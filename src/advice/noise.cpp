@@ -82,7 +82,8 @@ std::vector<NoiseFloor> noiseFloors(const scene::Scene& scene,
                                     const SensorNoise& noise) {
   const double tick = 1.0 / (rates.gesturalHz() * scene.time_unit_s);
   const double newton = 1.0 / (scene.time_unit_s * scene.time_unit_s);
-  const PortLinks links(scene);
+  const Network network(scene);
+  const PortLinks links(network);
   std::vector<NoiseFloor> floors;
   for (int p = 0; p < static_cast<int>(scene.ports.size()); ++p) {
     const scene::Port& port = scene.ports[at(p)];

@@ -30,14 +30,15 @@ std::size_t at(int i) {
 /// The linear networks of all sections, made when they are needed.
 class Networks {
  public:
-  explicit Networks(const scene::Scene& scene) : scene_(scene) {}
+  explicit Networks(const scene::Scene& scene) : whole_(scene) {}
+  const Network& whole() const { return whole_; }
   const LinearNetwork& around(int mat) {
-    const int section = scene_.mats[at(mat)].section;
-    return networks_.try_emplace(section, scene_, section).first->second;
+    const int section = whole_.scene.mats[at(mat)].section;
+    return networks_.try_emplace(section, whole_, section).first->second;
   }
 
  private:
-  const scene::Scene& scene_;
+  Network whole_;
   std::map<int, LinearNetwork> networks_;
 };
 
@@ -318,8 +319,9 @@ class Finder {
     const Touch touch = touchOf(scene_, networks_, index);
     const double unit = std::pow(scene_.time_unit_s, -2);
     const double stiffness =
-        unit * (lia.type == LiaType::kPowerContact ? scene_.valueOf(lia.stiffness)
-                                                   : slopesOf(scene_, lia).stiffness.highest);
+        unit * (lia.type == LiaType::kPowerContact
+                    ? scene_.valueOf(lia.stiffness)
+                    : networks_.whole().links[at(index)].slopes.stiffness.highest);
     const double exponent =
         lia.type == LiaType::kPowerContact ? scene_.valueOf(lia.law->exponent) : 1.0;
     if (stiffness > 0.0 && std::isfinite(touch.lightest())) {

@@ -149,8 +149,8 @@ class ModesPart final : public TargetPart {
 };
 
 /// The tenth of the modes of a section that move, rad/s; 0: nothing to judge.
-double tenthMode(const scene::Scene& scene, int section) {
-  std::vector<double> squares = LinearNetwork(scene, section).modes(kMostModes);
+double tenthMode(const Network& network, int section) {
+  std::vector<double> squares = LinearNetwork(network, section).modes(kMostModes);
   const double still = squares.empty() ? 0.0 : 1e-12 * squares.back();
   squares.erase(std::remove_if(squares.begin(), squares.end(),
                                [still](double square) { return square <= still; }),
@@ -187,8 +187,9 @@ void addStringParts(const scene::Scene& scene, Parts& parts) {
 }
 
 void addModeParts(const scene::Scene& scene, Parts& parts) {
+  const Network network(scene);
   for (int s = 0; s < static_cast<int>(scene.sections.size()); ++s) {
-    const double omega = hasModesToJudge(scene, s) ? tenthMode(scene, s) : 0.0;
+    const double omega = hasModesToJudge(scene, s) ? tenthMode(network, s) : 0.0;
     if (omega > 0.0) {
       parts.push_back(std::make_unique<ModesPart>(scene.sections[at(s)], omega));
     }

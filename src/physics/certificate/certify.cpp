@@ -17,8 +17,8 @@ std::size_t at(int i) {
 
 class Certifier {
  public:
-  Certifier(const scene::Scene& scene, const Rates& rates)
-      : scene_(scene), networks_(scene, rates), findings_(scene.file) {}
+  Certifier(const Network& network, const Rates& rates)
+      : scene_(network.scene), networks_(network, rates), findings_(scene_.file) {}
 
   Certificate run(const DeviceTraits& device) {
     Certificate result;
@@ -146,7 +146,7 @@ Certificate certify(const scene::Scene& scene, const Rates& rates, const DeviceT
       throw std::logic_error("link '" + lia.name + "' is not settled: nobody chose its scheme");
     }
   }
-  return Certifier(scene, rates).run(device);
+  return Certifier(Network(scene), rates).run(device);
 }
 
 }  // namespace ergotic::physics

@@ -30,7 +30,7 @@ std::vector<PortCertificate> judgePorts(const SceneNetwork& networks,
   if (scene.ports.empty()) {
     return certificates;
   }
-  const PortLinks links(scene);
+  const PortLinks links(networks.network());
   for (int p = 0; p < static_cast<int>(scene.ports.size()); ++p) {
     const scene::Port& port = scene.ports[at(p)];
     if (port.agent >= 0) {

@@ -61,35 +61,33 @@ bool CoupledGroup::isMember(const scene::Lia& lia) const {
   return networks_.isExplicit(lia) && networks_.groupOf(lia) == group_;
 }
 
-scene::Scene CoupledGroup::isolated() const {
+scene::Scene CoupledGroup::isolated(bool closed) const {
   scene::Scene scene = networks_.scene();
   for (int m = 0; m < static_cast<int>(scene.mats.size()); ++m) {
     if (isFree(scene.mats[at(m)]) && networks_.groupOf(m) != group_) {
       scene.mats[at(m)].type = MatType::kGround;
     }
   }
-  scene.lias.erase(std::remove_if(scene.lias.begin(), scene.lias.end(),
-                                  [&](const scene::Lia& lia) { return !isMember(lia); }),
-                   scene.lias.end());
-  return scene;
-}
-
-scene::Scene CoupledGroup::closed(scene::Scene scene) const {
-  for (scene::Lia& lia : scene.lias) {
-    if (switches(lia)) {
-      const Slopes slopes = slopesOf(scene, lia);
-      lia.type = LiaType::kSpringDamper;
-      lia.stiffness = {slopes.stiffness.highest};
-      lia.damping = {slopes.damping.highest};
+  scene.lias.clear();
+  for (int l = 0; l < static_cast<int>(networks_.scene().lias.size()); ++l) {
+    const scene::Lia& lia = networks_.scene().lias[at(l)];
+    if (!isMember(lia)) {
+      continue;
+    }
+    scene.lias.push_back(lia);
+    if (closed && switches(lia)) {
+      scene.lias.back().type = LiaType::kSpringDamper;
+      scene.lias.back().stiffness = {networks_.slopes(l).stiffness.highest};
+      scene.lias.back().damping = {networks_.slopes(l).damping.highest};
     }
   }
   return scene;
 }
 
 std::vector<scene::Scene> CoupledGroup::cases() const {
-  std::vector<scene::Scene> result{isolated()};
+  std::vector<scene::Scene> result{isolated(false)};
   if (std::any_of(result[0].lias.begin(), result[0].lias.end(), switches)) {
-    result.push_back(closed(result[0]));
+    result.push_back(isolated(true));
   }
   if (followsParameters()) {
     const std::vector<scene::Scene> present = result;

@@ -27,8 +27,8 @@ class CoupledGroup {
   bool isMember(const scene::Lia& lia) const;
   bool follows(const scene::Value& v) const;
   bool followsParameters() const;
-  scene::Scene isolated() const;
-  scene::Scene closed(scene::Scene scene) const;
+  /// \param closed  links that switch are springs as stiff as they can be
+  scene::Scene isolated(bool closed) const;
 
   const SceneNetwork& networks_;
   int group_;

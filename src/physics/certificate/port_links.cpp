@@ -5,8 +5,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "physics/laws/slopes.hpp"
-
 namespace ergotic::physics {
 namespace {
 
@@ -19,12 +17,8 @@ std::size_t at(int i) {
 
 }  // namespace
 
-PortLinks::PortLinks(const scene::Scene& scene) : scene_(scene), links_of_(scene.mats.size()) {
-  for (int l = 0; l < static_cast<int>(scene.lias.size()); ++l) {
-    links_of_[at(lia(l).a)].push_back(l);
-    links_of_[at(lia(l).b)].push_back(l);
-  }
-}
+PortLinks::PortLinks(const Network& network)
+    : network_(network), scene_(network.scene), links_of_(linksOfNodes(network)) {}
 
 double PortLinks::stiffness(const scene::Port& port) const {
   double sum = 0.0;
@@ -90,7 +84,7 @@ double PortLinks::along(const scene::Port& port, int l) const {
 }
 
 double PortLinks::slope(int l) const {
-  return std::abs(stiffnessAt(scene_, lia(l), kHandDepth));
+  return std::abs(stiffnessAt(scene_, scene_.lias[at(l)], kHandDepth));
 }
 
 /// One link after the other through masses that nothing else holds; what comes then is held.
@@ -116,7 +110,7 @@ PortLinks::Resistance PortLinks::sum(const scene::Port& port,
   for (const int l : links) {
     const double part = share(port, mat, l);
     sum.stiffness += part * slope(l);
-    sum.damping += part * slopesOf(scene_, lia(l)).damping.highest;
+    sum.damping += part * link(l).slopes.damping.highest;
   }
   return sum;
 }

@@ -3,14 +3,15 @@
 
 #include <vector>
 
-#include "ergotic/scene/scene.hpp"
+#include "physics/network/network.hpp"
 
 namespace ergotic::physics {
 
 /// The links of every module, to see from a port what its hand meets. All in the model's units.
 class PortLinks {
  public:
-  explicit PortLinks(const scene::Scene& scene);
+  /// \param network  must outlive it
+  explicit PortLinks(const Network& network);
 
   /// What everything resists the slow motion of a port with, at most.
   double stiffness(const scene::Port& port) const;
@@ -28,8 +29,8 @@ class PortLinks {
   Resistance behindFilter(const scene::Port& port) const;
 
  private:
-  const scene::Lia& lia(int l) const { return scene_.lias[static_cast<std::size_t>(l)]; }
-  int otherEnd(int l, int mat) const { return lia(l).a == mat ? lia(l).b : lia(l).a; }
+  const Network::Link& link(int l) const { return network_.links[static_cast<std::size_t>(l)]; }
+  int otherEnd(int l, int mat) const { return link(l).a == mat ? link(l).b : link(l).a; }
   bool isHanging(const scene::Port& port, int l) const;
   /// Links behind the filter, or of the slice if it has none.
   std::vector<int> linksOf(const scene::Port& port) const;
@@ -39,6 +40,7 @@ class PortLinks {
   double series(int from, int l) const;
   Resistance sum(const scene::Port& port, int mat, const std::vector<int>& links) const;
 
+  const Network& network_;
   const scene::Scene& scene_;
   std::vector<std::vector<int>> links_of_;  // [mats]
 };

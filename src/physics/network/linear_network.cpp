@@ -8,12 +8,11 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 
-#include "ergotic/scene/grid.hpp"
+#include "physics/network/load_matrix.hpp"
 
 namespace ergotic::physics {
 namespace {
 
-using scene::LiaType;
 using scene::MatType;
 
 constexpr int kIterations = 50;  // of Collatz-Wielandt
@@ -22,114 +21,77 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-bool isAlwaysOn(LiaType type) {
-  return type == LiaType::kSpringDamper || type == LiaType::kQuadratic || type == LiaType::kCubic ||
-         type == LiaType::kClippedCubic;
-}
-
 }  // namespace
 
-LinearNetwork::LinearNetwork(const scene::Scene& scene, int section, int absent)
-    : scene_(scene), node_of_mat_(scene.mats.size(), -1), connection_(scene.mats.size(), -1) {
-  for (std::size_t i = 0; i < scene.connections.size(); ++i) {
-    connection_[at(scene.connections[i].mat)] = static_cast<int>(i);
-  }
+LinearNetwork::LinearNetwork(const Network& network, int section, int absent)
+    : network_(network), node_of_mat_(network.nodes.size(), -1) {
   addModules(section, absent);
   addSprings(section, absent);
 }
 
 void LinearNetwork::addModules(int section, int absent) {
-  const double unit = scene_.time_unit_s;
-  for (std::size_t i = 0; i < scene_.mats.size(); ++i) {
-    const scene::Mat& mat = scene_.mats[i];
-    const bool free = mat.type == MatType::kMass || mat.type == MatType::kCell;
-    if (!free || mat.section != section || static_cast<int>(i) == absent) {
+  const double unit = network_.scene.time_unit_s;
+  for (int m = 0; m < static_cast<int>(network_.nodes.size()); ++m) {
+    const Network::Node& module = network_.nodes[at(m)];
+    if (!module.is_free || network_.scene.mats[at(m)].section != section || m == absent) {
       continue;
     }
     const int node = static_cast<int>(mass_.size());
-    node_of_mat_[i] = node;
-    mass_.push_back(scene_.valueOf(mat.mass));
-    damping_.push_back(scene_.valueOf(scene_.sectionOf(mat).medium) / unit);
-    if (mat.type == MatType::kCell) {
-      damping_.back() += scene_.valueOf(mat.damping) / unit;
-      springs_.push_back({scene_.valueOf(mat.stiffness) / (unit * unit), {{node, 1.0}}, true});
+    node_of_mat_[at(m)] = node;
+    mass_.push_back(module.mass.now);
+    damping_.push_back(module.damping.now / unit);
+    if (network_.scene.mats[at(m)].type == MatType::kCell) {
+      springs_.push_back({module.stiffness.now / (unit * unit), {{node, 1.0}}, true});
     }
   }
 }
 
 bool LinearNetwork::counts(const scene::Lia& lia, int section, int absent) const {
-  if (!isAlwaysOn(lia.type) || lia.filtered || lia.a == absent || lia.b == absent) {
-    return false;
-  }
   const auto ends_here = [&](int mat) {
-    const scene::Mat& end = scene_.mats[at(mat)];
+    const scene::Mat& end = network_.scene.mats[at(mat)];
     return end.section == section ? end.type != MatType::kSlice : end.type == MatType::kGround;
   };
-  return ends_here(lia.a) && ends_here(lia.b);
+  return !lia.filtered && lia.a != absent && lia.b != absent && ends_here(lia.a) &&
+         ends_here(lia.b);
 }
 
 void LinearNetwork::addSprings(int section, int absent) {
-  const double unit = scene_.time_unit_s;
-  for (const scene::Lia& lia : scene_.lias) {
-    const double stiffness = scene_.valueOf(lia.stiffness) / (unit * unit);
-    if (stiffness == 0.0 || !counts(lia, section, absent)) {
+  const double unit = network_.scene.time_unit_s;
+  for (std::size_t l = 0; l < network_.links.size(); ++l) {
+    const Network::Link& link = network_.links[l];
+    const double stiffness = link.at_rest / (unit * unit);
+    if (stiffness == 0.0 || !counts(network_.scene.lias[l], section, absent)) {
       continue;
     }
-    Spring spring{stiffness, shareOf(lia.a), false};
+    Shares ends = endsAmong(network_, node_of_mat_, link);
     double weight = 0.0;
-    for (const auto& [node, share] : spring.ends) {
-      weight += share;
+    for (const Share& share : ends) {
+      weight += share.weight;
     }
-    for (const auto& [node, share] : shareOf(lia.b)) {
-      spring.ends.emplace_back(node, -share);
-      weight -= share;
-    }
-    // Weights of an end that moves as a whole add up to 1.
-    spring.anchored = std::abs(weight) > 1e-12;
-    if (!spring.ends.empty()) {
-      springs_.push_back(std::move(spring));
+    if (!ends.empty()) {
+      // Weights of an end that moves as a whole add up to 1.
+      springs_.push_back({stiffness, std::move(ends), std::abs(weight) > 1e-12});
     }
   }
 }
 
-LinearNetwork::Share LinearNetwork::shareOf(int mat) const {
-  Share share;
-  const auto add = [&](int module, double weight) {
-    if (node_of_mat_[at(module)] >= 0 && weight > 0.0) {
-      share.emplace_back(node_of_mat_[at(module)], weight);
-    }
-  };
-  if (connection_[at(mat)] < 0) {
-    add(mat, 1.0);
-    return share;
-  }
-  const scene::Connection& connection = scene_.connections[at(connection_[at(mat)])];
-  const scene::GridPlace place =
-      scene::placeOn(scene_.grids[at(connection.grid)], scene_.valueOf(connection.along),
-                     scene_.valueOf(connection.across));
-  for (std::size_t i = 0; i < at(place.count); ++i) {
-    add(place.mats[i], place.weights[i]);
-  }
-  return share;
-}
-
-double LinearNetwork::effectiveMass(const Share& share, double sign) const {
+double LinearNetwork::effectiveMass(const Shares& shares, double sign) const {
   double mobility = 0.0;
-  for (const auto& [node, weight] : share) {
+  for (const auto& [node, weight] : shares) {
     mobility += weight * sign > 0.0 ? weight * weight / mass_[at(node)] : 0.0;
   }
   return mobility > 0.0 ? 1.0 / mobility : std::numeric_limits<double>::infinity();
 }
 
 double LinearNetwork::massAt(int mat) const {
-  return effectiveMass(shareOf(mat), 1.0);
+  return effectiveMass(sharesOf(mat), 1.0);
 }
 
 double LinearNetwork::impedanceAt(int mat) const {
-  const Share share = shareOf(mat);
+  const Shares shares = sharesOf(mat);
   double impedance = 0.0;
   double weights = 0.0;
-  for (const auto& [node, weight] : share) {
+  for (const auto& [node, weight] : shares) {
     impedance += weight * damping_[at(node)];
     weights += weight;
   }
@@ -137,7 +99,7 @@ double LinearNetwork::impedanceAt(int mat) const {
     const double lighter =
         std::min(effectiveMass(spring.ends, 1.0), effectiveMass(spring.ends, -1.0));
     const double wave = std::sqrt(std::max(spring.stiffness, 0.0) * lighter);
-    for (const auto& [node, weight] : share) {
+    for (const auto& [node, weight] : shares) {
       for (const auto& [end, part] : spring.ends) {
         impedance += end == node ? weight * std::abs(part) * wave : 0.0;
       }
@@ -156,8 +118,8 @@ LinearNetwork::Part LinearNetwork::partAround(int mat) const {
     }
   }
   std::vector<int> nodes;
-  const auto reach = [&](const Share& share) {
-    for (const auto& [node, weight] : share) {
+  const auto reach = [&](const Shares& shares) {
+    for (const auto& [node, weight] : shares) {
       if (part.row_of_node[at(node)] < 0) {
         part.row_of_node[at(node)] = static_cast<int>(nodes.size());
         nodes.push_back(node);
@@ -165,31 +127,33 @@ LinearNetwork::Part LinearNetwork::partAround(int mat) const {
     }
   };
   std::vector<bool> taken(springs_.size(), false);
-  std::vector<Eigen::Triplet<double>> entries;
-  reach(shareOf(mat));
+  std::vector<const Spring*> springs;
+  reach(sharesOf(mat));
   for (std::size_t next = 0; next < nodes.size(); ++next) {
     for (const std::size_t i : springs_of[at(nodes[next])]) {
       if (taken[i]) {
         continue;
       }
       taken[i] = true;
-      const Spring& spring = springs_[i];
-      reach(spring.ends);
-      part.anchored = part.anchored || spring.anchored;
-      for (const auto& [row, down] : spring.ends) {
-        for (const auto& [column, across] : spring.ends) {
-          entries.emplace_back(part.row_of_node[at(row)], part.row_of_node[at(column)],
-                               spring.stiffness * down * across);
-        }
-      }
+      springs.push_back(&springs_[i]);
+      reach(springs_[i].ends);
+      part.anchored = part.anchored || springs_[i].anchored;
     }
   }
-  const auto size = static_cast<Eigen::Index>(nodes.size());
-  part.stiffness.resize(size, size);
-  part.stiffness.setFromTriplets(entries.begin(), entries.end());
-  part.mass.resize(size);
-  for (Eigen::Index row = 0; row < size; ++row) {
-    part.mass[row] = mass_[at(nodes[static_cast<std::size_t>(row)])];
+  LoadMatrix stiffness(static_cast<int>(nodes.size()));
+  for (const Spring* spring : springs) {
+    Shares ends = spring->ends;
+    for (Share& end : ends) {
+      end.node = part.row_of_node[at(end.node)];
+    }
+    stiffness.addLoad(ends, [spring](const Share& a, const Share& b) {
+      return spring->stiffness * a.weight * b.weight;
+    });
+  }
+  part.stiffness = stiffness.sum();
+  part.mass.resize(part.stiffness.rows());
+  for (std::size_t row = 0; row < nodes.size(); ++row) {
+    part.mass[static_cast<Eigen::Index>(row)] = mass_[at(nodes[row])];
   }
   return part;
 }
@@ -200,7 +164,7 @@ double LinearNetwork::stiffnessAt(int mat) const {
     return 0.0;
   }
   Eigen::VectorXd force = Eigen::VectorXd::Zero(part.mass.size());
-  for (const auto& [node, weight] : shareOf(mat)) {
+  for (const auto& [node, weight] : sharesOf(mat)) {
     force[part.row_of_node[at(node)]] += weight;
   }
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(part.stiffness);
@@ -212,20 +176,19 @@ double LinearNetwork::stiffnessAt(int mat) const {
 }
 
 std::vector<double> LinearNetwork::modes(int most) const {
-  const auto size = static_cast<Eigen::Index>(mass_.size());
+  const int size = static_cast<int>(mass_.size());
   if (size == 0 || size > most) {
     return {};
   }
-  Eigen::MatrixXd pencil = Eigen::MatrixXd::Zero(size, size);  // of unit masses
+  LoadMatrix pencil(size);  // of unit masses
   for (const Spring& spring : springs_) {
-    for (const auto& [row, down] : spring.ends) {
-      for (const auto& [column, across] : spring.ends) {
-        pencil(row, column) +=
-            spring.stiffness * down * across / std::sqrt(mass_[at(row)] * mass_[at(column)]);
-      }
-    }
+    pencil.addLoad(spring.ends, [&](const Share& a, const Share& b) {
+      return spring.stiffness * a.weight * b.weight /
+             std::sqrt(mass_[at(a.node)] * mass_[at(b.node)]);
+    });
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(pencil, Eigen::EigenvaluesOnly);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(Eigen::MatrixXd(pencil.sum()),
+                                                              Eigen::EigenvaluesOnly);
   const Eigen::VectorXd& values = solver.eigenvalues();
   return {values.data(), values.data() + size};
 }

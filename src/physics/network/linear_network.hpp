@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include <Eigen/SparseCore>
 
-#include "ergotic/scene/scene.hpp"
+#include "physics/network/network.hpp"
 
 namespace ergotic::physics {
 
@@ -19,12 +18,12 @@ namespace ergotic::physics {
 /// Realtime: no.
 class LinearNetwork {
  public:
-  /// \param absent  index of a module to be left out, with its links; -1: none
-  /// \pre   the scene outlives it
-  LinearNetwork(const scene::Scene& scene, int section, int absent = -1);
+  /// \param network  must outlive it
+  /// \param absent   a module to be left out, with its links; -1: none
+  LinearNetwork(const Network& network, int section, int absent = -1);
 
   /// True if a force at this module or point of the section can move it.
-  bool moves(int mat) const { return !shareOf(mat).empty(); }
+  bool moves(int mat) const { return !sharesOf(mat).empty(); }
 
   /// Mass that a force at a module or point accelerates, kg.
   /// \pre moves(mat)
@@ -49,10 +48,9 @@ class LinearNetwork {
   std::vector<double> modes(int most) const;
 
  private:
-  using Share = std::vector<std::pair<int, double>>;  // nodes and their weights
   struct Spring {
     double stiffness;
-    Share ends;     // weights of end b are negative; what does not move is left out
+    Shares ends;
     bool anchored;  // a part of it is held by the ground
   };
   struct Part {
@@ -65,13 +63,12 @@ class LinearNetwork {
   void addModules(int section, int absent);
   void addSprings(int section, int absent);
   bool counts(const scene::Lia& lia, int section, int absent) const;
-  Share shareOf(int mat) const;
-  double effectiveMass(const Share& share, double sign) const;
+  Shares sharesOf(int mat) const { return sharesAmong(network_, node_of_mat_, mat); }
+  double effectiveMass(const Shares& shares, double sign) const;
   Part partAround(int mat) const;
 
-  const scene::Scene& scene_;
+  const Network& network_;
   std::vector<int> node_of_mat_;  // -1: does not move, or is elsewhere
-  std::vector<int> connection_;   // of every mat, -1: not a point
   std::vector<double> mass_;
   std::vector<double> damping_;  // to the ground
   std::vector<Spring> springs_;

@@ -29,10 +29,7 @@ int NetworkBound::addNode(double mass, int owner) {
   return nodes() - 1;
 }
 
-void NetworkBound::addLink(const std::vector<Share>& ends,
-                           Range stiffness,
-                           Range damping,
-                           int label) {
+void NetworkBound::addLink(const Shares& ends, Range stiffness, Range damping, int label) {
   Link link{{}, stiffness, damping, label};
   for (const Share& share : ends) {
     const auto known = std::find_if(link.ends.begin(), link.ends.end(),
@@ -51,7 +48,7 @@ void NetworkBound::addLink(const std::vector<Share>& ends,
   }
 }
 
-void NetworkBound::addMovingLink(const std::vector<std::vector<Share>>& places,
+void NetworkBound::addMovingLink(const std::vector<Shares>& places,
                                  double stiffness,
                                  double damping,
                                  int label) {
@@ -65,7 +62,7 @@ NetworkBound NetworkBound::withMovingEverywhere() const {
     // At every place all nodes of the end together carry |weights| of one sign that sum to at most
     // 1, so (w x)^2 <= sum w x^2: a load on each node by itself is the larger one.
     std::map<int, double> largest[2];
-    for (const std::vector<Share>& place : link.places) {
+    for (const Shares& place : link.places) {
       for (const Share& share : place) {
         double& weight = largest[share.weight < 0.0 ? 1 : 0][share.node];
         weight = std::max(weight, std::abs(share.weight));

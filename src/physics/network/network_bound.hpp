@@ -4,15 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "physics/laws/range.hpp"
+#include "physics/network/network.hpp"
 
 namespace ergotic::physics {
-
-/// How much a node counts at an end of a link.
-struct Share {
-  int node = 0;
-  double weight = 1.0;
-};
 
 /// A network of springs and dampers, each a rank-one load k u u^T, z u u^T with u the weights of
 /// the nodes it joins (+1 and -1 for a plain link, 1 for one to a fixed point), and upper bounds of
@@ -27,14 +21,14 @@ class NetworkBound {
   static constexpr double kLimit = 4.0;
 
   struct Link {
-    std::vector<Share> ends;  ///< every node once
+    Shares ends;  ///< every node once
     Range stiffness;
     Range damping;
     int label = -1;
   };
   /// A link with an end that may be at any of some places, here one after the other.
   struct MovingLink {
-    std::vector<std::vector<Share>> places;
+    std::vector<Shares> places;
     double stiffness = 0.0;
     double damping = 0.0;
     int label = -1;
@@ -47,11 +41,11 @@ class NetworkBound {
   int addNode(double mass, int owner);
   /// \param ends   shares of one node add up; none: held at both ends, without effect
   /// \param label  whatever the caller wants back from worstLink()
-  void addLink(const std::vector<Share>& ends, Range stiffness, Range damping, int label);
+  void addLink(const Shares& ends, Range stiffness, Range damping, int label);
   /// Four corners of a mesh between which links may lie, for cellBound(); -1: none there.
   void addCell(const std::array<int, 4>& nodes) { cells_.push_back(nodes); }
   /// \param places  more than one
-  void addMovingLink(const std::vector<std::vector<Share>>& places,
+  void addMovingLink(const std::vector<Shares>& places,
                      double stiffness,
                      double damping,
                      int label);

@@ -155,7 +155,7 @@ bool NetworkSpectrum::isDefinite(const Pencil& pencil, double t) {
 double NetworkSpectrum::placeCompliance(const NetworkBound::MovingLink& link) const {
   double largest = 0.0;
   Eigen::VectorXd u(network_.nodes());
-  for (const std::vector<Share>& place : link.places) {
+  for (const Shares& place : link.places) {
     u.setZero();
     for (const Share& share : place) {
       u[share.node] += share.weight * scale_[share.node];

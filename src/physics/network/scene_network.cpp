@@ -7,7 +7,6 @@
 #include <iterator>
 #include <unordered_map>
 
-#include "ergotic/scene/grid.hpp"
 #include "physics/disjoint_sets.hpp"
 #include "physics/laws/matched_cell.hpp"
 #include "physics/step_units.hpp"
@@ -15,34 +14,8 @@
 namespace ergotic::physics {
 namespace {
 
-using scene::MatType;
-
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
-}
-
-/// Grid lines between which a place can be: all of them, from the one before to the one after.
-struct Lines {
-  std::vector<double> fractions;  // one: it does not move
-};
-
-Lines linesOf(
-    const scene::Scene& scene, const scene::Value& v, Range allowed, bool moves, int count) {
-  Range span = rangeOf(scene, v);
-  if (moves || v.audio >= 0) {
-    span = allowed;
-  }
-  const double low = std::clamp(span.lowest, allowed.lowest, allowed.highest);
-  const double high = std::clamp(span.highest, allowed.lowest, allowed.highest);
-  if (low == high || count < 2) {
-    return {{low}};
-  }
-  Lines lines;
-  const int last = static_cast<int>(std::ceil(high * (count - 1)));
-  for (int line = static_cast<int>(std::floor(low * (count - 1))); line <= last; ++line) {
-    lines.fractions.push_back(static_cast<double>(line) / (count - 1));
-  }
-  return lines;
 }
 
 }  // namespace
@@ -63,18 +36,12 @@ struct SceneNetwork::Builder {
   }
 };
 
-SceneNetwork::SceneNetwork(const scene::Scene& scene, const Rates& rates)
-    : scene_(scene),
+SceneNetwork::SceneNetwork(const Network& network, const Rates& rates)
+    : network_(network),
+      scene_(network.scene),
       rates_(rates),
-      connection_of_(scene.mats.size(), -1),
-      group_(scene.mats.size()),
-      is_linked_(scene.mats.size(), 0) {
-  for (const scene::Lia& lia : scene.lias) {
-    slopes_.push_back(slopesOf(scene, lia));
-  }
-  for (std::size_t c = 0; c < scene.connections.size(); ++c) {
-    connection_of_[at(scene.connections[c].mat)] = static_cast<int>(c);
-  }
+      group_(network.nodes.size()),
+      is_linked_(network.nodes.size(), 0) {
   joinGroups();
 }
 
@@ -86,7 +53,7 @@ void SceneNetwork::joinGroups() {
     }
     int first = -1;
     for (const int end : {lia.a, lia.b}) {
-      for (const std::vector<Share>& place : placesOf(end)) {
+      for (const Shares& place : placesOf(end)) {
         for (const Share& share : place) {
           is_linked_[at(share.node)] = 1;
           first = first < 0 ? share.node : first;
@@ -104,16 +71,11 @@ int SceneNetwork::divisorOfMat(int mat) const {
   return divisorOf(scene_.sectionOf(scene_.mats[at(mat)]), rates_);
 }
 
-bool SceneNetwork::isFreeModule(int mat) const {
-  const MatType type = scene_.mats[at(mat)].type;
-  return type == MatType::kMass || type == MatType::kCell;
-}
-
 double SceneNetwork::inverseMass(int mat) const {
   double inverse = 0.0;
-  for (const std::vector<Share>& place : placesOf(mat)) {
+  for (const Shares& place : placesOf(mat)) {
     for (const Share& share : place) {
-      inverse = std::max(inverse, 1.0 / smallest(scene_, scene_.mats[at(share.node)].mass));
+      inverse = std::max(inverse, 1.0 / nodeOf(share.node).mass.range.lowest);
     }
   }
   return inverse;
@@ -150,7 +112,8 @@ bool SceneNetwork::isExplicit(const scene::Lia& lia) const {
 }
 
 bool SceneNetwork::isMovingPoint(int mat) const {
-  return placesOf(mat).size() > 1;
+  const int point = network_.point_of[at(mat)];
+  return point >= 0 && network_.points[at(point)].places.size() > 1;
 }
 
 bool SceneNetwork::isMoving(const scene::Lia& lia) const {
@@ -159,7 +122,7 @@ bool SceneNetwork::isMoving(const scene::Lia& lia) const {
 
 int SceneNetwork::groupOf(const scene::Lia& lia) const {
   for (const int end : {lia.a, lia.b}) {
-    for (const std::vector<Share>& place : placesOf(end)) {
+    for (const Shares& place : placesOf(end)) {
       if (!place.empty()) {
         return groupOf(place.front().node);
       }
@@ -168,54 +131,9 @@ int SceneNetwork::groupOf(const scene::Lia& lia) const {
   return -1;
 }
 
-std::vector<Share> SceneNetwork::freeShares(std::vector<Share> shares) const {
-  shares.erase(std::remove_if(shares.begin(), shares.end(),
-                              [&](const Share& share) {
-                                return share.weight == 0.0 || !isFreeModule(share.node);
-                              }),
-               shares.end());
-  return shares;
-}
-
-SceneNetwork::Places SceneNetwork::placesOf(int mat) const {
-  const int connection = connection_of_[at(mat)];
-  if (connection >= 0) {
-    return placesOf(scene_.connections[at(connection)]);
-  }
-  return {freeShares({{mat, 1.0}})};
-}
-
-/// The largest eigenvalue is convex in the place between two grid lines, so places on them suffice.
-SceneNetwork::Places SceneNetwork::placesOf(const scene::Connection& connection) const {
-  const scene::Grid& grid = scene_.grids[at(connection.grid)];
-  const Range range{connection.along_minimum, connection.along_maximum};
-  const Lines along = linesOf(scene_, connection.along, range, connection.guide >= 0, grid.columns);
-  const Lines across = linesOf(scene_, connection.across, {0.0, 1.0}, false, grid.rows);
-  Places places;
-  for (const double x : along.fractions) {
-    for (const double y : across.fractions) {
-      const scene::GridPlace place = scene::placeOn(grid, x, y);
-      std::vector<Share> shares;
-      for (int i = 0; i < place.count; ++i) {
-        shares.push_back({place.mats[at(i)], place.weights[at(i)]});
-      }
-      places.push_back(freeShares(std::move(shares)));
-    }
-  }
-  return places;
-}
-
-/// Cells that ask for it, and masses in a medium.
-bool SceneNetwork::isMatched(int m) const {
-  const scene::Mat& mat = scene_.mats[at(m)];
-  return mat.type == MatType::kCell
-             ? mat.matched
-             : isFreeModule(m) && largest(scene_, scene_.sectionOf(mat).medium) > 0.0;
-}
-
 bool SceneNetwork::hasLinkedMatched(int divisor) const {
   for (int m = 0; m < static_cast<int>(scene_.mats.size()); ++m) {
-    if (isMatched(m) && is_linked_[at(m)] != 0 && divisorOfMat(m) == divisor) {
+    if (nodeOf(m).is_matched && is_linked_[at(m)] != 0 && divisorOfMat(m) == divisor) {
       return true;
     }
   }
@@ -225,61 +143,56 @@ bool SceneNetwork::hasLinkedMatched(int divisor) const {
 /// What modules of one rate do by themselves.
 void SceneNetwork::addModules(Builder& to, bool plain) const {
   for (int m = 0; m < static_cast<int>(scene_.mats.size()); ++m) {
-    const scene::Mat& mat = scene_.mats[at(m)];
+    const Network::Node& node = nodeOf(m);
     const bool is_member = to.group == kAll || groupOf(m) == to.group;
     const bool is_alone = is_linked_[at(m)] == 0;
-    if (!isFreeModule(m) || divisorOfMat(m) != to.divisor || !is_member ||
-        (is_alone && isMatched(m))) {
+    if (!node.is_free || divisorOfMat(m) != to.divisor || !is_member ||
+        (is_alone && node.is_matched)) {
       continue;  // alone, its pole is that of the continuous oscillator: always stable
     }
-    Range k;
-    Range z = rangeOf(scene_, scene_.sectionOf(mat).medium);
-    if (mat.type == MatType::kCell) {
-      k = rangeOf(scene_, mat.stiffness);
-      const Range own = rangeOf(scene_, mat.damping);
-      z = {z.lowest + own.lowest, z.highest + own.highest};
-    }
-    if (isMatched(m) && !plain) {
+    Range k = node.stiffness.range;
+    Range z = node.damping.range;
+    if (node.is_matched && !plain) {
       const double step = to.network.step();
-      k = {0.0, matchedLoad(k, z, rangeOf(scene_, mat.mass), step) / (step * step)};
+      k = {0.0, matchedLoad(k, z, node.mass.range, step) / (step * step)};
       z = {};
     }
     if (k.highest != 0.0 || z.highest != 0.0) {
-      to.network.addLink({{to.nodeOf(m, smallest(scene_, mat.mass)), 1.0}}, k, z, -1);
+      to.network.addLink({{to.nodeOf(m, node.mass.range.lowest), 1.0}}, k, z, -1);
     }
   }
 }
 
 void SceneNetwork::addLink(Builder& to, int l, bool hold_a, bool hold_b) const {
   const scene::Lia& lia = scene_.lias[at(l)];
-  const auto nodesOf = [&](const std::vector<Share>& place, double sign) {
-    std::vector<Share> shares;
+  const auto nodesOf = [&](const Shares& place, double sign) {
+    Shares shares;
     for (const Share& share : place) {
-      const double mass = smallest(scene_, scene_.mats[at(share.node)].mass);
-      shares.push_back({to.nodeOf(share.node, mass), sign * share.weight});
+      const int node = to.nodeOf(share.node, nodeOf(share.node).mass.range.lowest);
+      shares.push_back({node, sign * share.weight});
     }
     return shares;
   };
-  const Places held{{}};
-  const Places at_a = hold_a ? held : placesOf(lia.a);
-  const Places at_b = hold_b ? held : placesOf(lia.b);
+  const std::vector<Shares> held(1);
+  const std::vector<Shares> at_a = hold_a ? held : placesOf(lia.a);
+  const std::vector<Shares> at_b = hold_b ? held : placesOf(lia.b);
   const Range& k = slopes(l).stiffness;
   const Range& z = slopes(l).damping;
   if (at_a.size() > 1 && at_b.size() > 1) {
     // (u - v)(u - v)^T <= 2 u u^T + 2 v v^T: each end by itself.
-    for (const Places& end : {at_a, at_b}) {
-      Places ends;
+    for (const std::vector<Shares>& end : {at_a, at_b}) {
+      std::vector<Shares> ends;
       std::transform(end.begin(), end.end(), std::back_inserter(ends),
-                     [&](const std::vector<Share>& place) { return nodesOf(place, 1.0); });
+                     [&](const Shares& place) { return nodesOf(place, 1.0); });
       to.network.addMovingLink(ends, 2.0 * k.highest, 2.0 * z.highest, l);
     }
     return;
   }
-  Places ends;
-  for (const std::vector<Share>& a : at_a) {
-    for (const std::vector<Share>& b : at_b) {
+  std::vector<Shares> ends;
+  for (const Shares& a : at_a) {
+    for (const Shares& b : at_b) {
       ends.push_back(nodesOf(a, 1.0));
-      const std::vector<Share> others = nodesOf(b, -1.0);
+      const Shares others = nodesOf(b, -1.0);
       ends.back().insert(ends.back().end(), others.begin(), others.end());
     }
   }

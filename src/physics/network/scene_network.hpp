@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <map>
 #include <vector>
 
 #include "ergotic/physics/rates.hpp"
-#include "ergotic/scene/scene.hpp"
-#include "physics/laws/slopes.hpp"
+#include "physics/network/network.hpp"
 #include "physics/network/network_bound.hpp"
 
 namespace ergotic::physics {
@@ -18,12 +16,13 @@ class SceneNetwork {
  public:
   static constexpr int kAll = -1;
 
-  /// \param scene  settled, must outlive this
-  SceneNetwork(const scene::Scene& scene, const Rates& rates);
+  /// \param network  of a settled scene, must outlive this
+  SceneNetwork(const Network& network, const Rates& rates);
 
+  const Network& network() const { return network_; }
   const scene::Scene& scene() const { return scene_; }
   const Rates& rates() const { return rates_; }
-  const Slopes& slopes(int lia) const { return slopes_[static_cast<std::size_t>(lia)]; }
+  const Slopes& slopes(int lia) const { return linkOf(lia).slopes; }
   int divisorOfMat(int mat) const;
 
   /// Largest 1/M of a module, or of the lightest one that a point can lie on; 0: held.
@@ -54,24 +53,24 @@ class SceneNetwork {
   bool hasLinkedMatched(int divisor) const;
 
  private:
-  using Places = std::vector<std::vector<Share>>;  // of modules rather than nodes
   struct Builder;
 
   double stepOf(const scene::Lia& lia) const;  // at the rate it is computed at
   void joinGroups();
-  Places placesOf(int mat) const;
-  Places placesOf(const scene::Connection& connection) const;
-  std::vector<Share> freeShares(std::vector<Share> shares) const;
-  bool isFreeModule(int mat) const;
-  bool isMatched(int mat) const;
+  const Network::Link& linkOf(int lia) const {
+    return network_.links[static_cast<std::size_t>(lia)];
+  }
+  const Network::Node& nodeOf(int mat) const {
+    return network_.nodes[static_cast<std::size_t>(mat)];
+  }
+  std::vector<Shares> placesOf(int mat) const { return physics::placesOf(network_, mat); }
   void addModules(Builder& to, bool plain) const;
   void addLink(Builder& to, int lia, bool hold_a, bool hold_b) const;
   void addCells(Builder& to) const;
 
+  const Network& network_;
   const scene::Scene& scene_;
   Rates rates_;
-  std::vector<Slopes> slopes_;            // [lias]
-  std::vector<int> connection_of_;        // [mats], -1: none
   std::vector<int> group_;                // [mats]
   std::vector<unsigned char> is_linked_;  // [mats] by an explicit link
 };

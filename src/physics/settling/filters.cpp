@@ -69,15 +69,15 @@ int filterRatio(const Scene& scene, const scene::Lia& lia, int slow_divisor, int
 
 /// What the chaplet loads at the slower end: its mass and the dashpot that keeps hold and mean from
 /// feeding the modes of its section.
-void planSlowEnd(const Scene& scene, const Rates& rates, Plan& plan) {
-  const scene::Mat& slow = scene.mats[at(plan.slow)];
-  const LinearNetwork network(scene, slow.section);
-  if (!network.moves(plan.slow)) {
+void planSlowEnd(const Network& network, const Rates& rates, Plan& plan) {
+  const Scene& scene = network.scene;
+  const LinearNetwork around(network, scene.mats[at(plan.slow)].section);
+  if (!around.moves(plan.slow)) {
     return;
   }
-  plan.slow_mass = network.massAt(plan.slow);
+  plan.slow_mass = around.massAt(plan.slow);
   const double step = divisorOfMat(scene, rates, plan.slow) / rates.audio_hz;
-  const double half_sine = std::sqrt(network.highestModeAt(plan.slow)) * step / 2.0;
+  const double half_sine = std::sqrt(around.highestModeAt(plan.slow)) * step / 2.0;
   const double angle = 2.0 * std::asin(std::min(half_sine, 1.0));  // w T of the explicit scheme
   // Z (w T)^2/8 makes up for the lag of T/2 with which the held end brakes, to leading order; R of
   // 4...8 asks for up to 1.25 times that.
@@ -96,7 +96,8 @@ void requireLightness(const Scene& scene, const Plan& plan) {
   }
 }
 
-Plan planFilter(const Scene& scene, const Rates& rates, int index) {
+Plan planFilter(const Network& network, const Rates& rates, int index) {
+  const Scene& scene = network.scene;
   const scene::Lia& lia = scene.lias[at(index)];
   const bool a_is_slow = divisorOfMat(scene, rates, lia.a) >= divisorOfMat(scene, rates, lia.b);
   const int slow = a_is_slow ? lia.a : lia.b;
@@ -110,19 +111,19 @@ Plan planFilter(const Scene& scene, const Rates& rates, int index) {
              " moves in more than one coordinate, allowed: scalar and line sections (a dashpot of "
              "length 0 has no direction there)");
   }
-  const LinearNetwork network(scene, scene.mats[at(fast)].section);
-  if (!network.moves(fast)) {
+  const LinearNetwork around(network, scene.mats[at(fast)].section);
+  if (!around.moves(fast)) {
     fail(scene, lia,
          "but its faster end " + quotedMat(scene, fast) +
              " is not moved by forces: there is nothing to filter for");
   }
   const double step = fast_divisor / rates.audio_hz;
   const double nyquist = 3.14159265358979323846 / (ratio * step);
-  const ChapletLoad load = loadAt(network, fast, nyquist);
+  const ChapletLoad load = loadAt(around, fast, nyquist);
   const double mass = std::max(kImpedanceRatio * load.damping / nyquist,
                                load.stiffness / (kSofteningRatio * nyquist * nyquist));
   Plan plan{index, slow, fast, tunedChaplet(scene::kChapletC2, mass, step, ratio), load};
-  planSlowEnd(scene, rates, plan);
+  planSlowEnd(network, rates, plan);
   requireLightness(scene, plan);
   return plan;
 }
@@ -277,10 +278,15 @@ std::string noteOn(const Scene& scene, const Plan& plan) {
 }  // namespace
 
 void insertFilters(Scene& scene, const Rates& rates, std::vector<std::string>& notes) {
+  const auto isFiltered = [](const scene::Lia& lia) { return lia.filtered; };
+  if (std::none_of(scene.lias.begin(), scene.lias.end(), isFiltered)) {
+    return;
+  }
+  const Network network(scene);
   std::vector<Plan> plans;
   for (std::size_t i = 0; i < scene.lias.size(); ++i) {
-    if (scene.lias[i].filtered) {
-      plans.push_back(planFilter(scene, rates, static_cast<int>(i)));
+    if (isFiltered(scene.lias[i])) {
+      plans.push_back(planFilter(network, rates, static_cast<int>(i)));
     }
   }
   for (const Plan& plan : plans) {

@@ -28,13 +28,8 @@ bool areClose(double a, double b) {
 /// Finds the C2 that hang on slower modules.
 class Finder {
  public:
-  Finder(const Scene& scene, const Rates& rates)
-      : scene_(scene), rates_(rates), lias_of_(scene.mats.size()) {
-    for (std::size_t i = 0; i < scene.lias.size(); ++i) {
-      lias_of_[at(scene.lias[i].a)].push_back(static_cast<int>(i));
-      lias_of_[at(scene.lias[i].b)].push_back(static_cast<int>(i));
-    }
-  }
+  Finder(const Network& network, const Rates& rates)
+      : network_(network), scene_(network.scene), rates_(rates), lias_of_(linksOfNodes(network)) {}
 
   std::vector<FoundChaplet> find() const {
     std::vector<FoundChaplet> found;
@@ -112,9 +107,9 @@ class Finder {
       if (touched == first) {
         continue;
       }
-      const LinearNetwork network(scene_, scene_.mats[at(touched)].section, last);
-      if (network.moves(touched)) {
-        const ChapletLoad more = loadAt(network, touched, 2.0 * kPi * chaplet.nyquistHz());
+      const LinearNetwork around(network_, scene_.mats[at(touched)].section, last);
+      if (around.moves(touched)) {
+        const ChapletLoad more = loadAt(around, touched, 2.0 * kPi * chaplet.nyquistHz());
         load.stiffness += more.stiffness;
         load.damping += more.damping;
       }
@@ -122,6 +117,7 @@ class Finder {
     return load;
   }
 
+  const Network& network_;
   const Scene& scene_;
   const Rates& rates_;
   std::vector<std::vector<int>> lias_of_;  // [mats]
@@ -130,7 +126,7 @@ class Finder {
 }  // namespace
 
 std::vector<FoundChaplet> findChaplets(const Scene& scene, const Rates& rates) {
-  return Finder(scene, rates).find();
+  return Finder(Network(scene), rates).find();
 }
 
 }  // namespace ergotic::physics

@@ -16,12 +16,6 @@ namespace {
 using scene::LiaType;
 using scene::Scheme;
 
-/// The largest stiffness that a link switches on and off.
-double stiffest(const scene::Scene& scene, const scene::Lia& lia) {
-  return lia.type == LiaType::kPowerContact ? largest(scene, lia.stiffness)
-                                            : slopesOf(scene, lia).stiffness.highest;
-}
-
 /// Why a link is guarded: a figure that is larger than the explicit scheme bears.
 struct Reason {
   const char* figure = nullptr;  ///< null: it may stay explicit
@@ -32,7 +26,7 @@ struct Reason {
 class Chooser {
  public:
   Chooser(scene::Scene& scene, const Rates& rates, std::vector<std::string>& notes)
-      : scene_(scene), networks_(scene, rates), notes_(notes) {}
+      : scene_(scene), network_(scene), networks_(network_, rates), notes_(notes) {}
 
   void run() {
     for (scene::Lia& lia : scene_.lias) {
@@ -93,8 +87,15 @@ class Chooser {
     }
   }
 
+  /// The largest stiffness that a link switches on and off.
+  double stiffest(const scene::Lia& lia) const {
+    const auto l = static_cast<int>(&lia - scene_.lias.data());
+    return lia.type == LiaType::kPowerContact ? largest(scene_, lia.stiffness)
+                                              : networks_.slopes(l).stiffness.highest;
+  }
+
   Reason switching(const scene::Lia& lia, double unit) const {
-    const double kappa = unit * stiffest(scene_, lia);
+    const double kappa = unit * stiffest(lia);
     return kappa > kExplicitSwitch ? Reason{"h^2 K (1/Ma + 1/Mb)", kappa, kExplicitSwitch}
                                    : Reason{};
   }
@@ -142,6 +143,7 @@ class Chooser {
   using Key = std::tuple<int, int, std::string, bool>;  // place, figure, guarded
 
   scene::Scene& scene_;
+  Network network_;
   SceneNetwork networks_;
   std::vector<std::string>& notes_;
   std::map<Key, Group> groups_;

@@ -60,7 +60,8 @@ std::string refusalOf(scene::Scene scene, const Rates& rates = kRates) {
 TEST(LinearNetworkTest, InsideOfAStringIsTwiceItsWaveImpedance) {
   SceneBuilder b;
   const int string = b.chain(99, 1e-4, 9e4);
-  const LinearNetwork network(b.scene, SceneBuilder::kAudio);
+  const Network whole(b.scene);
+  const LinearNetwork network(whole, SceneBuilder::kAudio);
   EXPECT_NEAR(network.impedanceAt(string + 50), 2.0 * std::sqrt(9e4 * 1e-4), 1e-12);
   EXPECT_NEAR(network.impedanceAt(string + 1), 2.0 * std::sqrt(9e4 * 1e-4), 1e-12);
   EXPECT_FALSE(network.moves(string));
@@ -71,14 +72,16 @@ TEST(LinearNetworkTest, EndOfAHangingChainIsItsWaveImpedance) {
   const int end = b.mass(1e-4);
   const int next = b.mass(1e-4);
   b.spring(end, next, 9e4);
-  const LinearNetwork network(b.scene, SceneBuilder::kAudio);
+  const Network whole(b.scene);
+  const LinearNetwork network(whole, SceneBuilder::kAudio);
   EXPECT_NEAR(network.impedanceAt(end), std::sqrt(9e4 * 1e-4), 1e-12);
 }
 
 TEST(LinearNetworkTest, StringGivesWayAsTheSpringsOnBothSides) {
   SceneBuilder b;
   const int string = b.chain(99, 1e-4, 9e4, 1e-3);
-  const LinearNetwork network(b.scene, SceneBuilder::kAudio);
+  const Network whole(b.scene);
+  const LinearNetwork network(whole, SceneBuilder::kAudio);
   for (const int i : {1, 25, 50, 99}) {
     EXPECT_NEAR(network.stiffnessAt(string + i), 9e4 / i + 9e4 / (100 - i), 1e-6) << i;
   }
@@ -96,7 +99,8 @@ TEST(LinearNetworkTest, PointBetweenTwoMassesIsWeighted) {
   connection.mat = static_cast<int>(b.scene.mats.size()) - 1;
   connection.along = scene::Value{0.375};  // midway between masses 1 and 2
   b.scene.connections.push_back(connection);
-  const LinearNetwork network(b.scene, SceneBuilder::kAudio);
+  const Network whole(b.scene);
+  const LinearNetwork network(whole, SceneBuilder::kAudio);
   // K^-1 of three masses between grounds is min(i, j) (4 - max(i, j)) / (4 K).
   const double give = 0.25 * (3.0 + 2.0 * 2.0 + 4.0) / (4.0 * 1000.0);
   EXPECT_NEAR(network.stiffnessAt(connection.mat), 1.0 / give, 1e-9);
@@ -111,7 +115,8 @@ TEST(LinearNetworkTest, FloatingPartHasNoStiffnessWhateverElseIsTiedDown) {
   b.spring(a, c, 500.0);
   b.chain(5, 1e-3, 100.0);
   b.link(LiaType::kContact, a, b.ground(), 1e5);
-  const LinearNetwork network(b.scene, SceneBuilder::kAudio);
+  const Network whole(b.scene);
+  const LinearNetwork network(whole, SceneBuilder::kAudio);
   EXPECT_EQ(network.stiffnessAt(a), 0.0);
 }
 
@@ -119,7 +124,8 @@ TEST(LinearNetworkTest, CellCountsItsSpringAndItsDamper) {
   SceneBuilder b;
   b.scene.sections[0].medium = scene::Value{0.25};
   const int cell = b.cell(0.01, 400.0, 0.5);
-  const LinearNetwork network(b.scene, SceneBuilder::kAudio);
+  const Network whole(b.scene);
+  const LinearNetwork network(whole, SceneBuilder::kAudio);
   EXPECT_DOUBLE_EQ(network.stiffnessAt(cell), 400.0);
   EXPECT_DOUBLE_EQ(network.impedanceAt(cell), std::sqrt(400.0 * 0.01) + 0.5 + 0.25);
 }
@@ -127,7 +133,8 @@ TEST(LinearNetworkTest, CellCountsItsSpringAndItsDamper) {
 TEST(LinearNetworkTest, LoneMassLoadsAsAMass) {
   SceneBuilder b;
   const int mass = b.mass(0.002);
-  const ChapletLoad load = loadAt(LinearNetwork(b.scene, SceneBuilder::kAudio), mass, kNyquist);
+  const ChapletLoad load =
+      loadAt(LinearNetwork(Network(b.scene), SceneBuilder::kAudio), mass, kNyquist);
   EXPECT_EQ(load.stiffness, 0.0);
   EXPECT_DOUBLE_EQ(load.damping, 0.002 * kNyquist);
 }
@@ -136,11 +143,12 @@ TEST(LinearNetworkTest, HighestModeIsBoundedTightly) {
   SceneBuilder b;
   const int string = b.chain(9, 1e-3, 100.0);
   const double exact = 4.0 * 100.0 / 1e-3 * std::pow(std::sin(9.0 * kPi / 20.0), 2);
-  const LinearNetwork network(b.scene, SceneBuilder::kAudio);
+  const Network whole(b.scene);
+  const LinearNetwork network(whole, SceneBuilder::kAudio);
   EXPECT_GE(network.highestModeAt(string + 3), exact * (1.0 - 1e-12));
   EXPECT_LE(network.highestModeAt(string + 3), exact * 1.01);
   const int lone = b.mass(1.0);
-  EXPECT_EQ(LinearNetwork(b.scene, SceneBuilder::kAudio).highestModeAt(lone), 0.0);
+  EXPECT_EQ(LinearNetwork(Network(b.scene), SceneBuilder::kAudio).highestModeAt(lone), 0.0);
 }
 
 TEST(FiltersTest, ChapletHangsBetweenTheHandAndTheLink) {

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/network/network.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "ergotic/scene/grid.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+using scene::LiaType;
+using scene::MatType;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+Varying varying(const scene::Scene& scene, const scene::Value& v) {
+  return {scene.valueOf(v), rangeOf(scene, v)};
+}
+
+Varying operator+(const Varying& a, const Varying& b) {
+  return {a.now + b.now, {a.range.lowest + b.range.lowest, a.range.highest + b.range.highest}};
+}
+
+/// Cells that ask for matched coefficients have them, and so have masses in a medium.
+Network::Node nodeOf(const scene::Scene& scene, const scene::Mat& mat) {
+  Network::Node node;
+  node.is_free = mat.type == MatType::kMass || mat.type == MatType::kCell;
+  if (!node.is_free) {
+    return node;
+  }
+  const scene::Value& medium = scene.sectionOf(mat).medium;
+  node.mass = varying(scene, mat.mass);
+  node.damping = varying(scene, medium);
+  node.is_matched = largest(scene, medium) > 0.0;
+  if (mat.type == MatType::kCell) {
+    node.stiffness = varying(scene, mat.stiffness);
+    node.damping = node.damping + varying(scene, mat.damping);
+    node.is_matched = mat.matched;
+  }
+  return node;
+}
+
+double leastSlope(const scene::Scene& scene, const scene::Lia& lia) {
+  const double k = rangeOf(scene, lia.stiffness).lowest;
+  switch (lia.type) {
+    case LiaType::kSpringDamper:
+      return k;
+    case LiaType::kQuadratic:
+    case LiaType::kCubic:
+      return rangeOf(scene, lia.law->nonlinearity).lowest < 0.0 ? 0.0 : k;
+    case LiaType::kClippedCubic:
+      return std::min(k, rangeOf(scene, lia.law->stiffness_limit).lowest);
+    default:
+      return 0.0;
+  }
+}
+
+bool mayLetGo(LiaType type) {
+  return type != LiaType::kSpringDamper && type != LiaType::kQuadratic && type != LiaType::kCubic &&
+         type != LiaType::kClippedCubic;
+}
+
+Network::Link linkOf(const scene::Scene& scene, const scene::Lia& lia) {
+  Network::Link link;
+  link.a = lia.a;
+  link.b = lia.b;
+  link.slopes = slopesOf(scene, lia);
+  link.at_rest = mayLetGo(lia.type) ? 0.0 : scene.valueOf(lia.stiffness);
+  link.at_least = leastSlope(scene, lia);
+  link.is_explicit = lia.scheme == scene::Scheme::kExplicit;
+  return link;
+}
+
+/// Fractions of a grid at which its lines are that a place can lie between; one if it stays.
+std::vector<double> linesOf(
+    const scene::Scene& scene, const scene::Value& v, Range allowed, bool moves, int count) {
+  const Range range = moves || v.audio >= 0 ? allowed : rangeOf(scene, v);
+  const double low = std::clamp(range.lowest, allowed.lowest, allowed.highest);
+  const double high = std::clamp(range.highest, allowed.lowest, allowed.highest);
+  if (low == high || count < 2) {
+    return {low};
+  }
+  std::vector<double> lines;
+  const int last = static_cast<int>(std::ceil(high * (count - 1)));
+  for (int line = static_cast<int>(std::floor(low * (count - 1))); line <= last; ++line) {
+    lines.push_back(static_cast<double>(line) / (count - 1));
+  }
+  return lines;
+}
+
+Shares freeShares(const std::vector<Network::Node>& nodes, const scene::GridPlace& place) {
+  Shares shares;
+  for (std::size_t i = 0; i < at(place.count); ++i) {
+    if (place.weights[i] != 0.0 && nodes[at(place.mats[i])].is_free) {
+      shares.push_back({place.mats[i], place.weights[i]});
+    }
+  }
+  return shares;
+}
+
+/// The largest eigenvalue is convex in the place between two grid lines, so places on them suffice.
+Network::Point pointOf(const scene::Scene& scene,
+                       const std::vector<Network::Node>& nodes,
+                       const scene::Connection& connection) {
+  const scene::Grid& grid = scene.grids[at(connection.grid)];
+  const auto sharesAt = [&](double along, double across) {
+    return freeShares(nodes, scene::placeOn(grid, along, across));
+  };
+  const Range allowed{connection.along_minimum, connection.along_maximum};
+  const std::vector<double> across =
+      linesOf(scene, connection.across, {0.0, 1.0}, false, grid.rows);
+  Network::Point point;
+  point.now = sharesAt(scene.valueOf(connection.along), scene.valueOf(connection.across));
+  for (const double x :
+       linesOf(scene, connection.along, allowed, connection.guide >= 0, grid.columns)) {
+    for (const double y : across) {
+      point.places.push_back(sharesAt(x, y));
+    }
+  }
+  return point;
+}
+
+}  // namespace
+
+Network::Network(const scene::Scene& of) : scene(of), point_of(of.mats.size(), -1) {
+  nodes.reserve(scene.mats.size());
+  for (const scene::Mat& mat : scene.mats) {
+    nodes.push_back(nodeOf(scene, mat));
+  }
+  links.reserve(scene.lias.size());
+  for (const scene::Lia& lia : scene.lias) {
+    links.push_back(linkOf(scene, lia));
+  }
+  for (const scene::Connection& connection : scene.connections) {
+    point_of[at(connection.mat)] = static_cast<int>(points.size());
+    points.push_back(pointOf(scene, nodes, connection));
+  }
+}
+
+Shares sharesNow(const Network& network, int node) {
+  const int point = network.point_of[at(node)];
+  if (point >= 0) {
+    return network.points[at(point)].now;
+  }
+  return network.nodes[at(node)].is_free ? Shares{{node, 1.0}} : Shares{};
+}
+
+std::vector<Shares> placesOf(const Network& network, int node) {
+  const int point = network.point_of[at(node)];
+  return point >= 0 ? network.points[at(point)].places : std::vector<Shares>{sharesNow(network, node)};
+}
+
+Shares sharesAmong(const Network& network, const std::vector<int>& row_of, int node) {
+  Shares shares;
+  for (const auto& [module, weight] : sharesNow(network, node)) {
+    if (row_of[at(module)] >= 0) {
+      shares.push_back({row_of[at(module)], weight});
+    }
+  }
+  return shares;
+}
+
+Shares endsAmong(const Network& network,
+                 const std::vector<int>& row_of,
+                 const Network::Link& link) {
+  Shares ends = sharesAmong(network, row_of, link.a);
+  for (const auto& [row, weight] : sharesAmong(network, row_of, link.b)) {
+    ends.push_back({row, -weight});
+  }
+  return ends;
+}
+
+std::vector<std::vector<int>> linksOfNodes(const Network& network) {
+  std::vector<std::vector<int>> links(network.nodes.size());
+  for (std::size_t l = 0; l < network.links.size(); ++l) {
+    links[at(network.links[l].a)].push_back(static_cast<int>(l));
+    links[at(network.links[l].b)].push_back(static_cast<int>(l));
+  }
+  return links;
+}
+
+}  // namespace ergotic::physics

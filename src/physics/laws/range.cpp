@@ -24,9 +24,4 @@ double largest(const scene::Scene& scene, const scene::Value& v) {
   return std::max(std::abs(range.lowest), std::abs(range.highest));
 }
 
-double smallest(const scene::Scene& scene, const scene::Value& v) {
-  const Range range = rangeOf(scene, v);
-  return std::min(std::abs(range.lowest), std::abs(range.highest));
-}
-
 }  // namespace ergotic::physics

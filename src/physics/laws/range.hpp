@@ -13,8 +13,7 @@ struct Range {
 
 /// Both ends of what a value can be. What follows an audio input has no range and counts as 0.
 Range rangeOf(const scene::Scene& scene, const scene::Value& v);
-/// The largest and the smallest absolute value.
+/// The largest absolute value.
 double largest(const scene::Scene& scene, const scene::Value& v);
-double smallest(const scene::Scene& scene, const scene::Value& v);
 
 }  // namespace ergotic::physics

@@ -7,15 +7,13 @@
 
 #include <Eigen/SparseCholesky>
 
-#include "physics/laws/slopes.hpp"
+#include "physics/network/section_stiffness.hpp"
 #include "physics/note.hpp"
 
 namespace ergotic::physics {
 namespace {
 
 using scene::Geometry;
-using scene::LiaType;
-using scene::MatType;
 using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr double kSmallestPivot = 1e-13;  // of the largest: below, it is rounding
@@ -70,159 +68,48 @@ class SelectedInverse {
   std::vector<double> entries_;
 };
 
-/// The coordinates that move, the others 0.
-Eigen::Vector3d moving(const Eigen::Vector3d& v, int dimensions) {
-  return {v.x(), dimensions > 1 ? v.y() : 0.0, dimensions > 2 ? v.z() : 0.0};
-}
-
-/// Of the spring that a link is at least; 0 if it may let go.
-double springOf(const scene::Scene& scene, const scene::Lia& lia) {
-  const double k = rangeOf(scene, lia.stiffness).lowest;
-  switch (lia.type) {
-    case LiaType::kSpringDamper:
-      return k;
-    case LiaType::kQuadratic:
-    case LiaType::kCubic:
-      return rangeOf(scene, lia.law->nonlinearity).lowest < 0.0 ? 0.0 : k;
-    case LiaType::kClippedCubic:
-      return std::min(k, rangeOf(scene, lia.law->stiffness_limit).lowest);
-    default:
-      return 0.0;
-  }
-}
-
-/// Rows of K: the coordinates of the free modules of a section.
-class Assembly {
- public:
-  Assembly(const scene::Scene& scene, int section)
-      : scene_(scene),
-        section_(section),
-        geometry_(scene.sections[at(section)].geometry),
-        dimensions_(scene::dimensionsOf(geometry_)),
-        row_(scene.mats.size(), -1) {
-    for (std::size_t m = 0; m < scene.mats.size(); ++m) {
-      const scene::Mat& mat = scene.mats[m];
-      if (mat.section == section && (mat.type == MatType::kMass || mat.type == MatType::kCell)) {
-        row_[m] = rows_;
-        rows_ += dimensions_;
-      }
-    }
-  }
-
-  Sparse run() {
-    for (std::size_t m = 0; m < scene_.mats.size(); ++m) {
-      const scene::Mat& mat = scene_.mats[m];
-      if (row_[m] >= 0 && mat.type == MatType::kCell) {
-        addBlock(row_[m], row_[m],
-                 rangeOf(scene_, mat.stiffness).lowest * Eigen::Matrix3d::Identity());
-      }
-    }
-    for (const scene::Lia& lia : scene_.lias) {
-      const double k = springOf(scene_, lia);
-      if (k != 0.0 && isInside(lia.a) && isInside(lia.b)) {
-        addSpring(lia, k);
-      }
-    }
-    Sparse stiffness(rows_, rows_);
-    stiffness.setFromTriplets(triplets_.begin(), triplets_.end());
-    return stiffness;
-  }
-
- private:
-  /// Ground ends hold as well; points are not counted on, and neither is what is moved from
-  /// outside.
-  bool isInside(int m) const {
-    return row_[at(m)] >= 0 ||
-           (scene_.mats[at(m)].section == section_ && scene_.mats[at(m)].type == MatType::kGround);
-  }
-
-  /// What a spring of stiffness 1 does between its two ends.
-  Eigen::Matrix3d tangent(const scene::Lia& lia) const {
-    if (geometry_ == Geometry::kScalar || geometry_ == Geometry::kLine) {
-      return Eigen::Matrix3d::Identity();
-    }
-    const Eigen::Vector3d line =
-        moving(scene_.mats[at(lia.a)].rest - scene_.mats[at(lia.b)].rest, dimensions_);
-    const double length = line.norm();
-    if (!(length > 0.0)) {
-      return lia.rest_length == 0.0 ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
-                                    : Eigen::Matrix3d(Eigen::Matrix3d::Zero());
-    }
-    const double across = 1.0 - lia.rest_length / length;
-    const Eigen::Vector3d n = line / length;
-    return across * Eigen::Matrix3d::Identity() + (1.0 - across) * n * n.transpose();
-  }
-
-  void addSpring(const scene::Lia& lia, double k) {
-    const Eigen::Matrix3d block = k * tangent(lia);
-    for (const int to : {lia.a, lia.b}) {
-      for (const int from : {lia.a, lia.b}) {
-        if (row_[at(to)] >= 0 && row_[at(from)] >= 0) {
-          addBlock(row_[at(to)], row_[at(from)], to == from ? block : -block);
-        }
-      }
-    }
-  }
-
-  void addBlock(int row, int column, const Eigen::Matrix3d& block) {
-    for (int i = 0; i < dimensions_; ++i) {
-      for (int j = 0; j < dimensions_; ++j) {
-        triplets_.emplace_back(row + i, column + j, block(i, j));
-      }
-    }
-  }
-
-  const scene::Scene& scene_;
-  int section_;
-  Geometry geometry_;
-  int dimensions_;
-  int rows_ = 0;
-  std::vector<int> row_;
-  std::vector<Eigen::Triplet<double>> triplets_;
-};
-
 /// Energy of a spring whose ends are at `a` and `b`.
 double springEnergy(const scene::Scene& scene,
                     const scene::Lia& lia,
+                    double stiffness,
                     const Eigen::Vector3d& a,
                     const Eigen::Vector3d& b) {
-  const scene::Section& section = scene.sectionOf(scene.mats[at(lia.a)]);
-  const int dimensions = scene::dimensionsOf(section.geometry);
+  const Geometry geometry = scene.sectionOf(scene.mats[at(lia.a)]).geometry;
   const Eigen::Vector3d line = a - b;
-  const double reach =
-      section.geometry == Geometry::kScalar ? line.x() : moving(line, dimensions).norm();
+  const double reach = geometry == Geometry::kScalar ? line.x() : movingPart(line, geometry).norm();
   const double e = reach - lia.rest_length;
-  return 0.5 * springOf(scene, lia) * e * e;
+  return 0.5 * stiffness * e * e;
 }
 
 /// Of the spring of a cell at the start: to x = 0, or in Euclidean sections to its rest.
 Eigen::Vector3d stretchOf(const scene::Scene& scene, const scene::Mat& cell) {
   const Geometry geometry = scene.sectionOf(cell).geometry;
-  return geometry == Geometry::kScalar
-             ? Eigen::Vector3d(cell.position.x(), 0.0, 0.0)
-             : moving(cell.position - cell.rest, scene::dimensionsOf(geometry));
+  return geometry == Geometry::kScalar ? Eigen::Vector3d(cell.position.x(), 0.0, 0.0)
+                                       : movingPart(cell.position - cell.rest, geometry);
 }
 
 /// What a section has at the start more than at rest, in the springs of its own and in motion.
-double startEnergy(const scene::Scene& scene, int section) {
+double startEnergy(const Network& network, int section) {
+  const scene::Scene& scene = network.scene;
   const auto isInside = [&](int m) { return scene.mats[at(m)].section == section; };
-  const int dimensions = scene::dimensionsOf(scene.sections[at(section)].geometry);
+  const Geometry geometry = scene.sections[at(section)].geometry;
   double energy = 0.0;
-  for (const scene::Mat& mat : scene.mats) {
-    if (mat.section == section && (mat.type == MatType::kMass || mat.type == MatType::kCell)) {
-      energy +=
-          0.5 * scene.valueOf(mat.mass) * moving(mat.push->velocity, dimensions).squaredNorm();
-    }
-    if (mat.section == section && mat.type == MatType::kCell) {
-      energy += 0.5 * scene.valueOf(mat.stiffness) * stretchOf(scene, mat).squaredNorm();
+  for (int m = 0; m < static_cast<int>(network.nodes.size()); ++m) {
+    const Network::Node& node = network.nodes[at(m)];
+    if (node.is_free && isInside(m)) {
+      const scene::Mat& mat = scene.mats[at(m)];
+      energy += 0.5 * node.mass.now * movingPart(mat.push->velocity, geometry).squaredNorm();
+      energy += 0.5 * node.stiffness.now * stretchOf(scene, mat).squaredNorm();
     }
   }
-  for (const scene::Lia& lia : scene.lias) {
+  for (std::size_t l = 0; l < network.links.size(); ++l) {
+    const scene::Lia& lia = scene.lias[l];
     if (isInside(lia.a) && isInside(lia.b)) {
       const scene::Mat& a = scene.mats[at(lia.a)];
       const scene::Mat& b = scene.mats[at(lia.b)];
-      energy += springEnergy(scene, lia, a.position, b.position) -
-                springEnergy(scene, lia, a.rest, b.rest);
+      const double k = network.links[l].at_least;
+      energy += springEnergy(scene, lia, k, a.position, b.position) -
+                springEnergy(scene, lia, k, a.rest, b.rest);
     }
   }
   return energy;
@@ -234,19 +121,20 @@ bool isHeard(const scene::Scene& scene, int section) {
   });
 }
 
-std::string noteOn(const scene::Scene& scene, int index) {
+std::string noteOn(const Network& network, int index) {
+  const scene::Scene& scene = network.scene;
   const scene::Section& section = scene.sections[at(index)];
   std::string text = noteAt(scene, section.place) + "section '" + section.name + "' sleeps below " +
                      shortly(section.sleep_energy / (scene.time_unit_s * scene.time_unit_s)) +
                      " J: ";
-  const double distance = sleepingDistance(scene, index);
+  const double distance = sleepingDistance(network, index);
   if (!std::isfinite(distance)) {
     return text +
            "how far its modules then are from rest has no bound, because springs of its "
            "own do not hold all of them";
   }
   text += "its modules are then at most " + shortly(distance) + " m from rest";
-  const double start = startEnergy(scene, index);
+  const double start = startEnergy(network, index);
   if (start > 0.0 && isHeard(scene, index)) {
     const double share = section.sleep_energy / start;
     text += "; that is " + shortly(share) + " of its energy at the start (" +
@@ -273,19 +161,20 @@ double largestCompliance(const Sparse& stiffness) {
   return SelectedInverse(lower, pivots).diagonal().maxCoeff();
 }
 
-Sparse stiffnessOf(const scene::Scene& scene, int section) {
-  return Assembly(scene, section).run();
-}
-
-double sleepingDistance(const scene::Scene& scene, int section) {
-  const double energy = scene.sections[at(section)].sleep_energy;
-  return std::sqrt(2.0 * energy * largestCompliance(stiffnessOf(scene, section)));
+double sleepingDistance(const Network& network, int section) {
+  const double energy = network.scene.sections[at(section)].sleep_energy;
+  return std::sqrt(2.0 * energy * largestCompliance(stiffnessOf(network, section)));
 }
 
 void noteSleep(const scene::Scene& scene, std::vector<std::string>& notes) {
+  const auto maySleep = [](const scene::Section& section) { return section.sleep_energy > 0.0; };
+  if (std::none_of(scene.sections.begin(), scene.sections.end(), maySleep)) {
+    return;
+  }
+  const Network network(scene);
   for (std::size_t s = 0; s < scene.sections.size(); ++s) {
-    if (scene.sections[s].sleep_energy > 0.0) {
-      notes.push_back(noteOn(scene, static_cast<int>(s)));
+    if (maySleep(scene.sections[s])) {
+      notes.push_back(noteOn(network, static_cast<int>(s)));
     }
   }
 }

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "ergotic/physics/settling/settle.hpp"
+#include "physics/network/section_stiffness.hpp"
 #include "support/scene_builder.hpp"
 
 namespace ergotic::physics {
@@ -24,8 +25,9 @@ TEST(SleepBoundTest, ChainHasItsClosedForm) {
     const double links = masses + 1;
     // the middle of an even number of links; of an odd one, a little less
     const double middle = std::floor(links / 2.0) * std::ceil(links / 2.0) / (links * k);
-    EXPECT_NEAR(sleepingDistance(b.scene, 0) / std::sqrt(2.0 * 3e-12 * middle), 1.0, 1e-9);
-    EXPECT_LE(sleepingDistance(b.scene, 0), std::sqrt(3e-12 * links / (2.0 * k)) * (1.0 + 1e-9));
+    EXPECT_NEAR(sleepingDistance(Network(b.scene), 0) / std::sqrt(2.0 * 3e-12 * middle), 1.0, 1e-9);
+    EXPECT_LE(sleepingDistance(Network(b.scene), 0),
+              std::sqrt(3e-12 * links / (2.0 * k)) * (1.0 + 1e-9));
   }
 }
 
@@ -49,7 +51,7 @@ TEST(SleepBoundTest, IsTheDiagonalOfTheInverseForAnyNetwork) {
         b.spring(a, c, stiffness(random));
       }
     }
-    const Eigen::SparseMatrix<double> k = stiffnessOf(b.scene, 0);
+    const Eigen::SparseMatrix<double> k = stiffnessOf(Network(b.scene), 0);
     const Eigen::MatrixXd inverse = Eigen::MatrixXd(k).inverse();
     EXPECT_NEAR(largestCompliance(k) / inverse.diagonal().maxCoeff(), 1.0, 1e-10);
   }
@@ -61,8 +63,8 @@ TEST(SleepBoundTest, NoMotionOfThatEnergyGoesFurther) {
   b.scene.lias[3].stiffness = {50.0};
   const double energy = 1e-9;
   b.scene.sections[0].sleep_energy = energy;
-  const double bound = sleepingDistance(b.scene, 0);
-  const Eigen::MatrixXd k(stiffnessOf(b.scene, 0));
+  const double bound = sleepingDistance(Network(b.scene), 0);
+  const Eigen::MatrixXd k(stiffnessOf(Network(b.scene), 0));
   double furthest = 0.0;
   for (int i = 0; i < 12; ++i) {
     // pulled at one module: the shape that goes furthest there for its energy
@@ -84,7 +86,7 @@ TEST(SleepBoundTest, StretchedStringIsHeldAcrossByItsTension) {
   for (scene::Lia& lia : b.scene.lias) {
     lia.rest_length = 0.75;
   }
-  const Eigen::MatrixXd k(stiffnessOf(b.scene, 0));
+  const Eigen::MatrixXd k(stiffnessOf(Network(b.scene), 0));
   EXPECT_NEAR(k(0, 0), 200.0, 1e-9);
   EXPECT_NEAR(k(1, 1), 50.0, 1e-9);
   EXPECT_NEAR(largestCompliance(Eigen::MatrixXd(k).sparseView()), 1.0 / 50.0, 1e-12);
@@ -95,7 +97,7 @@ TEST(SleepBoundTest, CellsAreHeldInEveryCoordinateThatMoves) {
   b.scene.sections[0].geometry = scene::Geometry::kSpace;
   b.cell(1e-3, 40.0, 0.0);
   b.cell(1e-3, 10.0, 0.0);
-  const Eigen::MatrixXd k(stiffnessOf(b.scene, 0));
+  const Eigen::MatrixXd k(stiffnessOf(Network(b.scene), 0));
   EXPECT_EQ(k.rows(), 6);
   EXPECT_NEAR(largestCompliance(k.sparseView()), 1.0 / 10.0, 1e-12);
 }
@@ -119,7 +121,7 @@ TEST(SleepBoundTest, NothingIsPromisedOfWhatIsFree) {
   b.chain(5, 1e-4, 100.0);
   b.mass(1.0);
   b.scene.sections[0].sleep_energy = 1e-9;
-  EXPECT_TRUE(std::isinf(sleepingDistance(b.scene, 0)));
+  EXPECT_TRUE(std::isinf(sleepingDistance(Network(b.scene), 0)));
   const Settled settled = settle(b.scene, {44100.0, 14});
   EXPECT_NE(settled.notes.at(0).find("has no bound"), std::string::npos);
 }

@@ -22,7 +22,7 @@ namespace {
 /// A network at some instant, and what its links do then.
 template <class Real>
 struct Instant {
-  explicit Instant(const Network& given, unsigned seed = 1)
+  explicit Instant(const SparseNetwork& given, unsigned seed = 1)
       : net(given), program(makeSparseProgram(net.nodes, net.links)) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
@@ -80,7 +80,7 @@ struct Instant {
     return result;
   }
 
-  Network net;
+  SparseNetwork net;
   SparseProgram program;
   std::vector<Real> x, d, d_last;
   std::vector<double> k, z;
@@ -136,7 +136,7 @@ void expectLinkByLink(const Instant<Real>& now) {
 }
 
 TYPED_TEST(SparseKernelTest, ForcesAndLossesAreThoseOfItsLinks) {
-  for (const Network& net : networks()) {
+  for (const SparseNetwork& net : networks()) {
     expectLinkByLink(Instant<TypeParam>(net));
     Instant<TypeParam> uniform(net);
     uniform.makeUniform();
@@ -145,7 +145,7 @@ TYPED_TEST(SparseKernelTest, ForcesAndLossesAreThoseOfItsLinks) {
 }
 
 TYPED_TEST(SparseKernelTest, AllLevelsGiveTheSameBits) {
-  for (const Network& net : networks()) {
+  for (const SparseNetwork& net : networks()) {
     for (const bool uniform : {false, true}) {
       Instant<TypeParam> now(net);
       if (uniform) {
@@ -164,7 +164,7 @@ TYPED_TEST(SparseKernelTest, AllLevelsGiveTheSameBits) {
 }
 
 TYPED_TEST(SparseKernelTest, MeteringChangesNoForce) {
-  for (const Network& net : networks()) {
+  for (const SparseNetwork& net : networks()) {
     const Instant<TypeParam> now(net);
     for (const rt::Isa isa : rt::isas()) {
       const auto metered = now.step(isa);

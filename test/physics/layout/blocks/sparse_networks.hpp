@@ -16,16 +16,16 @@ inline std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-struct Network {
+struct SparseNetwork {
   std::string name;
   int nodes = 0;
   std::vector<LinkEnds> links;
 };
 
 /// Squares with one random diagonal each, as nets of triangles; nodes in random order.
-inline Network meshOf(int side, unsigned seed) {
+inline SparseNetwork meshOf(int side, unsigned seed) {
   std::mt19937 random(seed);
-  Network mesh{"mesh " + std::to_string(side), side * side, {}};
+  SparseNetwork mesh{"mesh " + std::to_string(side), side * side, {}};
   std::vector<int> id(at(mesh.nodes));
   std::iota(id.begin(), id.end(), 0);
   std::shuffle(id.begin(), id.end(), random);
@@ -48,9 +48,9 @@ inline Network meshOf(int side, unsigned seed) {
 }
 
 /// Any node with any other; with few nodes, some twice, and some with nobody.
-inline Network randomOf(int nodes, int links, unsigned seed) {
+inline SparseNetwork randomOf(int nodes, int links, unsigned seed) {
   std::mt19937 random(seed);
-  Network net{"random " + std::to_string(nodes) + " " + std::to_string(links), nodes, {}};
+  SparseNetwork net{"random " + std::to_string(nodes) + " " + std::to_string(links), nodes, {}};
   const auto any = [&] { return static_cast<int>(random() % static_cast<unsigned>(nodes)); };
   while (net.links.size() < at(links)) {
     const LinkEnds link{any(), any()};
@@ -61,28 +61,28 @@ inline Network randomOf(int nodes, int links, unsigned seed) {
   return net;
 }
 
-inline Network starOf(int rays) {
-  Network star{"star " + std::to_string(rays), rays + 1, {}};
+inline SparseNetwork starOf(int rays) {
+  SparseNetwork star{"star " + std::to_string(rays), rays + 1, {}};
   for (int i = 0; i < rays; ++i) {
     star.links.push_back({i, rays});
   }
   return star;
 }
 
-inline std::vector<Network> networks() {
-  std::vector<Network> all{meshOf(5, 1),
-                           meshOf(40, 2),
-                           randomOf(3, 9, 3),
-                           randomOf(30, 20, 4),
-                           randomOf(500, 1500, 5),
-                           randomOf(3000, 9000, 6),
-                           starOf(3),
-                           starOf(300),
-                           {"lone node", 1, {}},
-                           {"nothing", 0, {}},
-                           {"apart", 100, {}},
-                           {"parallel", 40, std::vector<LinkEnds>(5, LinkEnds{7, 33})}};
-  Network mixed = meshOf(40, 7);  // a mesh with strays: windows and picks
+inline std::vector<SparseNetwork> networks() {
+  std::vector<SparseNetwork> all{meshOf(5, 1),
+                                 meshOf(40, 2),
+                                 randomOf(3, 9, 3),
+                                 randomOf(30, 20, 4),
+                                 randomOf(500, 1500, 5),
+                                 randomOf(3000, 9000, 6),
+                                 starOf(3),
+                                 starOf(300),
+                                 {"lone node", 1, {}},
+                                 {"nothing", 0, {}},
+                                 {"apart", 100, {}},
+                                 {"parallel", 40, std::vector<LinkEnds>(5, LinkEnds{7, 33})}};
+  SparseNetwork mixed = meshOf(40, 7);  // a mesh with strays: windows and picks
   mixed.name = "mixed";
   for (const LinkEnds& link : randomOf(mixed.nodes, 400, 8).links) {
     mixed.links.push_back(link);
@@ -91,12 +91,12 @@ inline std::vector<Network> networks() {
   return all;
 }
 
-inline Network inOrder(const Network& net, const std::vector<int>& order) {
+inline SparseNetwork inOrder(const SparseNetwork& net, const std::vector<int>& order) {
   std::vector<int> place(at(net.nodes));
   for (std::size_t i = 0; i < order.size(); ++i) {
     place[at(order[i])] = static_cast<int>(i);
   }
-  Network moved = net;
+  SparseNetwork moved = net;
   for (LinkEnds& link : moved.links) {
     link = {place[at(link.a)], place[at(link.b)]};
   }

@@ -62,7 +62,7 @@ std::vector<Entry> entriesOf(const SparseProgram& program) {
 constexpr SparseSweep kSweeps[] = {SparseSweep::kFromEnd, SparseSweep::kFromSide};
 
 TEST(SparseOrderTest, OrderIsAPermutation) {
-  for (const Network& net : networks()) {
+  for (const SparseNetwork& net : networks()) {
     for (const SparseSweep sweep : kSweeps) {
       std::vector<int> order = sparseOrder(net.nodes, net.links, sweep);
       std::sort(order.begin(), order.end());
@@ -74,9 +74,9 @@ TEST(SparseOrderTest, OrderIsAPermutation) {
 }
 
 TEST(SparseOrderTest, NodesOfShuffledMeshesComeToLieClose) {
-  const Network mesh = meshOf(40, 9);
+  const SparseNetwork mesh = meshOf(40, 9);
   for (const SparseSweep sweep : kSweeps) {
-    const Network ordered = inOrder(mesh, sparseOrder(mesh.nodes, mesh.links, sweep));
+    const SparseNetwork ordered = inOrder(mesh, sparseOrder(mesh.nodes, mesh.links, sweep));
     int reach = 0;
     for (const LinkEnds& link : ordered.links) {
       reach = std::max(reach, std::abs(link.a - link.b));
@@ -90,8 +90,8 @@ TEST(SparseOrderTest, NodesOfShuffledMeshesComeToLieClose) {
 
 TEST(SparseOrderTest, FromTheSideAShuffledMembraneIsInRowsAgain) {
   constexpr int kSide = 40;
-  const Network mesh = meshOf(kSide, 14);
-  const Network ordered =
+  const SparseNetwork mesh = meshOf(kSide, 14);
+  const SparseNetwork ordered =
       inOrder(mesh, sparseOrder(mesh.nodes, mesh.links, SparseSweep::kFromSide));
   for (const LinkEnds& link : ordered.links) {
     EXPECT_LE(std::abs(link.a / kSide - link.b / kSide), 1);
@@ -99,7 +99,7 @@ TEST(SparseOrderTest, FromTheSideAShuffledMembraneIsInRowsAgain) {
 }
 
 TEST(SparseOrderTest, NetworksThatHangTogetherStayTogether) {
-  Network two{"two chains", 200, {}};
+  SparseNetwork two{"two chains", 200, {}};
   for (int i = 0; i + 2 < two.nodes; ++i) {
     two.links.push_back({i, i + 2});
   }
@@ -113,7 +113,7 @@ TEST(SparseOrderTest, NetworksThatHangTogetherStayTogether) {
 }
 
 TEST(SparseProgramTest, EveryLinkIsThereOnceFromBothSides) {
-  for (const Network& net : networks()) {
+  for (const SparseNetwork& net : networks()) {
     const SparseProgram program = makeSparseProgram(net.nodes, net.links);
     const std::vector<Entry> entries = entriesOf(program);
     ASSERT_EQ(entries.size(), 2 * net.links.size()) << net.name;
@@ -134,7 +134,7 @@ TEST(SparseProgramTest, EveryLinkIsThereOnceFromBothSides) {
 }
 
 TEST(SparseProgramTest, WhatItReadsLiesWithinReach) {
-  for (const Network& net : networks()) {
+  for (const SparseNetwork& net : networks()) {
     const SparseProgram program = makeSparseProgram(net.nodes, net.links);
     for (const std::uint32_t window : program.window) {
       EXPECT_EQ(window % at(kLanes), 0U);
@@ -150,25 +150,25 @@ TEST(SparseProgramTest, WhatItReadsLiesWithinReach) {
 }
 
 TEST(SparseProgramTest, SpanIsThatOfTheFarthestLink) {
-  const Network chain{"chain", 64, {{0, 1}, {15, 16}, {20, 30}}};
+  const SparseNetwork chain{"chain", 64, {{0, 1}, {15, 16}, {20, 30}}};
   EXPECT_EQ(makeSparseProgram(chain.nodes, chain.links).span, 1);
   EXPECT_EQ(makeSparseProgram(64, {{63, 16}, {0, 15}}).span, 2);
   EXPECT_EQ(makeSparseProgram(64, {{0, 15}}).span, 0);
 }
 
 TEST(SparseProgramTest, MeshesHaveWindowsAndRandomNetworksMostlyPicks) {
-  const Network net = randomOf(20000, 60000, 10);
+  const SparseNetwork net = randomOf(20000, 60000, 10);
   const SparsePlan random = planSparse(net.nodes, net.links);
   EXPECT_GT(random.program.pick.size() / at(kLanes), 5 * at(random.program.groups));
-  const Network mesh = meshOf(60, 11);
+  const SparseNetwork mesh = meshOf(60, 11);
   EXPECT_TRUE(planSparse(mesh.nodes, mesh.links).program.pick.empty());
 }
 
 TEST(SparseProgramTest, PlanKeepsAnOrderThatIsBetterThanItsOwn) {
-  const Network shuffled = meshOf(48, 12);
+  const SparseNetwork shuffled = meshOf(48, 12);
   const SparsePlan plan = planSparse(shuffled.nodes, shuffled.links);
   EXPECT_LT(plan.program.cost(), 0.5 * makeSparseProgram(shuffled.nodes, shuffled.links).cost());
-  Network rows{"rows", 48 * 48, {}};  // of hexagons' neighbours: six slots at best
+  SparseNetwork rows{"rows", 48 * 48, {}};  // of hexagons' neighbours: six slots at best
   for (int n = 0; n < rows.nodes; ++n) {
     for (const int step : {1, 48, 49}) {
       if (n + step < rows.nodes && (step == 48 || n % 48 != 47)) {

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <unordered_map>
 #include <utility>
 
 #include "physics/disjoint_sets.hpp"
 #include "physics/laws/oscillator.hpp"
+#include "physics/network/load_matrix.hpp"
 #include "physics/note.hpp"
 #include "physics/step_units.hpp"
 
@@ -29,10 +29,6 @@ bool isConstant(const scene::Value& v) {
   return v.parameter < 0 && v.audio < 0;
 }
 
-bool isFree(const scene::Mat& mat) {
-  return mat.type == MatType::kMass || mat.type == MatType::kCell;
-}
-
 bool isClose(double a, double b) {
   return std::abs(a - b) <= kSame * std::max(std::abs(a), std::abs(b));
 }
@@ -51,14 +47,24 @@ StepUnits unitsOf(const scene::Scene& scene, const Rates& rates, int section) {
   return {scene, rates, divisorOf(scene.sections[at(section)], rates)};
 }
 
+/// Of a link whose coefficients are constant.
+double dampingOf(const Network::Link& link) {
+  return link.slopes.damping.highest;
+}
+
 class Finder {
  public:
-  Finder(const scene::Scene& scene, const Rates& rates, int section)
-      : scene_(scene), rates_(rates), section_(section), units_(unitsOf(scene, rates, section)) {
-    found_.part_of.assign(scene.mats.size(), -1);
-    found_.is_in.assign(scene.lias.size(), 0);
-    is_heard_.assign(scene.mats.size(), 0);
-    for (const scene::Output& output : scene.outputs) {
+  Finder(const Network& network, const Rates& rates, int section)
+      : network_(network),
+        scene_(network.scene),
+        rates_(rates),
+        section_(section),
+        units_(unitsOf(scene_, rates, section)),
+        is_heard_(network.nodes.size(), 0) {
+    found_.part_of.assign(network.nodes.size(), -1);
+    found_.row_of.assign(network.nodes.size(), -1);
+    found_.is_in.assign(network.links.size(), 0);
+    for (const scene::Output& output : scene_.outputs) {
       if (output.quantity == scene::Quantity::kForce) {
         is_heard_[at(output.point.mat)] = 1;
       }
@@ -99,7 +105,11 @@ class Finder {
  private:
   const scene::Lia& lia(int l) const { return scene_.lias[at(l)]; }
   const scene::Mat& mat(int m) const { return scene_.mats[at(m)]; }
-  double ratioOf(int l) const { return lia(l).damping.factor / lia(l).stiffness.factor; }
+  bool isFree(int m) const { return network_.nodes[at(m)].is_free; }
+  double ratioOf(int l) const {
+    const Network::Link& link = network_.links[at(l)];
+    return dampingOf(link) / link.at_rest;
+  }
 
   void offend(const scene::Place& place, const std::string& what) {
     ++found_.offences;
@@ -118,7 +128,7 @@ class Finder {
     if (mat(m).section != section_ || (mat(m).type == MatType::kGround && is_heard_[at(m)] != 0)) {
       return false;
     }
-    if (!isFree(mat(m))) {
+    if (!isFree(m)) {
       return mat(m).type == MatType::kGround;
     }
     if (!hasConstants(m)) {
@@ -141,7 +151,7 @@ class Finder {
       const bool is_spring = lia(l).type == LiaType::kSpringDamper &&
                              (lia(l).stiffness.factor != 0.0 || !isConstant(lia(l).stiffness));
       if (!is_spring || !canEnd(lia(l).a) || !canEnd(lia(l).b) ||
-          (!isFree(mat(lia(l).a)) && !isFree(mat(lia(l).b)))) {
+          (!isFree(lia(l).a) && !isFree(lia(l).b))) {
         continue;
       }
       if (isConstant(lia(l).stiffness) && isConstant(lia(l).damping)) {
@@ -183,20 +193,22 @@ class Finder {
     std::vector<unsigned char> is_joined(scene_.mats.size(), 0);
     for (const int l : lias) {
       for (const int end : {lia(l).a, lia(l).b}) {
-        is_joined[at(end)] = isFree(mat(end)) ? 1 : 0;
+        is_joined[at(end)] = isFree(end) ? 1 : 0;
       }
-      if (isFree(mat(lia(l).a)) && isFree(mat(lia(l).b))) {
+      if (isFree(lia(l).a) && isFree(lia(l).b)) {
         sets.join(lia(l).a, lia(l).b);
       }
     }
     std::map<int, LinearPart> by_set;
     for (int m = 0; m < static_cast<int>(scene_.mats.size()); ++m) {
       if (is_joined[at(m)] != 0) {
-        by_set[sets.setOf(m)].mats.push_back(m);
+        LinearPart& part = by_set[sets.setOf(m)];
+        found_.row_of[at(m)] = static_cast<int>(part.mats.size());
+        part.mats.push_back(m);
       }
     }
     for (const int l : lias) {
-      const int free_end = isFree(mat(lia(l).a)) ? lia(l).a : lia(l).b;
+      const int free_end = isFree(lia(l).a) ? lia(l).a : lia(l).b;
       by_set[sets.setOf(free_end)].lias.push_back(l);
     }
     std::vector<LinearPart> parts;
@@ -208,7 +220,7 @@ class Finder {
 
   /// Both matrices have the same eigenvectors if their order does not matter.
   bool sharesModes(const LinearPart& part) const {
-    const PartMatrices matrices = matricesOf(scene_, rates_, part);
+    const PartMatrices matrices = matricesOf(network_, rates_, found_.row_of, part);
     const Eigen::SparseMatrix<double> one = matrices.pull * matrices.loss;
     const Eigen::SparseMatrix<double> other = matrices.loss * matrices.pull;
     return largestOf(one - other) <= kSame * largestOf(matrices.pull) * largestOf(matrices.loss);
@@ -244,6 +256,7 @@ class Finder {
     found_.parts.push_back(std::move(part));
   }
 
+  const Network& network_;
   const scene::Scene& scene_;
   Rates rates_;
   int section_;
@@ -252,20 +265,8 @@ class Finder {
   LinearParts found_;
 };
 
-std::unordered_map<int, int> rowsOf(const LinearPart& part) {
-  std::unordered_map<int, int> rows;
-  for (int i = 0; i < static_cast<int>(part.mats.size()); ++i) {
-    rows[part.mats[at(i)]] = i;
-  }
-  return rows;
-}
-
 int sectionOf(const scene::Scene& scene, const LinearPart& part) {
   return scene.mats[at(part.mats.front())].section;
-}
-
-double massOf(const scene::Scene& scene, int mat) {
-  return scene.valueOf(scene.mats[at(mat)].mass);
 }
 
 /// From rest, where it is at the start.
@@ -275,41 +276,37 @@ double displacementOf(const scene::Mat& mat) {
 
 }  // namespace
 
-LinearParts linearPartsOf(const scene::Scene& scene, const Rates& rates, int section) {
-  return Finder(scene, rates, section).run();
+LinearParts linearPartsOf(const Network& network, const Rates& rates, int section) {
+  return Finder(network, rates, section).run();
 }
 
-PartMatrices matricesOf(const scene::Scene& scene, const Rates& rates, const LinearPart& part) {
+PartMatrices matricesOf(const Network& network,
+                        const Rates& rates,
+                        const std::vector<int>& row_of,
+                        const LinearPart& part) {
+  const scene::Scene& scene = network.scene;
   const StepUnits units = unitsOf(scene, rates, sectionOf(scene, part));
-  const std::unordered_map<int, int> rows = rowsOf(part);
-  std::vector<Eigen::Triplet<double>> pull;
-  std::vector<Eigen::Triplet<double>> loss;
+  const auto massOf = [&](int row) { return network.nodes[at(part.mats[at(row)])].mass.now; };
+  LoadMatrix pull(static_cast<int>(part.mats.size()));
+  LoadMatrix loss(static_cast<int>(part.mats.size()));
   for (const int m : part.mats) {
     const OscillatorCoefficients own = oscillatorOf(scene, scene.mats[at(m)], units);
-    pull.emplace_back(rows.at(m), rows.at(m), own.pull);
-    loss.emplace_back(rows.at(m), rows.at(m), own.lose);
+    pull.add(row_of[at(m)], row_of[at(m)], own.pull);
+    loss.add(row_of[at(m)], row_of[at(m)], own.lose);
   }
   for (const int l : part.lias) {
-    const scene::Lia& lia = scene.lias[at(l)];
-    for (const int to : {lia.a, lia.b}) {
-      for (const int from : {lia.a, lia.b}) {
-        const auto row = rows.find(to);
-        const auto column = rows.find(from);
-        if (row != rows.end() && column != rows.end()) {
-          const double unit = (to == from ? 1.0 : -1.0) * units.step /
-                              std::sqrt(massOf(scene, to) * massOf(scene, from));
-          pull.emplace_back(row->second, column->second, unit * units.step * lia.stiffness.factor);
-          loss.emplace_back(row->second, column->second, unit * lia.damping.factor);
-        }
-      }
-    }
+    const Network::Link& link = network.links[at(l)];
+    const Shares ends = endsAmong(network, row_of, link);
+    const auto unit = [&](const Share& a, const Share& b) {
+      return a.weight * b.weight * units.step / std::sqrt(massOf(a.node) * massOf(b.node));
+    };
+    pull.addLoad(ends, [&](const Share& a, const Share& b) {
+      return unit(a, b) * units.step * link.at_rest;
+    });
+    loss.addLoad(ends,
+                 [&](const Share& a, const Share& b) { return unit(a, b) * dampingOf(link); });
   }
-  const auto size = static_cast<Eigen::Index>(part.mats.size());
-  PartMatrices matrices{Eigen::SparseMatrix<double>(size, size),
-                        Eigen::SparseMatrix<double>(size, size)};
-  matrices.pull.setFromTriplets(pull.begin(), pull.end());
-  matrices.loss.setFromTriplets(loss.begin(), loss.end());
-  return matrices;
+  return {pull.sum(), loss.sum()};
 }
 
 ModalMatrix mixtureOf(const PartMatrices& matrices) {
@@ -329,10 +326,13 @@ ModalMatrix mixtureOf(const PartMatrices& matrices) {
   return mixture;
 }
 
-PartStart startOf(const scene::Scene& scene, const Rates& rates, const LinearPart& part) {
+PartStart startOf(const Network& network,
+                  const Rates& rates,
+                  const std::vector<int>& row_of,
+                  const LinearPart& part) {
+  const scene::Scene& scene = network.scene;
   const int section = sectionOf(scene, part);
   const StepUnits units = unitsOf(scene, rates, section);
-  const std::unordered_map<int, int> rows = rowsOf(part);
   const auto size = static_cast<Eigen::Index>(part.mats.size());
   PartStart start;
   for (Eigen::VectorXd* v :
@@ -341,8 +341,8 @@ PartStart startOf(const scene::Scene& scene, const Rates& rates, const LinearPar
   }
   for (const int m : part.mats) {
     const scene::Mat& mat = scene.mats[at(m)];
-    const int i = rows.at(m);
-    start.mass[i] = massOf(scene, m);
+    const int i = row_of[at(m)];
+    start.mass[i] = network.nodes[at(m)].mass.now;
     start.x[i] = displacementOf(mat);
     start.velocity[i] = mat.push->velocity.x();
     const double pull = oscillatorOf(scene, mat, units).pull / (units.step * units.step);
@@ -352,25 +352,23 @@ PartStart startOf(const scene::Scene& scene, const Rates& rates, const LinearPar
         start.mass[i] * (scene.sections[at(section)].gravity.x() - pull * mat.rest.x());
   }
   for (const int l : part.lias) {
+    const Network::Link& link = network.links[at(l)];
     const scene::Lia& lia = scene.lias[at(l)];
     const scene::Mat& a = scene.mats[at(lia.a)];
     const scene::Mat& b = scene.mats[at(lia.b)];
     // Grounds stay where they are: what their displacement does is constant.
-    const auto held = [](const scene::Mat& mat) { return isFree(mat) ? 0.0 : displacementOf(mat); };
-    const auto speed = [](const scene::Mat& mat) {
-      return isFree(mat) ? mat.push->velocity.x() : 0.0;
+    const auto held = [&](int m) { return row_of[at(m)] >= 0 ? 0.0 : displacementOf(scene.mats[at(m)]); };
+    const auto speed = [&](int m) {
+      return row_of[at(m)] >= 0 ? scene.mats[at(m)].push->velocity.x() : 0.0;
     };
-    const double k = lia.stiffness.factor;
+    const double k = link.at_rest;
     const double rest = a.rest.x() - b.rest.x() - lia.rest_length;
-    const double constant = k * (held(a) - held(b) + rest);
+    const double constant = k * (held(lia.a) - held(lia.b) + rest);
     const double now = k * (displacementOf(a) - displacementOf(b) + rest) +
-                       lia.damping.factor * (speed(a) - speed(b));
-    for (const auto& [end, sign] : {std::pair{lia.a, -1.0}, std::pair{lia.b, 1.0}}) {
-      const auto row = rows.find(end);
-      if (row != rows.end()) {
-        start.constant[row->second] += sign * constant;
-        start.of_springs[row->second] += sign * now;
-      }
+                       dampingOf(link) * (speed(lia.a) - speed(lia.b));
+    for (const auto& [row, sign] : endsAmong(network, row_of, link)) {
+      start.constant[row] -= sign * constant;
+      start.of_springs[row] -= sign * now;
     }
   }
   return start;

@@ -10,6 +10,7 @@
 
 #include "ergotic/physics/rates.hpp"
 #include "ergotic/scene/scene.hpp"
+#include "physics/network/network.hpp"
 
 namespace ergotic::physics {
 
@@ -28,13 +29,14 @@ struct Offence {
 struct LinearParts {
   std::vector<LinearPart> parts;
   std::vector<int> part_of;          ///< [mats] -1: none
+  std::vector<int> row_of;           ///< [mats] place in LinearPart::mats, for those of a part
   std::vector<unsigned char> is_in;  ///< [lias] 1: part of the modes
   std::optional<Offence> offence;    ///< the first of those that stay outside and need not
   int offences = 0;                  ///< how many there are
 };
 
 /// Everything in a scalar section that modes can stand in for. Realtime: no. Cost: O(modules)
-LinearParts linearPartsOf(const scene::Scene& scene, const Rates& rates, int section);
+LinearParts linearPartsOf(const Network& network, const Rates& rates, int section);
 
 /// A part in coordinates in which all masses are equal: a step without forces is
 /// d <- d - loss d - pull x. Rows as in LinearPart::mats.
@@ -42,7 +44,11 @@ struct PartMatrices {
   Eigen::SparseMatrix<double> pull;  ///< h^2 M^-1/2 K M^-1/2
   Eigen::SparseMatrix<double> loss;  ///< h M^-1/2 Z M^-1/2
 };
-PartMatrices matricesOf(const scene::Scene& scene, const Rates& rates, const LinearPart& part);
+/// \param row_of  LinearParts::row_of
+PartMatrices matricesOf(const Network& network,
+                        const Rates& rates,
+                        const std::vector<int>& row_of,
+                        const LinearPart& part);
 
 /// A symmetric matrix as entries of its lower triangle, sorted by column, then row.
 struct ModalMatrix {
@@ -66,6 +72,9 @@ struct PartStart {
   Eigen::VectorXd constant;    ///< all forces where x = 0 and nothing moves
   Eigen::VectorXd of_springs;  ///< forces of the links of the part at the start
 };
-PartStart startOf(const scene::Scene& scene, const Rates& rates, const LinearPart& part);
+PartStart startOf(const Network& network,
+                  const Rates& rates,
+                  const std::vector<int>& row_of,
+                  const LinearPart& part);
 
 }  // namespace ergotic::physics

@@ -30,16 +30,17 @@ bool moves(const Scene& scene, const scene::Connection& place) {
 
 class Planner {
  public:
-  Planner(const Scene& scene, const Rates& rates, ModalPlan& plan)
-      : scene_(scene),
-        section_(scene.sections[at(plan.section)]),
+  Planner(const Network& network, const Rates& rates, ModalPlan& plan)
+      : network_(network),
+        scene_(network.scene),
+        section_(scene_.sections[at(plan.section)]),
         rates_(rates),
         plan_(plan),
-        touch_of_(scene.mats.size(), -1) {}
+        touch_of_(scene_.mats.size(), -1) {}
 
   /// \return what is in the way, if anything is
   std::optional<Offence> findParts() {
-    plan_.linear = linearPartsOf(scene_, rates_, plan_.section);
+    plan_.linear = linearPartsOf(network_, rates_, plan_.section);
     std::size_t springs = 0;
     for (const LinearPart& part : plan_.linear.parts) {
       springs += part.lias.size();
@@ -84,7 +85,7 @@ class Planner {
     for (std::size_t p = 0; p < plan_.linear.parts.size(); ++p) {
       const LinearPart& part = plan_.linear.parts[p];
       ModalPart to;
-      const PartMatrices matrices = matricesOf(scene_, rates_, part);
+      const PartMatrices matrices = matricesOf(network_, rates_, plan_.linear.row_of, part);
       to.modes = modesOf(mixtureOf(matrices), notes);
       const Eigen::MatrixXd& vectors = to.modes->vectors;
       to.pull = vectors.cwiseProduct(matrices.pull * vectors).colwise().sum();
@@ -220,7 +221,7 @@ class Planner {
   void describe(int p, ModalPart& to) const {
     const LinearPart& part = plan_.linear.parts[at(p)];
     const Eigen::MatrixXd& vectors = to.modes->vectors;
-    const PartStart start = startOf(scene_, rates_, part);
+    const PartStart start = startOf(network_, rates_, plan_.linear.row_of, part);
     const double step = StepUnits(scene_, rates_, divisorOf(section_, rates_)).step;
     const Eigen::VectorXd root = start.mass.cwiseSqrt();
     const auto project = [&](const Eigen::VectorXd& v) { return vectors.transpose() * v; };
@@ -237,8 +238,7 @@ class Planner {
     to.weights.setZero(static_cast<Eigen::Index>(touches.size()), vectors.cols());
     for (std::size_t t = 0; t < touches.size(); ++t) {
       for (const auto& [m, weight] : touches[t]->shares) {
-        const auto row = std::lower_bound(part.mats.begin(), part.mats.end(), m);
-        const Eigen::Index i = row - part.mats.begin();
+        const Eigen::Index i = plan_.linear.row_of[at(m)];
         to.weights.row(static_cast<Eigen::Index>(t)) += weight / root[i] * vectors.row(i);
       }
     }
@@ -285,6 +285,7 @@ class Planner {
                          [part](const ModalTouch& t) { return t.part == part; });
   }
 
+  const Network& network_;
   const Scene& scene_;
   const scene::Section& section_;
   Rates rates_;
@@ -318,11 +319,12 @@ std::string stayText(const LinearParts& linear) {
 
 }  // namespace
 
-bool planModes(const Scene& scene,
+bool planModes(const Network& network,
                const Rates& rates,
                int index,
                ModalPlan& plan,
                std::vector<std::string>& notes) {
+  const Scene& scene = network.scene;
   const scene::Section& section = scene.sections[at(index)];
   const bool is_free_to_choose = section.modes == scene::kAutomaticModes;
   const std::string who = "section '" + section.name + "' ";
@@ -336,7 +338,7 @@ bool planModes(const Scene& scene,
   };
   plan = ModalPlan{};
   plan.section = index;
-  Planner planner(scene, rates, plan);
+  Planner planner(network, rates, plan);
   if (const std::optional<Offence> offence = planner.findParts()) {
     return refuse(*offence);
   }

@@ -37,7 +37,7 @@ constexpr int kMostTouches = 64;  ///< of one section
 /// Plans the modes of one section. \return false if it stays a network, which only
 /// kAutomaticModes allows; `notes` is told in either case
 /// \throws TextError with the place of what is in the way
-bool planModes(const scene::Scene& scene,
+bool planModes(const Network& network,
                const Rates& rates,
                int section,
                ModalPlan& plan,

@@ -204,10 +204,17 @@ class Rewriter {
 std::optional<ModalScene> withModes(const Scene& scene,
                                     const Rates& rates,
                                     std::vector<std::string>& notes) {
+  const auto isModal = [](const scene::Section& section) {
+    return section.modes != scene::kNoModes;
+  };
+  if (std::none_of(scene.sections.begin(), scene.sections.end(), isModal)) {
+    return std::nullopt;
+  }
+  const Network network(scene);
   std::vector<ModalPlan> plans;
   for (int s = 0; s < static_cast<int>(scene.sections.size()); ++s) {
     ModalPlan plan;
-    if (scene.sections[at(s)].modes != scene::kNoModes && planModes(scene, rates, s, plan, notes)) {
+    if (isModal(scene.sections[at(s)]) && planModes(network, rates, s, plan, notes)) {
       plans.push_back(std::move(plan));
     }
   }

@@ -25,7 +25,7 @@ class ModalChoiceTest : public ::testing::Test {
 ModalPlan planOf(const scene::Scene& scene) {
   ModalPlan plan;
   std::vector<std::string> notes;
-  EXPECT_TRUE(planModes(scene, kRates, 0, plan, notes));
+  EXPECT_TRUE(planModes(Network(scene), kRates, 0, plan, notes));
   return plan;
 }
 

@@ -13,10 +13,6 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-bool isFree(const scene::Mat& mat) {
-  return mat.type == MatType::kMass || mat.type == MatType::kCell;
-}
-
 /// Links whose stiffness comes and goes.
 bool switches(const scene::Lia& lia) {
   switch (lia.type) {
@@ -39,22 +35,26 @@ void setParameters(scene::Scene& scene, double scene::Parameter::*end) {
 }
 
 /// True if a section is to be played by fewer modes than it has free modules.
-bool leavesModesOut(const scene::Scene& scene, int section) {
-  const int most = scene.sections[at(section)].modes;
-  return most > scene::kNoModes &&
-         std::count_if(scene.mats.begin(), scene.mats.end(), [section](const scene::Mat& mat) {
-           return mat.section == section && isFree(mat);
-         }) > most;
+bool leavesModesOut(const Network& network, int section) {
+  int modules = 0;
+  for (std::size_t m = 0; m < network.nodes.size(); ++m) {
+    modules += network.nodes[m].is_free && network.scene.mats[m].section == section ? 1 : 0;
+  }
+  const int most = network.scene.sections[at(section)].modes;
+  return most > scene::kNoModes && modules > most;
 }
 
 }  // namespace
 
 CoupledGroup::CoupledGroup(const SceneNetwork& networks, int group)
     : networks_(networks), group_(group) {
-  const std::vector<scene::Mat>& mats = networks.scene().mats;
-  for (int m = 0; m < static_cast<int>(mats.size()); ++m) {
-    masses_ += isFree(mats[at(m)]) && networks.groupOf(m) == group ? 1 : 0;
+  for (int m = 0; m < static_cast<int>(networks.scene().mats.size()); ++m) {
+    masses_ += isMember(m) ? 1 : 0;
   }
+}
+
+bool CoupledGroup::isMember(int mat) const {
+  return networks_.network().nodes[at(mat)].is_free && networks_.groupOf(mat) == group_;
 }
 
 bool CoupledGroup::isMember(const scene::Lia& lia) const {
@@ -64,7 +64,7 @@ bool CoupledGroup::isMember(const scene::Lia& lia) const {
 scene::Scene CoupledGroup::isolated(bool closed) const {
   scene::Scene scene = networks_.scene();
   for (int m = 0; m < static_cast<int>(scene.mats.size()); ++m) {
-    if (isFree(scene.mats[at(m)]) && networks_.groupOf(m) != group_) {
+    if (networks_.network().nodes[at(m)].is_free && !isMember(m)) {
       scene.mats[at(m)].type = MatType::kGround;
     }
   }
@@ -110,9 +110,8 @@ bool CoupledGroup::followsParameters() const {
   const scene::Scene& scene = networks_.scene();
   for (int m = 0; m < static_cast<int>(scene.mats.size()); ++m) {
     const scene::Mat& mat = scene.mats[at(m)];
-    if (isFree(mat) && networks_.groupOf(m) == group_ &&
-        (follows(mat.mass) || follows(mat.stiffness) || follows(mat.damping) ||
-         follows(scene.sectionOf(mat).medium))) {
+    if (isMember(m) && (follows(mat.mass) || follows(mat.stiffness) || follows(mat.damping) ||
+                        follows(scene.sectionOf(mat).medium))) {
       return true;
     }
   }
@@ -134,7 +133,7 @@ std::string CoupledGroup::doubt() const {
     }
     for (const int end : {lia.a, lia.b}) {
       const scene::Section& section = scene.sectionOf(scene.mats[at(end)]);
-      if (leavesModesOut(scene, scene.mats[at(end)].section)) {
+      if (leavesModesOut(networks_.network(), scene.mats[at(end)].section)) {
         return "they were worked out with all modes of section '" + section.name +
                "', of which some are left out. Use modes: all";
       }

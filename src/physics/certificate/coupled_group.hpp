@@ -24,6 +24,7 @@ class CoupledGroup {
   std::string doubt() const;
 
  private:
+  bool isMember(int mat) const;
   bool isMember(const scene::Lia& lia) const;
   bool follows(const scene::Value& v) const;
   bool followsParameters() const;

@@ -357,7 +357,9 @@ PartStart startOf(const Network& network,
     const scene::Mat& a = scene.mats[at(lia.a)];
     const scene::Mat& b = scene.mats[at(lia.b)];
     // Grounds stay where they are: what their displacement does is constant.
-    const auto held = [&](int m) { return row_of[at(m)] >= 0 ? 0.0 : displacementOf(scene.mats[at(m)]); };
+    const auto held = [&](int m) {
+      return row_of[at(m)] >= 0 ? 0.0 : displacementOf(scene.mats[at(m)]);
+    };
     const auto speed = [&](int m) {
       return row_of[at(m)] >= 0 ? scene.mats[at(m)].push->velocity.x() : 0.0;
     };

@@ -6,6 +6,8 @@
 #include <limits>
 #include <random>
 
+#include "physics/network/load_matrix.hpp"
+
 namespace ergotic::physics {
 namespace {
 
@@ -32,9 +34,9 @@ template <class CoefficientOf>
 Matrix assemble(const NetworkBound& network,
                 const Eigen::VectorXd& scale,
                 CoefficientOf coefficient) {
-  std::vector<Eigen::Triplet<double>> entries;
+  LoadMatrix matrix(network.nodes());
   for (int i = 0; i < network.nodes(); ++i) {
-    entries.emplace_back(i, i, 0.0);
+    matrix.add(i, i, 0.0);
   }
   for (const NetworkBound::Link& link : network.links()) {
     const double k = coefficient(link);
@@ -42,14 +44,12 @@ Matrix assemble(const NetworkBound& network,
       for (const Share& b : link.ends) {
         if (a.node >= b.node) {
           const double u = a.weight * scale[a.node];
-          entries.emplace_back(a.node, b.node, k * u * (b.weight * scale[b.node]));
+          matrix.add(a.node, b.node, k * u * (b.weight * scale[b.node]));
         }
       }
     }
   }
-  Matrix matrix(network.nodes(), network.nodes());
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
+  return matrix.sum();
 }
 
 bool isFinite(const Matrix& matrix) {

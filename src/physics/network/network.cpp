@@ -151,7 +151,8 @@ Shares sharesNow(const Network& network, int node) {
 
 std::vector<Shares> placesOf(const Network& network, int node) {
   const int point = network.point_of[at(node)];
-  return point >= 0 ? network.points[at(point)].places : std::vector<Shares>{sharesNow(network, node)};
+  return point >= 0 ? network.points[at(point)].places
+                    : std::vector<Shares>{sharesNow(network, node)};
 }
 
 Shares sharesAmong(const Network& network, const std::vector<int>& row_of, int node) {

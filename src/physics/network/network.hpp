@@ -62,8 +62,8 @@ struct Network {
 Shares sharesNow(const Network& network, int node);
 std::vector<Shares> placesOf(const Network& network, int node);
 
-/// Shares of a module or point, or of both ends of a link, as they are now, in the numbers of a part
-/// of the network. \param row_of  [nodes] -1: outside, held
+/// Shares of a module or point, or of both ends of a link, as they are now, in the numbers of a
+/// part of the network. \param row_of  [nodes] -1: outside, held
 Shares sharesAmong(const Network& network, const std::vector<int>& row_of, int node);
 Shares endsAmong(const Network& network, const std::vector<int>& row_of, const Network::Link& link);
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "physics/engine/parts.hpp"
+#include "physics/engine/engine.hpp"
 
 namespace ergotic::physics {
 
@@ -19,31 +19,51 @@ struct Frames {
   double* outputs = nullptr;       ///< [count][channels of the group], added to
 };
 
+/// What a group sees of held modules. Realtime: yes
+template <class Real>
+void fillProxies(const Group& group, State<Real>& state) noexcept {
+  for (const Proxy& proxy : group.proxies) {
+    state.x()[proxy.slot] = state.x()[proxy.of];
+    state.d()[proxy.slot] = state.d()[proxy.of];
+    state.moved()[proxy.slot] = state.moved()[proxy.of];
+  }
+}
+
+/// What these get back. Realtime: yes
+template <class Real>
+void emptyProxies(const Group& group, State<Real>& state) noexcept {
+  Real* f = state.f();
+  for (const Proxy& proxy : group.proxies) {
+    f[proxy.of] += f[proxy.slot];
+    f[proxy.slot] = Real(0);
+  }
+}
+
 /// Steps one group at a time. Groups share nothing that a step writes, so several threads may each
 /// step another. Realtime: yes, all but the constructor
 template <class Real>
 class GroupStepper {
  public:
-  GroupStepper(const scene::Scene& scene, const Rates& rates, Parts<Real>& parts)
-      : parts_(parts),
+  GroupStepper(const Rates& rates, Engine<Real>& engine)
+      : engine_(engine),
         rates_(rates),
-        channels_in_(static_cast<std::size_t>(scene.inputChannels())),
-        followed_(parts.layout.followers.empty() ? scene::Scene{} : scene) {}
+        channels_in_(static_cast<std::size_t>(engine.scene->inputChannels())),
+        followed_(engine.layout.followers.empty() ? scene::Scene{} : *engine.scene) {}
 
   /// All of a tick for the blocks that nothing else acts on meanwhile.
   void advanceLoneBlocks(const Group& group, const Frames& tick) noexcept {
     for (const LoneBlock& lone : group.lone) {
-      const int section = parts_.layout.blocks[lone.block].section;
-      const int divisor = parts_.layout.sections[static_cast<std::size_t>(section)].divisor;
+      const int section = engine_.layout.blocks[lone.block].section;
+      const int divisor = engine_.layout.sections[static_cast<std::size_t>(section)].divisor;
       // Divisors of sections that run divide the frames of a tick.
-      const double lost = parts_.stepper.advance(
-          lone.block, tick.count / divisor, *parts_.coefficients, parts_.state,
+      const double lost = engine_.stepper.advance(
+          lone.block, tick.count / divisor, *engine_.coefficients, engine_.state,
           [&](int step, int first, int last) noexcept {
             for (int r = step * divisor; r < (step + 1) * divisor; ++r) {
               hearLoneBlock(lone, tick.first + r, first, last, outputsOf(group, tick, r));
             }
           });
-      parts_.meter.addDissipated(section, lost, parts_.state);
+      engine_.meter.addDissipated(section, lost, engine_.state);
     }
   }
 
@@ -54,13 +74,13 @@ class GroupStepper {
     feedPositions(group, frames);
     gatherPoints(group, frames.first);
     for (int k = 0; k < frames.count; ++k) {
-      parts_.taps.takePositions(group, *parts_.coefficients, parts_.state,
-                                outputsOf(group, frames, k));
+      engine_.taps.takePositions(group, *engine_.coefficients, engine_.state,
+                                 outputsOf(group, frames, k));
     }
     for (const std::size_t r : group.runs) {
-      const LinkRun& run = parts_.layout.runs[r];
-      if (parts_.layout.isDue(run.section, frames.first) && !isAsleep(run)) {
-        parts_.stepper.stepLinks(r, parts_.coefficients->runs[r], frames.first, parts_.state);
+      const LinkRun& run = engine_.layout.runs[r];
+      if (engine_.layout.isDue(run.section, frames.first) && !isAsleep(run)) {
+        engine_.stepper.stepLinks(r, engine_.coefficients->runs[r], frames.first, engine_.state);
       }
     }
   }
@@ -68,41 +88,24 @@ class GroupStepper {
   /// Inputs and guarded links give theirs, forces are heard and booked.
   /// \pre those of all other groups on this one are there
   void end(const Group& group, const Frames& frames) noexcept {
-    State<Real>& state = parts_.state;
+    State<Real>& state = engine_.state;
     const std::int64_t last = frames.first + frames.count - 1;
     for (int k = 0; k < frames.count; ++k) {
       feedForces(group, inputsOf(frames, k));
     }
-    parts_.points.scatter(group, state.f(), state.places());
-    parts_.guarded.step(group, frames.first, last, *parts_.coefficients, parts_.stepper, state);
-    parts_.meter.endFrame(group, last, state);
+    engine_.points.scatter(group, state.f(), state.places());
+    engine_.guarded.step(group, frames.first, last, *engine_.coefficients, engine_.stepper, state);
+    engine_.meter.endFrame(group, last, state);
     for (int k = 0; k < frames.count; ++k) {
-      parts_.taps.takeForces(group, *parts_.coefficients, frames.first + k, state,
-                             outputsOf(group, frames, k));
+      engine_.taps.takeForces(group, *engine_.coefficients, frames.first + k, state,
+                              outputsOf(group, frames, k));
     }
-    parts_.sleeper.endFrames(group, frames.first, *parts_.coefficients, parts_.meter, state);
-  }
-
-  /// What a group sees of held modules, and what these get back.
-  void fillProxies(const Group& group) noexcept {
-    State<Real>& state = parts_.state;
-    for (const Proxy& proxy : group.proxies) {
-      state.x()[proxy.slot] = state.x()[proxy.of];
-      state.d()[proxy.slot] = state.d()[proxy.of];
-      state.moved()[proxy.slot] = state.moved()[proxy.of];
-    }
-  }
-  void emptyProxies(const Group& group) noexcept {
-    Real* f = parts_.state.f();
-    for (const Proxy& proxy : group.proxies) {
-      f[proxy.of] += f[proxy.slot];
-      f[proxy.slot] = Real(0);
-    }
+    engine_.sleeper.endFrames(group, frames.first, *engine_.coefficients, engine_.meter, state);
   }
 
   /// Something outside moves a module.
   void moveTo(int slot, Real position, bool was_there) noexcept {
-    State<Real>& state = parts_.state;
+    State<Real>& state = engine_.state;
     state.dLast()[slot] = state.d()[slot];
     state.d()[slot] = was_there ? Real(0) : position - state.x()[slot];
     state.x()[slot] = position;
@@ -120,16 +123,17 @@ class GroupStepper {
       const LoneBlock& lone, std::int64_t now, int first, int last, double* out) noexcept {
     for (std::size_t i = 0; i < lone.taps.size(); ++i) {
       const std::size_t k = lone.taps[i];
-      const int slot = parts_.taps.slotOf(k);
+      const int slot = engine_.taps.slotOf(k);
       if (slot >= first && slot < last) {
-        out[lone.tap_columns[i]] += parts_.taps.position(k, *parts_.coefficients, parts_.state) +
-                                    parts_.taps.force(k, *parts_.coefficients, now, parts_.state);
+        out[lone.tap_columns[i]] +=
+            engine_.taps.position(k, *engine_.coefficients, engine_.state) +
+            engine_.taps.force(k, *engine_.coefficients, now, engine_.state);
       }
     }
   }
 
   bool isAsleep(const LinkRun& run) const noexcept {
-    return run.section_a == run.section_b && parts_.state.asleep()[run.section_a] != 0;
+    return run.section_a == run.section_b && engine_.state.asleep()[run.section_a] != 0;
   }
 
   /// What follows an audio input gets its coefficients of this frame.
@@ -141,26 +145,26 @@ class GroupStepper {
       parameter.value = in[parameter.channel];
     }
     for (const std::size_t k : group.followers) {
-      parts_.coefficients->follow(followed_, rates_, parts_.layout, parts_.layout.followers[k]);
+      engine_.coefficients->follow(followed_, rates_, engine_.layout, engine_.layout.followers[k]);
     }
   }
 
   void moveModules(const Group& group, std::int64_t now) noexcept {
-    State<Real>& state = parts_.state;
+    State<Real>& state = engine_.state;
     for (const int section : group.sections) {
-      if (parts_.layout.isDue(section, now) && state.asleep()[section] == 0) {
-        const double lost = parts_.stepper.moveMasses(section, *parts_.coefficients, state);
-        parts_.meter.addDissipated(section, lost, state);
+      if (engine_.layout.isDue(section, now) && state.asleep()[section] == 0) {
+        const double lost = engine_.stepper.moveMasses(section, *engine_.coefficients, state);
+        engine_.meter.addDissipated(section, lost, state);
       }
     }
   }
 
   void feedPositions(const Group& group, const Frames& frames) noexcept {
     for (const std::size_t k : group.feeds) {
-      const Feed& feed = parts_.layout.feeds[k];
+      const Feed& feed = engine_.layout.feeds[k];
       if (feed.quantity == scene::Quantity::kPosition &&
-          parts_.layout.isDue(feed.section, frames.first)) {
-        const double gain = static_cast<double>(parts_.coefficients->feed_gains[k]);
+          engine_.layout.isDue(feed.section, frames.first)) {
+        const double gain = static_cast<double>(engine_.coefficients->feed_gains[k]);
         const double position = gain * frames.inputs[feed.channel] - feed.rest;
         moveTo(feed.slot, static_cast<Real>(position), false);
       }
@@ -169,32 +173,32 @@ class GroupStepper {
 
   void feedForces(const Group& group, const double* in) noexcept {
     for (const std::size_t k : group.feeds) {
-      const Feed& feed = parts_.layout.feeds[k];
+      const Feed& feed = engine_.layout.feeds[k];
       if (feed.quantity == scene::Quantity::kForce) {
-        const Real force = parts_.coefficients->feed_gains[k] *
+        const Real force = engine_.coefficients->feed_gains[k] *
                            static_cast<Real>(in[feed.channel]) * static_cast<Real>(feed.share);
-        parts_.state.f()[feed.slot] += force;
-        parts_.meter.addFeed(k, force, parts_.state);
+        engine_.state.f()[feed.slot] += force;
+        engine_.meter.addFeed(k, force, engine_.state);
       }
     }
   }
 
   void gatherPoints(const Group& group, std::int64_t now) noexcept {
-    State<Real>& state = parts_.state;
-    if (!parts_.layout.places.empty()) {
+    State<Real>& state = engine_.state;
+    if (!engine_.layout.places.empty()) {
       for (const int section : group.sections) {
-        const SectionRange& range = parts_.layout.sections[static_cast<std::size_t>(section)];
-        if (parts_.layout.isDue(section, now)) {
+        const SectionRange& range = engine_.layout.sections[static_cast<std::size_t>(section)];
+        if (engine_.layout.isDue(section, now)) {
           std::copy_n(state.d() + range.first, range.dimensions * range.stride,
                       state.moved() + range.first);
         }
       }
     }
-    parts_.points.gather(group, *parts_.coefficients, now, state);
-    parts_.points.clearForces(group, state.f());
+    engine_.points.gather(group, *engine_.coefficients, now, state);
+    engine_.points.clearForces(group, state.f());
   }
 
-  Parts<Real>& parts_;
+  Engine<Real>& engine_;
   const Rates rates_;
   const std::size_t channels_in_;
   scene::Scene followed_;  // where audio parameters have their present samples

@@ -37,7 +37,7 @@ class Rewriter {
       addModes(plan);
       to_.scene.sections[at(plan.section)].modes = scene::kNoModes;
     }
-    std::sort(to_.pictures.begin(), to_.pictures.end(),
+    std::sort(to_.as_written.pictures.begin(), to_.as_written.pictures.end(),
               [](const ModalPicture& a, const ModalPicture& b) { return a.mat < b.mat; });
     renumber();
     copyPlaces();
@@ -45,7 +45,7 @@ class Rewriter {
   }
 
  private:
-  int newIndex(int mat) const { return to_.mats[at(mat)]; }
+  int newIndex(int mat) const { return to_.as_written.mats[at(mat)]; }
 
   void copyMats() {
     std::vector<unsigned char> is_touched(from_.mats.size(), 0);
@@ -60,10 +60,10 @@ class Rewriter {
         is_touched[at(touch.mat)] = 1;
       }
     }
-    to_.mats.assign(from_.mats.size(), -1);
+    to_.as_written.mats.assign(from_.mats.size(), -1);
     for (std::size_t m = 0; m < from_.mats.size(); ++m) {
       if (is_touched[m] != 0 || is_replaced[m] == 0) {
-        to_.mats[m] = static_cast<int>(to_.scene.mats.size());
+        to_.as_written.mats[m] = static_cast<int>(to_.scene.mats.size());
         to_.scene.mats.push_back(from_.mats[m]);
         if (is_touched[m] != 0) {
           to_.scene.mats.back().type = MatType::kPoint;
@@ -82,7 +82,7 @@ class Rewriter {
         lia.a = newIndex(lia.a);
         lia.b = newIndex(lia.b);
         to_.scene.lias.push_back(std::move(lia));
-        to_.lias.push_back(static_cast<int>(l));
+        to_.as_written.lias.push_back(static_cast<int>(l));
       }
     }
   }
@@ -148,7 +148,7 @@ class Rewriter {
         picture.weights.push_back(static_cast<float>(
             part.modes->vectors(static_cast<Eigen::Index>(i), part.kept[k]) / root));
       }
-      to_.pictures.push_back(std::move(picture));
+      to_.as_written.pictures.push_back(std::move(picture));
     }
   }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ergotic/physics/rates.hpp"
@@ -18,16 +19,23 @@ struct ModalPicture {
   std::vector<float> weights;
 };
 
+/// Where modules and links of the scene as it was written are in the one that is played.
+struct AsWritten {
+  std::vector<int> mats;               ///< [mats as written] index as played; -1: a picture only
+  std::vector<int> lias;               ///< [links as played] index as written
+  std::vector<ModalPicture> pictures;  ///< by module
+};
+
+/// Forces in the very first step, before links have acted: index of a module, N.
+using FirstForces = std::vector<std::pair<int, double>>;
+
 /// A scene in which modes stand in for linear parts of sections, for `compile` alone: everything
 /// else knows the scene as it was written.
 struct ModalScene {
   scene::Scene scene;
   std::vector<ModalPoint> points;
-  std::vector<ModalPicture> pictures;  ///< by module
-  std::vector<int> mats;  ///< [mats as written] index in `scene`; -1: it has a picture only
-  std::vector<int> lias;  ///< [links of `scene`] index as written
-  /// Force on each mode in the very first step, before links have acted, by module of `scene`.
-  std::vector<std::pair<int, double>> first_forces;
+  AsWritten as_written;
+  FirstForces first_forces;
 };
 
 /// Replaces what sections ask for (Section::modes); nothing if none does or gets it.

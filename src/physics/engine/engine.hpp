@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "physics/engine/energy_meter.hpp"
+#include "physics/engine/guarded_runs.hpp"
+#include "physics/engine/points.hpp"
+#include "physics/engine/sleeper.hpp"
+#include "physics/engine/stepper.hpp"
+#include "physics/engine/taps.hpp"
+#include "physics/layout/groups.hpp"
+#include "physics/layout/layout.hpp"
+#include "physics/state/coefficients.hpp"
+#include "physics/state/state.hpp"
+
+namespace ergotic::physics {
+
+/// What ticks, in the order in which it is made: each part refers to those before it.
+template <class Real>
+struct Engine {
+  Engine(std::shared_ptr<const scene::Scene> played,
+         const CompileOptions& options,
+         Layout&& made_layout,
+         Groups&& made_groups,
+         std::unique_ptr<CoefficientsOf<Real>> made_coefficients,
+         State<Real>&& made_state)
+      : scene(std::move(played)),
+        layout(std::move(made_layout)),
+        groups(std::move(made_groups)),
+        coefficients(std::move(made_coefficients)),
+        state(std::move(made_state)),
+        meter(*scene, layout, state),
+        stepper(layout, options),
+        points(*scene, layout, options.isa),
+        guarded(*scene, layout, groups, points, state),
+        taps(layout),
+        sleeper(*scene, layout, *coefficients) {
+    state.allocate();
+  }
+  Engine(const Engine&) = delete;  // its parts refer to each other
+  Engine& operator=(const Engine&) = delete;
+
+  const std::shared_ptr<const scene::Scene> scene;  ///< as it is played
+  const Layout layout;
+  const Groups groups;
+  std::unique_ptr<CoefficientsOf<Real>> coefficients;
+  State<Real> state;
+  EnergyMeter<Real> meter;
+  Stepper<Real> stepper;
+  Points<Real> points;
+  GuardedRuns<Real> guarded;
+  Taps<Real> taps;
+  Sleeper<Real> sleeper;
+};
+
+}  // namespace ergotic::physics

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ergotic/physics/engine/instrument.hpp"
+#include "ergotic/rt/thread.hpp"
+#include "physics/engine/engine.hpp"
+#include "physics/engine/group_stepper.hpp"
+#include "physics/engine/picture.hpp"
+#include "physics/engine/workers.hpp"
+
+namespace ergotic::physics {
+
+/// A scene in which the parameters have these values.
+/// \throws Exception if there are not as many, or if one is outside its range
+scene::Scene withParameters(scene::Scene scene, const std::vector<double>& values);
+
+/// The instrument in one precision: all of a tick, on one thread or several.
+template <class Real>
+class InstrumentOf final : public Instrument {
+ public:
+  InstrumentOf(std::shared_ptr<const scene::Scene> written,
+               const Rates& rates,
+               const CompileOptions& options,
+               std::unique_ptr<Engine<Real>> engine,
+               Picture picture,
+               std::vector<std::string> notes)
+      : Instrument(std::move(written), rates, options),
+        notes_(std::move(notes)),
+        engine_(std::move(engine)),
+        picture_(std::move(picture)),
+        stepper_(rates, *engine_),
+        inputs_(at(rates.ratio * inputChannels())),
+        heard_of_held_(heardOf(engine_->groups.held)),
+        workers_(Workers::useful(options.threads, engine_->groups.running.size()),
+                 engine_->groups.running.size(),
+                 options.wait_limit_ns,
+                 [this](std::size_t g) { stepGroup(g); }) {
+    for (const Group& group : engine_->groups.running) {
+      heard_.push_back(heardOf(group));
+    }
+  }
+
+  void tick(const TickIo& io) noexcept override {
+    const rt::FlushDenormals flush_denormals;
+    if (!finishTick()) {
+      stall(io);
+      return;
+    }
+    std::copy_n(io.inputs, inputs_.size(), inputs_.data());
+    takeSlices(io.positions);
+    beginTick();
+    is_under_way_ = !workers_.run();
+    if (is_under_way_) {
+      stall(io);
+      return;
+    }
+    endTick();
+    giveOutputs(io.outputs);
+    giveForces(io.forces);
+  }
+
+  std::unique_ptr<Coefficients> prepare(const std::vector<double>& values) const override {
+    return std::make_unique<CoefficientsOf<Real>>(withParameters(*engine_->scene, values), rates(),
+                                                  engine_->layout);
+  }
+
+  std::unique_ptr<Coefficients> exchange(std::unique_ptr<Coefficients> next) noexcept override {
+    if (!finishTick()) {
+      return next;
+    }
+    if (!changed_ && engine_->state.frame() > 0) {
+      engine_->meter.beginChange(*engine_->coefficients, engine_->state);
+      changed_ = true;
+    }
+    auto* mine = static_cast<CoefficientsOf<Real>*>(next.release());
+    if (engine_->state.frame() > 0) {
+      engine_->guarded.retune(*engine_->coefficients, *mine, engine_->state);
+    }
+    std::unique_ptr<Coefficients> old = std::move(engine_->coefficients);
+    engine_->coefficients.reset(mine);
+    return old;
+  }
+
+  std::size_t stateSize() const noexcept override { return engine_->state.arena().size(); }
+  std::vector<StateEntry> stateEntries() const override { return engine_->state.arena().entries(); }
+  void saveState(void* to) const noexcept override { engine_->state.arena().save(to); }
+  void loadState(const void* from) noexcept override { engine_->state.arena().load(from); }
+
+  void readDisplacements(float* to) const noexcept override {
+    if (!is_under_way_) {
+      picture_.read(engine_->state.x(), to);
+    }
+  }
+
+  Energies makeEnergies() const override { return engine_->meter.make(); }
+  void readEnergies(Energies& to) const noexcept override {
+    if (!is_under_way_) {
+      engine_->meter.read(*engine_->coefficients, engine_->state, to);
+    }
+  }
+  std::vector<GuardReport> makeGuardReports() const override {
+    std::vector<GuardReport> reports = engine_->guarded.makeReports();
+    for (GuardReport& report : reports) {
+      report.lia = picture_.liaAsWritten(report.lia);
+    }
+    return reports;
+  }
+  void readGuards(std::vector<GuardReport>& to) const noexcept override {
+    if (!is_under_way_) {
+      engine_->guarded.read(engine_->state, to);
+    }
+  }
+
+  std::vector<std::string> notes() const override { return notes_; }
+
+  std::vector<std::string> describe() const override {
+    std::vector<std::string> lines = notes_;
+    const std::vector<std::string> stepped = engine_->stepper.describe(scene());
+    lines.insert(lines.end(), stepped.begin(), stepped.end());
+    const std::vector<std::string> groups =
+        describeGroups(scene(), engine_->groups, workers_.threads());
+    lines.insert(lines.end(), groups.begin(), groups.end());
+    return lines;
+  }
+
+  std::int64_t stalledTicks() const noexcept override { return stalled_; }
+  bool isUnderWay() const noexcept override { return is_under_way_; }
+
+  bool isFinite() const noexcept override {
+    const Real* x = engine_->state.x();
+    return is_under_way_ ||
+           std::all_of(x, x + engine_->layout.slots(), [](Real v) { return std::isfinite(v); });
+  }
+
+ private:
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+  /// Slices move at the start of a tick; a slice at 0 has its module at rest.
+  void takeSlices(const double* positions) noexcept {
+    const bool is_first_tick = engine_->state.frame() == 0;
+    for (std::size_t p = 0; p < engine_->layout.port_slots.size(); ++p) {
+      // Before the first tick nothing is known of the hand: it did not jump, it was there.
+      stepper_.moveTo(engine_->layout.port_slots[p], static_cast<Real>(positions[p]),
+                      is_first_tick);
+    }
+  }
+
+  void giveForces(double* forces) noexcept {
+    const double newton = 1.0 / (scene().time_unit_s * scene().time_unit_s);
+    for (std::size_t p = 0; p < engine_->layout.port_slots.size(); ++p) {
+      forces[p] = newton * static_cast<double>(engine_->state.f()[engine_->layout.port_slots[p]]);
+    }
+  }
+
+  /// All frames of the tick.
+  Frames tickOf(std::vector<double>& heard) noexcept {
+    std::fill(heard.begin(), heard.end(), 0.0);
+    return {engine_->state.frame(), rates().ratio, inputs_.data(), heard.data()};
+  }
+
+  /// Held sections move, and groups see where they are for the whole tick.
+  void beginTick() noexcept {
+    held_frames_ = tickOf(heard_of_held_);
+    stepper_.begin(engine_->groups.held, held_frames_);
+    for (const Group& group : engine_->groups.running) {
+      fillProxies(group, engine_->state);
+    }
+  }
+
+  /// All frames, one after the other. Thread: any
+  void stepGroup(std::size_t g) noexcept {
+    const Group& group = engine_->groups.running[g];
+    const Frames tick = tickOf(heard_[g]);
+    stepper_.advanceLoneBlocks(group, tick);
+    for (int r = 0; r < tick.count && !group.has_only_lone; ++r) {
+      const Frames frame{tick.first + r, 1, tick.inputs + at(r) * at(inputChannels()),
+                         tick.outputs + at(r) * group.channels.size()};
+      stepper_.begin(group, frame);
+      stepper_.end(group, frame);
+    }
+  }
+
+  /// Held sections get the forces of all groups, always in the same order.
+  void endTick() noexcept {
+    for (const Group& group : engine_->groups.running) {
+      emptyProxies(group, engine_->state);
+    }
+    stepper_.end(engine_->groups.held, held_frames_);
+    const bool is_first_tick = engine_->state.frame() == 0;
+    engine_->state.frame() += rates().ratio;
+    if (is_first_tick) {
+      engine_->meter.start(*engine_->coefficients, engine_->state);
+    }
+    if (changed_) {
+      engine_->meter.endChange(*engine_->coefficients, engine_->state);
+      changed_ = false;
+    }
+  }
+
+  /// Brings a stalled tick to its end. \return false if another thread is still at it
+  bool finishTick() noexcept {
+    if (is_under_way_ && workers_.finish()) {
+      endTick();
+      is_under_way_ = false;
+    }
+    return !is_under_way_;
+  }
+
+  void stall(const TickIo& io) noexcept {
+    std::fill_n(io.forces, ports(), 0.0);
+    std::fill_n(io.outputs, rates().ratio * outputChannels(), 0.0);
+    ++stalled_;
+  }
+
+  void giveOutputs(double* outputs) const noexcept {
+    std::fill_n(outputs, at(rates().ratio * outputChannels()), 0.0);
+    addHeard(engine_->groups.held, heard_of_held_, outputs);
+    for (std::size_t g = 0; g < heard_.size(); ++g) {
+      addHeard(engine_->groups.running[g], heard_[g], outputs);
+    }
+  }
+
+  void addHeard(const Group& group, const std::vector<double>& heard, double* to) const noexcept {
+    const double* from = heard.data();
+    for (int r = 0; r < rates().ratio; ++r, to += outputChannels()) {
+      for (const int channel : group.channels) {
+        to[channel] += *from++;
+      }
+    }
+  }
+
+  std::vector<double> heardOf(const Group& group) const {
+    return std::vector<double>(at(rates().ratio) * group.channels.size());
+  }
+
+  std::vector<std::string> notes_;  // on modes
+  std::unique_ptr<Engine<Real>> engine_;
+  Picture picture_;
+  GroupStepper<Real> stepper_;
+  std::vector<double> inputs_;              // [R][input channels]
+  std::vector<double> heard_of_held_;       // [R][its channels]
+  std::vector<std::vector<double>> heard_;  // [groups][R][its channels]
+  Frames held_frames_;                      // of the present tick
+  std::int64_t stalled_ = 0;
+  bool is_under_way_ = false;  // another thread has not done its share of the last tick
+  bool changed_ = false;       // coefficients were exchanged since the last tick
+  Workers workers_;            // the last: its threads use all of the above
+};
+
+}  // namespace ergotic::physics

@@ -170,7 +170,8 @@ class Maker {
   void addCouplings(int count) {
     const double softest = kMass * std::pow(made_.rates.gesturalHz(), 2);
     for (int i = 0; i < count; ++i) {
-      const double k = is_soft_ ? softest * within(0.05, 0.5) : kappa_ * kUnit * within(0.02, 0.5);
+      const bool is_soft = chance(0.1) || is_soft_;
+      const double k = is_soft ? softest * within(0.05, 0.5) : kappa_ * kUnit * within(0.02, 0.5);
       const int slow = slow_[at(throwTo(static_cast<int>(slow_.size())))];
       const int fast = chance(0.4) ? pointOnString() : anyMoving();
       chance(0.5) ? spring(slow, fast, k) : spring(fast, slow, k);

@@ -37,8 +37,8 @@ void setParameters(scene::Scene& scene, double scene::Parameter::*end) {
 /// True if a section is to be played by fewer modes than it has free modules.
 bool leavesModesOut(const Network& network, int section) {
   int modules = 0;
-  for (std::size_t m = 0; m < network.nodes.size(); ++m) {
-    modules += network.nodes[m].is_free && network.scene.mats[m].section == section ? 1 : 0;
+  for (const Network::Node& node : network.nodes) {
+    modules += node.is_free && node.section == section ? 1 : 0;
   }
   const int most = network.scene.sections[at(section)].modes;
   return most > scene::kNoModes && modules > most;

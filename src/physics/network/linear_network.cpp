@@ -33,7 +33,7 @@ void LinearNetwork::addModules(int section, int absent) {
   const double unit = network_.scene.time_unit_s;
   for (int m = 0; m < static_cast<int>(network_.nodes.size()); ++m) {
     const Network::Node& module = network_.nodes[at(m)];
-    if (!module.is_free || network_.scene.mats[at(m)].section != section || m == absent) {
+    if (!module.is_free || module.section != section || m == absent) {
       continue;
     }
     const int node = static_cast<int>(mass_.size());

@@ -28,6 +28,7 @@ Varying operator+(const Varying& a, const Varying& b) {
 /// Cells that ask for matched coefficients have them, and so have masses in a medium.
 Network::Node nodeOf(const scene::Scene& scene, const scene::Mat& mat) {
   Network::Node node;
+  node.section = mat.section;
   node.is_free = mat.type == MatType::kMass || mat.type == MatType::kCell;
   if (!node.is_free) {
     return node;

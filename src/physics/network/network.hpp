@@ -27,6 +27,7 @@ struct Varying {
 struct Network {
   /// A module or point; forces move the free ones.
   struct Node {
+    int section = 0;
     bool is_free = false;     ///< a mass or a cell; the rest is about these
     bool is_matched = false;  ///< its coefficients are those of the continuous oscillator
     Varying mass;

@@ -68,7 +68,7 @@ void SceneNetwork::joinGroups() {
 }
 
 int SceneNetwork::divisorOfMat(int mat) const {
-  return divisorOf(scene_.sectionOf(scene_.mats[at(mat)]), rates_);
+  return divisorOf(scene_.sections[at(nodeOf(mat).section)], rates_);
 }
 
 double SceneNetwork::inverseMass(int mat) const {

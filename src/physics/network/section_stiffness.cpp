@@ -40,7 +40,7 @@ Eigen::SparseMatrix<double> stiffnessOf(const Network& network, int section) {
   std::vector<int> row_of(network.nodes.size(), -1);
   int rows = 0;
   for (std::size_t m = 0; m < row_of.size(); ++m) {
-    row_of[m] = network.nodes[m].is_free && scene.mats[m].section == section ? rows++ : -1;
+    row_of[m] = network.nodes[m].is_free && network.nodes[m].section == section ? rows++ : -1;
   }
   LoadMatrix stiffness(rows, scene::dimensionsOf(geometry));
   for (std::size_t m = 0; m < row_of.size(); ++m) {
@@ -52,7 +52,7 @@ Eigen::SparseMatrix<double> stiffnessOf(const Network& network, int section) {
   // Ground ends hold as well; points are not counted on, and neither is what is moved from outside.
   const auto isInside = [&](int m) {
     return row_of[at(m)] >= 0 ||
-           (scene.mats[at(m)].section == section && scene.mats[at(m)].type == MatType::kGround);
+           (network.nodes[at(m)].section == section && scene.mats[at(m)].type == MatType::kGround);
   };
   for (std::size_t l = 0; l < network.links.size(); ++l) {
     const Network::Link& link = network.links[l];

@@ -7,6 +7,8 @@
 
 #include "ergotic/exception.hpp"
 #include "ergotic/physics/certificate/certify.hpp"
+#include "physics/network/network_analysis.hpp"
+#include "physics/network/scene_network.hpp"
 #include "physics/note.hpp"
 
 namespace ergotic::physics {
@@ -28,24 +30,26 @@ bool hasSlice(const scene::Scene& scene, int section) {
 
 /// The section with everything around it held. Cells count as plain ones: matched, each would be
 /// exact at any rate, but not heard above half of it.
-scene::Scene isolated(scene::Scene scene, int section) {
-  const auto is_outside = [&](int m) { return scene.mats[at(m)].section != section; };
-  auto& connections = scene.connections;
-  connections.erase(
-      std::remove_if(connections.begin(), connections.end(),
-                     [&](const scene::Connection& each) { return is_outside(each.mat); }),
-      connections.end());
-  scene.ports.clear();
-  scene.inputs.clear();
-  scene.outputs.clear();
-  for (scene::Mat& mat : scene.mats) {
-    mat.matched = false;
-    if (mat.section != section) {
-      mat.type = MatType::kGround;
-      mat.section = section;
+Network isolated(Network network, int section) {
+  for (std::size_t m = 0; m < network.nodes.size(); ++m) {
+    Network::Node& node = network.nodes[m];
+    if (network.scene.mats[m].type == MatType::kCell) {
+      node.is_matched = false;
+    }
+    if (node.section != section) {
+      node.section = section;
+      node.is_free = false;
+      network.point_of[m] = -1;
     }
   }
-  return scene;
+  return network;
+}
+
+/// Upper bound of its largest eigenvalue.
+double lambdaOf(const scene::Scene& scene, const Rates& rates, int section) {
+  const Network network = isolated(Network(scene), section);
+  const SceneNetwork alone(network, rates);
+  return analyse(alone.atOwnRate(divisorOf(scene.sections[at(section)], rates))).lambda;
 }
 
 /// What a rate would mean for a section.
@@ -94,7 +98,7 @@ class Chooser {
     }
     Trial trial;
     trial.verdict = certify(candidate, rates_).verdict;
-    trial.lambda = certify(isolated(std::move(candidate), s), rates_).sections[at(s)].lambda;
+    trial.lambda = lambdaOf(candidate, rates_, s);
     return trial;
   }
 

@@ -54,7 +54,7 @@ class Certifier {
     if (networks_.hasLinkedMatched(divisor)) {
       // Matched modules change with the step in their own way, but stay below plain ones.
       const double plain =
-          analyse(networks_.atOwnRate(divisor, SceneNetwork::kAll, true)).stable_step;
+          analyse(networks_.atOwnRate(divisor, RatedNetwork::kAll, true)).stable_step;
       analysis.stable_step = analysis.isProven() ? std::max(plain, network.step()) : plain;
     }
     SectionCertificate result;
@@ -95,13 +95,13 @@ class Certifier {
   }
 
   const scene::Scene& scene_;
-  SceneNetwork networks_;
+  RatedNetwork networks_;
   Findings findings_;
 };
 
 }  // namespace
 
-void judgeSigns(const SceneNetwork& networks, const NetworkBound& network, Findings& findings) {
+void judgeSigns(const RatedNetwork& networks, const NetworkBound& network, Findings& findings) {
   if (isSemidefinite(network)) {
     return;
   }

@@ -43,7 +43,7 @@ struct Trial {
 
 class CouplingJudge {
  public:
-  CouplingJudge(const SceneNetwork& networks, Findings& findings)
+  CouplingJudge(const RatedNetwork& networks, Findings& findings)
       : networks_(networks), scene_(networks.scene()), findings_(findings) {}
 
   void run() {
@@ -189,14 +189,14 @@ class CouplingJudge {
                                  : ", or give its modes a little damping");
   }
 
-  const SceneNetwork& networks_;
+  const RatedNetwork& networks_;
   const scene::Scene& scene_;
   Findings& findings_;
 };
 
 }  // namespace
 
-void judgeCouplings(const SceneNetwork& networks, Findings& findings) {
+void judgeCouplings(const RatedNetwork& networks, Findings& findings) {
   CouplingJudge(networks, findings).run();
 }
 

@@ -20,7 +20,7 @@ std::size_t at(int i) {
 
 class LinkJudge {
  public:
-  LinkJudge(const SceneNetwork& networks, Findings& findings)
+  LinkJudge(const RatedNetwork& networks, Findings& findings)
       : networks_(networks), findings_(findings) {}
 
   void judge(int l) {
@@ -189,14 +189,14 @@ class LinkJudge {
             ". Use scheme: guarded, soften it, make its masses heavier, or raise the rate");
   }
 
-  const SceneNetwork& networks_;
+  const RatedNetwork& networks_;
   Findings& findings_;
   std::map<std::pair<int, int>, Turning> turning_;  // by line and column
 };
 
 }  // namespace
 
-void judgeLinks(const SceneNetwork& networks, Findings& findings) {
+void judgeLinks(const RatedNetwork& networks, Findings& findings) {
   LinkJudge judge(networks, findings);
   for (int l = 0; l < static_cast<int>(networks.scene().lias.size()); ++l) {
     judge.judge(l);

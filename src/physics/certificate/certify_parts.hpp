@@ -5,22 +5,22 @@
 
 #include "ergotic/physics/certificate/certify.hpp"
 #include "physics/certificate/findings.hpp"
-#include "physics/network/scene_network.hpp"
+#include "physics/network/rated_network.hpp"
 
 namespace ergotic::physics {
 
 /// Links that are more than springs and dampers: rules of contact, friction, tables, guards.
-void judgeLinks(const SceneNetwork& networks, Findings& findings);
+void judgeLinks(const RatedNetwork& networks, Findings& findings);
 
 /// Masses that links join to faster ones.
-void judgeCouplings(const SceneNetwork& networks, Findings& findings);
+void judgeCouplings(const RatedNetwork& networks, Findings& findings);
 
 /// The largest stiffness at each slice against what the device bears.
-std::vector<PortCertificate> judgePorts(const SceneNetwork& networks,
+std::vector<PortCertificate> judgePorts(const RatedNetwork& networks,
                                         const DeviceTraits& device,
                                         Findings& findings);
 
 /// Says which link is negative, if what is given is not semidefinite all the same.
-void judgeSigns(const SceneNetwork& networks, const NetworkBound& network, Findings& findings);
+void judgeSigns(const RatedNetwork& networks, const NetworkBound& network, Findings& findings);
 
 }  // namespace ergotic::physics

@@ -22,7 +22,7 @@ bool isTaken(int port, const DeviceTraits& device) {
 
 }  // namespace
 
-std::vector<PortCertificate> judgePorts(const SceneNetwork& networks,
+std::vector<PortCertificate> judgePorts(const RatedNetwork& networks,
                                         const DeviceTraits& device,
                                         Findings& findings) {
   const scene::Scene& scene = networks.scene();

@@ -46,7 +46,7 @@ bool leavesModesOut(const Network& network, int section) {
 
 }  // namespace
 
-CoupledGroup::CoupledGroup(const SceneNetwork& networks, int group)
+CoupledGroup::CoupledGroup(const RatedNetwork& networks, int group)
     : networks_(networks), group_(group) {
   for (int m = 0; m < static_cast<int>(networks.scene().mats.size()); ++m) {
     masses_ += isMember(m) ? 1 : 0;

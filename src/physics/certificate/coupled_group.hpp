@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "physics/network/scene_network.hpp"
+#include "physics/network/rated_network.hpp"
 
 namespace ergotic::physics {
 
 /// The modules of one group by themselves, as scenes to be stepped.
 class CoupledGroup {
  public:
-  CoupledGroup(const SceneNetwork& networks, int group);
+  CoupledGroup(const RatedNetwork& networks, int group);
 
   int masses() const { return masses_; }
 
@@ -31,7 +31,7 @@ class CoupledGroup {
   /// \param closed  links that switch are springs as stiff as they can be
   scene::Scene isolated(bool closed) const;
 
-  const SceneNetwork& networks_;
+  const RatedNetwork& networks_;
   int group_;
   int masses_ = 0;
 };

@@ -8,7 +8,7 @@
 #include "ergotic/exception.hpp"
 #include "ergotic/physics/certificate/certify.hpp"
 #include "physics/network/network_analysis.hpp"
-#include "physics/network/scene_network.hpp"
+#include "physics/network/rated_network.hpp"
 #include "physics/note.hpp"
 
 namespace ergotic::physics {
@@ -48,7 +48,7 @@ Network isolated(Network network, int section) {
 /// Upper bound of its largest eigenvalue.
 double lambdaOf(const scene::Scene& scene, const Rates& rates, int section) {
   const Network network = isolated(Network(scene), section);
-  const SceneNetwork alone(network, rates);
+  const RatedNetwork alone(network, rates);
   return analyse(alone.atOwnRate(divisorOf(scene.sections[at(section)], rates))).lambda;
 }
 

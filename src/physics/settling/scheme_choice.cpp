@@ -7,7 +7,7 @@
 
 #include "physics/certificate/explicit_limits.hpp"
 #include "physics/laws/slopes.hpp"
-#include "physics/network/scene_network.hpp"
+#include "physics/network/rated_network.hpp"
 #include "physics/note.hpp"
 
 namespace ergotic::physics {
@@ -144,7 +144,7 @@ class Chooser {
 
   scene::Scene& scene_;
   Network network_;
-  SceneNetwork networks_;
+  RatedNetwork networks_;
   std::vector<std::string>& notes_;
   std::map<Key, Group> groups_;
 };

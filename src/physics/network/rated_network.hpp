@@ -9,15 +9,16 @@
 
 namespace ergotic::physics {
 
-/// A scene as networks: its explicit links, at the worst ends of all ranges, between the modules
-/// that forces move. Euclidean sections enter as the scalar network with the same links, which
-/// bounds them whatever the directions, as a projected link has direction cosines of at most 1.
-class SceneNetwork {
+/// A network at the rates of its sections: its explicit links, at the worst ends of all ranges,
+/// between the modules that forces move. Euclidean sections enter as the scalar network with the
+/// same links, which bounds them whatever the directions, as a projected link has direction cosines
+/// of at most 1.
+class RatedNetwork {
  public:
   static constexpr int kAll = -1;
 
   /// \param network  of a settled scene, must outlive this
-  SceneNetwork(const Network& network, const Rates& rates);
+  RatedNetwork(const Network& network, const Rates& rates);
 
   const Network& network() const { return network_; }
   const scene::Scene& scene() const { return scene_; }

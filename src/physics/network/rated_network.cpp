@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/network/scene_network.hpp"
+#include "physics/network/rated_network.hpp"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +21,7 @@ std::size_t at(int i) {
 }  // namespace
 
 /// A network being built, with the nodes of its modules.
-struct SceneNetwork::Builder {
+struct RatedNetwork::Builder {
   NetworkBound network;
   int divisor;
   int group;
@@ -36,7 +36,7 @@ struct SceneNetwork::Builder {
   }
 };
 
-SceneNetwork::SceneNetwork(const Network& network, const Rates& rates)
+RatedNetwork::RatedNetwork(const Network& network, const Rates& rates)
     : network_(network),
       scene_(network.scene),
       rates_(rates),
@@ -45,7 +45,7 @@ SceneNetwork::SceneNetwork(const Network& network, const Rates& rates)
   joinGroups();
 }
 
-void SceneNetwork::joinGroups() {
+void RatedNetwork::joinGroups() {
   DisjointSets sets(group_.size());
   for (const scene::Lia& lia : scene_.lias) {
     if (!isExplicit(lia)) {
@@ -67,11 +67,11 @@ void SceneNetwork::joinGroups() {
   }
 }
 
-int SceneNetwork::divisorOfMat(int mat) const {
+int RatedNetwork::divisorOfMat(int mat) const {
   return divisorOf(scene_.sections[at(nodeOf(mat).section)], rates_);
 }
 
-double SceneNetwork::inverseMass(int mat) const {
+double RatedNetwork::inverseMass(int mat) const {
   double inverse = 0.0;
   for (const Shares& place : placesOf(mat)) {
     for (const Share& share : place) {
@@ -81,46 +81,46 @@ double SceneNetwork::inverseMass(int mat) const {
   return inverse;
 }
 
-double SceneNetwork::stepOf(const scene::Lia& lia) const {
+double RatedNetwork::stepOf(const scene::Lia& lia) const {
   const int a = divisorOfMat(lia.a);
   const int b = divisorOfMat(lia.b);
   return StepUnits(scene_, rates_, std::min(a, b)).step;
 }
 
-double SceneNetwork::inverseMassStep(const scene::Lia& lia) const {
+double RatedNetwork::inverseMassStep(const scene::Lia& lia) const {
   return stepOf(lia) * (inverseMass(lia.a) + inverseMass(lia.b));
 }
 
-double SceneNetwork::inverseMassStep2(const scene::Lia& lia) const {
+double RatedNetwork::inverseMassStep2(const scene::Lia& lia) const {
   return stepOf(lia) * inverseMassStep(lia);
 }
 
-bool SceneNetwork::crossesRates(const scene::Lia& lia) const {
+bool RatedNetwork::crossesRates(const scene::Lia& lia) const {
   return divisorOfMat(lia.a) != divisorOfMat(lia.b);
 }
 
-int SceneNetwork::slowEnd(const scene::Lia& lia) const {
+int RatedNetwork::slowEnd(const scene::Lia& lia) const {
   return divisorOfMat(lia.a) > divisorOfMat(lia.b) ? lia.a : lia.b;
 }
 
-int SceneNetwork::fastEnd(const scene::Lia& lia) const {
+int RatedNetwork::fastEnd(const scene::Lia& lia) const {
   return divisorOfMat(lia.a) > divisorOfMat(lia.b) ? lia.b : lia.a;
 }
 
-bool SceneNetwork::isExplicit(const scene::Lia& lia) const {
+bool RatedNetwork::isExplicit(const scene::Lia& lia) const {
   return lia.scheme == scene::Scheme::kExplicit;
 }
 
-bool SceneNetwork::isMovingPoint(int mat) const {
+bool RatedNetwork::isMovingPoint(int mat) const {
   const int point = network_.point_of[at(mat)];
   return point >= 0 && network_.points[at(point)].places.size() > 1;
 }
 
-bool SceneNetwork::isMoving(const scene::Lia& lia) const {
+bool RatedNetwork::isMoving(const scene::Lia& lia) const {
   return isMovingPoint(lia.a) || isMovingPoint(lia.b);
 }
 
-int SceneNetwork::groupOf(const scene::Lia& lia) const {
+int RatedNetwork::groupOf(const scene::Lia& lia) const {
   for (const int end : {lia.a, lia.b}) {
     for (const Shares& place : placesOf(end)) {
       if (!place.empty()) {
@@ -131,7 +131,7 @@ int SceneNetwork::groupOf(const scene::Lia& lia) const {
   return -1;
 }
 
-bool SceneNetwork::hasLinkedMatched(int divisor) const {
+bool RatedNetwork::hasLinkedMatched(int divisor) const {
   for (int m = 0; m < static_cast<int>(scene_.mats.size()); ++m) {
     if (nodeOf(m).is_matched && is_linked_[at(m)] != 0 && divisorOfMat(m) == divisor) {
       return true;
@@ -141,7 +141,7 @@ bool SceneNetwork::hasLinkedMatched(int divisor) const {
 }
 
 /// What modules of one rate do by themselves.
-void SceneNetwork::addModules(Builder& to, bool plain) const {
+void RatedNetwork::addModules(Builder& to, bool plain) const {
   for (int m = 0; m < static_cast<int>(scene_.mats.size()); ++m) {
     const Network::Node& node = nodeOf(m);
     const bool is_member = to.group == kAll || groupOf(m) == to.group;
@@ -163,7 +163,7 @@ void SceneNetwork::addModules(Builder& to, bool plain) const {
   }
 }
 
-void SceneNetwork::addLink(Builder& to, int l, bool hold_a, bool hold_b) const {
+void RatedNetwork::addLink(Builder& to, int l, bool hold_a, bool hold_b) const {
   const scene::Lia& lia = scene_.lias[at(l)];
   const auto nodesOf = [&](const Shares& place, double sign) {
     Shares shares;
@@ -204,7 +204,7 @@ void SceneNetwork::addLink(Builder& to, int l, bool hold_a, bool hold_b) const {
 }
 
 /// Of the meshes that are in the network.
-void SceneNetwork::addCells(Builder& to) const {
+void RatedNetwork::addCells(Builder& to) const {
   const auto nodeOf = [&](int mat) {
     const auto known = to.nodes.find(mat);
     return known == to.nodes.end() ? -1 : known->second;
@@ -224,7 +224,7 @@ void SceneNetwork::addCells(Builder& to) const {
   }
 }
 
-NetworkBound SceneNetwork::atOwnRate(int divisor, int group, bool plain) const {
+NetworkBound RatedNetwork::atOwnRate(int divisor, int group, bool plain) const {
   Builder builder{NetworkBound(StepUnits(scene_, rates_, divisor).step), divisor, group, {}};
   addModules(builder, plain);
   for (int l = 0; l < static_cast<int>(scene_.lias.size()); ++l) {
@@ -239,7 +239,7 @@ NetworkBound SceneNetwork::atOwnRate(int divisor, int group, bool plain) const {
   return std::move(builder.network);
 }
 
-NetworkBound SceneNetwork::atSlowRate(int divisor, int group) const {
+NetworkBound RatedNetwork::atSlowRate(int divisor, int group) const {
   Builder builder{NetworkBound(StepUnits(scene_, rates_, divisor).step), divisor, group, {}};
   addModules(builder, false);
   for (int l = 0; l < static_cast<int>(scene_.lias.size()); ++l) {

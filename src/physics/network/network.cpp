@@ -72,7 +72,6 @@ Network::Link linkOf(const scene::Scene& scene, const scene::Lia& lia) {
   link.slopes = slopesOf(scene, lia);
   link.at_rest = mayLetGo(lia.type) ? 0.0 : scene.valueOf(lia.stiffness);
   link.at_least = leastSlope(scene, lia);
-  link.is_explicit = lia.scheme == scene::Scheme::kExplicit;
   return link;
 }
 

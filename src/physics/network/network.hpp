@@ -36,9 +36,8 @@ struct Network {
   };
   /// What a point can lie between.
   struct Point {
-    Shares now;  ///< at the present values of the parameters
-    std::vector<Shares>
-        places;  ///< the grid lines that it can lie on: the worst place is among them
+    Shares now;                  ///< at the present values of the parameters
+    std::vector<Shares> places;  ///< on all grid lines that it can reach: the worst is among them
   };
   struct Link {
     int a = 0;  ///< nodes
@@ -46,7 +45,6 @@ struct Network {
     Slopes slopes;          ///< the steepest, over all ranges
     double at_rest = 0.0;   ///< slope at rest, at the present values; 0 of links that may let go
     double at_least = 0.0;  ///< slope that it has wherever it is, over all ranges; 0: it may let go
-    bool is_explicit = true;  ///< otherwise guarded, or not settled
   };
 
   /// \param scene  must outlive it

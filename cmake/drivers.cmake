@@ -8,7 +8,7 @@ function(ergotic_add_driver name)
     add_library(ergotic_${name}_driver SHARED ${sources})
     target_include_directories(ergotic_${name}_driver PUBLIC src)
     target_link_libraries(ergotic_${name}_driver
-      PUBLIC ergotic_core PRIVATE ergotic_flags yaml-cpp ${ARGN})
+      PUBLIC ergotic_core yaml-cpp PRIVATE ergotic_flags ${ARGN})
   endif()
 endfunction()
 

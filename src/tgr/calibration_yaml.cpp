@@ -99,7 +99,7 @@ std::string sliceCalibrationsText(const Calibration& calibration) {
 }
 
 Calibration readCalibration(const std::string& text, const std::string& name) {
-  const Settings settings(text, name, "the calibration");
+  const Settings settings(parseSettings(text, name), name, "the calibration");
   settings.top().allow({"slices"});
   return {readSliceCalibrations(settings, settings.top().at("slices"),
                                 settings.top().placeAt("slices"))};

@@ -14,8 +14,8 @@
 namespace ergotic::tgr {
 namespace {
 
-std::unique_ptr<Driver> makeReplay(const std::string& text, const std::string& place) {
-  const Settings settings(text, place, "driver replay");
+std::unique_ptr<Driver> makeReplay(const YAML::Node& node, const std::string& place) {
+  const Settings settings(node, place, "driver replay");
   settings.top().allow({"file"});
   return makeReplayDriver(readPositionsCsv(besideFile(settings.top().word("file"), place)));
 }
@@ -40,7 +40,7 @@ auto at(const std::string& file,
 }  // namespace
 
 std::unique_ptr<Driver> makeCoreDriver(const std::string& driver,
-                                       const std::string& settings,
+                                       const YAML::Node& settings,
                                        const std::string& place) {
   if (driver == "virtual") {
     return makeVirtualDriver(readVirtualSettings(settings, place));
@@ -57,12 +57,13 @@ DriverStack makeDrivers(const StationDevices& devices,
                         bool allow_fault_injection) {
   DriverStack stack;
   std::vector<std::unique_ptr<Driver>> drivers;
+  const YAML::Node none(YAML::NodeType::Map);
   int first_slice = 0;
   for (std::size_t i = 0; i < devices.devices.size(); ++i) {
     const DeviceConfig& config = devices.devices[i];
     const std::string title = "device " + std::to_string(i) + " (" + config.driver + "): ";
     std::unique_ptr<Driver> driver = at(devices.file, config.driver_at, title, [&] {
-      return make(config.driver, config.settings, config.place);
+      return make(config.driver, config.settings ? *config.settings : none, config.place);
     });
     if (driver->isRaw() || config.calibration) {
       auto calibrated = at(devices.file, config.calibration_at, title, [&] {

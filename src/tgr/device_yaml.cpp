@@ -35,7 +35,7 @@ DeviceConfig readDevice(const Settings& file, const YAML::Node& node, Place fall
   device.driver_at = map.placeAt("driver");
   device.place = file.builder().scene().file;
   if (map.has("settings") && !map.at("settings").IsNull()) {
-    device.settings = textInPlace(file.builder(), map.at("settings"));
+    device.settings = std::make_shared<const YAML::Node>(map.at("settings"));
   }
   if (map.has("calibration")) {
     device.calibration_at = map.placeAt("calibration");
@@ -46,9 +46,10 @@ DeviceConfig readDevice(const Settings& file, const YAML::Node& node, Place fall
 }
 
 std::string deviceText(const DeviceConfig& device) {
-  const Settings settings(device.settings, device.place, "settings");
-  std::string text = "  - driver: " + device.driver +
-                     "\n    settings: " + textInLine(settings.builder(), settings.node()) + "\n";
+  std::string text = "  - driver: " + device.driver + "\n";
+  if (device.settings) {
+    text += "    settings: " + textInLine(*device.settings) + "\n";
+  }
   if (device.calibration) {
     text += "    calibration: " + sliceCalibrationsText(*device.calibration) + "\n";
   }
@@ -58,7 +59,7 @@ std::string deviceText(const DeviceConfig& device) {
 }  // namespace
 
 StationDevices readDevices(const std::string& text, const std::string& name) {
-  const Settings file(text, name, "the file of devices");
+  const Settings file(parseSettings(text, name), name, "the file of devices");
   const YamlMap& top = file.top();
   top.allow({"devices", "end_effectors"});
   StationDevices result;

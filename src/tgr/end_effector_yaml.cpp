@@ -136,7 +136,7 @@ std::string textOf(const EndEffectorConfig& config) {
 }  // namespace
 
 EndEffectors readEndEffectors(const std::string& text, const std::string& name) {
-  const Settings settings(text, name, "the file of devices and end-effectors");
+  const Settings settings(parseSettings(text, name), name, "the file of devices and end-effectors");
   settings.top().allow({"devices", "end_effectors"});
   EndEffectors end_effectors;
   end_effectors.file = name;

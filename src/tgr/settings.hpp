@@ -7,15 +7,20 @@
 
 namespace ergotic::tgr {
 
+/// \return what the text says; nothing at all is an empty map
+/// \param file  for messages
+/// \throws TextError if it is not YAML
+YAML::Node parseSettings(const std::string& text, const std::string& file);
+
 /// A YAML map of settings, read with what reads scenes: every getter of `top()` throws TextError
 /// with file:line:col, value and allowed range.
 class Settings {
  public:
-  /// \param text  a map; nothing at all is an empty map
+  /// \param node  a map
   /// \param file  for messages
   /// \param what  for messages, as in `driver virtual`
-  /// \throws TextError if it is not a map, or not YAML
-  Settings(const std::string& text, const std::string& file, const std::string& what);
+  /// \throws TextError if it is not a map
+  Settings(const YAML::Node& node, const std::string& file, const std::string& what);
   Settings(const Settings&) = delete;
   Settings& operator=(const Settings&) = delete;
 
@@ -30,13 +35,8 @@ class Settings {
   scene::YamlMap top_;
 };
 
-/// A part of a YAML text as a text of its own (flow style), in which everything stands on the line
-/// and, where there is room, in the column that it had: messages about it fit the whole text.
-/// \throws TextError if it is longer than a settings' text can be, as aliases of aliases are
-std::string textInPlace(const scene::SceneBuilder& builder, const YAML::Node& node);
-
-/// The same on one line.
-std::string textInLine(const scene::SceneBuilder& builder, const YAML::Node& node);
+/// YAML on one line that reads back as the same.
+std::string textInLine(const YAML::Node& node);
 
 /// A path as it stands in a file: relative ones start where the file is.
 std::string besideFile(const std::string& path, const std::string& file);

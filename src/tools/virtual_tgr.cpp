@@ -67,7 +67,8 @@ tgr::VirtualDriverConfig readDevice(const std::string& path) {
   if (found == devices.devices.end()) {
     throw Exception(path + ": no device of it has the driver virtual");
   }
-  return tgr::readVirtualSettings(found->settings, found->place);
+  return found->settings ? tgr::readVirtualSettings(*found->settings, found->place)
+                         : tgr::VirtualDriverConfig{};
 }
 
 /// The device of the file, if there is one, changed by what the command line says.

@@ -113,7 +113,7 @@ TEST(ComediRailTest, ASliceAtItsEndStopHasAPosition) {
   const std::string file = ERGOTIC_SOURCE_DIR "/config/comedi.yaml";
   const tgr::DriverStack stack = tgr::makeDrivers(
       tgr::readDevices(*scene::readBytes(file), file),
-      [](const std::string&, const std::string& settings, const std::string& place) {
+      [](const std::string&, const YAML::Node& settings, const std::string& place) {
         return tgr::ComediFactory().make(settings, place);
       },
       false);

@@ -192,7 +192,7 @@ TEST(ComediDriverTest, SaysWhatABoardHasInPlaceOfWhatWasAsked) {
 TEST(ComediDriverTest, SharesABoardWithNobody) {
   ComediRig rig;
   rig.driver().open(1000.0);
-  const auto other = tgr::ComediFactory().make(threeSlices(), "");
+  const auto other = tgr::ComediFactory().make(YAML::Load(threeSlices()), "");
   try {
     other->open(1000.0);
     FAIL() << "opened";

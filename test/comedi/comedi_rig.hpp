@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <yaml-cpp/yaml.h>
+
 #include <array>
 #include <cstdio>
 #include <limits>
@@ -47,7 +49,7 @@ class ComediRig {
   explicit ComediRig(const ComediStandinBoard& board = plainBoard(),
                      const std::string& settings = threeSlices()) {
     comediStandinReset(&board);
-    driver_ = tgr::ComediFactory().make(settings, "here.yaml");
+    driver_ = tgr::ComediFactory().make(YAML::Load(settings), "here.yaml");
   }
 
   tgr::Driver& driver() { return *driver_; }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tgr/drivers/comedi/comedi_settings.hpp"
 
+#include <yaml-cpp/yaml.h>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +17,7 @@ using ::testing::HasSubstr;
 
 std::string complaintOf(const std::string& text) {
   try {
-    readComediSettings(text, "devices.yaml");
+    readComediSettings(YAML::Load(text), "devices.yaml");
   } catch (const Exception& problem) {
     return problem.what();
   }
@@ -27,7 +29,8 @@ std::string with(const std::string& more) {
 }
 
 TEST(ComediSettingsTest, NeedsChannelsOnly) {
-  const ComediSettings s = readComediSettings("{ai_channels: [4, 2], ao_channels: [0, 1]}", "");
+  const ComediSettings s =
+      readComediSettings(YAML::Load("{ai_channels: [4, 2], ao_channels: [0, 1]}"), "");
   EXPECT_EQ(s.board, "/dev/comedi0");
   EXPECT_EQ(s.slices(), 2);
   EXPECT_THAT(s.ai_channels, ElementsAre(4, 2));
@@ -44,9 +47,10 @@ TEST(ComediSettingsTest, NeedsChannelsOnly) {
 
 TEST(ComediSettingsTest, TakesWhatIsSaid) {
   const ComediSettings s = readComediSettings(
-      with("board: /dev/comedi3, ai_subdevice: 4, ao_subdevice: 5, ai_range: 2, ao_range: [-5, "
-           "5.5], ai_reference: diff, ao_reference: common, discard: 1, average: 4, deglitch: "
-           "true, safe_volts: [0.5, -0.25], damping: 1.5"),
+      YAML::Load(
+          with("board: /dev/comedi3, ai_subdevice: 4, ao_subdevice: 5, ai_range: 2, ao_range: [-5, "
+               "5.5], ai_reference: diff, ao_reference: common, discard: 1, average: 4, deglitch: "
+               "true, safe_volts: [0.5, -0.25], damping: 1.5")),
       "");
   EXPECT_EQ(s.damping, 1.5);
   EXPECT_EQ(s.board, "/dev/comedi3");
@@ -65,7 +69,8 @@ TEST(ComediSettingsTest, TakesWhatIsSaid) {
 }
 
 TEST(ComediSettingsTest, TakesOneSafeVoltageForAll) {
-  EXPECT_THAT(readComediSettings(with("safe_volts: 0.25"), "").safe_volts, ElementsAre(0.25, 0.25));
+  EXPECT_THAT(readComediSettings(YAML::Load(with("safe_volts: 0.25")), "").safe_volts,
+              ElementsAre(0.25, 0.25));
 }
 
 TEST(ComediSettingsTest, NamesPlaceSettingValueAndWhatIsAllowed) {

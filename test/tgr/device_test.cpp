@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/tgr/device.hpp"
 
+#include <yaml-cpp/yaml.h>
+
 #include <array>
 #include <fstream>
 #include <memory>
@@ -40,8 +42,10 @@ TEST(ReadDevicesTest, TakesDevicesWithTheirSettingsAndCalibrations) {
   EXPECT_EQ(devices.devices[0].place, "tgr.yaml");
   EXPECT_FALSE(devices.devices[0].calibration);
   EXPECT_EQ(devices.devices[1].driver, "lab/board");
-  EXPECT_EQ(devices.devices[1].settings,
-            std::string(7, '\n') + "              {ports: [1, 2], name: \"a b\"}");
+  const YAML::Node& settings = *devices.devices[1].settings;
+  EXPECT_EQ(settings["name"].Scalar(), "a b");
+  EXPECT_EQ(settings["ports"].Mark().line, 7);
+  EXPECT_EQ(settings["ports"].Mark().column, 22);
   ASSERT_TRUE(devices.devices[1].calibration);
   EXPECT_TRUE(devices.devices[1].calibration->slices[0].is_calibrated);
   EXPECT_FALSE(devices.devices[1].calibration->slices[1].is_calibrated);
@@ -53,7 +57,7 @@ TEST(ReadDevicesTest, TakesEndEffectorsFromTheSameFile) {
       "devices: [{driver: virtual}]\n"
       "end_effectors:\n  thumb: {type: key, slices: [3], ports: [hammer]}\n",
       "tgr.yaml");
-  EXPECT_EQ(devices.devices[0].settings, "{}");
+  EXPECT_EQ(devices.devices[0].settings, nullptr);
   ASSERT_EQ(devices.end_effectors.list.size(), 1U);
   EXPECT_EQ(devices.end_effectors.list[0].name, "thumb");
 }
@@ -68,7 +72,7 @@ TEST(ReadDevicesTest, ReadsBackWhatIsWritten) {
   ASSERT_EQ(again.devices.size(), 2U);
   EXPECT_EQ(again.devices[1].calibration->slices[0].metres_per_volt, 0.005);
   EXPECT_EQ(again.end_effectors.list.size(), 1U);
-  EXPECT_NE(text.find("settings: {ports: [1, 2], name: \"a b\"}"), std::string::npos) << text;
+  EXPECT_NE(text.find("settings: {ports: [1, 2], name: a b}"), std::string::npos) << text;
 }
 
 TEST(ReadDevicesTest, SaysWhereATextIsWrong) {
@@ -148,9 +152,10 @@ TEST(MakeDriversTest, PutsCalibrationsInFrontOfRawDevicesAndFaultsInFrontOfAll) 
       "devices:\n  - driver: si\n  - driver: raw\n"
       "    calibration: [{metres_per_volt: 0.005, volts_per_newton: 0.05}]\n",
       "tgr.yaml");
-  const DriverMaker make = [&](const std::string& name, const std::string& settings,
+  const DriverMaker make = [&](const std::string& name, const YAML::Node& settings,
                                const std::string& place) -> std::unique_ptr<Driver> {
-    EXPECT_EQ(settings, "{}");
+    EXPECT_TRUE(settings.IsMap());
+    EXPECT_EQ(settings.size(), 0U);
     EXPECT_EQ(place, "tgr.yaml");
     return std::make_unique<test::ScriptedDriver>(scripts[name == "raw" ? 1 : 0]);
   };
@@ -186,12 +191,12 @@ StationDevices installed(const std::string& name) {
 TEST(DeviceFilesTest, OfTheVirtualDeviceSaysAllItsDefaults) {
   const StationDevices devices = installed("virtual.yaml");
   ASSERT_EQ(devices.devices.size(), 1U);
-  const std::string& settings = devices.devices[0].settings;
+  const YAML::Node& settings = *devices.devices[0].settings;
   const VirtualDriverConfig read = readVirtualSettings(settings, "virtual.yaml");
   const VirtualDriverConfig plain;
   for (const VirtualSliceField& field : kVirtualSliceFields) {
     EXPECT_EQ(read.slice.*field.member, plain.slice.*field.member) << field.key;
-    EXPECT_NE(settings.find(std::string(field.key) + ":"), std::string::npos) << field.key;
+    EXPECT_TRUE(settings["mechanics"][field.key]) << field.key;
   }
   EXPECT_EQ(read.slices, plain.slices);
   EXPECT_EQ(read.seed, plain.seed);
@@ -222,9 +227,10 @@ TEST(DeviceFilesTest, OfVoltsTellAnEndStopFromARail) {
 }
 
 TEST(MakeCoreDriverTest, FindsTheFileOfAReplayBesideTheFileOfTheDevices) {
-  EXPECT_EQ(complaintOf([] { makeCoreDriver("replay", "{file: x.csv}", "/nowhere/tgr.yaml"); }),
+  EXPECT_EQ(complaintOf(
+                [] { makeCoreDriver("replay", YAML::Load("{file: x.csv}"), "/nowhere/tgr.yaml"); }),
             "/nowhere/x.csv: cannot be read: No such file or directory");
-  EXPECT_EQ(complaintOf([] { makeCoreDriver("replay", "{}", "tgr.yaml"); }),
+  EXPECT_EQ(complaintOf([] { makeCoreDriver("replay", YAML::Load("{}"), "tgr.yaml"); }),
             "tgr.yaml:1:1: error: missing key 'file' of driver replay");
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tgr/drivers/virtual/virtual_settings.hpp"
 
+#include <yaml-cpp/yaml.h>
+
 #include <limits>
 #include <string>
 
@@ -14,11 +16,11 @@ namespace {
 using test::complaintOf;
 
 std::string complaint(const std::string& text) {
-  return complaintOf([&] { readVirtualSettings(text, "v.yaml"); });
+  return complaintOf([&] { readVirtualSettings(YAML::Load(text), "v.yaml"); });
 }
 
 TEST(VirtualSettingsTest, KeepTheDefaultsOfWhatIsNotSaid) {
-  const VirtualDriverConfig config = readVirtualSettings("{}", "v.yaml");
+  const VirtualDriverConfig config = readVirtualSettings(YAML::Load("{}"), "v.yaml");
   EXPECT_EQ(config.slices, 12);
   EXPECT_EQ(config.slice.bandwidth, 15000.0);
   EXPECT_EQ(config.slice.delay, 0.0);
@@ -29,12 +31,13 @@ TEST(VirtualSettingsTest, KeepTheDefaultsOfWhatIsNotSaid) {
 
 TEST(VirtualSettingsTest, TakeEveryNumber) {
   const VirtualDriverConfig config = readVirtualSettings(
-      "slices: 5\nseed: 9\ngesture: hands/wave.csv\ngesture_rate: 3150\nextra_delay_ticks: 2\n"
-      "mechanics: {mass: 0.5, damping: 1, dry_friction: 0.2, stop: 0.02, quantum: 2e-6,\n"
-      "  noise_rms: 3e-6, force_limit: 100, bandwidth: 5000, delay: 0.001, hand_mass: 0.2,\n"
-      "  hand_stiffness: 300, hand_damping: 4}\n"
-      "volts: {metres_per_volt: 0.005, volts_per_newton: 0.04}\n"
-      "others:\n  3: {mass: 0.7, volts: {metres_per_volt: -0.01, volts_per_newton: 0.04}}\n",
+      YAML::Load(
+          "slices: 5\nseed: 9\ngesture: hands/wave.csv\ngesture_rate: 3150\nextra_delay_ticks: 2\n"
+          "mechanics: {mass: 0.5, damping: 1, dry_friction: 0.2, stop: 0.02, quantum: 2e-6,\n"
+          "  noise_rms: 3e-6, force_limit: 100, bandwidth: 5000, delay: 0.001, hand_mass: 0.2,\n"
+          "  hand_stiffness: 300, hand_damping: 4}\n"
+          "volts: {metres_per_volt: 0.005, volts_per_newton: 0.04}\n"
+          "others:\n  3: {mass: 0.7, volts: {metres_per_volt: -0.01, volts_per_newton: 0.04}}\n"),
       "/etc/tgr/v.yaml");
   EXPECT_EQ(config.slices, 5);
   EXPECT_EQ(config.seed, 9U);
@@ -63,7 +66,8 @@ TEST(VirtualSettingsTest, TakeEveryNumber) {
 }
 
 TEST(VirtualSettingsTest, LeaveTheMechanicsToADeviceProcess) {
-  const auto config = readVirtualSettings("{shared_memory: tgr, slices: 3, is_raw: true}", "");
+  const auto config =
+      readVirtualSettings(YAML::Load("{shared_memory: tgr, slices: 3, is_raw: true}"), "");
   EXPECT_EQ(config.shared_memory, "tgr");
   EXPECT_EQ(config.slices, 3);
   EXPECT_TRUE(config.is_raw);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tgr/drivers/jack/jack_settings.hpp"
 
+#include <yaml-cpp/yaml.h>
+
 #include <gtest/gtest.h>
 
 #include "ergotic/exception.hpp"
@@ -12,7 +14,7 @@ namespace {
 using Names = std::vector<std::string>;
 
 TEST(JackSettingsTest, TakesPhysicalPortsInTheirOrderUnlessToldOthers) {
-  const JackDriverConfig config = readJackSettings("{slices: 2}", "s.yaml");
+  const JackDriverConfig config = readJackSettings(YAML::Load("{slices: 2}"), "s.yaml");
   EXPECT_EQ(config.position_ports, (Names{"physical 1", "physical 2"}));
   EXPECT_EQ(config.force_ports, (Names{"physical 1", "physical 2"}));
   EXPECT_EQ(config.heartbeat_port, "");
@@ -25,9 +27,9 @@ TEST(JackSettingsTest, TakesPhysicalPortsInTheirOrderUnlessToldOthers) {
 
 TEST(JackSettingsTest, ReadsAllOfThem) {
   const JackDriverConfig config = readJackSettings(
-      "client: hand\nserver: second\nslices: 2\nposition_ports: {physical: 3}\n"
-      "force_ports: [5, \"card:out 1\"]\nheartbeat_port: 8\nvolts_per_unit: 10\n"
-      "damping: 3.5\nround_trip_frames: 211\nwait_s: 0.5\n",
+      YAML::Load("client: hand\nserver: second\nslices: 2\nposition_ports: {physical: 3}\n"
+                 "force_ports: [5, \"card:out 1\"]\nheartbeat_port: 8\nvolts_per_unit: 10\n"
+                 "damping: 3.5\nround_trip_frames: 211\nwait_s: 0.5\n"),
       "s.yaml");
   EXPECT_EQ(config.client, "hand");
   EXPECT_EQ(config.server, "second");
@@ -45,7 +47,7 @@ TEST(JackSettingsTest, ReadsAllOfThem) {
 TEST(JackSettingsTest, SaysWhereASettingIsWrongAndWhatIsAllowed) {
   const auto errorOf = [](const std::string& text) -> std::string {
     try {
-      JackFactory().make(text, "s.yaml");
+      JackFactory().make(YAML::Load(text), "s.yaml");
     } catch (const TextError& error) {
       return error.what();
     }

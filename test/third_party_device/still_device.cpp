@@ -33,9 +33,9 @@ class StillDevice : public ergotic::tgr::Driver {
 
 class StillFactory : public ergotic::tgr::DriverFactory {
  public:
-  std::unique_ptr<ergotic::tgr::Driver> make(const std::string& settings,
+  std::unique_ptr<ergotic::tgr::Driver> make(const YAML::Node& settings,
                                              const std::string& place) const override {
-    const double height = YAML::Load(settings)["height"].as<double>(0.001);
+    const double height = settings["height"].as<double>(0.001);
     if (!(height >= 0.0 && height <= 0.01)) {
       throw ergotic::Exception(place + ": error: height is " + std::to_string(height) +
                                " m, allowed: 0...0.01");

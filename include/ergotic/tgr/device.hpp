@@ -16,9 +16,9 @@ namespace ergotic::tgr {
 
 /// One device of a station: a driver, its settings, and the calibration of its slices.
 struct DeviceConfig {
-  std::string driver;           ///< name: virtual, replay, comedi, jack, or a plugin's
-  std::string settings = "{}";  ///< YAML map, the driver's own, see DriverFactory::make
-  std::string place;            ///< name of the file that they are from, for messages
+  std::string driver;  ///< name: virtual, replay, comedi, jack, or a plugin's
+  std::shared_ptr<const YAML::Node> settings;  ///< map, see DriverFactory::make; null: none
+  std::string place;  ///< name of the file that they are from, for messages
   std::optional<Calibration> calibration;
   scene::Place driver_at{1, 1};  ///< of the name of the driver, in the file of the devices
   scene::Place calibration_at{1, 1};
@@ -51,11 +51,11 @@ struct DriverStack {
 
 /// Makes a driver by its name. \throws Exception if there is no such driver
 using DriverMaker = std::function<std::unique_ptr<Driver>(
-    const std::string& driver, const std::string& settings, const std::string& place)>;
+    const std::string& driver, const YAML::Node& settings, const std::string& place)>;
 
 /// The drivers of the core: `virtual` and `replay`. \throws Exception naming those that exist
 std::unique_ptr<Driver> makeCoreDriver(const std::string& driver,
-                                       const std::string& settings,
+                                       const YAML::Node& settings,
                                        const std::string& place);
 
 /// \throws TextError with the place of the device where the settings or the maker name none, or if

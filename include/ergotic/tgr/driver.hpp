@@ -7,6 +7,10 @@
 
 #include "ergotic/tgr/device_clock.hpp"
 
+namespace YAML {
+class Node;
+}
+
 namespace ergotic::tgr {
 
 constexpr int kMaxSlices = 64;
@@ -92,11 +96,11 @@ class Driver {
 class DriverFactory {
  public:
   virtual ~DriverFactory() = default;
-  /// \param settings  YAML map of the driver's own settings, `{}`: none. What comes from a file
-  ///                  stands on the line and in the column that it has there
+  /// \param settings  map of the driver's own settings, may be empty; marks of its nodes are lines
+  ///                  and columns of the file that they come from
   /// \param place     name of that file, for messages `place:line:col: error: ...`
   /// \throws Exception naming setting, value and allowed range
-  virtual std::unique_ptr<Driver> make(const std::string& settings,
+  virtual std::unique_ptr<Driver> make(const YAML::Node& settings,
                                        const std::string& place) const = 0;
 };
 

@@ -22,17 +22,11 @@ std::string pluginNamed(const std::string& driver) {
 }
 
 /// The bag that a `replay` shall play; nothing if it plays something else.
-std::optional<std::string> bagOf(const std::string& driver, const std::string& settings) {
-  if (driver != "replay") {
-    return std::nullopt;
-  }
-  try {
-    const YAML::Node map = YAML::Load(settings);
-    if (map.IsMap() && map.size() == 1 && map["bag"] && map["bag"].IsScalar()) {
-      return map["bag"].Scalar();
-    }
-  } catch (const YAML::Exception&) {
-    // the core's replay driver says what is wrong, and where
+std::optional<std::string> bagOf(const std::string& driver, const YAML::Node& settings) {
+  // Of anything else the core's replay driver says what is wrong, and where.
+  if (driver == "replay" && settings.IsMap() && settings.size() == 1 && settings["bag"] &&
+      settings["bag"].IsScalar()) {
+    return settings["bag"].Scalar();
   }
   return std::nullopt;
 }
@@ -63,7 +57,7 @@ DriverPlugins::DriverPlugins() {
 DriverPlugins::~DriverPlugins() = default;
 
 std::unique_ptr<tgr::Driver> DriverPlugins::make(const std::string& driver,
-                                                 const std::string& settings,
+                                                 const YAML::Node& settings,
                                                  const std::string& place) {
   if (const auto bag = bagOf(driver, settings)) {
     return tgr::makeReplayDriver(bag::readPositions(*bag));

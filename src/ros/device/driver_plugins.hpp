@@ -22,12 +22,12 @@ class DriverPlugins {
 
   /// \param driver    `virtual`, `replay`, or `package/name` of a plugin; `name` alone means
   ///                  `ergotic/name`
-  /// \param settings  YAML map
+  /// \param settings  map
   /// \param place     of the settings, for messages
   /// \throws Exception naming the drivers that exist, saying why one cannot be loaded, or what is
   ///         wrong with its settings
   std::unique_ptr<tgr::Driver> make(const std::string& driver,
-                                    const std::string& settings,
+                                    const YAML::Node& settings,
                                     const std::string& place);
 
  private:

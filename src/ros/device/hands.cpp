@@ -16,7 +16,7 @@ namespace {
 tgr::DriverStack makeDrivers(DriverPlugins& plugins,
                              const tgr::StationDevices& devices,
                              bool allow_fault_injection) {
-  const auto make = [&plugins](const std::string& driver, const std::string& settings,
+  const auto make = [&plugins](const std::string& driver, const YAML::Node& settings,
                                const std::string& place) {
     return plugins.make(driver, settings, place);
   };

@@ -15,6 +15,7 @@
 #include "ergotic/station/audio_bridge.hpp"
 #include "ergotic/tgr/driver.hpp"
 #include "scene/names.hpp"
+#include "tgr/settings.hpp"
 
 namespace ergotic::node {
 namespace {
@@ -227,22 +228,20 @@ tgr::StationDevices plainDevice(const Parameters& p) {
         "parameter driver_settings stands beside gesture or virtual_shared_memory, allowed: all "
         "of them in driver_settings");
   }
-  YAML::Emitter settings;
-  settings << YAML::Flow << YAML::BeginMap;
+  const std::string place = "parameter driver_settings";
+  YAML::Node settings = tgr::parseSettings(p.driver_settings, place);
   if (!p.gesture.empty()) {
-    settings << YAML::Key << "gesture" << YAML::Value << p.gesture;
+    settings["gesture"] = p.gesture;
   }
   if (!p.virtual_shared_memory.empty()) {
-    settings << YAML::Key << "shared_memory" << YAML::Value << p.virtual_shared_memory;
+    settings["shared_memory"] = p.virtual_shared_memory;
   }
-  settings << YAML::EndMap;
   tgr::StationDevices devices;
   devices.file = "parameter driver";
   devices.devices.resize(1);
   devices.devices.front().driver = p.driver;
-  devices.devices.front().settings =
-      p.driver_settings.empty() ? settings.c_str() : p.driver_settings;
-  devices.devices.front().place = "parameter driver_settings";
+  devices.devices.front().settings = std::make_shared<const YAML::Node>(settings);
+  devices.devices.front().place = place;
   return devices;
 }
 

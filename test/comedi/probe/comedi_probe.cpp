@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Opens a comedi board and says what it meets in so many ticks under constant volts. Linked as the
 // station's plugin is, against libcomedi alone.
+#include <yaml-cpp/yaml.h>
+
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -15,7 +17,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    const auto driver = tgr::ComediFactory().make(argv[1], "argument");
+    const auto driver = tgr::ComediFactory().make(YAML::Load(argv[1]), "argument");
     driver->open(1000.0);
     std::array<double, tgr::kMaxSlices> outputs{};
     std::array<double, tgr::kMaxSlices> inputs{};

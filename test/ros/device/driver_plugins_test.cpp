@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/device/driver_plugins.hpp"
 
+#include <yaml-cpp/yaml.h>
+
 #include <array>
 
 #include <gmock/gmock.h>
@@ -24,7 +26,7 @@ class DriverPluginsTest : public ::testing::Test {
 
   std::string refusalOf(const std::string& driver, const std::string& settings) {
     try {
-      plugins_->make(driver, settings, "devices.yaml");
+      plugins_->make(driver, YAML::Load(settings), "devices.yaml");
     } catch (const Exception& refusal) {
       return refusal.what();
     }
@@ -35,7 +37,8 @@ class DriverPluginsTest : public ::testing::Test {
 };
 
 TEST_F(DriverPluginsTest, LoadWhatSomebodyElseExports) {
-  const auto driver = plugins_->make("third_party_device/still", "{height: 0.002}", "devices.yaml");
+  const auto driver =
+      plugins_->make("third_party_device/still", YAML::Load("{height: 0.002}"), "devices.yaml");
   driver->open(1000.0);
   const std::array<double, 2> forces{};
   std::array<double, 2> positions{};
@@ -45,7 +48,7 @@ TEST_F(DriverPluginsTest, LoadWhatSomebodyElseExports) {
 }
 
 TEST_F(DriverPluginsTest, MakeTheDriversOfTheCoreWithoutAnyPlugin) {
-  EXPECT_NE(plugins_->make("virtual", "{}", "devices.yaml"), nullptr);
+  EXPECT_NE(plugins_->make("virtual", YAML::Load("{}"), "devices.yaml"), nullptr);
 }
 
 TEST_F(DriverPluginsTest, FindTheirOwnByTheShortName) {

@@ -5,7 +5,7 @@
 
 namespace ergotic::tgr {
 
-std::unique_ptr<Driver> ComediFactory::make(const std::string& settings,
+std::unique_ptr<Driver> ComediFactory::make(const YAML::Node& settings,
                                             const std::string& file) const {
   return std::make_unique<ComediDriver>(readComediSettings(settings, file));
 }

@@ -8,7 +8,7 @@ namespace ergotic::tgr {
 /// Makes drivers of measurement boards under comedi.
 class ComediFactory final : public DriverFactory {
  public:
-  std::unique_ptr<Driver> make(const std::string& settings, const std::string& file) const override;
+  std::unique_ptr<Driver> make(const YAML::Node& settings, const std::string& file) const override;
 };
 
 }  // namespace ergotic::tgr

@@ -74,8 +74,8 @@ std::vector<double> safeVolts(const YamlMap& map, std::size_t slices) {
 
 }  // namespace
 
-ComediSettings readComediSettings(const std::string& text, const std::string& file) {
-  const Settings settings(text, file, "driver comedi");
+ComediSettings readComediSettings(const YAML::Node& node, const std::string& file) {
+  const Settings settings(node, file, "driver comedi");
   const YamlMap& map = settings.top();
   map.allow({"board", "ai_subdevice", "ao_subdevice", "ai_channels", "ao_channels", "ai_range",
              "ao_range", "ai_reference", "ao_reference", "discard", "average", "deglitch",

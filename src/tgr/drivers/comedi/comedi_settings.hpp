@@ -5,6 +5,10 @@
 #include <string>
 #include <vector>
 
+namespace YAML {
+class Node;
+}
+
 namespace ergotic::tgr {
 
 /// A range of a board: by its index, or the narrowest one that holds `low_volts...high_volts`.
@@ -35,10 +39,10 @@ struct ComediSettings {
   int slices() const { return static_cast<int>(ai_channels.size()); }
 };
 
-/// \param text  YAML map, see docs/tgr.md
+/// \param node  map, see docs/tgr.md
 /// \param file  for messages
 /// \throws TextError with file:line:col, value and allowed range
-ComediSettings readComediSettings(const std::string& text, const std::string& file);
+ComediSettings readComediSettings(const YAML::Node& node, const std::string& file);
 
 /// By the index of the AREF_ constants.
 extern const std::vector<std::string> kComediReferences;

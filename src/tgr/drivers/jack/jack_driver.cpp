@@ -138,7 +138,7 @@ std::uint32_t JackDriver::roundTrip(const audio::JackStatus& status) const noexc
                                        : status.input_latency_frames + status.output_latency_frames;
 }
 
-std::unique_ptr<Driver> JackFactory::make(const std::string& settings,
+std::unique_ptr<Driver> JackFactory::make(const YAML::Node& settings,
                                           const std::string& place) const {
   return std::make_unique<JackDriver>(readJackSettings(settings, place));
 }

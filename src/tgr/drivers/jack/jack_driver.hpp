@@ -68,8 +68,7 @@ class JackDriver final : public Driver {
 
 class JackFactory final : public DriverFactory {
  public:
-  std::unique_ptr<Driver> make(const std::string& settings,
-                               const std::string& place) const override;
+  std::unique_ptr<Driver> make(const YAML::Node& settings, const std::string& place) const override;
 };
 
 }  // namespace ergotic::tgr

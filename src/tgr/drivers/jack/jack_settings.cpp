@@ -75,8 +75,8 @@ std::vector<std::string> portsOf(const Settings& settings, const std::string& ke
 
 }  // namespace
 
-JackDriverConfig readJackSettings(const std::string& text, const std::string& file) {
-  const Settings settings(text, file, "driver jack");
+JackDriverConfig readJackSettings(const YAML::Node& node, const std::string& file) {
+  const Settings settings(node, file, "driver jack");
   const scene::YamlMap& top = settings.top();
   top.allow({"client", "server", "slices", "position_ports", "force_ports", "heartbeat_port",
              "volts_per_unit", "damping", "round_trip_frames", "wait_s"});

@@ -5,6 +5,10 @@
 #include <string>
 #include <vector>
 
+namespace YAML {
+class Node;
+}
+
 namespace ergotic::tgr {
 
 /// A TGR wired to a DC-coupled sound card.
@@ -22,6 +26,6 @@ struct JackDriverConfig {
 
 /// Reads the settings of the driver, see docs/tgr.md. \param file  for messages
 /// \throws TextError with file:line:col, value and allowed range
-JackDriverConfig readJackSettings(const std::string& text, const std::string& file);
+JackDriverConfig readJackSettings(const YAML::Node& node, const std::string& file);
 
 }  // namespace ergotic::tgr

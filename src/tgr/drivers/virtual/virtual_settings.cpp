@@ -97,8 +97,8 @@ void readInProcess(const Settings& settings, VirtualDriverConfig& config) {
 
 }  // namespace
 
-VirtualDriverConfig readVirtualSettings(const std::string& text, const std::string& place) {
-  const Settings settings(text, place, "driver virtual");
+VirtualDriverConfig readVirtualSettings(const YAML::Node& node, const std::string& place) {
+  const Settings settings(node, place, "driver virtual");
   const YamlMap& top = settings.top();
   VirtualDriverConfig config;
   if (top.has("slices")) {

@@ -10,8 +10,8 @@ namespace ergotic::tgr {
 constexpr int kMaxExtraDelayTicks = 16;
 
 /// Settings of the driver `virtual`, see docs/tgr.md; paths are relative to the file.
-/// \param text, place  as DriverFactory::make
+/// \param node, place  as DriverFactory::make
 /// \throws TextError
-VirtualDriverConfig readVirtualSettings(const std::string& text, const std::string& place);
+VirtualDriverConfig readVirtualSettings(const YAML::Node& node, const std::string& place);
 
 }  // namespace ergotic::tgr

@@ -32,7 +32,7 @@ YAML::Node parseSettings(const std::string& text, const std::string& file) {
 }
 
 Settings::Settings(const YAML::Node& node, const std::string& file, const std::string& what)
-    : builder_(file, ""), node_(node), top_(builder_, node_, what, {1, 1}) {}
+    : builder_(file, ""), node_(node), top_(builder_, node_, what, scene::placeOf(node_, {1, 1})) {}
 
 std::string textInLine(const YAML::Node& node) {
   YAML::Node copy = YAML::Clone(node);

@@ -94,7 +94,7 @@ TEST_F(JackTgrToolTest, SaysThatNothingAnswered) {
   const Outcome outcome =
       test::run("jack_tgr", "--server " + server_.name() + " --measure 2 --slices 1");
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_NE(outcome.text.find("\"answered\": 0"), std::string::npos) << outcome.text;
+  EXPECT_NE(outcome.text.find("\"answered\":0"), std::string::npos) << outcome.text;
 }
 
 TEST_F(JackTgrToolTest, RefusesASliceThatItDoesNotHave) {

@@ -25,7 +25,7 @@ endforeach()
 pkg_check_modules(URDFDOM REQUIRED IMPORTED_TARGET urdfdom)  # reads what pictures are made of
 ergotic_add_gtests(tgr yaml-cpp PkgConfig::URDFDOM)  # places of settings are seen in their nodes
 foreach(room physics advice tools)  # physics is compared with the tools' plain implementation
-  ergotic_add_gtests(${room} ergotic_tool_support)
+  ergotic_add_gtests(${room} ergotic_measuring)
 endforeach()
 # The comedi driver before a stand-in for libcomedi, which takes its place when it is linked first, or
 # preloaded. The mechanics are its own copy, so that what preloads it meets no symbols of the core.

@@ -2,11 +2,18 @@
 # Command-line tools: src/tools/<name>.cpp is `rosrun ergotic <name>`; other sources are shared.
 set(ergotic_tools "")
 file(GLOB tool_library_sources CONFIGURE_DEPENDS src/tools/lib/*.cpp)
+set(measuring_sources ${tool_library_sources})
+list(FILTER measuring_sources INCLUDE REGEX "/(accuracy|bench|latency|plain_network)[a-z_]*\\.cpp$")
+list(REMOVE_ITEM tool_library_sources ${measuring_sources})
 if(tool_library_sources)
   add_library(ergotic_tool_support STATIC ${tool_library_sources})
   target_include_directories(ergotic_tool_support PUBLIC src)
   target_link_libraries(ergotic_tool_support
-    PUBLIC ergotic_advice ergotic_audio CLI11::CLI11 nlohmann_json::nlohmann_json PRIVATE ergotic_flags)
+    PUBLIC ergotic_advice ergotic_audio CLI11::CLI11 nlohmann_json::nlohmann_json
+    PRIVATE ergotic_flags)
+  # What measures is of its own: who only plays need not wait for it.
+  add_library(ergotic_measuring STATIC ${measuring_sources})
+  target_link_libraries(ergotic_measuring PUBLIC ergotic_tool_support PRIVATE ergotic_flags)
   string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
   get_target_property(ergotic_options ergotic_flags INTERFACE_COMPILE_OPTIONS)
   string(REPLACE ";" " " ergotic_options
@@ -20,5 +27,8 @@ foreach(source ${tool_sources})
   add_executable(${tool} ${source})
   target_link_libraries(${tool} PRIVATE ergotic_tool_support CLI11::CLI11 ergotic_flags)
   list(APPEND ergotic_tools ${tool})
+endforeach()
+foreach(tool accuracy bench latency)
+  target_link_libraries(${tool} PRIVATE ergotic_measuring)
 endforeach()
 target_link_libraries(jack_tgr PRIVATE ergotic_jack_driver)

@@ -2,8 +2,7 @@
 #include "tools/lib/check.hpp"
 
 int main(int argc, char** argv) {
-  CLI::App app("Says what a scene is made of, whether it is stable, and what it costs.", "check");
-  ergotic::tools::CheckOptions options;
-  ergotic::tools::addOptions(app, options);
-  return ergotic::tools::runTool(app, argc, argv, [&] { return ergotic::tools::check(options); });
+  return ergotic::tools::runTool(
+      "check", "Says what a scene is made of, whether it is stable, and what it costs.", argc, argv,
+      ergotic::tools::check);
 }

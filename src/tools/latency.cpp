@@ -2,9 +2,7 @@
 #include "tools/lib/latency.hpp"
 
 int main(int argc, char** argv) {
-  CLI::App app("Plays a scene in real time with a virtual device, and says what each tick cost.",
-               "latency");
-  ergotic::tools::LatencyOptions options;
-  ergotic::tools::addOptions(app, options);
-  return ergotic::tools::runTool(app, argc, argv, [&] { return ergotic::tools::latency(options); });
+  return ergotic::tools::runTool(
+      "latency", "Plays a scene in real time with a virtual device, and says what each tick cost.",
+      argc, argv, ergotic::tools::latency);
 }

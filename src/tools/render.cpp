@@ -2,8 +2,6 @@
 #include "tools/lib/render.hpp"
 
 int main(int argc, char** argv) {
-  CLI::App app("Plays a scene offline and writes what sounds.", "render");
-  ergotic::tools::RenderOptions options;
-  ergotic::tools::addOptions(app, options);
-  return ergotic::tools::runTool(app, argc, argv, [&] { return ergotic::tools::render(options); });
+  return ergotic::tools::runTool("render", "Plays a scene offline and writes what sounds.", argc,
+                                 argv, ergotic::tools::render);
 }

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <iostream>
 
+#include <CLI/CLI.hpp>
+
 #include "ergotic/exception.hpp"
 #include "tools/lib/bench_report.hpp"
 

@@ -6,6 +6,8 @@
 #include <memory>
 #include <utility>
 
+#include <CLI/CLI.hpp>
+
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/physics/engine/instrument.hpp"
 #include "ergotic/physics/settling/settle.hpp"
@@ -260,6 +262,20 @@ int finish(const Report& report,
     return kRefused;
   }
   return refusals.empty() ? kSuccess : kFailure;
+}
+
+void addOptions(CLI::App& app, DeviceChoice& choice) {
+  app.add_option("--device-damping", choice.traits.damping,
+                 "of a slice by itself, N s/m (default: 2)")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--device-delay", choice.traits.delay_ticks,
+                 "from a position to the force that answers it, ticks (default: 1)")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--sensor-noise", choice.noise.rms, "of a position, m rms (default: 0.5e-6)")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--sensor-quantum", choice.noise.quantum,
+                 "to which a position is rounded, m (default: 1e-6)")
+      ->check(CLI::NonNegativeNumber);
 }
 
 }  // namespace

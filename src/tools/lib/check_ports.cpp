@@ -47,20 +47,6 @@ void addHand(const Scene& scene, const scene::Port& port, Report& entry) {
 
 }  // namespace
 
-void addOptions(CLI::App& app, DeviceChoice& choice) {
-  app.add_option("--device-damping", choice.traits.damping,
-                 "of a slice by itself, N s/m (default: 2)")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--device-delay", choice.traits.delay_ticks,
-                 "from a position to the force that answers it, ticks (default: 1)")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--sensor-noise", choice.noise.rms, "of a position, m rms (default: 0.5e-6)")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--sensor-quantum", choice.noise.quantum,
-                 "to which a position is rounded, m (default: 1e-6)")
-      ->check(CLI::NonNegativeNumber);
-}
-
 Report portsReport(const Scene& scene,
                    const physics::Rates& rates,
                    const physics::Certificate& certificate,

@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "ergotic/advice/noise.hpp"
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/scene/scene.hpp"
@@ -18,7 +16,6 @@ struct DeviceChoice {
   physics::DeviceTraits traits;
   physics::SensorNoise noise;
 };
-void addOptions(CLI::App& app, DeviceChoice& choice);
 
 /// Who moves what, how stiff it is, and how much of the sensors' noise is felt.
 Report portsReport(const scene::Scene& scene,

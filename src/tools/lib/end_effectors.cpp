@@ -8,11 +8,6 @@
 
 namespace ergotic::tools {
 
-void addEndEffectorsOption(CLI::App& app, std::string& file) {
-  app.add_option("--end-effectors", file, "what stands on the slices: a station's device file")
-      ->type_name("F.yaml");
-}
-
 tgr::EndEffectors readEndEffectors(const std::string& file) {
   if (file.empty()) {
     return {};

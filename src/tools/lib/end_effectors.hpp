@@ -4,16 +4,12 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/physics/rates.hpp"
 #include "ergotic/tgr/rig.hpp"
 #include "tools/lib/report.hpp"
 
 namespace ergotic::tools {
-
-void addEndEffectorsOption(CLI::App& app, std::string& file);
 
 /// \param file  path; empty: none
 /// \throws TextError from the file, Exception if it cannot be read

@@ -10,6 +10,8 @@
 #include <thread>
 #include <utility>
 
+#include <CLI/CLI.hpp>
+
 #include "ergotic/exception.hpp"
 #include "ergotic/station/timer_source.hpp"
 #include "ergotic/tgr/virtual_driver.hpp"

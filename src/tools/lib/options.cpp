@@ -6,6 +6,8 @@
 #include <iostream>
 #include <sstream>
 
+#include <CLI/CLI.hpp>
+
 #include "ergotic/exception.hpp"
 
 namespace ergotic::tools {
@@ -47,6 +49,16 @@ void addOptions(CLI::App& app, CompileChoice& choice) {
   app.add_option("--threads", choice.threads,
                  "that share the work; any number gives the same samples (default: 1)")
       ->check(CLI::Range(1, physics::kMaxThreads));
+}
+
+void addTargetOption(CLI::App& app, std::string& target, const std::string& help) {
+  app.add_option("--target", target, help + ", such as \"1 cent\", \"0.1 dB\" or \"0.5 %\"")
+      ->type_name("ACCURACY");
+}
+
+void addEndEffectorsOption(CLI::App& app, std::string& file) {
+  app.add_option("--end-effectors", file, "what stands on the slices: a station's device file")
+      ->type_name("F.yaml");
 }
 
 std::pair<std::string, std::string> splitAssignment(const std::string& text) {
@@ -121,6 +133,17 @@ int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& to
     std::cerr << error.what() << '\n';
     return kFailure;
   }
+}
+
+int runTool(const std::string& name,
+            const std::string& what_it_does,
+            const std::function<void(CLI::App&)>& add_options,
+            int argc,
+            char** argv,
+            const std::function<int()>& tool) {
+  CLI::App app(what_it_does, name);
+  add_options(app);
+  return runTool(app, argc, argv, tool);
 }
 
 }  // namespace ergotic::tools

@@ -6,11 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "ergotic/physics/options.hpp"
 #include "ergotic/physics/rates.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
+
+namespace CLI {
+class App;  // its header takes seconds to compile
+}
 
 namespace ergotic::tools {
 
@@ -40,6 +42,10 @@ struct CompileChoice {
 
 void addOptions(CLI::App& app, CompileChoice& choice);
 
+void addTargetOption(CLI::App& app, std::string& target, const std::string& help);
+
+void addEndEffectorsOption(CLI::App& app, std::string& file);
+
 /// Splits NAME=TEXT. \throws CLI::ValidationError if there is no name or no text
 std::pair<std::string, std::string> splitAssignment(const std::string& text);
 
@@ -62,7 +68,27 @@ std::string toString(const physics::CompileOptions& options);
 /// What a reader should know about a scene in samples of another rate; empty if there is nothing.
 std::string conversionNote(const scene::Scene& scene, const physics::Rates& rates);
 
-/// Parses the command line and runs `tool`; errors go to stderr. \return the exit code
+/// Parses a command line and runs `tool`; errors go to stderr. \return the exit code
 int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& tool);
+
+/// The same of a tool of which no more is known than its name, what it does and what adds options.
+int runTool(const std::string& name,
+            const std::string& what_it_does,
+            const std::function<void(CLI::App&)>& add_options,
+            int argc,
+            char** argv,
+            const std::function<int()>& tool);
+
+/// The same of a tool whose options are known to `addOptions`.
+template <class Options>
+int runTool(const std::string& name,
+            const std::string& what_it_does,
+            int argc,
+            char** argv,
+            int (*tool)(const Options&)) {
+  Options options;
+  const auto add = [&options](CLI::App& app) { addOptions(app, options); };
+  return runTool(name, what_it_does, add, argc, argv, [&] { return tool(options); });
+}
 
 }  // namespace ergotic::tools

@@ -10,6 +10,8 @@
 #include <iterator>
 #include <sstream>
 
+#include <CLI/CLI.hpp>
+
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/build_id.hpp"
 #include "ergotic/rt/thread.hpp"

@@ -48,11 +48,6 @@ Report adviceReport(const Advice& advice, physics::Target::Unit unit) {
 
 }  // namespace
 
-void addTargetOption(CLI::App& app, std::string& target, const std::string& help) {
-  app.add_option("--target", target, help + ", such as \"1 cent\", \"0.1 dB\" or \"0.5 %\"")
-      ->type_name("ACCURACY");
-}
-
 physics::Freedom freedomOf(const SceneOptions& options, const CompileChoice& compile) {
   physics::Freedom freedom;
   freedom.audio_rate = options.rate_hz == 0.0;

@@ -10,8 +10,6 @@
 
 namespace ergotic::tools {
 
-void addTargetOption(CLI::App& app, std::string& target, const std::string& help);
-
 /// What the command line leaves open: rates and precision that it names are kept.
 physics::Freedom freedomOf(const SceneOptions& options, const CompileChoice& compile);
 

@@ -19,7 +19,7 @@ FORBIDDEN = [
     ("physics/network", "src/physics/network/chaplet.cpp", '"physics/settling/filters.hpp"'),
     ("physics/layout/blocks", "src/physics/layout/blocks/blocks.cpp", '"physics/state/arena.hpp"'),
     ("physics/layout", "src/physics/layout/groups.cpp", '"physics/state/coefficients.hpp"'),
-    ("physics/state", "src/physics/state/coefficients.cpp", '"physics/engine/engine.hpp"'),
+    ("physics/state", "src/physics/state/coefficients.cpp", '"physics/engine/mechanism.hpp"'),
     ("physics/engine", "src/physics/engine/guarded.cpp",
      '"ergotic/physics/certificate/certify.hpp"'),
     ("physics/certificate", "src/physics/certificate/certify.cpp", '"physics/settling/filters.hpp"'),

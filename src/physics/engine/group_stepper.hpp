@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "physics/engine/engine.hpp"
+#include "physics/engine/mechanism.hpp"
 
 namespace ergotic::physics {
 
@@ -44,26 +44,26 @@ void emptyProxies(const Group& group, State<Real>& state) noexcept {
 template <class Real>
 class GroupStepper {
  public:
-  GroupStepper(const Rates& rates, Engine<Real>& engine)
-      : engine_(engine),
+  GroupStepper(const Rates& rates, Mechanism<Real>& mechanism)
+      : mechanism_(mechanism),
         rates_(rates),
-        channels_in_(static_cast<std::size_t>(engine.scene->inputChannels())),
-        followed_(engine.layout.followers.empty() ? scene::Scene{} : *engine.scene) {}
+        channels_in_(static_cast<std::size_t>(mechanism.scene->inputChannels())),
+        followed_(mechanism.layout.followers.empty() ? scene::Scene{} : *mechanism.scene) {}
 
   /// All of a tick for the blocks that nothing else acts on meanwhile.
   void advanceLoneBlocks(const Group& group, const Frames& tick) noexcept {
     for (const LoneBlock& lone : group.lone) {
-      const int section = engine_.layout.blocks[lone.block].section;
-      const int divisor = engine_.layout.sections[static_cast<std::size_t>(section)].divisor;
+      const int section = mechanism_.layout.blocks[lone.block].section;
+      const int divisor = mechanism_.layout.sections[static_cast<std::size_t>(section)].divisor;
       // Divisors of sections that run divide the frames of a tick.
-      const double lost = engine_.stepper.advance(
-          lone.block, tick.count / divisor, *engine_.coefficients, engine_.state,
+      const double lost = mechanism_.stepper.advance(
+          lone.block, tick.count / divisor, *mechanism_.coefficients, mechanism_.state,
           [&](int step, int first, int last) noexcept {
             for (int r = step * divisor; r < (step + 1) * divisor; ++r) {
               hearLoneBlock(lone, tick.first + r, first, last, outputsOf(group, tick, r));
             }
           });
-      engine_.meter.addDissipated(section, lost, engine_.state);
+      mechanism_.meter.addDissipated(section, lost, mechanism_.state);
     }
   }
 
@@ -74,13 +74,14 @@ class GroupStepper {
     feedPositions(group, frames);
     gatherPoints(group, frames.first);
     for (int k = 0; k < frames.count; ++k) {
-      engine_.taps.takePositions(group, *engine_.coefficients, engine_.state,
-                                 outputsOf(group, frames, k));
+      mechanism_.taps.takePositions(group, *mechanism_.coefficients, mechanism_.state,
+                                    outputsOf(group, frames, k));
     }
     for (const std::size_t r : group.runs) {
-      const LinkRun& run = engine_.layout.runs[r];
-      if (engine_.layout.isDue(run.section, frames.first) && !isAsleep(run)) {
-        engine_.stepper.stepLinks(r, engine_.coefficients->runs[r], frames.first, engine_.state);
+      const LinkRun& run = mechanism_.layout.runs[r];
+      if (mechanism_.layout.isDue(run.section, frames.first) && !isAsleep(run)) {
+        mechanism_.stepper.stepLinks(r, mechanism_.coefficients->runs[r], frames.first,
+                                     mechanism_.state);
       }
     }
   }
@@ -88,24 +89,26 @@ class GroupStepper {
   /// Inputs and guarded links give theirs, forces are heard and booked.
   /// \pre those of all other groups on this one are there
   void end(const Group& group, const Frames& frames) noexcept {
-    State<Real>& state = engine_.state;
+    State<Real>& state = mechanism_.state;
     const std::int64_t last = frames.first + frames.count - 1;
     for (int k = 0; k < frames.count; ++k) {
       feedForces(group, inputsOf(frames, k));
     }
-    engine_.points.scatter(group, state.f(), state.places());
-    engine_.guarded.step(group, frames.first, last, *engine_.coefficients, engine_.stepper, state);
-    engine_.meter.endFrame(group, last, state);
+    mechanism_.points.scatter(group, state.f(), state.places());
+    mechanism_.guarded.step(group, frames.first, last, *mechanism_.coefficients, mechanism_.stepper,
+                            state);
+    mechanism_.meter.endFrame(group, last, state);
     for (int k = 0; k < frames.count; ++k) {
-      engine_.taps.takeForces(group, *engine_.coefficients, frames.first + k, state,
-                              outputsOf(group, frames, k));
+      mechanism_.taps.takeForces(group, *mechanism_.coefficients, frames.first + k, state,
+                                 outputsOf(group, frames, k));
     }
-    engine_.sleeper.endFrames(group, frames.first, *engine_.coefficients, engine_.meter, state);
+    mechanism_.sleeper.endFrames(group, frames.first, *mechanism_.coefficients, mechanism_.meter,
+                                 state);
   }
 
   /// Something outside moves a module.
   void moveTo(int slot, Real position, bool was_there) noexcept {
-    State<Real>& state = engine_.state;
+    State<Real>& state = mechanism_.state;
     state.dLast()[slot] = state.d()[slot];
     state.d()[slot] = was_there ? Real(0) : position - state.x()[slot];
     state.x()[slot] = position;
@@ -123,17 +126,17 @@ class GroupStepper {
       const LoneBlock& lone, std::int64_t now, int first, int last, double* out) noexcept {
     for (std::size_t i = 0; i < lone.taps.size(); ++i) {
       const std::size_t k = lone.taps[i];
-      const int slot = engine_.taps.slotOf(k);
+      const int slot = mechanism_.taps.slotOf(k);
       if (slot >= first && slot < last) {
         out[lone.tap_columns[i]] +=
-            engine_.taps.position(k, *engine_.coefficients, engine_.state) +
-            engine_.taps.force(k, *engine_.coefficients, now, engine_.state);
+            mechanism_.taps.position(k, *mechanism_.coefficients, mechanism_.state) +
+            mechanism_.taps.force(k, *mechanism_.coefficients, now, mechanism_.state);
       }
     }
   }
 
   bool isAsleep(const LinkRun& run) const noexcept {
-    return run.section_a == run.section_b && engine_.state.asleep()[run.section_a] != 0;
+    return run.section_a == run.section_b && mechanism_.state.asleep()[run.section_a] != 0;
   }
 
   /// What follows an audio input gets its coefficients of this frame.
@@ -145,26 +148,27 @@ class GroupStepper {
       parameter.value = in[parameter.channel];
     }
     for (const std::size_t k : group.followers) {
-      engine_.coefficients->follow(followed_, rates_, engine_.layout, engine_.layout.followers[k]);
+      mechanism_.coefficients->follow(followed_, rates_, mechanism_.layout,
+                                      mechanism_.layout.followers[k]);
     }
   }
 
   void moveModules(const Group& group, std::int64_t now) noexcept {
-    State<Real>& state = engine_.state;
+    State<Real>& state = mechanism_.state;
     for (const int section : group.sections) {
-      if (engine_.layout.isDue(section, now) && state.asleep()[section] == 0) {
-        const double lost = engine_.stepper.moveMasses(section, *engine_.coefficients, state);
-        engine_.meter.addDissipated(section, lost, state);
+      if (mechanism_.layout.isDue(section, now) && state.asleep()[section] == 0) {
+        const double lost = mechanism_.stepper.moveMasses(section, *mechanism_.coefficients, state);
+        mechanism_.meter.addDissipated(section, lost, state);
       }
     }
   }
 
   void feedPositions(const Group& group, const Frames& frames) noexcept {
     for (const std::size_t k : group.feeds) {
-      const Feed& feed = engine_.layout.feeds[k];
+      const Feed& feed = mechanism_.layout.feeds[k];
       if (feed.quantity == scene::Quantity::kPosition &&
-          engine_.layout.isDue(feed.section, frames.first)) {
-        const double gain = static_cast<double>(engine_.coefficients->feed_gains[k]);
+          mechanism_.layout.isDue(feed.section, frames.first)) {
+        const double gain = static_cast<double>(mechanism_.coefficients->feed_gains[k]);
         const double position = gain * frames.inputs[feed.channel] - feed.rest;
         moveTo(feed.slot, static_cast<Real>(position), false);
       }
@@ -173,32 +177,32 @@ class GroupStepper {
 
   void feedForces(const Group& group, const double* in) noexcept {
     for (const std::size_t k : group.feeds) {
-      const Feed& feed = engine_.layout.feeds[k];
+      const Feed& feed = mechanism_.layout.feeds[k];
       if (feed.quantity == scene::Quantity::kForce) {
-        const Real force = engine_.coefficients->feed_gains[k] *
+        const Real force = mechanism_.coefficients->feed_gains[k] *
                            static_cast<Real>(in[feed.channel]) * static_cast<Real>(feed.share);
-        engine_.state.f()[feed.slot] += force;
-        engine_.meter.addFeed(k, force, engine_.state);
+        mechanism_.state.f()[feed.slot] += force;
+        mechanism_.meter.addFeed(k, force, mechanism_.state);
       }
     }
   }
 
   void gatherPoints(const Group& group, std::int64_t now) noexcept {
-    State<Real>& state = engine_.state;
-    if (!engine_.layout.places.empty()) {
+    State<Real>& state = mechanism_.state;
+    if (!mechanism_.layout.places.empty()) {
       for (const int section : group.sections) {
-        const SectionRange& range = engine_.layout.sections[static_cast<std::size_t>(section)];
-        if (engine_.layout.isDue(section, now)) {
+        const SectionRange& range = mechanism_.layout.sections[static_cast<std::size_t>(section)];
+        if (mechanism_.layout.isDue(section, now)) {
           std::copy_n(state.d() + range.first, range.dimensions * range.stride,
                       state.moved() + range.first);
         }
       }
     }
-    engine_.points.gather(group, *engine_.coefficients, now, state);
-    engine_.points.clearForces(group, state.f());
+    mechanism_.points.gather(group, *mechanism_.coefficients, now, state);
+    mechanism_.points.clearForces(group, state.f());
   }
 
-  Engine<Real>& engine_;
+  Mechanism<Real>& mechanism_;
   const Rates rates_;
   const std::size_t channels_in_;
   scene::Scene followed_;  // where audio parameters have their present samples

@@ -18,36 +18,38 @@ std::size_t at(int i) {
 /// Modules start where the scene says, with the velocity that it says.
 /// \param first_forces  N, by module of the scene
 template <class Real>
-void placeInitialState(const Rates& rates, const FirstForces& first_forces, Engine<Real>& engine) {
-  const scene::Scene& scene = *engine.scene;
-  for (std::size_t s = 0; s < engine.layout.sections.size(); ++s) {
-    const SectionRange& range = engine.layout.sections[s];
+void placeInitialState(const Rates& rates,
+                       const FirstForces& first_forces,
+                       Mechanism<Real>& mechanism) {
+  const scene::Scene& scene = *mechanism.scene;
+  for (std::size_t s = 0; s < mechanism.layout.sections.size(); ++s) {
+    const SectionRange& range = mechanism.layout.sections[s];
     const StepUnits units(scene, rates, range.divisor);
     for (int slot = range.first; slot < range.end; ++slot) {
-      if (engine.layout.mat_of_slot[at(slot)] < 0) {
+      if (mechanism.layout.mat_of_slot[at(slot)] < 0) {
         continue;
       }
-      const scene::Mat& mat = scene.mats[at(engine.layout.mat_of_slot[at(slot)])];
+      const scene::Mat& mat = scene.mats[at(mechanism.layout.mat_of_slot[at(slot)])];
       for (int k = 0; k < range.dimensions; ++k) {
         const int here = slot + k * range.stride;
-        engine.state.x()[here] = static_cast<Real>(mat.position[k] - mat.rest[k]);
+        mechanism.state.x()[here] = static_cast<Real>(mat.position[k] - mat.rest[k]);
         if (slot < range.fixed && mat.type != scene::MatType::kGround) {
-          engine.state.d()[here] = static_cast<Real>(units.velocity(mat.push->velocity[k]));
+          mechanism.state.d()[here] = static_cast<Real>(units.velocity(mat.push->velocity[k]));
         }
       }
     }
   }
   for (const auto& [mat, force] : first_forces) {
-    engine.state.f()[engine.layout.slot_of_mat[at(mat)]] = static_cast<Real>(force);
+    mechanism.state.f()[mechanism.layout.slot_of_mat[at(mat)]] = static_cast<Real>(force);
   }
-  engine.points.placeAtStart(*engine.coefficients, engine.state.x(), engine.state.d(),
-                             engine.state.places());
-  for (const Group& group : engine.groups.running) {
-    fillProxies(group, engine.state);
+  mechanism.points.placeAtStart(*mechanism.coefficients, mechanism.state.x(), mechanism.state.d(),
+                                mechanism.state.places());
+  for (const Group& group : mechanism.groups.running) {
+    fillProxies(group, mechanism.state);
   }
-  for (std::size_t r = 0; engine.state.isMetered() && r < engine.layout.runs.size(); ++r) {
-    if (remembers(engine.layout.runs[r]) && !engine.layout.runs[r].guarded) {
-      engine.stepper.storeAtStart(r, engine.coefficients->runs[r], engine.state);
+  for (std::size_t r = 0; mechanism.state.isMetered() && r < mechanism.layout.runs.size(); ++r) {
+    if (remembers(mechanism.layout.runs[r]) && !mechanism.layout.runs[r].guarded) {
+      mechanism.stepper.storeAtStart(r, mechanism.coefficients->runs[r], mechanism.state);
     }
   }
 }
@@ -65,14 +67,15 @@ std::unique_ptr<Instrument> compileFor(std::shared_ptr<const scene::Scene> writt
   Groups groups = makeGroups(*played, rates, layout);
   auto coefficients = std::make_unique<CoefficientsOf<Real>>(*played, rates, layout);
   State<Real> state(layout, options.metered);
-  auto engine =
-      std::make_unique<Engine<Real>>(played, options, std::move(layout), std::move(groups),
-                                     std::move(coefficients), std::move(state));
-  placeInitialState(rates, modal ? modal->first_forces : FirstForces{}, *engine);
-  Picture picture(written, played, engine->layout,
+  auto mechanism =
+      std::make_unique<Mechanism<Real>>(played, options, std::move(layout), std::move(groups),
+                                        std::move(coefficients), std::move(state));
+  placeInitialState(rates, modal ? modal->first_forces : FirstForces{}, *mechanism);
+  Picture picture(written, played, mechanism->layout,
                   modal ? std::optional(std::move(modal->as_written)) : std::nullopt);
-  return std::make_unique<InstrumentOf<Real>>(std::move(written), rates, options, std::move(engine),
-                                              std::move(picture), std::move(notes));
+  return std::make_unique<InstrumentOf<Real>>(std::move(written), rates, options,
+                                              std::move(mechanism), std::move(picture),
+                                              std::move(notes));
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 
 #include "ergotic/physics/engine/instrument.hpp"
 #include "ergotic/rt/thread.hpp"
-#include "physics/engine/engine.hpp"
 #include "physics/engine/group_stepper.hpp"
+#include "physics/engine/mechanism.hpp"
 #include "physics/engine/picture.hpp"
 #include "physics/engine/workers.hpp"
 
@@ -28,21 +28,21 @@ class InstrumentOf final : public Instrument {
   InstrumentOf(std::shared_ptr<const scene::Scene> written,
                const Rates& rates,
                const CompileOptions& options,
-               std::unique_ptr<Engine<Real>> engine,
+               std::unique_ptr<Mechanism<Real>> mechanism,
                Picture picture,
                std::vector<std::string> notes)
       : Instrument(std::move(written), rates, options),
         notes_(std::move(notes)),
-        engine_(std::move(engine)),
+        mechanism_(std::move(mechanism)),
         picture_(std::move(picture)),
-        stepper_(rates, *engine_),
+        stepper_(rates, *mechanism_),
         inputs_(at(rates.ratio * inputChannels())),
-        heard_of_held_(heardOf(engine_->groups.held)),
-        workers_(Workers::useful(options.threads, engine_->groups.running.size()),
-                 engine_->groups.running.size(),
+        heard_of_held_(heardOf(mechanism_->groups.held)),
+        workers_(Workers::useful(options.threads, mechanism_->groups.running.size()),
+                 mechanism_->groups.running.size(),
                  options.wait_limit_ns,
                  [this](std::size_t g) { stepGroup(g); }) {
-    for (const Group& group : engine_->groups.running) {
+    for (const Group& group : mechanism_->groups.running) {
       heard_.push_back(heardOf(group));
     }
   }
@@ -67,46 +67,48 @@ class InstrumentOf final : public Instrument {
   }
 
   std::unique_ptr<Coefficients> prepare(const std::vector<double>& values) const override {
-    return std::make_unique<CoefficientsOf<Real>>(withParameters(*engine_->scene, values), rates(),
-                                                  engine_->layout);
+    return std::make_unique<CoefficientsOf<Real>>(withParameters(*mechanism_->scene, values),
+                                                  rates(), mechanism_->layout);
   }
 
   std::unique_ptr<Coefficients> exchange(std::unique_ptr<Coefficients> next) noexcept override {
     if (!finishTick()) {
       return next;
     }
-    if (!changed_ && engine_->state.frame() > 0) {
-      engine_->meter.beginChange(*engine_->coefficients, engine_->state);
+    if (!changed_ && mechanism_->state.frame() > 0) {
+      mechanism_->meter.beginChange(*mechanism_->coefficients, mechanism_->state);
       changed_ = true;
     }
     auto* mine = static_cast<CoefficientsOf<Real>*>(next.release());
-    if (engine_->state.frame() > 0) {
-      engine_->guarded.retune(*engine_->coefficients, *mine, engine_->state);
+    if (mechanism_->state.frame() > 0) {
+      mechanism_->guarded.retune(*mechanism_->coefficients, *mine, mechanism_->state);
     }
-    std::unique_ptr<Coefficients> old = std::move(engine_->coefficients);
-    engine_->coefficients.reset(mine);
+    std::unique_ptr<Coefficients> old = std::move(mechanism_->coefficients);
+    mechanism_->coefficients.reset(mine);
     return old;
   }
 
-  std::size_t stateSize() const noexcept override { return engine_->state.arena().size(); }
-  std::vector<StateEntry> stateEntries() const override { return engine_->state.arena().entries(); }
-  void saveState(void* to) const noexcept override { engine_->state.arena().save(to); }
-  void loadState(const void* from) noexcept override { engine_->state.arena().load(from); }
+  std::size_t stateSize() const noexcept override { return mechanism_->state.arena().size(); }
+  std::vector<StateEntry> stateEntries() const override {
+    return mechanism_->state.arena().entries();
+  }
+  void saveState(void* to) const noexcept override { mechanism_->state.arena().save(to); }
+  void loadState(const void* from) noexcept override { mechanism_->state.arena().load(from); }
 
   void readDisplacements(float* to) const noexcept override {
     if (!is_under_way_) {
-      picture_.read(engine_->state.x(), to);
+      picture_.read(mechanism_->state.x(), to);
     }
   }
 
-  Energies makeEnergies() const override { return engine_->meter.make(); }
+  Energies makeEnergies() const override { return mechanism_->meter.make(); }
   void readEnergies(Energies& to) const noexcept override {
     if (!is_under_way_) {
-      engine_->meter.read(*engine_->coefficients, engine_->state, to);
+      mechanism_->meter.read(*mechanism_->coefficients, mechanism_->state, to);
     }
   }
   std::vector<GuardReport> makeGuardReports() const override {
-    std::vector<GuardReport> reports = engine_->guarded.makeReports();
+    std::vector<GuardReport> reports = mechanism_->guarded.makeReports();
     for (GuardReport& report : reports) {
       report.lia = picture_.liaAsWritten(report.lia);
     }
@@ -114,7 +116,7 @@ class InstrumentOf final : public Instrument {
   }
   void readGuards(std::vector<GuardReport>& to) const noexcept override {
     if (!is_under_way_) {
-      engine_->guarded.read(engine_->state, to);
+      mechanism_->guarded.read(mechanism_->state, to);
     }
   }
 
@@ -122,10 +124,10 @@ class InstrumentOf final : public Instrument {
 
   std::vector<std::string> describe() const override {
     std::vector<std::string> lines = notes_;
-    const std::vector<std::string> stepped = engine_->stepper.describe(scene());
+    const std::vector<std::string> stepped = mechanism_->stepper.describe(scene());
     lines.insert(lines.end(), stepped.begin(), stepped.end());
     const std::vector<std::string> groups =
-        describeGroups(scene(), engine_->groups, workers_.threads());
+        describeGroups(scene(), mechanism_->groups, workers_.threads());
     lines.insert(lines.end(), groups.begin(), groups.end());
     return lines;
   }
@@ -134,9 +136,9 @@ class InstrumentOf final : public Instrument {
   bool isUnderWay() const noexcept override { return is_under_way_; }
 
   bool isFinite() const noexcept override {
-    const Real* x = engine_->state.x();
+    const Real* x = mechanism_->state.x();
     return is_under_way_ ||
-           std::all_of(x, x + engine_->layout.slots(), [](Real v) { return std::isfinite(v); });
+           std::all_of(x, x + mechanism_->layout.slots(), [](Real v) { return std::isfinite(v); });
   }
 
  private:
@@ -144,39 +146,40 @@ class InstrumentOf final : public Instrument {
 
   /// Slices move at the start of a tick; a slice at 0 has its module at rest.
   void takeSlices(const double* positions) noexcept {
-    const bool is_first_tick = engine_->state.frame() == 0;
-    for (std::size_t p = 0; p < engine_->layout.port_slots.size(); ++p) {
+    const bool is_first_tick = mechanism_->state.frame() == 0;
+    for (std::size_t p = 0; p < mechanism_->layout.port_slots.size(); ++p) {
       // Before the first tick nothing is known of the hand: it did not jump, it was there.
-      stepper_.moveTo(engine_->layout.port_slots[p], static_cast<Real>(positions[p]),
+      stepper_.moveTo(mechanism_->layout.port_slots[p], static_cast<Real>(positions[p]),
                       is_first_tick);
     }
   }
 
   void giveForces(double* forces) noexcept {
     const double newton = 1.0 / (scene().time_unit_s * scene().time_unit_s);
-    for (std::size_t p = 0; p < engine_->layout.port_slots.size(); ++p) {
-      forces[p] = newton * static_cast<double>(engine_->state.f()[engine_->layout.port_slots[p]]);
+    for (std::size_t p = 0; p < mechanism_->layout.port_slots.size(); ++p) {
+      forces[p] =
+          newton * static_cast<double>(mechanism_->state.f()[mechanism_->layout.port_slots[p]]);
     }
   }
 
   /// All frames of the tick.
   Frames tickOf(std::vector<double>& heard) noexcept {
     std::fill(heard.begin(), heard.end(), 0.0);
-    return {engine_->state.frame(), rates().ratio, inputs_.data(), heard.data()};
+    return {mechanism_->state.frame(), rates().ratio, inputs_.data(), heard.data()};
   }
 
   /// Held sections move, and groups see where they are for the whole tick.
   void beginTick() noexcept {
     held_frames_ = tickOf(heard_of_held_);
-    stepper_.begin(engine_->groups.held, held_frames_);
-    for (const Group& group : engine_->groups.running) {
-      fillProxies(group, engine_->state);
+    stepper_.begin(mechanism_->groups.held, held_frames_);
+    for (const Group& group : mechanism_->groups.running) {
+      fillProxies(group, mechanism_->state);
     }
   }
 
   /// All frames, one after the other. Thread: any
   void stepGroup(std::size_t g) noexcept {
-    const Group& group = engine_->groups.running[g];
+    const Group& group = mechanism_->groups.running[g];
     const Frames tick = tickOf(heard_[g]);
     stepper_.advanceLoneBlocks(group, tick);
     for (int r = 0; r < tick.count && !group.has_only_lone; ++r) {
@@ -189,17 +192,17 @@ class InstrumentOf final : public Instrument {
 
   /// Held sections get the forces of all groups, always in the same order.
   void endTick() noexcept {
-    for (const Group& group : engine_->groups.running) {
-      emptyProxies(group, engine_->state);
+    for (const Group& group : mechanism_->groups.running) {
+      emptyProxies(group, mechanism_->state);
     }
-    stepper_.end(engine_->groups.held, held_frames_);
-    const bool is_first_tick = engine_->state.frame() == 0;
-    engine_->state.frame() += rates().ratio;
+    stepper_.end(mechanism_->groups.held, held_frames_);
+    const bool is_first_tick = mechanism_->state.frame() == 0;
+    mechanism_->state.frame() += rates().ratio;
     if (is_first_tick) {
-      engine_->meter.start(*engine_->coefficients, engine_->state);
+      mechanism_->meter.start(*mechanism_->coefficients, mechanism_->state);
     }
     if (changed_) {
-      engine_->meter.endChange(*engine_->coefficients, engine_->state);
+      mechanism_->meter.endChange(*mechanism_->coefficients, mechanism_->state);
       changed_ = false;
     }
   }
@@ -221,9 +224,9 @@ class InstrumentOf final : public Instrument {
 
   void giveOutputs(double* outputs) const noexcept {
     std::fill_n(outputs, at(rates().ratio * outputChannels()), 0.0);
-    addHeard(engine_->groups.held, heard_of_held_, outputs);
+    addHeard(mechanism_->groups.held, heard_of_held_, outputs);
     for (std::size_t g = 0; g < heard_.size(); ++g) {
-      addHeard(engine_->groups.running[g], heard_[g], outputs);
+      addHeard(mechanism_->groups.running[g], heard_[g], outputs);
     }
   }
 
@@ -241,7 +244,7 @@ class InstrumentOf final : public Instrument {
   }
 
   std::vector<std::string> notes_;  // on modes
-  std::unique_ptr<Engine<Real>> engine_;
+  std::unique_ptr<Mechanism<Real>> mechanism_;
   Picture picture_;
   GroupStepper<Real> stepper_;
   std::vector<double> inputs_;              // [R][input channels]

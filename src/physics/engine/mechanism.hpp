@@ -19,13 +19,13 @@ namespace ergotic::physics {
 
 /// What ticks, in the order in which it is made: each part refers to those before it.
 template <class Real>
-struct Engine {
-  Engine(std::shared_ptr<const scene::Scene> played,
-         const CompileOptions& options,
-         Layout&& made_layout,
-         Groups&& made_groups,
-         std::unique_ptr<CoefficientsOf<Real>> made_coefficients,
-         State<Real>&& made_state)
+struct Mechanism {
+  Mechanism(std::shared_ptr<const scene::Scene> played,
+            const CompileOptions& options,
+            Layout&& made_layout,
+            Groups&& made_groups,
+            std::unique_ptr<CoefficientsOf<Real>> made_coefficients,
+            State<Real>&& made_state)
       : scene(std::move(played)),
         layout(std::move(made_layout)),
         groups(std::move(made_groups)),
@@ -39,8 +39,8 @@ struct Engine {
         sleeper(*scene, layout, *coefficients) {
     state.allocate();
   }
-  Engine(const Engine&) = delete;  // its parts refer to each other
-  Engine& operator=(const Engine&) = delete;
+  Mechanism(const Mechanism&) = delete;  // its parts refer to each other
+  Mechanism& operator=(const Mechanism&) = delete;
 
   const std::shared_ptr<const scene::Scene> scene;  ///< as it is played
   const Layout layout;

@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <random>
 
-#include "scene/generate/generators.hpp"
+#include "scene/generate/mesh.hpp"
+#include "scene/generate/string.hpp"
 
 /// What the scenes of `bench` are made of: masses of a gram at 44.1 kHz.
 namespace ergotic::tools {

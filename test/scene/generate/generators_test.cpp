@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/generate/generators.hpp"
-
 #include <cmath>
 #include <string>
 
@@ -9,6 +7,9 @@
 
 #include "ergotic/exception.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
+#include "scene/generate/chaplet.hpp"
+#include "scene/generate/mesh.hpp"
+#include "scene/generate/string.hpp"
 
 namespace ergotic::scene {
 namespace {

@@ -9,7 +9,8 @@
 #include "ergotic/exception.hpp"
 #include "ergotic/scene/grid.hpp"
 #include "scene/bad_text.hpp"
-#include "scene/generate/generators.hpp"
+#include "scene/generate/mesh.hpp"
+#include "scene/generate/string.hpp"
 
 namespace ergotic::scene {
 namespace {

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/yaml/generators/generator_keys.hpp"
+
+namespace ergotic::scene {
+
+const Section& sectionAt(const SceneBuilder& builder, int index) {
+  return builder.scene().sections[static_cast<std::size_t>(index)];
+}
+
+double readRestLengthRatio(const SceneBuilder& builder, const YamlMap& map, int section) {
+  if (sectionAt(builder, section).geometry == Geometry::kScalar) {
+    refuseIn(builder, sectionAt(builder, section), map, {"rest_length_ratio"},
+             "line, plane, space");
+  }
+  return map.number("rest_length_ratio", kFractionLimits, 0.0);
+}
+
+Scheme readScheme(const YamlMap& map, double rest_length_ratio) {
+  const bool guarded = map.has("scheme") && map.choice("scheme", {"explicit", "guarded"}) == 1;
+  if (guarded && !(rest_length_ratio > 0.0)) {
+    map.fail("scheme", "'scheme' of " + map.what() +
+                           " is guarded without a rest length, allowed: explicit, or "
+                           "'rest_length_ratio' above 0");
+  }
+  return guarded ? Scheme::kGuarded : Scheme::kExplicit;
+}
+
+}  // namespace ergotic::scene

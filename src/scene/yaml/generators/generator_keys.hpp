@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "scene/yaml/yaml_elements.hpp"
+
+/// Keys that several generators have.
+namespace ergotic::scene {
+
+const Section& sectionAt(const SceneBuilder& builder, int index);
+
+/// 0 in scalar sections, where the key is refused.
+double readRestLengthRatio(const SceneBuilder& builder, const YamlMap& map, int section);
+
+/// Of links with a rest length; without one there is nothing to guard.
+Scheme readScheme(const YamlMap& map, double rest_length_ratio);
+
+}  // namespace ergotic::scene

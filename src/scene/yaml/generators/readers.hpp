@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "scene/yaml/yaml_elements.hpp"
+
+namespace ergotic::scene {
+
+/// Reads one generator and adds what it makes. \throws TextError with the place of what is wrong
+void readString(SceneBuilder& builder, const std::string& name, const YamlMap& map);
+void readMesh(SceneBuilder& builder, const std::string& name, const YamlMap& map);
+void readChaplet(SceneBuilder& builder, const std::string& name, const YamlMap& map);
+
+}  // namespace ergotic::scene

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ergotic/scene/coarse_string.hpp"
+#include "scene/generate/string.hpp"
+
+#include "scene/yaml/generators/generator_keys.hpp"
+#include "scene/yaml/generators/readers.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+/// What a string's own tension leaves of a link's stiffness across the string.
+double transverseShare(const SceneBuilder& builder, const YamlMap& map, const StringSpec& spec) {
+  if (dimensionsOf(sectionAt(builder, spec.section).geometry) == 1) {
+    return 1.0;
+  }
+  if (spec.rest_length_ratio == 1.0) {
+    map.fail("rest_length_ratio",
+             "'rest_length_ratio' of " + map.what() +
+                 " = 1 leaves no tension for 'frequency', allowed: below 1, or 'stiffness'");
+  }
+  return 1.0 - spec.rest_length_ratio;
+}
+
+Value readStringStiffness(const SceneBuilder& builder, const YamlMap& map, const StringSpec& spec) {
+  if (map.has("stiffness") == map.has("frequency")) {
+    builder.fail(map.has("stiffness") ? map.keyPlaceAt("stiffness") : map.place(),
+                 map.what() + " has " + (map.has("stiffness") ? "both" : "neither") +
+                     " 'stiffness' and 'frequency', allowed: exactly one of them");
+  }
+  if (map.has("stiffness")) {
+    return map.value("stiffness", kStiffnessLimits);
+  }
+  const double frequency_hz = map.number("frequency", kFrequencyLimits);
+  return 1.0 / transverseShare(builder, map, spec) *
+         stringStiffness(spec.masses, spec.mass, frequency_hz);
+}
+
+/// The frequency of a coarse string, 0 of an ordinary one.
+double readCoarse(const SceneBuilder& builder, const YamlMap& map, const StringSpec& spec) {
+  if (!map.flag("coarse", false)) {
+    return 0.0;
+  }
+  const Section& section = sectionAt(builder, spec.section);
+  if (section.geometry != Geometry::kScalar) {
+    refuseIn(builder, section, map, {"coarse"}, "scalar");
+  }
+  if (!map.has("frequency")) {
+    builder.fail(map.keyPlaceAt("stiffness"), "'stiffness' of " + map.what() +
+                                                  " is fitted for a coarse string, allowed: "
+                                                  "'frequency'");
+  }
+  if (spec.masses < kFewestCoarseMasses) {
+    map.fail("masses", outOfRange("'masses' of coarse " + map.what(), spec.masses,
+                                  {"", kFewestCoarseMasses, kMaxMats - 2}));
+  }
+  return map.number("frequency", kFrequencyLimits);
+}
+
+void readStringPlaces(const SceneBuilder& builder, const YamlMap& map, StringSpec& spec) {
+  const Section& section = sectionAt(builder, spec.section);
+  map.at("to");
+  spec.from = readRest(section, map, "from");
+  spec.to = readRest(section, map, "to");
+  const int moving = dimensionsOf(section.geometry);
+  if (section.geometry != Geometry::kScalar && spec.from.head(moving) == spec.to.head(moving)) {
+    map.fail("to", "'to' of " + map.what() + " is where it comes from, allowed in section " +
+                       quoted(section.name) + ": another place");
+  }
+}
+
+}  // namespace
+
+void readString(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
+  map.allow({"type", "name", "section", "masses", "mass", "stiffness", "frequency", "coarse",
+             "damping", "loss", "rest_length_ratio", "scheme", "from", "to", "pluck"});
+  StringSpec spec;
+  spec.name = name;
+  spec.place = map.placeAt("name");
+  spec.section = sectionOf(builder, map);
+  spec.masses = map.integer("masses", {"", 1.0, kMaxMats - 2});
+  spec.mass = map.value("mass", kMassLimits);
+  spec.rest_length_ratio = readRestLengthRatio(builder, map, spec.section);
+  spec.scheme = readScheme(map, spec.rest_length_ratio);
+  spec.stiffness = readStringStiffness(builder, map, spec);
+  spec.corrected_hz = readCoarse(builder, map, spec);
+  spec.damping = map.value("damping", kDampingLimits, {});
+  if (map.has("loss")) {
+    spec.loss = map.value("loss", kDampingLimits);
+  }
+  readStringPlaces(builder, map, spec);
+  if (map.has("pluck")) {
+    const YamlMap pluck = map.map("pluck");
+    pluck.allow({"at", "height"});
+    spec.pluck = Eigen::Vector2d(pluck.number("at", kInnerFractionLimits),
+                                 pluck.number("height", kMetreLimits));
+  }
+  addString(builder, spec);
+}
+
+}  // namespace ergotic::scene

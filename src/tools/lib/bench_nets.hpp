@@ -4,8 +4,7 @@
 #include <cstdint>
 #include <random>
 
-#include "scene/generate/mesh.hpp"
-#include "scene/generate/string.hpp"
+#include "scene/generate/scene_builder.hpp"
 
 /// What the scenes of `bench` are made of: masses of a gram at 44.1 kHz.
 namespace ergotic::tools {

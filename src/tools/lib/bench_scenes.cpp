@@ -6,6 +6,8 @@
 
 #include "ergotic/exception.hpp"
 #include "ergotic/physics/settling/settle.hpp"
+#include "scene/generate/mesh.hpp"
+#include "scene/generate/string.hpp"
 #include "tools/lib/bench_nets.hpp"
 
 namespace ergotic::tools {

@@ -7,8 +7,6 @@
 
 #include "ergotic/exception.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
-#include "scene/generate/chaplet.hpp"
-#include "scene/generate/mesh.hpp"
 #include "scene/generate/string.hpp"
 
 namespace ergotic::scene {

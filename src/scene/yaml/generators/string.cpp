@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ergotic/scene/coarse_string.hpp"
 #include "scene/generate/string.hpp"
 
+#include "ergotic/scene/coarse_string.hpp"
 #include "scene/yaml/generators/generator_keys.hpp"
 #include "scene/yaml/generators/readers.hpp"
 

@@ -23,7 +23,7 @@ ROOMS = {
     "physics/state": "exception scene physics physics/laws physics/layout physics/layout/blocks",
     "physics/kernels": "rt scene physics physics/laws physics/layout physics/layout/blocks"
                        " physics/state",
-    "physics/engine": "exception rt scene physics physics/laws physics/network physics/modes"
+    "physics/engine": "exception rt scene physics physics/laws physics/modes"
                       " physics/layout physics/layout/blocks physics/state physics/kernels",
     "physics/certificate": "exception scene physics physics/laws physics/layout physics/network"
                            " physics/engine",
@@ -42,7 +42,7 @@ ROOMS = {
     "ros/conversation": "exception rt scene scene/text physics/engine tgr station audio ros/device"
                         " ros/display",
     "ros": "ros/device ros/display ros/conversation",
-    "tools/lib": "exception rt scene scene/generate scene/text physics physics/network physics/engine"
+    "tools/lib": "exception rt scene scene/generate scene/text physics physics/engine"
                  " physics/certificate physics/settling advice tgr station audio bag",
     "tools": "exception rt tgr audio tgr/drivers/jack tools/lib",
 }

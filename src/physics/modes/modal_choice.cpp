@@ -30,10 +30,10 @@ std::size_t at(int i) {
 }
 
 /// True if most links join modules that lie equally far apart in the list.
-bool isRegular(const scene::Scene& scene, const LinearPart& part) {
+bool isRegular(const Network& network, const LinearPart& part) {
   std::map<int, std::size_t> links_at;
   for (const int l : part.lias) {
-    ++links_at[std::abs(scene.lias[at(l)].a - scene.lias[at(l)].b)];
+    ++links_at[std::abs(network.links[at(l)].a - network.links[at(l)].b)];
   }
   std::vector<std::size_t> counts;
   for (const auto& [offset, count] : links_at) {
@@ -47,23 +47,23 @@ bool isRegular(const scene::Scene& scene, const LinearPart& part) {
   return static_cast<double>(covered) >= kRegularShare * static_cast<double>(part.lias.size());
 }
 
-bool isEqual(const scene::Scene& scene, const LinearPart& part) {
-  const double mass = scene.valueOf(scene.mats[at(part.mats.front())].mass);
+bool isEqual(const Network& network, const LinearPart& part) {
+  const double mass = network.nodes[at(part.mats.front())].mass.now;
   const auto isMass = [&](int m) {
-    return std::abs(scene.valueOf(scene.mats[at(m)].mass) - mass) <= kEqualShare * mass;
+    return std::abs(network.nodes[at(m)].mass.now - mass) <= kEqualShare * mass;
   };
   std::map<double, std::size_t> stiffnesses;
   for (const int l : part.lias) {
-    ++stiffnesses[scene.lias[at(l)].stiffness.factor];
+    ++stiffnesses[network.links[at(l)].at_rest];
   }
   return stiffnesses.size() <= kOffsets && std::all_of(part.mats.begin(), part.mats.end(), isMass);
 }
 
-double networkNs(const scene::Scene& scene, const LinearPart& part) {
-  if (!isRegular(scene, part)) {
+double networkNs(const Network& network, const LinearPart& part) {
+  if (!isRegular(network, part)) {
     return kIrregular;
   }
-  return isEqual(scene, part) ? kEqual : kRegular;
+  return isEqual(network, part) ? kEqual : kRegular;
 }
 
 /// Largest |x| after a start at x = 1 with d = 0, at most.
@@ -178,7 +178,7 @@ ModalError errorOf(const ModalPart& part, const std::vector<int>& dropped, doubl
 
 }  // namespace
 
-ModalCost predictCost(const scene::Scene& scene,
+ModalCost predictCost(const Network& network,
                       const std::vector<LinearPart>& parts,
                       const std::vector<int>& points) {
   ModalCost cost;
@@ -187,7 +187,7 @@ ModalCost predictCost(const scene::Scene& scene,
     const int modules = modes + static_cast<int>(parts[p].lias.size());
     cost.modules += modules;
     cost.modes += modes;
-    cost.network_ns += modules * networkNs(scene, parts[p]);
+    cost.network_ns += modules * networkNs(network, parts[p]);
     cost.modal_ns += modes * kMode + points[p] * (modes * kModePlace + kPlace);
   }
   return cost;

@@ -19,7 +19,7 @@ struct ModalCost {
   double modal_ns = 0.0;
 };
 /// \param points  [parts] places of the part that are touched
-ModalCost predictCost(const scene::Scene& scene,
+ModalCost predictCost(const Network& network,
                       const std::vector<LinearPart>& parts,
                       const std::vector<int>& points);
 

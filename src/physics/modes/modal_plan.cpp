@@ -342,7 +342,7 @@ bool planModes(const Network& network,
   if (const std::optional<Offence> offence = planner.findParts()) {
     return refuse(*offence);
   }
-  ModalCost cost = predictCost(scene, plan.linear.parts, planner.touchesOfParts());
+  ModalCost cost = predictCost(network, plan.linear.parts, planner.touchesOfParts());
   if (is_free_to_choose && !(cost.modal_ns < cost.network_ns)) {
     notes.push_back(noteAt(scene, section.place) + who + "stays a network: by " +
                     std::to_string(cost.modes) + " modes, touched at " +

@@ -28,7 +28,7 @@ struct Network {
   /// A module or point; forces move the free ones.
   struct Node {
     int section = 0;
-    bool is_free = false;     ///< a mass or a cell; the rest is about these
+    bool is_free = false;     ///< a mass or a cell; only these have what follows
     bool is_matched = false;  ///< its coefficients are those of the continuous oscillator
     Varying mass;
     Varying stiffness;  ///< to the ground

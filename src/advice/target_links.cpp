@@ -9,13 +9,13 @@
 #include "ergotic/advice/accuracy.hpp"
 #include "ergotic/scene/generate/chaplet.hpp"
 #include "physics/certificate/explicit_limits.hpp"
-#include "physics/laws/slopes.hpp"
 #include "physics/network/linear_network.hpp"
+#include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
 namespace {
 
-using scene::LiaType;
+using scene::FrictionSlopes;
 using scene::MatType;
 using scene::Scheme;
 
@@ -287,11 +287,6 @@ double bowedPitchHz(const scene::Scene& scene, Networks& networks, const scene::
   return 0.0;
 }
 
-bool isContact(LiaType type) {
-  return type == LiaType::kContact || type == LiaType::kPowerContact ||
-         type == LiaType::kCubicContact;
-}
-
 /// Adds what a link has at stake.
 class Finder {
  public:
@@ -303,10 +298,10 @@ class Finder {
 
   void add(int index) {
     const scene::Lia& lia = scene_.lias[at(index)];
-    const bool is_bow = lia.type == LiaType::kBow || lia.type == LiaType::kSmoothBow;
-    if (isContact(lia.type)) {
+    const scene::Law::Kind kind = scene::lawOf(lia.type).kind;
+    if (kind == scene::Law::Kind::kGap) {
       addContact(index, lia);
-    } else if (is_bow && unit_ != Target::Unit::kDecibels) {
+    } else if (kind == scene::Law::Kind::kFriction && unit_ != Target::Unit::kDecibels) {
       addBow(index, lia);
     }
     if (unit_ != Target::Unit::kCents) {
@@ -318,12 +313,11 @@ class Finder {
   void addContact(int index, const scene::Lia& lia) {
     const Touch touch = touchOf(scene_, networks_, index);
     const double unit = std::pow(scene_.time_unit_s, -2);
+    const double exponent = scene_.valueOf(lia.law->exponent);  // 1 of those that have none
     const double stiffness =
-        unit * (lia.type == LiaType::kPowerContact
+        unit * (scene::lawOf(lia.type).growth != nullptr
                     ? scene_.valueOf(lia.stiffness)
                     : networks_.whole().links[at(index)].slopes.stiffness.highest);
-    const double exponent =
-        lia.type == LiaType::kPowerContact ? scene_.valueOf(lia.law->exponent) : 1.0;
     if (stiffness > 0.0 && std::isfinite(touch.lightest())) {
       parts_.push_back(std::make_unique<ContactPart>(touch, stiffness, exponent, unit_));
     }
@@ -333,7 +327,7 @@ class Finder {
     const Touch touch = touchOf(scene_, networks_, index);
     const double pitch_hz = bowedPitchHz(scene_, networks_, lia);
     if (pitch_hz > 0.0) {
-      const FrictionSlopes slopes = frictionSlopesOf(scene_, lia);
+      const FrictionSlopes slopes = scene::lawOf(lia.type).friction(scene_, lia);
       const double unit = 1.0 / scene_.time_unit_s;
       parts_.push_back(std::make_unique<BowPart>(
           touch, pitch_hz, FrictionSlopes{unit * slopes.rise, unit * slopes.fall}));

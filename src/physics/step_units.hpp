@@ -3,22 +3,14 @@
 
 #include "ergotic/physics/rates.hpp"
 #include "ergotic/scene/scene.hpp"
+#include "scene/laws/units.hpp"
 
 namespace ergotic::physics {
 
-/// From the units of a scene to those of a step. Velocities inside an instrument are differences
-/// of positions over one step; forces stay in the scene's unit (kg m/time_unit^2). At 44.1 kHz an
-/// `.mdl` scene has step = 1 exactly, so its coefficients are used as written.
-struct StepUnits {
-  double step = 1.0;  ///< one step of the section, in time units of the scene
-
+/// The units of a step of sections with this divisor.
+struct StepUnits : scene::Units {
   StepUnits(const scene::Scene& scene, const Rates& rates, int divisor)
-      : step(divisor / (rates.audio_hz * scene.time_unit_s)) {}
-
-  double inverseMass(double mass) const { return step * step / mass; }
-  double damping(double z) const { return z / step; }
-  double velocity(double v) const { return v * step; }
-  double acceleration(double a) const { return a * step * step; }
+      : Units{divisor / (rates.audio_hz * scene.time_unit_s)} {}
 };
 
 }  // namespace ergotic::physics

@@ -3,8 +3,6 @@
 
 #include <limits>
 #include <string>
-#include <variant>
-#include <vector>
 
 #include "ergotic/scene/scene.hpp"
 
@@ -58,21 +56,6 @@ constexpr std::size_t kMaxTextBytes = std::size_t{64} << 20U;
 constexpr std::size_t kMaxNameBytes = 64;
 constexpr std::size_t kMaxTablePoints = 4096;            ///< of one force law
 constexpr std::size_t kMaxSceneTablePoints = 1U << 20U;  ///< of all force laws together
-
-/// A coefficient that all links have, or one that only some laws need.
-using LiaMember = std::variant<Value Lia::*, Value LiaLaw::*>;
-const Value& memberOf(const Lia& lia, LiaMember member);
-void setMember(Lia& lia, LiaMember member, const Value& value);
-
-/// One coefficient of a link.
-struct LiaField {
-  const char* key;  ///< in YAML
-  LiaMember member;
-  Limits limits;
-};
-
-/// Every coefficient with its range; `width` depends on the type and goes by several names.
-const std::vector<LiaField>& liaFields(LiaType type);
 
 /// `mass = -1 kg is out of range, allowed: > 0 kg`
 std::string outOfRange(const std::string& what,

@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include "ergotic/scene/lia_type.hpp"
 #include "ergotic/scene/name.hpp"
 #include "ergotic/scene/rare.hpp"
 
@@ -134,22 +135,6 @@ inline void setVelocity(Mat& mat, const Eigen::Vector3d& velocity) {
   }
 }
 
-enum class LiaType : std::uint8_t {
-  kSpringDamper,  ///< (RES, FRO, REF) f = K e + Z v
-  kContact,       ///< (BUT) f = K e + Z v while x_b - x_a < threshold, e = x_a - x_b + threshold
-  kQuadratic,     ///< f = K e + Q sgn(e) e^2 + Z v
-  kCubic,         ///< f = K e + Q e^3 + Z v
-  kClippedCubic,  ///< cubic up to the tipping point, slope K_limit beyond
-  kCubicContact,  ///< the clipped cubic law, gated like a contact
-  kPluck,         ///< plectrum, or a table force(e) when `table` is given
-  kBow,           ///< piecewise linear friction, or a table force(v) when `table` is given
-  kSmoothBow,     ///< f = 0.63 Z v exp(-4 (v/width)^2 + 0.5)
-  kPowerContact,  ///< f = K e^exponent + Z v while e > 0
-  kTable,         ///< (LNL) f = table(e) + viscous_table(v), held beyond the last points
-  kConditional,   ///< f = K e + Z v from when |e| < width until |e| > release
-};
-constexpr std::size_t kLiaTypes = 12;
-
 /// How the force of a link is worked out in time.
 enum class Scheme : std::uint8_t {
   kExplicit,  ///< CORDIS-ANIMA, from the present positions
@@ -198,8 +183,7 @@ struct Lia {
   Scheme scheme = Scheme::kExplicit;
   bool filtered = false;  ///< `settle` puts a chaplet between the slower end and this link
 };
-/// True if the link may be guarded: all but linear springs and dampers, plucks, conditional links
-/// and viscous tables.
+/// True if the link may be guarded, see `Law::unguarded`.
 bool isGuardable(const Lia& lia);
 
 /// Modules in rows and columns between which points can lie: a string is one row.

@@ -10,7 +10,6 @@ namespace ergotic::physics {
 namespace {
 
 using scene::Lia;
-using scene::LiaType;
 
 constexpr double kWarnedSwitch = 0.25;  // h^2 K (1/Ma + 1/Mb): gains a few per cent a hit
 
@@ -32,32 +31,16 @@ class LinkJudge {
     }
     judgeSignOfMoving(lia, slopes);
     noteTurning(lia, slopes);
-    switch (lia.type) {
-      case LiaType::kSpringDamper:
-        return;
-      case LiaType::kPluck:
-      case LiaType::kConditional:
-        findings_.worsen(Verdict::kBounded);
-        return;
-      case LiaType::kBow:
-      case LiaType::kSmoothBow:
-        findings_.worsen(Verdict::kBounded);
-        judgeFriction(lia);
-        return;
-      case LiaType::kQuadratic:
-      case LiaType::kCubic:
-      case LiaType::kPowerContact:
-        if (slopes.is_unbounded) {
-          judgeGrowing(lia);
-        } else if (lia.type == LiaType::kPowerContact) {
-          judgeSwitching(lia, slopes);
-        }
-        return;
-      case LiaType::kTable:
-        judgeTable(lia, slopes);
-        return;
-      default:
-        judgeSwitching(lia, slopes);
+    const scene::Law& law = scene::lawOf(lia.type);
+    if (law.friction != nullptr) {
+      judgeFriction(lia, law.friction(networks_.scene(), lia));
+    }
+    if (law.canGive(lia)) {
+      findings_.worsen(Verdict::kBounded);
+    } else if (slopes.is_unbounded) {
+      judgeGrowing(lia, law);
+    } else if (law.switches) {
+      judgeSwitching(lia, slopes);
     }
   }
 
@@ -95,8 +78,7 @@ class LinkJudge {
   }
 
   void judgeGuarded(const Lia& lia) {
-    if (lia.type == LiaType::kBow || lia.type == LiaType::kSmoothBow ||
-        (lia.type == LiaType::kTable && !isRising(lia))) {
+    if (scene::lawOf(lia.type).canGive(lia)) {
       findings_.worsen(Verdict::kBounded);
     }
     if (networks_.crossesRates(lia) && networks_.inverseMass(networks_.slowEnd(lia)) > 0.0) {
@@ -118,8 +100,7 @@ class LinkJudge {
   }
 
   /// Never a matter of the verdict: whether it is stable, the network has told.
-  void judgeFriction(const Lia& lia) {
-    const FrictionSlopes slopes = frictionSlopesOf(networks_.scene(), lia);
+  void judgeFriction(const Lia& lia, const FrictionSlopes& slopes) {
     const double unit = networks_.inverseMassStep(lia);
     const double rise = unit * slopes.rise;
     const double fall = unit * slopes.fall;
@@ -143,38 +124,29 @@ class LinkJudge {
   }
 
   /// Two-sided springs and power contacts: nothing holds at every amplitude.
-  void judgeGrowing(const Lia& lia) {
+  void judgeGrowing(const Lia& lia, const scene::Law& law) {
     const double unit = networks_.inverseMassStep2(lia);
     if (!(unit > 0.0)) {
       return;  // no force moves either end
     }
-    const double limit = lia.type == LiaType::kPowerContact ? kWarnedSwitch : NetworkBound::kLimit;
-    const double reach = elongationOf(networks_.scene(), lia, limit / unit);
-    const std::string how = lia.type == LiaType::kPowerContact
-                                ? "; it would count as soft up to an overlap of "
-                                : "; no motion can be stable beyond an elongation of ";
+    const double limit = law.switches ? kWarnedSwitch : NetworkBound::kLimit;
+    const double reach = law.growth->elongation(networks_.scene(), lia, limit / unit);
+    const std::string how = law.switches ? "; it would count as soft up to an overlap of "
+                                         : "; no motion can be stable beyond an elongation of ";
     findings_.add(Verdict::kUnproven, lia.place,
                   "the slope of link '" + lia.name +
                       "' grows with its amplitude: stable only while it moves little" + how +
                       describe(reach) + " m. Use scheme: guarded");
   }
 
-  void judgeTable(const Lia& lia, const Slopes& slopes) {
-    if (!lia.law->viscous_table.empty()) {
-      judgeFriction(lia);
-    }
-    const double kappa = slopes.stiffness.highest * networks_.inverseMassStep2(lia);
-    if (!isRising(lia) || kappa > kWarnedSwitch) {
-      findings_.worsen(Verdict::kBounded);  // what it can give is held at its ends
-    } else {
-      judgeSwitching(lia, slopes);
-    }
-  }
-
   /// A stiffness that switches pumps energy: by little if it is soft for the step.
   void judgeSwitching(const Lia& lia, const Slopes& slopes) {
     const double kappa = slopes.stiffness.highest * networks_.inverseMassStep2(lia);
     if (kappa <= kExplicitSwitch) {
+      return;
+    }
+    if (kappa > kWarnedSwitch && scene::lawOf(lia.type).is_held) {
+      findings_.worsen(Verdict::kBounded);  // what it can give is held at its ends
       return;
     }
     const std::string text =

@@ -13,19 +13,8 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-/// Links whose stiffness comes and goes.
 bool switches(const scene::Lia& lia) {
-  switch (lia.type) {
-    case LiaType::kContact:
-    case LiaType::kClippedCubic:
-    case LiaType::kCubicContact:
-    case LiaType::kPowerContact:
-    case LiaType::kTable:
-    case LiaType::kConditional:
-      return true;
-    default:
-      return false;
-  }
+  return scene::lawOf(lia.type).switches;
 }
 
 void setParameters(scene::Scene& scene, double scene::Parameter::*end) {

@@ -8,6 +8,7 @@
 
 #include "ergotic/exception.hpp"
 #include "physics/layout/layout.hpp"
+#include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -20,9 +21,7 @@ constexpr double kMostSteps = 3e8;  // modules times audio frames
 constexpr double kScatter = 5e-6;   // of slopes, per period
 
 bool hasLinearPart(const scene::Lia& lia) {
-  return lia.scheme == scene::Scheme::kExplicit &&
-         (lia.type == LiaType::kSpringDamper || lia.type == LiaType::kQuadratic ||
-          lia.type == LiaType::kCubic || lia.type == LiaType::kClippedCubic);
+  return lia.scheme == scene::Scheme::kExplicit && scene::lawOf(lia.type).has_linear_part;
 }
 
 int slowestDivisor(const scene::Scene& scene, const Rates& rates) {

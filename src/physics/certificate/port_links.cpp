@@ -5,6 +5,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "scene/laws/law.hpp"
+
 namespace ergotic::physics {
 namespace {
 
@@ -84,7 +86,7 @@ double PortLinks::along(const scene::Port& port, int l) const {
 }
 
 double PortLinks::slope(int l) const {
-  return std::abs(stiffnessAt(scene_, scene_.lias[at(l)], kHandDepth));
+  return std::abs(slopesAt(scene_, scene_.lias[at(l)], kHandDepth).stiffness.highest);
 }
 
 /// One link after the other through masses that nothing else holds; what comes then is held.
@@ -110,7 +112,7 @@ PortLinks::Resistance PortLinks::sum(const scene::Port& port,
   for (const int l : links) {
     const double part = share(port, mat, l);
     sum.stiffness += part * slope(l);
-    sum.damping += part * link(l).slopes.damping.highest;
+    sum.damping += part * slopesAt(scene_, scene_.lias[at(l)], kHandDepth).damping.highest;
   }
   return sum;
 }

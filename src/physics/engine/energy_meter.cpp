@@ -159,7 +159,8 @@ double EnergyMeter<Real>::storedIn(std::size_t run,
   }
   if (!state.isMetered()) {
     const LinkRun& asked = layout_.runs[run];
-    const bool is_spring = asked.law == Law::kSpringDamper && !asked.guarded;
+    const bool is_spring =
+        scene::lawOf(asked.law).kind == scene::Law::Kind::kLinear && !asked.guarded;
     return is_spring && coupling_of_run_[run] == kInside ? springsOf(asked, c.runs[run], state)
                                                          : 0.0;
   }

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "physics/laws/guarded_force.hpp"
-#include "physics/laws/guarded_laws.hpp"
 
 namespace ergotic::physics {
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "physics/engine/sweeper.hpp"
@@ -12,7 +11,6 @@
 #include "physics/kernels/link_kernels.hpp"
 #include "physics/kernels/modal_kernels.hpp"
 #include "physics/kernels/spatial_kernels.hpp"
-#include "physics/laws/laws.hpp"
 #include "physics/layout/layout.hpp"
 #include "physics/state/coefficients.hpp"
 #include "physics/state/state.hpp"
@@ -77,8 +75,7 @@ class Stepper {
       return stepSpans(r, c, state);
     }
     const kernels::Frame<Real> at = frameOf(r, now, state);
-    visitLaw(run, c, state.engaged(r),
-             [&](const auto& law) { kernels::step(run, law, c.rests.data(), at); });
+    kernels::step(run, numbersOf(run, c, state.lawState(r)), c.rests.data(), at);
   }
 
   /// How the ends of a run count in a step that begins with frame `now`.
@@ -109,15 +106,14 @@ class Stepper {
   /// Books what remembering links hold before anything moves. Realtime: no.
   void storeAtStart(std::size_t r, const RunCoefficients<Real>& c, State<Real>& state) const {
     const LinkRun& run = layout_.runs[r];
-    std::vector<Real> engaged(run.ends.size(), Real(0));  // a trial: nothing engages by this
-    visitLaw(run, c, engaged.data(), [&](const auto& law) {
-      constexpr bool kGap = std::decay_t<decltype(law)>::kKind == laws::Kind::kGap;
-      for (std::size_t l = 0; l < run.ends.size(); ++l) {
-        const Real u = apartAtStart(run, l, c.rests, state);
-        state.work()[r].initial +=
-            kernels::storedAtStart(law, l, run.dimensions > 0 && kGap ? -u : u);
-      }
-    });
+    std::vector<Real> trial(run.ends.size(), Real(0));  // nothing changes state by this
+    const scene::Law& law = scene::lawOf(run.law);
+    const scene::RunNumbers<Real> numbers = numbersOf(run, c, trial.data());
+    const bool is_gap = run.dimensions > 0 && law.kind == scene::Law::Kind::kGap;
+    for (std::size_t l = 0; l < run.ends.size(); ++l) {
+      const Real u = apartAtStart(run, l, c.rests, state);
+      state.work()[r].initial += kernels::storedAtStart(law, numbers, l, is_gap ? -u : u);
+    }
   }
 
  private:
@@ -132,7 +128,7 @@ class Stepper {
         c.rests.data(),   state.x(),        state.d(),       state.moved(),
         state.f(),        memory.elastic,   memory.viscous};
     const auto& step =
-        run.law == Law::kContact ? spatial_kernels_.contacts : spatial_kernels_.springs;
+        run.law == scene::LiaType::kContact ? spatial_kernels_.contacts : spatial_kernels_.springs;
     const kernels::SpatialWork twice = step[run.dimensions - 1](arguments);
     if (metered_) {
       state.work()[r].stored += 0.5 * twice.elastic;
@@ -196,48 +192,15 @@ class Stepper {
     }
   }
 
-  static laws::Tables<Real> tablesOf(const TableCoefficients<Real>& c) noexcept {
+  static scene::Tables<Real> tablesOf(const TableCoefficients<Real>& c) noexcept {
     return {c.x.data(), c.cubic.data(), c.first.data(), c.count.data()};
   }
 
-  /// Calls `step(law)` with the law of a run.
-  template <class Step>
-  void visitLaw(const LinkRun& run,
-                const RunCoefficients<Real>& c,
-                Real* engaged,
-                const Step& step) const noexcept {
-    const laws::Fields<Real> fields{c.fields.data(), run.ends.size()};
-    switch (run.law) {
-      case Law::kSpringDamper:
-        return step(laws::SpringDamper<Real>{fields});
-      case Law::kContact:
-        return step(laws::Contact<Real>{fields});
-      case Law::kQuadratic:
-        return step(laws::Quadratic<Real>{fields});
-      case Law::kCubic:
-        return step(laws::Cubic<Real>{fields});
-      case Law::kClippedCubic:
-        return step(laws::ClippedCubic<Real>{fields});
-      case Law::kCubicContact:
-        return step(laws::CubicContact<Real>{{fields}});
-      case Law::kPluck:
-        return step(laws::Pluck<Real>{fields});
-      case Law::kBow:
-        return step(laws::Bow<Real>{fields});
-      case Law::kSmoothBow:
-        return step(laws::SmoothBow<Real>{fields});
-      case Law::kPluckTable:
-        return step(laws::PluckTable<Real>{fields, tablesOf(c.table)});
-      case Law::kBowTable:
-        return step(laws::BowTable<Real>{fields, tablesOf(c.table)});
-      case Law::kPowerContact:
-        return step(laws::PowerContact<Real>{fields});
-      case Law::kTable:
-        return step(
-            laws::ElasticViscousTable<Real>{fields, tablesOf(c.table), tablesOf(c.viscous_table)});
-      case Law::kConditional:
-        return step(laws::Conditional<Real>{fields, engaged});
-    }
+  static scene::RunNumbers<Real> numbersOf(const LinkRun& run,
+                                           const RunCoefficients<Real>& c,
+                                           Real* law_state) noexcept {
+    return {c.fields.data(), run.ends.size(), tablesOf(c.table), tablesOf(c.viscous_table),
+            law_state};
   }
 
   std::size_t blocks() const noexcept {

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
-#include "physics/laws/laws.hpp"
 #include "physics/layout/layout.hpp"
 #include "physics/state/link_memory.hpp"
+#include "scene/laws/law.hpp"
 
 /// What links do in one step: forces from positions, and the work they take and lose.
 /// Work over a step is d[n] (F[n-1] + F[n]) / 2, with F[n-1] remembered where it cannot be worked
 /// out from positions. Source: docs/physics.md, "Energy".
 namespace ergotic::physics::kernels {
+
+using scene::Force;
+using scene::RunNumbers;
 
 /// The instrument's arrays, and how the ends of a run count in this frame.
 template <class Real>
@@ -30,9 +34,9 @@ struct Frame {
   LinkWork* work;  ///< null: nobody asks
 };
 
-/// Plain runs: linear, scalar, inside one section.
-template <bool kMetered, class Real, class Law>
-void stepPlain(const LinkRun& run, const Law& law, const Frame<Real>& at) noexcept {
+/// Plain runs: spring-dampers, scalar, inside one section.
+template <bool kMetered, class Real>
+void stepPlain(const LinkRun& run, const RunNumbers<Real>& c, const Frame<Real>& at) noexcept {
   const LinkEnds* ends = run.ends.data();
   const std::size_t links = run.ends.size();
   const Real* x = at.x;
@@ -45,15 +49,14 @@ void stepPlain(const LinkRun& run, const Law& law, const Frame<Real>& at) noexce
     const int a = ends[l].a;
     const int b = ends[l].b;
     const Real v = d[a] - d[b];
-    const laws::Force<Real> force = law.force(l, x[a] - x[b], v);
-    const Real sum = force.elastic + force.viscous;
+    const Real sum = c(0, l) * (x[a] - x[b] + c(2, l)) + c(1, l) * v;
     f[a] -= sum;
     f[b] += sum;
     if constexpr (!kMetered) {
       return Real(0);
     }
     // The damper's last force is the damping times the last v.
-    return (moved[a] - moved[b]) * law.c(1, l) * (v + (d_last[a] - d_last[b]));
+    return (moved[a] - moved[b]) * c(1, l) * (v + (d_last[a] - d_last[b]));
   };
   Real lost[4] = {};  // four sums, as one would wait for each addition
   std::size_t l = 0;
@@ -74,11 +77,8 @@ void stepPlain(const LinkRun& run, const Law& law, const Frame<Real>& at) noexce
 /// with half of the force before it and half of that after it. Across rates a damper takes what
 /// both sides do against it: the jumps of a held end are no motion of anything.
 template <class Real>
-void addHalfWork(const LinkRun& run,
-                 Real moved_a,
-                 Real moved_b,
-                 laws::Force<Real> force,
-                 LinkWork& work) noexcept {
+void addHalfWork(
+    const LinkRun& run, Real moved_a, Real moved_b, Force<Real> force, LinkWork& work) noexcept {
   const Real sum = force.elastic + force.viscous;
   work.stored += 0.5 * static_cast<double>((moved_a - moved_b) * force.elastic);
   if (run.slow_section < 0) {
@@ -99,11 +99,11 @@ void exchangeForce(const LinkRun& run,
                    std::size_t index,
                    int a,
                    int b,
-                   laws::Force<Real> force) noexcept {
+                   Force<Real> force) noexcept {
   const LinkMemory<Real>& memory = at.memory;
   if (at.work != nullptr) {
-    const laws::Force<Real> both{force.elastic + memory.elastic[index],
-                                 force.viscous + memory.viscous[index]};
+    const Force<Real> both{force.elastic + memory.elastic[index],
+                           force.viscous + memory.viscous[index]};
     addHalfWork(run, at.gate_a * at.moved[a], at.gate_b * at.moved[b], both, *at.work);
   }
   if (memory.elastic != nullptr) {
@@ -150,18 +150,37 @@ void closeSlowStep(
   memory.mean_viscous[index] = Real(0);
 }
 
-/// Scalar runs that are nonlinear, or between sections.
-template <class Real, class Law>
-void stepScalar(const LinkRun& run, const Law& law, const Frame<Real>& at) noexcept {
-  for (std::size_t l = 0; l < run.ends.size(); ++l) {
-    const int a = run.ends[l].a;
-    const int b = run.ends[l].b;
-    const Real v = at.gate_a * at.d[a] - at.gate_b * at.d[b];
-    exchangeForce(run, at, l, a, b, law.force(l, at.x[a] - at.x[b], v));
-    if (at.slow_ends) {
-      closeSlowStep(run, at, l, a, b);
-    }
+constexpr std::size_t kTogether = 64;  ///< links whose forces a law works out in one call
+
+/// Visits a run in pieces: `visit(first, count)`.
+template <class Visit>
+void forEachPiece(const LinkRun& run, const Visit& visit) noexcept {
+  for (std::size_t first = 0; first < run.ends.size(); first += kTogether) {
+    visit(first, std::min(kTogether, run.ends.size() - first));
   }
+}
+
+/// Scalar runs that are nonlinear, or between sections.
+template <class Real>
+void stepScalar(const LinkRun& run, const RunNumbers<Real>& c, const Frame<Real>& at) noexcept {
+  const scene::RunForces<Real> forces = scene::lawOf(run.law).explicit_form.forces<Real>();
+  Real u[kTogether];
+  Real v[kTogether];
+  Force<Real> force[kTogether];
+  forEachPiece(run, [&](std::size_t first, std::size_t count) {
+    const LinkEnds* ends = run.ends.data() + first;
+    for (std::size_t i = 0; i < count; ++i) {
+      u[i] = at.x[ends[i].a] - at.x[ends[i].b];
+      v[i] = at.gate_a * at.d[ends[i].a] - at.gate_b * at.d[ends[i].b];
+    }
+    forces(c, first, count, u, v, force);
+    for (std::size_t i = 0; i < count; ++i) {
+      exchangeForce(run, at, first + i, ends[i].a, ends[i].b, force[i]);
+      if (at.slow_ends) {
+        closeSlowStep(run, at, first + i, ends[i].a, ends[i].b);
+      }
+    }
+  });
 }
 
 /// A vector of up to three coordinates.
@@ -177,86 +196,119 @@ struct Vector {
   }
 };
 
-/// Euclidean runs. The force is along the line that joins the ends (n), or, for friction, along
-/// their relative velocity; without a direction there is no force.
-template <class Real, int D, class Law>
-void stepSpatial(const LinkRun& run,
-                 const Law& law,
-                 const Real* rests,
-                 const Frame<Real>& at) noexcept {
+/// A piece of a Euclidean run: where its laws act, and along which unit vectors.
+template <class Real, int D>
+struct Lines {
+  Real u[kTogether];
+  Real v[kTogether];
+  Real n[D][kTogether];
+};
+
+/// The line of a link joins its ends, or, for friction, is along their relative velocity; without a
+/// direction there is no force.
+template <class Real, int D>
+void drawLines(const LinkRun& run,
+               std::size_t first,
+               std::size_t count,
+               const Real* rests,
+               const Frame<Real>& at,
+               Lines<Real, D>& lines) noexcept {
+  const scene::Law::Kind kind = scene::lawOf(run.law).kind;
+  const bool friction = kind == scene::Law::Kind::kFriction;
+  const Real sign = kind == scene::Law::Kind::kGap ? Real(-1) : Real(1);
   const std::size_t links = run.ends.size();
-  for (std::size_t l = 0; l < links; ++l) {
-    const LinkEnds ends = run.ends[l];
+  for (std::size_t i = 0; i < count; ++i) {
+    const LinkEnds ends = run.ends[first + i];
     Vector<Real, D> apart;
     Vector<Real, D> velocity;
     for (int c = 0; c < D; ++c) {
       const int a = ends.a + c * run.stride_a;
       const int b = ends.b + c * run.stride_b;
-      apart.at[c] = at.x[a] - at.x[b] + rests[static_cast<std::size_t>(c) * links + l];
+      apart.at[c] = at.x[a] - at.x[b] + rests[static_cast<std::size_t>(c) * links + first + i];
       velocity.at[c] = at.gate_a * at.d[a] - at.gate_b * at.d[b];
     }
-    const bool friction = Law::kKind == laws::Kind::kFriction;
     const Vector<Real, D>& line = friction ? velocity : apart;
     const Real length = line.norm();
-    const Real sign = Law::kKind == laws::Kind::kGap ? Real(-1) : Real(1);
     const Real scale = length > Real(0) ? sign / length : Real(0);
-    Real v = length;
-    if (!friction) {
-      v = Real(0);
-      for (int c = 0; c < D; ++c) {
-        v += scale * line.at[c] * velocity.at[c];
-      }
-    }
-    const laws::Force<Real> force = law.force(l, sign * length, v);
+    Real v = Real(0);
     for (int c = 0; c < D; ++c) {
-      const Real n = scale * line.at[c];
-      const int a = ends.a + c * run.stride_a;
-      const int b = ends.b + c * run.stride_b;
-      const std::size_t index = static_cast<std::size_t>(c) * links + l;
-      exchangeForce(run, at, index, a, b, {n * force.elastic, n * force.viscous});
-      if (at.slow_ends) {
-        closeSlowStep(run, at, index, a, b);
+      lines.n[c][i] = scale * line.at[c];
+      v += lines.n[c][i] * velocity.at[c];
+    }
+    lines.u[i] = sign * length;
+    lines.v[i] = friction ? length : v;
+  }
+}
+
+template <class Real, int D>
+void stepSpatial(const LinkRun& run,
+                 const RunNumbers<Real>& numbers,
+                 const Real* rests,
+                 const Frame<Real>& at) noexcept {
+  const scene::RunForces<Real> forces = scene::lawOf(run.law).explicit_form.forces<Real>();
+  const std::size_t links = run.ends.size();
+  Lines<Real, D> lines;
+  Force<Real> force[kTogether];
+  forEachPiece(run, [&](std::size_t first, std::size_t count) {
+    drawLines(run, first, count, rests, at, lines);
+    forces(numbers, first, count, lines.u, lines.v, force);
+    for (std::size_t i = 0; i < count; ++i) {
+      for (int c = 0; c < D; ++c) {
+        const Real n = lines.n[c][i];
+        const int a = run.ends[first + i].a + c * run.stride_a;
+        const int b = run.ends[first + i].b + c * run.stride_b;
+        const std::size_t index = static_cast<std::size_t>(c) * links + first + i;
+        exchangeForce(run, at, index, a, b, {n * force[i].elastic, n * force[i].viscous});
+        if (at.slow_ends) {
+          closeSlowStep(run, at, index, a, b);
+        }
       }
     }
-  }
+  });
 }
 
 /// What a link holds at the start: the integral of its elastic force from where it is none.
-template <class Real, class Law>
-double storedAtStart(const Law& law, std::size_t l, Real u) noexcept {
-  if constexpr (Law::kKind == laws::Kind::kFriction) {
+template <class Real>
+double storedAtStart(const scene::Law& law,
+                     const RunNumbers<Real>& c,
+                     std::size_t l,
+                     Real u) noexcept {
+  if (law.kind == scene::Law::Kind::kFriction) {
     return 0.0;
-  } else {
-    constexpr int kIntervals = 64;  // Simpson
-    const double from = -static_cast<double>(law.offset(l));
-    const double width = (static_cast<double>(u) - from) / kIntervals;
-    double sum = 0.0;
-    for (int i = 0; i <= kIntervals; ++i) {
-      const double weight = i == 0 || i == kIntervals ? 1.0 : (i % 2 == 0 ? 2.0 : 4.0);
-      const Real at = static_cast<Real>(from + i * width);
-      sum += weight * static_cast<double>(law.force(l, at, Real(0)).elastic);
-    }
-    return sum * width / 3.0;
   }
+  constexpr int kIntervals = 64;  // Simpson
+  const scene::RunForces<Real> forces = law.explicit_form.forces<Real>();
+  const double from = -static_cast<double>(c(law.explicit_form.offset, l));
+  const double width = (static_cast<double>(u) - from) / kIntervals;
+  double sum = 0.0;
+  for (int i = 0; i <= kIntervals; ++i) {
+    const double weight = i == 0 || i == kIntervals ? 1.0 : (i % 2 == 0 ? 2.0 : 4.0);
+    const Real at = static_cast<Real>(from + i * width);
+    const Real still = Real(0);
+    Force<Real> force;
+    forces(c, l, 1, &at, &still, &force);
+    sum += weight * static_cast<double>(force.elastic);
+  }
+  return sum * width / 3.0;
 }
 
-template <class Real, class Law>
-void step(const LinkRun& run, const Law& law, const Real* rests, const Frame<Real>& at) noexcept {
+template <class Real>
+void step(const LinkRun& run,
+          const RunNumbers<Real>& c,
+          const Real* rests,
+          const Frame<Real>& at) noexcept {
   switch (run.dimensions) {
     case 0:
-      if constexpr (Law::kKind == laws::Kind::kLinear) {
-        if (at.memory.elastic == nullptr) {
-          return at.work != nullptr ? stepPlain<true>(run, law, at)
-                                    : stepPlain<false>(run, law, at);
-        }
+      if (scene::lawOf(run.law).kind == scene::Law::Kind::kLinear && at.memory.elastic == nullptr) {
+        return at.work != nullptr ? stepPlain<true>(run, c, at) : stepPlain<false>(run, c, at);
       }
-      return stepScalar(run, law, at);
+      return stepScalar(run, c, at);
     case 1:
-      return stepSpatial<Real, 1>(run, law, rests, at);
+      return stepSpatial<Real, 1>(run, c, rests, at);
     case 2:
-      return stepSpatial<Real, 2>(run, law, rests, at);
+      return stepSpatial<Real, 2>(run, c, rests, at);
     default:
-      return stepSpatial<Real, 3>(run, law, rests, at);
+      return stepSpatial<Real, 3>(run, c, rests, at);
   }
 }
 

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 
-#include "physics/laws/guarded_laws.hpp"
+#include "scene/laws/guarded_form.hpp"
 
 namespace ergotic::physics {
+
+using scene::GuardedForce;
+using scene::GuardedLaw;
 
 /// What a guarded link remembers; all 0 before it starts. Energies in force unit times m.
 template <class Real>

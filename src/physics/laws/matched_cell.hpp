@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "physics/laws/range.hpp"
+#include "scene/laws/range.hpp"
 
 namespace ergotic::physics {
+
+using scene::Range;
 
 /// Upper bound of M (kappa + 2 zeta) of a module with matched coefficients, kg, over all that its
 /// stiffness, damping and mass can be; exact if they are constant. With links attached it

@@ -16,25 +16,6 @@
 
 namespace ergotic::physics {
 
-/// Force laws as kernels; tables are laws of their own.
-enum class Law {
-  kSpringDamper,
-  kContact,
-  kQuadratic,
-  kCubic,
-  kClippedCubic,
-  kCubicContact,
-  kPluck,
-  kBow,
-  kSmoothBow,
-  kPluckTable,
-  kBowTable,
-  kPowerContact,
-  kTable,
-  kConditional,
-};
-Law lawOf(const scene::Lia& lia);
-
 /// Slots of a section. A slot is one coordinate of one module. Each coordinate of a section fills
 /// `stride` slots in a row: blocks (blocks.hpp; their grounds are masses that no force moves),
 /// cells, masses, then modules that forces do not move; those of y follow those of x. The ranges
@@ -62,7 +43,7 @@ struct End {
 /// b) belongs to that slower section: its position is held between its steps and it receives
 /// `share` of the force at every step, so the mean over its own step.
 struct LinkRun {
-  Law law = Law::kSpringDamper;
+  scene::LiaType law = scene::LiaType::kSpringDamper;
   bool guarded = false;
   int dimensions = 0;  ///< 0: scalar, else the coordinates a distance is taken over
   int section = 0;     ///< whose steps it follows

@@ -13,7 +13,6 @@ namespace ergotic::physics {
 namespace {
 
 using scene::Geometry;
-using scene::LiaType;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -118,7 +117,7 @@ void placeLink(const scene::Scene& scene, int l, Ends& ends, LinkRun& run, End& 
   const Geometry geometry = scene.sections[at(frame.section)].geometry;
   a = frame.projects_a ? ends.projected(lia.a, frame.section) : ends.of(lia.a);
   b = frame.projects_b ? ends.projected(lia.b, frame.section) : ends.of(lia.b);
-  run.law = lawOf(lia);
+  run.law = lia.type;
   run.guarded = lia.scheme == scene::Scheme::kGuarded;
   run.dimensions = geometry == Geometry::kScalar ? 0 : dimensionsOf(geometry);
   run.section_a = a.section;
@@ -129,36 +128,6 @@ void placeLink(const scene::Scene& scene, int l, Ends& ends, LinkRun& run, End& 
 }
 
 }  // namespace
-
-Law lawOf(const scene::Lia& lia) {
-  switch (lia.type) {
-    case LiaType::kSpringDamper:
-      return Law::kSpringDamper;
-    case LiaType::kContact:
-      return Law::kContact;
-    case LiaType::kQuadratic:
-      return Law::kQuadratic;
-    case LiaType::kCubic:
-      return Law::kCubic;
-    case LiaType::kClippedCubic:
-      return Law::kClippedCubic;
-    case LiaType::kCubicContact:
-      return Law::kCubicContact;
-    case LiaType::kPluck:
-      return lia.law->table.empty() ? Law::kPluck : Law::kPluckTable;
-    case LiaType::kBow:
-      return lia.law->table.empty() ? Law::kBow : Law::kBowTable;
-    case LiaType::kSmoothBow:
-      return Law::kSmoothBow;
-    case LiaType::kPowerContact:
-      return Law::kPowerContact;
-    case LiaType::kTable:
-      return Law::kTable;
-    case LiaType::kConditional:
-      return Law::kConditional;
-  }
-  throw Exception("link '" + lia.name + "' has no force law");
-}
 
 void placeModalPoints(const scene::Scene& scene,
                       const std::vector<ModalPoint>& points,
@@ -199,7 +168,7 @@ void placeConnections(const scene::Scene& scene, Layout& layout) {
 }
 
 void placeLinks(const scene::Scene& scene, Layout& layout) {
-  using Key = std::tuple<Law, bool, int, int, int, int, int, int, int, int>;
+  using Key = std::tuple<scene::LiaType, bool, int, int, int, int, int, int, int, int>;
   std::map<Key, std::size_t> known;
   Ends ends(scene, layout);
   std::vector<int> block_of_lia(scene.lias.size(), -1);

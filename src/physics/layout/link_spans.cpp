@@ -8,10 +8,12 @@
 namespace ergotic::physics {
 namespace {
 
+using scene::LiaType;
+
 constexpr std::size_t kShortest = 8;  // below it ends are sooner gathered one by one
 
 bool isForSpatialKernels(const LinkRun& run) {
-  return (run.law == Law::kSpringDamper || run.law == Law::kContact) && !run.guarded &&
+  return (run.law == LiaType::kSpringDamper || run.law == LiaType::kContact) && !run.guarded &&
          run.dimensions > 0 && run.section_a == run.section_b && run.slow_section < 0 &&
          run.stride_a == run.stride_b;
 }

@@ -10,7 +10,6 @@
 namespace ergotic::physics {
 namespace {
 
-using scene::LiaType;
 using scene::MatType;
 
 std::size_t at(int i) {
@@ -45,33 +44,14 @@ Network::Node nodeOf(const scene::Scene& scene, const scene::Mat& mat) {
   return node;
 }
 
-double leastSlope(const scene::Scene& scene, const scene::Lia& lia) {
-  const double k = rangeOf(scene, lia.stiffness).lowest;
-  switch (lia.type) {
-    case LiaType::kSpringDamper:
-      return k;
-    case LiaType::kQuadratic:
-    case LiaType::kCubic:
-      return rangeOf(scene, lia.law->nonlinearity).lowest < 0.0 ? 0.0 : k;
-    case LiaType::kClippedCubic:
-      return std::min(k, rangeOf(scene, lia.law->stiffness_limit).lowest);
-    default:
-      return 0.0;
-  }
-}
-
-bool mayLetGo(LiaType type) {
-  return type != LiaType::kSpringDamper && type != LiaType::kQuadratic && type != LiaType::kCubic &&
-         type != LiaType::kClippedCubic;
-}
-
 Network::Link linkOf(const scene::Scene& scene, const scene::Lia& lia) {
   Network::Link link;
   link.a = lia.a;
   link.b = lia.b;
-  link.slopes = slopesOf(scene, lia);
-  link.at_rest = mayLetGo(lia.type) ? 0.0 : scene.valueOf(lia.stiffness);
-  link.at_least = leastSlope(scene, lia);
+  const scene::Law& law = scene::lawOf(lia.type);
+  link.slopes = law.slopes(scene, lia);
+  link.at_rest = law.has_linear_part ? scene.valueOf(lia.stiffness) : 0.0;
+  link.at_least = law.leastStiffness(scene, lia);
   return link;
 }
 

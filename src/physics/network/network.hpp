@@ -4,9 +4,13 @@
 #include <vector>
 
 #include "ergotic/scene/scene.hpp"
-#include "physics/laws/slopes.hpp"
+#include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
+
+using scene::FrictionSlopes;
+using scene::Range;
+using scene::Slopes;
 
 /// How much a node counts at an end of a link.
 struct Share {

@@ -6,14 +6,13 @@
 #include <tuple>
 
 #include "physics/certificate/explicit_limits.hpp"
-#include "physics/laws/slopes.hpp"
 #include "physics/network/rated_network.hpp"
 #include "physics/note.hpp"
+#include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
 namespace {
 
-using scene::LiaType;
 using scene::Scheme;
 
 /// Why a link is guarded: a figure that is larger than the explicit scheme bears.
@@ -59,49 +58,27 @@ class Chooser {
     if (!(per_stiffness > 0.0)) {
       return {};
     }
-    switch (lia.type) {
-      case LiaType::kPowerContact:
-        if (largest(scene_, lia.law->exponent) > 1.0) {
-          return {"exponent", largest(scene_, lia.law->exponent), 1.0};
-        }
-        return switching(lia, per_stiffness);
-      case LiaType::kContact:
-      case LiaType::kClippedCubic:
-      case LiaType::kCubicContact:
-        return switching(lia, per_stiffness);
-      case LiaType::kQuadratic:
-      case LiaType::kCubic: {
-        const double q = largest(scene_, lia.law->nonlinearity);
-        return q > 0.0 ? Reason{"nonlinearity", q, 0.0} : Reason{};
-      }
-      case LiaType::kTable:
-        if (!lia.law->table.empty()) {
-          return switching(lia, per_stiffness);
-        }
-        return lia.law->viscous_table.empty() ? Reason{} : sliding(lia, per_damping);
-      case LiaType::kBow:
-      case LiaType::kSmoothBow:
-        return sliding(lia, per_damping);
-      default:
-        return {};
+    const scene::Law& law = scene::lawOf(lia.type);
+    if (law.guarded == nullptr) {
+      return {};
     }
+    const Slopes& slopes = networks_.slopes(static_cast<int>(&lia - scene_.lias.data()));
+    if (slopes.is_unbounded) {
+      const scene::Growth::Figure figure = law.growth->figure(scene_, lia);
+      return {figure.name, figure.value, figure.allowed};
+    }
+    if (law.switches && slopes.stiffness.highest > 0.0) {
+      return switching(per_stiffness * slopes.stiffness.highest);
+    }
+    return law.friction == nullptr ? Reason{} : sliding(law.friction(scene_, lia), per_damping);
   }
 
-  /// The largest stiffness that a link switches on and off.
-  double stiffest(const scene::Lia& lia) const {
-    const auto l = static_cast<int>(&lia - scene_.lias.data());
-    return lia.type == LiaType::kPowerContact ? largest(scene_, lia.stiffness)
-                                              : networks_.slopes(l).stiffness.highest;
-  }
-
-  Reason switching(const scene::Lia& lia, double unit) const {
-    const double kappa = unit * stiffest(lia);
+  static Reason switching(double kappa) {
     return kappa > kExplicitSwitch ? Reason{"h^2 K (1/Ma + 1/Mb)", kappa, kExplicitSwitch}
                                    : Reason{};
   }
 
-  Reason sliding(const scene::Lia& lia, double unit) const {
-    const FrictionSlopes slopes = frictionSlopesOf(scene_, lia);
+  static Reason sliding(const scene::FrictionSlopes& slopes, double unit) {
     if (unit * slopes.rise >= kExplicitFriction) {
       return {"h max F' (1/Ma + 1/Mb)", unit * slopes.rise, kExplicitFriction};
     }

@@ -9,6 +9,7 @@
 
 #include "physics/network/section_stiffness.hpp"
 #include "physics/note.hpp"
+#include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
 namespace {

@@ -4,99 +4,15 @@
 #include <array>
 
 #include "ergotic/scene/table.hpp"
-#include "physics/laws/laws.hpp"
 #include "physics/laws/oscillator.hpp"
 #include "physics/layout/guarded_groups.hpp"
+#include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
 namespace {
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
-}
-
-/// The fields of one link, in the order that laws.hpp reads them.
-struct LinkFields {
-  std::array<double, 7> values{};
-  std::size_t count = 0;
-};
-
-/// \param rest  distance of the ends at rest, if it is not part of the elongation already
-LinkFields fieldsOf(const scene::Scene& scene,
-                    const scene::Lia& lia,
-                    const StepUnits& units,
-                    double rest) {
-  const double k = scene.valueOf(lia.stiffness);
-  const double z = units.damping(scene.valueOf(lia.damping));
-  const double width = scene.valueOf(lia.law->width);
-  const double q = scene.valueOf(lia.law->nonlinearity);
-  const double k_limit = scene.valueOf(lia.law->stiffness_limit);
-  const double z_limit = z + units.damping(scene.valueOf(lia.law->limit_damping));
-  // Displacements are stored from rest: the distance at rest is folded into the elongation.
-  const double offset = rest - lia.rest_length;
-  switch (lawOf(lia)) {
-    case Law::kSpringDamper:
-    case Law::kPluckTable:
-      return {{k, z, offset}, 3};
-    case Law::kContact:
-      return {{k, z, offset + width}, 3};
-    case Law::kQuadratic:
-    case Law::kCubic:
-      return {{k, z, offset, q}, 4};
-    case Law::kClippedCubic:
-      return {{k, z, offset, q, k_limit, z_limit, lia.law->tipping_point}, 7};
-    case Law::kCubicContact:
-      return {{k, z, offset + width, q, k_limit, z_limit, lia.law->tipping_point}, 7};
-    case Law::kPluck:
-      return {{k, z, offset, width}, 4};
-    case Law::kBow:
-      return {{z, units.velocity(width)}, 2};
-    case Law::kSmoothBow:
-      return {{z, 1.0 / units.velocity(width)}, 2};
-    case Law::kBowTable:
-      return {{1.0 / units.step}, 1};
-    case Law::kPowerContact:
-      return {{k, z, offset + width, scene.valueOf(lia.law->exponent)}, 4};
-    case Law::kTable:
-      return {{offset, 1.0 / units.step}, 2};
-    case Law::kConditional:
-      return {{k, z, offset, width, lia.law->release}, 5};
-  }
-  return {};
-}
-
-std::size_t fieldCount(Law law) {
-  switch (law) {
-    case Law::kSpringDamper:
-      return laws::SpringDamper<double>::kFields;
-    case Law::kContact:
-      return laws::Contact<double>::kFields;
-    case Law::kQuadratic:
-      return laws::Quadratic<double>::kFields;
-    case Law::kCubic:
-      return laws::Cubic<double>::kFields;
-    case Law::kClippedCubic:
-      return laws::ClippedCubic<double>::kFields;
-    case Law::kCubicContact:
-      return laws::CubicContact<double>::kFields;
-    case Law::kPluck:
-      return laws::Pluck<double>::kFields;
-    case Law::kBow:
-      return laws::Bow<double>::kFields;
-    case Law::kSmoothBow:
-      return laws::SmoothBow<double>::kFields;
-    case Law::kPluckTable:
-      return laws::PluckTable<double>::kFields;
-    case Law::kBowTable:
-      return laws::BowTable<double>::kFields;
-    case Law::kPowerContact:
-      return laws::PowerContact<double>::kFields;
-    case Law::kTable:
-      return laws::ElasticViscousTable<double>::kFields;
-    case Law::kConditional:
-      return laws::Conditional<double>::kFields;
-  }
-  return 0;
 }
 
 }  // namespace
@@ -194,9 +110,11 @@ void CoefficientsOf<Real>::setLink(
   const double rest = run.block >= 0
                           ? scene.mats[at(lia.a)].rest.x() - scene.mats[at(lia.b)].rest.x()
                           : (run.dimensions == 0 ? run.rests[at(l)].x() : 0.0);
-  const LinkFields from = fieldsOf(scene, lia, units, rest);
-  for (std::size_t f = 0; f < from.count; ++f) {
-    runs[r].fields[f * run.lias.size() + at(l)] = static_cast<Real>(from.values[f]);
+  const scene::ExplicitForm& form = scene::lawOf(run.law).explicit_form;
+  std::array<double, scene::ExplicitForm::kMostNumbers> numbers{};
+  form.convert(scene, lia, units, rest, numbers.data());
+  for (std::size_t i = 0; i < form.numbers; ++i) {
+    runs[r].fields[i * run.lias.size() + at(l)] = static_cast<Real>(numbers[i]);
   }
 }
 
@@ -221,7 +139,7 @@ void CoefficientsOf<Real>::fillRun(const scene::Scene& scene,
   const LinkRun& run = layout.runs[r];
   const StepUnits units(scene, rates, layout.sections[at(run.section)].divisor);
   RunCoefficients<Real>& to = runs[r];
-  to.fields.resize(fieldCount(run.law) * run.lias.size());
+  to.fields.resize(scene::lawOf(run.law).explicit_form.numbers * run.lias.size());
   for (int l = 0; l < static_cast<int>(run.lias.size()); ++l) {
     setLink(scene, units, run, r, l);
     const scene::Lia& lia = scene.lias[at(run.lias[at(l)])];

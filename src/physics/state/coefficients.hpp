@@ -5,12 +5,14 @@
 #include <vector>
 
 #include "ergotic/physics/state/coefficients.hpp"
-#include "physics/laws/guarded_laws.hpp"
 #include "physics/layout/layout.hpp"
 #include "physics/state/aligned.hpp"
 #include "physics/step_units.hpp"
+#include "scene/laws/guarded_form.hpp"
 
 namespace ergotic::physics {
+
+using scene::GuardedLaw;
 
 /// Per-slot coefficients of d <- d - (lose d + pull x) + inverse_mass f + drift; x <- x + d. What
 /// is lost is stored, not what is left: close to 1 a float would round it to a few digits. Masses

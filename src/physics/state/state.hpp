@@ -7,14 +7,15 @@
 #include "physics/layout/layout.hpp"
 #include "physics/state/arena.hpp"
 #include "physics/state/link_memory.hpp"
+#include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
 
 /// A run remembers its forces if they cannot be worked out from positions: nonlinear laws,
 /// distances, guarded links and links between sections.
 inline bool remembers(const LinkRun& run) {
-  return run.guarded || run.law != Law::kSpringDamper || run.dimensions > 0 ||
-         run.section_a != run.section_b || run.slow_section >= 0;
+  return run.guarded || scene::lawOf(run.law).kind != scene::Law::Kind::kLinear ||
+         run.dimensions > 0 || run.section_a != run.section_b || run.slow_section >= 0;
 }
 
 /// Everything mutable of an instrument, in one arena. Unmetered, nothing is kept that only the
@@ -72,7 +73,8 @@ class State {
   LinkMemory<const Real> memory(std::size_t run) const noexcept {
     return split<const Real>(runs_[run], arena_.at<Real>(runs_[run].memory));
   }
-  Real* engaged(std::size_t run) noexcept { return arena_.at<Real>(runs_[run].engaged); }
+  /// Of laws that have one, see scene::ExplicitForm.
+  Real* lawState(std::size_t run) noexcept { return arena_.at<Real>(runs_[run].law_state); }
   /// Numbers in each array of the memory of a run; 0: it remembers nothing.
   std::size_t remembered(std::size_t run) const noexcept { return runs_[run].links; }
 
@@ -81,7 +83,7 @@ class State {
     std::size_t links = 0;
     bool across = false;
     std::size_t memory = 0;
-    std::size_t engaged = 0;
+    std::size_t law_state = 0;
   };
 
   template <class T>
@@ -106,8 +108,8 @@ class State {
       at.across = run.slow_section >= 0;
       at.memory = arena_.add<Real>(name + ".forces", (at.across ? 6 : 2) * at.links);
     }
-    if (run.law == Law::kConditional) {
-      at.engaged = arena_.add<Real>(name + ".engaged", run.ends.size());
+    if (scene::lawOf(run.law).explicit_form.has_state) {
+      at.law_state = arena_.add<Real>(name + ".engaged", run.ends.size());
     }
     return at;
   }

@@ -6,6 +6,7 @@
 #include "ergotic/station/health.hpp"
 #include "ros/conversation/model_loader.hpp"
 #include "ros/device/end_effectors.hpp"
+#include "scene/laws/law.hpp"
 
 namespace ergotic::node {
 namespace {
@@ -18,7 +19,6 @@ constexpr std::uint8_t number(T value) {
   return static_cast<std::uint8_t>(value);
 }
 static_assert(ModelStructure::POINT == number(scene::MatType::kPoint));
-static_assert(ModelStructure::CONDITIONAL == number(scene::LiaType::kConditional));
 static_assert(Event::FAULT == number(EventType::kFault));
 static_assert(Event::AUDIO_STOPPED == number(EventType::kAudioStopped));
 static_assert(Event::CONFIGURED == number(EventType::kConfigured));
@@ -159,6 +159,9 @@ ModelStructure toModelStructure(const scene::Scene& scene, const physics::Rates&
     message.module_sections.push_back(static_cast<std::uint32_t>(mat.section));
     const Eigen::Vector3f rest = (scene.sectionOf(mat).pose * mat.rest).cast<float>();
     message.rest_positions.insert(message.rest_positions.end(), rest.data(), rest.data() + 3);
+  }
+  for (std::size_t law = 0; law < scene::kLiaTypes; ++law) {
+    message.law_names.emplace_back(scene::lawOf(static_cast<scene::LiaType>(law)).name);
   }
   for (const scene::Lia& lia : scene.lias) {
     message.links.push_back(static_cast<std::uint32_t>(lia.a));

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ergotic/scene/text/read_scene.hpp"
-#include "scene/clipped_law.hpp"
+#include "scene/laws/clipped_cubic.hpp"
 #include "scene/limits.hpp"
 #include "scene/mdl/mdl_lexer.hpp"
 #include "scene/mdl/mdl_numbers.hpp"
@@ -188,11 +188,11 @@ class MdlReader {
     if (bow && line.arguments.size() > 4 && numbers_.number(line.arguments[4]) > 0.0) {
       lia.type = LiaType::kSmoothBow;
     }
-    for (const LiaField& field : liaFields(lia.type)) {
+    for (const LiaField& field : lawOf(lia.type).fields) {
       const auto position = std::find(link.arguments.begin(), link.arguments.end(), field.member);
       const auto index = 2 + static_cast<std::size_t>(position - link.arguments.begin());
       if (position != link.arguments.end() && index < line.arguments.size()) {
-        setMember(lia, field.member, linkNumber(lia, line, field, index));
+        setMember(lia, field.member, linkNumber(line, field, index));
       }
     }
     completeClippedLaw(lia, ClippedLaw::kMdl);
@@ -200,16 +200,12 @@ class MdlReader {
   }
 
   /// Widths and the shape of a clipped law are worked out once, so they cannot follow audio.
-  Value linkNumber(const Lia& lia,
-                   const MdlLine& line,
-                   const LiaField& field,
-                   std::size_t argument) const {
+  Value linkNumber(const MdlLine& line, const LiaField& field, std::size_t argument) const {
     const MdlToken& token = line.arguments[argument];
     const std::string what = named(field.key, line);
-    const bool clipped = lia.type == LiaType::kClippedCubic || lia.type == LiaType::kCubicContact;
     const auto is = [&](LiaMember member) { return field.member == member; };
     const bool follows =
-        is(&Lia::damping) || (!clipped && (is(&Lia::stiffness) || is(&LiaLaw::nonlinearity)));
+        !field.is_fixed && (is(&Lia::damping) || is(&Lia::stiffness) || is(&LiaLaw::nonlinearity));
     Limits limits = field.limits;
     if (is(&Lia::stiffness) || is(&Lia::damping)) {
       limits.minimum = 0.0;  // what linear links of published models keep to

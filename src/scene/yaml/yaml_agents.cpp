@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/lia_rules.hpp"
+#include "scene/rules/lia_rules.hpp"
 #include "scene/yaml/gesture_csv.hpp"
 #include "scene/yaml/point_files.hpp"
 #include "scene/yaml/points.hpp"

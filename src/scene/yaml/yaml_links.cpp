@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "scene/clipped_law.hpp"
-#include "scene/lia_rules.hpp"
+#include "scene/laws/clipped_cubic.hpp"
+#include "scene/rules/lia_rules.hpp"
 #include "scene/yaml/points.hpp"
 #include "scene/yaml/yaml_elements.hpp"
 #include "scene/yaml/yaml_tables.hpp"
@@ -15,40 +17,30 @@ namespace {
 
 using Keys = std::vector<std::string>;
 
-/// One type of link as it is written, and the keys it takes beside those of all links.
+/// A word of a scene for a law.
 struct LiaKind {
-  const char* name;
   LiaType type;
+  std::string word;
   Keys required;
   Keys optional;
-  Keys with_table;  ///< instead of all these, where there is a `table`
 };
 
+Keys keysIn(const char* text) {
+  std::istringstream words(text);
+  return {std::istream_iterator<std::string>(words), {}};
+}
+
 const std::vector<LiaKind>& liaKinds() {
-  const Keys rest = {"rest_length"};
-  const Keys damped = {"damping", "rest_length"};
-  const Keys contact = {"damping", "threshold"};
-  const Keys clipped = {"stiffness", "nonlinearity", "stiffness_limit"};
-  static const std::vector<LiaKind> kKinds = {
-      {"spring", LiaType::kSpringDamper, {"stiffness"}, rest, {}},
-      {"damper", LiaType::kSpringDamper, {"damping"}, {}, {}},
-      {"spring_damper", LiaType::kSpringDamper, {"stiffness", "damping"}, rest, {}},
-      {"contact", LiaType::kContact, {"stiffness"}, contact, {}},
-      {"power_contact", LiaType::kPowerContact, {"stiffness", "exponent"}, contact, {}},
-      {"quadratic", LiaType::kQuadratic, {"stiffness", "nonlinearity"}, damped, {}},
-      {"cubic", LiaType::kCubic, {"stiffness", "nonlinearity"}, damped, {}},
-      {"clipped_cubic", LiaType::kClippedCubic, clipped, damped, {}},
-      {"cubic_contact", LiaType::kCubicContact, clipped, contact, {}},
-      {"pluck", LiaType::kPluck, {"stiffness", "width"}, damped, {"table", "rest_length"}},
-      {"bow", LiaType::kBow, {"damping", "width"}, {}, {"table"}},
-      {"smooth_bow", LiaType::kSmoothBow, {"damping", "width"}, {}, {}},
-      {"table", LiaType::kTable, {}, {"elastic", "viscous", "rest_length"}, {}},
-      {"conditional",
-       LiaType::kConditional,
-       {"stiffness", "engage"},
-       {"damping", "release", "rest_length"},
-       {}},
-  };
+  static const auto kKinds = [] {
+    std::vector<LiaKind> kinds;
+    for (std::size_t i = 0; i < kLiaTypes; ++i) {
+      const auto type = static_cast<LiaType>(i);
+      for (const LawWord& word : lawOf(type).words) {
+        kinds.push_back({type, word.word, keysIn(word.required), keysIn(word.optional)});
+      }
+    }
+    return kinds;
+  }();
   return kKinds;
 }
 
@@ -75,13 +67,10 @@ void readEnds(SceneBuilder& builder, const YamlMap& map, Lia& lia) {
   }
 }
 
-/// The tipping point of a clipped law is computed once.
+/// What is computed once from such numbers would not follow.
 void refuseParameters(const YamlMap& map, const Lia& lia) {
-  for (const LiaField& field : liaFields(lia.type)) {
-    const auto is = [&](LiaMember member) { return field.member == member; };
-    const bool shapes =
-        is(&Lia::stiffness) || is(&LiaLaw::nonlinearity) || is(&LiaLaw::stiffness_limit);
-    if (shapes && memberOf(lia, field.member).parameter >= 0) {
+  for (const LiaField& field : lawOf(lia.type).fields) {
+    if (field.is_fixed && memberOf(lia, field.member).parameter >= 0) {
       map.fail(field.key, quoted(field.key) + " of " + map.what() +
                               " is a parameter, allowed in a clipped law: a number");
     }
@@ -112,22 +101,32 @@ void readRelease(const SceneBuilder& builder, const YamlMap& map, Lia& lia) {
       map.number("release", releaseLimits(builder.scene(), lia), lia.law->width.factor);
 }
 
-/// The coefficients of all types that have no table.
 void readCoefficients(const SceneBuilder& builder,
                       const YamlMap& map,
-                      const LiaKind& kind,
+                      const Keys& required,
                       Lia& lia) {
-  for (const LiaField& field : liaFields(kind.type)) {
-    if (contains(kind.required, field.key) || map.has(field.key)) {
+  const Law& law = lawOf(lia.type);
+  for (const LiaField& field : law.fields) {
+    if (contains(required, field.key) || map.has(field.key)) {
       setMember(lia, field.member, map.value(field.key, field.limits));
     }
   }
-  if (kind.type == LiaType::kClippedCubic || kind.type == LiaType::kCubicContact) {
-    refuseParameters(map, lia);
-    completeClippedLaw(lia, ClippedLaw::kContinuous);
-  }
-  if (kind.type == LiaType::kConditional) {
+  refuseParameters(map, lia);
+  completeClippedLaw(lia, ClippedLaw::kContinuous);
+  if (law.has_release) {
     readRelease(builder, map, lia);
+  }
+}
+
+void readTables(const SceneBuilder& builder, YamlTables& tables, const YamlMap& map, Lia& lia) {
+  switch (lawOf(lia.type).tables) {
+    case Law::Tables::kNone:
+      return;
+    case Law::Tables::kOne:
+      lia.law.edit().table = tables.read(map, "table");
+      return;
+    case Law::Tables::kParts:
+      readLaws(builder, tables, map, lia);
   }
 }
 
@@ -154,15 +153,26 @@ void readTreatment(const Scene& scene, const YamlMap& map, Lia& lia) {
   }
 }
 
+/// Some words mean one law with a table and another without.
 const LiaKind& kindOf(const YamlMap& map) {
   static const Keys kWords = [] {
     Keys words;
     for (const LiaKind& each : liaKinds()) {
-      words.emplace_back(each.name);
+      if (!contains(words, each.word)) {
+        words.push_back(each.word);
+      }
     }
     return words;
   }();
-  return liaKinds()[map.choice("type", kWords)];
+  const std::string& word = kWords[map.choice("type", kWords)];
+  const LiaKind* found = nullptr;
+  for (const LiaKind& each : liaKinds()) {
+    const bool fits = (lawOf(each.type).tables == Law::Tables::kOne) == map.has("table");
+    if (word == each.word && (found == nullptr || fits)) {
+      found = &each;
+    }
+  }
+  return *found;
 }
 
 Lia readLia(SceneBuilder& builder,
@@ -170,10 +180,8 @@ Lia readLia(SceneBuilder& builder,
             const std::string& name,
             const YamlMap& map) {
   const LiaKind& kind = kindOf(map);
-  const bool has_table = !kind.with_table.empty() && map.has("table");
   Keys keys = {"type", "between", "scheme", "coupling", "filter"};
-  for (const Keys& more : has_table ? std::vector<Keys>{kind.with_table}
-                                    : std::vector<Keys>{kind.required, kind.optional}) {
+  for (const Keys& more : {kind.required, kind.optional}) {
     keys.insert(keys.end(), more.begin(), more.end());
   }
   map.allow(keys);
@@ -184,13 +192,8 @@ Lia readLia(SceneBuilder& builder,
   lia.place = map.place();
   readEnds(builder, map, lia);
   lia.rest_length = map.number("rest_length", restLengthLimits(builder.scene(), lia), 0.0);
-  if (has_table) {
-    lia.law.edit().table = tables.read(map, "table");
-  } else if (kind.type == LiaType::kTable) {
-    readLaws(builder, tables, map, lia);
-  } else {
-    readCoefficients(builder, map, kind, lia);
-  }
+  readTables(builder, tables, map, lia);
+  readCoefficients(builder, map, kind.required, lia);
   readTreatment(builder.scene(), map, lia);
   return lia;
 }

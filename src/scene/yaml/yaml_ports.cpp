@@ -67,7 +67,7 @@ NoiseFilter readFilter(const SceneBuilder& builder, const YamlMap& map, const Ma
 Lia damperOf(const NoiseFilter& filter) {
   constexpr double kFastest = 1000.0;  // m/s
   Lia damper;
-  damper.type = LiaType::kBow;
+  damper.type = LiaType::kBowTable;
   const double force = filter.damping * kFastest;
   damper.law.edit().table.points = {{-kFastest, -force}, {kFastest, force}};
   return damper;

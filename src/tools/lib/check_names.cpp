@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/lib/check_names.hpp"
 
+#include "scene/laws/law.hpp"
+
 namespace ergotic::tools {
 
 const char* nameOf(scene::MatType type) {
@@ -22,33 +24,7 @@ const char* nameOf(scene::MatType type) {
 }
 
 const char* nameOf(scene::LiaType type) {
-  switch (type) {
-    case scene::LiaType::kSpringDamper:
-      return "spring-damper";
-    case scene::LiaType::kContact:
-      return "contact";
-    case scene::LiaType::kQuadratic:
-      return "quadratic spring";
-    case scene::LiaType::kCubic:
-      return "cubic spring";
-    case scene::LiaType::kClippedCubic:
-      return "clipped cubic spring";
-    case scene::LiaType::kCubicContact:
-      return "cubic contact";
-    case scene::LiaType::kPluck:
-      return "pluck";
-    case scene::LiaType::kBow:
-      return "bow";
-    case scene::LiaType::kSmoothBow:
-      return "smooth bow";
-    case scene::LiaType::kPowerContact:
-      return "power-law contact";
-    case scene::LiaType::kTable:
-      return "table";
-    case scene::LiaType::kConditional:
-      return "conditional spring-damper";
-  }
-  return "";
+  return scene::lawOf(type).name;
 }
 
 const char* nameOf(scene::Quantity quantity) {

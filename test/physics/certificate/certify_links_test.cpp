@@ -95,7 +95,7 @@ TEST(CertifyLinksTest, SaturatingElementsAreBounded) {
 TEST(CertifyLinksTest, SteepestLineOfATableCounts) {
   SceneBuilder b;
   const int mass = b.mass(1.0);
-  scene::Lia& lia = b.scene.lias[at(b.link(LiaType::kPluck, mass, b.ground(), 0.0))];
+  scene::Lia& lia = b.scene.lias[at(b.link(LiaType::kPluckTable, mass, b.ground(), 0.0))];
   const double k = 4.5 * kRate * kRate;
   lia.law.edit().table.points = {{-0.01, 0.0}, {0.0, 0.0}, {0.001, 0.001 * k}, {0.002, 0.0}};
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnstable);

@@ -149,7 +149,7 @@ TEST_P(EnergyTest, EveryGuardedLawBalances) {
 }
 
 TEST_P(EnergyTest, TablesOfPluckBowAndViscosityBalance) {
-  for (const LiaType type : {LiaType::kPluck, LiaType::kBow, LiaType::kTable}) {
+  for (const LiaType type : {LiaType::kPluckTable, LiaType::kBowTable, LiaType::kTable}) {
     SceneBuilder b = stringAndHand(type);
     for (Lia& lia : b.scene.lias) {
       if (lia.type == type) {

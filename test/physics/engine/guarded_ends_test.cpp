@@ -12,19 +12,18 @@ namespace ergotic::physics {
 namespace {
 
 using Law = GuardedLaw<double>;
-using Kind = Law::Kind;
+using scene::LiaType;
 using Network = test::GuardedNetwork<double>;
 
 Law wallAt(double stiffness, double threshold = 0.0) {
-  Law law;
+  Law law = test::guardedLaw(LiaType::kContact);
   law.stiffness = stiffness;
   law.length = threshold;
   return law;
 }
 
 Law cubicSpring(double stiffness, double nonlinearity) {
-  Law law;
-  law.kind = Kind::kCubic;
+  Law law = test::guardedLaw(LiaType::kCubic);
   law.stiffness = stiffness;
   law.nonlinearity = nonlinearity;
   return law;
@@ -261,8 +260,7 @@ TEST(GuardedEndsTest, SinglePrecisionKeepsABouncingBallGoing) {
   const int ball = net.mass(1.0, -1.0, 0.01);
   net.guard(
       [] {
-        GuardedLaw<float> law;
-        law.kind = GuardedLaw<float>::Kind::kPowerContact;
+        GuardedLaw<float> law = test::guardedLaw<float>(LiaType::kPowerContact);
         law.stiffness = 5.0F;
         law.exponent = 1.5F;
         return law;

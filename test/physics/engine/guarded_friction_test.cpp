@@ -13,7 +13,7 @@ namespace ergotic::physics {
 namespace {
 
 using Law = GuardedLaw<double>;
-using Kind = Law::Kind;
+using scene::LiaType;
 using Network = test::GuardedNetwork<double>;
 
 constexpr double kPi = 3.14159265358979323846;
@@ -22,8 +22,7 @@ constexpr double kBowForce = 0.5;
 
 /// F = N sqrt(2a) v exp(-a v^2 + 1/2) as the smooth bow says it.
 Law bowOfSteepness(double a, double step) {
-  Law law;
-  law.kind = Kind::kSmoothBow;
+  Law law = test::guardedLaw(LiaType::kSmoothBow);
   law.width = 2.0 / std::sqrt(a) * step;
   law.damping = kBowForce * std::sqrt(2.0 * a) / (0.63 * step);
   return law;
@@ -70,19 +69,17 @@ TEST(GuardedFrictionTest, StickSlipPeriodConverges) {
 }
 
 Law linearBow(double damping, double width) {
-  Law law;
-  law.kind = Kind::kBow;
+  Law law = test::guardedLaw(LiaType::kBow);
   law.damping = damping;
   law.width = width;
   return law;
 }
 
 Law tableBow(double height, double width) {
-  Law law;
-  law.kind = Kind::kSlipTable;
+  Law law = test::guardedLaw(LiaType::kBowTable);
   const scene::Table table{
       {{-width, 0.0}, {-0.1 * width, -height}, {0.1 * width, height}, {width, 0.0}}, false};
-  law.viscous = GuardedCurve<double>(scene::interpolate(table), false);
+  law.viscous = scene::GuardedCurve<double>(scene::interpolate(table), false);
   return law;
 }
 
@@ -110,8 +107,7 @@ TEST(GuardedFrictionTest, SteepFrictionNeverReversesTheSlipAndAlwaysDissipates) 
   for (const double steepness : {0.1, 1.0, 2.0, 3.0, 10.0, 100.0, 1e4, 1e8}) {
     expectOnlySlowed(linearBow(1.5 * steepness, 1.0), steepness);
     expectOnlySlowed(tableBow(0.1 * steepness, 1.0), steepness);
-    Law smooth;
-    smooth.kind = Kind::kSmoothBow;
+    Law smooth = test::guardedLaw(LiaType::kSmoothBow);
     smooth.width = 1.0;
     smooth.damping = steepness;
     expectOnlySlowed(smooth, steepness);
@@ -153,11 +149,10 @@ TEST(GuardedFrictionTest, BowOnGuardedSpringsKeepsTheBalance) {
   for (int m = 0; m < kMasses; ++m) {
     net.mass(1.0, anywhere(random));
   }
-  Law spring;
-  spring.kind = Kind::kCubic;
+  Law spring = test::guardedLaw(LiaType::kCubic);
   spring.stiffness = 0.1;
   spring.nonlinearity = 0.3;
-  Law wall;
+  Law wall = test::guardedLaw(LiaType::kContact);
   wall.stiffness = 2.0;
   wall.length = -0.2;
   for (int m = 0; m + 1 < kMasses; ++m) {

@@ -7,8 +7,17 @@
 #include <vector>
 
 #include "physics/engine/guarded.hpp"
+#include "scene/laws/law.hpp"
 
 namespace ergotic::physics::test {
+
+/// The guarded form of a law, all numbers 0. A kTable is elastic once it has a table.
+template <class Real = double>
+GuardedLaw<Real> guardedLaw(scene::LiaType type) {
+  GuardedLaw<Real> law;
+  law.form = &scene::lawOf(type).guarded({}).template get<Real>();
+  return law;
+}
 
 /// Masses, linear springs between them and guarded links, in up to three coordinates, stepped as an
 /// instrument does: forces of step n, then the move to n + 1. One step is one unit of time.

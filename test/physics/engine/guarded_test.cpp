@@ -13,22 +13,20 @@ namespace ergotic::physics {
 namespace {
 
 using Law = GuardedLaw<double>;
-using Kind = Law::Kind;
+using scene::LiaType;
 using Network = test::GuardedNetwork<double>;
 
 constexpr double kPi = 3.14159265358979323846;
 
 Law powerContact(double stiffness, double exponent) {
-  Law law;
-  law.kind = exponent == 1.0 ? Kind::kContact : Kind::kPowerContact;
+  Law law = test::guardedLaw(exponent == 1.0 ? LiaType::kContact : LiaType::kPowerContact);
   law.stiffness = stiffness;
   law.exponent = exponent;
   return law;
 }
 
 Law cubicSpring(double stiffness, double nonlinearity) {
-  Law law;
-  law.kind = Kind::kCubic;
+  Law law = test::guardedLaw(LiaType::kCubic);
   law.stiffness = stiffness;
   law.nonlinearity = nonlinearity;
   return law;

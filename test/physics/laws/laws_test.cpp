@@ -107,9 +107,10 @@ TEST(LawsTest, TablesAreStraightLinesBetweenTheirPoints) {
   const auto set = [](Lia& lia) {
     lia.law.edit().table.points = {{-0.2, -1.0}, {0.0, 0.0}, {0.1, 2.0}, {0.4, 0.5}};
   };
-  for (const LiaType type : {LiaType::kPluck, LiaType::kBow}) {
+  for (const LiaType type : {LiaType::kPluckTable, LiaType::kBowTable}) {
     const auto at = [&](double value) {
-      return type == LiaType::kPluck ? forceOf(type, set, value) : forceOf(type, set, 0.0, value);
+      return type == LiaType::kPluckTable ? forceOf(type, set, value)
+                                          : forceOf(type, set, 0.0, value);
     };
     EXPECT_NEAR(at(-0.1), -0.5, 1e-9);
     EXPECT_NEAR(at(0.05), 1.0, 1e-9);

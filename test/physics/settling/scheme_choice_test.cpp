@@ -141,7 +141,7 @@ TEST(SchemeChoiceTest, SteepestFallOfTheSmoothBowIsThatOfItsCurve) {
 }
 
 TEST(SchemeChoiceTest, FrictionTablesAreJudgedByTheirLines) {
-  Pair pair(LiaType::kBow);
+  Pair pair(LiaType::kBowTable);
   const double unit = kRate / kInverse;
   const auto table = [&](double rise, double fall) {
     pair.lia().law.edit().table.points = {

@@ -149,7 +149,7 @@ TEST(ReadYamlTest, EveryTypeOfLinkIsReadFieldByField) {
   const LiaType types[] = {LiaType::kSpringDamper, LiaType::kSpringDamper, LiaType::kSpringDamper,
                            LiaType::kContact,      LiaType::kQuadratic,    LiaType::kCubic,
                            LiaType::kClippedCubic, LiaType::kCubicContact, LiaType::kPluck,
-                           LiaType::kPluck,        LiaType::kBow,          LiaType::kBow,
+                           LiaType::kPluckTable,   LiaType::kBow,          LiaType::kBowTable,
                            LiaType::kSmoothBow};
   ASSERT_EQ(s.lias.size(), std::size(types));
   for (std::size_t i = 0; i < s.lias.size(); ++i) {

@@ -52,7 +52,7 @@ TEST(YamlPortFilterTest, InSpaceAllPortsOfASliceShareItAndItIsDampedAlongAllAxes
   EXPECT_EQ(s.ports[1].filter, 1);
   EXPECT_EQ(s.mats[1].position, Eigen::Vector3d(1.0, 2.0, 3.0));
   ASSERT_EQ(s.lias.size(), 2U);
-  EXPECT_EQ(s.lias[0].type, LiaType::kBow);
+  EXPECT_EQ(s.lias[0].type, LiaType::kBowTable);
   const auto [v, f] = s.lias[0].law->table.points.at(1);
   EXPECT_DOUBLE_EQ(f / v, 2.0 * 0.7 * 0.01 * kOmega);
   EXPECT_EQ(s.lias[1].damping.factor, 0.0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/lia_rules.hpp"
+#include "scene/rules/lia_rules.hpp"
 
+#include "scene/laws/law.hpp"
 #include "scene/names.hpp"
 
 namespace ergotic::scene {
@@ -10,27 +11,10 @@ const Section& sectionAt(const Scene& scene, int mat) {
   return scene.sectionOf(scene.mats[static_cast<std::size_t>(mat)]);
 }
 
-/// What no guard is defined for, nullptr if there is one.
-const char* unguarded(const Lia& lia) {
-  switch (lia.type) {
-    case LiaType::kSpringDamper:
-      // With a rest length it is linear along its line only.
-      return lia.rest_length > 0.0 ? nullptr : "a linear spring or damper";
-    case LiaType::kPluck:
-      return "a pluck";
-    case LiaType::kConditional:
-      return "conditional";
-    case LiaType::kTable:
-      return lia.law->viscous_table.empty() ? nullptr : "a table with a viscous part";
-    default:
-      return nullptr;
-  }
-}
-
 }  // namespace
 
 bool isGuardable(const Lia& lia) {
-  return unguarded(lia) == nullptr;
+  return lawOf(lia.type).unguarded(lia) == nullptr;
 }
 
 Limits restLengthLimits(const Scene& scene, const Lia& lia) {
@@ -49,7 +33,7 @@ Limits releaseLimits(const Scene& scene, const Lia& lia) {
 }
 
 std::string schemeFault(const Lia& lia) {
-  const char* kind = unguarded(lia);
+  const char* kind = lawOf(lia.type).unguarded(lia);
   if (lia.scheme != Scheme::kGuarded || kind == nullptr) {
     return "";
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/clipped_law.hpp"
+#include "scene/laws/clipped_cubic.hpp"
 
 #include <cmath>
 

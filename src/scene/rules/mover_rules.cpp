@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/mover_rules.hpp"
+#include "scene/rules/mover_rules.hpp"
 
 #include <map>
 #include <unordered_map>

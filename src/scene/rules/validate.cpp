@@ -8,10 +8,11 @@
 #include "ergotic/scene/coarse_string.hpp"
 #include "ergotic/scene/scene.hpp"
 #include "ergotic/scene/table.hpp"
-#include "scene/lia_rules.hpp"
+#include "scene/laws/law.hpp"
 #include "scene/limits.hpp"
-#include "scene/mover_rules.hpp"
 #include "scene/names.hpp"
+#include "scene/rules/lia_rules.hpp"
+#include "scene/rules/mover_rules.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -264,26 +265,27 @@ class Validator {
   }
 
   void laws(const Lia& l, const std::string& of) const {
-    const bool table_only = l.type == LiaType::kTable;
-    const bool may_have_table = table_only || l.type == LiaType::kPluck || l.type == LiaType::kBow;
-    if ((!l.law->table.empty() && !may_have_table) ||
-        (!l.law->viscous_table.empty() && !table_only)) {
+    const Law& law = lawOf(l.type);
+    const bool has_table = !l.law->table.empty();
+    const bool has_viscous = !l.law->viscous_table.empty();
+    if ((has_table && law.tables == Law::Tables::kNone) ||
+        (has_viscous && law.tables != Law::Tables::kParts)) {
       fail(l.place, "link " + quoted(l.name) + " has a table, allowed: pluck, bow and table only");
     }
-    if (table_only && l.law->table.empty() && l.law->viscous_table.empty()) {
+    if (law.tables == Law::Tables::kOne && !has_table) {
+      fail(l.place, "link " + quoted(l.name) + " has no table, allowed: one");
+    }
+    if (law.tables == Law::Tables::kParts && !has_table && !has_viscous) {
       fail(l.place, "link " + quoted(l.name) + " has no table, allowed: elastic, viscous or both");
     }
     table(l, l.law->table);
     table(l, l.law->viscous_table);
-    if (table_only || !l.law->table.empty()) {
-      return;
-    }
-    for (const LiaField& field : liaFields(l.type)) {
+    for (const LiaField& field : law.fields) {
       value(l.place, field.key + of, memberOf(l, field.member), field.limits);
     }
     number(l.place, "tipping_point" + of, l.law->tipping_point, {"m", 0.0});
     value(l.place, "limit_damping" + of, l.law->limit_damping, kDampingLimits);
-    if (l.type == LiaType::kConditional) {
+    if (law.has_release) {
       number(l.place, "release" + of, l.law->release, releaseLimits(scene_, l));
     }
   }

@@ -3,7 +3,7 @@
 
 #include "ergotic/scene/scene.hpp"
 
-namespace ergotic::physics {
+namespace ergotic::scene {
 
 /// What a number can be: parameters move within a range.
 struct Range {
@@ -12,8 +12,8 @@ struct Range {
 };
 
 /// Both ends of what a value can be. What follows an audio input has no range and counts as 0.
-Range rangeOf(const scene::Scene& scene, const scene::Value& v);
+Range rangeOf(const Scene& scene, const Value& v);
 /// The largest absolute value.
-double largest(const scene::Scene& scene, const scene::Value& v);
+double largest(const Scene& scene, const Value& v);
 
-}  // namespace ergotic::physics
+}  // namespace ergotic::scene

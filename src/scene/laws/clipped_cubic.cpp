@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/laws/clipped_cubic.hpp"
+
+#include <algorithm>
+
+namespace ergotic::scene {
+namespace {
+
+const GuardedForms& forms(const Lia& /*lia*/) {
+  static constexpr GuardedForms kForms = springForms<ClippedCurve>();
+  return kForms;
+}
+
+double leastStiffness(const Scene& scene, const Lia& lia) {
+  return std::min(rangeOf(scene, lia.stiffness).lowest,
+                  rangeOf(scene, lia.law->stiffness_limit).lowest);
+}
+
+constexpr LawWord kWords[] = {
+    {"clipped_cubic", "stiffness nonlinearity stiffness_limit", "damping rest_length"}};
+constexpr LiaField kFields[] = {fixedField("stiffness", &Lia::stiffness, "N/m"), dampingField(),
+                                fixedField("nonlinearity", &LiaLaw::nonlinearity, "N/m^3"),
+                                fixedField("stiffness_limit", &LiaLaw::stiffness_limit, "N/m")};
+
+}  // namespace
+
+void completeClippedLaw(Lia& lia, ClippedLaw law) {
+  const bool contact = lia.type == LiaType::kCubicContact;
+  if (lia.type != LiaType::kClippedCubic && !contact) {
+    return;
+  }
+  const double k = lia.stiffness.factor;
+  const double q = lia.law->nonlinearity.factor;
+  const double limit = lia.law->stiffness_limit.factor;
+  if (q == 0.0 || k >= limit) {
+    lia.type = contact ? LiaType::kContact : LiaType::kSpringDamper;
+    lia.stiffness = q == 0.0 ? lia.stiffness : lia.law->stiffness_limit;
+    lia.law.edit().nonlinearity = {};
+    lia.law.edit().stiffness_limit = {};
+    return;
+  }
+  if (law == ClippedLaw::kMdl) {
+    lia.law.edit().tipping_point = std::sqrt(limit - k) / q;
+    lia.law.edit().limit_damping = 0.3 * lia.law->stiffness_limit;
+  } else {
+    lia.law.edit().tipping_point = std::sqrt((limit - k) / q);
+  }
+}
+
+void ClippedCubic::convert(
+    const Scene& scene, const Lia& lia, const Units& units, double rest, double* to) {
+  const CommonNumbers n = commonNumbers(scene, lia, units, rest);
+  to[0] = n.stiffness;
+  to[1] = n.damping;
+  to[2] = n.offset;
+  to[3] = scene.valueOf(lia.law->nonlinearity);
+  to[4] = scene.valueOf(lia.law->stiffness_limit);
+  to[5] = n.damping + units.damping(scene.valueOf(lia.law->limit_damping));
+  to[6] = lia.law->tipping_point;
+}
+
+template <class Real>
+ERGOTIC_REALTIME GuardedForce<Real> ClippedCurve<Real>::push(const Numbers& n, Real p) noexcept {
+  if (std::abs(p) > n.tip) {
+    return {n.stiffness_limit * p, n.stiffness_limit};
+  }
+  return {p * (n.stiffness + n.nonlinearity * p * p),
+          n.stiffness + Real(3) * n.nonlinearity * p * p};
+}
+
+template <class Real>
+ERGOTIC_REALTIME Real ClippedCurve<Real>::potential(const Numbers& n, Real p) noexcept {
+  const Real inside = std::min(std::abs(p), n.tip);
+  const Real square = inside * inside;
+  return square * (n.stiffness + n.nonlinearity * square / Real(2)) / Real(2) +
+         n.stiffness_limit * (p * p - square) / Real(2);
+}
+
+template <class Real>
+ERGOTIC_REALTIME Real ClippedCurve<Real>::damping(const Numbers& n, Real p, Real) noexcept {
+  return std::max(Real(0), std::abs(p) > n.tip ? n.limit_damping : n.damping);
+}
+
+template struct ClippedCurve<float>;
+template struct ClippedCurve<double>;
+
+Slopes clippedSlopes(const Scene& scene, const Lia& lia) {
+  const double tip = lia.law->tipping_point;
+  const double stiffness = std::max(
+      largest(scene, lia.stiffness) + 3.0 * largest(scene, lia.law->nonlinearity) * tip * tip,
+      largest(scene, lia.law->stiffness_limit));
+  return slopesUpTo(stiffness,
+                    largest(scene, lia.damping) + largest(scene, lia.law->limit_damping));
+}
+
+constexpr Law kClippedCubicLaw = {
+    "clipped cubic spring",
+    kWords,
+    kFields,
+    Law::Tables::kNone,
+    false,  // tables_hold
+    false,  // has_release
+    Law::Kind::kElastic,
+    explicitFormOf<ClippedCubic>(),
+    forms,
+    guardable,
+    true,   // has_linear_part
+    true,   // switches
+    false,  // is_held
+    never,
+    clippedSlopes,
+    nullptr,  // growth
+    nullptr,  // friction
+    leastStiffness,
+};
+
+}  // namespace ergotic::scene

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include "scene/laws/contact.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+/// f = K e + Z v from when |e| < engage until |e| > release.
+struct Conditional {
+  static constexpr std::size_t kNumbers = 5;  // K, Z, offset, engage, release
+  static constexpr std::size_t kOffset = 2;
+
+  static void convert(
+      const Scene& scene, const Lia& lia, const Units& units, double rest, double* to) {
+    const CommonNumbers n = commonNumbers(scene, lia, units, rest);
+    to[0] = n.stiffness;
+    to[1] = n.damping;
+    to[2] = n.offset;
+    to[3] = scene.valueOf(lia.law->width);
+    to[4] = lia.law->release;
+  }
+
+  template <class Real>
+  static Force<Real> force(const RunNumbers<Real>& c, std::size_t l, Real u, Real v) noexcept {
+    Real& engaged = c.state[l];  // 1 while it holds on
+    const Real e = u + c(2, l);
+    const Real distance = std::abs(e);
+    const bool holds = engaged != Real(0) ? distance <= c(4, l) : distance < c(3, l);
+    engaged = holds ? Real(1) : Real(0);
+    return holds ? Force<Real>{c(0, l) * e, c(1, l) * v} : Force<Real>{};
+  }
+};
+
+const char* unguarded(const Lia& /*lia*/) {
+  return "conditional";
+}
+
+constexpr LawWord kWords[] = {{"conditional", "stiffness engage", "damping release rest_length"}};
+constexpr LiaField kFields[] = {stiffnessField(), dampingField(), widthField("engage", "m")};
+
+}  // namespace
+
+constexpr Law kConditionalLaw = {
+    "conditional spring-damper",
+    kWords,
+    kFields,
+    Law::Tables::kNone,
+    false,  // tables_hold
+    true,   // has_release
+    Law::Kind::kElastic,
+    explicitFormOf<Conditional>(true),
+    nullptr,  // guarded
+    unguarded,
+    false,  // has_linear_part
+    true,   // switches
+    false,  // is_held
+    always,
+    slopesFromZero,
+    nullptr,  // growth
+    nullptr,  // friction
+    noStiffness,
+};
+
+}  // namespace ergotic::scene

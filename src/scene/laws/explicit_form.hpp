@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+#include "ergotic/rt/realtime.hpp"
+#include "ergotic/scene/scene.hpp"
+#include "scene/laws/units.hpp"
+
+/// Force laws f(e, v) of explicit links: e elongation in m, v its difference over one step in m, f
+/// in the scene's force unit; module a receives -f, module b +f. Damping is per step (Z / step).
+/// `u` is x_a - x_b, or in Euclidean geometries the distance, negative for laws that act when it is
+/// short (kGap). Source: docs/physics.md, "Links".
+namespace ergotic::scene {
+
+/// The elastic part of a force depends on positions, the viscous part on velocities too.
+template <class Real>
+struct Force {
+  Real elastic;
+  Real viscous;
+};
+
+/// Tables of one run: link l has `count[l]` pieces from `first[l]` on, each a cubic in
+/// (value - x) from its x to that of the next; the last x ends the table.
+template <class Real>
+struct Tables {
+  const Real* x = nullptr;
+  const Real* cubic = nullptr;  ///< [points][4]
+  const int* first = nullptr;
+  const int* count = nullptr;  ///< points: pieces + 1
+
+  ERGOTIC_REALTIME bool holds(std::size_t link, Real value) const noexcept {
+    return value >= x[first[link]] && value <= x[first[link] + count[link] - 1];
+  }
+  /// Its value, held beyond its ends. Bounded by log2 of the table's length.
+  ERGOTIC_REALTIME Real at(std::size_t link, Real value) const noexcept {
+    const Real* tx = x + first[link];
+    int low = 0;
+    int high = count[link] - 1;
+    if (high < 1) {
+      return Real(0);
+    }
+    const Real inside = value < tx[low] ? tx[low] : (value > tx[high] ? tx[high] : value);
+    while (high - low > 1) {
+      const int middle = (low + high) / 2;
+      (inside < tx[middle] ? high : low) = middle;
+    }
+    const Real* c = cubic + 4 * (first[link] + low);
+    const Real t = inside - tx[low];
+    return c[0] + t * (c[1] + t * (c[2] + t * c[3]));
+  }
+  Real atOrZero(std::size_t link, Real value) const noexcept {
+    return holds(link, value) ? at(link, value) : Real(0);
+  }
+};
+
+/// The coefficients of one run of links: number i of link l is c(i, l).
+template <class Real>
+struct RunNumbers {
+  const Real* base = nullptr;  ///< [numbers][links]
+  std::size_t links = 0;
+  Tables<Real> table{};  ///< elastic; friction: its only one
+  Tables<Real> viscous{};
+  Real* state = nullptr;  ///< [links] of laws that have one
+
+  Real operator()(std::size_t number, std::size_t link) const noexcept {
+    return base[number * links + link];
+  }
+};
+
+/// Forces of `count` links from `first` on, at u[i] and v[i]. Realtime: yes
+template <class Real>
+using RunForces = void (*)(const RunNumbers<Real>& c,
+                           std::size_t first,
+                           std::size_t count,
+                           const Real* u,
+                           const Real* v,
+                           Force<Real>* forces) noexcept;
+
+/// How a law is worked out in the explicit scheme.
+struct ExplicitForm {
+  static constexpr std::size_t kMostNumbers = 8;
+
+  std::size_t numbers;  ///< of each link, at most kMostNumbers
+  std::size_t offset;   ///< the number that u + it is e; not of friction
+  bool has_state;       ///< remembers a number from step to step, 0 at the start
+  /// Numbers of a link in steps, into `to`.
+  /// \param rest  distance of the ends at rest, if it is not part of u already. Realtime: yes
+  void (*convert)(const Scene& scene, const Lia& lia, const Units& units, double rest, double* to);
+  RunForces<float> single_forces;
+  RunForces<double> double_forces;
+
+  template <class Real>
+  RunForces<Real> forces() const noexcept {
+    if constexpr (sizeof(Real) == sizeof(float)) {
+      return single_forces;
+    } else {
+      return double_forces;
+    }
+  }
+};
+
+/// A run of `Law::force(c, l, u, v)`.
+template <class Law, class Real>
+ERGOTIC_REALTIME void runForces(const RunNumbers<Real>& c,
+                                std::size_t first,
+                                std::size_t count,
+                                const Real* u,
+                                const Real* v,
+                                Force<Real>* forces) noexcept {
+  for (std::size_t i = 0; i < count; ++i) {
+    forces[i] = Law::force(c, first + i, u[i], v[i]);
+  }
+}
+
+/// `Law` says kNumbers, kOffset and convert() too.
+template <class Law>
+constexpr ExplicitForm explicitFormOf(bool has_state = false) {
+  static_assert(Law::kNumbers <= ExplicitForm::kMostNumbers);
+  return {Law::kNumbers, Law::kOffset,          has_state,
+          Law::convert,  runForces<Law, float>, runForces<Law, double>};
+}
+
+/// Numbers that most laws begin with.
+struct CommonNumbers {
+  double stiffness;
+  double damping;  ///< per step
+  double offset;   ///< displacements are stored from rest: e = u + offset
+};
+inline CommonNumbers commonNumbers(const Scene& scene,
+                                   const Lia& lia,
+                                   const Units& units,
+                                   double rest) {
+  return {scene.valueOf(lia.stiffness), units.damping(scene.valueOf(lia.damping)),
+          rest - lia.rest_length};
+}
+
+}  // namespace ergotic::scene

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "ergotic/rt/realtime.hpp"
+#include "ergotic/scene/scene.hpp"
+#include "ergotic/scene/table.hpp"
+#include "scene/laws/units.hpp"
+
+namespace ergotic::scene {
+
+template <class Real>
+struct GuardedForce {
+  Real force = Real(0);
+  Real slope = Real(0);
+};
+
+/// A table as pieces of polynomials with its integral. A default one is 0 everywhere.
+template <class Real>
+class GuardedCurve {
+ public:
+  GuardedCurve() = default;
+  /// \param holds  beyond its ends it keeps its last value; otherwise it is 0 there
+  GuardedCurve(const Curve& curve, bool holds);
+
+  bool empty() const noexcept { return pieces_.empty(); }
+  /// Realtime: yes. Cost: O(log pieces)
+  GuardedForce<Real> at(Real x) const noexcept;
+  /// Integral over x, at its lowest 0 if it has a lowest value. Realtime: yes. O(log pieces)
+  Real potential(Real x) const noexcept;
+
+ private:
+  struct Piece {
+    Real begin, c0, c1, c2, c3;
+    Real potential;  // at begin
+  };
+  static Real integral(const Piece& piece, Real u) noexcept;
+  const Piece& pieceOf(Real x) const noexcept;
+  void sinkToFloor();
+
+  std::vector<Piece> pieces_;
+  Real end_ = Real(0);
+  Real end_value_ = Real(0);
+  bool holds_ = true;
+};
+
+template <class Real>
+struct GuardedLaw;
+
+/// How a law is worked out in the guarded scheme: of `Real` numbers. Elastic laws give the force
+/// f(p) over compression (contacts) or elongation p; friction laws give the force F(v) over the
+/// slip v, m per step. What a sort does not need is null.
+template <class Real>
+struct GuardedForm {
+  enum class Sort {
+    kContact,   ///< pushes while p > 0 and lets go beyond
+    kSpring,    ///< two-sided
+    kFriction,  ///< over velocity alone
+  };
+  using Number = Real (*)(const GuardedLaw<Real>&, Real) noexcept;
+  using ForceAt = GuardedForce<Real> (*)(const GuardedLaw<Real>&, Real) noexcept;
+
+  Sort sort;
+  ForceAt push;      ///< f(p) and f'(p)
+  Number potential;  ///< integral of f from 0 to p; springs with a well: from its bottom
+  Number impulse;    ///< contacts: integral of the potential from 0 to p > 0
+  Number bend;       ///< contacts: f''(p)
+  /// Z >= 0 at p; v is the velocity of p per step.
+  Real (*damping)(const GuardedLaw<Real>&, Real p, Real v) noexcept;
+  ForceAt slip;  ///< F(v) and F'(v) of friction
+};
+
+struct GuardedForms {
+  GuardedForm<float> single_form;
+  GuardedForm<double> double_form;
+
+  template <class Real>
+  const GuardedForm<Real>& get() const noexcept {
+    if constexpr (sizeof(Real) == sizeof(float)) {
+      return single_form;
+    } else {
+      return double_form;
+    }
+  }
+};
+
+/// The law of one guarded link: numbers of one step, and its tables. Damping is force per m per
+/// step. Source: docs/physics.md, "Links" and "Guarded links".
+template <class Real>
+struct GuardedLaw {
+  const GuardedForm<Real>* form = nullptr;
+  Real stiffness = Real(0);
+  Real damping = Real(0);
+  Real nonlinearity = Real(0);
+  Real stiffness_limit = Real(0);
+  Real limit_damping = Real(0);  ///< instead of `damping` beyond `tip`
+  Real tip = Real(0);
+  Real exponent = Real(1);
+  Real width = Real(0);        ///< of the friction curve, m per step
+  Real per_step = Real(1);     ///< velocity of the tables per m per step
+  Real length = Real(0);       ///< threshold of contacts, rest length of the others, m
+  GuardedCurve<Real> table;    ///< elastic
+  GuardedCurve<Real> viscous;  ///< over velocity
+
+  /// \throws Exception if the link has no law that can be guarded
+  static GuardedLaw make(const Scene& scene, const Lia& lia, const Units& units);
+  /// Takes all numbers again from the present values in `scene`; tables stay. Realtime: yes
+  void update(const Scene& scene, const Lia& lia, const Units& units) noexcept;
+
+  bool isContact() const noexcept { return form->sort == GuardedForm<Real>::Sort::kContact; }
+  bool isFriction() const noexcept { return form->sort == GuardedForm<Real>::Sort::kFriction; }
+
+  /// f(p) and f'(p) of the elastic laws. \pre p > 0 for contacts. Realtime: yes
+  GuardedForce<Real> push(Real p) const noexcept { return form->push(*this, p); }
+  /// Mean of f over the steps before and after p, which is passed at w per step, with the weight
+  /// 1 - |t|: the impulse that a motion at constant velocity would get. Contacts only.
+  /// Realtime: yes
+  Real meanPush(Real p, Real w) const noexcept;
+  /// Realtime: yes
+  Real potential(Real p) const noexcept {
+    return form->potential == nullptr ? Real(0) : form->potential(*this, p);
+  }
+  Real dampingAt(Real p, Real v) const noexcept { return form->damping(*this, p, v); }
+  GuardedForce<Real> slip(Real v) const noexcept { return form->slip(*this, v); }
+};
+
+/// Forms from a `Curve<Real>` with push, potential, impulse and bend, of contacts.
+template <template <class> class Curve>
+constexpr GuardedForms contactForms() {
+  using F = GuardedForm<float>;
+  using D = GuardedForm<double>;
+  return {{F::Sort::kContact, Curve<float>::push, Curve<float>::potential, Curve<float>::impulse,
+           Curve<float>::bend, Curve<float>::damping, nullptr},
+          {D::Sort::kContact, Curve<double>::push, Curve<double>::potential, Curve<double>::impulse,
+           Curve<double>::bend, Curve<double>::damping, nullptr}};
+}
+/// The same with push and potential, of two-sided springs.
+template <template <class> class Curve>
+constexpr GuardedForms springForms() {
+  using F = GuardedForm<float>;
+  using D = GuardedForm<double>;
+  return {{F::Sort::kSpring, Curve<float>::push, Curve<float>::potential, nullptr, nullptr,
+           Curve<float>::damping, nullptr},
+          {D::Sort::kSpring, Curve<double>::push, Curve<double>::potential, nullptr, nullptr,
+           Curve<double>::damping, nullptr}};
+}
+/// The same with slip, of friction.
+template <template <class> class Curve>
+constexpr GuardedForms frictionForms() {
+  using F = GuardedForm<float>;
+  using D = GuardedForm<double>;
+  return {{F::Sort::kFriction, nullptr, nullptr, nullptr, nullptr, nullptr, Curve<float>::slip},
+          {D::Sort::kFriction, nullptr, nullptr, nullptr, nullptr, nullptr, Curve<double>::slip}};
+}
+
+/// Z of a law that has one number for it.
+template <class Real>
+struct PlainDamping {
+  ERGOTIC_REALTIME static Real damping(const GuardedLaw<Real>& law, Real, Real) noexcept {
+    return law.damping > Real(0) ? law.damping : Real(0);
+  }
+};
+
+extern template class GuardedCurve<float>;
+extern template class GuardedCurve<double>;
+extern template struct GuardedLaw<float>;
+extern template struct GuardedLaw<double>;
+
+}  // namespace ergotic::scene

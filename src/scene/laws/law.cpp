@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/laws/law.hpp"
+
+namespace ergotic::scene {
+
+const Law& lawOf(LiaType type) {
+#define ERGOTIC_ADDRESS(name) &k##name##Law,
+  static constexpr const Law* kLaws[] = {ERGOTIC_LAWS(ERGOTIC_ADDRESS)};
+#undef ERGOTIC_ADDRESS
+  return *kLaws[static_cast<std::size_t>(type)];
+}
+
+const Value& memberOf(const Lia& lia, LiaMember member) {
+  const auto* const own = std::get_if<Value Lia::*>(&member);
+  return own != nullptr ? lia.*(*own) : (*lia.law).*(std::get<Value LiaLaw::*>(member));
+}
+
+void setMember(Lia& lia, LiaMember member, const Value& value) {
+  const auto* const own = std::get_if<Value Lia::*>(&member);
+  (own != nullptr ? lia.*(*own) : lia.law.edit().*(std::get<Value LiaLaw::*>(member))) = value;
+}
+
+Slopes slopesAt(const Scene& scene, const Lia& lia, double elongation) {
+  const Law& law = lawOf(lia.type);
+  return law.growth == nullptr ? law.slopes(scene, lia)
+                               : law.growth->slopes(scene, lia, elongation);
+}
+
+bool never(const Lia& /*lia*/) {
+  return false;
+}
+bool always(const Lia& /*lia*/) {
+  return true;
+}
+double noStiffness(const Scene& /*scene*/, const Lia& /*lia*/) {
+  return 0.0;
+}
+const char* guardable(const Lia& /*lia*/) {
+  return nullptr;
+}
+
+}  // namespace ergotic::scene

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <variant>
+
+#include "scene/laws/explicit_form.hpp"
+#include "scene/laws/guarded_form.hpp"
+#include "scene/laws/slopes.hpp"
+#include "scene/limits.hpp"
+
+/// What a law of force is, told once for all who read it: readers of scenes, `validate`, schemes,
+/// certificate. A new law is a row of lia_type.hpp and a file of its own here.
+namespace ergotic::scene {
+
+/// A constant array.
+template <class Item>
+struct List {
+  const Item* items = nullptr;
+  std::size_t count = 0;
+
+  constexpr List() = default;
+  template <std::size_t N>
+  constexpr List(const Item (&from)[N]) : items(from), count(N) {}
+  constexpr const Item* begin() const { return items; }
+  constexpr const Item* end() const { return items + count; }
+};
+
+/// A coefficient that all links have, or one that only some laws need.
+using LiaMember = std::variant<Value Lia::*, Value LiaLaw::*>;
+const Value& memberOf(const Lia& lia, LiaMember member);
+void setMember(Lia& lia, LiaMember member, const Value& value);
+
+/// One coefficient of a link.
+struct LiaField {
+  const char* key;  ///< in YAML
+  LiaMember member;
+  Limits limits;
+  bool is_fixed = false;  ///< worked out once: no parameter
+};
+
+/// A word for a law in YAML, and the keys it takes beside those of all links, in one string each.
+struct LawWord {
+  const char* word;
+  const char* required;
+  const char* optional;
+};
+
+/// Of a law whose slopes grow with amplitude: no bound holds for all motions.
+struct Growth {
+  /// Why the explicit scheme does not bear it, nullptr where its parameters leave it linear.
+  struct Figure {
+    const char* name;
+    double value;
+    double allowed;
+  };
+  Figure (*figure)(const Scene& scene, const Lia& lia);
+  /// The steepest slopes up to an elongation, m.
+  Slopes (*slopes)(const Scene& scene, const Lia& lia, double elongation);
+  /// The elongation from which on the stiffness is above a limit, m; 0: always.
+  double (*elongation)(const Scene& scene, const Lia& lia, double limit);
+};
+
+/// One law. Every entry is given by every law: none has a default that could be wrong for it.
+struct Law {
+  /// What the force acts on, for geometries and books of energy.
+  enum class Kind {
+    kLinear,    ///< elongation and velocity, linear
+    kElastic,   ///< elongation and velocity
+    kGap,       ///< a distance that is too short
+    kFriction,  ///< velocity alone
+  };
+  enum class Tables {
+    kNone,
+    kOne,    ///< `table`
+    kParts,  ///< `elastic`, `viscous` or both
+  };
+
+  // Reading and checking
+  const char* name;  ///< in reports
+  List<LawWord> words;
+  List<LiaField> fields;
+  Tables tables;
+  bool tables_hold;  ///< beyond its ends a table keeps its last value; otherwise it is 0 there
+  bool has_release;  ///< lets go at `release`, not at `width`
+
+  // Force
+  Kind kind;
+  ExplicitForm explicit_form;
+  const GuardedForms& (*guarded)(const Lia& lia);  ///< nullptr: none, it is meant to be active
+  const char* (*unguarded)(const Lia& lia);  ///< what `scheme: guarded` is refused for, or nullptr
+
+  // Stability
+  bool has_linear_part;             ///< K e + Z v is there at rest
+  bool switches;                    ///< its stiffness comes and goes
+  bool is_held;                     ///< it switches, but its force has an upper bound
+  bool (*canGive)(const Lia& lia);  ///< energy, though no more than a bounded amount at a time
+  Slopes (*slopes)(const Scene& scene, const Lia& lia);
+  const Growth* growth;                                            ///< nullptr: slopes are bounded
+  FrictionSlopes (*friction)(const Scene& scene, const Lia& lia);  ///< nullptr: no friction
+  /// Of the spring that it is at least; 0 if it may let go.
+  double (*leastStiffness)(const Scene& scene, const Lia& lia);
+};
+
+/// The row of a law.
+const Law& lawOf(LiaType type);
+
+inline Slopes slopesOf(const Scene& scene, const Lia& lia) {
+  return lawOf(lia.type).slopes(scene, lia);
+}
+/// The steepest up to an elongation, m.
+Slopes slopesAt(const Scene& scene, const Lia& lia, double elongation);
+
+/// Entries that many laws share.
+bool never(const Lia& lia);
+bool always(const Lia& lia);
+double noStiffness(const Scene& scene, const Lia& lia);
+const char* guardable(const Lia& lia);
+
+constexpr LiaField stiffnessField(double least = 0.0, const char* unit = "N/m") {
+  return {"stiffness", &Lia::stiffness, {unit, least}};
+}
+constexpr LiaField dampingField(double least = 0.0, const char* unit = "N s/m") {
+  return {"damping", &Lia::damping, {unit, least}};
+}
+constexpr LiaField thresholdField() {
+  return {"threshold", &LiaLaw::width, kMetreLimits};
+}
+constexpr LiaField widthField(const char* key, const char* unit) {
+  return {key, &LiaLaw::width, {unit, 0.0, kInfinity, true}};
+}
+
+#define ERGOTIC_DECLARATION(name) extern const Law k##name##Law;
+ERGOTIC_LAWS(ERGOTIC_DECLARATION)
+#undef ERGOTIC_DECLARATION
+
+}  // namespace ergotic::scene

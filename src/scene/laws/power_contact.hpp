@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "scene/laws/law.hpp"
+
+namespace ergotic::scene {
+
+/// K p^a with its integrals, guarded.
+template <class Real>
+struct PowerCurve : PlainDamping<Real> {
+  using Numbers = GuardedLaw<Real>;
+  static GuardedForce<Real> push(const Numbers& n, Real p) noexcept;
+  static Real potential(const Numbers& n, Real p) noexcept;
+  static Real impulse(const Numbers& n, Real p) noexcept;
+  static Real bend(const Numbers& n, Real p) noexcept;
+};
+extern template struct PowerCurve<float>;
+extern template struct PowerCurve<double>;
+
+/// K of power laws, and their exponent.
+constexpr LiaField powerStiffnessField() {
+  return stiffnessField(0.0, "N/m^exponent");
+}
+constexpr LiaField exponentField() {
+  return {"exponent", &LiaLaw::exponent, kExponentLimits};
+}
+
+/// a K e^(a - 1), at the worst ends of K and a.
+double powerSlope(const Scene& scene, const Lia& lia, double elongation);
+/// Where that is a limit. \pre a > 1
+double powerElongation(const Scene& scene, const Lia& lia, double limit);
+
+}  // namespace ergotic::scene

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/laws/slopes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ergotic/scene/table.hpp"
+
+namespace ergotic::scene {
+
+Slopes slopesUpTo(double stiffness, double damping) {
+  return {{0.0, stiffness}, {0.0, damping}};
+}
+
+double steepest(const Table& table) {
+  if (table.empty()) {
+    return 0.0;
+  }
+  const Curve curve = interpolate(table);
+  return std::max(std::abs(curve.smallest_slope), std::abs(curve.largest_slope));
+}
+
+bool rises(const Table& table) {
+  return table.empty() || interpolate(table).smallest_slope >= 0.0;
+}
+
+FrictionSlopes frictionSlopesOf(const Table& table) {
+  if (table.empty()) {
+    return {};
+  }
+  const Curve curve = interpolate(table);
+  return {std::max(curve.largest_slope, 0.0), std::max(-curve.smallest_slope, 0.0)};
+}
+
+}  // namespace ergotic::scene

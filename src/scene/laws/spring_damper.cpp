@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/laws/cubic.hpp"
+#include "scene/laws/law.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+/// f = K e + Z v
+struct SpringDamper {
+  static constexpr std::size_t kNumbers = 3;  // K, Z, offset
+  static constexpr std::size_t kOffset = 2;
+
+  static void convert(
+      const Scene& scene, const Lia& lia, const Units& units, double rest, double* to) {
+    const CommonNumbers n = commonNumbers(scene, lia, units, rest);
+    to[0] = n.stiffness;
+    to[1] = n.damping;
+    to[2] = n.offset;
+  }
+
+  template <class Real>
+  static Force<Real> force(const RunNumbers<Real>& c, std::size_t l, Real u, Real v) noexcept {
+    return {c(0, l) * (u + c(2, l)), c(1, l) * v};
+  }
+};
+
+/// With a rest length it is linear along its line only.
+const char* unguarded(const Lia& lia) {
+  return lia.rest_length > 0.0 ? nullptr : "a linear spring or damper";
+}
+
+Slopes slopes(const Scene& scene, const Lia& lia) {
+  return {rangeOf(scene, lia.stiffness), rangeOf(scene, lia.damping)};
+}
+
+double leastStiffness(const Scene& scene, const Lia& lia) {
+  return rangeOf(scene, lia.stiffness).lowest;
+}
+
+constexpr LawWord kWords[] = {{"spring", "stiffness", "rest_length"},
+                              {"damper", "damping", ""},
+                              {"spring_damper", "stiffness damping", "rest_length"}};
+// Any stiffness and damping may be asked for: the certificate judges the whole.
+constexpr LiaField kFields[] = {stiffnessField(-kInfinity), dampingField(-kInfinity)};
+
+}  // namespace
+
+constexpr Law kSpringDamperLaw = {
+    "spring-damper",
+    kWords,
+    kFields,
+    Law::Tables::kNone,
+    false,  // tables_hold
+    false,  // has_release
+    Law::Kind::kLinear,
+    explicitFormOf<SpringDamper>(),
+    cubicForms,
+    unguarded,
+    true,   // has_linear_part
+    false,  // switches
+    false,  // is_held
+    never,
+    slopes,
+    nullptr,  // growth
+    nullptr,  // friction
+    leastStiffness,
+};
+
+}  // namespace ergotic::scene

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "scene/laws/bow_table.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+/// (LNL) f = table(e) + viscous_table(v), both held beyond their last points.
+struct ElasticViscousTable {
+  static constexpr std::size_t kNumbers = 2;  // offset, m/time_unit per step difference
+  static constexpr std::size_t kOffset = 0;
+
+  static void convert(
+      const Scene& scene, const Lia& lia, const Units& units, double rest, double* to) {
+    to[0] = commonNumbers(scene, lia, units, rest).offset;
+    to[1] = 1.0 / units.step;
+  }
+
+  template <class Real>
+  static Force<Real> force(const RunNumbers<Real>& c, std::size_t l, Real u, Real v) noexcept {
+    return {c.table.at(l, u + c(0, l)), c.viscous.at(l, v * c(1, l))};
+  }
+};
+
+template <class Real>
+struct TableCurve {
+  using Numbers = GuardedLaw<Real>;
+
+  ERGOTIC_REALTIME static GuardedForce<Real> push(const Numbers& n, Real p) noexcept {
+    return n.table.at(p);
+  }
+  ERGOTIC_REALTIME static Real potential(const Numbers& n, Real p) noexcept {
+    return n.table.potential(p);
+  }
+  ERGOTIC_REALTIME static Real damping(const Numbers& n, Real, Real v) noexcept {
+    Real z = n.damping;
+    if (!n.viscous.empty()) {
+      // The chord, not the slope: it is what this much force dissipates at this velocity.
+      const GuardedForce<Real> at = n.viscous.at(v * n.per_step);
+      z += v != Real(0) ? at.force / v : at.slope * n.per_step;
+    }
+    return std::max(Real(0), z);
+  }
+};
+
+/// One that only has a viscous table is a friction.
+const GuardedForms& forms(const Lia& lia) {
+  static constexpr GuardedForms kElastic = springForms<TableCurve>();
+  return lia.law->table.empty() ? slipTableForms(lia) : kElastic;
+}
+
+const char* unguarded(const Lia& lia) {
+  return lia.law->viscous_table.empty() ? nullptr : "a table with a viscous part";
+}
+
+bool falls(const Lia& lia) {
+  return !rises(lia.law->table) || !rises(lia.law->viscous_table);
+}
+
+Slopes slopes(const Scene& /*scene*/, const Lia& lia) {
+  return slopesUpTo(steepest(lia.law->table), steepest(lia.law->viscous_table));
+}
+
+FrictionSlopes friction(const Scene& /*scene*/, const Lia& lia) {
+  return frictionSlopesOf(lia.law->viscous_table);
+}
+
+constexpr LawWord kWords[] = {{"table", "", "elastic viscous rest_length"}};
+
+}  // namespace
+
+constexpr Law kTableLaw = {
+    "table",
+    kWords,
+    {},  // fields
+    Law::Tables::kParts,
+    true,   // tables_hold
+    false,  // has_release
+    Law::Kind::kElastic,
+    explicitFormOf<ElasticViscousTable>(),
+    forms,
+    unguarded,
+    false,  // has_linear_part
+    true,   // switches
+    true,   // is_held
+    falls,
+    slopes,
+    nullptr,  // growth
+    friction,
+    noStiffness,
+};
+
+}  // namespace ergotic::scene

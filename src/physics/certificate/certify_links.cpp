@@ -5,6 +5,7 @@
 
 #include "physics/certificate/certify_parts.hpp"
 #include "physics/certificate/explicit_limits.hpp"
+#include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -100,7 +101,7 @@ class LinkJudge {
   }
 
   /// Never a matter of the verdict: whether it is stable, the network has told.
-  void judgeFriction(const Lia& lia, const FrictionSlopes& slopes) {
+  void judgeFriction(const Lia& lia, const scene::FrictionSlopes& slopes) {
     const double unit = networks_.inverseMassStep(lia);
     const double rise = unit * slopes.rise;
     const double fall = unit * slopes.fall;

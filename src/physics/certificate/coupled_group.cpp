@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "scene/laws/law.hpp"
+
 namespace ergotic::physics {
 namespace {
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "ergotic/scene/grid.hpp"
+#include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
 namespace {

@@ -4,11 +4,10 @@
 #include <vector>
 
 #include "ergotic/scene/scene.hpp"
-#include "scene/laws/law.hpp"
+#include "scene/laws/slopes.hpp"
 
 namespace ergotic::physics {
 
-using scene::FrictionSlopes;
 using scene::Range;
 using scene::Slopes;
 

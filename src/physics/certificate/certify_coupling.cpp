@@ -7,7 +7,7 @@
 
 #include "ergotic/physics/certificate/monodromy.hpp"
 #include "physics/certificate/certify_parts.hpp"
-#include "physics/certificate/coupled_group.hpp"
+#include "physics/certificate/island.hpp"
 #include "physics/certificate/linear_stepper.hpp"
 #include "physics/network/network_analysis.hpp"
 
@@ -23,15 +23,15 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-/// What joins two rates in one group of modules.
-struct Group {
+/// What joins two rates in one island.
+struct Coupling {
   std::set<int> slow_divisors;
   std::set<int> fast_divisors;
   int slow_section = 0;  // of the slowest module that a link joins to a faster section
   int slowest = 0;       // its divisor
   double coupling_damping = 0.0;
   bool has_fast_modules = false;
-  const scene::Lia* nonlinear = nullptr;  // a link on a module of the group
+  const scene::Lia* nonlinear = nullptr;  // a link on a module of the island
 };
 
 /// What the linear model does over one period of its slowest section.
@@ -47,14 +47,14 @@ class CouplingJudge {
       : networks_(networks), scene_(networks.scene()), findings_(findings) {}
 
   void run() {
-    for (const auto& [name, group] : groups()) {
-      judge(name, group);
+    for (const auto& [name, coupling] : couplings()) {
+      judge(name, coupling);
     }
   }
 
  private:
-  std::map<int, Group> groups() const {
-    std::map<int, Group> found;
+  std::map<int, Coupling> couplings() const {
+    std::map<int, Coupling> found;
     for (std::size_t l = 0; l < scene_.lias.size(); ++l) {
       const scene::Lia& lia = scene_.lias[l];
       const int slow = networks_.slowEnd(lia);
@@ -63,26 +63,26 @@ class CouplingJudge {
         continue;
       }
       const int fast = networks_.fastEnd(lia);
-      Group& group = found[networks_.groupOf(lia)];
-      group.slow_divisors.insert(networks_.divisorOfMat(slow));
-      group.fast_divisors.insert(networks_.divisorOfMat(fast));
-      if (networks_.divisorOfMat(slow) > group.slowest) {
-        group.slowest = networks_.divisorOfMat(slow);
-        group.slow_section = scene_.mats[at(slow)].section;
+      Coupling& coupling = found[networks_.islandOf(lia)];
+      coupling.slow_divisors.insert(networks_.divisorOfMat(slow));
+      coupling.fast_divisors.insert(networks_.divisorOfMat(fast));
+      if (networks_.divisorOfMat(slow) > coupling.slowest) {
+        coupling.slowest = networks_.divisorOfMat(slow);
+        coupling.slow_section = scene_.mats[at(slow)].section;
       }
       const Slopes& slopes = networks_.slopes(static_cast<int>(l));
-      group.coupling_damping = std::max(group.coupling_damping, slopes.damping.highest);
-      group.has_fast_modules |= networks_.inverseMass(fast) > 0.0;
+      coupling.coupling_damping = std::max(coupling.coupling_damping, slopes.damping.highest);
+      coupling.has_fast_modules |= networks_.inverseMass(fast) > 0.0;
     }
     for (const scene::Lia& lia : scene_.lias) {
       if (lia.type == scene::LiaType::kSpringDamper && networks_.isExplicit(lia)) {
         continue;
       }
       for (const int name :
-           {networks_.groupOf(lia), networks_.groupOf(lia.a), networks_.groupOf(lia.b)}) {
-        const auto group = found.find(name);
-        if (group != found.end()) {
-          group->second.nonlinear = &lia;
+           {networks_.islandOf(lia), networks_.islandOf(lia.a), networks_.islandOf(lia.b)}) {
+        const auto coupling = found.find(name);
+        if (coupling != found.end()) {
+          coupling->second.nonlinear = &lia;
         }
       }
     }
@@ -91,22 +91,22 @@ class CouplingJudge {
 
   /// The slow network with the couplings and the fast masses they touch must be stable at the slow
   /// rate; that is enough while the fast section has no modes above half of it.
-  void judge(int name, const Group& group) {
-    if (group.nonlinear != nullptr) {
-      say(group, Verdict::kUnproven,
-          "is coupled to a faster one, and link '" + group.nonlinear->name +
+  void judge(int name, const Coupling& coupling) {
+    if (coupling.nonlinear != nullptr) {
+      say(coupling, Verdict::kUnproven,
+          "is coupled to a faster one, and link '" + coupling.nonlinear->name +
               "' acts beside it, which is not linear: hold and mean make no energy on the average "
               "only, and it may keep what they lend. Put all of that in one section, or let a hand "
               "hold the slower end");
     }
     double bound = 0.0;
-    for (const int divisor : group.slow_divisors) {
+    for (const int divisor : coupling.slow_divisors) {
       const NetworkBound network = networks_.atSlowRate(divisor, name);
       judgeSigns(networks_, network, findings_);
       bound = std::max(bound, analyse(network).lambda);
     }
     const bool is_soft = bound < NetworkBound::kLimit;
-    const bool is_low = !reachesAboveHalf(name, group);
+    const bool is_low = !reachesAboveHalf(name, coupling);
     if (is_soft && is_low) {
       return;
     }
@@ -114,11 +114,11 @@ class CouplingJudge {
         is_soft ? "is coupled to a faster one whose modes reach above half the slower rate"
                 : "is coupled to a faster one too stiffly for its rate, bound " + describe(bound) +
                       ", proven below 4";
-    const CoupledGroup members(networks_, name);
+    const Island members(networks_, name);
     if (members.masses() > kMostMasses) {
-      watch(members, group, what);
+      watch(members, coupling, what);
     } else {
-      tryEigenvalues(members, group, what);
+      tryEigenvalues(members, coupling, what);
     }
   }
 
@@ -128,19 +128,19 @@ class CouplingJudge {
     return std::asin(std::sqrt(lambda) / 2.0) / kPi * networks_.rates().audio_hz / divisor;
   }
 
-  bool reachesAboveHalf(int name, const Group& group) const {
-    const double half_hz = 0.5 * networks_.rates().audio_hz / group.slowest;
-    return group.has_fast_modules &&
-           std::any_of(group.fast_divisors.begin(), group.fast_divisors.end(),
+  bool reachesAboveHalf(int name, const Coupling& coupling) const {
+    const double half_hz = 0.5 * networks_.rates().audio_hz / coupling.slowest;
+    return coupling.has_fast_modules &&
+           std::any_of(coupling.fast_divisors.begin(), coupling.fast_divisors.end(),
                        [&](int divisor) { return highestModeHz(divisor, name) > half_hz; });
   }
 
-  void say(const Group& group, Verdict verdict, const std::string& text) {
-    const scene::Section& section = scene_.sections[at(group.slow_section)];
+  void say(const Coupling& coupling, Verdict verdict, const std::string& text) {
+    const scene::Section& section = scene_.sections[at(coupling.slow_section)];
     findings_.add(verdict, section.place, "section '" + section.name + "' " + text);
   }
 
-  void tryEigenvalues(const CoupledGroup& members, const Group& group, const std::string& what) {
+  void tryEigenvalues(const Island& members, const Coupling& coupling, const std::string& what) {
     Trial worst;
     for (const scene::Scene& scene : members.cases()) {
       const LinearStepper stepper(linearPart(scene), networks_.rates());
@@ -150,17 +150,17 @@ class CouplingJudge {
     }
     if (worst.radius > 1.0 + kRounding || std::isnan(worst.radius)) {
       const bool is_certain = !(worst.radius <= 1.0 + kCertainGrowth);
-      say(group, is_certain ? Verdict::kUnstable : Verdict::kUnproven,
+      say(coupling, is_certain ? Verdict::kUnstable : Verdict::kUnproven,
           what + ", and grows by a factor of exp(" + describe(worst.growthPerSecond()) +
               ") per second: the largest eigenvalue over one of its steps is 1 + " +
-              describe(worst.radius - 1.0) + ". " + advice(group));
+              describe(worst.radius - 1.0) + ". " + advice(coupling));
     } else if (const std::string doubt = members.doubt(); !doubt.empty()) {
-      say(group, Verdict::kUnproven,
+      say(coupling, Verdict::kUnproven,
           what + ". No eigenvalue over one of its steps is above 1, but " + doubt);
     }
   }
 
-  void watch(const CoupledGroup& members, const Group& group, const std::string& what) {
+  void watch(const Island& members, const Coupling& coupling, const std::string& what) {
     GrowthSeen worst;
     for (const scene::Scene& scene : members.cases()) {
       const GrowthSeen seen = watchGrowth(linearPart(scene), networks_.rates());
@@ -171,19 +171,19 @@ class CouplingJudge {
       how = (worst.per_second > 0.0 ? "grew" : "shrank") + std::string(" by a factor of exp(") +
             describe(worst.per_second) + ") per second";
     }
-    say(group, Verdict::kUnproven,
+    say(coupling, Verdict::kUnproven,
         what + ". With " + std::to_string(members.masses()) +
             " masses it is too large for its eigenvalues; in " + std::to_string(worst.periods) +
             " of its steps from a random state it " + how + ", which proves nothing. " +
-            advice(group));
+            advice(coupling));
   }
 
-  std::string advice(const Group& group) const {
+  std::string advice(const Coupling& coupling) const {
     std::string text =
         "Put a chaplet between, run the slow section at a higher rate, move its "
         "masses to the faster section";
-    const double lambda = analyse(networks_.atOwnRate(group.slowest)).lambda;
-    const double damping = group.coupling_damping * std::min(lambda, NetworkBound::kLimit) / 8.0;
+    const double lambda = analyse(networks_.atOwnRate(coupling.slowest)).lambda;
+    const double damping = coupling.coupling_damping * std::min(lambda, NetworkBound::kLimit) / 8.0;
     return text + (damping > 0.0 ? ", or damp the coupled slow masses to the ground, by " +
                                        describe(damping) + " N s/m or more"
                                  : ", or give its modes a little damping");

@@ -264,7 +264,7 @@ void GuardedRuns<Real>::exchange(std::size_t g,
     if (links_[g].idle[l] != 0) {
       continue;
     }
-    kernels::Frame<Real> frame = stepper.frameOf(ref.run, began, state);
+    kernels::RunStep<Real> frame = stepper.stepOfRun(ref.run, began, state);
     frame.f = forces_.data();
     for (int k = 0; k < std::max(1, run.dimensions); ++k) {
       const int a = run.ends[ref.link].a + k * run.stride_a;

@@ -74,17 +74,19 @@ class Stepper {
     if (!run.spans.empty()) {
       return stepSpans(r, c, state);
     }
-    const kernels::Frame<Real> at = frameOf(r, now, state);
+    const kernels::RunStep<Real> at = stepOfRun(r, now, state);
     kernels::step(run, numbersOf(run, c, state.lawState(r)), c.rests.data(), at);
   }
 
   /// How the ends of a run count in a step that begins with frame `now`.
-  kernels::Frame<Real> frameOf(std::size_t r, std::int64_t now, State<Real>& state) const noexcept {
+  kernels::RunStep<Real> stepOfRun(std::size_t r,
+                                   std::int64_t now,
+                                   State<Real>& state) const noexcept {
     const LinkRun& run = layout_.runs[r];
     const bool across = run.slow_section >= 0;
     const Real fresh = !across || layout_.isDue(run.slow_section, now) ? Real(1) : Real(0);
     const Real share = static_cast<Real>(run.share);
-    kernels::Frame<Real> at{};
+    kernels::RunStep<Real> at{};
     at.x = state.x();
     at.d = state.d();
     at.moved = state.moved();

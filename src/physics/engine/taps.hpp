@@ -60,11 +60,11 @@ class Taps {
     if (tap.quantity != scene::Quantity::kForce) {
       return 0.0;
     }
-    Real& held = state.held()[k];
+    Real& last = state.lastForces()[k];
     if ((now + 1) % tap.divisor == 0) {
-      held = static_cast<Real>(read(state.f(), tap));
+      last = static_cast<Real>(read(state.f(), tap));
     }
-    return static_cast<double>(c.tap_gains[k]) * static_cast<double>(held);
+    return static_cast<double>(c.tap_gains[k]) * static_cast<double>(last);
   }
 
   int slotOf(std::size_t k) const noexcept { return layout_.taps[k].slot; }

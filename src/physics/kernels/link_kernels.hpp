@@ -19,7 +19,7 @@ using scene::RunNumbers;
 
 /// The instrument's arrays, and how the ends of a run count in this frame.
 template <class Real>
-struct Frame {
+struct RunStep {
   const Real* x;
   const Real* d;
   const Real* moved;   ///< d, and for points the change of their place too
@@ -36,7 +36,7 @@ struct Frame {
 
 /// Plain runs: spring-dampers, scalar, inside one section.
 template <bool kMetered, class Real>
-void stepPlain(const LinkRun& run, const RunNumbers<Real>& c, const Frame<Real>& at) noexcept {
+void stepPlain(const LinkRun& run, const RunNumbers<Real>& c, const RunStep<Real>& at) noexcept {
   const LinkEnds* ends = run.ends.data();
   const std::size_t links = run.ends.size();
   const Real* x = at.x;
@@ -95,7 +95,7 @@ void addHalfWork(
 /// Books one coordinate of one link, if anybody asks, and hands its force out.
 template <class Real>
 void exchangeForce(const LinkRun& run,
-                   const Frame<Real>& at,
+                   const RunStep<Real>& at,
                    std::size_t index,
                    int a,
                    int b,
@@ -138,7 +138,7 @@ void addSlowWork(const LinkRun& run,
 /// The slower end has moved by d under the mean force: its side of the books closes.
 template <class Real>
 void closeSlowStep(
-    const LinkRun& run, const Frame<Real>& at, std::size_t index, int a, int b) noexcept {
+    const LinkRun& run, const RunStep<Real>& at, std::size_t index, int a, int b) noexcept {
   if (at.work != nullptr) {
     addSlowWork(run, at.memory, index, static_cast<double>(at.moved[run.slow_is_a ? a : b]),
                 *at.work);
@@ -162,7 +162,7 @@ void forEachPiece(const LinkRun& run, const Visit& visit) noexcept {
 
 /// Scalar runs that are nonlinear, or between sections.
 template <class Real>
-void stepScalar(const LinkRun& run, const RunNumbers<Real>& c, const Frame<Real>& at) noexcept {
+void stepScalar(const LinkRun& run, const RunNumbers<Real>& c, const RunStep<Real>& at) noexcept {
   const scene::RunForces<Real> forces = scene::lawOf(run.law).explicit_form.forces<Real>();
   Real u[kTogether];
   Real v[kTogether];
@@ -211,7 +211,7 @@ void drawLines(const LinkRun& run,
                std::size_t first,
                std::size_t count,
                const Real* rests,
-               const Frame<Real>& at,
+               const RunStep<Real>& at,
                Lines<Real, D>& lines) noexcept {
   const scene::Law::Kind kind = scene::lawOf(run.law).kind;
   const bool friction = kind == scene::Law::Kind::kFriction;
@@ -244,7 +244,7 @@ template <class Real, int D>
 void stepSpatial(const LinkRun& run,
                  const RunNumbers<Real>& numbers,
                  const Real* rests,
-                 const Frame<Real>& at) noexcept {
+                 const RunStep<Real>& at) noexcept {
   const scene::RunForces<Real> forces = scene::lawOf(run.law).explicit_form.forces<Real>();
   const std::size_t links = run.ends.size();
   Lines<Real, D> lines;
@@ -296,7 +296,7 @@ template <class Real>
 void step(const LinkRun& run,
           const RunNumbers<Real>& c,
           const Real* rests,
-          const Frame<Real>& at) noexcept {
+          const RunStep<Real>& at) noexcept {
   switch (run.dimensions) {
     case 0:
       if (scene::lawOf(run.law).kind == scene::Law::Kind::kLinear && at.memory.elastic == nullptr) {

@@ -71,13 +71,13 @@ class Ends {
 };
 
 /// The frame in which two modules meet: that of the one with fewer coordinates.
-struct Frame {
+struct LinkFrame {
   int section = 0;
   bool projects_a = false;
   bool projects_b = false;
 };
 
-Frame frameOf(const scene::Scene& scene, const scene::Lia& lia) {
+LinkFrame frameOf(const scene::Scene& scene, const scene::Lia& lia) {
   const int sa = scene.mats[at(lia.a)].section;
   const int sb = scene.mats[at(lia.b)].section;
   const scene::Section& a = scene.sections[at(sa)];
@@ -88,7 +88,7 @@ Frame frameOf(const scene::Scene& scene, const scene::Lia& lia) {
         sa == sb || a.geometry == Geometry::kScalar || a.pose.matrix() == b.pose.matrix();
     return {sa, false, !same};
   }
-  return a.geometry < b.geometry ? Frame{sa, false, true} : Frame{sb, true, false};
+  return a.geometry < b.geometry ? LinkFrame{sa, false, true} : LinkFrame{sb, true, false};
 }
 
 /// Whose steps a link follows: the faster of its two sections.
@@ -113,7 +113,7 @@ void setRates(const scene::Lia& lia, const End& a, const End& b, const Ends& end
 
 void placeLink(const scene::Scene& scene, int l, Ends& ends, LinkRun& run, End& a, End& b) {
   const scene::Lia& lia = scene.lias[at(l)];
-  const Frame frame = frameOf(scene, lia);
+  const LinkFrame frame = frameOf(scene, lia);
   const Geometry geometry = scene.sections[at(frame.section)].geometry;
   a = frame.projects_a ? ends.projected(lia.a, frame.section) : ends.of(lia.a);
   b = frame.projects_b ? ends.projected(lia.b, frame.section) : ends.of(lia.b);

@@ -24,7 +24,7 @@ std::size_t at(int i) {
 struct RatedNetwork::Builder {
   NetworkBound network;
   int divisor;
-  int group;
+  int island;
   std::unordered_map<int, int> nodes;  // by module
 
   int nodeOf(int mat, double mass) {
@@ -40,13 +40,13 @@ RatedNetwork::RatedNetwork(const Network& network, const Rates& rates)
     : network_(network),
       scene_(network.scene),
       rates_(rates),
-      group_(network.nodes.size()),
+      island_(network.nodes.size()),
       is_linked_(network.nodes.size(), 0) {
   joinGroups();
 }
 
 void RatedNetwork::joinGroups() {
-  DisjointSets sets(group_.size());
+  DisjointSets sets(island_.size());
   for (const scene::Lia& lia : scene_.lias) {
     if (!isExplicit(lia)) {
       continue;
@@ -62,8 +62,8 @@ void RatedNetwork::joinGroups() {
       }
     }
   }
-  for (int m = 0; m < static_cast<int>(group_.size()); ++m) {
-    group_[at(m)] = sets.setOf(m);
+  for (int m = 0; m < static_cast<int>(island_.size()); ++m) {
+    island_[at(m)] = sets.setOf(m);
   }
 }
 
@@ -120,11 +120,11 @@ bool RatedNetwork::isMoving(const scene::Lia& lia) const {
   return isMovingPoint(lia.a) || isMovingPoint(lia.b);
 }
 
-int RatedNetwork::groupOf(const scene::Lia& lia) const {
+int RatedNetwork::islandOf(const scene::Lia& lia) const {
   for (const int end : {lia.a, lia.b}) {
     for (const Shares& place : placesOf(end)) {
       if (!place.empty()) {
-        return groupOf(place.front().node);
+        return islandOf(place.front().node);
       }
     }
   }
@@ -144,7 +144,7 @@ bool RatedNetwork::hasLinkedMatched(int divisor) const {
 void RatedNetwork::addModules(Builder& to, bool plain) const {
   for (int m = 0; m < static_cast<int>(scene_.mats.size()); ++m) {
     const Network::Node& node = nodeOf(m);
-    const bool is_member = to.group == kAll || groupOf(m) == to.group;
+    const bool is_member = to.island == kAll || islandOf(m) == to.island;
     const bool is_alone = is_linked_[at(m)] == 0;
     if (!node.is_free || divisorOfMat(m) != to.divisor || !is_member ||
         (is_alone && node.is_matched)) {
@@ -224,14 +224,15 @@ void RatedNetwork::addCells(Builder& to) const {
   }
 }
 
-NetworkBound RatedNetwork::atOwnRate(int divisor, int group, bool plain) const {
-  Builder builder{NetworkBound(StepUnits(scene_, rates_, divisor).step), divisor, group, {}};
+NetworkBound RatedNetwork::atOwnRate(int divisor, int island, bool plain) const {
+  Builder builder{NetworkBound(StepUnits(scene_, rates_, divisor).step), divisor, island, {}};
   addModules(builder, plain);
   for (int l = 0; l < static_cast<int>(scene_.lias.size()); ++l) {
     const scene::Lia& lia = scene_.lias[at(l)];
     const int a = divisorOfMat(lia.a);
     const int b = divisorOfMat(lia.b);
-    if (isExplicit(lia) && std::min(a, b) == divisor && (group == kAll || groupOf(lia) == group)) {
+    if (isExplicit(lia) && std::min(a, b) == divisor &&
+        (island == kAll || islandOf(lia) == island)) {
       addLink(builder, l, a != divisor, b != divisor);
     }
   }
@@ -239,8 +240,8 @@ NetworkBound RatedNetwork::atOwnRate(int divisor, int group, bool plain) const {
   return std::move(builder.network);
 }
 
-NetworkBound RatedNetwork::atSlowRate(int divisor, int group) const {
-  Builder builder{NetworkBound(StepUnits(scene_, rates_, divisor).step), divisor, group, {}};
+NetworkBound RatedNetwork::atSlowRate(int divisor, int island) const {
+  Builder builder{NetworkBound(StepUnits(scene_, rates_, divisor).step), divisor, island, {}};
   addModules(builder, false);
   for (int l = 0; l < static_cast<int>(scene_.lias.size()); ++l) {
     const scene::Lia& lia = scene_.lias[at(l)];
@@ -249,7 +250,7 @@ NetworkBound RatedNetwork::atSlowRate(int divisor, int group) const {
     // A slower end still is held; a held slow end leaves the link to the faster rate.
     const bool is_own = std::min(a, b) == divisor;
     const bool is_coupling = a != b && std::max(a, b) == divisor && inverseMass(slowEnd(lia)) > 0.0;
-    if (isExplicit(lia) && (is_own || is_coupling) && (group == kAll || groupOf(lia) == group)) {
+    if (isExplicit(lia) && (is_own || is_coupling) && (island == kAll || islandOf(lia) == island)) {
       addLink(builder, l, a > divisor, b > divisor);
     }
   }

@@ -40,16 +40,16 @@ class RatedNetwork {
   bool isMoving(const scene::Lia& lia) const;
   bool isMovingPoint(int mat) const;
 
-  /// Modules that explicit links join, at whatever rates, are one group, named by one of them.
-  int groupOf(int mat) const { return group_[static_cast<std::size_t>(mat)]; }
+  /// Modules that explicit links join, at whatever rates, are one island, named by one of them.
+  int islandOf(int mat) const { return island_[static_cast<std::size_t>(mat)]; }
   /// That of a link's modules; -1 if no force moves any.
-  int groupOf(const scene::Lia& lia) const;
+  int islandOf(const scene::Lia& lia) const;
 
   /// Everything that is computed at one rate, slower ends held.
   /// \param plain  matched modules as if they were not: a bound of them, at any step
-  NetworkBound atOwnRate(int divisor, int group = kAll, bool plain = false) const;
+  NetworkBound atOwnRate(int divisor, int island = kAll, bool plain = false) const;
   /// Modules of one rate, all their links, and the faster modules that these touch, at that rate.
-  NetworkBound atSlowRate(int divisor, int group = kAll) const;
+  NetworkBound atSlowRate(int divisor, int island = kAll) const;
   /// True if a module of this rate with matched coefficients has links.
   bool hasLinkedMatched(int divisor) const;
 
@@ -72,7 +72,7 @@ class RatedNetwork {
   const Network& network_;
   const scene::Scene& scene_;
   Rates rates_;
-  std::vector<int> group_;                // [mats]
+  std::vector<int> island_;               // [mats]
   std::vector<unsigned char> is_linked_;  // [mats] by an explicit link
 };
 

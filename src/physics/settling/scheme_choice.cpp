@@ -33,14 +33,14 @@ class Chooser {
         lia.scheme = choose(lia);
       }
     }
-    for (const auto& [key, group] : groups_) {
-      notes_.push_back(noteOn(group));
+    for (const auto& [key, alike] : alike_) {
+      notes_.push_back(noteOn(alike));
     }
   }
 
  private:
   /// Links of one place (a generator makes many), of one type, with one reason and one outcome.
-  struct Group {
+  struct AlikeLinks {
     const scene::Lia* first = nullptr;
     int links = 0;
     Reason worst;
@@ -94,26 +94,26 @@ class Chooser {
       return Scheme::kExplicit;
     }
     const bool guarded = !isOntoSlowMass(lia);
-    Group& group = groups_[{lia.place.line, lia.place.column, reason.figure, guarded}];
-    if (group.links++ == 0) {
-      group.first = &lia;
-      group.guarded = guarded;
+    AlikeLinks& alike = alike_[{lia.place.line, lia.place.column, reason.figure, guarded}];
+    if (alike.links++ == 0) {
+      alike.first = &lia;
+      alike.guarded = guarded;
     }
-    if (reason.value >= group.worst.value) {
-      group.worst = reason;
+    if (reason.value >= alike.worst.value) {
+      alike.worst = reason;
     }
     return guarded ? Scheme::kGuarded : Scheme::kExplicit;
   }
 
-  std::string noteOn(const Group& group) const {
-    std::string who = "link '" + group.first->name + "'";
-    if (group.links > 1) {
-      who += " and " + std::to_string(group.links - 1) + " more";
+  std::string noteOn(const AlikeLinks& alike) const {
+    std::string who = "link '" + alike.first->name + "'";
+    if (alike.links > 1) {
+      who += " and " + std::to_string(alike.links - 1) + " more";
     }
-    const std::string why = std::string(group.worst.figure) + " = " + shortly(group.worst.value) +
-                            ", explicit bears " + shortly(group.worst.allowed);
-    return noteAt(scene_, group.first->place) + who +
-           (group.guarded ? ": guarded (" + why + ")"
+    const std::string why = std::string(alike.worst.figure) + " = " + shortly(alike.worst.value) +
+                            ", explicit bears " + shortly(alike.worst.allowed);
+    return noteAt(scene_, alike.first->place) + who +
+           (alike.guarded ? ": guarded (" + why + ")"
                           : ": explicit, because one end is a slower mass, although " + why);
   }
 
@@ -123,7 +123,7 @@ class Chooser {
   Network network_;
   RatedNetwork networks_;
   std::vector<std::string>& notes_;
-  std::map<Key, Group> groups_;
+  std::map<Key, AlikeLinks> alike_;
 };
 
 }  // namespace

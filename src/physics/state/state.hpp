@@ -33,7 +33,7 @@ class State {
     moved_at_ = layout.places.empty() ? d_at_ : arena_.add<Real>("moved", slots);
     places_at_ = arena_.add<double>("places", 2 * layout.places.size());
     place_d_at_ = arena_.add<Real>("place_d", coordinatesOf(layout.places));
-    held_at_ = arena_.add<Real>("held_force_outputs", layout.taps.size());
+    last_forces_at_ = arena_.add<Real>("last_force_outputs", layout.taps.size());
     asleep_at_ = arena_.add<unsigned char>("asleep", layout.sections.size());
     work_at_ = arena_.add<LinkWork>("link_work", metered ? layout.runs.size() : 0);
     for (const LinkRun& run : layout.runs) {
@@ -61,7 +61,7 @@ class State {
   Real* placeD() noexcept { return arena_.at<Real>(place_d_at_); }
   const Real* placeD() const noexcept { return arena_.at<Real>(place_d_at_); }
   double* places() noexcept { return arena_.at<double>(places_at_); }
-  Real* held() noexcept { return arena_.at<Real>(held_at_); }
+  Real* lastForces() noexcept { return arena_.at<Real>(last_forces_at_); }
   unsigned char* asleep() noexcept { return arena_.at<unsigned char>(asleep_at_); }
   /// [runs], if metered
   LinkWork* work() noexcept { return arena_.at<LinkWork>(work_at_); }
@@ -125,7 +125,7 @@ class State {
   std::size_t moved_at_ = 0;
   std::size_t places_at_ = 0;
   std::size_t place_d_at_ = 0;
-  std::size_t held_at_ = 0;
+  std::size_t last_forces_at_ = 0;
   std::size_t asleep_at_ = 0;
   std::size_t work_at_ = 0;
 };

@@ -8,10 +8,10 @@
 
 namespace ergotic::physics {
 
-/// The modules of one group by themselves, as scenes to be stepped.
-class CoupledGroup {
+/// The modules of one island by themselves, as scenes to be stepped.
+class Island {
  public:
-  CoupledGroup(const RatedNetwork& networks, int group);
+  Island(const RatedNetwork& networks, int island);
 
   int masses() const { return masses_; }
 
@@ -32,7 +32,7 @@ class CoupledGroup {
   scene::Scene isolated(bool closed) const;
 
   const RatedNetwork& networks_;
-  int group_;
+  int island_;
   int masses_ = 0;
 };
 

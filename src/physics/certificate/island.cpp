@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/certificate/coupled_group.hpp"
+#include "physics/certificate/island.hpp"
 
 #include <algorithm>
 
@@ -37,22 +37,21 @@ bool leavesModesOut(const Network& network, int section) {
 
 }  // namespace
 
-CoupledGroup::CoupledGroup(const RatedNetwork& networks, int group)
-    : networks_(networks), group_(group) {
+Island::Island(const RatedNetwork& networks, int island) : networks_(networks), island_(island) {
   for (int m = 0; m < static_cast<int>(networks.scene().mats.size()); ++m) {
     masses_ += isMember(m) ? 1 : 0;
   }
 }
 
-bool CoupledGroup::isMember(int mat) const {
-  return networks_.network().nodes[at(mat)].is_free && networks_.groupOf(mat) == group_;
+bool Island::isMember(int mat) const {
+  return networks_.network().nodes[at(mat)].is_free && networks_.islandOf(mat) == island_;
 }
 
-bool CoupledGroup::isMember(const scene::Lia& lia) const {
-  return networks_.isExplicit(lia) && networks_.groupOf(lia) == group_;
+bool Island::isMember(const scene::Lia& lia) const {
+  return networks_.isExplicit(lia) && networks_.islandOf(lia) == island_;
 }
 
-scene::Scene CoupledGroup::isolated(bool closed) const {
+scene::Scene Island::isolated(bool closed) const {
   scene::Scene scene = networks_.scene();
   for (int m = 0; m < static_cast<int>(scene.mats.size()); ++m) {
     if (networks_.network().nodes[at(m)].is_free && !isMember(m)) {
@@ -75,7 +74,7 @@ scene::Scene CoupledGroup::isolated(bool closed) const {
   return scene;
 }
 
-std::vector<scene::Scene> CoupledGroup::cases() const {
+std::vector<scene::Scene> Island::cases() const {
   std::vector<scene::Scene> result{isolated(false)};
   if (std::any_of(result[0].lias.begin(), result[0].lias.end(), switches)) {
     result.push_back(isolated(true));
@@ -92,12 +91,12 @@ std::vector<scene::Scene> CoupledGroup::cases() const {
   return result;
 }
 
-bool CoupledGroup::follows(const scene::Value& v) const {
+bool Island::follows(const scene::Value& v) const {
   const Range span = rangeOf(networks_.scene(), v);
   return span.lowest != span.highest;
 }
 
-bool CoupledGroup::followsParameters() const {
+bool Island::followsParameters() const {
   const scene::Scene& scene = networks_.scene();
   for (int m = 0; m < static_cast<int>(scene.mats.size()); ++m) {
     const scene::Mat& mat = scene.mats[at(m)];
@@ -113,7 +112,7 @@ bool CoupledGroup::followsParameters() const {
   });
 }
 
-std::string CoupledGroup::doubt() const {
+std::string Island::doubt() const {
   const scene::Scene& scene = networks_.scene();
   for (const scene::Lia& lia : scene.lias) {
     if (!isMember(lia)) {

@@ -49,20 +49,32 @@ ROOMS = {
     "tools": "exception rt tgr audio tgr/drivers/jack tools/lib",
 }
 
-# Headers of others, by the beginning of their names, and the only rooms that may know them.
+# Headers of others that a room may know beside those of the C++ library and the system: by the
+# beginnings of their names. The core knows neither ROS nor JACK.
+CORE = "Eigen/ yaml-cpp/ boost/lockfree/"
+ROS = CORE + " ros/ rosbag/ nodelet/ pluginlib/ class_loader/ xmlrpcpp/ diagnostic_updater/ tf2_ros/" \
+             " ergotic/ diagnostic_msgs/ geometry_msgs/ sensor_msgs/ std_msgs/ std_srvs/ visualization_msgs/"
 FOREIGN = {
-    "jack/": "audio",
-    "comedilib.h": "tgr/drivers/comedi",
-    "pluginlib/": "tgr/drivers/comedi tgr/drivers/jack ros ros/device",
-    "(ros|rosbag|nodelet|xmlrpcpp|diagnostic_updater|tf2_ros|rviz|ergotic|[a-z_]+_(msgs|srvs))/":
-        "bag ros ros/device ros/display ros/conversation",
+    "audio": CORE + " jack/ sndfile",
+    "tgr/drivers/comedi": CORE + " comedilib.h pluginlib/",
+    "tgr/drivers/jack": CORE + " pluginlib/",
+    "bag": ROS,
+    "ros": ROS,
+    "ros/device": ROS,
+    "ros/display": ROS,
+    "ros/conversation": ROS,
+    "tools/lib": CORE + " CLI/ nlohmann/ sndfile",
+    "tools": CORE + " CLI/ nlohmann/",
 }
+# Of the system: no slash, or one of these.
+SYSTEM = "sys/ linux/ netinet/ arpa/"
 
 # A file and a header above it that it still includes. May only shrink: what is no longer needed fails, too.
 EXCEPTIONS = """
 """
 
-_INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
+_PLAIN = re.compile(r'#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)[ \t]*')
+_TOKENS = re.compile(r'R"([^(\s]*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
 
 
 def room_of(path):
@@ -74,11 +86,37 @@ def room_of(path):
     return folder if folder in ROOMS else None
 
 
-def includes(root):
-    """(file, name, header) of every include: header is its path below the root, None if it is not ours."""
+def files(root):
+    """All files of the program, below the root."""
     root = Path(root)
-    for path in sorted([*root.glob("src/**/*.[ch]pp"), *root.glob("include/**/*.hpp")]):
-        for ours, other in _INCLUDE.findall(path.read_text()):
+    found = [path for part in ("src", "include") for path in sorted((root / part).rglob("*"))]
+    return [path for path in found if path.is_symlink() or not path.is_dir()]
+
+
+def directives(text):
+    """The lines that include something, without comments and as one line each."""
+    text = text.lstrip("\ufeff").replace("\\\r\n", "").replace("\\\n", "")
+    text = _TOKENS.sub(lambda token: token[0] if token[0].startswith('"') else " ", text)
+    for line in re.split(r"[\n\r\v\f]", text):
+        if re.match(r"\s*(#|%:|\?\?=)\s*(include|import)", line):
+            yield line.strip()
+
+
+def includes(root):
+    """(file, name, header) of every include: header is its path below the root, None if it is not ours.
+
+    What is written in another way than `#include "name"` or `#include <name>` has the name None.
+    """
+    root = Path(root)
+    for path in files(root):
+        if not path.is_file():
+            continue  # a folder by a link
+        for line in directives(path.read_text(errors="replace")):
+            plain = _PLAIN.fullmatch(line)
+            if not plain or re.search(r'["</]\.\.?/|//', line):
+                yield path.relative_to(root).as_posix(), None, line
+                continue
+            ours, other = plain.groups()
             name = ours or other
             found = [b + name for b in ("src/", "include/") if (root / (b + name)).is_file()]
             yield path.relative_to(root).as_posix(), f'"{ours}"' if ours else f"<{other}>", \

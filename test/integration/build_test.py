@@ -14,6 +14,7 @@ cmake_minimum_required(VERSION 3.20)
 project(toy NONE)
 option(SPOILT "Make the build fail" OFF)
 file(WRITE ${CMAKE_SOURCE_DIR}/devel/lib/made "")
+file(WRITE ${CMAKE_SOURCE_DIR}/devel/.catkin ${CMAKE_SOURCE_DIR})
 add_custom_target(everything ALL COMMAND ${CMAKE_COMMAND} -E touch ${CMAKE_BINARY_DIR}/everything)
 add_custom_target(play COMMAND ${CMAKE_COMMAND} -E touch ${CMAKE_BINARY_DIR}/play)
 add_custom_target(slow COMMAND sleep 6)
@@ -71,7 +72,7 @@ class BuildTest(unittest.TestCase):
         (copy / "devel/old").touch()
         status, said = self.build(place=copy)
         self.assertEqual(status, 0)
-        self.assertIn(f"{copy}/build belongs to {self.toy}/build and is made anew", said)
+        self.assertIn(f"{copy}/build belongs to {self.toy}/build, or is not whole, and is made anew", said)
         self.assertTrue(self.made("everything", copy))
         self.assertFalse(self.made("everything"))
         self.assertTrue((copy / "devel/lib/made").exists())
@@ -82,9 +83,57 @@ class BuildTest(unittest.TestCase):
         self.build()
         other = self.folder / "other"
         shutil.copytree(self.toy / "scripts", other / "scripts")
+        shutil.copy(self.toy / "CMakeLists.txt", other)
         status, said = self.build(self.toy / "build", place=other)
         self.assertEqual(status, 1)
         self.assertIn(f"{self.toy}/build builds what is in {self.toy}: name another folder", said)
+        self.assertTrue(self.made("everything"))
+
+    def test_never_removes_what_is_no_build_of_its_own(self):
+        status, said = self.build(self.toy)
+        self.assertEqual(status, 1)
+        self.assertIn("holds the program", said)
+        status, said = self.build(self.folder)
+        self.assertEqual(status, 1)
+        self.assertTrue((self.toy / "CMakeLists.txt").exists())
+        other = self.folder / "thesis"
+        other.mkdir()
+        (other / "text").touch()
+        (other / "CMakeCache.txt").write_text("CMAKE_CACHEFILE_DIR:INTERNAL=/nowhere\n"
+                                              "CMAKE_PROJECT_NAME:STATIC=thesis\n")
+        status, said = self.build(other)
+        self.assertEqual(status, 1)
+        self.assertIn("builds thesis: name another build folder", said)
+        self.assertTrue((other / "text").exists())
+
+    def test_builds_in_the_same_place_through_a_link(self):
+        self.build()
+        (self.toy / "devel/mine").touch()
+        link = self.folder / "link"
+        link.symlink_to(self.toy)
+        self.assertEqual(self.build(place=link), (0, ""))
+        self.assertTrue((self.toy / "devel/mine").exists())
+
+    def test_removes_a_devel_space_of_another_place(self):
+        self.build()
+        copy = self.folder / "copy"
+        shutil.copytree(self.toy, copy)
+        shutil.rmtree(copy / "build")
+        (copy / "devel/old").touch()
+        self.assertEqual(self.build(place=copy)[0], 0)
+        self.assertFalse((copy / "devel/old").exists())
+        self.assertEqual((copy / "devel/.catkin").read_text(), str(copy))
+
+    def test_recovers_from_a_configuration_that_failed(self):
+        (self.toy / "build").mkdir()
+        (self.toy / "build/CMakeCache.txt").write_text("")
+        self.assertEqual(self.build()[0], 0)
+        self.assertTrue(self.made("everything"))
+
+    def test_two_at_once_wait_for_each_other(self):
+        two = [subprocess.Popen([self.toy / "scripts/build"], stdout=subprocess.DEVNULL)
+               for _ in range(2)]
+        self.assertEqual([run.wait() for run in two], [0, 0])
         self.assertTrue(self.made("everything"))
 
 

@@ -244,8 +244,8 @@ void GuardedLinks<Real>::collect(const GuardedView<Real>& view,
   visitShared(view, link, m, [&](Module& module, Real swing) {
     const Real excess = m.total() * swing / Real(2);
     if (excess < Real(0)) {
-      const Real purse = std::max(Real(0), state.tank + m.heat);
-      const Real part = std::min(Real(1), purse / -excess);
+      const Real can_pay = std::max(Real(0), state.tank + m.heat);
+      const Real part = std::min(Real(1), can_pay / -excess);
       takeBack(part * swing, m, state);
       module.arrears -= (Real(1) - part) * excess;
     } else {

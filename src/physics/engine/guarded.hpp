@@ -44,10 +44,10 @@ struct GuardedView {
 /// A module as the guarded links on it see it.
 template <class Real>
 struct GuardedModule {
-  Real links = Real(0);                        // that are active
-  Real load[3] = {Real(0), Real(0), Real(0)};  // sum of their forces
-  Real refunds = Real(0);                      // due to those that were charged too much
-  Real arrears = Real(0);                      // that the others cannot pay
+  Real links = Real(0);                        // c, those that are active
+  Real load[3] = {Real(0), Real(0), Real(0)};  // sum F, of their forces
+  Real refunds = Real(0);                      // sum of h^2 F (c F - sum F)/2M where > 0
+  Real arrears = Real(0);                      // sum of the same where < 0 that tanks cannot pay
 };
 
 /// Links that never give more energy than they took, of one rate, all together: those that share

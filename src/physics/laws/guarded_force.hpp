@@ -10,34 +10,35 @@ namespace ergotic::physics {
 using scene::GuardedForce;
 using scene::GuardedLaw;
 
-/// What a guarded link remembers; all 0 before it starts. Energies in force unit times m.
+/// What a guarded link remembers; all 0 before it starts. Energies in force unit times m. Letters
+/// are those of docs/physics.md, "Guarded links".
 template <class Real>
 struct GuardedState {
   double stored = 0.0;      ///< at this step: the tank, with the first half of the step's work
   double lost = 0.0;        ///< energy dissipated since the start
   double active = 0.0;      ///< steps in which it pushed
   double clipped = 0.0;     ///< of these, with less force than its law asks for
-  Real tank = Real(0);      ///< energy it may still give
-  Real force = Real(0);     ///< of the last step, elastic
+  Real tank = Real(0);      ///< E, energy it may still give
+  Real force = Real(0);     ///< F of the last step, elastic
   Real damper = Real(0);    ///< of the last step, damping or friction
   Real foreseen = Real(0);  ///< how far what forces do not move was to open it
   Real gradient[3] = {Real(0), Real(0), Real(0)};  ///< of the last step
   Real rebounding = Real(0);                       ///< 1 once this impact has turned around
 };
 
-/// What a guarded link sees and does in one step. It opens while p falls.
+/// What a guarded link sees and does in one step. It opens while p falls. Letters as above.
 template <class Real>
 struct GuardedMotion {
-  Real p = Real(0);                                ///< compression or elongation, m
+  Real p = Real(0);                                ///< p, compression or elongation, m
   Real gradient[3] = {Real(0), Real(0), Real(0)};  ///< of p over end a less end b
-  Real coasting = Real(0);  ///< how far it would open over two steps at its present velocity, m
-  Real opening = Real(0);   ///< the same with all forces but those of guarded links
+  Real coasting = Real(0);  ///< sk, how far it would open over two steps at its present velocity, m
+  Real opening = Real(0);   ///< s0, the same with all forces but those of guarded links
   Real foreseen = Real(0);  ///< part of that in the step to come, by what forces do not move
-  Real give = Real(0);      ///< opening per force, inflated by the links that share its masses
-  Real own_give = Real(0);  ///< the same if it were alone
-  Real force = Real(0);     ///< elastic, closed links push: > 0
-  Real damper = Real(0);    ///< damping or friction
-  Real heat = Real(0);      ///< what it dissipates in this step
+  Real give = Real(0);      ///< q, opening per force, inflated by the links that share its masses
+  Real own_give = Real(0);  ///< q with c = 1: if it were alone
+  Real force = Real(0);     ///< F, elastic, closed links push: > 0
+  Real damper = Real(0);    ///< -z (s0 + q F)/d, or friction
+  Real heat = Real(0);      ///< work of the damper in this step, turned into heat
   bool is_friction = false;
   bool is_pushing = false;  ///< in contact, or two-sided
   bool is_active = false;   ///< may have a force
@@ -45,7 +46,8 @@ struct GuardedMotion {
   bool forfeits = false;    ///< what it absorbs in this step is lost
 
   Real total() const noexcept { return force + damper; }
-  /// How far it opens over two steps. With shared masses that is the most its force is charged for.
+  /// s0 + q (F + damper), how far it opens over two steps. With shared masses that is the most its
+  /// force is charged for.
   Real swing() const noexcept { return opening + give * total(); }
 };
 

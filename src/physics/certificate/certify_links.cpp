@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -136,8 +137,9 @@ class LinkJudge {
                                          : "; no motion can be stable beyond an elongation of ";
     findings_.add(Verdict::kUnproven, lia.place,
                   "the slope of link '" + lia.name +
-                      "' grows with its amplitude: stable only while it moves little" + how +
-                      describe(reach) + " m. Use scheme: guarded");
+                      "' grows with its amplitude: stable only while it moves little" +
+                      (std::isfinite(reach) ? how + describe(reach) + " m" : "") +
+                      ". Use scheme: guarded");
   }
 
   /// A stiffness that switches pumps energy: by little if it is soft for the step.

@@ -8,7 +8,6 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kEmptyTank = 1e-6;
 constexpr double kShortContact = 3.0;  // kt above which a contact is over before a sample sees it
 
@@ -33,25 +32,20 @@ Real lookAhead(Real kt, bool is_contact) noexcept {
   return is_contact || kt > Real(1) ? Real(1) / Real(12) : Real(0);
 }
 
-/// Ratio of the speeds after and before an impact of an oscillator with this damper.
 template <class Real>
-Real restitution(Real damping, Real slope, Real give) noexcept {
-  const Real z = damping * std::sqrt(give / slope) / Real(2);
-  return z < Real(1) ? std::exp(-static_cast<Real>(kPi) * z / std::sqrt(Real(1) - z * z)) : Real(0);
-}
-
-/// The link has let go: what is left in its tank goes back, once it opens. If something pushes it
-/// to again before that, it keeps the rest for the next contact.
-template <class Real>
-void release(GuardedMotion<Real>& m, const GuardedState<Real>& state) noexcept {
-  m.empties = m.opening > Real(0);
-  m.force = m.empties ? largestForce(state.tank, m.opening, m.give) : Real(0);
+void lose(Real energy, GuardedState<Real>& state) noexcept {
+  state.lost += static_cast<double>(energy);
+  state.tank -= energy;
 }
 
 /// A damped contact so short that a damper would never see it: restitution takes its place. Where
 /// the link turns from closing to opening, its tank keeps e^2 of what it holds.
-template <class Real>
-Real rebound(GuardedMotion<Real>& m, Real e, Real wanted, GuardedState<Real>& state) noexcept {
+/// \param e  restitution at a speed per step
+template <class Real, class Restitution>
+Real rebound(GuardedMotion<Real>& m,
+             const Restitution& e,
+             Real wanted,
+             GuardedState<Real>& state) noexcept {
   // Empty but for rounding, against the energy of the motion.
   const bool is_empty =
       m.give * state.tank <= Real(kEmptyTank) * m.coasting * m.coasting && m.give > Real(0);
@@ -61,14 +55,17 @@ Real rebound(GuardedMotion<Real>& m, Real e, Real wanted, GuardedState<Real>& st
     state.tank = Real(0);
     state.rebounding = Real(0);
     const Real load = m.opening - m.coasting;
-    const Real high = (-load - m.coasting * (Real(1) + e) / Real(2)) / m.give;
+    const Real high =
+        (-load - m.coasting * (Real(1) + e(-m.coasting / Real(2))) / Real(2)) / m.give;
     m.forfeits = wanted > high;
     return std::max(Real(0), high);
   }
   Real high = largestForce(state.tank, m.opening, m.give);
   const bool is_opening = m.opening + m.give * std::clamp(wanted, Real(0), high) > Real(0);
   if (is_opening && state.rebounding == Real(0)) {
-    const Real kept = e * e * state.tank;
+    const Real ratio =
+        e(std::sqrt(Real(2) * m.own_give * state.tank));  // all motion is in the tank
+    const Real kept = ratio * ratio * state.tank;
     state.lost += static_cast<double>(state.tank - kept);
     state.tank = kept;
     high = largestForce(kept, m.opening, m.give);
@@ -103,6 +100,78 @@ Real wantedMean(const GuardedMotion<Real>& m,
   return wanted;
 }
 
+/// A contact f (1 + c v) that lasts for several steps.
+template <class Real>
+struct Lossy {
+  Real wanted;   ///< elastic force
+  Real z;        ///< of the damper
+  Real surplus;  ///< what the tank would keep of this step although it is lost
+};
+
+/// The mean of c f v = c dU/dt over the steps on both sides is c v times that of f, and more where
+/// the velocity changes. What centred steps take for the work of f is too much by h^2 c f f'
+/// v^2/4M, with f f' v = d(f^2)/2dt.
+template <class Real>
+Lossy<Real> wantedLossy(const GuardedMotion<Real>& m,
+                        const GuardedLaw<Real>& law,
+                        const GuardedForce<Real>& at,
+                        Real kt,
+                        Real z) noexcept {
+  const Real c = law.damping;
+  const Real ahead = lookAhead(kt, true);
+  const auto squareAt = [&law](Real p) {
+    const Real force = p > Real(0) ? law.push(p).force : Real(0);
+    return force * force;
+  };
+  Lossy<Real> to{at.force, z, Real(0)};
+  for (int pass = 0; pass < 4; ++pass) {
+    const Real swing = (m.opening + m.give * to.wanted) / (Real(1) + m.give * to.z / Real(2));
+    const Real v = -swing / Real(2);       // of the overlap
+    const Real turn = m.coasting - swing;  // how much v changes in a step
+    const Real mean = law.meanPush(m.p, v);
+    const Real braked = m.opening - m.give * to.z * swing / Real(2);
+    to.wanted = (mean - ahead * at.slope * (braked - m.coasting)) / (Real(1) + ahead * kt);
+    const Real square = v * v + turn * turn;
+    const Real per_v = square > Real(0) ? turn * v / square : Real(0);  // not where v turns
+    const Real jerk = m.give * at.force * (at.slope * (Real(1) + c * v) + c * at.force * per_v);
+    to.z = c * std::max(Real(0), mean + (Real(3) * at.slope * turn + jerk) / Real(12));
+    to.surplus =
+        m.give * c * v * (squareAt(m.p + v / Real(2)) - squareAt(m.p - v / Real(2))) / Real(8);
+  }
+  return to;
+}
+
+/// A damper of z, centred: it dissipates at any z.
+template <class Real>
+void brake(Real z, GuardedMotion<Real>& m) noexcept {
+  const Real drag = Real(1) + m.give * z / Real(2);
+  m.damper = -z * (m.opening + m.give * m.force) / (Real(2) * drag);
+}
+
+/// Nothing that is lost pulls: where the damper would, it takes what the elastic force gives.
+template <class Real>
+void keepFromPulling(GuardedMotion<Real>& m, const GuardedState<Real>& state) noexcept {
+  if (m.total() < Real(0)) {
+    m.force = std::min(m.force, largestForce(state.tank, m.opening, Real(0)));
+    m.damper = -m.force;
+  }
+}
+
+/// The link has let go: what is left in its tank goes back, once it opens, less what the law loses.
+/// If something pushes it to again before that, it keeps the rest for the next contact.
+template <class Real>
+void release(GuardedMotion<Real>& m,
+             const GuardedLaw<Real>& law,
+             GuardedState<Real>& state) noexcept {
+  m.empties = m.opening > Real(0);
+  m.force = m.empties ? largestForce(state.tank, m.opening, m.give) : Real(0);
+  if (law.form->is_lossy && state.rebounding == Real(0)) {
+    brake(law.damping * m.force, m);
+    keepFromPulling(m, state);
+  }
+  state.rebounding = Real(0);
+}
+
 template <class Real>
 void exertElastic(GuardedMotion<Real>& m,
                   const GuardedLaw<Real>& law,
@@ -116,20 +185,35 @@ void exertElastic(GuardedMotion<Real>& m,
   if (is_open && !is_long) {
     return;
   }
-  const Real wanted = is_long ? wantedMean(m, law, at, kt) : wantedForce(m, at, kt, is_contact);
-  const Real z = is_open ? Real(0) : law.dampingAt(m.p, -m.coasting / Real(2));
+  Real z = is_open ? Real(0) : law.dampingAt(m.p, -m.coasting / Real(2));
   const bool is_impact = is_contact && z > Real(0) && kt > Real(1);
+  const bool is_lossy = law.form->is_lossy && is_long && !is_impact;
+  Real wanted = Real(0);
+  if (is_lossy) {
+    const Lossy<Real> lossy = wantedLossy(m, law, at, kt, z);
+    wanted = lossy.wanted;
+    z = lossy.z;
+    lose(std::min(state.tank, lossy.surplus), state);
+  } else {
+    wanted = is_long ? wantedMean(m, law, at, kt) : wantedForce(m, at, kt, is_contact);
+  }
   const Real damping = is_impact ? Real(0) : z;
   const Real drag = Real(1) + m.give * damping / Real(2);
   const Real budget = state.tank * drag;
-  const Real high = is_impact ? rebound(m, restitution(z, at.slope, m.own_give), wanted, state)
-                              : largestForce(budget, m.opening, m.give);
+  const auto e = [&](Real speed) {
+    return law.form->restitution(law, z, at.slope, m.own_give, speed);
+  };
+  const Real high =
+      is_impact ? rebound(m, e, wanted, state) : largestForce(budget, m.opening, m.give);
   const Real low = is_contact ? Real(0) : -largestForce(budget, -m.opening, m.give);
   m.force = std::clamp(wanted, low, high);
-  m.damper = -damping * (m.opening + m.give * m.force) / (Real(2) * drag);
+  brake(damping, m);
   const bool is_clipped = wanted > high || (!is_contact && wanted < low);
   state.active += 1.0;
   state.clipped += is_clipped ? 1.0 : 0.0;
+  if (law.form->is_lossy) {
+    keepFromPulling(m, state);
+  }
 }
 
 /// Two passes of Newton's method from the backward slip, each kept between no force and the force
@@ -169,8 +253,7 @@ void exertForce(GuardedMotion<Real>& m,
   } else if (m.is_pushing) {
     exertElastic(m, law, state);
   } else {
-    state.rebounding = Real(0);
-    release(m, state);
+    release(m, law, state);
   }
 }
 

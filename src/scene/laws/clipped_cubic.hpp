@@ -44,6 +44,7 @@ struct ClippedCurve {
   static GuardedForce<Real> push(const Numbers& n, Real p) noexcept;
   static Real potential(const Numbers& n, Real p) noexcept;
   static Real damping(const Numbers& n, Real p, Real v) noexcept;
+  static constexpr auto restitution = damperRestitution<Real>;
 };
 extern template struct ClippedCurve<float>;
 extern template struct ClippedCurve<double>;

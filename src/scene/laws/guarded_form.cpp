@@ -154,6 +154,17 @@ ERGOTIC_REALTIME Real GuardedLaw<Real>::meanPush(Real p, Real w) const noexcept 
          (step * step);
 }
 
+template <class Real>
+ERGOTIC_REALTIME Real
+damperRestitution(const GuardedLaw<Real>&, Real z, Real slope, Real give, Real) noexcept {
+  constexpr double kPi = 3.14159265358979323846;
+  const Real r = z * std::sqrt(give / slope) / Real(2);
+  return r < Real(1) ? std::exp(-static_cast<Real>(kPi) * r / std::sqrt(Real(1) - r * r)) : Real(0);
+}
+
+template float damperRestitution(const GuardedLaw<float>&, float, float, float, float) noexcept;
+template double damperRestitution(
+    const GuardedLaw<double>&, double, double, double, double) noexcept;
 template class GuardedCurve<float>;
 template class GuardedCurve<double>;
 template struct GuardedLaw<float>;

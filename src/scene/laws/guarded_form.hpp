@@ -70,6 +70,10 @@ struct GuardedForm {
   /// Z >= 0 at p; v is the velocity of p per step.
   Real (*damping)(const GuardedLaw<Real>&, Real p, Real v) noexcept;
   ForceAt slip;  ///< F(v) and F'(v) of friction
+  /// Contacts: ratio of the speeds after and before an impact at `speed` per step with the damping
+  /// z and the slope of the moment. `give`: opening per force.
+  Real (*restitution)(const GuardedLaw<Real>&, Real z, Real slope, Real give, Real speed) noexcept;
+  bool is_lossy;  ///< contacts: f (1 + damping v) is the law, and it never pulls
 };
 
 struct GuardedForms {
@@ -126,34 +130,65 @@ struct GuardedLaw {
   GuardedForce<Real> slip(Real v) const noexcept { return form->slip(*this, v); }
 };
 
-/// Forms from a `Curve<Real>` with push, potential, impulse and bend, of contacts.
-template <template <class> class Curve>
-constexpr GuardedForms contactForms() {
-  using F = GuardedForm<float>;
-  using D = GuardedForm<double>;
-  return {{F::Sort::kContact, Curve<float>::push, Curve<float>::potential, Curve<float>::impulse,
-           Curve<float>::bend, Curve<float>::damping, nullptr},
-          {D::Sort::kContact, Curve<double>::push, Curve<double>::potential, Curve<double>::impulse,
-           Curve<double>::bend, Curve<double>::damping, nullptr}};
+/// The form of a contact from a `Curve<Real>` with these functions. \param is_lossy  as above
+template <template <class> class Curve, class Real>
+constexpr GuardedForm<Real> contactForm(bool is_lossy) {
+  using C = Curve<Real>;
+  return {GuardedForm<Real>::Sort::kContact,
+          C::push,
+          C::potential,
+          C::impulse,
+          C::bend,
+          C::damping,
+          nullptr,
+          C::restitution,
+          is_lossy};
 }
-/// The same with push and potential, of two-sided springs.
+/// Of a two-sided spring: push, potential and damping.
+template <template <class> class Curve, class Real>
+constexpr GuardedForm<Real> springForm() {
+  using C = Curve<Real>;
+  return {GuardedForm<Real>::Sort::kSpring,
+          C::push,
+          C::potential,
+          nullptr,
+          nullptr,
+          C::damping,
+          nullptr,
+          nullptr,
+          false};
+}
+/// Of friction: slip.
+template <template <class> class Curve, class Real>
+constexpr GuardedForm<Real> frictionForm() {
+  return {GuardedForm<Real>::Sort::kFriction,
+          nullptr,
+          nullptr,
+          nullptr,
+          nullptr,
+          nullptr,
+          Curve<Real>::slip,
+          nullptr,
+          false};
+}
+
+template <template <class> class Curve>
+constexpr GuardedForms contactForms(bool is_lossy = false) {
+  return {contactForm<Curve, float>(is_lossy), contactForm<Curve, double>(is_lossy)};
+}
 template <template <class> class Curve>
 constexpr GuardedForms springForms() {
-  using F = GuardedForm<float>;
-  using D = GuardedForm<double>;
-  return {{F::Sort::kSpring, Curve<float>::push, Curve<float>::potential, nullptr, nullptr,
-           Curve<float>::damping, nullptr},
-          {D::Sort::kSpring, Curve<double>::push, Curve<double>::potential, nullptr, nullptr,
-           Curve<double>::damping, nullptr}};
+  return {springForm<Curve, float>(), springForm<Curve, double>()};
 }
-/// The same with slip, of friction.
 template <template <class> class Curve>
 constexpr GuardedForms frictionForms() {
-  using F = GuardedForm<float>;
-  using D = GuardedForm<double>;
-  return {{F::Sort::kFriction, nullptr, nullptr, nullptr, nullptr, nullptr, Curve<float>::slip},
-          {D::Sort::kFriction, nullptr, nullptr, nullptr, nullptr, nullptr, Curve<double>::slip}};
+  return {frictionForm<Curve, float>(), frictionForm<Curve, double>()};
 }
+
+/// Ratio of the speeds after and before an impact of an oscillator with this damper.
+template <class Real>
+Real damperRestitution(
+    const GuardedLaw<Real>& law, Real z, Real slope, Real give, Real speed) noexcept;
 
 /// Z of a law that has one number for it.
 template <class Real>
@@ -161,6 +196,7 @@ struct PlainDamping {
   ERGOTIC_REALTIME static Real damping(const GuardedLaw<Real>& law, Real, Real) noexcept {
     return law.damping > Real(0) ? law.damping : Real(0);
   }
+  static constexpr auto restitution = damperRestitution<Real>;
 };
 
 extern template class GuardedCurve<float>;

@@ -21,7 +21,8 @@
   ROW(Table)        /* (LNL) f = table(e) + viscous_table(v), held beyond the last points */ \
   ROW(Conditional)  /* f = K e + Z v from when |e| < width until |e| > release */            \
   ROW(PluckTable)   /* f = table(e), 0 outside */                                            \
-  ROW(BowTable)     /* friction f = table(v), 0 outside */
+  ROW(BowTable)     /* friction f = table(v), 0 outside */                                   \
+  ROW(Felt)         /* f = K e^exponent (1 + damping v) while e > 0, never pulls */
 
 namespace ergotic::scene {
 

@@ -24,7 +24,8 @@ constexpr double kUnbalanced = 1e-10;  // of the stored energy
 constexpr LiaType kAllTypes[] = {
     LiaType::kSpringDamper, LiaType::kContact,      LiaType::kQuadratic, LiaType::kCubic,
     LiaType::kClippedCubic, LiaType::kCubicContact, LiaType::kPluck,     LiaType::kBow,
-    LiaType::kSmoothBow,    LiaType::kPowerContact, LiaType::kTable,     LiaType::kConditional};
+    LiaType::kSmoothBow,    LiaType::kPowerContact, LiaType::kTable,     LiaType::kConditional,
+    LiaType::kFelt};
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -59,7 +60,8 @@ double largestResidual(const scene::Scene& scene, const Rates& rates, int ticks)
 
 /// Every field that some law reads, for forces of some newtons at some millimetres.
 void shape(Lia& lia) {
-  const bool is_gap = lia.type == LiaType::kContact || lia.type == LiaType::kPowerContact;
+  const bool is_gap = lia.type == LiaType::kContact || lia.type == LiaType::kPowerContact ||
+                      lia.type == LiaType::kFelt;
   lia.law.edit().nonlinearity = {1e4};
   lia.law.edit().stiffness_limit = {400.0};
   lia.law.edit().limit_damping = {0.05};

@@ -75,7 +75,7 @@ double imbalance(Player& player, int ticks) {
 constexpr LiaType kGuardable[] = {
     LiaType::kSpringDamper, LiaType::kContact,      LiaType::kQuadratic,    LiaType::kCubic,
     LiaType::kClippedCubic, LiaType::kCubicContact, LiaType::kPowerContact, LiaType::kTable,
-    LiaType::kBow,          LiaType::kSmoothBow};
+    LiaType::kBow,          LiaType::kSmoothBow,    LiaType::kFelt};
 
 TEST(GuardedInstrumentTest, EveryLawBalancesInEveryGeometryAndAcrossRates) {
   for (const LiaType type : kGuardable) {

@@ -80,7 +80,7 @@ _TOKENS = re.compile(r'R"([^(\s]*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|//[^\n]*|/\*.*?
 def room_of(path):
     """The room of a file, by its path below the root; None if there is none."""
     parts = re.sub(r"^(src|include/ergotic)/", "", path)
-    folder = "exception" if re.fullmatch(r"exception\.[ch]pp", parts) else str(Path(parts).parent)
+    folder = "exception" if re.fullmatch(r"(exception|at)\.[ch]pp", parts) else str(Path(parts).parent)
     while folder not in ROOMS and folder != ".":
         folder = str(Path(folder).parent)
     return folder if folder in ROOMS else None

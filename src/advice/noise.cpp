@@ -7,14 +7,11 @@
 
 #include <Eigen/Core>
 
+#include "at.hpp"
 #include "physics/certificate/port_links.hpp"
 
 namespace ergotic::physics {
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// A slice that moves by itself in each tick, the mass that hangs on it, and what holds that.
 struct Hanging {

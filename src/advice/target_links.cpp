@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "advice/target_parts.hpp"
+#include "at.hpp"
 #include "ergotic/advice/accuracy.hpp"
 #include "ergotic/scene/generate/chaplet.hpp"
 #include "physics/certificate/explicit_limits.hpp"
@@ -22,10 +23,6 @@ using scene::Scheme;
 constexpr double kDepth = 1e-3;   // m, of a contact that is judged
 constexpr double kHandHz = 20.0;  // of the hand's motion
 constexpr int kIterations = 30;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// The linear networks of all sections, made when they are needed.
 class Networks {

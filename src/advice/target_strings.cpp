@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "advice/target_parts.hpp"
+#include "at.hpp"
 #include "ergotic/advice/accuracy.hpp"
 #include "ergotic/scene/coarse_string.hpp"
 #include "physics/network/linear_network.hpp"
@@ -18,10 +19,6 @@ using scene::StringCut;
 constexpr int kMostMasses = 1000;  // of a string that is proposed
 constexpr int kMostCoarse = 80;
 constexpr int kMostModes = 300;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 double rateOf(const scene::Section& section, const Rates& rates) {
   return rates.audio_hz / divisorOf(section, rates);

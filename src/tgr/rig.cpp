@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "at.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/realtime.hpp"
 #include "ergotic/tgr/driver.hpp"
@@ -14,10 +15,6 @@
 
 namespace ergotic::tgr {
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 std::uint64_t bitOf(int slice) {
   return std::uint64_t{1} << static_cast<unsigned>(slice);

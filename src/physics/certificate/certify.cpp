@@ -5,15 +5,12 @@
 #include <map>
 #include <stdexcept>
 
+#include "at.hpp"
 #include "physics/certificate/certify_parts.hpp"
 #include "physics/network/network_analysis.hpp"
 
 namespace ergotic::physics {
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 class Certifier {
  public:

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "at.hpp"
 #include "ergotic/physics/certificate/monodromy.hpp"
 #include "physics/certificate/certify_parts.hpp"
 #include "physics/certificate/island.hpp"
@@ -18,10 +19,6 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr int kMostMasses = 300;         // whose eigenvalues are worked out
 constexpr double kRounding = 1e-9;       // of a radius of 1
 constexpr double kCertainGrowth = 1e-2;  // per period
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// What joins two rates in one island.
 struct Coupling {

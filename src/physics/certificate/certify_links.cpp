@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "at.hpp"
 #include "physics/certificate/certify_parts.hpp"
 #include "physics/certificate/explicit_limits.hpp"
 #include "scene/laws/law.hpp"
@@ -14,10 +15,6 @@ namespace {
 using scene::Lia;
 
 constexpr double kWarnedSwitch = 0.25;  // h^2 K (1/Ma + 1/Mb): gains a few per cent a hit
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 class LinkJudge {
  public:

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "at.hpp"
 #include "physics/certificate/certify_parts.hpp"
 #include "physics/certificate/port_links.hpp"
 
@@ -10,10 +11,6 @@ namespace {
 
 constexpr double kWarned = 0.5;   // of the passivity limit
 constexpr double kTooMuch = 2.0;  // of it
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 bool isTaken(int port, const DeviceTraits& device) {
   const auto& taken = device.taken_ports;

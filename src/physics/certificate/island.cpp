@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "at.hpp"
 #include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
@@ -10,10 +11,6 @@ namespace {
 
 using scene::LiaType;
 using scene::MatType;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 bool switches(const scene::Lia& lia) {
   return scene::lawOf(lia.type).switches;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "at.hpp"
 #include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
@@ -12,10 +13,6 @@ namespace {
 
 constexpr double kHandDepth = 1e-3;     // m, where a slope grows with it
 constexpr int kLongestSeries = 100000;  // links in a row
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 }  // namespace
 

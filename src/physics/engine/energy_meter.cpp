@@ -3,18 +3,11 @@
 
 #include <algorithm>
 
+#include "at.hpp"
 #include "physics/engine/stored_energy.hpp"
 #include "physics/kernels/link_kernels.hpp"
 
 namespace ergotic::physics {
-namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
-
 template <class Real>
 EnergyMeter<Real>::EnergyMeter(const scene::Scene& scene, const Layout& layout, State<Real>& state)
     : layout_(layout),

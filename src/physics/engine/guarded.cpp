@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "at.hpp"
+
 namespace ergotic::physics {
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Sets the direction of a link along u. Without a length it has none, and no force.
 /// \return the length, with the sign `sense`

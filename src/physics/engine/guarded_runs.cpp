@@ -3,15 +3,9 @@
 
 #include <algorithm>
 
+#include "at.hpp"
+
 namespace ergotic::physics {
-namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
-
 template <class Real>
 GuardedRuns<Real>::GuardedRuns(const scene::Scene& scene,
                                const Layout& layout,

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "at.hpp"
 #include "ergotic/exception.hpp"
 #include "physics/engine/instrument_of.hpp"
 #include "physics/modes/modal_scene.hpp"
@@ -10,10 +11,6 @@
 
 namespace ergotic::physics {
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Modules start where the scene says, with the velocity that it says.
 /// \param first_forces  N, by module of the scene

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "at.hpp"
 #include "ergotic/physics/engine/instrument.hpp"
 #include "ergotic/rt/thread.hpp"
 #include "physics/engine/group_stepper.hpp"
@@ -142,8 +143,6 @@ class InstrumentOf final : public Instrument {
   }
 
  private:
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
   /// Slices move at the start of a tick; a slice at 0 has its module at rest.
   void takeSlices(const double* positions) noexcept {
     const bool is_first_tick = mechanism_->state.frame() == 0;

@@ -3,15 +3,9 @@
 
 #include <utility>
 
+#include "at.hpp"
+
 namespace ergotic::physics {
-namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
-
 Picture::Picture(std::shared_ptr<const scene::Scene> written,
                  std::shared_ptr<const scene::Scene> played,
                  const Layout& layout,

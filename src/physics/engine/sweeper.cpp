@@ -3,18 +3,11 @@
 
 #include <algorithm>
 
+#include "at.hpp"
 #include "physics/kernels/levels.hpp"
 #include "physics/kernels/sparse_arguments.hpp"
 
 namespace ergotic::physics {
-namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
-
 template <class Real>
 struct Sweeper<Real>::Arrays {
   kernels::MoveArguments<Real> move{};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "at.hpp"
 #include "physics/layout/guarded_groups.hpp"
 #include "physics/layout/partition.hpp"
 
@@ -11,10 +12,6 @@ namespace ergotic::physics {
 namespace {
 
 constexpr int kHeld = LinkRun::kHeldGroup;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Deals everything out to the groups of its sections.
 class Dealer {

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "at.hpp"
 #include "ergotic/exception.hpp"
 #include "physics/layout/blocks/lanes.hpp"
 #include "physics/layout/layout_links.hpp"
@@ -14,10 +15,6 @@ namespace ergotic::physics {
 namespace {
 
 using scene::MatType;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Modules that lose speed by themselves are stepped like cells.
 int rankOf(const scene::Scene& scene, const scene::Mat& mat) {

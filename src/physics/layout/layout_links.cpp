@@ -6,6 +6,7 @@
 #include <string>
 #include <tuple>
 
+#include "at.hpp"
 #include "ergotic/exception.hpp"
 #include "physics/layout/link_spans.hpp"
 
@@ -13,10 +14,6 @@ namespace ergotic::physics {
 namespace {
 
 using scene::Geometry;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Slots for a point: those of its coordinates follow one another.
 int addSlots(Layout& layout, int dimensions, int mat) {

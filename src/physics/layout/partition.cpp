@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "at.hpp"
 #include "physics/disjoint_sets.hpp"
 
 namespace ergotic::physics {
@@ -12,10 +13,6 @@ namespace {
 
 constexpr int kHeld = LinkRun::kHeldGroup;
 constexpr int kSlotsPerLine = 16;  // groups must not share a cache line
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Sections that need each other at the same instant.
 class Split {

@@ -8,6 +8,8 @@
 #include <limits>
 #include <map>
 
+#include "at.hpp"
+
 namespace ergotic::physics {
 namespace {
 
@@ -24,10 +26,6 @@ constexpr double kRegularShare = 0.9;  // of the links, along these offsets
 constexpr double kEqualShare = 1e-9;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// True if most links join modules that lie equally far apart in the list.
 bool isRegular(const Network& network, const LinearPart& part) {

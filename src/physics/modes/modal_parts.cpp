@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "at.hpp"
 #include "physics/disjoint_sets.hpp"
 #include "physics/laws/oscillator.hpp"
 #include "physics/network/load_matrix.hpp"
@@ -20,10 +21,6 @@ using scene::MatType;
 
 constexpr double kSame = 1e-9;       // of numbers that are meant to be equal
 constexpr double kLossShare = 0.38;  // of losses in what decides about modes; nothing special
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 bool isConstant(const scene::Value& v) {
   return v.parameter < 0 && v.audio < 0;

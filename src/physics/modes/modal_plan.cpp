@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "at.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/scene/grid.hpp"
 #include "physics/note.hpp"
@@ -17,10 +18,6 @@ using scene::Scene;
 
 constexpr double kRounding = 1e-10;    // of the largest eigenvalue
 constexpr double kIndependent = 1e-9;  // of how far two places move each other
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 bool moves(const Scene& scene, const scene::Connection& place) {
   const auto changes = [](const scene::Value& v) { return v.parameter >= 0 || v.audio >= 0; };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "at.hpp"
 #include "physics/modes/modal_plan.hpp"
 #include "physics/step_units.hpp"
 
@@ -15,10 +16,6 @@ using scene::MatType;
 using scene::Scene;
 
 constexpr std::size_t kPictureModes = 24;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Rewrites a scene by the plans of its sections.
 class Rewriter {

@@ -9,15 +9,13 @@
 
 #include <Eigen/Dense>
 
+#include "at.hpp"
+
 namespace ergotic::physics {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRounding = 1e-12;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 class CellBound {
  public:

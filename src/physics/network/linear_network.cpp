@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 
+#include "at.hpp"
 #include "physics/network/load_matrix.hpp"
 
 namespace ergotic::physics {
@@ -16,10 +17,6 @@ namespace {
 using scene::MatType;
 
 constexpr int kIterations = 50;  // of Collatz-Wielandt
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 }  // namespace
 

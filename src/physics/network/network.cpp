@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "at.hpp"
 #include "ergotic/scene/grid.hpp"
 #include "scene/laws/law.hpp"
 
@@ -12,10 +13,6 @@ namespace ergotic::physics {
 namespace {
 
 using scene::MatType;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 Varying varying(const scene::Scene& scene, const scene::Value& v) {
   return {scene.valueOf(v), rangeOf(scene, v)};

@@ -6,16 +6,13 @@
 #include <limits>
 #include <map>
 
+#include "at.hpp"
 #include "physics/disjoint_sets.hpp"
 
 namespace ergotic::physics {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 double positive(const Range& span) {
   return std::max(span.highest, 0.0);

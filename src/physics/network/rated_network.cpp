@@ -7,19 +7,12 @@
 #include <iterator>
 #include <unordered_map>
 
+#include "at.hpp"
 #include "physics/disjoint_sets.hpp"
 #include "physics/laws/matched_cell.hpp"
 #include "physics/step_units.hpp"
 
 namespace ergotic::physics {
-namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
-
 /// A network being built, with the nodes of its modules.
 struct RatedNetwork::Builder {
   NetworkBound network;

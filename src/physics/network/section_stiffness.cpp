@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "at.hpp"
 #include "physics/network/load_matrix.hpp"
 
 namespace ergotic::physics {
@@ -10,10 +11,6 @@ namespace {
 
 using scene::Geometry;
 using scene::MatType;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// What a spring of stiffness 1 does between its two ends.
 Eigen::Matrix3d tangent(const scene::Scene& scene, const scene::Lia& lia, Geometry geometry) {

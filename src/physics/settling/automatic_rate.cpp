@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "at.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/physics/certificate/certify.hpp"
 #include "physics/network/network_analysis.hpp"
@@ -17,10 +18,6 @@ namespace {
 using scene::MatType;
 
 constexpr double kPi = 3.14159265358979323846;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 bool hasSlice(const scene::Scene& scene, int section) {
   return std::any_of(scene.mats.begin(), scene.mats.end(), [&](const scene::Mat& mat) {

@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 
+#include "at.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/scene/coarse_string.hpp"
 #include "physics/note.hpp"
@@ -16,10 +17,6 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kSprings = 3;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 double squaredSine(double angle) {
   return 4.0 * std::pow(std::sin(angle / 2.0), 2);

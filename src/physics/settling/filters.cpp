@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "at.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/physics/settling/chaplet.hpp"
 #include "ergotic/scene/grid.hpp"
@@ -34,10 +35,6 @@ struct Plan {
   double slow_mass = 0.0;  // kg, 0: moved by a hand or from outside
   double dashpot = 0.0;    // to the ground of the slower mass, N s/m; 0: none
 };
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 [[noreturn]] void fail(const Scene& scene, const scene::Lia& lia, const std::string& what) {
   throw TextError(scene.file, lia.place.line, lia.place.column,

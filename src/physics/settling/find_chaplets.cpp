@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "at.hpp"
 #include "ergotic/physics/settling/chaplet.hpp"
 #include "physics/settling/chaplet_load.hpp"
 
@@ -16,10 +17,6 @@ using scene::Scene;
 
 constexpr double kRounding = 1e-6;
 constexpr double kPi = 3.14159265358979323846;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 bool areClose(double a, double b) {
   return std::abs(a - b) <= kRounding * std::abs(b);

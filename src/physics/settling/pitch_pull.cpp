@@ -4,16 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "at.hpp"
 #include "physics/note.hpp"
 
 namespace ergotic::physics {
 namespace {
 
 constexpr double kAudibleCents = 3.0;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// How far from its line a string is held at the start, over its length.
 double pluckOf(const scene::Scene& scene, const scene::StringInfo& string, double length) {

@@ -7,6 +7,7 @@
 
 #include <Eigen/SparseCholesky>
 
+#include "at.hpp"
 #include "physics/network/section_stiffness.hpp"
 #include "physics/note.hpp"
 #include "scene/laws/law.hpp"
@@ -18,10 +19,6 @@ using scene::Geometry;
 using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr double kSmallestPivot = 1e-13;  // of the largest: below, it is rounding
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Entries of K^-1 where L has some, from the last column to the first.
 class SelectedInverse {

@@ -2,16 +2,13 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "at.hpp"
 #include "physics/layout/blocks/lanes.hpp"
 #include "physics/layout/blocks/sparse_program.hpp"
 #include "physics/state/coefficients.hpp"
 
 namespace ergotic::physics {
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 bool hasDifferent(const Block& block) {
   return std::any_of(block.segments.begin(), block.segments.end(),

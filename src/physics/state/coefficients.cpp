@@ -3,20 +3,13 @@
 
 #include <array>
 
+#include "at.hpp"
 #include "ergotic/scene/table.hpp"
 #include "physics/laws/oscillator.hpp"
 #include "physics/layout/guarded_groups.hpp"
 #include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
-namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
-
 template <class Real>
 CoefficientsOf<Real>::CoefficientsOf(const scene::Scene& scene,
                                      const Rates& rates,

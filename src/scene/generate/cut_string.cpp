@@ -5,16 +5,13 @@
 #include <cmath>
 #include <iterator>
 
+#include "at.hpp"
 #include "ergotic/scene/coarse_string.hpp"
 #include "ergotic/scene/grid.hpp"
 #include "scene/limits.hpp"
 
 namespace ergotic::scene {
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 int linksOf(const StringCut& cut) {
   return cut.coarse ? coarseLinks(cut.masses) : cut.masses + 1;

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "at.hpp"
+
 namespace ergotic::tools {
 namespace {
 
@@ -12,10 +14,6 @@ using scene::SceneBuilder;
 using scene::Value;
 
 constexpr double kSpeed = 0.1;  // m/s, of the fastest at the start
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// A net as a mesh program makes it, before anything is numbered.
 struct Triangles {

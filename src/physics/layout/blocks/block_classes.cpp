@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "at.hpp"
 #include "physics/layout/blocks/block_parts.hpp"
 #include "physics/layout/blocks/lanes.hpp"
 
@@ -13,10 +14,6 @@ using scene::Value;
 
 constexpr double kSameRatio = 1e-12;      // relative
 constexpr int kWorthACall = 12 * kLanes;  // elements
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 bool same(const Value& a, const Value& b) {
   return a.factor == b.factor && a.parameter == b.parameter;

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <map>
 
+#include "at.hpp"
 #include "physics/disjoint_sets.hpp"
 #include "physics/layout/blocks/block_parts.hpp"
 
@@ -13,10 +14,6 @@ namespace {
 using scene::LiaType;
 using scene::Mat;
 using scene::MatType;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 bool follows(const scene::Value& value) {
   return value.audio >= 0;

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "at.hpp"
 #include "physics/layout/blocks/block_parts.hpp"
 #include "physics/layout/blocks/lanes.hpp"
 #include "physics/layout/blocks/sparse_program.hpp"
@@ -21,10 +22,6 @@ constexpr double kDiagonalShare = 0.2;
 constexpr int kMostDiagonals = 2 * kMaxDiagonals;
 constexpr int kSmallest = 12;
 constexpr int kSmallestSparse = 24;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 int roundUp(int n) {
   return (n + kLanes - 1) / kLanes * kLanes;

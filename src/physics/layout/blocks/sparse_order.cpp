@@ -5,14 +5,11 @@
 #include <cstddef>
 #include <string>
 
+#include "at.hpp"
 #include "ergotic/exception.hpp"
 
 namespace ergotic::physics {
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// The neighbours of each node, one list after the other.
 class Neighbours {

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "at.hpp"
 #include "ergotic/exception.hpp"
 #include "physics/layout/blocks/sparse_order.hpp"
 
@@ -19,10 +20,6 @@ namespace {
 /// AVX-512 for float, a little less, as windows gain less for double and at other levels.
 constexpr double kPickCost = 1.7;
 constexpr double kPickStart = 5.0;
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// A neighbour of a node of the group at hand.
 struct Side {

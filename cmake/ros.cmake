@@ -63,6 +63,7 @@ target_compile_definitions(ergotic_ros PRIVATE ERGOTIC_VERSION="${ergotic_VERSIO
 target_link_libraries(ergotic_ros
   PUBLIC ergotic_core ergotic_audio ergotic_bag ergotic_messages ${catkin_LIBRARIES}
   PRIVATE ergotic_flags yaml-cpp)
+ergotic_precompile(ergotic_ros <ros/node_handle.h>)
 
 foreach(driver comedi jack)
   set(plugin src/tgr/drivers/${driver}/${driver}_plugin.cpp)

@@ -26,6 +26,7 @@ foreach(rostest ${rostests})
     PRIVATE ergotic_audio ergotic_messages ${catkin_LIBRARIES} ergotic_test_support ergotic_flags)
   target_compile_definitions(${name}_rostest
     PRIVATE ERGOTIC_TOOLS_DIR="${CATKIN_DEVEL_PREFIX}/lib/ergotic")
+  ergotic_compile_soon(${name}_rostest)
   add_test(NAME integration.${name} COMMAND ${in_devel_space} /usr/bin/rostest ${rostest})
   set_tests_properties(integration.${name} PROPERTIES
     RUN_SERIAL TRUE TIMEOUT 300 LABELS integration)

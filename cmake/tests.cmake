@@ -9,12 +9,24 @@ target_link_libraries(ergotic_test_support
   PUBLIC ergotic_audio GTest::gtest GTest::gmock PkgConfig::SNDFILE PRIVATE ergotic_flags)
 
 include(GoogleTest)
+# Tests are compiled sooner than optimized, all with the headers that the first of them has read.
+function(ergotic_compile_soon target)
+  target_compile_options(${target} PRIVATE
+    $<$<NOT:$<CONFIG:Debug>>:-O1> $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+  if(${target} STREQUAL "ergotic_rt_test")
+    target_precompile_headers(${target} PRIVATE
+      ${ergotic_common_headers} <gmock/gmock.h> <gtest/gtest.h>)
+  else()
+    target_precompile_headers(${target} REUSE_FROM ergotic_rt_test)
+  endif()
+endfunction()
 # The tests of one folder as one program: ergotic_add_gtests(ROOM LIBRARIES...)
 function(ergotic_add_gtests room)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS test/${room}/*_test.cpp)
   add_executable(ergotic_${room}_test ${sources})
   target_link_libraries(ergotic_${room}_test
     PRIVATE ergotic_test_support GTest::gtest_main ergotic_flags ${ARGN})
+  ergotic_compile_soon(ergotic_${room}_test)
   gtest_discover_tests(ergotic_${room}_test
     TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${room})
 endfunction()

@@ -19,7 +19,8 @@ file(GLOB rostests CONFIGURE_DEPENDS test/integration/*.test)
 foreach(rostest ${rostests})
   get_filename_component(name ${rostest} NAME_WE)
   add_executable(${name}_rostest
-    test/integration/${name}_rostest.cpp test/integration/child_process.cpp)
+    test/integration/${name}_rostest.cpp test/integration/child_process.cpp
+    $<$<NOT:$<STREQUAL:${name},master>>:test/integration/rostest_main.cpp>)
   set_target_properties(${name}_rostest PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/ergotic)
   target_link_libraries(${name}_rostest

@@ -2,15 +2,12 @@
 // What the noise of the sensors comes back as, predicted and played.
 #include "ergotic/advice/noise.hpp"
 
-#include <cmath>
 #include <random>
-#include <string>
-
-#include <gtest/gtest.h>
 
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
 #include "support/scene_builder.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::physics {
 namespace {

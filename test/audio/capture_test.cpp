@@ -5,17 +5,13 @@
 
 #include <cstdio>
 #include <future>
-#include <string>
 #include <thread>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "ergotic/audio/jack_client.hpp"
 #include "ergotic/audio/wav.hpp"
-#include "ergotic/exception.hpp"
 #include "support/block_probe.hpp"
 #include "support/jack_server.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::audio {
 namespace {
@@ -127,7 +123,7 @@ TEST_F(CaptureTest, KeepsWhatItHasWhenTheServerIsKilled) {
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   server_.kill();
   const CaptureReport report = recorder.get();
-  EXPECT_NE(report.message.find("went away"), std::string::npos) << report.message;
+  EXPECT_THAT(report.message, HasSubstr("went away"));
   EXPECT_GT(report.frames, 0);
   EXPECT_EQ(WavReader(config_.path).frames(), report.frames);
 }
@@ -136,19 +132,11 @@ TEST_F(CaptureTest, SaysWhatItWaitedForInVain) {
   config_.wait_s = 0.3;
   EXPECT_THROW(capture(config_, stop_), Exception);  // no ports named
   config_.ports = {"nobody:out_1"};
-  try {
-    capture(config_, stop_);
-    FAIL() << "recorded without a server";
-  } catch (const DeviceError& error) {
-    EXPECT_NE(std::string(error.what()).find("no JACK server"), std::string::npos) << error.what();
-  }
+  EXPECT_THAT(complaintOf<DeviceError>([&] { capture(config_, stop_); }),
+              HasSubstr("no JACK server"));
   server_.start();
-  try {
-    capture(config_, stop_);
-    FAIL() << "recorded a port that is not there";
-  } catch (const DeviceError& error) {
-    EXPECT_NE(std::string(error.what()).find("nobody:out_1"), std::string::npos) << error.what();
-  }
+  EXPECT_THAT(complaintOf<DeviceError>([&] { capture(config_, stop_); }),
+              HasSubstr("nobody:out_1"));
 }
 
 }  // namespace

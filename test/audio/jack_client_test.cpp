@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
+
 #include "ergotic/audio/jack_client.hpp"
 
-#include <string>
+#include <atomic>
+#include <future>
+#include <thread>
 
-#include <gtest/gtest.h>
-
-#include "ergotic/exception.hpp"
+#include "audio/gate.hpp"
+#include "audio/jack_library.hpp"
+#include "audio/jack_session.hpp"
 #include "support/block_probe.hpp"
 #include "support/jack_server.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::audio {
 namespace {
@@ -15,6 +19,24 @@ namespace {
 using test::BlockProbe;
 using test::eventually;
 using test::JackServer;
+
+TEST(JackLibraryTest, ACallThatComesBackIsWaitedFor) {
+  bool called = false;
+  EXPECT_TRUE(jack_library::callPatiently([&called] { called = true; }));
+  EXPECT_TRUE(called);
+  EXPECT_FALSE(jack_library::isStuck());
+}
+
+TEST(JackLibraryTest, ACallThatHangsBlocksNobodyAndNoClientIsOpenedMeanwhile) {
+  auto release = std::make_shared<std::promise<void>>();
+  EXPECT_FALSE(jack_library::callPatiently([release] { release->get_future().wait(); }));
+  EXPECT_TRUE(jack_library::isStuck());
+  EXPECT_THAT(complaintOf<DeviceError>(
+                  [&] { const JackSession session("", "stuck", std::make_shared<Semaphore>()); }),
+              HasSubstr("has not come back"));
+  release->set_value();
+  EXPECT_TRUE(test::eventually([] { return !jack_library::isStuck(); }));
+}
 
 JackConfig configFor(const JackServer& server) {
   JackConfig config;
@@ -38,13 +60,22 @@ void expectOrderlyBlocks(const BlockProbe& probe) {
   EXPECT_LE(probe.counts.jumps, probe.counts.xruns);
 }
 
-TEST(JackHostTest, BlocksArriveOneAfterTheOther) {
-  JackServer server("blocks");
-  server.start();
-  BlockProbe probe;
+class JackHostTest : public testing::Test {
+ protected:
+  bool isConnected(const std::string& out, const std::string& sink) {
+    return server_.tool("jack_lsp -c " + sink + " | grep -q '   " + out + "$'") == 0;
+  }
+
+  JackServer server_{"host"};
+  BlockProbe probe_;
+  JackConfig config_ = configFor(server_);
+};
+
+TEST_F(JackHostTest, BlocksArriveOneAfterTheOther) {
+  server_.start();
   {
-    JackHost host(configFor(server), probe);
-    ASSERT_TRUE(blocksFlow(probe, 300)) << host.status().message;
+    JackHost host(config_, probe_);
+    ASSERT_TRUE(blocksFlow(probe_, 300)) << host.status().message;
     ASSERT_TRUE(eventually([&] { return host.status().running; }));
     const JackStatus status = host.status();
     EXPECT_EQ(status.sample_rate_hz, 44100.0);
@@ -53,227 +84,229 @@ TEST(JackHostTest, BlocksArriveOneAfterTheOther) {
     EXPECT_EQ(status.starts, 1);
     EXPECT_EQ(status.message, "");
   }
-  EXPECT_EQ(probe.sample_rate, 44100.0);
-  EXPECT_EQ(probe.counts.starts, 1);
-  EXPECT_EQ(probe.counts.stops, 1);
-  expectOrderlyBlocks(probe);
+  EXPECT_EQ(probe_.sample_rate, 44100.0);
+  EXPECT_EQ(probe_.counts.starts, 1);
+  EXPECT_EQ(probe_.counts.stops, 1);
+  expectOrderlyBlocks(probe_);
 }
 
-TEST(JackHostTest, SaysThatThereIsNoServerAndFindsOneThatAppears) {
-  JackServer server("late");
-  BlockProbe probe;
-  JackHost host(configFor(server), probe);
+TEST_F(JackHostTest, SaysThatThereIsNoServerAndFindsOneThatAppears) {
+  JackHost host(config_, probe_);
   ASSERT_TRUE(eventually([&] { return !host.status().message.empty(); }));
   EXPECT_FALSE(host.status().running);
-  EXPECT_NE(host.status().message.find("no JACK server `" + server.name()), std::string::npos)
-      << host.status().message;
-  EXPECT_EQ(probe.counts.starts, 0);
-  server.start();
-  EXPECT_TRUE(blocksFlow(probe, 50));
+  EXPECT_THAT(host.status().message, HasSubstr("no JACK server `" + server_.name()));
+  EXPECT_EQ(probe_.counts.starts, 0);
+  server_.start();
+  EXPECT_TRUE(blocksFlow(probe_, 50));
   EXPECT_TRUE(eventually([&] { return host.status().running && host.status().message.empty(); }));
 }
 
-TEST(JackHostTest, OutlivesAServerThatIsKilledAndRunsWithTheNext) {
-  JackServer server("killed");
-  server.start();
-  BlockProbe probe;
-  JackHost host(configFor(server), probe);
+TEST_F(JackHostTest, OutlivesAServerThatIsKilledAndRunsWithTheNext) {
+  server_.start();
+  JackHost host(config_, probe_);
   for (int life = 1; life <= 3; ++life) {
-    ASSERT_TRUE(eventually([&] { return probe.counts.starts == life; })) << host.status().message;
-    ASSERT_TRUE(blocksFlow(probe, 50));
-    server.kill();
-    ASSERT_TRUE(eventually([&] { return probe.counts.stops == life; }));
-    const std::int64_t blocks = probe.counts.blocks;
+    ASSERT_TRUE(eventually([&] { return probe_.counts.starts == life; })) << host.status().message;
+    ASSERT_TRUE(blocksFlow(probe_, 50));
+    server_.kill();
+    ASSERT_TRUE(eventually([&] { return probe_.counts.stops == life; }));
+    const std::int64_t blocks = probe_.counts.blocks;
     ASSERT_TRUE(eventually([&] { return !host.status().running; }));
     EXPECT_NE(host.status().message, "");
-    EXPECT_EQ(probe.counts.blocks, blocks);
-    server.start();
+    EXPECT_EQ(probe_.counts.blocks, blocks);
+    server_.start();
   }
   EXPECT_TRUE(eventually([&] { return host.status().running && host.status().starts == 4; }));
-  EXPECT_TRUE(blocksFlow(probe, 50));
-  expectOrderlyBlocks(probe);
+  EXPECT_TRUE(blocksFlow(probe_, 50));
+  expectOrderlyBlocks(probe_);
 }
 
-TEST(JackHostTest, BeginsAnewWhenTheServerEndsInGoodOrder) {
-  JackServer server("ended");
-  server.start();
-  BlockProbe probe;
-  JackHost host(configFor(server), probe);
-  ASSERT_TRUE(blocksFlow(probe, 50));
-  server.stop();
-  ASSERT_TRUE(eventually([&] { return probe.counts.stops == 1; }));
-  server.start();
-  EXPECT_TRUE(eventually([&] { return probe.counts.starts == 2; })) << host.status().message;
-  EXPECT_TRUE(blocksFlow(probe, 50));
+TEST_F(JackHostTest, BeginsAnewWhenTheServerEndsInGoodOrder) {
+  server_.start();
+  JackHost host(config_, probe_);
+  ASSERT_TRUE(blocksFlow(probe_, 50));
+  server_.stop();
+  ASSERT_TRUE(eventually([&] { return probe_.counts.stops == 1; }));
+  server_.start();
+  EXPECT_TRUE(eventually([&] { return probe_.counts.starts == 2; })) << host.status().message;
+  EXPECT_TRUE(blocksFlow(probe_, 50));
 }
 
-TEST(JackHostTest, BeginsAnewWhenItIsDropped) {
-  JackServer server("dropped");
-  server.start();
-  BlockProbe probe;
-  JackHost host(configFor(server), probe);
-  ASSERT_TRUE(blocksFlow(probe, 50));
+TEST_F(JackHostTest, BeginsAnewWhenItIsDropped) {
+  server_.start();
+  JackHost host(config_, probe_);
+  ASSERT_TRUE(blocksFlow(probe_, 50));
   host.drop();
-  ASSERT_TRUE(eventually([&] { return probe.counts.stops == 1; }));
+  ASSERT_TRUE(eventually([&] { return probe_.counts.stops == 1; }));
   host.look();
-  EXPECT_TRUE(eventually([&] { return probe.counts.starts == 2; })) << host.status().message;
-  EXPECT_TRUE(blocksFlow(probe, 50));
+  EXPECT_TRUE(eventually([&] { return probe_.counts.starts == 2; })) << host.status().message;
+  EXPECT_TRUE(blocksFlow(probe_, 50));
   EXPECT_EQ(host.status().message, "");
-  expectOrderlyBlocks(probe);
+  expectOrderlyBlocks(probe_);
 }
 
-TEST(JackHostTest, BeginsAnewWithTheNewPeriod) {
-  JackServer server("period");
-  server.start();
-  BlockProbe probe;
-  JackHost host(configFor(server), probe);
-  ASSERT_TRUE(blocksFlow(probe, 50));
-  ASSERT_EQ(server.tool("jack_bufsize 512"), 0);
-  ASSERT_TRUE(eventually([&] { return probe.counts.starts == 2; }));
-  EXPECT_TRUE(blocksFlow(probe, 50));
-  EXPECT_EQ(probe.period, 512U);
-  EXPECT_EQ(probe.counts.stops, 1);
+TEST_F(JackHostTest, BeginsAnewWithTheNewPeriod) {
+  server_.start();
+  JackHost host(config_, probe_);
+  ASSERT_TRUE(blocksFlow(probe_, 50));
+  ASSERT_EQ(server_.tool("jack_bufsize 512"), 0);
+  ASSERT_TRUE(eventually([&] { return probe_.counts.starts == 2; }));
+  EXPECT_TRUE(blocksFlow(probe_, 50));
+  EXPECT_EQ(probe_.period, 512U);
+  EXPECT_EQ(probe_.counts.stops, 1);
   EXPECT_TRUE(eventually([&] { return host.status().period_frames == 512U; }));
-  expectOrderlyBlocks(probe);
+  expectOrderlyBlocks(probe_);
 }
 
-TEST(JackHostTest, StopsWhileTheServerFreewheels) {
-  JackServer server("freewheel");
-  server.start();
-  BlockProbe probe;
-  JackHost host(configFor(server), probe);
-  ASSERT_TRUE(blocksFlow(probe, 50));
-  ASSERT_EQ(server.tool("jack_freewheel y"), 0);
+TEST_F(JackHostTest, StopsWhileTheServerFreewheels) {
+  server_.start();
+  JackHost host(config_, probe_);
+  ASSERT_TRUE(blocksFlow(probe_, 50));
+  ASSERT_EQ(server_.tool("jack_freewheel y"), 0);
   ASSERT_TRUE(eventually([&] { return host.status().freewheeling; }));
-  EXPECT_TRUE(eventually([&] { return probe.counts.stops == 1; }));
-  EXPECT_NE(host.status().message.find("freewheel"), std::string::npos);
-  ASSERT_EQ(server.tool("jack_freewheel n"), 0);
-  EXPECT_TRUE(eventually([&] { return probe.counts.starts == 2; }));
-  EXPECT_TRUE(blocksFlow(probe, 50));
+  EXPECT_TRUE(eventually([&] { return probe_.counts.stops == 1; }));
+  EXPECT_THAT(host.status().message, HasSubstr("freewheel"));
+  ASSERT_EQ(server_.tool("jack_freewheel n"), 0);
+  EXPECT_TRUE(eventually([&] { return probe_.counts.starts == 2; }));
+  EXPECT_TRUE(blocksFlow(probe_, 50));
   EXPECT_TRUE(eventually([&] { return host.status().running; }));
-  EXPECT_EQ(probe.counts.stray, 0);
+  EXPECT_EQ(probe_.counts.stray, 0);
 }
 
-TEST(JackHostTest, KeepsTheReasonOfAProcessorThatRefusesAndTriesAgain) {
-  JackServer server("refused");
-  server.start();
-  BlockProbe probe;
-  probe.refuse = true;
-  JackHost host(configFor(server), probe);
+TEST_F(JackHostTest, KeepsTheReasonOfAProcessorThatRefusesAndTriesAgain) {
+  server_.start();
+  probe_.refuse = true;
+  JackHost host(config_, probe_);
   ASSERT_TRUE(eventually([&] { return host.status().message == "the probe wants no audio"; }));
   EXPECT_FALSE(host.status().running);
-  EXPECT_NE(server.tool("jack_lsp | grep -q ergotic:"), 0);  // the client is gone
-  probe.refuse = false;
-  EXPECT_TRUE(blocksFlow(probe, 50));
-  EXPECT_EQ(probe.counts.stops, 0);
+  EXPECT_NE(server_.tool("jack_lsp | grep -q ergotic:"), 0);  // the client is gone
+  probe_.refuse = false;
+  EXPECT_TRUE(blocksFlow(probe_, 50));
+  EXPECT_EQ(probe_.counts.stops, 0);
 }
 
-TEST(JackHostTest, ConnectsToPlaybackOnlyIfAskedAndTakesNothingAway) {
-  JackServer server("connect");
-  server.start();
+TEST_F(JackHostTest, ConnectsToPlaybackOnlyIfAskedAndTakesNothingAway) {
+  server_.start();
   BlockProbe first_probe;
   BlockProbe second_probe;
-  JackConfig config = configFor(server);
-  JackHost quiet(config, first_probe);
+  JackHost quiet(config_, first_probe);
   ASSERT_TRUE(blocksFlow(first_probe, 10));
-  EXPECT_NE(server.tool("jack_lsp -c | grep -q '   ergotic:out_'"), 0);
-  ASSERT_EQ(server.tool("jack_connect ergotic:out_3 system:playback_1"), 0);
-  config.connect = true;
-  JackHost loud(config, second_probe);
+  EXPECT_NE(server_.tool("jack_lsp -c | grep -q '   ergotic:out_'"), 0);
+  ASSERT_EQ(server_.tool("jack_connect ergotic:out_3 system:playback_1"), 0);
+  config_.connect = true;
+  JackHost loud(config_, second_probe);
   ASSERT_TRUE(blocksFlow(second_probe, 10));
-  const auto connected = [&](const std::string& out, const std::string& sink) {
-    return server.tool("jack_lsp -c " + sink + " | grep -q '   " + out + "$'") == 0;
-  };
-  EXPECT_TRUE(eventually([&] { return connected("ergotic-01:out_2", "system:playback_2"); }));
-  EXPECT_TRUE(connected("ergotic-01:out_1", "system:playback_1"));
-  EXPECT_TRUE(connected("ergotic:out_3", "system:playback_1"));
+  EXPECT_TRUE(eventually([&] { return isConnected("ergotic-01:out_2", "system:playback_2"); }));
+  EXPECT_TRUE(isConnected("ergotic-01:out_1", "system:playback_1"));
+  EXPECT_TRUE(isConnected("ergotic:out_3", "system:playback_1"));
 }
 
-TEST(JackHostTest, ConnectsNothingToWhatAnotherHostIsWiredTo) {
-  JackServer server("wired");
-  server.start();
+TEST_F(JackHostTest, ConnectsNothingToWhatAnotherHostIsWiredTo) {
+  server_.start();
   BlockProbe device_probe;
   BlockProbe sound_probe;
-  JackConfig wired = configFor(server);
+  JackConfig wired = config_;
   wired.name = "device";
   wired.inputs = 0;
   wired.outputs = 1;
   wired.output_peers = {"physical 2"};
   const JackHost device(wired, device_probe);
   ASSERT_TRUE(eventually([&] { return device.status().wired; })) << device.status().message;
-  JackConfig config = configFor(server);
-  config.connect = true;
-  const JackHost sound(config, sound_probe);
-  const auto isConnected = [&](const std::string& out, const std::string& sink) {
-    return server.tool("jack_lsp -c " + sink + " | grep -q '   " + out + "$'") == 0;
-  };
+  config_.connect = true;
+  const JackHost sound(config_, sound_probe);
   ASSERT_TRUE(eventually([&] { return isConnected("ergotic:out_1", "system:playback_1"); }));
   ASSERT_TRUE(eventually([&] { return sound.status().running; }));  // its outputs are connected
   EXPECT_FALSE(isConnected("ergotic:out_2", "system:playback_2"));
   EXPECT_TRUE(isConnected("device:out_1", "system:playback_2"));
 }
 
-TEST(JackHostTest, MendsAWireAndSaysWhenItIsShared) {
-  JackServer server("mended");
-  server.start();
-  BlockProbe probe;
-  JackConfig config = configFor(server);
-  config.input_names = {"left", "right"};
-  config.input_peers = {"system:capture_2", "physical 1"};
-  const JackHost host(config, probe);
+TEST_F(JackHostTest, MendsAWireAndSaysWhenItIsShared) {
+  server_.start();
+  config_.input_names = {"left", "right"};
+  config_.input_peers = {"system:capture_2", "physical 1"};
+  const JackHost host(config_, probe_);
   ASSERT_TRUE(eventually([&] { return host.status().wired; })) << host.status().message;
   EXPECT_EQ(host.status().input_latency_frames, 256U) << "of the dummy card";
-  ASSERT_EQ(server.tool("jack_disconnect system:capture_2 ergotic:left"), 0);
+  ASSERT_EQ(server_.tool("jack_disconnect system:capture_2 ergotic:left"), 0);
   EXPECT_TRUE(eventually([&] {
-    return server.tool("jack_lsp -c system:capture_2 | grep -q '   ergotic:left$'") == 0;
+    return server_.tool("jack_lsp -c system:capture_2 | grep -q '   ergotic:left$'") == 0;
   }));
-  ASSERT_EQ(server.tool("jack_connect system:capture_1 ergotic:left"), 0);
+  ASSERT_EQ(server_.tool("jack_connect system:capture_1 ergotic:left"), 0);
   EXPECT_TRUE(eventually([&] { return !host.status().wired; }));
-  EXPECT_NE(host.status().message.find("`ergotic:left` is wired to `system:capture_2` alone, but "
-                                       "connected with `system:capture_1` too"),
-            std::string::npos)
-      << host.status().message;
-  ASSERT_EQ(server.tool("jack_disconnect system:capture_1 ergotic:left"), 0);
+  EXPECT_THAT(host.status().message,
+              HasSubstr("`ergotic:left` is wired to `system:capture_2` alone, but "
+                        "connected with `system:capture_1` too"));
+  ASSERT_EQ(server_.tool("jack_disconnect system:capture_1 ergotic:left"), 0);
   EXPECT_TRUE(eventually([&] { return host.status().wired && host.status().message.empty(); }));
 }
 
-TEST(JackHostTest, DeclaresItsLatencyOnTopOfTheInputs) {
-  JackServer server("latency");
-  server.start();
-  BlockProbe probe;
-  JackConfig config = configFor(server);
-  config.latency_frames = 333;
-  JackHost host(config, probe);
-  ASSERT_TRUE(blocksFlow(probe, 10));
+TEST_F(JackHostTest, DeclaresItsLatencyOnTopOfTheInputs) {
+  server_.start();
+  config_.latency_frames = 333;
+  JackHost host(config_, probe_);
+  ASSERT_TRUE(blocksFlow(probe_, 10));
   const auto latencyOf = [&](const std::string& port, const std::string& mode, int frames) {
-    return server.tool("jack_lsp -l " + port + " | grep -q 'port " + mode + " latency = \\[ " +
-                       std::to_string(frames) + " " + std::to_string(frames) + " \\] frames'") == 0;
+    return server_.tool("jack_lsp -l " + port + " | grep -q 'port " + mode + " latency = \\[ " +
+                        std::to_string(frames) + " " + std::to_string(frames) + " \\] frames'") ==
+           0;
   };
   EXPECT_TRUE(eventually([&] { return latencyOf("ergotic:out_1", "capture", 333); }));
   // Dummy capture ports are one period old.
-  ASSERT_EQ(server.tool("jack_connect system:capture_1 ergotic:in_1"), 0);
-  ASSERT_EQ(server.tool("jack_connect system:capture_2 ergotic:in_2"), 0);
+  ASSERT_EQ(server_.tool("jack_connect system:capture_1 ergotic:in_1"), 0);
+  ASSERT_EQ(server_.tool("jack_connect system:capture_2 ergotic:in_2"), 0);
   EXPECT_TRUE(eventually([&] { return latencyOf("ergotic:out_1", "capture", 333 + 256); }));
 }
 
-TEST(JackHostTest, RefusesSettingsOutOfRange) {
-  BlockProbe probe;
-  JackConfig config;
-  config.outputs = kMaxPorts + 1;
-  EXPECT_THROW(JackHost(config, probe), Exception);
-  config.outputs = -1;
-  EXPECT_THROW(JackHost(config, probe), Exception);
-  config.outputs = 1;
-  config.output_peers = {"a:b", "a:c"};
-  EXPECT_THROW(JackHost(config, probe), Exception);
-  config.output_peers.clear();
-  config.output_names = {"left", "right"};
-  EXPECT_THROW(JackHost(config, probe), Exception);
-  config.output_names.clear();
-  config.name = "";
-  EXPECT_THROW(JackHost(config, probe), Exception);
-  config.name = "a:b";
-  EXPECT_THROW(JackHost(config, probe), Exception);
+TEST_F(JackHostTest, RefusesSettingsOutOfRange) {
+  config_ = {};
+  config_.outputs = kMaxPorts + 1;
+  EXPECT_THROW(JackHost(config_, probe_), Exception);
+  config_.outputs = -1;
+  EXPECT_THROW(JackHost(config_, probe_), Exception);
+  config_.outputs = 1;
+  config_.output_peers = {"a:b", "a:c"};
+  EXPECT_THROW(JackHost(config_, probe_), Exception);
+  config_.output_peers.clear();
+  config_.output_names = {"left", "right"};
+  EXPECT_THROW(JackHost(config_, probe_), Exception);
+  config_.output_names.clear();
+  config_.name = "";
+  EXPECT_THROW(JackHost(config_, probe_), Exception);
+  config_.name = "a:b";
+  EXPECT_THROW(JackHost(config_, probe_), Exception);
+}
+
+TEST(GateThreadsTest, NobodyIsInsideOnceCloseHasReturned) {
+  constexpr int kRounds = 300;
+  Gate gate;
+  int guarded = 0;  // written inside, and by the closer while closed: a race if the gate leaks
+  std::atomic<bool> quit{false};
+  std::atomic<int> visits{0};
+  std::thread visitor([&] {
+    while (!quit) {
+      if (gate.enter()) {
+        ++guarded;
+        ++visits;
+        gate.leave();
+      }
+    }
+  });
+  int closed_rounds = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    const int before = visits;
+    gate.open();
+    while (visits == before) {
+      std::this_thread::yield();
+    }
+    gate.close();
+    const int seen = guarded;
+    std::this_thread::yield();
+    closed_rounds += guarded == seen && seen == visits ? 1 : 0;
+    guarded = seen;
+  }
+  quit = true;
+  visitor.join();
+  EXPECT_EQ(closed_rounds, kRounds);
+  EXPECT_GE(visits, kRounds);
 }
 
 }  // namespace

@@ -4,13 +4,9 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "audio/frame_counter.hpp"
-#include "ergotic/exception.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::audio {
 namespace {

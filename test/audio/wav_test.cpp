@@ -3,18 +3,10 @@
 
 #include <unistd.h>
 
-#include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <functional>
-#include <limits>
 #include <random>
-#include <string>
-#include <vector>
 
-#include <gtest/gtest.h>
-
-#include "ergotic/exception.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::audio {
 namespace {
@@ -51,15 +43,6 @@ std::vector<double> noise(std::size_t count) {
     sample = uniform(random);
   }
   return samples;
-}
-
-std::string messageOf(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Exception& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
 }
 
 TEST_F(WavTest, DoubleKeepsEveryBit) {
@@ -127,8 +110,8 @@ TEST_F(WavTest, NonFiniteSamplesAreRefusedWhereTheyStand) {
   std::vector<double> samples(10, 0.25);
   writer.write(samples.data(), 5);
   samples[7] = std::nan("");
-  const std::string message = messageOf([&] { writer.write(samples.data(), 5); });
-  EXPECT_NE(message.find("nan.wav: sample 8 of channel 2 is nan"), std::string::npos) << message;
+  const std::string message = complaintOf([&] { writer.write(samples.data(), 5); });
+  EXPECT_THAT(message, HasSubstr("nan.wav: sample 8 of channel 2 is nan"));
   const float infinite = -std::numeric_limits<float>::infinity();
   const std::vector<float> two{infinite, 0.0F};
   EXPECT_THROW(writer.write(two.data(), 1), Exception);
@@ -138,21 +121,21 @@ TEST_F(WavTest, NonFiniteSamplesAreRefusedWhereTheyStand) {
 
 TEST_F(WavTest, AFullDiskIsAnError) {
   const std::vector<double> samples(1 << 16, 0.5);
-  const std::string message = messageOf([&] {
+  const std::string message = complaintOf([&] {
     WavWriter writer("/dev/full", 44100.0, 1, WavFormat::kDouble);
     writer.write(samples.data(), 1 << 16);
     writer.finish();
   });
-  EXPECT_NE(message.find("/dev/full"), std::string::npos) << message;
+  EXPECT_THAT(message, HasSubstr("/dev/full"));
 }
 
 TEST_F(WavTest, UnusableFilesNamePathAndReason) {
-  const std::string missing = messageOf([&] { WavReader reader(path("missing.wav")); });
-  EXPECT_NE(missing.find("missing.wav"), std::string::npos) << missing;
-  EXPECT_NE(missing.find("No such file"), std::string::npos) << missing;
+  const std::string missing = complaintOf([&] { WavReader reader(path("missing.wav")); });
+  EXPECT_THAT(missing, HasSubstr("missing.wav"));
+  EXPECT_THAT(missing, HasSubstr("No such file"));
   std::ofstream(path("text.wav")) << "this is not a sound file at all, not even a little";
-  const std::string text = messageOf([&] { WavReader reader(path("text.wav")); });
-  EXPECT_NE(text.find("text.wav: cannot read: "), std::string::npos) << text;
+  const std::string text = complaintOf([&] { WavReader reader(path("text.wav")); });
+  EXPECT_THAT(text, HasSubstr("text.wav: cannot read: "));
 }
 
 TEST_F(WavTest, UnusableSettingsAreRefused) {

@@ -4,20 +4,16 @@
 #include <ergotic/Event.h>
 #include <ergotic/GestureBlock.h>
 #include <ergotic/Keyframe.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <std_msgs/String.h>
 
+#include "ergotic/bag/positions.hpp"
 #include "ergotic/bag/recording.hpp"
-#include "ergotic/exception.hpp"
 #include "support/scratch_file.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::bag {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 const ros::Time kStart(1000, 0);
 
@@ -54,12 +50,7 @@ ergotic::Keyframe keyframe() {
 }
 
 std::string errorOf(const std::string& path) {
-  try {
-    readRecording(path);
-  } catch (const Exception& error) {
-    return error.what();
-  }
-  return "none";
+  return complaintOf([&] { readRecording(path); });
 }
 
 TEST(ReadRecordingTest, GivesBackEveryFieldInTheOrderOfTicks) {
@@ -166,6 +157,57 @@ TEST(ReadRecordingTest, RefusesWhatIsNoBag) {
   const test::ScratchFile text("no bag at all");
   EXPECT_THAT(errorOf(text.path()), HasSubstr(text.path()));
   EXPECT_THAT(errorOf("/nonexistent.bag"), HasSubstr("/nonexistent.bag"));
+}
+
+GestureBlock block(std::int64_t first_tick, const std::vector<double>& positions) {
+  GestureBlock message;
+  message.first_tick = first_tick;
+  message.slices = 2;
+  message.ticks = static_cast<std::uint32_t>(positions.size() / 2);
+  message.flags.resize(message.ticks);
+  message.positions = positions;
+  message.forces.resize(positions.size());
+  return message;
+}
+
+void write(const std::string& path, const std::vector<GestureBlock>& blocks) {
+  rosbag::Bag bag(path, rosbag::bagmode::Write);
+  const ros::Time now(1000, 0);
+  ergotic::Keyframe keyframe;
+  keyframe.precision = "double";
+  keyframe.threads = 1;
+  bag.write("/station/keyframe", now, keyframe);
+  for (const GestureBlock& message : blocks) {
+    bag.write("/station/gesture", now, message);
+  }
+}
+
+TEST(BagPositionsTest, ComeBackBitForBitAndAreHeldOverTicksThatNeverRan) {
+  const test::ScratchFile file;
+  write(file.path(), {block(5, {0.1, 1.0 / 3.0, 0.2, 0.5}), block(9, {0.3, 0.7})});
+  const auto source = readPositions(file.path());
+  ASSERT_EQ(source->slices(), 2);
+  const std::vector<std::array<double, 2>> expected{
+      {0.1, 1.0 / 3.0}, {0.2, 0.5}, {0.2, 0.5}, {0.2, 0.5}, {0.3, 0.7}};
+  std::array<double, 2> positions{};
+  for (const auto& tick : expected) {
+    ASSERT_TRUE(source->next(positions.data()));
+    EXPECT_EQ(positions, tick);
+  }
+  EXPECT_FALSE(source->next(positions.data()));
+  EXPECT_FALSE(source->next(positions.data()));
+  EXPECT_EQ(positions, expected.back());
+}
+
+TEST(BagPositionsTest, AreRefusedWhenTheNumberOfSlicesChanges) {
+  const test::ScratchFile file;
+  GestureBlock wide = block(6, {0.1, 0.2, 0.3, 0.4});
+  wide.slices = 4;
+  wide.ticks = 1;
+  wide.flags.resize(1);
+  write(file.path(), {block(5, {0.1, 0.2}), wide});
+  EXPECT_THAT(complaintOf([&] { readPositions(file.path()); }),
+              HasSubstr("tick 6 has 4 slices, allowed: 2"));
 }
 
 }  // namespace

@@ -6,13 +6,12 @@
 #include <ergotic/Event.h>
 #include <ergotic/GestureBlock.h>
 #include <ergotic/Keyframe.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <rosbag/bag.h>
 
 #include "ergotic/audio/wav.hpp"
 #include "support/scratch_file.hpp"
 #include "support/struck_bar.hpp"
+#include "support/test.hpp"
 #include "support/tool_process.hpp"
 #include "tools/live_run.hpp"
 
@@ -22,9 +21,6 @@ namespace {
 using test::LiveRun;
 using test::Outcome;
 using test::run;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
 
 const std::string kScene = test::struckBar("{quantity: velocity, at: bar, channel: 1}");
 

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <array>
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "comedi/comedi_rig.hpp"
 #include "ergotic/tgr/calibration.hpp"
 #include "ergotic/tgr/device.hpp"
 #include "scene/text/source_text.hpp"
 #include "support/driver_contract.hpp"
+#include "support/test.hpp"
 
 /// The driver as a station uses it: made to speak metres and newtons.
+
 namespace ergotic::test {
 namespace {
 

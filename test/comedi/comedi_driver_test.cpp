@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cerrno>
-#include <cmath>
-#include <limits>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "comedi/comedi_rig.hpp"
-#include "ergotic/exception.hpp"
 #include "support/alloc_count.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::test {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 
 /// Position of a mass on a spring at `t_s` after a constant force came.
 double stepResponse(const tgr::VirtualSliceConfig& s, double force, double t_s) {
@@ -28,12 +20,7 @@ double stepResponse(const tgr::VirtualSliceConfig& s, double force, double t_s) 
 
 std::string complaintOnOpen(const ComediStandinBoard& board, const std::string& settings) {
   ComediRig rig(board, settings);
-  try {
-    rig.driver().open(1000.0);
-  } catch (const DeviceError& problem) {
-    return problem.what();
-  }
-  return "none";
+  return complaintOf<DeviceError>([&] { rig.driver().open(1000.0); });
 }
 
 TEST(ComediDriverTest, SeesAForceStepAsTheEquationOfTheSliceSays) {
@@ -184,7 +171,7 @@ TEST(ComediDriverTest, SaysWhatABoardHasInPlaceOfWhatWasAsked) {
   EXPECT_THAT(
       complaintOnOpen(board, "{ai_channels: [0], ao_channels: [1], ao_range: 3, safe_volts: -0.1}"),
       AllOf(HasSubstr("safe_volts of slice 0"), HasSubstr("[0, 10] V")));
-  EXPECT_EQ(complaint("deglitch: true"), "none");
+  EXPECT_EQ(complaint("deglitch: true"), "");
   board.can_deglitch = false;
   EXPECT_THAT(complaint("deglitch: true"), HasSubstr("deglitch"));
 }
@@ -193,12 +180,8 @@ TEST(ComediDriverTest, SharesABoardWithNobody) {
   ComediRig rig;
   rig.driver().open(1000.0);
   const auto other = tgr::ComediFactory().make(YAML::Load(threeSlices()), "");
-  try {
-    other->open(1000.0);
-    FAIL() << "opened";
-  } catch (const DeviceError& problem) {
-    EXPECT_THAT(problem.what(), HasSubstr("another program uses it"));
-  }
+  EXPECT_THAT(complaintOf<DeviceError>([&] { other->open(1000.0); }),
+              HasSubstr("another program uses it"));
   rig.driver().close();
   EXPECT_NO_THROW(other->open(1000.0));
 }

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <array>
 #include <cstdio>
-#include <sstream>
-#include <string>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "comedi/comedi_rig.hpp"
+#include "support/test.hpp"
 
 /// A program that knows of libcomedi only, with the stand-in preloaded by its environment.
+
 namespace ergotic::test {
 namespace {
 
@@ -57,15 +53,14 @@ TEST(ComediPreloadTest, MeetsTheFaultsOfTheEnvironment) {
   }
   const unsigned failed = tgr::kMissingSample | tgr::kWriteFailed;
   // The first list is the one of open.
-  EXPECT_THAT(all, ::testing::ElementsAre(0U, failed, 0U, tgr::kDeviceLost, tgr::kDeviceLost,
-                                          tgr::kDeviceLost))
+  EXPECT_THAT(all,
+              ElementsAre(0U, failed, 0U, tgr::kDeviceLost, tgr::kDeviceLost, tgr::kDeviceLost))
       << text;
 }
 
 TEST(ComediPreloadTest, WithoutItTheSameProgramAsksTheRealLibrary) {
   EXPECT_THAT(outputOf("", "'{board: /dev/no_comedi, ai_channels: [0], ao_channels: [0]}' 0 1"),
-              ::testing::AllOf(::testing::HasSubstr("comedi board /dev/no_comedi"),
-                               ::testing::HasSubstr("No such file")));
+              AllOf(HasSubstr("comedi board /dev/no_comedi"), HasSubstr("No such file")));
 }
 
 }  // namespace

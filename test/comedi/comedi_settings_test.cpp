@@ -3,25 +3,13 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "ergotic/exception.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::tgr {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-
-std::string complaintOf(const std::string& text) {
-  try {
-    readComediSettings(YAML::Load(text), "devices.yaml");
-  } catch (const Exception& problem) {
-    return problem.what();
-  }
-  return "none";
+std::string complaint(const std::string& text) {
+  return complaintOf([&] { readComediSettings(YAML::Load(text), "devices.yaml"); });
 }
 
 std::string with(const std::string& more) {
@@ -74,34 +62,34 @@ TEST(ComediSettingsTest, TakesOneSafeVoltageForAll) {
 }
 
 TEST(ComediSettingsTest, NamesPlaceSettingValueAndWhatIsAllowed) {
-  EXPECT_THAT(complaintOf("ai_channels: [0]\nao_channels: [0]\naverage: 65"),
+  EXPECT_THAT(complaint("ai_channels: [0]\nao_channels: [0]\naverage: 65"),
               AllOf(HasSubstr("devices.yaml:3:10: error: "), HasSubstr("'average'"),
                     HasSubstr("65"), HasSubstr("1...64")));
-  EXPECT_THAT(complaintOf(with("volume: 1")), HasSubstr("'volume' of driver comedi"));
-  EXPECT_THAT(complaintOf("{ai_channels: [0]}"), HasSubstr("missing key 'ao_channels'"));
+  EXPECT_THAT(complaint(with("volume: 1")), HasSubstr("'volume' of driver comedi"));
+  EXPECT_THAT(complaint("{ai_channels: [0]}"), HasSubstr("missing key 'ao_channels'"));
 }
 
 TEST(ComediSettingsTest, RefusesWhatNoBoardCanDo) {
-  EXPECT_EQ(complaintOf("{ai_channels: [3, 3], ao_channels: [0, 1]}"),
+  EXPECT_EQ(complaint("{ai_channels: [3, 3], ao_channels: [0, 1]}"),
             "devices.yaml:1:19: error: ai_channels: channel 3 comes twice, allowed: each once");
-  EXPECT_THAT(complaintOf("{ai_channels: [], ao_channels: []}"), HasSubstr("'ai_channels'"));
-  EXPECT_THAT(complaintOf("{ai_channels: [0, 1], ao_channels: [0]}"), HasSubstr("as many"));
-  EXPECT_EQ(complaintOf("{ai_channels: [1, 0.5], ao_channels: [0]}"),
+  EXPECT_THAT(complaint("{ai_channels: [], ao_channels: []}"), HasSubstr("'ai_channels'"));
+  EXPECT_THAT(complaint("{ai_channels: [0, 1], ao_channels: [0]}"), HasSubstr("as many"));
+  EXPECT_EQ(complaint("{ai_channels: [1, 0.5], ao_channels: [0]}"),
             "devices.yaml:1:19: error: 'ai_channels' of driver comedi = 0.5 is not a whole number, "
             "allowed: 0...255");
-  EXPECT_THAT(complaintOf("{ai_channels: 0.5, ao_channels: [0]}"),
+  EXPECT_THAT(complaint("{ai_channels: 0.5, ao_channels: [0]}"),
               HasSubstr("devices.yaml:1:15: error: 'ai_channels' of driver comedi = 0.5 is not a"));
-  EXPECT_THAT(complaintOf("{ai_channels: [-1], ao_channels: [0]}"), HasSubstr("0...255"));
-  EXPECT_THAT(complaintOf(with("board: [a]")), HasSubstr("a single value"));
-  EXPECT_THAT(complaintOf(with("ai_range: [5, -5]")),
+  EXPECT_THAT(complaint("{ai_channels: [-1], ao_channels: [0]}"), HasSubstr("0...255"));
+  EXPECT_THAT(complaint(with("board: [a]")), HasSubstr("a single value"));
+  EXPECT_THAT(complaint(with("ai_range: [5, -5]")),
               AllOf(HasSubstr("devices.yaml:1:54: error: "), HasSubstr("[5, -5] V, allowed: "),
                     HasSubstr("[low, high]")));
-  EXPECT_THAT(complaintOf(with("ai_range: [0, .nan]")), HasSubstr("'ai_range'"));
-  EXPECT_THAT(complaintOf(with("ao_range: wide")), HasSubstr("0...255"));
-  EXPECT_THAT(complaintOf(with("ai_reference: earth")), HasSubstr("ground, common, diff, other"));
-  EXPECT_THAT(complaintOf(with("deglitch: 3")), HasSubstr("false, true"));
-  EXPECT_THAT(complaintOf(with("safe_volts: [0]")), HasSubstr("'safe_volts'"));
-  EXPECT_THAT(complaintOf(with("safe_volts: 0.6")), HasSubstr("-0.5...0.5 V"));
+  EXPECT_THAT(complaint(with("ai_range: [0, .nan]")), HasSubstr("'ai_range'"));
+  EXPECT_THAT(complaint(with("ao_range: wide")), HasSubstr("0...255"));
+  EXPECT_THAT(complaint(with("ai_reference: earth")), HasSubstr("ground, common, diff, other"));
+  EXPECT_THAT(complaint(with("deglitch: 3")), HasSubstr("false, true"));
+  EXPECT_THAT(complaint(with("safe_volts: [0]")), HasSubstr("'safe_volts'"));
+  EXPECT_THAT(complaint(with("safe_volts: 0.6")), HasSubstr("-0.5...0.5 V"));
 }
 
 }  // namespace

@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Models of every `.mdl` element, played by the product and by the simulator of test/support.
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <functional>
 #include <iterator>
 #include <map>
 #include <ostream>
-#include <sstream>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "ergotic/physics/engine/instrument.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
 #include "support/mdl_simulator.hpp"
+#include "support/test.hpp"
 
 namespace ergotic {
 namespace {

@@ -2,21 +2,13 @@
 // The command-line tools, run as a person runs them.
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <fstream>
 #include <iterator>
-#include <string>
-#include <vector>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "ergotic/audio/wav.hpp"
 #include "support/mdl_simulator.hpp"
 #include "support/struck_bar.hpp"
+#include "support/test.hpp"
 #include "support/tool_process.hpp"
 
 namespace ergotic {
@@ -25,9 +17,6 @@ namespace {
 using test::exists;
 using test::Outcome;
 using test::run;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
 
 std::vector<double> soundOf(const std::string& path) {
   return audio::WavReader(path).readAll();
@@ -50,6 +39,8 @@ const char* const kSpring = R"(# one mass, thrown
 @out1 posOutput @m
 )";
 
+const char* const kUnstable =
+    "@m mass 1 0.1 0\n@g ground 0\n@s spring @m @g 4.5\n@out1 posOutput @m\n";
 const std::string kDrum = test::struckBar("{quantity: position, at: bar, channel: 1, gain: 100}");
 
 class ToolsTest : public testing::Test {
@@ -143,11 +134,7 @@ TEST_F(RenderTest, SaysWhereASceneIsWrong) {
 }
 
 TEST_F(RenderTest, RefusesWhatIsUnstableUnlessToldOtherwise) {
-  const std::string scene = write("unstable.mdl", R"(@m mass 1 0.1 0
-@g ground 0
-@s spring @m @g 4.5
-@out1 posOutput @m
-)");
+  const std::string scene = write("unstable.mdl", kUnstable);
   const std::string out = path("out.wav");
   const Outcome refused = run("render", scene + " --seconds 0.001 --out " + out);
   EXPECT_EQ(refused.code, 1);
@@ -159,11 +146,7 @@ TEST_F(RenderTest, RefusesWhatIsUnstableUnlessToldOtherwise) {
 }
 
 TEST_F(RenderTest, LeavesTheOldFileWhenTheSoundBlowsUp) {
-  const std::string scene = write("unstable.mdl", R"(@m mass 1 0.1 0
-@g ground 0
-@s spring @m @g 4.5
-@out1 posOutput @m
-)");
+  const std::string scene = write("unstable.mdl", kUnstable);
   const std::string out = write("out.wav", "what was there before");
   const Outcome outcome = run("render", scene + " --allow-unstable --seconds 1 --out " + out);
   EXPECT_EQ(outcome.code, 1);
@@ -358,9 +341,7 @@ TEST_F(CheckTest, WritesJsonThatAProgramReads) {
 }
 
 TEST_F(CheckTest, RefusesWhatIsUnstable) {
-  const std::string scene =
-      write("unstable.mdl", "@m mass 1 0 0\n@g ground 0\n@s spring @m @g 4.5\n");
-  const Outcome outcome = run("check", scene);
+  const Outcome outcome = run("check", write("unstable.mdl", kUnstable));
   EXPECT_EQ(outcome.code, 3);
   EXPECT_THAT(outcome.text, AllOf(HasSubstr("verdict: unstable"), HasSubstr("unstable.mdl:3:1")));
 }

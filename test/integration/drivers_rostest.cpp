@@ -1,34 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Drivers that are plugins, each under a station of its own: they play, lose their device, and play
 // again when they have it back.
-#include <std_srvs/Trigger.h>
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <csignal>
-#include <cstdint>
 #include <iostream>
 #include <map>
-#include <memory>
 #include <optional>
-#include <sstream>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <ergotic/GestureBlock.h>
 #include <ergotic/Status.h>
-#include <gtest/gtest.h>
 #include <ros/ros.h>
 
 #include "ergotic/rt/clock.hpp"
-#include "integration/child_process.hpp"
-#include "integration/listener.hpp"
 #include "integration/reference_threads.hpp"
+#include "integration/station_services.hpp"
 #include "support/jack_server.hpp"
 #include "support/scratch_file.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::test {
 namespace {
@@ -100,10 +90,7 @@ class StationProcess {
     node_.setParam("/station/gestural_rate", kTickHz);
     node_.setParam("/station/ramp", 0.1);
     node_.setParam("/station/max_stall", 1.0);
-    process_ = std::make_unique<ChildProcess>(
-        std::vector<std::string>{"/usr/lib/nodelet/nodelet", "standalone", "ergotic/Station",
-                                 "__name:=station"},
-        environment);
+    process_ = startStation(environment);
   }
   ~StationProcess() {
     process_->signal(SIGTERM);
@@ -115,11 +102,6 @@ class StationProcess {
   Status status() const { return status_.latest(); }
   bool becomes(std::uint8_t state) const {
     return eventually([&] { return status_.count() > 0 && status().state == state; }, kLongS);
-  }
-  std_srvs::Trigger::Response call(const std::string& service) const {
-    std_srvs::Trigger trigger;
-    EXPECT_TRUE(::ros::service::call("/station/" + service, trigger)) << service;
-    return trigger.response;
   }
 
   /// A hand that presses from now on meets the wall with this force, or more while it swings. A
@@ -155,18 +137,7 @@ class StationProcess {
         kLongS);
     return enough && strongest(from) == 0.0;
   }
-  void expectDiagnosticsError() const {
-    const std::size_t before = diagnostics_.count();
-    EXPECT_TRUE(eventually([&] {
-      const auto seen = diagnostics_.messages();
-      return std::any_of(seen.begin() + static_cast<std::ptrdiff_t>(before), seen.end(),
-                         [&](const auto& array) {
-                           const auto& force = array.status.front();
-                           return force.level == diagnostic_msgs::DiagnosticStatus::ERROR &&
-                                  force.message == status().state_text;
-                         });
-    }));
-  }
+  void expectDiagnosticsError() const { test::expectDiagnosticsError(diagnostics_, status_); }
   /// The newest number in the diagnostics under this name; not a number if there is none.
   double diagnosed(const std::string& name) const {
     for (const auto& status : diagnostics_.latest().status) {
@@ -258,7 +229,7 @@ TEST(ComediStationTest, PlaysUntilItsBoardIsGoneAndAgainWhenItIsBack) {
   EXPECT_EQ(station.status().delay_ticks, 1.0);
   EXPECT_EQ(station.status().gestural_rate, kTickHz);
 
-  ASSERT_TRUE(station.call("engage").success);
+  ASSERT_TRUE(call("engage").success);
   station.expectPushesBackWith(forceBehind(kBoardWall));
 
   ASSERT_TRUE(station.becomes(Status::FAULT));
@@ -313,7 +284,7 @@ TEST_F(JackStationTest, PlaysUntilItsCardIsGoneAndAgainWhenItIsBack) {
            std::string::npos;
   })) << station.status().message;
 
-  ASSERT_TRUE(station.call("engage").success);
+  ASSERT_TRUE(call("engage").success);
   station.expectPushesBackWith(forceBehind(kCardWall));
 
   device_->signal(SIGKILL);
@@ -324,9 +295,9 @@ TEST_F(JackStationTest, PlaysUntilItsCardIsGoneAndAgainWhenItIsBack) {
       << station.status().state_text;
   station.expectDiagnosticsError();
   EXPECT_TRUE(station.isWithoutForce());
-  const auto refused = station.call("recover");
+  const auto refused = call("recover");
   EXPECT_FALSE(refused.success) << "there is no device";
-  EXPECT_NE(refused.message.find("jack_tgr"), std::string::npos) << refused.message;
+  EXPECT_THAT(refused.message, HasSubstr("jack_tgr"));
 
   plugIn();
   ASSERT_TRUE(eventually([this] {
@@ -338,7 +309,7 @@ TEST_F(JackStationTest, PlaysUntilItsCardIsGoneAndAgainWhenItIsBack) {
 TEST_F(JackStationTest, SaysThatItsServerIsGoneThoughNothingTicks) {
   const StationProcess station(kCard, kCardWall, "auto", {{"JACK_DEFAULT_SERVER", server_.name()}});
   ASSERT_TRUE(station.becomes(Status::READY)) << station.status().message;
-  ASSERT_TRUE(station.call("engage").success);
+  ASSERT_TRUE(call("engage").success);
   station.expectPushesBackWith(forceBehind(kCardWall));
   // So far the hand may still move, and the newest status lags behind: without ticks it stays so.
   const auto asked_for = [&station] {
@@ -356,7 +327,7 @@ TEST_F(JackStationTest, SaysThatItsServerIsGoneThoughNothingTicks) {
   EXPECT_GE(station.diagnosed("stalls of the whole machine"), 0.0);
   EXPECT_GE(station.diagnosed("longest of these (s)"), 0.0);
   EXPECT_GE(asked_for(), leastForceBehind(kCardWall));
-  EXPECT_FALSE(station.call("recover").success) << "there is no server";
+  EXPECT_FALSE(call("recover").success) << "there is no server";
 
   server_.start();
   station.expectComesBack(forceBehind(kCardWall));
@@ -364,11 +335,3 @@ TEST_F(JackStationTest, SaysThatItsServerIsGoneThoughNothingTicks) {
 
 }  // namespace
 }  // namespace ergotic::test
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ::ros::init(argc, argv, "drivers_rostest");
-  ::ros::AsyncSpinner spinner(2);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

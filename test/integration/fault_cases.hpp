@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
 #include <ostream>
-#include <string>
-#include <vector>
 
 #include <ergotic/Status.h>
+
+#include "support/test.hpp"
 
 namespace ergotic::test {
 

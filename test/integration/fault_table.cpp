@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "integration/fault_table.hpp"
 
-#include <algorithm>
-#include <fstream>
 #include <iomanip>
-#include <sstream>
 #include <stdexcept>
+
+#include "support/test.hpp"
 
 namespace ergotic::test {
 namespace {

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
-#include <chrono>
-#include <cstdint>
-#include <limits>
-#include <vector>
-
 #include <ergotic/GestureBlock.h>
 #include <ros/node_handle.h>
 
 #include "ergotic/rt/clock.hpp"
 #include "integration/listener.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::test {
 

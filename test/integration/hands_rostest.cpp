@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <std_srvs/Trigger.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <memory>
 #include <random>
-#include <sstream>
 
 #include <ergotic/Calibrate.h>
 #include <ergotic/ConfigureEndEffectors.h>
@@ -18,14 +12,13 @@
 #include <ergotic/InjectFault.h>
 #include <ergotic/SliceTarget.h>
 #include <ergotic/Status.h>
-#include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 #include <tf2_msgs/TFMessage.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include "integration/child_process.hpp"
-#include "integration/listener.hpp"
+#include "integration/station_services.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::test {
 namespace {
@@ -67,8 +60,7 @@ class HandsTest : public ::testing::Test {
       node.setParam("/station/device", kDevices);
       node.setParam("/station/jack", "none");
       node.setParam("/station/ramp", 0.1);
-      station = std::make_unique<ChildProcess>(std::vector<std::string>{
-          "/usr/lib/nodelet/nodelet", "standalone", "ergotic/Station", "__name:=station"});
+      station = startStation();
     }
 
     ::ros::NodeHandle node;
@@ -93,11 +85,6 @@ class HandsTest : public ::testing::Test {
   }
   static void TearDownTestSuite() { world_.reset(); }
 
-  static std_srvs::Trigger::Response call(const std::string& service) {
-    std_srvs::Trigger trigger;
-    EXPECT_TRUE(::ros::service::call("/station/" + service, trigger)) << service;
-    return trigger.response;
-  }
   static bool stateBecomes(std::uint8_t state) {
     return eventually([state] { return world_->status.latest().state == state; });
   }
@@ -120,10 +107,7 @@ class HandsTest : public ::testing::Test {
     return calibrate(request);
   }
   static void moveHand(std::uint32_t slice, double target) {
-    SliceTarget message;
-    message.slice = slice;
-    message.target = target;
-    world_->hand.publish(message);
+    test::moveHand(world_->hand, slice, target);
   }
   static ConfigureEndEffectors::Response configure(const std::vector<EndEffector>& list) {
     ConfigureEndEffectors configure;
@@ -157,7 +141,7 @@ TEST_F(HandsTest, ShowsAllDevicesAndWhichSlicesAreNotCalibrated) {
 TEST_F(HandsTest, DoesNotEngageASliceThatIsNotCalibrated) {
   const auto refused = call("engage");
   EXPECT_FALSE(refused.success);
-  EXPECT_NE(refused.message.find("calibrate"), std::string::npos) << refused.message;
+  EXPECT_THAT(refused.message, HasSubstr("calibrate"));
 }
 
 TEST_F(HandsTest, InjectsNoFaultsUnlessItMay) {
@@ -165,7 +149,7 @@ TEST_F(HandsTest, InjectsNoFaultsUnlessItMay) {
   inject.request.kind = "frozen";
   ASSERT_TRUE(::ros::service::call("/station/inject_fault", inject));
   EXPECT_FALSE(inject.response.success);
-  EXPECT_NE(inject.response.message.find("allow_fault_injection"), std::string::npos);
+  EXPECT_THAT(inject.response.message, HasSubstr("allow_fault_injection"));
 }
 
 TEST_F(HandsTest, RefusesStepsOfACalibrationThatDoNotFollow) {
@@ -220,7 +204,7 @@ TEST_F(HandsTest, IsGuidedThroughACalibrationThatTakesEffectAndIsWritten) {
   std::stringstream written;
   written << std::ifstream(file).rdbuf();
   std::filesystem::remove(file);
-  EXPECT_NE(written.str().find("metres_per_volt: -0.00"), std::string::npos) << written.str();
+  EXPECT_THAT(written.str(), HasSubstr("metres_per_volt: -0.00"));
 }
 
 TEST_F(HandsTest, LetsOneHandFeelTheOtherThroughTheModel) {
@@ -253,7 +237,7 @@ TEST_F(HandsTest, TakesAwayAForceThatWasJustAskedForToCalibrate) {
     EXPECT_FALSE(call("engage").success) << "a slice is being calibrated";
     EXPECT_TRUE(calibrate(Calibrate::Request::ABORT).success);
   } else {
-    EXPECT_NE(begun.message.find("stop first"), std::string::npos) << begun.message;
+    EXPECT_THAT(begun.message, HasSubstr("stop first"));
     EXPECT_TRUE(call("stop").success);
   }
 }
@@ -286,8 +270,8 @@ TEST_F(HandsTest, KeepsItsEndEffectorsWhenOthersAreWrong) {
   wrong.ports = {"right", "nowhere"};
   const auto answer = configure({wrong});
   EXPECT_FALSE(answer.success);
-  EXPECT_NE(answer.message.find(": error: "), std::string::npos) << answer.message;
-  EXPECT_NE(answer.message.find("nowhere"), std::string::npos) << answer.message;
+  EXPECT_THAT(answer.message, HasSubstr(": error: "));
+  EXPECT_THAT(answer.message, HasSubstr("nowhere"));
   wrong = bow();
   wrong.type = 77;
   EXPECT_FALSE(configure({wrong}).success);
@@ -345,11 +329,3 @@ TEST_F(HandsTest, StaysCalmWhileItIsConfiguredAtRandom) {
 
 }  // namespace
 }  // namespace ergotic::test
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ::ros::init(argc, argv, "hands_rostest");
-  ::ros::AsyncSpinner spinner(2);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <chrono>
 #include <mutex>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include <ros/node_handle.h>
+
+#include "support/test.hpp"
 
 namespace ergotic::test {
 

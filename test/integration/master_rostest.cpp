@@ -4,23 +4,19 @@
 #include <std_srvs/Trigger.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <iostream>
-#include <memory>
 #include <stdexcept>
-#include <string>
 #include <thread>
 
 #include <ergotic/Status.h>
-#include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <ros/ros.h>
 #include <sys/socket.h>
 
 #include "integration/child_process.hpp"
 #include "integration/pushed_station.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::test {
 namespace {
@@ -129,8 +125,7 @@ TEST_F(MasterTest, IsMissedWhenItDiesAndNoNewOneTakesItsPlace) {
   std_srvs::Trigger refused;
   ASSERT_TRUE(recover.call(refused));
   EXPECT_FALSE(refused.response.success);
-  EXPECT_NE(refused.response.message.find("the ROS master"), std::string::npos)
-      << refused.response.message;
+  EXPECT_THAT(refused.response.message, HasSubstr("the ROS master"));
   EXPECT_FALSE(call(engage));
   EXPECT_EQ(station_->status().fault, Status::FAULT_MASTER_LOST);
   EXPECT_EQ(station_->force(), 0.0);

@@ -3,29 +3,20 @@
 // its whole process, made by itself.
 #include <fcntl.h>
 #include <sndfile.h>
-#include <std_srvs/Trigger.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <csignal>
-#include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <ergotic/Event.h>
 #include <ergotic/InjectFault.h>
 #include <ergotic/ModelState.h>
 #include <ergotic/Status.h>
-#include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 #include <std_msgs/Bool.h>
@@ -34,10 +25,9 @@
 
 #include "clock_shift/clock_shift.hpp"
 #include "ergotic/rt/clock.hpp"
-#include "integration/child_process.hpp"
-#include "integration/listener.hpp"
 #include "integration/pushed_station.hpp"
 #include "support/scratch_file.hpp"
+#include "support/test.hpp"
 #include "support/tool_process.hpp"
 
 namespace ergotic::test {
@@ -112,10 +102,8 @@ class ClockTest : public ::testing::Test {
   std::uint8_t playThroughJumps() {
     WallClock clock;
     PushedStation station(clock.environment());
-    EXPECT_TRUE(eventually([] {  // as soon as it heard of the switch
-      std_srvs::Trigger engage;
-      return ::ros::service::call("/station/engage", engage) && engage.response.success != 0U;
-    }));
+    EXPECT_TRUE(::ros::service::waitForService("/station/engage", 30000));
+    EXPECT_TRUE(eventually([] { return call("engage").success != 0U; })) << "it hears the switch";
     for (const double shift_s : {0.0, kHourS, -kHourS, 0.0}) {
       clock.shift(shift_s);
       EXPECT_TRUE(comeAt(shift_s, status_));
@@ -223,11 +211,11 @@ TEST_F(ProcessFaultTest, SaysWhatItCannotDo) {
   for (const double amount : {0.0, 10.1, -1.0, std::nan("")}) {
     const auto refused = inject("stopped", amount);
     ASSERT_TRUE(refused && !refused->success) << amount;
-    EXPECT_NE(refused->message.find("allowed: 0.001...10"), std::string::npos) << refused->message;
+    EXPECT_THAT(refused->message, HasSubstr("allowed: 0.001...10"));
   }
   const auto silent = inject("jack_lost");
   ASSERT_TRUE(silent && !silent->success);
-  EXPECT_NE(silent->message.find("jack is none"), std::string::npos) << silent->message;
+  EXPECT_THAT(silent->message, HasSubstr("jack is none"));
   EXPECT_TRUE(station.isPushed()) << station.status().state_text;
 }
 
@@ -286,11 +274,3 @@ TEST_F(ProcessFaultTest, KillsTheProcess) {
 
 }  // namespace
 }  // namespace ergotic::test
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ::ros::init(argc, argv, "outside_rostest");
-  ::ros::AsyncSpinner spinner(2);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

@@ -5,11 +5,8 @@
 
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <memory>
-#include <string>
-#include <vector>
+#include <optional>
 
 #include <ergotic/Status.h>
 #include <ros/ros.h>
@@ -17,7 +14,9 @@
 #include "integration/child_process.hpp"
 #include "integration/device_log.hpp"
 #include "integration/listener.hpp"
+#include "integration/station_services.hpp"
 #include "integration/wall.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::test {
 
@@ -26,7 +25,9 @@ namespace ergotic::test {
 class PushedStation {
  public:
   /// \param environment  of the station
-  explicit PushedStation(const std::map<std::string, std::string>& environment = {}) {
+  /// \param watchdog_ms  of the device
+  explicit PushedStation(const std::map<std::string, std::string>& environment = {},
+                         double watchdog_ms = 2000.0) {
     node_.setParam("/station/model", kWall);
     node_.setParam("/station/virtual_shared_memory", segment_);
     node_.setParam("/station/jack", "none");
@@ -39,19 +40,15 @@ class PushedStation {
     node_.setParam("/station/autoengage", true);
     std::filesystem::create_directories(folder_);
     std::ofstream(folder_ / "gesture.csv") << "time_s,slice,target_m\n0,0,0\n0.2,0,0.046\n";
-    device_ = std::make_unique<ChildProcess>(
-        std::vector<std::string>{std::string(ERGOTIC_TOOLS_DIR) + "/virtual_tgr", "--shm", segment_,
-                                 "--gesture", (folder_ / "gesture.csv").string(), "--log",
-                                 log_.string(), "--priority", "70", "--watchdog-ms", "2000"});
-    station_ = std::make_unique<ChildProcess>(
-        std::vector<std::string>{"/usr/lib/nodelet/nodelet", "standalone", "ergotic/Station",
-                                 "__name:=station"},
-        environment);
+    device_ = std::make_unique<ChildProcess>(std::vector<std::string>{
+        std::string(ERGOTIC_TOOLS_DIR) + "/virtual_tgr", "--shm", segment_, "--gesture",
+        (folder_ / "gesture.csv").string(), "--log", log_.string(), "--priority", "70",
+        "--watchdog-ms", std::to_string(watchdog_ms)});
+    station_ = startStation(environment);
   }
   ~PushedStation() {
     station_.reset();
-    device_->signal(SIGTERM);
-    device_->wait(10.0);
+    endDevice();
     std::filesystem::remove_all(folder_);
   }
   PushedStation(const PushedStation&) = delete;
@@ -62,6 +59,11 @@ class PushedStation {
   Status status() const { return statuses_.latest(); }
   std::size_t statuses() const { return statuses_.count(); }
 
+  /// All that the device felt. It is gone then.
+  std::vector<ForceRecord> feltToTheEnd() {
+    EXPECT_EQ(endDevice(), 0);
+    return device_log_.read();
+  }
   /// What the device felt last, N.
   double force() {
     const auto& forces = device_log_.read();
@@ -82,6 +84,12 @@ class PushedStation {
   static constexpr double kLongS = 60.0;  // a busy machine is slow
 
  private:
+  /// \return its status
+  std::optional<int> endDevice() {
+    device_->signal(SIGTERM);
+    return device_->wait(10.0);
+  }
+
   const std::string segment_ = "/ergotic_pushed_" + std::to_string(getpid());
   const std::filesystem::path folder_ = std::filesystem::temp_directory_path() / segment_.substr(1);
   const std::filesystem::path log_ = folder_ / "forces.csv";

@@ -3,16 +3,14 @@
 
 #include <sched.h>
 
-#include <algorithm>
 #include <atomic>
-#include <cstdint>
 #include <iostream>
 #include <mutex>
 #include <thread>
-#include <vector>
 
 #include "ergotic/rt/clock.hpp"
 #include "ergotic/rt/thread.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::test {
 

@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <std_srvs/Trigger.h>
-
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <cstdlib>
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <thread>
@@ -14,7 +7,6 @@
 #include <ergotic/Event.h>
 #include <ergotic/InjectFault.h>
 #include <ergotic/Status.h>
-#include <gtest/gtest.h>
 #include <ros/ros.h>
 
 #include "ergotic/rt/clock.hpp"
@@ -24,6 +16,7 @@
 #include "integration/gesture_record.hpp"
 #include "integration/listener.hpp"
 #include "integration/safety_world.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::test {
 namespace {
@@ -62,11 +55,6 @@ class SafetyTest : public ::testing::Test {
     record_ = std::make_unique<GestureRecord>(the_world->node);
     ASSERT_TRUE(eventually([this] { return record_->count() > 0; }));
   }
-  static std_srvs::Trigger::Response call(const std::string& service) {
-    std_srvs::Trigger trigger;
-    EXPECT_TRUE(::ros::service::call("/station/" + service, trigger)) << service;
-    return trigger.response;
-  }
   static bool stateBecomes(std::uint8_t state, double seconds = 30.0) {
     return eventually([state] { return the_world->status.latest().state == state; }, seconds);
   }
@@ -85,7 +73,6 @@ class SafetyTest : public ::testing::Test {
                       std::int64_t start_ns,
                       Outcome& outcome);
   static void recover(const FaultCase& fault, Outcome& outcome);
-  static void expectDiagnosticsError();
   static void expectReason(const FaultCase& fault, const Outcome& outcome);
 
   std::unique_ptr<GestureRecord> record_;  // of one test
@@ -192,7 +179,7 @@ Outcome SafetyTest::release(const FaultCase& fault) const {
   EXPECT_TRUE(stateBecomes(Status::FAULT)) << fault.name;
   outcome.reason = the_world->status.latest().fault;
   outcome.says = the_world->status.latest().state_text;
-  expectDiagnosticsError();
+  expectDiagnosticsError(the_world->diagnostics, the_world->status);
   EXPECT_EQ(the_world->status.latest().state, Status::FAULT) << "it is latched";
   waitUntilOver(fault);
   const std::int64_t fault_tick = firstEvent(mark.events, Event::FAULT).value_or(Event()).tick;
@@ -259,18 +246,6 @@ void SafetyTest::recover(const FaultCase& fault, Outcome& outcome) {
   EXPECT_TRUE(answer.success) << answer.message;
   EXPECT_TRUE(stateBecomes(Status::READY));
   EXPECT_TRUE(eventually([] { return the_world->effort() == 0.0; })) << "force came back by itself";
-}
-
-void SafetyTest::expectDiagnosticsError() {
-  const std::size_t before = the_world->diagnostics.count();
-  EXPECT_TRUE(eventually([before] {
-    const auto seen = the_world->diagnostics.messages();
-    return std::any_of(
-        seen.begin() + static_cast<std::ptrdiff_t>(before), seen.end(), [](const auto& array) {
-          const auto& force = array.status.front();
-          return force.level == 2 && force.message == the_world->status.latest().state_text;
-        });
-  }));
 }
 
 /// A stall may come first, and latch what it does.
@@ -354,7 +329,7 @@ TEST_F(SafetyTest, RefusesToEngageBeforeItRecovered) {
   ASSERT_TRUE(stateBecomes(Status::FAULT));
   const auto refused = call("engage");
   EXPECT_FALSE(refused.success);
-  EXPECT_NE(refused.message.find("recover"), std::string::npos) << refused.message;
+  EXPECT_THAT(refused.message, HasSubstr("recover"));
   EXPECT_TRUE(call("recover").success);
 }
 
@@ -386,15 +361,7 @@ class World : public ::testing::Environment {
     ASSERT_NO_THROW(the_world->table.write());
   }
 };
+const auto* const kWorld = ::testing::AddGlobalTestEnvironment(new World);
 
 }  // namespace
 }  // namespace ergotic::test
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ::testing::AddGlobalTestEnvironment(new ergotic::test::World);
-  ::ros::init(argc, argv, "safety_rostest");
-  ::ros::AsyncSpinner spinner(2);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

@@ -4,25 +4,16 @@
 #include <std_srvs/Trigger.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <csignal>
-#include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <memory>
 #include <mutex>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <ergotic/Event.h>
 #include <ergotic/InjectFault.h>
 #include <ergotic/SliceTarget.h>
 #include <ergotic/Status.h>
-#include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 #include <std_msgs/Bool.h>
@@ -34,7 +25,9 @@
 #include "integration/fault_table.hpp"
 #include "integration/listener.hpp"
 #include "integration/reference_threads.hpp"
+#include "integration/station_services.hpp"
 #include "integration/wall.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::test {
 
@@ -111,8 +104,7 @@ class SafetyWorld {
     node.setParam("/station/presence", "topic");
     node.setParam("/station/allow_fault_injection", true);
     node.setParam("/station/force_limit", kForceLimitN);
-    station = std::make_unique<ChildProcess>(std::vector<std::string>{
-        "/usr/lib/nodelet/nodelet", "standalone", "ergotic/Station", "__name:=station"});
+    station = startStation();
   }
   ~SafetyWorld() {
     station.reset();  // it has the device open
@@ -130,12 +122,7 @@ class SafetyWorld {
     }
   }
 
-  void moveHand(std::uint32_t slice, double target_m) {
-    SliceTarget target;
-    target.slice = slice;
-    target.target = target_m;
-    hand_.publish(target);
-  }
+  void moveHand(std::uint32_t slice, double target_m) { test::moveHand(hand_, slice, target_m); }
   /// To where it meets 15 N, slowly: a device that pauses for some milliseconds must not make its
   /// positions jump further than a hand can move.
   void pushHand() {

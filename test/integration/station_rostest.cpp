@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <std_srvs/Trigger.h>
-
-#include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <filesystem>
-#include <memory>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <ergotic/Event.h>
@@ -19,7 +14,6 @@
 #include <ergotic/SetParameter.h>
 #include <ergotic/SliceTarget.h>
 #include <ergotic/Status.h>
-#include <gtest/gtest.h>
 #include <nodelet/NodeletLoad.h>
 #include <nodelet/NodeletUnload.h>
 #include <ros/ros.h>
@@ -29,9 +23,9 @@
 #include "ergotic/audio/capture.hpp"
 #include "ergotic/audio/wav.hpp"
 #include "ergotic/rt/isa.hpp"
-#include "integration/child_process.hpp"
-#include "integration/listener.hpp"
+#include "integration/station_services.hpp"
 #include "support/jack_server.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::test {
 namespace {
@@ -102,23 +96,13 @@ class StationTest : public ::testing::Test {
   }
   static void TearDownTestSuite() { world_.reset(); }
 
-  static std_srvs::Trigger::Response call(const std::string& service) {
-    std_srvs::Trigger trigger;
-    EXPECT_TRUE(::ros::service::call(service, trigger)) << service;
-    return trigger.response;
-  }
   static LoadModel::Response load(const std::string& model) {
     LoadModel load;
     load.request.model = model;
-    EXPECT_TRUE(::ros::service::call("/station/load_model", load));
+    EXPECT_TRUE(::ros::service::call("load_model", load));
     return load.response;
   }
-  static void moveHand(double target) {
-    SliceTarget message;
-    message.slice = 0;
-    message.target = target;
-    world_->hand.publish(message);
-  }
+  static void moveHand(double target) { test::moveHand(world_->hand, 0, target); }
   static bool eventually(const std::function<bool()>& condition) {
     return test::eventually(condition);
   }
@@ -180,7 +164,7 @@ TEST_F(StationTest, IsSilentAndWithoutForceBeforeTheFirstTouch) {
 }
 
 TEST_F(StationTest, PlaysWhatTheHandPlucks) {
-  const auto engaged = call("/station/engage");
+  const auto engaged = call("engage");
   ASSERT_TRUE(engaged.success) << engaged.message;
   ASSERT_TRUE(eventually([] { return world_->status.latest().state == Status::PLAYING; }));
   const double heard = heardDuring(world_->jack, [] { moveHand(0.02); });
@@ -238,7 +222,7 @@ TEST_F(StationTest, RecordsEveryTickOnceAndBeginsWithAKeyframe) {
   EXPECT_LE(blocks.front().first_tick, keyframe.tick);
   EXPECT_LT(keyframe.tick, next);
   EXPECT_FALSE(keyframe.state.empty());
-  EXPECT_NE(keyframe.scene.find("plucked string"), std::string::npos);
+  EXPECT_THAT(keyframe.scene, HasSubstr("plucked string"));
   EXPECT_EQ(keyframe.scene_hash, world_->structure.latest().scene_hash);
 }
 
@@ -249,7 +233,7 @@ TEST_F(StationTest, KeepsPlayingWhenAModelIsBroken) {
       "  a: {type: mass, section: s, mass: -1}\n");
   EXPECT_FALSE(answer.success);
   EXPECT_EQ(answer.message.rfind("inline.yaml:6:", 0), 0U) << answer.message;
-  EXPECT_NE(answer.message.find(": error: "), std::string::npos) << answer.message;
+  EXPECT_THAT(answer.message, HasSubstr(": error: "));
   EXPECT_TRUE(eventually([before] { return world_->status.latest().ticks > before + 3000; }));
   EXPECT_EQ(world_->status.latest().model, "plucked string");
   EXPECT_EQ(world_->status.latest().state, Status::PLAYING);
@@ -271,12 +255,12 @@ TEST_F(StationTest, SetsParametersWithinTheirRange) {
   SetParameter set;
   set.request.name = "loss";
   set.request.value = 1e-4;
-  ASSERT_TRUE(::ros::service::call("/station/set_parameter", set));
+  ASSERT_TRUE(::ros::service::call("set_parameter", set));
   EXPECT_TRUE(set.response.success) << set.response.message;
   set.request.value = 1e4;
-  ASSERT_TRUE(::ros::service::call("/station/set_parameter", set));
+  ASSERT_TRUE(::ros::service::call("set_parameter", set));
   EXPECT_FALSE(set.response.success);
-  EXPECT_NE(set.response.message.find("loss"), std::string::npos) << set.response.message;
+  EXPECT_THAT(set.response.message, HasSubstr("loss"));
   const auto events = world_->events.messages();
   EXPECT_TRUE(eventually([] {
     const auto seen = world_->events.messages();
@@ -309,7 +293,7 @@ TEST_F(StationTest, KeepsItsForceWhileSoundIsLostAndComesBack) {
   const std::size_t before = world_->events.count();
   InjectFault inject;
   inject.request.kind = "jack_lost";
-  ASSERT_TRUE(::ros::service::call("/station/inject_fault", inject));
+  ASSERT_TRUE(::ros::service::call("inject_fault", inject));
   ASSERT_TRUE(inject.response.success) << inject.response.message;
   const auto told = [before](std::uint8_t type) {
     const auto events = world_->events.messages();
@@ -324,7 +308,7 @@ TEST_F(StationTest, KeepsItsForceWhileSoundIsLostAndComesBack) {
 }
 
 TEST_F(StationTest, StopsForceOnRequest) {
-  const auto stopped = call("/station/stop");
+  const auto stopped = call("stop");
   EXPECT_TRUE(stopped.success) << stopped.message;
   EXPECT_TRUE(eventually([] { return world_->status.latest().state == Status::READY; }));
   EXPECT_TRUE(eventually([] { return sliceEffort() == 0.0; }));
@@ -374,11 +358,3 @@ TEST_F(StationTest, CompilesAsItsParametersSayAndSaysWhatIsWrongInThem) {
 
 }  // namespace
 }  // namespace ergotic::test
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ::ros::init(argc, argv, "station_rostest");
-  ::ros::AsyncSpinner spinner(2);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

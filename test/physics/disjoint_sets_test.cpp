@@ -2,9 +2,8 @@
 #include "physics/disjoint_sets.hpp"
 
 #include <random>
-#include <vector>
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
 namespace ergotic::physics {
 namespace {

@@ -3,12 +3,9 @@
 
 #include <dlfcn.h>
 
-#include <array>
 #include <cstdio>
-#include <memory>
-#include <string>
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
 namespace ergotic::rt {
 namespace {
@@ -25,7 +22,7 @@ TEST(BuildIdTest, IsWhatTheLinkerWroteIntoTheLibrary) {
     text += line.data();
   }
   ASSERT_FALSE(buildId().empty());
-  EXPECT_NE(text.find("Build ID: " + buildId() + "\n"), std::string::npos) << text;
+  EXPECT_THAT(text, HasSubstr("Build ID: " + buildId() + "\n"));
 }
 
 }  // namespace

@@ -4,11 +4,9 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include <cmath>
 #include <random>
-#include <vector>
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
 namespace ergotic::rt {
 namespace {

@@ -9,9 +9,10 @@
 #include <future>
 #include <thread>
 
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+
+#include "support/test.hpp"
 
 namespace ergotic::rt {
 namespace {
@@ -88,7 +89,7 @@ TEST(MakeRealtimeTest, NamesTheRangeOfAWrongPriority) {
   std::thread([] {
     const Outcome outcome = makeRealtime(1000);
     EXPECT_FALSE(outcome.ok);
-    EXPECT_NE(outcome.message.find("1...99"), std::string::npos) << outcome.message;
+    EXPECT_THAT(outcome.message, HasSubstr("1...99"));
   }).join();
 }
 

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
-
-#include <gtest/gtest.h>
-
-#include "ergotic/exception.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::scene {
 
@@ -39,6 +35,13 @@ inline void expectRefused(const BadText& bad, const std::string& name) {
     EXPECT_NE(what.find(bad.message), std::string::npos) << what << "\n" << bad.text;
     EXPECT_EQ(e.line(), line);
     EXPECT_EQ(e.column(), column);
+  }
+}
+
+template <std::size_t N>
+void expectAllRefused(const BadText (&all)[N], const std::string& file) {
+  for (const BadText& bad : all) {
+    expectRefused(bad, file);
   }
 }
 

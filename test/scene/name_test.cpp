@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/scene/name.hpp"
 
-#include <sstream>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "scene/names.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::scene {
 namespace {

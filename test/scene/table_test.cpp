@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/scene/table.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <random>
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
 namespace ergotic::scene {
 namespace {

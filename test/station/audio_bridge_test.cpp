@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/station/audio_bridge.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
-#include <memory>
 #include <random>
-#include <vector>
 
-#include <gtest/gtest.h>
-
-#include "ergotic/exception.hpp"
 #include "ergotic/station/tick_schedule.hpp"
 #include "support/audio_host.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::station {
 namespace {

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-#include <cmath>
-
-#include <gtest/gtest.h>
-
-#include "ergotic/exception.hpp"
 #include "ergotic/station/station.hpp"
 #include "support/station_doubles.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::station {
 namespace {
@@ -15,13 +10,6 @@ using test::Bench;
 using test::SpringInstrument;
 
 constexpr int kFadeTicks = 16;  // 5 ms at 3150 Hz, rounded up
-
-Command swapTo(std::unique_ptr<Performer> performer) {
-  Command command;
-  command.type = Command::Type::kSwap;
-  command.performer = performer.release();
-  return command;
-}
 
 Command stiffness(const Performer& performer, double value) {
   Command command;
@@ -57,7 +45,7 @@ TEST(CommandsTest, SwapsAtATickBoundaryAfterAFadeOfFixedLength) {
   Bench bench;
   bench.run(100);
   Performer* old = nullptr;
-  ASSERT_TRUE(bench.station->submit(swapTo(test::makeSpring())));
+  ASSERT_TRUE(bench.swap(test::makeSpring()));
   bench.run(100);
   const auto events = bench.events();
   ASSERT_EQ(test::count(events, Event::Type::kSwapped), 1);
@@ -66,7 +54,6 @@ TEST(CommandsTest, SwapsAtATickBoundaryAfterAFadeOfFixedLength) {
   EXPECT_EQ(swapped.index, 1);
   old = swapped.performer;
   ASSERT_NE(old, nullptr);
-  delete old;
 }
 
 TEST(CommandsTest, SwapUnderPlayHasNoStepInAudioAndNoGrowthInForce) {
@@ -82,7 +69,7 @@ TEST(CommandsTest, SwapUnderPlayHasNoStepInAudioAndNoGrowthInForce) {
   SpringInstrument::Setting inverse;
   inverse.level = -1.0;
   inverse.stiffness = 500.0;
-  ASSERT_TRUE(bench.station->submit(swapTo(test::makeSpring(inverse))));
+  ASSERT_TRUE(bench.swap(test::makeSpring(inverse)));
   bench.run(1000);
 
   float largest_step = 0.0F;
@@ -103,7 +90,6 @@ TEST(CommandsTest, SwapUnderPlayHasNoStepInAudioAndNoGrowthInForce) {
   }
   EXPECT_EQ(*std::max_element(forces.begin() + 501, forces.begin() + 530), 0.0);
   EXPECT_EQ(forces.back(), -5.0);
-  delete test::firstOf(bench.events(), Event::Type::kSwapped).performer;
 }
 
 TEST(CommandsTest, HandsBackASupersededPerformerThatNeverPlayed) {
@@ -111,20 +97,20 @@ TEST(CommandsTest, HandsBackASupersededPerformerThatNeverPlayed) {
   SpringInstrument::Setting counted;
   counted.destroyed = &destroyed;
   Bench bench;
-  const Command first = swapTo(test::makeSpring(counted));
-  const Command second = swapTo(test::makeSpring(counted));
-  ASSERT_TRUE(bench.station->submit(first));
-  ASSERT_TRUE(bench.station->submit(second));
+  auto made = test::makeSpring(counted);
+  const Performer* first = made.get();
+  ASSERT_TRUE(bench.swap(std::move(made)));
+  made = test::makeSpring(counted);
+  const Performer* second = made.get();
+  ASSERT_TRUE(bench.swap(std::move(made)));
   bench.run(100);
   const auto events = bench.events();
   ASSERT_EQ(test::count(events, Event::Type::kSwapped), 2);
-  EXPECT_EQ(events[0].performer, first.performer);
+  EXPECT_EQ(events[0].performer, first);
   EXPECT_EQ(events[0].index, 0);
-  EXPECT_NE(events[1].performer, second.performer);
+  EXPECT_NE(events[1].performer, second);
   EXPECT_EQ(events[1].index, 1);
-  for (const Event& event : events) {
-    delete event.performer;
-  }
+  bench.performers.clear();
   EXPECT_EQ(destroyed, 1);
   bench.station.reset();
   EXPECT_EQ(destroyed, 2);
@@ -146,22 +132,17 @@ TEST(CommandsTest, NeverLosesAPerformerHoweverFullTheEventRingIs) {
     int submitted = 0;
     int returned = 0;
     for (int i = 0; i < 50; ++i) {
-      const Command swap = swapTo(test::makeSpring());
-      if (bench.station->submit(swap)) {
-        ++submitted;
-      } else {
-        delete swap.performer;
-      }
+      submitted += bench.swap(test::makeSpring()) ? 1 : 0;
       bench.run(1);
     }
     EXPECT_EQ(submitted, 4) << "further swaps are refused until someone polls";
     bench.run(100);
     for (const Event& event : bench.events()) {
       returned += event.performer != nullptr ? 1 : 0;
-      delete event.performer;
     }
+    bench.performers.clear();
     EXPECT_EQ(returned, 4);
-    EXPECT_TRUE(bench.station->submit(swapTo(test::makeSpring(counted))));
+    EXPECT_TRUE(bench.swap(test::makeSpring(counted)));
     EXPECT_EQ(destroyed, 1) << "the first, among those handed back";
   }
   EXPECT_EQ(destroyed, 2) << "and the one that still waited";
@@ -171,11 +152,7 @@ TEST(CommandsTest, RefusesAPerformerThatDoesNotFitAndKeepsThePlayingOne) {
   Bench bench;
   SpringInstrument::Setting wide;
   wide.port.slice = 7;
-  auto performer = test::makeSpring(wide);
-  Command command;
-  command.type = Command::Type::kSwap;
-  command.performer = performer.get();
-  EXPECT_THROW(bench.station->submit(command), Exception);
+  EXPECT_THROW(bench.swap(test::makeSpring(wide)), Exception);
   bench.run(100);
   EXPECT_EQ(test::count(bench.events(), Event::Type::kSwapped), 0);
 }
@@ -198,26 +175,21 @@ TEST(CommandsTest, TakesAParameterAtTheNextTickAndGivesTheOldCoefficientsBack) {
   EXPECT_EQ(taken.tick, 500);
   EXPECT_EQ(taken.value, 300.0);
   ASSERT_NE(taken.coefficients, nullptr);
-  delete taken.coefficients;
 }
 
 TEST(CommandsTest, GivesAParameterToThePerformerSubmittedLast) {
   Bench bench;
   bench.command(Command::Type::kEngage);
   bench.run(500);
-  Command swap = swapTo(test::makeSpring());
-  Performer* next = swap.performer;
-  ASSERT_TRUE(bench.station->submit(swap));
+  auto made = test::makeSpring();
+  Performer* next = made.get();
+  ASSERT_TRUE(bench.swap(std::move(made)));
   ASSERT_TRUE(bench.station->submit(stiffness(*next, 300.0)));
   bench.run(2);
   EXPECT_GE(bench.log.forces[0], -1.0) << "the one still fading out keeps its own";
   bench.run(1000);
   EXPECT_DOUBLE_EQ(bench.log.forces[0], -3.0);
   EXPECT_EQ(next->parameters[0], 300.0);
-  for (const Event& event : bench.events()) {
-    delete event.performer;
-    delete event.coefficients;
-  }
 }
 
 TEST(CommandsTest, KeyframeHoldsStateAndParametersBeforeTheTickItNames) {
@@ -238,19 +210,17 @@ TEST(CommandsTest, KeyframeHoldsStateAndParametersBeforeTheTickItNames) {
   restored.readDisplacements(&frames);
   EXPECT_EQ(frames, 140.0F);
   EXPECT_EQ(keyframe.parameters, std::vector<double>{250.0});
-  delete test::firstOf(events, Event::Type::kParameter).coefficients;
 }
 
 TEST(CommandsTest, TakesNoKeyframeWithinTheFadeOfASwap) {
   Bench bench;
-  ASSERT_TRUE(bench.station->submit(swapTo(test::makeSpring())));
+  ASSERT_TRUE(bench.swap(test::makeSpring()));
   bench.run(5);
   ASSERT_TRUE(bench.command(Command::Type::kKeyframe));
   bench.run(100);
   const auto events = bench.events();
   ASSERT_EQ(test::count(events, Event::Type::kKeyframe), 1);
   EXPECT_EQ(test::firstOf(events, Event::Type::kKeyframe).tick, 1 + 2 * kFadeTicks);
-  delete test::firstOf(events, Event::Type::kSwapped).performer;
 }
 
 TEST(CommandsTest, SaysWhenAStateIsTooLargeForAKeyframe) {

@@ -1,28 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-#include <array>
-#include <chrono>
-#include <cmath>
 #include <random>
 #include <set>
 #include <thread>
-#include <utility>
-#include <vector>
 
-#include <gtest/gtest.h>
-
-#include "ergotic/exception.hpp"
 #include "ergotic/station/station.hpp"
 #include "ergotic/station/timer_source.hpp"
 #include "support/station_doubles.hpp"
+#include "support/test.hpp"
 
 /// Other end-effectors while a model plays.
+
 namespace ergotic::station {
 namespace {
 
 using test::Bench;
 
-constexpr std::int64_t kRampTicks = 400;
+constexpr std::int64_t kRampTicks = Bench::kRampTicks;
 constexpr std::int64_t kGlideTicks = 315;  // 0.1 s at 3150 Hz
 
 /// The port moves by `gain` times the slice.
@@ -55,35 +48,17 @@ void configure(Bench& bench, double gain, int* destroyed = nullptr) {
   ASSERT_TRUE(bench.station->submit(command));
 }
 
-/// Frees what comes back. \return events, without pointers
-std::vector<Event> take(Bench& bench) {
-  std::vector<Event> events = bench.events();
-  for (Event& event : events) {
-    delete event.rig;
-    event.rig = nullptr;
-  }
-  return events;
-}
-
-std::vector<GestureTick> recorded(Bench& bench) {
-  std::vector<GestureTick> ticks(1U << 14U);
-  ticks.resize(bench.station->pollGestures(ticks.data(), ticks.size()));
-  return ticks;
-}
-
 TEST(ConfigureTest, TakesTheForceAtOnceAndNeedsEngageAgain) {
   Bench bench;  // the hand is at 0.01 m, the spring has 100 N/m
-  bench.command(Command::Type::kEngage);
-  bench.run(kRampTicks);
+  bench.engage();
   configure(bench, 2.0);
   bench.run(2);
   EXPECT_EQ(bench.log.forces[0], 0.0);
   bench.run(kRampTicks);
   EXPECT_EQ(bench.log.forces[0], 0.0);
-  bench.command(Command::Type::kEngage);
-  bench.run(kRampTicks);
+  bench.engage();
   EXPECT_EQ(bench.log.forces[0], -4.0) << "twice the way, twice the lever";
-  EXPECT_EQ(test::firstOf(take(bench), Event::Type::kConfigured).tick, kRampTicks);
+  EXPECT_EQ(test::firstOf(bench.events(), Event::Type::kConfigured).tick, kRampTicks);
 }
 
 TEST(ConfigureTest, GlidesThePortsFromWhereTheyWereInAStraightLine) {
@@ -91,7 +66,7 @@ TEST(ConfigureTest, GlidesThePortsFromWhereTheyWereInAStraightLine) {
   bench.run(10);
   configure(bench, 3.0);
   bench.run(kGlideTicks + 10);
-  const auto ticks = recorded(bench);
+  const auto ticks = bench.recorded();
   ASSERT_EQ(ticks.size(), static_cast<std::size_t>(kGlideTicks + 20));
   EXPECT_EQ(ticks[9].ports, 1U);
   EXPECT_EQ(ticks[9].port[0], 0.01);
@@ -100,7 +75,6 @@ TEST(ConfigureTest, GlidesThePortsFromWhereTheyWereInAStraightLine) {
     ASSERT_NEAR(ticks[static_cast<std::size_t>(10 + n)].port[0], 0.03 - 0.02 * left, 1e-15);
   }
   EXPECT_EQ(ticks.back().port[0], 0.03);
-  take(bench);
 }
 
 TEST(ConfigureTest, RefusesToEngageWhileItGlides) {
@@ -108,27 +82,22 @@ TEST(ConfigureTest, RefusesToEngageWhileItGlides) {
   configure(bench, 2.0);
   bench.command(Command::Type::kEngage);
   bench.run(1);
-  EXPECT_EQ(test::firstOf(take(bench), Event::Type::kRefused).index,
+  EXPECT_EQ(test::firstOf(bench.events(), Event::Type::kRefused).index,
             static_cast<int>(Refusal::kBusy));
 }
 
 TEST(ConfigureTest, GoesToTheModelThatIsOnItsWayIn) {
   Bench bench;
-  bench.command(Command::Type::kEngage);
-  bench.run(kRampTicks);
+  bench.engage();
   ASSERT_EQ(bench.log.forces[0], -1.0);
-  recorded(bench);
-  Command swap;
-  swap.type = Command::Type::kSwap;
-  swap.performer = test::makeSpring().release();
-  ASSERT_TRUE(bench.station->submit(swap));
+  bench.recorded();
+  ASSERT_TRUE(bench.swap(test::makeSpring()));
   configure(bench, 5.0);
   bench.run(200);
   EXPECT_EQ(bench.log.forces[0], 0.0) << "other hands need engage again, whatever model they meet";
-  const auto ticks = recorded(bench);
+  const auto ticks = bench.recorded();
   EXPECT_EQ(ticks.front().port[0], 0.01) << "the old model keeps its hands";
   EXPECT_EQ(ticks.back().port[0], 0.05);
-  delete test::firstOf(take(bench), Event::Type::kSwapped).performer;
 }
 
 TEST(ConfigureTest, GivesBackEveryRigOnce) {
@@ -139,7 +108,8 @@ TEST(ConfigureTest, GivesBackEveryRigOnce) {
       configure(bench, 1.0, &destroyed);
     }
     bench.run(1);
-    take(bench);
+    bench.events();
+    bench.rigs.clear();
     EXPECT_EQ(destroyed, 4) << "the fifth is in use; the first one was the spring's own";
     configure(bench, 1.0, &destroyed);  // never taken
   }
@@ -150,7 +120,7 @@ TEST(ConfigureTest, FaultsBeyondTheWorkspace) {
   Bench bench;
   configure(bench, 1000.0);
   bench.run(2);
-  EXPECT_EQ(test::firstOf(take(bench), Event::Type::kFault).index,
+  EXPECT_EQ(test::firstOf(bench.events(), Event::Type::kFault).index,
             static_cast<int>(FaultReason::kWorkspace));
 }
 
@@ -246,10 +216,10 @@ TEST(ConfigureTest, AThousandChangesAtRandomMakeNoForceStep) {
     bench.run(static_cast<std::int64_t>(random() % 400));
     bench.command(Command::Type::kEngage);
     bench.run(static_cast<std::int64_t>(random() % 400));
-    const auto events = take(bench);
+    const auto events = bench.events();
     configured += test::count(events, Event::Type::kConfigured);
     EXPECT_EQ(test::count(events, Event::Type::kFault), 0);
-    recorded(bench);
+    bench.recorded();
   }
   EXPECT_EQ(configured, 1000);
   EXPECT_GT(moved, 100'000) << "or the test sees nothing";
@@ -267,7 +237,7 @@ TEST(ConfigureTest, AThousandChangesLiveMakeNoTickLate) {
   std::set<std::int64_t> late;
   int engaged = 0;
   const auto listen = [&] {
-    for (const Event& event : take(bench)) {
+    for (const Event& event : bench.events()) {
       if (event.type == Event::Type::kConfigured) {
         configured.push_back(event.tick);
       } else if (event.type == Event::Type::kEngaged) {
@@ -277,7 +247,7 @@ TEST(ConfigureTest, AThousandChangesLiveMakeNoTickLate) {
         late.insert(event.tick);
       }
     }
-    recorded(bench);
+    bench.recorded();
   };
   for (int i = 0; i < 1000; ++i) {
     hands.configure();

@@ -3,13 +3,11 @@
 
 #include <set>
 
-#include <gtest/gtest.h>
-
-#include "ergotic/exception.hpp"
 #include "ergotic/rt/clock.hpp"
 #include "ergotic/station/timer_source.hpp"
 #include "support/audio_host.hpp"
 #include "support/station_doubles.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::station {
 namespace {

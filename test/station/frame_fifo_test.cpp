@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/station/frame_fifo.hpp"
 
-#include <array>
-
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
 namespace ergotic::station {
 namespace {

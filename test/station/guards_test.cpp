@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "ergotic/station/station.hpp"
 #include "support/station_doubles.hpp"
+#include "support/test.hpp"
 
 /// What takes the force from the hand beside the safety chain.
+
 namespace ergotic::station {
 namespace {
 
 using test::Bench;
 
-constexpr std::int64_t kRampTicks = 400;
+constexpr std::int64_t kRampTicks = Bench::kRampTicks;
 constexpr double kHandM = 0.01;
 
 StationConfig withPresence(double seconds) {
@@ -37,10 +33,7 @@ double still(std::int64_t /*exchange*/, int /*slice*/) {
 }
 
 void tellPresence(Bench& bench, bool present) {
-  Command command;
-  command.type = Command::Type::kPresence;
-  command.value = present ? 1.0 : 0.0;
-  ASSERT_TRUE(bench.station->submit(command));
+  ASSERT_TRUE(bench.command(Command::Type::kPresence, present ? 1.0 : 0.0));
 }
 
 FaultReason faultOf(Bench& bench) {
@@ -57,16 +50,14 @@ TEST(CalibrationGuardTest, ForceNeedsEverySliceInUseToBeCalibrated) {
   Bench bench;
   bench.driver->uncalibrated_slices = 0b01;  // the port's slice
   EXPECT_EQ(stateOf(bench), ForceState::kUncalibrated);
-  bench.command(Command::Type::kEngage);
-  bench.run(kRampTicks);
+  bench.engage();
   EXPECT_EQ(bench.log.forces[0], 0.0);
   EXPECT_EQ(test::firstOf(bench.events(), Event::Type::kRefused).index,
             static_cast<int>(Refusal::kUncalibrated));
   bench.driver->uncalibrated_slices = 0b10;  // one that moves nothing
   EXPECT_EQ(stateOf(bench), ForceState::kReady);
   bench.run(kRampTicks);  // the port glides to where the hand is
-  bench.command(Command::Type::kEngage);
-  bench.run(kRampTicks);
+  bench.engage();
   EXPECT_EQ(bench.log.forces[0], -1.0);
 }
 
@@ -78,8 +69,8 @@ TEST(CalibrationGuardTest, AFirstCalibrationLetsThePortGlideToWhereTheHandIs) {
   calibrated = true;
   bench.driver->uncalibrated_slices = 0;
   bench.run(400);
-  std::vector<GestureTick> ticks(500);
-  ASSERT_EQ(bench.station->pollGestures(ticks.data(), ticks.size()), 410U);
+  const std::vector<GestureTick> ticks = bench.recorded();
+  ASSERT_EQ(ticks.size(), 410U);
   double largest = 0.0;
   for (std::size_t n = 1; n < 410; ++n) {
     largest = std::max(largest, std::abs(ticks[n].port[0] - ticks[n - 1].port[0]));
@@ -91,8 +82,7 @@ TEST(CalibrationGuardTest, AFirstCalibrationLetsThePortGlideToWhereTheHandIs) {
 
 TEST(CalibrationGuardTest, LosingACalibrationTakesTheForceAtOnceAndForGood) {
   Bench bench;
-  bench.command(Command::Type::kEngage);
-  bench.run(kRampTicks);
+  bench.engage();
   bench.driver->uncalibrated_slices = 0b01;
   bench.run(2);
   EXPECT_EQ(bench.log.forces[0], 0.0);
@@ -108,16 +98,14 @@ TEST(PresenceGuardTest, ForceNeedsTheSwitchToBeHeld) {
   EXPECT_EQ(test::firstOf(bench.events(), Event::Type::kRefused).index,
             static_cast<int>(Refusal::kPresence));
   tellPresence(bench, true);
-  bench.command(Command::Type::kEngage);
-  bench.run(kRampTicks);
+  bench.engage();
   EXPECT_EQ(bench.log.forces[0], -1.0);
 }
 
 TEST(PresenceGuardTest, LettingGoIsAFaultThatStays) {
   Bench bench({}, still, withPresence(0.2));
   tellPresence(bench, true);
-  bench.command(Command::Type::kEngage);
-  bench.run(kRampTicks);
+  bench.engage();
   tellPresence(bench, false);
   bench.run(2);
   EXPECT_EQ(bench.log.forces[0], 0.0);
@@ -141,11 +129,7 @@ TEST(PresenceGuardTest, ASwitchThatIsNotToldAnyMoreIsLetGo) {
 class InjectionTest : public testing::TestWithParam<InjectedModelFault> {
  protected:
   static void inject(Bench& bench, double ticks) {
-    Command command;
-    command.type = Command::Type::kInject;
-    command.index = static_cast<int>(GetParam());
-    command.value = ticks;
-    ASSERT_TRUE(bench.station->submit(command));
+    ASSERT_TRUE(bench.command(Command::Type::kInject, ticks, static_cast<int>(GetParam())));
   }
   /// A hand that gives way to the force of a spring of negative stiffness.
   static double giving(std::int64_t n, int /*slice*/) {
@@ -155,8 +139,7 @@ class InjectionTest : public testing::TestWithParam<InjectedModelFault> {
 
 TEST_P(InjectionTest, DoesNothingUnlessItIsAllowed) {
   Bench bench;
-  bench.command(Command::Type::kEngage);
-  bench.run(kRampTicks);
+  bench.engage();
   inject(bench, 100.0);
   bench.run(100);
   EXPECT_EQ(bench.log.forces[0], -1.0);
@@ -167,15 +150,13 @@ TEST_P(InjectionTest, GoesAfterItsTicks) {
   inject(bench, 1.0);
   bench.run(2);
   bench.command(Command::Type::kRecover);
-  bench.command(Command::Type::kEngage);
-  bench.run(kRampTicks);
+  bench.engage();
   EXPECT_EQ(bench.log.forces[0], -1.0);
 }
 
 TEST_P(InjectionTest, IsAFaultThatTakesTheForce) {
   Bench bench({}, giving, withInjection());
-  bench.command(Command::Type::kEngage);
-  bench.run(kRampTicks);
+  bench.engage();
   inject(bench, 1e6);
   bench.run(1000);
   EXPECT_EQ(bench.log.forces[0], 0.0);

@@ -1,11 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
-#include <cstdlib>
-#include <memory>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "ergotic/scene/text/read_scene.hpp"
 #include "ergotic/station/audio_bridge.hpp"
 #include "ergotic/station/station.hpp"
@@ -13,6 +6,7 @@
 #include "support/audio_host.hpp"
 #include "support/scene_builder.hpp"
 #include "support/station_doubles.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::station {
 namespace {

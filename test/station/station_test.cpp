@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/station/station.hpp"
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <limits>
 #include <thread>
 
-#include <gtest/gtest.h>
-
-#include "ergotic/exception.hpp"
 #include "ergotic/station/timer_source.hpp"
 #include "support/station_doubles.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::station {
 namespace {
@@ -26,8 +20,7 @@ double stampOf(std::int64_t n, int /*slice*/) {
   return 1e-6 * static_cast<double>(n % 20001 - 10000);
 }
 
-/// Ticks of the shortest ramp, and some.
-constexpr std::int64_t kRampTicks = 400;
+constexpr std::int64_t kRampTicks = Bench::kRampTicks;
 
 /// Counts exchanges whose force is not exactly the answer to the position before.
 class OneTickProof {
@@ -72,8 +65,7 @@ TEST(StationTest, ScalesPositionsAndForcesByThePort) {
   setting.port.position_scale = 4.0;
   setting.port.force_scale = 3.0;
   Bench bench(setting, [](std::int64_t, int slice) { return slice == 1 ? 0.010 : 0.05; });
-  bench.command(Command::Type::kEngage);
-  bench.run(kRampTicks);
+  bench.engage();
   EXPECT_DOUBLE_EQ(bench.log.forces[1], 3.0 * -kStiffness * (0.010 - 0.002) / 4.0);
   EXPECT_EQ(bench.log.forces[0], 0.0);
 }
@@ -82,8 +74,8 @@ TEST(StationTest, RecordsEveryTickWithItsPositionAndTheForceSentAfterIt) {
   Bench bench({}, stampOf);
   bench.command(Command::Type::kEngage);
   bench.run(1000);
-  std::vector<GestureTick> ticks(2000);
-  ASSERT_EQ(bench.station->pollGestures(ticks.data(), ticks.size()), 1000U);
+  const std::vector<GestureTick> ticks = bench.recorded();
+  ASSERT_EQ(ticks.size(), 1000U);
   for (std::int64_t n = 0; n < 1000; ++n) {
     const GestureTick& tick = ticks[static_cast<std::size_t>(n)];
     ASSERT_EQ(tick.tick, n);
@@ -122,8 +114,8 @@ TEST(StationTest, GivesLiveInputToTheModelAndMarksTheTicksThatHeardIt) {
   frames.input_level = 0.25F;
   bench.run(1);
   EXPECT_EQ(bench.instrument->last_input, 14 * 0.25);
-  std::vector<GestureTick> ticks(2);
-  ASSERT_EQ(bench.station->pollGestures(ticks.data(), 2), 2U);
+  const std::vector<GestureTick> ticks = bench.recorded();
+  ASSERT_EQ(ticks.size(), 2U);
   EXPECT_EQ(ticks[0].flags, 0U);
   EXPECT_EQ(ticks[1].flags, GestureTick::kAudioInput);
 }
@@ -145,8 +137,7 @@ TEST(StationTest, HoldsForcesAtZeroUntilEngagedThenRampsThenPlays) {
 
 TEST(StationTest, StopsForceWithTheNextExchange) {
   Bench bench;
-  bench.command(Command::Type::kEngage);
-  bench.run(kRampTicks);
+  bench.engage();
   bench.command(Command::Type::kStop);
   bench.run(1);  // the tick that takes the stop
   EXPECT_EQ(bench.log.forces[0], -1.0);
@@ -179,8 +170,7 @@ TEST(StationTest, ShowsStatePositionsAndForcesAtTheDisplayRate) {
 
 TEST(StationTest, MakeSafeZeroesForceAndLatchesUntilRecovered) {
   Bench bench;
-  bench.command(Command::Type::kEngage);
-  bench.run(kRampTicks);
+  bench.engage();
   bench.station->makeSafe();
   EXPECT_TRUE(bench.log.safe.load());
   bench.run(2);
@@ -188,16 +178,14 @@ TEST(StationTest, MakeSafeZeroesForceAndLatchesUntilRecovered) {
   const auto events = bench.events();
   EXPECT_EQ(test::firstOf(events, Event::Type::kFault).index,
             static_cast<int>(FaultReason::kMadeSafe));
-  bench.command(Command::Type::kEngage);
-  bench.run(kRampTicks);
+  bench.engage();
   EXPECT_EQ(bench.log.forces[0], 0.0) << "recover comes first";
   const auto refused = bench.events();
   EXPECT_EQ(test::firstOf(refused, Event::Type::kRefused).index, static_cast<int>(Refusal::kFault));
   bench.command(Command::Type::kRecover);
   bench.run(kRampTicks);
   EXPECT_EQ(bench.log.forces[0], 0.0) << "force never comes back by itself";
-  bench.command(Command::Type::kEngage);
-  bench.run(kRampTicks);
+  bench.engage();
   EXPECT_EQ(bench.log.forces[0], -1.0);
 }
 
@@ -212,8 +200,7 @@ TEST(StationTest, TellsTheReasonGivenWithMakeSafe) {
 
 TEST(StationTest, EngagingAndRecoveringAgainStillRampsFromZero) {
   Bench bench;
-  bench.command(Command::Type::kEngage);
-  bench.run(kRampTicks);
+  bench.engage();
   bench.log.safe.store(true);  // the device's own watchdog, within the same tick as the commands
   bench.command(Command::Type::kRecover);
   bench.command(Command::Type::kEngage);
@@ -233,8 +220,8 @@ TEST(StationTest, FaultsOnAPositionThatIsNotANumberAndPlaysTheLastGoodOne) {
   EXPECT_EQ(fault.tick, 600);
   EXPECT_EQ(fault.index, static_cast<int>(FaultReason::kBadPosition));
   EXPECT_EQ(fault.value, 0.0);
-  std::vector<GestureTick> ticks(700);
-  ASSERT_EQ(bench.station->pollGestures(ticks.data(), ticks.size()), 602U);
+  const std::vector<GestureTick> ticks = bench.recorded();
+  ASSERT_EQ(ticks.size(), 602U);
   EXPECT_EQ(ticks[600].position[0], 0.01);
   EXPECT_EQ(ticks[600].flags, GestureTick::kHeld);
 }
@@ -275,18 +262,13 @@ TEST_P(BlowUpTest, MutesForceAndAudioUntilASwap) {
   bench.run(kRampTicks);
   EXPECT_EQ(bench.log.forces[0], 0.0);
 
-  Command swap;
-  swap.type = Command::Type::kSwap;
-  swap.performer = test::makeSpring().release();
-  ASSERT_TRUE(bench.station->submit(swap));
+  ASSERT_TRUE(bench.swap(test::makeSpring()));
   bench.run(100);
   bench.command(Command::Type::kRecover);
-  bench.command(Command::Type::kEngage);
-  bench.run(kRampTicks);
+  bench.engage();
   EXPECT_EQ(bench.log.forces[0], -1.0);
   EXPECT_EQ(frames.samples.back(), 0.5F);
   const auto events = bench.events();
-  delete test::firstOf(events, Event::Type::kSwapped).performer;
   EXPECT_EQ(test::firstOf(events, Event::Type::kRecovered).index, 0);
 }
 
@@ -301,8 +283,7 @@ TEST_P(BlowUpTest, BeginsAnewOnRecovery) {
   bench.command(Command::Type::kRecover);
   bench.run(1);
   EXPECT_EQ(frames.samples.back(), 13.0F) << "the first tick of the model";
-  bench.command(Command::Type::kEngage);
-  bench.run(kRampTicks);
+  bench.engage();
   EXPECT_EQ(bench.log.forces[0], -1.0);
   EXPECT_EQ(test::firstOf(bench.events(), Event::Type::kRecovered).index, 1);
 }
@@ -352,8 +333,7 @@ TEST(StationTest, CountsNoTickAsLateInFreewheel) {
 
 TEST(StationTest, SendsZeroForceWhenItRests) {
   Bench bench;
-  bench.command(Command::Type::kEngage);
-  bench.run(kRampTicks);
+  bench.engage();
   bench.station->rest();
   EXPECT_EQ(bench.log.forces[0], 0.0);
   bench.run(kRampTicks);

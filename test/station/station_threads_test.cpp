@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <array>
 #include <atomic>
-#include <chrono>
 #include <map>
 #include <thread>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "ergotic/rt/clock.hpp"
 #include "ergotic/station/timer_source.hpp"
 #include "support/audio_host.hpp"
 #include "support/station_doubles.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::station {
 namespace {

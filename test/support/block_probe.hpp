@@ -2,14 +2,10 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
-#include <cmath>
-#include <cstdint>
-#include <functional>
 #include <thread>
 
-#include "ergotic/exception.hpp"
 #include "ergotic/rt/block_io.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::test {
 

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <atomic>
-#include <cmath>
-#include <limits>
-#include <memory>
 #include <thread>
 
-#include <gtest/gtest.h>
-
-#include "ergotic/exception.hpp"
 #include "ergotic/tgr/driver.hpp"
 #include "support/alloc_count.hpp"
+#include "support/test.hpp"
 
 /// What every tgr::Driver must do. A driver takes part with a Rig, default constructible:
 ///
@@ -21,6 +15,7 @@
 ///   void elapse();                      // lets the device live through one tick
 ///
 /// and `INSTANTIATE_TYPED_TEST_SUITE_P(MyDriver, DriverContractTest, MyRig)`.
+
 namespace ergotic::test {
 
 constexpr double kContractTickRateHz = 1000.0;

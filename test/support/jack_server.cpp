@@ -5,18 +5,15 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include <chrono>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <sstream>
 #include <stdexcept>
 #include <thread>
-#include <vector>
 
 #include <sys/prctl.h>
 #include <sys/wait.h>
+
+#include "support/test.hpp"
 
 namespace ergotic::test {
 

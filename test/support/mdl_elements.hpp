@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "support/mdl_simulator.hpp"
@@ -65,107 +66,80 @@ inline double sign(double value) {
   return value > 0.0 ? 1.0 : (value < 0.0 ? -1.0 : 0.0);
 }
 
+/// The numbers behind the ends of a link; what is left out is 0.
+using Numbers = std::array<double, 5>;
+
+/// Force of the numbers, of x1 - x2, and of v1 - v2 per sample.
+using Law = double (*)(const Numbers& v, double dx, double dv);
+
 /// An interaction: -f on the first material, +f on the second.
 struct Link {
-  Link(Material& first, Material& second) : one(first), two(second) {}
-  virtual ~Link() = default;
-  Link(const Link&) = delete;
-  Link& operator=(const Link&) = delete;
-  /// \param dx  x1 - x2
-  /// \param dv  v1 - v2, per sample
-  virtual double law(double dx, double dv) const = 0;
   void apply() const {
-    const double dx = one.x - two.x;
-    const double dv = (one.x - one.x_last) - (two.x - two.x_last);
-    const double f = law(dx, dv);
-    one.force -= f;
-    two.force += f;
+    const double f = law(numbers, one->x - two->x, (one->x - one->x_last) - (two->x - two->x_last));
+    one->force -= f;
+    two->force += f;
   }
-  Material& one;
-  Material& two;
-};
-
-/// spring, damper, springDamper, nlSpring2 (p), nlSpring3 (q)
-struct PolynomialLink : Link {
-  PolynomialLink(Material& m1, Material& m2, double k_, double p_, double q_, double z_)
-      : Link(m1, m2), k(k_), p(p_), q(q_), z(z_) {}
-  double law(double dx, double dv) const override {
-    return k * dx + p * sign(dx) * dx * dx + q * dx * dx * dx + z * dv;
-  }
-  double k, p, q, z;
-};
-
-struct ContactLink : Link {
-  ContactLink(Material& m1, Material& m2, double k_, double z_, double threshold_)
-      : Link(m1, m2), k(k_), z(z_), threshold(threshold_) {}
-  double law(double dx, double dv) const override {
-    return -dx < threshold ? k * (dx + threshold) + z * dv : 0.0;
-  }
-  double k, z, threshold;
+  Material* one;
+  Material* two;
+  Law law;
+  Numbers numbers;
 };
 
 /// nlSpringDamper: cubic up to the tipping point, then straight and more damped.
-struct ClippedLink : Link {
-  ClippedLink(Material& m1, Material& m2, double s_, double c_, double limit_, double z_)
-      : Link(m1, m2), s(s_), c(c_), limit(limit_), z(z_) {}
-  double law(double dx, double dv) const override {
-    if (c == 0.0) {
-      return s * dx + z * dv;
-    }
-    if (s >= limit) {
-      return limit * dx + z * dv;
-    }
-    const double tipping_point = std::sqrt(limit - s) / c;
-    if (std::abs(dx) <= tipping_point) {
-      return s * dx + c * dx * dx * dx + z * dv;
-    }
-    return limit * dx + (z + 0.3 * limit) * dv;
+inline double clippedLaw(const Numbers& v, double dx, double dv) {
+  const auto& [s, c, limit, z, threshold] = v;
+  if (c == 0.0) {
+    return s * dx + z * dv;
   }
-  double s, c, limit, z;
-};
+  if (s >= limit) {
+    return limit * dx + z * dv;
+  }
+  if (std::abs(dx) <= std::sqrt(limit - s) / c) {
+    return s * dx + c * dx * dx * dx + z * dv;
+  }
+  return limit * dx + (z + 0.3 * limit) * dv;
+}
 
-/// nlContact: the clipped law while the two overlap.
-struct ClippedContactLink : ClippedLink {
-  ClippedContactLink(
-      Material& m1, Material& m2, double s_, double c_, double limit_, double z_, double threshold_)
-      : ClippedLink(m1, m2, s_, c_, limit_, z_), threshold(threshold_) {}
-  double law(double dx, double dv) const override {
-    return -dx < threshold ? ClippedLink::law(dx + threshold, dv) : 0.0;
+inline double pluckLaw(const Numbers& v, double dx, double dv) {
+  const double scale = v[1];
+  const double e = v[0] / 10.0;
+  if (std::abs(dx) < scale / 10.0) {
+    return -(v[0] - e) * dx + v[2] * dv;
   }
-  double threshold;
-};
+  return std::abs(dx) < scale ? -sign(dx) * scale / 10.0 * v[0] + e * dx + v[2] * dv : 0.0;
+}
 
-struct PluckLink : Link {
-  PluckLink(Material& m1, Material& m2, double k_, double scale_, double z_)
-      : Link(m1, m2), k(k_), scale(scale_), z(z_) {}
-  double law(double dx, double dv) const override {
-    const double t = scale / 10.0;
-    const double e = k / 10.0;
-    if (std::abs(dx) < t) {
-      return -(k - e) * dx + z * dv;
-    }
-    return std::abs(dx) < scale ? -sign(dx) * t * k + e * dx + z * dv : 0.0;
+inline double bowLaw(const Numbers& v, double /*dx*/, double dv) {
+  const auto& [z, scale, is_smooth, none, nothing] = v;
+  const double ratio = dv / scale;
+  if (is_smooth > 0.0) {
+    return 0.63 * z * dv * std::exp(-4.0 * ratio * ratio + 0.5);
   }
-  double k, scale, z;
-};
+  if (std::abs(ratio) < 1.0 / 3.0) {
+    return (z - z / 3.0) * dv;
+  }
+  return std::abs(ratio) < 1.0 ? sign(dv) * scale / 3.0 * z - z / 3.0 * dv : 0.0;
+}
 
-struct BowLink : Link {
-  BowLink(Material& m1, Material& m2, double z_, double scale_, bool smooth_)
-      : Link(m1, m2), z(z_), scale(scale_), smooth(smooth_) {}
-  double law(double /*dx*/, double dv) const override {
-    if (smooth) {
-      const double ratio = dv / scale;
-      return 0.63 * z * dv * std::exp(-4.0 * ratio * ratio + 0.5);
-    }
-    const double t = scale / 3.0;
-    const double e = z / 3.0;
-    if (std::abs(dv) < t) {
-      return (z - e) * dv;
-    }
-    return std::abs(dv) < scale ? sign(dv) * t * z - e * dv : 0.0;
-  }
-  double z, scale;
-  bool smooth;
-};
+inline const std::map<std::string, Law>& laws() {
+  static const std::map<std::string, Law> kLaws = {
+      {"spring", [](const Numbers& v, double dx, double) { return v[0] * dx; }},
+      {"damper", [](const Numbers& v, double, double dv) { return v[0] * dv; }},
+      {"springDamper",
+       [](const Numbers& v, double dx, double dv) { return v[0] * dx + v[1] * dv; }},
+      {"nlSpring2", [](const Numbers& v, double dx,
+                       double dv) { return v[0] * dx + v[1] * sign(dx) * dx * dx + v[2] * dv; }},
+      {"nlSpring3", [](const Numbers& v, double dx,
+                       double dv) { return v[0] * dx + v[1] * dx * dx * dx + v[2] * dv; }},
+      {"contact", [](const Numbers& v, double dx,
+                     double dv) { return -dx < v[2] ? v[0] * (dx + v[2]) + v[1] * dv : 0.0; }},
+      {"nlSpringDamper", clippedLaw},
+      {"nlContact", [](const Numbers& v, double dx,
+                       double dv) { return -dx < v[4] ? clippedLaw(v, dx + v[4], dv) : 0.0; }},
+      {"nlPluck", pluckLaw},
+      {"nlBow", bowLaw},
+  };
+  return kLaws;
+}
 
 }  // namespace ergotic::test

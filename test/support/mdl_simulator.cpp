@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/mdl_simulator.hpp"
 
-#include <algorithm>
 #include <cctype>
-#include <functional>
-#include <memory>
-#include <sstream>
 #include <stdexcept>
 
 #include "support/mdl_elements.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::test {
 namespace {
@@ -94,19 +91,15 @@ class Expression {
     const double first = sum();
     const double second = take(',') ? sum() : 0.0;
     take(')');
-    if (name == "pow")
+    if (name == "pow") {
       return std::pow(first, second);
-    if (name == "sqrt")
-      return std::sqrt(first);
-    if (name == "exp")
-      return std::exp(first);
-    if (name == "abs")
-      return std::abs(first);
-    if (name == "sin")
-      return std::sin(first);
-    if (name == "cos")
-      return std::cos(first);
-    throw std::runtime_error("function '" + name + "'");
+    }
+    static const std::map<std::string, double (*)(double)> kFunctions = {{"sqrt", std::sqrt},
+                                                                         {"exp", std::exp},
+                                                                         {"abs", std::abs},
+                                                                         {"sin", std::sin},
+                                                                         {"cos", std::cos}};
+    return kFunctions.at(name)(first);
   }
 
   const std::string& text_;
@@ -221,8 +214,8 @@ class Model {
     for (const auto& material : materials_) {
       material.second->move();
     }
-    for (const auto& link : links_) {
-      link->apply();
+    for (const Link& link : links_) {
+      link.apply();
     }
     for (const Tap& tap : forces_) {
       tap.material->force += at(inputs, tap.channel, n);
@@ -297,45 +290,15 @@ class Model {
   }
 
   void addLink(const Line& line) {
-    std::vector<double> v;
-    const auto value = [&v](std::size_t i) { return i < v.size() ? v[i] : 0.0; };
-    const std::string& kind = line.keyword;
     if (line.arguments.size() < 3 || line.arguments[0][0] != '@') {
       return;
     }
+    Link link{
+        &material(line.arguments[0]), &material(line.arguments[1]), laws().at(line.keyword), {}};
     for (std::size_t i = 2; i < line.arguments.size(); ++i) {
-      v.push_back(number(line.arguments[i]));
+      link.numbers.at(i - 2) = number(line.arguments[i]);
     }
-    Material& m1 = material(line.arguments[0]);
-    Material& m2 = material(line.arguments[1]);
-    const auto polynomial = [&](double k, double p, double q, double z) {
-      links_.push_back(std::make_unique<PolynomialLink>(m1, m2, k, p, q, z));
-    };
-    if (kind == "spring") {
-      polynomial(value(0), 0.0, 0.0, 0.0);
-    } else if (kind == "damper") {
-      polynomial(0.0, 0.0, 0.0, value(0));
-    } else if (kind == "springDamper") {
-      polynomial(value(0), 0.0, 0.0, value(1));
-    } else if (kind == "nlSpring2") {
-      polynomial(value(0), value(1), 0.0, value(2));
-    } else if (kind == "nlSpring3") {
-      polynomial(value(0), 0.0, value(1), value(2));
-    } else if (kind == "contact") {
-      links_.push_back(std::make_unique<ContactLink>(m1, m2, value(0), value(1), value(2)));
-    } else if (kind == "nlSpringDamper") {
-      links_.push_back(
-          std::make_unique<ClippedLink>(m1, m2, value(0), value(1), value(2), value(3)));
-    } else if (kind == "nlContact") {
-      links_.push_back(std::make_unique<ClippedContactLink>(m1, m2, value(0), value(1), value(2),
-                                                            value(3), value(4)));
-    } else if (kind == "nlPluck") {
-      links_.push_back(std::make_unique<PluckLink>(m1, m2, value(0), value(1), value(2)));
-    } else if (kind == "nlBow") {
-      links_.push_back(std::make_unique<BowLink>(m1, m2, value(0), value(1), value(2) > 0.0));
-    } else {
-      throw std::runtime_error("keyword '" + kind + "'");
-    }
+    links_.push_back(link);
   }
 
   void addTap(const Line& line) {
@@ -355,7 +318,7 @@ class Model {
   const std::vector<Line>& lines_;
   const std::map<std::string, double>& given_;
   std::map<std::string, std::unique_ptr<Material>> materials_;
-  std::vector<std::unique_ptr<Link>> links_;
+  std::vector<Link> links_;
   std::vector<Drive> drives_;
   std::vector<Tap> forces_;
   std::vector<Tap> outputs_;

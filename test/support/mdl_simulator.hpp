@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
 #include <map>
-#include <string>
-#include <vector>
+
+#include "support/test.hpp"
 
 namespace ergotic::test {
 

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <string>
-#include <vector>
 
-#include "ergotic/exception.hpp"
 #include "physics/layout/layout.hpp"
 #include "support/scene_builder.hpp"
+#include "support/test.hpp"
 
 /// The same scene with and without blocks (physics/blocks.hpp).
 namespace ergotic::test {

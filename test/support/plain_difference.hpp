@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <vector>
-
 #include "support/scene_builder.hpp"
+#include "support/test.hpp"
 #include "tools/lib/plain_network.hpp"
 
 /// For test programs that are linked with the tools.

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/random_scene.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <random>
-#include <vector>
 
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/physics/settling/settle.hpp"
 #include "support/scene_builder.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::test {
 namespace {
@@ -25,10 +22,6 @@ constexpr double kSpeed = 1.0;                   // m/s
 constexpr double kSoftest = 0.02;                // kappa of slow springs
 constexpr int kAudio = SceneBuilder::kAudio;
 constexpr int kGestural = SceneBuilder::kGestural;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 class Maker {
  public:

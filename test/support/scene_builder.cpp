@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/scene_builder.hpp"
 
-#include <utility>
+#include "support/test.hpp"
 
 namespace ergotic::test {
 
@@ -65,6 +65,34 @@ int SceneBuilder::driven(int channel) {
   return m;
 }
 
+int SceneBuilder::grid(int first, int columns, int rows) {
+  scene.grids.push_back({"g" + std::to_string(scene.grids.size()), first, columns, rows});
+  return static_cast<int>(scene.grids.size()) - 1;
+}
+
+int SceneBuilder::point(int grid, double along, double across) {
+  const scene::Grid& on = scene.grids[at(grid)];
+  const int m = add(scene::MatType::kPoint, 1.0, 0.0, 0.0, scene.mats[at(on.first)].section);
+  scene.mats.back().name = "p" + std::to_string(m);
+  scene::Connection connection;
+  connection.mat = m;
+  connection.grid = grid;
+  connection.along = {along};
+  connection.across = {across};
+  connection.place = {500 + static_cast<int>(scene.connections.size()), 1};
+  scene.connections.push_back(connection);
+  return m;
+}
+
+int SceneBuilder::push(int mat, int channel) {
+  scene::Input input;
+  input.name = "push" + std::to_string(scene.inputs.size());
+  input.mat = mat;
+  input.channel = channel;
+  scene.inputs.push_back(input);
+  return static_cast<int>(scene.inputs.size()) - 1;
+}
+
 int SceneBuilder::link(scene::LiaType type, int a, int b, double k, double z) {
   scene::Lia lia;
   lia.type = type;
@@ -100,11 +128,11 @@ void SceneBuilder::hear(int mat, int channel, scene::Quantity quantity) {
 
 Player::Player(std::unique_ptr<physics::Instrument> made)
     : instrument(std::move(made)),
-      positions(static_cast<std::size_t>(instrument->ports()), 0.0),
+      positions(at(instrument->ports()), 0.0),
       forces(positions.size(), 0.0),
-      inputs(static_cast<std::size_t>(instrument->rates().ratio * instrument->inputChannels())),
-      heard(static_cast<std::size_t>(instrument->outputChannels())),
-      outputs_(static_cast<std::size_t>(instrument->rates().ratio) * heard.size()) {}
+      inputs(at(instrument->rates().ratio * instrument->inputChannels())),
+      heard(at(instrument->outputChannels())),
+      outputs_(at(instrument->rates().ratio) * heard.size()) {}
 
 void Player::tick() {
   instrument->tick({positions.data(), forces.data(), inputs.data(), outputs_.data()});

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <memory>
-#include <string>
-#include <vector>
-
 #include "ergotic/physics/engine/instrument.hpp"
 #include "ergotic/physics/settling/settle.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::test {
 
@@ -24,6 +21,8 @@ class SceneBuilder {
   int ground(double x = 0.0, int section = kAudio);
   int slice(int slice_index);
   int driven(int channel);
+  /// A point of a grid; its connection is the last one.
+  int point(int grid, double along, double across = 0.0);
 
   /// Gives the index of the new link.
   int link(scene::LiaType type, int a, int b, double k, double z = 0.0);
@@ -33,6 +32,11 @@ class SceneBuilder {
 
   /// Fixed ends and `masses` masses between; gives the index of the first fixed end.
   int chain(int masses, double kg, double k, double z = 0.0);
+
+  /// Modules that lie row by row, from `first` on; gives the index of the grid.
+  int grid(int first, int columns, int rows = 1);
+  /// An input of force; gives its index.
+  int push(int mat, int channel = 0);
 
   void hear(int mat, int channel = 0, scene::Quantity quantity = scene::Quantity::kPosition);
 

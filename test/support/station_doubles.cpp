@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/station_doubles.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <limits>
 #include <numeric>
+
+#include "support/test.hpp"
 
 namespace ergotic::test {
 namespace {
@@ -145,9 +144,31 @@ station::StationConfig Bench::quickConfig() {
 }
 
 bool Bench::command(station::Command::Type type) {
+  return command(type, 0.0);
+}
+
+bool Bench::command(station::Command::Type type, double value, int index) {
   station::Command made;
   made.type = type;
+  made.value = value;
+  made.index = index;
   return station->submit(made);
+}
+
+bool Bench::swap(std::unique_ptr<station::Performer> performer) {
+  station::Command made;
+  made.type = station::Command::Type::kSwap;
+  made.performer = performer.get();
+  const bool taken = station->submit(made);
+  if (taken) {
+    static_cast<void>(performer.release());
+  }
+  return taken;
+}
+
+void Bench::engage() {
+  command(station::Command::Type::kEngage);
+  run(kRampTicks);
 }
 
 std::vector<station::Event> Bench::events() {
@@ -155,8 +176,17 @@ std::vector<station::Event> Bench::events() {
   station::Event event;
   while (station->poll(event)) {
     all.push_back(event);
+    performers.emplace_back(event.performer);
+    coefficients.emplace_back(event.coefficients);
+    rigs.emplace_back(event.rig);
   }
   return all;
+}
+
+std::vector<station::GestureTick> Bench::recorded() {
+  std::vector<station::GestureTick> ticks(1U << 15U);
+  ticks.resize(station->pollGestures(ticks.data(), ticks.size()));
+  return ticks;
 }
 
 void Bench::run(std::int64_t ticks) {

@@ -2,16 +2,12 @@
 #pragma once
 
 #include <atomic>
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <utility>
-#include <vector>
 
 #include "ergotic/physics/engine/instrument.hpp"
 #include "ergotic/station/performer.hpp"
 #include "ergotic/station/station.hpp"
 #include "ergotic/tgr/driver.hpp"
+#include "support/test.hpp"
 
 /// A device and an instrument as simple as can be, so that what the station does in between shows.
 namespace ergotic::test {
@@ -119,14 +115,26 @@ struct Bench {
   /// Short ramp, small rings.
   static station::StationConfig quickConfig();
 
+  /// Ticks of the shortest ramp, and some.
+  static constexpr std::int64_t kRampTicks = 400;
+
   bool command(station::Command::Type type);
-  /// All events up to now.
-  std::vector<station::Event> events();
+  bool command(station::Command::Type type, double value, int index = 0);
+  bool swap(std::unique_ptr<station::Performer> performer);
   void run(std::int64_t ticks);
+  /// Until force has come whole.
+  void engage();
+  /// All events up to now; what they hand back is kept.
+  std::vector<station::Event> events();
+  /// All ticks since the last call.
+  std::vector<station::GestureTick> recorded();
 
   DriverLog log;
   ScriptedDriver* driver = nullptr;
-  SpringInstrument* instrument = nullptr;  ///< the first one
+  SpringInstrument* instrument = nullptr;                            ///< the first one
+  std::vector<std::unique_ptr<station::Performer>> performers;       ///< handed back
+  std::vector<std::unique_ptr<physics::Coefficients>> coefficients;  ///< handed back
+  std::vector<std::unique_ptr<tgr::Rig>> rigs;                       ///< handed back
   std::unique_ptr<station::Station> station;
 };
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstdio>
-#include <string>
 
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 
 /// Runs the built command-line tools as a person does.
+
+#include "support/test.hpp"
+
 namespace ergotic::test {
 
 inline bool exists(const std::string& path) {

@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/tgr/calibration.hpp"
 
-#include <array>
-#include <cmath>
-#include <limits>
-#include <memory>
-
-#include <gtest/gtest.h>
-
+#include "support/test.hpp"
 #include "tgr/scripted_driver.hpp"
 
 namespace ergotic::tgr {
 namespace {
-
-using test::complaintOf;
 
 /// 1 V is 5 mm from 2 V on; 1 N is -0.05 V.
 SliceCalibration someCalibration() {

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/tgr/combined_driver.hpp"
 
-#include <array>
-#include <memory>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
-
+#include "support/test.hpp"
 #include "tgr/driver_rigs.hpp"
 #include "tgr/scripted_driver.hpp"
 
 namespace ergotic::tgr {
 namespace {
 
-using test::complaintOf;
 using test::Script;
 
 class CombinedDriverTest : public ::testing::Test {

@@ -3,23 +3,14 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <array>
-#include <fstream>
-#include <memory>
-#include <sstream>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "support/scratch_file.hpp"
+#include "support/test.hpp"
 #include "tgr/drivers/virtual/virtual_settings.hpp"
 #include "tgr/drivers/virtual/virtual_slice_fields.hpp"
 #include "tgr/scripted_driver.hpp"
 
 namespace ergotic::tgr {
 namespace {
-
-using test::complaintOf;
 
 constexpr const char* kTwoDevices = R"(# two devices
 devices:
@@ -72,7 +63,7 @@ TEST(ReadDevicesTest, ReadsBackWhatIsWritten) {
   ASSERT_EQ(again.devices.size(), 2U);
   EXPECT_EQ(again.devices[1].calibration->slices[0].metres_per_volt, 0.005);
   EXPECT_EQ(again.end_effectors.list.size(), 1U);
-  EXPECT_NE(text.find("settings: {ports: [1, 2], name: a b}"), std::string::npos) << text;
+  EXPECT_THAT(text, HasSubstr("settings: {ports: [1, 2], name: a b}"));
 }
 
 TEST(ReadDevicesTest, SaysWhereATextIsWrong) {

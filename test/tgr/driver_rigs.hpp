@@ -3,19 +3,13 @@
 
 #include <unistd.h>
 
-#include <array>
-#include <limits>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "ergotic/rt/clock.hpp"
 #include "ergotic/tgr/calibration.hpp"
 #include "ergotic/tgr/combined_driver.hpp"
 #include "ergotic/tgr/faulty_driver.hpp"
 #include "ergotic/tgr/replay_driver.hpp"
 #include "ergotic/tgr/virtual_driver.hpp"
+#include "support/test.hpp"
 #include "tgr/drivers/virtual/virtual_device.hpp"
 
 /// Drivers with their devices, as the contract test wants them.

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <array>
 #include <atomic>
-#include <cmath>
 #include <thread>
-#include <utility>
-#include <vector>
 
-#include <gtest/gtest.h>
-
+#include "support/test.hpp"
 #include "tgr/driver_rigs.hpp"
 
 namespace ergotic::tgr {
@@ -100,19 +95,10 @@ void exchangeWhileMadeSafe() {
   EXPECT_GE(was_armed, kRounds / 2);
 }
 
-TEST(DriverThreadsTest, MadeSafeInProcessByAnotherThreadIsSafeFromTheNextExchangeOn) {
+TEST(DriverThreadsTest, MadeSafeByAnotherThreadIsSafeFromTheNextExchangeOn) {
   exchangeWhileMadeSafe<test::InProcessRig>();
-}
-
-TEST(DriverThreadsTest, MadeSafeInSharedMemoryByAnotherThreadIsSafeFromTheNextExchangeOn) {
   exchangeWhileMadeSafe<test::SharedMemoryRig>();
-}
-
-TEST(DriverThreadsTest, MadeSafeInReplayByAnotherThreadIsSafeFromTheNextExchangeOn) {
   exchangeWhileMadeSafe<test::ReplayRig>();
-}
-
-TEST(DriverThreadsTest, MadeSafeInsideOthersByAnotherThreadIsSafeFromTheNextExchangeOn) {
   exchangeWhileMadeSafe<test::FaultyRig>();
   exchangeWhileMadeSafe<test::CombinedRig>();
   exchangeWhileMadeSafe<test::CalibratedRig>();

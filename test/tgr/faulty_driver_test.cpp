@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/tgr/faulty_driver.hpp"
 
-#include <array>
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "ergotic/rt/clock.hpp"
+#include "support/test.hpp"
 #include "tgr/scripted_driver.hpp"
 
 namespace ergotic::tgr {
 namespace {
-
-using test::complaintOf;
 
 class FaultyDriverTest : public ::testing::Test {
  protected:

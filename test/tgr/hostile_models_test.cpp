@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whatever a model does and whatever comes from the device: what leaves the chain is within the
 // limit and grows no faster than it may. With ERGOTIC_LONG in the environment over 10^7 ticks.
-#include <array>
-#include <cmath>
-#include <cstdlib>
-#include <limits>
-
-#include <gtest/gtest.h>
 
 #include "ergotic/tgr/safety_chain.hpp"
+#include "support/test.hpp"
 #include "tgr/sensor_noise.hpp"
 #include "tgr/wall_loop.hpp"
 

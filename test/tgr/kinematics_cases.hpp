@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
-#include <memory>
 #include <ostream>
 #include <random>
-#include <vector>
 
+#include "support/test.hpp"
 #include "tgr/rig_scenes.hpp"
 
 namespace ergotic::test {

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "support/alloc_count.hpp"
+#include "support/test.hpp"
 #include "tgr/kinematics_cases.hpp"
 
 /// What holds for every kind of end-effector.
+
 namespace ergotic::tgr {
 namespace {
 
@@ -28,37 +26,6 @@ TEST_P(KinematicsTest, RestsAtZeroWithAllSlicesAtRest) {
     EXPECT_NEAR(coordinate, 0.0, 1e-16);
   }
   EXPECT_TRUE(kinematics->pose(q.data()).isApprox(Eigen::Isometry3d::Identity(), 1e-15));
-}
-
-TEST_P(KinematicsTest, PassesPowerUnchangedAtRandomPoses) {
-  RandomPoses poses(GetParam());
-  const int slices = poses.kinematics().slices();
-  const int coordinates = poses.kinematics().coordinates();
-  for (int n = 0; n < 100000; ++n) {
-    poses.nextWithin();
-    Pose speed{};
-    Pose force{};
-    for (double& v : speed) {
-      v = poses.anyNumber();
-    }
-    double hand = 0.0;
-    double gross = 0.0;  // without the signs: what the rounding errors are measured by
-    for (int c = 0; c < coordinates; ++c) {
-      const double pull = poses.anyNumber();
-      double v = 0.0;
-      for (int i = 0; i < slices; ++i) {
-        v += poses.jacobian(c, i) * speed[static_cast<std::size_t>(i)];
-        force[static_cast<std::size_t>(i)] += poses.jacobian(c, i) * pull;
-      }
-      hand += pull * v;
-      gross += std::abs(pull * v);
-    }
-    double device = 0.0;
-    for (int i = 0; i < slices; ++i) {
-      device += force[static_cast<std::size_t>(i)] * speed[static_cast<std::size_t>(i)];
-    }
-    ASSERT_NEAR(device, hand, 1e-12 * gross) << "pose " << n;
-  }
 }
 
 TEST_P(KinematicsTest, HasTheJacobianOfItsForwardMap) {

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <array>
-#include <cmath>
-#include <string>
-
 #include <Eigen/Dense>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include "ergotic/exception.hpp"
+#include "support/test.hpp"
 #include "tgr/kinematics_cases.hpp"
 
 /// Closed forms, constraints and limits of each kind of end-effector.
+
 namespace ergotic::tgr {
 namespace {
 
@@ -19,7 +14,6 @@ using test::endEffector;
 using test::JacobianRows;
 using test::KinematicsCase;
 using test::RandomPoses;
-using ::testing::HasSubstr;
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
@@ -46,12 +40,7 @@ Moved move(const EndEffectorConfig& config, const std::vector<double>& q) {
 }
 
 std::string messageOf(const EndEffectorConfig& config) {
-  try {
-    makeKinematics(config, "hands.yaml");
-  } catch (const TextError& e) {
-    return e.what();
-  }
-  return "nothing was thrown";
+  return complaintOf<TextError>([&] { makeKinematics(config, "hands.yaml"); });
 }
 
 Eigen::Vector3d onCircle(double radius, double degrees) {

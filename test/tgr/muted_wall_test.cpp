@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hands that are inside a wall when force comes back: after a stall, a swap, `engage`, `recover`.
-#include <algorithm>
-#include <cmath>
 
-#include <gtest/gtest.h>
-
+#include "support/test.hpp"
 #include "tgr/wall_loop.hpp"
 
 namespace ergotic::tgr {

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/tgr/safety/port_energy.hpp"
 
-#include <cmath>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "ergotic/tgr/safety/passivity.hpp"
+#include "support/test.hpp"
 #include "tgr/sensor_noise.hpp"
 
 namespace ergotic::tgr {

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "ergotic/scene/scene.hpp"
 #include "ergotic/tgr/end_effector.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::test {
 

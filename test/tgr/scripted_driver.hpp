@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "ergotic/exception.hpp"
 #include "ergotic/tgr/driver.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::test {
 
@@ -81,16 +75,5 @@ class ScriptedDriver final : public tgr::Driver, private tgr::DeviceClock {
 
   Script& script_;
 };
-
-/// What an action complains of; empty if it does not.
-template <class Action>
-std::string complaintOf(Action action) {
-  try {
-    action();
-  } catch (const Exception& error) {
-    return error.what();
-  }
-  return "";
-}
 
 }  // namespace ergotic::test

@@ -3,14 +3,11 @@
 
 #include <unistd.h>
 
-#include <array>
-#include <cmath>
 #include <csignal>
 
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include "ergotic/exception.hpp"
+#include "support/test.hpp"
 #include "tgr/driver_rigs.hpp"
 
 namespace ergotic::tgr {
@@ -189,13 +186,6 @@ TEST_F(SharedMemoryDriverTest, StaysSafeThroughAReconnection) {
   EXPECT_NE(SharedSegment::attach(rig_.name())->safe.load(), 0U);
   rig_.driver().rearm();
   EXPECT_EQ(exchange(5.0), kExchangeOk);
-  EXPECT_EQ(felt(), 5.0);
-}
-
-TEST_F(SharedMemoryDriverTest, LeavesADeviceThatIsWellAsItIsWhenAskedToReconnect) {
-  EXPECT_THROW(rig_.driver().reconnect(), DeviceError) << "not open";
-  play(5.0);
-  rig_.driver().reconnect();
   EXPECT_EQ(felt(), 5.0);
 }
 

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a sensor that gives the very same value does to the force of its slice.
-#include <array>
-#include <cmath>
-
-#include <gtest/gtest.h>
 
 #include "ergotic/tgr/safety_chain.hpp"
+#include "support/test.hpp"
 #include "tgr/sensor_noise.hpp"
 
 namespace ergotic::tgr {

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <array>
-#include <limits>
-
-#include <gtest/gtest.h>
-
 #include "ergotic/tgr/safety_chain.hpp"
 #include "support/alloc_count.hpp"
 #include "support/scratch_file.hpp"
+#include "support/test.hpp"
 #include "tgr/driver_rigs.hpp"
 
 namespace ergotic::tgr {

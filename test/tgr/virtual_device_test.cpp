@@ -3,16 +3,12 @@
 
 #include <unistd.h>
 
-#include <array>
 #include <csignal>
-#include <sstream>
-#include <string>
 
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include "ergotic/exception.hpp"
 #include "support/scratch_file.hpp"
+#include "support/test.hpp"
 #include "tgr/driver_rigs.hpp"
 
 namespace ergotic::tgr {

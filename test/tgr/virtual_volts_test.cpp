@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <array>
-#include <cmath>
-#include <memory>
-
-#include <gtest/gtest.h>
-
-#include "ergotic/exception.hpp"
+#include "support/test.hpp"
 #include "tgr/driver_rigs.hpp"
 
 /// Virtual devices that speak volts, and their calibration from one end to the other.
+
 namespace ergotic::tgr {
 namespace {
 

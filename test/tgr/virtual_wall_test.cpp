@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A virtual hand pushes into a virtual wall through the safety chain. The figures of docs/safety.md
 // are from here.
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <string>
 
-#include <gtest/gtest.h>
-
+#include "support/test.hpp"
 #include "tgr/wall_loop.hpp"
 
 namespace ergotic::tgr {

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-
 #include "ergotic/tgr/safety_chain.hpp"
 #include "ergotic/tgr/virtual_driver.hpp"
+#include "support/test.hpp"
 
 /// A virtual hand that pushes a virtual slice into a virtual wall, through the safety chain: one
 /// tick of delay, as in a station.

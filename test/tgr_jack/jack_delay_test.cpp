@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How long a force takes to answer a position, and what that means for a stiff wall.
-#include <algorithm>
-#include <cmath>
-#include <vector>
 
-#include <gtest/gtest.h>
-
+#include "support/test.hpp"
 #include "tgr/drivers/jack/step_meter.hpp"
 #include "tgr_jack/jack_rigs.hpp"
 

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tgr/drivers/jack/jack_device.hpp"
 
-#include <sstream>
-
-#include <gtest/gtest.h>
-
-#include "ergotic/exception.hpp"
 #include "support/alloc_count.hpp"
 #include "support/scratch_file.hpp"
+#include "support/test.hpp"
 #include "tgr_jack/jack_rigs.hpp"
 
 namespace ergotic::tgr {

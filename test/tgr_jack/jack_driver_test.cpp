@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+
 #include "tgr/drivers/jack/jack_driver.hpp"
 
-#include <chrono>
-#include <cmath>
+#include <yaml-cpp/yaml.h>
+
 #include <optional>
 #include <thread>
 
-#include <gtest/gtest.h>
-
-#include "ergotic/exception.hpp"
+#include "support/test.hpp"
+#include "tgr/drivers/jack/jack_settings.hpp"
 #include "tgr_jack/jack_rigs.hpp"
 
 namespace ergotic::tgr {
@@ -17,16 +17,12 @@ namespace {
 using test::eventually;
 using test::JackServer;
 using test::TickCounter;
+using Names = std::vector<std::string>;
 
 constexpr int kRate = 48000;
 
 std::string openError(JackDriver& driver, double tick_rate_hz) {
-  try {
-    driver.open(tick_rate_hz);
-  } catch (const DeviceError& error) {
-    return error.what();
-  }
-  return "opened";
+  return complaintOf<DeviceError>([&] { driver.open(tick_rate_hz); });
 }
 
 TEST(JackDriverTest, SaysWhatIsNotThere) {
@@ -48,7 +44,7 @@ TEST(JackDriverTest, RefusesATickThatDoesNotDivideThePeriodAndTakesOneThatDoes) 
   JackDriver driver(test::jackDriver(server));
   EXPECT_NE(openError(driver, 4000.0).find("period is 64 frames, a tick is 12"), std::string::npos);
   EXPECT_NE(openError(driver, 3100.0).find("no multiple of the 3100 Hz"), std::string::npos);
-  EXPECT_EQ(openError(driver, 3000.0), "opened");
+  EXPECT_EQ(openError(driver, 3000.0), "");
   EXPECT_EQ(driver.roundTripFrames(), 64);
   EXPECT_EQ(driver.extraDelayTicks(), 4);
 }
@@ -100,7 +96,7 @@ TEST(JackDriverTest, KnowsTheRoundTripOfADeviceThatAppearsWhileItWaits) {
     });
     const std::string error = openError(driver, 3000.0);
     later.join();
-    ASSERT_EQ(error, "opened") << "time " << i;
+    ASSERT_EQ(error, "") << "time " << i;
     ASSERT_EQ(driver.roundTripFrames(), 64 + 100) << "time " << i;
   }
 }
@@ -222,9 +218,7 @@ TEST_F(JackForcesTest, AreZeroWhileAnotherSourceIsAtTheSamePort) {
   ASSERT_TRUE(eventually([&] { return probe_.right > 100; }));
   ASSERT_EQ(server_.tool("jack_connect system:capture_1 device:force_1"), 0);
   ASSERT_TRUE(eventually([&] { return target_.lost > 100 && probe_.is_zero; }));
-  EXPECT_NE(driver_.status().message.find("connected with `system:capture_1` too"),
-            std::string::npos)
-      << driver_.status().message;
+  EXPECT_THAT(driver_.status().message, HasSubstr("connected with `system:capture_1` too"));
   ASSERT_EQ(server_.tool("jack_disconnect system:capture_1 device:force_1"), 0);
   driver_.reconnect();
   const std::int64_t well = target_.well;
@@ -259,6 +253,62 @@ TEST_F(JackForcesTest, OutliveAServerThatIsKilledAndRestarted) {
   EXPECT_GE(target_.missed_ticks - missed_before, std::llround(0.9 * back_s * kRate / 16.0))
       << "the time without a server";
   EXPECT_EQ(driver_.extraDelayTicks(), 4);
+}
+
+TEST(JackSettingsTest, TakesPhysicalPortsInTheirOrderUnlessToldOthers) {
+  const JackDriverConfig config = readJackSettings(YAML::Load("{slices: 2}"), "s.yaml");
+  EXPECT_EQ(config.position_ports, (Names{"physical 1", "physical 2"}));
+  EXPECT_EQ(config.force_ports, (Names{"physical 1", "physical 2"}));
+  EXPECT_EQ(config.heartbeat_port, "");
+  EXPECT_EQ(config.client, "ergotic_tgr");
+  EXPECT_EQ(config.volts_per_unit, 1.0);
+  EXPECT_EQ(JackDriver(config).damping(), kSupposedDamping);
+  EXPECT_EQ(JackDriver(config).declaredDamping(), 0.0);
+  EXPECT_EQ(config.round_trip_frames, 0);
+}
+
+TEST(JackSettingsTest, ReadsAllOfThem) {
+  const JackDriverConfig config = readJackSettings(
+      YAML::Load("client: hand\nserver: second\nslices: 2\nposition_ports: {physical: 3}\n"
+                 "force_ports: [5, \"card:out 1\"]\nheartbeat_port: 8\nvolts_per_unit: 10\n"
+                 "damping: 3.5\nround_trip_frames: 211\nwait_s: 0.5\n"),
+      "s.yaml");
+  EXPECT_EQ(config.client, "hand");
+  EXPECT_EQ(config.server, "second");
+  EXPECT_EQ(config.position_ports, (Names{"physical 3", "physical 4"}));
+  EXPECT_EQ(config.force_ports, (Names{"physical 5", "card:out 1"}));
+  EXPECT_EQ(config.heartbeat_port, "physical 8");
+  EXPECT_EQ(config.volts_per_unit, 10.0);
+  EXPECT_EQ(config.damping, 3.5);
+  EXPECT_EQ(JackDriver(config).damping(), 3.5);
+  EXPECT_EQ(JackDriver(config).declaredDamping(), 3.5);
+  EXPECT_EQ(config.round_trip_frames, 211);
+  EXPECT_EQ(config.wait_s, 0.5);
+}
+
+TEST(JackSettingsTest, SaysWhereASettingIsWrongAndWhatIsAllowed) {
+  const auto errorOf = [](const std::string& text) {
+    return complaintOf<TextError>([&] { JackFactory().make(YAML::Load(text), "s.yaml"); });
+  };
+  EXPECT_EQ(errorOf("{slices: 2}"), "accepted");
+  EXPECT_THAT(errorOf("{}"), HasSubstr("slices"));
+  EXPECT_EQ(errorOf("slices: 2\nports: 3").substr(0, 18), "s.yaml:2:1: error:");
+  EXPECT_EQ(errorOf("slices: 65").substr(0, 18), "s.yaml:1:9: error:");
+  EXPECT_EQ(
+      errorOf("slices: 2\nforce_ports: [1]"),
+      "s.yaml:2:14: error: force_ports is a list of 1, allowed: a list of one port for each of "
+      "the 2 slices, or {physical: N}");
+  EXPECT_EQ(errorOf("slices: 2\nforce_ports: [1, 1]"),
+            "s.yaml:2:18: error: force_ports: `physical 1` comes twice, allowed: each port once");
+  EXPECT_EQ(errorOf("slices: 2\nforce_ports: [1, 0]").substr(0, 19), "s.yaml:2:18: error:");
+  EXPECT_EQ(errorOf("slices: 1\nposition_ports: [left]"),
+            "s.yaml:2:18: error: port of position_ports is `left`, allowed: a JACK port, as "
+            "`system:capture_1`, or the number of a physical port, from 1 on");
+  EXPECT_EQ(errorOf("slices: 1\nheartbeat_port: 1"),
+            "s.yaml:2:17: error: heartbeat_port is `physical 1`, one of force_ports, allowed: any "
+            "other port");
+  EXPECT_EQ(errorOf("slices: 1\nvolts_per_unit: 0").substr(0, 19), "s.yaml:2:17: error:");
+  EXPECT_EQ(errorOf("slices: 1\nround_trip_frames: 1.5").substr(0, 19), "s.yaml:2:20: error:");
 }
 
 }  // namespace

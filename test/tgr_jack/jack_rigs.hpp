@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <atomic>
-#include <chrono>
-#include <cstdint>
-#include <limits>
-#include <memory>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "ergotic/audio/jack_client.hpp"
 #include "ergotic/tgr/driver.hpp"
 #include "support/block_probe.hpp"
 #include "support/jack_server.hpp"
+#include "support/test.hpp"
 #include "tgr/drivers/jack/jack_device.hpp"
 #include "tgr/drivers/jack/jack_driver.hpp"
 #include "tgr/drivers/jack/jack_settings.hpp"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A whole station whose ticks, positions and forces go through JACK.
-#include <gtest/gtest.h>
 
 #include "ergotic/station/device_source.hpp"
 #include "ergotic/tgr/calibration.hpp"
 #include "support/scratch_file.hpp"
 #include "support/station_doubles.hpp"
+#include "support/test.hpp"
 #include "tgr_jack/jack_rigs.hpp"
 
 namespace ergotic::tgr {

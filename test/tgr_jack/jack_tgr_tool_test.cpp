@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `rosrun ergotic jack_tgr` as another process, at the other side of a driver.
-#include <fstream>
 #include <future>
-#include <sstream>
-
-#include <gtest/gtest.h>
 
 #include "support/scratch_file.hpp"
+#include "support/test.hpp"
 #include "support/tool_process.hpp"
 #include "tgr_jack/jack_rigs.hpp"
 
@@ -56,10 +53,8 @@ TEST_F(JackTgrToolTest, MeasuresALatencyThatNobodyDeclared) {
   const Outcome outcome =
       outcomeOf("--measure 80 --slice 1 --latency-frames 37 --undeclared --seconds 60", 0.0);
   EXPECT_EQ(outcome.code, 0) << outcome.text;
-  EXPECT_NE(
-      outcome.text.find("\"round_trip_frames\":101,\"tick_frames\":16,\"declared_frames\":64}"),
-      std::string::npos)
-      << outcome.text;
+  EXPECT_THAT(outcome.text,
+              HasSubstr("\"round_trip_frames\":101,\"tick_frames\":16,\"declared_frames\":64}"));
 }
 
 TEST_F(JackTgrToolTest, LogsWhatItFeelsAndIsLeftWithoutForce) {
@@ -94,13 +89,13 @@ TEST_F(JackTgrToolTest, SaysThatNothingAnswered) {
   const Outcome outcome =
       test::run("jack_tgr", "--server " + server_.name() + " --measure 2 --slices 1");
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_NE(outcome.text.find("\"answered\":0"), std::string::npos) << outcome.text;
+  EXPECT_THAT(outcome.text, HasSubstr("\"answered\":0"));
 }
 
 TEST_F(JackTgrToolTest, RefusesASliceThatItDoesNotHave) {
   const Outcome outcome = test::run("jack_tgr", "--measure 2 --slices 2 --slice 2");
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_NE(outcome.text.find("slice: 2 , allowed 0...1"), std::string::npos) << outcome.text;
+  EXPECT_THAT(outcome.text, HasSubstr("slice: 2 , allowed 0...1"));
 }
 
 }  // namespace

@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tgr/drivers/jack/jack_ticks.hpp"
 
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <vector>
-
-#include <gtest/gtest.h>
-
-#include "ergotic/exception.hpp"
 #include "support/alloc_count.hpp"
 #include "support/audio_host.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::tgr {
 namespace {

@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/lib/latency.hpp"
 
-#include <sstream>
-#include <string>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "support/scratch_file.hpp"
+#include "support/test.hpp"
 #include "support/tool_process.hpp"
 
 namespace ergotic::tools {
 namespace {
-
-using ::testing::HasSubstr;
 
 std::string textOf(const Report& report) {
   std::ostringstream text;
@@ -34,8 +27,7 @@ TEST(LatencyTest, GivesQuantilesInMicrosecondsAndAsSharesOfThePeriod) {
   EXPECT_THAT(text, HasSubstr("\"max\": 50"));
   EXPECT_THAT(text, HasSubstr("\"max\": 0.5"));
   EXPECT_THAT(text, HasSubstr("counts"));
-  EXPECT_THAT(textOf(histogramReport(histogram, 100.0, false)),
-              ::testing::Not(HasSubstr("counts")));
+  EXPECT_THAT(textOf(histogramReport(histogram, 100.0, false)), Not(HasSubstr("counts")));
 }
 
 /// Whatever the machine does meanwhile, every tick is in the histograms or was caught up.

@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "ergotic/bag/recording.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
 #include "ergotic/station/station.hpp"
 #include "ergotic/tgr/virtual_driver.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::test {
 
@@ -34,9 +27,7 @@ class LiveRun : private station::FramePort {
     driver_ = driver.get();
     station_ = std::make_unique<station::Station>(config, std::move(driver), std::move(performer));
     station_->setFramePort(this);
-    station::Command engage;
-    engage.type = station::Command::Type::kEngage;
-    station_->submit(engage);
+    submit(station::Command::Type::kEngage);
   }
 
   /// The virtual hand moves slice 0 to and fro.
@@ -44,9 +35,7 @@ class LiveRun : private station::FramePort {
     for (int i = 0; i < ticks; ++i) {
       const bool up = (station_->nextTick() / 400) % 2 == 0;
       driver_->setTarget(0, up ? 0.01 : -0.01);
-      station::Station::Timing timing;
-      timing.freewheel = true;
-      station_->cycle(timing);
+      station_->cycle({0, true});
       listen();
     }
   }
@@ -92,17 +81,9 @@ class LiveRun : private station::FramePort {
     station_->submit(next);
   }
 
-  void recover() {
-    station::Command recover;
-    recover.type = station::Command::Type::kRecover;
-    station_->submit(recover);
-  }
+  void recover() { submit(station::Command::Type::kRecover); }
 
-  void takeKeyframe() {
-    station::Command keyframe;
-    keyframe.type = station::Command::Type::kKeyframe;
-    station_->submit(keyframe);
-  }
+  void takeKeyframe() { submit(station::Command::Type::kKeyframe); }
 
   const bag::Recording& recording() const { return recording_; }
   /// From station frame 0 on, one channel; frames of ticks that never ran are 0.
@@ -111,6 +92,11 @@ class LiveRun : private station::FramePort {
   static constexpr physics::Rates kRates{44100.0, 14};
 
  private:
+  void submit(station::Command::Type type) {
+    station::Command command;
+    command.type = type;
+    station_->submit(command);
+  }
   std::unique_ptr<station::Performer> perform(const std::string& text) const {
     return station::makePerformer(scene::readYaml(text, "live.yaml"), kRates, options_, policy_);
   }
@@ -141,12 +127,9 @@ class LiveRun : private station::FramePort {
     }
     station::Event event;
     while (station_->poll(event)) {
-      const std::unique_ptr<station::Performer> performer(event.performer);
-      const std::unique_ptr<physics::Coefficients> coefficients(event.coefficients);
-      event.performer = nullptr;
-      const std::unique_ptr<tgr::Rig> rig(event.rig);
-      event.coefficients = nullptr;
-      event.rig = nullptr;
+      delete std::exchange(event.performer, nullptr);
+      delete std::exchange(event.coefficients, nullptr);
+      delete std::exchange(event.rig, nullptr);
       recording_.events.push_back(event);
       if (event.type == station::Event::Type::kKeyframe) {
         addKeyframe(station_->keyframe());

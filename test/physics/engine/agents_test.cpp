@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hands inside a scene, beside those of players.
-#include <cmath>
-#include <string>
-
-#include <gtest/gtest.h>
 
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
-#include "support/scene_builder.hpp"
+#include "support/physics.hpp"
 
 namespace ergotic::physics {
 namespace {
-
-using test::Player;
 
 constexpr Rates kRates{44100.0, 14};
 constexpr double kTick = 14.0 / 44100.0;
@@ -49,36 +43,29 @@ const std::string kStep =
     "             points: [[0, 0], [0.01, 0], [0.010001, 0.02]]}}\n";
 constexpr int kBefore = 31;  // ticks up to the step
 
+/// Along its axis, and along no other.
 TEST(AgentsTest, AStepPullsAMassAsThePolesOfTheSchemeSay) {
-  const scene::Scene scene = scene::readYaml(
-      "ergotic: 1\nsections: {h: {rate: gestural}}\nmats: {m: {type: mass, mass: 0.1}}\n" + kStep,
-      "agent.yaml");
-  Player player(scene, kRates);
-  for (int n = 0; n < 400; ++n) {
-    moveAgents(player, n);
-    player.tick();
-    const int k = n - kBefore - 1;
-    const double expected = k < 0 ? 0.0 : 0.02 * (1.0 - leftAfter(k, 0.1, 200.0, 1.5));
-    EXPECT_NEAR(displacementOf(player, 0), expected, 2e-9) << n;
-  }
-}
-
-TEST(AgentsTest, ItPullsAlongItsAxisOfASectionInSpace) {
-  const scene::Scene scene = scene::readYaml(
-      "ergotic: 1\nsections: {h: {rate: gestural, geometry: space}}\n"
-      "mats: {m: {type: mass, mass: 0.1, at: [1, 2, 3]}}\n"
-      "agents: {a: {mat: m, axis: y, stiffness: 200, damping: 1.5,\n"
-      "             points: [[0, 0], [0.01, 0], [0.010001, 0.02]]}}\n",
-      "agent.yaml");
-  Player player(scene, kRates);
-  for (int n = 0; n < 400; ++n) {
-    moveAgents(player, n);
-    player.tick();
-    const int k = n - kBefore - 1;
-    const double expected = k < 0 ? 0.0 : 0.02 * (1.0 - leftAfter(k, 0.1, 200.0, 1.5));
-    EXPECT_NEAR(displacementOf(player, 1), expected, 2e-9) << n;
-    EXPECT_EQ(displacementOf(player, 0), 0.0);
-    EXPECT_EQ(displacementOf(player, 2), 0.0);
+  for (const char axis : {'x', 'y'}) {
+    const std::string space = axis == 'x' ? "" : ", geometry: space";
+    const std::string place = axis == 'x' ? "" : ", at: [1, 2, 3]";
+    std::string step = kStep;
+    step.insert(step.find("stiffness"), std::string("axis: ") + axis + ", ");
+    Player player(
+        scene::readYaml("ergotic: 1\nsections: {h: {rate: gestural" + space +
+                            "}}\nmats: {m: {type: mass, mass: 0.1" + place + "}}\n" + step,
+                        "agent.yaml"),
+        kRates);
+    for (int n = 0; n < 400; ++n) {
+      moveAgents(player, n);
+      player.tick();
+      const int k = n - kBefore - 1;
+      const double expected = k < 0 ? 0.0 : 0.02 * (1.0 - leftAfter(k, 0.1, 200.0, 1.5));
+      EXPECT_NEAR(displacementOf(player, axis == 'x' ? 0 : 1), expected, 2e-9) << n;
+      if (axis == 'y') {
+        EXPECT_EQ(displacementOf(player, 0), 0.0);
+        EXPECT_EQ(displacementOf(player, 2), 0.0);
+      }
+    }
   }
 }
 

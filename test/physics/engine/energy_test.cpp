@@ -1,25 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The books balance to rounding, whatever moves.
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <string>
 
-#include <gtest/gtest.h>
-
-#include "support/scene_builder.hpp"
+#include "support/physics.hpp"
 
 namespace ergotic::physics {
 namespace {
 
-using scene::Geometry;
-using scene::Lia;
-using scene::LiaType;
-using scene::Scheme;
-using test::Player;
-using test::SceneBuilder;
-
-constexpr double kRate = 44100.0;
 constexpr double kUnbalanced = 1e-10;  // of the stored energy
 constexpr LiaType kAllTypes[] = {
     LiaType::kSpringDamper, LiaType::kContact,      LiaType::kQuadratic, LiaType::kCubic,
@@ -27,35 +13,9 @@ constexpr LiaType kAllTypes[] = {
     LiaType::kSmoothBow,    LiaType::kPowerContact, LiaType::kTable,     LiaType::kConditional,
     LiaType::kFelt};
 
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-/// Moves hands at random, plays noise into the inputs. \return the largest residual, of the largest
-/// energy stored
-double largestResidual(const scene::Scene& scene, const Rates& rates, int ticks) {
+double imbalance(const scene::Scene& scene, const Rates& rates, int ticks) {
   Player player(scene, rates);
-  Energies energies = player.instrument->makeEnergies();
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> noise(-1.0, 1.0);
-  double residual = 0.0;
-  double stored = 0.0;
-  for (int n = 0; n < ticks; ++n) {
-    for (double& x : player.positions) {
-      x += 1e-4 * noise(random);
-    }
-    for (double& x : player.inputs) {
-      x = noise(random);
-    }
-    player.tick();
-    if (n % 97 == 0 || n == ticks - 1) {
-      player.instrument->readEnergies(energies);
-      residual = std::max(residual, std::abs(energies.residual));
-      stored = std::max(stored, std::abs(energies.stored));
-    }
-  }
-  EXPECT_TRUE(player.instrument->isFinite());
-  return residual / stored;
+  return imbalanceOf(player, ticks, 97);
 }
 
 /// Every field that some law reads, for forces of some newtons at some millimetres.
@@ -129,13 +89,13 @@ TEST_P(EnergyTest, ChainUnderGravityBalances) {
   const int first = b.chain(30, 1e-3, 1000.0, 0.01);
   b.scene.mats[at(first + 7)].position.x() = 1e-3;
   b.scene.sections[0].gravity.x() = -9.81;
-  EXPECT_LT(largestResidual(b.scene, {kRate, GetParam()}, 5000), kUnbalanced);
+  EXPECT_LT(imbalance(b.scene, {kRate, GetParam()}, 5000), kUnbalanced);
 }
 
 TEST_P(EnergyTest, EveryLawBalancesAcrossRates) {
   for (const LiaType type : kAllTypes) {
     const SceneBuilder b = stringAndHand(type);
-    EXPECT_LT(largestResidual(b.scene, {kRate, GetParam()}, 3000), kUnbalanced)
+    EXPECT_LT(imbalance(b.scene, {kRate, GetParam()}, 3000), kUnbalanced)
         << "type " << static_cast<int>(type);
   }
 }
@@ -144,7 +104,7 @@ TEST_P(EnergyTest, EveryGuardedLawBalances) {
   for (const LiaType type : kAllTypes) {
     const SceneBuilder b = guardedString(type);
     if (scene::isGuardable(b.scene.lias.back())) {
-      EXPECT_LT(largestResidual(b.scene, {kRate, GetParam()}, 3000), kUnbalanced)
+      EXPECT_LT(imbalance(b.scene, {kRate, GetParam()}, 3000), kUnbalanced)
           << "type " << static_cast<int>(type);
     }
   }
@@ -160,7 +120,7 @@ TEST_P(EnergyTest, TablesOfPluckBowAndViscosityBalance) {
         lia.law.edit().viscous_table = {{{-1.0, -0.2}, {1.0, 0.2}}, false};
       }
     }
-    EXPECT_LT(largestResidual(b.scene, {kRate, GetParam()}, 3000), kUnbalanced)
+    EXPECT_LT(imbalance(b.scene, {kRate, GetParam()}, 3000), kUnbalanced)
         << "type " << static_cast<int>(type);
   }
 }
@@ -172,11 +132,11 @@ TEST_P(EnergyTest, EveryGeometryBalancesWithEveryOther) {
           type == LiaType::kCubic ? guardedString(type, geometry) : stringAndHand(type, geometry);
       holdAlongAllAxes(b);
       b.scene.sections[0].medium = {1e-4};
-      EXPECT_LT(largestResidual(b.scene, {kRate, GetParam()}, 2000), kUnbalanced)
+      EXPECT_LT(imbalance(b.scene, {kRate, GetParam()}, 2000), kUnbalanced)
           << static_cast<int>(geometry) << " " << static_cast<int>(type);
       b.scene.sections[1].geometry = Geometry::kScalar;  // links are projected
       b.scene.ports.resize(1);
-      EXPECT_LT(largestResidual(b.scene, {kRate, GetParam()}, 2000), kUnbalanced)
+      EXPECT_LT(imbalance(b.scene, {kRate, GetParam()}, 2000), kUnbalanced)
           << static_cast<int>(geometry) << " " << static_cast<int>(type) << " and scalar";
     }
   }
@@ -189,24 +149,20 @@ TEST_P(EnergyTest, MovingPlaceBalances) {
     SceneBuilder b;
     const int first = b.chain(30, 1e-3, 1000.0, 0.01);
     b.scene.mats[at(first + 7)].position.x() = 1e-3;
-    b.scene.grids.push_back({"s", first, 32, 1});
-    const int finger = b.ground();
-    b.scene.mats[at(finger)].type = scene::MatType::kPoint;
-    scene::Connection place;
-    place.mat = finger;
-    place.along = {0.1};
-    place.guide = b.slice(0);
+    const int finger = b.point(b.grid(first, 32), 0.1);
+    const int hand = b.slice(0);
+    scene::Connection& place = b.scene.connections[0];
+    place.guide = hand;
     place.guide_scale = 300.0;
     place.along_maximum = 0.9;
-    b.scene.connections.push_back(place);
     b.spring(b.ground(), finger, 300.0, 0.1);
-    b.spring(place.guide, finger, 30.0, 0.1);
+    b.spring(hand, finger, 30.0, 0.1);
     if (is_guarded) {
       Lia& lia = b.scene.lias[at(b.link(LiaType::kCubic, b.ground(), finger, 300.0))];
       lia.law.edit().nonlinearity = {1e7};
       lia.scheme = Scheme::kGuarded;
     }
-    EXPECT_LT(largestResidual(b.scene, {kRate, GetParam()}, 5000), kUnbalanced) << is_guarded;
+    EXPECT_LT(imbalance(b.scene, {kRate, GetParam()}, 5000), kUnbalanced) << is_guarded;
   }
 }
 
@@ -231,8 +187,7 @@ TEST(EnergyOfManyRatesTest, Balances) {
       lia.law.edit().nonlinearity = {1e10};
       lia.scheme = scheme;
     }
-    EXPECT_LT(largestResidual(b.scene, {kRate, 14}, 6000), kUnbalanced)
-        << (scheme == Scheme::kGuarded);
+    EXPECT_LT(imbalance(b.scene, {kRate, 14}, 6000), kUnbalanced) << (scheme == Scheme::kGuarded);
   }
 }
 
@@ -249,7 +204,7 @@ TEST(EnergyOfManyStepsTest, AllKindsBalanceOverAMillion) {
   b.scene.mats[at(cell)].matched = true;
   b.spring(cell, 16, 100.0);
   const int ratio = 14;
-  EXPECT_LT(largestResidual(b.scene, {kRate, ratio}, 1'000'000 / ratio + 1), kUnbalanced);
+  EXPECT_LT(imbalance(b.scene, {kRate, ratio}, 1'000'000 / ratio + 1), kUnbalanced);
 }
 
 /// Every law, explicit and guarded where it can be, a matched cell and a third rate; nothing moves
@@ -287,7 +242,7 @@ class ClosedNetworkTest : public testing::TestWithParam<std::pair<Geometry, int>
 TEST_P(ClosedNetworkTest, BalancesOverAMillionSteps) {
   const auto [geometry, ratio] = GetParam();
   const int ticks = 1'000'000 / ratio + 1;
-  EXPECT_LT(largestResidual(closedNetwork(geometry), {kRate, ratio}, ticks), kUnbalanced);
+  EXPECT_LT(imbalance(closedNetwork(geometry), {kRate, ratio}, ticks), kUnbalanced);
 }
 
 INSTANTIATE_TEST_SUITE_P(Geometries,

@@ -1,25 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
-
-#include <gtest/gtest.h>
-
-#include "support/scene_builder.hpp"
+#include "support/physics.hpp"
 
 namespace ergotic::physics {
 namespace {
 
 using Eigen::Vector3d;
-using scene::Geometry;
-using scene::LiaType;
-using scene::Quantity;
-using test::Player;
-using test::SceneBuilder;
 
-constexpr double kRate = 44100.0;
 constexpr double kStep = 1.0 / kRate;
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 struct InSpace : SceneBuilder {
   InSpace() { scene.sections[0].geometry = Geometry::kSpace; }
@@ -93,12 +80,9 @@ TEST(ForcesTest, InputPushesAlongItsAxis) {
   const int mass = b.mass(2.0);
   b.hearAxes(mass);
   for (const int axis : {2, 1}) {
-    scene::Input input;
-    input.mat = mass;
+    scene::Input& input = b.scene.inputs[at(b.push(mass, 2 - axis))];
     input.axis = axis;
-    input.channel = 2 - axis;
     input.gain = {axis == 2 ? 3.0 : -1.0};
-    b.scene.inputs.push_back(input);
   }
   Player player(b.scene, {kRate, 1});
   player.inputs = {0.5, 0.25};
@@ -112,19 +96,8 @@ TEST(ForcesTest, InputOnAPointPushesTheModulesAroundIt) {
   InSpace b;
   const int first = b.mass(1.0);
   const int second = b.mass(1.0);
-  b.scene.grids.push_back({"g", first, 2, 1});
-  scene::Mat point;
-  point.name = "p";
-  point.type = scene::MatType::kPoint;
-  b.scene.mats.push_back(point);
-  scene::Connection connection;
-  connection.mat = 2;
-  connection.along = {0.25};
-  b.scene.connections.push_back(connection);
-  scene::Input input;
-  input.mat = 2;
-  input.axis = 1;
-  b.scene.inputs.push_back(input);
+  b.push(b.point(b.grid(first, 2), 0.25));
+  b.scene.inputs[0].axis = 1;
   for (const int m : {first, second}) {
     b.hear(m, m);
     b.scene.outputs.back().axis = 1;
@@ -157,13 +130,7 @@ TEST(ForcesTest, OutputBetweenTwoModulesIsHeardAlongItsAxis) {
 
 /// A scene with one parameter, at 1, and how it is set.
 struct Live : SceneBuilder {
-  Live() {
-    scene::Parameter p;
-    p.name = "p";
-    p.value = 1.0;
-    p.maximum = 10.0;
-    scene.parameters.push_back(p);
-  }
+  Live() { scene.parameters.push_back({"p", 1.0, 0.0, 10.0, {}}); }
   static void set(Player& player, double value) {
     player.instrument->exchange(player.instrument->prepare({value}));
   }
@@ -245,11 +212,10 @@ TEST(LiveParameterTest, WorkOfAChangeIsBooked) {
   const int mass = b.mass(1e9, 0.01);
   b.scene.lias[at(b.spring(mass, b.ground(), 0.0))].stiffness = {2.0, 0};
   Player player(b.scene, {kRate, 1});
-  Energies energies = player.instrument->makeEnergies();
   player.tick();
   Live::set(player, 5.0);
   player.ticks(2);
-  player.instrument->readEnergies(energies);
+  const Energies energies = energiesOf(player);
   EXPECT_NEAR(energies.from_parameters, 0.5 * (10.0 - 2.0) * 1e-4, 1e-12);
   EXPECT_LT(std::abs(energies.residual), 1e-12 * energies.stored);
 }

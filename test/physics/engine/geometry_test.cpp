@@ -1,29 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
 #include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "support/measure.hpp"
-#include "support/scene_builder.hpp"
+#include "support/physics.hpp"
 
 namespace ergotic::physics {
 namespace {
 
 using Eigen::Vector3d;
-using scene::Geometry;
-using scene::LiaType;
-using scene::Quantity;
-using test::Player;
-using test::SceneBuilder;
 
-constexpr double kRate = 44100.0;
 constexpr double kStep = 1.0 / kRate;
-constexpr double kPi = 3.14159265358979323846;
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Scenes whose audio section has this geometry.
 struct Built : SceneBuilder {

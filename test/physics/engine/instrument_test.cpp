@@ -1,28 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/physics/engine/instrument.hpp"
 
-#include <cmath>
 #include <complex>
 #include <cstring>
 
-#include <gtest/gtest.h>
-
-#include "ergotic/exception.hpp"
-#include "support/scene_builder.hpp"
+#include "support/physics.hpp"
 
 namespace ergotic::physics {
 namespace {
-
-using scene::LiaType;
-using scene::Quantity;
-using test::Player;
-using test::SceneBuilder;
-
-constexpr double kRate = 44100.0;
-constexpr double kPi = 3.14159265358979323846;
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Free motion of one explicit oscillator started with x[-1] = x[0] = x0 and no force in step 0.
 /// x[n] = x0 Re(c lambda^n) with lambda the root of l^2 - (2 - kappa - zeta) l + (1 - zeta).
@@ -67,59 +52,6 @@ TEST(InstrumentTest, CellIsAMassWithItsSpringFoldedIn) {
   // The cell's own spring acts in step 0 already, so it is one step ahead of the linked mass.
   for (const int n : {0, 1, 50, 3999}) {
     EXPECT_NEAR(player.heard[0][at(n)], closedForm(kappa, zeta, 1e-3, n + 1), 1e-14) << n;
-  }
-}
-
-TEST(InstrumentTest, ChainModesHaveTheFrequenciesOfTheScheme) {
-  const int masses = 10;
-  const double m = 1e-4;
-  const double k = 0.6 * m * kRate * kRate;
-  for (int mode = 1; mode <= masses; ++mode) {
-    SceneBuilder b;
-    const int first = b.chain(masses, m, k);
-    for (int i = 1; i <= masses; ++i) {
-      b.scene.mats[at(first + i)].position.x() = std::sin(kPi * mode * i / (masses + 1));
-    }
-    b.hear(first + 1);
-    Player player(b.scene, {kRate, 14});
-    player.ticks(200);
-    const auto& x = player.heard[0];
-    const double s = std::sin(kPi * mode / (2.0 * (masses + 1)));
-    const double omega = 2.0 * std::asin(std::sqrt(0.6) * s);
-    // In a pure mode x[n+1] + x[n-1] = 2 cos(omega) x[n] at every n.
-    double num = 0.0;
-    double den = 0.0;
-    for (std::size_t n = 1; n + 1 < x.size(); ++n) {
-      num += x[n] * (x[n + 1] + x[n - 1]);
-      den += 2.0 * x[n] * x[n];
-    }
-    EXPECT_NEAR(std::acos(num / den), omega, 1e-9) << "mode " << mode;
-  }
-}
-
-TEST(InstrumentTest, GravityMakesAParabola) {
-  SceneBuilder b;
-  b.scene.sections[0].gravity.x() = -9.81;
-  const int mass = b.mass(0.1, 0.0, 2.0);
-  b.hear(mass);
-  Player player(b.scene, {kRate, 10});
-  player.ticks(1000);
-  const double n = 10000.0;
-  const double h = 1.0 / kRate;
-  EXPECT_NEAR(player.heard[0].back(), 2.0 * n * h - 9.81 * h * h * n * (n + 1.0) / 2.0, 1e-12);
-}
-
-TEST(InstrumentTest, MomentumOfFreeMassesIsConserved) {
-  SceneBuilder b;
-  const int left = b.mass(0.001, 0.0, 1.0);
-  const int right = b.mass(0.003, 0.01, -0.5);
-  b.spring(left, right, 2000.0, 0.01);
-  b.hear(left, 0, Quantity::kVelocity);
-  b.hear(right, 1, Quantity::kVelocity);
-  Player player(b.scene, {kRate, 14});
-  player.ticks(500);
-  for (std::size_t n = 0; n < player.heard[0].size(); n += 97) {
-    EXPECT_NEAR(0.001 * player.heard[0][n] + 0.003 * player.heard[1][n], -0.0005, 1e-15);
   }
 }
 
@@ -212,18 +144,6 @@ TEST(InstrumentTest, ForceOutputIsTheForceOnTheModule) {
   EXPECT_NEAR(player.heard[1].back(), 5.0, 1e-9);
 }
 
-TEST(InstrumentTest, OutputsBetweenTwoModulesAreInterpolated) {
-  SceneBuilder b;
-  const int low = b.ground(1.0);
-  const int high = b.ground(3.0);
-  b.hear(low);
-  b.scene.outputs[0].point = {low, high, 0.25};
-  b.scene.outputs[0].gain = {2.0};
-  Player player(b.scene, {kRate, 1});
-  player.tick();
-  EXPECT_DOUBLE_EQ(player.heard[0][0], 3.0);
-}
-
 TEST(InstrumentTest, DrivenPositionIsFollowedInTheSameFrame) {
   SceneBuilder b;
   const int driven = b.driven(0);
@@ -237,25 +157,17 @@ TEST(InstrumentTest, DrivenPositionIsFollowedInTheSameFrame) {
   EXPECT_DOUBLE_EQ(player.heard[1][1], 0.25 * kRate);
 }
 
-TEST(InstrumentTest, ForceInputMovesItsMassOneFrameLater) {
-  SceneBuilder b;
-  const int mass = b.mass(2.0);
-  b.hear(mass);
-  scene::Input input;
-  input.mat = mass;
-  b.scene.inputs.push_back(input);
-  Player player(b.scene, {kRate, 2});
-  player.inputs = {3.0, 0.0};
-  player.tick();
-  EXPECT_EQ(player.heard[0][0], 0.0);
-  EXPECT_DOUBLE_EQ(player.heard[0][1], 3.0 / (2.0 * kRate * kRate));
-}
-
 TEST(InstrumentTest, StateLoadedAgainPlaysTheSameBits) {
   SceneBuilder b;
   const int slice = b.slice(0);
   const int first = b.chain(20, 1e-4, 1e5, 1e-3);
   b.link(LiaType::kContact, slice, first + 5, 2e3, 0.1);
+  for (const LiaType type : {LiaType::kCubic, LiaType::kPowerContact}) {
+    Lia& lia = b.scene.lias[at(b.link(type, first + 3, first + 4, 1e5))];
+    lia.law.edit().nonlinearity = {1e10};
+    lia.law.edit().exponent = {1.5};
+    lia.scheme = Scheme::kGuarded;
+  }
   b.hear(first + 8);
   for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
     Player player(b.scene, {kRate, 14}, precision);
@@ -288,40 +200,12 @@ TEST(InstrumentTest, StateEntriesCoverTheArenaWithoutOverlap) {
   EXPECT_LE(end, player.instrument->stateSize());
 }
 
-TEST(InstrumentTest, ParameterChangesOnlyWhatNamesIt) {
-  SceneBuilder b;
-  scene::Parameter parameter;
-  parameter.name = "stiffness";
-  parameter.value = 100.0;
-  parameter.minimum = 50.0;
-  parameter.maximum = 200.0;
-  b.scene.parameters.push_back(parameter);
-  const int mass = b.mass(1e9, 0.01);
-  b.scene.lias[at(b.spring(mass, b.ground(), 0.0))].stiffness = {2.0, 0};
-  b.hear(mass, 0, Quantity::kForce);
-  Player player(b.scene, {kRate, 1});
-  player.tick();
-  EXPECT_NEAR(player.heard[0].back(), -2.0, 1e-9);
-  auto old = player.instrument->exchange(player.instrument->prepare({150.0}));
-  ASSERT_NE(old, nullptr);
-  player.tick();
-  EXPECT_NEAR(player.heard[0].back(), -3.0, 1e-9);
-}
-
 TEST(InstrumentTest, ParameterOutsideItsRangeIsRefusedByName) {
   SceneBuilder b;
-  scene::Parameter parameter;
-  parameter.name = "loss";
-  parameter.maximum = 1.0;
-  b.scene.parameters.push_back(parameter);
+  b.scene.parameters.push_back({"loss", 0.0, 0.0, 1.0, {}});
   b.mass(1.0);
   Player player(b.scene, {kRate, 1});
-  try {
-    player.instrument->prepare({2.0});
-    FAIL() << "accepted";
-  } catch (const Exception& e) {
-    EXPECT_NE(std::string(e.what()).find("'loss'"), std::string::npos) << e.what();
-  }
+  EXPECT_THAT(complaintOf([&] { player.instrument->prepare({2.0}); }), HasSubstr("'loss'"));
   EXPECT_THROW(player.instrument->prepare({}), Exception);
 }
 
@@ -365,13 +249,8 @@ TEST(RatesTest, TheRatioIsTheNearestInteger) {
 TEST(RatesTest, AnIllegalDivisorIsRefusedWithTheNearestLegalOne) {
   SceneBuilder b;
   b.scene.sections[0].divisor = 5;
-  try {
-    chooseRates(b.scene, 44100.0, 3150.0);
-    FAIL() << "accepted";
-  } catch (const Exception& e) {
-    EXPECT_NE(std::string(e.what()).find("nearest legal value is 7"), std::string::npos)
-        << e.what();
-  }
+  EXPECT_THAT(complaintOf([&] { chooseRates(b.scene, 44100.0, 3150.0); }),
+              HasSubstr("nearest legal value is 7"));
 }
 
 }  // namespace

@@ -1,24 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
-
-#include <gtest/gtest.h>
-
-#include "support/scene_builder.hpp"
+#include "support/physics.hpp"
 
 namespace ergotic::physics {
 namespace {
 
 using Eigen::Vector3d;
-using scene::Geometry;
-using scene::LiaType;
-using scene::Quantity;
-using test::Player;
-using test::SceneBuilder;
-
-constexpr double kRate = 44100.0;
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 Eigen::Isometry3d poseOf(double angle, const Vector3d& axis, const Vector3d& place) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -138,9 +124,8 @@ TEST(MixedGeometryTest, ScalarHammerOnAMeshInSpaceKeepsMomentumAlongItsAxis) {
 
 TEST(MixedGeometryTest, EnergyBalancesBetweenTheGeometries) {
   Player player(hammerAndMesh().scene, {kRate, 14});
-  Energies energies = player.instrument->makeEnergies();
   player.ticks(1000);
-  player.instrument->readEnergies(energies);
+  const Energies energies = energiesOf(player);
   EXPECT_LT(std::abs(energies.residual), 1e-12 * energies.stored);
   EXPECT_GT(energies.sections[2].kinetic, 1e-3);
 }
@@ -160,18 +145,7 @@ TwoFrames slowMassAndMesh() {
   for (const auto& [i, j] : {std::pair(0, 1), {1, 3}, {3, 2}, {2, 0}, {0, 3}}) {
     b.spring(first + i, first + j, 50.0, 1e-3);
   }
-  b.scene.grids.push_back({"mesh", first, 2, 2});
-  scene::Mat point;
-  point.name = "point";
-  point.type = scene::MatType::kPoint;
-  point.section = TwoFrames::kSpace;
-  b.scene.mats.push_back(point);
-  scene::Connection connection;
-  connection.mat = static_cast<int>(b.scene.mats.size()) - 1;
-  connection.along = {0.3};
-  connection.across = {0.6};
-  b.scene.connections.push_back(connection);
-  b.spring(slow, connection.mat, 40.0, 1e-3);
+  b.spring(slow, b.point(b.grid(first, 2, 2), 0.3, 0.6), 40.0, 1e-3);
   b.hear(slow, 0, Quantity::kVelocity);
   return b;
 }
@@ -179,10 +153,9 @@ TwoFrames slowMassAndMesh() {
 TEST(MixedGeometryTest, PointsFramesAndRatesTogetherKeepMomentumAndEnergyBalances) {
   const TwoFrames b = slowMassAndMesh();
   Player player(b.scene, {kRate, 14});
-  Energies energies = player.instrument->makeEnergies();
   for (int n = 0; n < 1000; ++n) {
     player.tick();
-    player.instrument->readEnergies(energies);
+    const Energies energies = energiesOf(player);
     ASSERT_LT(std::abs(energies.residual), 1e-12 * energies.stored) << n;
     // At the start of a slow step the mean force of the last one has arrived.
     double momentum = 0.05 * player.heard[0][at(14 * n)];
@@ -191,7 +164,7 @@ TEST(MixedGeometryTest, PointsFramesAndRatesTogetherKeepMomentumAndEnergyBalance
     }
     ASSERT_NEAR(momentum, 0.05 * 0.5, 1e-14) << n;
   }
-  EXPECT_GT(energies.couplings[0].dissipated, 1e-9);
+  EXPECT_GT(energiesOf(player).couplings[0].dissipated, 1e-9);
   EXPECT_LT(player.heard[0].back(), 0.495) << "the square was set going";
 }
 

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
-#include <string>
-#include <vector>
-
-#include "support/scene_builder.hpp"
+#include "support/physics.hpp"
 
 namespace ergotic::physics::test {
 
@@ -48,7 +44,6 @@ class Orchestra {
   scene::Scene scene() const { return b_.scene; }
 
  private:
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   int addSection(const std::string& name) {
     scene::Section section = b_.scene.sections[0];
     section.name = name;
@@ -79,17 +74,9 @@ class Orchestra {
 
   /// A finger on the last string, led along it by a hand.
   int addPoint(int grid, int guide) {
-    const int m = b_.ground();
-    scene::Mat& mat = b_.scene.mats[at(m)];
-    mat.type = scene::MatType::kPoint;
-    mat.section = b_.scene.mats[at(b_.scene.grids[at(grid)].first)].section;
-    scene::Connection connection;
-    connection.mat = m;
-    connection.grid = grid;
-    connection.along = {0.5};
-    connection.guide = guide;
-    connection.guide_scale = 100.0;
-    b_.scene.connections.push_back(connection);
+    const int m = b_.point(grid, 0.5);
+    b_.scene.connections.back().guide = guide;
+    b_.scene.connections.back().guide_scale = 100.0;
     return m;
   }
 
@@ -99,14 +86,7 @@ class Orchestra {
     b_.scene.lias[at(contact)].scheme = scene::Scheme::kGuarded;
   }
 
-  void push(int mat, int channel) {
-    scene::Input input;
-    input.name = "in" + std::to_string(b_.scene.inputs.size());
-    input.mat = mat;
-    input.channel = channel;
-    input.gain = {0.1};
-    b_.scene.inputs.push_back(input);
-  }
+  void push(int mat, int channel) { b_.scene.inputs[at(b_.push(mat, channel))].gain = {0.1}; }
 
   void addSleeper(int hand) {
     const int section = addSection("sleeper");

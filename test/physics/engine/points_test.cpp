@@ -1,45 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "support/measure.hpp"
-#include "support/scene_builder.hpp"
+#include "support/physics.hpp"
 
 namespace ergotic::physics {
 namespace {
 
-using scene::LiaType;
-using scene::Quantity;
-using test::Player;
-using test::SceneBuilder;
-
-constexpr double kRate = 44100.0;
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 struct Built : SceneBuilder {
-  int grid(int first, int columns, int rows = 1) {
-    scene.grids.push_back({"g" + std::to_string(scene.grids.size()), first, columns, rows});
-    return static_cast<int>(scene.grids.size()) - 1;
-  }
-  /// Gives the index of the new point; its connection is the last one.
-  int point(int of, double along, double across = 0.0) {
-    scene::Mat mat;
-    mat.name = "p" + std::to_string(scene.mats.size());
-    mat.type = scene::MatType::kPoint;
-    mat.section = scene.mats[at(scene.grids[at(of)].first)].section;
-    scene.mats.push_back(mat);
-    scene::Connection connection;
-    connection.mat = static_cast<int>(scene.mats.size()) - 1;
-    connection.grid = of;
-    connection.along = {along};
-    connection.across = {across};
-    scene.connections.push_back(connection);
-    return connection.mat;
-  }
   /// Fixed modules in a row at x = 0, 1, 2...: a point among them is heard where it lies.
   int ruler(int count) {
     const int first = ground(0.0);
@@ -49,12 +15,7 @@ struct Built : SceneBuilder {
     return grid(first, count);
   }
   void parameter(double value, double lowest, double highest) {
-    scene::Parameter p;
-    p.name = "place";
-    p.value = value;
-    p.minimum = lowest;
-    p.maximum = highest;
-    scene.parameters.push_back(p);
+    scene.parameters.push_back({"place", value, lowest, highest, {}});
   }
 };
 
@@ -226,17 +187,17 @@ TEST(PointTest, LinkBetweenTwoMovingPlacesKeepsMomentumAndEnergyBalances) {
     }
   }
   Player player(b.scene, {kRate, 14});
-  Energies energies = player.instrument->makeEnergies();
   for (int n = 0; n < 400; ++n) {
     if (n % 40 == 1) {
       player.instrument->exchange(player.instrument->prepare({n % 80 == 1 ? 0.93 : 0.08}));
     }
     player.tick();
-    player.instrument->readEnergies(energies);
+    const Energies energies = energiesOf(player);
     ASSERT_NEAR(player.heard[0].back(), 0.0, 1e-12) << "sum of all velocities";
     ASSERT_LT(std::abs(energies.residual), 1e-11 * energies.stored) << n;
   }
-  EXPECT_GT(std::abs(energies.sections[0].from_inputs), 1e-6) << "moving a place takes work";
+  EXPECT_GT(std::abs(energiesOf(player).sections[0].from_inputs), 1e-6)
+      << "moving a place takes work";
 }
 
 TEST(PointTest, GlidingUpASlopeTakesTheWorkThatTheSpringStores) {
@@ -249,11 +210,10 @@ TEST(PointTest, GlidingUpASlopeTakesTheWorkThatTheSpringStores) {
     b.link(cubic > 0.0 ? LiaType::kCubic : LiaType::kSpringDamper, point, b.ground(), 100.0);
     b.scene.lias[0].law.edit().nonlinearity = {cubic};
     Player player(b.scene, {kRate, 10});
-    Energies energies = player.instrument->makeEnergies();
     player.tick();
     player.instrument->exchange(player.instrument->prepare({0.8}));
     player.ticks(100);
-    player.instrument->readEnergies(energies);
+    const Energies energies = energiesOf(player);
     const auto stored = [&](double x) { return 50.0 * x * x + 0.25 * cubic * std::pow(x, 4.0); };
     EXPECT_NEAR(energies.sections[0].from_inputs / (stored(8.0) - stored(2.0)), 1.0, 1e-6);
     EXPECT_NEAR(energies.stored / stored(8.0), 1.0, 1e-6);

@@ -1,26 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What holds for every scene, tried on random ones.
-#include <algorithm>
-#include <cmath>
-
-#include <gtest/gtest.h>
 
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/physics/settling/settle.hpp"
+#include "support/physics.hpp"
 #include "support/random_scene.hpp"
-#include "support/scene_builder.hpp"
 
 namespace ergotic::physics {
 namespace {
 
-using scene::LiaType;
-using scene::Scheme;
-using test::Player;
 using test::RandomScene;
 
 constexpr unsigned kScenes = 520;
 constexpr unsigned kBlock = 40;  // scenes per test
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kTicks = 2000;
 constexpr int kMostTicks = kTicks << 8;
 constexpr double kFar = 1e6;           // of energy: nobody need go on

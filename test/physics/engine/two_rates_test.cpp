@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
-#include <vector>
+// Sections of several rates, as they play and as the certificate sees them, against their
+// equations.
+#include <complex>
 
 #include <Eigen/Dense>
-#include <gtest/gtest.h>
 
-#include "ergotic/exception.hpp"
-#include "support/scene_builder.hpp"
+#include "ergotic/physics/certificate/certify.hpp"
+#include "ergotic/physics/certificate/monodromy.hpp"
+#include "support/physics.hpp"
 
 namespace ergotic::physics {
 namespace {
-
-using scene::Quantity;
-using test::Player;
-using test::SceneBuilder;
-
-constexpr double kRate = 44100.0;
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// A slow mass and a fast one on springs of their own, coupled; kg, samples, m.
 struct Pair {
@@ -31,7 +23,7 @@ struct Pair {
   double fast_spring = 0.0;
 
   /// K T^2 (1/M + 1/m) = 0.4: a tenth of the limit of a model that is slow throughout.
-  static Pair tenthOfTheLimit(int ratio, double damping) {
+  static Pair tenthOfTheLimit(int ratio, double damping = 0.0) {
     Pair p;
     p.ratio = ratio;
     const double square = ratio * ratio;
@@ -41,6 +33,18 @@ struct Pair {
     p.fast_spring = 0.07 / square;
     return p;
   }
+
+  /// \param is  position of the slow one and of the fast one, and their steps in a period, m
+  SceneBuilder scene(const Eigen::Vector4d& is = Eigen::Vector4d::Zero()) const {
+    SceneBuilder b;
+    const double k = kRate * kRate;  // from kg/sample^2 to N/m
+    const int slow = b.mass(slow_mass, is[0], is[2] * kRate / ratio, SceneBuilder::kGestural);
+    const int fast = b.mass(fast_mass, is[1], is[3] * kRate / ratio);
+    b.spring(slow, fast, stiffness * k, damping * kRate);
+    b.spring(slow, b.ground(0.0, SceneBuilder::kGestural), slow_spring * k);
+    b.spring(fast, b.ground(), fast_spring * k);
+    return b;
+  }
 };
 
 /// Positions of both at the start of a period of the slower, and the momenta by which they came
@@ -48,18 +52,11 @@ struct Pair {
 using Phase = Eigen::Vector4d;  // X, x, P, p
 
 Phase playedPeriod(const Pair& p, int unit, Phase& start) {
-  const Eigen::Vector4d is = Eigen::Vector4d::Unit(unit);
-  SceneBuilder b;
-  const double k = kRate * kRate;  // from kg/sample^2 to N/m
-  const int slow = b.mass(p.slow_mass, is[0], is[2] * kRate / p.ratio, SceneBuilder::kGestural);
-  const int fast = b.mass(p.fast_mass, is[1], is[3] * kRate / p.ratio);
-  b.spring(slow, fast, p.stiffness * k, p.damping * kRate);
-  b.spring(slow, b.ground(0.0, SceneBuilder::kGestural), p.slow_spring * k);
-  b.spring(fast, b.ground(), p.fast_spring * k);
-  b.hear(slow, 0);
-  b.hear(fast, 1);
-  b.hear(slow, 2, Quantity::kVelocity);
-  b.hear(fast, 3, Quantity::kVelocity);
+  SceneBuilder b = p.scene(Phase::Unit(unit));
+  for (int mass = 0; mass < 2; ++mass) {
+    b.hear(mass, mass);
+    b.hear(mass, 2 + mass, Quantity::kVelocity);
+  }
   Player player(b.scene, {kRate, p.ratio});
   player.ticks(2);
   const auto phaseAt = [&](int frame) {
@@ -112,6 +109,26 @@ Eigen::Matrix4d matrixOfEquations(const Pair& p) {
   return matrix;
 }
 
+std::vector<std::complex<double>> eigenvaluesOf(const Eigen::MatrixXd& matrix) {
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix, false);
+  std::vector<std::complex<double>> values(solver.eigenvalues().begin(),
+                                           solver.eigenvalues().end());
+  std::sort(values.begin(), values.end(), [](const auto& a, const auto& b) {
+    return std::pair(std::arg(a), std::abs(a)) < std::pair(std::arg(b), std::abs(b));
+  });
+  return values;
+}
+
+void expectSameEigenvalues(const Eigen::MatrixXd& is, const Eigen::MatrixXd& should_be) {
+  ASSERT_EQ(is.rows(), should_be.rows());
+  const auto a = eigenvaluesOf(is);
+  const auto b = eigenvaluesOf(should_be);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_NEAR(std::arg(a[i]), std::arg(b[i]), 1e-10);
+    EXPECT_NEAR(std::abs(a[i]), std::abs(b[i]), 1e-10);
+  }
+}
+
 double symplecticDefect(const Eigen::Matrix4d& s) {
   Eigen::Matrix4d form = Eigen::Matrix4d::Zero();
   form.topRightCorner<2, 2>().setIdentity();
@@ -122,21 +139,15 @@ double symplecticDefect(const Eigen::Matrix4d& s) {
 class TwoRatesTest : public testing::TestWithParam<int> {};
 
 TEST_P(TwoRatesTest, PeriodIsTheMatrixOfTheEquations) {
-  const Pair p = Pair::tenthOfTheLimit(GetParam(), 0.0);
+  const Pair p = Pair::tenthOfTheLimit(GetParam());
   const Eigen::Matrix4d played = playedMatrix(p);
   const Eigen::Matrix4d expected = matrixOfEquations(p);
   EXPECT_LT((played - expected).cwiseAbs().maxCoeff(), 1e-10);
-  Eigen::VectorXd angles(4);
-  Eigen::VectorXd expected_angles(4);
-  for (int i = 0; i < 4; ++i) {
-    angles[i] = std::arg(played.eigenvalues()[i]);
-    expected_angles[i] = std::arg(expected.eigenvalues()[i]);
-    EXPECT_NEAR(std::abs(played.eigenvalues()[i]), 1.0, 1e-10);
+  expectSameEigenvalues(played, expected);
+  for (const std::complex<double> value : eigenvaluesOf(expected)) {
+    EXPECT_NEAR(std::abs(value), 1.0, 1e-10);
+    EXPECT_GT(std::arg(value), -3.0) << "no pair on the real axis";
   }
-  std::sort(angles.begin(), angles.end());
-  std::sort(expected_angles.begin(), expected_angles.end());
-  EXPECT_LT((angles - expected_angles).norm(), 1e-10);
-  EXPECT_GT(expected_angles.minCoeff(), -3.0) << "no pair on the real axis";
 }
 
 TEST_P(TwoRatesTest, DampedPeriodOfHoldAndMeanIsTheMatrixOfTheEquations) {
@@ -147,11 +158,121 @@ TEST_P(TwoRatesTest, DampedPeriodOfHoldAndMeanIsTheMatrixOfTheEquations) {
 }
 
 TEST_P(TwoRatesTest, IsSymplectic) {
-  const Pair p = Pair::tenthOfTheLimit(GetParam(), 0.0);
+  const Pair p = Pair::tenthOfTheLimit(GetParam());
   EXPECT_LT(symplecticDefect(playedMatrix(p)), 1e-12);
 }
 
+TEST_P(TwoRatesTest, MonodromyTurnsAndShrinksAsTheEquationsSay) {
+  for (const double damping : {0.0, 0.02}) {
+    const Pair p = Pair::tenthOfTheLimit(GetParam(), damping);
+    const auto matrix = monodromy(p.scene().scene, {kRate, p.ratio});
+    expectSameEigenvalues(matrix, matrixOfEquations(p));
+    EXPECT_LT(spectralRadius(matrix), damping > 0.0 ? 1.0 : 1.0 + 1e-12);
+    EXPECT_GT(spectralRadius(matrix), damping > 0.0 ? 0.9 : 1.0 - 1e-12);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Ratios, TwoRatesTest, testing::Values(4, 14, 44));
+
+TEST(MonodromyTest, FirstUnstableCouplingIsThatOfTheEquations) {
+  // Two free masses of one size, R = 14: unstable from u = K T^2 (1/M + 1/m) / 4 = 1.48 on.
+  for (const double u : {1.46, 1.50}) {
+    Pair p;
+    p.fast_mass = 1.0;
+    p.stiffness = 2.0 * u / 196.0;
+    const auto matrix = monodromy(p.scene().scene, {kRate, p.ratio});
+    EXPECT_EQ(spectralRadius(matrix) > 1.0 + 1e-6, u > 1.48) << u;
+  }
+}
+
+TEST(MonodromyTest, OneMassAloneHasTheRootsOfItsStep) {
+  // lambda^2 - (2 - kappa - zeta) lambda + (1 - zeta) = 0, R steps to a period.
+  const double kappa = 0.3;
+  const double zeta = 0.01;
+  SceneBuilder b;
+  b.spring(b.mass(1.0), b.ground(), kappa * kRate * kRate, zeta * kRate);
+  const auto matrix = monodromy(b.scene, {kRate, 14});
+  ASSERT_EQ(matrix.rows(), 2);
+  EXPECT_NEAR(matrix.determinant(), std::pow(1.0 - zeta, 14.0), 1e-12);
+  EXPECT_NEAR(spectralRadius(matrix), std::pow(1.0 - zeta, 7.0), 1e-12);
+  const double angle = 14.0 * std::acos((2.0 - kappa - zeta) / (2.0 * std::sqrt(1.0 - zeta)));
+  EXPECT_NEAR(matrix.trace(), 2.0 * std::pow(1.0 - zeta, 7.0) * std::cos(angle), 1e-10);
+}
+
+TEST(MonodromyTest, RigidMotionIsNoGrowth) {
+  Pair p = Pair::tenthOfTheLimit(14);
+  p.slow_spring = 0.0;
+  p.fast_spring = 0.0;
+  EXPECT_EQ(spectralRadius(monodromy(p.scene().scene, {kRate, 14})), 1.0);
+}
+
+TEST(MonodromyTest, SectionsSlowerThanATickAreSteppedToTheirEnd) {
+  Pair p = Pair::tenthOfTheLimit(28);
+  SceneBuilder b = p.scene();
+  b.scene.sections[SceneBuilder::kGestural].gestural = false;
+  b.scene.sections[SceneBuilder::kGestural].divisor = 28;
+  expectSameEigenvalues(monodromy(b.scene, {kRate, 14}), matrixOfEquations(p));
+}
+
+TEST(MonodromyTest, TakesTheLinearPartOnly) {
+  Pair p = Pair::tenthOfTheLimit(14);
+  const auto linear = monodromy(p.scene().scene, {kRate, 14});
+  SceneBuilder b = p.scene();
+  b.scene.sections[0].gravity.x() = -9.81;
+  b.scene.mats[0].position.x() = 0.3;
+  b.scene.mats[1].push.edit().velocity.x() = 2.0;
+  b.scene.lias[0].type = LiaType::kCubic;
+  b.scene.lias[0].law.edit().nonlinearity = {1e9};
+  b.link(LiaType::kContact, 0, 1, kRate * kRate);
+  b.link(LiaType::kSmoothBow, b.slice(0), 1, 0.0, 1.0);
+  b.scene.lias.back().law.edit().width = {0.1};
+  EXPECT_LT((monodromy(b.scene, {kRate, 14}) - linear).norm(), 1e-12);
+}
+
+/// An undamped string between a fixed end and a slow mass on a slow spring.
+SceneBuilder stringOnSlowMass(int masses, double loss) {
+  SceneBuilder b;
+  const double mass = 1e-4;
+  const double k = 0.99 * mass * kRate * kRate;
+  const int slow = b.mass(0.049, 0.0, 0.0, SceneBuilder::kGestural);
+  b.spring(slow, b.ground(0.0, SceneBuilder::kGestural), 2000.0, 1e3 * loss);
+  int last = slow;
+  for (int i = 0; i < masses; ++i) {
+    const int next = b.mass(mass);
+    b.spring(last, next, k);
+    if (loss > 0.0) {
+      b.spring(next, b.ground(), 0.0, loss * mass * kRate);
+    }
+    last = next;
+  }
+  b.spring(last, b.ground(), k);
+  return b;
+}
+
+TEST(MonodromyTest, UndampedStringOnASlowMassGrowsAndIsCalledUnproven) {
+  const SceneBuilder b = stringOnSlowMass(24, 0.0);
+  const double growth = spectralRadius(monodromy(b.scene, {kRate, 14})) - 1.0;
+  EXPECT_GT(growth, 1e-7);
+  EXPECT_LT(growth, 1e-2);
+  const Certificate c = certify(b.scene, {kRate, 14});
+  EXPECT_EQ(c.verdict, Verdict::kUnproven);
+  ASSERT_FALSE(c.findings.empty());
+  EXPECT_THAT(c.findings.front(), HasSubstr("grows by a factor of exp("));
+}
+
+TEST(MonodromyTest, ALittleLossMakesThatStringProven) {
+  const SceneBuilder b = stringOnSlowMass(24, 2e-3);
+  EXPECT_LE(spectralRadius(monodromy(b.scene, {kRate, 14})), 1.0 + 1e-9);
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kPassive);
+}
+
+TEST(MonodromyTest, BeyondThreeHundredMassesNothingIsProven) {
+  const Certificate c = certify(stringOnSlowMass(320, 2e-3).scene, {kRate, 14});
+  EXPECT_EQ(c.verdict, Verdict::kUnproven);
+  ASSERT_FALSE(c.findings.empty());
+  EXPECT_THAT(c.findings.front(), HasSubstr("321 masses"));
+  EXPECT_THAT(c.findings.front(), HasSubstr("which proves nothing"));
+}
 
 /// Masses one after the other, each stepped at its own rate, joined by springs and dampers that
 /// are stepped at the faster of their two rates. Written out from the equations alone.
@@ -252,13 +373,12 @@ TEST(ManyRatesTest, SectionsOfManyDivisorsMoveAsTheirEquationsSay) {
 
 TEST(ManyRatesTest, EnergyBalancesAtEveryTickWhateverStepsAreUnderWay) {
   Player player(rowScene(2e-4, 1e-4).scene, {kRate, 14});
-  Energies energies = player.instrument->makeEnergies();
   for (int n = 0; n < 400; ++n) {
     player.tick();
-    player.instrument->readEnergies(energies);
+    const Energies energies = energiesOf(player);
     ASSERT_LT(std::abs(energies.residual), 1e-12 * energies.stored) << n;
   }
-  EXPECT_LT(energies.stored, 0.9 * 2e-4 * kRate * kRate) << "some was dissipated";
+  EXPECT_LT(energiesOf(player).stored, 0.9 * 2e-4 * kRate * kRate) << "some was dissipated";
 }
 
 TEST(ManyRatesTest, LinkBetweenDivisorsThatDoNotDivideEachOtherIsRefused) {
@@ -267,13 +387,10 @@ TEST(ManyRatesTest, LinkBetweenDivisorsThatDoNotDivideEachOtherIsRefused) {
   b.scene.sections[1].gestural = false;
   b.scene.sections[1].divisor = 7;
   b.spring(b.mass(1.0), b.mass(1.0, 0.0, 0.0, SceneBuilder::kGestural), 1.0);
-  try {
-    compile(b.scene, {kRate, 14}, Precision::kDouble);
-    FAIL() << "accepted";
-  } catch (const Exception& e) {
-    EXPECT_NE(std::string(e.what()).find("'l0'"), std::string::npos) << e.what();
-    EXPECT_NE(std::string(e.what()).find("2 and 7"), std::string::npos) << e.what();
-  }
+  EXPECT_THAT(complaintOf([&] {
+                compile(b.scene, {kRate, 14}, Precision::kDouble);
+              }),
+              AllOf(HasSubstr("'l0'"), HasSubstr("2 and 7")));
 }
 
 }  // namespace

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What blocks play is what their links play one by one, with any kernels and in any order of steps.
-#include <algorithm>
 #include <cstdio>
-#include <functional>
 #include <map>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "support/nets.hpp"
 #include "support/one_by_one.hpp"
+#include "support/physics.hpp"
 #include "support/plain_difference.hpp"
 #include "support/random_nets.hpp"
 
@@ -18,10 +13,7 @@ namespace ergotic::physics {
 namespace {
 
 using test::Nets;
-using test::Player;
-using test::SceneBuilder;
 
-constexpr double kRate = 44100.0;
 constexpr int kRatio = 14;
 constexpr unsigned kScenes = 200;
 constexpr double kDoubleRounding = 1e-11;
@@ -172,7 +164,7 @@ scene::Scene fed(scene::Scene scene) {
     scene::Input input;
     input.name = "feed" + std::to_string(b);
     input.mat = *std::find_if(blocks[b].mats.begin(), blocks[b].mats.end(), [&](int m) {
-      return m >= 0 && scene.mats[static_cast<std::size_t>(m)].type != scene::MatType::kGround;
+      return m >= 0 && scene.mats[at(m)].type != scene::MatType::kGround;
     });
     input.gain = {0.0};
     scene.inputs.push_back(input);

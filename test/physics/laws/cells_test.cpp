@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "support/measure.hpp"
-#include "support/scene_builder.hpp"
+#include "support/physics.hpp"
 
 namespace ergotic::physics {
 namespace {
 
-using test::Player;
-using test::SceneBuilder;
-
-constexpr double kRate = 44100.0;
 constexpr double kStep = 1.0 / kRate;
-constexpr double kPi = 3.14159265358979323846;
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// M x'' + Z x' + K x = 0 through x(0) = x0 and x(-h) = x0 - v0 h: a module starts from its
 /// position, and its velocity is how far it came in the step before.

@@ -1,21 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
-#include <functional>
-#include <vector>
-
-#include <gtest/gtest.h>
-
-#include "support/scene_builder.hpp"
+#include "support/physics.hpp"
 
 namespace ergotic::physics {
 namespace {
-
-using scene::Lia;
-using scene::LiaType;
-using test::Player;
-using test::SceneBuilder;
-
-constexpr double kRate = 44100.0;
 
 /// Force on the second module of a link between a driven point at `e` moving at `v` and a ground.
 double forceOf(LiaType type, const std::function<void(Lia&)>& set, double e, double v = 0.0) {

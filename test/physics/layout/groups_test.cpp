@@ -1,24 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "physics/layout/groups.hpp"
 
-#include <algorithm>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
-#include "support/scene_builder.hpp"
+#include "support/physics.hpp"
 
 namespace ergotic::physics {
 namespace {
 
-using test::SceneBuilder;
-
 constexpr Rates kRates{44100.0, 14};
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// One mass in each of several sections of some divisors; 0: gestural. Those of the builder are
 /// empty.
@@ -42,14 +30,10 @@ class Sections {
 
   /// A string of two masses in section b, and a point on it that module 0 leads: of section a.
   void leadPointOfB() {
+    const int first = b.mass(1.0, 0.0, 0.0, 3);
     b.mass(1.0, 0.0, 0.0, 3);
-    b.mass(1.0, 0.0, 0.0, 3);
-    b.scene.grids.push_back({"g", static_cast<int>(b.scene.mats.size()) - 2, 2, 1});
-    scene::Connection connection;
-    connection.mat = b.ground(0.0, 3);
-    b.scene.mats[at(connection.mat)].type = scene::MatType::kPoint;
-    connection.guide = 0;
-    b.scene.connections.push_back(connection);
+    b.point(b.grid(first, 2), 0.0);
+    b.scene.connections[0].guide = 0;
   }
 
   Groups split(const Rates& rates = kRates) {
@@ -87,24 +71,15 @@ class Sections {
   int masses_ = 0;
 };
 
-TEST(GroupsTest, SectionsWithoutLinksRunAlone) {
+TEST(GroupsTest, LinksJoinWhatRunsAndNothingToWhatIsHeld) {
   EXPECT_EQ(Sections({1, 1, 2, 0, 28}).told(), "a b c : de");
-}
-
-TEST(GroupsTest, LinksBetweenRunningSectionsJoinThem) {
   Sections sections({1, 1, 2, 1, 0});
   sections.b.spring(0, 1, 1.0);
   sections.b.spring(2, 1, 1.0);
+  sections.b.spring(3, 4, 1.0);
+  sections.guarded(0, 4);
   EXPECT_EQ(sections.told(), "abc d : e");
-}
-
-TEST(GroupsTest, LinksToHeldSectionsJoinNothing) {
-  Sections sections({1, 1, 0});
-  sections.b.spring(0, 2, 1.0);
-  sections.b.spring(1, 2, 1.0);
-  sections.guarded(1, 2);
-  EXPECT_EQ(sections.told(), "a b : c");
-  EXPECT_EQ(sections.told({44100.0, 1}), "abc : ") << "nothing is held where a tick is one frame";
+  EXPECT_EQ(sections.told({44100.0, 1}), "abcde : ") << "nothing is held where a tick is one frame";
 }
 
 TEST(GroupsTest, EachGroupSeesHeldModulesInSlotsOfItsOwn) {
@@ -145,15 +120,6 @@ TEST(GroupsTest, GuardedLinksThatEndTheirStepsTogetherRunTogether) {
   EXPECT_EQ(sections.told(), "abc : ") << "what is linked to one that runs now";
 }
 
-TEST(GroupsTest, ExpensiveGroupsComeFirst) {
-  Sections sections({7, 1, 1});
-  sections.b.spring(1, 2, 1.0);
-  const Groups groups = sections.split();
-  ASSERT_EQ(groups.running.size(), 2U);
-  EXPECT_EQ(groups.running[0].cost, 28);
-  EXPECT_EQ(groups.running[1].cost, 2);
-}
-
 TEST(GroupsTest, DescriptionTellsWhatThreadsCanShare) {
   Sections sections({1, 1, 0});
   std::vector<std::string> lines = describeGroups(sections.b.scene, sections.split(), 2);
@@ -162,6 +128,9 @@ TEST(GroupsTest, DescriptionTellsWhatThreadsCanShare) {
   EXPECT_EQ(lines[1], "stepped together: 'a', 1 modules");
   EXPECT_EQ(lines[3], "threads: 2 for 2 independent groups");
   sections.b.spring(0, 1, 1.0);
+  const Groups groups = Sections({7, 1, 1}).split();
+  EXPECT_EQ(groups.running[0].cost, 14) << "the expensive ones come first";
+  EXPECT_EQ(groups.running[2].cost, 2);
   lines = describeGroups(sections.b.scene, sections.split(), 1);
   EXPECT_EQ(lines.back(), "threads: 1, as all that runs is one group; a section is never divided");
 }

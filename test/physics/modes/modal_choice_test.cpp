@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
+
 #include "physics/modes/modal_choice.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
+#include <iterator>
 
-#include <gtest/gtest.h>
-
+#include "physics/modes/modal_cache.hpp"
 #include "physics/modes/modal_plan.hpp"
 #include "physics/modes/modal_scenes.hpp"
 #include "physics/note.hpp"
 #include "support/mode_cache.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::physics {
 namespace {
-
-using test::Player;
 
 class ModalChoiceTest : public ::testing::Test {
  private:
@@ -31,26 +28,11 @@ ModalPlan planOf(const scene::Scene& scene) {
 
 /// A plate that is heard in two places and pushed in one of them and in a third.
 Plate pushedPlate() {
-  Plate b;
-  const double k = 0.2 * Plate::kMass * kRate * kRate;
-  b.first = 0;
-  for (int i = 0; i < Plate::kColumns * Plate::kRows; ++i) {
-    b.cell(Plate::kMass, 0.01 * k, 1e-6 * 0.01 * k);
-  }
-  for (int row = 0; row < Plate::kRows; ++row) {
-    for (int column = 0; column < Plate::kColumns; ++column) {
-      if (column + 1 < Plate::kColumns) {
-        b.spring(b.of(column, row), b.of(column + 1, row), k, 1e-6 * k);
-      }
-      if (row + 1 < Plate::kRows) {
-        b.spring(b.of(column, row), b.of(column, row + 1), k, 1e-6 * k);
-      }
-    }
-  }
+  Plate b(0.2 * Plate::kMass * kRate * kRate, 0.01);
   b.hear(b.of(3, 4), 0);
   b.hear(b.of(9, 2), 1);
-  b.force(b.of(3, 4), 0);
-  b.force(b.of(5, 8), 1);
+  b.push(b.of(3, 4), 0);
+  b.push(b.of(5, 8), 1);
   return b;
 }
 
@@ -104,25 +86,8 @@ TEST_F(ModalChoiceTest, ErrorAfterImpulsesStaysBelowTheBoundThatIsPrinted) {
     }
     EXPECT_LE(largestError(network, modal), bound * impulse) << modes;
     EXPECT_GT(largestError(network, modal), 1e-6 * bound * impulse) << modes;
-    EXPECT_NE(described(reduced).find(shortly(bound) + " m at any time after impulses"),
-              std::string::npos);
+    EXPECT_THAT(described(reduced), HasSubstr(shortly(bound) + " m at any time after impulses"));
   }
-}
-
-TEST_F(ModalChoiceTest, OneKickComesNearTheBound) {
-  const scene::Scene scene = pushedPlate().scene;
-  const scene::Scene reduced = withModes(scene, 119);
-  Player network(scene, kRates);
-  Player modal(reduced, kRates);
-  network.inputs[0] = modal.inputs[0] = 1.0;
-  for (int n = 0; n < 300; ++n) {
-    network.tick();
-    modal.tick();
-    std::fill(network.inputs.begin(), network.inputs.end(), 0.0);
-    modal.inputs = network.inputs;
-  }
-  const double bound = planOf(reduced).error.per_impulse / kRate;
-  EXPECT_LE(largestError(network, modal), bound * (1.0 + 1e-9));
 }
 
 TEST_F(ModalChoiceTest, GiveUnderAConstantForceIsShortByTheShareThatIsPrinted) {
@@ -169,8 +134,8 @@ TEST_F(ModalChoiceTest, MoreModesAreNeverWorse) {
   EXPECT_EQ(before, 0.0);
 }
 
-TEST_F(ModalChoiceTest, AutomaticModesArePlayedWhereTheyCostLess) {
-  Built random;
+TEST_F(ModalChoiceTest, AutomaticModesArePlayedWhereTheyCostLessAndCanBe) {
+  SceneBuilder random;
   for (int i = 0; i < 200; ++i) {
     random.mass(1e-3);
     for (int step = 1; step <= 3 && i > 0; ++step) {
@@ -178,99 +143,166 @@ TEST_F(ModalChoiceTest, AutomaticModesArePlayedWhereTheyCostLess) {
     }
   }
   random.hear(20);
-  const std::string chosen = described(withModes(random.scene, scene::kAutomaticModes));
-  EXPECT_NE(chosen.find("is played by 200 modes, touched at 1 places"), std::string::npos)
-      << chosen;
-}
-
-TEST_F(ModalChoiceTest, AutomaticModesAreLeftWhereANetworkCostsLess) {
-  Built even;
+  SceneBuilder even;
   const int first = even.chain(100, 1e-3, 1e5);
   even.hear(first + 10);
   even.hear(first + 70);
-  const std::string chosen = described(withModes(even.scene, scene::kAutomaticModes));
-  EXPECT_NE(chosen.find("stays a network: by 100 modes, touched at 2 places"), std::string::npos)
-      << chosen;
+  SceneBuilder moving = dampedString();
+  moving.point(moving.grid(0, 32), 0.3);
+  moving.scene.connections.back().guide = 3;
+  const auto chosen = [](const SceneBuilder& b) {
+    return described(withModes(b.scene, scene::kAutomaticModes));
+  };
+  EXPECT_THAT(chosen(random), HasSubstr("is played by 200 modes, touched at 1 places"));
+  EXPECT_THAT(chosen(even), HasSubstr("stays a network: by 100 modes, touched at 2 places"));
+  EXPECT_THAT(chosen(moving), HasSubstr("stays a network: point 'p32' can move"));
 }
 
-TEST_F(ModalChoiceTest, AutomaticModesAreLeftWhereTheyCannotBe) {
-  Built b = dampedString();
-  b.point(0, 32, 1, 0.3, 0.0);
-  b.scene.connections.back().guide = 3;
-  const std::string chosen = described(withModes(b.scene, scene::kAutomaticModes));
-  EXPECT_NE(chosen.find("stays a network: point 'p32' can move"), std::string::npos) << chosen;
-}
+/// What modes cannot play, and what is said of it.
+struct Refused {
+  const char* message;
+  std::function<void(SceneBuilder& b, int first)> change;  ///< of a chain of 200 masses
+};
+const Refused kRefused[] = {
+    {"built.yaml:101:1: error: section 'audio' cannot be played by its modes: link 'l1' has "
+     "damping / stiffness = 2e-06, most have 1e-06",
+     [](SceneBuilder& b, int) {
+       for (std::size_t l = 0; l < b.scene.lias.size(); ++l) {
+         b.scene.lias[l].damping.factor *= 1.0 + static_cast<double>(l);
+       }
+     }},
+    {"built.yaml:3:1: error: section 'audio' cannot be played by its modes: module 'm2' loses",
+     [](SceneBuilder& b, int) {
+       b.scene.sections[0].medium = {1e-3};
+       for (std::size_t m = 2; m < b.scene.mats.size(); ++m) {
+         b.scene.mats[m].mass.factor *= 1.0 + 0.02 * static_cast<double>(m);
+       }
+     }},
+    {"built.yaml:100:1: error: section 'audio' cannot be played by its modes: link 'l0' follows a "
+     "parameter",
+     [](SceneBuilder& b, int) {
+       b.scene.parameters.push_back({"tension", 1.0, 0.5, 2.0, {}});
+       for (Lia& lia : b.scene.lias) {
+         lia.stiffness.parameter = 0;
+       }
+     }},
+    {"the force on module 'm1' is an output",
+     [](SceneBuilder& b, int first) {
+       for (int m = first + 1; m <= first + 200; ++m) {
+         b.hear(m, 0, Quantity::kForce);
+       }
+     }},
+    {"built.yaml:500:1: error",
+     [](SceneBuilder& b, int first) {
+       b.hear(first, 1, Quantity::kForce);
+       b.hear(b.point(b.grid(first, 202), 0.4 / 201.0), 2);
+     }},
+    {"65 of its modules are touched by what is not part of the modes, allowed: at most 64",
+     [](SceneBuilder& b, int first) {
+       for (int i = 1; i <= kMostTouches; ++i) {
+         b.push(first + 10 + i);
+       }
+     }},
+};
 
-TEST_F(ModalChoiceTest, DampingOutOfProportionIsRefusedWithItsPlace) {
-  Built b;
-  const int first = b.chain(200, 1e-3, 1e5, 0.1);
-  for (std::size_t l = 0; l < b.scene.lias.size(); ++l) {
-    b.scene.lias[l].damping.factor *= 1.0 + static_cast<double>(l);
+TEST_F(ModalChoiceTest, WhatCannotBePlayedIsRefusedWithItsPlace) {
+  for (const Refused& refused : kRefused) {
+    SceneBuilder b;
+    const int first = b.chain(200, 1e-3, 1e5, 0.1);
+    b.hear(first + 3);
+    refused.change(b, first);
+    EXPECT_THAT(errorOf(withModes(b.scene, scene::kAllModes)), HasSubstr(refused.message));
   }
-  b.hear(first + 3);
-  const std::string error = errorOf(withModes(b.scene, scene::kAllModes));
-  EXPECT_NE(error.find("built.yaml:101:1: error: section 'audio' cannot be played by its modes: "
-                       "link 'l1' has damping / stiffness = 2e-06, most have 1e-06"),
-            std::string::npos)
-      << error;
-}
-
-TEST_F(ModalChoiceTest, UnequalMassesInAMediumAreRefusedWithTheirPlace) {
-  Built b = dampedString();
-  b.scene.sections[0].medium = {1e-3};
-  const std::string error = errorOf(withModes(b.scene, scene::kAllModes));
-  EXPECT_NE(error.find("built.yaml:3:1: error"), std::string::npos) << error;
-  EXPECT_NE(error.find("module 'm2' loses"), std::string::npos) << error;
-}
-
-TEST_F(ModalChoiceTest, SpringsThatFollowAParameterAreRefusedWithTheirPlace) {
-  Built b;
-  b.scene.parameters.push_back({"tension", 1.0, 0.5, 2.0, {}});
-  const int first = b.chain(20, 1e-3, 1e5);
-  for (scene::Lia& lia : b.scene.lias) {
-    lia.stiffness.parameter = 0;
-  }
-  b.hear(first + 3);
-  const std::string error = errorOf(withModes(b.scene, scene::kAllModes));
-  EXPECT_NE(error.find("built.yaml:100:1: error"), std::string::npos) << error;
-  EXPECT_NE(error.find("link 'l0' follows a parameter"), std::string::npos) << error;
-}
-
-TEST_F(ModalChoiceTest, ForcesOnFreeModulesAreRefusedAsOutputs) {
-  Built b;
-  const int first = b.chain(2, 1e-3, 1e5);
-  b.hear(first + 1, 0, scene::Quantity::kForce);
-  b.hear(first + 2, 0, scene::Quantity::kForce);
-  const std::string error = errorOf(withModes(b.scene, scene::kAllModes));
-  EXPECT_NE(error.find("the force on module 'm1' is an output"), std::string::npos) << error;
 }
 
 TEST_F(ModalChoiceTest, GuardedLinksOnPlacesThatMoveEachOtherAreRefused) {
-  const Plate b = playedPlate();
-  const std::string error = errorOf(withModes(b.scene, 60));
-  EXPECT_NE(error.find("guarded link"), std::string::npos) << error;
-  EXPECT_NE(error.find("modes are left out"), std::string::npos) << error;
+  EXPECT_THAT(errorOf(withModes(playedPlate().scene, 60)),
+              AllOf(HasSubstr("guarded link"), HasSubstr("modes are left out")));
 }
 
-TEST_F(ModalChoiceTest, PlacesOnGroundsWhoseForceIsHeardAreRefused) {
-  Built b = dampedString();
-  b.hear(b.point(0, 32, 1, 0.4 / 31.0, 0.0), 4);
-  const std::string error = errorOf(withModes(b.scene, scene::kAllModes));
-  EXPECT_NE(error.find("built.yaml:500:1: error"), std::string::npos) << error;
-  EXPECT_NE(error.find("whose force is an output"), std::string::npos) << error;
-}
+namespace fs = std::filesystem;
 
-TEST_F(ModalChoiceTest, TooManyTouchedPlacesAreRefused) {
-  Built b;
-  const int first = b.chain(100, 1e-3, 1e5);
-  for (int i = 1; i <= kMostTouches + 1; ++i) {
-    b.force(first + i);
+class ModalCacheTest : public ::testing::Test {
+ protected:
+  std::shared_ptr<const Modes> modes() {
+    notes_.clear();
+    return modesOf(matrix_, notes_);
   }
-  const std::string error = errorOf(withModes(b.scene, scene::kAllModes));
-  EXPECT_NE(error.find("65 of its modules are touched by what is not part of the modes, allowed: "
-                       "at most 64"),
-            std::string::npos)
-      << error;
+  std::string bytes() const {
+    std::ifstream from(modeCacheFile(matrix_), std::ios::binary);
+    return {std::istreambuf_iterator<char>(from), {}};
+  }
+  void replace(const std::string& bytes) const {
+    std::ofstream(modeCacheFile(matrix_), std::ios::binary | std::ios::trunc) << bytes;
+  }
+  static std::size_t filesIn(const fs::path& folder) {
+    return fs::exists(folder) ? static_cast<std::size_t>(std::distance(
+                                    fs::directory_iterator(folder), fs::directory_iterator()))
+                              : 0;
+  }
+
+  test::ModeCache cache_;
+  std::vector<std::string> notes_;
+  ModalMatrix matrix_{3, {{0, 0, 2.0}, {1, 0, -1.0}, {1, 1, 2.0}, {2, 1, -1.0}, {2, 2, 2.0}}};
+};
+
+TEST_F(ModalCacheTest, ModesAreThoseOfTheMatrix) {
+  const auto found = modes();
+  EXPECT_NEAR(found->values[0], 2.0 - std::sqrt(2.0), 1e-14);
+  EXPECT_NEAR(found->values[1], 2.0, 1e-14);
+  EXPECT_NEAR(found->values[2], 2.0 + std::sqrt(2.0), 1e-14);
+  EXPECT_NEAR((found->vectors.transpose() * found->vectors - Eigen::Matrix3d::Identity()).norm(),
+              0.0, 1e-14);
+}
+
+TEST_F(ModalCacheTest, SecondTimeTheyComeFromTheFileBitForBit) {
+  const auto first = modes();
+  std::string changed = bytes();
+  ASSERT_EQ(filesIn(cache_.folder()), 1U);
+  const auto second = modes();
+  EXPECT_EQ(first->values, second->values);
+  EXPECT_EQ(first->vectors, second->vectors);
+  EXPECT_EQ(bytes(), changed);
+  EXPECT_TRUE(notes_.empty());
+}
+
+TEST_F(ModalCacheTest, OtherNumbersHaveAnotherFile) {
+  const fs::path file = modeCacheFile(matrix_);
+  matrix_.entries[3].value = -1.0000000000000002;
+  EXPECT_NE(modeCacheFile(matrix_), file);
+}
+
+TEST_F(ModalCacheTest, DamagedFilesAreReportedAndReplaced) {
+  const auto first = modes();
+  const std::string good = bytes();
+  std::string flipped = good;
+  flipped[good.size() - 5] ^= 1;
+  std::string of_another_version = good;
+  of_another_version[8] ^= 1;
+  for (const std::string& bad : {std::string(), good.substr(0, good.size() - 1), good + "x",
+                                 flipped, of_another_version, std::string("no modes at all")}) {
+    replace(bad);
+    const auto again = modes();
+    EXPECT_EQ(again->vectors, first->vectors);
+    ASSERT_EQ(notes_.size(), 1U);
+    EXPECT_THAT(notes_[0], HasSubstr("warning: damaged"));
+    EXPECT_EQ(bytes(), good);
+  }
+}
+
+TEST_F(ModalCacheTest, FolderThatCannotBeMadeIsReported) {
+  fs::create_directories(cache_.folder().parent_path());
+  std::ofstream(cache_.folder()) << "a file where the folder should be";
+  EXPECT_EQ(modes()->values.size(), 3);
+  ASSERT_EQ(notes_.size(), 1U);
+  EXPECT_THAT(notes_[0], HasSubstr("cannot be written"));
+}
+
+TEST_F(ModalCacheTest, NothingIsWrittenWhenTurnedOff) {
+  setenv("ERGOTIC_MODE_CACHE", "off", 1);
+  EXPECT_EQ(modes()->values.size(), 3);
+  EXPECT_EQ(filesIn(cache_.folder()), 0U);
+  EXPECT_TRUE(notes_.empty());
 }
 
 }  // namespace

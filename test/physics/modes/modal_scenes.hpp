@@ -1,52 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
-#include <string>
-
-#include "ergotic/exception.hpp"
-#include "support/scene_builder.hpp"
+#include "support/physics.hpp"
 
 namespace ergotic::physics {
 
-constexpr double kRate = 44100.0;
 constexpr Rates kRates{kRate, 10};
-
-inline std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-struct Built : test::SceneBuilder {
-  int force(int mat, int channel = 0) {
-    scene::Input input;
-    input.name = "in" + std::to_string(scene.inputs.size());
-    input.mat = mat;
-    input.channel = channel;
-    scene.inputs.push_back(input);
-    return static_cast<int>(scene.inputs.size()) - 1;
-  }
-  int point(int first, int columns, int rows, double along, double across) {
-    scene.grids.push_back({"g" + std::to_string(scene.grids.size()), first, columns, rows});
-    scene::Mat mat;
-    mat.name = "p" + std::to_string(scene.mats.size());
-    mat.type = scene::MatType::kPoint;
-    mat.rest.x() = 0.25;
-    scene.mats.push_back(mat);
-    scene::Connection connection;
-    connection.mat = static_cast<int>(scene.mats.size()) - 1;
-    connection.grid = static_cast<int>(scene.grids.size()) - 1;
-    connection.along = {along};
-    connection.across = {across};
-    connection.place = {500, 1};
-    scene.connections.push_back(connection);
-    return connection.mat;
-  }
-};
 
 /// 30 masses of different weight, damped in proportion, that start displaced and moving under
 /// gravity between springs with rest lengths.
-inline Built dampedString() {
-  Built b;
+inline SceneBuilder dampedString() {
+  SceneBuilder b;
   constexpr double kMass = 1e-3;
   const double k = 0.5 * kMass * kRate * kRate;
   const int first = b.ground(1e-4);
@@ -62,46 +26,52 @@ inline Built dampedString() {
   b.hear(first + 19, 1, scene::Quantity::kVelocity);
   b.hear(first + 31, 2, scene::Quantity::kForce);
   b.hear(first, 3, scene::Quantity::kForce);
-  b.force(first + 12);
+  b.push(first + 12);
   return b;
 }
 
-struct Plate : Built {
+/// Cells with springs of `k` to their neighbours and `held` k to their places, damped in
+/// proportion.
+struct Plate : SceneBuilder {
   static constexpr int kColumns = 12;
   static constexpr int kRows = 10;
   static constexpr double kMass = 1e-3;
-  int first = 0;
-  int of(int column, int row) const { return first + row * kColumns + column; }
+  Plate(double k, double held) {
+    for (int i = 0; i < kColumns * kRows; ++i) {
+      cell(kMass, held * k, 1e-6 * held * k);
+    }
+    for (int row = 0; row < kRows; ++row) {
+      for (int column = 0; column < kColumns; ++column) {
+        if (column + 1 < kColumns) {
+          spring(of(column, row), of(column + 1, row), k, 1e-6 * k);
+        }
+        if (row + 1 < kRows) {
+          spring(of(column, row), of(column, row + 1), k, 1e-6 * k);
+        }
+      }
+    }
+  }
+  int of(int column, int row) const { return row * kColumns + column; }
 };
 
 /// A plate with free edges in a medium, with taps, a force input, a stop that it hits, and a slice
 /// of the device that strikes it through a guarded contact.
 inline Plate playedPlate() {
-  Plate b;
   const double k = 0.1 * Plate::kMass * kRate * kRate;
-  b.first = static_cast<int>(b.scene.mats.size());
+  Plate b(k, 2e3 / k);
   for (int i = 0; i < Plate::kColumns * Plate::kRows; ++i) {
-    b.cell(Plate::kMass, 2e3, 1e-6 * 2e3, 1e-4 * std::cos(0.2 * i));
-  }
-  for (int row = 0; row < Plate::kRows; ++row) {
-    for (int column = 0; column < Plate::kColumns; ++column) {
-      if (column + 1 < Plate::kColumns) {
-        b.spring(b.of(column, row), b.of(column + 1, row), k, 1e-6 * k);
-      }
-      if (row + 1 < Plate::kRows) {
-        b.spring(b.of(column, row), b.of(column, row + 1), k, 1e-6 * k);
-      }
-    }
+    b.scene.mats[at(i)].position.x() = 1e-4 * std::cos(0.2 * i);
   }
   b.scene.sections[0].medium = {5e-4};
   b.hear(b.of(3, 4), 0);
   b.hear(b.of(9, 2), 1, scene::Quantity::kVelocity);
   b.scene.outputs.back().point.next = b.of(10, 2);
   b.scene.outputs.back().point.fraction = 0.4;
-  b.force(b.of(5, 5));
+  b.push(b.of(5, 5));
   const int stop = b.ground(-2e-4);
   b.link(scene::LiaType::kContact, b.of(6, 3), stop, 0.02 * k, 1e-3);
-  const int pick = b.point(b.first, Plate::kColumns, Plate::kRows, 0.31, 0.77);
+  const int pick = b.point(b.grid(0, Plate::kColumns, Plate::kRows), 0.31, 0.77);
+  b.scene.mats[at(pick)].rest.x() = 0.25;
   b.hear(pick, 2);
   const int slice = b.slice(0);
   b.link(scene::LiaType::kContact, slice, b.of(2, 7), 0.5 * k, 1e-2);
@@ -119,12 +89,7 @@ inline scene::Scene withModes(scene::Scene scene, int modes) {
 }
 
 inline std::string errorOf(const scene::Scene& scene) {
-  try {
-    const test::Player player(scene, kRates);
-  } catch (const TextError& error) {
-    return error.what();
-  }
-  return "";
+  return complaintOf<TextError>([&] { const test::Player player(scene, kRates); });
 }
 
 inline std::string described(const scene::Scene& scene, const Rates& rates = kRates) {

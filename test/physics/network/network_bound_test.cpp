@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "physics/network/network_bound.hpp"
 
-#include <cmath>
-#include <functional>
 #include <random>
-#include <vector>
 
 #include <Eigen/Dense>
-#include <gtest/gtest.h>
 
 #include "ergotic/physics/certificate/monodromy.hpp"
 #include "physics/network/cell_bound.hpp"
 #include "physics/network/network_analysis.hpp"
 #include "physics/network/network_spectrum.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::physics {
 namespace {

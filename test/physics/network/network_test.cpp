@@ -1,28 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "physics/network/network.hpp"
 
-#include <gtest/gtest.h>
-
 #include "physics/network/load_matrix.hpp"
-#include "support/scene_builder.hpp"
+#include "support/physics.hpp"
 
 namespace ergotic::physics {
 namespace {
 
-using scene::LiaType;
-using test::SceneBuilder;
-
 /// A point on a string of three masses between two grounds.
 int addPoint(SceneBuilder& b, int string, const scene::Value& along) {
-  b.scene.grids.push_back({"s", string, 5, 1});
-  scene::Mat point;
-  point.type = scene::MatType::kPoint;
-  b.scene.mats.push_back(point);
-  scene::Connection connection;
-  connection.mat = static_cast<int>(b.scene.mats.size()) - 1;
-  connection.along = along;
-  b.scene.connections.push_back(connection);
-  return connection.mat;
+  const int point = b.point(b.grid(string, 5), 0.0);
+  b.scene.connections.back().along = along;
+  return point;
 }
 
 TEST(NetworkTest, GroundsHoldAndTheMediumDampsWhatIsFree) {
@@ -32,9 +21,9 @@ TEST(NetworkTest, GroundsHoldAndTheMediumDampsWhatIsFree) {
   b.scene.parameters.push_back({"air", 3.0, 1.0, 4.0, {}});
   b.scene.sections[0].medium = {2.0, 0};
   const Network network(b.scene);
-  const Network::Node& node = network.nodes[static_cast<std::size_t>(mass)];
+  const Network::Node& node = network.nodes[at(mass)];
   EXPECT_TRUE(sharesNow(network, ground).empty());
-  EXPECT_FALSE(network.nodes[static_cast<std::size_t>(ground)].is_free);
+  EXPECT_FALSE(network.nodes[at(ground)].is_free);
   EXPECT_EQ(sharesNow(network, mass).size(), 1U);
   EXPECT_EQ(node.damping.now, 6.0);
   EXPECT_EQ(node.damping.range.lowest, 2.0);

@@ -1,32 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "physics/settling/coarse_string.hpp"
 
-#include <cmath>
-#include <complex>
-
 #include <Eigen/Eigenvalues>
-#include <gtest/gtest.h>
 
-#include "ergotic/exception.hpp"
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/scene/coarse_string.hpp"
 #include "ergotic/scene/generate/pitch.hpp"
-#include "support/scene_builder.hpp"
+#include "support/measure.hpp"
+#include "support/physics.hpp"
 
 namespace ergotic::physics {
 namespace {
 
-using test::Player;
-using test::SceneBuilder;
-
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kRate = 44100.0;
 constexpr double kHz = 110.0;
 constexpr double kMass = 1e-4;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// A coarse string as the reader leaves it: its links without stiffness.
 SceneBuilder coarse(int masses, double hz, int section = SceneBuilder::kAudio) {
@@ -49,17 +36,6 @@ SceneBuilder coarse(int masses, double hz, int section = SceneBuilder::kAudio) {
   return b;
 }
 
-/// Frequency of a pure sine: x[n+1] + x[n-1] = 2 cos(w) x[n] at every n.
-double frequencyOf(const std::vector<double>& x, double rate) {
-  double num = 0.0;
-  double den = 0.0;
-  for (std::size_t n = 1; n + 1 < x.size(); ++n) {
-    num += x[n] * (x[n + 1] - 2.0 * x[n] + x[n - 1]);
-    den += x[n] * x[n];
-  }
-  return 2.0 * std::asin(std::sqrt(-num / den) / 2.0) / (2.0 * kPi) * rate;
-}
-
 double heardPartial(int masses, double hz, int partial, int section, const Rates& rates) {
   SceneBuilder b = coarse(masses, hz, section);
   for (int i = 1; i <= masses; ++i) {
@@ -73,7 +49,7 @@ double heardPartial(int masses, double hz, int partial, int section, const Rates
   for (std::size_t n = 0; n < player.heard[0].size(); n += at(divisor)) {
     steps.push_back(player.heard[0][n]);
   }
-  return frequencyOf(steps, rates.audio_hz / divisor);
+  return std::arg(test::poleOf(steps)) / (2.0 * kPi) * rates.audio_hz / divisor;
 }
 
 TEST(CoarseStringTest, TwentyMassesCarryTenPartialsOf110Hz) {
@@ -146,9 +122,8 @@ TEST(CoarseStringTest, NegativeSpringsHoldStillAndAreCertified) {
 TEST(CoarseStringTest, NoteSaysTheErrorAndThePitchIsTheFittedOne) {
   const Settled settled = settle(coarse(20, kHz).scene, {kRate, 14});
   ASSERT_EQ(settled.notes.size(), 1U);
-  EXPECT_NE(settled.notes[0].find("built.yaml:1:1: note: string 'string'"), std::string::npos);
-  EXPECT_NE(settled.notes[0].find("0.664 cents on 10 partials"), std::string::npos)
-      << settled.notes[0];
+  EXPECT_THAT(settled.notes[0], HasSubstr("built.yaml:1:1: note: string 'string'"));
+  EXPECT_THAT(settled.notes[0], HasSubstr("0.664 cents on 10 partials"));
   const double pitch = stringPitchHz(settled.scene, settled.scene.strings[0], kRate);
   const CoarseFit fit = fitCoarseString(20, kHz / kRate, 10);
   EXPECT_NEAR(1200.0 * std::log2(pitch / kHz), fit.cents[0], 1e-6);

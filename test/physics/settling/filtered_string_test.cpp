@@ -1,27 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
 #include <complex>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "ergotic/physics/certificate/monodromy.hpp"
 #include "ergotic/physics/settling/chaplet.hpp"
 #include "ergotic/physics/settling/settle.hpp"
-#include "support/scene_builder.hpp"
+#include "support/physics.hpp"
 
 namespace ergotic::physics {
 namespace {
-
-using test::Player;
-using test::SceneBuilder;
-
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kRate = 44100.0;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// A string of a wave impedance whose links are at 0.9 of the explicit limit. \return its first mat
 int addString(SceneBuilder& b, int masses, double impedance) {

@@ -1,31 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "physics/settling/filters.hpp"
 
-#include <cmath>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "ergotic/exception.hpp"
 #include "ergotic/physics/settling/chaplet.hpp"
 #include "physics/settling/chaplet_load.hpp"
-#include "support/scene_builder.hpp"
+#include "support/physics.hpp"
 
 namespace ergotic::physics {
 namespace {
 
-using scene::LiaType;
-using test::SceneBuilder;
-using testing::HasSubstr;
-
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kRate = 44100.0;
 constexpr Rates kRates{kRate, 14};
 const double kNyquist = kPi * kRate / 14;  // wN, rad/s
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// A string whose middle a slice touches through a filter.
 struct FilteredString : SceneBuilder {
@@ -49,12 +33,7 @@ std::vector<std::string> insert(scene::Scene& scene, const Rates& rates = kRates
 }
 
 std::string refusalOf(scene::Scene scene, const Rates& rates = kRates) {
-  try {
-    insert(scene, rates);
-  } catch (const TextError& error) {
-    return error.what();
-  }
-  return "";
+  return complaintOf<TextError>([&] { insert(scene, rates); });
 }
 
 TEST(LinearNetworkTest, InsideOfAStringIsTwiceItsWaveImpedance) {
@@ -90,22 +69,14 @@ TEST(LinearNetworkTest, StringGivesWayAsTheSpringsOnBothSides) {
 TEST(LinearNetworkTest, PointBetweenTwoMassesIsWeighted) {
   SceneBuilder b;
   const int string = b.chain(3, 1e-4, 1000.0);
-  b.scene.grids.push_back({"s", string, 5, 1});
-  scene::Mat point;
-  point.name = "p";
-  point.type = scene::MatType::kPoint;
-  b.scene.mats.push_back(point);
-  scene::Connection connection;
-  connection.mat = static_cast<int>(b.scene.mats.size()) - 1;
-  connection.along = scene::Value{0.375};  // midway between masses 1 and 2
-  b.scene.connections.push_back(connection);
+  const int point = b.point(b.grid(string, 5), 0.375);  // midway between masses 1 and 2
   const Network whole(b.scene);
   const LinearNetwork network(whole, SceneBuilder::kAudio);
   // K^-1 of three masses between grounds is min(i, j) (4 - max(i, j)) / (4 K).
   const double give = 0.25 * (3.0 + 2.0 * 2.0 + 4.0) / (4.0 * 1000.0);
-  EXPECT_NEAR(network.stiffnessAt(connection.mat), 1.0 / give, 1e-9);
-  EXPECT_NEAR(network.massAt(connection.mat), 2e-4, 1e-15);
-  EXPECT_NEAR(network.impedanceAt(connection.mat), 2.0 * std::sqrt(1000.0 * 1e-4), 1e-12);
+  EXPECT_NEAR(network.stiffnessAt(point), 1.0 / give, 1e-9);
+  EXPECT_NEAR(network.massAt(point), 2e-4, 1e-15);
+  EXPECT_NEAR(network.impedanceAt(point), 2.0 * std::sqrt(1000.0 * 1e-4), 1e-12);
 }
 
 TEST(LinearNetworkTest, FloatingPartHasNoStiffnessWhateverElseIsTiedDown) {
@@ -294,7 +265,7 @@ TEST(FiltersTest, NotesWhatItFoundAndMade) {
 TEST(FiltersTest, NotesAMassThatItPullsAndNoOther) {
   const double chaplet = 20.0 * 6.0 / kNyquist;
   EXPECT_THAT(noteOn(touchedByMass(49.0 * chaplet)), HasSubstr("more than 1/50"));
-  EXPECT_THAT(noteOn(touchedByMass(51.0 * chaplet)), testing::Not(HasSubstr("more than 1/50")));
+  EXPECT_THAT(noteOn(touchedByMass(51.0 * chaplet)), Not(HasSubstr("more than 1/50")));
 }
 
 TEST(FiltersTest, RefusesToBeHeavierThanATenthOfTheSlowMass) {

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+
 #include "ros/conversation/convert.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <ros/serialization.h>
 
 #include "ergotic/physics/settling/settle.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
+#include "ros/conversation/gesture_blocks.hpp"
 #include "ros/conversation/model_loader.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::node {
 namespace {
@@ -131,7 +128,7 @@ TEST(ConvertTest, StatusSaysWhyForceIsGone) {
   EXPECT_EQ(status.underruns, 7);
   EXPECT_EQ(status.peak_force, 20.0);
   EXPECT_EQ(status.peak_raw_force, 60.0);
-  EXPECT_NE(status.state_text.find(toString(station::FaultReason::kStall)), std::string::npos);
+  EXPECT_THAT(status.state_text, HasSubstr(toString(station::FaultReason::kStall)));
 }
 
 TEST(ConvertTest, StatusListsSlicesWithoutCalibration) {
@@ -177,8 +174,8 @@ TEST(ConvertTest, StatusNamesAGuardedLinkAsLongAsItIsCutTooOften) {
   fillStatus(motion, scene, status);
   EXPECT_EQ(status.stored_energy, 2.0);
   EXPECT_EQ(status.energy_residual, 0.5e-9);
-  EXPECT_NE(status.guard_warning.find("two.yaml:9:"), std::string::npos) << status.guard_warning;
-  EXPECT_NE(status.guard_warning.find("'l'"), std::string::npos) << status.guard_warning;
+  EXPECT_THAT(status.guard_warning, HasSubstr("two.yaml:9:"));
+  EXPECT_THAT(status.guard_warning, HasSubstr("'l'"));
   motion.guards = {{0, 10000, 100}};
   fillStatus(motion, scene, status);
   EXPECT_EQ(status.guard_warning, "");
@@ -221,6 +218,75 @@ TEST(ConvertTest, TextHashIsFnv1a) {
   // Reference values of the authors of the hash.
   EXPECT_EQ(textHash(""), "cbf29ce484222325");
   EXPECT_EQ(textHash("foobar"), "85944171f73967e8");
+}
+
+station::GestureTick tickAt(std::int64_t number) {
+  station::GestureTick tick;
+  tick.tick = number;
+  tick.slices = 2;
+  tick.flags = number % 2 == 0 ? 0U : std::uint32_t{station::GestureTick::kHeld};
+  tick.position[0] = 1.0 / static_cast<double>(number + 1);
+  tick.position[1] = -tick.position[0];
+  tick.force[1] = static_cast<float>(number);
+  tick.ports = 1;
+  tick.port[0] = 3.0 * tick.position[0];
+  return tick;
+}
+
+TEST(GestureBlocksTest, HoldAtMostSixtyFourTicksAndTwentyMilliseconds) {
+  EXPECT_EQ(GestureBlocks(3150.0).ticksPerBlock(), 63U);
+  EXPECT_EQ(GestureBlocks(44100.0).ticksPerBlock(), 64U);
+  EXPECT_EQ(GestureBlocks(200.0).ticksPerBlock(), 4U);
+  EXPECT_EQ(GestureBlocks(10.0).ticksPerBlock(), 1U);
+}
+
+TEST(GestureBlocksTest, KeepEveryTickInOrderBitForBit) {
+  GestureBlocks blocks(3150.0);
+  std::int64_t next = 5;
+  for (std::int64_t n = 5; n < 5 + 10 * 63; ++n) {
+    const auto block = blocks.add(tickAt(n));
+    ASSERT_EQ(block.has_value(), (n - 4) % 63 == 0);
+    if (!block) {
+      continue;
+    }
+    GestureBlock received;
+    ::ros::serialization::deserializeMessage(::ros::serialization::serializeMessage(*block),
+                                             received);
+    EXPECT_EQ(received.first_tick, next);
+    EXPECT_EQ(received.tick_rate_hz, 3150.0);
+    ASSERT_EQ(received.ticks, 63U);
+    for (std::size_t i = 0; i < received.ticks; ++i, ++next) {
+      const station::GestureTick tick = tickAt(next);
+      EXPECT_EQ(received.flags[i], tick.flags);
+      EXPECT_EQ(received.positions[2 * i], tick.position[0]);
+      EXPECT_EQ(received.positions[2 * i + 1], tick.position[1]);
+      EXPECT_EQ(received.forces[2 * i + 1], tick.force[1]);
+      EXPECT_EQ(received.port_positions[i], tick.port[0]);
+    }
+  }
+}
+
+TEST(GestureBlocksTest, BreakOffAtAGap) {
+  GestureBlocks blocks(3150.0);
+  EXPECT_FALSE(blocks.add(tickAt(0)));
+  EXPECT_FALSE(blocks.add(tickAt(1)));
+  const auto before = blocks.add(tickAt(7));
+  ASSERT_TRUE(before);
+  EXPECT_EQ(before->first_tick, 0);
+  EXPECT_EQ(before->ticks, 2U);
+  for (std::int64_t n = 8; n < 7 + 62; ++n) {
+    EXPECT_FALSE(blocks.add(tickAt(n)));
+  }
+  const auto after = blocks.add(tickAt(7 + 62));
+  ASSERT_TRUE(after);
+  EXPECT_EQ(after->first_tick, 7);
+  EXPECT_EQ(after->ticks, 63U);
+}
+
+TEST(GestureBlocksTest, LoseNothingWhenAGapMeetsBlocksOfOneTick) {
+  GestureBlocks blocks(10.0);
+  EXPECT_EQ(blocks.add(tickAt(0))->first_tick, 0);
+  EXPECT_EQ(blocks.add(tickAt(5))->first_tick, 5);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/conversation/master_watch.hpp"
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
 namespace ergotic::node {
 namespace {

@@ -3,18 +3,11 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <array>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "ergotic/exception.hpp"
 #include "support/package_path.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::node {
 namespace {
-
-using testing::HasSubstr;
 
 /// A workspace with Ergotic and a package of somebody else, wherever the tests run.
 class DriverPluginsTest : public ::testing::Test {
@@ -25,12 +18,7 @@ class DriverPluginsTest : public ::testing::Test {
   }
 
   std::string refusalOf(const std::string& driver, const std::string& settings) {
-    try {
-      plugins_->make(driver, YAML::Load(settings), "devices.yaml");
-    } catch (const Exception& refusal) {
-      return refusal.what();
-    }
-    return "made";
+    return complaintOf([&] { plugins_->make(driver, YAML::Load(settings), "devices.yaml"); });
   }
 
   std::unique_ptr<DriverPlugins> plugins_;

@@ -5,14 +5,14 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <string>
 
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include "ergotic/exception.hpp"
+#include "ros/device/end_effectors.hpp"
+#include "ros/display/end_effector_frames.hpp"
 #include "support/package_path.hpp"
 #include "support/scratch_file.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::node {
 namespace {
@@ -48,12 +48,7 @@ class HandsTest : public ::testing::Test {
     return tgr::readDevices("devices:\n- {driver: virtual, settings: {slices: 2}}\n", "d.yaml");
   }
   std::string refusalOf(const std::string& path) {
-    try {
-      hands_.save(path);
-    } catch (const Exception& refusal) {
-      return refusal.what();
-    }
-    return "";
+    return complaintOf([&] { hands_.save(path); });
   }
 
   Hands hands_{devices(), false};
@@ -90,6 +85,118 @@ TEST_F(HandsTest, ReplaceNothingButFiles) {
   EXPECT_EQ(refusalOf("/dev/null"), "/dev/null: cannot be written, allowed: a file");
   EXPECT_FALSE(fs::is_regular_file("/dev/null"));
   EXPECT_EQ(refusalOf("/nowhere/devices.yaml"), "/nowhere/devices.yaml: cannot be written");
+}
+
+EndEffector handle() {
+  EndEffector message;
+  message.name = "handle";
+  message.type = EndEffector::HANDLE;
+  message.slices = {5, 4, 3, 2, 1, 0};
+  message.ports = {"ax", "ay", "az", "bx", "by", "bz", "cx", "", "cz"};
+  message.points.resize(3);
+  message.points[1].x = 0.02;
+  message.points[2].y = 0.03;
+  message.position_scale = 2.0;
+  message.force_scale = 0.5;
+  message.rod = 0.17;
+  message.base_radius = 0.09;
+  message.platform_radius = 0.04;
+  message.pose.position.x = 0.1;
+  message.pose.orientation.z = std::sqrt(0.5);
+  message.pose.orientation.w = std::sqrt(0.5);
+  return message;
+}
+
+std::string refusalOf(const EndEffector& message) {
+  try {
+    fromMessages({message});
+  } catch (const TextError& refusal) {
+    return refusal.what();
+  }
+  return "taken";
+}
+
+TEST(EndEffectorsTest, SurviveTheWayThereAndBack) {
+  const EndEffector sent = handle();
+  const EndEffector back = toMessages(fromMessages({sent})).front();
+  EXPECT_EQ(back.name, sent.name);
+  EXPECT_EQ(back.type, sent.type);
+  EXPECT_EQ(back.slices, sent.slices);
+  EXPECT_EQ(back.ports, sent.ports);
+  EXPECT_EQ(back.points, sent.points);
+  EXPECT_EQ(back.position_scale, sent.position_scale);
+  EXPECT_EQ(back.force_scale, sent.force_scale);
+  EXPECT_EQ(back.rod, sent.rod);
+  EXPECT_EQ(back.base_radius, sent.base_radius);
+  EXPECT_EQ(back.platform_radius, sent.platform_radius);
+  EXPECT_EQ(back.pose.position.x, sent.pose.position.x);
+  EXPECT_NEAR(back.pose.orientation.z, sent.pose.orientation.z, 1e-12);
+}
+
+TEST(EndEffectorsTest, TakeTheUsualNumbersForThoseLeftOut) {
+  EndEffector message;
+  message.name = "key";
+  message.slices = {0};
+  message.ports = {"hammer"};
+  const tgr::EndEffectorConfig config = fromMessages({message}).list.front();
+  const tgr::EndEffectorConfig usual;
+  EXPECT_EQ(config.position_scale, usual.position_scale);
+  EXPECT_EQ(config.force_scale, usual.force_scale);
+  EXPECT_EQ(config.lever, usual.lever);
+  EXPECT_TRUE(config.pose.isApprox(Eigen::Isometry3d::Identity()));
+}
+
+TEST(EndEffectorsTest, AreNoneWhenThereAreNone) {
+  EXPECT_TRUE(fromMessages({}).list.empty());
+}
+
+TEST(EndEffectorsTest, AreRefusedWithTheirNameForWhatNoYamlMaySay) {
+  EndEffector message = handle();
+  message.type = 5;
+  EXPECT_THAT(refusalOf(message), HasSubstr("'handle': type is 5, allowed: 0...4"));
+  message = handle();
+  message.slices[2] = 64;
+  EXPECT_THAT(refusalOf(message), HasSubstr("'handle': slice is 64, allowed: 0...63"));
+  message = handle();
+  message.rod = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(refusalOf(message), HasSubstr("rod"));
+  message = handle();
+  message.points.pop_back();
+  EXPECT_NE(refusalOf(message), "taken");
+}
+
+TEST(EndEffectorFramesTest, FollowTheirSlicesInTheFrameOfTheDevice) {
+  EndEffector bow;
+  bow.name = "bow";
+  bow.type = EndEffector::BOW;
+  bow.slices = {3, 1};
+  bow.ports = {"along", "pressure"};
+  bow.pose.position.y = 0.5;
+  EndEffectorFrames frames(fromMessages({bow}));
+  station::Snapshot snapshot;
+  snapshot.slices = 4;
+  snapshot.slice_position = {0.0, 0.002, 0.0, 0.01};
+  const auto transforms = frames.at(snapshot, ::ros::Time(7.0));
+  ASSERT_EQ(transforms.size(), 1U);
+  EXPECT_EQ(transforms[0].header.frame_id, "tgr_base");
+  EXPECT_EQ(transforms[0].child_frame_id, "bow");
+  EXPECT_EQ(transforms[0].header.stamp, ::ros::Time(7.0));
+  EXPECT_NEAR(transforms[0].transform.translation.x, 0.01, 1e-12);
+  EXPECT_NEAR(transforms[0].transform.translation.y, 0.5, 1e-12);
+  EXPECT_NEAR(transforms[0].transform.translation.z, 0.002, 1e-12);
+  EXPECT_EQ(transforms[0].transform.rotation.w, 1.0);
+}
+
+TEST(EndEffectorFramesTest, DrawEachPointOfAHandleInItsOwnFrame) {
+  EndEffectorFrames frames(fromMessages({handle()}));
+  const auto& shapes = frames.shapes(::ros::Time(1.0)).markers;
+  ASSERT_EQ(shapes.size(), 4U);
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    EXPECT_EQ(shapes[i].header.frame_id, "handle");
+    EXPECT_EQ(shapes[i].id, static_cast<int>(i));
+  }
+  EXPECT_EQ(shapes[2].pose.position.x, 0.02);
+  EXPECT_EQ(shapes[3].pose.position.y, 0.03);
 }
 
 }  // namespace

@@ -3,14 +3,9 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <cmath>
-#include <limits>
-#include <string>
 #include <tuple>
 
-#include <gtest/gtest.h>
-
-#include "ergotic/exception.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::node {
 namespace {
@@ -25,12 +20,7 @@ XmlRpcValue with(const std::string& name, const XmlRpcValue& value) {
 
 /// What is said of one parameter, "" if it is taken.
 std::string refusalOf(const std::string& name, const XmlRpcValue& value) {
-  try {
-    readParameters(with(name, value), "/station");
-  } catch (const Exception& refusal) {
-    return refusal.what();
-  }
-  return "";
+  return complaintOf([&] { readParameters(with(name, value), "/station"); });
 }
 
 TEST(ParametersTest, AreTheDefaultsWhereNothingIsSaid) {
@@ -94,7 +84,7 @@ TEST(ParametersTest, AreRefusedWhereNobodyReadsThem) {
   EXPECT_EQ(
       refusal.rfind("parameter /station/quux_of_the_player is not known, allowed: model, ", 0), 0U)
       << refusal;
-  EXPECT_NE(refusal.find(", force_limit, "), std::string::npos) << refusal;
+  EXPECT_THAT(refusal, HasSubstr(", force_limit, "));
   EXPECT_NE(refusalOf("safety", with("force_limit", 5)), "") << "a map is none of them either";
 }
 

@@ -3,10 +3,9 @@
 
 #include <unistd.h>
 
-#include <array>
-
-#include <gtest/gtest.h>
 #include <sys/wait.h>
+
+#include "support/test.hpp"
 
 namespace ergotic::node {
 namespace {

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/display/markers.hpp"
 
-#include <cmath>
-#include <limits>
 #include <map>
-#include <string>
-#include <vector>
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
 namespace ergotic::node {
 namespace {

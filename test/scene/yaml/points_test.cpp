@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/yaml/points.hpp"
 
-#include <string>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "ergotic/exception.hpp"
 #include "ergotic/scene/grid.hpp"
 #include "scene/bad_text.hpp"
 #include "scene/generate/mesh.hpp"
 #include "scene/generate/string.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::scene {
 namespace {

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <string>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "ergotic/exception.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
 #include "scene/bad_text.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -258,9 +253,7 @@ const BadText kBad[] = {
      "'rest_length' of link 'x' = -1 m is out of range, allowed: >= 0 m"},
 };
 TEST(ReadLinksTest, WrongLinksAreRefusedAtTheirPlace) {
-  for (const BadText& bad : kBad) {
-    expectRefused(bad, "bad.yaml");
-  }
+  expectAllRefused(kBad, "bad.yaml");
 }
 
 struct Damage {
@@ -314,13 +307,8 @@ TEST(ReadLinksTest, ValidateFindsEveryDamageOfALink) {
     Scene scene = readYaml(
         LINK "type: power_contact, between: [m, n], stiffness: 1, exponent: 2}}\n", "links.yaml");
     damage.apply(scene, scene.lias.back());
-    try {
-      validate(scene);
-      ADD_FAILURE() << "not found: " << damage.message;
-    } catch (const TextError& e) {
-      EXPECT_THAT(e.what(), testing::HasSubstr(damage.message));
-      EXPECT_THAT(e.what(), testing::StartsWith("links.yaml:15:8: error: "));
-    }
+    EXPECT_THAT(complaintOf<TextError>([&] { validate(scene); }),
+                AllOf(HasSubstr(damage.message), StartsWith("links.yaml:15:8: error: ")));
   }
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <string>
-
 #include "scene/bad_text.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -40,12 +39,6 @@ const BadText kTop[] = {
     {HEAD "name: a<!>\x04z\n", "control character 0x04"},
     {HEAD "name: <!>*nobody\n", "not valid YAML"},
 };
-TEST(YamlErrorsTest, OfTheTopLevelAreRefusedAtTheirPlace) {
-  for (const BadText& bad : kTop) {
-    expectRefused(bad, "bad.yaml");
-  }
-}
-
 const BadText kSections[] = {
     {HEAD "parameters: {p: {<!>valu: 1, range: [0, 1]}}\n", "did you mean 'value'?"},
     {HEAD "parameters: {<!>p: {value: 1}}\n", "missing key 'range' of parameter 'p'"},
@@ -65,12 +58,6 @@ const BadText kSections[] = {
     {"ergotic: 1\nsections: {a: {}, <!>a: {}}\n", "key 'a' of 'sections' comes twice"},
     {"ergotic: 1\nsections: {<!>[a]: {}}\n", "a key of 'sections' is a list"},
 };
-TEST(YamlErrorsTest, OfParametersAndSectionsAreRefusedAtTheirPlace) {
-  for (const BadText& bad : kSections) {
-    expectRefused(bad, "bad.yaml");
-  }
-}
-
 const BadText kMats[] = {
     {HEAD "mats: {<!>m: {mass: 1}}\n", "missing key 'type' of module 'm'"},
     {HEAD "mats: {m: {type: <!>mas, mass: 1}}\n",
@@ -112,12 +99,6 @@ const BadText kMats[] = {
      "allowed: a number, $name or number*$name"},
     {PARAMETER "mats: {m: {type: mass, mass: 1, x: <!>$p}}\n", "cannot follow a parameter"},
 };
-TEST(YamlErrorsTest, OfModulesAreRefusedAtTheirPlace) {
-  for (const BadText& bad : kMats) {
-    expectRefused(bad, "bad.yaml");
-  }
-}
-
 #define GENERATOR HEAD "generators:\n  - {name: s, mass: 1, to: [1, 0], "
 const BadText kGenerators[] = {
     {HEAD "generators: <!>{}\n", "'generators' is not a list"},
@@ -149,12 +130,6 @@ const BadText kGenerators[] = {
      "allowed: scalar sections with rate: audio"},
     {HEAD "generators:\n  - {type: chaplet, name: c, from: <!>k, mass: 1}\n", "unknown module 'k'"},
 };
-TEST(YamlErrorsTest, OfGeneratorsAreRefusedAtTheirPlace) {
-  for (const BadText& bad : kGenerators) {
-    expectRefused(bad, "bad.yaml");
-  }
-}
-
 #define LINK TWO_MASSES "lias: {l: {"
 #define CLIPPED LINK "type: clipped_cubic, between: [m, n], stiffness: 1, "
 const BadText kLias[] = {
@@ -198,12 +173,6 @@ const BadText kLias[] = {
     {STRING "lias: {<!>s.link.0: {type: spring, between: [s.0, s.1], stiffness: 1}}\n",
      "link 's.link.0' is defined twice, first in line 3"},
 };
-TEST(YamlErrorsTest, OfLinksAreRefusedAtTheirPlace) {
-  for (const BadText& bad : kLias) {
-    expectRefused(bad, "bad.yaml");
-  }
-}
-
 const BadText kAudio[] = {
     {SLICES "ports: {p: {mat: <!>m, slice: 0}}\n", "allowed: modules of type slice"},
     {SLICES "ports: {p: {mat: k, slice: <!>64}}\n", "allowed: 0...63"},
@@ -239,22 +208,20 @@ const BadText kAudio[] = {
      "'' is not a finite number"},
     {STRING "outputs: {o: {at: <!>s.5, quantity: force, channel: 1}}\n", "unknown module 's.5'"},
 };
-TEST(YamlErrorsTest, OfPortsInputsAndOutputsAreRefusedAtTheirPlace) {
-  for (const BadText& bad : kAudio) {
-    expectRefused(bad, "bad.yaml");
-  }
+TEST(YamlErrorsTest, WhatIsWrongIsRefusedAtItsPlace) {
+  expectAllRefused(kTop, "bad.yaml");
+  expectAllRefused(kSections, "bad.yaml");
+  expectAllRefused(kMats, "bad.yaml");
+  expectAllRefused(kGenerators, "bad.yaml");
+  expectAllRefused(kLias, "bad.yaml");
+  expectAllRefused(kAudio, "bad.yaml");
 }
 
 TEST(YamlErrorsTest, NulByteIsRefusedAtItsPlace) {
   const std::string text = std::string("ergotic: 1\nname: a") + '\0' + "b\n";
-  try {
-    readYaml(text, "nul.yaml");
-    ADD_FAILURE();
-  } catch (const TextError& e) {
-    EXPECT_STREQ(e.what(),
-                 "nul.yaml:2:8: error: control character 0x00 in a text, allowed: tab and line "
-                 "ends only");
-  }
+  EXPECT_THAT(complaintOf<TextError>([&] { readYaml(text, "nul.yaml"); }),
+              "nul.yaml:2:8: error: control character 0x00 in a text, allowed: tab and line "
+              "ends only");
 }
 
 TEST(YamlErrorsTest, DeepNestingIsAnErrorNotACrash) {
@@ -286,7 +253,7 @@ TEST(YamlErrorsTest, TablesSharedByAliasesAreLimitedInAll) {
     ADD_FAILURE();
   } catch (const TextError& e) {
     EXPECT_EQ(e.line(), 5 + 256);
-    EXPECT_NE(std::string(e.what()).find("more than 1048576 points"), std::string::npos);
+    EXPECT_THAT(e.what(), HasSubstr("more than 1048576 points"));
   }
 }
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "scene/bad_text.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -157,12 +154,6 @@ const BadText kBadSections[] = {
                            "  - <!>{type: chaplet, name: c, from: m, mass: 1}\n",
      "allowed: scalar sections with rate: audio"},
 };
-TEST(YamlGeometryTest, WrongSectionsAreRefusedAtTheirPlace) {
-  for (const BadText& bad : kBadSections) {
-    expectRefused(bad, "bad.yaml");
-  }
-}
-
 #define PLANE(mat) SECTION("geometry: plane") "mats: {m: {" mat "}}\n"
 const BadText kBadMats[] = {
     {PLANE("type: mass, mass: 1, at: <!>[1]"),
@@ -183,12 +174,6 @@ const BadText kBadMats[] = {
     {SECTION("") "mats: {m: {type: mass, mass: 1, x: <!>[1, 2]}}\n",
      "is a list of 2, allowed: a number or a list of 1 number"},
 };
-TEST(YamlGeometryTest, WrongModulesAreRefusedAtTheirPlace) {
-  for (const BadText& bad : kBadMats) {
-    expectRefused(bad, "bad.yaml");
-  }
-}
-
 #define PLANE_MASS SECTION("geometry: plane") "mats: {m: {type: mass, mass: 1}}\n"
 const BadText kBadAxes[] = {
     {PLANE_MASS "inputs: {i: {mat: m, quantity: force, channel: 1, axis: <!>z}}\n",
@@ -199,12 +184,6 @@ const BadText kBadAxes[] = {
                  "outputs: {o: {at: m, quantity: force, channel: 1, axis: <!>y}}\n",
      "unknown axis 'y' of output 'o'"},
 };
-TEST(YamlGeometryTest, AxesThatDoNotMoveAreRefusedAtTheirPlace) {
-  for (const BadText& bad : kBadAxes) {
-    expectRefused(bad, "bad.yaml");
-  }
-}
-
 #define STRING(section, fields) \
   SECTION(section) "generators:\n  - {type: string, name: s, masses: 3, mass: 1, " fields "}\n"
 #define MESH(fields) \
@@ -243,12 +222,6 @@ const BadText kBadGenerators[] = {
                                             "rows: 3, columns: 3, spacing: 1}\n",
      "'s.link.0' is defined twice, first in line 4"},
 };
-TEST(YamlGeometryTest, WrongGeneratorsAreRefusedAtTheirPlace) {
-  for (const BadText& bad : kBadGenerators) {
-    expectRefused(bad, "bad.yaml");
-  }
-}
-
 TEST(YamlGeometryTest, PortsMoveAnyCoordinateThatMoves) {
   const std::string mats =
       "  tip: {type: slice, section: space2, at: [1, 2, 3]}\n"
@@ -278,10 +251,12 @@ const BadText kBadPorts[] = {
     {TWO_AXES "ports: {a: {mat: k, axis: y}, <!>b: {mat: k, axis: y}}\n",
      "port 'b' moves module 'k' along y, which port 'a' does"},
 };
-TEST(YamlGeometryTest, PortsOfAxesThatDoNotMoveOrAreTakenAreRefused) {
-  for (const BadText& bad : kBadPorts) {
-    expectRefused(bad, "geometry.yaml");
-  }
+TEST(YamlGeometryTest, WhatIsWrongIsRefusedAtItsPlace) {
+  expectAllRefused(kBadSections, "bad.yaml");
+  expectAllRefused(kBadMats, "bad.yaml");
+  expectAllRefused(kBadAxes, "bad.yaml");
+  expectAllRefused(kBadGenerators, "bad.yaml");
+  expectAllRefused(kBadPorts, "geometry.yaml");
 }
 
 }  // namespace

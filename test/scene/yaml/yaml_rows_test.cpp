@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "ergotic/scene/text/read_scene.hpp"
 #include "scene/bad_text.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::scene {
 namespace {

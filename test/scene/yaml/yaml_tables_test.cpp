@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <unistd.h>
 
-#include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <limits>
 #include <random>
-#include <string>
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "ergotic/exception.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
 #include "scene/bad_text.hpp"
+#include "support/test.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -54,12 +48,10 @@ class YamlTablesTest : public testing::Test {
   }
   void expectCsvRefused(const std::string& csv, const std::string& message) const {
     write("t.csv", csv);
-    try {
-      readYaml(BOW "{file: t.csv}}}\n", folder_ + "scene.yaml");
-      ADD_FAILURE() << "was not refused:\n" << csv;
-    } catch (const TextError& e) {
-      EXPECT_THAT(e.what(), testing::StartsWith(folder_ + "t.csv:" + message)) << csv;
-    }
+    EXPECT_THAT(
+        complaintOf<TextError>([&] { readYaml(BOW "{file: t.csv}}}\n", folder_ + "scene.yaml"); }),
+        StartsWith(folder_ + "t.csv:" + message))
+        << csv;
   }
 
   std::string folder_;
@@ -203,13 +195,9 @@ TEST_F(YamlTablesTest, TextAndTablesTogetherAreNoLongerThanATextMayBe) {
   write("t.csv", "0 0\n1 1\n");
   std::string text = BOW "{file: t.csv}}}\n";
   text += std::string((std::size_t{64} << 20U) - 10 - text.size(), '#');
-  try {
-    readYaml(text, folder_ + "scene.yaml");
-    ADD_FAILURE();
-  } catch (const TextError& e) {
-    EXPECT_THAT(e.what(), testing::EndsWith("the text has 67108854 bytes and its tables 41, "
-                                            "allowed: at most 67108864 in all"));
-  }
+  EXPECT_THAT(complaintOf<TextError>([&] { readYaml(text, folder_ + "scene.yaml"); }),
+              testing::EndsWith("the text has 67108854 bytes and its tables 41, "
+                                "allowed: at most 67108864 in all"));
 }
 
 const BadText kBad[] = {
@@ -247,9 +235,7 @@ const BadText kBad[] = {
      "a third document, allowed: at most two"},
 };
 TEST_F(YamlTablesTest, WrongTablesAreRefusedAtTheirPlace) {
-  for (const BadText& bad : kBad) {
-    expectRefused(bad, "bad.yaml");
-  }
+  expectAllRefused(kBad, "bad.yaml");
 }
 
 }  // namespace

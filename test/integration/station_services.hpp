@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <std_srvs/Trigger.h>
+
+#include <map>
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <ergotic/SliceTarget.h>
+#include <ergotic/Status.h>
+#include <ros/ros.h>
+
+#include "integration/child_process.hpp"
+#include "integration/listener.hpp"
+#include "support/test.hpp"
+
+/// What every test asks of a station, `/station`, in a process of its own.
+
+namespace ergotic::test {
+
+/// \param environment  added to ours
+inline std::unique_ptr<ChildProcess> startStation(
+    const std::map<std::string, std::string>& environment = {}) {
+  return std::make_unique<ChildProcess>(
+      std::vector<std::string>{"/usr/lib/nodelet/nodelet", "standalone", "ergotic/Station",
+                               "__name:=station"},
+      environment);
+}
+
+/// Of a service without parameters.
+inline std_srvs::Trigger::Response call(const std::string& service) {
+  std_srvs::Trigger trigger;
+  EXPECT_TRUE(::ros::service::call("/station/" + service, trigger)) << service;
+  return trigger.response;
+}
+
+inline void moveHand(const ::ros::Publisher& hand, std::uint32_t slice, double target_m) {
+  SliceTarget message;
+  message.slice = slice;
+  message.target = target_m;
+  hand.publish(message);
+}
+
+/// That from now on the diagnostics tell of the fault that the status tells of.
+inline void expectDiagnosticsError(const Listener<diagnostic_msgs::DiagnosticArray>& diagnostics,
+                                   const Listener<Status>& status) {
+  const std::size_t before = diagnostics.count();
+  EXPECT_TRUE(eventually([&] {
+    const auto seen = diagnostics.messages();
+    return std::any_of(seen.begin() + static_cast<std::ptrdiff_t>(before), seen.end(),
+                       [&](const auto& array) {
+                         const auto& force = array.status.front();
+                         return force.level == diagnostic_msgs::DiagnosticStatus::ERROR &&
+                                force.message == status.latest().state_text;
+                       });
+  }));
+}
+
+}  // namespace ergotic::test

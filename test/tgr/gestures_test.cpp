@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ergotic/tgr/gesture.hpp"
+#include "ergotic/tgr/replay_driver.hpp"
+#include "support/scratch_file.hpp"
+#include "support/test.hpp"
+#include "tgr/drivers/virtual/target_gesture.hpp"
+
+namespace ergotic::tgr {
+namespace {
+
+using test::ScratchFile;
+using Pair = std::array<double, 2>;
+
+std::string positionsError(const std::string& text) {
+  const ScratchFile file(text);
+  const std::string complaint = complaintOf<TextError>([&] { readPositionsCsv(file.path()); });
+  return complaint.substr(std::min(complaint.size(), file.path().size()));
+}
+
+TEST(PositionsCsvTest, GivesEveryDoubleBackBitForBit) {
+  using Limits = std::numeric_limits<double>;
+  const std::array<Pair, 4> written{{{0.1, -1.0 / 3.0},
+                                     {Limits::denorm_min(), -0.0},
+                                     {Limits::max(), Limits::min()},
+                                     {0.1 + Limits::epsilon(), 1e-17}}};
+  const ScratchFile file;
+  {
+    const auto sink = writePositionsCsv(file.path(), 2);
+    for (std::size_t n = 0; n < written.size(); ++n) {
+      sink->write(static_cast<std::int64_t>(n) + 700, written[n].data());
+    }
+  }
+  const auto source = readPositionsCsv(file.path());
+  ASSERT_EQ(source->slices(), 2);
+  for (const Pair& expected : written) {
+    Pair read{};
+    ASSERT_TRUE(source->next(read.data()));
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(read[i], expected[i]);
+      EXPECT_EQ(std::signbit(read[i]), std::signbit(expected[i]));
+    }
+  }
+  Pair untouched{5.0, 6.0};
+  EXPECT_FALSE(source->next(untouched.data()));
+  EXPECT_FALSE(source->next(untouched.data()));
+  EXPECT_EQ(untouched, (Pair{5.0, 6.0}));
+}
+
+TEST(PositionsCsvTest, SaysWhereTheFileIsWrong) {
+  EXPECT_EQ(positionsError(""), ":1:1: error: no header line, expected tick,x0,...");
+  EXPECT_EQ(positionsError("0,0.1\n"), ":1:1: error: header '0', expected 'tick'");
+  EXPECT_EQ(positionsError("tick\n"), ":1:1: error: 1 columns, expected 2");
+  EXPECT_EQ(positionsError("tick,x1\n"), ":1:6: error: header 'x1', expected 'x0'");
+  EXPECT_EQ(positionsError("tick,x0\n5,0\n7,0\n"), ":3:1: error: tick '7', allowed 6...6");
+  EXPECT_EQ(positionsError("tick,x0\n-1,0\n").substr(0, 22), ":2:1: error: tick '-1'");
+  EXPECT_EQ(positionsError("tick,x0\n0,nan\n").substr(0, 27), ":2:3: error: position 'nan'");
+  EXPECT_EQ(positionsError("tick,x0,x1\n0,0\n"), ":2:3: error: 2 columns, expected 3");
+}
+
+TEST(PositionsCsvTest, RefusesPathsThatCannotBeUsed) {
+  EXPECT_THROW(readPositionsCsv("/nowhere/x.csv"), Exception);
+  EXPECT_THROW(writePositionsCsv("/nowhere/x.csv", 2), Exception);
+  EXPECT_THROW(writePositionsCsv("/dev/full", 2), Exception);
+}
+
+TEST(GestureKindTest, IsToldByTheFirstLineThatIsNotAComment) {
+  EXPECT_EQ(gestureKindOf(ScratchFile("# x\ntick,x0\n").path()), GestureKind::kPositions);
+  EXPECT_EQ(gestureKindOf(ScratchFile("time_s,slice,target_m\n").path()), GestureKind::kTargets);
+  EXPECT_EQ(gestureKindOf(ScratchFile("0,0,0.01\n").path()), GestureKind::kTargets);
+}
+
+TEST(ReplayDriverTest, PlaysTheRecordedPositionsThenHoldsTheLastAndSaysSo) {
+  const ScratchFile file("tick,x0,x1\n3,0.01,0.02\n4,0.03,0.04\n");
+  const auto driver = makeReplayDriver(readPositionsCsv(file.path()));
+  EXPECT_EQ(driver->slices(), 2);
+  driver->open(1000.0);
+  const Pair forces{7.0, 7.0};
+  Pair x{};
+  EXPECT_EQ(driver->exchange(forces.data(), x.data()), kExchangeOk);
+  EXPECT_EQ(x, (Pair{0.01, 0.02}));
+  EXPECT_EQ(driver->exchange(forces.data(), x.data()), kExchangeOk);
+  EXPECT_EQ(x, (Pair{0.03, 0.04}));
+  for (int n = 0; n < 3; ++n) {
+    x = {};
+    EXPECT_EQ(driver->exchange(forces.data(), x.data()), kMissingSample);
+    EXPECT_EQ(x, (Pair{0.03, 0.04}));
+  }
+}
+
+TargetGesture parse(const std::string& text, int slices = 2) {
+  std::istringstream in(text);
+  return {in, "g.csv", slices};
+}
+
+std::string targetsError(const std::string& text) {
+  return complaintOf<TextError>([&] { parse(text); });
+}
+
+TEST(TargetGestureTest, MovesOnStraightLinesBetweenRows) {
+  const TargetGesture gesture = parse("time_s,slice,target_m\n1,0,0.01\n3,0,-0.03\n");
+  EXPECT_DOUBLE_EQ(gesture.at(0, 1.0).position, 0.01);
+  EXPECT_DOUBLE_EQ(gesture.at(0, 1.5).position, 0.0);
+  EXPECT_DOUBLE_EQ(gesture.at(0, 1.5).velocity, -0.02);
+  EXPECT_DOUBLE_EQ(gesture.at(0, 3.0).position, -0.03);
+}
+
+TEST(TargetGestureTest, HoldsTheFirstTargetBeforeAndTheLastAfter) {
+  const TargetGesture gesture = parse("1,0,0.01\n3,0,-0.03\n");
+  EXPECT_EQ(gesture.at(0, 0.0).position, 0.01);
+  EXPECT_EQ(gesture.at(0, 0.0).velocity, 0.0);
+  EXPECT_EQ(gesture.at(0, 99.0).position, -0.03);
+  EXPECT_EQ(gesture.at(0, 99.0).velocity, 0.0);
+}
+
+TEST(TargetGestureTest, LetsSlicesInterleaveAndRestWithoutRows) {
+  const TargetGesture gesture = parse("0,2,0.01\n0,0,0.02\n1,2,0.03\n0.5,0,0.04\n", 3);
+  EXPECT_DOUBLE_EQ(gesture.at(2, 0.5).position, 0.02);
+  EXPECT_DOUBLE_EQ(gesture.at(0, 0.25).position, 0.03);
+  EXPECT_EQ(gesture.at(1, 0.5).position, 0.0);
+}
+
+TEST(TargetGestureTest, SkipsCommentsBlankLinesSpacesAndCarriageReturns) {
+  const TargetGesture gesture =
+      parse("# a pluck\r\n\r\n time_s , slice,target_m\r\n 0 , 1 , 0.02 \r\n");
+  EXPECT_EQ(gesture.at(1, 0.0).position, 0.02);
+}
+
+class Rows final : public GestureSource {
+ public:
+  explicit Rows(std::vector<std::array<double, 2>> rows) : rows_(std::move(rows)) {}
+  int slices() const noexcept override { return 2; }
+  bool next(double* positions) noexcept override {
+    if (row_ == rows_.size()) {
+      return false;
+    }
+    std::copy_n(rows_[row_++].begin(), 2, positions);
+    return true;
+  }
+
+ private:
+  std::vector<std::array<double, 2>> rows_;
+  std::size_t row_ = 0;
+};
+
+TEST(TargetGestureTest, MovesOnStraightLinesBetweenRecordedTicks) {
+  Rows rows({{0.01, 0.0}, {0.03, -0.02}, {0.03, -0.06}});
+  TargetGesture gesture(rows, "p.csv", 3);
+  gesture.setTickRate(100.0);
+  EXPECT_DOUBLE_EQ(gesture.at(0, 0.0).position, 0.01);
+  EXPECT_DOUBLE_EQ(gesture.at(0, 0.005).position, 0.02);
+  EXPECT_DOUBLE_EQ(gesture.at(0, 0.005).velocity, 2.0);
+  EXPECT_DOUBLE_EQ(gesture.at(1, 0.015).position, -0.04);
+  EXPECT_DOUBLE_EQ(gesture.at(1, 0.015).velocity, -4.0);
+  EXPECT_EQ(gesture.at(1, 1.0).position, -0.06);
+  EXPECT_EQ(gesture.at(1, 1.0).velocity, 0.0);
+  EXPECT_EQ(gesture.at(2, 0.01).position, 0.0) << "was not recorded";
+}
+
+TEST(TargetGestureTest, RefusesRecordedPositionsThatNoHandCanFollow) {
+  Rows far({{0.0, 0.0}, {0.0, 0.11}});
+  EXPECT_THROW(TargetGesture(far, "p.csv", 2), Exception);
+  Rows many({{0.0, 0.0}});
+  EXPECT_THROW(TargetGesture(many, "p.csv", 1), Exception);
+}
+
+TEST(TargetGestureTest, SaysWhereARowIsWrong) {
+  const std::string ok = "0,0,0\n";
+  EXPECT_EQ(targetsError(ok + "0,0,0.01\n"),
+            "g.csv:2:1: error: time_s '0' is not after the slice's row before it");
+  EXPECT_EQ(targetsError(ok + "1, 2,0\n"), "g.csv:2:4: error: slice '2', allowed 0...1");
+  EXPECT_EQ(targetsError(ok + "1,-1,0\n"), "g.csv:2:3: error: slice '-1', allowed 0...1");
+  EXPECT_EQ(targetsError(ok + "1,0,0.11\n"),
+            "g.csv:2:5: error: target_m '0.11', allowed -0.1...0.1");
+  EXPECT_EQ(targetsError(ok + "1,0,nan\n"), "g.csv:2:5: error: target_m 'nan', allowed -0.1...0.1");
+  EXPECT_EQ(targetsError(ok + "inf,0,0\n"), "g.csv:2:1: error: time_s 'inf', allowed 0...1e+06");
+  EXPECT_EQ(targetsError(ok + "1,0\n"), "g.csv:2:3: error: 2 columns, expected 3");
+  EXPECT_EQ(targetsError(ok + "1,0,0,7\n"), "g.csv:2:7: error: 4 columns, expected 3");
+  EXPECT_EQ(targetsError(ok + "1,0,0.01x\n"),
+            "g.csv:2:5: error: target_m '0.01x', allowed -0.1...0.1");
+  EXPECT_EQ(targetsError("time_s,slice\n"), "g.csv:1:8: error: 2 columns, expected 3");
+  EXPECT_EQ(targetsError("time_s,key,target_m\n"),
+            "g.csv:1:8: error: header, expected time_s,slice,target_m");
+}
+
+TEST(TargetGestureTest, RefusesAFileThatIsNotThere) {
+  EXPECT_THROW(readTargetGesture("/nowhere/g.csv", 1), Exception);
+}
+
+}  // namespace
+}  // namespace ergotic::tgr

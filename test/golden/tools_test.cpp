@@ -337,7 +337,7 @@ TEST_F(CheckTest, WritesJsonThatAProgramReads) {
           scene +
               " --json | /usr/bin/python3 -c 'import json, sys; r = json.load(sys.stdin);"
               " print(r[\"modules\"], r[\"ports\"][0][\"slice\"], r[\"sections\"][0][\"axis\"])'");
-  EXPECT_EQ(outcome.text, "2 0 [1, 0, 0]\n");
+  EXPECT_EQ(outcome.text, "2 0 [1.0, 0.0, 0.0]\n");
 }
 
 TEST_F(CheckTest, RefusesWhatIsUnstable) {

@@ -99,7 +99,7 @@ class StationTest : public ::testing::Test {
   static LoadModel::Response load(const std::string& model) {
     LoadModel load;
     load.request.model = model;
-    EXPECT_TRUE(::ros::service::call("load_model", load));
+    EXPECT_TRUE(::ros::service::call("/station/load_model", load));
     return load.response;
   }
   static void moveHand(double target) { test::moveHand(world_->hand, 0, target); }
@@ -255,10 +255,10 @@ TEST_F(StationTest, SetsParametersWithinTheirRange) {
   SetParameter set;
   set.request.name = "loss";
   set.request.value = 1e-4;
-  ASSERT_TRUE(::ros::service::call("set_parameter", set));
+  ASSERT_TRUE(::ros::service::call("/station/set_parameter", set));
   EXPECT_TRUE(set.response.success) << set.response.message;
   set.request.value = 1e4;
-  ASSERT_TRUE(::ros::service::call("set_parameter", set));
+  ASSERT_TRUE(::ros::service::call("/station/set_parameter", set));
   EXPECT_FALSE(set.response.success);
   EXPECT_THAT(set.response.message, HasSubstr("loss"));
   const auto events = world_->events.messages();
@@ -293,7 +293,7 @@ TEST_F(StationTest, KeepsItsForceWhileSoundIsLostAndComesBack) {
   const std::size_t before = world_->events.count();
   InjectFault inject;
   inject.request.kind = "jack_lost";
-  ASSERT_TRUE(::ros::service::call("inject_fault", inject));
+  ASSERT_TRUE(::ros::service::call("/station/inject_fault", inject));
   ASSERT_TRUE(inject.response.success) << inject.response.message;
   const auto told = [before](std::uint8_t type) {
     const auto events = world_->events.messages();

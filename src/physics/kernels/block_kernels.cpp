@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kernels of blocks, compiled once for each level of vector instructions: CMakeLists.txt
-// sets ERGOTIC_LEVEL, the namespace, and ERGOTIC_VECTOR_BYTES. Nothing here may be shared with
-// other translation units, which run on other processors: no standard library, everything in that
-// namespace.
+// The kernels of blocks, compiled once for each level of vector instructions: CMakeLists.txt sets
+// ERGOTIC_LEVEL, the namespace, and ERGOTIC_VECTOR_BYTES. Nothing may be shared with other
+// translation units, which run on other processors: no standard library, all in that namespace.
 #include "physics/kernels/block_kernels.hpp"
 
 #include "physics/kernels/levels.hpp"
@@ -31,9 +30,8 @@ using Vector = typename VectorOf<Real>::Type;
 
 template <class Real>
 constexpr int kWidth = ERGOTIC_VECTOR_BYTES / static_cast<int>(sizeof(Real));
-/// Vectors in a row of kLanes.
 template <class Real>
-constexpr int kParts = kLanes / kWidth<Real>;
+constexpr int kParts = kLanes / kWidth<Real>;  // vectors in a row of kLanes
 
 template <class Real>
 ERGOTIC_INLINE Vector<Real> load(const Real* from, Index at) noexcept {

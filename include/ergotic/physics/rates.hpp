@@ -16,7 +16,7 @@ struct Rates {
 
 /// The ratio nearest to what is wanted.
 /// \param gestural_hz  wanted gestural rate; 0: the scene's own wish, met as far as 1...kMaxRatio
-/// go \throws Exception if `gestural_hz` is out of reach, the audio rate is outside 8...192 kHz or
+/// \throws Exception if `gestural_hz` is out of reach, the audio rate is outside 8...192 kHz or
 /// a section's divisor neither
 ///         divides R nor is a multiple of it (the message names the nearest legal one)
 Rates chooseRates(const scene::Scene& scene, double audio_hz, double gestural_hz = 0.0);

@@ -2,7 +2,6 @@
 # Tests that need ROS: messages and conversions as gtests, the station as rostests, launch files.
 # All of them run under plain ctest, in the devel space.
 ergotic_add_gtests(ros ergotic_ros yaml-cpp)
-target_compile_definitions(ergotic_ros_test PRIVATE ERGOTIC_DEVEL_DIR="${CATKIN_DEVEL_PREFIX}")
 # A device of somebody else, which no list of ours knows of.
 add_library(third_party_device SHARED test/third_party_device/still_device.cpp)
 set_target_properties(third_party_device PROPERTIES
@@ -25,8 +24,6 @@ foreach(rostest ${rostests})
     RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/ergotic)
   target_link_libraries(${name}_rostest
     PRIVATE ergotic_audio ergotic_messages ${catkin_LIBRARIES} ergotic_test_support ergotic_flags)
-  target_compile_definitions(${name}_rostest
-    PRIVATE ERGOTIC_TOOLS_DIR="${CATKIN_DEVEL_PREFIX}/lib/ergotic")
   ergotic_compile_soon(${name}_rostest)
   add_test(NAME integration.${name} COMMAND ${in_devel_space} /usr/bin/rostest ${rostest})
   set_tests_properties(integration.${name} PROPERTIES

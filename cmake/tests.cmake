@@ -3,8 +3,9 @@
 file(GLOB support_sources CONFIGURE_DEPENDS test/support/*.cpp)
 add_library(ergotic_test_support STATIC ${support_sources})
 target_include_directories(ergotic_test_support PUBLIC test src)
-target_compile_definitions(ergotic_test_support PUBLIC
-  ERGOTIC_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ERGOTIC_BINARY_DIR="${PROJECT_BINARY_DIR}")
+set_source_files_properties(test/support/places.cpp PROPERTIES COMPILE_DEFINITIONS
+  "ERGOTIC_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\";ERGOTIC_BINARY_DIR=\"${PROJECT_BINARY_DIR}\";\
+ERGOTIC_DEVEL_DIR=\"${CATKIN_DEVEL_PREFIX}\";ERGOTIC_TOOLS_DIR=\"$<TARGET_FILE_DIR:render>\"")
 target_link_libraries(ergotic_test_support
   PUBLIC ergotic_audio GTest::gtest GTest::gmock PkgConfig::SNDFILE PRIVATE ergotic_flags)
 
@@ -54,8 +55,8 @@ ergotic_add_gtests(comedi comedi_standin ergotic_comedi_driver)
 add_executable(comedi_probe test/comedi/probe/comedi_probe.cpp)
 target_link_libraries(comedi_probe PRIVATE ergotic_comedi_driver ergotic_flags)
 add_dependencies(ergotic_comedi_test comedi_probe)
-target_compile_definitions(ergotic_comedi_test PRIVATE
-  COMEDI_PROBE="$<TARGET_FILE:comedi_probe>" COMEDI_STANDIN="$<TARGET_FILE:comedi_standin>")
+set_source_files_properties(test/comedi/comedi_preload_test.cpp PROPERTIES COMPILE_DEFINITIONS
+  "COMEDI_PROBE=\"$<TARGET_FILE:comedi_probe>\";COMEDI_STANDIN=\"$<TARGET_FILE:comedi_standin>\"")
 ergotic_add_gtests(tgr_jack ergotic_jack_driver)
 # They run the tools as programs.
 add_dependencies(ergotic_golden_test render check)

@@ -2,8 +2,8 @@
 #include "comedi/comedi_rig.hpp"
 #include "ergotic/tgr/calibration.hpp"
 #include "ergotic/tgr/device.hpp"
-#include "scene/text/source_text.hpp"
 #include "support/driver_contract.hpp"
+#include "support/places.hpp"
 #include "support/test.hpp"
 
 /// The driver as a station uses it: made to speak metres and newtons.
@@ -107,9 +107,9 @@ TEST_F(ComediCalibrationTest, GivesNoForceToAnUncalibratedSlice) {
 TEST(ComediRailTest, ASliceAtItsEndStopHasAPosition) {
   const ComediStandinBoard board;
   comediStandinReset(&board);
-  const std::string file = ERGOTIC_SOURCE_DIR "/config/comedi.yaml";
+  const std::string file = repository("config/comedi.yaml");
   const tgr::DriverStack stack = tgr::makeDrivers(
-      tgr::readDevices(*scene::readBytes(file), file),
+      tgr::readDevices(textOf(file), file),
       [](const std::string&, const YAML::Node& settings, const std::string& place) {
         return tgr::ComediFactory().make(settings, place);
       },

@@ -7,6 +7,7 @@
 #include "ergotic/physics/engine/instrument.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
 #include "support/mdl_simulator.hpp"
+#include "support/places.hpp"
 #include "support/test.hpp"
 
 namespace ergotic {
@@ -147,8 +148,7 @@ const std::vector<Case>& cases() {
 }
 
 std::string modelText(const std::string& name) {
-  std::ifstream file(std::string(ERGOTIC_SOURCE_DIR) + "/test/golden/models/" + name + ".mdl");
-  return {std::istreambuf_iterator<char>(file), {}};
+  return textOf(repository("test/golden/models/" + name + ".mdl"));
 }
 
 Channels inputsOf(const Case& c) {

@@ -6,6 +6,7 @@
 
 #include "ergotic/audio/wav.hpp"
 #include "ergotic/rt/isa.hpp"
+#include "support/places.hpp"
 #include "support/scratch_file.hpp"
 #include "support/struck_bar.hpp"
 #include "support/test.hpp"
@@ -19,8 +20,8 @@ using test::run;
 using test::ScratchFile;
 using testing::ContainsRegex;
 
-const std::string kString = std::string(ERGOTIC_SOURCE_DIR) + "/models/string.yaml";
-const std::string kPluck = std::string(ERGOTIC_SOURCE_DIR) + "/models/string_demo.csv";
+const std::string kString = repository("models/string.yaml");
+const std::string kPluck = repository("models/string_demo.csv");
 
 std::vector<double> play(const std::string& options) {
   const test::ScratchFile sound;
@@ -72,7 +73,7 @@ TEST(ToolOptionsTest, WhatCannotBeIsRefusedWithWhatCan) {
   }
 }
 
-const std::string kFretted = std::string(ERGOTIC_SOURCE_DIR) + "/models/fretted_string.yaml";
+const std::string kFretted = repository("models/fretted_string.yaml");
 
 TEST(TargetOptionTest, CheckExplainsTheProposalPartByPart) {
   const Outcome outcome = run("check", kString + " --target '1 cent'");
@@ -111,7 +112,7 @@ TEST(TargetOptionTest, BadTargetsAreRefusedWithWhatIsAllowed) {
   }
 }
 
-const std::string kDuet = std::string(ERGOTIC_SOURCE_DIR) + "/models/duet.yaml";
+const std::string kDuet = repository("models/duet.yaml");
 
 TEST(PortToolsTest, CheckTellsPortsFromAgentsAndSaysWhatNoiseTheyBring) {
   const Outcome outcome = run("check", kDuet);
@@ -212,9 +213,8 @@ double peakBetween(const std::vector<double>& stereo, double from_s, double to_s
 }
 
 TEST(PortToolsTest, ABallStrikesTheDrumAndAHandleMutesIt) {
-  const std::string drum = std::string(ERGOTIC_SOURCE_DIR) + "/models/drum";
-  const std::string hands =
-      " --end-effectors " + std::string(ERGOTIC_SOURCE_DIR) + "/config/hands.yaml";
+  const std::string drum = repository("models/drum");
+  const std::string hands = " --end-effectors " + repository("config/hands.yaml");
   const Outcome checked = run("check", drum + ".yaml" + hands);
   EXPECT_EQ(checked.code, 0) << checked.text;
   EXPECT_THAT(checked.text, AllOf(HasSubstr("findings: none"), HasSubstr("warnings: none")));

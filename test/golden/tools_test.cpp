@@ -7,6 +7,7 @@
 
 #include "ergotic/audio/wav.hpp"
 #include "support/mdl_simulator.hpp"
+#include "support/places.hpp"
 #include "support/struck_bar.hpp"
 #include "support/test.hpp"
 #include "support/tool_process.hpp"
@@ -151,8 +152,7 @@ TEST_F(RenderTest, LeavesTheOldFileWhenTheSoundBlowsUp) {
   const Outcome outcome = run("render", scene + " --allow-unstable --seconds 1 --out " + out);
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.text, HasSubstr("not finite from frame "));
-  std::ifstream file(out);
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "what was there before");
+  EXPECT_EQ(textOf(out), "what was there before");
 }
 
 TEST_F(RenderTest, AsksForInputsAtTheRateOfTheInstrument) {
@@ -273,7 +273,7 @@ double likenessAt(const std::vector<double>& sound, std::size_t first, std::size
 }
 
 TEST_F(RenderTest, PlaysTheFrettedStringOpenAndOnAFret) {
-  const std::string model = std::string(ERGOTIC_SOURCE_DIR) + "/models/fretted_string";
+  const std::string model = repository("models/fretted_string");
   EXPECT_THAT(
       run("check", model + ".yaml").text,
       AllOf(HasSubstr("verdict: bounded"), HasSubstr("geometry: 3D"), HasSubstr("guarded: 4")));
@@ -314,7 +314,7 @@ TEST_F(CheckTest, SaysWhatASceneIsMadeOf) {
 }
 
 TEST_F(CheckTest, GivesTheClosedFormPitchOfEachString) {
-  const Outcome outcome = run("check", std::string(ERGOTIC_SOURCE_DIR) + "/models/string.yaml");
+  const Outcome outcome = run("check", repository("models/string.yaml"));
   EXPECT_EQ(outcome.code, 0) << outcome.text;
   EXPECT_THAT(outcome.text, HasSubstr("pitch_hz: 110.0"));
 }

@@ -17,6 +17,7 @@
 #include "integration/reference_threads.hpp"
 #include "integration/station_services.hpp"
 #include "support/jack_server.hpp"
+#include "support/places.hpp"
 #include "support/scratch_file.hpp"
 #include "support/test.hpp"
 
@@ -218,7 +219,7 @@ constexpr double kBoardWall = 1000.0;  // N/m
 TEST(ComediStationTest, PlaysUntilItsBoardIsGoneAndAgainWhenItIsBack) {
   const ScratchFile gesture(pressesOfAHand());
   const StationProcess station(
-      ERGOTIC_SOURCE_DIR "/config/comedi.yaml", kBoardWall, "none",
+      repository("config/comedi.yaml"), kBoardWall, "none",
       {{"LD_PRELOAD", COMEDI_STANDIN},
        {"COMEDI_STANDIN_RATE_HZ", std::to_string(kTickHz)},
        {"COMEDI_STANDIN_GESTURE", gesture.path()},
@@ -263,9 +264,9 @@ class JackStationTest : public ::testing::Test {
     plugIn();
   }
   void plugIn() {
-    device_.emplace(std::vector<std::string>{std::string(ERGOTIC_TOOLS_DIR) + "/jack_tgr",
-                                             "--server", server_.name(), "--slices", "1",
-                                             "--gesture", gesture_.path(), "--watchdog-ms", "500"});
+    device_.emplace(std::vector<std::string>{toolPath("jack_tgr"), "--server", server_.name(),
+                                             "--slices", "1", "--gesture", gesture_.path(),
+                                             "--watchdog-ms", "500"});
   }
 
   JackServer server_{"drivers", {kAudioHz, kPeriod, 2}};

@@ -4,6 +4,7 @@
 #include <iomanip>
 #include <stdexcept>
 
+#include "support/places.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::test {
@@ -49,12 +50,10 @@ void FaultTable::write() const {
     }
     table += row->second;
   }
-  const std::string path = ERGOTIC_SOURCE_DIR "/docs/safety.md";
+  const std::string path = repository("docs/safety.md");
   const std::string begin = "<!-- faults: begin -->\n";
   const std::string end = "<!-- faults: end -->";
-  std::stringstream text;
-  text << std::ifstream(path).rdbuf();
-  std::string page = text.str();
+  std::string page = textOf(path);
   const std::size_t from = page.find(begin);
   const std::size_t to = page.find(end);
   if (from == std::string::npos || to == std::string::npos || to < from) {

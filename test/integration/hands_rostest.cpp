@@ -18,6 +18,7 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include "integration/station_services.hpp"
+#include "support/places.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::test {
@@ -201,10 +202,8 @@ TEST_F(HandsTest, IsGuidedThroughACalibrationThatTakesEffectAndIsWritten) {
   }
   EXPECT_TRUE(eventually([] { return world_->status.latest().uncalibrated.empty(); }));
   EXPECT_TRUE(stateBecomes(Status::READY));
-  std::stringstream written;
-  written << std::ifstream(file).rdbuf();
+  EXPECT_THAT(textOf(file), HasSubstr("metres_per_volt: -0.00"));
   std::filesystem::remove(file);
-  EXPECT_THAT(written.str(), HasSubstr("metres_per_volt: -0.00"));
 }
 
 TEST_F(HandsTest, LetsOneHandFeelTheOtherThroughTheModel) {

@@ -16,6 +16,7 @@
 #include "integration/listener.hpp"
 #include "integration/station_services.hpp"
 #include "integration/wall.hpp"
+#include "support/places.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::test {
@@ -41,9 +42,8 @@ class PushedStation {
     std::filesystem::create_directories(folder_);
     std::ofstream(folder_ / "gesture.csv") << "time_s,slice,target_m\n0,0,0\n0.2,0,0.046\n";
     device_ = std::make_unique<ChildProcess>(std::vector<std::string>{
-        std::string(ERGOTIC_TOOLS_DIR) + "/virtual_tgr", "--shm", segment_, "--gesture",
-        (folder_ / "gesture.csv").string(), "--log", log_.string(), "--priority", "70",
-        "--watchdog-ms", std::to_string(watchdog_ms)});
+        toolPath("virtual_tgr"), "--shm", segment_, "--gesture", (folder_ / "gesture.csv").string(),
+        "--log", log_.string(), "--priority", "70", "--watchdog-ms", std::to_string(watchdog_ms)});
     station_ = startStation(environment);
   }
   ~PushedStation() {

@@ -27,6 +27,7 @@
 #include "integration/reference_threads.hpp"
 #include "integration/station_services.hpp"
 #include "integration/wall.hpp"
+#include "support/places.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::test {
@@ -171,9 +172,8 @@ class SafetyWorld {
   void startDevice(double watchdog_ms) {
     const auto path = folder_ / ("forces_" + std::to_string(++devices_) + ".csv");
     device_ = std::make_unique<ChildProcess>(std::vector<std::string>{
-        std::string(ERGOTIC_TOOLS_DIR) + "/virtual_tgr", "--shm", segment_, "--device",
-        (folder_ / "device.yaml").string(), "--log", path.string(), "--priority", "70",
-        "--watchdog-ms", std::to_string(watchdog_ms)});
+        toolPath("virtual_tgr"), "--shm", segment_, "--device", (folder_ / "device.yaml").string(),
+        "--log", path.string(), "--priority", "70", "--watchdog-ms", std::to_string(watchdog_ms)});
     log = std::make_unique<DeviceLog>(path);
     watchdog_ms_ = watchdog_ms;
   }

@@ -25,6 +25,7 @@
 #include "ergotic/rt/isa.hpp"
 #include "integration/station_services.hpp"
 #include "support/jack_server.hpp"
+#include "support/places.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::test {
@@ -32,8 +33,7 @@ namespace {
 
 constexpr double kSilence = 3.2e-5;  // -90 dBFS
 constexpr double kHeard = 1e-3;
-const std::string kModel =
-    std::string(ERGOTIC_SOURCE_DIR) + "/test/integration/plucked_string.yaml";
+const std::string kModel = repository("test/integration/plucked_string.yaml");
 
 /// A JACK server, a nodelet manager and the station in it, once for all tests: what they do builds
 /// on one another no more than the order in which a player does it.

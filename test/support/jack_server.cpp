@@ -13,6 +13,7 @@
 #include <sys/prctl.h>
 #include <sys/wait.h>
 
+#include "support/places.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::test {
@@ -31,15 +32,9 @@ std::string socketPath(const std::string& name) {
   return "/dev/shm/jack_" + name + "_" + std::to_string(getuid()) + "_0";
 }
 
-std::string contents(const std::string& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
-
 /// JACK has room for eight servers, and a killed one keeps its place until its name comes again.
 bool holdsAPlace(const std::string& name) {
-  return contents("/dev/shm/jack-shm-registry").find(":" + name + ":") != std::string::npos;
+  return textOf("/dev/shm/jack-shm-registry").find(":" + name + ":") != std::string::npos;
 }
 
 [[noreturn]] void becomeServer(const std::vector<std::string>& words, const std::string& log) {
@@ -119,7 +114,7 @@ void JackServer::start() {
     if (waitpid(pid_, &status, WNOHANG) == pid_) {
       pid_ = -1;
       throw std::runtime_error("jackd (Debian package jackd2) does not start: " +
-                               contents(logPath(name_)));
+                               textOf(logPath(name_)));
     }
     if (std::filesystem::exists(socketPath(name_))) {
       return;
@@ -127,7 +122,7 @@ void JackServer::start() {
     std::this_thread::sleep_for(kLook);
   }
   throw std::runtime_error("jackd does not listen at " + socketPath(name_) + ": " +
-                           contents(logPath(name_)));
+                           textOf(logPath(name_)));
 }
 
 void JackServer::stop() {

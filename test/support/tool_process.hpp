@@ -8,6 +8,7 @@
 
 /// Runs the built command-line tools as a person does.
 
+#include "support/places.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::test {
@@ -15,19 +16,6 @@ namespace ergotic::test {
 inline bool exists(const std::string& path) {
   struct stat info {};
   return stat(path.c_str(), &info) == 0;
-}
-
-/// Beside the tests, or in the devel space of a catkin build.
-inline std::string toolPath(const std::string& name) {
-  const std::string build = ERGOTIC_BINARY_DIR;
-  for (const char* place :
-       {"/", "/devel/lib/ergotic/", "/../devel/lib/ergotic/", "/../../devel/lib/ergotic/"}) {
-    if (exists(build + place + name)) {
-      return build + place + name;
-    }
-  }
-  ADD_FAILURE() << "no tool " << name << " in " << build << " or its devel space";
-  return "false";
 }
 
 struct Outcome {

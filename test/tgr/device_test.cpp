@@ -3,6 +3,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include "support/places.hpp"
 #include "support/scratch_file.hpp"
 #include "support/test.hpp"
 #include "tgr/drivers/virtual/virtual_settings.hpp"
@@ -172,11 +173,8 @@ TEST(MakeDriversTest, PutsCalibrationsInFrontOfRawDevicesAndFaultsInFrontOfAll) 
 }
 
 StationDevices installed(const std::string& name) {
-  const std::string path = std::string(ERGOTIC_SOURCE_DIR) + "/config/" + name;
-  std::ifstream in(path);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return readDevices(text.str(), path);
+  const std::string path = repository("config/" + name);
+  return readDevices(textOf(path), path);
 }
 
 TEST(DeviceFilesTest, OfTheVirtualDeviceSaysAllItsDefaults) {

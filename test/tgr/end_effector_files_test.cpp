@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "ergotic/tgr/urdf.hpp"
+#include "support/places.hpp"
 #include "support/test.hpp"
 #include "tgr/kinematics_cases.hpp"
 
@@ -145,11 +146,6 @@ TEST(EndEffectorYamlTest, RefusesPointsThatAreNone) {
               HasSubstr("a point of end-effector 'a' = 1.5 m is out of range, allowed: -1...1 m"));
 }
 
-std::string fileText(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 Eigen::Vector3d vectorOf(const urdf::Vector3& v) {
   return {v.x, v.y, v.z};
 }
@@ -179,7 +175,7 @@ void expectSamePicture(const urdf::Link& a, const urdf::Link& b) {
 }
 
 TEST(UrdfTest, DrawsADeviceOfTwelveSlicesAsTheFileOfTheStationDoes) {
-  const auto file = urdf::parseURDF(fileText(ERGOTIC_SOURCE_DIR "/urdf/tgr.urdf"));
+  const auto file = urdf::parseURDF(textOf(repository("urdf/tgr.urdf")));
   const auto made = urdf::parseURDF(urdfOf({}, 12));
   ASSERT_TRUE(file != nullptr && made != nullptr);
   ASSERT_EQ(file->links_.size(), made->links_.size());

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "ergotic/physics/certificate/certify.hpp"
+#include "support/places.hpp"
 #include "support/plain_difference.hpp"
 #include "support/scratch_file.hpp"
 #include "support/test.hpp"
@@ -101,11 +102,6 @@ std::string nameOfKind(const testing::TestParamInfo<BenchKind>& kind) {
 
 INSTANTIATE_TEST_SUITE_P(All, BenchKindTest, testing::ValuesIn(benchKinds()), nameOfKind);
 
-std::string contentsOf(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 TEST(BenchTest, WritesJsonThatOthersCanRead) {
   const test::ScratchFile file;
   const std::string& path = file.path();
@@ -116,8 +112,8 @@ TEST(BenchTest, WritesJsonThatOthersCanRead) {
   const std::string read =
       "/usr/bin/python3 -c \"import json, sys; r = json.load(open('" + path +
       "'))['results']; sys.exit([len(x['ns_per_frame_runs']) for x in r] != [3, 3])\"";
-  EXPECT_EQ(std::system(read.c_str()), 0) << contentsOf(path);
-  EXPECT_THAT(contentsOf(path), HasSubstr("\"flags\": \""));
+  EXPECT_EQ(std::system(read.c_str()), 0) << textOf(path);
+  EXPECT_THAT(textOf(path), HasSubstr("\"flags\": \""));
 }
 
 TEST(BenchTest, ListsItsScenes) {

@@ -9,6 +9,7 @@
 #include "physics/modes/modal_scenes.hpp"
 #include "physics/note.hpp"
 #include "support/mode_cache.hpp"
+#include "support/places.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::physics {
@@ -228,10 +229,7 @@ class ModalCacheTest : public ::testing::Test {
     notes_.clear();
     return modesOf(matrix_, notes_);
   }
-  std::string bytes() const {
-    std::ifstream from(modeCacheFile(matrix_), std::ios::binary);
-    return {std::istreambuf_iterator<char>(from), {}};
-  }
+  std::string bytes() const { return textOf(modeCacheFile(matrix_)); }
   void replace(const std::string& bytes) const {
     std::ofstream(modeCacheFile(matrix_), std::ios::binary | std::ios::trunc) << bytes;
   }

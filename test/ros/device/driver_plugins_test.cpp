@@ -3,7 +3,7 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include "support/package_path.hpp"
+#include "support/places.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::node {

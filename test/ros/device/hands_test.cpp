@@ -10,7 +10,7 @@
 
 #include "ros/device/end_effectors.hpp"
 #include "ros/display/end_effector_frames.hpp"
-#include "support/package_path.hpp"
+#include "support/places.hpp"
 #include "support/scratch_file.hpp"
 #include "support/test.hpp"
 

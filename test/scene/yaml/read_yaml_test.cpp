@@ -2,6 +2,7 @@
 #include <iterator>
 
 #include "ergotic/scene/text/read_scene.hpp"
+#include "support/places.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::scene {
@@ -28,8 +29,7 @@ const std::string kMats =
     "  k: {type: slice, section: hand, rest: -0.01}\n";
 
 std::string docsExample() {
-  std::ifstream file(ERGOTIC_SOURCE_DIR "/docs/scene.md");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = textOf(repository("docs/scene.md"));
   const std::size_t begin = text.find("```yaml\n") + 8;
   return text.substr(begin, text.find("```", begin) - begin);
 }

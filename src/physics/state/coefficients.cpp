@@ -105,7 +105,7 @@ void CoefficientsOf<Real>::setLink(
                           : (run.dimensions == 0 ? run.rests[at(l)].x() : 0.0);
   const scene::ExplicitForm& form = scene::lawOf(run.law).explicit_form;
   std::array<double, scene::ExplicitForm::kMostNumbers> numbers{};
-  form.convert(scene, lia, units, rest, numbers.data());
+  form.convert({scene, lia, units, rest}, numbers.data());
   for (std::size_t i = 0; i < form.numbers; ++i) {
     runs[r].fields[i * run.lias.size() + at(l)] = static_cast<Real>(numbers[i]);
   }

@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
-#include "scene/laws/law.hpp"
+#include "scene/laws/families.hpp"
 
 namespace ergotic::scene {
 namespace {
 
+double slipWidth(const LinkInSteps& of) {
+  return of.units.velocity(number::width(of));
+}
+
 /// Rises by 2/3 Z up to a third of the width, falls by Z/3 beyond.
 struct Bow {
-  static constexpr std::size_t kNumbers = 2;  // Z, width per step
+  static constexpr Number kNumbers[] = {number::damping, slipWidth};
   static constexpr std::size_t kOffset = 0;
-
-  static void convert(
-      const Scene& scene, const Lia& lia, const Units& units, double /*rest*/, double* to) {
-    to[0] = units.damping(scene.valueOf(lia.damping));
-    to[1] = units.velocity(scene.valueOf(lia.law->width));
-  }
 
   template <class Real>
   static Force<Real> force(const RunNumbers<Real>& c, std::size_t l, Real, Real v) noexcept {
@@ -48,18 +46,9 @@ struct BowCurve {
   }
 };
 
-const GuardedForms& forms(const Lia& /*lia*/) {
-  static constexpr GuardedForms kForms = frictionForms<BowCurve>();
-  return kForms;
-}
-
 FrictionSlopes friction(const Scene& scene, const Lia& lia) {
   const double z = largest(scene, lia.damping);
   return {z * 2.0 / 3.0, z / 3.0};
-}
-
-Slopes slopes(const Scene& scene, const Lia& lia) {
-  return slopesUpTo(0.0, friction(scene, lia).rise);
 }
 
 constexpr LawWord kWords[] = {{"bow", "damping width", ""}};
@@ -67,25 +56,7 @@ constexpr LiaField kFields[] = {dampingField(), widthField("width", "m/s")};
 
 }  // namespace
 
-constexpr Law kBowLaw = {
-    "bow",
-    kWords,
-    kFields,
-    Law::Tables::kNone,
-    false,  // tables_hold
-    false,  // has_release
-    Law::Kind::kFriction,
-    explicitFormOf<Bow>(),
-    forms,
-    guardable,
-    false,  // has_linear_part
-    false,  // switches
-    false,  // is_held
-    always,
-    slopes,
-    nullptr,  // growth
-    friction,
-    noStiffness,
-};
+constexpr Law kBowLaw =
+    frictionLaw<Bow, BowCurve, friction>({"bow", kWords, kFields, Law::Tables::kNone, false});
 
 }  // namespace ergotic::scene

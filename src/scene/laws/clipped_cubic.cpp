@@ -3,13 +3,10 @@
 
 #include <algorithm>
 
+#include "scene/laws/families.hpp"
+
 namespace ergotic::scene {
 namespace {
-
-const GuardedForms& forms(const Lia& /*lia*/) {
-  static constexpr GuardedForms kForms = springForms<ClippedCurve>();
-  return kForms;
-}
 
 double leastStiffness(const Scene& scene, const Lia& lia) {
   return std::min(rangeOf(scene, lia.stiffness).lowest,
@@ -47,18 +44,6 @@ void completeClippedLaw(Lia& lia, ClippedLaw law) {
   }
 }
 
-void ClippedCubic::convert(
-    const Scene& scene, const Lia& lia, const Units& units, double rest, double* to) {
-  const CommonNumbers n = commonNumbers(scene, lia, units, rest);
-  to[0] = n.stiffness;
-  to[1] = n.damping;
-  to[2] = n.offset;
-  to[3] = scene.valueOf(lia.law->nonlinearity);
-  to[4] = scene.valueOf(lia.law->stiffness_limit);
-  to[5] = n.damping + units.damping(scene.valueOf(lia.law->limit_damping));
-  to[6] = lia.law->tipping_point;
-}
-
 template <class Real>
 ERGOTIC_REALTIME GuardedForce<Real> ClippedCurve<Real>::push(const Numbers& n, Real p) noexcept {
   if (std::abs(p) > n.tip) {
@@ -93,25 +78,11 @@ Slopes clippedSlopes(const Scene& scene, const Lia& lia) {
                     largest(scene, lia.damping) + largest(scene, lia.law->limit_damping));
 }
 
-constexpr Law kClippedCubicLaw = {
-    "clipped cubic spring",
-    kWords,
-    kFields,
-    Law::Tables::kNone,
-    false,  // tables_hold
-    false,  // has_release
-    Law::Kind::kElastic,
-    explicitFormOf<ClippedCubic>(),
-    forms,
-    guardable,
-    true,   // has_linear_part
-    true,   // switches
-    false,  // is_held
-    never,
+constexpr Law kClippedCubicLaw = springLaw<ClippedCubic, ClippedCurve>(
+    {"clipped cubic spring", kWords, kFields, Law::Tables::kNone, false},
+    true,
     clippedSlopes,
-    nullptr,  // growth
-    nullptr,  // friction
-    leastStiffness,
-};
+    nullptr,
+    leastStiffness);
 
 }  // namespace ergotic::scene

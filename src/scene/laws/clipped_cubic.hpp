@@ -21,11 +21,18 @@ void completeClippedLaw(Lia& lia, ClippedLaw law);
 
 /// Both clipped laws.
 struct ClippedCubic {
-  static constexpr std::size_t kNumbers = 7;  // K, Z, offset, Q, K_limit, Z_limit, tipping point
-  static constexpr std::size_t kOffset = 2;
+  static double stiffnessLimit(const LinkInSteps& of) {
+    return of.scene.valueOf(of.lia.law->stiffness_limit);
+  }
+  static double limitDamping(const LinkInSteps& of) {
+    return number::damping(of) + of.units.damping(of.scene.valueOf(of.lia.law->limit_damping));
+  }
+  static double tippingPoint(const LinkInSteps& of) { return of.lia.law->tipping_point; }
 
-  static void convert(
-      const Scene& scene, const Lia& lia, const Units& units, double rest, double* to);
+  static constexpr Number kNumbers[] = {number::stiffness,    number::damping, number::offset,
+                                        number::nonlinearity, stiffnessLimit,  limitDamping,
+                                        tippingPoint};
+  static constexpr std::size_t kOffset = 2;
 
   template <class Real>
   static Force<Real> clipped(const RunNumbers<Real>& c, std::size_t l, Real e, Real v) noexcept {
@@ -39,12 +46,11 @@ struct ClippedCubic {
 };
 
 template <class Real>
-struct ClippedCurve {
+struct ClippedCurve : PlainDamping<Real> {
   using Numbers = GuardedLaw<Real>;
   static GuardedForce<Real> push(const Numbers& n, Real p) noexcept;
   static Real potential(const Numbers& n, Real p) noexcept;
   static Real damping(const Numbers& n, Real p, Real v) noexcept;
-  static constexpr auto restitution = damperRestitution<Real>;
 };
 extern template struct ClippedCurve<float>;
 extern template struct ClippedCurve<double>;

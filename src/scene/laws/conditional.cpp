@@ -2,24 +2,20 @@
 #include <cmath>
 
 #include "scene/laws/contact.hpp"
+#include "scene/laws/families.hpp"
 
 namespace ergotic::scene {
 namespace {
 
+double release(const LinkInSteps& of) {
+  return of.lia.law->release;
+}
+
 /// f = K e + Z v from when |e| < engage until |e| > release.
 struct Conditional {
-  static constexpr std::size_t kNumbers = 5;  // K, Z, offset, engage, release
+  static constexpr Number kNumbers[] = {number::stiffness, number::damping, number::offset,
+                                        number::width, release};
   static constexpr std::size_t kOffset = 2;
-
-  static void convert(
-      const Scene& scene, const Lia& lia, const Units& units, double rest, double* to) {
-    const CommonNumbers n = commonNumbers(scene, lia, units, rest);
-    to[0] = n.stiffness;
-    to[1] = n.damping;
-    to[2] = n.offset;
-    to[3] = scene.valueOf(lia.law->width);
-    to[4] = lia.law->release;
-  }
 
   template <class Real>
   static Force<Real> force(const RunNumbers<Real>& c, std::size_t l, Real u, Real v) noexcept {
@@ -42,14 +38,9 @@ constexpr LiaField kFields[] = {stiffnessField(), dampingField(), widthField("en
 }  // namespace
 
 constexpr Law kConditionalLaw = {
-    "conditional spring-damper",
-    kWords,
-    kFields,
-    Law::Tables::kNone,
-    false,  // tables_hold
-    true,   // has_release
+    {"conditional spring-damper", kWords, kFields, Law::Tables::kNone, true},
     Law::Kind::kElastic,
-    explicitFormOf<Conditional>(true),
+    explicitForm<Conditional>(true),
     nullptr,  // guarded
     unguarded,
     false,  // has_linear_part

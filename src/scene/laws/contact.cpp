@@ -3,21 +3,15 @@
 
 #include <algorithm>
 
+#include "scene/laws/families.hpp"
+
 namespace ergotic::scene {
 namespace {
 
 /// f = K e + Z v while e > 0
 struct Contact {
-  static constexpr std::size_t kNumbers = 3;  // K, Z, offset (threshold included)
+  static constexpr Number kNumbers[] = {number::stiffness, number::damping, number::gapOffset};
   static constexpr std::size_t kOffset = 2;
-
-  static void convert(
-      const Scene& scene, const Lia& lia, const Units& units, double rest, double* to) {
-    const CommonNumbers n = commonNumbers(scene, lia, units, rest);
-    to[0] = n.stiffness;
-    to[1] = n.damping;
-    to[2] = n.offset + scene.valueOf(lia.law->width);
-  }
 
   template <class Real>
   static Force<Real> force(const RunNumbers<Real>& c, std::size_t l, Real u, Real v) noexcept {
@@ -42,11 +36,6 @@ struct ContactCurve : PlainDamping<Real> {
   ERGOTIC_REALTIME static Real bend(const Numbers&, Real) noexcept { return Real(0); }
 };
 
-const GuardedForms& forms(const Lia& /*lia*/) {
-  static constexpr GuardedForms kForms = contactForms<ContactCurve>();
-  return kForms;
-}
-
 constexpr LawWord kWords[] = {{"contact", "stiffness", "damping threshold"}};
 constexpr LiaField kFields[] = {stiffnessField(), dampingField(), thresholdField()};
 
@@ -58,25 +47,7 @@ Slopes slopesFromZero(const Scene& scene, const Lia& lia) {
   return {{std::min(k.lowest, 0.0), k.highest}, {std::min(z.lowest, 0.0), z.highest}};
 }
 
-constexpr Law kContactLaw = {
-    "contact",
-    kWords,
-    kFields,
-    Law::Tables::kNone,
-    false,  // tables_hold
-    false,  // has_release
-    Law::Kind::kGap,
-    explicitFormOf<Contact>(),
-    forms,
-    guardable,
-    false,  // has_linear_part
-    true,   // switches
-    false,  // is_held
-    never,
-    slopesFromZero,
-    nullptr,  // growth
-    nullptr,  // friction
-    noStiffness,
-};
+constexpr Law kContactLaw = contactLaw<Contact, ContactCurve>(
+    {"contact", kWords, kFields, Law::Tables::kNone, false}, slopesFromZero, nullptr);
 
 }  // namespace ergotic::scene

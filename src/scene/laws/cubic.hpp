@@ -6,7 +6,22 @@
 namespace ergotic::scene {
 
 /// K p + Q p^3, guarded; linear springs are those with Q = 0.
-const GuardedForms& cubicForms(const Lia& lia);
+template <class Real>
+struct CubicCurve : PlainDamping<Real> {
+  using Numbers = GuardedLaw<Real>;
+
+  ERGOTIC_REALTIME static GuardedForce<Real> push(const Numbers& n, Real p) noexcept {
+    return {p * (n.stiffness + n.nonlinearity * p * p),
+            n.stiffness + Real(3) * n.nonlinearity * p * p};
+  }
+  ERGOTIC_REALTIME static Real potential(const Numbers& n, Real p) noexcept {
+    const Real k = n.stiffness;
+    const Real q = n.nonlinearity;
+    const bool has_well = k < Real(0) && q > Real(0);
+    return p * p * (k / Real(2) + q * p * p / Real(4)) +
+           (has_well ? k * k / (Real(4) * q) : Real(0));
+  }
+};
 
 // Of two-sided springs with K e and a nonlinearity Q.
 Slopes springSlopes(const Scene& scene, const Lia& lia);

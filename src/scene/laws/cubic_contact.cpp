@@ -2,20 +2,21 @@
 #include <algorithm>
 
 #include "scene/laws/clipped_cubic.hpp"
+#include "scene/laws/families.hpp"
 
 namespace ergotic::scene {
 namespace {
 
 /// The clipped cubic law while e > 0.
 struct CubicContact {
-  static constexpr std::size_t kNumbers = ClippedCubic::kNumbers;  // threshold in the offset
+  static constexpr Number kNumbers[] = {number::stiffness,
+                                        number::damping,
+                                        number::gapOffset,
+                                        number::nonlinearity,
+                                        ClippedCubic::stiffnessLimit,
+                                        ClippedCubic::limitDamping,
+                                        ClippedCubic::tippingPoint};
   static constexpr std::size_t kOffset = ClippedCubic::kOffset;
-
-  static void convert(
-      const Scene& scene, const Lia& lia, const Units& units, double rest, double* to) {
-    ClippedCubic::convert(scene, lia, units, rest, to);
-    to[kOffset] += scene.valueOf(lia.law->width);
-  }
 
   template <class Real>
   static Force<Real> force(const RunNumbers<Real>& c, std::size_t l, Real u, Real v) noexcept {
@@ -25,7 +26,7 @@ struct CubicContact {
 };
 
 template <class Real>
-struct Curve : ClippedCurve<Real> {
+struct CubicContactCurve : ClippedCurve<Real> {
   using Numbers = GuardedLaw<Real>;
 
   ERGOTIC_REALTIME static Real impulse(const Numbers& n, Real p) noexcept {
@@ -41,11 +42,6 @@ struct Curve : ClippedCurve<Real> {
   }
 };
 
-const GuardedForms& forms(const Lia& /*lia*/) {
-  static constexpr GuardedForms kForms = contactForms<Curve>();
-  return kForms;
-}
-
 constexpr LawWord kWords[] = {
     {"cubic_contact", "stiffness nonlinearity stiffness_limit", "damping threshold"}};
 constexpr LiaField kFields[] = {fixedField("stiffness", &Lia::stiffness, "N/m"), dampingField(),
@@ -55,25 +51,7 @@ constexpr LiaField kFields[] = {fixedField("stiffness", &Lia::stiffness, "N/m"),
 
 }  // namespace
 
-constexpr Law kCubicContactLaw = {
-    "cubic contact",
-    kWords,
-    kFields,
-    Law::Tables::kNone,
-    false,  // tables_hold
-    false,  // has_release
-    Law::Kind::kGap,
-    explicitFormOf<CubicContact>(),
-    forms,
-    guardable,
-    false,  // has_linear_part
-    true,   // switches
-    false,  // is_held
-    never,
-    clippedSlopes,
-    nullptr,  // growth
-    nullptr,  // friction
-    noStiffness,
-};
+constexpr Law kCubicContactLaw = contactLaw<CubicContact, CubicContactCurve>(
+    {"cubic contact", kWords, kFields, Law::Tables::kNone, false}, clippedSlopes, nullptr);
 
 }  // namespace ergotic::scene

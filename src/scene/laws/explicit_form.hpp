@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <iterator>
 
 #include "ergotic/rt/realtime.hpp"
 #include "ergotic/scene/scene.hpp"
@@ -68,6 +69,49 @@ struct RunNumbers {
   }
 };
 
+/// What the numbers of a link are worked out from.
+struct LinkInSteps {
+  const Scene& scene;
+  const Lia& lia;
+  const Units& units;
+  double rest;  ///< distance of the ends at rest, if it is not part of u already
+};
+
+/// One number of a link, in steps.
+using Number = double (*)(const LinkInSteps& link);
+
+namespace number {
+
+inline double stiffness(const LinkInSteps& of) {
+  return of.scene.valueOf(of.lia.stiffness);
+}
+inline double damping(const LinkInSteps& of) {
+  return of.units.damping(of.scene.valueOf(of.lia.damping));
+}
+/// Displacements are stored from rest: e = u + offset.
+inline double offset(const LinkInSteps& of) {
+  return of.rest - of.lia.rest_length;
+}
+/// Of a contact, with its threshold.
+inline double gapOffset(const LinkInSteps& of) {
+  return offset(of) + of.scene.valueOf(of.lia.law->width);
+}
+inline double width(const LinkInSteps& of) {
+  return of.scene.valueOf(of.lia.law->width);
+}
+inline double nonlinearity(const LinkInSteps& of) {
+  return of.scene.valueOf(of.lia.law->nonlinearity);
+}
+inline double exponent(const LinkInSteps& of) {
+  return of.scene.valueOf(of.lia.law->exponent);
+}
+/// m/time_unit per step difference.
+inline double perStep(const LinkInSteps& of) {
+  return 1.0 / of.units.step;
+}
+
+}  // namespace number
+
 /// Forces of `count` links from `first` on, at u[i] and v[i]. Realtime: yes
 template <class Real>
 using RunForces = void (*)(const RunNumbers<Real>& c,
@@ -84,9 +128,7 @@ struct ExplicitForm {
   std::size_t numbers;  ///< of each link, at most kMostNumbers
   std::size_t offset;   ///< the number that u + it is e; not of friction
   bool has_state;       ///< remembers a number from step to step, 0 at the start
-  /// Numbers of a link in steps, into `to`.
-  /// \param rest  distance of the ends at rest, if it is not part of u already. Realtime: yes
-  void (*convert)(const Scene& scene, const Lia& lia, const Units& units, double rest, double* to);
+  void (*convert)(const LinkInSteps& link, double* to);  ///< its numbers. Realtime: yes
   RunForces<float> single_forces;
   RunForces<double> double_forces;
 
@@ -113,26 +155,19 @@ ERGOTIC_REALTIME void runForces(const RunNumbers<Real>& c,
   }
 }
 
-/// `Law` says kNumbers, kOffset and convert() too.
 template <class Law>
-constexpr ExplicitForm explicitFormOf(bool has_state = false) {
-  static_assert(Law::kNumbers <= ExplicitForm::kMostNumbers);
-  return {Law::kNumbers, Law::kOffset,          has_state,
-          Law::convert,  runForces<Law, float>, runForces<Law, double>};
+void convertNumbers(const LinkInSteps& link, double* to) {
+  for (const Number number : Law::kNumbers) {
+    *to++ = number(link);
+  }
 }
 
-/// Numbers that most laws begin with.
-struct CommonNumbers {
-  double stiffness;
-  double damping;  ///< per step
-  double offset;   ///< displacements are stored from rest: e = u + offset
-};
-inline CommonNumbers commonNumbers(const Scene& scene,
-                                   const Lia& lia,
-                                   const Units& units,
-                                   double rest) {
-  return {scene.valueOf(lia.stiffness), units.damping(scene.valueOf(lia.damping)),
-          rest - lia.rest_length};
+/// Of a law that says kNumbers, kOffset and force().
+template <class Law>
+constexpr ExplicitForm explicitForm(bool has_state = false) {
+  static_assert(std::size(Law::kNumbers) <= ExplicitForm::kMostNumbers);
+  return {std::size(Law::kNumbers), Law::kOffset,          has_state,
+          convertNumbers<Law>,      runForces<Law, float>, runForces<Law, double>};
 }
 
 }  // namespace ergotic::scene

@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "scene/laws/families.hpp"
+
 namespace ergotic::scene {
 namespace {
 
@@ -17,12 +19,8 @@ struct FeltCurve : PowerCurve<Real> {
       const Numbers& n, Real, Real, Real, Real speed) noexcept {
     return static_cast<Real>(feltRestitution(static_cast<double>(n.damping * speed)));
   }
+  static constexpr bool kIsLossy = true;
 };
-
-const GuardedForms& forms(const Lia& /*lia*/) {
-  static constexpr GuardedForms kForms = contactForms<FeltCurve>(true);
-  return kForms;
-}
 
 bool isLinear(const Scene& scene, const Lia& lia) {
   return largest(scene, lia.law->exponent) <= 1.0 && largest(scene, lia.damping) == 0.0;
@@ -60,15 +58,6 @@ constexpr Growth kGrowth = {figure, slopesTo, elongationOf};
 
 }  // namespace
 
-void Felt::convert(
-    const Scene& scene, const Lia& lia, const Units& units, double rest, double* to) {
-  const CommonNumbers n = commonNumbers(scene, lia, units, rest);
-  to[0] = n.stiffness;
-  to[1] = n.damping;
-  to[2] = n.offset + scene.valueOf(lia.law->width);
-  to[3] = scene.valueOf(lia.law->exponent);
-}
-
 /// Newton's method from above on a function that is convex there: it cannot overshoot.
 ERGOTIC_REALTIME double feltRestitution(double u) noexcept {
   if (!(u > 1e-6)) {
@@ -82,25 +71,7 @@ ERGOTIC_REALTIME double feltRestitution(double u) noexcept {
   return x / u;
 }
 
-constexpr Law kFeltLaw = {
-    "felt",
-    kWords,
-    kFields,
-    Law::Tables::kNone,
-    false,  // tables_hold
-    false,  // has_release
-    Law::Kind::kGap,
-    explicitFormOf<Felt>(),
-    forms,
-    guardable,
-    false,  // has_linear_part
-    true,   // switches
-    false,  // is_held
-    never,
-    slopes,
-    &kGrowth,
-    nullptr,  // friction
-    noStiffness,
-};
+constexpr Law kFeltLaw = contactLaw<Felt, FeltCurve>(
+    {"felt", kWords, kFields, Law::Tables::kNone, false}, slopes, &kGrowth);
 
 }  // namespace ergotic::scene

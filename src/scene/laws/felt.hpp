@@ -12,11 +12,10 @@ namespace ergotic::scene {
 /// closes; it never pulls. What comes back of an impact depends on its speed and c alone.
 /// Source: Hunt and Crossley 1975, J. Appl. Mech. 42(2).
 struct Felt {
-  static constexpr std::size_t kNumbers = 4;  // K, c, offset (threshold included), exponent
+  /// `damping` is c.
+  static constexpr Number kNumbers[] = {number::stiffness, number::damping, number::gapOffset,
+                                        number::exponent};
   static constexpr std::size_t kOffset = 2;
-
-  static void convert(
-      const Scene& scene, const Lia& lia, const Units& units, double rest, double* to);
 
   template <class Real>
   static Force<Real> force(const RunNumbers<Real>& c, std::size_t l, Real u, Real v) noexcept {

@@ -100,14 +100,15 @@ GuardedLaw<Real> GuardedLaw<Real>::make(const Scene& scene, const Lia& lia, cons
   if (told.guarded == nullptr) {
     throw Exception("link '" + lia.name + "' has no law that can be guarded");
   }
+  const bool holds = told.tables == Law::Tables::kParts;
   GuardedLaw law;
   law.form = &told.guarded(lia).template get<Real>();
   if (!lia.law->table.empty()) {
     (law.isFriction() ? law.viscous : law.table) =
-        GuardedCurve<Real>(interpolate(lia.law->table), told.tables_hold);
+        GuardedCurve<Real>(interpolate(lia.law->table), holds);
   }
   if (!lia.law->viscous_table.empty()) {
-    law.viscous = GuardedCurve<Real>(interpolate(lia.law->viscous_table), told.tables_hold);
+    law.viscous = GuardedCurve<Real>(interpolate(lia.law->viscous_table), holds);
   }
   law.update(scene, lia, units);
   return law;

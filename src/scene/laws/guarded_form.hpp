@@ -130,59 +130,56 @@ struct GuardedLaw {
   GuardedForce<Real> slip(Real v) const noexcept { return form->slip(*this, v); }
 };
 
-/// The form of a contact from a `Curve<Real>` with these functions. \param is_lossy  as above
-template <template <class> class Curve, class Real>
-constexpr GuardedForm<Real> contactForm(bool is_lossy) {
-  using C = Curve<Real>;
-  return {GuardedForm<Real>::Sort::kContact,
-          C::push,
-          C::potential,
-          C::impulse,
-          C::bend,
-          C::damping,
-          nullptr,
-          C::restitution,
-          is_lossy};
+/// The form of a contact from a `Curve<Real>` with these functions.
+template <class Curve, class Real>
+constexpr GuardedForm<Real> contactForm() {
+  GuardedForm<Real> form{};
+  form.sort = GuardedForm<Real>::Sort::kContact;
+  form.push = Curve::push;
+  form.potential = Curve::potential;
+  form.impulse = Curve::impulse;
+  form.bend = Curve::bend;
+  form.damping = Curve::damping;
+  form.restitution = Curve::restitution;
+  form.is_lossy = Curve::kIsLossy;
+  return form;
 }
-/// Of a two-sided spring: push, potential and damping.
-template <template <class> class Curve, class Real>
+/// Of a two-sided spring.
+template <class Curve, class Real>
 constexpr GuardedForm<Real> springForm() {
-  using C = Curve<Real>;
-  return {GuardedForm<Real>::Sort::kSpring,
-          C::push,
-          C::potential,
-          nullptr,
-          nullptr,
-          C::damping,
-          nullptr,
-          nullptr,
-          false};
+  GuardedForm<Real> form{};
+  form.sort = GuardedForm<Real>::Sort::kSpring;
+  form.push = Curve::push;
+  form.potential = Curve::potential;
+  form.damping = Curve::damping;
+  return form;
 }
-/// Of friction: slip.
-template <template <class> class Curve, class Real>
+/// Of friction.
+template <class Curve, class Real>
 constexpr GuardedForm<Real> frictionForm() {
-  return {GuardedForm<Real>::Sort::kFriction,
-          nullptr,
-          nullptr,
-          nullptr,
-          nullptr,
-          nullptr,
-          Curve<Real>::slip,
-          nullptr,
-          false};
+  GuardedForm<Real> form{};
+  form.sort = GuardedForm<Real>::Sort::kFriction;
+  form.slip = Curve::slip;
+  return form;
 }
 
 template <template <class> class Curve>
-constexpr GuardedForms contactForms(bool is_lossy = false) {
-  return {contactForm<Curve, float>(is_lossy), contactForm<Curve, double>(is_lossy)};
+const GuardedForms& contactForms(const Lia& /*lia*/) {
+  static constexpr GuardedForms kForms = {contactForm<Curve<float>, float>(),
+                                          contactForm<Curve<double>, double>()};
+  return kForms;
 }
 template <template <class> class Curve>
-constexpr GuardedForms springForms() {
-  return {springForm<Curve, float>(), springForm<Curve, double>()};
+const GuardedForms& springForms(const Lia& /*lia*/) {
+  static constexpr GuardedForms kForms = {springForm<Curve<float>, float>(),
+                                          springForm<Curve<double>, double>()};
+  return kForms;
 }
 template <template <class> class Curve>
-constexpr GuardedForms frictionForms() {
-  return {frictionForm<Curve, float>(), frictionForm<Curve, double>()};
+const GuardedForms& frictionForms(const Lia& /*lia*/) {
+  static constexpr GuardedForms kForms = {frictionForm<Curve<float>, float>(),
+                                          frictionForm<Curve<double>, double>()};
+  return kForms;
 }
 
 /// Ratio of the speeds after and before an impact of an oscillator with this damper.
@@ -197,6 +194,7 @@ struct PlainDamping {
     return law.damping > Real(0) ? law.damping : Real(0);
   }
   static constexpr auto restitution = damperRestitution<Real>;
+  static constexpr bool kIsLossy = false;
 };
 
 extern template class GuardedCurve<float>;

@@ -26,17 +26,4 @@ Slopes slopesAt(const Scene& scene, const Lia& lia, double elongation) {
                                : law.growth->slopes(scene, lia, elongation);
 }
 
-bool never(const Lia& /*lia*/) {
-  return false;
-}
-bool always(const Lia& /*lia*/) {
-  return true;
-}
-double noStiffness(const Scene& /*scene*/, const Lia& /*lia*/) {
-  return 0.0;
-}
-const char* guardable(const Lia& /*lia*/) {
-  return nullptr;
-}
-
 }  // namespace ergotic::scene

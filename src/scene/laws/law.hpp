@@ -61,8 +61,24 @@ struct Growth {
   double (*elongation)(const Scene& scene, const Lia& lia, double limit);
 };
 
-/// One law. Every entry is given by every law: none has a default that could be wrong for it.
-struct Law {
+/// What scenes say of a law.
+struct LawText {
+  enum class Tables {
+    kNone,
+    kOne,    ///< `table`, 0 beyond its ends
+    kParts,  ///< `elastic`, `viscous` or both, held beyond their ends
+  };
+
+  const char* name;  ///< in reports
+  List<LawWord> words;
+  List<LiaField> fields;
+  Tables tables;
+  bool has_release;  ///< lets go at `release`, not at `width`
+};
+
+/// One law. Every entry is given by every law or by its family (families.hpp): none has a default
+/// that could be wrong for it.
+struct Law : LawText {
   /// What the force acts on, for geometries and books of energy.
   enum class Kind {
     kLinear,    ///< elongation and velocity, linear
@@ -70,21 +86,7 @@ struct Law {
     kGap,       ///< a distance that is too short
     kFriction,  ///< velocity alone
   };
-  enum class Tables {
-    kNone,
-    kOne,    ///< `table`
-    kParts,  ///< `elastic`, `viscous` or both
-  };
 
-  // Reading and checking
-  const char* name;  ///< in reports
-  List<LawWord> words;
-  List<LiaField> fields;
-  Tables tables;
-  bool tables_hold;  ///< beyond its ends a table keeps its last value; otherwise it is 0 there
-  bool has_release;  ///< lets go at `release`, not at `width`
-
-  // Force
   Kind kind;
   ExplicitForm explicit_form;
   const GuardedForms& (*guarded)(const Lia& lia);  ///< nullptr: none, it is meant to be active
@@ -111,12 +113,6 @@ inline Slopes slopesOf(const Scene& scene, const Lia& lia) {
 /// The steepest up to an elongation, m.
 Slopes slopesAt(const Scene& scene, const Lia& lia, double elongation);
 
-/// Entries that many laws share.
-bool never(const Lia& lia);
-bool always(const Lia& lia);
-double noStiffness(const Scene& scene, const Lia& lia);
-const char* guardable(const Lia& lia);
-
 constexpr LiaField stiffnessField(double least = 0.0, const char* unit = "N/m") {
   return {"stiffness", &Lia::stiffness, {unit, least}};
 }
@@ -125,6 +121,9 @@ constexpr LiaField dampingField(double least = 0.0, const char* unit = "N s/m") 
 }
 constexpr LiaField thresholdField() {
   return {"threshold", &LiaLaw::width, kMetreLimits};
+}
+constexpr LiaField nonlinearityField(const char* unit) {
+  return {"nonlinearity", &LiaLaw::nonlinearity, {unit}};
 }
 constexpr LiaField widthField(const char* key, const char* unit) {
   return {key, &LiaLaw::width, {unit, 0.0, kInfinity, true}};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
-#include "scene/laws/law.hpp"
+#include "scene/laws/families.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -10,17 +10,9 @@ constexpr double kSlope = 0.9;  // of K, while it holds
 
 /// Pushes away, then slips.
 struct Pluck {
-  static constexpr std::size_t kNumbers = 4;  // K, Z, offset, width
+  static constexpr Number kNumbers[] = {number::stiffness, number::damping, number::offset,
+                                        number::width};
   static constexpr std::size_t kOffset = 2;
-
-  static void convert(
-      const Scene& scene, const Lia& lia, const Units& units, double rest, double* to) {
-    const CommonNumbers n = commonNumbers(scene, lia, units, rest);
-    to[0] = n.stiffness;
-    to[1] = n.damping;
-    to[2] = n.offset;
-    to[3] = scene.valueOf(lia.law->width);
-  }
 
   template <class Real>
   static Force<Real> force(const RunNumbers<Real>& c, std::size_t l, Real u, Real v) noexcept {
@@ -40,10 +32,6 @@ struct Pluck {
   }
 };
 
-const char* unguarded(const Lia& /*lia*/) {
-  return "a pluck";
-}
-
 Slopes slopes(const Scene& scene, const Lia& lia) {
   return slopesUpTo(kSlope * largest(scene, lia.stiffness), largest(scene, lia.damping));
 }
@@ -53,25 +41,7 @@ constexpr LiaField kFields[] = {stiffnessField(), dampingField(), widthField("wi
 
 }  // namespace
 
-constexpr Law kPluckLaw = {
-    "pluck",
-    kWords,
-    kFields,
-    Law::Tables::kNone,
-    false,  // tables_hold
-    false,  // has_release
-    Law::Kind::kElastic,
-    explicitFormOf<Pluck>(),
-    nullptr,  // guarded
-    unguarded,
-    false,  // has_linear_part
-    false,  // switches
-    false,  // is_held
-    always,
-    slopes,
-    nullptr,  // growth
-    nullptr,  // friction
-    noStiffness,
-};
+constexpr Law kPluckLaw =
+    pluckLaw<Pluck>({"pluck", kWords, kFields, Law::Tables::kNone, false}, slopes);
 
 }  // namespace ergotic::scene

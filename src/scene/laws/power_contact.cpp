@@ -4,22 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/laws/families.hpp"
+
 namespace ergotic::scene {
 namespace {
 
 /// f = K e^a + Z v while e > 0
 struct PowerContact {
-  static constexpr std::size_t kNumbers = 4;  // K, Z, offset (threshold included), exponent
+  static constexpr Number kNumbers[] = {number::stiffness, number::damping, number::gapOffset,
+                                        number::exponent};
   static constexpr std::size_t kOffset = 2;
-
-  static void convert(
-      const Scene& scene, const Lia& lia, const Units& units, double rest, double* to) {
-    const CommonNumbers n = commonNumbers(scene, lia, units, rest);
-    to[0] = n.stiffness;
-    to[1] = n.damping;
-    to[2] = n.offset + scene.valueOf(lia.law->width);
-    to[3] = scene.valueOf(lia.law->exponent);
-  }
 
   template <class Real>
   static Force<Real> force(const RunNumbers<Real>& c, std::size_t l, Real u, Real v) noexcept {
@@ -27,11 +21,6 @@ struct PowerContact {
     return e > Real(0) ? Force<Real>{c(0, l) * std::pow(e, c(3, l)), c(1, l) * v} : Force<Real>{};
   }
 };
-
-const GuardedForms& forms(const Lia& /*lia*/) {
-  static constexpr GuardedForms kForms = contactForms<PowerCurve>();
-  return kForms;
-}
 
 Slopes slopes(const Scene& scene, const Lia& lia) {
   const Range z = rangeOf(scene, lia.damping);
@@ -92,25 +81,7 @@ double powerElongation(const Scene& scene, const Lia& lia, double limit) {
   return std::pow(limit / (a * largest(scene, lia.stiffness)), 1.0 / (a - 1.0));
 }
 
-constexpr Law kPowerContactLaw = {
-    "power-law contact",
-    kWords,
-    kFields,
-    Law::Tables::kNone,
-    false,  // tables_hold
-    false,  // has_release
-    Law::Kind::kGap,
-    explicitFormOf<PowerContact>(),
-    forms,
-    guardable,
-    false,  // has_linear_part
-    true,   // switches
-    false,  // is_held
-    never,
-    slopes,
-    &kGrowth,
-    nullptr,  // friction
-    noStiffness,
-};
+constexpr Law kPowerContactLaw = contactLaw<PowerContact, PowerCurve>(
+    {"power-law contact", kWords, kFields, Law::Tables::kNone, false}, slopes, &kGrowth);
 
 }  // namespace ergotic::scene

@@ -3,23 +3,16 @@
 #include <cmath>
 
 #include "scene/laws/cubic.hpp"
+#include "scene/laws/families.hpp"
 
 namespace ergotic::scene {
 namespace {
 
 /// f = K e + Q sgn(e) e^2 + Z v
 struct Quadratic {
-  static constexpr std::size_t kNumbers = 4;  // K, Z, offset, Q
+  static constexpr Number kNumbers[] = {number::stiffness, number::damping, number::offset,
+                                        number::nonlinearity};
   static constexpr std::size_t kOffset = 2;
-
-  static void convert(
-      const Scene& scene, const Lia& lia, const Units& units, double rest, double* to) {
-    const CommonNumbers n = commonNumbers(scene, lia, units, rest);
-    to[0] = n.stiffness;
-    to[1] = n.damping;
-    to[2] = n.offset;
-    to[3] = scene.valueOf(lia.law->nonlinearity);
-  }
 
   template <class Real>
   static Force<Real> force(const RunNumbers<Real>& c, std::size_t l, Real u, Real v) noexcept {
@@ -46,11 +39,6 @@ struct QuadraticCurve : PlainDamping<Real> {
   }
 };
 
-const GuardedForms& forms(const Lia& /*lia*/) {
-  static constexpr GuardedForms kForms = springForms<QuadraticCurve>();
-  return kForms;
-}
-
 Slopes slopesTo(const Scene& scene, const Lia& lia, double elongation) {
   Slopes slopes = springSlopes(scene, lia);
   slopes.stiffness.highest =
@@ -64,31 +52,16 @@ double elongationOf(const Scene& scene, const Lia& lia, double limit) {
 }
 
 constexpr LawWord kWords[] = {{"quadratic", "stiffness nonlinearity", "damping rest_length"}};
-constexpr LiaField kFields[] = {
-    stiffnessField(), dampingField(), {"nonlinearity", &LiaLaw::nonlinearity, {"N/m^2"}}};
+constexpr LiaField kFields[] = {stiffnessField(), dampingField(), nonlinearityField("N/m^2")};
 constexpr Growth kGrowth = {nonlinearityFigure, slopesTo, elongationOf};
 
 }  // namespace
 
-constexpr Law kQuadraticLaw = {
-    "quadratic spring",
-    kWords,
-    kFields,
-    Law::Tables::kNone,
-    false,  // tables_hold
-    false,  // has_release
-    Law::Kind::kElastic,
-    explicitFormOf<Quadratic>(),
-    forms,
-    guardable,
-    true,   // has_linear_part
-    false,  // switches
-    false,  // is_held
-    never,
+constexpr Law kQuadraticLaw = springLaw<Quadratic, QuadraticCurve>(
+    {"quadratic spring", kWords, kFields, Law::Tables::kNone, false},
+    false,
     springSlopes,
     &kGrowth,
-    nullptr,  // friction
-    leastSpringStiffness,
-};
+    leastSpringStiffness);
 
 }  // namespace ergotic::scene

@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
-#include "scene/laws/law.hpp"
+#include "scene/laws/families.hpp"
 
 namespace ergotic::scene {
 namespace {
 
+double inverseWidth(const LinkInSteps& of) {
+  return 1.0 / of.units.velocity(number::width(of));
+}
+
 /// f = 0.63 Z v exp(-4 (v/width)^2 + 0.5)
 struct SmoothBow {
-  static constexpr std::size_t kNumbers = 2;  // Z, 1 / width per step
+  static constexpr Number kNumbers[] = {number::damping, inverseWidth};
   static constexpr std::size_t kOffset = 0;
-
-  static void convert(
-      const Scene& scene, const Lia& lia, const Units& units, double /*rest*/, double* to) {
-    to[0] = units.damping(scene.valueOf(lia.damping));
-    to[1] = 1.0 / units.velocity(scene.valueOf(lia.law->width));
-  }
 
   template <class Real>
   static Force<Real> force(const RunNumbers<Real>& c, std::size_t l, Real, Real v) noexcept {
@@ -33,19 +31,10 @@ struct SmoothBowCurve {
   }
 };
 
-const GuardedForms& forms(const Lia& /*lia*/) {
-  static constexpr GuardedForms kForms = frictionForms<SmoothBowCurve>();
-  return kForms;
-}
-
 /// 0.63 Z exp(0.5 - 4 r^2) (1 - 8 r^2): steepest at r = 0, falls most where r^2 = 3/8
 FrictionSlopes friction(const Scene& scene, const Lia& lia) {
   const double z = largest(scene, lia.damping);
   return {0.63 * std::exp(0.5) * z, 0.63 * 2.0 * std::exp(-1.0) * z};
-}
-
-Slopes slopes(const Scene& scene, const Lia& lia) {
-  return slopesUpTo(0.0, friction(scene, lia).rise);
 }
 
 constexpr LawWord kWords[] = {{"smooth_bow", "damping width", ""}};
@@ -53,25 +42,7 @@ constexpr LiaField kFields[] = {dampingField(), widthField("width", "m/s")};
 
 }  // namespace
 
-constexpr Law kSmoothBowLaw = {
-    "smooth bow",
-    kWords,
-    kFields,
-    Law::Tables::kNone,
-    false,  // tables_hold
-    false,  // has_release
-    Law::Kind::kFriction,
-    explicitFormOf<SmoothBow>(),
-    forms,
-    guardable,
-    false,  // has_linear_part
-    false,  // switches
-    false,  // is_held
-    always,
-    slopes,
-    nullptr,  // growth
-    friction,
-    noStiffness,
-};
+constexpr Law kSmoothBowLaw = frictionLaw<SmoothBow, SmoothBowCurve, friction>(
+    {"smooth bow", kWords, kFields, Law::Tables::kNone, false});
 
 }  // namespace ergotic::scene

@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/laws/cubic.hpp"
-#include "scene/laws/law.hpp"
+#include "scene/laws/families.hpp"
 
 namespace ergotic::scene {
 namespace {
 
 /// f = K e + Z v
 struct SpringDamper {
-  static constexpr std::size_t kNumbers = 3;  // K, Z, offset
+  static constexpr Number kNumbers[] = {number::stiffness, number::damping, number::offset};
   static constexpr std::size_t kOffset = 2;
-
-  static void convert(
-      const Scene& scene, const Lia& lia, const Units& units, double rest, double* to) {
-    const CommonNumbers n = commonNumbers(scene, lia, units, rest);
-    to[0] = n.stiffness;
-    to[1] = n.damping;
-    to[2] = n.offset;
-  }
 
   template <class Real>
   static Force<Real> force(const RunNumbers<Real>& c, std::size_t l, Real u, Real v) noexcept {
@@ -46,15 +38,10 @@ constexpr LiaField kFields[] = {stiffnessField(-kInfinity), dampingField(-kInfin
 }  // namespace
 
 constexpr Law kSpringDamperLaw = {
-    "spring-damper",
-    kWords,
-    kFields,
-    Law::Tables::kNone,
-    false,  // tables_hold
-    false,  // has_release
+    {"spring-damper", kWords, kFields, Law::Tables::kNone, false},
     Law::Kind::kLinear,
-    explicitFormOf<SpringDamper>(),
-    cubicForms,
+    explicitForm<SpringDamper>(),
+    springForms<CubicCurve>,
     unguarded,
     true,   // has_linear_part
     false,  // switches

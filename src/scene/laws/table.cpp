@@ -2,20 +2,15 @@
 #include <algorithm>
 
 #include "scene/laws/bow_table.hpp"
+#include "scene/laws/families.hpp"
 
 namespace ergotic::scene {
 namespace {
 
 /// (LNL) f = table(e) + viscous_table(v), both held beyond their last points.
 struct ElasticViscousTable {
-  static constexpr std::size_t kNumbers = 2;  // offset, m/time_unit per step difference
+  static constexpr Number kNumbers[] = {number::offset, number::perStep};
   static constexpr std::size_t kOffset = 0;
-
-  static void convert(
-      const Scene& scene, const Lia& lia, const Units& units, double rest, double* to) {
-    to[0] = commonNumbers(scene, lia, units, rest).offset;
-    to[1] = 1.0 / units.step;
-  }
 
   template <class Real>
   static Force<Real> force(const RunNumbers<Real>& c, std::size_t l, Real u, Real v) noexcept {
@@ -46,8 +41,7 @@ struct TableCurve {
 
 /// One that only has a viscous table is a friction.
 const GuardedForms& forms(const Lia& lia) {
-  static constexpr GuardedForms kElastic = springForms<TableCurve>();
-  return lia.law->table.empty() ? slipTableForms(lia) : kElastic;
+  return lia.law->table.empty() ? frictionForms<SlipTableCurve>(lia) : springForms<TableCurve>(lia);
 }
 
 const char* unguarded(const Lia& lia) {
@@ -71,14 +65,9 @@ constexpr LawWord kWords[] = {{"table", "", "elastic viscous rest_length"}};
 }  // namespace
 
 constexpr Law kTableLaw = {
-    "table",
-    kWords,
-    {},  // fields
-    Law::Tables::kParts,
-    true,   // tables_hold
-    false,  // has_release
+    {"table", kWords, {}, Law::Tables::kParts, false},
     Law::Kind::kElastic,
-    explicitFormOf<ElasticViscousTable>(),
+    explicitForm<ElasticViscousTable>(),
     forms,
     unguarded,
     false,  // has_linear_part

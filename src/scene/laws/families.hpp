@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "scene/laws/law.hpp"
+
+/// Laws of a family share all entries but those that are asked for here. Explicit forms and
+/// guarded curves are those of explicit_form.hpp and guarded_form.hpp.
+namespace ergotic::scene {
+
+inline bool never(const Lia& /*lia*/) {
+  return false;
+}
+inline bool always(const Lia& /*lia*/) {
+  return true;
+}
+inline double noStiffness(const Scene& /*scene*/, const Lia& /*lia*/) {
+  return 0.0;
+}
+inline const char* guardable(const Lia& /*lia*/) {
+  return nullptr;
+}
+
+/// Pushes while a distance is too short.
+template <class Explicit, template <class> class Curve>
+constexpr Law contactLaw(LawText text, decltype(Law::slopes) slopes, const Growth* growth) {
+  return {text,
+          Law::Kind::kGap,
+          explicitForm<Explicit>(),
+          contactForms<Curve>,
+          guardable,
+          false,  // has_linear_part
+          true,   // switches
+          false,  // is_held
+          never,
+          slopes,
+          growth,
+          nullptr,  // friction
+          noStiffness};
+}
+
+/// Two-sided, with a nonlinearity beside K e.
+template <class Explicit, template <class> class Curve>
+constexpr Law springLaw(LawText text,
+                        bool switches,
+                        decltype(Law::slopes) slopes,
+                        const Growth* growth,
+                        decltype(Law::leastStiffness) least_stiffness) {
+  return {text,
+          Law::Kind::kElastic,
+          explicitForm<Explicit>(),
+          springForms<Curve>,
+          guardable,
+          true,  // has_linear_part
+          switches,
+          false,  // is_held
+          never,
+          slopes,
+          growth,
+          nullptr,  // friction
+          least_stiffness};
+}
+
+/// Of a friction that falls somewhere: as steep as it rises.
+template <FrictionSlopes (*kFriction)(const Scene&, const Lia&)>
+Slopes frictionRise(const Scene& scene, const Lia& lia) {
+  return slopesUpTo(0.0, kFriction(scene, lia).rise);
+}
+
+/// Over velocity alone.
+template <class Explicit,
+          template <class>
+          class Curve,
+          FrictionSlopes (*kFriction)(const Scene&, const Lia&)>
+constexpr Law frictionLaw(LawText text) {
+  return {text,
+          Law::Kind::kFriction,
+          explicitForm<Explicit>(),
+          frictionForms<Curve>,
+          guardable,
+          false,  // has_linear_part
+          false,  // switches
+          false,  // is_held
+          always,
+          frictionRise<kFriction>,
+          nullptr,  // growth
+          kFriction,
+          noStiffness};
+}
+
+inline const char* aPluck(const Lia& /*lia*/) {
+  return "a pluck";
+}
+
+/// Holds, slips and gives what it stored: meant to be active.
+template <class Explicit>
+constexpr Law pluckLaw(LawText text, decltype(Law::slopes) slopes) {
+  return {text,
+          Law::Kind::kElastic,
+          explicitForm<Explicit>(),
+          nullptr,  // guarded
+          aPluck,
+          false,  // has_linear_part
+          false,  // switches
+          false,  // is_held
+          always,
+          slopes,
+          nullptr,  // growth
+          nullptr,  // friction
+          noStiffness};
+}
+
+}  // namespace ergotic::scene

@@ -27,7 +27,7 @@ void stopOnSignals() {
 
 }  // namespace
 
-using ergotic::tools::Report;
+using ergotic::tools::Json;
 
 int main(int argc, char** argv) {
   ergotic::audio::CaptureConfig config;
@@ -53,14 +53,13 @@ int main(int argc, char** argv) {
           }
           std::cerr << std::endl;
         });
-    Report::map()
-        .add("frames", Report::number(report.frames))
-        .add("first_jack_frame", Report::number(report.first_jack_frame))
-        .add("sample_rate", Report::number(static_cast<std::int64_t>(report.sample_rate_hz)))
-        .add("dropped", Report::number(report.dropped))
-        .add("lost", Report::number(report.lost))
-        .add("xruns", Report::number(report.xruns))
-        .printJsonLine(std::cout);
+    const Json line{{"frames", report.frames},
+                    {"first_jack_frame", report.first_jack_frame},
+                    {"sample_rate", static_cast<std::int64_t>(report.sample_rate_hz)},
+                    {"dropped", report.dropped},
+                    {"lost", report.lost},
+                    {"xruns", report.xruns}};
+    ergotic::tools::printJsonLine(line, std::cout);
     std::cout.flush();
     if (!report.message.empty()) {
       std::cerr << "capture: " << report.message << std::endl;

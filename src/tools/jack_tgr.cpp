@@ -123,22 +123,22 @@ audio::JackConfig cableConfig(const Options& options) {
 /// A line of JSON. \return whether the round trip is known
 bool report(const tgr::StepSummary& summary, bool cable, std::int64_t declared) {
   const bool known = summary.answered > 0;
-  using tools::Report;
-  Report line = Report::map();
-  line.add("steps", Report::number(summary.answered + summary.unanswered + summary.disturbed))
-      .add("answered", Report::number(summary.answered))
-      .add("disturbed", Report::number(summary.disturbed))
-      .add("fewest_frames", Report::number(summary.fewest_frames))
-      .add("most_frames", Report::number(summary.most_frames));
+  using tools::Json;
+  Json line = {{"steps", summary.answered + summary.unanswered + summary.disturbed},
+               {"answered", summary.answered},
+               {"disturbed", summary.disturbed},
+               {"fewest_frames", summary.fewest_frames},
+               {"most_frames", summary.most_frames}};
   if (known) {
     // The tick that sees the whole step answers as many frames later as a tick has.
     const std::int64_t tick = summary.most_frames - summary.fewest_frames + 1;
-    line.add("round_trip_frames", Report::number(summary.most_frames - (cable ? 0 : tick)));
+    line["round_trip_frames"] = summary.most_frames - (cable ? 0 : tick);
     if (!cable) {
-      line.add("tick_frames", Report::number(tick));
+      line["tick_frames"] = tick;
     }
   }
-  line.add("declared_frames", Report::number(declared)).printJsonLine(std::cout);
+  line["declared_frames"] = declared;
+  tools::printJsonLine(line, std::cout);
   return known;
 }
 

@@ -8,9 +8,9 @@
 namespace ergotic::tools {
 namespace {
 
-std::string textOf(const Report& report) {
+std::string textOf(const Json& report) {
   std::ostringstream text;
-  report.printJson(text);
+  printJson(report, text);
   return text.str();
 }
 

@@ -65,9 +65,9 @@ void printList() {
   }
 }
 
-void writeJson(const std::string& path, const Report& report) {
+void writeJson(const std::string& path, const Json& report) {
   std::ofstream file(path);
-  report.printJson(file);
+  printJson(report, file);
   file << '\n';
   file.flush();
   if (!file) {

@@ -40,82 +40,64 @@ std::string runsText(const std::vector<double>& ns) {
   return all + ")";
 }
 
-Report numbers(const std::vector<double>& values) {
-  Report list = Report::list();
-  for (const double value : values) {
-    list.add(Report::number(value));
-  }
-  return list;
-}
-
-Report machineReport(const MachineLimits& limits) {
-  Report levels = Report::list();
+Json machineReport(const MachineLimits& limits) {
+  Json levels = Json::array();
   for (const MemoryLevel& level : limits.levels) {
-    levels.add(Report::map()
-                   .add("name", Report::text(level.name))
-                   .add("bytes", Report::number(level.bytes))
-                   .add("probed_bytes", Report::number(level.probed))
-                   .add("gb_per_s", Report::number(level.gb_per_s)));
+    levels.push_back({{"name", level.name},
+                      {"bytes", level.bytes},
+                      {"probed_bytes", level.probed},
+                      {"gb_per_s", level.gb_per_s}});
   }
-  return Report::map()
-      .add("processor", Report::text(processorName()))
-      .add("cores", Report::number(std::thread::hardware_concurrency()))
-      .add("levels", std::move(levels))
-      .add("gflops", Report::number(limits.gflops));
+  return {{"processor", processorName()},
+          {"cores", std::thread::hardware_concurrency()},
+          {"levels", std::move(levels)},
+          {"gflops", limits.gflops}};
 }
 
-Report buildReport() {
-  return Report::map()
-      .add("compiler", Report::text(kCompiler))
-      .add("flags", Report::text(ERGOTIC_FLAGS))
-      .add("build_id", Report::text(rt::buildId()));
+Json buildReport() {
+  return {{"compiler", kCompiler}, {"flags", ERGOTIC_FLAGS}, {"build_id", rt::buildId()}};
 }
 
-Report settingsReport(const BenchSettings& settings) {
-  return Report::map()
-      .add("precision", Report::text(physics::nameOf(settings.compile.precision)))
-      .add("isa", Report::text(rt::nameOf(settings.compile.isa)))
-      .add("threads", Report::number(settings.compile.threads))
-      .add("metered", Report::number(settings.compile.metered ? 1 : 0))
-      .add("clock", Report::text(settings.compile.threads > 1 ? "monotonic" : "thread CPU time"))
-      .add("runs", Report::number(settings.runs))
-      .add("seconds", Report::number(settings.seconds))
-      .add("rate_hz", Report::number(benchRates().audio_hz))
-      .add("frames_per_tick", Report::number(benchRates().ratio));
+Json settingsReport(const BenchSettings& settings) {
+  return {{"precision", physics::nameOf(settings.compile.precision)},
+          {"isa", rt::nameOf(settings.compile.isa)},
+          {"threads", settings.compile.threads},
+          {"metered", settings.compile.metered ? 1 : 0},
+          {"clock", settings.compile.threads > 1 ? "monotonic" : "thread CPU time"},
+          {"runs", settings.runs},
+          {"seconds", settings.seconds},
+          {"rate_hz", benchRates().audio_hz},
+          {"frames_per_tick", benchRates().ratio}};
 }
 
-Report resultReport(const BenchResult& result, const MachineLimits& limits) {
+Json resultReport(const BenchResult& result, const MachineLimits& limits) {
   const double ns = median(result.ns);
   const double limit = result.work.limitNs(limits);
-  Report report = Report::map();
-  report.add("scene", Report::text(result.scene))
-      .add("modules", Report::number(result.modules))
-      .add("masses", Report::number(result.masses))
-      .add("links", Report::number(result.links))
-      .add("make_s", Report::number(result.make_s))
-      .add("compile_s", Report::number(result.compile_s))
-      .add("ns_per_frame", Report::number(ns))
-      .add("ns_per_frame_runs", numbers(result.ns))
-      .add("ns_per_module", Report::number(nsPerModule(ns, result)))
-      .add("real_time_factor", Report::number(realTimeFactor(ns)));
+  Json report = {{"scene", result.scene},
+                 {"modules", result.modules},
+                 {"masses", result.masses},
+                 {"links", result.links},
+                 {"make_s", result.make_s},
+                 {"compile_s", result.compile_s},
+                 {"ns_per_frame", ns},
+                 {"ns_per_frame_runs", result.ns},
+                 {"ns_per_module", nsPerModule(ns, result)},
+                 {"real_time_factor", realTimeFactor(ns)}};
   if (!result.plain_ns.empty()) {
     const double plain = median(result.plain_ns);
-    report.add("plain_ns_per_frame", Report::number(plain))
-        .add("plain_ns_per_frame_runs", numbers(result.plain_ns))
-        .add("plain_ns_per_module", Report::number(nsPerModule(plain, result)))
-        .add("ratio_to_plain", Report::number(ratioOf(result)));
+    report["plain_ns_per_frame"] = plain;
+    report["plain_ns_per_frame_runs"] = result.plain_ns;
+    report["plain_ns_per_module"] = nsPerModule(plain, result);
+    report["ratio_to_plain"] = ratioOf(result);
   }
-  report.add("resident_bytes", Report::number(result.work.resident))
-      .add("level", Report::text(limits.levelFor(result.work.resident).name))
-      .add("bytes_per_frame", Report::number(result.work.bytes))
-      .add("operations_per_frame", Report::number(result.work.operations))
-      .add("limit_ns_per_frame", Report::number(limit))
-      .add("share_of_limit", Report::number(limit / ns));
-  Report chosen = Report::list();
-  for (const std::string& line : result.chosen) {
-    chosen.add(Report::text(line));
-  }
-  return report.add("chosen", std::move(chosen));
+  report["resident_bytes"] = result.work.resident;
+  report["level"] = limits.levelFor(result.work.resident).name;
+  report["bytes_per_frame"] = result.work.bytes;
+  report["operations_per_frame"] = result.work.operations;
+  report["limit_ns_per_frame"] = limit;
+  report["share_of_limit"] = limit / ns;
+  report["chosen"] = result.chosen;
+  return report;
 }
 
 }  // namespace
@@ -149,18 +131,17 @@ void printRow(const BenchResult& result, const MachineLimits& limits) {
   std::fflush(stdout);
 }
 
-Report reportOf(const BenchSettings& settings,
-                const MachineLimits& limits,
-                const std::vector<BenchResult>& results) {
-  Report list = Report::list();
+Json reportOf(const BenchSettings& settings,
+              const MachineLimits& limits,
+              const std::vector<BenchResult>& results) {
+  Json list = Json::array();
   for (const BenchResult& result : results) {
-    list.add(resultReport(result, limits));
+    list.push_back(resultReport(result, limits));
   }
-  return Report::map()
-      .add("machine", machineReport(limits))
-      .add("build", buildReport())
-      .add("settings", settingsReport(settings))
-      .add("results", std::move(list));
+  return {{"machine", machineReport(limits)},
+          {"build", buildReport()},
+          {"settings", settingsReport(settings)},
+          {"results", std::move(list)}};
 }
 
 }  // namespace ergotic::tools

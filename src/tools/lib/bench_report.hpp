@@ -13,8 +13,8 @@ void printHead(const BenchSettings& settings, const MachineLimits& limits);
 void printRow(const BenchResult& result, const MachineLimits& limits);
 
 /// Everything, for programs.
-Report reportOf(const BenchSettings& settings,
-                const MachineLimits& limits,
-                const std::vector<BenchResult>& results);
+Json reportOf(const BenchSettings& settings,
+              const MachineLimits& limits,
+              const std::vector<BenchResult>& results);
 
 }  // namespace ergotic::tools

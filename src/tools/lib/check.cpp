@@ -31,15 +31,7 @@ const scene::Mat& matAt(const Scene& scene, int index) {
   return scene.mats[static_cast<std::size_t>(index)];
 }
 
-Report counts(const std::map<std::string, std::size_t>& by_name) {
-  Report report = Report::map();
-  for (const auto& [name, count] : by_name) {
-    report.add(name, Report::number(count));
-  }
-  return report;
-}
-
-Report linksOf(const Scene& scene) {
+Json linksOf(const Scene& scene) {
   std::map<std::string, std::size_t> by_type;
   std::map<std::string, std::size_t> by_scheme;
   std::size_t between_sections = 0;
@@ -49,85 +41,80 @@ Report linksOf(const Scene& scene) {
     const bool across = matAt(scene, lia.a).section != matAt(scene, lia.b).section;
     between_sections += across ? 1 : 0;
   }
-  return Report::map()
-      .add("count", Report::number(scene.lias.size()))
-      .add("types", counts(by_type))
-      .add("schemes", counts(by_scheme))
-      .add("between_sections", Report::number(between_sections));
+  return {{"count", scene.lias.size()},
+          {"types", by_type},
+          {"schemes", by_scheme},
+          {"between_sections", between_sections}};
 }
 
-Report pointsOf(const Scene& scene) {
-  Report report = Report::list();
+Json pointsOf(const Scene& scene) {
+  Json report = Json::array();
   for (const scene::Connection& point : scene.connections) {
     const scene::Grid& grid = scene.grids[static_cast<std::size_t>(point.grid)];
-    Report entry = Report::map();
-    entry.add("name", Report::text(matAt(scene, point.mat).name))
-        .add("on", Report::text(grid.name))
-        .add("along", Report::number(scene.valueOf(point.along)));
+    Json entry = {{"name", matAt(scene, point.mat).name},
+                  {"on", grid.name},
+                  {"along", scene.valueOf(point.along)}};
     if (grid.rows > 1) {
-      entry.add("across", Report::number(scene.valueOf(point.across)));
+      entry["across"] = scene.valueOf(point.across);
     }
     if (point.along.parameter >= 0) {
       const auto moved_by = static_cast<std::size_t>(point.along.parameter);
-      entry.add("parameter", Report::text(scene.parameters[moved_by].name));
+      entry["parameter"] = scene.parameters[moved_by].name;
     }
     if (point.guide >= 0) {
-      entry.add("guide", Report::text(matAt(scene, point.guide).name));
+      entry["guide"] = matAt(scene, point.guide).name;
     }
-    report.add(std::move(entry));
+    report.push_back(std::move(entry));
   }
   return report;
 }
 
 /// Inputs or outputs.
 template <class Tap>
-Report tap(const Scene& scene, const Tap& tap, const scene::Mat& mat) {
-  return Report::map()
-      .add("name", Report::text(tap.name))
-      .add("quantity", Report::text(nameOf(tap.quantity)))
-      .add("module", Report::text(mat.name))
-      .add("channel", Report::number(tap.channel + 1))
-      .add("gain", Report::number(scene.valueOf(tap.gain)));
+Json tap(const Scene& scene, const Tap& tap, const scene::Mat& mat) {
+  return {{"name", tap.name},
+          {"quantity", nameOf(tap.quantity)},
+          {"module", mat.name},
+          {"channel", tap.channel + 1},
+          {"gain", scene.valueOf(tap.gain)}};
 }
 
-Report inputsOf(const Scene& scene) {
-  Report report = Report::list();
+Json inputsOf(const Scene& scene) {
+  Json report = Json::array();
   for (const scene::Input& input : scene.inputs) {
-    report.add(tap(scene, input, matAt(scene, input.mat)));
+    report.push_back(tap(scene, input, matAt(scene, input.mat)));
   }
   return report;
 }
 
-Report outputsOf(const Scene& scene) {
-  Report report = Report::list();
+Json outputsOf(const Scene& scene) {
+  Json report = Json::array();
   for (const scene::Output& output : scene.outputs) {
-    report.add(tap(scene, output, matAt(scene, output.point.mat)));
+    report.push_back(tap(scene, output, matAt(scene, output.point.mat)));
   }
   return report;
 }
 
-Report parametersOf(const Scene& scene) {
-  Report report = Report::list();
+Json parametersOf(const Scene& scene) {
+  Json report = Json::array();
   for (const scene::Parameter& parameter : scene.parameters) {
-    report.add(Report::map()
-                   .add("name", Report::text(parameter.name))
-                   .add("value", Report::number(parameter.value))
-                   .add("minimum", Report::number(parameter.minimum))
-                   .add("maximum", Report::number(parameter.maximum)));
+    report.push_back({{"name", parameter.name},
+                      {"value", parameter.value},
+                      {"minimum", parameter.minimum},
+                      {"maximum", parameter.maximum}});
   }
   return report;
 }
 
-Report stringsOf(const Scene& scene, const physics::Rates& rates) {
-  Report report = Report::list();
+Json stringsOf(const Scene& scene, const physics::Rates& rates) {
+  Json report = Json::array();
   for (const scene::StringInfo& string : scene.strings) {
     const int index = matAt(scene, string.first).section;
     const scene::Section& section = scene.sections[static_cast<std::size_t>(index)];
     const double rate_hz = rates.audio_hz / physics::divisorOf(section, rates);
-    report.add(Report::map()
-                   .add("name", Report::text(string.name))
-                   .add("masses", Report::number(string.count - 2))
-                   .add("pitch_hz", Report::number(scene::stringPitchHz(scene, string, rate_hz))));
+    report.push_back({{"name", string.name},
+                      {"masses", string.count - 2},
+                      {"pitch_hz", scene::stringPitchHz(scene, string, rate_hz)}});
   }
   return report;
 }
@@ -142,89 +129,79 @@ std::string sizeText(const Scene& scene) {
 }
 
 /// Ends with the program that `options` ask for, sharing the scene as in the station.
-Report loadOf(const Scene& scene,
-              const physics::Rates& rates,
-              const physics::CompileOptions& options,
-              LoadFigures& load) {
+Json loadOf(const Scene& scene,
+            const physics::Rates& rates,
+            const physics::CompileOptions& options,
+            LoadFigures& load) {
   load.begin("compile_s", "compile " + sizeText(scene));
   const auto instrument = physics::compile(shared(scene), rates, options);
   return load.finish(scene.mats.size() + scene.lias.size());
 }
 
-Report texts(const std::vector<std::string>& lines) {
-  Report report = Report::list();
-  for (const std::string& line : lines) {
-    report.add(Report::text(line));
-  }
-  return report;
-}
-
 /// What `compile` made of the scene, and why.
-Report programOf(const physics::Instrument& instrument) {
+Json programOf(const physics::Instrument& instrument) {
   const physics::CompileOptions& options = instrument.options();
-  return Report::map()
-      .add("precision", Report::text(nameOf(options.precision)))
-      .add("isa", Report::text(nameOf(options.isa)))
-      .add("threads", Report::number(options.threads))
-      .add("parts", texts(instrument.describe()));
+  return {{"precision", nameOf(options.precision)},
+          {"isa", nameOf(options.isa)},
+          {"threads", options.threads},
+          {"parts", instrument.describe()}};
 }
 
 /// Adds the program that `options` ask for, and what both precisions cost.
 void addProgram(const Scene& scene,
                 const physics::Rates& rates,
                 physics::CompileOptions options,
-                Report& report) {
+                Json& report) {
   const physics::Precision chosen = options.precision;
-  Report costs = Report::map();
+  Json costs = Json::object();
   for (const auto precision : {physics::Precision::kFloat, physics::Precision::kDouble}) {
     options.precision = precision;
     const auto instrument = physics::compile(shared(scene), rates, options);
     if (precision == chosen) {
-      report.add("program", programOf(*instrument));
+      report["program"] = programOf(*instrument);
     }
     const Cost cost = measureCost(*instrument);
-    costs.add(nameOf(precision),
-              Report::map()
-                  .add("state_bytes", Report::number(instrument->stateSize()))
-                  .add("tick_ns", Report::number(cost.tick_ns))
-                  .add("step_ns", Report::number(cost.frame_ns))
-                  .add("real_time_factor", Report::number(cost.real_time_factor)));
+    costs[nameOf(precision)] = Json{{"state_bytes", instrument->stateSize()},
+                                    {"tick_ns", cost.tick_ns},
+                                    {"step_ns", cost.frame_ns},
+                                    {"real_time_factor", cost.real_time_factor}};
   }
-  report.add("cost", std::move(costs));
+  report["cost"] = std::move(costs);
 }
 
-Report reportOn(const physics::Settled& settled,
-                const physics::Rates& rates,
-                const physics::Certificate& certificate,
-                const physics::CompileOptions& options,
-                const DeviceChoice& device,
-                Report load) {
+Json reportOn(const physics::Settled& settled,
+              const physics::Rates& rates,
+              const physics::Certificate& certificate,
+              const physics::CompileOptions& options,
+              const DeviceChoice& device,
+              Json load) {
   const Scene& scene = settled.scene;
   std::vector<std::string> warnings = scene.warnings;
   const std::string note = conversionNote(scene, rates);
   if (!note.empty()) {
     warnings.push_back(note);
   }
-  Report report = Report::map();
-  report.add("scene", Report::text(scene.name))
-      .add("modules", Report::number(scene.mats.size()))
-      .add("audio_rate_hz", Report::number(rates.audio_hz))
-      .add("gestural_rate_hz", Report::number(rates.gesturalHz()))
-      .add("frames_per_tick", Report::number(rates.ratio))
-      .add("stability", stabilityReport(scene, rates, certificate))
-      .add("sections", sectionsReport(scene, rates, certificate))
-      .add("links", linksOf(scene))
-      .add("points", pointsOf(scene))
-      .add("ports", portsReport(scene, rates, certificate, device.noise))
-      .add("agents", agentsReport(scene))
-      .add("inputs", inputsOf(scene))
-      .add("outputs", outputsOf(scene))
-      .add("parameters", parametersOf(scene))
-      .add("strings", stringsOf(scene, rates))
-      .add("filters", filtersReport(scene, rates))
-      .add("load", std::move(load));
+  Json report = {{"scene", scene.name},
+                 {"modules", scene.mats.size()},
+                 {"audio_rate_hz", rates.audio_hz},
+                 {"gestural_rate_hz", rates.gesturalHz()},
+                 {"frames_per_tick", rates.ratio},
+                 {"stability", stabilityReport(scene, rates, certificate)},
+                 {"sections", sectionsReport(scene, rates, certificate)},
+                 {"links", linksOf(scene)},
+                 {"points", pointsOf(scene)},
+                 {"ports", portsReport(scene, rates, certificate, device.noise)},
+                 {"agents", agentsReport(scene)},
+                 {"inputs", inputsOf(scene)},
+                 {"outputs", outputsOf(scene)},
+                 {"parameters", parametersOf(scene)},
+                 {"strings", stringsOf(scene, rates)},
+                 {"filters", filtersReport(scene, rates)},
+                 {"load", std::move(load)}};
   addProgram(scene, rates, options, report);
-  return report.add("notes", texts(settled.notes)).add("warnings", texts(warnings));
+  report["notes"] = settled.notes;
+  report["warnings"] = std::move(warnings);
+  return report;
 }
 
 /// Adds what each slice meets and what is too much. \return what is refused
@@ -233,26 +210,27 @@ std::vector<std::string> addSlices(const tgr::EndEffectors& end_effectors,
                                    const physics::Rates& rates,
                                    const physics::Certificate& certificate,
                                    const physics::DeviceTraits& device,
-                                   Report& report) {
+                                   Json& report) {
   const auto rendered = renderedStiffness(scene, rates, certificate, device, end_effectors);
   const tgr::StiffnessFindings findings = tgr::judgeStiffness(end_effectors, rendered);
   std::vector<std::string> all = findings.refusals;
   all.insert(all.end(), findings.warnings.begin(), findings.warnings.end());
-  report.add("slices", slicesReport(end_effectors, rendered)).add("slice_findings", texts(all));
+  report["slices"] = slicesReport(end_effectors, rendered);
+  report["slice_findings"] = std::move(all);
   return findings.refusals;
 }
 
 /// Prints the report, then why the scene cannot be played. \return the exit code
-int finish(const Report& report,
+int finish(const Json& report,
            bool json,
            const std::string& file,
            physics::Verdict verdict,
            const std::vector<std::string>& refusals) {
   if (json) {
-    report.printJson(std::cout);
+    printJson(report, std::cout);
     std::cout << '\n';
   } else {
-    report.printText(std::cout);
+    printText(report, std::cout);
   }
   for (const std::string& line : refusals) {
     std::cerr << line << '\n';
@@ -308,11 +286,11 @@ int check(const CheckOptions& options) {
   device.taken_ports = tgr::takenPorts(settled.scene, end_effectors);
   const physics::Certificate certificate = physics::certify(settled.scene, rates, device);
   const physics::CompileOptions compile = chosenOptions(options.compile);
-  Report report = reportOn(settled, rates, certificate, compile, options.device,
-                           loadOf(settled.scene, rates, compile, load));
+  Json report = reportOn(settled, rates, certificate, compile, options.device,
+                         loadOf(settled.scene, rates, compile, load));
   if (!options.target.empty()) {
-    report.add("target", targetReport(readScene(options.scene), rates, compile, options.target,
-                                      freedomOf(options.scene, options.compile)));
+    report["target"] = targetReport(readScene(options.scene), rates, compile, options.target,
+                                    freedomOf(options.scene, options.compile));
   }
   std::vector<std::string> refusals = refusedPorts(settled.scene, certificate);
   if (!options.end_effectors.empty()) {

@@ -21,28 +21,24 @@ constexpr double kLowFrequency = 0.02;  // of fN, where a hand feels a chaplet a
 constexpr int kPointsPerNyquist = 200;
 constexpr int kPoints = 4 * kPointsPerNyquist;
 
-Report filterReport(const physics::FoundChaplet& found) {
+Json filterReport(const physics::FoundChaplet& found) {
   const Chaplet& chaplet = found.chaplet;
-  Report gains = Report::list();
+  Json gains = Json::array();
   for (const double share : kShownShares) {
     const double frequency_hz = share * chaplet.nyquistHz();
-    gains.add(
-        Report::map()
-            .add("at_hz", Report::number(frequency_hz))
-            .add("free_db", Report::number(decibels(chaplet.gain(frequency_hz, {}))))
-            .add("loaded_db", Report::number(decibels(chaplet.gain(frequency_hz, found.load)))));
+    gains.push_back({{"at_hz", frequency_hz},
+                     {"free_db", decibels(chaplet.gain(frequency_hz, {}))},
+                     {"loaded_db", decibels(chaplet.gain(frequency_hz, found.load))}});
   }
-  return Report::map()
-      .add("name", Report::text(found.name))
-      .add("steps_to_one", Report::number(chaplet.ratio()))
-      .add("nyquist_hz", Report::number(chaplet.nyquistHz()))
-      .add("mass_kg", Report::number(chaplet.mass()))
-      .add("series_stiffness", Report::number(chaplet.seriesStiffness()))
-      .add("felt_mass_kg",
-           Report::number(chaplet.apparentMass(kLowFrequency * chaplet.nyquistHz(), {})))
-      .add("load_damping", Report::number(found.load.damping))
-      .add("load_stiffness", Report::number(found.load.stiffness))
-      .add("gain", std::move(gains));
+  return {{"name", found.name},
+          {"steps_to_one", chaplet.ratio()},
+          {"nyquist_hz", chaplet.nyquistHz()},
+          {"mass_kg", chaplet.mass()},
+          {"series_stiffness", chaplet.seriesStiffness()},
+          {"felt_mass_kg", chaplet.apparentMass(kLowFrequency * chaplet.nyquistHz(), {})},
+          {"load_damping", found.load.damping},
+          {"load_stiffness", found.load.stiffness},
+          {"gain", std::move(gains)}};
 }
 
 void writeRows(std::ostream& out, const physics::FoundChaplet& found) {
@@ -73,10 +69,10 @@ void writeRows(std::ostream& out, const physics::FoundChaplet& found) {
 
 }  // namespace
 
-Report filtersReport(const scene::Scene& scene, const physics::Rates& rates) {
-  Report report = Report::list();
+Json filtersReport(const scene::Scene& scene, const physics::Rates& rates) {
+  Json report = Json::array();
   for (const physics::FoundChaplet& found : physics::findChaplets(scene, rates)) {
-    report.add(filterReport(found));
+    report.push_back(filterReport(found));
   }
   return report;
 }

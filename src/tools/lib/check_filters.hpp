@@ -11,7 +11,7 @@ namespace ergotic::tools {
 
 /// The chaplets of a settled scene: what each is, what it is taken to work against, and what it
 /// lets through, dB, free and with that load, without the hold of the slower end.
-Report filtersReport(const scene::Scene& scene, const physics::Rates& rates);
+Json filtersReport(const scene::Scene& scene, const physics::Rates& rates);
 
 /// Writes the response of every chaplet of a settled scene from 0 to 4 fN, for a picture of it:
 /// `chaplet,ratio,frequency_hz,share_of_fn` and gains in dB: `free,loaded,free_held,loaded_held`

@@ -22,73 +22,69 @@ std::string axisOf(const scene::Port& port) {
   return {kAxes[port.axis]};
 }
 
-Report noiseOf(const scene::Port& port, const physics::NoiseFloor& floor) {
-  Report report = Report::map();
-  report.add("position_m", Report::number(floor.position))
-      .add("force_n", Report::number(floor.force));
+Json noiseOf(const scene::Port& port, const physics::NoiseFloor& floor) {
+  Json report = {{"position_m", floor.position}, {"force_n", floor.force}};
   if (port.filter >= 0) {
-    report.add("unfiltered_force_n", Report::number(floor.unfiltered))
-        .add("behind_filter_m", Report::number(floor.behind));
+    report["unfiltered_force_n"] = floor.unfiltered;
+    report["behind_filter_m"] = floor.behind;
   }
   return report;
 }
 
 /// The spring and damper that the readers give every agent.
-void addHand(const Scene& scene, const scene::Port& port, Report& entry) {
+void addHand(const Scene& scene, const scene::Port& port, Json& entry) {
   const auto hand = std::find_if(scene.lias.begin(), scene.lias.end(), [&](const scene::Lia& lia) {
     return lia.a == port.mat || lia.b == port.mat;
   });
   if (hand != scene.lias.end()) {
-    entry.add("module", Report::text(matAt(scene, hand->a == port.mat ? hand->b : hand->a).name))
-        .add("stiffness_n_per_m", Report::number(scene.valueOf(hand->stiffness)))
-        .add("damping_n_s_per_m", Report::number(scene.valueOf(hand->damping)));
+    entry["module"] = matAt(scene, hand->a == port.mat ? hand->b : hand->a).name;
+    entry["stiffness_n_per_m"] = scene.valueOf(hand->stiffness);
+    entry["damping_n_s_per_m"] = scene.valueOf(hand->damping);
   }
 }
 
 }  // namespace
 
-Report portsReport(const Scene& scene,
-                   const physics::Rates& rates,
-                   const physics::Certificate& certificate,
-                   const physics::SensorNoise& noise) {
-  Report report = Report::list();
+Json portsReport(const Scene& scene,
+                 const physics::Rates& rates,
+                 const physics::Certificate& certificate,
+                 const physics::SensorNoise& noise) {
+  Json report = Json::array();
   const std::vector<physics::NoiseFloor> floors = physics::noiseFloors(scene, rates, noise);
   for (std::size_t i = 0; i < certificate.ports.size(); ++i) {
     const physics::PortCertificate& met = certificate.ports[i];
     const scene::Port& port = scene.ports[static_cast<std::size_t>(met.port)];
-    Report entry = Report::map();
-    entry.add("name", Report::text(port.name))
-        .add("module", Report::text(matAt(scene, port.mat).name))
-        .add("axis", Report::text(axisOf(port)));
+    Json entry = {
+        {"name", port.name}, {"module", matAt(scene, port.mat).name}, {"axis", axisOf(port)}};
     if (port.slice >= 0) {
-      entry.add("slice", Report::number(port.slice));
+      entry["slice"] = port.slice;
     }
-    report.add(std::move(entry.add("offset_m", Report::number(port.offset))
-                             .add("position_scale", Report::number(port.position_scale))
-                             .add("force_scale", Report::number(port.force_scale))
-                             .add("stiffness_n_per_m", Report::number(met.stiffness))
-                             .add("passive_up_to_n_per_m", Report::number(met.limit))
-                             .add("noise", noiseOf(port, floors[i]))));
+    entry["offset_m"] = port.offset;
+    entry["position_scale"] = port.position_scale;
+    entry["force_scale"] = port.force_scale;
+    entry["stiffness_n_per_m"] = met.stiffness;
+    entry["passive_up_to_n_per_m"] = met.limit;
+    entry["noise"] = noiseOf(port, floors[i]);
+    report.push_back(std::move(entry));
   }
   return report;
 }
 
-Report agentsReport(const Scene& scene) {
-  Report report = Report::list();
+Json agentsReport(const Scene& scene) {
+  Json report = Json::array();
   for (const scene::Port& port : scene.ports) {
     if (port.agent < 0) {
       continue;
     }
     const scene::Agent& agent = scene.agents[static_cast<std::size_t>(port.agent)];
-    Report entry = Report::map();
-    entry.add("name", Report::text(agent.name)).add("axis", Report::text(axisOf(port)));
+    Json entry = {{"name", agent.name}, {"axis", axisOf(port)}};
     addHand(scene, port, entry);
-    entry.add("points", Report::number(agent.knots.size()))
-        .add("ends_s", Report::number(agent.knots.back().first));
+    entry["points"] = agent.knots.size();
+    entry["ends_s"] = agent.knots.back().first;
     if (agent.period_s > 0.0) {
-      entry.add("period_s", Report::number(agent.period_s));
+      entry["period_s"] = agent.period_s;
     }
-    report.add(std::move(entry));
+    report.push_back(std::move(entry));
   }
   return report;
 }

@@ -18,11 +18,11 @@ struct DeviceChoice {
 };
 
 /// Who moves what, how stiff it is, and how much of the sensors' noise is felt.
-Report portsReport(const scene::Scene& scene,
-                   const physics::Rates& rates,
-                   const physics::Certificate& certificate,
-                   const physics::SensorNoise& noise);
-Report agentsReport(const scene::Scene& scene);
+Json portsReport(const scene::Scene& scene,
+                 const physics::Rates& rates,
+                 const physics::Certificate& certificate,
+                 const physics::SensorNoise& noise);
+Json agentsReport(const scene::Scene& scene);
 
 /// Why the ports that the certificate refuses cannot be played, as the station says, too:
 /// `file:line:col: error: ...`.

@@ -18,24 +18,24 @@ using scene::Scene;
 
 constexpr double kStableLambda = 4.0;
 
-Report vectorOf(const Eigen::Vector3d& v) {
-  Report report = Report::list();
+Json vectorOf(const Eigen::Vector3d& v) {
+  Json report = Json::array();
   for (const double component : {v.x(), v.y(), v.z()}) {
-    report.add(Report::number(component));
+    report.push_back(component);
   }
   return report;
 }
 
-Report modulesOf(const Scene& scene, int section) {
+Json modulesOf(const Scene& scene, int section) {
   std::map<std::string, std::size_t> by_type;
   for (const scene::Mat& mat : scene.mats) {
     if (mat.section == section) {
       ++by_type[nameOf(mat.type)];
     }
   }
-  Report report = Report::map();
+  Json report = Json::object();
   for (const auto& [type, count] : by_type) {
-    report.add(type, Report::number(count));
+    report[type] = count;
   }
   return report;
 }
@@ -48,18 +48,17 @@ std::string steppingOf(const scene::Section& section) {
                               : "every " + std::to_string(section.divisor) + " audio frames";
 }
 
-Report stabilityOf(const Scene& scene, const SectionCertificate& certificate) {
-  Report report = Report::map();
-  report.add("lambda", Report::number(certificate.lambda))
-      .add("margin", Report::number(1.0 - certificate.lambda / kStableLambda))
-      .add("lowest_stable_rate_hz", Report::number(certificate.stable_rate_hz));
+Json stabilityOf(const Scene& scene, const SectionCertificate& certificate) {
+  Json report = {{"lambda", certificate.lambda},
+                 {"margin", 1.0 - certificate.lambda / kStableLambda},
+                 {"lowest_stable_rate_hz", certificate.stable_rate_hz}};
   if (certificate.worst_lia >= 0) {
     const auto link = static_cast<std::size_t>(certificate.worst_lia);
-    report.add("worst_link", Report::text(scene.lias[link].name));
+    report["worst_link"] = scene.lias[link].name;
   }
   if (certificate.worst_mat >= 0) {
     const auto module = static_cast<std::size_t>(certificate.worst_mat);
-    report.add("worst_module", Report::text(scene.mats[module].name));
+    report["worst_module"] = scene.mats[module].name;
   }
   return report;
 }
@@ -103,44 +102,38 @@ std::string adviceOn(const Scene& scene, Verdict verdict, double lowest_rate_hz)
 
 }  // namespace
 
-Report sectionsReport(const Scene& scene,
-                      const physics::Rates& rates,
-                      const physics::Certificate& certificate) {
-  Report sections = Report::list();
+Json sectionsReport(const Scene& scene,
+                    const physics::Rates& rates,
+                    const physics::Certificate& certificate) {
+  Json sections = Json::array();
   for (std::size_t s = 0; s < scene.sections.size(); ++s) {
     const scene::Section& section = scene.sections[s];
-    Report report = Report::map();
-    report.add("name", Report::text(section.name))
-        .add("geometry", Report::text(nameOf(section.geometry)))
-        .add("rate_hz", Report::number(rates.audio_hz / physics::divisorOf(section, rates)))
-        .add("stepped", Report::text(steppingOf(section)))
-        .add("axis", vectorOf(section.pose.linear().col(0)))
-        .add("origin_m", vectorOf(section.pose.translation()))
-        .add("modules", modulesOf(scene, static_cast<int>(s)));
+    Json report = {{"name", section.name},
+                   {"geometry", nameOf(section.geometry)},
+                   {"rate_hz", rates.audio_hz / physics::divisorOf(section, rates)},
+                   {"stepped", steppingOf(section)},
+                   {"axis", vectorOf(section.pose.linear().col(0))},
+                   {"origin_m", vectorOf(section.pose.translation())},
+                   {"modules", modulesOf(scene, static_cast<int>(s))}};
     for (const SectionCertificate& c : certificate.sections) {
       if (c.section == static_cast<int>(s)) {
-        report.add("stability", stabilityOf(scene, c));
+        report["stability"] = stabilityOf(scene, c);
       }
     }
-    sections.add(std::move(report));
+    sections.push_back(std::move(report));
   }
   return sections;
 }
 
-Report stabilityReport(const Scene& scene,
-                       const physics::Rates& rates,
-                       const physics::Certificate& certificate) {
+Json stabilityReport(const Scene& scene,
+                     const physics::Rates& rates,
+                     const physics::Certificate& certificate) {
   const double lowest_rate_hz = lowestStableAudioRate(scene, rates, certificate);
-  Report findings = Report::list();
-  for (const std::string& finding : certificate.findings) {
-    findings.add(Report::text(finding));
-  }
-  return Report::map()
-      .add("verdict", Report::text(physics::toString(certificate.verdict)))
-      .add("advice", Report::text(adviceOn(scene, certificate.verdict, lowest_rate_hz)))
-      .add("margin", Report::number(certificate.margin()))
-      .add("lowest_stable_audio_rate_hz", Report::number(lowest_rate_hz))
-      .add("findings", std::move(findings));
+  return {{"verdict", physics::toString(certificate.verdict)},
+          {"advice", adviceOn(scene, certificate.verdict, lowest_rate_hz)},
+          {"margin", certificate.margin()},
+          {"lowest_stable_audio_rate_hz", lowest_rate_hz},
+          {"findings", certificate.findings}};
 }
 
 }  // namespace ergotic::tools

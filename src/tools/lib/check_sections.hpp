@@ -8,13 +8,13 @@
 namespace ergotic::tools {
 
 /// Each section: its rate, geometry and place, modules, and how near to the limit it is.
-Report sectionsReport(const scene::Scene& scene,
-                      const physics::Rates& rates,
-                      const physics::Certificate& certificate);
+Json sectionsReport(const scene::Scene& scene,
+                    const physics::Rates& rates,
+                    const physics::Certificate& certificate);
 
 /// The verdict, what it means, and what to do about it.
-Report stabilityReport(const scene::Scene& scene,
-                       const physics::Rates& rates,
-                       const physics::Certificate& certificate);
+Json stabilityReport(const scene::Scene& scene,
+                     const physics::Rates& rates,
+                     const physics::Certificate& certificate);
 
 }  // namespace ergotic::tools

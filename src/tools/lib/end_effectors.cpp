@@ -32,23 +32,23 @@ std::vector<tgr::RenderedStiffness> renderedStiffness(const scene::Scene& scene,
                                 device.delay_ticks);
 }
 
-Report slicesReport(const tgr::EndEffectors& end_effectors,
-                    const std::vector<tgr::RenderedStiffness>& rendered) {
-  Report report = Report::list();
+Json slicesReport(const tgr::EndEffectors& end_effectors,
+                  const std::vector<tgr::RenderedStiffness>& rendered) {
+  Json report = Json::array();
   for (const tgr::RenderedStiffness& slice : rendered) {
     const auto above = std::find_if(end_effectors.list.begin(), end_effectors.list.end(),
                                     [&slice](const tgr::EndEffectorConfig& config) {
                                       return std::find(config.slices.begin(), config.slices.end(),
                                                        slice.slice) != config.slices.end();
                                     });
-    Report entry = Report::map();
-    entry.add("slice", Report::number(slice.slice));
+    Json entry = {{"slice", slice.slice}};
     if (above != end_effectors.list.end()) {
-      entry.add("end_effector", Report::text(above->name));
+      entry["end_effector"] = above->name;
     }
-    report.add(std::move(entry.add("stiffness_n_per_m", Report::number(slice.stiffness))
-                             .add("together_n_per_m", Report::number(slice.together))
-                             .add("passive_up_to_n_per_m", Report::number(slice.limit))));
+    entry["stiffness_n_per_m"] = slice.stiffness;
+    entry["together_n_per_m"] = slice.together;
+    entry["passive_up_to_n_per_m"] = slice.limit;
+    report.push_back(std::move(entry));
   }
   return report;
 }

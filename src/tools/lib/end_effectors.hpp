@@ -21,7 +21,7 @@ std::vector<tgr::RenderedStiffness> renderedStiffness(const scene::Scene& scene,
                                                       const physics::Certificate& certificate,
                                                       const physics::DeviceTraits& device,
                                                       const tgr::EndEffectors& end_effectors);
-Report slicesReport(const tgr::EndEffectors& end_effectors,
-                    const std::vector<tgr::RenderedStiffness>& rendered);
+Json slicesReport(const tgr::EndEffectors& end_effectors,
+                  const std::vector<tgr::RenderedStiffness>& rendered);
 
 }  // namespace ergotic::tools

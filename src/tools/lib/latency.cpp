@@ -126,87 +126,77 @@ class LiveStation {
   std::array<station::GestureTick, 256> gestures_{};
 };
 
-Report settingsReport(const LatencyOptions& options,
-                      const LiveStation& live,
-                      const std::vector<std::string>& warnings) {
+Json settingsReport(const LatencyOptions& options,
+                    const LiveStation& live,
+                    const std::vector<std::string>& warnings) {
   const physics::Rates& rates = live.rates();
-  Report list = Report::list();
-  for (const std::string& warning : warnings) {
-    list.add(Report::text(warning));
-  }
-  return Report::map()
-      .add("scene", Report::text(options.scene.empty() ? kScene : options.scene))
-      .add("modules", Report::number(live.modules()))
-      .add("slices", Report::number(kSlices))
-      .add("rate_hz", Report::number(rates.audio_hz))
-      .add("frames_per_tick", Report::number(rates.ratio))
-      .add("ticks_per_s", Report::number(rates.gesturalHz()))
-      .add("period_us", Report::number(1e6 / rates.gesturalHz()))
-      .add("seconds", Report::number(options.seconds))
-      .add("priority", Report::number(options.priority))
-      .add("cpu", Report::number(options.cpu))
-      .add("instrument", Report::text(toString(chosenOptions(options.compile))))
-      .add("refused", std::move(list));
+  return {{"scene", options.scene.empty() ? kScene : options.scene},
+          {"modules", live.modules()},
+          {"slices", kSlices},
+          {"rate_hz", rates.audio_hz},
+          {"frames_per_tick", rates.ratio},
+          {"ticks_per_s", rates.gesturalHz()},
+          {"period_us", 1e6 / rates.gesturalHz()},
+          {"seconds", options.seconds},
+          {"priority", options.priority},
+          {"cpu", options.cpu},
+          {"instrument", toString(chosenOptions(options.compile))},
+          {"refused", warnings}};
 }
 
-Report countersReport(const station::Snapshot& last) {
+Json countersReport(const station::Snapshot& last) {
   const station::Counters& c = last.counters;
-  const auto number = [](std::int64_t value) { return Report::number(value); };
-  return Report::map()
-      .add("ticks", number(c.ticks))
-      .add("late_wake_up", number(c.late_wake_up))
-      .add("late_device", number(c.late_device))
-      .add("late_compute", number(c.late_compute))
-      .add("stalls", number(c.stalls))
-      .add("caught_up", number(c.catch_up_ticks))
-      .add("lost", number(c.lost_ticks))
-      .add("peak_force_n", Report::number(c.peak_force_n))
-      .add("fault", Report::text(tgr::toString(last.fault)));
+  return {{"ticks", c.ticks},
+          {"late_wake_up", c.late_wake_up},
+          {"late_device", c.late_device},
+          {"late_compute", c.late_compute},
+          {"stalls", c.stalls},
+          {"caught_up", c.catch_up_ticks},
+          {"lost", c.lost_ticks},
+          {"peak_force_n", c.peak_force_n},
+          {"fault", tgr::toString(last.fault)}};
 }
 
-Report reportOf(const LatencyOptions& options,
-                const LiveStation& live,
-                const std::vector<std::string>& warnings,
-                bool bins) {
+Json reportOf(const LatencyOptions& options,
+              const LiveStation& live,
+              const std::vector<std::string>& warnings,
+              bool bins) {
   const double period_us = 1e6 / live.rates().gesturalHz();
   const station::TickMeter& meter = live.meter();
-  return Report::map()
-      .add("machine", Report::map()
-                          .add("processor", Report::text(processorName()))
-                          .add("cores", Report::number(std::thread::hardware_concurrency()))
-                          .add("kernel", Report::text(kernelName())))
-      .add("settings", settingsReport(options, live, warnings))
-      .add("ticks", countersReport(live.last()))
-      .add("wake_up", histogramReport(meter.wake_up, period_us, bins))
-      .add("exchange", histogramReport(meter.exchange, period_us, bins))
-      .add("compute", histogramReport(meter.compute, period_us, bins))
-      .add("tick", histogramReport(meter.whole, period_us, bins));
+  return {{"machine", Json{{"processor", processorName()},
+                           {"cores", std::thread::hardware_concurrency()},
+                           {"kernel", kernelName()}}},
+          {"settings", settingsReport(options, live, warnings)},
+          {"ticks", countersReport(live.last())},
+          {"wake_up", histogramReport(meter.wake_up, period_us, bins)},
+          {"exchange", histogramReport(meter.exchange, period_us, bins)},
+          {"compute", histogramReport(meter.compute, period_us, bins)},
+          {"tick", histogramReport(meter.whole, period_us, bins)}};
 }
 
 }  // namespace
 
-Report histogramReport(const station::TickHistogram& histogram, double period_us, bool bins) {
+Json histogramReport(const station::TickHistogram& histogram, double period_us, bool bins) {
   const std::array<std::pair<const char*, double>, 4> kQuantiles{
       {{"p50", 0.5}, {"p99", 0.99}, {"p99_99", 0.9999}, {"max", 1.0}}};
-  Report us = Report::map();
-  Report share = Report::map();
+  Json us = Json::object();
+  Json share = Json::object();
   for (const auto& [name, part] : kQuantiles) {
     const double value = 1e-3 * static_cast<double>(histogram.quantileNs(part));
-    us.add(name, Report::number(value));
-    share.add(name, Report::number(value / period_us));
+    us[name] = value;
+    share[name] = value / period_us;
   }
-  Report report = Report::map();
-  report.add("count", Report::number(histogram.count()))
-      .add("us", std::move(us))
-      .add("share_of_period", std::move(share));
+  Json report = {
+      {"count", histogram.count()}, {"us", std::move(us)}, {"share_of_period", std::move(share)}};
   if (bins) {
-    Report up_to = Report::list();
-    Report counts = Report::list();
+    Json up_to = Json::array();
+    Json counts = Json::array();
     for (const station::TickHistogram::Bin& bin : histogram.bins()) {
-      up_to.add(Report::number(1e-3 * static_cast<double>(bin.high_ns + 1)));
-      counts.add(Report::number(bin.count));
+      up_to.push_back(1e-3 * static_cast<double>(bin.high_ns + 1));
+      counts.push_back(bin.count);
     }
-    report.add("up_to_us", std::move(up_to)).add("counts", std::move(counts));
+    report["up_to_us"] = std::move(up_to);
+    report["counts"] = std::move(counts);
   }
   return report;
 }
@@ -241,10 +231,10 @@ int latency(const LatencyOptions& options) {
   for (const std::string& warning : warnings) {
     std::cerr << "warning: " << warning << '\n';
   }
-  reportOf(options, live, warnings, false).printText(std::cout);
+  printText(reportOf(options, live, warnings, false), std::cout);
   if (!options.json.empty()) {
     std::ofstream file(options.json);
-    reportOf(options, live, warnings, true).printJson(file);
+    printJson(reportOf(options, live, warnings, true), file);
     file << std::endl;
     if (!file) {
       throw Exception(options.json + ": cannot be written");

@@ -31,6 +31,6 @@ int latency(const LatencyOptions& options);
 
 /// Quantiles in microseconds and as shares of the period; with `bins` also how many durations are
 /// up to the end of each bin.
-Report histogramReport(const station::TickHistogram& histogram, double period_us, bool bins);
+Json histogramReport(const station::TickHistogram& histogram, double period_us, bool bins);
 
 }  // namespace ergotic::tools

@@ -26,18 +26,18 @@ void LoadFigures::begin(const std::string& key, const std::string& what) {
 
 void LoadFigures::end() {
   if (!key_.empty()) {
-    report_.add(key_, Report::number(std::chrono::duration<double>(Clock::now() - begun_).count()));
+    report_[key_] = std::chrono::duration<double>(Clock::now() - begun_).count();
   }
 }
 
-Report LoadFigures::finish(std::size_t parts) {
+Json LoadFigures::finish(std::size_t parts) {
   end();
   line_.clear();
   const std::size_t heap = heapInUse();
   const std::size_t grown = heap - std::min(heap, heap_);
   const auto each = static_cast<double>(std::max<std::size_t>(parts, 1));
-  report_.add("bytes", Report::number(grown))
-      .add("bytes_per_module_or_link", Report::number(static_cast<double>(grown) / each));
+  report_["bytes"] = grown;
+  report_["bytes_per_module_or_link"] = static_cast<double>(grown) / each;
   return report_;
 }
 

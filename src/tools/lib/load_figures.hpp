@@ -20,7 +20,7 @@ class LoadFigures {
   void begin(const std::string& key, const std::string& what);
   /// Ends the last stage.
   /// \param parts  modules and links that the memory is for
-  Report finish(std::size_t parts);
+  Json finish(std::size_t parts);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -30,7 +30,7 @@ class LoadFigures {
   std::string key_;
   Clock::time_point begun_;
   std::size_t heap_;  // bytes in use when all began
-  Report report_ = Report::map();
+  Json report_ = Json::object();
 };
 
 }  // namespace ergotic::tools

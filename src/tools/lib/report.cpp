@@ -4,13 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-
-#include <nlohmann/json.hpp>
+#include <string>
 
 namespace ergotic::tools {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr int kReadableDigits = 6;
 constexpr std::size_t kWidth = 100;  // characters of a line that holds a map or a list
@@ -26,120 +23,68 @@ std::string readable(double value) {
   return std::isfinite(value) ? text.str() : std::string("null");
 }
 
-/// Names of files may hold any bytes: what is no UTF-8 is replaced.
 std::string written(const Json& json, int spaces) {
   return json.dump(spaces, ' ', false, Json::error_handler_t::replace);
 }
 
-}  // namespace
-
-Report Report::text(const std::string& value) {
-  Report report(Kind::kText);
-  report.text_ = value;
-  return report;
+/// A list of numbers: printed on one line.
+bool isVector(const Json& json) {
+  return json.is_array() && !json.empty() &&
+         std::all_of(json.begin(), json.end(), [](const Json& item) { return item.is_number(); });
 }
 
-Report Report::real(double value) {
-  Report report(Kind::kReal);
-  report.real_ = value;
-  report.text_ = readable(value);
-  return report;
+/// A map of numbers and words, however deep: may stand on one line.
+bool fitsInFlow(const Json& json) {
+  return json.is_primitive() || isVector(json) ||
+         (json.is_object() && !json.empty() && std::all_of(json.begin(), json.end(), fitsInFlow));
 }
 
-Report Report::whole(std::int64_t value) {
-  Report report(Kind::kWhole);
-  report.whole_ = value;
-  report.text_ = std::to_string(value);
-  return report;
-}
-
-Report& Report::add(const std::string& name, Report value) {
-  children_.emplace_back(name, std::move(value));
-  return *this;
-}
-
-Json Report::json() const {
-  switch (kind_) {
-    case Kind::kText:
-      return text_;
-    case Kind::kReal:
-      return real_;
-    case Kind::kWhole:
-      return whole_;
-    case Kind::kMap:
-    case Kind::kList:
-      break;
+std::string flow(const Json& json) {
+  if (json.is_string()) {
+    return json.get<std::string>();
   }
-  Json json = kind_ == Kind::kMap ? Json::object() : Json::array();
-  for (const auto& [name, child] : children_) {
-    if (kind_ == Kind::kMap) {
-      json[name] = child.json();
-    } else {
-      json.push_back(child.json());
-    }
+  if (json.is_primitive()) {
+    return json.is_number_float() ? readable(json.get<double>()) : json.dump();
   }
-  return json;
-}
-
-void Report::printJson(std::ostream& out) const {
-  out << written(json(), 2);
-}
-
-void Report::printJsonLine(std::ostream& out) const {
-  out << written(json(), -1) << '\n';
-}
-
-bool Report::isVector() const {
-  return kind_ == Kind::kList && !children_.empty() &&
-         std::all_of(children_.begin(), children_.end(),
-                     [](const auto& child) { return child.second.isNumber(); });
-}
-
-bool Report::fitsInFlow() const {
-  if (isLeaf() || isVector()) {
-    return true;
-  }
-  return kind_ == Kind::kMap && !children_.empty() &&
-         std::all_of(children_.begin(), children_.end(),
-                     [](const auto& child) { return child.second.fitsInFlow(); });
-}
-
-std::string Report::flow() const {
-  if (isLeaf()) {
-    return text_;
-  }
-  const bool map = kind_ == Kind::kMap;
   std::string line;
-  for (const auto& [name, child] : children_) {
-    line += (line.empty() ? "" : ", ") + (map ? name + ": " : "") + child.flow();
+  for (const auto& [name, child] : json.items()) {
+    line += (line.empty() ? "" : ", ") + (json.is_object() ? name + ": " : "") + flow(child);
   }
-  return map ? "{" + line + "}" : "[" + line + "]";
-}
-
-void Report::printText(std::ostream& out) const {
-  printText(out, 0, false);
+  return json.is_object() ? "{" + line + "}" : "[" + line + "]";
 }
 
 /// \param after_dash  the first line goes on where a list item began
-void Report::printText(std::ostream& out, int depth, bool after_dash) const {
-  for (const auto& [name, child] : children_) {
+void printText(const Json& json, std::ostream& out, int depth, bool after_dash) {
+  for (const auto& [name, child] : json.items()) {
     out << (after_dash ? "" : indent(depth));
     after_dash = false;
-    const std::string head = indent(depth) + (kind_ == Kind::kMap ? name + ":" : "-");
-    out << head.substr(static_cast<std::size_t>(depth) * 2);
-    const std::string line = child.fitsInFlow() ? child.flow() : "";
-    if (child.isLeaf() || (!line.empty() && head.size() + 1 + line.size() <= kWidth)) {
+    const std::string head = json.is_object() ? name + ":" : "-";
+    out << head;
+    const std::string line = fitsInFlow(child) ? flow(child) : "";
+    const std::size_t width = indent(depth).size() + head.size() + 1 + line.size();
+    if (child.is_primitive() || (!line.empty() && width <= kWidth)) {
       out << ' ' << line << '\n';
-    } else if (child.children_.empty()) {
+    } else if (child.empty()) {
       out << " none\n";
-    } else if (kind_ == Kind::kList) {
-      out << ' ';
-      child.printText(out, depth + 1, true);
     } else {
-      out << '\n';
-      child.printText(out, depth + 1, false);
+      out << (json.is_array() ? ' ' : '\n');
+      printText(child, out, depth + 1, json.is_array());
     }
   }
+}
+
+}  // namespace
+
+void printText(const Json& report, std::ostream& out) {
+  printText(report, out, 0, false);
+}
+
+void printJson(const Json& report, std::ostream& out) {
+  out << written(report, 2);
+}
+
+void printJsonLine(const Json& report, std::ostream& out) {
+  out << written(report, -1) << '\n';
 }
 
 }  // namespace ergotic::tools

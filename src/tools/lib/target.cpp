@@ -29,19 +29,18 @@ double cpuPercent(const scene::Scene& scene,
   return 100.0 / measureCost(*instrument).real_time_factor;
 }
 
-Report pairOf(Report now, Report proposed) {
-  return Report::map().add("now", std::move(now)).add("proposed", std::move(proposed));
+Json pairOf(Json now, Json proposed) {
+  return {{"now", std::move(now)}, {"proposed", std::move(proposed)}};
 }
 
-Report adviceReport(const Advice& advice, physics::Target::Unit unit) {
-  Report report = Report::map();
-  report.add("part", Report::text(nameOf(advice)))
-      .add("judged", Report::text(advice.figure))
-      .add("now", Report::text(physics::inUnit(advice.present, unit)))
-      .add("proposed", Report::text(physics::inUnit(advice.proposed, unit)))
-      .add("change", Report::text(advice.change.empty() ? "none" : advice.change));
+Json adviceReport(const Advice& advice, physics::Target::Unit unit) {
+  Json report = {{"part", nameOf(advice)},
+                 {"judged", advice.figure},
+                 {"now", physics::inUnit(advice.present, unit)},
+                 {"proposed", physics::inUnit(advice.proposed, unit)},
+                 {"change", advice.change.empty() ? "none" : advice.change}};
   if (!advice.remark.empty()) {
-    report.add("remark", Report::text(advice.remark));
+    report["remark"] = advice.remark;
   }
   return report;
 }
@@ -56,38 +55,29 @@ physics::Freedom freedomOf(const SceneOptions& options, const CompileChoice& com
   return freedom;
 }
 
-Report targetReport(const scene::Scene& scene,
-                    const physics::Rates& rates,
-                    const physics::CompileOptions& options,
-                    const std::string& text,
-                    const physics::Freedom& freedom) {
+Json targetReport(const scene::Scene& scene,
+                  const physics::Rates& rates,
+                  const physics::CompileOptions& options,
+                  const std::string& text,
+                  const physics::Freedom& freedom) {
   const physics::Target target = physics::targetOf(text);
   const Proposal proposal = physics::propose(scene, rates, options.precision, target, freedom);
-  Report parts = Report::list();
+  Json parts = Json::array();
   for (const Advice& advice : proposal.advice) {
-    parts.add(adviceReport(advice, target.unit));
+    parts.push_back(adviceReport(advice, target.unit));
   }
-  Report remarks = Report::list();
-  for (const std::string& remark : proposal.remarks) {
-    remarks.add(Report::text(remark));
-  }
-  return Report::map()
-      .add("asked", Report::text(text))
-      .add("reached", Report::text(proposal.is_reached ? "yes" : "no, this is the best there is"))
-      .add("audio_rate_hz",
-           pairOf(Report::number(rates.audio_hz), Report::number(proposal.rates.audio_hz)))
-      .add("gestural_rate_hz",
-           pairOf(Report::number(rates.gesturalHz()), Report::number(proposal.rates.gesturalHz())))
-      .add("precision", pairOf(Report::text(nameOf(options.precision)),
-                               Report::text(nameOf(proposal.precision))))
-      .add("steps_per_s",
-           pairOf(Report::number(proposal.present_cost), Report::number(proposal.cost)))
-      .add("cpu_percent",
-           pairOf(Report::number(cpuPercent(scene, rates, options, options.precision)),
-                  Report::number(
-                      cpuPercent(proposal.scene, proposal.rates, options, proposal.precision))))
-      .add("parts", std::move(parts))
-      .add("remarks", std::move(remarks));
+  return {{"asked", text},
+          {"reached", proposal.is_reached ? "yes" : "no, this is the best there is"},
+          {"audio_rate_hz", pairOf(rates.audio_hz, proposal.rates.audio_hz)},
+          {"gestural_rate_hz", pairOf(rates.gesturalHz(), proposal.rates.gesturalHz())},
+          {"precision", pairOf(nameOf(options.precision), nameOf(proposal.precision))},
+          {"steps_per_s", pairOf(proposal.present_cost, proposal.cost)},
+          {"cpu_percent",
+           pairOf(cpuPercent(scene, rates, options, options.precision),
+
+                  cpuPercent(proposal.scene, proposal.rates, options, proposal.precision))},
+          {"parts", std::move(parts)},
+          {"remarks", proposal.remarks}};
 }
 
 std::vector<std::string> targetLines(const physics::Target& target, const Proposal& proposal) {

@@ -14,11 +14,11 @@ namespace ergotic::tools {
 physics::Freedom freedomOf(const SceneOptions& options, const CompileChoice& compile);
 
 /// What is proposed and why, with the cost of both on this machine.
-Report targetReport(const scene::Scene& scene,
-                    const physics::Rates& rates,
-                    const physics::CompileOptions& options,
-                    const std::string& target,
-                    const physics::Freedom& freedom);
+Json targetReport(const scene::Scene& scene,
+                  const physics::Rates& rates,
+                  const physics::CompileOptions& options,
+                  const std::string& target,
+                  const physics::Freedom& freedom);
 
 /// The same in a few lines, without costs that have to be measured.
 std::vector<std::string> targetLines(const physics::Target& target,

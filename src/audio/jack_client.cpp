@@ -48,8 +48,8 @@ void validate(const JackConfig& config) {
 }  // namespace
 
 struct JackHost::Impl {
-  Impl(const JackConfig& host_config, rt::BlockProcessor& block_processor)
-      : config(host_config), processor(block_processor), sinks(host_config.output_peers) {
+  Impl(const JackConfig& host_config, rt::AudioProcessor& audio_processor)
+      : config(host_config), processor(audio_processor), sinks(host_config.output_peers) {
     supervisor = std::thread([this] { supervise(); });
   }
   ~Impl() {
@@ -69,7 +69,7 @@ struct JackHost::Impl {
   void say(const std::string& message);
 
   const JackConfig config;
-  rt::BlockProcessor& processor;
+  rt::AudioProcessor& processor;
   const ReservedSinks sinks;
   std::shared_ptr<Semaphore> wake = std::make_shared<Semaphore>();
   std::atomic<bool> quit{false};
@@ -178,7 +178,7 @@ void JackHost::Impl::say(const std::string& message) {
   status.message = message;
 }
 
-JackHost::JackHost(const JackConfig& config, rt::BlockProcessor& processor) {
+JackHost::JackHost(const JackConfig& config, rt::AudioProcessor& processor) {
   validate(config);
   impl_ = std::make_unique<Impl>(config, processor);
 }

@@ -61,7 +61,7 @@ std::vector<std::string> portNames(const std::vector<std::string>& given,
 struct JackSession::Core {
   jack_client_t* client = nullptr;
   std::shared_ptr<Semaphore> wake;
-  rt::BlockProcessor* processor = nullptr;
+  rt::AudioProcessor* processor = nullptr;
   std::vector<jack_port_t*> inputs, outputs;
   std::uint32_t latency_frames = 0;
   std::optional<JackTerminal> terminal;
@@ -117,21 +117,21 @@ struct JackSession::Core {
 
   void processInside(jack_nframes_t nframes) noexcept {
     const rt::FlushDenormals flush;
-    rt::Block block;
-    block.nframes = nframes;
-    block.start = startOfCycle();
+    rt::Period now;
+    now.nframes = nframes;
+    now.start = startOfCycle();
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       input_buffers[i] = static_cast<const float*>(jack_port_get_buffer(inputs[i], nframes));
     }
     for (std::size_t i = 0; i < outputs.size(); ++i) {
       output_buffers[i] = static_cast<float*>(jack_port_get_buffer(outputs[i], nframes));
     }
-    block.inputs = input_buffers.data();
-    block.outputs = output_buffers.data();
-    block.input_channels = static_cast<int>(inputs.size());
-    block.output_channels = static_cast<int>(outputs.size());
-    block.wired = wiresHold();
-    processor->process(block);
+    now.inputs = input_buffers.data();
+    now.outputs = output_buffers.data();
+    now.input_channels = static_cast<int>(inputs.size());
+    now.output_channels = static_cast<int>(outputs.size());
+    now.wired = wiresHold();
+    processor->process(now);
   }
 
   static int onProcess(jack_nframes_t nframes, void* self) {
@@ -288,7 +288,7 @@ JackSession::~JackSession() {
 /// A server believes a client before it has it in its graph: wires to one that is only about to be
 /// activated let a synchronous server wait for it, for 20 s, and pass over its latencies. Therefore
 /// nobody sees the ports before.
-void JackSession::activate(const JackConfig& config, rt::BlockProcessor& processor) {
+void JackSession::activate(const JackConfig& config, rt::AudioProcessor& processor) {
   core_->processor = &processor;
   core_->latency_frames = config.latency_frames;
   core_->terminal = config.terminal;

@@ -8,7 +8,7 @@
 
 #include "audio/semaphore.hpp"
 #include "ergotic/audio/jack_client.hpp"
-#include "ergotic/rt/block_io.hpp"
+#include "ergotic/rt/audio_processor.hpp"
 
 namespace ergotic::audio {
 
@@ -28,7 +28,7 @@ class JackSession {
 
   /// Callbacks begin, silent until `resume`; then the ports appear. Ports, their names, latencies
   /// and peers are those of the configuration. \throws DeviceError
-  void activate(const JackConfig& config, rt::BlockProcessor& processor);
+  void activate(const JackConfig& config, rt::AudioProcessor& processor);
 
   /// audioStarted, then blocks flow. \throws what audioStarted throws; stays paused then
   void resume();

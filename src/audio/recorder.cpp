@@ -26,19 +26,19 @@ void Recorder::audioStarted(double sample_rate_hz, std::uint32_t period_frames) 
   max_gap_ = static_cast<std::int64_t>(kMaxGapSeconds * sample_rate_hz);
 }
 
-void Recorder::process(const rt::Block& block) noexcept {
-  const std::size_t count = block.nframes * channels_;
+void Recorder::process(const rt::Period& period) noexcept {
+  const std::size_t count = period.nframes * channels_;
   if (samples_.writable() < count || headers_.writable() == 0) {
-    dropped_ += block.nframes;
+    dropped_ += period.nframes;
     return;
   }
   for (std::size_t channel = 0; channel < channels_; ++channel) {
-    for (std::size_t frame = 0; frame < block.nframes; ++frame) {
-      interleaved_[frame * channels_ + channel] = block.inputs[channel][frame];
+    for (std::size_t frame = 0; frame < period.nframes; ++frame) {
+      interleaved_[frame * channels_ + channel] = period.inputs[channel][frame];
     }
   }
   samples_.push(interleaved_.data(), count);
-  headers_.push({block.start.frames, block.nframes, dropped_});
+  headers_.push({period.start.frames, period.nframes, dropped_});
 }
 
 void Recorder::drain(WavWriter& file, std::int64_t limit) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "ergotic/audio/wav.hpp"
-#include "ergotic/rt/block_io.hpp"
+#include "ergotic/rt/audio_processor.hpp"
 #include "ergotic/rt/ring.hpp"
 
 namespace ergotic::audio {
@@ -17,14 +17,14 @@ namespace ergotic::audio {
 /// A client that an asynchronous JACK server did not wait for may run a cycle late: it is told the
 /// frame time of the next cycle, and the same again in that next one. So a block is held back until
 /// its successor has confirmed its place.
-class Recorder : public rt::BlockProcessor {
+class Recorder : public rt::AudioProcessor {
  public:
   /// \param ring_frames  how far the file may lag behind
   Recorder(int channels, std::size_t ring_frames);
 
   void audioStarted(double sample_rate_hz, std::uint32_t period_frames) override;
   void audioStopped() noexcept override {}
-  void process(const rt::Block& block) noexcept override;
+  void process(const rt::Period& period) noexcept override;
   void xrun() noexcept override {}
 
   // Thread: the file's

@@ -37,7 +37,7 @@ Keyframe fromMessage(const ergotic::Keyframe& message, const std::string& path) 
   return keyframe;
 }
 
-Block fromMessage(const GestureBlock& message, const std::string& path) {
+Stretch fromMessage(const GestureBlock& message, const std::string& path) {
   if (message.flags.size() != message.ticks ||
       message.positions.size() != std::size_t{message.ticks} * message.slices) {
     throw Exception(path + ": the gesture block of tick " + std::to_string(message.first_tick) +
@@ -72,7 +72,7 @@ boost::shared_ptr<T> as(const rosbag::MessageInstance& message, const std::strin
 
 void add(Recording& recording, const rosbag::MessageInstance& message, const std::string& path) {
   if (const auto block = as<GestureBlock>(message, path)) {
-    recording.blocks.push_back(fromMessage(*block, path));
+    recording.stretches.push_back(fromMessage(*block, path));
   } else if (const auto keyframe = as<ergotic::Keyframe>(message, path)) {
     recording.keyframes.push_back(fromMessage(*keyframe, path));
   } else if (const auto told = as<ergotic::Event>(message, path)) {
@@ -103,7 +103,7 @@ Recording readRecording(const std::string& path) {
   } catch (const rosbag::BagException& error) {
     throw Exception(path + ": " + error.what());
   }
-  if (recording.keyframes.empty() || recording.blocks.empty()) {
+  if (recording.keyframes.empty() || recording.stretches.empty()) {
     throw Exception(path + ": no " + (recording.keyframes.empty() ? "keyframe" : "gesture") +
                     " of a station in this bag");
   }
@@ -111,8 +111,8 @@ Recording readRecording(const std::string& path) {
   const auto by_tick = [](const auto& a, const auto& b) { return a.tick < b.tick; };
   std::stable_sort(recording.keyframes.begin(), recording.keyframes.end(), by_tick);
   std::stable_sort(recording.events.begin(), recording.events.end(), by_tick);
-  std::stable_sort(recording.blocks.begin(), recording.blocks.end(),
-                   [](const Block& a, const Block& b) { return a.first_tick < b.first_tick; });
+  std::stable_sort(recording.stretches.begin(), recording.stretches.end(),
+                   [](const Stretch& a, const Stretch& b) { return a.first_tick < b.first_tick; });
   return recording;
 }
 

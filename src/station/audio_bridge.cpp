@@ -86,52 +86,52 @@ bool AudioBridge::hostRuns(std::uint32_t connection) const noexcept {
 
 // The host's real-time thread
 
-void AudioBridge::process(const rt::Block& block) noexcept {
+void AudioBridge::process(const rt::Period& period) noexcept {
   const std::uint32_t connection = connection_.load(std::memory_order_acquire);
-  readings_.draft() = {connection, block.start};
+  readings_.draft() = {connection, period.start};
   readings_.publish();
-  capture(block);
+  capture(period);
   relations_.refresh();
   const Relation& relation = relations_.latest();
   if (relation.connection == connection && hostRuns(connection)) {
-    play(block, relation);
+    play(period, relation);
     return;
   }
   to_host_.clear();
-  for (int c = 0; c < block.output_channels; ++c) {
-    std::fill_n(block.outputs[c], block.nframes, 0.0F);
+  for (int c = 0; c < period.output_channels; ++c) {
+    std::fill_n(period.outputs[c], period.nframes, 0.0F);
   }
 }
 
-void AudioBridge::capture(const rt::Block& block) noexcept {
+void AudioBridge::capture(const rt::Period& period) noexcept {
   if (config_.input_channels == 0) {
     return;
   }
-  const int shared = std::min(block.input_channels, config_.input_channels);
-  for (std::uint32_t i = 0; i < block.nframes; ++i) {
+  const int shared = std::min(period.input_channels, config_.input_channels);
+  for (std::uint32_t i = 0; i < period.nframes; ++i) {
     for (int c = 0; c < shared; ++c) {
-      capture_frame_[static_cast<std::size_t>(c)] = block.inputs[c][i];
+      capture_frame_[static_cast<std::size_t>(c)] = period.inputs[c][i];
     }
-    if (!from_host_.push(block.start.frames + i, capture_frame_.data(), 1)) {
+    if (!from_host_.push(period.start.frames + i, capture_frame_.data(), 1)) {
       return;  // nobody pulls: the rest of the block would find no room either
     }
   }
 }
 
-void AudioBridge::play(const rt::Block& block, const Relation& relation) noexcept {
-  noteSkipped(block, relation);
-  const std::int64_t start = block.start.frames - relation.offset;
-  const int shared = std::min(block.output_channels, config_.output_channels);
-  for (int c = shared; c < block.output_channels; ++c) {
-    std::fill_n(block.outputs[c], block.nframes, 0.0F);
+void AudioBridge::play(const rt::Period& period, const Relation& relation) noexcept {
+  noteSkipped(period, relation);
+  const std::int64_t start = period.start.frames - relation.offset;
+  const int shared = std::min(period.output_channels, config_.output_channels);
+  for (int c = shared; c < period.output_channels; ++c) {
+    std::fill_n(period.outputs[c], period.nframes, 0.0F);
   }
   std::int64_t missing_from = relation.first;  // of the open underrun, if it is before `frame`
   bool missing = false;
-  for (std::uint32_t i = 0; i < block.nframes; ++i) {
+  for (std::uint32_t i = 0; i < period.nframes; ++i) {
     const std::int64_t station_frame = start + i;
     const float* from = to_host_.take(station_frame);
     for (int c = 0; c < shared; ++c) {
-      block.outputs[c][i] = from != nullptr ? from[c] : 0.0F;
+      period.outputs[c][i] = from != nullptr ? from[c] : 0.0F;
     }
     const bool lost = from == nullptr && station_frame >= relation.first;
     if (lost && !missing) {
@@ -143,19 +143,19 @@ void AudioBridge::play(const rt::Block& block, const Relation& relation) noexcep
   }
   to_host_.release();
   if (missing) {
-    noteUnderrun(relation, missing_from, start + block.nframes);
+    noteUnderrun(relation, missing_from, start + period.nframes);
   }
 }
 
 /// After an xrun the host's frame count goes on without having called: those frames are lost.
-void AudioBridge::noteSkipped(const rt::Block& block, const Relation& relation) noexcept {
+void AudioBridge::noteSkipped(const rt::Period& period, const Relation& relation) noexcept {
   const std::int64_t from = std::max(expected_ - relation.offset, relation.first);
-  const std::int64_t frames = block.start.frames - relation.offset - from;
+  const std::int64_t frames = period.start.frames - relation.offset - from;
   if (played_ == relation.connection && frames > 0) {
     tellLoss({Event::Type::kAudioSkipped, from, frames, from + relation.offset});
   }
   played_ = relation.connection;
-  expected_ = block.start.frames + block.nframes;
+  expected_ = period.start.frames + period.nframes;
 }
 
 void AudioBridge::noteUnderrun(const Relation& relation,

@@ -9,16 +9,16 @@
 
 #include "ergotic/audio/jack_client.hpp"
 #include "ergotic/audio/wav.hpp"
-#include "support/block_probe.hpp"
 #include "support/jack_server.hpp"
+#include "support/period_probe.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::audio {
 namespace {
 
-using test::BlockProbe;
 using test::eventually;
 using test::JackServer;
+using test::PeriodProbe;
 
 class CaptureTest : public testing::Test {
  protected:
@@ -53,7 +53,7 @@ class CaptureTest : public testing::Test {
   JackServer server_{"capture"};
   CaptureConfig config_;
   JackConfig sender_config_;
-  BlockProbe probe_;
+  PeriodProbe probe_;
   std::atomic<bool> stop_{false};
 };
 
@@ -103,8 +103,8 @@ TEST_F(CaptureTest, EndsOnRequestWithAWholeFile) {
     return capture(config_, stop_, [&](const std::vector<std::string>&) { recording = true; });
   });
   EXPECT_TRUE(eventually([&] { return recording.load(); }));
-  const std::int64_t blocks = probe_.counts.blocks;
-  EXPECT_TRUE(eventually([&] { return probe_.counts.blocks > blocks + 50; }));
+  const std::int64_t blocks = probe_.counts.periods;
+  EXPECT_TRUE(eventually([&] { return probe_.counts.periods > blocks + 50; }));
   stop_ = true;
   const CaptureReport report = recorder.get();
   EXPECT_GE(report.frames, 40 * 256);

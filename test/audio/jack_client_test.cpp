@@ -9,16 +9,16 @@
 #include "audio/gate.hpp"
 #include "audio/jack_library.hpp"
 #include "audio/jack_session.hpp"
-#include "support/block_probe.hpp"
 #include "support/jack_server.hpp"
+#include "support/period_probe.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::audio {
 namespace {
 
-using test::BlockProbe;
 using test::eventually;
 using test::JackServer;
+using test::PeriodProbe;
 
 TEST(JackLibraryTest, ACallThatComesBackIsWaitedFor) {
   bool called = false;
@@ -46,12 +46,12 @@ JackConfig configFor(const JackServer& server) {
   return config;
 }
 
-bool blocksFlow(const BlockProbe& probe, std::int64_t more) {
-  const std::int64_t before = probe.counts.blocks;
-  return eventually([&] { return probe.counts.blocks >= before + more; });
+bool blocksFlow(const PeriodProbe& probe, std::int64_t more) {
+  const std::int64_t before = probe.counts.periods;
+  return eventually([&] { return probe.counts.periods >= before + more; });
 }
 
-void expectOrderlyBlocks(const BlockProbe& probe) {
+void expectOrderlyBlocks(const PeriodProbe& probe) {
   EXPECT_EQ(probe.counts.stray, 0);
   EXPECT_EQ(probe.counts.wrong_size, 0);
   EXPECT_EQ(probe.counts.bad_times, 0);
@@ -67,7 +67,7 @@ class JackHostTest : public testing::Test {
   }
 
   JackServer server_{"host"};
-  BlockProbe probe_;
+  PeriodProbe probe_;
   JackConfig config_ = configFor(server_);
 };
 
@@ -109,10 +109,10 @@ TEST_F(JackHostTest, OutlivesAServerThatIsKilledAndRunsWithTheNext) {
     ASSERT_TRUE(blocksFlow(probe_, 50));
     server_.kill();
     ASSERT_TRUE(eventually([&] { return probe_.counts.stops == life; }));
-    const std::int64_t blocks = probe_.counts.blocks;
+    const std::int64_t blocks = probe_.counts.periods;
     ASSERT_TRUE(eventually([&] { return !host.status().running; }));
     EXPECT_NE(host.status().message, "");
-    EXPECT_EQ(probe_.counts.blocks, blocks);
+    EXPECT_EQ(probe_.counts.periods, blocks);
     server_.start();
   }
   EXPECT_TRUE(eventually([&] { return host.status().running && host.status().starts == 4; }));
@@ -186,8 +186,8 @@ TEST_F(JackHostTest, KeepsTheReasonOfAProcessorThatRefusesAndTriesAgain) {
 
 TEST_F(JackHostTest, ConnectsToPlaybackOnlyIfAskedAndTakesNothingAway) {
   server_.start();
-  BlockProbe first_probe;
-  BlockProbe second_probe;
+  PeriodProbe first_probe;
+  PeriodProbe second_probe;
   JackHost quiet(config_, first_probe);
   ASSERT_TRUE(blocksFlow(first_probe, 10));
   EXPECT_NE(server_.tool("jack_lsp -c | grep -q '   ergotic:out_'"), 0);
@@ -202,8 +202,8 @@ TEST_F(JackHostTest, ConnectsToPlaybackOnlyIfAskedAndTakesNothingAway) {
 
 TEST_F(JackHostTest, ConnectsNothingToWhatAnotherHostIsWiredTo) {
   server_.start();
-  BlockProbe device_probe;
-  BlockProbe sound_probe;
+  PeriodProbe device_probe;
+  PeriodProbe sound_probe;
   JackConfig wired = config_;
   wired.name = "device";
   wired.inputs = 0;

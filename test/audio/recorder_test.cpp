@@ -32,12 +32,12 @@ class RecorderTest : public testing::Test {
       down[i] = -up[i];
     }
     const float* channels[] = {up.data(), down.data()};
-    rt::Block block;
-    block.nframes = kPeriod;
-    block.start.frames = told;
-    block.inputs = channels;
-    block.input_channels = 2;
-    recorder_.process(block);
+    rt::Period period;
+    period.nframes = kPeriod;
+    period.start.frames = told;
+    period.inputs = channels;
+    period.input_channels = 2;
+    recorder_.process(period);
   }
 
   std::vector<double> recorded(std::int64_t limit = kNoLimit) {
@@ -84,8 +84,8 @@ TEST_F(RecorderTest, LostCyclesAreZerosAndCounted) {
 }
 
 TEST_F(RecorderTest, BlocksThatFindTheRingFullAreDroppedNotLost) {
-  for (std::int64_t block = 0; block < 6; ++block) {
-    feed(1000 + block * kPeriod);
+  for (std::int64_t period = 0; period < 6; ++period) {
+    feed(1000 + period * kPeriod);
   }
   recorder_.drain(file_, kNoLimit);
   feed(1000 + 6 * kPeriod);

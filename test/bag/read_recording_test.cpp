@@ -70,14 +70,14 @@ TEST(ReadRecordingTest, GivesBackEveryFieldInTheOrderOfTicks) {
     bag.write("/station/keyframe", kStart, keyframe());
   }
   const Recording recording = readRecording(file.path());
-  ASSERT_EQ(recording.blocks.size(), 2U);
-  EXPECT_EQ(recording.blocks[0].first_tick, 12);
-  EXPECT_EQ(recording.blocks[1].endTick(), 16);
-  EXPECT_EQ(recording.blocks[0].slices, 2U);
-  EXPECT_THAT(recording.blocks[0].flags, ElementsAre(0, station::GestureTick::kCatchUp));
-  EXPECT_THAT(recording.blocks[0].positions, ElementsAre(0.1, 0.2, 0.3, 1.0 / 3.0));
-  EXPECT_EQ(recording.blocks[0].ports, 1U);
-  EXPECT_THAT(recording.blocks[0].ports_at, ElementsAre(0.5, 1.0 / 7.0));
+  ASSERT_EQ(recording.stretches.size(), 2U);
+  EXPECT_EQ(recording.stretches[0].first_tick, 12);
+  EXPECT_EQ(recording.stretches[1].endTick(), 16);
+  EXPECT_EQ(recording.stretches[0].slices, 2U);
+  EXPECT_THAT(recording.stretches[0].flags, ElementsAre(0, station::GestureTick::kCatchUp));
+  EXPECT_THAT(recording.stretches[0].positions, ElementsAre(0.1, 0.2, 0.3, 1.0 / 3.0));
+  EXPECT_EQ(recording.stretches[0].ports, 1U);
+  EXPECT_THAT(recording.stretches[0].ports_at, ElementsAre(0.5, 1.0 / 7.0));
   ASSERT_EQ(recording.events.size(), 1U);
   EXPECT_EQ(recording.events[0].type, station::Event::Type::kParameter);
   EXPECT_EQ(recording.events[0].tick, 13);

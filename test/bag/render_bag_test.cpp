@@ -42,7 +42,7 @@ void write(rosbag::Bag& bag, const bag::Keyframe& keyframe) {
   bag.write("/station/keyframe", ros::Time(1, 0), message);
 }
 
-void write(rosbag::Bag& bag, const bag::Block& block) {
+void write(rosbag::Bag& bag, const bag::Stretch& block) {
   ergotic::GestureBlock message;
   message.first_tick = block.first_tick;
   message.slices = static_cast<std::uint32_t>(block.slices);
@@ -84,9 +84,9 @@ class RenderBagTest : public testing::Test {
   }
   void record(const bag::Recording& recording, std::optional<std::size_t> lost_block) {
     rosbag::Bag bag(bag_path_, rosbag::bagmode::Write);
-    for (std::size_t i = 0; i < recording.blocks.size(); ++i) {
+    for (std::size_t i = 0; i < recording.stretches.size(); ++i) {
       if (i != lost_block) {
-        write(bag, recording.blocks[i]);
+        write(bag, recording.stretches[i]);
       }
     }
     for (const station::Event& event : recording.events) {

@@ -64,7 +64,7 @@ struct Rig {
 
   std::vector<float> hear(float input = 0.0F) {
     const std::int64_t first = host.nextFrame();
-    const std::vector<float> out = host.block(input);
+    const std::vector<float> out = host.period(input);
     for (std::size_t i = 0; i < out.size(); ++i) {
       sounded[first + static_cast<std::int64_t>(i)] = out[i];
     }
@@ -288,7 +288,7 @@ TEST(AudioBridgeTest, CaptureReachesTicksAtAConstantDistance) {
   const std::int64_t at = rig.host.nextFrame();
   std::vector<float> impulse(kPeriod, 0.0F);
   impulse[0] = 1.0F;
-  rig.host.block(impulse);
+  rig.host.period(impulse);
   for (int i = 0; i < 10; ++i) {
     rig.step();
   }
@@ -318,7 +318,7 @@ TEST(AudioBridgeTest, FillsHostChannelsThatTheStationDoesNotHave) {
   AudioBridge bridge(smallConfig());
   test::AudioHost host(bridge, 5, 0, kRate);
   host.start(64, 0, 0);
-  host.block();
+  host.period();
   for (const auto& channel : host.last()) {
     EXPECT_TRUE(std::all_of(channel.begin(), channel.end(), [](float s) { return s == 0.0F; }));
   }

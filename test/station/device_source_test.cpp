@@ -148,7 +148,7 @@ class DeviceSourceSoundTest : public DeviceSourceTest {
         driver_->target->tick(rt::monotonicNs() - due_ns);
       }
       const std::int64_t first = host_.nextFrame();
-      const std::vector<float> out = host_.block();
+      const std::vector<float> out = host_.period();
       for (std::uint32_t i = 0; i < kPeriod; ++i) {
         if (out[i] != 0.0F) {
           offsets.insert(first + i - static_cast<std::int64_t>(out[i]));
@@ -176,8 +176,8 @@ TEST_F(DeviceSourceSoundTest, KeepsFramesAtTheirPlacesThroughBlocksThatAreLeftOu
 TEST_F(DeviceSourceSoundTest, IsSilentOnceStopped) {
   ASSERT_FALSE(play(60).empty());
   source_.stop();
-  host_.block();
-  EXPECT_EQ(host_.block(), std::vector<float>(kPeriod, 0.0F));
+  host_.period();
+  EXPECT_EQ(host_.period(), std::vector<float>(kPeriod, 0.0F));
 }
 
 }  // namespace

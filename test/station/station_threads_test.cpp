@@ -120,7 +120,7 @@ class HostThread {
       for (int i = 0; i < blocks; ++i) {
         rt::sleepUntilNs(host_.timeOf(host_.nextFrame()));
         first_.push_back(host_.nextFrame());
-        heard_.push_back(host_.block());
+        heard_.push_back(host_.period());
       }
     });
   }

@@ -4,14 +4,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "ergotic/rt/block_io.hpp"
+#include "ergotic/rt/audio_processor.hpp"
 
 namespace ergotic::test {
 
 /// An audio host without a sound card or a clock: the test says when a block happens.
 class AudioHost {
  public:
-  AudioHost(rt::BlockProcessor& processor, int outputs, int inputs, double rate_hz)
+  AudioHost(rt::AudioProcessor& processor, int outputs, int inputs, double rate_hz)
       : processor_(processor),
         outputs_(static_cast<std::size_t>(outputs)),
         inputs_(static_cast<std::size_t>(inputs)),
@@ -32,15 +32,17 @@ class AudioHost {
   }
 
   /// One block of `input` on every input; returns output channel 0.
-  std::vector<float> block(float input = 0.0F) { return block(std::vector<float>(period_, input)); }
-  std::vector<float> block(const std::vector<float>& input) {
+  std::vector<float> period(float input = 0.0F) {
+    return period(std::vector<float>(period_, input));
+  }
+  std::vector<float> period(const std::vector<float>& input) {
     std::vector<std::vector<float>> out(outputs_, std::vector<float>(period_, -99.0F));
     std::vector<float*> out_pointers;
     for (auto& channel : out) {
       out_pointers.push_back(channel.data());
     }
     const std::vector<const float*> in_pointers(inputs_, input.data());
-    rt::Block made;
+    rt::Period made;
     made.nframes = period_;
     made.start = {next_, timeOf(next_)};
     made.inputs = in_pointers.data();
@@ -61,7 +63,7 @@ class AudioHost {
   const std::vector<std::vector<float>>& last() const { return last_; }
 
  private:
-  rt::BlockProcessor& processor_;
+  rt::AudioProcessor& processor_;
   std::size_t outputs_;
   std::size_t inputs_;
   double rate_hz_;

@@ -46,7 +46,7 @@ class Played {
   float heartbeat_[kPeriod]{};
   const float* inputs_[2] = {force_, heartbeat_};
   float* outputs_[1] = {position};
-  rt::Block block_;
+  rt::Period block_;
 };
 
 TEST(JackDeviceTest, MovesAFreeMassByItsForceFrameByFrame) {

@@ -117,13 +117,13 @@ TEST(JackDriverTest, DoesNotCountOnADeviceThatIsFasterThanAPeriod) {
 }
 
 /// Sees all that a driver sends, sample by sample.
-class ForceProbe : public rt::BlockProcessor {
+class ForceProbe : public rt::AudioProcessor {
  public:
   explicit ForceProbe(std::uint32_t ratio) : ratio_(ratio) {}
   void audioStarted(double, std::uint32_t) override {}
   void audioStopped() noexcept override {}
   void xrun() noexcept override {}
-  void process(const rt::Block& block) noexcept override {
+  void process(const rt::Period& block) noexcept override {
     const float* force = block.inputs[0];
     const bool jump = block.start.frames != next_frame_;
     next_frame_ = block.start.frames + block.nframes;

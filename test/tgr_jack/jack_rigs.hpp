@@ -6,8 +6,8 @@
 
 #include "ergotic/audio/jack_client.hpp"
 #include "ergotic/tgr/driver.hpp"
-#include "support/block_probe.hpp"
 #include "support/jack_server.hpp"
+#include "support/period_probe.hpp"
 #include "support/test.hpp"
 #include "tgr/drivers/jack/jack_device.hpp"
 #include "tgr/drivers/jack/jack_driver.hpp"

@@ -79,7 +79,7 @@ class JackTicksTest : public ::testing::Test {
 };
 
 TEST_F(JackTicksTest, ReadsTheMeanOfTheFramesOfATickInVolts) {
-  host_.block(ramp());
+  host_.period(ramp());
   ASSERT_EQ(log_.positions.size(), kPeriod / kRatio);
   for (std::size_t k = 0; k < log_.positions.size(); ++k) {
     const double mean = (static_cast<double>(k * kRatio) + 0.5 * (kRatio - 1)) / 256.0;
@@ -90,8 +90,8 @@ TEST_F(JackTicksTest, ReadsTheMeanOfTheFramesOfATickInVolts) {
 
 TEST_F(JackTicksTest, HoldsTheForceOfATickOverTheFramesOfTheNext) {
   log_.law = [](double volts) { return -volts; };
-  const std::vector<float> first = host_.block(ramp());
-  const std::vector<float> second = host_.block(0.0F);
+  const std::vector<float> first = host_.period(ramp());
+  const std::vector<float> second = host_.period(0.0F);
   for (std::size_t i = 0; i < kPeriod; ++i) {
     const auto tick = static_cast<float>(i / kRatio);
     EXPECT_EQ(first[i], tick == 0.0F ? 0.0F : -((tick - 1.0F) * 16.0F + 7.5F) / 256.0F) << i;
@@ -108,31 +108,31 @@ TEST_F(JackTicksTest, ClipsForcesToFullScaleAndGivesNoneForWhatIsNoNumber) {
                                      {std::numeric_limits<double>::infinity(), 1.0F},
                                      {std::numeric_limits<double>::quiet_NaN(), 0.0F}}) {
     log_.law = [volts = volts](double) { return volts; };
-    host_.block();
-    EXPECT_EQ(host_.block()[5], units);
+    host_.period();
+    EXPECT_EQ(host_.period()[5], units);
   }
 }
 
 TEST_F(JackTicksTest, GivesNoForceFromTheBlockOfAMakeSafeOn) {
   log_.law = [](double) { return 5.0; };
-  host_.block();
-  EXPECT_EQ(host_.block(), std::vector<float>(kPeriod, 0.5F));
+  host_.period();
+  EXPECT_EQ(host_.period(), std::vector<float>(kPeriod, 0.5F));
   int exchanges = 0;
   log_.then = [&] {
     if (++exchanges == 3) {
       ticks_.makeSafe();  // two ticks of this block have given their force already
     }
   };
-  EXPECT_EQ(host_.block(), std::vector<float>(kPeriod, 0.0F));
-  EXPECT_EQ(host_.block(), std::vector<float>(kPeriod, 0.0F));
+  EXPECT_EQ(host_.period(), std::vector<float>(kPeriod, 0.0F));
+  EXPECT_EQ(host_.period(), std::vector<float>(kPeriod, 0.0F));
   EXPECT_EQ(log_.flags, kMadeSafe);
   ticks_.rearm();
-  EXPECT_EQ(host_.block()[0], 0.5F);
+  EXPECT_EQ(host_.period()[0], 0.5F);
 }
 
 TEST_F(JackTicksTest, BeatsOnceABlockWhileForceMayCome) {
   const auto beat = [&] {
-    host_.block();
+    host_.period();
     return host_.last()[1];
   };
   const std::vector<float> up(kPeriod, JackTicks::kHeartbeat);
@@ -150,20 +150,20 @@ TEST_F(JackTicksTest, BeatsOnceABlockWhileForceMayCome) {
 
 TEST_F(JackTicksTest, FallsSilentWhenTheClockIsStoppedAndTakesNoForceOutsideOfTicks) {
   log_.law = [](double) { return 5.0; };
-  host_.block();
-  host_.block();
+  host_.period();
+  host_.period();
   ticks_.stop();
   const double force = 5.0;
   double position = 77.0;
   EXPECT_EQ(ticks_.exchange(&force, &position), kMissingSample);
   EXPECT_EQ(position, log_.positions.back());
   const std::size_t seen = log_.positions.size();
-  EXPECT_EQ(host_.block(), std::vector<float>(kPeriod, 0.0F));
+  EXPECT_EQ(host_.period(), std::vector<float>(kPeriod, 0.0F));
   EXPECT_EQ(log_.positions.size(), seen);
   ticks_.stop();
   ticks_.start(log_);
   host_.skip(kPeriod);
-  host_.block();
+  host_.period();
   EXPECT_GT(log_.positions.size(), seen);
 }
 
@@ -172,34 +172,34 @@ TEST_F(JackTicksTest, BurstsOnceABlock) {
 }
 
 TEST_F(JackTicksTest, CountsFramesThatTheHostLeftOutAsMissedTicks) {
-  host_.block();
+  host_.period();
   host_.skip(2 * kPeriod + 24);
-  host_.block(0.5F);
+  host_.period(0.5F);
   EXPECT_EQ(log_.missed_ticks, 9) << "and half a tick is owed";
   EXPECT_EQ(log_.missed_ns, std::llround(152 * 1e9 / kRateHz));
   EXPECT_EQ(log_.positions[4], 5.0) << "the newest sample serves what was missed";
   EXPECT_EQ(log_.positions.size(), 4U + 1U + 4U);
   host_.skip(8);
-  host_.block();
+  host_.period();
   EXPECT_EQ(log_.missed_ticks, 10);
 }
 
 TEST_F(JackTicksTest, CountsNothingAsMissedWhereTwoBlocksHaveOneTime) {
-  host_.block();
+  host_.period();
   host_.skip(kPeriod);  // a late block gets the time of the next...
-  host_.block();
+  host_.period();
   EXPECT_EQ(log_.missed_ticks, 4);
   for (int n = 0; n < 5; ++n) {  // ...which has it too, again and again
     host_.skip(-static_cast<std::int64_t>(kPeriod));
-    host_.block();
+    host_.period();
     host_.skip(kPeriod);
-    host_.block();
+    host_.period();
   }
   EXPECT_EQ(log_.missed_ticks, 4) << "no tick is missed twice";
 }
 
 TEST_F(JackTicksTest, CountsTheTimeWithoutAServerAsMissedTicks) {
-  host_.block();  // ends at 1064 / 48 kHz from the host's origin, which is its time 0
+  host_.period();  // ends at 1064 / 48 kHz from the host's origin, which is its time 0
   ticks_.audioStopped();
   const double force = 1.0;
   double position = 0.0;
@@ -207,16 +207,16 @@ TEST_F(JackTicksTest, CountsTheTimeWithoutAServerAsMissedTicks) {
   constexpr std::int64_t kBreakNs = 2'000'000'000;
   const std::int64_t end_ns = host_.timeOf(host_.nextFrame());
   host_.start(kPeriod, 0, end_ns + kBreakNs);  // another server counts from zero
-  host_.block();
+  host_.period();
   EXPECT_EQ(log_.missed_ticks, std::llround(2.0 * kTickRateHz));
 }
 
 TEST_F(JackTicksTest, MissesNothingBeforeItsClockIsStarted) {
   ticks_.stop();
-  host_.block();
+  host_.period();
   host_.skip(1'000'000);
   ticks_.start(log_);
-  host_.block();
+  host_.period();
   EXPECT_EQ(log_.missed_ticks, 0);
 }
 
@@ -225,11 +225,11 @@ TEST_F(JackTicksTest, CallsTicksLateThatComeAfterTheirFramesWouldOneByOne) {
   constexpr std::int64_t kHourNs = 3'600'000'000'000;
   host_.start(kPeriod, 0, now_ns - kHourNs);
   log_.late.clear();
-  host_.block();
+  host_.period();
   ASSERT_EQ(log_.late.size(), 4U);
   EXPECT_GE(log_.late.front(), kHourNs);
   host_.start(kPeriod, 0, rt::monotonicNs() + kHourNs);
-  host_.block();
+  host_.period();
   EXPECT_LT(log_.late.back(), -kHourNs / 2) << "early, as the last ticks of a block are";
 }
 
@@ -258,7 +258,7 @@ class PlainBlock {
     block.output_channels = 2;
     block.wired = wired;
   }
-  rt::Block block;
+  rt::Period block;
   float out[2][kPeriod]{};
 
  private:

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "ergotic/rt/block_io.hpp"
+#include "ergotic/rt/audio_processor.hpp"
 
 namespace ergotic::audio {
 
@@ -37,12 +37,12 @@ constexpr int kMaxPorts = 256;
 
 /// What a JACK host has to say about itself, as of its last look, once a second.
 struct JackStatus {
-  bool running = false;  ///< blocks are being processed
+  bool running = false;  ///< periods are being processed
   bool freewheeling = false;
   double sample_rate_hz = 0.0;      ///< of the server now or last seen, 0: none yet
   std::uint32_t period_frames = 0;  ///< as above
   std::int64_t xruns = 0;           ///< since construction
-  std::int64_t starts = 0;          ///< how often blocks began to flow
+  std::int64_t starts = 0;          ///< how often periods began to flow
   std::int64_t looks = 0;           ///< how often all this was looked at
   bool wired = false;               ///< all peers are connected, and nothing else to them or to us
   std::uint32_t input_latency_frames = 0;   ///< by JACK: age of what arrives, at most
@@ -56,16 +56,16 @@ struct JackStatus {
 /// A thread of its own looks for a server every second, starts none, connects when one appears, and
 /// begins anew when it is killed, restarted or changes its period; the processor hears of it by
 /// audioStarted and audioStopped. Between the two, `process` comes from JACK's real-time thread
-/// with denormals flushed, `Block::start` in CLOCK_MONOTONIC and in the server's frame time
+/// with denormals flushed, `Period::start` in CLOCK_MONOTONIC and in the server's frame time
 /// (continued beyond 32 bits; a new server counts anew). While the server freewheels audio counts
 /// as stopped: an instrument in real time cannot follow. A server in asynchronous mode (without
-/// `jackd -S`) that did not wait for us gives a late block the frame time of the next: that time
+/// `jackd -S`) that did not wait for us gives a late period the frame time of the next: that time
 /// then comes twice. If audioStarted throws, the message is
 /// kept and the start repeated later.
 ///
-/// Wires to peers are mended within a second; `Block::wired` is false from the first block on that
-/// misses one. A wire is one to one: a second source at an input of ours, or at what an output of
-/// ours feeds, counts as a broken one; what others connected stays. `connect` passes over what
+/// Wires to peers are mended within a second; `Period::wired` is false from the first period on
+/// that misses one. A wire is one to one: a second source at an input of ours, or at what an output
+/// of ours feeds, counts as a broken one; what others connected stays. `connect` passes over what
 /// another host of this process is wired to.
 ///
 /// Realtime: no. Thread: any, one at a time; the processor must outlive the host
@@ -74,7 +74,7 @@ class JackHost {
   /// Returns at once, server or not.
   /// \throws Exception if the number of ports, of their names or of their peers, or the name is out
   ///         of range
-  JackHost(const JackConfig& config, rt::BlockProcessor& processor);
+  JackHost(const JackConfig& config, rt::AudioProcessor& processor);
   ~JackHost();  ///< the processor is not called any more
   JackHost(const JackHost&) = delete;
   JackHost& operator=(const JackHost&) = delete;

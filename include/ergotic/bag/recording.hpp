@@ -29,7 +29,7 @@ struct Keyframe {
 };
 
 /// Consecutive ticks.
-struct Block {
+struct Stretch {
   std::int64_t first_tick = 0;
   std::size_t slices = 0;
   std::size_t ports = 0;
@@ -43,7 +43,7 @@ struct Block {
 /// One performance. Each list is in the order of ticks.
 struct Recording {
   std::vector<Keyframe> keyframes;
-  std::vector<Block> blocks;
+  std::vector<Stretch> stretches;
   std::vector<station::Event> events;  ///< without pointers: what changed the sound, and when
 };
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ergotic/physics/rates.hpp"
-#include "ergotic/rt/block_io.hpp"
+#include "ergotic/rt/audio_processor.hpp"
 #include "ergotic/rt/clock.hpp"
 #include "ergotic/rt/mailbox.hpp"
 #include "ergotic/rt/realtime.hpp"
@@ -40,7 +40,7 @@ struct AudioBridgeConfig {
 ///
 /// Four kinds of thread: the host's set-up thread (audioStarted), any (audioStopped, xrun), the
 /// host's real-time thread (process), the tick (everything else).
-class AudioBridge : public rt::BlockProcessor, public FramePort {
+class AudioBridge : public rt::AudioProcessor, public FramePort {
  public:
   static constexpr int kMaxLatencyFrames = 1 << 14;
   /// Frames by which the latency exceeds a period and a tick at least: room for a late wake-up.
@@ -58,7 +58,7 @@ class AudioBridge : public rt::BlockProcessor, public FramePort {
   /// Realtime: yes. Thread: any
   void audioStopped() noexcept override;
   /// Realtime: yes. Thread: host RT
-  ERGOTIC_REALTIME void process(const rt::Block& block) noexcept override;
+  ERGOTIC_REALTIME void process(const rt::Period& period) noexcept override;
   /// Realtime: yes. Thread: any
   void xrun() noexcept override;
 
@@ -112,9 +112,9 @@ class AudioBridge : public rt::BlockProcessor, public FramePort {
     std::int64_t host_frame = 0;
   };
 
-  void capture(const rt::Block& block) noexcept;
-  void play(const rt::Block& block, const Relation& relation) noexcept;
-  void noteSkipped(const rt::Block& block, const Relation& relation) noexcept;
+  void capture(const rt::Period& period) noexcept;
+  void play(const rt::Period& period, const Relation& relation) noexcept;
+  void noteSkipped(const rt::Period& period, const Relation& relation) noexcept;
   void tellLoss(const Loss& loss) noexcept;
   void noteUnderrun(const Relation& relation, std::int64_t first, std::int64_t end) noexcept;
   void connect(std::int64_t tick, std::int64_t due_ns) noexcept;

@@ -147,11 +147,15 @@ template <class Real>
 double EnergyMeter<Real>::storedIn(std::size_t run,
                                    const CoefficientsOf<Real>& c,
                                    const State<Real>& state) const noexcept {
-  if (!remembers(layout_.runs[run])) {
-    return springsOf(layout_.runs[run], c.runs[run], state);
+  const LinkRun& asked = layout_.runs[run];
+  if (asked.block >= 0) {
+    return springsOf(layout_.blocks[at(asked.block)], asked, c.blocks[at(asked.block)], c.masses,
+                     state);
+  }
+  if (!remembers(asked)) {
+    return springsOf(asked, c.runs[run], state);
   }
   if (!state.isMetered()) {
-    const LinkRun& asked = layout_.runs[run];
     const bool is_spring =
         scene::lawOf(asked.law).kind == scene::Law::Kind::kLinear && !asked.guarded;
     return is_spring && coupling_of_run_[run] == kInside ? springsOf(asked, c.runs[run], state)
@@ -236,8 +240,8 @@ LinkWork EnergyMeter<Real>::workOf(std::size_t r, const State<Real>& state) cons
     const Real moved_a = state.moved()[ends.a + k * run.stride_a];
     const Real moved_b = state.moved()[ends.b + k * run.stride_b];
     if (!is_slow_done) {
-      kernels::addSlowWork(run, memory, i, static_cast<double>(run.slow_is_a ? moved_a : moved_b),
-                           work);
+      kernels::addWorkOfMean(run, memory, i, static_cast<double>(run.slow_is_a ? moved_a : moved_b),
+                             work);
     }
     if (!is_done) {
       // Its force comes with the last frame of the step.

@@ -267,7 +267,7 @@ void GuardedRuns<Real>::exchange(std::size_t g,
       const Real n = all[l].gradient[k];
       kernels::exchangeForce(run, frame, index, a, b, {n * all[l].force, n * all[l].damper});
       if (frame.slow_ends) {
-        kernels::closeSlowStep(run, frame, index, a, b);
+        kernels::closeMean(run, frame, index, a, b);
       }
     }
   }

@@ -83,10 +83,12 @@ class Sleeper {
       if (run.section_a != section || run.section_b != section) {
         continue;
       }
-      const std::size_t links = run.ends.size();
-      rests = rests && !remembers(run) &&
-              std::all_of(c.runs[r].fields.data() + 2 * links, c.runs[r].fields.data() + 3 * links,
-                          [](Real offset) { return offset == Real(0); });
+      const std::vector<Real>& fields = c.runs[r].fields;  // K, Z, then elongations at rest
+      const auto offsets = fields.begin() + static_cast<std::ptrdiff_t>(2 * fields.size() / 3);
+      const bool has_bias =
+          run.block >= 0 ? layout_.blocks[static_cast<std::size_t>(run.block)].has_bias
+                         : std::any_of(offsets, fields.end(), [](Real o) { return o != Real(0); });
+      rests = rests && !remembers(run) && !has_bias;
     }
     if (!rests) {
       const scene::Section& named = scene.sections[static_cast<std::size_t>(section)];

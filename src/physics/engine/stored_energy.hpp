@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "physics/layout/blocks/lanes.hpp"
+#include "physics/layout/blocks/sparse_program.hpp"
 #include "physics/layout/layout.hpp"
 #include "physics/state/coefficients.hpp"
 #include "physics/state/state.hpp"
@@ -63,7 +65,7 @@ double potentialOf(const SectionRange& range,
 }
 
 /// K e^2 / 2, which scalar springs inside one section store exactly; those in the plane and in
-/// space as long as e changes little in a step. \pre the law is kSpringDamper
+/// space as long as e changes little in a step. \pre the law is kSpringDamper, no block has them
 template <class Real>
 double springsOf(const LinkRun& run,
                  const RunCoefficients<Real>& c,
@@ -85,6 +87,43 @@ double springsOf(const LinkRun& run,
     }
     const auto e = static_cast<double>(apart + c.fields[2 * links + l]);
     energy += static_cast<double>(c.fields[l]) * e * e;
+  }
+  return 0.5 * energy;
+}
+
+/// The same of the links of a block. \param run those links
+template <class Real>
+double springsOf(const Block& block,
+                 const LinkRun& run,
+                 const BlockCoefficients<Real>& c,
+                 const MassCoefficients<Real>& masses,
+                 const State<Real>& state) noexcept {
+  const Real* x = state.x() + block.first;
+  const Real* inverse_mass = masses.inverse_mass.data() + block.first;
+  double energy = 0.0;
+  const auto add = [&](Real k, Real apart, std::size_t place) {
+    const auto e = static_cast<double>(c.rest.empty() ? apart : apart + c.rest[place]);
+    energy += static_cast<double>(k) * e * e;
+  };
+  if (block.kind == Block::Kind::kSparse) {
+    for (std::size_t l = 0; l < run.ends.size(); ++l) {
+      add(c.k[block.program->sides[l].a], state.x()[run.ends[l].a] - state.x()[run.ends[l].b], l);
+    }
+    return 0.5 * energy;
+  }
+  std::size_t place = 0;  // as k lies: after the guard, element by element
+  for (std::size_t i = 0; i < block.offsets.size(); ++i) {
+    place += static_cast<std::size_t>(block.guard);
+    for (int e = 0; e < block.elements; ++e, ++place) {
+      const int next = e + block.offsets[i];
+      // Among what never moves there are no links, even where all have the same coefficients.
+      if (next < block.elements && (inverse_mass[e] != Real(0) || inverse_mass[next] != Real(0))) {
+        const Real k = block.per_lane ? c.k[static_cast<std::size_t>(e % kLanes)]
+                       : c.k.empty()  ? c.uniform_k[i]
+                                      : c.k[place];
+        add(k, x[e] - x[next], place);
+      }
+    }
   }
   return 0.5 * energy;
 }

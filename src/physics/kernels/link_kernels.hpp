@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "physics/kernels/mean_force.hpp"
 #include "physics/layout/layout.hpp"
-#include "physics/state/link_memory.hpp"
 #include "scene/laws/law.hpp"
 
 /// What links do in one step: forces from positions, and the work they take and lose.
@@ -16,23 +16,6 @@ namespace ergotic::physics::kernels {
 
 using scene::Force;
 using scene::RunNumbers;
-
-/// The instrument's arrays, and how the ends of a run count in this frame.
-template <class Real>
-struct RunStep {
-  const Real* x;
-  const Real* d;
-  const Real* moved;   ///< d, and for points the change of their place too
-  const Real* d_last;  ///< d of the step before
-  Real* f;
-  Real gate_a;  ///< 0 while an end is held, else 1
-  Real gate_b;
-  Real share_a;  ///< of the force that an end receives in this frame
-  Real share_b;
-  bool slow_ends;  ///< the slower end's step ends with this frame
-  LinkMemory<Real> memory;
-  LinkWork* work;  ///< null: nobody asks
-};
 
 /// Plain runs: spring-dampers, scalar, inside one section.
 template <bool kMetered, class Real>
@@ -73,83 +56,6 @@ void stepPlain(const LinkRun& run, const RunNumbers<Real>& c, const RunStep<Real
   }
 }
 
-/// Half of the work of a force over the step in which the ends moved so far: each step is booked
-/// with half of the force before it and half of that after it. Across rates a damper takes what
-/// both sides do against it: the jumps of a held end are no motion of anything.
-template <class Real>
-void addHalfWork(
-    const LinkRun& run, Real moved_a, Real moved_b, Force<Real> force, LinkWork& work) noexcept {
-  const Real sum = force.elastic + force.viscous;
-  work.stored += 0.5 * static_cast<double>((moved_a - moved_b) * force.elastic);
-  if (run.slow_section < 0) {
-    work.dissipated += 0.5 * static_cast<double>((moved_a - moved_b) * force.viscous);
-    work.on_a -= 0.5 * static_cast<double>(moved_a * sum);
-    work.on_b += 0.5 * static_cast<double>(moved_b * sum);
-  } else {
-    const Real fast = run.slow_is_a ? moved_b : -moved_a;
-    (run.slow_is_a ? work.on_b : work.on_a) += 0.5 * static_cast<double>(fast * sum);
-    work.dissipated -= 0.5 * static_cast<double>(fast * force.viscous);
-  }
-}
-
-/// Books one coordinate of one link, if anybody asks, and hands its force out.
-template <class Real>
-void exchangeForce(const LinkRun& run,
-                   const RunStep<Real>& at,
-                   std::size_t index,
-                   int a,
-                   int b,
-                   Force<Real> force) noexcept {
-  const LinkMemory<Real>& memory = at.memory;
-  if (at.work != nullptr) {
-    const Force<Real> both{force.elastic + memory.elastic[index],
-                           force.viscous + memory.viscous[index]};
-    addHalfWork(run, at.gate_a * at.moved[a], at.gate_b * at.moved[b], both, *at.work);
-  }
-  if (memory.elastic != nullptr) {
-    memory.elastic[index] = force.elastic;
-    memory.viscous[index] = force.viscous;
-  }
-  const Real sum = force.elastic + force.viscous;
-  if (run.slow_section >= 0) {
-    const Real share = run.slow_is_a ? at.share_a : at.share_b;
-    memory.mean[index] += share * sum;
-    memory.mean_viscous[index] += share * force.viscous;
-  }
-  at.f[a] -= at.share_a * sum;
-  at.f[b] += at.share_b * sum;
-}
-
-/// Work on the slower end, which moved by `moved`, with the mean force so far in its step.
-template <class Real>
-void addSlowWork(const LinkRun& run,
-                 const LinkMemory<Real>& memory,
-                 std::size_t index,
-                 double moved,
-                 LinkWork& work) noexcept {
-  const double signed_moved = run.slow_is_a ? -moved : moved;
-  const auto mean = static_cast<double>(memory.mean[index] + memory.last_mean[index]);
-  const auto viscous =
-      static_cast<double>(memory.mean_viscous[index] + memory.last_mean_viscous[index]);
-  (run.slow_is_a ? work.on_a : work.on_b) += 0.5 * signed_moved * mean;
-  work.dissipated -= 0.5 * signed_moved * viscous;
-}
-
-/// The slower end has moved by d under the mean force: its side of the books closes.
-template <class Real>
-void closeSlowStep(
-    const LinkRun& run, const RunStep<Real>& at, std::size_t index, int a, int b) noexcept {
-  if (at.work != nullptr) {
-    addSlowWork(run, at.memory, index, static_cast<double>(at.moved[run.slow_is_a ? a : b]),
-                *at.work);
-  }
-  const LinkMemory<Real>& memory = at.memory;
-  memory.last_mean[index] = memory.mean[index];
-  memory.last_mean_viscous[index] = memory.mean_viscous[index];
-  memory.mean[index] = Real(0);
-  memory.mean_viscous[index] = Real(0);
-}
-
 constexpr std::size_t kTogether = 64;  ///< links whose forces a law works out in one call
 
 /// Visits a run in pieces: `visit(first, count)`.
@@ -177,7 +83,7 @@ void stepScalar(const LinkRun& run, const RunNumbers<Real>& c, const RunStep<Rea
     for (std::size_t i = 0; i < count; ++i) {
       exchangeForce(run, at, first + i, ends[i].a, ends[i].b, force[i]);
       if (at.slow_ends) {
-        closeSlowStep(run, at, first + i, ends[i].a, ends[i].b);
+        closeMean(run, at, first + i, ends[i].a, ends[i].b);
       }
     }
   });
@@ -260,7 +166,7 @@ void stepSpatial(const LinkRun& run,
         const std::size_t index = static_cast<std::size_t>(c) * links + first + i;
         exchangeForce(run, at, index, a, b, {n * force[i].elastic, n * force[i].viscous});
         if (at.slow_ends) {
-          closeSlowStep(run, at, index, a, b);
+          closeMean(run, at, index, a, b);
         }
       }
     }

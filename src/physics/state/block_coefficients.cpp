@@ -6,6 +6,7 @@
 #include "physics/layout/blocks/lanes.hpp"
 #include "physics/layout/blocks/sparse_program.hpp"
 #include "physics/state/coefficients.hpp"
+#include "scene/laws/explicit_form.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -15,14 +16,15 @@ bool hasDifferent(const Block& block) {
                      [](const Block::Segment& segment) { return !segment.uniform; });
 }
 
-std::size_t placeOf(const Block& block, int element, int offset) {
+/// Of the link between elements a and b of a lattice or of chains.
+std::size_t placeOf(const Block& block, int a, int b) {
   if (block.kind == Block::Kind::kChains) {
-    return at(element);
+    return at(std::min(a, b));
   }
-  const auto diagonal = std::find(block.offsets.begin(), block.offsets.end(), offset);
+  const auto diagonal = std::find(block.offsets.begin(), block.offsets.end(), std::abs(a - b));
   return static_cast<std::size_t>(diagonal - block.offsets.begin()) *
              at(block.guard + block.elements) +
-         at(block.guard + element);
+         at(block.guard + std::min(a, b));
 }
 
 }  // namespace
@@ -53,62 +55,78 @@ void CoefficientsOf<Real>::fillBlocks(const scene::Scene& scene,
     }
     if (block.has_bias) {
       to.bias.assign(elements, Real(0));
+      to.rest.assign(block.kind == Block::Kind::kSparse
+                         ? block.program->sides.size()
+                         : block.offsets.size() * (at(block.guard) + elements),
+                     Real(0));
     }
     blocks.push_back(std::move(to));
   }
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    if (layout.runs[r].block >= 0) {
-      fillBlock(layout, layout.runs[r], runs[r]);
+  for (const LinkRun& run : layout.runs) {
+    if (run.block >= 0) {
+      const Block& block = layout.blocks[at(run.block)];
+      fillBlock(scene, {scene, rates, layout.sections[at(block.section)].divisor}, block, run);
     }
   }
 }
 
-/// Where the coefficients of a link lie; those of one diagonal and element add up.
+/// Where the coefficients of a link lie. Links of a lattice that lie side by side are one spring,
+/// which rests where their forces cancel.
 template <class Real>
-void CoefficientsOf<Real>::fillBlock(const Layout& layout,
-                                     const LinkRun& run,
-                                     const RunCoefficients<Real>& from) {
-  const Block& block = layout.blocks[at(run.block)];
+void CoefficientsOf<Real>::fillBlock(const scene::Scene& scene,
+                                     const StepUnits& units,
+                                     const Block& block,
+                                     const LinkRun& run) {
   BlockCoefficients<Real>& to = blocks[at(run.block)];
-  const std::size_t links = run.ends.size();
-  if (block.one_ratio) {
-    to.ratio = from.fields[links] / from.fields[0];
-  }
-  for (std::size_t l = 0; l < links; ++l) {
-    const Real k = from.fields[l];
-    const Real z = from.fields[links + l];
+  for (std::size_t l = 0; l < run.ends.size(); ++l) {
+    const scene::Lia& lia = scene.lias[at(run.lias[l])];
+    const scene::CommonNumbers numbers = scene::commonNumbers(
+        scene, lia, units, scene.mats[at(lia.a)].rest.x() - scene.mats[at(lia.b)].rest.x());
+    const Real k = static_cast<Real>(numbers.stiffness);
+    const Real z = static_cast<Real>(numbers.damping);
+    const Real offset = static_cast<Real>(numbers.offset);
     const int a = run.ends[l].a - block.first;
     const int b = run.ends[l].b - block.first;
-    const int element = std::min(a, b);
+    if (l == 0 && block.one_ratio) {
+      to.ratio = z / k;
+    }
     if (block.kind == Block::Kind::kSparse) {
       const SparseProgram::Sides& sides = block.program->sides[l];
       to.k[sides.a] = to.k[sides.b] = k;
       to.z[sides.a] = to.z[sides.b] = z;
     } else if (block.per_lane) {
-      to.k[at(element % kLanes)] = k;
-      to.z[at(element % kLanes)] = z;
+      to.k[at(std::min(a, b) % kLanes)] = k;
+      to.z[at(std::min(a, b) % kLanes)] = z;
     } else if (!to.k.empty()) {
-      const std::size_t place = placeOf(block, element, std::abs(a - b));
+      const std::size_t place = placeOf(block, a, b);
       to.k[place] += k;
       if (!to.z.empty()) {
         to.z[place] += z;
       }
     }
-    if (!to.bias.empty()) {
-      const Real force = k * from.fields[2 * links + l];
-      to.bias[at(a)] -= force;
-      to.bias[at(b)] += force;
+    if (block.has_bias) {
+      to.bias[at(a)] -= k * offset;
+      to.bias[at(b)] += k * offset;
+    }
+    if (block.has_bias && block.kind == Block::Kind::kSparse) {
+      to.rest[l] = offset;
+    } else if (block.has_bias && k != Real(0)) {
+      const std::size_t place = placeOf(block, a, b);
+      const Real together = to.k.empty() ? k : to.k[place];
+      to.rest[place] += k / together * ((a < b ? offset : -offset) - to.rest[place]);
     }
   }
 }
 
 template void CoefficientsOf<float>::fillBlocks(const scene::Scene&, const Rates&, const Layout&);
-template void CoefficientsOf<float>::fillBlock(const Layout&,
-                                               const LinkRun&,
-                                               const RunCoefficients<float>&);
+template void CoefficientsOf<float>::fillBlock(const scene::Scene&,
+                                               const StepUnits&,
+                                               const Block&,
+                                               const LinkRun&);
 template void CoefficientsOf<double>::fillBlocks(const scene::Scene&, const Rates&, const Layout&);
-template void CoefficientsOf<double>::fillBlock(const Layout&,
-                                                const LinkRun&,
-                                                const RunCoefficients<double>&);
+template void CoefficientsOf<double>::fillBlock(const scene::Scene&,
+                                                const StepUnits&,
+                                                const Block&,
+                                                const LinkRun&);
 
 }  // namespace ergotic::physics

@@ -18,7 +18,9 @@ CoefficientsOf<Real>::CoefficientsOf(const scene::Scene& scene,
   fillPlaces(scene, rates, layout);
   runs.resize(layout.runs.size());
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    fillRun(scene, rates, layout, r);
+    if (layout.runs[r].block < 0) {
+      fillRun(scene, rates, layout, r);
+    }
   }
   fillBlocks(scene, rates, layout);
   fillGuarded(scene, rates, layout);
@@ -100,9 +102,7 @@ template <class Real>
 void CoefficientsOf<Real>::setLink(
     const scene::Scene& scene, const StepUnits& units, const LinkRun& run, std::size_t r, int l) {
   const scene::Lia& lia = scene.lias[at(run.lias[at(l)])];
-  const double rest = run.block >= 0
-                          ? scene.mats[at(lia.a)].rest.x() - scene.mats[at(lia.b)].rest.x()
-                          : (run.dimensions == 0 ? run.rests[at(l)].x() : 0.0);
+  const double rest = run.dimensions == 0 ? run.rests[at(l)].x() : 0.0;
   const scene::ExplicitForm& form = scene::lawOf(run.law).explicit_form;
   std::array<double, scene::ExplicitForm::kMostNumbers> numbers{};
   form.convert({scene, lia, units, rest}, numbers.data());

@@ -32,6 +32,7 @@ struct BlockCoefficients {
   AlignedVector<Real> k;  ///< [diagonals][guard + elements], chains: [rows, or 1 per lane][kLanes]
   AlignedVector<Real> z;  ///< empty if `ratio` says it all
   AlignedVector<Real> bias;     ///< [elements] force at rest, N; empty: none
+  std::vector<Real> rest;       ///< added to elongations, as k; sparse: [links]; empty: 0
   std::vector<Real> uniform_k;  ///< [diagonals]
   std::vector<Real> uniform_z;
   Real ratio = Real(0);  ///< Z / K where that is one number
@@ -48,6 +49,7 @@ struct TableCoefficients {
   void add(const scene::Table& table);
 };
 
+/// Coefficients of the links of a run; empty where a block has them.
 template <class Real>
 struct RunCoefficients {
   std::vector<Real> fields;  ///< [fields of the law][links]
@@ -93,7 +95,10 @@ class CoefficientsOf final : public Coefficients {
   void setLink(
       const scene::Scene& scene, const StepUnits& units, const LinkRun& run, std::size_t r, int l);
   void fillBlocks(const scene::Scene& scene, const Rates& rates, const Layout& layout);
-  void fillBlock(const Layout& layout, const LinkRun& run, const RunCoefficients<Real>& from);
+  void fillBlock(const scene::Scene& scene,
+                 const StepUnits& units,
+                 const Block& block,
+                 const LinkRun& run);
   void fillGuarded(const scene::Scene& scene, const Rates& rates, const Layout& layout);
   void fillPlaces(const scene::Scene& scene, const Rates& rates, const Layout& layout);
   void fillRun(const scene::Scene& scene, const Rates& rates, const Layout& layout, std::size_t r);

@@ -48,7 +48,7 @@ double watchdogPeriod(double asked_s, tgr::Driver& driver) {
 }
 
 /// Hears of the server's rate, plays nothing.
-class RateProbe : public rt::BlockProcessor {
+class RateProbe : public rt::AudioProcessor {
  public:
   void audioStarted(double sample_rate_hz, std::uint32_t /*period_frames*/) override {
     const std::lock_guard lock(mutex_);
@@ -56,7 +56,7 @@ class RateProbe : public rt::BlockProcessor {
     heard_.notify_all();
   }
   void audioStopped() noexcept override {}
-  void process(const rt::Block& /*block*/) noexcept override {}
+  void process(const rt::Period& /*period*/) noexcept override {}
   void xrun() noexcept override {}
 
   std::optional<double> wait(double seconds) {

@@ -96,8 +96,8 @@ Replay::~Replay() = default;
 std::size_t Replay::findStart() const {
   const auto recorded = [&](const bag::Keyframe& keyframe) {
     return std::any_of(
-        recording_.blocks.begin(), recording_.blocks.end(), [&](const bag::Block& block) {
-          return block.first_tick <= keyframe.tick && keyframe.tick < block.endTick();
+        recording_.stretches.begin(), recording_.stretches.end(), [&](const bag::Stretch& stretch) {
+          return stretch.first_tick <= keyframe.tick && keyframe.tick < stretch.endTick();
         });
   };
   const auto& keyframes = recording_.keyframes;
@@ -105,7 +105,7 @@ std::size_t Replay::findStart() const {
   if (found != keyframes.end()) {
     return static_cast<std::size_t>(found - keyframes.begin());
   }
-  const std::int64_t end = recording_.blocks.back().endTick();
+  const std::int64_t end = recording_.stretches.back().endTick();
   for (std::size_t i = keyframes.size(); i-- > 0;) {
     if (keyframes[i].tick < end) {
       return i;
@@ -153,7 +153,7 @@ int Replay::widestModel() const {
 }
 
 std::int64_t Replay::ticksLeft() const {
-  return std::max<std::int64_t>(recording_.blocks.back().endTick() - tick_, 0);
+  return std::max<std::int64_t>(recording_.stretches.back().endTick() - tick_, 0);
 }
 
 bool Replay::next(double* frames) {
@@ -184,32 +184,32 @@ bool Replay::wasLost(std::int64_t tick) const {
 }
 
 void Replay::takePositions() {
-  const auto& blocks = recording_.blocks;
-  while (blocks[block_].endTick() <= tick_) {
-    ++block_;
+  const auto& stretches = recording_.stretches;
+  while (stretches[stretch_].endTick() <= tick_) {
+    ++stretch_;
   }
-  const bag::Block& block = blocks[block_];
-  const bool missing = tick_ < block.first_tick;
+  const bag::Stretch& stretch = stretches[stretch_];
+  const bool missing = tick_ < stretch.first_tick;
   if (missing && !in_gap_) {
-    addFlaw(tick_, "gap of " + std::to_string(block.first_tick - tick_) + " ticks");
+    addFlaw(tick_, "gap of " + std::to_string(stretch.first_tick - tick_) + " ticks");
   }
   in_gap_ = missing;
   if (missing) {
     return;
   }
-  if (block.slices != position_.size()) {
-    throw Exception("the device has " + std::to_string(block.slices) + " slices at tick " +
+  if (stretch.slices != position_.size()) {
+    throw Exception("the device has " + std::to_string(stretch.slices) + " slices at tick " +
                     std::to_string(tick_) + " of the recording and " +
                     std::to_string(position_.size()) + " at its start");
   }
-  const auto row = static_cast<std::size_t>(tick_ - block.first_tick);
+  const auto row = static_cast<std::size_t>(tick_ - stretch.first_tick);
   const auto copyRow = [row](const std::vector<double>& from, std::vector<double>& to) {
     std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(row * to.size()), to.size(), to.begin());
   };
-  copyRow(block.positions, position_);
-  ports_.resize(block.ports);
-  copyRow(block.ports_at, ports_);
-  if ((block.flags[row] & station::GestureTick::kAudioInput) != 0 && !audio_input_told_) {
+  copyRow(stretch.positions, position_);
+  ports_.resize(stretch.ports);
+  copyRow(stretch.ports_at, ports_);
+  if ((stretch.flags[row] & station::GestureTick::kAudioInput) != 0 && !audio_input_told_) {
     audio_input_told_ = true;
     addFlaw(tick_, "live sound entered the model");
   }

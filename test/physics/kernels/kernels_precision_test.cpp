@@ -36,6 +36,20 @@ const std::vector<Kind>& kinds() {
          nets.plate(30, 40, true, false);
        }},
       {"irregular net", [](Nets& nets) { nets.triangles(25); }},
+      {"stretched irregular net",
+       [](Nets& nets) {
+         nets.rest_length = 1e-3;
+         nets.triangles(25);
+       }},
+      {"springs and dampers side by side, each with its own length at rest",
+       [](Nets& nets) {
+         nets.rest_length = 1e-3;
+         const int first = nets.string(300);
+         for (int i = 0; i < 300; i += 2) {
+           nets.join(first + i, first + i + 1);
+           nets.to.spring(first + i, first + i + 1, 0.0, 0.1);
+         }
+       }},
   };
   return all;
 }

@@ -38,16 +38,6 @@ struct SparseProgram {
   double cost() const;  ///< time of a step, in slots of windows
   /// How many nodes an array that the program reads must have.
   int reach() const { return kLanes * (groups < 2 ? 2 : groups); }
-
-  /// Coefficients of links as the kernel reads them. \param to [slots()][kLanes], 0 where there is
-  /// no link
-  template <class Real>
-  void spread(const std::vector<double>& of_link, Real* to) const {
-    std::fill(to, to + slots() * kLanes, Real(0));
-    for (std::size_t l = 0; l < sides.size(); ++l) {
-      to[sides[l].a] = to[sides[l].b] = static_cast<Real>(of_link[l]);
-    }
-  }
 };
 
 /// `links` join places of an order in which linked nodes are close. Realtime: no.

@@ -81,36 +81,36 @@ void JackDevice::audioStopped() noexcept {
   }
 }
 
-void JackDevice::process(const rt::Block& block) noexcept {
+void JackDevice::process(const rt::Period& period) noexcept {
   const auto slices = forces_.size();
-  end_ns_ = block.start.time_ns + std::llround(block.nframes * frame_ns_);
-  for (std::uint32_t frame = 0; frame < block.nframes; ++frame) {
+  end_ns_ = period.start.time_ns + std::llround(period.nframes * frame_ns_);
+  for (std::uint32_t frame = 0; frame < period.nframes; ++frame) {
     bank_.read(positions_.data());
     for (std::size_t i = 0; i < slices; ++i) {
       const auto units = static_cast<float>(positions_[i] / config_.metres_per_unit);
-      float& out = block.outputs[i][frame];
+      float& out = period.outputs[i][frame];
       out = delayed_.empty() ? units : std::exchange(delayed_[oldest_ + i], units);
     }
     oldest_ = oldest_ + slices < delayed_.size() ? oldest_ + slices : 0;
-    takeForces(block, frame);
+    takeForces(period, frame);
     bank_.step(forces_.data());
   }
 }
 
-void JackDevice::takeForces(const rt::Block& block, std::uint32_t frame) noexcept {
-  const bool may_push = mayPush(block, frame);
-  const std::int64_t now_ns = block.start.time_ns + std::llround(frame * frame_ns_);
+void JackDevice::takeForces(const rt::Period& period, std::uint32_t frame) noexcept {
+  const bool may_push = mayPush(period, frame);
+  const std::int64_t now_ns = period.start.time_ns + std::llround(frame * frame_ns_);
   for (std::size_t i = 0; i < forces_.size(); ++i) {
-    const double asked = may_push ? static_cast<double>(block.inputs[i][frame]) : 0.0;
+    const double asked = may_push ? static_cast<double>(period.inputs[i][frame]) : 0.0;
     feel(i, bank_.newtons(static_cast<int>(i), asked * config_.newtons_per_unit), now_ns);
   }
 }
 
-bool JackDevice::mayPush(const rt::Block& block, std::uint32_t frame) noexcept {
+bool JackDevice::mayPush(const rt::Period& period, std::uint32_t frame) noexcept {
   if (watchdog_frames_ == 0) {
     return true;
   }
-  const float heartbeat = block.inputs[forces_.size()][frame];
+  const float heartbeat = period.inputs[forces_.size()][frame];
   const bool beats = heartbeat != 0.0F && (heartbeat > 0.0F) != beat_;
   since_beat_ = beats ? 0 : std::min(since_beat_ + 1, watchdog_frames_);
   beat_ = beats ? heartbeat > 0.0F : beat_;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ergotic/audio/jack_client.hpp"
-#include "ergotic/rt/block_io.hpp"
+#include "ergotic/rt/audio_processor.hpp"
 #include "ergotic/rt/realtime.hpp"
 #include "ergotic/rt/ring.hpp"
 #include "tgr/drivers/virtual/force_record.hpp"
@@ -31,7 +31,7 @@ struct JackDeviceConfig {
 ///
 /// With a watchdog there is force only while the heartbeat changes its sign: what an amplifier
 /// behind a plain sound card does not have. Without blocks there is no force either.
-class JackDevice final : public rt::BlockProcessor {
+class JackDevice final : public rt::AudioProcessor {
  public:
   /// \throws TextError and Exception as SliceBank, Exception if a number is out of range
   explicit JackDevice(const JackDeviceConfig& config);
@@ -43,7 +43,7 @@ class JackDevice final : public rt::BlockProcessor {
 
   void audioStarted(double sample_rate_hz, std::uint32_t period_frames) override;
   void audioStopped() noexcept override;
-  ERGOTIC_REALTIME void process(const rt::Block& block) noexcept override;
+  ERGOTIC_REALTIME void process(const rt::Period& period) noexcept override;
   void xrun() noexcept override { xruns_.fetch_add(1, std::memory_order_relaxed); }
 
   /// \return false if there is no record. Thread: one, any
@@ -52,8 +52,8 @@ class JackDevice final : public rt::BlockProcessor {
   std::int64_t xruns() const noexcept { return xruns_; }
 
  private:
-  ERGOTIC_REALTIME void takeForces(const rt::Block& block, std::uint32_t frame) noexcept;
-  ERGOTIC_REALTIME bool mayPush(const rt::Block& block, std::uint32_t frame) noexcept;
+  ERGOTIC_REALTIME void takeForces(const rt::Period& period, std::uint32_t frame) noexcept;
+  ERGOTIC_REALTIME bool mayPush(const rt::Period& period, std::uint32_t frame) noexcept;
   void feel(std::size_t slice, double force, std::int64_t time_ns) noexcept;
 
   JackDeviceConfig config_;

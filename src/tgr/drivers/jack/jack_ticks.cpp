@@ -24,9 +24,9 @@ std::string divisorsOf(std::uint32_t period) {
   return list.str();
 }
 
-void silence(const rt::Block& block) noexcept {
-  for (int c = 0; c < block.output_channels; ++c) {
-    std::fill_n(block.outputs[c], block.nframes, 0.0F);
+void silence(const rt::Period& period) noexcept {
+  for (int c = 0; c < period.output_channels; ++c) {
+    std::fill_n(period.outputs[c], period.nframes, 0.0F);
   }
 }
 
@@ -91,35 +91,35 @@ void JackTicks::audioStarted(double sample_rate_hz, std::uint32_t period_frames)
   running_ = true;
 }
 
-void JackTicks::process(const rt::Block& block) noexcept {
-  silence(block);
-  const std::int64_t left_out = framesLeftOut(block);
+void JackTicks::process(const rt::Period& period) noexcept {
+  silence(period);
+  const std::int64_t left_out = framesLeftOut(period);
   if (!gate_.enter()) {
     return;
   }
   owed_ = fresh_.exchange(false) ? 0 : owed_ + left_out;
-  block_ = &block;
+  now_ = &period;
   catchUp();
-  runTicks(block);
-  block_ = nullptr;
+  runTicks(period);
+  now_ = nullptr;
   if (safe_) {  // perhaps only since some ticks ago
-    silence(block);
+    silence(period);
   } else {
-    beat(block);
+    beat(period);
   }
   gate_.leave();
 }
 
-/// Also notes where the next block should begin. Negative if the host gave two blocks one time.
-std::int64_t JackTicks::framesLeftOut(const rt::Block& block) noexcept {
-  std::int64_t left_out = block.start.frames - next_frame_;
+/// Also notes where the next period should begin. Negative if the host gave two periods one time.
+std::int64_t JackTicks::framesLeftOut(const rt::Period& period) noexcept {
+  std::int64_t left_out = period.start.frames - next_frame_;
   if (restarted_) {  // another server counts anew; time goes on
-    const auto passed_ns = static_cast<double>(block.start.time_ns - next_ns_);
+    const auto passed_ns = static_cast<double>(period.start.time_ns - next_ns_);
     left_out = std::llround(std::max(passed_ns, 0.0) / frame_ns_);
     restarted_ = false;
   }
-  next_frame_ = block.start.frames + block.nframes;
-  next_ns_ = block.start.time_ns + std::llround(block.nframes * frame_ns_);
+  next_frame_ = period.start.frames + period.nframes;
+  next_ns_ = period.start.time_ns + std::llround(period.nframes * frame_ns_);
   return left_out;
 }
 
@@ -135,29 +135,29 @@ void JackTicks::catchUp() noexcept {
   target_->missed(missed, std::llround(stall_ns));
 }
 
-void JackTicks::runTicks(const rt::Block& block) noexcept {
+void JackTicks::runTicks(const rt::Period& period) noexcept {
   const auto ratio = static_cast<std::uint32_t>(ratio_.load());
-  for (first_ = 0; first_ < block.nframes; first_ += ratio) {
+  for (first_ = 0; first_ < period.nframes; first_ += ratio) {
     may_push_ = true;
     // A tick is due when its frames would come if they came one by one.
-    const std::int64_t due_ns = block.start.time_ns + std::llround(first_ * frame_ns_);
+    const std::int64_t due_ns = period.start.time_ns + std::llround(first_ * frame_ns_);
     target_->tick(rt::monotonicNs() - due_ns);
   }
 }
 
-void JackTicks::beat(const rt::Block& block) noexcept {
-  if (block.output_channels > slices_ && block.wired) {
+void JackTicks::beat(const rt::Period& period) noexcept {
+  if (period.output_channels > slices_ && period.wired) {
     beat_ = -beat_;
-    std::fill_n(block.outputs[slices_], block.nframes, beat_);
+    std::fill_n(period.outputs[slices_], period.nframes, beat_);
   }
 }
 
 std::uint32_t JackTicks::exchange(const double* forces, double* positions) noexcept {
   const bool safe = safe_;
   std::uint32_t flags = safe ? kMadeSafe : kExchangeOk;
-  if (!open_ || !running_ || (block_ != nullptr && !block_->wired)) {
+  if (!open_ || !running_ || (now_ != nullptr && !now_->wired)) {
     flags |= kDeviceLost;
-  } else if (block_ == nullptr) {
+  } else if (now_ == nullptr) {
     flags |= kMissingSample;
   } else {
     readPositions();
@@ -172,7 +172,7 @@ std::uint32_t JackTicks::exchange(const double* forces, double* positions) noexc
 void JackTicks::readPositions() noexcept {
   const int ratio = ratio_;
   for (int i = 0; i < slices_; ++i) {
-    const float* from = block_->inputs[i] + first_;
+    const float* from = now_->inputs[i] + first_;
     double sum = 0.0;
     for (int frame = 0; frame < ratio; ++frame) {
       sum += static_cast<double>(from[frame]);
@@ -185,7 +185,7 @@ void JackTicks::writeForces(const double* forces) noexcept {
   for (int i = 0; i < slices_; ++i) {
     const double units = forces[i] / volts_per_unit_;
     const double force = std::isnan(units) ? 0.0 : std::clamp(units, -1.0, 1.0);
-    std::fill_n(block_->outputs[i] + first_, ratio_.load(), static_cast<float>(force));
+    std::fill_n(now_->outputs[i] + first_, ratio_.load(), static_cast<float>(force));
   }
 }
 

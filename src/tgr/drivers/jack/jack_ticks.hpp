@@ -8,27 +8,27 @@
 #include <string>
 
 #include "audio/gate.hpp"
-#include "ergotic/rt/block_io.hpp"
+#include "ergotic/rt/audio_processor.hpp"
 #include "ergotic/rt/realtime.hpp"
 #include "ergotic/tgr/device_clock.hpp"
 #include "ergotic/tgr/driver.hpp"
 
 namespace ergotic::tgr {
 
-/// Cuts the blocks of a sound card into ticks: inputs are positions, outputs forces.
+/// Cuts the periods of a sound card into ticks: inputs are positions, outputs forces.
 ///
-/// A block of P frames is P/R ticks, run one after the other as soon as the block is there. Tick k
-/// reads the mean of the input frames k R ... k R + R - 1: all of them are there already, so this
+/// A period of P frames is P/R ticks, run one after the other as soon as the period is there. Tick
+/// k reads the mean of the input frames k R ... k R + R - 1: all of them are there already, so this
 /// is no later than the first of them alone, it has less noise by sqrt(R), and what vibrates faster
 /// than half the tick rate does not fold back unattenuated. Its force stands in the output frames
 /// of the same numbers. Frames that no tick writes are zero.
 ///
 /// Frames that the host left out become ticks that were missed, after a restart those of the time
 /// that has passed.
-class JackTicks final : public rt::BlockProcessor, public DeviceClock {
+class JackTicks final : public rt::AudioProcessor, public DeviceClock {
  public:
   /// Output `slices`, if the host has so many, is the heartbeat: +-kHeartbeat, another sign each
-  /// block, zero when there is no tick or no force is allowed.
+  /// period, zero when there is no tick or no force is allowed.
   static constexpr float kHeartbeat = 0.5F;
 
   JackTicks(int slices, double volts_per_unit) noexcept
@@ -43,7 +43,7 @@ class JackTicks final : public rt::BlockProcessor, public DeviceClock {
   void close() noexcept { open_ = false; }
   /// Why the host was refused last, empty: it was not. Thread: any
   std::string refusal() const;
-  /// Frames of a tick, of a block. \pre the host has started
+  /// Frames of a tick, of a period. \pre the host has started
   int ratio() const noexcept { return ratio_; }
   std::uint32_t period() const noexcept { return period_; }
 
@@ -59,29 +59,29 @@ class JackTicks final : public rt::BlockProcessor, public DeviceClock {
   // DeviceClock
   void start(TickTarget& target) override;
   void stop() noexcept override { gate_.close(); }
-  /// Of a block of the host.
+  /// Of a period of the host.
   double periodS() const noexcept override { return period_ / (ratio_ * tick_rate_hz_); }
 
   // The host
   /// \throws Exception if rate or period do not fit the ticks
   void audioStarted(double sample_rate_hz, std::uint32_t period_frames) override;
   void audioStopped() noexcept override { running_ = false; }
-  ERGOTIC_REALTIME void process(const rt::Block& block) noexcept override;
+  ERGOTIC_REALTIME void process(const rt::Period& period) noexcept override;
   void xrun() noexcept override { xruns_.fetch_add(1, std::memory_order_relaxed); }
 
  private:
   void checkRates(double sample_rate_hz, std::uint32_t period_frames) const;
-  std::int64_t framesLeftOut(const rt::Block& block) noexcept;
+  std::int64_t framesLeftOut(const rt::Period& period) noexcept;
   void catchUp() noexcept;
-  void runTicks(const rt::Block& block) noexcept;
-  void beat(const rt::Block& block) noexcept;
+  void runTicks(const rt::Period& period) noexcept;
+  void beat(const rt::Period& period) noexcept;
   void readPositions() noexcept;
   void writeForces(const double* forces) noexcept;
 
   int slices_;
   double volts_per_unit_;
 
-  // Set while no block is processed.
+  // Set while no period is processed.
   double tick_rate_hz_ = 0.0;
   std::atomic<int> ratio_{1};
   std::atomic<std::uint32_t> period_{0};
@@ -101,11 +101,11 @@ class JackTicks final : public rt::BlockProcessor, public DeviceClock {
   std::string refusal_;
 
   // The host's real-time thread.
-  std::int64_t next_frame_ = 0;  // after the last block
+  std::int64_t next_frame_ = 0;  // after the last period
   std::int64_t next_ns_ = 0;     // when it begins
   std::int64_t owed_ = 0;        // frames left out that were not yet missed ticks
   float beat_ = kHeartbeat;
-  const rt::Block* block_ = nullptr;                 // while ticks run
+  const rt::Period* now_ = nullptr;                  // while ticks run
   std::uint32_t first_ = 0;                          // frame of the tick
   bool may_push_ = false;                            // the tick has output frames
   std::array<double, kMaxSlices> last_positions_{};  // V

@@ -15,23 +15,23 @@ void StepMeter::audioStarted(double /*sample_rate_hz*/, std::uint32_t period_fra
       std::max(config_.rest_frames, config_.latency_frames + 4 * static_cast<int>(period_frames));
 }
 
-void StepMeter::process(const rt::Block& block) noexcept {
-  for (int c = 0; c < block.output_channels; ++c) {
-    std::fill_n(block.outputs[c], block.nframes, 0.0F);
+void StepMeter::process(const rt::Period& period) noexcept {
+  for (int c = 0; c < period.output_channels; ++c) {
+    std::fill_n(period.outputs[c], period.nframes, 0.0F);
   }
-  const std::int64_t start = block.start.frames;
+  const std::int64_t start = period.start.frames;
   if (is_first_) {
     step_at_ = start + config_.rest_frames;
     is_first_ = false;
   } else {
     disturbed_ = disturbed_ || start != frame_;
   }
-  frame_ = start + block.nframes;
-  const float* in = block.inputs[config_.channel];
-  float* out = block.outputs[config_.channel];
-  for (std::uint32_t i = 0; i < block.nframes; ++i) {
+  frame_ = start + period.nframes;
+  const float* in = period.inputs[config_.channel];
+  float* out = period.outputs[config_.channel];
+  for (std::uint32_t i = 0; i < period.nframes; ++i) {
     const std::int64_t now = start + i;
-    if (!waiting_ && now >= step_at_ && i == steps_ % block.nframes) {
+    if (!waiting_ && now >= step_at_ && i == steps_ % period.nframes) {
       before_ = in[i];
       level_ = level_ == 0.0F ? static_cast<float>(config_.step) : 0.0F;
       step_at_ = now;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "ergotic/rt/block_io.hpp"
+#include "ergotic/rt/audio_processor.hpp"
 #include "ergotic/rt/realtime.hpp"
 #include "ergotic/rt/ring.hpp"
 
@@ -34,13 +34,13 @@ struct StepAnswer {
 /// Step n begins at frame n mod P of a block, so that it meets ticks of R frames at all of their
 /// phases: a tick that starts with the step answers R frames after it, one that is nearly over one
 /// frame after it.
-class StepMeter final : public rt::BlockProcessor {
+class StepMeter final : public rt::AudioProcessor {
  public:
   explicit StepMeter(const StepMeterConfig& config) : config_(config) {}
 
   void audioStarted(double sample_rate_hz, std::uint32_t period_frames) override;
   void audioStopped() noexcept override {}
-  ERGOTIC_REALTIME void process(const rt::Block& block) noexcept override;
+  ERGOTIC_REALTIME void process(const rt::Period& period) noexcept override;
   void xrun() noexcept override {}
 
   /// Thread: one, any

@@ -9,11 +9,11 @@ namespace ergotic::rt {
 
 /// What an audio host offers to the engine: nothing of JACK is visible past this file.
 ///
-/// The host calls `BlockProcessor::process` from its real-time thread with spans of float
+/// The host calls `AudioProcessor::process` from its real-time thread with spans of float
 /// channels, and tells it when it comes and goes.
-struct Block {
+struct Period {
   std::uint32_t nframes = 0;
-  FrameTime start;                       ///< frame count and time of the first frame of the block
+  FrameTime start;                       ///< frame count and time of the first frame of the period
   const float* const* inputs = nullptr;  ///< [input channels][nframes]
   float* const* outputs = nullptr;       ///< [output channels][nframes], to be filled wholly
   int input_channels = 0;
@@ -21,15 +21,15 @@ struct Block {
   bool wired = true;  ///< all channels are connected as the host was told to connect them
 };
 
-class BlockProcessor {
+class AudioProcessor {
  public:
-  virtual ~BlockProcessor() = default;
+  virtual ~AudioProcessor() = default;
   /// The host starts or restarts: rates and sizes hold until the next call. Thread: host, not RT
   virtual void audioStarted(double sample_rate_hz, std::uint32_t period_frames) = 0;
   /// The host is gone. May come from any thread; must not block.
   virtual void audioStopped() noexcept = 0;
   /// Realtime: yes. Thread: host RT
-  virtual void process(const Block& block) noexcept = 0;
+  virtual void process(const Period& period) noexcept = 0;
   /// The host lost a period (xrun). Must not block.
   virtual void xrun() noexcept = 0;
 };

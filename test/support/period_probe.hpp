@@ -4,7 +4,7 @@
 #include <atomic>
 #include <thread>
 
-#include "ergotic/rt/block_io.hpp"
+#include "ergotic/rt/audio_processor.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::test {
@@ -28,19 +28,19 @@ inline bool eventually(const std::function<bool()>& holds) {
 }
 
 /// Sends counter ramps and remembers what an audio host does to it.
-class BlockProbe : public rt::BlockProcessor {
+class PeriodProbe : public rt::AudioProcessor {
  public:
-  /// What a host did; between two starts every block is checked.
+  /// What a host did; between two starts every period is checked.
   struct Counts {
     std::atomic<int> starts{0};
     std::atomic<int> stops{0};
-    std::atomic<std::int64_t> blocks{0};
-    std::atomic<std::int64_t> jumps{0};  ///< blocks not beginning where the last ended
+    std::atomic<std::int64_t> periods{0};
+    std::atomic<std::int64_t> jumps{0};  ///< periods not beginning where the last ended
     std::atomic<std::int64_t> xruns{0};
-    std::atomic<std::int64_t> stray{0};       ///< blocks outside of start and stop
-    std::atomic<std::int64_t> wrong_size{0};  ///< blocks not of the announced period
+    std::atomic<std::int64_t> stray{0};       ///< periods outside of start and stop
+    std::atomic<std::int64_t> wrong_size{0};  ///< periods not of the announced period
     std::atomic<std::int64_t> bad_times{0};   ///< not within a second of CLOCK_MONOTONIC
-    std::atomic<std::int64_t> denormals{0};   ///< blocks in which denormals survive
+    std::atomic<std::int64_t> denormals{0};   ///< periods in which denormals survive
   };
 
   void audioStarted(double sample_rate_hz, std::uint32_t period_frames) override {
@@ -56,27 +56,27 @@ class BlockProbe : public rt::BlockProcessor {
 
   void audioStopped() noexcept override {
     running_ = false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));  // time for stray blocks to come
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));  // time for stray periods to come
     ++counts.stops;
   }
 
-  void process(const rt::Block& block) noexcept override {
+  void process(const rt::Period& now) noexcept override {
     counts.stray += running_ ? 0 : 1;
-    counts.wrong_size += block.nframes == period ? 0 : 1;
-    counts.jumps += has_last_ && block.start.frames != next_ ? 1 : 0;
-    const std::int64_t late_ns = rt::monotonicNs() - block.start.time_ns;
+    counts.wrong_size += now.nframes == period ? 0 : 1;
+    counts.jumps += has_last_ && now.start.frames != next_ ? 1 : 0;
+    const std::int64_t late_ns = rt::monotonicNs() - now.start.time_ns;
     counts.bad_times += std::abs(late_ns) < 1'000'000'000 ? 0 : 1;
     volatile double tiny = 1e-308;
     volatile double product = tiny * 0.001;
     counts.denormals += product != 0.0 ? 1 : 0;
     has_last_ = true;
-    next_ = block.start.frames + block.nframes;
-    for (int channel = 0; channel < block.output_channels; ++channel) {
-      for (std::uint32_t i = 0; i < block.nframes; ++i) {
-        block.outputs[channel][i] = counterRamp(block.start.frames + i, channel);
+    next_ = now.start.frames + now.nframes;
+    for (int channel = 0; channel < now.output_channels; ++channel) {
+      for (std::uint32_t i = 0; i < now.nframes; ++i) {
+        now.outputs[channel][i] = counterRamp(now.start.frames + i, channel);
       }
     }
-    ++counts.blocks;
+    ++counts.periods;
   }
 
   void xrun() noexcept override { ++counts.xruns; }

@@ -9,30 +9,28 @@ from pathlib import Path
 ROOMS = {
     "exception": "",
     "rt": "exception",
-    "scene": "exception",
+    "scene": "",
     "scene/laws": "exception rt scene",
     "scene/rules": "exception scene scene/laws",
     "scene/generate": "exception scene",
     "scene/text": "exception scene",
     "scene/yaml": "exception scene scene/laws scene/rules scene/generate scene/text",
-    "scene/mdl": "exception scene scene/laws scene/generate scene/text",
+    "scene/mdl": "scene scene/laws scene/generate scene/text",
     "physics": "exception rt scene scene/laws",
-    "physics/laws": "exception rt scene scene/laws physics",
+    "physics/laws": "scene scene/laws physics",
     "physics/network": "exception scene scene/laws physics physics/laws",
     "physics/layout/blocks": "exception scene physics",
     "physics/layout": "exception scene physics physics/layout/blocks",
-    "physics/modes": "exception scene scene/generate physics physics/laws physics/layout physics/network",
+    "physics/modes": "exception scene physics physics/laws physics/layout physics/network",
     "physics/state": "exception scene scene/laws physics physics/laws physics/layout physics/layout/blocks",
-    "physics/kernels": "rt scene scene/laws physics physics/laws physics/layout physics/layout/blocks"
-                       " physics/state",
-    "physics/engine": "exception rt scene scene/laws physics physics/laws physics/modes"
-                      " physics/layout physics/layout/blocks physics/state physics/kernels",
-    "physics/certificate": "exception scene scene/laws physics physics/laws physics/layout physics/network"
-                           " physics/engine",
-    "physics/settling": "exception scene scene/laws scene/generate physics physics/laws physics/network"
+    "physics/kernels": "rt scene/laws physics/layout physics/layout/blocks physics/state",
+    "physics/engine": "exception rt scene physics physics/laws physics/modes physics/layout"
+                      " physics/layout/blocks physics/state physics/kernels",
+    "physics/certificate": "exception scene scene/laws physics physics/layout physics/network physics/engine",
+    "physics/settling": "exception scene scene/laws scene/generate physics physics/network"
                         " physics/certificate",
-    "advice": "exception scene scene/laws scene/generate physics physics/laws physics/network"
-              " physics/certificate physics/settling",
+    "advice": "exception scene scene/laws scene/generate physics physics/network physics/certificate"
+              " physics/settling",
     "tgr": "exception rt scene scene/text scene/yaml",
     "station": "exception rt scene physics physics/engine physics/certificate physics/settling tgr",
     "audio": "exception rt",
@@ -43,7 +41,7 @@ ROOMS = {
     "ros/display": "scene tgr station ros/device",
     "ros/conversation": "exception rt scene scene/laws scene/text physics/engine tgr station audio ros/device"
                         " ros/display",
-    "ros": "ros/device ros/display ros/conversation",
+    "ros": "ros/device ros/conversation",
     "tools/lib": "exception rt scene scene/laws scene/generate scene/text physics physics/engine"
                  " physics/certificate physics/settling advice tgr station audio bag",
     "tools": "exception rt tgr audio tgr/drivers/jack tools/lib",

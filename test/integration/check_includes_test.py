@@ -119,6 +119,13 @@ class CheckIncludesTest(unittest.TestCase):
         self.assertEqual((status, len(said)), (1, 1))
         self.assertIn('"csv.hpp" is no path', said[0])
 
+    def test_refuses_a_room_that_nothing_includes_any_more(self):
+        for path in (self.copy / "src/station", self.copy / "include/ergotic/station"):
+            for file in path.glob("*pp"):
+                file.write_text(file.read_text().replace('#include "ergotic/tgr/', "// "))
+        self.assertEqual(faults(self.copy), (1, [
+            "include gate: scripts/rooms.py: station may include tgr, but does not"]))
+
     def test_refuses_a_folder_that_is_no_room(self):
         (self.copy / "src/attic").mkdir()
         (self.copy / "src/attic/old.cpp").write_text('#include "ergotic/tgr/rig.hpp"\n')

@@ -113,17 +113,17 @@ class LiveRun : private station::FramePort {
   void listen() {
     station::GestureTick tick;
     while (station_->pollGestures(&tick, 1) == 1) {
-      if (recording_.blocks.empty() || recording_.blocks.back().endTick() != tick.tick ||
-          recording_.blocks.back().ports != tick.ports ||
-          recording_.blocks.back().flags.size() == 64) {
-        recording_.blocks.push_back({tick.tick, tick.slices, tick.ports, {}, {}, {}});
+      if (recording_.stretches.empty() || recording_.stretches.back().endTick() != tick.tick ||
+          recording_.stretches.back().ports != tick.ports ||
+          recording_.stretches.back().flags.size() == 64) {
+        recording_.stretches.push_back({tick.tick, tick.slices, tick.ports, {}, {}, {}});
       }
-      bag::Block& block = recording_.blocks.back();
-      block.flags.push_back(tick.flags);
-      block.positions.insert(block.positions.end(), tick.position.begin(),
-                             tick.position.begin() + tick.slices);
-      block.ports_at.insert(block.ports_at.end(), tick.port.begin(),
-                            tick.port.begin() + tick.ports);
+      bag::Stretch& stretch = recording_.stretches.back();
+      stretch.flags.push_back(tick.flags);
+      stretch.positions.insert(stretch.positions.end(), tick.position.begin(),
+                               tick.position.begin() + tick.slices);
+      stretch.ports_at.insert(stretch.ports_at.end(), tick.port.begin(),
+                              tick.port.begin() + tick.ports);
     }
     station::Event event;
     while (station_->poll(event)) {

@@ -95,9 +95,9 @@ TEST(ReplayTest, SaysWhenTheModelHasOtherPorts) {
   live.takeKeyframe();
   live.play(100);
   bag::Recording recording = live.recording();
-  for (bag::Block& block : recording.blocks) {
-    block.ports = 0;
-    block.ports_at.clear();
+  for (bag::Stretch& stretch : recording.stretches) {
+    stretch.ports = 0;
+    stretch.ports_at.clear();
   }
   EXPECT_THAT(replay(recording).flaws, ElementsAre(HasSubstr("0 ports were recorded")));
 }
@@ -244,8 +244,8 @@ TEST(ReplayTest, SaysWhereTicksAreMissing) {
   live.takeKeyframe();
   live.play(1280);
   bag::Recording recording = live.recording();
-  ASSERT_EQ(recording.blocks.at(5).first_tick, 320);
-  recording.blocks.erase(recording.blocks.begin() + 5);
+  ASSERT_EQ(recording.stretches.at(5).first_tick, 320);
+  recording.stretches.erase(recording.stretches.begin() + 5);
   EXPECT_THAT(replay(recording).flaws,
               ElementsAre("recording is inexact: gap of 64 ticks at tick 320"));
 }
@@ -268,8 +268,8 @@ TEST(ReplayTest, SaysWhenLiveSoundWasHeard) {
   live.takeKeyframe();
   live.play(100);
   bag::Recording recording = live.recording();
-  recording.blocks.at(0).flags.at(40) |= station::GestureTick::kAudioInput;
-  recording.blocks.at(0).flags.at(41) |= station::GestureTick::kAudioInput;
+  recording.stretches.at(0).flags.at(40) |= station::GestureTick::kAudioInput;
+  recording.stretches.at(0).flags.at(41) |= station::GestureTick::kAudioInput;
   EXPECT_THAT(replay(recording).flaws, ElementsAre(HasSubstr("live sound")));
 }
 

@@ -72,7 +72,7 @@ class Replay final : public Player {
   std::int64_t tick_;  // the one to be played next, as numbered in the recording
   std::vector<double> position_;
   std::vector<double> ports_;
-  std::size_t stretch_ = 0;             // the one that holds tick_, or the next one
+  std::size_t stretch_ = 0;           // the one that holds tick_, or the next one
   std::size_t swap_ = 0;              // events up to here were looked at for swaps,
   std::size_t change_ = 0;            // for other changes,
   std::size_t keyframe_ = 0;          // and keyframes up to here

@@ -80,11 +80,11 @@ void CoefficientsOf<Real>::fillBlock(const scene::Scene& scene,
   BlockCoefficients<Real>& to = blocks[at(run.block)];
   for (std::size_t l = 0; l < run.ends.size(); ++l) {
     const scene::Lia& lia = scene.lias[at(run.lias[l])];
-    const scene::CommonNumbers numbers = scene::commonNumbers(
-        scene, lia, units, scene.mats[at(lia.a)].rest.x() - scene.mats[at(lia.b)].rest.x());
-    const Real k = static_cast<Real>(numbers.stiffness);
-    const Real z = static_cast<Real>(numbers.damping);
-    const Real offset = static_cast<Real>(numbers.offset);
+    const scene::LinkInSteps link{scene, lia, units,
+                                  scene.mats[at(lia.a)].rest.x() - scene.mats[at(lia.b)].rest.x()};
+    const Real k = static_cast<Real>(scene::number::stiffness(link));
+    const Real z = static_cast<Real>(scene::number::damping(link));
+    const Real offset = static_cast<Real>(scene::number::offset(link));
     const int a = run.ends[l].a - block.first;
     const int b = run.ends[l].b - block.first;
     if (l == 0 && block.one_ratio) {

@@ -8,25 +8,7 @@
 namespace ergotic::physics {
 namespace {
 
-TEST(DisjointSetsTest, EveryMemberIsAtFirstASetOfItsOwn) {
-  DisjointSets sets(3);
-  for (const int member : {0, 1, 2}) {
-    EXPECT_EQ(sets.setOf(member), member);
-  }
-}
-
-TEST(DisjointSetsTest, AJoinedSetKeepsTheNameOfTheSecond) {
-  DisjointSets sets(6);
-  sets.join(0, 1);
-  sets.join(2, 3);
-  sets.join(0, 2);  // names 1 and 3
-  sets.join(3, 0);  // one set already
-  for (const int member : {0, 1, 2, 3}) {
-    EXPECT_EQ(sets.setOf(member), 3);
-  }
-  EXPECT_EQ(sets.setOf(4), 4);
-}
-
+/// A joined set keeps the name of the second; each member is at first a set of its own.
 TEST(DisjointSetsTest, AreThoseThatRelabellingFinds) {
   std::mt19937 random(4);
   for (int round = 0; round < 100; ++round) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/energy.hpp"
 
+#include <numeric>
 #include <random>
 
+#include "support/one_by_one.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::test {
@@ -11,6 +13,26 @@ physics::Energies energiesOf(const Player& player) {
   physics::Energies energies = player.instrument->makeEnergies();
   player.instrument->readEnergies(energies);
   return energies;
+}
+
+std::vector<physics::GuardedState<double>> guardsOf(const Player& player) {
+  return numbersOf<physics::GuardedState<double>>(*player.instrument, "guarded0");
+}
+
+double heatOf(const std::vector<physics::GuardedState<double>>& guards) {
+  return std::accumulate(guards.begin(), guards.end(), 0.0,
+                         [](double sum, const auto& guard) { return sum + guard.lost; });
+}
+
+Eigen::Vector3d momentumOf(const Player& player, std::size_t n) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  const std::vector<scene::Mat>& mats = player.instrument->scene().mats;
+  for (std::size_t c = 0; c < std::min(player.heard.size(), 3 * mats.size()); ++c) {
+    if (mats[c / 3].type == scene::MatType::kMass) {
+      sum[static_cast<int>(c % 3)] += mats[c / 3].mass.factor * player.heard[c][n];
+    }
+  }
+  return sum;
 }
 
 double imbalanceOf(Player& player, int ticks, int every) {

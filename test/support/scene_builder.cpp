@@ -126,6 +126,14 @@ void SceneBuilder::hear(int mat, int channel, scene::Quantity quantity) {
   scene.outputs.push_back(output);
 }
 
+void SceneBuilder::hearAxes(int mat, int first_channel, scene::Quantity quantity) {
+  const int section = scene.mats[at(mat)].section;
+  for (int axis = 0; axis < dimensionsOf(scene.sections[at(section)].geometry); ++axis) {
+    hear(mat, first_channel + axis, quantity);
+    scene.outputs.back().axis = axis;
+  }
+}
+
 Player::Player(std::unique_ptr<physics::Instrument> made)
     : instrument(std::move(made)),
       positions(at(instrument->ports()), 0.0),

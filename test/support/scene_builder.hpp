@@ -39,6 +39,10 @@ class SceneBuilder {
   int push(int mat, int channel = 0);
 
   void hear(int mat, int channel = 0, scene::Quantity quantity = scene::Quantity::kPosition);
+  /// Every coordinate of its section, on channels from this on.
+  void hearAxes(int mat,
+                int first_channel = 0,
+                scene::Quantity quantity = scene::Quantity::kPosition);
 
   scene::Scene scene;
 

@@ -100,28 +100,6 @@ TEST(StickTest, EndsAt60DegreesAndWhereItWouldSlideIntoItsPivot) {
   EXPECT_FALSE(move(stick, {0.0, 0.0, -0.751 * stick.length}).within);
 }
 
-TEST(BallTest, RisesWithAllOfItsSlices) {
-  const Moved moved = move(caseOf("Ball").config, {0.02, 0.02, 0.02});
-  ASSERT_TRUE(moved.within);
-  EXPECT_NEAR(moved.x[0], 0.0, 1e-17);
-  EXPECT_NEAR(moved.x[1], 0.0, 1e-17);
-  EXPECT_NEAR(moved.x[2], 0.02, 1e-16);
-  EXPECT_NEAR(moved.rows[6] + moved.rows[7] + moved.rows[8], 1.0, 1e-15);
-}
-
-TEST(BallTest, HasTheJacobianOfItsTriangleAtRest) {
-  const EndEffectorConfig ball = caseOf("Ball").config;
-  const double offset = ball.base_radius - ball.platform_radius;
-  const double lean = heightOf(ball.rod, offset) / offset;
-  const Moved moved = move(ball, {0.0, 0.0, 0.0});
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Eigen::Vector3d side = onCircle(1.0, 90.0 + 120.0 * static_cast<double>(i));
-    EXPECT_NEAR(moved.rows[i], -2.0 / 3.0 * lean * side.x(), 1e-14);
-    EXPECT_NEAR(moved.rows[3 + i], -2.0 / 3.0 * lean * side.y(), 1e-14);
-    EXPECT_NEAR(moved.rows[6 + i], 1.0 / 3.0, 1e-14);
-  }
-}
-
 TEST(BallTest, KeepsTheLengthsOfItsRods) {
   const KinematicsCase c = caseOf("Ball");
   const EndEffectorConfig& ball = c.config;
@@ -171,27 +149,6 @@ TEST(BallTest, RefusesRodsThatDoNotFit) {
   ball.platform_radius = 0.095;
   EXPECT_THAT(messageOf(ball), HasSubstr("base_radius - platform_radius = 0.005 m holds no "
                                          "platform sideways, allowed: beyond +-0.0075 m"));
-}
-
-TEST(HandleTest, RisesWithAllOfItsSlices) {
-  const Moved moved = move(caseOf("Handle").config, std::vector<double>(6, 0.015));
-  ASSERT_TRUE(moved.within);
-  for (std::size_t point = 0; point < 4; ++point) {
-    EXPECT_NEAR(moved.x[3 * point], 0.0, 1e-16);
-    EXPECT_NEAR(moved.x[3 * point + 1], 0.0, 1e-16);
-    EXPECT_NEAR(moved.x[3 * point + 2], 0.015, 1e-16);
-  }
-}
-
-TEST(HandleTest, TurnsAboutItsAxisWhenEveryOtherSliceRises) {
-  const KinematicsCase c = caseOf("Handle");
-  const auto kinematics = makeKinematics(c.config, "hands.yaml");
-  const std::vector<double> q{0.01, -0.01, 0.01, -0.01, 0.01, -0.01};
-  const Eigen::Isometry3d pose = kinematics->pose(q.data());
-  EXPECT_NEAR(pose.translation().x(), 0.0, 1e-15);
-  EXPECT_NEAR(pose.translation().y(), 0.0, 1e-15);
-  EXPECT_NEAR(pose.linear()(2, 2), 1.0, 1e-15);
-  EXPECT_GT(std::abs(pose.linear()(1, 0)), 0.05);
 }
 
 /// From the pose alone: slices in pairs 20 degrees wide about 0, 120, 240 degrees, the platform's
@@ -249,26 +206,6 @@ TEST(HandleTest, StaysInTheAssemblyThatIsReachedFromRest) {
         ASSERT_NEAR(x[k], before[k], 5e-3) << "a jump at step " << step;
       }
       before = x;
-    }
-  }
-}
-
-TEST(HandleTest, ReceivesTheWrenchOfItsPoints) {
-  const KinematicsCase c = caseOf("Handle");
-  RandomPoses poses(c, 10);
-  for (int n = 0; n < 1000; ++n) {
-    poses.nextWithin();
-    // A pull along the line between two points of a rigid body is no wrench.
-    const Eigen::Vector3d first(&poses.x()[0]);
-    const Eigen::Vector3d second(&poses.x()[3]);
-    const Eigen::Vector3d pull =
-        (second + c.config.points[1] - first - c.config.points[0]).normalized();
-    for (int i = 0; i < 6; ++i) {
-      double force = 0.0;
-      for (int axis = 0; axis < 3; ++axis) {
-        force += pull[axis] * (poses.jacobian(axis, i) - poses.jacobian(3 + axis, i));
-      }
-      ASSERT_NEAR(force, 0.0, 1e-13);
     }
   }
 }

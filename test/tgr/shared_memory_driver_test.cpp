@@ -65,14 +65,6 @@ TEST_F(SharedMemoryDriverTest, MovesAsADeviceInsideTheDriverDoes) {
   }
 }
 
-TEST_F(SharedMemoryDriverTest, WatchdogTakesTheForceOffWhenExchangesStop) {
-  play(15.0);
-  for (int n = 0; n < kWatchdogSteps; ++n) {
-    EXPECT_EQ(felt(), 15.0) << n;
-  }
-  EXPECT_EQ(felt(), 0.0);
-}
-
 TEST_F(SharedMemoryDriverTest, WatchdogLetsGoOfNothingWhileExchangesCome) {
   play(15.0);
   for (int n = 0; n < 500; ++n) {

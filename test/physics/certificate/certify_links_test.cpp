@@ -99,6 +99,20 @@ TEST(CertifyLinksTest, WhatNoBoundCoversIsUnproven) {
   const int free_mass = negative.mass(1.0);
   negative.spring(free_mass, negative.ground(), 1.0, -0.1);
   EXPECT_EQ(certify(negative.scene, {kRate, 14}).verdict, Verdict::kUnproven);
+
+  // At a place that moves only its sign is known.
+  for (const auto& [k, z] : {std::pair(-1.0, 0.1), {1.0, -0.1}, {1.0, 0.1}}) {
+    SceneBuilder moving;
+    const int first = moving.chain(3, 1.0, 1e4, 1.0);
+    const int place = moving.point(moving.grid(first, 5), 0.5);
+    moving.scene.connections.back().guide = moving.slice(0);
+    moving.scene.connections.back().guide_scale = 1.0;
+    moving.spring(place, moving.ground(), k, z);
+    const bool gives = k < 0.0 || z < 0.0;
+    const Certificate certificate = certify(moving.scene, {kRate, 14});
+    EXPECT_EQ(testing::Value(certificate.findings, Contains(HasSubstr("an end that moves"))), gives)
+        << k << " " << z;
+  }
 }
 
 TEST(CertifyLinksTest, GuardedLinksMakeNoEnergy) {

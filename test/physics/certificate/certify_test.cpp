@@ -129,9 +129,11 @@ TEST(CertifyTest, SectionsAreCertifiedAtTheirOwnStep) {
 }
 
 TEST(CertifyTest, CoupledMassesAreProvenOnlyWhereTheRuleCovers) {
-  const auto verdict = [](double coupling, double fast_kappa) {
+  const auto verdict = [](double coupling, double fast_kappa, double heaviest = 1.0) {
     SceneBuilder b;
     const int slow = b.mass(1.0, 0.0, 0.0, SceneBuilder::kGestural);
+    b.scene.parameters.push_back({"kg", heaviest, 1.0, heaviest, {}});
+    b.scene.mats[at(slow)].mass = {1.0, 0};
     const int fast = b.mass(0.1);
     b.spring(slow, fast, coupling * kRate * kRate / 14.0);
     b.spring(fast, b.ground(), fast_kappa * 0.1 * kRate * kRate);
@@ -141,6 +143,7 @@ TEST(CertifyTest, CoupledMassesAreProvenOnlyWhereTheRuleCovers) {
   EXPECT_EQ(verdict(0.001, 1e-4).verdict, Verdict::kPassive);
   EXPECT_EQ(verdict(0.001, 1.0).verdict, Verdict::kPassive);
   EXPECT_EQ(verdict(0.5, 1.0).verdict, Verdict::kUnstable);
+  EXPECT_EQ(verdict(0.5, 1.0, 1e6).verdict, Verdict::kUnstable) << "at its lightest";
   EXPECT_THAT(verdict(0.5, 1.0).findings, Contains(HasSubstr("too stiffly for its rate")));
   EXPECT_THAT(verdict(0.5, 1.0).findings, Contains(HasSubstr("grows by a factor of exp(")));
 }

@@ -10,12 +10,6 @@ constexpr double kStep = 1.0 / kRate;
 
 struct InSpace : SceneBuilder {
   InSpace() { scene.sections[0].geometry = Geometry::kSpace; }
-  void hearAxes(int mat, Quantity quantity = Quantity::kPosition) {
-    for (int axis = 0; axis < 3; ++axis) {
-      hear(mat, axis, quantity);
-      scene.outputs.back().axis = axis;
-    }
-  }
 };
 
 /// Where a constant acceleration brings a mass in n frames: it acts in the first one already.
@@ -68,7 +62,7 @@ TEST(ForcesTest, MassFallsThroughAMediumAtItsFinalSpeed) {
   const double m = 1e-3;
   b.scene.sections[0].medium = {z};
   b.scene.sections[0].gravity = {0.0, 0.0, -9.81};
-  b.hearAxes(b.mass(m), Quantity::kVelocity);
+  b.hearAxes(b.mass(m), 0, Quantity::kVelocity);
   Player player(b.scene, {kRate, 10});
   player.ticks(1000);
   EXPECT_NEAR(player.heard[2].back(), -9.81 * kStep / -std::expm1(-z * kStep / m), 1e-12);
@@ -116,10 +110,9 @@ TEST(ForcesTest, OutputBetweenTwoModulesIsHeardAlongItsAxis) {
   b.scene.mats[at(low)].position = {1.0, 2.0, 3.0};
   b.scene.mats[at(low)].rest = {0.5, 0.25, 0.125};
   b.scene.mats[at(high)].position = {5.0, 7.0, 11.0};
-  for (int axis = 0; axis < 3; ++axis) {
-    b.hear(low, axis);
-    b.scene.outputs.back().axis = axis;
-    b.scene.outputs.back().point = {low, high, 0.25};
+  b.hearAxes(low);
+  for (scene::Output& output : b.scene.outputs) {
+    output.point = {low, high, 0.25};
   }
   Player player(b.scene, {kRate, 1});
   player.tick();

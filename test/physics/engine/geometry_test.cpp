@@ -20,12 +20,6 @@ struct Built : SceneBuilder {
     scene.mats[at(m)].push.edit().velocity = v;
     return m;
   }
-  void hearAxes(int mat, int first_channel, Quantity quantity = Quantity::kPosition) {
-    for (int axis = 0; axis < dimensionsOf(scene.sections[0].geometry); ++axis) {
-      hear(mat, first_channel + axis, quantity);
-      scene.outputs.back().axis = axis;
-    }
-  }
 };
 
 Vector3d heardVector(const Player& player, int first_channel, std::size_t n) {

@@ -30,12 +30,6 @@ struct TwoFrames : SceneBuilder {
   Vector3d origin() const {
     return scene.sections[2].pose.inverse() * scene.sections[0].pose.translation();
   }
-  void hearAxes(int mat, int first_channel, Quantity quantity) {
-    for (int axis = 0; axis < 3; ++axis) {
-      hear(mat, first_channel + axis, quantity);
-      scene.outputs.back().axis = axis;
-    }
-  }
 };
 
 Vector3d heardLast(const Player& player, int first_channel) {
@@ -179,10 +173,7 @@ Vector3d planeForce(LiaType type, const Vector3d& from, const Vector3d& to, doub
   const int ground = b.ground();
   b.link(type, moved, ground, 100.0, 2.0);
   b.scene.lias[0].law.edit().width = {width};
-  for (const int axis : {0, 1}) {
-    b.hear(ground, axis, Quantity::kForce);
-    b.scene.outputs.back().axis = axis;
-  }
+  b.hearAxes(ground, 0, Quantity::kForce);
   Player player(b.scene, {kRate, 2});
   player.inputs = {from.x(), from.y(), to.x(), to.y()};
   player.tick();

@@ -75,24 +75,17 @@ void expectSamples(const SceneBuilder& b, const Case& c, double x0, double v0) {
   }
 }
 
+/// The medium adds to the damping before the match.
 TEST(CellTest, MatchedOnesPassThroughTheSamplesOfTheContinuousOscillator) {
   for (const Case& c : kCases) {
-    SceneBuilder b;
-    const int cell = b.cell(c.m, c.k, c.z, 0.3, -20.0);
-    b.scene.mats[at(cell)].matched = true;
-    b.hear(cell);
-    expectSamples(b, c, 0.3, -20.0);
-  }
-}
-
-TEST(CellTest, MediumAddsToTheDampingBeforeTheMatch) {
-  for (const Case& c : kCases) {
-    SceneBuilder b;
-    b.scene.sections[0].medium = {0.75 * c.z};
-    const int cell = b.cell(c.m, c.k, 0.25 * c.z, 0.3, -20.0);
-    b.scene.mats[at(cell)].matched = true;
-    b.hear(cell);
-    expectSamples(b, c, 0.3, -20.0);
+    for (const double medium : {0.0, 0.75}) {
+      SceneBuilder b;
+      b.scene.sections[0].medium = {medium * c.z};
+      const int cell = b.cell(c.m, c.k, (1.0 - medium) * c.z, 0.3, -20.0);
+      b.scene.mats[at(cell)].matched = true;
+      b.hear(cell);
+      expectSamples(b, c, 0.3, -20.0);
+    }
   }
 }
 
@@ -130,9 +123,7 @@ TEST(CellTest, RestsAtItsRestInAPlane) {
   mat.matched = true;
   mat.rest = {2.0, -1.0, 0.0};
   mat.position = {2.1, -1.2, 0.0};
-  b.hear(cell, 0);
-  b.hear(cell, 1);
-  b.scene.outputs[1].axis = 1;
+  b.hearAxes(cell);
   Player player(b.scene, {kRate, 10});
   player.ticks(100);
   const Oscillator x(c.m, c.k, c.z, 0.1, 0.0);

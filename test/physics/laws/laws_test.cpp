@@ -18,76 +18,72 @@ double forceOf(LiaType type, const std::function<void(Lia&)>& set, double e, dou
   return player.heard[0][1];
 }
 
-TEST(LawsTest, SpringDamperIsLinear) {
-  const auto set = [](Lia& lia) {
-    lia.stiffness = {100.0};
-    lia.damping = {3.0};
-    lia.rest_length = 0.01;
-  };
-  EXPECT_NEAR(forceOf(LiaType::kSpringDamper, set, 0.02, 0.5), 100.0 * 0.01 + 3.0 * 0.5, 1e-9);
-  EXPECT_NEAR(forceOf(LiaType::kSpringDamper, set, -0.02, -0.5), -3.0 - 1.5, 1e-9);
-}
+/// K = 100 N/m, Z = 3 N s/m and the other numbers of its row.
+struct LawRow {
+  LiaType type;
+  double rest;
+  double width;
+  double exponent;
+  double e;
+  double v;
+  double force;
+};
 
-TEST(LawsTest, ContactPushesOnlyBeyondItsThreshold) {
-  const auto set = [](Lia& lia) {
-    lia.stiffness = {100.0};
-    lia.damping = {3.0};
-    lia.law.edit().width = {0.01};
+TEST(LawsTest, ForcesAreThoseOfTheirFormulas) {
+  const double smooth = -0.63 * 3.0 * 0.15 * std::exp(-4.0 * 0.25 + 0.5);
+  const LawRow rows[] = {
+      {LiaType::kSpringDamper, 0.01, 0.0, 1.0, 0.02, 0.5, 1.0 + 1.5},
+      {LiaType::kSpringDamper, 0.01, 0.0, 1.0, -0.02, -0.5, -3.0 - 1.5},
+      {LiaType::kContact, 0.0, 0.01, 1.0, -0.0101, 1.0, 0.0},
+      {LiaType::kContact, 0.0, 0.01, 1.0, -0.005, 1.0, 0.5 + 3.0},
+      {LiaType::kPowerContact, 0.0, 0.02, 2.3, -0.0201, 1.0, 0.0},
+      {LiaType::kPowerContact, 0.0, 0.02, 2.3, 0.01, 0.0, 100.0 * std::pow(0.03, 2.3)},
+      {LiaType::kPowerContact, 0.0, 0.02, 2.3, -0.015, -0.1, 100.0 * std::pow(0.005, 2.3) - 0.3},
+      // From below the plectrum is pushed down: the strongest force is at a tenth of the width.
+      {LiaType::kPluck, 0.0, 0.01, 1.0, -0.0101, 0.0, 0.0},
+      {LiaType::kPluck, 0.0, 0.01, 1.0, -0.001, 0.0, 0.09},
+      {LiaType::kPluck, 0.0, 0.01, 1.0, -0.0005, 0.0, 0.045},
+      {LiaType::kPluck, 0.0, 0.01, 1.0, 0.001, 0.0, -0.09},
+      {LiaType::kPluck, 0.0, 0.01, 1.0, -0.0055, 0.0, 0.045},
+      {LiaType::kBow, 0.0, 0.3, 1.0, 0.0, 0.05, 2.0 * 0.05},
+      {LiaType::kBow, 0.0, 0.3, 1.0, 0.0, 0.2, 0.1 * 3.0 - 0.2},
+      {LiaType::kBow, 0.0, 0.3, 1.0, 0.0, 0.31, 0.0},
+      {LiaType::kSmoothBow, 0.0, 0.3, 1.0, 0.0, -0.15, smooth},
   };
-  EXPECT_EQ(forceOf(LiaType::kContact, set, -0.0101, 1.0), 0.0);
-  EXPECT_NEAR(forceOf(LiaType::kContact, set, -0.005, 1.0), 0.5 + 3.0, 1e-9);
-}
-
-TEST(LawsTest, PolynomialSpringsAreOdd) {
-  const auto set = [](Lia& lia) {
-    lia.stiffness = {100.0};
-    lia.law.edit().nonlinearity = {5000.0};
-  };
-  for (const double e : {0.02, -0.02}) {
-    const double sign = e > 0.0 ? 1.0 : -1.0;
-    EXPECT_NEAR(forceOf(LiaType::kQuadratic, set, e), sign * (2.0 + 2.0), 1e-9);
-    EXPECT_NEAR(forceOf(LiaType::kCubic, set, e), sign * (2.0 + 0.04), 1e-9);
+  for (const LawRow& row : rows) {
+    const auto set = [&row](Lia& lia) {
+      lia.stiffness = {100.0};
+      lia.damping = {3.0};
+      lia.rest_length = row.rest;
+      lia.law.edit().width = {row.width};
+      lia.law.edit().exponent = {row.exponent};
+    };
+    EXPECT_NEAR(forceOf(row.type, set, row.e, row.v), row.force, 1e-9)
+        << static_cast<int>(row.type) << " " << row.e << " " << row.v;
   }
 }
 
-TEST(LawsTest, ClippedCubicIsContinuousWhereItsStiffnessEnds) {
-  const auto set = [](Lia& lia) {
-    lia.stiffness = {100.0};
-    lia.law.edit().stiffness_limit = {400.0};
-    lia.law.edit().nonlinearity = {3e6};
-    lia.law.edit().tipping_point = std::sqrt(300.0 / 3e6);
+/// Without damping. The clipped one is straight from 0.01 m on.
+TEST(LawsTest, PolynomialSpringsAreOddAndContinuousWhereTheyEnd) {
+  const auto force = [](LiaType type, double e) {
+    const auto set = [](Lia& lia) {
+      lia.stiffness = {100.0};
+      lia.law.edit().stiffness_limit = {400.0};
+      lia.law.edit().nonlinearity = {3e6};
+      lia.law.edit().tipping_point = std::sqrt(300.0 / 3e6);
+    };
+    return forceOf(type, set, e);
   };
-  EXPECT_NEAR(forceOf(LiaType::kClippedCubic, set, 0.005), 0.5 + 0.375, 1e-9);
-  EXPECT_NEAR(forceOf(LiaType::kClippedCubic, set, 0.02), 8.0, 1e-9);
-  EXPECT_NEAR(forceOf(LiaType::kClippedCubic, set, 0.0099999),
-              forceOf(LiaType::kClippedCubic, set, 0.0100001), 1e-3);
-  EXPECT_EQ(forceOf(LiaType::kCubicContact, set, -0.02), 0.0);
-  EXPECT_NEAR(forceOf(LiaType::kCubicContact, set, 0.02), 8.0, 1e-9);
-}
-
-TEST(LawsTest, PluckPushesBackUntilItSlips) {
-  const auto set = [](Lia& lia) {
-    lia.stiffness = {1000.0};
-    lia.law.edit().width = {0.01};
-  };
-  // From below the plectrum is pushed down: the strongest force is at a tenth of the width.
-  EXPECT_EQ(forceOf(LiaType::kPluck, set, -0.0101), 0.0);
-  EXPECT_NEAR(forceOf(LiaType::kPluck, set, -0.001), 0.9, 1e-9);
-  EXPECT_NEAR(forceOf(LiaType::kPluck, set, -0.0005), 0.45, 1e-9);
-  EXPECT_NEAR(forceOf(LiaType::kPluck, set, 0.001), -0.9, 1e-9);
-  EXPECT_NEAR(forceOf(LiaType::kPluck, set, -0.0055), 0.45, 1e-9);
-}
-
-TEST(LawsTest, BowsDragWithTheirCurve) {
-  const auto set = [](Lia& lia) {
-    lia.damping = {3.0};
-    lia.law.edit().width = {0.3};
-  };
-  EXPECT_NEAR(forceOf(LiaType::kBow, set, 0.0, 0.05), 2.0 * 0.05, 1e-9);
-  EXPECT_NEAR(forceOf(LiaType::kBow, set, 0.0, 0.2), 0.1 * 3.0 - 0.2, 1e-9);
-  EXPECT_EQ(forceOf(LiaType::kBow, set, 0.0, 0.31), 0.0);
-  EXPECT_NEAR(forceOf(LiaType::kSmoothBow, set, 0.0, -0.15),
-              -0.63 * 3.0 * 0.15 * std::exp(-4.0 * 0.25 + 0.5), 1e-9);
+  for (const double sign : {1.0, -1.0}) {
+    EXPECT_NEAR(force(LiaType::kQuadratic, sign * 0.02), sign * (2.0 + 1200.0), 1e-9);
+    EXPECT_NEAR(force(LiaType::kCubic, sign * 0.02), sign * (2.0 + 24.0), 1e-9);
+    EXPECT_NEAR(force(LiaType::kClippedCubic, sign * 0.005), sign * (0.5 + 0.375), 1e-9);
+    EXPECT_NEAR(force(LiaType::kClippedCubic, sign * 0.02), sign * 8.0, 1e-9);
+  }
+  EXPECT_NEAR(force(LiaType::kClippedCubic, 0.0099999), force(LiaType::kClippedCubic, 0.0100001),
+              1e-3);
+  EXPECT_EQ(force(LiaType::kCubicContact, -0.02), 0.0);
+  EXPECT_NEAR(force(LiaType::kCubicContact, 0.02), 8.0, 1e-9);
 }
 
 TEST(LawsTest, TablesAreStraightLinesBetweenTheirPoints) {
@@ -106,19 +102,6 @@ TEST(LawsTest, TablesAreStraightLinesBetweenTheirPoints) {
     EXPECT_EQ(at(0.41), 0.0);
     EXPECT_EQ(at(-0.21), 0.0);
   }
-}
-
-TEST(LawsTest, PowerContactPushesWithItsExponentBeyondItsThreshold) {
-  const auto set = [](Lia& lia) {
-    lia.stiffness = {1000.0};
-    lia.damping = {3.0};
-    lia.law.edit().width = {0.02};
-    lia.law.edit().exponent = {2.3};
-  };
-  EXPECT_EQ(forceOf(LiaType::kPowerContact, set, -0.0201, 1.0), 0.0);
-  EXPECT_NEAR(forceOf(LiaType::kPowerContact, set, 0.01), 1000.0 * std::pow(0.03, 2.3), 1e-9);
-  EXPECT_NEAR(forceOf(LiaType::kPowerContact, set, -0.015, -0.5),
-              1000.0 * std::pow(0.005, 2.3) - 1.5, 1e-9);
 }
 
 TEST(LawsTest, ElasticAndViscousTablesAddUp) {

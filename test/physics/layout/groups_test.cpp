@@ -82,6 +82,21 @@ TEST(GroupsTest, LinksJoinWhatRunsAndNothingToWhatIsHeld) {
   EXPECT_EQ(sections.told({44100.0, 1}), "abcde : ") << "nothing is held where a tick is one frame";
 }
 
+TEST(GroupsTest, WhatIsHeardBetweenTwoSectionsOrFollowsAudioJoinsThem) {
+  Sections heard({1, 1, 1});
+  heard.b.hear(0);
+  heard.b.scene.outputs[0].point.next = 2;
+  EXPECT_EQ(heard.told(), "ac b : ");
+  Sections followers({1, 1, 1});
+  followers.b.scene.audio_parameters.push_back({"audio", 0, 1.0, {}});
+  for (const int m : {1, 2}) {
+    Lia& lia =
+        followers.b.scene.lias[at(followers.b.spring(m, followers.b.ground(0.0, 2 + m), 1.0))];
+    lia.stiffness.audio = 0;
+  }
+  EXPECT_EQ(followers.told(), "a bc : ");
+}
+
 TEST(GroupsTest, EachGroupSeesHeldModulesInSlotsOfItsOwn) {
   Sections sections({1, 1, 0});
   sections.b.spring(0, 2, 1.0);

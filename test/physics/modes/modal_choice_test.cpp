@@ -244,15 +244,6 @@ class ModalCacheTest : public ::testing::Test {
   ModalMatrix matrix_{3, {{0, 0, 2.0}, {1, 0, -1.0}, {1, 1, 2.0}, {2, 1, -1.0}, {2, 2, 2.0}}};
 };
 
-TEST_F(ModalCacheTest, ModesAreThoseOfTheMatrix) {
-  const auto found = modes();
-  EXPECT_NEAR(found->values[0], 2.0 - std::sqrt(2.0), 1e-14);
-  EXPECT_NEAR(found->values[1], 2.0, 1e-14);
-  EXPECT_NEAR(found->values[2], 2.0 + std::sqrt(2.0), 1e-14);
-  EXPECT_NEAR((found->vectors.transpose() * found->vectors - Eigen::Matrix3d::Identity()).norm(),
-              0.0, 1e-14);
-}
-
 TEST_F(ModalCacheTest, SecondTimeTheyComeFromTheFileBitForBit) {
   const auto first = modes();
   std::string changed = bytes();

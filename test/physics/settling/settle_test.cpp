@@ -127,13 +127,6 @@ int chosen(const scene::Scene& scene, int ratio, int section = 2) {
   return settle(scene, {kRate, ratio}).scene.sections[at(section)].divisor;
 }
 
-TEST(AutomaticRateTest, RaiseIsTheClosedFormOfTheScheme) {
-  EXPECT_NEAR(raisedCents(1e-4), 72.1e-4, 1e-5);
-  EXPECT_NEAR(raisedCents(4.0), 1200.0 * std::log2(kPi / 2.0), 1e-9);
-  EXPECT_EQ(raisedCents(0.0), 0.0);
-  EXPECT_LT(raisedCents(kSlowEnough), 3.0);
-}
-
 TEST(AutomaticRateTest, HighestModeDecidesAtBothSidesOfTheThreshold) {
   EXPECT_EQ(chosen(oscillator(0.0399, 14).scene, 14), 14);
   EXPECT_EQ(chosen(oscillator(0.0401, 14).scene, 14), 7);

@@ -96,78 +96,48 @@ TEST(ReadMdlTest, OutputsTapPositionAndForce) {
   EXPECT_EQ(s.outputChannels(), 4);
 }
 
-TEST(ReadMdlTest, LinearLinksAreSpringDampers) {
-  const Lia spring = linkOf("@l spring @a @b 0.5\n");
-  EXPECT_EQ(spring.type, LiaType::kSpringDamper);
-  EXPECT_EQ(spring.name, "l");
-  EXPECT_EQ(spring.a, 0);
-  EXPECT_EQ(spring.b, 1);
-  EXPECT_EQ(spring.stiffness.factor, 0.5);
-  EXPECT_EQ(spring.damping.factor, 0.0);
-  const Lia damper = linkOf("@l damper @b @a 0.5\n");
-  EXPECT_EQ(damper.a, 1);
-  EXPECT_EQ(damper.stiffness.factor, 0.0);
-  EXPECT_EQ(damper.damping.factor, 0.5);
-  const Lia both = linkOf("@l springDamper @a @b 0.5 0.25\n");
-  EXPECT_EQ(both.type, LiaType::kSpringDamper);
-  EXPECT_EQ(both.stiffness.factor, 0.5);
-  EXPECT_EQ(both.damping.factor, 0.25);
-}
+struct ReadLink {
+  const char* text;
+  LiaType type;
+  double stiffness;
+  double damping;
+  double nonlinearity = 0.0;
+  double stiffness_limit = 0.0;
+  double width = 0.0;
+};
 
-TEST(ReadMdlTest, ContactsTakeAnOptionalThreshold) {
-  const Lia plain = linkOf("@l contact @a @b 1 2\n");
-  EXPECT_EQ(plain.type, LiaType::kContact);
-  EXPECT_EQ(plain.stiffness.factor, 1.0);
-  EXPECT_EQ(plain.damping.factor, 2.0);
-  EXPECT_EQ(plain.law->width.factor, 0.0);
-  EXPECT_EQ(linkOf("@l contact @a @b 1 2 -0.5\n").law->width.factor, -0.5);
-  const Lia cubic = linkOf("@l nlContact @a @b 1 2 3 4 0.5\n");
-  EXPECT_EQ(cubic.type, LiaType::kCubicContact);
-  EXPECT_EQ(cubic.stiffness.factor, 1.0);
-  EXPECT_EQ(cubic.law->nonlinearity.factor, 2.0);
-  EXPECT_EQ(cubic.law->stiffness_limit.factor, 3.0);
-  EXPECT_EQ(cubic.damping.factor, 4.0);
-  EXPECT_EQ(cubic.law->width.factor, 0.5);
-  EXPECT_EQ(linkOf("@l nlContact @a @b 1 2 3 4\n").law->width.factor, 0.0);
-}
-
-TEST(ReadMdlTest, NonlinearSpringsKeepTheOrderOfTheirArguments) {
-  const Lia square = linkOf("@l nlSpring2 @a @b 1 2 3\n");
-  EXPECT_EQ(square.type, LiaType::kQuadratic);
-  EXPECT_EQ(square.stiffness.factor, 1.0);
-  EXPECT_EQ(square.law->nonlinearity.factor, 2.0);
-  EXPECT_EQ(square.damping.factor, 3.0);
-  EXPECT_EQ(linkOf("@l nlSpring3 @a @b 1 -2 3\n").type, LiaType::kCubic);
-  EXPECT_EQ(linkOf("@l nlSpring3 @a @b 1 -2 3\n").law->nonlinearity.factor, -2.0);
-  const Lia clipped = linkOf("@l nlSpringDamper @a @b 1 2 3 4\n");
-  EXPECT_EQ(clipped.type, LiaType::kClippedCubic);
-  EXPECT_EQ(clipped.law->nonlinearity.factor, 2.0);
-  EXPECT_EQ(clipped.law->stiffness_limit.factor, 3.0);
-  EXPECT_EQ(clipped.damping.factor, 4.0);
-}
-
-TEST(ReadMdlTest, ClippedLawThatStartsAtItsLimitIsStraight) {
-  const Lia contact = linkOf("@l nlContact @a @b 3 2 3 4\n");
-  EXPECT_EQ(contact.type, LiaType::kContact);
-  EXPECT_EQ(contact.stiffness.factor, 3.0);
-  EXPECT_EQ(contact.damping.factor, 4.0);
-  EXPECT_EQ(contact.law->limit_damping.factor, 0.0);
-}
-
-TEST(ReadMdlTest, PluckAndBowTakeTheirOptionalArguments) {
-  const Lia pluck = linkOf("@l nlPluck @a @b 1 0.1\n");
-  EXPECT_EQ(pluck.type, LiaType::kPluck);
-  EXPECT_EQ(pluck.stiffness.factor, 1.0);
-  EXPECT_EQ(pluck.law->width.factor, 0.1);
-  EXPECT_EQ(pluck.damping.factor, 0.0);
-  EXPECT_EQ(linkOf("@l nlPluck @a @b 1 0.1 0.2\n").damping.factor, 0.2);
-  const Lia bow = linkOf("@l nlBow @a @b 0.3 0.01\n");
-  EXPECT_EQ(bow.type, LiaType::kBow);
-  EXPECT_EQ(bow.damping.factor, 0.3);
-  EXPECT_EQ(bow.law->width.factor, 0.01);
-  EXPECT_EQ(linkOf("@l nlBow @a @b 0.3 0.01 0\n").type, LiaType::kBow);
-  EXPECT_EQ(linkOf("@l nlBow @a @b 0.3 0.01 1\n").type, LiaType::kSmoothBow);
-  EXPECT_EQ(linkOf("@l nlBow @a @b 0.3 0.01 1\n").law->width.factor, 0.01);
+TEST(ReadMdlTest, LinksTakeTheirArgumentsInOrderAndOptionalOnes) {
+  const ReadLink links[] = {
+      {"spring @a @b 0.5", LiaType::kSpringDamper, 0.5, 0.0},
+      {"damper @a @b 0.5", LiaType::kSpringDamper, 0.0, 0.5},
+      {"springDamper @a @b 0.5 0.25", LiaType::kSpringDamper, 0.5, 0.25},
+      {"contact @a @b 1 2", LiaType::kContact, 1.0, 2.0},
+      {"contact @a @b 1 2 -0.5", LiaType::kContact, 1.0, 2.0, 0.0, 0.0, -0.5},
+      {"nlContact @a @b 1 2 3 4", LiaType::kCubicContact, 1.0, 4.0, 2.0, 3.0},
+      {"nlContact @a @b 1 2 3 4 0.5", LiaType::kCubicContact, 1.0, 4.0, 2.0, 3.0, 0.5},
+      {"nlContact @a @b 3 2 3 4", LiaType::kContact, 3.0, 4.0},  // it starts at its limit
+      {"nlSpring2 @a @b 1 2 3", LiaType::kQuadratic, 1.0, 3.0, 2.0},
+      {"nlSpring3 @a @b 1 -2 3", LiaType::kCubic, 1.0, 3.0, -2.0},
+      {"nlSpringDamper @a @b 1 2 3 4", LiaType::kClippedCubic, 1.0, 4.0, 2.0, 3.0},
+      {"nlPluck @a @b 1 0.1", LiaType::kPluck, 1.0, 0.0, 0.0, 0.0, 0.1},
+      {"nlPluck @a @b 1 0.1 0.2", LiaType::kPluck, 1.0, 0.2, 0.0, 0.0, 0.1},
+      {"nlBow @a @b 0.3 0.01", LiaType::kBow, 0.0, 0.3, 0.0, 0.0, 0.01},
+      {"nlBow @a @b 0.3 0.01 0", LiaType::kBow, 0.0, 0.3, 0.0, 0.0, 0.01},
+      {"nlBow @a @b 0.3 0.01 1", LiaType::kSmoothBow, 0.0, 0.3, 0.0, 0.0, 0.01},
+  };
+  for (const ReadLink& link : links) {
+    const Lia read = linkOf(std::string("@l ") + link.text + "\n");
+    EXPECT_EQ(read.name, "l");
+    EXPECT_EQ(read.type, link.type) << link.text;
+    EXPECT_EQ(std::pair(read.a, read.b), std::pair(0, 1)) << link.text;
+    EXPECT_EQ(read.stiffness.factor, link.stiffness) << link.text;
+    EXPECT_EQ(read.damping.factor, link.damping) << link.text;
+    EXPECT_EQ(read.law->nonlinearity.factor, link.nonlinearity) << link.text;
+    EXPECT_EQ(read.law->stiffness_limit.factor, link.stiffness_limit) << link.text;
+    EXPECT_EQ(read.law->limit_damping.factor > 0.0, link.stiffness_limit > 0.0) << link.text;
+    EXPECT_EQ(read.law->width.factor, link.width) << link.text;
+  }
+  EXPECT_EQ(linkOf("@l damper @b @a 0.5\n").a, 1);
 }
 
 TEST(ReadMdlTest, ExpressionsFollowTheUsualPrecedence) {

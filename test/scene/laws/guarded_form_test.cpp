@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/laws/guarded_form.hpp"
+
+#include "support/test.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+GuardedLaw<double> lawOf(LiaType type) {
+  Lia lia;
+  lia.type = type;
+  lia.stiffness = {3.0};
+  lia.law.edit().nonlinearity = {5.0};
+  lia.law.edit().stiffness_limit = {9.0};
+  lia.law.edit().tipping_point = std::sqrt((9.0 - 3.0) / 5.0);
+  lia.law.edit().exponent = {1.7};
+  return GuardedLaw<double>::make(Scene{}, lia, Units{});
+}
+
+/// By the midpoint rule.
+double meanOf(const GuardedLaw<double>& law, double p, double w) {
+  constexpr int kParts = 20000;
+  double sum = 0.0;
+  for (int i = 0; i < kParts; ++i) {
+    const double t = (2.0 * i + 1.0) / kParts - 1.0;
+    sum += p + w * t > 0.0 ? (1.0 - std::abs(t)) * law.push(p + w * t).force : 0.0;
+  }
+  return sum * 2.0 / kParts;
+}
+
+TEST(GuardedFormTest, SlopePotentialAndMeanAreThoseOfThePush) {
+  constexpr double kStep = 1e-5;
+  for (const LiaType type :
+       {LiaType::kSpringDamper, LiaType::kQuadratic, LiaType::kCubic, LiaType::kClippedCubic,
+        LiaType::kContact, LiaType::kPowerContact, LiaType::kCubicContact, LiaType::kFelt}) {
+    const GuardedLaw<double> law = lawOf(type);
+    const std::string what = std::to_string(static_cast<int>(type));
+    for (const double p : {0.2, 0.7, 1.6}) {
+      const double force = law.push(p).force;
+      const double rise = law.push(p + kStep).force - law.push(p - kStep).force;
+      EXPECT_NEAR(law.push(p).slope, rise / (2.0 * kStep), 1e-7 * force) << what << " " << p;
+      EXPECT_NEAR((law.potential(p + kStep) - law.potential(p - kStep)) / (2.0 * kStep), force,
+                  1e-7 * force)
+          << what << " " << p;
+      for (const double w : {0.03, -0.5, 2.0}) {
+        if (law.isContact()) {
+          EXPECT_NEAR(law.meanPush(p, w), meanOf(law, p, w), 1e-5 * force) << what << " " << p;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ergotic::scene

@@ -11,7 +11,7 @@ if(tool_library_sources)
   target_link_libraries(ergotic_tool_support
     PUBLIC ergotic_advice ergotic_audio CLI11::CLI11 nlohmann_json::nlohmann_json
     PRIVATE ergotic_flags)
-  ergotic_precompile(ergotic_tool_support)
+  ergotic_precompile(ergotic_tool_support <nlohmann/json.hpp>)
   # What measures is of its own: who only plays need not wait for it.
   add_library(ergotic_measuring STATIC ${measuring_sources})
   target_link_libraries(ergotic_measuring PUBLIC ergotic_tool_support PRIVATE ergotic_flags)

@@ -20,18 +20,6 @@ using scene::SceneBuilder;
 constexpr int kMassesOfString = 100;
 constexpr int kModulesOfString = 2 * kMassesOfString + 1;
 
-Scene finish(SceneBuilder& builder) {
-  Dice dice(1);
-  stir(builder.scene(), dice);
-  return physics::settle(builder.finish(), benchRates()).scene;
-}
-
-Scene finishScattered(SceneBuilder& builder) {
-  Dice dice(2);
-  scatterCoefficients(builder.scene(), dice);
-  return finish(builder);
-}
-
 int stringsIn(int modules) {
   return std::max(1, (modules + kModulesOfString / 2) / kModulesOfString);
 }
@@ -79,52 +67,20 @@ Size fixedPlateSize(int modules, bool diagonals) {
   });
 }
 
-SceneBuilder plate(const char* name, int modules, bool diagonals) {
-  SceneBuilder builder = benchBuilder(name);
-  addMesh(builder, plateSpec("plate", fixedPlateSize(modules, diagonals), diagonals));
-  return builder;
+template <bool kDiagonals>
+void addPlate(SceneBuilder& builder, int modules) {
+  addMesh(builder, plateSpec("plate", fixedPlateSize(modules, kDiagonals), kDiagonals));
 }
 
-Scene chain(int modules) {
-  SceneBuilder builder = benchBuilder("chain");
+void chain(SceneBuilder& builder, int modules) {
   addStrings(builder, 1, std::max(1, (modules - 1) / 2));
-  return finish(builder);
 }
 
-Scene strings(int modules) {
-  SceneBuilder builder = benchBuilder("strings");
+void strings(SceneBuilder& builder, int modules) {
   addStrings(builder, stringsIn(modules));
-  return finishScattered(builder);
 }
 
-Scene stringsHom(int modules) {
-  SceneBuilder builder = benchBuilder("strings_hom");
-  addStrings(builder, stringsIn(modules));
-  return finish(builder);
-}
-
-Scene plate4(int modules) {
-  SceneBuilder builder = plate("plate4", modules, false);
-  return finish(builder);
-}
-
-Scene plate8(int modules) {
-  SceneBuilder builder = plate("plate8", modules, true);
-  return finish(builder);
-}
-
-Scene plate4Het(int modules) {
-  SceneBuilder builder = plate("plate4_het", modules, false);
-  return finishScattered(builder);
-}
-
-Scene plate8Het(int modules) {
-  SceneBuilder builder = plate("plate8_het", modules, true);
-  return finishScattered(builder);
-}
-
-Scene plate8Free(int modules) {
-  SceneBuilder builder = benchBuilder("plate8_free");
+void plate8Free(SceneBuilder& builder, int modules) {
   const Size size = sizeFor(modules, 4, [](int rows, int columns) {
     return rows * columns + rows * (columns - 1) + columns * (rows - 1) +
            2 * (rows - 1) * (columns - 1);
@@ -132,15 +88,13 @@ Scene plate8Free(int modules) {
   scene::MeshSpec spec = plateSpec("plate", size, true);
   spec.edges = MeshEdges::kFree;
   addMesh(builder, spec);
-  return finish(builder);
 }
 
 /// Bending: springs that push, to the neighbours of the neighbours along rows and columns.
-Scene plateBending(int modules) {
+void plateBending(SceneBuilder& builder, int modules) {
   const Size size = sizeFor(modules, 6, [](int rows, int columns) {
     return fixedPlateModules(rows, columns, true) + 2 * (rows - 2) * (columns - 2);
   });
-  SceneBuilder builder = benchBuilder("plate_bending");
   addMesh(builder, plateSpec("plate", size, true));
   const auto isFixed = [&builder](int mat) {
     return builder.scene().mats[static_cast<std::size_t>(mat)].type == scene::MatType::kGround;
@@ -161,43 +115,29 @@ Scene plateBending(int modules) {
       }
     }
   }
-  return finish(builder);
 }
 
-Scene triangulated(int modules) {
-  SceneBuilder builder = benchBuilder("triangulated");
+void triangulated(SceneBuilder& builder, int modules) {
   Dice dice(3);
   addTriangulation(builder, modules, dice);
-  return finish(builder);
 }
 
-Scene randomGraph(int modules) {
-  SceneBuilder builder = benchBuilder("random");
+void randomGraph(SceneBuilder& builder, int modules) {
   Dice dice(4);
   addRandomGraph(builder, modules, dice);
-  return finish(builder);
 }
 
-Scene net3d(int modules) {
-  SceneBuilder builder = benchBuilder("net3d", scene::Geometry::kSpace);
+void net3d(SceneBuilder& builder, int modules) {
   scene::MeshSpec spec = plateSpec("net", fixedPlateSize(modules, false), false);
   spec.rest_length_ratio = 0.2;
   addMesh(builder, spec);
-  return finish(builder);
-}
-
-Scene scalar3d(int modules) {
-  SceneBuilder builder = benchBuilder("scalar3d");
-  addCube(builder, modules);
-  return finish(builder);
 }
 
 /// A plate over stops that every tenth of its masses lies on.
-Scene contacts(int modules) {
+void contacts(SceneBuilder& builder, int modules) {
   const Size size = sizeFor(modules, 4, [](int rows, int columns) {
     return fixedPlateModules(rows, columns, false) + (rows - 2) * (columns - 2) / 10;
   });
-  SceneBuilder builder = benchBuilder("contacts");
   addMesh(builder, plateSpec("plate", size, false));
   int inner = 0;
   const int mats = static_cast<int>(builder.scene().mats.size());
@@ -207,7 +147,6 @@ Scene contacts(int modules) {
       addContact(builder, addModule(builder, mat.rest, false), i, benchStiffness(0.04));
     }
   }
-  return finish(builder);
 }
 
 /// Hears the velocity of masses spread over the scene.
@@ -268,14 +207,13 @@ void addPlayedPoint(SceneBuilder& builder, int hands, double across) {
   builder.scene().lias.back().scheme = scene::Scheme::kAuto;
 }
 
-Scene station7k(int modules) {
-  SceneBuilder builder = plate("station7k", modules, true);
+void station7k(SceneBuilder& builder, int modules) {
+  addPlate<true>(builder, modules);
   hear(builder, 24);
   const int hands = addGesturalSection(builder);
   for (int i = 0; i < 6; ++i) {
     addPlayedPoint(builder, hands, 0.2 + 0.12 * i);
   }
-  return finish(builder);
 }
 
 /// A hammer on a spring that strikes a mass, the first from `struck` on, from below.
@@ -290,10 +228,9 @@ void addHammer(SceneBuilder& builder, int hands, int struck) {
   addContact(builder, hammer, struck, {500.0});
 }
 
-Scene mixed200k(int modules) {
+void mixed200k(SceneBuilder& builder, int modules) {
   constexpr int kPlates = 4;
   constexpr int kHammers = 12;
-  SceneBuilder builder = benchBuilder("mixed200k");
   addStrings(builder, stringsIn(modules / 2));
   // Instruments of their own, that only hands at the gestural rate join.
   for (int p = 0; p < kPlates; ++p) {
@@ -308,27 +245,38 @@ Scene mixed200k(int modules) {
   for (int i = 0; i < kHammers; ++i) {
     addHammer(builder, hands, static_cast<int>(mats * (i + 0.31) / kHammers));
   }
-  return finish(builder);
 }
 
 }  // namespace
+
+Scene BenchKind::make(int size) const {
+  SceneBuilder builder = benchBuilder(name, geometry);
+  add(builder, size);
+  if (is_scattered) {
+    Dice dice(2);
+    scatterCoefficients(builder.scene(), dice);
+  }
+  Dice dice(1);
+  stir(builder.scene(), dice);
+  return physics::settle(builder.finish(), benchRates()).scene;
+}
 
 const std::vector<BenchKind>& benchKinds() {
   static const std::vector<BenchKind> kinds{
       {"chain", "one long string", 7000, true, chain},
       {"strings", "strings of 100 masses, every element different", 64 * kModulesOfString, true,
-       strings},
-      {"strings_hom", "strings of 100 equal masses", 64 * kModulesOfString, true, stringsHom},
-      {"plate4", "4 neighbours, fixed edges", 7000, true, plate4},
-      {"plate8", "8 neighbours, fixed edges", 7000, true, plate8},
-      {"plate4_het", "4 neighbours, every element different", 7000, true, plate4Het},
-      {"plate8_het", "8 neighbours, every element different", 7000, true, plate8Het},
+       strings, true},
+      {"strings_hom", "strings of 100 equal masses", 64 * kModulesOfString, true, strings},
+      {"plate4", "4 neighbours, fixed edges", 7000, true, addPlate<false>},
+      {"plate8", "8 neighbours, fixed edges", 7000, true, addPlate<true>},
+      {"plate4_het", "4 neighbours, every element different", 7000, true, addPlate<false>, true},
+      {"plate8_het", "8 neighbours, every element different", 7000, true, addPlate<true>, true},
       {"plate8_free", "8 neighbours, free edges", 7000, true, plate8Free},
       {"plate_bending", "8 neighbours and those after the next", 7000, true, plateBending},
       {"triangulated", "irregular triangles", 7000, true, triangulated},
       {"random", "links between any two, 4 per mass", 7000, true, randomGraph},
-      {"net3d", "a net that moves in space", 7000, true, net3d},
-      {"scalar3d", "a cubic lattice", 7000, true, scalar3d},
+      {"net3d", "a net that moves in space", 7000, true, net3d, false, scene::Geometry::kSpace},
+      {"scalar3d", "a cubic lattice", 7000, true, addCube},
       {"contacts", "a plate, every tenth mass on a stop", 7000, true, contacts},
       {"station7k", "a plate with 12 slices at 6 moving places, 24 outputs", 7000, false,
        station7k},

@@ -6,6 +6,7 @@
 
 #include "ergotic/physics/rates.hpp"
 #include "ergotic/scene/scene.hpp"
+#include "scene/generate/scene_builder.hpp"
 
 namespace ergotic::tools {
 
@@ -15,8 +16,13 @@ struct BenchKind {
   const char* what;  ///< in a few words
   int modules;       ///< how many if nobody asks
   bool is_plain;     ///< the plain implementation can play it
-  /// A valid scene that moves from the start, as near to that many modules as its shape allows.
-  scene::Scene (*make)(int modules);
+  /// Adds as near to that many modules as its shape allows.
+  void (*add)(scene::SceneBuilder& builder, int modules);
+  bool is_scattered = false;  ///< every element gets coefficients of its own
+  scene::Geometry geometry = scene::Geometry::kScalar;
+
+  /// A valid scene of that size that moves from the start.
+  scene::Scene make(int size) const;
 };
 
 const std::vector<BenchKind>& benchKinds();

@@ -12,6 +12,7 @@
 #include "ergotic/physics/engine/instrument.hpp"
 #include "ergotic/physics/settling/settle.hpp"
 #include "ergotic/scene/generate/pitch.hpp"
+#include "scene/laws/law.hpp"
 #include "tools/lib/check_filters.hpp"
 #include "tools/lib/check_names.hpp"
 #include "tools/lib/check_ports.hpp"
@@ -36,7 +37,7 @@ Json linksOf(const Scene& scene) {
   std::map<std::string, std::size_t> by_scheme;
   std::size_t between_sections = 0;
   for (const scene::Lia& lia : scene.lias) {
-    ++by_type[nameOf(lia.type)];
+    ++by_type[scene::lawOf(lia.type).name];
     ++by_scheme[lia.scheme == scene::Scheme::kGuarded ? "guarded" : "explicit"];
     const bool across = matAt(scene, lia.a).section != matAt(scene, lia.b).section;
     between_sections += across ? 1 : 0;
@@ -73,7 +74,7 @@ Json pointsOf(const Scene& scene) {
 template <class Tap>
 Json tap(const Scene& scene, const Tap& tap, const scene::Mat& mat) {
   return {{"name", tap.name},
-          {"quantity", nameOf(tap.quantity)},
+          {"quantity", tap.quantity},
           {"module", mat.name},
           {"channel", tap.channel + 1},
           {"gain", scene.valueOf(tap.gain)}};

@@ -2,13 +2,26 @@
 #pragma once
 
 #include "ergotic/scene/scene.hpp"
+#include "tools/lib/report.hpp"
 
-/// What the elements of a scene are called in reports.
-namespace ergotic::tools {
+/// What the elements of a scene are called in reports. Laws have their names themselves.
+namespace ergotic::scene {
 
-const char* nameOf(scene::MatType type);
-const char* nameOf(scene::LiaType type);
-const char* nameOf(scene::Quantity quantity);
-const char* nameOf(scene::Geometry geometry);
+NLOHMANN_JSON_SERIALIZE_ENUM(MatType,
+                             {{MatType::kMass, "mass"},
+                              {MatType::kGround, "ground"},
+                              {MatType::kCell, "cell"},
+                              {MatType::kDriven, "driven"},
+                              {MatType::kSlice, "slice"},
+                              {MatType::kPoint, "point"}})
+NLOHMANN_JSON_SERIALIZE_ENUM(Quantity,
+                             {{Quantity::kPosition, "position"},
+                              {Quantity::kVelocity, "velocity"},
+                              {Quantity::kForce, "force"}})
+NLOHMANN_JSON_SERIALIZE_ENUM(Geometry,
+                             {{Geometry::kScalar, "scalar"},
+                              {Geometry::kLine, "1D"},
+                              {Geometry::kPlane, "2D"},
+                              {Geometry::kSpace, "3D"}})
 
-}  // namespace ergotic::tools
+}  // namespace ergotic::scene

@@ -19,25 +19,17 @@ using scene::Scene;
 constexpr double kStableLambda = 4.0;
 
 Json vectorOf(const Eigen::Vector3d& v) {
-  Json report = Json::array();
-  for (const double component : {v.x(), v.y(), v.z()}) {
-    report.push_back(component);
-  }
-  return report;
+  return {v.x(), v.y(), v.z()};
 }
 
 Json modulesOf(const Scene& scene, int section) {
   std::map<std::string, std::size_t> by_type;
   for (const scene::Mat& mat : scene.mats) {
     if (mat.section == section) {
-      ++by_type[nameOf(mat.type)];
+      ++by_type[Json(mat.type).get<std::string>()];
     }
   }
-  Json report = Json::object();
-  for (const auto& [type, count] : by_type) {
-    report[type] = count;
-  }
-  return report;
+  return by_type;
 }
 
 std::string steppingOf(const scene::Section& section) {
@@ -109,7 +101,7 @@ Json sectionsReport(const Scene& scene,
   for (std::size_t s = 0; s < scene.sections.size(); ++s) {
     const scene::Section& section = scene.sections[s];
     Json report = {{"name", section.name},
-                   {"geometry", nameOf(section.geometry)},
+                   {"geometry", section.geometry},
                    {"rate_hz", rates.audio_hz / physics::divisorOf(section, rates)},
                    {"stepped", steppingOf(section)},
                    {"axis", vectorOf(section.pose.linear().col(0))},

@@ -3,6 +3,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -168,38 +169,92 @@ class Reader {
   std::vector<std::string> known_;
 };
 
-template <class T>
-std::string wordOf(const T& value, const std::map<std::string, T>& choices) {
-  for (const auto& [word, meaning] : choices) {
-    if (meaning == value) {
-      return word;
-    }
+/// Writes the same parameters as YAML.
+class Writer {
+ public:
+  explicit Writer(const tgr::StationDevices& devices) {
+    out_ << YAML::BeginMap;
+    entry("device", tgr::toYaml(devices));
   }
-  return "";
+
+  void text(const char* name, const std::string& value) { entry(name, value); }
+  void flag(const char* name, bool value) { entry(name, value); }
+  void number(const char* name, double value, double /*minimum*/, double /*maximum*/) {
+    entry(name, value);
+  }
+  void integer(const char* name, int value, int /*minimum*/, int /*maximum*/) {
+    entry(name, value);
+  }
+  template <class T>
+  void choice(const char* name, const T& value, const std::map<std::string, T>& choices) {
+    const auto found = std::find_if(choices.begin(), choices.end(),
+                                    [&](const auto& choice) { return choice.second == value; });
+    entry(name, found->first);
+  }
+  /// Not "best", which means another one elsewhere.
+  void choice(const char* name, rt::Isa value, const std::map<std::string, rt::Isa>& /*choices*/) {
+    entry(name, nameOf(value));
+  }
+  std::string finish() {
+    out_ << YAML::EndMap;
+    return out_.c_str();
+  }
+
+ private:
+  template <class T>
+  void entry(const char* name, const T& value) {
+    out_ << YAML::Key << name << YAML::Value << value;
+  }
+
+  YAML::Emitter out_;
+};
+
+/// \param on  Reader, or Writer
+template <class Visitor, class Config>
+void visitSafety(Visitor& on, Config& safety) {
+  on.number("force_limit", safety.force_limit_n, 0.0, tgr::kAbsoluteForceLimitN);
+  on.number("ramp", safety.ramp_s, 0.1, 10.0);
+  on.number("resume_ramp", safety.resume_ramp_s, 0.005, 10.0);
+  on.number("slew", safety.slew_n_per_s, 10.0, 1e6);
+  on.number("raw_force_limit", safety.raw_force_limit_n, 1.0, 1e6);
+  on.number("energy_limit", safety.energy_limit_j, 0.001, 100.0);
+  on.number("energy_cap", safety.energy_cap_j, 0.001, 10.0);
+  on.number("energy_supply", safety.energy_supply_w, 0.0, 20.0);
+  on.number("slice_mass", safety.slice_mass_kg, 0.01, 100.0);
+  on.flag("passivity_controller", safety.passivity_controller);
+  on.number("position_limit", safety.position_limit_m, 0.001, 1.0);
+  on.number("max_speed", safety.max_speed_m_per_s, 0.1, 100.0);
+  on.number("frozen", safety.frozen_s, 0.0, 10.0);
+  on.integer("max_missing", safety.max_missing, 0, 1000);
 }
 
-void readSafety(Reader& read, Parameters& p) {
-  tgr::SafetyConfig& safety = p.safety;
-  read.number("force_limit", safety.force_limit_n, 0.0, tgr::kAbsoluteForceLimitN);
-  read.number("ramp", safety.ramp_s, 0.1, 10.0);
-  read.number("resume_ramp", safety.resume_ramp_s, 0.005, 10.0);
-  read.number("slew", safety.slew_n_per_s, 10.0, 1e6);
-  read.number("raw_force_limit", safety.raw_force_limit_n, 1.0, 1e6);
-  read.number("energy_limit", safety.energy_limit_j, 0.001, 100.0);
-  read.number("energy_cap", safety.energy_cap_j, 0.001, 10.0);
-  read.number("energy_supply", safety.energy_supply_w, 0.0, 20.0);
-  read.number("slice_mass", safety.slice_mass_kg, 0.01, 100.0);
-  read.flag("passivity_controller", safety.passivity_controller);
-  read.number("position_limit", safety.position_limit_m, 0.001, 1.0);
-  read.number("max_speed", safety.max_speed_m_per_s, 0.1, 100.0);
-  safety.frozen_s = kFrozenS;
-  read.number("frozen", safety.frozen_s, 0.0, 10.0);
-  read.integer("max_missing", safety.max_missing, 0, 1000);
-  read.number("max_stall", p.max_stall, 0.001, 1.0);
-  read.number("watchdog", p.watchdog, 0.004, 1.0);
-  read.choice("presence", p.presence, kPresence);
-  read.flag("require_master", p.require_master);
-  read.flag("allow_fault_injection", p.allow_fault_injection);
+/// All but the model and what makes the devices. \param p  parameters, constant for a Writer
+template <class Visitor, class P>
+void visitParameters(Visitor& on, P& p) {
+  on.number("audio_rate", p.audio_rate, 8000.0, 192000.0);
+  on.number("gestural_rate", p.gestural_rate, 0.0, 192000.0);
+  on.choice("precision", p.compile.precision, kPrecisions);
+  on.choice("isa", p.compile.isa, isas());
+  on.integer("threads", p.compile.threads, 1, physics::kMaxThreads);
+  on.flag("energies", p.compile.metered);
+  on.choice("jack", p.jack, kJack);
+  on.text("jack_name", p.jack_name);
+  on.number("jack_wait", p.jack_wait, 0.0, 60.0);
+  on.flag("jack_connect", p.jack_connect);
+  on.integer("ring_depth", p.ring_depth, 1, station::AudioBridge::kMaxLatencyFrames);
+  visitSafety(on, p.safety);
+  on.number("max_stall", p.max_stall, 0.001, 1.0);
+  on.number("watchdog", p.watchdog, 0.004, 1.0);
+  on.choice("presence", p.presence, kPresence);
+  on.flag("require_master", p.require_master);
+  on.flag("allow_fault_injection", p.allow_fault_injection);
+  on.integer("priority", p.priority, 1, 99);
+  on.integer("cpu", p.cpu, -1, 1023);
+  on.choice("realtime", p.realtime, kRealtime);
+  on.flag("allow_unproven", p.allow_unproven);
+  on.flag("autoengage", p.autoengage);
+  on.number("display_rate", p.display_rate, 1.0, 60.0);
+  on.number("display_zoom", p.display_zoom, 0.0, 1e6);
 }
 
 /// A path, or a text of more than one line.
@@ -263,26 +318,9 @@ Parameters readParameters(const Value& values, const std::string& node) {
   read.text("gesture", p.gesture);
   read.text("virtual_shared_memory", p.virtual_shared_memory);
   read.text("end_effectors", p.end_effectors);
-  read.number("audio_rate", p.audio_rate, 8000.0, 192000.0);
-  read.number("gestural_rate", p.gestural_rate, 0.0, 192000.0);
-  read.choice("precision", p.compile.precision, kPrecisions);
-  read.choice("isa", p.compile.isa, isas());
-  read.integer("threads", p.compile.threads, 1, physics::kMaxThreads);
   p.compile.wait_limit_ns = physics::kLiveWaitNs;
-  read.flag("energies", p.compile.metered);
-  read.choice("jack", p.jack, kJack);
-  read.text("jack_name", p.jack_name);
-  read.number("jack_wait", p.jack_wait, 0.0, 60.0);
-  read.flag("jack_connect", p.jack_connect);
-  read.integer("ring_depth", p.ring_depth, 1, station::AudioBridge::kMaxLatencyFrames);
-  readSafety(read, p);
-  read.integer("priority", p.priority, 1, 99);
-  read.integer("cpu", p.cpu, -1, 1023);
-  read.choice("realtime", p.realtime, kRealtime);
-  read.flag("allow_unproven", p.allow_unproven);
-  read.flag("autoengage", p.autoengage);
-  read.number("display_rate", p.display_rate, 1.0, 60.0);
-  read.number("display_zoom", p.display_zoom, 0.0, 1e6);
+  p.safety.frozen_s = kFrozenS;
+  visitParameters(read, p);
   read.refuseUnread();
   return p;
 }
@@ -303,51 +341,9 @@ tgr::StationDevices readDevices(const Parameters& p) {
 }
 
 std::string toYaml(const Parameters& p, const tgr::StationDevices& devices) {
-  YAML::Emitter out;
-  const auto entry = [&out](const char* name, const auto& value) {
-    out << YAML::Key << name << YAML::Value << value;
-  };
-  out << YAML::BeginMap;
-  entry("device", tgr::toYaml(devices));
-  entry("audio_rate", p.audio_rate);
-  entry("gestural_rate", p.gestural_rate);
-  entry("precision", nameOf(p.compile.precision));
-  entry("isa", nameOf(p.compile.isa));
-  entry("threads", p.compile.threads);
-  entry("energies", p.compile.metered);
-  entry("jack", wordOf(p.jack, kJack));
-  entry("jack_name", p.jack_name);
-  entry("jack_wait", p.jack_wait);
-  entry("jack_connect", p.jack_connect);
-  entry("ring_depth", p.ring_depth);
-  entry("force_limit", p.safety.force_limit_n);
-  entry("ramp", p.safety.ramp_s);
-  entry("resume_ramp", p.safety.resume_ramp_s);
-  entry("slew", p.safety.slew_n_per_s);
-  entry("raw_force_limit", p.safety.raw_force_limit_n);
-  entry("energy_limit", p.safety.energy_limit_j);
-  entry("energy_cap", p.safety.energy_cap_j);
-  entry("energy_supply", p.safety.energy_supply_w);
-  entry("slice_mass", p.safety.slice_mass_kg);
-  entry("passivity_controller", p.safety.passivity_controller);
-  entry("position_limit", p.safety.position_limit_m);
-  entry("max_speed", p.safety.max_speed_m_per_s);
-  entry("frozen", p.safety.frozen_s);
-  entry("max_missing", p.safety.max_missing);
-  entry("max_stall", p.max_stall);
-  entry("watchdog", p.watchdog);
-  entry("presence", wordOf(p.presence, kPresence));
-  entry("require_master", p.require_master);
-  entry("allow_fault_injection", p.allow_fault_injection);
-  entry("priority", p.priority);
-  entry("cpu", p.cpu);
-  entry("realtime", wordOf(p.realtime, kRealtime));
-  entry("allow_unproven", p.allow_unproven);
-  entry("autoengage", p.autoengage);
-  entry("display_rate", p.display_rate);
-  entry("display_zoom", p.display_zoom);
-  out << YAML::EndMap;
-  return out.c_str();
+  Writer write(devices);
+  visitParameters(write, p);
+  return write.finish();
 }
 
 }  // namespace ergotic::node

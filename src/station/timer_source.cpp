@@ -111,11 +111,4 @@ void TimerSource::follow(TickSchedule& schedule) noexcept {
   }
 }
 
-void runFreewheel(Station& station, std::int64_t ticks) noexcept {
-  const rt::FlushDenormals flush_denormals;
-  for (std::int64_t i = 0; i < ticks; ++i) {
-    station.cycle({0, true});
-  }
-}
-
 }  // namespace ergotic::station

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <cstdio>
 #include <fstream>
 #include <limits>
 #include <system_error>
@@ -12,7 +10,6 @@
 #include "ergotic/tgr/driver.hpp"
 #include "ergotic/tgr/gesture.hpp"
 #include "tgr/csv.hpp"
-#include "tgr/require.hpp"
 
 namespace ergotic::tgr {
 namespace {
@@ -85,49 +82,10 @@ class CsvSource final : public GestureSource {
   std::size_t cursor_ = 0;
 };
 
-class CsvSink final : public PerformanceSink {
- public:
-  CsvSink(const std::string& path, int slices) : path_(path), slices_(slices), out_(path) {
-    requireWithin("slices", slices, 1, kMaxSlices, "");
-    out_ << "tick";
-    for (int i = 0; i < slices_; ++i) {
-      out_ << ",x" << i;
-    }
-    out_ << '\n' << std::flush;  // an unwritable file shows at once
-    check();
-  }
-
-  void write(std::int64_t tick, const double* positions) override {
-    out_ << tick;
-    for (int i = 0; i < slices_; ++i) {
-      std::array<char, 32> text{};
-      std::snprintf(text.data(), text.size(), ",%.17g", positions[i]);
-      out_ << text.data();
-    }
-    out_ << '\n';
-    check();
-  }
-
- private:
-  void check() const {
-    if (!out_) {
-      throw Exception(path_ + ": cannot be written: " + std::generic_category().message(errno));
-    }
-  }
-
-  std::string path_;
-  int slices_;
-  std::ofstream out_;
-};
-
 }  // namespace
 
 std::unique_ptr<GestureSource> readPositionsCsv(const std::string& path) {
   return std::make_unique<CsvSource>(path);
-}
-
-std::unique_ptr<PerformanceSink> writePositionsCsv(const std::string& path, int slices) {
-  return std::make_unique<CsvSink>(path, slices);
 }
 
 GestureKind gestureKindOf(const std::string& path) {

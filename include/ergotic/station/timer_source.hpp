@@ -54,8 +54,4 @@ class TimerSource final : public TickSource {
   std::vector<std::string> warnings_;
 };
 
-/// Runs `ticks` ticks as fast as possible in the calling thread: deterministic, never late.
-/// Realtime: no. Thread: the only one that ticks
-void runFreewheel(Station& station, std::int64_t ticks) noexcept;
-
 }  // namespace ergotic::station

@@ -19,24 +19,10 @@ class GestureSource {
   virtual bool next(double* positions) noexcept = 0;
 };
 
-/// Where the positions of a performance go. Realtime: no.
-class PerformanceSink {
- public:
-  virtual ~PerformanceSink() = default;
-  /// Ticks come in order, without gaps.
-  /// \param positions  [slices] m, as given to the instrument
-  /// \throws Exception if they cannot be stored
-  virtual void write(std::int64_t tick, const double* positions) = 0;
-};
-
 /// Reads a CSV of positions per tick into memory: a line `tick,x0,x1,...` and one line of numbers
 /// per tick, positions in metres, ticks counting up by one; `#` starts a comment line.
 /// \throws TextError with file:line:col; Exception if the file cannot be read
 std::unique_ptr<GestureSource> readPositionsCsv(const std::string& path);
-
-/// Writes the same format, so that every double comes back bit for bit.
-/// \throws Exception if the file cannot be written
-std::unique_ptr<PerformanceSink> writePositionsCsv(const std::string& path, int slices);
 
 /// The two kinds of gesture files.
 enum class GestureKind {

@@ -65,7 +65,6 @@ class ComediBoard {
   void lock(const Side& side, unsigned subdevice) const;
   /// Instructions of one side, appended to insns_.
   std::vector<ComediScale> setUp(const Side& side, lsampl_t* data);
-  std::uint32_t run(comedi_insn* insns, std::size_t count) noexcept;
 
   ComediSettings settings_;
   std::size_t slices_;

@@ -4,6 +4,7 @@
 #include "ergotic/scene/scene.hpp"
 #include "ergotic/tgr/end_effector.hpp"
 #include "support/test.hpp"
+#include "tgr/end_effectors/fields.hpp"
 
 namespace ergotic::test {
 
@@ -27,7 +28,7 @@ inline tgr::EndEffectorConfig endEffector(tgr::EndEffectorType type,
                                           std::vector<int> slices,
                                           std::vector<std::string> ports) {
   tgr::EndEffectorConfig config;
-  config.name = tgr::toString(type);
+  config.name = tgr::traitsOf(type).name;
   config.type = type;
   config.slices = std::move(slices);
   config.ports = std::move(ports);

@@ -19,7 +19,6 @@ enum class EndEffectorType : std::uint8_t {
   kBall,    ///< 3 slices, 3 coordinates: x y z of a point in a parallel linkage
   kHandle,  ///< 6 slices, 3 coordinates for each of its points, which are at least three
 };
-const char* toString(EndEffectorType type) noexcept;
 
 /// What stands on a group of slices and what of the scene it moves. The equations of each type are
 /// in docs/tgr.md.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tgr/end_effectors/fields.hpp"
 
-#include <array>
 #include <cmath>
+
+#include "tgr/end_effectors/makers.hpp"
 
 namespace ergotic::tgr {
 namespace {
@@ -20,17 +21,19 @@ const std::vector<TypeTraits>& allTraits() {
       {"base_radius", &Config::base_radius, kRadiusLimits},
       {"platform_radius", &Config::platform_radius, kRadiusLimits}};
   static const std::vector<TypeTraits> traits{
-      {"key", 1, 1, {{"lever", &Config::lever, kLeverLimits}}},
+      {"key", 1, 1, {{"lever", &Config::lever, kLeverLimits}}, makeKey},
       {"bow",
        2,
        2,
-       {{"lever", &Config::lever, kLeverLimits}, {"angle", &Config::angle, kAngleLimits}}},
+       {{"lever", &Config::lever, kLeverLimits}, {"angle", &Config::angle, kAngleLimits}},
+       makeBow},
       {"stick",
        2,
        3,
-       {{"arm", &Config::arm, kLengthLimits}, {"length", &Config::length, kLengthLimits}}},
-      {"ball", 3, 3, linkage},
-      {"handle", 6, 6, linkage}};
+       {{"arm", &Config::arm, kLengthLimits}, {"length", &Config::length, kLengthLimits}},
+       makeStick},
+      {"ball", 3, 3, linkage, makeBall},
+      {"handle", 6, 6, linkage, makeHandle}};
   return traits;
 }
 
@@ -49,11 +52,6 @@ const std::vector<std::string>& typeNames() {
     return all;
   }();
   return names;
-}
-
-const char* toString(EndEffectorType type) noexcept {
-  constexpr std::array<const char*, 5> names{"key", "bow", "stick", "ball", "handle"};
-  return names[static_cast<std::size_t>(type)];
 }
 
 std::size_t coordinatesOf(const EndEffectorConfig& config) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct TypeTraits {
   int fewest_slices;
   int most_slices;
   std::vector<Dimension> dimensions;
+  std::unique_ptr<Kinematics> (*make)(const EndEffectorConfig& config);  ///< of legal numbers
 };
 const TypeTraits& traitsOf(EndEffectorType type);
 /// In the order of the enumeration.

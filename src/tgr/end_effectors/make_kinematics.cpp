@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <stdexcept>
-
 #include "ergotic/exception.hpp"
 #include "scene/names.hpp"
 #include "tgr/end_effectors/fields.hpp"
-#include "tgr/end_effectors/makers.hpp"
 
 namespace ergotic::tgr {
 namespace {
@@ -24,29 +21,13 @@ void checkNumbers(const EndEffectorConfig& config) {
   }
 }
 
-std::unique_ptr<Kinematics> make(const EndEffectorConfig& config) {
-  checkNumbers(config);
-  switch (config.type) {
-    case EndEffectorType::kKey:
-      return makeKey(config);
-    case EndEffectorType::kBow:
-      return makeBow(config);
-    case EndEffectorType::kStick:
-      return makeStick(config);
-    case EndEffectorType::kBall:
-      return makeBall(config);
-    case EndEffectorType::kHandle:
-      return makeHandle(config);
-  }
-  throw std::logic_error("unknown type of end-effector");
-}
-
 }  // namespace
 
 std::unique_ptr<Kinematics> makeKinematics(const EndEffectorConfig& config,
                                            const std::string& file) {
   try {
-    return make(config);
+    checkNumbers(config);
+    return traitsOf(config.type).make(config);
   } catch (const Exception& e) {
     throw TextError(file, config.place.line, config.place.column,
                     "end-effector " + scene::quoted(config.name) + ": " + e.what());

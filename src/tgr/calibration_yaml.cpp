@@ -5,6 +5,7 @@
 #include "ergotic/exception.hpp"
 #include "ergotic/tgr/calibration.hpp"
 #include "scene/names.hpp"
+#include "scene/text/number.hpp"
 #include "tgr/calibration_rules.hpp"
 
 namespace ergotic::tgr {
@@ -40,7 +41,7 @@ std::string sliceText(const SliceCalibration& calibration) {
                              field.member == &SliceCalibration::rest_volts;
     const double value = calibration.*field.member;
     if (calibration.is_calibrated || (!is_position && value != plain.*field.member)) {
-      text += (text.empty() ? "" : ", ") + std::string(field.key) + ": " + shortest(value);
+      text += (text.empty() ? "" : ", ") + std::string(field.key) + ": " + scene::shortest(value);
     }
   }
   return text.empty() ? "~" : "{" + text + "}";

@@ -8,6 +8,7 @@
 #include "ergotic/tgr/replay_driver.hpp"
 #include "ergotic/tgr/virtual_driver.hpp"
 #include "scene/names.hpp"
+#include "scene/text/source_text.hpp"
 #include "tgr/drivers/virtual/virtual_settings.hpp"
 #include "tgr/settings.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 std::unique_ptr<Driver> makeReplay(const YAML::Node& node, const std::string& place) {
   const Settings settings(node, place, "driver replay");
   settings.top().allow({"file"});
-  return makeReplayDriver(readPositionsCsv(besideFile(settings.top().word("file"), place)));
+  return makeReplayDriver(readPositionsCsv(scene::besideFile(settings.top().word("file"), place)));
 }
 
 /// What goes wrong without a place of its own is told with this one.

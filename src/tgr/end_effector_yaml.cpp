@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "ergotic/tgr/end_effector.hpp"
+#include "scene/text/number.hpp"
 #include "tgr/end_effectors/fields.hpp"
 #include "tgr/settings.hpp"
 
@@ -116,15 +117,15 @@ std::string listOf(const List& list, const Text& text) {
 
 std::string textOf(const EndEffectorConfig& config) {
   const std::string line = "\n    ";
-  const auto vector = [](const Eigen::Vector3d& v) { return listOf(v, shortest); };
+  const auto vector = [](const Eigen::Vector3d& v) { return listOf(v, scene::shortest); };
   const TypeTraits& traits = traitsOf(config.type);
   std::string text = "  " + quoted(config.name) + ":" + line + "type: " + traits.name;
   text += line + "slices: " + listOf(config.slices, [](int s) { return std::to_string(s); });
   text += line + "ports: " + listOf(config.ports, quoted);
-  text += line + "position_scale: " + shortest(config.position_scale);
-  text += line + "force_scale: " + shortest(config.force_scale);
+  text += line + "position_scale: " + scene::shortest(config.position_scale);
+  text += line + "force_scale: " + scene::shortest(config.force_scale);
   for (const Dimension& dimension : traits.dimensions) {
-    text += line + dimension.key + ": " + shortest(config.*dimension.member);
+    text += line + dimension.key + ": " + scene::shortest(config.*dimension.member);
   }
   if (config.type == EndEffectorType::kHandle) {
     text += line + "points: " + listOf(config.points, vector);

@@ -38,10 +38,4 @@ class Settings {
 /// YAML on one line that reads back as the same.
 std::string textInLine(const YAML::Node& node);
 
-/// A path as it stands in a file: relative ones start where the file is.
-std::string besideFile(const std::string& path, const std::string& file);
-
-/// The shortest text that reads back as the very same number.
-std::string shortest(double value);
-
 }  // namespace ergotic::tgr

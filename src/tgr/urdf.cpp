@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "scene/text/number.hpp"
 #include "tgr/end_effectors/fields.hpp"
 #include "tgr/settings.hpp"
 
@@ -39,7 +40,7 @@ const char* const kModel = R"(  <link name="model"/>
 )";
 
 std::string numbers(const Vector3d& v) {
-  return shortest(v.x()) + " " + shortest(v.y()) + " " + shortest(v.z());
+  return scene::shortest(v.x()) + " " + scene::shortest(v.y()) + " " + scene::shortest(v.z());
 }
 
 std::string escaped(const std::string& text) {
@@ -76,10 +77,11 @@ std::string box(const Vector3d& size) {
 }
 /// Along z, about its middle.
 std::string cylinder(double radius, double length) {
-  return "<cylinder radius=\"" + shortest(radius) + "\" length=\"" + shortest(length) + "\"/>";
+  return "<cylinder radius=\"" + scene::shortest(radius) + "\" length=\"" +
+         scene::shortest(length) + "\"/>";
 }
 std::string sphere(double radius) {
-  return "<sphere radius=\"" + shortest(radius) + "\"/>";
+  return "<sphere radius=\"" + scene::shortest(radius) + "\"/>";
 }
 
 std::string base(int slices) {

@@ -4,6 +4,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include "scene/text/number.hpp"
 #include "support/test.hpp"
 #include "tgr/drivers/virtual/virtual_settings.hpp"
 #include "tgr/scripted_driver.hpp"
@@ -78,9 +79,9 @@ TEST(SettingsTest, WritesAliasesAsAliases) {
 }
 
 TEST(SettingsTest, WritesNumbersThatReadBackTheSame) {
-  EXPECT_EQ(shortest(0.1), "0.1");
-  EXPECT_EQ(std::stod(shortest(1.0 / 3.0)), 1.0 / 3.0);
-  EXPECT_EQ(shortest(-2.0), "-2");
+  EXPECT_EQ(scene::shortest(0.1), "0.1");
+  EXPECT_EQ(std::stod(scene::shortest(1.0 / 3.0)), 1.0 / 3.0);
+  EXPECT_EQ(scene::shortest(-2.0), "-2");
 }
 
 std::string complaint(const std::string& text) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/text/number.hpp"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <system_error>
@@ -30,6 +31,12 @@ std::optional<double> parseNumber(std::string_view text) {
 
 std::optional<int> parseInteger(std::string_view text) {
   return parseWhole<int>(text);
+}
+
+std::string shortest(double value) {
+  std::array<char, 32> text{};
+  const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
+  return {text.data(), result.ptr};
 }
 
 std::string trimmed(std::string_view text) {

@@ -15,6 +15,8 @@ std::optional<double> parseNumber(std::string_view text);
 /// A decimal whole number, the whole text.
 std::optional<int> parseInteger(std::string_view text);
 
+/// The shortest text that reads back as the very same number.
+std::string shortest(double value);
 /// Without blanks at either end.
 std::string trimmed(std::string_view text);
 

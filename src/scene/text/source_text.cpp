@@ -117,6 +117,12 @@ std::size_t byteOrderMark(const std::string& text) {
   return text.compare(0, 3, "\xEF\xBB\xBF") == 0 ? 3 : 0;
 }
 
+std::string besideFile(const std::string& path, const std::string& file) {
+  const std::size_t slash = file.rfind('/');
+  const bool is_absolute = !path.empty() && path.front() == '/';
+  return is_absolute || slash == std::string::npos ? path : file.substr(0, slash + 1) + path;
+}
+
 std::string stemOf(const std::string& file) {
   const std::size_t slash = file.rfind('/');
   const std::string base = slash == std::string::npos ? file : file.substr(slash + 1);

@@ -33,6 +33,8 @@ Place placeAt(const std::string& text, std::size_t offset);
 /// Length of the UTF-8 byte order mark at the start of the text, 0 if there is none.
 std::size_t byteOrderMark(const std::string& text);
 
+/// A path as it stands in a file: relative ones start where the file is.
+std::string besideFile(const std::string& path, const std::string& file);
 /// `dir/harp.mdl` -> `harp`
 std::string stemOf(const std::string& file);
 

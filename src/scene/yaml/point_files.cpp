@@ -2,13 +2,12 @@
 #include "scene/yaml/point_files.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <optional>
 
 #include "ergotic/exception.hpp"
+#include "scene/text/number.hpp"
 #include "scene/text/source_text.hpp"
 
 namespace ergotic::scene {
@@ -34,25 +33,12 @@ bool isDocument(const YAML::Node& node) {
          });
 }
 
-/// Where a file is: beside the scene.
-std::string pathBeside(const std::string& scene_file, const std::string& name) {
-  const std::size_t slash = scene_file.rfind('/');
-  return slash == std::string::npos ? name : scene_file.substr(0, slash + 1) + name;
-}
-
 bool isFileName(const std::string& name) {
   const auto is_control = [](char c) {
     return static_cast<unsigned char>(c) < 0x20U || c == '\x7F';
   };
   return !name.empty() && name.size() <= kMaxFileNameBytes && name.front() != '/' &&
          std::none_of(name.begin(), name.end(), is_control);
-}
-
-/// The shortest text that reads back to the same bits.
-void appendNumber(std::string& text, double value) {
-  std::array<char, 32> digits{};
-  const std::to_chars_result end = std::to_chars(digits.begin(), digits.end(), value);
-  text.append(digits.data(), end.ptr);
 }
 
 /// `"name": [[x, y], ...]`
@@ -64,12 +50,7 @@ void appendPoints(std::string& text, const std::string& name, const PointList& p
   text += "\": [";
   const char* comma = "";
   for (const auto& [x, y] : points) {
-    text += comma;
-    text += '[';
-    appendNumber(text, x);
-    text += ", ";
-    appendNumber(text, y);
-    text += ']';
+    text += std::string(comma) + "[" + shortest(x) + ", " + shortest(y) + "]";
     comma = ", ";
   }
   text += ']';
@@ -118,7 +99,7 @@ std::string PointFiles::nameOf(const YamlMap& spec) {
 }
 
 PointFiles::File PointFiles::open(const YamlMap& spec) const {
-  const std::string path = pathBeside(builder_.scene().file, nameOf(spec));
+  const std::string path = besideFile(nameOf(spec), builder_.scene().file);
   std::optional<std::string> text = readBytes(path);
   if (!text) {
     spec.fail("file",

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <yaml-cpp/depthguard.h>
-
-#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -20,22 +17,15 @@ constexpr int kFormatVersion = 1;
 
 /// The scene, and after it the tables of its files if the text has them.
 std::vector<YAML::Node> parse(const SceneBuilder& builder, const std::string& text) {
-  try {
-    std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.empty() || documents.front().IsNull()) {
-      builder.fail({1, 1}, "the scene is empty, allowed: a map that begins with 'ergotic: 1'");
-    }
-    if (documents.size() > 2) {
-      builder.fail(placeOf(documents[2], {1, 1}), "a third document, allowed: at most two");
-    }
-    return documents;
-  } catch (const YAML::DeepRecursion& e) {
-    builder.fail({std::max(e.mark.line, 0) + 1, std::max(e.mark.column, 0) + 1},
-                 "nested too deeply, allowed: as deep as a scene needs");
-  } catch (const YAML::Exception& e) {
-    builder.fail({std::max(e.mark.line, 0) + 1, std::max(e.mark.column, 0) + 1},
-                 "not valid YAML: " + e.msg);
+  std::vector<YAML::Node> documents =
+      parseYaml(builder, "a scene needs", [&] { return YAML::LoadAll(text); });
+  if (documents.empty() || documents.front().IsNull()) {
+    builder.fail({1, 1}, "the scene is empty, allowed: a map that begins with 'ergotic: 1'");
   }
+  if (documents.size() > 2) {
+    builder.fail(placeOf(documents[2], {1, 1}), "a third document, allowed: at most two");
+  }
+  return documents;
 }
 
 void readHead(SceneBuilder& builder, const YamlMap& top, const Overrides& overrides) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/text/number.hpp"
+#include "scene/text/source_text.hpp"
 #include "tgr/calibration_rules.hpp"
 #include "tgr/drivers/virtual/virtual_slice_fields.hpp"
 #include "tgr/settings.hpp"
@@ -79,7 +80,7 @@ void readInProcess(const Settings& settings, VirtualDriverConfig& config) {
     config.seed = static_cast<std::uint64_t>(top.integer("seed", {"", 0.0, 2147483647.0}));
   }
   if (top.has("gesture")) {
-    config.gesture_file = besideFile(top.word("gesture"), settings.builder().scene().file);
+    config.gesture_file = scene::besideFile(top.word("gesture"), settings.builder().scene().file);
   }
   config.gesture_rate = top.number("gesture_rate", {"Hz", 1.0, 1e6}, 0.0);
   if (top.has("extra_delay_ticks")) {

@@ -15,6 +15,21 @@ physics::Energies energiesOf(const Player& player) {
   return energies;
 }
 
+namespace {
+
+/// \param visit  channel, mass, velocity
+template <class Visit>
+void visitVelocities(const Player& player, std::size_t n, const Visit& visit) {
+  const std::vector<scene::Mat>& mats = player.instrument->scene().mats;
+  for (std::size_t c = 0; c < std::min(player.heard.size(), 3 * mats.size()); ++c) {
+    if (mats[c / 3].type == scene::MatType::kMass) {
+      visit(c, mats[c / 3].mass.factor, player.heard[c][n]);
+    }
+  }
+}
+
+}  // namespace
+
 std::vector<physics::GuardedState<double>> guardsOf(const Player& player) {
   return numbersOf<physics::GuardedState<double>>(*player.instrument, "guarded0");
 }
@@ -24,14 +39,20 @@ double heatOf(const std::vector<physics::GuardedState<double>>& guards) {
                          [](double sum, const auto& guard) { return sum + guard.lost; });
 }
 
+double energyBetweenSteps(const Player& player,
+                          const std::vector<physics::GuardedState<double>>& guards) {
+  double energy = 0.0;
+  visitVelocities(player, player.heard[0].size() - 1,
+                  [&](std::size_t, double kg, double v) { energy += 0.5 * kg * v * v; });
+  return std::accumulate(guards.begin(), guards.end(), energy,
+                         [](double sum, const auto& guard) { return sum + guard.tank; });
+}
+
 Eigen::Vector3d momentumOf(const Player& player, std::size_t n) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  const std::vector<scene::Mat>& mats = player.instrument->scene().mats;
-  for (std::size_t c = 0; c < std::min(player.heard.size(), 3 * mats.size()); ++c) {
-    if (mats[c / 3].type == scene::MatType::kMass) {
-      sum[static_cast<int>(c % 3)] += mats[c / 3].mass.factor * player.heard[c][n];
-    }
-  }
+  visitVelocities(player, n, [&](std::size_t channel, double kg, double v) {
+    sum[static_cast<int>(channel % 3)] += kg * v;
+  });
   return sum;
 }
 

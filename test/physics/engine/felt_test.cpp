@@ -175,15 +175,6 @@ struct Hostile : SceneBuilder {
       }
     }
   }
-  double motionOf(const Player& player) const {
-    double energy = 0.0;
-    for (std::size_t c = 0; c < player.heard.size(); ++c) {
-      const double v = player.heard[c].back();
-      energy += 0.5 * scene.mats[c / 3].mass.factor * v * v;
-    }
-    return energy;
-  }
-
   static constexpr int kBalls = 4;
 };
 
@@ -197,14 +188,13 @@ TEST(FeltTest, GuardedItNeverPullsNorMakesEnergyNorMomentum) {
     player.tick();
     double energy = std::numeric_limits<double>::infinity();
     for (int n = 1; n < 500; ++n) {
-      double now = 0.0;  // between two steps: of the motion and in the tanks
-      for (const GuardedState<double>& guard : test::guardsOf(player)) {
+      const std::vector<GuardedState<double>> guards = test::guardsOf(player);
+      for (const GuardedState<double>& guard : guards) {
         ASSERT_GE(guard.force + guard.damper, 0.0) << trial << " " << n;
         ASSERT_GE(guard.tank, 0.0) << trial << " " << n;
-        now += guard.tank;
       }
       player.tick();
-      now += b.motionOf(player);
+      const double now = test::energyBetweenSteps(player, guards);
       ASSERT_LE(now, energy * (1.0 + 1e-12)) << trial << " " << n;
       energy = now;
     }

@@ -138,6 +138,9 @@ scene::Scene fading(const Kind& kind) {
   for (scene::Mat& mat : b.scene.mats) {
     mat.position *= 1e-33;  // from some 1e-3 m
   }
+  for (scene::Lia& lia : b.scene.lias) {
+    lia.rest_length *= 1e-33;
+  }
   return b.scene;
 }
 

@@ -182,13 +182,8 @@ TEST(ClippedLawTest, IsNotAParametersBusiness) {
       "mats:\n  m: {type: mass, section: s, mass: 1}\n  g: {type: ground, section: s}\n"
       "lias:\n  l: {type: clipped_cubic, between: [m, g], stiffness: $p, nonlinearity: 2,\n"
       "      stiffness_limit: 9}\n";
-  try {
-    readYaml(text, "s.yaml");
-    FAIL() << "read";
-  } catch (const TextError& error) {
-    EXPECT_EQ(error.line(), 11);
-    EXPECT_THAT(error.what(), HasSubstr("'stiffness'"));
-  }
+  EXPECT_THAT(complaintOf<TextError>([&] { readYaml(text, "s.yaml"); }),
+              AllOf(StartsWith("s.yaml:11:"), HasSubstr("'stiffness'")));
 }
 
 }  // namespace

@@ -183,13 +183,11 @@ TEST_F(PointAtTest, RefusesWhatIsNoPlace) {
       {"s.99", "unknown module 's.99'"},
   };
   for (const auto& [text, message] : texts) {
-    try {
-      pointAt(builder_, text, {7, 8});
-      ADD_FAILURE() << text;
-    } catch (const TextError& e) {
-      EXPECT_THAT(e.what(), testing::HasSubstr(message));
-      EXPECT_THAT(e.what(), testing::StartsWith("test.yaml:7:8: error: "));
-    }
+    const std::string place = text;
+    EXPECT_THAT(complaintOf<TextError>([&] {
+                  pointAt(builder_, place, {7, 8});
+                }),
+                AllOf(StartsWith("test.yaml:7:8: error: "), HasSubstr(message)));
   }
 }
 

@@ -54,6 +54,12 @@ TEST(YamlGeometryTest, SectionsMayBePlayedByTheirModes) {
   EXPECT_EQ(s.sections[3].modes, kNoModes);
 }
 
+struct Placed {
+  Eigen::Vector3d rest;
+  Eigen::Vector3d position;
+  Eigen::Vector3d velocity;
+};
+
 TEST(YamlGeometryTest, ModulesRestWhereTheyAreAndMayStartElsewhere) {
   const Scene s = withMats(
       "  a: {type: mass, section: plane, mass: 1, at: [1, 2]}\n"
@@ -61,33 +67,19 @@ TEST(YamlGeometryTest, ModulesRestWhereTheyAreAndMayStartElsewhere) {
       "  c: {type: cell, section: space, mass: 1, at: [1, 2, 3], x: [4, 5, 6], v: [7, 8, 9]}\n"
       "  d: {type: mass, section: line, mass: 1, at: 1, x: 2, v: 3}\n"
       "  e: {type: mass, section: line, mass: 1, at: [1, 2, 3], x: [4]}\n"
-      "  f: {type: mass, section: space, mass: 1}\n");
-  expectVector(s.mats[0].rest, 1.0, 2.0, 0.0);
-  expectVector(s.mats[0].position, 1.0, 2.0, 0.0);
-  expectVector(s.mats[0].push->velocity, 0.0, 0.0, 0.0);
-  expectVector(s.mats[1].rest, 1.0, 2.0, 3.0);
-  expectVector(s.mats[1].position, 4.0, 5.0, 0.0);
-  expectVector(s.mats[1].push->velocity, 6.0, 7.0, 0.0);
-  expectVector(s.mats[2].rest, 1.0, 2.0, 3.0);
-  expectVector(s.mats[2].position, 4.0, 5.0, 6.0);
-  expectVector(s.mats[2].push->velocity, 7.0, 8.0, 9.0);
-  expectVector(s.mats[3].rest, 1.0, 0.0, 0.0);
-  expectVector(s.mats[3].position, 2.0, 0.0, 0.0);
-  expectVector(s.mats[3].push->velocity, 3.0, 0.0, 0.0);
-  expectVector(s.mats[4].rest, 1.0, 2.0, 3.0);
-  expectVector(s.mats[4].position, 4.0, 0.0, 0.0);
-  expectVector(s.mats[5].position, 0.0, 0.0, 0.0);
-  EXPECT_EQ(s.coordinates(), 2 + 2 + 3 + 1 + 1 + 3);
-}
-
-TEST(YamlGeometryTest, GroundsAndDrivenModulesAreAtTheirPlace) {
-  const Scene s = withMats(
+      "  f: {type: mass, section: space, mass: 1}\n"
       "  g: {type: ground, section: space, at: [1, 2, 3]}\n"
-      "  d: {type: driven, section: plane, at: [1, 2], x: [3, 2]}\n");
-  expectVector(s.mats[0].rest, 1.0, 2.0, 3.0);
-  expectVector(s.mats[0].position, 1.0, 2.0, 3.0);
-  expectVector(s.mats[1].rest, 1.0, 2.0, 0.0);
-  expectVector(s.mats[1].position, 3.0, 2.0, 0.0);
+      "  h: {type: driven, section: plane, at: [1, 2], x: [3, 2]}\n");
+  const Placed placed[] = {{{1, 2, 0}, {1, 2, 0}, {0, 0, 0}}, {{1, 2, 3}, {4, 5, 0}, {6, 7, 0}},
+                           {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}, {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}},
+                           {{1, 2, 3}, {4, 0, 0}, {0, 0, 0}}, {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}},
+                           {{1, 2, 3}, {1, 2, 3}, {0, 0, 0}}, {{1, 2, 0}, {3, 2, 0}, {0, 0, 0}}};
+  for (std::size_t i = 0; i < std::size(placed); ++i) {
+    EXPECT_EQ(s.mats[i].rest, placed[i].rest) << s.mats[i].name;
+    EXPECT_EQ(s.mats[i].position, placed[i].position) << s.mats[i].name;
+    EXPECT_EQ(s.mats[i].push->velocity, placed[i].velocity) << s.mats[i].name;
+  }
+  EXPECT_EQ(s.coordinates(), 2 + 2 + 3 + 1 + 1 + 3 + 3 + 2);
 }
 
 TEST(YamlGeometryTest, CellsAreMatchedUnlessTheySayOtherwise) {

@@ -200,6 +200,10 @@ TEST(CertifyTest, MatchedCellsAreStableAloneAndCountByTheirOwnCoefficients) {
   b.scene.lias[at(link)].stiffness = {1.001 * room * 0.01 * kRate * kRate};
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnstable);
   EXPECT_GT(peakAfter(b.scene, 20000), 1.0);
+  // At w h = 2 pi it pulls not at all, on the way there with all its might.
+  b.scene.parameters.push_back({"k", 1.0, 0.0, 1.0, {}});
+  b.scene.mats[0].stiffness = {4.0 * kPi * kPi * 0.01 * kRate * kRate, 0};
+  EXPECT_NE(certify(b.scene, {kRate, 14}).verdict, Verdict::kPassive);
 }
 
 TEST(CertifyTest, MediumCountsOnEveryFreeMass) {

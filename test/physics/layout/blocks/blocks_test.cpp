@@ -259,6 +259,18 @@ SparseNetwork inOrder(const SparseNetwork& net, const std::vector<int>& order) {
 
 constexpr SparseSweep kSweeps[] = {SparseSweep::kFromEnd, SparseSweep::kFromSide};
 
+TEST(SparseOrderTest, OrderIsAPermutation) {
+  for (const SparseNetwork& net : networks()) {
+    for (const SparseSweep sweep : kSweeps) {
+      std::vector<int> order = sparseOrder(net.nodes, net.links, sweep);
+      std::sort(order.begin(), order.end());
+      std::vector<int> all(at(net.nodes));
+      std::iota(all.begin(), all.end(), 0);
+      EXPECT_EQ(order, all);
+    }
+  }
+}
+
 TEST(SparseOrderTest, NodesOfShuffledMeshesComeToLieClose) {
   const SparseNetwork mesh = meshOf(40);
   for (const SparseSweep sweep : kSweeps) {
@@ -288,6 +300,13 @@ TEST(SparseProgramTest, WhatItReadsLiesWithinReach) {
       EXPECT_LT(lane, 2 * kLanes);
     }
   }
+}
+
+TEST(SparseProgramTest, SpanIsThatOfTheFarthestLink) {
+  const SparseNetwork chain{64, {{0, 1}, {15, 16}, {20, 30}}};
+  EXPECT_EQ(makeSparseProgram(chain.nodes, chain.links).span, 1);
+  EXPECT_EQ(makeSparseProgram(64, {{63, 16}, {0, 15}}).span, 2);
+  EXPECT_EQ(makeSparseProgram(64, {{0, 15}}).span, 0);
 }
 
 TEST(SparseProgramTest, MeshesHaveWindowsAndRandomNetworksMostlyPicks) {

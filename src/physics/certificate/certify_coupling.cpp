@@ -15,7 +15,6 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kMostMasses = 300;         // whose eigenvalues are worked out
 constexpr double kRounding = 1e-9;       // of a radius of 1
 constexpr double kCertainGrowth = 1e-2;  // per period
@@ -23,11 +22,9 @@ constexpr double kCertainGrowth = 1e-2;  // per period
 /// What joins two rates in one island.
 struct Coupling {
   std::set<int> slow_divisors;
-  std::set<int> fast_divisors;
   int slow_section = 0;  // of the slowest module that a link joins to a faster section
   int slowest = 0;       // its divisor
   double coupling_damping = 0.0;
-  bool has_fast_modules = false;
   const scene::Lia* nonlinear = nullptr;  // a link on a module of the island
 };
 
@@ -59,17 +56,14 @@ class CouplingJudge {
           !(networks_.inverseMass(slow) > 0.0)) {
         continue;
       }
-      const int fast = networks_.fastEnd(lia);
       Coupling& coupling = found[networks_.islandOf(lia)];
       coupling.slow_divisors.insert(networks_.divisorOfMat(slow));
-      coupling.fast_divisors.insert(networks_.divisorOfMat(fast));
       if (networks_.divisorOfMat(slow) > coupling.slowest) {
         coupling.slowest = networks_.divisorOfMat(slow);
         coupling.slow_section = scene_.mats[at(slow)].section;
       }
       const Slopes& slopes = networks_.slopes(static_cast<int>(l));
       coupling.coupling_damping = std::max(coupling.coupling_damping, slopes.damping.highest);
-      coupling.has_fast_modules |= networks_.inverseMass(fast) > 0.0;
     }
     for (const scene::Lia& lia : scene_.lias) {
       if (lia.type == scene::LiaType::kSpringDamper && networks_.isExplicit(lia)) {
@@ -86,8 +80,7 @@ class CouplingJudge {
     return found;
   }
 
-  /// The slow network with the couplings and the fast masses they touch must be stable at the slow
-  /// rate; that is enough while the fast section has no modes above half of it.
+  /// No bound says whether two rates get on: only the eigenvalues of a period do.
   void judge(int name, const Coupling& coupling) {
     if (coupling.nonlinear != nullptr) {
       say(coupling, Verdict::kUnproven,
@@ -102,34 +95,16 @@ class CouplingJudge {
       judgeSigns(networks_, network, findings_);
       bound = std::max(bound, analyse(network).lambda);
     }
-    const bool is_soft = bound < NetworkBound::kLimit;
-    const bool is_low = !reachesAboveHalf(name, coupling);
-    if (is_soft && is_low) {
-      return;
-    }
-    const std::string what =
-        is_soft ? "is coupled to a faster one whose modes reach above half the slower rate"
-                : "is coupled to a faster one too stiffly for its rate, bound " + describe(bound) +
-                      ", proven below 4";
+    const std::string what = bound < NetworkBound::kLimit
+                                 ? "is coupled to a faster one"
+                                 : "is coupled to a faster one, stiffly for its rate, bound " +
+                                       describe(bound) + " of 4";
     const Island members(networks_, name);
     if (members.masses() > kMostMasses) {
       watch(members, coupling, what);
     } else {
       tryEigenvalues(members, coupling, what);
     }
-  }
-
-  double highestModeHz(int divisor, int name) const {
-    const double lambda =
-        std::min(analyse(networks_.atOwnRate(divisor, name)).lambda, NetworkBound::kLimit);
-    return std::asin(std::sqrt(lambda) / 2.0) / kPi * networks_.rates().audio_hz / divisor;
-  }
-
-  bool reachesAboveHalf(int name, const Coupling& coupling) const {
-    const double half_hz = 0.5 * networks_.rates().audio_hz / coupling.slowest;
-    return coupling.has_fast_modules &&
-           std::any_of(coupling.fast_divisors.begin(), coupling.fast_divisors.end(),
-                       [&](int divisor) { return highestModeHz(divisor, name) > half_hz; });
   }
 
   void say(const Coupling& coupling, Verdict verdict, const std::string& text) {

@@ -7,6 +7,8 @@
 #include "at.hpp"
 #include "physics/certificate/certify_parts.hpp"
 #include "physics/certificate/explicit_limits.hpp"
+#include "physics/certificate/switching_loads.hpp"
+#include "physics/network/network_analysis.hpp"
 #include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
@@ -19,7 +21,7 @@ constexpr double kWarnedSwitch = 0.25;  // h^2 K (1/Ma + 1/Mb): gains a few per 
 class LinkJudge {
  public:
   LinkJudge(const RatedNetwork& networks, Findings& findings)
-      : networks_(networks), findings_(findings) {}
+      : networks_(networks), loads_(networks), findings_(findings) {}
 
   void judge(int l) {
     const Lia& lia = networks_.scene().lias[at(l)];
@@ -34,12 +36,11 @@ class LinkJudge {
     if (law.friction != nullptr) {
       judgeFriction(lia, law.friction(networks_.scene(), lia));
     }
-    if (law.canGive(lia)) {
-      findings_.worsen(Verdict::kBounded);
-    } else if (slopes.is_unbounded) {
+    judgeGift(lia, law);
+    if (slopes.is_unbounded) {
       judgeGrowing(lia, law);
     } else if (law.switches) {
-      judgeSwitching(lia, slopes);
+      judgeSwitching(lia, law);
     }
   }
 
@@ -77,14 +78,24 @@ class LinkJudge {
   }
 
   void judgeGuarded(const Lia& lia) {
-    if (scene::lawOf(lia.type).canGive(lia)) {
-      findings_.worsen(Verdict::kBounded);
-    }
+    judgeGift(lia, scene::lawOf(lia.type));
     if (networks_.crossesRates(lia) && networks_.inverseMass(networks_.slowEnd(lia)) > 0.0) {
       findings_.add(Verdict::kUnproven, lia.place,
                     "guarded link '" + lia.name +
                         "' acts on a slower module, which its guard cannot follow. Move that "
                         "module to the faster section, or put a module of that section between");
+    }
+  }
+
+  void judgeGift(const Lia& lia, const scene::Law& law) {
+    if (law.givesForEver(lia)) {
+      findings_.add(Verdict::kUnproven, lia.place,
+                    "link '" + lia.name +
+                        "' gives energy however far or fast its ends move: its table pushes "
+                        "outwards beyond its ends, or drives more than it brakes. Let its first "
+                        "value be 0 or less and its last 0 or more");
+    } else if (law.canGive(lia)) {
+      findings_.worsen(Verdict::kBounded);
     }
   }
 
@@ -140,28 +151,39 @@ class LinkJudge {
   }
 
   /// A stiffness that switches pumps energy: by little if it is soft for the step.
-  void judgeSwitching(const Lia& lia, const Slopes& slopes) {
-    const double kappa = slopes.stiffness.highest * networks_.inverseMassStep2(lia);
-    if (kappa <= kExplicitSwitch) {
+  void judgeSwitching(const Lia& lia, const scene::Law& law) {
+    const double kappa = loads_.kappa(lia);
+    // What is meant to give energy may give a few per cent more.
+    const double silent = law.canGive(lia) ? kWarnedSwitch : kExplicitSwitch;
+    if (kappa <= silent) {
       return;
     }
-    if (kappa > kWarnedSwitch && scene::lawOf(lia.type).is_held) {
-      findings_.worsen(Verdict::kBounded);  // what it can give is held at its ends
+    if (law.is_held && losesEnergy(lia)) {
+      findings_.worsen(Verdict::kBounded);
       return;
     }
-    const std::string text =
-        "link '" + lia.name + "' switches its stiffness, h^2 K (1/Ma + 1/Mb) = " + describe(kappa);
     const std::string harm =
         kappa <= kWarnedSwitch
             ? "hard hits come back a few per cent faster, and undamped ones add up"
             : "it may feed energy in at every hit";
+    const std::string cure =
+        law.is_held ? "Damp every mass that it reaches" : "Use scheme: guarded";
     findings_.add(
         Verdict::kUnproven, lia.place,
-        text + ", silent below " + describe(kExplicitSwitch) + ": " + harm +
-            ". Use scheme: guarded, soften it, make its masses heavier, or raise the rate");
+        "link '" + lia.name + "' switches its stiffness, h^2 K (1/Ma + 1/Mb) = " + describe(kappa) +
+            " with all that switch at its ends, silent below " + describe(silent) + ": " + harm +
+            ". " + cure + ", soften it, make its masses heavier, or raise the rate");
+  }
+
+  /// A bounded force keeps what it acts on bounded, if all of that loses energy and is stable.
+  bool losesEnergy(const Lia& lia) const {
+    const int island = networks_.islandOf(lia);
+    return !networks_.crossesRates(lia) &&
+           isDamped(networks_.atOwnRate(networks_.divisorOfMat(lia.a), island, true));
   }
 
   const RatedNetwork& networks_;
+  SwitchingLoads loads_;
   Findings& findings_;
   std::map<std::pair<int, int>, Turning> turning_;  // by line and column
 };

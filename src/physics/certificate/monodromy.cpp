@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
 
 #include "physics/certificate/linear_stepper.hpp"
 
@@ -14,7 +17,7 @@ namespace ergotic::physics {
 namespace {
 
 constexpr double kNearOne = 1e-6;
-constexpr double kRigid = 1e-7;
+constexpr double kFixed = 1e-12;  // of the largest pivot
 
 /// One module that forces move: what a unit of its position and of its force make of everything.
 struct Column {
@@ -48,6 +51,35 @@ std::vector<Column> columnsOf(LinearStepper& stepper) {
   return columns;
 }
 
+double largestEigenvalue(const Eigen::MatrixXd& matrix, bool* is_near_one) {
+  double radius = 0.0;
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix, false);
+  for (const std::complex<double>& value : solver.eigenvalues()) {
+    if (!(std::abs(value) <= radius)) {
+      radius = std::abs(value);
+      *is_near_one = std::abs(value - 1.0) < kNearOne;
+    }
+  }
+  return radius;
+}
+
+/// The matrix on what is left when the states that it keeps as they are are taken out. A body that
+/// nothing holds has such a state, where it is, and a double eigenvalue of 1, which would come out
+/// as 1 + sqrt(rounding).
+Eigen::MatrixXd withoutFixedStates(const Eigen::MatrixXd& matrix) {
+  const Eigen::Index size = matrix.rows();
+  Eigen::FullPivLU<Eigen::MatrixXd> change(matrix - Eigen::MatrixXd::Identity(size, size));
+  change.setThreshold(kFixed);
+  const Eigen::Index rank = change.rank();
+  if (rank == size) {
+    return matrix;
+  }
+  const Eigen::HouseholderQR<Eigen::MatrixXd> fixed(change.kernel());
+  const Eigen::MatrixXd others =
+      (fixed.householderQ() * Eigen::MatrixXd::Identity(size, size)).rightCols(rank);
+  return others.transpose() * matrix * others;
+}
+
 }  // namespace
 
 Eigen::MatrixXd monodromy(const scene::Scene& scene, const Rates& rates) {
@@ -77,17 +109,19 @@ Eigen::MatrixXd monodromy(const scene::Scene& scene, const Rates& rates) {
 }
 
 double spectralRadius(const Eigen::MatrixXd& matrix) {
-  double radius = 0.0;
   if (matrix.size() == 0) {
+    return 0.0;
+  }
+  if (!matrix.allFinite()) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  bool is_near_one = false;
+  const double radius = largestEigenvalue(matrix, &is_near_one);
+  if (radius <= 1.0 || !is_near_one) {
     return radius;
   }
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix, false);
-  for (const std::complex<double>& value : solver.eigenvalues()) {
-    const double size = std::abs(value);
-    const bool is_rigid = std::abs(value - 1.0) < kNearOne && size <= 1.0 + kRigid;
-    radius = std::max(radius, is_rigid ? 1.0 : size);
-  }
-  return radius;
+  const Eigen::MatrixXd others = withoutFixedStates(matrix);
+  return others.rows() == 0 ? 1.0 : std::max(1.0, largestEigenvalue(others, &is_near_one));
 }
 
 }  // namespace ergotic::physics

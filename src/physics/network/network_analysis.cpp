@@ -99,4 +99,8 @@ bool isSemidefinite(const NetworkBound& network) {
          (!network.hasNegativeDamping() || NetworkSpectrum::isDampingSemidefinite(network));
 }
 
+bool isDamped(const NetworkBound& network) {
+  return NetworkSpectrum::isDampingDefinite(network);
+}
+
 }  // namespace ergotic::physics

@@ -28,4 +28,7 @@ NetworkAnalysis analyse(const NetworkBound& network);
 /// supposes. Costs nothing unless something is negative.
 bool isSemidefinite(const NetworkBound& network);
 
+/// True if the softest case of damping takes energy from every motion: Z is positive definite.
+bool isDamped(const NetworkBound& network);
+
 }  // namespace ergotic::physics

@@ -76,20 +76,26 @@ bool allPivotsPositive(const Eigen::SimplicialLDLT<Matrix>& solver) {
   return solver.info() == Eigen::Success && (solver.vectorD().array() > 0.0).all();
 }
 
-bool isSemidefinite(const Matrix& lower) {
+/// \param limit  of its norm
+bool areEigenvaluesAbove(const Matrix& lower, double limit) {
   if (!isFinite(lower)) {
     return false;
   }
   const double norm = normOf(lower);
   if (norm == 0.0) {
-    return true;
+    return limit < 0.0;
   }
   Matrix shifted = lower;
   for (int i = 0; i < shifted.rows(); ++i) {
-    shifted.coeffRef(i, i) += kPivotMargin * norm;
+    shifted.coeffRef(i, i) -= limit * norm;
   }
   Eigen::SimplicialLDLT<Matrix> solver(shifted);
   return allPivotsPositive(solver);
+}
+
+Matrix softestDamping(const NetworkBound& network) {
+  return assemble(network, scaleOf(network),
+                  [](const NetworkBound::Link& link) { return link.damping.lowest; });
 }
 
 /// A direction that no mode is orthogonal to; the same at every run.
@@ -126,15 +132,18 @@ NetworkSpectrum::NetworkSpectrum(const NetworkBound& network)
 }
 
 bool NetworkSpectrum::isStiffnessSemidefinite(const NetworkBound& network) {
-  return isSemidefinite(assemble(network, scaleOf(network), [](const NetworkBound::Link& link) {
-    return link.stiffness.lowest;
-  }));
+  return areEigenvaluesAbove(
+      assemble(network, scaleOf(network),
+               [](const NetworkBound::Link& link) { return link.stiffness.lowest; }),
+      -kPivotMargin);
 }
 
 bool NetworkSpectrum::isDampingSemidefinite(const NetworkBound& network) {
-  return isSemidefinite(assemble(network, scaleOf(network), [](const NetworkBound::Link& link) {
-    return link.damping.lowest;
-  }));
+  return areEigenvaluesAbove(softestDamping(network), -kPivotMargin);
+}
+
+bool NetworkSpectrum::isDampingDefinite(const NetworkBound& network) {
+  return areEigenvaluesAbove(softestDamping(network), kPivotMargin);
 }
 
 bool NetworkSpectrum::isDefinite(const Pencil& pencil, double t) {

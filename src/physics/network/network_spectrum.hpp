@@ -38,6 +38,8 @@ class NetworkSpectrum {
   /// True if the softest case of K (of Z) is positive semidefinite, to 1e-9 of its norm.
   static bool isStiffnessSemidefinite(const NetworkBound& network);
   static bool isDampingSemidefinite(const NetworkBound& network);
+  /// True if the softest case of Z is positive definite, by 1e-9 of its norm; false of nothing.
+  static bool isDampingDefinite(const NetworkBound& network);
 
  private:
   using Matrix = Eigen::SparseMatrix<double>;

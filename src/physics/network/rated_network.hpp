@@ -31,6 +31,8 @@ class RatedNetwork {
   /// h^2 (1/Ma + 1/Mb) and h (1/Ma + 1/Mb) of a link at the rate it is computed at.
   double inverseMassStep2(const scene::Lia& lia) const;
   double inverseMassStep(const scene::Lia& lia) const;
+  /// Of the rate that a link is computed at, time units.
+  double stepOf(const scene::Lia& lia) const;
   bool crossesRates(const scene::Lia& lia) const;
   /// The end of a link across rates that is stepped less often, and the other.
   int slowEnd(const scene::Lia& lia) const;
@@ -56,7 +58,6 @@ class RatedNetwork {
  private:
   struct Builder;
 
-  double stepOf(const scene::Lia& lia) const;  // at the rate it is computed at
   void joinGroups();
   const Network::Link& linkOf(int lia) const {
     return network_.links[static_cast<std::size_t>(lia)];

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "physics/certificate/explicit_limits.hpp"
+#include "physics/certificate/switching_loads.hpp"
 #include "physics/network/rated_network.hpp"
 #include "physics/note.hpp"
 #include "scene/laws/law.hpp"
@@ -25,7 +26,11 @@ struct Reason {
 class Chooser {
  public:
   Chooser(scene::Scene& scene, const Rates& rates, std::vector<std::string>& notes)
-      : scene_(scene), network_(scene), networks_(network_, rates), notes_(notes) {}
+      : scene_(scene),
+        network_(scene),
+        networks_(network_, rates),
+        loads_(networks_),
+        notes_(notes) {}
 
   void run() {
     for (scene::Lia& lia : scene_.lias) {
@@ -68,14 +73,18 @@ class Chooser {
       return {figure.name, figure.value, figure.allowed};
     }
     if (law.switches && slopes.stiffness.highest > 0.0) {
-      return switching(per_stiffness * slopes.stiffness.highest);
+      return switching(per_stiffness * slopes.stiffness.highest, loads_.kappa(lia));
     }
     return law.friction == nullptr ? Reason{} : sliding(law.friction(scene_, lia), per_damping);
   }
 
-  static Reason switching(double kappa) {
-    return kappa > kExplicitSwitch ? Reason{"h^2 K (1/Ma + 1/Mb)", kappa, kExplicitSwitch}
-                                   : Reason{};
+  static Reason switching(double own, double together) {
+    if (own > kExplicitSwitch) {
+      return {"h^2 K (1/Ma + 1/Mb)", own, kExplicitSwitch};
+    }
+    return together > kExplicitSwitch
+               ? Reason{"h^2 K/M of all that switch at its ends", together, kExplicitSwitch}
+               : Reason{};
   }
 
   static Reason sliding(const scene::FrictionSlopes& slopes, double unit) {
@@ -122,6 +131,7 @@ class Chooser {
   scene::Scene& scene_;
   Network network_;
   RatedNetwork networks_;
+  SwitchingLoads loads_;
   std::vector<std::string>& notes_;
   std::map<Key, AlikeLinks> alike_;
 };

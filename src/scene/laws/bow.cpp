@@ -56,7 +56,7 @@ constexpr LiaField kFields[] = {dampingField(), widthField("width", "m/s")};
 
 }  // namespace
 
-constexpr Law kBowLaw =
-    frictionLaw<Bow, BowCurve, friction>({"bow", kWords, kFields, Law::Tables::kNone, false});
+constexpr Law kBowLaw = frictionLaw<Bow, BowCurve, friction>(
+    {"bow", kWords, kFields, Law::Tables::kNone, false}, never);
 
 }  // namespace ergotic::scene

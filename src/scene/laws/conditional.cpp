@@ -43,10 +43,11 @@ constexpr Law kConditionalLaw = {
     explicitForm<Conditional>(true),
     nullptr,  // guarded
     unguarded,
-    false,  // has_linear_part
-    true,   // switches
-    false,  // is_held
-    always,
+    false,   // has_linear_part
+    true,    // switches
+    true,    // is_held
+    always,  // canGive
+    never,   // givesForEver
     slopesFromZero,
     nullptr,  // growth
     nullptr,  // friction

@@ -23,17 +23,13 @@ inline const char* guardable(const Lia& /*lia*/) {
 /// Pushes while a distance is too short.
 template <class Explicit, template <class> class Curve>
 constexpr Law contactLaw(LawText text, decltype(Law::slopes) slopes, const Growth* growth) {
-  return {text,
-          Law::Kind::kGap,
-          explicitForm<Explicit>(),
-          contactForms<Curve>,
-          guardable,
+  return {text,       Law::Kind::kGap, explicitForm<Explicit>(), contactForms<Curve>, guardable,
           false,  // has_linear_part
           true,   // switches
           false,  // is_held
-          never,
-          slopes,
-          growth,
+          never,  // canGive
+          never,  // givesForEver
+          slopes,     growth,
           nullptr,  // friction
           noStiffness};
 }
@@ -53,7 +49,8 @@ constexpr Law springLaw(LawText text,
           true,  // has_linear_part
           switches,
           false,  // is_held
-          never,
+          never,  // canGive
+          never,  // givesForEver
           slopes,
           growth,
           nullptr,  // friction
@@ -71,16 +68,17 @@ template <class Explicit,
           template <class>
           class Curve,
           FrictionSlopes (*kFriction)(const Scene&, const Lia&)>
-constexpr Law frictionLaw(LawText text) {
+constexpr Law frictionLaw(LawText text, decltype(Law::givesForEver) gives_for_ever) {
   return {text,
           Law::Kind::kFriction,
           explicitForm<Explicit>(),
           frictionForms<Curve>,
           guardable,
-          false,  // has_linear_part
-          false,  // switches
-          false,  // is_held
-          always,
+          false,   // has_linear_part
+          false,   // switches
+          false,   // is_held
+          always,  // canGive
+          gives_for_ever,
           frictionRise<kFriction>,
           nullptr,  // growth
           kFriction,
@@ -94,15 +92,14 @@ inline const char* aPluck(const Lia& /*lia*/) {
 /// Holds, slips and gives what it stored: meant to be active.
 template <class Explicit>
 constexpr Law pluckLaw(LawText text, decltype(Law::slopes) slopes) {
-  return {text,
-          Law::Kind::kElastic,
-          explicitForm<Explicit>(),
+  return {text,       Law::Kind::kElastic, explicitForm<Explicit>(),
           nullptr,  // guarded
           aPluck,
-          false,  // has_linear_part
-          false,  // switches
-          false,  // is_held
-          always,
+          false,   // has_linear_part
+          true,    // switches
+          true,    // is_held
+          always,  // canGive
+          never,   // givesForEver
           slopes,
           nullptr,  // growth
           nullptr,  // friction

@@ -97,6 +97,8 @@ struct Law : LawText {
   bool switches;                    ///< its stiffness comes and goes
   bool is_held;                     ///< it switches, but its force has an upper bound
   bool (*canGive)(const Lia& lia);  ///< energy, though no more than a bounded amount at a time
+  /// However far or fast its ends are: it is bounded by nothing but what takes that energy.
+  bool (*givesForEver)(const Lia& lia);
   Slopes (*slopes)(const Scene& scene, const Lia& lia);
   const Growth* growth;                                            ///< nullptr: slopes are bounded
   FrictionSlopes (*friction)(const Scene& scene, const Lia& lia);  ///< nullptr: no friction

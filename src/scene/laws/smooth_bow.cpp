@@ -43,6 +43,6 @@ constexpr LiaField kFields[] = {dampingField(), widthField("width", "m/s")};
 }  // namespace
 
 constexpr Law kSmoothBowLaw = frictionLaw<SmoothBow, SmoothBowCurve, friction>(
-    {"smooth bow", kWords, kFields, Law::Tables::kNone, false});
+    {"smooth bow", kWords, kFields, Law::Tables::kNone, false}, never);
 
 }  // namespace ergotic::scene

@@ -46,7 +46,8 @@ constexpr Law kSpringDamperLaw = {
     true,   // has_linear_part
     false,  // switches
     false,  // is_held
-    never,
+    never,  // canGive
+    never,  // givesForEver
     slopes,
     nullptr,  // growth
     nullptr,  // friction

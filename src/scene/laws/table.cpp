@@ -48,6 +48,15 @@ const char* unguarded(const Lia& lia) {
   return lia.law->viscous_table.empty() ? nullptr : "a table with a viscous part";
 }
 
+/// Its last values hold beyond its ends: there it pushes away, or drives on what moves.
+bool pushesOut(const Table& table) {
+  return !table.empty() && (table.points.front().second > 0.0 || table.points.back().second < 0.0);
+}
+
+bool pushesOutBeyondItsEnds(const Lia& lia) {
+  return pushesOut(lia.law->table) || pushesOut(lia.law->viscous_table);
+}
+
 bool falls(const Lia& lia) {
   return !rises(lia.law->table) || !rises(lia.law->viscous_table);
 }
@@ -73,7 +82,8 @@ constexpr Law kTableLaw = {
     false,  // has_linear_part
     true,   // switches
     true,   // is_held
-    falls,
+    falls,  // canGive
+    pushesOutBeyondItsEnds,
     slopes,
     nullptr,  // growth
     friction,

@@ -84,6 +84,8 @@ TEST(CertifyLinksTest, SteepestLineOfATableCounts) {
   lia.law.edit().table.points = {{-0.01, 0.0}, {0.0, 0.0}, {0.001, 0.001 * k}, {0.002, 0.0}};
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnstable);
   lia.law.edit().table.points[2].second *= 0.5;
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnproven);
+  b.spring(mass, b.ground(), 0.0, 0.01);  // what it gives is lost
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
 }
 
@@ -160,7 +162,8 @@ TEST(CertifyLinksTest, TablesThatFallAreBoundedAndOthersSwitch) {
   EXPECT_NEAR(certify(b.scene, {kRate, 14}).sections[0].lambda, 0.04, 1e-6);
   lia.law.edit().viscous_table.points = {{-1.0, -0.1 * kRate}, {1.0, 0.1 * kRate}};
   EXPECT_NEAR(certify(b.scene, {kRate, 14}).sections[0].lambda, 0.04 + 2.0 * 0.1, 1e-6);
-  lia.law.edit().table.points[2].second = -0.005 * k;
+  lia.law.edit().table.points = {
+      {-0.01, -0.01 * k}, {0.0, 0.0}, {0.005, 0.004 * k}, {0.01, 0.001 * k}};
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
   lia.law.edit().table.points[1].second = 2.0 * kRate * kRate;
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnstable);
@@ -169,10 +172,13 @@ TEST(CertifyLinksTest, TablesThatFallAreBoundedAndOthersSwitch) {
 TEST(CertifyLinksTest, ConditionalLinksAreBoundedAndCountClosed) {
   SceneBuilder b;
   const int mass = b.mass(1.0);
+  b.scene.lias.reserve(2);
   scene::Lia& lia =
       b.scene.lias[at(b.link(LiaType::kConditional, mass, b.ground(), kRate * kRate))];
   lia.law.edit().width = {0.01};
   lia.law.edit().release = 0.02;
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnproven);
+  b.spring(mass, b.ground(), 0.0, 0.01);  // what it gives is lost
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
   lia.stiffness = {4.1 * kRate * kRate};
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnstable);

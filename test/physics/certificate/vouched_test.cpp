@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Scenes that grow, and of which it was once said that they cannot. Each is played, to see that it
+// does grow, and must not be vouched for.
+#include "ergotic/physics/certificate/certify.hpp"
+#include "ergotic/physics/certificate/monodromy.hpp"
+#include "support/physics.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+struct Grown {
+  double times = 0.0;  ///< kinetic energy in all, of what there was at the start
+  Certificate certificate;
+};
+
+double kineticEnergy(const Player& player) {
+  double sum = 0.0;
+  for (const SectionEnergy& section : energiesOf(player).sections) {
+    sum += section.kinetic;
+  }
+  return sum;
+}
+
+Grown grown(const SceneBuilder& b, int ratio, double seconds, Precision precision) {
+  Player player(compile(b.scene, {kRate, ratio}, precision));
+  const double start = kineticEnergy(player);
+  double most = start;
+  for (int n = 0; n < static_cast<int>(seconds * kRate / ratio) && most < 1e12 * start; ++n) {
+    player.tick();
+    most = std::max(most, kineticEnergy(player));
+  }
+  return {most / start, certify(b.scene, {kRate, ratio})};
+}
+
+void expectRefused(const SceneBuilder& b, int ratio, double seconds, double times) {
+  for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
+    const Grown scene = grown(b, ratio, seconds, precision);
+    EXPECT_GT(scene.times, times);
+    EXPECT_GE(scene.certificate.verdict, Verdict::kUnproven);
+  }
+}
+
+/// A slow mass and a fast one, each with a spring to the ground, and what joins them.
+SceneBuilder twoMasses(double slow, double coupling, double z, double fast, double fast_mass) {
+  SceneBuilder b;
+  const int heavy = b.mass(1.0, 0.0, 0.01, SceneBuilder::kGestural);
+  b.spring(heavy, b.ground(0.0, SceneBuilder::kGestural), slow);
+  const int light = b.mass(fast_mass);
+  b.spring(heavy, light, coupling, z);
+  b.spring(light, b.ground(), fast);
+  return b;
+}
+
+TEST(VouchedTest, SoftCouplingsOfLowModesGrowAllTheSame) {
+  expectRefused(twoMasses(24703385.68, 7521536.778, 0.0, 32707988.93, 0.4417203012), 14, 1.0, 1e6);
+  expectRefused(twoMasses(18522197.78, 23580390.53, 232.5266722, 8992567.081, 0.4100447551), 8, 3.0,
+                1e6);
+}
+
+TEST(VouchedTest, ContactsOnOneMassAddUp) {
+  SceneBuilder b;
+  const int mass = b.mass(1.0, 0.0, 0.44);
+  const double k = 0.049 * kRate * kRate;
+  for (int n = 0; n < 80; ++n) {
+    const bool is_right = n % 2 == 0;
+    const int wall = b.ground(0.0);
+    b.link(LiaType::kContact, is_right ? wall : mass, is_right ? mass : wall, k);
+    b.scene.lias.back().law.edit().width = {-1e-4};
+  }
+  expectRefused(b, 14, 3.0, 1e3);
+  b.scene.lias.resize(1);
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kPassive);
+}
+
+SceneBuilder onATable(scene::Table elastic, scene::Table viscous) {
+  SceneBuilder b;
+  const int mass = b.mass(0.01, 0.0, 0.1);
+  scene::Lia& lia = b.scene.lias[at(b.link(LiaType::kTable, mass, b.ground(), 0.0))];
+  lia.law.edit().table = std::move(elastic);
+  lia.law.edit().viscous_table = std::move(viscous);
+  return b;
+}
+
+TEST(VouchedTest, TablesWhoseEndsDriveGiveForEver) {
+  const scene::Table outwards{{{-1.0, 1.0}, {1.0, -1.0}}};
+  const scene::Table inwards{{{-1.0, -1.0}, {1.0, 1.0}}};
+  expectRefused(onATable({}, outwards), 14, 2.0, 1e3);
+  expectRefused(onATable(outwards, {}), 14, 2.0, 1e3);
+  SceneBuilder guarded = onATable(outwards, {});
+  guarded.scene.lias[0].scheme = Scheme::kGuarded;
+  expectRefused(guarded, 14, 2.0, 1e3);
+  EXPECT_EQ(certify(onATable(inwards, inwards).scene, {kRate, 14}).verdict, Verdict::kPassive);
+}
+
+TEST(VouchedTest, WhatSnapsFeedsEnergyIn) {
+  struct Snap {
+    LiaType type;
+    double width;
+    double x;
+    double times;
+  };
+  for (const Snap& snap :
+       {Snap{LiaType::kConditional, 5e-3, 0.03, 1e3}, {LiaType::kPluck, 3e-4, 0.0, 3.0}}) {
+    SceneBuilder b;
+    // A mass that swings through a point where something snaps at every pass.
+    const int mass = b.mass(1.0, snap.x, 6.0);
+    b.spring(mass, b.ground(), 1e-5 * kRate * kRate);
+    scene::Lia& lia = b.scene.lias[at(b.link(snap.type, mass, b.ground(), 3.5 * kRate * kRate))];
+    lia.law.edit().width = {snap.width};
+    lia.law.edit().release = 1e-2;
+    SCOPED_TRACE(static_cast<int>(snap.type));
+    expectRefused(b, 14, 20.0, snap.times);
+    // Where all that it reaches loses energy, what it gives is bounded, as its force is.
+    b.scene.lias[0].damping = {10.0};
+    EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
+    lia.stiffness = {0.04 * kRate * kRate};
+    b.scene.lias[0].damping = {0.0};
+    EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
+  }
+}
+
+TEST(VouchedTest, SlowGrowthIsNoRigidMotion) {
+  const double angle = 5e-7;
+  Eigen::Matrix2d turn;
+  turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  EXPECT_NEAR(spectralRadius((1.0 + 5e-8) * turn), 1.0 + 5e-8, 1e-12);
+  SceneBuilder b;  // free in all: a double 1
+  const int slow = b.mass(1.0, 0.0, 0.0, SceneBuilder::kGestural);
+  b.spring(slow, b.mass(1.0), 100.0);
+  EXPECT_LE(spectralRadius(monodromy(b.scene, {kRate, 14})), 1.0 + 1e-12);
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kPassive);
+}
+
+}  // namespace
+}  // namespace ergotic::physics

@@ -187,6 +187,25 @@ TEST(GuardedTest, PressedContactComesToRest) {
   }
 }
 
+/// A damped mass that comes to rest just where it touches: its steps shrink until they vanish.
+TEST(GuardedTest, ContactThatComesToRestTouchingStaysFinite) {
+  for (const LiaType type : {LiaType::kContact, LiaType::kPowerContact, LiaType::kFelt}) {
+    for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
+      SceneBuilder b;
+      const int mass = b.mass(0.01, 0.001);
+      b.spring(mass, b.ground(), 400.0, 1.6);
+      scene::Lia& lia = b.scene.lias[at(b.link(type, b.ground(), mass, 20000.0))];
+      lia.law.edit().exponent = {type == LiaType::kContact ? 1.0 : 1.5};
+      lia.damping = {type == LiaType::kFelt ? 0.1 : 0.0};
+      lia.scheme = Scheme::kGuarded;
+      b.hear(mass);
+      Player player(compile(b.scene, {kRate, 14}, precision));
+      player.ticks(static_cast<int>(12.0 * kRate / 14));
+      EXPECT_LT(std::abs(player.heard[0].back()), 1e-30);  // false of NaN
+    }
+  }
+}
+
 TEST(GuardedTest, ObliqueCollisionsKeepEnergyAndMomentum) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-1.0, 1.0);

@@ -6,7 +6,8 @@
 namespace ergotic::scene {
 namespace {
 
-GuardedLaw<double> lawOf(LiaType type) {
+template <class Real = double>
+GuardedLaw<Real> lawOf(LiaType type) {
   Lia lia;
   lia.type = type;
   lia.stiffness = {3.0};
@@ -14,7 +15,7 @@ GuardedLaw<double> lawOf(LiaType type) {
   lia.law.edit().stiffness_limit = {9.0};
   lia.law.edit().tipping_point = std::sqrt((9.0 - 3.0) / 5.0);
   lia.law.edit().exponent = {1.7};
-  return GuardedLaw<double>::make(Scene{}, lia, Units{});
+  return GuardedLaw<Real>::make(Scene{}, lia, Units{});
 }
 
 /// By the midpoint rule.
@@ -47,6 +48,42 @@ TEST(GuardedFormTest, SlopePotentialAndMeanAreThoseOfThePush) {
           EXPECT_NEAR(law.meanPush(p, w), meanOf(law, p, w), 1e-5 * force) << what << " " << p;
         }
       }
+    }
+  }
+}
+
+template <class Real>
+void expectTheLawWhereNothingMoves() {
+  for (const LiaType type :
+       {LiaType::kContact, LiaType::kPowerContact, LiaType::kCubicContact, LiaType::kFelt}) {
+    const GuardedLaw<Real> law = lawOf<Real>(type);
+    const double least = std::log10(std::numeric_limits<Real>::denorm_min());
+    for (double i = least; i < -1.0; i += 1.3) {
+      const Real p = static_cast<Real>(std::pow(10.0, i));
+      EXPECT_EQ(law.meanPush(p, Real(0)), law.push(p).force) << p;
+      EXPECT_TRUE(std::isfinite(law.push(p).slope)) << p;
+      for (double k = least; k < -1.0; k += 1.3) {
+        const Real w = static_cast<Real>(std::pow(10.0, k));
+        const Real mean = law.meanPush(p, w);
+        // It lies between what the law gives at both ends of the steps; sums of cubes are rounded.
+        const Real most = law.push(p + w).force;
+        EXPECT_GE(mean, -Real(1e-5) * most) << p << " " << w;
+        EXPECT_LE(mean, Real(1.00001) * most) << p << " " << w;
+      }
+    }
+    EXPECT_EQ(law.meanPush(Real(0), Real(0)), Real(0));
+  }
+}
+
+TEST(GuardedFormTest, MeanIsTheLawWhereNothingMoves) {
+  expectTheLawWhereNothingMoves<float>();
+  expectTheLawWhereNothingMoves<double>();
+}
+
+TEST(GuardedFormTest, HugeOverlapsAreFinite) {
+  for (const double p : {1e100, 1e150, 1e300}) {
+    for (const double w : {0.0, 1e100, 1e300}) {
+      EXPECT_TRUE(std::isfinite(lawOf(LiaType::kContact).meanPush(p, w))) << p << " " << w;
     }
   }
 }

@@ -17,12 +17,14 @@ struct GridPlace {
 };
 
 /// Linear interpolation along the columns and across the rows.
-/// \param along, across  0...1, cut to that; `across` does not matter where there is one row
+/// \param along, across  0...1, cut to that; `across` does not matter where there is one row. One
+///                       that is not a number gives modules of the grid with weights that are none
 /// \pre at least two columns. Realtime: yes.
 inline GridPlace placeOn(const Grid& grid, double along, double across) noexcept {
   const auto split = [](double place, int count, int& lower) noexcept {
     const double index = std::clamp(place, 0.0, 1.0) * (count - 1);
-    lower = std::min(static_cast<int>(index), count - 2);
+    // No index comes from what is not a number: the weights tell.
+    lower = index >= 1.0 ? std::min(static_cast<int>(index), count - 2) : 0;
     return index - lower;
   };
   int column = 0;

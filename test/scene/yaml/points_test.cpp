@@ -49,6 +49,20 @@ TEST(GridPlaceTest, WeightsAddUpToOneAndTheirMeanIsThePlace) {
   }
 }
 
+TEST(GridPlaceTest, OfNoNumberIsOnTheGridWithWeightsThatAreNone) {
+  const double nowhere = std::nan("");
+  const GridPlace string = placeOn({"s", 3, 4, 1}, nowhere, 0.5);
+  EXPECT_THAT(string.mats, ElementsAre(3, 4, 3, 3));
+  EXPECT_TRUE(std::isnan(string.weights[0]) && std::isnan(string.weights[1]));
+  for (const auto& [along, across] : {std::pair(nowhere, 0.5), std::pair(0.5, nowhere)}) {
+    const GridPlace net = placeOn({"net", 10, 5, 3}, along, across);
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_TRUE(net.mats[i] >= 10 && net.mats[i] < 25);
+      EXPECT_TRUE(std::isnan(net.weights[i]));
+    }
+  }
+}
+
 TEST(GridPlaceTest, OfAStringIsBetweenTwoModulesWhateverIsAskedFor) {
   const Grid string{"s", 3, 4, 1};
   for (const double along : {-1.0, 0.0, 0.4, 1.0, 2.0}) {

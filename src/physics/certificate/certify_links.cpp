@@ -155,11 +155,19 @@ class LinkJudge {
     const double kappa = loads_.kappa(lia);
     // What is meant to give energy may give a few per cent more.
     const double silent = law.canGive(lia) ? kWarnedSwitch : kExplicitSwitch;
-    if (kappa <= silent) {
+    if (kappa <= silent && (law.canGive(lia) || loads_.losesMore(lia))) {
       return;
     }
     if (law.is_held && losesEnergy(lia)) {
       findings_.worsen(Verdict::kBounded);
+      return;
+    }
+    if (kappa <= silent) {
+      findings_.add(Verdict::kUnproven, lia.place,
+                    "link '" + lia.name +
+                        "' switches its stiffness: its step may give a little at every hit, which "
+                        "adds up, and its damping takes less than that. Give it " +
+                        describe(loads_.leastDamping(lia)) + " N s/m or more, or scheme: guarded");
       return;
     }
     const std::string harm =

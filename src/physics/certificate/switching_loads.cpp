@@ -2,8 +2,10 @@
 #include "physics/certificate/switching_loads.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "at.hpp"
+#include "physics/certificate/explicit_limits.hpp"
 #include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
@@ -36,6 +38,16 @@ SwitchingLoads::SwitchingLoads(const RatedNetwork& networks)
 
 double SwitchingLoads::kappa(const scene::Lia& lia) const {
   return loadOn(lia.a) + loadOn(lia.b);
+}
+
+double SwitchingLoads::leastDamping(const scene::Lia& lia) const {
+  const double stiffness =
+      networks_.slopes(static_cast<int>(&lia - networks_.scene().lias.data())).stiffness.highest;
+  return kLossOfHit * networks_.stepOf(lia) * stiffness * std::sqrt(kappa(lia));
+}
+
+bool SwitchingLoads::losesMore(const scene::Lia& lia) const {
+  return scene::rangeOf(networks_.scene(), lia.damping).lowest >= leastDamping(lia);
 }
 
 double SwitchingLoads::loadOn(int end) const {

@@ -16,6 +16,10 @@ class SwitchingLoads {
   /// h^2 (K_a / Ma + K_b / Mb), with K_a and K_b the steepest slopes of all that may act on an end
   /// together; 0 if no force moves an end.
   double kappa(const scene::Lia& lia) const;
+  /// The least damping with which a link loses more in a hit than its step may give, N s/m.
+  double leastDamping(const scene::Lia& lia) const;
+  /// True if it has that.
+  bool losesMore(const scene::Lia& lia) const;
 
  private:
   double loadOn(int end) const;

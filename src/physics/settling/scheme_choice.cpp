@@ -21,6 +21,7 @@ struct Reason {
   const char* figure = nullptr;  ///< null: it may stay explicit
   double value = 0.0;
   double allowed = 0.0;
+  const char* against = "explicit bears";
 };
 
 class Chooser {
@@ -73,18 +74,23 @@ class Chooser {
       return {figure.name, figure.value, figure.allowed};
     }
     if (law.switches && slopes.stiffness.highest > 0.0) {
-      return switching(per_stiffness * slopes.stiffness.highest, loads_.kappa(lia));
+      return switching(lia, per_stiffness * slopes.stiffness.highest);
     }
     return law.friction == nullptr ? Reason{} : sliding(law.friction(scene_, lia), per_damping);
   }
 
-  static Reason switching(double own, double together) {
+  Reason switching(const scene::Lia& lia, double own) const {
+    const double together = loads_.kappa(lia);
     if (own > kExplicitSwitch) {
       return {"h^2 K (1/Ma + 1/Mb)", own, kExplicitSwitch};
     }
-    return together > kExplicitSwitch
-               ? Reason{"h^2 K/M of all that switch at its ends", together, kExplicitSwitch}
-               : Reason{};
+    if (together > kExplicitSwitch) {
+      return {"h^2 K/M of all that switch at its ends", together, kExplicitSwitch};
+    }
+    return loads_.losesMore(lia) || scene::lawOf(lia.type).canGive(lia)
+               ? Reason{}
+               : Reason{"loss that explicit hits need, N s/m", loads_.leastDamping(lia),
+                        scene::rangeOf(scene_, lia.damping).lowest, "there is"};
   }
 
   static Reason sliding(const scene::FrictionSlopes& slopes, double unit) {
@@ -120,7 +126,7 @@ class Chooser {
       who += " and " + std::to_string(alike.links - 1) + " more";
     }
     const std::string why = std::string(alike.worst.figure) + " = " + shortly(alike.worst.value) +
-                            ", explicit bears " + shortly(alike.worst.allowed);
+                            ", " + alike.worst.against + " " + shortly(alike.worst.allowed);
     return noteAt(scene_, alike.first->place) + who +
            (alike.guarded ? ": guarded (" + why + ")"
                           : ": explicit, because one end is a slower mass, although " + why);

@@ -46,16 +46,19 @@ TEST(CertifyLinksTest, LinesThatTurnAreProvenOnlyWithoutRestLengthOrGuarded) {
 }
 
 TEST(CertifyLinksTest, SwitchingLinksAreJudgedByTheirKappa) {
-  const auto verdict = [](LiaType type, double kappa) {
+  const auto verdict = [](LiaType type, double kappa, double damping = 0.01) {
     SceneBuilder b;
     const int mass = b.mass(1.0);
     scene::Lia& lia = b.scene.lias[at(b.link(type, mass, b.ground(), kappa * kRate * kRate))];
     lia.law.edit().stiffness_limit = lia.stiffness;
+    lia.damping = {damping * kRate};
     return certify(b.scene, {kRate, 14});
   };
   for (const LiaType type : {LiaType::kContact, LiaType::kCubicContact, LiaType::kClippedCubic}) {
     EXPECT_EQ(verdict(type, 0.04).verdict, Verdict::kPassive);
     EXPECT_TRUE(verdict(type, 0.04).findings.empty());
+    EXPECT_EQ(verdict(type, 0.04, 1e-3).verdict, Verdict::kUnproven) << "it loses too little";
+    EXPECT_THAT(verdict(type, 0.04, 0.0).findings, Contains(HasSubstr("Give it 70.56 N s/m")));
     EXPECT_EQ(verdict(type, 0.2).verdict, Verdict::kUnproven);
     EXPECT_THAT(verdict(type, 0.2).findings, Contains(HasSubstr("hard hits")));
     EXPECT_EQ(verdict(type, 0.5).verdict, Verdict::kUnproven);
@@ -149,6 +152,7 @@ TEST(CertifyLinksTest, PowerContactSaysHowDeepItWouldHold) {
   EXPECT_THAT(c.findings, Contains(HasSubstr("up to an overlap of 0.125 m")));
   lia.law.edit().exponent = {1.0};
   lia.stiffness = {0.04 * kRate * kRate};
+  lia.damping = {0.01 * kRate};
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kPassive);
 }
 
@@ -158,8 +162,11 @@ TEST(CertifyLinksTest, TablesThatFallAreBoundedAndOthersSwitch) {
   scene::Lia& lia = b.scene.lias[at(b.link(LiaType::kTable, mass, b.ground(), 0.0))];
   const double k = 0.04 * kRate * kRate;
   lia.law.edit().table.points = {{-0.01, -0.01 * k}, {0.0, 0.0}, {0.01, 0.005 * k}};
-  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kPassive);
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnproven);
   EXPECT_NEAR(certify(b.scene, {kRate, 14}).sections[0].lambda, 0.04, 1e-6);
+  b.scene.sections[0].medium = {1e-3};  // what it gives is lost
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
+  b.scene.sections[0].medium = {};
   lia.law.edit().viscous_table.points = {{-1.0, -0.1 * kRate}, {1.0, 0.1 * kRate}};
   EXPECT_NEAR(certify(b.scene, {kRate, 14}).sections[0].lambda, 0.04 + 2.0 * 0.1, 1e-6);
   lia.law.edit().table.points = {

@@ -288,8 +288,8 @@ struct Certified {
 
 TEST(FeltTest, CertificateLooksAtBothEndsOfItsRanges) {
   const double soft = 0.049 * kRate * kRate;
-  EXPECT_EQ((Certified{soft, 1.0, 0.0}.verdict(Scheme::kExplicit)), Verdict::kPassive);
-  EXPECT_EQ((Certified{1.1 * soft, 1.0, 0.0}.verdict(Scheme::kExplicit)), Verdict::kUnproven);
+  // Explicit, its step may give a little at a hit, and it has no damping to lose that.
+  EXPECT_EQ((Certified{soft, 1.0, 0.0}.verdict(Scheme::kExplicit)), Verdict::kUnproven);
   EXPECT_EQ((Certified{soft, 1.01, 0.0}.verdict(Scheme::kExplicit)), Verdict::kUnproven);
   EXPECT_EQ((Certified{soft, 1.0, 0.01}.verdict(Scheme::kExplicit)), Verdict::kUnproven);
   EXPECT_EQ((Certified{5.0 * kRate * kRate, 1.0, 0.0}.verdict(Scheme::kExplicit)),
@@ -319,13 +319,13 @@ TEST(FeltTest, WhatIsCertifiedHoldsAtBothEnds) {
   }
 }
 
-TEST(FeltTest, IsGuardedWhereItsSlopeGrows) {
+TEST(FeltTest, IsGuardedWhateverItLoses) {
   const auto scheme = [](double exponent, double c) {
     SceneBuilder b;
     felt(b, b.mass(1.0), b.ground(), 1e3, exponent, c, Scheme::kAuto);
     return settle(b.scene, {kRate, 14}).scene.lias[0].scheme;
   };
-  EXPECT_EQ(scheme(1.0, 0.0), Scheme::kExplicit);
+  EXPECT_EQ(scheme(1.0, 0.0), Scheme::kGuarded);
   EXPECT_EQ(scheme(1.5, 0.0), Scheme::kGuarded);
   EXPECT_EQ(scheme(1.0, 0.1), Scheme::kGuarded);
 }

@@ -39,6 +39,7 @@ scene::Value damped(double s) {
 
 TEST(SchemeChoiceTest, LinearContactIsGuardedAboveItsKappa) {
   Pair pair(LiaType::kContact);
+  pair.lia().damping = damped(0.01);
   pair.lia().stiffness = stiff(0.0499);
   EXPECT_EQ(pair.scheme(), Scheme::kExplicit);
   EXPECT_TRUE(pair.settled().notes.empty());
@@ -50,9 +51,21 @@ TEST(SchemeChoiceTest, LinearContactIsGuardedAboveItsKappa) {
             "bears 0.05)");
 }
 
+TEST(SchemeChoiceTest, ContactThatLosesLessThanItsStepMayGiveIsGuarded) {
+  Pair pair(LiaType::kContact);
+  pair.lia().stiffness = stiff(0.04);
+  pair.lia().damping = damped(0.2 * std::pow(0.04, 1.5) * 1.001);
+  EXPECT_EQ(pair.scheme(), Scheme::kExplicit);
+  pair.lia().damping = damped(0.2 * std::pow(0.04, 1.5) * 0.999);
+  EXPECT_EQ(pair.scheme(), Scheme::kGuarded);
+  ASSERT_EQ(pair.settled().notes.size(), 1U);
+  EXPECT_THAT(pair.settled().notes[0], HasSubstr("loss that explicit hits need, N s/m = "));
+}
+
 TEST(SchemeChoiceTest, ContactIsJudgedAtTheWorstEndOfItsRange) {
   Pair pair(LiaType::kContact);
   pair.b.scene.parameters.push_back({"k", 1.0, 0.5, 2.0, {}});
+  pair.lia().damping = damped(0.01);
   pair.lia().stiffness = {stiff(0.0249).factor, 0};
   EXPECT_EQ(pair.scheme(), Scheme::kExplicit);
   pair.lia().stiffness = {stiff(0.0251).factor, 0};
@@ -72,6 +85,7 @@ struct Turn {
 };
 void setStiffness(Lia& lia, double kappa) {
   lia.stiffness = stiff(kappa);
+  lia.damping = damped(0.01);
 }
 void setDamping(Lia& lia, double s) {
   lia.damping = damped(s);
@@ -79,6 +93,7 @@ void setDamping(Lia& lia, double s) {
 void setLimit(Lia& lia, double kappa) {
   lia.law.edit().tipping_point = 1e-3;
   lia.stiffness = stiff(0.01);
+  lia.damping = damped(0.01);
   lia.law.edit().stiffness_limit = stiff(kappa);
 }
 void setCube(Lia& lia, double kappa) {
@@ -91,6 +106,7 @@ void setNonlinearity(Lia& lia, double nonlinearity) {
 }
 void setExponent(Lia& lia, double above_one) {
   lia.stiffness = stiff(1e-6);
+  lia.damping = damped(0.01);
   lia.law.edit().exponent = {1.0 + above_one};
 }
 /// Up to f at 1 mm.
@@ -106,7 +122,7 @@ const Turn kTurns[] = {
     {"cube of a clipped cubic", LiaType::kClippedCubic, 0.04, setCube},
     {"cubic contact", LiaType::kCubicContact, 0.05, setLimit},
     {"cube of a cubic contact", LiaType::kCubicContact, 0.04, setCube},
-    {"table", LiaType::kTable, 0.05, setElastic},
+    {"table", LiaType::kTable, 0.0, setElastic},  // has no damping
     {"table that falls", LiaType::kTable, 0.05, [](Lia& l, double k) { setElastic(l, -k); }},
     // The fall of friction decides, as it is allowed less than its rise.
     {"bow", LiaType::kBow, 0.2 * 3.0, setDamping},
@@ -195,8 +211,8 @@ TEST(SchemeChoiceTest, PointIsAsLightAsTheLightestModuleUnderIt) {
     const int point = b.point(b.grid(first, 5), 0.5);
     b.scene.connections[0].guide = moves ? b.slice(0) : -1;
     b.scene.connections[0].guide_scale = 1.0;
-    scene::Lia& lia =
-        b.scene.lias[static_cast<std::size_t>(b.link(LiaType::kContact, b.ground(), point, 0.0))];
+    scene::Lia& lia = b.scene.lias[static_cast<std::size_t>(
+        b.link(LiaType::kContact, b.ground(), point, 0.0, 10.0))];
     lia.scheme = Scheme::kAuto;
     const double mass = moves ? kLight : kHeavy;
     lia.stiffness = {0.0499 * mass * kRate * kRate};

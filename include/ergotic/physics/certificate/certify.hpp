@@ -61,9 +61,7 @@ struct DeviceTraits {
 /// Linear part: link bound, Collatz-Wielandt bound, then the exact eigenvalue by sparse LDL^T, with
 /// every parameter at the worst end of its range and moving points at their worst places. Nonlinear
 /// links enter with their largest slope where it is bounded; guarded ones make no energy.
-/// Coupled rates: the same at the slow step over slow masses, coupling links and the fast masses
-/// that they touch; where that does not decide, the eigenvalues of one period of the slowest
-/// section, up to 300 masses.
+/// Coupled rates: the eigenvalues of one period of the slowest section, up to 300 masses.
 /// \param scene   settled
 /// \param device  that it will be played on
 /// Realtime: no. Cost: some tens of sparse factorisations, below 1 s for 7,000 masses.

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A search for scenes that the certificate vouches for and that grow all the same.
+#include <cstdlib>
+#include <map>
+
+#include "ergotic/physics/certificate/certify.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
+#include "support/physics.hpp"
+#include "support/small_scene.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+using test::SmallScene;
+
+constexpr unsigned kScenes = 2000;
+constexpr unsigned kParts = 8;
+constexpr int kFrames = 30000;
+constexpr double kBlownUp =
+    1e8;  // of the energy at the start, beside what steps near their limit lend
+constexpr double kGrowing = 1.5;  // the last quarter against the first: looked at for longer
+constexpr double kGrown = 3.0;    // over eight times as long
+
+/// The largest kinetic energy in the quarters of a performance.
+struct Quarters {
+  double most[4] = {0.0, 0.0, 0.0, 0.0};
+  double start = 0.0;
+  bool is_blown_up = false;
+  double growth() const { return is_blown_up ? kBlownUp : most[3] / std::max(most[0], start); }
+};
+
+Quarters play(const scene::Scene& scene, const Rates& rates, int frames, Precision precision) {
+  Player player(compile(scene, rates, precision));
+  Energies energies = player.instrument->makeEnergies();
+  Quarters quarters;
+  const int ticks = std::max(frames / rates.ratio, 4);
+  for (int n = 0; n < ticks; ++n) {
+    player.tick();
+    player.instrument->readEnergies(energies);
+    double kinetic = 0.0;
+    for (const SectionEnergy& section : energies.sections) {
+      kinetic += std::abs(section.kinetic);
+    }
+    if (n == 0) {
+      quarters.start = kinetic + std::abs(energies.stored);
+    }
+    double& most = quarters.most[4 * n / ticks];
+    most = std::max(most, kinetic);
+    if (!(kinetic <= kBlownUp * quarters.start)) {
+      quarters.is_blown_up = true;
+      break;
+    }
+  }
+  return quarters;
+}
+
+bool grows(const scene::Scene& scene, const Rates& rates, Precision precision) {
+  const double growth = play(scene, rates, kFrames, precision).growth();
+  return growth >= kBlownUp ||
+         (growth > kGrowing && play(scene, rates, 8 * kFrames, precision).growth() > kGrown);
+}
+
+bool isVouched(Verdict verdict) {
+  return verdict == Verdict::kPassive || verdict == Verdict::kBounded;
+}
+
+struct Judged {
+  bool is_vouched = false;
+  bool grows = false;
+  Verdict verdict = Verdict::kPassive;
+};
+
+Judged judge(const SmallScene& small, unsigned seed) {
+  Judged judged;
+  const scene::Scene scene = settle(scene::readYaml(small.text(), "small.yaml"), small.rates).scene;
+  judged.verdict = certify(scene, small.rates).verdict;
+  judged.is_vouched = isVouched(judged.verdict);
+  judged.grows = judged.is_vouched &&
+                 grows(scene, small.rates, seed % 2 == 0 ? Precision::kDouble : Precision::kFloat);
+  return judged;
+}
+
+/// The same without the links that are not needed for it to lie.
+SmallScene shrunk(SmallScene liar, unsigned seed) {
+  for (std::size_t i = liar.lias.size(); i-- > 0 && liar.lias.size() > 1;) {
+    SmallScene smaller = liar;
+    smaller.lias.erase(smaller.lias.begin() + static_cast<std::ptrdiff_t>(i));
+    const Judged judged = judge(smaller, seed);
+    if (judged.is_vouched && judged.grows) {
+      liar = smaller;
+    }
+  }
+  return liar;
+}
+
+/// ERGOTIC_SEARCH asks for more.
+unsigned scenes() {
+  const char* const asked = std::getenv("ERGOTIC_SEARCH");
+  return asked == nullptr ? kScenes : static_cast<unsigned>(std::strtoul(asked, nullptr, 10));
+}
+
+class SearchTest : public testing::TestWithParam<unsigned> {};
+
+TEST_P(SearchTest, WhatIsVouchedForDoesNotGrow) {
+  for (unsigned seed = GetParam(); seed < GetParam() + scenes() / kParts; ++seed) {
+    const SmallScene small = test::smallScene(seed);
+    const Judged judged = judge(small, seed);
+    EXPECT_FALSE(judged.is_vouched && judged.grows)
+        << "seed " << seed << ", " << small.family << ", " << toString(judged.verdict) << ":\n"
+        << shrunk(small, seed).text();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds,
+                         SearchTest,
+                         testing::Range(0u, scenes() / kParts * kParts, scenes() / kParts));
+
+/// The search proves nothing of what is never vouched for.
+TEST(SmallScenesTest, SomeOfEveryFamilyAreVouchedFor) {
+  std::map<std::string, int> vouched;
+  for (unsigned seed = 0; seed < 500; ++seed) {
+    const SmallScene small = test::smallScene(seed);
+    const scene::Scene scene =
+        settle(scene::readYaml(small.text(), "small.yaml"), small.rates).scene;
+    vouched[small.family] += isVouched(certify(scene, small.rates).verdict) ? 1 : 0;
+  }
+  EXPECT_EQ(vouched.size(), 10U);
+  for (const auto& [family, scenes] : vouched) {
+    EXPECT_GE(scenes, 2) << family;
+  }
+}
+
+}  // namespace
+}  // namespace ergotic::physics

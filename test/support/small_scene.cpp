@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/small_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <sstream>
+
+namespace ergotic::test {
+namespace {
+
+constexpr double kRate = 44100.0;
+
+std::string number(double value) {
+  std::ostringstream text;
+  text.precision(10);
+  text << value;
+  return text.str();
+}
+
+class Maker {
+ public:
+  explicit Maker(unsigned seed) : random_(seed) {}
+
+  SmallScene make(unsigned family) {
+    static constexpr void (Maker::*kFamilies[])() = {
+        &Maker::linear, &Maker::twoRates, &Maker::contacts, &Maker::space,   &Maker::tables,
+        &Maker::snaps,  &Maker::box,      &Maker::hammer,   &Maker::springs, &Maker::friction};
+    is_lossless_ = chance(0.5);
+    (this->*kFamilies[family % std::size(kFamilies)])();
+    return made_;
+  }
+
+ private:
+  struct Mass {
+    std::string name;
+    double kg;
+    double rate;
+  };
+
+  double within(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  double decades(double low, double high) {
+    return std::pow(10.0, within(std::log10(low), std::log10(high)));
+  }
+  bool chance(double share) { return within(0.0, 1.0) < share; }
+  int any(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
+  template <class Item>
+  Item pick(std::initializer_list<Item> all) {
+    return *(all.begin() + any(0, static_cast<int>(all.size()) - 1));
+  }
+  const Mass& anyMass() { return masses_[static_cast<std::size_t>(any(0, last()))]; }
+  int last() const { return static_cast<int>(masses_.size()) - 1; }
+
+  void begin(const char* family, int ratio = 14) {
+    made_.family = family;
+    made_.rates = {kRate, ratio};
+  }
+  void section(const std::string& name, double rate, const std::string& more = "") {
+    made_.sections.push_back(name + ": {rate: " + (rate == kRate ? "audio" : "gestural") + more +
+                             "}");
+    made_.mats.push_back("g_" + name + ": {type: ground, section: " + name + "}");
+    rate_ = rate;
+    section_ = name;
+  }
+  /// \param keys  beside mass and section
+  void mass(double kg, const std::string& keys) {
+    masses_.push_back({"m" + std::to_string(masses_.size()), kg, rate_});
+    made_.mats.push_back(masses_.back().name + ": {type: mass, section: " + section_ +
+                         ", mass: " + number(kg) + keys + "}");
+  }
+  void scalarMasses(int count) {
+    for (int i = 0; i < count; ++i) {
+      mass(decades(0.3, 3.0),
+           ", x: " + number(within(-1e-3, 1e-3)) + ", v: " + number(within(-3.0, 3.0)));
+    }
+  }
+  std::string groundOf(const Mass& m) {
+    return made_.mats[0].find("section: fast") != std::string::npos && m.rate != kRate ? "g_slow"
+           : made_.sections.size() > 1 && m.rate == kRate                              ? "g_fast"
+                                                          : "g_" + section_;
+  }
+  void link(const std::string& type,
+            const std::string& a,
+            const std::string& b,
+            const std::string& keys) {
+    made_.lias.push_back("l" + std::to_string(made_.lias.size()) + ": {type: " + type +
+                         ", between: [" + a + ", " + b + "]" + keys + "}");
+  }
+  /// The other end of a link from a mass: the ground, or another one.
+  std::string otherThan(const Mass& m, double to_ground) {
+    const Mass& other = anyMass();
+    return chance(to_ground) || other.name == m.name ? groundOf(m) : other.name;
+  }
+  std::string full(const Mass& m, double kappa) { return number(kappa * m.kg * m.rate * m.rate); }
+  std::string damping(const Mass& m, double most) {
+    return is_lossless_ || chance(0.5)
+               ? ""
+               : ", damping: " + number(decades(1e-6, most) * m.kg * m.rate);
+  }
+  std::string scheme(std::initializer_list<const char*> all) {
+    return std::string(", scheme: ") + pick(all);
+  }
+
+  void springTo(const Mass& m, const std::string& other, double kappa, double damped) {
+    link("spring_damper", m.name, other,
+         ", stiffness: " + full(m, kappa) + ", damping: " + number(damped * m.kg * m.rate));
+  }
+  double anyLoss() { return is_lossless_ || chance(0.5) ? 0.0 : decades(1e-7, 1e-1); }
+  void springs(int count, double kappa) {
+    for (int i = 0; i < count; ++i) {
+      const Mass& m = anyMass();
+      springTo(m, otherThan(m, 0.4), within(0.0, 1.0) * kappa, anyLoss());
+    }
+  }
+
+  void linear() {
+    begin("linear");
+    section("all", kRate);
+    scalarMasses(any(1, 4));
+    springs(any(2, 7), pick({0.5, 2.0, 4.0}));
+    if (chance(0.2)) {
+      springTo(anyMass(), "g_all", -decades(1e-3, 1.0), 0.0);
+    }
+  }
+
+  void twoRates() {
+    begin("two rates", pick({2, 3, 4, 8, 14, 44}));
+    section("fast", kRate);
+    scalarMasses(any(1, 3));
+    section("slow", kRate / made_.rates.ratio);
+    const int first_slow = last() + 1;
+    scalarMasses(any(1, 2));
+    for (const Mass& m : masses_) {
+      if (chance(0.8)) {
+        springTo(m, groundOf(m), decades(1e-3, 2.0), anyLoss());
+      }
+    }
+    const int links = any(1, 3);
+    for (int i = 0; i < links; ++i) {
+      const Mass& slow = masses_[static_cast<std::size_t>(any(first_slow, last()))];
+      const Mass& fast = masses_[static_cast<std::size_t>(any(0, first_slow - 1))];
+      springTo(slow, fast.name, decades(1e-3, 3.0), anyLoss());
+    }
+    if (first_slow > 1) {
+      springTo(masses_[0], masses_[1].name, decades(1e-3, 2.0), anyLoss());
+    }
+  }
+
+  void contact(const Mass& m, double kappa, const std::string& schemes) {
+    const std::string other = otherThan(m, 0.6);
+    const bool is_left = chance(0.5);
+    const double k = kappa * m.kg * m.rate * m.rate;
+    const std::string type = pick({"contact", "contact", "power_contact", "felt", "cubic_contact"});
+    const double a = type == "contact" ? 1.0 : within(1.0, 3.0);
+    std::string keys = ", threshold: " + number(within(-1e-3, 1e-3));
+    if (type == "cubic_contact") {
+      keys += ", stiffness: " + number(0.1 * k) + ", stiffness_limit: " + number(k) +
+              ", nonlinearity: " + number(k * decades(1e4, 1e8));
+    } else {
+      keys += ", stiffness: " + number(type == "contact" ? k : k / std::pow(1e-3, a - 1.0));
+    }
+    if (type == "power_contact" || type == "felt") {
+      keys += ", exponent: " + number(a);
+    }
+    keys += type == "felt" ? ", damping: " + number(within(0.0, 2.0)) : damping(m, 1.0);
+    link(type, is_left ? m.name : other, is_left ? other : m.name, keys + schemes);
+  }
+
+  void contacts() {
+    begin("contacts");
+    section("all", kRate);
+    scalarMasses(any(1, 3));
+    for (int i = any(1, chance(0.3) ? 60 : 5); i > 0; --i) {
+      contact(anyMass(), decades(1e-3, 1.0), scheme({"explicit", "guarded", "auto"}));
+    }
+    springs(any(0, 3), 1.0);
+  }
+
+  /// A mass between two walls of many contacts each: it hits them all the time.
+  void box() {
+    begin("box");
+    section("all", kRate);
+    mass(1.0, ", v: " + number(within(0.3, 30.0)));
+    for (int side : {0, 1}) {
+      const int contacts = any(1, chance(0.5) ? 40 : 2);
+      const double kappa = decades(1e-3, 1.0) / contacts;
+      for (int i = 0; i < contacts; ++i) {
+        link("contact", side == 0 ? "m0" : "g_all", side == 0 ? "g_all" : "m0",
+             ", threshold: " + number(-decades(1e-5, 1e-3)) + ", stiffness: " +
+                 full(masses_[0], kappa) + damping(masses_[0], 0.1) + scheme({"explicit", "auto"}));
+      }
+    }
+  }
+
+  void space() {
+    begin("space");
+    const int axes = any(1, 3);
+    section("all", kRate,
+            std::string(", geometry: ") + (axes == 1   ? "line"
+                                           : axes == 2 ? "plane"
+                                                       : "space"));
+    const auto triple = [&](double reach) {
+      std::string list = "[";
+      for (int k = 0; k < axes; ++k) {
+        list += (k == 0 ? "" : ", ") + number(within(-reach, reach));
+      }
+      return list + "]";
+    };
+    for (int i = any(1, 3); i > 0; --i) {
+      mass(decades(0.3, 3.0), ", at: " + triple(0.01) + ", v: " + triple(3.0));
+    }
+    for (int i = any(1, 5); i > 0; --i) {
+      const Mass& m = anyMass();
+      const std::string rest = chance(0.5) ? ""
+                                           : ", rest_length: " + number(decades(1e-5, 2e-2)) +
+                                                 scheme({"explicit", "guarded"});
+      link("spring_damper", m.name, otherThan(m, 0.4),
+           ", stiffness: " + full(m, decades(1e-3, 2.0)) +
+               ", damping: " + number(anyLoss() * m.kg * m.rate) + rest);
+    }
+    if (chance(0.4)) {
+      contact(anyMass(), decades(1e-3, 1.0), scheme({"explicit", "guarded", "auto"}));
+    }
+  }
+
+  std::string table(double reach, double slope) {
+    std::vector<double> x(static_cast<std::size_t>(any(2, 6)));
+    for (double& each : x) {
+      each = within(-reach, reach);
+    }
+    std::sort(x.begin(), x.end());
+    const bool rises = chance(0.5);
+    std::string points = "[";
+    double last = x.front() * slope;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double y = rises ? last : within(-1.0, 1.0) * reach * slope;
+      points += (i == 0 ? "[" : ", [") + number(x[i] + 1e-9 * static_cast<double>(i)) + ", " +
+                number(y) + "]";
+      last += i + 1 < x.size() ? within(0.0, 1.0) * slope * (x[i + 1] - x[i]) : 0.0;
+    }
+    return "{points: " + points + "]" + (chance(0.5) ? ", interpolation: monotone" : "") + "}";
+  }
+
+  void tables() {
+    begin("tables");
+    section("all", kRate);
+    scalarMasses(any(1, 2));
+    for (int i = any(1, 2); i > 0; --i) {
+      const Mass& m = anyMass();
+      const int parts = any(1, 3);
+      std::string keys;
+      if ((parts & 1) != 0) {
+        keys += ", elastic: " + table(2e-3, decades(1e-4, 1.0) * m.kg * m.rate * m.rate);
+      }
+      if ((parts & 2) != 0) {
+        keys += ", viscous: " + table(3.0, decades(1e-4, 1.0) * m.kg * m.rate);
+      }
+      link("table", m.name, otherThan(m, 0.7),
+           keys + ((parts & 2) != 0 ? "" : scheme({"explicit", "guarded", "auto"})));
+    }
+    springs(any(0, 3), 0.1);
+  }
+
+  void snaps() {
+    begin("snaps");
+    section("all", kRate);
+    scalarMasses(any(1, 2));
+    for (int i = any(1, 3); i > 0; --i) {
+      const Mass& m = anyMass();
+      const double width = decades(1e-5, 5e-3);
+      if (chance(0.5)) {
+        link("pluck", m.name, otherThan(m, 0.7),
+             ", stiffness: " + full(m, decades(1e-3, 3.0)) + ", width: " + number(width) +
+                 damping(m, 0.1));
+      } else {
+        link("conditional", m.name, otherThan(m, 0.7),
+             ", stiffness: " + full(m, decades(1e-3, 3.0)) + ", engage: " + number(width) +
+                 ", release: " + number(width * decades(1.0, 10.0)) + damping(m, 0.1));
+      }
+    }
+    springs(any(1, 3), 0.1);
+  }
+
+  /// A short string, and what strikes it from the same or from a slower section.
+  void hammer() {
+    begin("hammer on a string", pick({4, 14}));
+    section("fast", kRate);
+    const double kappa = decades(1e-2, 0.9);
+    const double loss = anyLoss();
+    const int masses = any(4, 12);
+    for (int i = 0; i < masses; ++i) {
+      mass(1e-2, "");
+      springTo(masses_.back(), i == 0 ? "g_fast" : masses_[static_cast<std::size_t>(i - 1)].name,
+               kappa, loss);
+    }
+    springTo(masses_.back(), "g_fast", kappa, loss);
+    const Mass struck = anyMass();
+    if (chance(0.5)) {
+      section("slow", kRate / made_.rates.ratio);
+    }
+    mass(decades(1e-3, 1.0), ", x: -0.002, v: " + number(within(0.3, 3.0)));
+    const Mass thrown = masses_.back();
+    const double k = decades(1e-3, 1.0) * struck.kg * kRate * kRate;
+    link("contact", thrown.name, struck.name,
+         ", stiffness: " + number(k) + damping(struck, 0.1) + ", scheme: auto");
+    springTo(thrown, groundOf(thrown), decades(1e-6, 1e-3), anyLoss());
+  }
+
+  void springs() {
+    begin("nonlinear springs");
+    section("all", kRate);
+    scalarMasses(any(1, 4));
+    for (int i = any(1, 4); i > 0; --i) {
+      const Mass& m = anyMass();
+      const double k = decades(1e-3, 10.0) * m.kg * m.rate * m.rate;
+      const std::string type = pick({"cubic", "quadratic", "clipped_cubic"});
+      std::string keys = ", stiffness: " + number(0.1 * k);
+      keys += ", nonlinearity: " + number(type == "quadratic" ? k * 1e3 : k * 1e6);
+      keys += type == "clipped_cubic" ? ", stiffness_limit: " + number(k) : "";
+      link(type, m.name, otherThan(m, 0.5),
+           keys + damping(m, 0.1) + scheme({"explicit", "guarded", "guarded", "auto"}));
+    }
+    springs(any(0, 2), 1.0);
+  }
+
+  void friction() {
+    begin("friction");
+    section("all", kRate);
+    scalarMasses(any(1, 3));
+    for (int i = any(1, 3); i > 0; --i) {
+      const Mass& m = anyMass();
+      link(pick({"bow", "smooth_bow"}), m.name, otherThan(m, 0.5),
+           ", damping: " + number(decades(1e-3, 10.0) * m.kg * m.rate) +
+               ", width: " + number(decades(1e-2, 3.0)) + scheme({"explicit", "guarded", "auto"}));
+    }
+    springs(any(0, 3), 1.0);
+  }
+
+  std::mt19937 random_;
+  SmallScene made_;
+  std::vector<Mass> masses_;
+  std::string section_;
+  bool is_lossless_ = false;
+  double rate_ = kRate;
+};
+
+void addPart(std::string& text, const char* name, const std::vector<std::string>& rows) {
+  text += std::string(name) + ":\n";
+  for (const std::string& row : rows) {
+    text += "  " + row + "\n";
+  }
+}
+
+}  // namespace
+
+std::string SmallScene::text() const {
+  std::string text = "ergotic: 1\nname: small\ngestural_rate: " + number(rates.gesturalHz()) + "\n";
+  addPart(text, "sections", sections);
+  addPart(text, "mats", mats);
+  addPart(text, "lias", lias);
+  return text + "outputs:\n  o: {at: m0, quantity: velocity, channel: 1}\n";
+}
+
+SmallScene smallScene(unsigned seed) {
+  return Maker(seed).make(seed);
+}
+
+}  // namespace ergotic::test

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ergotic/physics/rates.hpp"
+
+namespace ergotic::test {
+
+/// A small scene as text, thrown near the limits of what the certificate vouches for.
+struct SmallScene {
+  std::string family;  ///< what is searched
+  physics::Rates rates;
+  std::vector<std::string> sections;
+  std::vector<std::string> mats;
+  std::vector<std::string> lias;
+
+  std::string text() const;  ///< YAML: all that `check` and `render` need but the rates
+};
+
+/// Families in turn; some masses and links of every law, explicit, guarded or automatic, at one
+/// rate or several, scalar or Euclidean. Nothing drives it: it starts to move, within some
+/// millimetres. \return the same scene for the same seed
+SmallScene smallScene(unsigned seed);
+
+}  // namespace ergotic::test

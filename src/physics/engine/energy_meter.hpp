@@ -56,16 +56,19 @@ class EnergyMeter {
     double dissipated;
     double from_device;
     double from_inputs;
+    static constexpr std::size_t kDoubles = 3;  // here and below: see numbersOf
   };
   /// A force over one step of its section: the mean so far, and that of the step before.
   struct Feeding {
     Real mean;
     Real last;
+    static constexpr std::size_t kDoubles = sizeof(Real) == sizeof(double) ? 2 : 0;
   };
   struct Totals {
     double reference;
     double from_parameters;
     double before_change;
+    static constexpr std::size_t kDoubles = 3;
   };
   /// A coordinate that something moves: of a slice, or of a driven module.
   struct Forced {

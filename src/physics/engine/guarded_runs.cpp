@@ -2,10 +2,21 @@
 #include "physics/engine/guarded_runs.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "at.hpp"
 
 namespace ergotic::physics {
+namespace {
+
+/// A state that was loaded may say anything.
+std::int64_t wholeOf(double steps) noexcept {
+  constexpr double kMost = 1e18;
+  return steps >= 0.0 && steps <= kMost ? static_cast<std::int64_t>(steps) : 0;
+}
+
+}  // namespace
+
 template <class Real>
 GuardedRuns<Real>::GuardedRuns(const scene::Scene& scene,
                                const Layout& layout,
@@ -354,6 +365,15 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::retune(const CoefficientsOf<Real>& from
 }
 
 template <class Real>
+ERGOTIC_REALTIME bool GuardedRuns<Real>::isFinite(const State<Real>& state) const noexcept {
+  return std::all_of(links_.begin(), links_.end(), [&state](const Links& group) {
+    const auto* all = state.arena().template at<GuardedState<Real>>(group.states_at);
+    return std::all_of(all, all + group.links.size(),
+                       [](const GuardedState<Real>& link) { return std::isfinite(link.tank); });
+  });
+}
+
+template <class Real>
 std::vector<GuardReport> GuardedRuns<Real>::makeReports() const {
   std::vector<GuardReport> reports;
   for (const GuardedGroup& members : members_) {
@@ -371,8 +391,8 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::read(const State<Real>& state,
   for (const Links& group : links_) {
     const auto* all = state.arena().template at<GuardedState<Real>>(group.states_at);
     for (std::size_t l = 0; l < group.links.size(); ++l) {
-      to[next].active = static_cast<std::int64_t>(all[l].active);
-      to[next].clipped = static_cast<std::int64_t>(all[l].clipped);
+      to[next].active = wholeOf(all[l].active);
+      to[next].clipped = wholeOf(all[l].clipped);
       ++next;
     }
   }

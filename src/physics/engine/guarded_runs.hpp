@@ -47,6 +47,8 @@ class GuardedRuns {
   std::vector<GuardReport> makeReports() const;
   /// Realtime: yes
   void read(const State<Real>& state, std::vector<GuardReport>& to) const noexcept;
+  /// True if every energy that a link may spend is a finite number. Realtime: yes
+  bool isFinite(const State<Real>& state) const noexcept;
 
  private:
   /// The modules behind both ends of a link.

@@ -138,8 +138,9 @@ class InstrumentOf final : public Instrument {
 
   bool isFinite() const noexcept override {
     const Real* x = mechanism_->state.x();
-    return is_under_way_ ||
-           std::all_of(x, x + mechanism_->layout.slots(), [](Real v) { return std::isfinite(v); });
+    const auto is_finite = [](Real v) { return std::isfinite(v); };
+    return is_under_way_ || (std::all_of(x, x + mechanism_->layout.slots(), is_finite) &&
+                             mechanism_->guarded.isFinite(mechanism_->state));
   }
 
  private:

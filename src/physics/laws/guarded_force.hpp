@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 
 #include "scene/laws/guarded_form.hpp"
 
@@ -24,6 +25,8 @@ struct GuardedState {
   Real foreseen = Real(0);  ///< how far what forces do not move was to open it
   Real gradient[3] = {Real(0), Real(0), Real(0)};  ///< of the last step
   Real rebounding = Real(0);                       ///< 1 once this impact has turned around
+
+  static constexpr std::size_t kDoubles = sizeof(Real) == sizeof(double) ? 12 : 4;
 };
 
 /// What a guarded link sees and does in one step. It opens while p falls. Letters as above.

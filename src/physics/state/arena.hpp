@@ -4,11 +4,25 @@
 #include <cstddef>
 #include <cstring>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "ergotic/physics/state/state_entry.hpp"
 
 namespace ergotic::physics {
+
+/// What an element of the state is made of: structures begin with `kDoubles` doubles, floats
+/// follow.
+template <class T>
+constexpr StateNumbers numbersOf() {
+  if constexpr (std::is_floating_point_v<T>) {
+    return std::is_same_v<T, double> ? StateNumbers{1, 0} : StateNumbers{0, 1};
+  } else if constexpr (std::is_integral_v<T>) {
+    return {};
+  } else {
+    return {T::kDoubles, (sizeof(T) - T::kDoubles * sizeof(double)) / sizeof(float)};
+  }
+}
 
 /// One block of memory for everything mutable, with a table of what lies where.
 /// Entries are cache-line aligned; the gaps are zero, so that equal states are equal bytes.
@@ -18,7 +32,7 @@ class Arena {
   template <class T>
   std::size_t add(const std::string& name, std::size_t count) {
     const std::size_t offset = size_;
-    entries_.push_back({name, offset, count * sizeof(T)});
+    entries_.push_back({name, offset, count * sizeof(T), numbersOf<T>()});
     size_ += (count * sizeof(T) + kLine - 1) / kLine * kLine;
     return offset;
   }

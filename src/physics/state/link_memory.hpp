@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+
 namespace ergotic::physics {
 
 /// What a run has taken and given since the start, in the scene's unit of energy.
@@ -10,6 +12,8 @@ struct LinkWork {
   double dissipated = 0.0;  ///< by viscous forces
   double on_a = 0.0;        ///< done on the modules of side a; links between sections only
   double on_b = 0.0;
+
+  static constexpr std::size_t kDoubles = 5;  ///< see numbersOf
 };
 
 /// What a run that remembers keeps for each link and coordinate: [coordinates][links]. Unmetered,

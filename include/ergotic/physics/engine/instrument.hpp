@@ -90,7 +90,8 @@ class Instrument {
   /// open, with the error they are predicted to make. Realtime: no.
   virtual std::vector<std::string> notes() const { return {}; }
 
-  /// True if every displacement is a finite number. Realtime: yes.
+  /// True if every displacement, and what every guarded link may spend, is a finite number.
+  /// Realtime: yes. Cost: O(modules + links)
   virtual bool isFinite() const noexcept = 0;
 
   const scene::Scene& scene() const noexcept { return *scene_; }

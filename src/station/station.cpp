@@ -15,7 +15,13 @@ constexpr double kTrustedDamping = 0.5;        // of what a driver says of its d
 constexpr double kMostTrustedDamping = 100.0;  // N s/m
 constexpr double kSwapFadeS = 0.005;
 constexpr std::int64_t kLookInsideTicks = 50;  // a replay must look at the same ticks
+constexpr double kMostOfModel = 1e9;  // N, or full scales: a model that gives more has blown up
 constexpr std::size_t kMaxKeyframeParameters = 1U << 12U;
+
+/// False for what is not a number, too.
+bool isOfThisWorld(double value) noexcept {
+  return std::abs(value) <= kMostOfModel;
+}
 
 void checkRange(const char* what, double value, double low, double high) {
   if (!(value >= low && value <= high)) {
@@ -237,7 +243,7 @@ void Station::runTick(const Slices& positions, std::uint32_t flags) noexcept {
   ++counters_.ticks;
 }
 
-/// \return true if live sound entered the instrument
+/// A sample that is not finite becomes 0. \return true if live sound entered the instrument
 bool Station::pullInputs() noexcept {
   const int model_channels = performer_->instrument->inputChannels();
   if (model_channels == 0) {
@@ -253,7 +259,12 @@ bool Station::pullInputs() noexcept {
   const int shared = std::min(model_channels, config_.input_channels);
   for (int r = 0; r < ratio; ++r) {
     const float* from = frames_in_.data() + samples(r, config_.input_channels);
-    std::copy_n(from, shared, performer_->inputs.data() + samples(r, model_channels));
+    double* to = performer_->inputs.data() + samples(r, model_channels);
+    for (int c = 0; c < shared; ++c) {
+      const bool is_finite = std::isfinite(from[c]);
+      to[c] = is_finite ? static_cast<double>(from[c]) : 0.0;
+      counters_.bad_input_samples += is_finite ? 0 : 1;
+    }
   }
   return true;
 }
@@ -295,9 +306,8 @@ void Station::tickInstrument() noexcept {
   }
   Performer& p = *performer_;
   p.instrument->tick({p.positions.data(), p.forces.data(), p.inputs.data(), p.outputs.data()});
-  const auto finite = [](double f) { return std::isfinite(f); };
   const bool look_inside = tick_ % kLookInsideTicks == 0;
-  if (!std::all_of(p.forces.begin(), p.forces.end(), finite) ||
+  if (!std::all_of(p.forces.begin(), p.forces.end(), isOfThisWorld) ||
       (look_inside && !p.instrument->isFinite())) {
     blowUp();
   }
@@ -307,17 +317,17 @@ void Station::pushFrames() noexcept {
   std::fill(frames_out_.begin(), frames_out_.end(), 0.0F);
   const int model_channels = performer_->instrument->outputChannels();
   const int shared = std::min(model_channels, config_.output_channels);
-  bool finite = true;
+  bool sane = true;
   for (int r = 0; r < config_.rates.ratio && !blown_up_; ++r) {
     const double gain = fade_.gainAt(r);
     const double* from = performer_->outputs.data() + samples(r, model_channels);
     float* to = frames_out_.data() + samples(r, config_.output_channels);
     for (int c = 0; c < shared; ++c) {
       to[c] = static_cast<float>(gain * from[c]);
-      finite = finite && std::isfinite(to[c]);
+      sane = sane && isOfThisWorld(from[c]);
     }
   }
-  if (!finite) {
+  if (!sane) {
     blowUp();
     std::fill(frames_out_.begin(), frames_out_.end(), 0.0F);
   }

@@ -133,8 +133,9 @@ struct Counters {
   std::int64_t underruns = 0;
   std::int64_t underrun_frames = 0;
   std::int64_t xruns = 0;
-  std::int64_t dropped_records = 0;  ///< gesture ticks or events that found their ring full
-  double late_worst_s = 0.0;         ///< latest wake-up
+  std::int64_t bad_input_samples = 0;  ///< of audio inputs, not finite: the model got 0 instead
+  std::int64_t dropped_records = 0;    ///< gesture ticks or events that found their ring full
+  double late_worst_s = 0.0;           ///< latest wake-up
   double peak_force_n = 0.0;
   double peak_raw_force_n = 0.0;   ///< that the model asked for since the last `recover`
   double port_energy_min_j = 0.0;  ///< least of any slice; below 0: so much it gave out

@@ -224,6 +224,7 @@ void fillStatus(const station::Snapshot& snapshot, Status& status) {
   status.underruns = counters.underruns;
   status.underrun_frames = counters.underrun_frames;
   status.xruns = counters.xruns;
+  status.bad_input_samples = counters.bad_input_samples;
   status.dropped_records = counters.dropped_records;
   status.load_mean = counters.load_mean;
   status.load_peak = counters.load_peak;

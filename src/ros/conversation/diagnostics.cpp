@@ -116,6 +116,8 @@ void Diagnostics::reportSound(Report& report) {
     report.summary(Level::WARN, "no JACK server");
   } else if (status_.underruns > last_.underruns || status_.xruns > last_.xruns) {
     report.summary(Level::WARN, "sound was interrupted in the last second");
+  } else if (status_.bad_input_samples > last_.bad_input_samples) {
+    report.summary(Level::WARN, "an audio input gave samples that are no finite numbers");
   } else {
     report.summary(Level::OK, "playing");
   }
@@ -124,6 +126,7 @@ void Diagnostics::reportSound(Report& report) {
   report.add("underruns", status_.underruns);
   report.add("frames of silence", status_.underrun_frames);
   report.add("xruns of JACK", status_.xruns);
+  report.add("samples of inputs that were not finite", status_.bad_input_samples);
   if (jack_) {
     report.add("JACK client", jack_->client);
     report.add("period (frames)", jack_->period_frames);

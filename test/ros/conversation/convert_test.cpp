@@ -118,6 +118,7 @@ TEST(ConvertTest, StatusSaysWhyForceIsGone) {
   snapshot.state = station::ForceState::kFault;
   snapshot.fault = station::FaultReason::kStall;
   snapshot.counters.underruns = 7;
+  snapshot.counters.bad_input_samples = 3;
   snapshot.counters.peak_force_n = 20.0;
   snapshot.counters.peak_raw_force_n = 60.0;
   Status status;
@@ -126,6 +127,7 @@ TEST(ConvertTest, StatusSaysWhyForceIsGone) {
   EXPECT_EQ(status.state, Status::FAULT);
   EXPECT_EQ(status.fault, Status::FAULT_STALL);
   EXPECT_EQ(status.underruns, 7);
+  EXPECT_EQ(status.bad_input_samples, 3);
   EXPECT_EQ(status.peak_force, 20.0);
   EXPECT_EQ(status.peak_raw_force, 60.0);
   EXPECT_THAT(status.state_text, HasSubstr(toString(station::FaultReason::kStall)));

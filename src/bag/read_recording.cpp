@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 #include <utility>
 
 #include <ergotic/Event.h>
@@ -15,12 +17,89 @@
 namespace ergotic::bag {
 namespace {
 
-Keyframe fromMessage(const ergotic::Keyframe& message, const std::string& path) {
-  if (message.threads < 1 || message.threads > physics::kMaxThreads) {
-    throw Exception(path + ": the keyframe of tick " + std::to_string(message.tick) + " has " +
-                    std::to_string(message.threads) + " threads, allowed: 1..." +
-                    std::to_string(physics::kMaxThreads));
+/// What a message is told to have by the one that it is in, such as `a.bag: the keyframe of tick
+/// 5`.
+std::string named(const std::string& path, const char* kind, std::int64_t tick) {
+  return path + ": the " + kind + " of tick " + std::to_string(tick);
+}
+
+std::string textOf(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+/// False for what is not a number, too.
+void requireWithin(const std::string& message,
+                   const std::string& what,
+                   double value,
+                   double lowest,
+                   double highest) {
+  if (!(value >= lowest && value <= highest)) {
+    throw Exception(message + ": " + what + " is " + textOf(value) +
+                    ", allowed: " + textOf(lowest) + "..." + textOf(highest));
   }
+}
+
+constexpr double kLastTick = 1e15;
+
+void requireTick(const std::string& message, std::int64_t tick) {
+  requireWithin(message, "its tick", static_cast<double>(tick), 0.0, kLastTick);
+}
+
+void requireFinite(const std::string& message,
+                   const char* what,
+                   const std::vector<double>& values,
+                   std::size_t per_row) {
+  const auto bad = std::find_if_not(values.begin(), values.end(),
+                                    [](double value) { return std::isfinite(value); });
+  if (bad != values.end()) {
+    const auto index = static_cast<std::size_t>(bad - values.begin());
+    throw Exception(message + ": " + what + ' ' + std::to_string(index % per_row) + " at its row " +
+                    std::to_string(index / per_row) + " is " + textOf(*bad) +
+                    ", allowed: finite numbers");
+  }
+}
+
+void check(const ergotic::Keyframe& message, const std::string& path) {
+  const std::string name = named(path, "keyframe", message.tick);
+  requireTick(name, message.tick);
+  requireWithin(name, "its number of threads", message.threads, 1, physics::kMaxThreads);
+  requireWithin(name, "its audio rate (Hz)", message.audio_rate, 8000.0, 192000.0);
+  requireWithin(name, "its number of frames per tick", message.ratio, 1, physics::kMaxRatio);
+  requireWithin(name, "its number of slices", message.slices, 0, tgr::kMaxSlices);
+  requireFinite(name, "parameter", message.parameter_values, message.parameter_values.size());
+}
+
+void check(const GestureBlock& message, const std::string& path) {
+  const std::string name = named(path, "gesture block", message.first_tick);
+  requireTick(name, message.first_tick);
+  const auto requireRows = [&](const std::vector<double>& values, std::size_t per_row,
+                               const char* of) {
+    if (values.size() != std::size_t{message.ticks} * per_row) {
+      throw Exception(name + " has " + std::to_string(values.size()) + " positions for " +
+                      std::to_string(message.ticks) + " ticks of " + std::to_string(per_row) + of);
+    }
+  };
+  requireRows(message.positions, message.slices, " slices");
+  requireRows(message.port_positions, message.ports, " ports");
+  if (message.flags.size() != message.ticks) {
+    throw Exception(name + " has " + std::to_string(message.flags.size()) + " flags for " +
+                    std::to_string(message.ticks) + " ticks");
+  }
+  requireFinite(name, "the position of slice", message.positions, message.slices);
+  requireFinite(name, "the position of port", message.port_positions, message.ports);
+}
+
+void check(const ergotic::Event& message, const std::string& path) {
+  const std::string name = named(path, "event", message.tick);
+  requireTick(name, message.tick);
+  requireWithin(name, "its index", static_cast<double>(message.index), -kLastTick, kLastTick);
+  requireFinite(name, "value", {message.value}, 1);
+}
+
+Keyframe fromMessage(const ergotic::Keyframe& message, const std::string& path) {
+  check(message, path);
   Keyframe keyframe;
   keyframe.tick = message.tick;
   keyframe.scene_name = message.scene_name;
@@ -38,19 +117,7 @@ Keyframe fromMessage(const ergotic::Keyframe& message, const std::string& path) 
 }
 
 Stretch fromMessage(const GestureBlock& message, const std::string& path) {
-  if (message.flags.size() != message.ticks ||
-      message.positions.size() != std::size_t{message.ticks} * message.slices) {
-    throw Exception(path + ": the gesture block of tick " + std::to_string(message.first_tick) +
-                    " has " + std::to_string(message.positions.size()) + " positions for " +
-                    std::to_string(message.ticks) + " ticks of " + std::to_string(message.slices) +
-                    " slices");
-  }
-  if (message.port_positions.size() != std::size_t{message.ticks} * message.ports) {
-    throw Exception(path + ": the gesture block of tick " + std::to_string(message.first_tick) +
-                    " has " + std::to_string(message.port_positions.size()) + " positions for " +
-                    std::to_string(message.ticks) + " ticks of " + std::to_string(message.ports) +
-                    " ports");
-  }
+  check(message, path);
   return {message.first_tick, message.slices,    message.ports,
           message.flags,      message.positions, message.port_positions};
 }
@@ -76,6 +143,7 @@ void add(Recording& recording, const rosbag::MessageInstance& message, const std
   } else if (const auto keyframe = as<ergotic::Keyframe>(message, path)) {
     recording.keyframes.push_back(fromMessage(*keyframe, path));
   } else if (const auto told = as<ergotic::Event>(message, path)) {
+    check(*told, path);
     station::Event event;
     event.type = static_cast<station::Event::Type>(told->type);
     event.tick = told->tick;

@@ -148,9 +148,54 @@ TEST(ReadRecordingTest, RefusesAKeyframeThatNoInstrumentCanContinue) {
   for (const unsigned threads : {0U, 9U}) {
     ergotic::Keyframe wrong = keyframe();
     wrong.threads = threads;
-    EXPECT_THAT(refusalOf(wrong),
-                HasSubstr("tick 12 has " + std::to_string(threads) + " threads, allowed: 1...8"));
+    EXPECT_THAT(refusalOf(wrong), HasSubstr("keyframe of tick 12: its number of threads is " +
+                                            std::to_string(threads) + ", allowed: 1...8"));
   }
+  const std::pair<const char*, void (*)(ergotic::Keyframe&)> damages[] = {
+      {"tick -1: its tick is -1, allowed: 0...1e+15", [](auto& k) { k.tick = -1; }},
+      {"its audio rate (Hz) is nan, allowed: 8000...192000",
+       [](auto& k) { k.audio_rate = std::nan(""); }},
+      {"its number of frames per tick is 0, allowed: 1...48", [](auto& k) { k.ratio = 0; }},
+      {"is 4.29497e+09, allowed: 1...48", [](auto& k) { k.ratio = 0xFFFFFFFFU; }},
+      {"its number of slices is 65, allowed: 0...64", [](auto& k) { k.slices = 65; }},
+      {"parameter 0 at its row 0 is inf, allowed: finite numbers",
+       [](auto& k) { k.parameter_values = {std::numeric_limits<double>::infinity()}; }},
+  };
+  for (const auto& [words, damage] : damages) {
+    ergotic::Keyframe wrong = keyframe();
+    damage(wrong);
+    EXPECT_THAT(refusalOf(wrong), HasSubstr(words));
+  }
+}
+
+TEST(ReadRecordingTest, RefusesPositionsAndEventsThatAreNoNumbers) {
+  const test::ScratchFile file;
+  const auto refusalOf = [&](const ergotic::GestureBlock& gesture, const ergotic::Event& event) {
+    {
+      rosbag::Bag bag(file.path(), rosbag::bagmode::Write);
+      bag.write("/station/gesture", kStart, gesture);
+      bag.write("/station/events", kStart, event);
+    }
+    return errorOf(file.path());
+  };
+  ergotic::GestureBlock slice = block(12);
+  slice.positions[3] = std::nan("");
+  EXPECT_THAT(refusalOf(slice, {}), HasSubstr("block of tick 12: the position of slice 1 at its "
+                                              "row 1 is nan, allowed: finite numbers"));
+  ergotic::GestureBlock port = block(12);
+  port.port_positions[1] = -std::numeric_limits<double>::infinity();
+  EXPECT_THAT(refusalOf(port, {}), HasSubstr("the position of port 0 at its row 1 is -inf"));
+  ergotic::GestureBlock flags = block(12);
+  flags.flags.pop_back();
+  EXPECT_THAT(refusalOf(flags, {}), HasSubstr("has 1 flags for 2 ticks"));
+  EXPECT_THAT(refusalOf(block(-5), {}), HasSubstr("its tick is -5, allowed: 0...1e+15"));
+  ergotic::Event event;
+  event.tick = 13;
+  event.value = std::nan("");
+  EXPECT_THAT(refusalOf(block(12), event), HasSubstr("event of tick 13: value 0"));
+  event.value = 0.0;
+  event.index = std::numeric_limits<std::int64_t>::max();
+  EXPECT_THAT(refusalOf(block(12), event), HasSubstr("its index is 9.22337e+18, allowed: "));
 }
 
 TEST(ReadRecordingTest, RefusesWhatIsNoBag) {
@@ -176,6 +221,8 @@ void write(const std::string& path, const std::vector<GestureBlock>& blocks) {
   ergotic::Keyframe keyframe;
   keyframe.precision = "double";
   keyframe.threads = 1;
+  keyframe.audio_rate = 48000.0;
+  keyframe.ratio = 16;
   bag.write("/station/keyframe", now, keyframe);
   for (const GestureBlock& message : blocks) {
     bag.write("/station/gesture", now, message);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command-line tools, run as a person runs them.
+#include <sndfile.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -164,6 +165,32 @@ TEST_F(RenderTest, AsksForInputsAtTheRateOfTheInstrument) {
   const Outcome name = run("render", scene + " --input in2=" + input);
   EXPECT_EQ(name.code, 1);
   EXPECT_THAT(name.text, AllOf(HasSubstr("in2"), HasSubstr("it has: in1")));
+}
+
+TEST_F(RenderTest, RefusesNumbersThatAreNone) {
+  const std::string scene = write("spring.mdl", kSpring);
+  for (const char* option : {"--rate nan", "--gestural-rate nan", "--seconds nan"}) {
+    const Outcome outcome = run("render", scene + ' ' + option + " --out " + path("none.wav"));
+    EXPECT_EQ(outcome.code, 2) << option;
+    EXPECT_THAT(outcome.text, HasSubstr("is not a finite number"));
+  }
+}
+
+TEST_F(RenderTest, RefusesASoundThatIsNoNumber) {
+  const std::string scene = write("spring.mdl", kSpring);
+  SF_INFO info{};
+  info.samplerate = 44100;
+  info.channels = 1;
+  info.format = SF_FORMAT_WAV | SF_FORMAT_DOUBLE;
+  const std::string input = path("push.wav");
+  SNDFILE* const file = sf_open(input.c_str(), SFM_WRITE, &info);
+  ASSERT_NE(file, nullptr);
+  const double samples[] = {0.1, std::nan("")};
+  EXPECT_EQ(sf_write_double(file, samples, 2), 2);
+  sf_close(file);
+  const Outcome sound = run("render", scene + " --input in1=" + input);
+  EXPECT_EQ(sound.code, 1);
+  EXPECT_THAT(sound.text, HasSubstr("push.wav: frame 1 is nan, allowed: finite numbers"));
 }
 
 TEST_F(RenderTest, KeepsThePitchOfAnMdlSceneAtAnotherRateAndSaysSo) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/lib/replay.hpp"
 
+#include <cstring>
+
 #include "support/struck_bar.hpp"
 #include "support/test.hpp"
 #include "tools/live_run.hpp"
@@ -282,6 +284,44 @@ TEST(ReplayTest, RefusesTheStateOfAnotherBuild) {
   recording.keyframes.at(0).build = "0.0.1 abc";
   EXPECT_THAT(complaintOf([&] { replay(recording); }),
               AllOf(HasSubstr("another build"), HasSubstr("0.0.1 abc")));
+}
+
+bag::Recording shortRecording() {
+  LiveRun live(kScene);
+  live.play(20);
+  live.takeKeyframe();
+  live.play(20);
+  return live.recording();
+}
+
+TEST(ReplayTest, RefusesAStateThatIsNoNumberUnlessTheModelHadBlownUp) {
+  bag::Recording recording = shortRecording();
+  ASSERT_FALSE(recording.keyframes.empty());
+  std::vector<std::uint8_t>& state = recording.keyframes[0].state;
+  const float none = std::nanf("");
+  std::memcpy(&state[64], &none, sizeof none);  // after the frame: the first of x
+  EXPECT_THAT(complaintOf([&] { replay(recording); }),
+              HasSubstr("the recorded state of tick 20: number 0 of 'x' is nan, allowed: finite"));
+  station::Event recovered;
+  recovered.type = station::Event::Type::kRecovered;
+  recovered.tick = 30;
+  recovered.index = 1;
+  recording.events.push_back(recovered);
+  EXPECT_EQ(complaintOf([&] { replay(recording); }), "");
+}
+
+TEST(ReplayTest, RefusesAChangeOfAParameterThatTheModelDoesNotHave) {
+  for (const std::int64_t index : {-1, 1}) {
+    bag::Recording recording = shortRecording();
+    station::Event change;
+    change.type = station::Event::Type::kParameter;
+    change.tick = 30;
+    change.index = index;
+    recording.events.push_back(change);
+    EXPECT_THAT(
+        complaintOf([&] { replay(recording); }),
+        HasSubstr("at tick 30 is of number " + std::to_string(index) + ", the model has 1"));
+  }
 }
 
 }  // namespace

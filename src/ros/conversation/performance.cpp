@@ -2,6 +2,7 @@
 #include "ros/conversation/performance.hpp"
 
 #include <algorithm>
+#include <sstream>
 #include <utility>
 
 #include <ros/console.h>
@@ -146,9 +147,10 @@ void Performance::setTarget(int slice, double target_m, const Promise& promise) 
     return answer(promise, false, kNothingPlays);
   }
   const bool taken = engine_->station().driver().setTarget(slice, target_m);
-  answer(
-      promise, taken,
-      taken ? "" : "no such slice with a virtual hand, or the target is not within -0.1...0.1 m");
+  std::ostringstream refusal;
+  refusal << "target " << target_m << " m of slice " << slice
+          << ": no such slice with a virtual hand, or the target is not within -0.1...0.1 m";
+  answer(promise, taken, taken ? "" : refusal.str());
 }
 
 void Performance::setPresence(bool present) {

@@ -24,18 +24,6 @@ static_assert(EndEffector::HANDLE == number(EndEffectorType::kHandle));
 
 const char kFile[] = "end_effectors";
 
-Eigen::Isometry3d fromPose(const geometry_msgs::Pose& message) {
-  Eigen::Quaterniond turn(message.orientation.w, message.orientation.x, message.orientation.y,
-                          message.orientation.z);
-  if (turn.coeffs().isZero(0.0)) {
-    turn.setIdentity();
-  }
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = turn.normalized().toRotationMatrix();
-  pose.translation() = Eigen::Vector3d(message.position.x, message.position.y, message.position.z);
-  return pose;
-}
-
 double orUsual(double value, double usual) {
   return value == 0.0 ? usual : value;
 }
@@ -43,6 +31,26 @@ double orUsual(double value, double usual) {
 [[noreturn]] void refuse(std::size_t index, const EndEffector& message, const std::string& what) {
   throw TextError(kFile, static_cast<int>(index) + 1, 1,
                   "end-effector '" + message.name + "': " + what);
+}
+
+Eigen::Isometry3d poseOf(std::size_t index, const EndEffector& message) {
+  const geometry_msgs::Quaternion& orientation = message.pose.orientation;
+  Eigen::Quaterniond turn(orientation.w, orientation.x, orientation.y, orientation.z);
+  if (turn.coeffs().isZero(0.0)) {
+    turn.setIdentity();
+  }
+  constexpr double kFarthest = 1e6;  // from 1: beyond, a norm cannot be worked out
+  const double norm = turn.norm();
+  if (!(norm >= 1.0 / kFarthest && norm <= kFarthest)) {
+    refuse(index, message,
+           "the norm of its orientation is " + std::to_string(norm) +
+               ", allowed: 0 (no rotation), 1 or about that");
+  }
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = turn.normalized().toRotationMatrix();
+  const geometry_msgs::Point& position = message.pose.position;
+  pose.translation() = Eigen::Vector3d(position.x, position.y, position.z);
+  return pose;
 }
 
 EndEffectorConfig fromMessage(std::size_t index, const EndEffector& message) {
@@ -75,7 +83,7 @@ EndEffectorConfig fromMessage(std::size_t index, const EndEffector& message) {
   for (const geometry_msgs::Point& point : message.points) {
     config.points.emplace_back(point.x, point.y, point.z);
   }
-  config.pose = fromPose(message.pose);
+  config.pose = poseOf(index, message);
   return config;
 }
 

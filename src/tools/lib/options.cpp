@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/lib/options.hpp"
 
+#include <cmath>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
@@ -22,6 +23,21 @@ std::string refusalOfIsa(const std::string& name) {
     return refusal.what();
   }
   return {};
+}
+
+std::string refusalOfNumber(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return std::isfinite(value) ? "" : "'" + text + "' is not a finite number";
+}
+
+/// `nan` would pass every check of a range.
+void checkNumbers(CLI::App& app) {
+  for (CLI::Option* option : app.get_options()) {
+    if (option->get_type_name().rfind("FLOAT", 0) == 0) {
+      option->check(&refusalOfNumber);
+    }
+  }
 }
 
 }  // namespace
@@ -124,6 +140,7 @@ std::string conversionNote(const scene::Scene& scene, const physics::Rates& rate
 }
 
 int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& tool) {
+  checkNumbers(app);
   try {
     app.parse(argc, argv);
     return tool();

@@ -124,6 +124,20 @@ std::unique_ptr<station::Performer> Replay::perform(const bag::Keyframe& keyfram
   return performer;
 }
 
+/// A model that had blown up is no number: it was silent, and begins anew when it recovers.
+void Replay::checkState(const bag::Keyframe& keyframe,
+                        const physics::Instrument& instrument) const {
+  if (wasAtFault()) {
+    return;
+  }
+  try {
+    physics::checkFinite(instrument.stateEntries(), keyframe.state);
+  } catch (const Exception& refusal) {
+    throw Exception("the recorded state of tick " + std::to_string(keyframe.tick) + ": " +
+                    refusal.what());
+  }
+}
+
 /// As it was at the keyframe.
 std::unique_ptr<station::Performer> Replay::resume(const bag::Keyframe& keyframe) const {
   std::unique_ptr<station::Performer> performer = perform(keyframe);
@@ -134,6 +148,7 @@ std::unique_ptr<station::Performer> Replay::resume(const bag::Keyframe& keyframe
                     " bytes, this build needs " + std::to_string(instrument.stateSize()) +
                     ": it was recorded by another build, " + keyframe.build);
   }
+  checkState(keyframe, instrument);
   instrument.exchange(instrument.prepare(keyframe.parameters));
   performer->parameters = keyframe.parameters;
   instrument.loadState(keyframe.state.data());
@@ -268,7 +283,12 @@ void Replay::submitChanges() {
 
 void Replay::submitParameter(const station::Event& event) {
   Tone& tone = incoming_.instrument != nullptr && tick_ < swap_tick_ ? incoming_ : playing_;
-  tone.parameters.at(static_cast<std::size_t>(event.index)) = event.value;
+  if (event.index < 0 || event.index >= static_cast<std::int64_t>(tone.parameters.size())) {
+    throw Exception("the change of a parameter at tick " + std::to_string(event.tick) +
+                    " is of number " + std::to_string(event.index) + ", the model has " +
+                    std::to_string(tone.parameters.size()));
+  }
+  tone.parameters[static_cast<std::size_t>(event.index)] = event.value;
   auto coefficients = tone.instrument->prepare(tone.parameters);
   station::Command change;
   change.type = station::Command::Type::kParameter;

@@ -50,6 +50,7 @@ class Replay final : public Player {
 
   std::size_t findStart() const;
   std::unique_ptr<station::Performer> perform(const bag::Keyframe& keyframe) const;
+  void checkState(const bag::Keyframe& keyframe, const physics::Instrument& instrument) const;
   std::unique_ptr<station::Performer> resume(const bag::Keyframe& keyframe) const;
   std::unique_ptr<tgr::Driver> makeDriver();
   int widestModel() const;

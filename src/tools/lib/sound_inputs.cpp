@@ -2,6 +2,7 @@
 #include "tools/lib/sound_inputs.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "ergotic/audio/wav.hpp"
@@ -37,7 +38,15 @@ std::vector<double> readSound(const std::string& path, double rate_hz) {
     message << path << ": " << reader.channels() << " channels, an input takes 1";
     throw Exception(message.str());
   }
-  return reader.readAll();
+  std::vector<double> sound = reader.readAll();
+  const auto bad = std::find_if_not(sound.begin(), sound.end(),
+                                    [](double sample) { return std::isfinite(sample); });
+  if (bad != sound.end()) {
+    message << path << ": frame " << bad - sound.begin() << " is " << *bad
+            << ", allowed: finite numbers";
+    throw Exception(message.str());
+  }
+  return sound;
 }
 
 }  // namespace

@@ -160,6 +160,31 @@ TEST(EndEffectorsTest, AreRefusedWithTheirNameForWhatNoYamlMaySay) {
   EXPECT_NE(refusalOf(message), "");
 }
 
+TEST(EndEffectorsTest, AreRefusedWithNumbersThatAreNone) {
+  using Damage = void (*)(EndEffector&, double);
+  const Damage damages[] = {
+      [](EndEffector& e, double v) { e.position_scale = v; },
+      [](EndEffector& e, double v) { e.force_scale = v; },
+      [](EndEffector& e, double v) { e.rod = v; },
+      [](EndEffector& e, double v) { e.base_radius = v; },
+      [](EndEffector& e, double v) { e.platform_radius = v; },
+      [](EndEffector& e, double v) { e.points[1].y = v; },
+      [](EndEffector& e, double v) { e.pose.position.x = v; },
+      [](EndEffector& e, double v) { e.pose.orientation.w = v; },
+  };
+  for (const Damage damage : damages) {
+    for (const double value : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+      EndEffector message = handle();
+      damage(message, value);
+      EXPECT_THAT(refusalOf(message), HasSubstr("allowed: ")) << value;
+    }
+  }
+  EndEffector huge = handle();
+  huge.pose.orientation.w = 1e300;
+  EXPECT_THAT(refusalOf(huge),
+              HasSubstr("'handle': the norm of its orientation is inf, allowed: "));
+}
+
 TEST(EndEffectorFramesTest, FollowTheirSlicesInTheFrameOfTheDevice) {
   EndEffector bow;
   bow.name = "bow";

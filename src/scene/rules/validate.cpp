@@ -153,6 +153,18 @@ class Validator {
     if (m.type == MatType::kSlice) {
       slice(m);
     }
+    if (m.type == MatType::kSlice || m.type == MatType::kDriven) {
+      awake(m);
+    }
+  }
+
+  /// What is asleep follows nothing.
+  void awake(const Mat& m) const {
+    if (scene_.sectionOf(m).sleep_energy > 0.0) {
+      fail(m.place, (m.type == MatType::kSlice ? "slice " : "driven module ") + quoted(m.name) +
+                        " is in section " + quoted(scene_.sectionOf(m).name) +
+                        ", which may sleep, allowed: sections without 'sleep'");
+    }
   }
 
   void slice(const Mat& m) const {
@@ -160,9 +172,6 @@ class Validator {
     const std::string is = "slice " + quoted(m.name) + " is in section " + quoted(section.name);
     if (!section.gestural && !section.automatic_rate) {
       fail(m.place, is + ", allowed: sections with rate: gestural or auto");
-    }
-    if (section.sleep_energy > 0.0) {
-      fail(m.place, is + ", which may sleep, allowed: sections without 'sleep'");
     }
   }
 

@@ -12,7 +12,7 @@ const std::string kSections =
     "  scalar: {gravity: [-9.81], medium: 0.5*$air, rate: auto}\n"
     "  line: {geometry: line, gravity: 3, sleep: 1e-9}\n"
     "  plane: {geometry: plane, gravity: [1, -2]}\n"
-    "  space: {geometry: space, gravity: [1, 2, 3], rate: gestural, sleep: 1}\n";
+    "  space: {geometry: space, gravity: [1, 2, 3], rate: gestural}\n";
 
 Scene withMats(const std::string& mats) {
   return readYaml(kSections + "mats:\n" + mats, "geometry.yaml");
@@ -139,6 +139,8 @@ const BadText kBadSections[] = {
     {SECTION("rate: <!>automatic"), "unknown rate 'automatic'"},
     {SECTION("rate: gestural, sleep: 1") "mats: {<!>k: {type: slice}}\n",
      "slice 'k' is in section 'a', which may sleep, allowed: sections without 'sleep'"},
+    {SECTION("sleep: 1") "mats: {<!>d: {type: driven}}\n",
+     "driven module 'd' is in section 'a', which may sleep, allowed: sections without 'sleep'"},
     {SECTION("rate: audio") "mats: {<!>k: {type: slice}}\n",
      "in a section that is not gestural, allowed: sections with rate: gestural or auto"},
     {SECTION("rate: auto") "mats: {m: {type: mass, mass: 1}}\n"

@@ -86,9 +86,9 @@ class Certifier {
     } else if (analysis.is_bound) {
       text += ". It is only a bound: several points that move were taken at their worst together";
     }
-    findings_.add(
-        analysis.is_too_large || analysis.is_bound ? Verdict::kUnproven : Verdict::kUnstable, place,
-        text);
+    const bool may_hold =
+        analysis.is_too_large || analysis.is_bound || analysis.lambda < NetworkBound::kLimit;
+    findings_.add(may_hold ? Verdict::kUnproven : Verdict::kUnstable, place, text);
   }
 
   const scene::Scene& scene_;

@@ -15,7 +15,10 @@ struct NetworkAnalysis {
   bool is_exact = false;      ///< lambda is the eigenvalue
   bool is_bound = false;      ///< it may hold although lambda >= 4: moving points at their worst
   bool is_too_large = false;  ///< the same, because the exact test was left out
-  bool isProven() const { return lambda < NetworkBound::kLimit; }
+  /// As float rounds the coefficients, too.
+  bool isProven() const { return lambda < NetworkBound::kLimit * (1.0 - kRoundingOfFloat); }
+
+  static constexpr double kRoundingOfFloat = 1e-6;  ///< of h^2 K/M and h Z/M, with some to spare
 };
 
 /// Link bound; where that does not prove it, the bound of the cells of its grids, then 20

@@ -122,6 +122,19 @@ TEST(VouchedTest, WhatSnapsFeedsEnergyIn) {
   }
 }
 
+TEST(VouchedTest, FloatRoundsCoefficientsAtTheLimitToo) {
+  const auto oscillator = [](double below) {
+    SceneBuilder b;
+    const int mass = b.mass(0.7, 0.0, 1e-3);
+    b.spring(mass, b.ground(), 4.0 * (1.0 - below) * 0.7 * kRate * kRate);
+    return b;
+  };
+  EXPECT_EQ(certify(oscillator(5e-7).scene, {kRate, 14}).verdict, Verdict::kUnproven);
+  const Grown near = grown(oscillator(2e-6), 14, 10.0, Precision::kFloat);
+  EXPECT_EQ(near.certificate.verdict, Verdict::kPassive);
+  EXPECT_LT(near.times, 1e7) << "it breathes by 4/(4 - lambda)";
+}
+
 TEST(VouchedTest, SlowGrowthIsNoRigidMotion) {
   const double angle = 5e-7;
   Eigen::Matrix2d turn;

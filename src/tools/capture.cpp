@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tools/lib/options.hpp"
 #include "tools/lib/report.hpp"
 
 namespace {
@@ -36,11 +37,13 @@ int main(int argc, char** argv) {
   app.add_option("--port", config.ports, "port to record, client:name; repeatable");
   app.add_option("--match", config.match, "record all ports matching this regular expression");
   app.add_option("--seconds", config.seconds, "length; without: until SIGINT or SIGTERM")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(0.0, 1e6));
   app.add_option("--wait", config.wait_s, "seconds to wait for the ports to appear")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0.0, 1e6));
   app.add_option("--server", config.server, "name of the JACK server");
+  ergotic::tools::checkNumbers(app);
   CLI11_PARSE(app, argc, argv);
 
   stopOnSignals();

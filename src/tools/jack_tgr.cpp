@@ -14,6 +14,7 @@
 #include "tgr/drivers/jack/step_meter.hpp"
 #include "tgr/require.hpp"
 #include "tools/lib/device_process.hpp"
+#include "tools/lib/options.hpp"
 #include "tools/lib/report.hpp"
 
 namespace ergotic {
@@ -177,6 +178,7 @@ int main(int argc, char** argv) {
       "Behind a real card there is no watchdog unless the amplifier has one for the heartbeat.");
   ergotic::Options options;
   ergotic::declare(app, options);
+  ergotic::tools::checkNumbers(app);
   CLI11_PARSE(app, argc, argv);
   constexpr double kSPerMs = 1e-3;
   options.device.watchdog_s = options.watchdog_ms * kSPerMs;

@@ -17,6 +17,7 @@
 #include "tgr/drivers/virtual/virtual_device.hpp"
 #include "tgr/drivers/virtual/virtual_settings.hpp"
 #include "tools/lib/device_process.hpp"
+#include "tools/lib/options.hpp"
 
 namespace ergotic {
 namespace {
@@ -115,6 +116,7 @@ int main(int argc, char** argv) {
   CLI::App app("A virtual TGR as a process of its own; `driver: virtual` finds it by its name.");
   ergotic::Options options;
   ergotic::declare(app, options);
+  ergotic::tools::checkNumbers(app);
   CLI11_PARSE(app, argc, argv);
   try {
     return ergotic::run(options);

@@ -31,7 +31,8 @@ std::string refusalOfNumber(const std::string& text) {
   return std::isfinite(value) ? "" : "'" + text + "' is not a finite number";
 }
 
-/// `nan` would pass every check of a range.
+}  // namespace
+
 void checkNumbers(CLI::App& app) {
   for (CLI::Option* option : app.get_options()) {
     if (option->get_type_name().rfind("FLOAT", 0) == 0) {
@@ -39,8 +40,6 @@ void checkNumbers(CLI::App& app) {
     }
   }
 }
-
-}  // namespace
 
 void addOptions(CLI::App& app, SceneOptions& options) {
   app.add_option("--set", options.set, "value of a parameter of the scene, NAME=VALUE")

@@ -68,6 +68,9 @@ std::string toString(const physics::CompileOptions& options);
 /// What a reader should know about a scene in samples of another rate; empty if there is nothing.
 std::string conversionNote(const scene::Scene& scene, const physics::Rates& rates);
 
+/// Numbers have to be finite: `nan` would pass every check of a range. \pre all options are there
+void checkNumbers(CLI::App& app);
+
 /// Parses a command line and runs `tool`; errors go to stderr. \return the exit code
 int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& tool);
 

@@ -7,16 +7,6 @@
 #include "at.hpp"
 
 namespace ergotic::physics {
-namespace {
-
-/// A state that was loaded may say anything.
-std::int64_t wholeOf(double steps) noexcept {
-  constexpr double kMost = 1e18;
-  return steps >= 0.0 && steps <= kMost ? static_cast<std::int64_t>(steps) : 0;
-}
-
-}  // namespace
-
 template <class Real>
 GuardedRuns<Real>::GuardedRuns(const scene::Scene& scene,
                                const Layout& layout,
@@ -387,6 +377,10 @@ std::vector<GuardReport> GuardedRuns<Real>::makeReports() const {
 template <class Real>
 ERGOTIC_REALTIME void GuardedRuns<Real>::read(const State<Real>& state,
                                               std::vector<GuardReport>& to) const noexcept {
+  // A state that was loaded may say anything.
+  const auto wholeOf = [](double steps) noexcept {
+    return steps >= 0.0 && steps <= 1e18 ? static_cast<std::int64_t>(steps) : 0;
+  };
   std::size_t next = 0;
   for (const Links& group : links_) {
     const auto* all = state.arena().template at<GuardedState<Real>>(group.states_at);

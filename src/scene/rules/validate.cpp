@@ -31,9 +31,7 @@ class Validator {
     each(scene_.audio_parameters, "audio parameter", &Validator::audioParameter);
     each(scene_.sections, "section", &Validator::section);
     each(scene_.mats, "module", &Validator::mat);
-    for (const Grid& g : scene_.grids) {
-      grid(g);
-    }
+    std::for_each(scene_.grids.begin(), scene_.grids.end(), [this](const Grid& g) { grid(g); });
     connections();
     each(scene_.lias, "link", &Validator::lia);
     each(scene_.inputs, "input", &Validator::input);
@@ -150,28 +148,22 @@ class Validator {
       number(m.place, "a coordinate" + of, m.rest[i], kMetreLimits);
       number(m.place, "a coordinate" + of, m.position[i], kMetreLimits);
     }
-    if (m.type == MatType::kSlice) {
-      slice(m);
-    }
     if (m.type == MatType::kSlice || m.type == MatType::kDriven) {
-      awake(m);
+      moved(m);
     }
   }
 
-  /// What is asleep follows nothing.
-  void awake(const Mat& m) const {
-    if (scene_.sectionOf(m).sleep_energy > 0.0) {
-      fail(m.place, (m.type == MatType::kSlice ? "slice " : "driven module ") + quoted(m.name) +
-                        " is in section " + quoted(scene_.sectionOf(m).name) +
-                        ", which may sleep, allowed: sections without 'sleep'");
-    }
-  }
-
-  void slice(const Mat& m) const {
+  /// Something outside moves it; what is asleep follows nothing.
+  void moved(const Mat& m) const {
+    const bool is_slice = m.type == MatType::kSlice;
     const Section& section = scene_.sectionOf(m);
-    const std::string is = "slice " + quoted(m.name) + " is in section " + quoted(section.name);
-    if (!section.gestural && !section.automatic_rate) {
+    const std::string is = (is_slice ? "slice " : "driven module ") + quoted(m.name) +
+                           " is in section " + quoted(section.name);
+    if (is_slice && !section.gestural && !section.automatic_rate) {
       fail(m.place, is + ", allowed: sections with rate: gestural or auto");
+    }
+    if (section.sleep_energy > 0.0) {
+      fail(m.place, is + ", which may sleep, allowed: sections without 'sleep'");
     }
   }
 

@@ -113,6 +113,7 @@ const Damage kDamages[] = {
     {"upper end of the range of point 'u'", [](Scene& s) { s.connections[0].along_maximum = 2; }},
     {"place across of point 'u'", [](Scene& s) { s.connections[0].across.factor = 2.0; }},
     {"speed of point 'u'", [](Scene& s) { s.connections[0].speed = -1.0; }},
+    {"power of point 'u'", [](Scene& s) { s.connections[0].power = 0.0; }},
     {"guide of point 'u' = 99", [](Scene& s) { s.connections[0].guide = 99; }},
     {"guide of point 'u' is a point", [](Scene& s) { s.connections[0].guide = 6; }},
     {"scale of the guide of point 'u'", [](Scene& s) { s.connections[0].guide_scale = kNan; }},

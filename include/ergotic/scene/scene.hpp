@@ -208,6 +208,7 @@ struct Connection {
   double along_minimum = 0.0;  ///< it never leaves this range, whatever asks for it
   double along_maximum = 1.0;
   double speed = 0.0;  ///< largest change of along and across per time_unit; 0: at once
+  double power = 1.0;  ///< W, the most that moving it may bring; it waits where it owes more
   Place place;
 };
 

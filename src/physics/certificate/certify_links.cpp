@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "at.hpp"
@@ -16,6 +17,7 @@ namespace {
 
 using scene::Lia;
 
+constexpr double kMostPower = 100.0;    // W, of a hand that moves a point
 constexpr double kWarnedSwitch = 0.25;  // h^2 K (1/Ma + 1/Mb): gains a few per cent a hit
 
 class LinkJudge {
@@ -30,6 +32,7 @@ class LinkJudge {
       judgeGuarded(lia);
       return;
     }
+    notePlaces(lia);
     judgeSignOfMoving(lia, slopes);
     noteTurning(lia, slopes);
     const scene::Law& law = scene::lawOf(lia.type);
@@ -46,6 +49,9 @@ class LinkJudge {
 
   /// What concerns many links at once.
   void finish() {
+    for (const scene::Connection* place : moving_) {
+      judgePlace(*place);
+    }
     for (const auto& [place, turning] : turning_) {
       const std::string more =
           turning.links > 1 ? " and " + std::to_string(turning.links - 1) + " more" : "";
@@ -63,6 +69,28 @@ class LinkJudge {
     const Lia* first = nullptr;
     int links = 0;
   };
+
+  void notePlaces(const Lia& lia) {
+    for (const int end : {lia.a, lia.b}) {
+      if (networks_.isMovingPoint(end)) {
+        const int point = networks_.network().point_of[at(end)];
+        moving_.insert(&networks_.scene().connections[at(point)]);
+      }
+    }
+  }
+
+  /// Moving it works on what explicit links join to it, and nothing feels that; its power is held.
+  void judgePlace(const scene::Connection& place) {
+    if (place.power <= kMostPower) {
+      findings_.worsen(Verdict::kBounded);
+      return;
+    }
+    findings_.add(Verdict::kUnproven, place.place,
+                  "point '" + networks_.scene().mats[at(place.mat)].name +
+                      "' moves, and may bring " + describe(place.power) +
+                      " W to what is linked to it, more than a hand does. Let its power be " +
+                      describe(kMostPower) + " W or less");
+  }
 
   /// A distance is linear in the coordinates only if the link wants to have none.
   void noteTurning(const Lia& lia, const Slopes& slopes) {
@@ -194,6 +222,7 @@ class LinkJudge {
   SwitchingLoads loads_;
   Findings& findings_;
   std::map<std::pair<int, int>, Turning> turning_;  // by line and column
+  std::set<const scene::Connection*> moving_;
 };
 
 }  // namespace

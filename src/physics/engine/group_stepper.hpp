@@ -94,10 +94,11 @@ class GroupStepper {
     for (int k = 0; k < frames.count; ++k) {
       feedForces(group, inputsOf(frames, k));
     }
-    mechanism_.points.scatter(group, state.f(), state.places());
+    mechanism_.points.scatter(group, state);
     mechanism_.guarded.step(group, frames.first, last, *mechanism_.coefficients, mechanism_.stepper,
                             state);
     mechanism_.meter.endFrame(group, last, state);
+    mechanism_.points.endFrame(group, *mechanism_.coefficients, last, state);
     for (int k = 0; k < frames.count; ++k) {
       mechanism_.taps.takeForces(group, *mechanism_.coefficients, frames.first + k, state,
                                  outputsOf(group, frames, k));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -67,8 +68,8 @@ class Points {
         keepLast(point.slot, point.dimensions, state);
         gatherPlace(p, x, d, state.places());
         std::copy_n(d + point.slot, point.dimensions, state.placeD() + point.coordinate);
-        if (moveOn(p, c.places[p], x, state.places())) {
-          gatherPlace(p, x, d, state.places());
+        if (state.placesOwe()[p] <= c.places[p].credit) {
+          glide(p, c.places[p], now, state);
         }
         for (int k = point.slot; k < point.slot + point.dimensions; ++k) {
           state.moved()[k] += x[k];
@@ -101,9 +102,15 @@ class Points {
   }
 
   /// Forces go on to the modules, in the reverse order of gather().
-  void scatter(const Group& group, Real* f, const double* places) const noexcept {
-    scatterToModules(group, f, places);
-    scatterToModes(group, f, f);
+  void scatter(const Group& group, State<Real>& state) const noexcept {
+    scatterToModules(group, state.f(), state.places());
+    scatterToModes(group, state.f(), state.f());
+    for (const std::size_t p : group.places) {
+      const PlacePoint& point = layout_.places[p];
+      for (int k = 0; k < point.dimensions; ++k) {
+        state.placeForces()[point.coordinate + k].mean += state.f()[point.slot + k];
+      }
+    }
   }
   /// As far as modules that are sums of modes.
   void scatterToModules(const Group& group, Real* f, const double* places) const noexcept {
@@ -118,11 +125,23 @@ class Points {
     }
     for (const std::size_t p : group.places) {
       const PlacePoint& point = layout_.places[p];
-      const scene::GridPlace around = scene::placeOn(grids_[p], places[2 * p], places[2 * p + 1]);
-      for (int i = 0; i < around.count; ++i) {
+      const scene::GridPlace here = around(p, places);
+      for (int i = 0; i < here.count; ++i) {
         for (int k = 0; k < point.dimensions; ++k) {
-          f[slotOf(around, i) + k * point.stride] += weight(around, i) * f[point.slot + k];
+          f[slotOf(here, i) + k * point.stride] += weight(here, i) * f[point.slot + k];
         }
+      }
+    }
+  }
+
+  /// Places whose step is over pay for what moving them has brought.
+  void endFrame(const Group& group,
+                const CoefficientsOf<Real>& c,
+                std::int64_t now,
+                State<Real>& state) const noexcept {
+    for (const std::size_t p : group.places) {
+      if (layout_.isDue(layout_.places[p].section, now + 1)) {
+        pay(p, c.places[p], state);
       }
     }
   }
@@ -150,6 +169,8 @@ class Points {
   }
 
  private:
+  static constexpr int kTries = 4;  // a string that is not straight: less of the way may cost more
+
   static Real weight(const scene::GridPlace& around, int i) noexcept {
     return static_cast<Real>(around.weights[static_cast<std::size_t>(i)]);
   }
@@ -183,19 +204,90 @@ class Points {
     }
   }
 
-  /// The place follows what is asked for, as fast as it may. \return true if it moved
+  /// The work of moving a place is that of the force there over how far the place has gone across
+  /// the string. A damper there takes Z v^2 of the string itself: what it seems to pay for the
+  /// place is at most Z/4 (how fast the place goes)^2. Guarded links give back what the string gave
+  /// them wherever they lie, so moving them brings nothing.
+  void pay(std::size_t p, const PlaceCoefficients& allowed, State<Real>& state) const noexcept {
+    const PlacePoint& point = layout_.places[p];
+    PlaceForce<Real>* force = state.placeForces() + point.coordinate;
+    const Real* place_d = state.placeD() + point.coordinate;
+    double work = 0.0;
+    for (int k = point.slot; k < point.slot + point.dimensions; ++k, ++force, ++place_d) {
+      const auto moved = static_cast<double>(state.moved()[k]);
+      const double way = static_cast<double>(state.d()[k]) - moved;
+      const double way_last = static_cast<double>(*place_d) - moved;
+      work += 0.5 * (way * static_cast<double>(force->mean) +
+                     way_last * static_cast<double>(force->last)) +
+              allowed.resistance * way * way;
+      *force = {Real(0), force->mean};
+    }
+    double& owed = state.placesOwe()[p];
+    owed = std::max(0.0, owed - allowed.allowance) + work;
+  }
+
+  /// A step of the way, or as much of it as can be paid for.
+  void glide(std::size_t p,
+             const PlaceCoefficients& wanted,
+             std::int64_t now,
+             State<Real>& state) const noexcept {
+    const PlacePoint& point = layout_.places[p];
+    double* place = state.places() + 2 * p;
+    const double from[2] = {place[0], place[1]};
+    Real before[3];
+    std::copy_n(state.x() + point.slot, point.dimensions, before);
+    if (!moveOn(p, wanted, now, state)) {
+      return;
+    }
+    gatherPlace(p, state.x(), state.d(), state.places());
+    const double budget = wanted.credit + wanted.allowance - state.placesOwe()[p];
+    for (int tries = kTries; tries >= 0; --tries) {
+      const double share = budget / costOf(point, wanted, before, state);
+      if (!(share < 1.0)) {
+        return;
+      }
+      for (std::size_t k = 0; k < 2; ++k) {
+        place[k] = from[k] + (tries > 0 ? share : 0.0) * (place[k] - from[k]);
+      }
+      gatherPlace(p, state.x(), state.d(), state.places());
+    }
+  }
+
+  /// What it may cost at most to have moved a point from `before`: the last force, what the string
+  /// has added since, and what the way adds, with springs as stiff as they get.
+  double costOf(const PlacePoint& point,
+                const PlaceCoefficients& wanted,
+                const Real* before,
+                State<Real>& state) const noexcept {
+    double cost = 0.0;
+    for (int k = 0; k < point.dimensions; ++k) {
+      const auto way = static_cast<double>(std::abs(state.x()[point.slot + k] - before[k]));
+      const auto step = static_cast<double>(std::abs(state.d()[point.slot + k]));
+      const Real force = state.placeForces()[point.coordinate + k].last;
+      cost += way * (static_cast<double>(std::abs(force)) + wanted.stiffness * (step + 0.5 * way));
+    }
+    return cost;
+  }
+
+  /// The place glides to what is asked for until that changes again, as fast as it may.
+  /// \return true if it moved
   bool moveOn(std::size_t p,
               const PlaceCoefficients& wanted,
-              const Real* x,
-              double* places) const noexcept {
+              std::int64_t now,
+              State<Real>& state) const noexcept {
+    double* places = state.places();
     const int guide = layout_.places[p].guide;
-    const double led = guide < 0 ? 0.0 : wanted.guide_scale * static_cast<double>(x[guide]);
+    const double led = guide < 0 ? 0.0 : wanted.guide_scale * static_cast<double>(state.x()[guide]);
+    const std::int64_t divisor =
+        layout_.sections[static_cast<std::size_t>(layout_.places[p].section)].divisor;
+    const std::int64_t frames = wanted.glide - now % wanted.glide;
+    const auto steps = static_cast<double>((frames + divisor - 1) / divisor);
     const double targets[2] = {std::clamp(wanted.along + led, wanted.minimum, wanted.maximum),
                                std::clamp(wanted.across, 0.0, 1.0)};
     bool moves = false;
     for (std::size_t k = 0; k < 2; ++k) {
       double& place = places[2 * p + k];
-      const double way = targets[k] - place;
+      const double way = (targets[k] - place) / steps;
       place += wanted.speed > 0.0 ? std::clamp(way, -wanted.speed, wanted.speed) : way;
       moves = moves || way != 0.0;
     }

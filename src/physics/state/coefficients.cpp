@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "physics/state/coefficients.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "at.hpp"
 #include "ergotic/scene/table.hpp"
@@ -10,6 +12,39 @@
 #include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
+namespace {
+
+constexpr double kCreditSeconds = 0.1;  // of what a place may bring, in advance
+
+/// What guides a place moves it in its own step, parameters between two ticks.
+int glideOf(const scene::Scene& scene, const Rates& rates, const scene::Connection& place) {
+  return place.guide < 0 ? rates.ratio
+                         : divisorOf(scene.sectionOf(scene.mats[at(place.guide)]), rates);
+}
+
+/// [mats] Sums of the explicit links that end there, at their steepest.
+struct Ends {
+  std::vector<double> stiffness;
+  std::vector<double> damping;
+};
+
+Ends endsOf(const scene::Scene& scene) {
+  Ends ends{std::vector<double>(scene.mats.size()), std::vector<double>(scene.mats.size())};
+  for (const scene::Lia& lia : scene.lias) {
+    if (lia.scheme == scene::Scheme::kGuarded) {
+      continue;
+    }
+    const scene::Slopes slopes = scene::lawOf(lia.type).slopes(scene, lia);
+    for (const int end : {lia.a, lia.b}) {
+      ends.stiffness[at(end)] += std::max(0.0, slopes.stiffness.highest);
+      ends.damping[at(end)] += std::max(0.0, slopes.damping.highest);
+    }
+  }
+  return ends;
+}
+
+}  // namespace
+
 template <class Real>
 CoefficientsOf<Real>::CoefficientsOf(const scene::Scene& scene,
                                      const Rates& rates,
@@ -89,12 +124,21 @@ template <class Real>
 void CoefficientsOf<Real>::fillPlaces(const scene::Scene& scene,
                                       const Rates& rates,
                                       const Layout& layout) {
+  const Ends ends = layout.places.empty() ? Ends{} : endsOf(scene);
   for (const PlacePoint& point : layout.places) {
     const scene::Connection& from = scene.connections[at(point.connection)];
     const SectionRange& range = layout.sections[at(point.section)];
     const StepUnits units(scene, rates, range.divisor);
-    places.push_back({scene.valueOf(from.along), scene.valueOf(from.across), from.guide_scale,
-                      from.along_minimum, from.along_maximum, units.velocity(from.speed)});
+    PlaceCoefficients to{scene.valueOf(from.along), scene.valueOf(from.across),
+                         from.guide_scale,          from.along_minimum,
+                         from.along_maximum,        units.velocity(from.speed)};
+    to.glide = glideOf(scene, rates, from);
+    const double energy = from.power * std::pow(scene.time_unit_s, 3.0);  // per time unit
+    to.allowance = energy * units.step;
+    to.credit = energy * kCreditSeconds / scene.time_unit_s;
+    to.stiffness = ends.stiffness[at(from.mat)];
+    to.resistance = ends.damping[at(from.mat)] / units.step;
+    places.push_back(to);
   }
 }
 

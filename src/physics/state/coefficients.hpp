@@ -58,7 +58,8 @@ struct RunCoefficients {
   TableCoefficients<Real> viscous_table;
 };
 
-/// Where a point of a grid is asked to be. `speed` is per step of its section.
+/// Where a point of a grid is asked to be, and what it may bring there. `speed` and `allowance` are
+/// per step of its section; energies in units of the scene.
 struct PlaceCoefficients {
   double along = 0.0;
   double across = 0.0;
@@ -66,6 +67,11 @@ struct PlaceCoefficients {
   double minimum = 0.0;
   double maximum = 1.0;
   double speed = 0.0;
+  int glide = 1;            ///< frames between two changes of what is asked for
+  double allowance = 0.0;   ///< energy that moving it may bring
+  double credit = 0.0;      ///< the most that it may owe and go on
+  double stiffness = 0.0;   ///< of the explicit links that end there, at their steepest
+  double resistance = 0.0;  ///< Z/h of the same
 };
 
 template <class Real>

@@ -18,6 +18,16 @@ inline bool remembers(const LinkRun& run) {
          run.dimensions > 0 || run.section_a != run.section_b || run.slow_section >= 0;
 }
 
+/// What explicit links exert on a coordinate of a place: of the step under way so far, and of the
+/// last one.
+template <class Real>
+struct PlaceForce {
+  static constexpr std::size_t kDoubles =
+      sizeof(Real) == sizeof(double) ? 2 : 0;  ///< see numbersOf
+  Real mean;
+  Real last;
+};
+
 /// Everything mutable of an instrument, in one arena. Unmetered, nothing is kept that only the
 /// books of energy need: of links, what those between sections remember.
 template <class Real>
@@ -33,6 +43,8 @@ class State {
     moved_at_ = layout.places.empty() ? d_at_ : arena_.add<Real>("moved", slots);
     places_at_ = arena_.add<double>("places", 2 * layout.places.size());
     place_d_at_ = arena_.add<Real>("place_d", coordinatesOf(layout.places));
+    place_forces_at_ = arena_.add<PlaceForce<Real>>("place_forces", coordinatesOf(layout.places));
+    places_owe_at_ = arena_.add<double>("places_owe", layout.places.size());
     last_forces_at_ = arena_.add<Real>("last_force_outputs", layout.taps.size());
     asleep_at_ = arena_.add<unsigned char>("asleep", layout.sections.size());
     work_at_ = arena_.add<LinkWork>("link_work", metered ? layout.runs.size() : 0);
@@ -60,6 +72,13 @@ class State {
   /// [coordinates of places] what d would be had the place not moved
   Real* placeD() noexcept { return arena_.at<Real>(place_d_at_); }
   const Real* placeD() const noexcept { return arena_.at<Real>(place_d_at_); }
+  /// [coordinates of places]
+  PlaceForce<Real>* placeForces() noexcept { return arena_.at<PlaceForce<Real>>(place_forces_at_); }
+  const PlaceForce<Real>* placeForces() const noexcept {
+    return arena_.at<PlaceForce<Real>>(place_forces_at_);
+  }
+  /// [places] energy that moving it has brought beyond what it may bring, so far
+  double* placesOwe() noexcept { return arena_.at<double>(places_owe_at_); }
   double* places() noexcept { return arena_.at<double>(places_at_); }
   Real* lastForces() noexcept { return arena_.at<Real>(last_forces_at_); }
   unsigned char* asleep() noexcept { return arena_.at<unsigned char>(asleep_at_); }
@@ -125,6 +144,8 @@ class State {
   std::size_t moved_at_ = 0;
   std::size_t places_at_ = 0;
   std::size_t place_d_at_ = 0;
+  std::size_t place_forces_at_ = 0;
+  std::size_t places_owe_at_ = 0;
   std::size_t last_forces_at_ = 0;
   std::size_t asleep_at_ = 0;
   std::size_t work_at_ = 0;

@@ -224,6 +224,7 @@ class Validator {
     if (c.speed != 0.0) {
       number(c.place, "speed" + of, c.speed, kPointSpeedLimits);
     }
+    number(c.place, "power" + of, c.power, kPointPowerLimits);
     if (c.guide != -1) {
       index(c.place, "guide" + of, c.guide, scene_.mats.size());
       number(c.place, "scale of the guide" + of, c.guide_scale, kGuideScaleLimits);

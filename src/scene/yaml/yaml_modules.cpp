@@ -23,7 +23,7 @@ const std::vector<MatKind>& matKinds() {
       {"cell", MatType::kCell, {"mass", "stiffness", "damping", "matched", "x", "v"}, {}},
       {"driven", MatType::kDriven, {"x"}, {"rest"}},
       {"slice", MatType::kSlice, {}, {"rest"}},
-      {"point", MatType::kPoint, {"along", "guide", "range", "speed"}, {}},
+      {"point", MatType::kPoint, {"along", "guide", "range", "speed", "power"}, {}},
   };
   return kKinds;
 }
@@ -146,6 +146,7 @@ void readPoint(SceneBuilder& builder, const std::string& name, const YamlMap& ma
   readStart(builder, map, connection);
   readGuide(builder, map, connection);
   connection.speed = map.number("speed", kPointSpeedLimits, 0.0);
+  connection.power = map.number("power", kPointPowerLimits, connection.power);
   addPoint(builder, name, connection);
 }
 

@@ -81,7 +81,7 @@ std::string adviceOn(const Scene& scene, Verdict verdict, double lowest_rate_hz)
                  ? "stable: its explicit contacts are so soft that a hit gives hardly anything"
                  : "it cannot blow up, whatever the hands do";
     case Verdict::kBounded:
-      return "it cannot blow up: what plucks or bows gives energy, but only so much";
+      return "it cannot blow up: what plucks, bows or moves gives energy, but only so much";
     case Verdict::kUnproven:
       return "nothing bounds it: see the findings, or play it with allow_unproven at your own risk";
     case Verdict::kUnstable:

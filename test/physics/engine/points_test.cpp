@@ -109,14 +109,15 @@ TEST(PointTest, PlaceThatFollowsAParameterMovesAtItsSpeed) {
   EXPECT_NEAR(player.heard[0].back(), 2.0, 1e-12);
   player.instrument->exchange(player.instrument->prepare({0.8}));
   player.ticks(20);
+  double place = 0.2;
   for (int n = 0; n < 200; ++n) {
-    const double place = std::min(0.8, 0.2 + speed * (n + 1) / kRate);
+    place += std::min(speed / kRate, (0.8 - place) / (10 - n % 10));  // there with the last frame
     ASSERT_NEAR(player.heard[0][at(10 + n)], 10.0 * place, 1e-10) << n;
     ASSERT_EQ(player.heard[1][at(10 + n)], 0.0) << "the string itself is at rest";
   }
 }
 
-TEST(PointTest, PlaceWithoutASpeedIsThereAtOnce) {
+TEST(PointTest, PlaceWithoutASpeedIsThereWithinATick) {
   Built b;
   const int point = b.point(b.ruler(11), 1.0);
   b.parameter(0.2, 0.0, 1.0);
@@ -207,6 +208,7 @@ TEST(PointTest, GlidingUpASlopeTakesTheWorkThatTheSpringStores) {
     b.parameter(0.2, 0.0, 1.0);
     b.scene.connections[0].along = {1.0, 0};
     b.scene.connections[0].speed = 30.0;
+    b.scene.connections[0].power = 1e9;
     b.link(cubic > 0.0 ? LiaType::kCubic : LiaType::kSpringDamper, point, b.ground(), 100.0);
     b.scene.lias[0].law.edit().nonlinearity = {cubic};
     Player player(b.scene, {kRate, 10});

@@ -78,8 +78,8 @@ TEST(GridPlaceTest, OfAStringIsBetweenTwoModulesWhateverIsAskedFor) {
 }
 
 TEST(PointTest, OnAStringIsReadFieldByField) {
-  const Scene s =
-      pointScene("along: s, at: $finger, guide: {mat: k, scale: 5}, range: [0.1, 0.9], speed: 2");
+  const Scene s = pointScene(
+      "along: s, at: $finger, guide: {mat: k, scale: 5}, range: [0.1, 0.9], speed: 2, power: 0.5");
   ASSERT_EQ(s.connections.size(), 1U);
   const Connection& c = s.connections[0];
   const Mat& q = s.mats[static_cast<std::size_t>(c.mat)];
@@ -94,6 +94,7 @@ TEST(PointTest, OnAStringIsReadFieldByField) {
   EXPECT_EQ(c.along_minimum, 0.1);
   EXPECT_EQ(c.along_maximum, 0.9);
   EXPECT_EQ(c.speed, 2.0);
+  EXPECT_EQ(c.power, 0.5);
   EXPECT_EQ(c.place.line, 11);
   // 0.3 of the way is on mass 3 of a triangle whose top is 0.01 at mass 5.
   EXPECT_NEAR(q.rest.y(), 0.3, 1e-15);
@@ -108,6 +109,7 @@ TEST(PointTest, OnAMeshStartsBetweenItsFourModules) {
   EXPECT_EQ(c.across.factor, 0.75);
   EXPECT_EQ(c.guide, -1);
   EXPECT_EQ(c.speed, 0.0);
+  EXPECT_EQ(c.power, 1.0);
   EXPECT_EQ(q.section, 1);
   EXPECT_NEAR(q.rest.x(), 1.0 + 0.3 * 0.4, 1e-15);
   EXPECT_NEAR(q.rest.y(), 2.0 + 0.75 * 0.2, 1e-15);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "at.hpp"
+#include "ergotic/scene/generate/pitch.hpp"
 #include "physics/note.hpp"
 
 namespace ergotic::physics {
@@ -22,7 +23,7 @@ double pluckOf(const scene::Scene& scene, const scene::StringInfo& string, doubl
   return height / length;
 }
 
-std::string noteOn(const scene::Scene& scene, const scene::StringInfo& string) {
+std::string noteOn(const scene::Scene& scene, const scene::StringInfo& string, const Rates& rates) {
   const scene::Mat& first = scene.mats[at(string.first)];
   const scene::Mat& last = scene.mats[at(string.first + string.count - 1)];
   const double length = (last.rest - first.rest).norm();
@@ -30,6 +31,15 @@ std::string noteOn(const scene::Scene& scene, const scene::StringInfo& string) {
   std::string text = noteAt(scene, first.place) + "string '" + string.name + "' ";
   if (!(slack < 1.0)) {
     return text + "is not stretched: its links are at rest";
+  }
+  const double rate_hz = rates.audio_hz / divisorOf(scene.sectionOf(first), rates);
+  if (!scene::holdsPitch(scene, string, rate_hz)) {
+    return text +
+           "is flat, by up to some hundred cents: its guarded links hold their tension up to "
+           "h^2 K/M = 0.25, and it is " +
+           shortly(scene::stringKappa(scene, string, rate_hz)) +
+           ". Take scheme: explicit where that is stable, a higher rate, fewer masses or a smaller "
+           "rest_length_ratio";
   }
   text += "sounds " + shortly(pitchPullCents(slack, 0.001)) +
           " cents higher at an amplitude of 0.1 % of its length, " +
@@ -49,11 +59,11 @@ double pitchPullCents(double slack, double amplitude) {
   return 1602.0 * slack / (1.0 - slack) * amplitude * amplitude;
 }
 
-void notePitchPull(const scene::Scene& scene, std::vector<std::string>& notes) {
+void notePitchPull(const scene::Scene& scene, const Rates& rates, std::vector<std::string>& notes) {
   for (const scene::StringInfo& string : scene.strings) {
     const scene::Geometry geometry = scene.sectionOf(scene.mats[at(string.first)]).geometry;
     if (geometry == scene::Geometry::kPlane || geometry == scene::Geometry::kSpace) {
-      notes.push_back(noteOn(scene, string));
+      notes.push_back(noteOn(scene, string, rates));
     }
   }
 }

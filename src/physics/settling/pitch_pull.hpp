@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "ergotic/physics/rates.hpp"
 #include "ergotic/scene/scene.hpp"
 
 namespace ergotic::physics {
@@ -14,7 +15,8 @@ namespace ergotic::physics {
 /// \param amplitude  of the fundamental over the length of the string
 double pitchPullCents(double slack, double amplitude);
 
-/// Says of every string in a plane or in space what it gains by not being scalar.
-void notePitchPull(const scene::Scene& scene, std::vector<std::string>& notes);
+/// Says of every string in a plane or in space what it gains by not being scalar, or that it does
+/// not hold its pitch. \pre schemes and rates are chosen
+void notePitchPull(const scene::Scene& scene, const Rates& rates, std::vector<std::string>& notes);
 
 }  // namespace ergotic::physics

@@ -36,7 +36,7 @@ Settled settle(scene::Scene scene, const Rates& rates) {
       settled.notes);
   settled.scene = complete(std::move(scene), rates, settled.notes);
   noteSleep(settled.scene, settled.notes);
-  notePitchPull(settled.scene, settled.notes);
+  notePitchPull(settled.scene, rates, settled.notes);
   return settled;
 }
 

@@ -28,16 +28,27 @@ double transverseShare(const Scene& scene, const StringInfo& string) {
 
 }  // namespace
 
+double stringKappa(const Scene& scene, const StringInfo& string, double rate_hz) {
+  const double h = 1.0 / (rate_hz * scene.time_unit_s);  // in the scene's time unit
+  return scene.valueOf(string.stiffness) * h * h / scene.valueOf(string.mass);
+}
+
+bool holdsPitch(const Scene& scene, const StringInfo& string, double rate_hz) {
+  constexpr double kStiffest = 0.25;  // both masses and both neighbours count
+  const Lia& link = scene.lias[static_cast<std::size_t>(string.first_lia)];
+  return link.scheme != Scheme::kGuarded || stringKappa(scene, string, rate_hz) <= kStiffest;
+}
+
 double stringPitchHz(const Scene& scene, const StringInfo& string, double rate_hz) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  if (string.corrected_hz > 0.0) {
+  if (string.corrected_hz > 0.0 || !holdsPitch(scene, string, rate_hz)) {
     return kNone;
   }
   const double h = 1.0 / (rate_hz * scene.time_unit_s);  // in the scene's time unit
   const double half = std::sin(M_PI / (2.0 * (string.count - 1)));
   const double s = 4.0 * half * half;
   const double mass = scene.valueOf(string.mass);
-  double kappa = s * scene.valueOf(string.stiffness) * h * h / mass;
+  double kappa = s * stringKappa(scene, string, rate_hz);
   double zeta = groundLoss(scene, string, h);
   const Mat& first = scene.mats[static_cast<std::size_t>(string.first)];
   if (dimensionsOf(scene.sectionOf(first).geometry) == 1) {

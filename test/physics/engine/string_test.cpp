@@ -161,6 +161,8 @@ TEST(StringTest, PitchThatIsToldIsWhatTheInstrumentPlaysInEveryGeometry) {
       {"geometry: plane", "frequency: 880, rest_length_ratio: 0.7, loss: 0.01", "[1, 0]", "y"},
       {"geometry: plane, medium: 0.02", "stiffness: 1e4, rest_length_ratio: 0.5", "[1, 0]", "y"},
       {"geometry: space", "frequency: 880, rest_length_ratio: 0.7", "[1, 0, 0]", "z"},
+      {"geometry: plane", "frequency: 870, rest_length_ratio: 0.35, scheme: guarded", "[1, 0]",
+       "y"},
   };
   for (const auto& each : kCases) {
     const Rates rates;
@@ -175,6 +177,31 @@ TEST(StringTest, PitchThatIsToldIsWhatTheInstrumentPlaysInEveryGeometry) {
     const double expected = stringPitchHz(settled.scene, settled.scene.strings[0], rates.audio_hz);
     EXPECT_NEAR(playedPitchHz(settled.scene, rates), expected, 1e-7 * expected)
         << each.section << " " << each.fields;
+  }
+}
+
+/// Where guarded links would make it flat, no pitch is told, and a note says why.
+TEST(StringTest, GuardedStringsAreInTuneOrHaveNoPitch) {
+  const Rates rates;
+  for (const bool is_soft : {true, false}) {
+    const Settled settled =
+        settle(scene::readYaml(
+                   "ergotic: 1\nsections: {a: {geometry: plane}}\ngenerators: [{type: string, "
+                   "name: s, masses: 20, mass: 1e-4, scheme: guarded, to: [0.65, 0], "
+                   "rest_length_ratio: 0.9, frequency: " +
+                       std::string(is_soft ? "165" : "440") +
+                       "}]\noutputs: {o: {at: s.10, quantity: position, channel: 1, axis: y}}\n",
+                   "string.yaml"),
+               rates);
+    const double foretold = stringPitchHz(settled.scene, settled.scene.strings[0], rates.audio_hz);
+    const double played = playedPitchHz(settled.scene, rates);
+    if (is_soft) {
+      EXPECT_NEAR(played, foretold, 1e-6 * foretold);
+    } else {
+      EXPECT_TRUE(std::isnan(foretold));
+      EXPECT_LT(played, 300.0);
+      EXPECT_THAT(settled.notes, Contains(HasSubstr("string 's' is flat")));
+    }
   }
 }
 

@@ -278,12 +278,15 @@ class Points {
     double* places = state.places();
     const int guide = layout_.places[p].guide;
     const double led = guide < 0 ? 0.0 : wanted.guide_scale * static_cast<double>(state.x()[guide]);
+    const double targets[2] = {std::clamp(wanted.along + led, wanted.minimum, wanted.maximum),
+                               std::clamp(wanted.across, 0.0, 1.0)};
+    if (targets[0] == places[2 * p] && targets[1] == places[2 * p + 1]) {
+      return false;  // most places stand still
+    }
     const std::int64_t divisor =
         layout_.sections[static_cast<std::size_t>(layout_.places[p].section)].divisor;
     const std::int64_t frames = wanted.glide - now % wanted.glide;
     const auto steps = static_cast<double>((frames + divisor - 1) / divisor);
-    const double targets[2] = {std::clamp(wanted.along + led, wanted.minimum, wanted.maximum),
-                               std::clamp(wanted.across, 0.0, 1.0)};
     bool moves = false;
     for (std::size_t k = 0; k < 2; ++k) {
       double& place = places[2 * p + k];

@@ -205,6 +205,7 @@ void addPlayedPoint(SceneBuilder& builder, int hands, double across) {
   builder.scene().connections.push_back(place);
   addContact(builder, presses, point, {2000.0});
   builder.scene().lias.back().scheme = scene::Scheme::kAuto;
+  builder.scene().lias.back().damping = {0.05};  // explicit, as it loses more than a hit may give
 }
 
 void station7k(SceneBuilder& builder, int modules) {

@@ -118,10 +118,15 @@ class CouplingJudge {
       const LinearStepper stepper(linearPart(scene), networks_.rates());
       const Trial trial{spectralRadius(monodromy(scene, networks_.rates())),
                         stepper.periodSeconds()};
+      if (std::isnan(trial.radius)) {
+        say(coupling, Verdict::kUnproven,
+            what + ", and its eigenvalues cannot be worked out: its numbers lie too far apart");
+        return;
+      }
       worst = trial.radius >= worst.radius ? trial : worst;
     }
-    if (worst.radius > 1.0 + kRounding || std::isnan(worst.radius)) {
-      const bool is_certain = !(worst.radius <= 1.0 + kCertainGrowth);
+    if (worst.radius > 1.0 + kRounding) {
+      const bool is_certain = worst.radius > 1.0 + kCertainGrowth;
       say(coupling, is_certain ? Verdict::kUnstable : Verdict::kUnproven,
           what + ", and grows by a factor of exp(" + describe(worst.growthPerSecond()) +
               ") per second: the largest eigenvalue over one of its steps is 1 + " +

@@ -42,7 +42,7 @@ class LinkJudge {
     judgeGift(lia, law);
     if (slopes.is_unbounded) {
       judgeGrowing(lia, law);
-    } else if (law.switches) {
+    } else if (law.switches && slopes.stiffness.highest > 0.0) {
       judgeSwitching(lia, law);
     }
   }
@@ -211,11 +211,29 @@ class LinkJudge {
             ". " + cure + ", soften it, make its masses heavier, or raise the rate");
   }
 
-  /// A bounded force keeps what it acts on bounded, if all of that loses energy and is stable.
-  bool losesEnergy(const Lia& lia) const {
+  /// A bounded force keeps what it acts on bounded, if all of that loses energy and is stable, and
+  /// no guarded link hands it on to something that may keep it.
+  bool losesEnergy(const Lia& lia) {
+    if (networks_.crossesRates(lia)) {
+      return false;
+    }
     const int island = networks_.islandOf(lia);
-    return !networks_.crossesRates(lia) &&
-           isDamped(networks_.atOwnRate(networks_.divisorOfMat(lia.a), island, true));
+    const auto [known, is_new] = loses_energy_.try_emplace(island);
+    if (is_new) {
+      known->second = !isLeft(island) &&
+                      isDamped(networks_.atOwnRate(networks_.divisorOfMat(lia.a), island, true));
+    }
+    return known->second;
+  }
+
+  bool isLeft(int island) const {
+    const auto& lias = networks_.scene().lias;
+    return std::any_of(lias.begin(), lias.end(), [&](const Lia& lia) {
+      const int a = networks_.islandAt(lia.a);
+      const int b = networks_.islandAt(lia.b);
+      return lia.scheme == scene::Scheme::kGuarded && a >= 0 && b >= 0 && a != b &&
+             (a == island || b == island);
+    });
   }
 
   const RatedNetwork& networks_;
@@ -223,6 +241,7 @@ class LinkJudge {
   Findings& findings_;
   std::map<std::pair<int, int>, Turning> turning_;  // by line and column
   std::set<const scene::Connection*> moving_;
+  std::map<int, bool> loses_energy_;  // by island
 };
 
 }  // namespace

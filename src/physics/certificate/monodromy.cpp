@@ -51,11 +51,19 @@ std::vector<Column> columnsOf(LinearStepper& stepper) {
   return columns;
 }
 
+/// NaN if they cannot be worked out.
 double largestEigenvalue(const Eigen::MatrixXd& matrix, bool* is_near_one) {
-  double radius = 0.0;
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  if (!matrix.allFinite()) {
+    return kNone;
+  }
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix, false);
+  if (solver.info() != Eigen::Success || !solver.eigenvalues().allFinite()) {
+    return kNone;
+  }
+  double radius = 0.0;
   for (const std::complex<double>& value : solver.eigenvalues()) {
-    if (!(std::abs(value) <= radius)) {
+    if (std::abs(value) > radius) {
       radius = std::abs(value);
       *is_near_one = std::abs(value - 1.0) < kNearOne;
     }
@@ -112,16 +120,17 @@ double spectralRadius(const Eigen::MatrixXd& matrix) {
   if (matrix.size() == 0) {
     return 0.0;
   }
-  if (!matrix.allFinite()) {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
   bool is_near_one = false;
   const double radius = largestEigenvalue(matrix, &is_near_one);
   if (radius <= 1.0 || !is_near_one) {
     return radius;
   }
   const Eigen::MatrixXd others = withoutFixedStates(matrix);
-  return others.rows() == 0 ? 1.0 : std::max(1.0, largestEigenvalue(others, &is_near_one));
+  if (others.rows() == 0) {
+    return 1.0;
+  }
+  const double rest = largestEigenvalue(others, &is_near_one);
+  return rest < 1.0 ? 1.0 : rest;
 }
 
 }  // namespace ergotic::physics

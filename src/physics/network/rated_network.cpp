@@ -113,15 +113,18 @@ bool RatedNetwork::isMoving(const scene::Lia& lia) const {
   return isMovingPoint(lia.a) || isMovingPoint(lia.b);
 }
 
-int RatedNetwork::islandOf(const scene::Lia& lia) const {
-  for (const int end : {lia.a, lia.b}) {
-    for (const Shares& place : placesOf(end)) {
-      if (!place.empty()) {
-        return islandOf(place.front().node);
-      }
+int RatedNetwork::islandAt(int end) const {
+  for (const Shares& place : placesOf(end)) {
+    if (!place.empty()) {
+      return islandOf(place.front().node);
     }
   }
   return -1;
+}
+
+int RatedNetwork::islandOf(const scene::Lia& lia) const {
+  const int island = islandAt(lia.a);
+  return island >= 0 ? island : islandAt(lia.b);
 }
 
 bool RatedNetwork::hasLinkedMatched(int divisor) const {

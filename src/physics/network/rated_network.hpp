@@ -44,6 +44,8 @@ class RatedNetwork {
 
   /// Modules that explicit links join, at whatever rates, are one island, named by one of them.
   int islandOf(int mat) const { return island_[static_cast<std::size_t>(mat)]; }
+  /// That of the modules at an end of a link; -1 if no force moves any.
+  int islandAt(int end) const;
   /// That of a link's modules; -1 if no force moves any.
   int islandOf(const scene::Lia& lia) const;
 

@@ -147,5 +147,41 @@ TEST(VouchedTest, SlowGrowthIsNoRigidMotion) {
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kPassive);
 }
 
+TEST(VouchedTest, EigenvaluesThatCannotBeWorkedOutAreNone) {
+  Eigen::Matrix3d matrix = 0.5 * Eigen::Matrix3d::Identity();
+  for (const double value : {std::numeric_limits<double>::infinity(), std::nan("")}) {
+    matrix(1, 2) = value;
+    EXPECT_TRUE(std::isnan(spectralRadius(matrix)));
+  }
+}
+
+/// What loses energy, by a damper to the ground, and snaps: bounded. Not so if a guarded contact
+/// hands what it is given on to a mass that loses nothing.
+TEST(VouchedTest, GuardedLinksHandOnWhatSnapsGive) {
+  SceneBuilder b;
+  const int mass = b.mass(1.0);
+  b.spring(mass, b.ground(), 1e-5 * kRate * kRate, 10.0);
+  b.link(LiaType::kConditional, mass, b.ground(), 3.5 * kRate * kRate);
+  b.scene.lias.back().law.edit().width = {5e-3};
+  b.scene.lias.back().law.edit().release = 1e-2;
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
+  b.link(LiaType::kContact, mass, b.mass(1.0), 1e3);
+  b.scene.lias.back().scheme = Scheme::kGuarded;
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnproven);
+}
+
+/// A table that has no elastic part switches no stiffness, whatever else acts on its mass.
+TEST(VouchedTest, WhatSwitchesIsNamed) {
+  SceneBuilder b;
+  const int mass = b.mass(1.0);
+  b.link(LiaType::kTable, mass, b.ground(), 0.0);
+  b.scene.lias.back().law.edit().viscous_table.points = {{-1.0, -1.0}, {1.0, 1.0}};
+  b.link(LiaType::kContact, mass, b.ground(), 0.2 * kRate * kRate);
+  const Certificate c = certify(b.scene, {kRate, 14});
+  EXPECT_EQ(c.verdict, Verdict::kUnproven);
+  ASSERT_EQ(c.findings.size(), 1U);
+  EXPECT_THAT(c.findings[0], HasSubstr("link 'l1'"));
+}
+
 }  // namespace
 }  // namespace ergotic::physics

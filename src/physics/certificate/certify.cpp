@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "at.hpp"
 #include "physics/certificate/certify_parts.hpp"
@@ -14,8 +15,8 @@ namespace {
 
 class Certifier {
  public:
-  Certifier(const Network& network, const Rates& rates)
-      : scene_(network.scene), networks_(network, rates), findings_(scene_.file) {}
+  Certifier(const Network& network, const Rates& rates, Proof* proof)
+      : scene_(network.scene), networks_(network, rates), findings_(scene_.file, proof) {}
 
   Certificate run(const DeviceTraits& device) {
     Certificate result;
@@ -46,8 +47,11 @@ class Certifier {
   /// All sections of one rate are one network; slower ends are held, so fixed.
   SectionCertificate certifyRate(int s, int divisor) {
     const NetworkBound network = networks_.atOwnRate(divisor);
-    judgeSigns(networks_, network, findings_);
+    SignProof signs = judgeSigns(networks_, network, findings_);
     NetworkAnalysis analysis = analyse(network);
+    if (findings_.proof() != nullptr && analysis.isProven() && network.nodes() > 0) {
+      findings_.proof()->rates.push_back({divisor, proofOfLimit(network), std::move(signs)});
+    }
     if (networks_.hasLinkedMatched(divisor)) {
       // Matched modules change with the step in their own way, but stay below plain ones.
       const double plain =
@@ -98,9 +102,11 @@ class Certifier {
 
 }  // namespace
 
-void judgeSigns(const RatedNetwork& networks, const NetworkBound& network, Findings& findings) {
-  if (isSemidefinite(network)) {
-    return;
+SignProof judgeSigns(const RatedNetwork& networks,
+                     const NetworkBound& network,
+                     Findings& findings) {
+  if (auto proof = proofOfSigns(network)) {
+    return std::move(*proof);
   }
   for (const NetworkBound::Link& link : network.links()) {
     if (link.stiffness.lowest >= 0.0 && link.damping.lowest >= 0.0) {
@@ -111,8 +117,9 @@ void judgeSigns(const RatedNetwork& networks, const NetworkBound& network, Findi
                  "link '" + lia.name +
                      "' has a negative stiffness or damping that the links around it do not make "
                      "up for: it gives energy, no bound holds. Make it weaker or those stronger");
-    return;
+    break;
   }
+  return {};
 }
 
 const char* toString(Verdict verdict) {
@@ -137,13 +144,16 @@ double Certificate::margin() const {
   return 1.0 - lambda / NetworkBound::kLimit;
 }
 
-Certificate certify(const scene::Scene& scene, const Rates& rates, const DeviceTraits& device) {
+Certificate certify(const scene::Scene& scene,
+                    const Rates& rates,
+                    const DeviceTraits& device,
+                    Proof* proof) {
   for (const scene::Lia& lia : scene.lias) {
     if (lia.scheme == scene::Scheme::kAuto) {
       throw std::logic_error("link '" + lia.name + "' is not settled: nobody chose its scheme");
     }
   }
-  return Certifier(Network(scene), rates).run(device);
+  return Certifier(Network(scene), rates, proof).run(device);
 }
 
 }  // namespace ergotic::physics

@@ -10,6 +10,7 @@
 #include "physics/certificate/certify_parts.hpp"
 #include "physics/certificate/island.hpp"
 #include "physics/certificate/linear_stepper.hpp"
+#include "physics/certificate/period_proof.hpp"
 #include "physics/network/network_analysis.hpp"
 
 namespace ergotic::physics {
@@ -116,14 +117,15 @@ class CouplingJudge {
     Trial worst;
     for (const scene::Scene& scene : members.cases()) {
       const LinearStepper stepper(linearPart(scene), networks_.rates());
-      const Trial trial{spectralRadius(monodromy(scene, networks_.rates())),
-                        stepper.periodSeconds()};
+      const Period period = periodOf(scene, networks_.rates());
+      const Trial trial{spectralRadius(period.matrix), stepper.periodSeconds()};
       if (std::isnan(trial.radius)) {
         say(coupling, Verdict::kUnproven,
             what + ", and its eigenvalues cannot be worked out: its numbers lie too far apart");
         return;
       }
       worst = trial.radius >= worst.radius ? trial : worst;
+      prove(scene, period);
     }
     if (worst.radius > 1.0 + kRounding) {
       const bool is_certain = worst.radius > 1.0 + kCertainGrowth;
@@ -135,6 +137,20 @@ class CouplingJudge {
       say(coupling, Verdict::kUnproven,
           what + ". No eigenvalue over one of its steps is above 1, but " + doubt);
     }
+  }
+
+  void prove(const scene::Scene& scene, const Period& period) {
+    if (findings_.proof() == nullptr) {
+      return;
+    }
+    std::optional<PeriodProof> proof = proofOf(period);
+    if (!proof) {
+      proof = PeriodProof{{}, period.modules, {}, {}};
+    }
+    for (const scene::Parameter& parameter : scene.parameters) {
+      proof->parameters.push_back(parameter.value);
+    }
+    findings_.proof()->periods.push_back(std::move(*proof));
   }
 
   void watch(const Island& members, const Coupling& coupling, const std::string& what) {

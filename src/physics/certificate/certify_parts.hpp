@@ -21,6 +21,7 @@ std::vector<PortCertificate> judgePorts(const RatedNetwork& networks,
                                         Findings& findings);
 
 /// Says which link is negative, if what is given is not semidefinite all the same.
-void judgeSigns(const RatedNetwork& networks, const NetworkBound& network, Findings& findings);
+/// \return what shows that it is, or nothing
+SignProof judgeSigns(const RatedNetwork& networks, const NetworkBound& network, Findings& findings);
 
 }  // namespace ergotic::physics

@@ -5,13 +5,18 @@
 #include <vector>
 
 #include "ergotic/physics/certificate/certify.hpp"
+#include "ergotic/physics/certificate/proof.hpp"
 
 namespace ergotic::physics {
 
 /// Collects what the certificate has to say.
 class Findings {
  public:
-  explicit Findings(std::string file) : file_(std::move(file)) {}
+  /// \param proof  nullptr: nobody asks for it
+  Findings(std::string file, Proof* proof) : file_(std::move(file)), proof_(proof) {}
+
+  /// Where judges put what proves their verdict, nullptr: nowhere.
+  Proof* proof() const { return proof_; }
 
   /// Worsens the verdict, without words.
   void worsen(Verdict verdict);
@@ -27,6 +32,7 @@ class Findings {
     std::string text;
   };
   std::string file_;
+  Proof* proof_;
   Verdict worst_ = Verdict::kPassive;
   std::vector<Finding> findings_;
 };

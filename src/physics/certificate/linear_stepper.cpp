@@ -35,9 +35,9 @@ int slowestDivisor(const scene::Scene& scene, const Rates& rates) {
 }
 
 /// Slots of what can move: blocks have places for nothing and for grounds too.
-std::vector<std::size_t> movingSlots(const scene::Scene& scene, const Rates& rates) {
+std::vector<MovingSlot> movingSlots(const scene::Scene& scene, const Rates& rates) {
   const Layout layout = makeLayout(scene, rates);
-  std::vector<std::size_t> slots;
+  std::vector<MovingSlot> slots;
   for (int slot = 0; slot < layout.first_proxy; ++slot) {
     const int mat = layout.mat_of_slot[static_cast<std::size_t>(slot)];
     const bool is_in_block = std::any_of(
@@ -46,7 +46,7 @@ std::vector<std::size_t> movingSlots(const scene::Scene& scene, const Rates& rat
     const bool is_ground =
         mat >= 0 && scene.mats[static_cast<std::size_t>(mat)].type == MatType::kGround;
     if (!is_in_block || (mat >= 0 && !is_ground)) {
-      slots.push_back(static_cast<std::size_t>(slot));
+      slots.push_back({static_cast<std::size_t>(slot), mat});
     }
   }
   return slots;
@@ -117,8 +117,8 @@ template <class Visit>
 void LinearStepper::visitNumbers(const Visit& visit) {
   int i = 0;
   for (int which = 0; which < 3; ++which) {
-    for (const std::size_t slot : slots_) {
-      visit(i++, number(which, slot));
+    for (const MovingSlot& moving : slots_) {
+      visit(i++, number(which, moving.slot));
     }
   }
 }

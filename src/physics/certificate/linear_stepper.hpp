@@ -14,6 +14,12 @@ namespace ergotic::physics {
 /// The linear part of a scene, see monodromy(): at rest at 0, nothing pulls, nobody touches it.
 scene::Scene linearPart(scene::Scene scene);
 
+/// A place of the state of an instrument, and the module that it is of, -1: none.
+struct MovingSlot {
+  std::size_t slot = 0;
+  int module = -1;
+};
+
 /// Steps an instrument from states of one's own, one period of its slowest section at a time.
 /// Realtime: no.
 class LinearStepper {
@@ -22,6 +28,8 @@ class LinearStepper {
 
   /// Numbers of each of the three parts of a state: positions, differences, forces.
   int slots() const { return static_cast<int>(slots_.size()); }
+  /// The module that a slot is of, -1: none.
+  int moduleOf(int slot) const { return slots_[static_cast<std::size_t>(slot)].module; }
   double periodSeconds() const { return period_s_; }
   int ticks() const { return ticks_; }  ///< per period
 
@@ -35,7 +43,7 @@ class LinearStepper {
   template <class Visit>
   void visitNumbers(const Visit& visit);
 
-  std::vector<std::size_t> slots_;  // whose state counts
+  std::vector<MovingSlot> slots_;  // whose state counts
 
   std::unique_ptr<Instrument> instrument_;
   std::vector<std::byte> rest_;  // the state at time 0

@@ -11,7 +11,9 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 
+#include "at.hpp"
 #include "physics/certificate/linear_stepper.hpp"
+#include "physics/step_units.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -49,6 +51,13 @@ std::vector<Column> columnsOf(LinearStepper& stepper) {
     columns.push_back(std::move(column));
   }
   return columns;
+}
+
+/// How far a unit of force makes a module move in its step.
+double moveOfForce(const scene::Scene& scene, const Rates& rates, int module) {
+  const scene::Mat& mat = scene.mats[at(module)];
+  const StepUnits units(scene, rates, divisorOf(scene.sectionOf(mat), rates));
+  return units.inverseMass(scene.valueOf(mat.mass));
 }
 
 /// NaN if they cannot be worked out.
@@ -90,12 +99,12 @@ Eigen::MatrixXd withoutFixedStates(const Eigen::MatrixXd& matrix) {
 
 }  // namespace
 
-Eigen::MatrixXd monodromy(const scene::Scene& scene, const Rates& rates) {
+Period periodOf(const scene::Scene& scene, const Rates& rates) {
   LinearStepper stepper(linearPart(scene), rates);
   const int slots = stepper.slots();
   const std::vector<Column> columns = columnsOf(stepper);
   const auto n = static_cast<Eigen::Index>(columns.size());
-  Eigen::MatrixXd matrix(2 * n, 2 * n);
+  Period period{Eigen::MatrixXd(2 * n, 2 * n), {}, Eigen::VectorXd(n)};
   // A force waits in the state to move its module together with the difference. Both act alike, so
   // they are one number, here a force, scaled to move as much as a unit of position: eigenvalues
   // of badly scaled matrices are inexact.
@@ -104,16 +113,19 @@ Eigen::MatrixXd monodromy(const scene::Scene& scene, const Rates& rates) {
       const Column& row = columns[static_cast<std::size_t>(i)];
       const double force =
           state[2 * slots + row.slot] + row.force_per_difference * state[slots + row.slot];
-      matrix(i, to) = scale * state[row.slot];
-      matrix(n + i, to) = scale * force * row.reach;
+      period.matrix(i, to) = scale * state[row.slot];
+      period.matrix(n + i, to) = scale * force * row.reach;
     }
   };
   for (Eigen::Index j = 0; j < n; ++j) {
     const Column& column = columns[static_cast<std::size_t>(j)];
     reduce(column.of_position, j, 1.0);
     reduce(column.of_force, n + j, 1.0 / column.reach);
+    const int module = stepper.moduleOf(column.slot);
+    period.modules.push_back(module);
+    period.units[j] = moveOfForce(scene, rates, module) / column.reach;
   }
-  return matrix;
+  return period;
 }
 
 double spectralRadius(const Eigen::MatrixXd& matrix) {

@@ -94,13 +94,25 @@ NetworkAnalysis analyse(const NetworkBound& network) {
   return result;
 }
 
-bool isSemidefinite(const NetworkBound& network) {
-  return (!network.hasNegativeStiffness() || NetworkSpectrum::isStiffnessSemidefinite(network)) &&
-         (!network.hasNegativeDamping() || NetworkSpectrum::isDampingSemidefinite(network));
+Factor proofOfLimit(const NetworkBound& network) {
+  return NetworkSpectrum(network).factorAtLimit();
 }
 
-bool isDamped(const NetworkBound& network) {
-  return NetworkSpectrum::isDampingDefinite(network);
+std::optional<SignProof> proofOfSigns(const NetworkBound& network) {
+  SignProof proof;
+  if (network.hasNegativeStiffness()) {
+    proof.stiffness = NetworkSpectrum::semidefiniteStiffness(network);
+  }
+  if (network.hasNegativeDamping()) {
+    proof.damping = NetworkSpectrum::semidefiniteDamping(network);
+  }
+  const bool is_shown = proof.stiffness.has_value() == network.hasNegativeStiffness() &&
+                        proof.damping.has_value() == network.hasNegativeDamping();
+  return is_shown ? std::optional<SignProof>(proof) : std::nullopt;
+}
+
+std::optional<Factor> proofOfLoss(const NetworkBound& network) {
+  return NetworkSpectrum::definiteDamping(network);
 }
 
 }  // namespace ergotic::physics

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
+#include "ergotic/physics/network/factor.hpp"
 #include "physics/network/network_bound.hpp"
 
 namespace ergotic::physics {
@@ -16,9 +19,10 @@ struct NetworkAnalysis {
   bool is_bound = false;      ///< it may hold although lambda >= 4: moving points at their worst
   bool is_too_large = false;  ///< the same, because the exact test was left out
   /// As float rounds the coefficients, too.
-  bool isProven() const { return lambda < NetworkBound::kLimit * (1.0 - kRoundingOfFloat); }
+  bool isProven() const { return lambda < kProven; }
 
   static constexpr double kRoundingOfFloat = 1e-6;  ///< of h^2 K/M and h Z/M, with some to spare
+  static constexpr double kProven = NetworkBound::kLimit * (1.0 - kRoundingOfFloat);
 };
 
 /// Link bound; where that does not prove it, the bound of the cells of its grids, then 20
@@ -27,11 +31,18 @@ struct NetworkAnalysis {
 /// nodes. Realtime: no.
 NetworkAnalysis analyse(const NetworkBound& network);
 
-/// True if the softest case of stiffness and damping is positive semidefinite, as all of this
-/// supposes. Costs nothing unless something is negative.
-bool isSemidefinite(const NetworkBound& network);
+/// What shows that it is: moving links left out. \pre analyse(network).isProven()
+Factor proofOfLimit(const NetworkBound& network);
 
-/// True if the softest case of damping takes energy from every motion: Z is positive definite.
-bool isDamped(const NetworkBound& network);
+/// What shows that the softest case of stiffness and damping is positive semidefinite, as all of
+/// this supposes; none if it is not. Costs nothing unless something is negative.
+std::optional<SignProof> proofOfSigns(const NetworkBound& network);
+
+/// What shows that the softest case of damping takes energy from every motion, Z being positive
+/// definite; none if it is not.
+std::optional<Factor> proofOfLoss(const NetworkBound& network);
+inline bool isDamped(const NetworkBound& network) {
+  return proofOfLoss(network).has_value();
+}
 
 }  // namespace ergotic::physics

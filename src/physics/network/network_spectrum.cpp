@@ -6,7 +6,9 @@
 #include <limits>
 #include <random>
 
+#include "at.hpp"
 #include "physics/network/load_matrix.hpp"
+#include "physics/network/network_analysis.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -76,21 +78,39 @@ bool allPivotsPositive(const Eigen::SimplicialLDLT<Matrix>& solver) {
   return solver.info() == Eigen::Success && (solver.vectorD().array() > 0.0).all();
 }
 
-/// \param limit  of its norm
-bool areEigenvaluesAbove(const Matrix& lower, double limit) {
+Factor factorOf(const Eigen::SimplicialLDLT<Matrix>& solver, const NetworkBound& network) {
+  Factor factor;
+  const Eigen::VectorXd pivots = solver.vectorD();
+  factor.pivots.assign(pivots.begin(), pivots.end());
+  factor.modules.resize(factor.pivots.size());
+  for (int node = 0; node < network.nodes(); ++node) {
+    factor.modules[at(solver.permutationP().indices()[node])] = network.ownerOf(node);
+  }
+  const Matrix& below = solver.matrixL().nestedExpression();
+  for (int column = 0; column < below.outerSize(); ++column) {
+    for (Matrix::InnerIterator it(below, column); it; ++it) {
+      factor.below.push_back({static_cast<int>(it.row()), column, it.value()});
+    }
+  }
+  return factor;
+}
+
+/// What shows that the eigenvalues are above a limit. \param limit  of its norm
+std::optional<Factor> factorAbove(const NetworkBound& network, const Matrix& lower, double limit) {
   if (!isFinite(lower)) {
-    return false;
+    return std::nullopt;
   }
   const double norm = normOf(lower);
   if (norm == 0.0) {
-    return limit < 0.0;
+    return limit < 0.0 ? std::optional<Factor>(Factor{}) : std::nullopt;
   }
   Matrix shifted = lower;
   for (int i = 0; i < shifted.rows(); ++i) {
     shifted.coeffRef(i, i) -= limit * norm;
   }
-  Eigen::SimplicialLDLT<Matrix> solver(shifted);
-  return allPivotsPositive(solver);
+  const Eigen::SimplicialLDLT<Matrix> solver(shifted);
+  return allPivotsPositive(solver) ? std::optional<Factor>(factorOf(solver, network))
+                                   : std::nullopt;
 }
 
 Matrix softestDamping(const NetworkBound& network) {
@@ -131,19 +151,25 @@ NetworkSpectrum::NetworkSpectrum(const NetworkBound& network)
   }
 }
 
-bool NetworkSpectrum::isStiffnessSemidefinite(const NetworkBound& network) {
-  return areEigenvaluesAbove(
-      assemble(network, scaleOf(network),
-               [](const NetworkBound::Link& link) { return link.stiffness.lowest; }),
-      -kPivotMargin);
+Factor NetworkSpectrum::factorAtLimit() {
+  Pencil pencil = pencil_;
+  pencil.limit = NetworkAnalysis::kProven;
+  return isDefinite(pencil, network_.step()) ? factorOf(solver_, network_) : Factor{};
 }
 
-bool NetworkSpectrum::isDampingSemidefinite(const NetworkBound& network) {
-  return areEigenvaluesAbove(softestDamping(network), -kPivotMargin);
+std::optional<Factor> NetworkSpectrum::semidefiniteStiffness(const NetworkBound& network) {
+  const Matrix softest = assemble(network, scaleOf(network), [](const NetworkBound::Link& link) {
+    return link.stiffness.lowest;
+  });
+  return factorAbove(network, softest, -kPivotMargin);
 }
 
-bool NetworkSpectrum::isDampingDefinite(const NetworkBound& network) {
-  return areEigenvaluesAbove(softestDamping(network), kPivotMargin);
+std::optional<Factor> NetworkSpectrum::semidefiniteDamping(const NetworkBound& network) {
+  return factorAbove(network, softestDamping(network), -kPivotMargin);
+}
+
+std::optional<Factor> NetworkSpectrum::definiteDamping(const NetworkBound& network) {
+  return factorAbove(network, softestDamping(network), kPivotMargin);
 }
 
 bool NetworkSpectrum::isDefinite(const Pencil& pencil, double t) {

@@ -5,6 +5,7 @@
 
 #include <Eigen/Sparse>
 
+#include "ergotic/physics/network/factor.hpp"
 #include "physics/network/network_bound.hpp"
 
 namespace ergotic::physics {
@@ -35,11 +36,15 @@ class NetworkSpectrum {
   int worstLink() const { return worst_link_; }
   int worstOwner() const { return worst_owner_; }
 
-  /// True if the softest case of K (of Z) is positive semidefinite, to 1e-9 of its norm.
-  static bool isStiffnessSemidefinite(const NetworkBound& network);
-  static bool isDampingSemidefinite(const NetworkBound& network);
-  /// True if the softest case of Z is positive definite, by 1e-9 of its norm; false of nothing.
-  static bool isDampingDefinite(const NetworkBound& network);
+  /// Of 4 (1 - 1e-6) M - h^2 K - 2 h Z, moving links left out. \pre lambda is below that limit
+  Factor factorAtLimit();
+
+  /// What shows that the softest case of K (of Z) is positive semidefinite, to 1e-9 of its norm;
+  /// none if it is not.
+  static std::optional<Factor> semidefiniteStiffness(const NetworkBound& network);
+  static std::optional<Factor> semidefiniteDamping(const NetworkBound& network);
+  /// The same, that Z is positive definite, by 1e-9 of its norm; none of nothing.
+  static std::optional<Factor> definiteDamping(const NetworkBound& network);
 
  private:
   using Matrix = Eigen::SparseMatrix<double>;

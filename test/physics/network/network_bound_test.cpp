@@ -361,9 +361,9 @@ TEST(NetworkSpectrumTest, NegativeSpringsAreFineWhereTheRestMakesUpForThem) {
     spring(network, between(0, 1), between_them);
     return network;
   };
-  EXPECT_TRUE(isSemidefinite(pair(1.0, -0.49)));
-  EXPECT_TRUE(isSemidefinite(pair(1.0, -0.5)));
-  EXPECT_FALSE(isSemidefinite(pair(1.0, -0.51)));
+  EXPECT_TRUE(proofOfSigns(pair(1.0, -0.49)));
+  EXPECT_TRUE(proofOfSigns(pair(1.0, -0.5)));
+  EXPECT_FALSE(proofOfSigns(pair(1.0, -0.51)));
   EXPECT_GT(Dense(pair(1.0, -0.51)).radius(1.0), 1.05);
   EXPECT_LE(Dense(pair(1.0, -0.49)).radius(1.0), 1.0 + 1e-9);
   EXPECT_NEAR(analyse(pair(1.0, -0.49)).lambda, 1.0, 1e-6);
@@ -375,7 +375,7 @@ TEST(NetworkSpectrumTest, DampingMustBeSemidefiniteByItself) {
   spring(network, {{0, 1.0}}, 1.0, -0.1);
   EXPECT_GT(Dense(network).lambda(1.0), 0.0);
   EXPECT_LT(Dense(network).lambda(1.0), 4.0);
-  EXPECT_FALSE(isSemidefinite(network));
+  EXPECT_FALSE(proofOfSigns(network));
   EXPECT_GT(Dense(network).radius(1.0), 1.04);
 }
 

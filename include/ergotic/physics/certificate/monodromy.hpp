@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "ergotic/physics/rates.hpp"
@@ -18,9 +20,18 @@ namespace ergotic::physics {
 ///
 /// State: displacements of the n modules that forces move, then what they are about to move by, in
 /// units of their own; shape (2n, 2n). Eigenvalues do not depend on these units.
+struct Period {
+  Eigen::MatrixXd matrix;
+  std::vector<int> modules;  ///< the n, indices in Scene::mats
+  Eigen::VectorXd units;     ///< m, of what they are about to move by
+};
 /// Realtime: no. Cost: 3n periods.
 /// \throws Exception if the scene cannot be compiled at these rates
-Eigen::MatrixXd monodromy(const scene::Scene& scene, const Rates& rates);
+Period periodOf(const scene::Scene& scene, const Rates& rates);
+/// The same without words.
+inline Eigen::MatrixXd monodromy(const scene::Scene& scene, const Rates& rates) {
+  return periodOf(scene, rates).matrix;
+}
 
 /// Largest absolute eigenvalue; 0 of an empty matrix. A rigid motion is a double eigenvalue 1 that
 /// rounding splits: what is within 1e-6 of 1, and no larger than 1 + 1e-7, counts as 1.

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "ergotic/physics/network/factor.hpp"
+
+/// What proves a verdict, filled by those who judge. Source: docs/physics.md, "Proofs".
+namespace ergotic::physics {
+
+/// Of all that is computed at one rate, slower ends held.
+struct RateProof {
+  int divisor = 1;
+  /// Of 4 (1 - 1e-6) I - M^-1/2 (h^2 K + 2 h Z) M^-1/2 at its stiffest, points that move left out.
+  Factor limit;
+  SignProof signs;
+};
+
+/// A quadratic form |G s|^2 that no period of an island raises by more than rounding: with s the
+/// displacements of its modules and then what they are about to move by, m, G s becomes B G s.
+struct PeriodProof {
+  std::vector<double> parameters;  ///< values for which it holds, [Scene::parameters]
+  std::vector<int> modules;
+  Eigen::MatrixXd form;  ///< G, shape (rows, 2 modules); of what a period keeps as it is, 0
+  Eigen::MatrixXd turn;  ///< B, shape (rows, rows)
+};
+
+/// Of an island that loses energy in every motion.
+struct LossProof {
+  int divisor = 1;
+  Factor damping;  ///< of Z at its softest and for unit masses, less 1e-9 of its norm
+};
+
+/// The rule by which a link that is not linear is vouched for.
+struct LinkProof {
+  int link = 0;              ///< in Scene::lias
+  std::string rule;          ///< docs/physics.md names them
+  double load = 0.0;         ///< h^2 (K_a/Ma + K_b/Mb) of all that switch at its ends
+  double least_damping = 0;  ///< with which it loses more than its step may give
+};
+
+struct Proof {
+  std::vector<RateProof> rates;
+  std::vector<PeriodProof> periods;
+  std::vector<LossProof> losses;
+  std::vector<LinkProof> links;
+};
+
+}  // namespace ergotic::physics

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/certificate/period_proof.hpp"
+
+#include <complex>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+namespace ergotic::physics {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr double kFixed = 1e-12;    // of the largest pivot: what a period leaves as it is
+constexpr double kFading = 0.99;    // per period
+constexpr double kMostOff = 5e-10;  // of what G s becomes
+constexpr int kDoublings = 40;
+
+/// Rows that a period makes B times themselves.
+struct Form {
+  MatrixXd rows;
+  MatrixXd turn;
+};
+
+/// An orthonormal basis of what is at right angles to some columns.
+MatrixXd beside(const MatrixXd& columns) {
+  const Index size = columns.rows();
+  if (columns.cols() == 0) {
+    return MatrixXd::Identity(size, size);
+  }
+  const Eigen::HouseholderQR<MatrixXd> solver(columns);
+  return (solver.householderQ() * MatrixXd::Identity(size, size)).rightCols(size - columns.cols());
+}
+
+MatrixXd besideWhatStays(const MatrixXd& matrix) {
+  const MatrixXd unit = MatrixXd::Identity(matrix.rows(), matrix.cols());
+  Eigen::FullPivLU<MatrixXd> change(matrix - unit);
+  change.setThreshold(kFixed);
+  return change.rank() == matrix.rows() ? unit : beside(change.kernel());
+}
+
+/// Real and imaginary parts of the eigenvectors of what hardly fades, as columns, and what becomes
+/// of their transpose.
+Form lastingOf(const MatrixXd& matrix) {
+  const Eigen::EigenSolver<MatrixXd> solver(matrix);
+  Form form{MatrixXd(matrix.rows(), matrix.rows()), MatrixXd::Zero(matrix.rows(), matrix.rows())};
+  Index count = 0;
+  for (Index i = 0; i < matrix.rows(); ++i) {
+    const std::complex<double> value = solver.eigenvalues()[i];
+    if (!(std::abs(value) > kFading) || value.imag() < 0.0) {
+      continue;
+    }
+    const Eigen::VectorXcd vector = solver.eigenvectors().col(i).normalized();
+    form.rows.col(count) = vector.real();
+    form.turn(count, count) = value.real();
+    if (value.imag() > 0.0) {
+      form.rows.col(count + 1) = vector.imag();
+      form.turn(count + 1, count + 1) = value.real();
+      form.turn(count, count + 1) = -value.imag();
+      form.turn(count + 1, count) = value.imag();
+    }
+    count += value.imag() > 0.0 ? 2 : 1;
+  }
+  return {form.rows.leftCols(count), form.turn.topLeftCorner(count, count)};
+}
+
+/// P = sum over k of (B^k)' B^k, so that P - B' P B = I.
+MatrixXd lyapunov(MatrixXd power) {
+  MatrixXd sum = MatrixXd::Identity(power.rows(), power.cols());
+  for (int k = 0; k < kDoublings && power.squaredNorm() > 0.0; ++k) {
+    sum += power.transpose() * sum * power;
+    power = power * power;
+  }
+  return sum;
+}
+
+Form fadingOf(const MatrixXd& matrix, const MatrixXd& lasting) {
+  const MatrixXd others = beside(lasting);
+  if (others.cols() == 0) {
+    return {};
+  }
+  const MatrixXd turn = others.transpose() * matrix * others;
+  const MatrixXd root = lyapunov(turn).llt().matrixU();
+  const MatrixXd back =
+      root.triangularView<Eigen::Upper>().solve(MatrixXd::Identity(root.rows(), root.cols()));
+  return {root * others.transpose(), root * turn * back};
+}
+
+Form joined(const Form& a, const Form& b, Index columns) {
+  const Index rows = a.rows.rows() + b.rows.rows();
+  Form both{MatrixXd(rows, columns), MatrixXd::Zero(rows, rows)};
+  both.rows.topRows(a.rows.rows()) = a.rows;
+  both.rows.bottomRows(b.rows.rows()) = b.rows;
+  both.turn.topLeftCorner(a.turn.rows(), a.turn.cols()) = a.turn;
+  both.turn.bottomRightCorner(b.turn.rows(), b.turn.cols()) = b.turn;
+  return both;
+}
+
+/// How far the form is from becoming B times itself.
+double errorOf(const Form& form, const MatrixXd& matrix) {
+  const Eigen::PartialPivLU<MatrixXd> solver(form.rows.transpose());
+  const MatrixXd becomes = solver.solve((form.rows * matrix).transpose()).transpose();
+  return (becomes - form.turn).norm();
+}
+
+}  // namespace
+
+std::optional<PeriodProof> proofOf(const Period& period) {
+  const MatrixXd kept = besideWhatStays(period.matrix);
+  const MatrixXd matrix = kept.transpose() * period.matrix * kept;
+  Form lasting = lastingOf(matrix.transpose());
+  lasting.rows.transposeInPlace();
+  const Form form = joined(lasting, fadingOf(matrix, lastingOf(matrix).rows), matrix.cols());
+  if (form.rows.rows() != form.rows.cols() || !(errorOf(form, matrix) <= kMostOff)) {
+    return std::nullopt;
+  }
+  const Index modules = period.units.size();
+  PeriodProof proof{{}, period.modules, form.rows * kept.transpose(), form.turn};
+  proof.form.rightCols(modules) *= period.units.cwiseInverse().asDiagonal();
+  return proof;
+}
+
+}  // namespace ergotic::physics

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "ergotic/physics/certificate/monodromy.hpp"
+#include "ergotic/physics/certificate/proof.hpp"
+
+namespace ergotic::physics {
+
+/// A quadratic form that a period does not raise; none if what rounding leaves of it proves
+/// nothing, as where modes are about to meet. `parameters` are left to the caller.
+///
+/// Modes that hardly fade: their left eigenvectors. The others lose so much that the form follows
+/// from a Lyapunov equation. Realtime: no. Cost: twice that of the eigenvalues.
+std::optional<PeriodProof> proofOf(const Period& period);
+
+}  // namespace ergotic::physics

@@ -26,7 +26,6 @@ using Unit = Target::Unit;
 constexpr double kRates[] = {22050.0, 44100.0, 48000.0, 88200.0, 96000.0, 176400.0, 192000.0};
 constexpr std::size_t kMostTrials = 24;  // settlings of candidates, cheapest first
 constexpr double kCostGrain = 50.0;      // costs within 2 % are alike
-constexpr double kSilentWall = 0.5;      // of the passivity limit
 
 struct UnitRule {
   const char* names[2];
@@ -215,11 +214,12 @@ class Search {
   }
 
   bool bearsTheWalls(const Rates& rates) const {
-    return std::all_of(
-        certificate_.ports.begin(), certificate_.ports.end(), [&](const PortCertificate& port) {
-          const double higher = rates.gesturalHz() / rates_.gesturalHz();
-          return higher >= 1.0 - 1e-9 || port.stiffness <= kSilentWall * higher * port.limit;
-        });
+    const HandLoop loop({}, 1.0 / rates.gesturalHz());
+    return rates.gesturalHz() >= rates_.gesturalHz() * (1.0 - 1e-9) ||
+           std::all_of(certificate_.ports.begin(), certificate_.ports.end(),
+                       [&](const PortCertificate& port) {
+                         return loop.judge(port.stiffness, port.damping) == HandLevel::kSilent;
+                       });
   }
 
   template <class Choose>

@@ -119,6 +119,7 @@ std::unique_ptr<Performer> makePerformer(scene::Scene scene,
   warn(settled.notes);
   warn(performer->instrument->notes());
   performer->certificate = std::move(certificate);
+  performer->allow_unproven = policy.allow_unproven || policy.allow_unstable;
   malloc_trim(0);  // reading leaves many times what stays, and locked memory would keep it all
   warm(*performer);
   return performer;

@@ -139,13 +139,14 @@ TEST(PortToolsTest, CheckIsForTheDeviceThatIsAskedFor) {
   EXPECT_EQ(run("check", kDuet + " --device-delay -1").code, 2);
 }
 
-/// A wall, N/m, and the port in front of it.
-std::string wallOf(double stiffness, const std::string& port) {
+/// A wall, N/m, its damper, N s/m, and the port in front of it.
+std::string wallOf(double stiffness, const std::string& port, double damping = 0.5) {
   return "ergotic: 1\nname: wall\nsections:\n  hand: {rate: gestural}\nmats:\n"
          "  key: {type: slice, section: hand}\n"
          "  ground: {type: ground, section: hand, at: [0, 0]}\n"
-         "lias:\n  wall: {type: spring_damper, between: [key, ground], damping: 0.5, stiffness: " +
-         std::to_string(stiffness) + "}\nports:\n  key: " + port + "\n";
+         "lias:\n  wall: {type: spring_damper, between: [key, ground], damping: " +
+         std::to_string(damping) + ", stiffness: " + std::to_string(stiffness) +
+         "}\nports:\n  key: " + port + "\n";
 }
 
 /// At 3150 Hz, where a slice of 2 N s/m bears 2 b / (3 T) = 4200 N/m.
@@ -168,8 +169,8 @@ TEST(PortToolsTest, CheckRefusesAPortAboveTwiceWhatItsSliceBears) {
   EXPECT_THAT(refused.text, AllOf(HasSubstr("stiffness_n_per_m: 9000\n"),
                                   HasSubstr("passive_up_to_n_per_m: 4200\n")));
   EXPECT_THAT(errors.text(),
-              ContainsRegex("^[^ ]*:11:3: error: port 'key' renders up to 9000 N/m at "
-                            "its slice, which is passive up to 4200 N/m"));
+              ContainsRegex("^[^ ]*:11:3: error: port 'key': the hand may meet 9000 N/m, mostly by "
+                            "link 'wall'; .* is passive up to 4200 N/m"));
 }
 
 TEST(PortToolsTest, CheckWarnsOfAPortBelowTwiceWhatItsSliceBears) {
@@ -178,6 +179,20 @@ TEST(PortToolsTest, CheckWarnsOfAPortBelowTwiceWhatItsSliceBears) {
   EXPECT_EQ(warned.code, 0) << warned.text;
   EXPECT_THAT(warned.text, HasSubstr("warning: port 'key': the hand may meet 8000 N/m"));
   EXPECT_EQ(errors.text(), "");
+}
+
+TEST(PortToolsTest, CheckRefusesADamperThatSetsTheSliceOff) {
+  const test::ScratchFile errors;
+  const std::string brake = wallOf(0.0, "{mat: key, slice: 0}", 5000.0);
+  const Outcome refused = checkOf(brake, "", errors.path());
+  EXPECT_EQ(refused.code, 1) << refused.text;
+  EXPECT_THAT(refused.text,
+              AllOf(HasSubstr("verdict: unproven"), HasSubstr("damping_n_s_per_m: 5000\n"),
+                    HasSubstr("passive_up_to_n_s_per_m: 773.")));
+  EXPECT_THAT(errors.text(), ContainsRegex("^[^ ]*:11:3: error: port 'key': the hand may meet 5000 "
+                                           "N s/m, mostly by link 'wall'; a slice of 0.3 kg .* "
+                                           "bears up to 773.4 N s/m"));
+  EXPECT_EQ(checkOf(brake, " --device-mass 5").code, 0);
 }
 
 TEST(PortToolsTest, CheckRefusesByTheDeviceThatIsAskedFor) {
@@ -200,7 +215,7 @@ TEST(PortToolsTest, CheckJudgesAPortThatAnEndEffectorTakesThroughThatAlone) {
   const test::ScratchFile leaves_it(file + "''}\n");
   const Outcome refused = checkOf(wall, " --end-effectors " + leaves_it.path());
   EXPECT_EQ(refused.code, 1);
-  EXPECT_THAT(refused.text, HasSubstr(":11:3: error: port 'key' renders up to 9000 N/m"));
+  EXPECT_THAT(refused.text, HasSubstr(":11:3: error: port 'key': the hand may meet 9000 N/m"));
 }
 
 double peakBetween(const std::vector<double>& stereo, double from_s, double to_s) {

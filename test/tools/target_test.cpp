@@ -167,7 +167,7 @@ TEST(TargetTest, WallStaysAsSilentAsItWas) {
   const Certificate certificate = certify(scene, kRates);
   ASSERT_EQ(certificate.ports.size(), 1U);
   const double higher = proposal.rates.gesturalHz() / kRates.gesturalHz();
-  EXPECT_LE(certificate.ports[0].stiffness, 0.5 * higher * certificate.ports[0].limit);
+  EXPECT_LE(certificate.ports[0].stiffness, 0.5 * higher * certificate.ports[0].stiffness_limit);
 }
 
 TEST(TargetTest, OutOfReachIsSaidAndTheBestIsProposed) {

@@ -43,6 +43,7 @@ struct Performer {
   std::int64_t ticks = 0;             ///< that it played; the time of its agents
   physics::Certificate certificate;   ///< filled by makePerformer
   std::vector<std::string> warnings;  ///< of scene and certificate, and notes of `settle`
+  bool allow_unproven = false;        ///< whoever loaded it wants it even so
   std::vector<double> parameters;     ///< [parameters] values now in force; written by the tick
   std::vector<double> positions;      ///< [ports] m, in the model
   std::vector<double> forces;         ///< [ports] N, in the model

@@ -40,38 +40,21 @@ class Rig {
 /// end-effector has the port, or its slice. Indices in Scene::ports.
 std::vector<int> takenPorts(const scene::Scene& scene, const EndEffectors& end_effectors);
 
-/// What a slice that moves something meets of a model.
-struct RenderedStiffness {
+/// What a slice that moves something meets of a model: a stiffness or a damping, at the device.
+struct Rendered {
   int slice = 0;
-  double stiffness = 0.0;  ///< at the device, N/m, when it moves and the others rest
-  /// The same where the slices of its end-effector move together in the stiffest way: the largest
-  /// eigenvalue. Slices of equal damping are passive if this stays below the limit.
+  double alone = 0.0;  ///< when it moves and the others rest
+  /// The same where the slices of its end-effector move together in the worst way: the largest
+  /// eigenvalue. Slices of equal traits are passive if one of them would be with this.
   double together = 0.0;
-  double limit = 0.0;  ///< passive below: 2 b / ((1 + 2 d) T)
 };
 
-/// Per slice in use, by the Jacobians at rest: K = sum J^T K_port J force_scale / position_scale.
-/// \param port_stiffness  [ports] N/m, physics::PortCertificate::stiffness (at the device, with the
-///                        port's own scales)
-/// \param damping        of a slice, N s/m
-/// \param delay_ticks    of the whole loop: 1 + Driver::extraDelayTicks()
-std::vector<RenderedStiffness> renderedStiffness(const scene::Scene& scene,
-                                                 const EndEffectors& end_effectors,
-                                                 const std::vector<double>& port_stiffness,
-                                                 double damping,
-                                                 double tick_rate_hz,
-                                                 double delay_ticks);
-
-constexpr double kWarnedStiffness = 0.5;   ///< of the limit
-constexpr double kRefusedStiffness = 2.0;  ///< of it
-
-/// What to say about end-effectors whose slices meet too much, `file:line:col: warning: ...`.
-struct StiffnessFindings {
-  std::vector<std::string> warnings;  ///< above kWarnedStiffness times the limit
-  std::vector<std::string> refusals;  ///< above kRefusedStiffness times: they will buzz or jump
-};
-StiffnessFindings judgeStiffness(const EndEffectors& end_effectors,
-                                 const std::vector<RenderedStiffness>& rendered);
+/// Per slice in use, by the Jacobians at rest: sum J^T K_port J force_scale / position_scale.
+/// \param of_ports  [ports] N/m or N s/m, as of physics::PortCertificate (at the device, with the
+///                  port's own scales)
+std::vector<Rendered> renderedAtSlices(const scene::Scene& scene,
+                                       const EndEffectors& end_effectors,
+                                       const std::vector<double>& of_ports);
 
 /// \param slices  of the device
 /// \throws TextError with the place of the end-effector if a slice or a port does not exist or is

@@ -9,13 +9,64 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr double kWarned = 0.5;   // of the passivity limit
-constexpr double kTooMuch = 2.0;  // of it
-
 bool isTaken(int port, const DeviceTraits& device) {
   const auto& taken = device.taken_ports;
   return std::find(taken.begin(), taken.end(), port) != taken.end();
 }
+
+class PortJudge {
+ public:
+  PortJudge(const RatedNetwork& networks, const DeviceTraits& device)
+      : scene_(networks.scene()),
+        device_(device),
+        links_(networks.network()),
+        rate_hz_(networks.rates().gesturalHz()),
+        loop_(device, 1.0 / rate_hz_),
+        damping_limit_(loop_.dampingLimit()) {}
+
+  PortCertificate judge(int p) const {
+    const scene::Port& port = scene_.ports[at(p)];
+    const double at_device = std::abs(port.force_scale / port.position_scale) / scene_.time_unit_s;
+    PortCertificate met;
+    met.port = p;
+    met.stiffness = links_.stiffness(port) * at_device / scene_.time_unit_s;
+    met.stiffness_limit = loop_.stiffnessLimit();
+    met.damping = std::max(links_.atSlice(port).damping, 0.0) * at_device;
+    met.damping_limit = damping_limit_;
+    met.level = loop_.judge(met.stiffness, met.damping);
+    // What an end-effector makes of a port is known where that is.
+    met.is_judged = port.slice >= 0 && !isTaken(p, device_);
+    return met;
+  }
+
+  std::string describe(const PortCertificate& met) const {
+    const scene::Port& port = scene_.ports[at(met.port)];
+    const bool is_damper = met.damping * met.stiffness_limit > met.stiffness * met.damping_limit;
+    const int link = is_damper ? links_.mostDamped(port) : links_.stiffest(port);
+    std::string text = "port '" + port.name + "': the hand may meet " +
+                       physics::describe(is_damper ? met.damping : met.stiffness) +
+                       (is_damper ? " N s/m" : " N/m") + ", mostly by link '" +
+                       scene_.lias[at(link)].name + "'; a slice " +
+                       (is_damper ? "of " + physics::describe(device_.mass) + " kg " : "") +
+                       "with " + physics::describe(device_.damping) +
+                       " N s/m of its own, answered " + physics::describe(device_.delay_ticks) +
+                       " ticks late, " + (is_damper ? "bears up to " : "is passive up to ") +
+                       physics::describe(is_damper ? met.damping_limit : met.stiffness_limit) +
+                       (is_damper ? " N s/m at " : " N/m at ") + wholeHz(rate_hz_) + " Hz";
+    text +=
+        met.level == HandLevel::kRefused ? ": it will buzz or jump" : " (silent below half of it)";
+    return text + (is_damper ? ". Lower the damping" : ". Soften the link") +
+           ", scale the force down, or raise the gestural rate";
+  }
+
+ private:
+  const scene::Scene& scene_;
+  const DeviceTraits& device_;
+  PortLinks links_;
+  double rate_hz_;
+  HandLoop loop_;
+  double damping_limit_;
+};
 
 }  // namespace
 
@@ -27,39 +78,22 @@ std::vector<PortCertificate> judgePorts(const RatedNetwork& networks,
   if (scene.ports.empty()) {
     return certificates;
   }
-  const PortLinks links(networks.network());
+  const PortJudge judge(networks, device);
   for (int p = 0; p < static_cast<int>(scene.ports.size()); ++p) {
     const scene::Port& port = scene.ports[at(p)];
     if (port.agent >= 0) {
       continue;  // no hand is there
     }
-    PortCertificate certificate;
-    certificate.port = p;
-    certificate.stiffness = links.stiffness(port) * std::abs(port.force_scale) /
-                            (std::abs(port.position_scale) * scene.time_unit_s * scene.time_unit_s);
-    certificate.limit =
-        2.0 * device.damping * networks.rates().gesturalHz() / (1.0 + 2.0 * device.delay_ticks);
-    // What an end-effector makes of a port is known where that is.
-    const bool is_judged = port.slice >= 0 && !isTaken(p, device);
-    certificate.is_refused = is_judged && certificate.stiffness > kTooMuch * certificate.limit;
-    certificates.push_back(certificate);
-    if (!is_judged || certificate.stiffness <= kWarned * certificate.limit) {
-      continue;
+    PortCertificate met = judge.judge(p);
+    if (met.level != HandLevel::kSilent) {
+      const bool is_refused = met.level == HandLevel::kRefused;
+      const std::string text = judge.describe(met);
+      met.finding = findings.locate(port.place, is_refused ? "error" : "warning", text);
+      if (met.is_judged) {
+        findings.add(is_refused ? Verdict::kUnproven : Verdict::kPassive, port.place, text);
+      }
     }
-    const std::string link = scene.lias[at(links.worst(port))].name;
-    const std::string text = "port '" + port.name + "': the hand may meet " +
-                             describe(certificate.stiffness) + " N/m, mostly by link '" + link +
-                             "'; a slice with " + describe(device.damping) +
-                             " N s/m of its own, answered " + describe(device.delay_ticks) +
-                             " ticks late, is passive up to " + describe(certificate.limit) +
-                             " N/m at " + wholeHz(networks.rates().gesturalHz()) + " Hz";
-    const std::string advice =
-        ". Soften the link, scale the force down, or raise the gestural rate";
-    if (certificate.is_refused) {
-      findings.add(Verdict::kUnproven, port.place, text + ": it will buzz or jump" + advice);
-    } else {
-      findings.add(Verdict::kPassive, port.place, text + " (silent below half of it)" + advice);
-    }
+    certificates.push_back(std::move(met));
   }
   return certificates;
 }

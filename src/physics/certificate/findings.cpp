@@ -15,9 +15,15 @@ void Findings::worsen(Verdict verdict) {
 
 void Findings::add(Verdict verdict, const scene::Place& place, const std::string& text) {
   worsen(verdict);
-  const char* kind = verdict == Verdict::kUnstable ? "error: " : "warning: ";
-  findings_.push_back({verdict, file_ + ":" + std::to_string(place.line) + ":" +
-                                    std::to_string(place.column) + ": " + kind + text});
+  const char* kind = verdict == Verdict::kUnstable ? "error" : "warning";
+  findings_.push_back({verdict, locate(place, kind, text)});
+}
+
+std::string Findings::locate(const scene::Place& place,
+                             const std::string& kind,
+                             const std::string& text) const {
+  return file_ + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) + ": " +
+         kind + ": " + text;
 }
 
 void Findings::giveTo(Certificate& certificate) {

@@ -23,6 +23,11 @@ class Findings {
   /// `file:line:col: error|warning: text`; only what is unstable is an error.
   void add(Verdict verdict, const scene::Place& place, const std::string& text);
 
+  /// `file:line:col: kind: text`
+  std::string locate(const scene::Place& place,
+                     const std::string& kind,
+                     const std::string& text) const;
+
   /// Moves verdict and texts, worst first.
   void giveTo(Certificate& certificate);
 

@@ -14,6 +14,13 @@ namespace {
 constexpr double kHandDepth = 1e-3;     // m, where a slope grows with it
 constexpr int kLongestSeries = 100000;  // links in a row
 
+template <class Value>
+int largest(const std::vector<int>& links, const Value& value) {
+  const auto found = std::max_element(links.begin(), links.end(),
+                                      [&](int a, int b) { return value(a) < value(b); });
+  return found == links.end() ? -1 : *found;
+}
+
 }  // namespace
 
 PortLinks::PortLinks(const Network& network)
@@ -31,11 +38,13 @@ double PortLinks::stiffness(const scene::Port& port) const {
   return 1.0 / (1.0 / sum + 1.0 / atSlice(port).stiffness);
 }
 
-int PortLinks::worst(const scene::Port& port) const {
-  const std::vector<int> links = linksOf(port);
-  const auto found = std::max_element(
-      links.begin(), links.end(), [&](int a, int b) { return along(port, a) < along(port, b); });
-  return found == links.end() ? -1 : *found;
+int PortLinks::stiffest(const scene::Port& port) const {
+  return largest(linksOf(port), [&](int l) { return along(port, l); });
+}
+
+int PortLinks::mostDamped(const scene::Port& port) const {
+  return largest(links_of_[at(port.mat)],
+                 [&](int l) { return share(port, port.mat, l) * damping(l); });
 }
 
 PortLinks::Resistance PortLinks::atSlice(const scene::Port& port) const {
@@ -86,6 +95,10 @@ double PortLinks::slope(int l) const {
   return std::abs(slopesAt(scene_, scene_.lias[at(l)], kHandDepth).stiffness.highest);
 }
 
+double PortLinks::damping(int l) const {
+  return slopesAt(scene_, scene_.lias[at(l)], kHandDepth).damping.highest;
+}
+
 /// One link after the other through masses that nothing else holds; what comes then is held.
 double PortLinks::series(int from, int l) const {
   double stiffness = slope(l);
@@ -109,7 +122,7 @@ PortLinks::Resistance PortLinks::sum(const scene::Port& port,
   for (const int l : links) {
     const double part = share(port, mat, l);
     sum.stiffness += part * slope(l);
-    sum.damping += part * slopesAt(scene_, scene_.lias[at(l)], kHandDepth).damping.highest;
+    sum.damping += part * damping(l);
   }
   return sum;
 }

@@ -16,7 +16,9 @@ class PortLinks {
   /// What everything resists the slow motion of a port with, at most.
   double stiffness(const scene::Port& port) const;
   /// The link that gives most of it, -1: none.
-  int worst(const scene::Port& port) const;
+  int stiffest(const scene::Port& port) const;
+  /// The link of the slice with most damping, -1: none.
+  int mostDamped(const scene::Port& port) const;
 
   /// What the links of a module resist a step of it with, everything else held.
   struct Resistance {
@@ -37,6 +39,7 @@ class PortLinks {
   double share(const scene::Port& port, int mat, int l) const;
   double along(const scene::Port& port, int l) const;
   double slope(int l) const;
+  double damping(int l) const;
   double series(int from, int l) const;
   Resistance sum(const scene::Port& port, int mat, const std::vector<int>& links) const;
 

@@ -7,6 +7,7 @@
 #include <ros/console.h>
 
 #include "ergotic/exception.hpp"
+#include "ergotic/station/judge_hands.hpp"
 #include "ros/conversation/description.hpp"
 #include "ros/conversation/model_loader.hpp"
 
@@ -22,10 +23,6 @@ std::unique_ptr<station::Performer> makePerformer(scene::Scene scene,
   try {
     auto performer = station::makePerformer(std::move(scene), rates, options, policy);
     verdict = physics::toString(performer->certificate.verdict);
-    for (std::string& warning :
-         checkStiffness(*performer, policy.end_effectors, policy.device, policy.allow_unproven)) {
-      performer->warnings.push_back(std::move(warning));
-    }
     return performer;
   } catch (const station::RefusedScene& refusal) {
     verdict = physics::toString(refusal.verdict());
@@ -105,7 +102,7 @@ Answer Loader::start(scene::Scene scene, bool allow_unproven, std::string& verdi
   auto hands = std::make_unique<Hands>(readDevices(parameters), parameters.allow_fault_injection);
   const physics::Rates rates =
       physics::chooseRates(scene, audioRateFor(parameters), parameters.gestural_rate);
-  hands->probe(rates.gesturalHz());
+  hands->probe(rates.gesturalHz(), parameters.safety.slice_mass_kg);
   station::PerformerPolicy policy;
   policy.on_stage = logStage;
   policy.allow_unproven = allow_unproven || parameters.allow_unproven;
@@ -113,6 +110,7 @@ Answer Loader::start(scene::Scene scene, bool allow_unproven, std::string& verdi
   policy.device = hands->traits();
   policy.end_effectors = hands->config().end_effectors;
   auto performer = makePerformer(std::move(scene), rates, parameters.compile, policy, verdict);
+  station::giveHands(*performer, policy.end_effectors, policy.slices, policy.device);
   station::Performer* const first = performer.get();
   auto engine = std::make_unique<Engine>(parameters, std::move(hands), std::move(performer));
   if (parameters.require_master) {

@@ -9,6 +9,7 @@
 
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/clock.hpp"
+#include "ergotic/station/judge_hands.hpp"
 #include "ros/conversation/model_loader.hpp"
 
 namespace ergotic::node {
@@ -72,8 +73,8 @@ void Performance::swap(std::unique_ptr<station::Performer> performer, const Prom
   const std::vector<double> parameters = performer->parameters;  // the tick's from now on
   try {
     // End-effectors may have changed while the model was made.
-    performer->rig =
-        tgr::makeRig(performer->instrument->scene(), endEffectors(), engine_->hands().slices());
+    const Hands& hands = engine_->hands();
+    station::giveHands(*performer, endEffectors(), hands.slices(), hands.traits());
     if (!engine_->station().submit(swap)) {
       return answer(promise, false, kTooMany);
     }

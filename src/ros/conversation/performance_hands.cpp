@@ -9,6 +9,7 @@
 #include <ros/console.h>
 
 #include "ergotic/exception.hpp"
+#include "ergotic/station/judge_hands.hpp"
 #include "ergotic/tgr/faulty_driver.hpp"
 #include "ros/conversation/performance.hpp"
 #include "ros/device/process_faults.hpp"
@@ -77,17 +78,15 @@ void Performance::configure(const tgr::EndEffectors& end_effectors, const Promis
   }
   try {
     const Hands& hands = engine_->hands();
-    auto rig = tgr::makeRig(submitted_->instrument->scene(), end_effectors, hands.slices());
-    const auto warnings = checkStiffness(*submitted_, end_effectors, hands.traits(),
-                                         engine_->parameters().allow_unproven);
+    auto fitted = station::fitHands(*submitted_, end_effectors, hands.slices(), hands.traits());
     station::Command configure;
     configure.type = CommandType::kConfigure;
-    configure.rig = rig.get();
+    configure.rig = fitted.rig.get();
     if (!engine_->station().submit(configure)) {
       return answer(promise, false, "too many configurations wait for the real-time thread");
     }
-    static_cast<void>(rig.release());  // the old one comes back with its event
-    configurations_.push_back({end_effectors, warnings, promise});
+    static_cast<void>(fitted.rig.release());  // the old one comes back with its event
+    configurations_.push_back({end_effectors, std::move(fitted.warnings), promise});
   } catch (const Exception& refusal) {
     answer(promise, false, refusal.what());
   }

@@ -50,11 +50,12 @@ Hands::Hands(tgr::StationDevices devices, bool allow_fault_injection)
     : config_(std::move(devices)),
       drivers_(makeDrivers(plugins_, config_, allow_fault_injection)) {}
 
-void Hands::probe(double tick_rate_hz) {
+void Hands::probe(double tick_rate_hz, double slice_mass_kg) {
   tgr::Driver& driver = *drivers_.driver;
   driver.open(tick_rate_hz);
   slices_ = driver.slices();
   traits_.damping = driver.damping();
+  traits_.mass = slice_mass_kg;
   traits_.delay_ticks = 1.0 + driver.extraDelayTicks();
   driver.close();
 }
@@ -65,27 +66,6 @@ void Hands::save(const std::string& path) {
         part.calibrated->calibration();
   }
   replaceFile(path, tgr::toYaml(config_));
-}
-
-std::vector<std::string> checkStiffness(const station::Performer& performer,
-                                        const tgr::EndEffectors& end_effectors,
-                                        const physics::DeviceTraits& device,
-                                        bool allow_unproven) {
-  const physics::Instrument& instrument = *performer.instrument;
-  std::vector<double> stiffness(instrument.scene().ports.size());
-  for (const physics::PortCertificate& port : performer.certificate.ports) {
-    stiffness[static_cast<std::size_t>(port.port)] = port.stiffness;
-  }
-  const auto rendered =
-      tgr::renderedStiffness(instrument.scene(), end_effectors, stiffness, device.damping,
-                             instrument.rates().gesturalHz(), device.delay_ticks);
-  tgr::StiffnessFindings findings = tgr::judgeStiffness(end_effectors, rendered);
-  if (!findings.refusals.empty() && !allow_unproven) {
-    throw Exception(findings.refusals.front());
-  }
-  findings.warnings.insert(findings.warnings.end(), findings.refusals.begin(),
-                           findings.refusals.end());
-  return findings.warnings;
 }
 
 }  // namespace ergotic::node

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "ergotic/physics/certificate/certify.hpp"
-#include "ergotic/station/performer.hpp"
 #include "ergotic/tgr/device.hpp"
 #include "ros/device/driver_plugins.hpp"
 
@@ -23,8 +22,9 @@ class Hands {
   Hands(tgr::StationDevices devices, bool allow_fault_injection);
 
   /// Opens the devices and closes them again, for what they say of themselves.
+  /// \param slice_mass_kg  which they do not say
   /// \throws DeviceError saying what is wrong and what to do
-  void probe(double tick_rate_hz);
+  void probe(double tick_rate_hz, double slice_mass_kg);
 
   // After `probe`.
   int slices() const { return slices_; }
@@ -52,12 +52,5 @@ class Hands {
   int slices_ = 0;
   physics::DeviceTraits traits_;
 };
-
-/// Warnings of slices that end-effectors make stiffer than what is silent.
-/// \throws Exception for those that would buzz or jump, unless that is allowed
-std::vector<std::string> checkStiffness(const station::Performer& performer,
-                                        const tgr::EndEffectors& end_effectors,
-                                        const physics::DeviceTraits& device,
-                                        bool allow_unproven);
 
 }  // namespace ergotic::node

@@ -87,7 +87,7 @@ double stiffestPlayed(const physics::Rates& rates) {
 double stiffestCertified(const physics::Rates& rates) {
   const physics::Settled settled =
       physics::settle(scene::readYaml(wallScene(100.0), "wall"), rates);
-  return physics::certify(settled.scene, rates).ports.at(0).limit;
+  return physics::certify(settled.scene, rates).ports.at(0).stiffness_limit;
 }
 
 }  // namespace

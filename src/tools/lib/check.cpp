@@ -212,11 +212,11 @@ std::vector<std::string> addSlices(const tgr::EndEffectors& end_effectors,
                                    const physics::Certificate& certificate,
                                    const physics::DeviceTraits& device,
                                    Json& report) {
-  const auto rendered = renderedStiffness(scene, rates, certificate, device, end_effectors);
-  const tgr::StiffnessFindings findings = tgr::judgeStiffness(end_effectors, rendered);
+  const station::HandFindings findings =
+      station::judgeHands(scene, rates, certificate, device, end_effectors);
   std::vector<std::string> all = findings.refusals;
   all.insert(all.end(), findings.warnings.begin(), findings.warnings.end());
-  report["slices"] = slicesReport(end_effectors, rendered);
+  report["slices"] = slicesReport(end_effectors, findings.slices);
   report["slice_findings"] = std::move(all);
   return findings.refusals;
 }
@@ -249,6 +249,8 @@ void addOptions(CLI::App& app, DeviceChoice& choice) {
       ->check(CLI::PositiveNumber);
   app.add_option("--device-delay", choice.traits.delay_ticks,
                  "from a position to the force that answers it, ticks (default: 1)")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--device-mass", choice.traits.mass, "of a slice, kg (default: 0.3)")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--sensor-noise", choice.noise.rms, "of a position, m rms (default: 0.5e-6)")
       ->check(CLI::NonNegativeNumber);
@@ -293,7 +295,7 @@ int check(const CheckOptions& options) {
     report["target"] = targetReport(readScene(options.scene), rates, compile, options.target,
                                     freedomOf(options.scene, options.compile));
   }
-  std::vector<std::string> refusals = refusedPorts(settled.scene, certificate);
+  std::vector<std::string> refusals = refusedPorts(certificate);
   if (!options.end_effectors.empty()) {
     const auto of_slices =
         addSlices(end_effectors, settled.scene, rates, certificate, device, report);

@@ -63,7 +63,9 @@ Json portsReport(const Scene& scene,
     entry["position_scale"] = port.position_scale;
     entry["force_scale"] = port.force_scale;
     entry["stiffness_n_per_m"] = met.stiffness;
-    entry["passive_up_to_n_per_m"] = met.limit;
+    entry["passive_up_to_n_per_m"] = met.stiffness_limit;
+    entry["damping_n_s_per_m"] = met.damping;
+    entry["passive_up_to_n_s_per_m"] = met.damping_limit;
     entry["noise"] = noiseOf(port, floors[i]);
     report.push_back(std::move(entry));
   }
@@ -89,18 +91,11 @@ Json agentsReport(const Scene& scene) {
   return report;
 }
 
-std::vector<std::string> refusedPorts(const Scene& scene, const physics::Certificate& certificate) {
+std::vector<std::string> refusedPorts(const physics::Certificate& certificate) {
   std::vector<std::string> refused;
   for (const physics::PortCertificate& met : certificate.ports) {
-    const scene::Port& port = scene.ports[static_cast<std::size_t>(met.port)];
-    if (met.is_refused) {
-      refused.push_back(
-          scene.file + ":" + std::to_string(port.place.line) + ":" +
-          std::to_string(port.place.column) + ": error: port " + scene::quoted(port.name) +
-          " renders up to " + scene::numberText(met.stiffness) +
-          " N/m at its slice, which is passive up to " + scene::numberText(met.limit) +
-          " N/m: it will buzz or jump. Soften what it touches, lower its "
-          "force_scale, or raise the gestural rate");
+    if (met.is_judged && met.level == physics::HandLevel::kRefused) {
+      refused.push_back(met.finding);
     }
   }
   return refused;

@@ -26,7 +26,6 @@ Json agentsReport(const scene::Scene& scene);
 
 /// Why the ports that the certificate refuses cannot be played, as the station says, too:
 /// `file:line:col: error: ...`.
-std::vector<std::string> refusedPorts(const scene::Scene& scene,
-                                      const physics::Certificate& certificate);
+std::vector<std::string> refusedPorts(const physics::Certificate& certificate);
 
 }  // namespace ergotic::tools

@@ -19,23 +19,10 @@ tgr::EndEffectors readEndEffectors(const std::string& file) {
   return tgr::readEndEffectors(*text, file);
 }
 
-std::vector<tgr::RenderedStiffness> renderedStiffness(const scene::Scene& scene,
-                                                      const physics::Rates& rates,
-                                                      const physics::Certificate& certificate,
-                                                      const physics::DeviceTraits& device,
-                                                      const tgr::EndEffectors& end_effectors) {
-  std::vector<double> stiffness(scene.ports.size());
-  for (const physics::PortCertificate& port : certificate.ports) {
-    stiffness[static_cast<std::size_t>(port.port)] = port.stiffness;
-  }
-  return tgr::renderedStiffness(scene, end_effectors, stiffness, device.damping, rates.gesturalHz(),
-                                device.delay_ticks);
-}
-
 Json slicesReport(const tgr::EndEffectors& end_effectors,
-                  const std::vector<tgr::RenderedStiffness>& rendered) {
+                  const std::vector<station::SliceLoad>& slices) {
   Json report = Json::array();
-  for (const tgr::RenderedStiffness& slice : rendered) {
+  for (const station::SliceLoad& slice : slices) {
     const auto above = std::find_if(end_effectors.list.begin(), end_effectors.list.end(),
                                     [&slice](const tgr::EndEffectorConfig& config) {
                                       return std::find(config.slices.begin(), config.slices.end(),
@@ -47,7 +34,9 @@ Json slicesReport(const tgr::EndEffectors& end_effectors,
     }
     entry["stiffness_n_per_m"] = slice.stiffness;
     entry["together_n_per_m"] = slice.together;
-    entry["passive_up_to_n_per_m"] = slice.limit;
+    entry["passive_up_to_n_per_m"] = slice.stiffness_limit;
+    entry["damping_n_s_per_m"] = slice.damping;
+    entry["passive_up_to_n_s_per_m"] = slice.damping_limit;
     report.push_back(std::move(entry));
   }
   return report;

@@ -4,9 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "ergotic/physics/certificate/certify.hpp"
-#include "ergotic/physics/rates.hpp"
-#include "ergotic/tgr/rig.hpp"
+#include "ergotic/station/judge_hands.hpp"
 #include "tools/lib/report.hpp"
 
 namespace ergotic::tools {
@@ -15,13 +13,8 @@ namespace ergotic::tools {
 /// \throws TextError from the file, Exception if it cannot be read
 tgr::EndEffectors readEndEffectors(const std::string& file);
 
-/// What each slice meets of a scene through end-effectors. \throws TextError if these do not fit
-std::vector<tgr::RenderedStiffness> renderedStiffness(const scene::Scene& scene,
-                                                      const physics::Rates& rates,
-                                                      const physics::Certificate& certificate,
-                                                      const physics::DeviceTraits& device,
-                                                      const tgr::EndEffectors& end_effectors);
+/// What each slice meets of a scene through end-effectors.
 Json slicesReport(const tgr::EndEffectors& end_effectors,
-                  const std::vector<tgr::RenderedStiffness>& rendered);
+                  const std::vector<station::SliceLoad>& slices);
 
 }  // namespace ergotic::tools

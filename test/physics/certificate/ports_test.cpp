@@ -199,8 +199,9 @@ TEST(PassivityTest, LimitIsTwiceTheDampingOverThreeTicks) {
   ASSERT_EQ(c.ports.size(), 1u);
   EXPECT_EQ(c.ports[0].port, 0);
   EXPECT_DOUBLE_EQ(c.ports[0].stiffness, 1000.0);
-  EXPECT_DOUBLE_EQ(c.ports[0].limit, kLimit);
-  EXPECT_DOUBLE_EQ(certify(wall(1000.0).scene, kRates, {5.0, 1.0}).ports[0].limit, 2.5 * kLimit);
+  EXPECT_DOUBLE_EQ(c.ports[0].stiffness_limit, kLimit);
+  EXPECT_DOUBLE_EQ(certify(wall(1000.0).scene, kRates, {5.0, 1.0}).ports[0].stiffness_limit,
+                   2.5 * kLimit);
 }
 
 TEST(PassivityTest, APortThatAnEndEffectorTookIsJudgedThere) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "ergotic/physics/certificate/hand_loop.hpp"
 #include "ergotic/physics/rates.hpp"
 #include "ergotic/scene/scene.hpp"
 
@@ -31,14 +32,18 @@ struct SectionCertificate {
   double stable_rate_hz = 0;  ///< lowest section rate known to be stable; exact as `lambda` is
 };
 
-/// What a hand meets at a port, along its coordinate, if a slice moves it by itself. Ports of
-/// agents have none. Findings are on ports with a slice; end-effectors are for
-/// tgr::renderedStiffness.
+/// What a hand meets at a port, along its coordinate, if a slice moves it by itself; all at the
+/// device. Ports of agents have none. Judged are ports with a slice that no end-effector takes;
+/// those are for station::judgeHands.
 struct PortCertificate {
-  int port = 0;             ///< index in Scene::ports
-  double stiffness = 0.0;   ///< the largest, at the device, N/m
-  double limit = 0.0;       ///< passive below, N/m
-  bool is_refused = false;  ///< a slice moves it, and it is above twice the limit
+  int port = 0;                          ///< index in Scene::ports
+  double stiffness = 0.0;                ///< the largest, N/m
+  double stiffness_limit = 0;            ///< no hand sets off less by itself, N/m
+  double damping = 0.0;                  ///< the largest, N s/m
+  double damping_limit = 0.0;            ///< no hand sets off less by itself, N s/m
+  bool is_judged = false;                ///< the verdict and the findings count it
+  HandLevel level = HandLevel::kSilent;  ///< of a slice that moves it, judged or not
+  std::string finding;  ///< in words, `file:line:col: error|warning: ...`; empty: nothing to say
 };
 
 struct Certificate {
@@ -48,14 +53,6 @@ struct Certificate {
   /// In plain words, worst first: what was found, where (`file:line:col`), what to change.
   std::vector<std::string> findings;
   double margin() const;  ///< 1 - max(lambda)/4, dimensionless; negative if unstable
-};
-
-/// What passivity at the ports depends on.
-struct DeviceTraits {
-  double damping = 2.0;      ///< of each slice by itself, N s/m, > 0
-  double delay_ticks = 1.0;  ///< from a position to the force that answers it
-  /// Indices in Scene::ports: their slice does not move them by itself, whatever the scene says.
-  std::vector<int> taken_ports = {};
 };
 
 /// Tells before running whether a scene can blow up at these rates.

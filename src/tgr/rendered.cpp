@@ -6,8 +6,6 @@
 
 #include "ergotic/tgr/driver.hpp"
 #include "ergotic/tgr/rig.hpp"
-#include "scene/limits.hpp"
-#include "scene/names.hpp"
 
 namespace ergotic::tgr {
 namespace {
@@ -26,7 +24,7 @@ scene::Scene unscaledPorts(const scene::Scene& scene) {
   return ports;
 }
 
-/// By what the scales of its end-effector multiply the stiffness of a port.
+/// By what the scales of its end-effector multiply what a port resists with.
 double scaleOf(const scene::Port& port, const EndEffectors& end_effectors) {
   for (const EndEffectorConfig& config : end_effectors.list) {
     if (std::find(config.ports.begin(), config.ports.end(), port.name) != config.ports.end()) {
@@ -44,12 +42,12 @@ EndEffectors unscaled(EndEffectors end_effectors) {
   return end_effectors;
 }
 
-/// [slices][slices] N/m at the device. The forces that one newton at a port causes at the slices
+/// [slices][slices] at the device. The forces that one newton at a port causes at the slices
 /// are the port's row of the Jacobian, if nothing is scaled.
-Eigen::MatrixXd stiffnessMatrix(Rig& rig,
-                                const scene::Scene& scene,
-                                const EndEffectors& end_effectors,
-                                const std::vector<double>& port_stiffness) {
+Eigen::MatrixXd matrixAtSlices(Rig& rig,
+                               const scene::Scene& scene,
+                               const EndEffectors& end_effectors,
+                               const std::vector<double>& of_ports) {
   std::vector<double> ports(scene.ports.size());
   Eigen::VectorXd row = Eigen::VectorXd::Zero(kMaxSlices);
   rig.toModel(row.data(), 0.0, ports.data());
@@ -59,7 +57,7 @@ Eigen::MatrixXd stiffnessMatrix(Rig& rig,
     ports[p] = 1.0;
     rig.toDevice(ports.data(), row.data());
     const double scale = scaleOf(scene.ports[p], end_effectors);
-    matrix += scale * port_stiffness[p] * row * row.transpose();
+    matrix += scale * of_ports[p] * row * row.transpose();
   }
   return matrix;
 }
@@ -98,14 +96,11 @@ std::vector<int> takenPorts(const scene::Scene& scene, const EndEffectors& end_e
   return taken;
 }
 
-std::vector<RenderedStiffness> renderedStiffness(const scene::Scene& scene,
-                                                 const EndEffectors& end_effectors,
-                                                 const std::vector<double>& port_stiffness,
-                                                 double damping,
-                                                 double tick_rate_hz,
-                                                 double delay_ticks) {
+std::vector<Rendered> renderedAtSlices(const scene::Scene& scene,
+                                       const EndEffectors& end_effectors,
+                                       const std::vector<double>& of_ports) {
   const auto rig = makeRig(unscaledPorts(scene), unscaled(end_effectors), kMaxSlices);
-  const Eigen::MatrixXd matrix = stiffnessMatrix(*rig, scene, end_effectors, port_stiffness);
+  const Eigen::MatrixXd matrix = matrixAtSlices(*rig, scene, end_effectors, of_ports);
   std::array<double, kMaxSlices> together{};
   for (int slice = 0; slice < kMaxSlices; ++slice) {
     together[static_cast<std::size_t>(slice)] = matrix(slice, slice);
@@ -116,42 +111,13 @@ std::vector<RenderedStiffness> renderedStiffness(const scene::Scene& scene,
       together[static_cast<std::size_t>(slice)] = largest;
     }
   }
-  const double limit = 2.0 * damping * tick_rate_hz / (1.0 + 2.0 * delay_ticks);
-  std::vector<RenderedStiffness> rendered;
+  std::vector<Rendered> rendered;
   for (int slice = 0; slice < kMaxSlices; ++slice) {
     if ((rig->slicesInUse() >> static_cast<unsigned>(slice) & 1U) != 0) {
-      rendered.push_back(
-          {slice, matrix(slice, slice), together[static_cast<std::size_t>(slice)], limit});
+      rendered.push_back({slice, matrix(slice, slice), together[static_cast<std::size_t>(slice)]});
     }
   }
   return rendered;
-}
-
-StiffnessFindings judgeStiffness(const EndEffectors& end_effectors,
-                                 const std::vector<RenderedStiffness>& rendered) {
-  StiffnessFindings findings;
-  for (const EndEffectorConfig& config : end_effectors.list) {
-    const auto found =
-        std::find_if(rendered.begin(), rendered.end(), [&config](const RenderedStiffness& r) {
-          return std::find(config.slices.begin(), config.slices.end(), r.slice) !=
-                 config.slices.end();
-        });
-    if (found == rendered.end() || !(found->together > kWarnedStiffness * found->limit)) {
-      continue;
-    }
-    const bool refused = found->together > kRefusedStiffness * found->limit;
-    const std::string place = end_effectors.file + ":" + std::to_string(config.place.line) + ":" +
-                              std::to_string(config.place.column);
-    (refused ? findings.refusals : findings.warnings)
-        .push_back(
-            place + (refused ? ": error: " : ": warning: ") + "end-effector " +
-            scene::quoted(config.name) + " renders up to " + scene::numberText(found->together) +
-            " N/m at its slices, which are passive up "
-            "to " +
-            scene::numberText(found->limit) + " N/m" + (refused ? ": it will buzz or jump" : "") +
-            ". Lower its force_scale, raise its position_scale, or raise the gestural rate");
-  }
-  return findings;
 }
 
 }  // namespace ergotic::tgr

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <complex>
+#include <vector>
+
+namespace ergotic::physics {
+
+/// What passivity at the ports depends on.
+struct DeviceTraits {
+  double damping = 2.0;      ///< of each slice by itself, N s/m, > 0
+  double delay_ticks = 1.0;  ///< from a position to the force that answers it, >= 0
+  /// Indices in Scene::ports: their slice does not move them by itself, whatever the scene says.
+  std::vector<int> taken_ports = {};
+  double mass = 0.3;  ///< of what moves of each slice, kg, >= 0
+};
+
+/// N/m: no hand resists more at any frequency by its position.
+constexpr double kStiffestHand = 2e4;
+
+/// What to think of what a slice meets.
+enum class HandLevel {
+  kSilent,   ///< at most half of what no hand sets off
+  kWarned,   ///< more
+  kRefused,  ///< more than a slice of twice the damping bears: it will buzz or jump
+};
+
+/// A slice with a mass m and a damping b in a hand, and a spring K and a damper B that answer its
+/// sampled position d ticks late, with a force that is held for a tick.
+///
+/// The hand is anything passive, of any mass, that is not stiffer than kStiffestHand. Without m
+/// that is the condition of Colgate and Schenkel (1997), exact by Fardad and Bamieh (2009):
+/// `b > max K T/2 sin((d + 1/2) w T)/sin(w T/2) - B cos((d + 1) w T)`.
+/// Realtime: no. Source: docs/physics.md, "At the device".
+class HandLoop {
+ public:
+  HandLoop(const DeviceTraits& device, double tick_s);
+
+  /// The stiffest spring that by itself no hand sets off, 2 b/((1 + 2 d) T), N/m.
+  double stiffnessLimit() const;
+  /// The strongest damper that by itself no hand sets off, N s/m, to 1 %. Cost: 1 ms, as of what
+  /// follows
+  double dampingLimit() const;
+
+  /// By what both must be divided that no hand sets them off; 1: at the limit. The worse of
+  /// the spring with the damper and without, for a damper does not brake wherever the spring acts.
+  /// \param stiffness  N/m, >= 0
+  /// \param damping    N s/m, >= 0
+  double share(double stiffness, double damping) const;
+
+  HandLevel judge(double stiffness, double damping) const;
+
+ private:
+  /// All that the slice and its hand may do to a force at one frequency of the samples.
+  class Mobilities;
+
+  double shareAt(double angle, double stiffness, double damping) const;
+  double worstShare(double stiffness, double damping) const;
+
+  double damping_;
+  double delay_;
+  double mass_;
+  double tick_s_;
+};
+
+}  // namespace ergotic::physics

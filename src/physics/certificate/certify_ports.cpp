@@ -4,10 +4,16 @@
 
 #include "at.hpp"
 #include "physics/certificate/certify_parts.hpp"
+#include "physics/certificate/free_slice.hpp"
+#include "physics/certificate/linear_stepper.hpp"
 #include "physics/certificate/port_links.hpp"
 
 namespace ergotic::physics {
 namespace {
+
+// Growth of what hangs on a slice, 1/s: slower is less than any hand and any loss takes.
+constexpr double kWarnedGrowth = 0.01;
+constexpr double kRefusedGrowth = 1.0;  // with twice the damping
 
 bool isTaken(int port, const DeviceTraits& device) {
   const auto& taken = device.taken_ports;
@@ -17,7 +23,8 @@ bool isTaken(int port, const DeviceTraits& device) {
 class PortJudge {
  public:
   PortJudge(const RatedNetwork& networks, const DeviceTraits& device)
-      : scene_(networks.scene()),
+      : networks_(networks),
+        scene_(networks.scene()),
         device_(device),
         links_(networks.network()),
         rate_hz_(networks.rates().gesturalHz()),
@@ -33,7 +40,7 @@ class PortJudge {
     met.stiffness_limit = loop_.stiffnessLimit();
     met.damping = std::max(links_.atSlice(port).damping, 0.0) * at_device;
     met.damping_limit = damping_limit_;
-    met.level = loop_.judge(met.stiffness, met.damping);
+    met.level = std::max(loop_.judge(met.stiffness, met.damping), ofFreeSlice(p));
     // What an end-effector makes of a port is known where that is.
     met.is_judged = port.slice >= 0 && !isTaken(p, device_);
     return met;
@@ -41,6 +48,11 @@ class PortJudge {
 
   std::string describe(const PortCertificate& met) const {
     const scene::Port& port = scene_.ports[at(met.port)];
+    if (loop_.judge(met.stiffness, met.damping) < met.level) {
+      return describeFree(port) + (met.level == HandLevel::kRefused ? ": it will buzz" : "") +
+             ". Damp what hangs there, soften the link, scale the force down, or raise the "
+             "gestural rate";
+    }
     const bool is_damper = met.damping * met.stiffness_limit > met.stiffness * met.damping_limit;
     const int link = is_damper ? links_.mostDamped(port) : links_.stiffest(port);
     std::string text = "port '" + port.name + "': the hand may meet " +
@@ -60,6 +72,35 @@ class PortJudge {
   }
 
  private:
+  /// What hangs on a slice may set it off at less than its links alone.
+  HandLevel ofFreeSlice(int p) const {
+    const FreeSlice slice(networks_, links_.ofNodes(), p);
+    const auto growth = [&](double times) {
+      DeviceTraits device = device_;
+      device.damping *= times;
+      return rate_hz_ * (slice.radius(device) - 1.0);
+    };
+    if (!(device_.mass > 0.0) || !slice.isJudged() || growth(1.0) <= kWarnedGrowth) {
+      return HandLevel::kSilent;
+    }
+    return growth(2.0) > kRefusedGrowth ? HandLevel::kRefused : HandLevel::kWarned;
+  }
+
+  std::string ofSlice() const {
+    return "a slice of " + physics::describe(device_.mass) + " kg with " +
+           physics::describe(device_.damping) + " N s/m of its own, answered " +
+           physics::describe(device_.delay_ticks) + " ticks late, ";
+  }
+
+  std::string describeFree(const scene::Port& port) const {
+    const std::vector<int>& links = links_.ofNodes()[at(port.mat)];
+    const auto first = std::find_if(links.begin(), links.end(),
+                                    [this](int l) { return hasLinearPart(scene_.lias[at(l)]); });
+    return "port '" + port.name + "': in nobody's hand " + ofSlice() +
+           "begins to swing with what hangs on link '" + scene_.lias[at(*first)].name + "'";
+  }
+
+  const RatedNetwork& networks_;
   const scene::Scene& scene_;
   const DeviceTraits& device_;
   PortLinks links_;

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <random>
 
+#include "at.hpp"
 #include "ergotic/exception.hpp"
 #include "physics/layout/layout.hpp"
 #include "scene/laws/law.hpp"
@@ -19,10 +20,6 @@ using scene::MatType;
 constexpr int kPeriods = 2000;
 constexpr double kMostSteps = 3e8;  // modules times audio frames
 constexpr double kScatter = 5e-6;   // of slopes, per period
-
-bool hasLinearPart(const scene::Lia& lia) {
-  return lia.scheme == scene::Scheme::kExplicit && scene::lawOf(lia.type).has_linear_part;
-}
 
 int slowestDivisor(const scene::Scene& scene, const Rates& rates) {
   int slowest = 1;
@@ -54,8 +51,18 @@ std::vector<MovingSlot> movingSlots(const scene::Scene& scene, const Rates& rate
 
 }  // namespace
 
-scene::Scene linearPart(scene::Scene scene) {
-  scene.ports.clear();
+bool hasLinearPart(const scene::Lia& lia) {
+  return lia.scheme == scene::Scheme::kExplicit && scene::lawOf(lia.type).has_linear_part;
+}
+
+scene::Scene linearPart(scene::Scene scene, int port) {
+  std::vector<scene::Port> ports;
+  if (port >= 0) {
+    ports.resize(1);
+    ports[0].mat = scene.ports[static_cast<std::size_t>(port)].mat;
+    ports[0].slice = 0;
+  }
+  scene.ports = ports;
   scene.inputs.clear();
   scene.outputs.clear();
   scene.strings.clear();
@@ -70,7 +77,8 @@ scene::Scene linearPart(scene::Scene scene) {
     mat.rest.setZero();
     mat.position.setZero();
     mat.push = {};
-    if (mat.type == MatType::kDriven || mat.type == MatType::kSlice) {
+    const bool is_held = !ports.empty() && &mat == &scene.mats[at(ports[0].mat)];
+    if (mat.type == MatType::kDriven || (mat.type == MatType::kSlice && !is_held)) {
       mat.type = MatType::kGround;
     }
   }
@@ -98,6 +106,10 @@ LinearStepper::LinearStepper(const scene::Scene& linear, const Rates& rates)
       forces_(positions_.size()),
       inputs_(static_cast<std::size_t>(rates.ratio * instrument_->inputChannels())),
       outputs_(static_cast<std::size_t>(rates.ratio * instrument_->outputChannels())) {
+  // Before the first tick nobody knows where a hand was; from then on its slice moves.
+  for (int tick = 0; tick < ticks_; ++tick) {
+    instrument_->tick({positions_.data(), forces_.data(), inputs_.data(), outputs_.data()});
+  }
   instrument_->saveState(rest_.data());
   const char* names[3] = {"x", "d", "f"};
   for (const StateEntry& entry : instrument_->stateEntries()) {
@@ -123,7 +135,8 @@ void LinearStepper::visitNumbers(const Visit& visit) {
   }
 }
 
-Eigen::VectorXd LinearStepper::step(const Eigen::VectorXd& state) {
+Eigen::VectorXd LinearStepper::step(const Eigen::VectorXd& state, double hand) {
+  std::fill(positions_.begin(), positions_.end(), hand);
   state_ = rest_;
   visitNumbers([&](int i, double& number) { number = state[i]; });
   instrument_->loadState(state_.data());

@@ -12,7 +12,11 @@
 namespace ergotic::physics {
 
 /// The linear part of a scene, see monodromy(): at rest at 0, nothing pulls, nobody touches it.
-scene::Scene linearPart(scene::Scene scene);
+/// \param port  index in Scene::ports of the only one that stays, at scales of 1; -1: none
+scene::Scene linearPart(scene::Scene scene, int port = -1);
+
+/// True of links of which something stays in that part.
+bool hasLinearPart(const scene::Lia& lia);
 
 /// A place of the state of an instrument, and the module that it is of, -1: none.
 struct MovingSlot {
@@ -34,8 +38,11 @@ class LinearStepper {
   int ticks() const { return ticks_; }  ///< per period
 
   /// \param state  positions, differences, forces, shape (3 slots), at the start of a period
+  /// \param hand   position of the port, if there is one, from the start of the period on
   /// \return       the same one period later
-  Eigen::VectorXd step(const Eigen::VectorXd& state);
+  Eigen::VectorXd step(const Eigen::VectorXd& state, double hand = 0.0);
+  /// On the slice of the port, in the last tick of that period.
+  double force() const { return forces_.at(0); }
 
  private:
   double& number(int which, std::size_t slot);

@@ -13,6 +13,9 @@ class PortLinks {
   /// \param network  must outlive it
   explicit PortLinks(const Network& network);
 
+  /// [nodes] of the network.
+  const std::vector<std::vector<int>>& ofNodes() const { return links_of_; }
+
   /// What everything resists the slow motion of a port with, at most.
   double stiffness(const scene::Port& port) const;
   /// The link that gives most of it, -1: none.

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/certificate/free_slice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "at.hpp"
+#include "ergotic/physics/certificate/monodromy.hpp"
+#include "physics/certificate/linear_stepper.hpp"
+#include "physics/step_units.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+using scene::MatType;
+
+constexpr int kMostMasses = 100;
+
+bool isFree(const scene::Mat& mat) {
+  return mat.type == MatType::kMass || mat.type == MatType::kCell;
+}
+
+/// Masses that links which always hold lead to from a slice, as far as they are to be counted:
+/// there may be a few more, on strings and meshes that other points join.
+int massesBehind(int slice, const Network& network, const std::vector<std::vector<int>>& links_of) {
+  std::set<int> seen{slice};
+  std::vector<int> open{slice};
+  int masses = 0;
+  const auto reach = [&](int node) {
+    if (seen.insert(node).second) {
+      open.push_back(node);
+      masses += network.nodes[at(node)].is_free ? 1 : 0;
+    }
+  };
+  while (!open.empty() && masses <= kMostMasses) {
+    const int node = open.back();
+    open.pop_back();
+    for (const Share& share : sharesNow(network, node)) {
+      reach(share.node);
+    }
+    for (const int l : links_of[at(node)]) {
+      const scene::Lia& lia = network.scene.lias[at(l)];
+      const int other = lia.a == node ? lia.b : lia.a;
+      const bool is_held = !network.nodes[at(other)].is_free && network.point_of[at(other)] < 0;
+      if (hasLinearPart(lia) && !is_held) {
+        reach(other);
+      }
+    }
+  }
+  return masses;
+}
+
+/// What moves with a slice; everything else becomes ground, and is left alone.
+scene::Scene hangingOn(int slice, scene::Scene linear, const Rates& rates) {
+  const Network network(linear);
+  const RatedNetwork networks(network, rates);
+  const auto isAtSlice = [&](const scene::Lia& lia) { return lia.a == slice || lia.b == slice; };
+  std::set<int> islands;
+  for (const scene::Lia& lia : linear.lias) {
+    if (isAtSlice(lia)) {
+      islands.insert(networks.islandOf(lia));
+    }
+  }
+  std::vector<scene::Lia> lias;
+  for (const scene::Lia& lia : linear.lias) {
+    if (isAtSlice(lia) || islands.count(networks.islandOf(lia)) != 0) {
+      lias.push_back(lia);
+    }
+  }
+  scene::Scene hanging = linear;
+  hanging.lias = std::move(lias);
+  for (std::size_t m = 0; m < linear.mats.size(); ++m) {
+    if (isFree(linear.mats[m]) && islands.count(networks.islandOf(static_cast<int>(m))) == 0) {
+      hanging.mats[m].type = MatType::kGround;
+    }
+  }
+  return hanging;
+}
+
+/// With the present values of the parameters, and with both ends of their ranges.
+std::vector<scene::Scene> casesOf(const scene::Scene& scene) {
+  std::vector<scene::Scene> cases{scene};
+  for (double scene::Parameter::*end : {&scene::Parameter::minimum, &scene::Parameter::maximum}) {
+    scene::Scene other = scene;
+    for (scene::Parameter& parameter : other.parameters) {
+      parameter.value = parameter.*end;
+    }
+    if (!scene.parameters.empty()) {
+      cases.push_back(std::move(other));
+    }
+  }
+  return cases;
+}
+
+/// A number of the state, and by what it is multiplied to be about the length that it moves by.
+struct Number {
+  int index = 0;
+  double length = 1.0;
+};
+
+std::vector<Number> numbersOf(const LinearStepper& stepper,
+                              const scene::Scene& linear,
+                              const Rates& rates) {
+  const int slots = stepper.slots();
+  std::vector<Number> numbers;
+  for (int slot = 0; slot < slots; ++slot) {
+    const int module = stepper.moduleOf(slot);
+    if (module < 0) {
+      continue;
+    }
+    const scene::Mat& mat = linear.mats[at(module)];
+    if (isFree(mat)) {
+      const StepUnits units(linear, rates, divisorOf(linear.sectionOf(mat), rates));
+      numbers.push_back({slot});
+      numbers.push_back({slots + slot});
+      numbers.push_back({2 * slots + slot, units.inverseMass(linear.valueOf(mat.mass))});
+    } else if (mat.type == MatType::kSlice) {
+      numbers.push_back({slot});  // where it was last
+    }
+  }
+  return numbers;
+}
+
+}  // namespace
+
+FreeSlice::FreeSlice(const RatedNetwork& networks,
+                     const std::vector<std::vector<int>>& links_of,
+                     int p)
+    : tick_(1.0 / (networks.rates().gesturalHz() * networks.scene().time_unit_s)),
+      time_unit_s_(networks.scene().time_unit_s) {
+  const Rates& rates = networks.rates();
+  const scene::Port& port = networks.scene().ports[at(p)];
+  const int behind = massesBehind(port.mat, networks.network(), links_of);
+  if (behind == 0 || behind > kMostMasses) {
+    return;
+  }
+  const scene::Scene linear = hangingOn(port.mat, linearPart(networks.scene(), p), rates);
+  const auto masses = std::count_if(linear.mats.begin(), linear.mats.end(), isFree);
+  const bool is_slower =
+      std::any_of(linear.mats.begin(), linear.mats.end(), [&](const scene::Mat& mat) {
+        return isFree(mat) && divisorOf(linear.sectionOf(mat), rates) > rates.ratio;
+      });
+  if (masses > kMostMasses || is_slower) {
+    return;
+  }
+  for (const scene::Scene& one : casesOf(linear)) {
+    cases_.push_back(caseOf(one, rates, std::abs(port.force_scale / port.position_scale)));
+  }
+}
+
+FreeSlice::Case FreeSlice::caseOf(const scene::Scene& linear,
+                                  const Rates& rates,
+                                  double gain) const {
+  LinearStepper stepper(linear, rates);
+  const std::vector<Number> numbers = numbersOf(stepper, linear, rates);
+  const auto size = static_cast<Eigen::Index>(numbers.size());
+  Case one{Eigen::MatrixXd(size, size + 1), Eigen::RowVectorXd(size + 1)};
+  for (Eigen::Index j = 0; j <= size; ++j) {
+    Eigen::VectorXd from = Eigen::VectorXd::Zero(3 * stepper.slots());
+    if (j < size) {
+      from[numbers[static_cast<std::size_t>(j)].index] =
+          1.0 / numbers[static_cast<std::size_t>(j)].length;
+    }
+    const Eigen::VectorXd to = stepper.step(from, j < size ? 0.0 : 1.0);
+    for (Eigen::Index i = 0; i < size; ++i) {
+      const Number& number = numbers[static_cast<std::size_t>(i)];
+      one.state(i, j) = to[number.index] * number.length;
+    }
+    one.force[j] = gain * stepper.force();
+  }
+  return one;
+}
+
+double FreeSlice::radius(const DeviceTraits& device) const {
+  double worst = 0.0;
+  for (const Case& one : cases_) {
+    worst = std::max(worst, radius(one, device));
+  }
+  return worst;
+}
+
+/// A tick of (masses and last position; position and step of the slice; forces on their way), the
+/// slice moved exactly by the force that is held, all of them as lengths.
+double FreeSlice::radius(const Case& one, const DeviceTraits& device) const {
+  const double damping = device.damping * time_unit_s_;
+  const double decay = std::exp(-damping / device.mass * tick_);
+  const double glide = device.mass / damping * (1.0 - decay);  // of a unit of speed in a tick
+  const auto late = static_cast<Eigen::Index>(std::ceil(device.delay_ticks));
+  const Eigen::Index size = one.state.rows();
+  const Eigen::Index place = size;
+  const Eigen::Index forces = size + 2;
+  Eigen::MatrixXd tick = Eigen::MatrixXd::Zero(forces + late, forces + late);
+  tick.topLeftCorner(size, size + 1) = one.state;
+  Eigen::RowVectorXd answer = Eigen::RowVectorXd::Zero(tick.cols());
+  answer.head(size + 1) = one.force * (tick_ * tick_ / device.mass);
+  const Eigen::RowVectorXd acting =
+      late == 0 ? answer : Eigen::RowVectorXd(Eigen::RowVectorXd::Unit(tick.cols(), forces));
+  const double moved = device.mass * (tick_ - glide) / (damping * tick_ * tick_);
+  tick(place, place) = 1.0;
+  tick(place, place + 1) = glide / tick_;
+  tick.row(place) += moved * acting;
+  tick(place + 1, place + 1) = decay;
+  tick.row(place + 1) += glide / tick_ * acting;
+  for (Eigen::Index i = 0; i + 1 < late; ++i) {
+    tick(forces + i, forces + i + 1) = 1.0;
+  }
+  if (late > 0) {
+    tick.bottomRows(1) = answer;
+  }
+  return spectralRadius(tick);
+}
+
+}  // namespace ergotic::physics

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A slice in nobody's hand, with masses that hang on it: its loop against itself, played.
+
+#include "physics/certificate/free_slice.hpp"
+
+#include "ergotic/physics/certificate/certify.hpp"
+#include "support/physics.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+constexpr Rates kRates{44100.0, 14};
+const double kTick = 14.0 / 44100.0;
+
+/// A slice, a link, a mass, and what damps that to the ground.
+struct Hanging {
+  double stiffness = 2000.0;
+  double damping = 0.0;
+  double mass = 0.1;
+  double loss = 0.0;
+  bool is_fast = false;  // the mass at the audio rate
+
+  scene::Scene scene() const {
+    SceneBuilder b;
+    const int section = is_fast ? SceneBuilder::kAudio : SceneBuilder::kGestural;
+    const int hung = b.mass(mass, 0.0, 0.0, section);
+    b.spring(hung, b.slice(0), stiffness, damping);
+    b.spring(hung, b.ground(0.0, section), 0.0, loss);
+    return b.scene;
+  }
+};
+
+double radiusOf(const scene::Scene& scene, const DeviceTraits& device = {}) {
+  const Network network(scene);
+  return FreeSlice(RatedNetwork(network, kRates), linksOfNodes(network), 0).radius(device);
+}
+
+/// Factor by which the speed of a slice of `device` grows in a tick, so many ticks after a knock,
+/// answered one tick late.
+double playedGrowth(const scene::Scene& scene, const DeviceTraits& device, int settled = 4000) {
+  const double decay = std::exp(-device.damping / device.mass * kTick);
+  const double glide = device.mass / device.damping * (1.0 - decay);
+  Player player(scene, kRates, Precision::kDouble);
+  double x = 0.0;
+  double v = 0.01;
+  double force = 0.0;
+  const auto peak = [&](int ticks) {
+    double most = 0.0;
+    for (int n = 0; n < ticks; ++n) {
+      player.positions[0] = x;
+      player.tick();
+      x += glide * v + (kTick - glide) / device.damping * force;
+      v = decay * v + glide / device.mass * force;
+      force = player.forces[0];
+      most = std::max(most, std::abs(v));
+    }
+    return most;
+  };
+  constexpr int kTicks = 4000;
+  peak(settled);
+  const double early = peak(kTicks);
+  return std::pow(peak(kTicks) / early, 1.0 / kTicks);
+}
+
+TEST(FreeSliceTest, GrowsAsItIsForetold) {
+  for (const bool is_fast : {false, true}) {
+    for (const Hanging& hanging :
+         {Hanging{2000.0, 0.0, 0.1, 0.0}, Hanging{3000.0, 0.0, 0.02, 0.0},
+          Hanging{3000.0, 0.2, 0.1, 0.05}, Hanging{1500.0, 0.0, 0.05, 0.0}}) {
+      Hanging one = hanging;
+      one.is_fast = is_fast;
+      EXPECT_NEAR(radiusOf(one.scene()), playedGrowth(one.scene(), {}), 2e-5)
+          << one.stiffness << ", " << one.mass;
+    }
+  }
+}
+
+TEST(FreeSliceTest, ALosslessMassOnASpringSetsOffASliceAtLessThanTheSpringAlone) {
+  const scene::Scene scene = Hanging{}.scene();
+  EXPECT_GT(playedGrowth(scene, {}), 1.0 + 1e-5);
+  const Certificate certificate = certify(scene, kRates);
+  EXPECT_LT(certificate.ports.at(0).stiffness, 0.5 * certificate.ports[0].stiffness_limit);
+  EXPECT_EQ(certificate.ports[0].level, HandLevel::kWarned);
+  EXPECT_THAT(certificate.findings, ElementsAre(HasSubstr("in nobody's hand a slice of 0.3 kg")));
+}
+
+TEST(FreeSliceTest, ALossKeepsItSilent) {
+  EXPECT_TRUE(certify(Hanging{2000.0, 0.0, 0.1, 0.5}.scene(), kRates).findings.empty());
+  EXPECT_TRUE(certify(Hanging{500.0, 0.0, 0.1, 0.0}.scene(), kRates).findings.empty());
+}
+
+TEST(FreeSliceTest, IsRefusedWhereItGrowsFastWithTwiceTheDamping) {
+  const Hanging hanging{3500.0, 0.0, 0.05, 0.0};
+  DeviceTraits twice;
+  twice.damping *= 2.0;
+  ASSERT_GT(playedGrowth(hanging.scene(), twice), 1.0 + kTick);
+  EXPECT_EQ(certify(hanging.scene(), kRates).verdict, Verdict::kUnproven);
+}
+
+/// A string of so many masses at the audio rate, on a spring at a mass or between two.
+scene::Scene stringOn(int masses, bool is_between, double loss) {
+  SceneBuilder b;
+  const int slice = b.slice(0);
+  const int ends = b.ground();
+  const int first = b.mass(0.01 / masses, 0.0);
+  for (int i = 1; i < masses; ++i) {
+    b.mass(0.01 / masses, 0.0);
+  }
+  const double tension = 20.0 * masses;
+  for (int i = 0; i <= masses; ++i) {
+    const int left = i == 0 ? ends : first + i - 1;
+    b.spring(left, i == masses ? ends : first + i, tension, loss);
+  }
+  const int grid = b.grid(first, masses);
+  b.spring(is_between ? b.point(grid, 0.37) : first + masses / 2, slice, 1500.0);
+  return b.scene;
+}
+
+TEST(FreeSliceTest, AStringBehindASpringGrowsAsItIsForetold) {
+  for (const bool is_between : {false, true}) {
+    const scene::Scene scene = stringOn(6, is_between, 0.0);
+    const double growth = playedGrowth(scene, {}, 200000);
+    EXPECT_GT(growth, 1.0 + 1e-5);
+    EXPECT_NEAR(radiusOf(scene), growth, 2e-6);
+    EXPECT_EQ(certify(scene, kRates).ports.at(0).level, HandLevel::kWarned);
+    EXPECT_TRUE(certify(stringOn(6, is_between, 0.02), kRates).findings.empty());
+  }
+}
+
+TEST(FreeSliceTest, IsNotWorkedOutForLargeNetsNorWhereNothingHangs) {
+  const auto isJudged = [](const scene::Scene& scene) {
+    const Network network(scene);
+    return FreeSlice(RatedNetwork(network, kRates), linksOfNodes(network), 0).isJudged();
+  };
+  EXPECT_TRUE(isJudged(stringOn(100, false, 0.0)));
+  EXPECT_FALSE(isJudged(stringOn(101, false, 0.0)));
+  scene::Scene touched = stringOn(30, false, 0.0);
+  touched.lias.back().type = LiaType::kContact;
+  EXPECT_FALSE(isJudged(touched));
+}
+
+TEST(FreeSliceTest, ScalesAndUnitsCount) {
+  scene::Scene scene = Hanging{500.0, 0.0, 0.025, 0.0}.scene();
+  scene.ports[0].force_scale = 2.0;
+  scene.ports[0].position_scale = 0.5;  // felt as four times the mass and the stiffness
+  EXPECT_NEAR(radiusOf(scene), radiusOf(Hanging{}.scene()), 1e-9);
+}
+
+}  // namespace
+}  // namespace ergotic::physics

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <future>
 #include <random>
 
 #include <ergotic/Calibrate.h>
@@ -10,6 +11,7 @@
 #include <ergotic/Event.h>
 #include <ergotic/GestureBlock.h>
 #include <ergotic/InjectFault.h>
+#include <ergotic/LoadModel.h>
 #include <ergotic/SliceTarget.h>
 #include <ergotic/Status.h>
 #include <ros/ros.h>
@@ -45,6 +47,27 @@ mats:
 lias:
   between: {type: spring_damper, between: [left, right], stiffness: 300, damping: 1}
   floor: {type: spring_damper, between: [press, ground], stiffness: 200, damping: 1}
+ports:
+  left: {mat: left, slice: 0}
+  right: {mat: right, slice: 2}
+  press: {mat: press, slice: 4}
+)";
+// The same ports, the right one before a wall, and a plate that takes a while to load.
+const char kWalled[] = R"(ergotic: 1
+name: walled hands
+sections:
+  hands: {rate: gestural}
+  plate: {rate: audio}
+mats:
+  left: {type: slice, section: hands}
+  right: {type: slice, section: hands}
+  press: {type: slice, section: hands}
+  ground: {type: ground, section: hands}
+generators:
+  - {type: mesh, name: plate, section: plate, rows: 200, columns: 200, spacing: 0.01, mass: 1.0e-4,
+     stiffness: 2000, damping: 1.0e-3, edges: fixed}
+lias:
+  wall: {type: spring_damper, between: [right, ground], stiffness: 1500, damping: 1}
 ports:
   left: {mat: left, slice: 0}
   right: {mat: right, slice: 2}
@@ -290,6 +313,29 @@ TEST_F(HandsTest, TakesEndEffectorsFromATopicToo) {
   world_->end_effectors.publish(other);
   EXPECT_TRUE(
       eventually([] { return world_->status.latest().end_effectors.front().name == "other_bow"; }));
+}
+
+// 20 times the link between the hands is well; 20 times the wall is not.
+TEST_F(HandsTest, JudgesAModelWithTheEndEffectorsThatCameWhileItWasLoaded) {
+  LoadModel load;
+  load.request.model = kWalled;
+  auto loading = std::async(std::launch::async,
+                            [&load] { return ::ros::service::call("/station/load_model", load); });
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  EndEffector key;
+  key.name = "key";
+  key.type = EndEffector::KEY;
+  key.slices = {2};
+  key.ports = {"right"};
+  key.force_scale = 20.0;
+  const auto configured = configure({key});
+  EXPECT_TRUE(configured.success) << configured.message;
+  ASSERT_TRUE(loading.get());
+  EXPECT_FALSE(load.response.success);
+  EXPECT_THAT(load.response.message, HasSubstr("'key' renders up to 30000 N/m"));
+  EXPECT_EQ(world_->status.latest().model, "two hands");
+  ASSERT_TRUE(configure({bow()}).success);
+  EXPECT_TRUE(eventually([] { return call("engage").success != 0U; }));
 }
 
 // The rest of the thousand is played without ROS, by the tests of the station.

@@ -139,11 +139,18 @@ TEST(FreeSliceTest, IsNotWorkedOutForLargeNetsNorWhereNothingHangs) {
   EXPECT_FALSE(isJudged(touched));
 }
 
-TEST(FreeSliceTest, ScalesAndUnitsCount) {
+TEST(FreeSliceTest, ScalesOfThePortCount) {
   scene::Scene scene = Hanging{500.0, 0.0, 0.025, 0.0}.scene();
   scene.ports[0].force_scale = 2.0;
   scene.ports[0].position_scale = 0.5;  // felt as four times the mass and the stiffness
   EXPECT_NEAR(radiusOf(scene), radiusOf(Hanging{}.scene()), 1e-9);
+}
+
+TEST(FreeSliceTest, UnitsOfTimeCount) {
+  scene::Scene in_samples =
+      Hanging{2000.0 / (kRate * kRate), 0.2 / kRate, 0.1, 0.1 / kRate}.scene();
+  in_samples.time_unit_s = 1.0 / kRate;
+  EXPECT_NEAR(radiusOf(in_samples), radiusOf(Hanging{2000.0, 0.2, 0.1, 0.1}.scene()), 1e-9);
 }
 
 }  // namespace

@@ -127,8 +127,7 @@ std::vector<Number> numbersOf(const LinearStepper& stepper,
 FreeSlice::FreeSlice(const RatedNetwork& networks,
                      const std::vector<std::vector<int>>& links_of,
                      int p)
-    : tick_(1.0 / (networks.rates().gesturalHz() * networks.scene().time_unit_s)),
-      time_unit_s_(networks.scene().time_unit_s) {
+    : tick_s_(1.0 / networks.rates().gesturalHz()) {
   const Rates& rates = networks.rates();
   const scene::Port& port = networks.scene().ports[at(p)];
   const int behind = massesBehind(port.mat, networks.network(), links_of);
@@ -183,9 +182,9 @@ double FreeSlice::radius(const DeviceTraits& device) const {
 /// A tick of (masses and last position; position and step of the slice; forces on their way), the
 /// slice moved exactly by the force that is held, all of them as lengths.
 double FreeSlice::radius(const Case& one, const DeviceTraits& device) const {
-  const double damping = device.damping * time_unit_s_;
-  const double decay = std::exp(-damping / device.mass * tick_);
-  const double glide = device.mass / damping * (1.0 - decay);  // of a unit of speed in a tick
+  const double decay = std::exp(-device.damping / device.mass * tick_s_);
+  const double glide =
+      device.mass / device.damping * (1.0 - decay);  // of a unit of speed in a tick
   const auto late = static_cast<Eigen::Index>(std::ceil(device.delay_ticks));
   const Eigen::Index size = one.state.rows();
   const Eigen::Index place = size;
@@ -193,15 +192,15 @@ double FreeSlice::radius(const Case& one, const DeviceTraits& device) const {
   Eigen::MatrixXd tick = Eigen::MatrixXd::Zero(forces + late, forces + late);
   tick.topLeftCorner(size, size + 1) = one.state;
   Eigen::RowVectorXd answer = Eigen::RowVectorXd::Zero(tick.cols());
-  answer.head(size + 1) = one.force * (tick_ * tick_ / device.mass);
+  answer.head(size + 1) = one.force * (tick_s_ * tick_s_ / device.mass);
   const Eigen::RowVectorXd acting =
       late == 0 ? answer : Eigen::RowVectorXd(Eigen::RowVectorXd::Unit(tick.cols(), forces));
-  const double moved = device.mass * (tick_ - glide) / (damping * tick_ * tick_);
+  const double moved = device.mass * (tick_s_ - glide) / (device.damping * tick_s_ * tick_s_);
   tick(place, place) = 1.0;
-  tick(place, place + 1) = glide / tick_;
+  tick(place, place + 1) = glide / tick_s_;
   tick.row(place) += moved * acting;
   tick(place + 1, place + 1) = decay;
-  tick.row(place + 1) += glide / tick_ * acting;
+  tick.row(place + 1) += glide / tick_s_ * acting;
   for (Eigen::Index i = 0; i + 1 < late; ++i) {
     tick(forces + i, forces + i + 1) = 1.0;
   }

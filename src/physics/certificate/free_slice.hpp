@@ -32,14 +32,13 @@ class FreeSlice {
   /// one, all of them lengths.
   struct Case {
     Eigen::MatrixXd state;     // [numbers][numbers + 1]
-    Eigen::RowVectorXd force;  // on the slice, at the device
+    Eigen::RowVectorXd force;  // on the slice, at the device, N
   };
   Case caseOf(const scene::Scene& linear, const Rates& rates, double gain) const;
   double radius(const Case& one, const DeviceTraits& device) const;
 
   std::vector<Case> cases_;
-  double tick_ = 0.0;         // in the scene's units
-  double time_unit_s_ = 1.0;  // of these
+  double tick_s_;
 };
 
 }  // namespace ergotic::physics

@@ -135,7 +135,7 @@ std::optional<T> as(const rosbag::MessageInstance& message, const std::string& p
                     " was recorded with another definition of the message; play it with the "
                     "version of Ergotic that recorded it");
   }
-  std::vector<std::uint8_t> data(message.size());
+  std::vector<std::uint8_t> data(message.size() + std::size_t{1});  // never nowhere
   ros::serialization::OStream out(data.data(), message.size());
   message.write(out);
   MessageBytes bytes(data.data(), message.size());

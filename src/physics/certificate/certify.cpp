@@ -13,6 +13,21 @@
 namespace ergotic::physics {
 namespace {
 
+std::vector<std::vector<PlaceProof>> placesOf(const Network& network) {
+  std::vector<std::vector<PlaceProof>> all;
+  for (const Network::Point& point : network.points) {
+    all.emplace_back();
+    for (const Shares& shares : point.places) {
+      PlaceProof place;
+      for (const Share& share : shares) {
+        place.emplace_back(share.node, share.weight);
+      }
+      all.back().push_back(std::move(place));
+    }
+  }
+  return all;
+}
+
 class Certifier {
  public:
   Certifier(const Network& network, const Rates& rates, Proof* proof)
@@ -38,6 +53,9 @@ class Certifier {
                         "it moves");
     }
     judgeLinks(networks_, findings_);
+    if (findings_.proof() != nullptr) {
+      findings_.proof()->places = placesOf(networks_.network());
+    }
     result.ports = judgePorts(networks_, device, findings_);
     findings_.giveTo(result);
     return result;

@@ -30,6 +30,7 @@ class LinkJudge {
     const Slopes& slopes = networks_.slopes(l);
     if (lia.scheme == scene::Scheme::kGuarded) {
       judgeGuarded(lia);
+      prove(lia, "guarded");
       return;
     }
     notePlaces(lia);
@@ -44,7 +45,9 @@ class LinkJudge {
       judgeGrowing(lia, law);
     } else if (law.switches && slopes.stiffness.highest > 0.0) {
       judgeSwitching(lia, law);
+      return;
     }
+    prove(lia, "slopes");
   }
 
   /// What concerns many links at once.
@@ -184,10 +187,12 @@ class LinkJudge {
     // What is meant to give energy may give a few per cent more.
     const double silent = law.canGive(lia) ? kWarnedSwitch : kExplicitSwitch;
     if (kappa <= silent && (law.canGive(lia) || loads_.losesMore(lia))) {
+      prove(lia, law.canGive(lia) ? "active" : "soft");
       return;
     }
     if (law.is_held && losesEnergy(lia)) {
       findings_.worsen(Verdict::kBounded);
+      prove(lia, "lossy");
       return;
     }
     if (kappa <= silent) {
@@ -220,10 +225,24 @@ class LinkJudge {
     const int island = networks_.islandOf(lia);
     const auto [known, is_new] = loses_energy_.try_emplace(island);
     if (is_new) {
-      known->second = !isLeft(island) &&
-                      isDamped(networks_.atOwnRate(networks_.divisorOfMat(lia.a), island, true));
+      const int divisor = networks_.divisorOfMat(lia.a);
+      auto proof = proofOfLoss(networks_.atOwnRate(divisor, island, true));
+      known->second = !isLeft(island) && proof;
+      if (known->second && findings_.proof() != nullptr) {
+        findings_.proof()->losses.push_back(std::move(*proof));
+      }
     }
     return known->second;
+  }
+
+  /// The rule that vouches for a link that is more than a spring and a damper.
+  void prove(const Lia& lia, const char* rule) {
+    const bool is_linear = lia.type == scene::LiaType::kSpringDamper && networks_.isExplicit(lia);
+    if (findings_.proof() != nullptr && !is_linear) {
+      const int index = static_cast<int>(&lia - networks_.scene().lias.data());
+      findings_.proof()->links.push_back(
+          {index, rule, loads_.kappa(lia), loads_.leastDamping(lia)});
+    }
   }
 
   bool isLeft(int island) const {

@@ -41,8 +41,5 @@ std::optional<SignProof> proofOfSigns(const NetworkBound& network);
 /// What shows that the softest case of damping takes energy from every motion, Z being positive
 /// definite; none if it is not.
 std::optional<Factor> proofOfLoss(const NetworkBound& network);
-inline bool isDamped(const NetworkBound& network) {
-  return proofOfLoss(network).has_value();
-}
 
 }  // namespace ergotic::physics

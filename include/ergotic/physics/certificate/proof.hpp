@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -28,12 +29,6 @@ struct PeriodProof {
   Eigen::MatrixXd turn;  ///< B, shape (rows, rows)
 };
 
-/// Of an island that loses energy in every motion.
-struct LossProof {
-  int divisor = 1;
-  Factor damping;  ///< of Z at its softest and for unit masses, less 1e-9 of its norm
-};
-
 /// The rule by which a link that is not linear is vouched for.
 struct LinkProof {
   int link = 0;              ///< in Scene::lias
@@ -42,10 +37,17 @@ struct LinkProof {
   double least_damping = 0;  ///< with which it loses more than its step may give
 };
 
+/// A place of a point: modules and their weights.
+using PlaceProof = std::vector<std::pair<int, double>>;
+
 struct Proof {
+  /// All places that are judged, the worst among them, [Scene::connections].
+  std::vector<std::vector<PlaceProof>> places;
   std::vector<RateProof> rates;
   std::vector<PeriodProof> periods;
-  std::vector<LossProof> losses;
+  /// Of islands that lose energy in every motion: of Z at its softest and for unit masses, less
+  /// 1e-9 of its norm.
+  std::vector<Factor> losses;
   std::vector<LinkProof> links;
 };
 

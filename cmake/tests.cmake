@@ -32,10 +32,9 @@ function(ergotic_add_gtests room)
     TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${room})
 endfunction()
 
-foreach(room rt station audio golden)
+foreach(room rt scene station audio golden)
   ergotic_add_gtests(${room})
 endforeach()
-ergotic_add_gtests(scene yaml-cpp)  # broken scenes are listed in it
 pkg_check_modules(URDFDOM REQUIRED IMPORTED_TARGET urdfdom)  # reads what pictures are made of
 ergotic_add_gtests(tgr yaml-cpp PkgConfig::URDFDOM)  # places of settings are seen in their nodes
 foreach(room physics advice tools)  # physics is compared with the tools' plain implementation
@@ -61,7 +60,7 @@ set_source_files_properties(test/comedi/comedi_preload_test.cpp PROPERTIES COMPI
 ergotic_add_gtests(tgr_jack ergotic_jack_driver)
 # They run the tools as programs.
 add_dependencies(ergotic_golden_test render check)
-add_dependencies(ergotic_tools_test bench latency)
+add_dependencies(ergotic_tools_test bench check latency)
 add_dependencies(ergotic_tgr_jack_test jack_tgr)
 if(ERGOTIC_ROS)
   include(cmake/ros_tests.cmake)

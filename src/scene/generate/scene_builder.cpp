@@ -10,12 +10,6 @@
 namespace ergotic::scene {
 namespace {
 
-#ifdef ERGOTIC_FUZZED
-constexpr std::size_t kMostMats = 5000;  // whatever a fuzzer asks for is made in no time
-#else
-constexpr std::size_t kMostMats = kMaxMats;
-#endif
-
 /// Room for many more; grows by half at least, as one scene may have thousands of generators.
 template <class T>
 void makeRoom(std::vector<T>& list, std::size_t more) {
@@ -74,7 +68,7 @@ int SceneBuilder::add(Section section) {
 }
 
 int SceneBuilder::add(Mat mat) {
-  if (scene_.mats.size() >= kMostMats) {
+  if (scene_.mats.size() >= static_cast<std::size_t>(kMaxMats)) {
     reserve(1, 0, mat.place);
   }
   return append(scene_.mats, mats_, "module", std::move(mat));
@@ -94,9 +88,9 @@ int SceneBuilder::add(Grid grid) {
 
 void SceneBuilder::reserve(std::size_t mats, std::size_t lias, Place place) {
   const std::size_t total = scene_.mats.size() + mats;
-  if (total > kMostMats) {
+  if (total > static_cast<std::size_t>(kMaxMats)) {
     fail(place, "the scene would have " + std::to_string(total) + " modules, allowed: at most " +
-                    std::to_string(kMostMats));
+                    std::to_string(kMaxMats));
   }
   makeRoom(scene_.mats, mats);
   makeRoom(scene_.lias, lias);

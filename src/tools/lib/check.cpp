@@ -20,6 +20,7 @@
 #include "tools/lib/cost.hpp"
 #include "tools/lib/end_effectors.hpp"
 #include "tools/lib/load_figures.hpp"
+#include "tools/lib/proof_file.hpp"
 #include "tools/lib/report.hpp"
 #include "tools/lib/target.hpp"
 
@@ -274,6 +275,8 @@ void addOptions(CLI::App& app, CheckOptions& options) {
   app.add_option("--filter-response", options.filter_response,
                  "write what the chaplets of the scene let through to this table")
       ->type_name("FILE.csv");
+  app.add_option("--proof", options.proof, "write what proves the verdict, for check_proof")
+      ->type_name("FILE.json");
 }
 
 int check(const CheckOptions& options) {
@@ -287,7 +290,9 @@ int check(const CheckOptions& options) {
   load.begin("certify_s", "certify " + sizeText(settled.scene));
   physics::DeviceTraits device = options.device.traits;
   device.taken_ports = tgr::takenPorts(settled.scene, end_effectors);
-  const physics::Certificate certificate = physics::certify(settled.scene, rates, device);
+  physics::Proof proof;
+  const physics::Certificate certificate =
+      physics::certify(settled.scene, rates, device, options.proof.empty() ? nullptr : &proof);
   const physics::CompileOptions compile = chosenOptions(options.compile);
   Json report = reportOn(settled, rates, certificate, compile, options.device,
                          loadOf(settled.scene, rates, compile, load));
@@ -303,6 +308,9 @@ int check(const CheckOptions& options) {
   }
   if (!options.filter_response.empty()) {
     writeFilterResponse(options.filter_response, settled.scene, rates);
+  }
+  if (!options.proof.empty()) {
+    writeProof(options.proof, settled.scene, rates, certificate.verdict, proof);
   }
   return finish(report, options.json, settled.scene.file, certificate.verdict, refusals);
 }

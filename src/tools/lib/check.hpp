@@ -17,13 +17,14 @@ struct CheckOptions {
   bool json = false;
   std::string target;           ///< empty: nothing is proposed
   std::string filter_response;  ///< empty: not written
+  std::string proof;            ///< empty: not written
 };
 
 void addOptions(CLI::App& app, CheckOptions& options);
 
 /// Says on stdout what a scene is made of, whether it is stable, and what it costs.
 /// \return kSuccess, kRefused if it is unstable, or kFailure if a slice meets too much
-/// \throws TextError, Exception
+/// \throws TextError, Exception, also if a proof is asked for that there is not
 int check(const CheckOptions& options);
 
 }  // namespace ergotic::tools

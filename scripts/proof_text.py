@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reads a proof: nothing in its text was changed, and the numbers that are written out in a scene, not made
+by its generators, are those of the proof."""
+import hashlib
+import json
+import math
+import struct
+import sys
+
+import numpy as np
+import yaml
+from scipy import interpolate
+
+DEFAULTS = {"sections": {"medium": "0"}, "lias": {"rest_length": "0", "threshold": "0", "damping": "0"},
+            "mats": {"stiffness": "0", "damping": "0", "matched": "true"}, "parameters": {}}
+WORDS = {"spring": "spring_damper", "damper": "spring_damper"}
+
+
+def need(condition, reason):
+    if not condition:
+        sys.exit(f"refused: {reason}")
+
+
+def digest(tree, to):
+    """Of numbers the bits, as texts differ in how they write them."""
+    for key, child in tree.items() if isinstance(tree, dict) else enumerate(tree):
+        to.update(key.encode() + b"\0" if isinstance(key, str) else b"")
+        if isinstance(child, (dict, list)):
+            digest(child, to)
+        else:
+            to.update(child.encode() + b"\0" if isinstance(child, str) else struct.pack("<d", child))
+    return to.hexdigest()
+
+
+def slopes_of(table):
+    """Lowest and highest; monotone tables are the cubic of Fritsch and Butland 1984."""
+    x, y = np.array(table["points"] if table else [[0, 0], [1, 0]], dtype=float).T
+    slopes = np.diff(y) / np.diff(x)
+    if table and table["interpolation"] == "monotone":
+        slope = interpolate.PchipInterpolator(x, y).derivative()
+        turns = slope.derivative().roots(extrapolate=False)
+        slopes = slope(np.concatenate([x, turns[np.isfinite(turns)]]))
+    return min(slopes), max(slopes)
+
+
+def rows_of(part):
+    """Names and keys, out of tables, too."""
+    for name, keys in part.items():
+        for row in keys.get("rows", [[]]):
+            each = {**keys.get("with", {}), **dict(zip(keys.get("columns", []), row))}
+            yield each.pop("name", name), each or keys
+
+
+def same(said, has):
+    if isinstance(has, dict) and "parameter" in has:
+        times, _, name = said.rpartition("$")
+        return name == has["parameter"] and float(times.rstrip("*") or 1) == has["times"]
+    if isinstance(has, dict):
+        return "file" in said or all(same(said.get(key, "linear"), has[key]) for key in has)
+    if isinstance(has, list):
+        return len(said) == len(has) and all(map(same, said, has))
+    if isinstance(has, (str, bool)):
+        return said == str(has) or said == str(has).lower()
+    return float(said) == has
+
+
+def has_of(proof, known):
+    """By the words of scenes."""
+    has = dict(known)
+    if "section" in has:
+        has["section"] = proof["sections"][has["section"]]["name"]
+    if "between" in has:
+        has["between"] = [proof["modules"][end]["name"] for end in has["between"]]
+    return has
+
+
+def differences(proof, text):
+    """\\return what a scene says otherwise than its proof, one line each"""
+    scene = yaml.load(text, yaml.BaseLoader)
+    filtered = {port["mat"] for _, port in rows_of(scene.get("ports") or {}) if "filter" in port}
+    for part, ours in (("parameters", "parameters"), ("sections", "sections"), ("mats", "modules"),
+                       ("lias", "links")):
+        known = {each["name"]: has_of(proof, each) for each in proof[ours]}
+        for name, keys in rows_of(scene.get(part) or {}):
+            said = {"release": keys.get("engage"), **DEFAULTS[part], **keys}
+            has = known.get(name, {})
+            if "stiffness_limit" in keys and "tipping_point" in has:
+                k, q, limit = (float(keys[key]) for key in ("stiffness", "nonlinearity", "stiffness_limit"))
+                said.update(tipping_point=math.sqrt((limit - k) / q), limit_damping="0")
+            is_open = {"scheme": said.get("scheme") == "auto", "section": has.get("type") == "point",
+                       "between": "filter" in said or any(
+                           "@" in end or end in filtered for end in said.get("between", []))}
+            said["type"] = WORDS.get(said.get("type"), said.get("type"))
+            if name not in known:
+                yield f"{name} of {part} is not in the proof"
+            for key in sorted(said.keys() & has.keys()):
+                if not is_open.get(key) and not same(said[key], has[key]):
+                    yield f"{name}: {key} is {said[key]}, not {has[key]}"
+
+
+def read(path, scene=None):
+    """\return the proof; refuses it if it is not that of the scene"""
+    proof = json.load(open(path))
+    said = proof.pop("sha256")
+    need(proof["proof"] == 1 and digest(proof, hashlib.sha256()) == said, "something in it was changed")
+    if scene:
+        text = open(scene, "rb").read()
+        need(hashlib.sha256(text).hexdigest() == proof["scene"]["sha256"], "it is of another scene")
+        others = [] if scene.endswith(".mdl") else list(differences(proof, text))
+        need(not others, "; ".join(others))
+    return proof

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
+#include "bag/message_bytes.hpp"
 #include "ergotic/bag/recording.hpp"
 #include "ergotic/exception.hpp"
 
@@ -122,18 +124,23 @@ Stretch fromMessage(const GestureBlock& message, const std::string& path) {
           message.flags,      message.positions, message.port_positions};
 }
 
-/// The message of this type in a recorded message, or null if it is another one.
+/// The message of this type in a recorded message, if it is one.
 template <class T>
-boost::shared_ptr<T> as(const rosbag::MessageInstance& message, const std::string& path) {
+std::optional<T> as(const rosbag::MessageInstance& message, const std::string& path) {
   if (message.getDataType() != ros::message_traits::DataType<T>::value()) {
-    return nullptr;
+    return std::nullopt;
   }
-  const auto read = message.instantiate<T>();
-  if (read == nullptr) {
+  if (message.getMD5Sum() != ros::message_traits::MD5Sum<T>::value()) {
     throw Exception(path + ": " + message.getDataType() +
                     " was recorded with another definition of the message; play it with the "
                     "version of Ergotic that recorded it");
   }
+  std::vector<std::uint8_t> data(message.size() + std::size_t{1});  // never nowhere
+  ros::serialization::OStream out(data.data(), message.size());
+  message.write(out);
+  MessageBytes bytes(data.data(), message.size());
+  T read;
+  bytes.next(read);
   return read;
 }
 
@@ -154,6 +161,17 @@ void add(Recording& recording, const rosbag::MessageInstance& message, const std
   }
 }
 
+/// Ticks that never ran are played, too.
+void requireNoLongGap(const std::vector<Stretch>& stretches, const std::string& path) {
+  constexpr double kLongestGap = 1e8;  // hours
+  for (std::size_t i = 1; i < stretches.size(); ++i) {
+    const auto gap = static_cast<double>(stretches[i].first_tick - stretches[i - 1].endTick());
+    requireWithin(named(path, "gesture block", stretches[i].first_tick),
+                  "the number of ticks between it and the one before", std::max(gap, 0.0), 0.0,
+                  kLongestGap);
+  }
+}
+
 void readAll(const rosbag::Bag& bag, const std::string& path, Recording& recording) {
   rosbag::View view(bag);
   for (const rosbag::MessageInstance& message : view) {
@@ -168,6 +186,8 @@ Recording readRecording(const std::string& path) {
   try {
     const rosbag::Bag bag(path, rosbag::bagmode::Read);
     readAll(bag, path, recording);
+  } catch (const ros::serialization::StreamOverrunException&) {
+    throw Exception(path + ": a message of a station in it is cut short");
   } catch (const rosbag::BagException& error) {
     throw Exception(path + ": " + error.what());
   }
@@ -181,6 +201,7 @@ Recording readRecording(const std::string& path) {
   std::stable_sort(recording.events.begin(), recording.events.end(), by_tick);
   std::stable_sort(recording.stretches.begin(), recording.stretches.end(),
                    [](const Stretch& a, const Stretch& b) { return a.first_tick < b.first_tick; });
+  requireNoLongGap(recording.stretches, path);
   return recording;
 }
 

@@ -66,9 +66,9 @@ class CsvSource final : public GestureSource {
   void readRow(const CsvReader& csv) {
     csv.requireSize(slices_ + 1);
     const bool first = positions_.empty();
+    constexpr std::int64_t kLastFirstTick = 1'000'000'000'000'000;
     const std::int64_t tick =
-        csv.integer(0, "tick", first ? 0 : next_tick_,
-                    first ? std::numeric_limits<std::int64_t>::max() - 1 : next_tick_);
+        csv.integer(0, "tick", first ? 0 : next_tick_, first ? kLastFirstTick : next_tick_);
     next_tick_ = tick + 1;
     for (std::size_t i = 1; i <= slices_; ++i) {
       constexpr double kMax = std::numeric_limits<double>::max();

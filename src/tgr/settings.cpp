@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tgr/settings.hpp"
 
+#include <vector>
+
 #include "scene/text/source_text.hpp"
+#include "scene/yaml/yaml_documents.hpp"
 
 namespace ergotic::tgr {
 YAML::Node parseSettings(const std::string& text, const std::string& file) {
   scene::checkBytes(text, file, scene::Bytes::kUtf8);
   const scene::SceneBuilder builder(file, text);
-  const YAML::Node node =
-      scene::parseYaml(builder, "settings need", [&] { return YAML::Load(text); });
-  return node.IsNull() ? YAML::Node(YAML::NodeType::Map) : node;
+  const std::vector<YAML::Node> documents = scene::readDocuments(builder, text, 1, "settings need");
+  return documents.empty() || documents.front().IsNull() ? YAML::Node(YAML::NodeType::Map)
+                                                         : documents.front();
 }
 
 Settings::Settings(const YAML::Node& node, const std::string& file, const std::string& what)

@@ -7,6 +7,7 @@
 #include <rosbag/bag.h>
 #include <std_msgs/String.h>
 
+#include "bag/raw_message.hpp"
 #include "ergotic/bag/positions.hpp"
 #include "ergotic/bag/recording.hpp"
 #include "support/scratch_file.hpp"
@@ -196,6 +197,47 @@ TEST(ReadRecordingTest, RefusesPositionsAndEventsThatAreNoNumbers) {
   event.value = 0.0;
   event.index = std::numeric_limits<std::int64_t>::max();
   EXPECT_THAT(refusalOf(block(12), event), HasSubstr("its index is 9.22337e+18, allowed: "));
+}
+
+std::vector<std::uint8_t> bytesOf(const ergotic::GestureBlock& message) {
+  std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
+  ros::serialization::OStream out(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  ros::serialization::serialize(out, message);
+  return bytes;
+}
+
+TEST(ReadRecordingTest, RefusesMessagesThatAreCutShort) {
+  const test::ScratchFile file;
+  const auto refusalOf = [&](const std::vector<std::uint8_t>& bytes, std::size_t size) {
+    {
+      rosbag::Bag bag(file.path(), rosbag::bagmode::Write);
+      bag.write("/station/gesture", kStart, rawMessage<ergotic::GestureBlock>(bytes.data(), size));
+    }
+    return errorOf(file.path());
+  };
+  const std::vector<std::uint8_t> whole = bytesOf(block(0));
+  for (std::size_t size = 0; size < whole.size(); size += 3) {
+    EXPECT_THAT(refusalOf(whole, size), HasSubstr("is cut short")) << size;
+  }
+  EXPECT_THAT(refusalOf(whole, whole.size()), HasSubstr("no keyframe"));
+  std::vector<std::uint8_t> greedy = whole;
+  constexpr std::size_t kFlags = 40;  // where their number is
+  std::fill_n(greedy.begin() + kFlags, 4, 0xFF);
+  EXPECT_THAT(refusalOf(greedy, greedy.size()), HasSubstr("is cut short"))
+      << "and no room is made for 16 GB";
+}
+
+TEST(ReadRecordingTest, RefusesAGapThatWouldBePlayedForYears) {
+  const test::ScratchFile file;
+  {
+    rosbag::Bag bag(file.path(), rosbag::bagmode::Write);
+    bag.write("/station/gesture", kStart, block(0));
+    bag.write("/station/gesture", kStart, block(1'000'000'000'000));
+    bag.write("/station/keyframe", kStart, keyframe());
+  }
+  EXPECT_THAT(errorOf(file.path()),
+              HasSubstr("block of tick 1000000000000: the number of ticks between it and the one "
+                        "before is 1e+12, allowed: 0...1e+08"));
 }
 
 TEST(ReadRecordingTest, RefusesWhatIsNoBag) {

@@ -38,11 +38,4 @@ inline void expectRefused(const BadText& bad, const std::string& name) {
   }
 }
 
-template <std::size_t N>
-void expectAllRefused(const BadText (&all)[N], const std::string& file) {
-  for (const BadText& bad : all) {
-    expectRefused(bad, file);
-  }
-}
-
 }  // namespace ergotic::scene

@@ -56,6 +56,8 @@ TEST(PositionsCsvTest, SaysWhereTheFileIsWrong) {
   EXPECT_EQ(positionsError("tick,x0\n-1,0\n").substr(0, 22), ":2:1: error: tick '-1'");
   EXPECT_EQ(positionsError("tick,x0\n0,nan\n").substr(0, 27), ":2:3: error: position 'nan'");
   EXPECT_EQ(positionsError("tick,x0,x1\n0,0\n"), ":2:3: error: 2 columns, expected 3");
+  EXPECT_EQ(positionsError("tick,x0\n9223372036854775806,0\n"),
+            ":2:1: error: tick '9223372036854775806', allowed 0...1000000000000000");
 }
 
 TEST(PositionsCsvTest, RefusesPathsThatCannotBeUsed) {
@@ -165,7 +167,9 @@ TEST(TargetGestureTest, RefusesRecordedPositionsThatNoHandCanFollow) {
 TEST(TargetGestureTest, SaysWhereARowIsWrong) {
   const std::string ok = "0,0,0\n";
   EXPECT_EQ(targetsError(ok + "0,0,0.01\n"),
-            "g.csv:2:1: error: time_s '0' is not after the slice's row before it");
+            "g.csv:2:1: error: time_s '0' is not after the slice's row before it, by 1e-9 s at "
+            "least");
+  EXPECT_THAT(targetsError(ok + "5e-324,0,0.01\n"), HasSubstr("g.csv:2:1: error: time_s '5e-324'"));
   EXPECT_EQ(targetsError(ok + "1, 2,0\n"), "g.csv:2:4: error: slice '2', allowed 0...1");
   EXPECT_EQ(targetsError(ok + "1,-1,0\n"), "g.csv:2:3: error: slice '-1', allowed 0...1");
   EXPECT_EQ(targetsError(ok + "1,0,0.11\n"),

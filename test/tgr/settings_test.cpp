@@ -31,6 +31,16 @@ TEST(SettingsTest, SaysWhatIsNotAMapOrNotYaml) {
             "s.yaml:2:1:");
 }
 
+TEST(SettingsTest, AreOneDocumentAndNothingBehindIt) {
+  EXPECT_NO_THROW(settingsOf("---\na: 1\n...\n"));
+  EXPECT_EQ(complaintOf<TextError>([] { settingsOf("a: 1\n---\nb: 2\n"); }),
+            "s.yaml:2:1: error: a second document, allowed: one");
+  EXPECT_EQ(complaintOf<TextError>([] { settingsOf("{a: 1}\n,"); }),
+            "s.yaml:2:1: error: a second document, allowed: one");
+  EXPECT_EQ(complaintOf<TextError>([] { settingsOf(" ,"); }),
+            "s.yaml:1:2: error: a second document, allowed: one");
+}
+
 TEST(SettingsTest, KnowsThePlacesOfAPartOfAText) {
   const YAML::Node whole = parseSettings(
       "top:\n"

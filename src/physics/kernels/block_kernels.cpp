@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The kernels of blocks, compiled once for each level of vector instructions: CMakeLists.txt sets
-// ERGOTIC_LEVEL, the namespace, and ERGOTIC_VECTOR_BYTES. Nothing may be shared with other
-// translation units, which run on other processors: no standard library, all in that namespace.
+// ERGOTIC_LEVEL, the namespace, and ERGOTIC_VECTOR_BYTES. Nothing may be shared with other units,
+// which run on other processors: no standard library but its types, all in that namespace.
 #include "physics/kernels/block_kernels.hpp"
+
+#include <utility>
 
 #include "physics/kernels/levels.hpp"
 
@@ -18,12 +20,10 @@ struct VectorOf;
 template <>
 struct VectorOf<float> {
   typedef float Type __attribute__((vector_size(ERGOTIC_VECTOR_BYTES), aligned(4), may_alias));
-  typedef int Mask __attribute__((vector_size(ERGOTIC_VECTOR_BYTES)));
 };
 template <>
 struct VectorOf<double> {
   typedef double Type __attribute__((vector_size(ERGOTIC_VECTOR_BYTES), aligned(8), may_alias));
-  typedef long long Mask __attribute__((vector_size(ERGOTIC_VECTOR_BYTES)));
 };
 template <class Real>
 using Vector = typename VectorOf<Real>::Type;
@@ -228,13 +228,13 @@ double viscous(const LatticeArguments<Real>& a, Index first, Index last) noexcep
 }
 
 /// The vector one element on: the last of `one` is the first of `other`.
+template <int kFrom, class Real, int... kLane>
+ERGOTIC_INLINE Real slide(Real one, Real other, std::integer_sequence<int, kLane...>) noexcept {
+  return __builtin_shufflevector(one, other, (kFrom + kLane)...);
+}
 template <class Real, int kFrom>
 ERGOTIC_INLINE Vector<Real> slide(Vector<Real> one, Vector<Real> other) noexcept {
-  typename VectorOf<Real>::Mask mask;
-  for (int i = 0; i < kWidth<Real>; ++i) {
-    mask[i] = kFrom + i;
-  }
-  return __builtin_shuffle(one, other, mask);
+  return slide<kFrom>(one, other, std::make_integer_sequence<int, kWidth<Real>>());
 }
 
 /// Differences of one array (x, d) along a plate's row and across its rows, as a pass along the row

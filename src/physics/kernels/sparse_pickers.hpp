@@ -3,9 +3,11 @@
 // sparse_kernels.cpp, under its rules.
 #if defined(__AVX512F__)
 #include <immintrin.h>
+#if !defined(__clang__)
 // GCC 12 takes the undefined parts of its own intrinsics for mistakes.
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #pragma GCC diagnostic ignored "-Wuninitialized"
+#endif
 #endif
 
 #define ERGOTIC_INLINE inline __attribute__((always_inline))
@@ -171,8 +173,8 @@ ERGOTIC_INLINE void pick(const SparseArguments<float>& a,
   const Pair* pairs = reinterpret_cast<const Pair*>(a.pairs) + base;
   const auto low = reinterpret_cast<Vector<float>>(Two{pairs[index[0]], pairs[index[1]]});
   const auto high = reinterpret_cast<Vector<float>>(Two{pairs[index[2]], pairs[index[3]]});
-  x = __builtin_shuffle(low, high, Bits<float>{0, 2, 4, 6});
-  d = __builtin_shuffle(low, high, Bits<float>{1, 3, 5, 7});
+  x = __builtin_shufflevector(low, high, 0, 2, 4, 6);
+  d = __builtin_shufflevector(low, high, 1, 3, 5, 7);
 }
 template <class Index>
 ERGOTIC_INLINE void pick(const SparseArguments<double>& a,
@@ -182,8 +184,8 @@ ERGOTIC_INLINE void pick(const SparseArguments<double>& a,
                          Vector<double>& d) noexcept {
   const Vector<double> low = load(a.pairs + 2 * (base + index[0]));
   const Vector<double> high = load(a.pairs + 2 * (base + index[1]));
-  x = __builtin_shuffle(low, high, Bits<double>{0, 2});
-  d = __builtin_shuffle(low, high, Bits<double>{1, 3});
+  x = __builtin_shufflevector(low, high, 0, 2);
+  d = __builtin_shufflevector(low, high, 1, 3);
 }
 
 /// `bits`: which lane of present each 4 bytes of a vector stand for.

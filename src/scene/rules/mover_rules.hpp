@@ -5,8 +5,11 @@
 #include <string>
 
 #include "ergotic/scene/scene.hpp"
+#include "scene/limits.hpp"
 
 namespace ergotic::scene {
+
+constexpr Limits kTargetLimits{"m", -1e6, 1e6};  ///< of agents: differences stay finite
 
 /// What is wrong, and where.
 struct Fault {

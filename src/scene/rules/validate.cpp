@@ -352,7 +352,7 @@ class Validator {
     Limits times{"s", 0.0};
     for (const auto& [time, position] : a.knots) {
       number(a.place, "time" + of, time, times);
-      number(a.place, "position" + of, position, kMetreLimits);
+      number(a.place, "position" + of, position, kTargetLimits);
       times = {"s", time, kInfinity, true};
     }
     if (a.period_s != 0.0) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/rules/mover_rules.hpp"
 #include "scene/text/csv_line.hpp"
 
 namespace ergotic::scene {
@@ -63,7 +64,7 @@ class GestureReader {
     first_tick_ = gesture_.points.empty() ? tick : first_tick_;
     for (int i = 0; i < slices_; ++i) {
       csv.skipSeparator();
-      const double x = csv.number("position", kMetreLimits, columns);
+      const double x = csv.number("position", kTargetLimits, columns);
       if (i == slice_) {
         gesture_.points.emplace_back(tick - first_tick_, x);
       }
@@ -79,7 +80,7 @@ class GestureReader {
     csv.skipSeparator();
     const double slice = csv.number("slice", kSliceLimits, kTargetLine);
     csv.skipSeparator();
-    const double target = csv.number("target", kMetreLimits, kTargetLine);
+    const double target = csv.number("target", kTargetLimits, kTargetLine);
     csv.expectEnd(std::string("more than three numbers in a line, allowed: ") + kTargetLine);
     if (slice != slice_) {
       return;

@@ -6,6 +6,7 @@
 #include "ergotic/scene/text/read_scene.hpp"
 #include "scene/text/overrides.hpp"
 #include "scene/text/source_text.hpp"
+#include "scene/yaml/yaml_documents.hpp"
 #include "scene/yaml/yaml_elements.hpp"
 #include "scene/yaml/yaml_rows.hpp"
 #include "scene/yaml/yaml_tables.hpp"
@@ -17,13 +18,9 @@ constexpr int kFormatVersion = 1;
 
 /// The scene, and after it the tables of its files if the text has them.
 std::vector<YAML::Node> parse(const SceneBuilder& builder, const std::string& text) {
-  std::vector<YAML::Node> documents =
-      parseYaml(builder, "a scene needs", [&] { return YAML::LoadAll(text); });
+  std::vector<YAML::Node> documents = readDocuments(builder, text, 2, "a scene needs");
   if (documents.empty() || documents.front().IsNull()) {
     builder.fail({1, 1}, "the scene is empty, allowed: a map that begins with 'ergotic: 1'");
-  }
-  if (documents.size() > 2) {
-    builder.fail(placeOf(documents[2], {1, 1}), "a third document, allowed: at most two");
   }
   return documents;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "scene/rules/lia_rules.hpp"
+#include "scene/rules/mover_rules.hpp"
 #include "scene/yaml/gesture_csv.hpp"
 #include "scene/yaml/point_files.hpp"
 #include "scene/yaml/points.hpp"
@@ -104,7 +105,7 @@ PointList knotsIn(const SceneBuilder& builder,
     }
     const double time = numberOf(builder, point[0], "time of a point of " + what, times, at);
     knots.emplace_back(
-        time, numberOf(builder, point[1], "position of a point of " + what, kMetreLimits, at));
+        time, numberOf(builder, point[1], "position of a point of " + what, kTargetLimits, at));
     times = {"s", time, kInfinity, true};
   }
   return knots;

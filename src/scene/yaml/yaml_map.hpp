@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <yaml-cpp/depthguard.h>
 #include <yaml-cpp/yaml.h>
 
-#include <algorithm>
 #include <functional>
 #include <initializer_list>
 #include <optional>
@@ -20,22 +18,6 @@ namespace ergotic::scene {
 
 /// Where a node begins; `fallback` if it is empty or yaml-cpp does not know.
 Place placeOf(const YAML::Node& node, Place fallback);
-
-/// What `load()` gives. \param needs  how deep a text may nest, for messages
-/// \throws TextError where the text is not YAML
-template <class Load>
-auto parseYaml(const SceneBuilder& builder, const std::string& needs, const Load& load) {
-  const auto placeOfMark = [](const YAML::Mark& mark) {
-    return Place{std::max(mark.line, 0) + 1, std::max(mark.column, 0) + 1};
-  };
-  try {
-    return load();
-  } catch (const YAML::DeepRecursion& e) {
-    builder.fail(placeOfMark(e.mark), "nested too deeply, allowed: as deep as " + needs);
-  } catch (const YAML::Exception& e) {
-    builder.fail(placeOfMark(e.mark), "not valid YAML: " + e.msg);
-  }
-}
 
 /// What a node is, for messages, as in `a list of 3`.
 std::string kindOf(const YAML::Node& node);

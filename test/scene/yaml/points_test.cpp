@@ -2,7 +2,7 @@
 #include "scene/yaml/points.hpp"
 
 #include "ergotic/scene/grid.hpp"
-#include "scene/bad_text.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
 #include "scene/generate/mesh.hpp"
 #include "scene/generate/string.hpp"
 #include "support/test.hpp"
@@ -204,46 +204,6 @@ TEST_F(PointAtTest, RefusesWhatIsNoPlace) {
                   pointAt(builder_, place, {7, 8});
                 }),
                 AllOf(StartsWith("test.yaml:7:8: error: "), HasSubstr(message)));
-  }
-}
-
-#define SCENE                                                                                 \
-  "ergotic: 1\nsections: {a: {}}\nparameters: {p: {value: 0, range: [-1, 1]}}\ngenerators:\n" \
-  "  - {type: string, name: s, masses: 3, mass: 1, stiffness: 1, to: [1, 0]}\n"               \
-  "  - {type: mesh, name: net, rows: 3, columns: 3, spacing: 1, mass: 1, stiffness: 1}\nmats: "
-const BadText kPoints[] = {
-    {SCENE "{<!>q: {type: point, at: 0.3}}\n", "missing key 'along' of module 'q'"},
-    {SCENE "{<!>q: {type: point, along: s}}\n", "missing key 'at' of module 'q'"},
-    {SCENE "{q: {type: point, along: <!>z, at: 0.3}}\n", "unknown string or mesh 'z'"},
-    {SCENE "{q: {type: point, along: s, at: <!>2}}\n", "= 2 is out of range, allowed: 0...1"},
-    {SCENE "{q: {type: point, along: s, at: <!>$p}}\n",
-     "(where p = -1) = -1 is out of range, allowed: 0...1"},
-    {SCENE "{q: {type: point, along: s, at: <!>[0.3, 0.4]}}\n",
-     "is a list of 2, allowed: a single"},
-    {SCENE "{q: {type: point, along: net, at: <!>0.3}}\n",
-     "is no place on mesh 'net', allowed: [along, across]"},
-    {SCENE "{q: {type: point, along: net, at: [0.3, <!>7]}}\n",
-     "second number of 'at' of module 'q' = 7 is out of range, allowed: 0...1"},
-    {SCENE "{q: {type: point, along: s, at: <!>0.5, range: [0.1, 0.4]}}\n",
-     "= 0.5 is out of range, allowed: 0.1...0.4"},
-    {SCENE "{q: {type: point, along: s, at: 0.5, range: <!>[1, 0]}}\n",
-     "allowed: [lowest, highest]"},
-    {SCENE "{q: {type: point, along: s, at: 0.5, speed: <!>0}}\n",
-     "= 0 1/s is out of range, allowed: > 0 1/s"},
-    {SCENE "{q: {type: point, along: s, at: 0.5, <!>section: a}}\n",
-     "'section' of module 'q', allowed: none"},
-    {SCENE "{q: {type: point, along: s, at: 0.5, <!>mass: 1}}\n", "unknown key 'mass'"},
-    {SCENE "{q: {type: point, along: s, at: 0.5, guide: {mat: <!>k, scale: 1}}}\n",
-     "unknown module 'k'"},
-    {SCENE "{q: {type: point, along: s, at: 0.5, <!>guide: {mat: s.1}}}\n", "missing key 'scale'"},
-    {SCENE "{q: {type: point, along: s, at: 0.5},\n"
-           "  r: {type: point, along: s, at: 0.1, guide: {mat: <!>q, scale: 1}}}\n",
-     "is guided by point 'q', allowed: modules of any other type"},
-    {SCENE "{<!>s.1: {type: point, along: s, at: 0.5}}\n", "module 's.1' is defined twice"},
-};
-TEST(PointErrorsTest, AreRefusedAtTheirPlace) {
-  for (const BadText& bad : kPoints) {
-    expectRefused(bad, "bad.yaml");
   }
 }
 

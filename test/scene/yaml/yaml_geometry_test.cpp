@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/bad_text.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::scene {
@@ -121,101 +121,6 @@ TEST(YamlGeometryTest, InputsAndOutputsHaveAnAxisAndMayBeOnPoints) {
   EXPECT_EQ(s.outputs[1].point.next, -1);
 }
 
-#define SECTION(fields) "ergotic: 1\nsections: {a: {" fields "}}\n"
-const BadText kBadSections[] = {
-    {SECTION("geometry: <!>plan"), "unknown geometry 'plan' of section 'a'; did you mean 'plane'?"},
-    {SECTION("geometry: plane, gravity: <!>9.81"),
-     "'gravity' of section 'a' is a single value, allowed: a list of 2 numbers"},
-    {SECTION("geometry: space, gravity: <!>[0, 1]"),
-     "is a list of 2, allowed: a list of 3 numbers"},
-    {SECTION("gravity: <!>[1, 2]"), "is a list of 2, allowed: a number or a list of 1 number"},
-    {SECTION("gravity: <!>x"), "'x' is not a finite number, allowed: any finite number of m/s^2"},
-    {SECTION("medium: <!>-1"), "= -1 N s/m is out of range, allowed: >= 0 N s/m"},
-    {SECTION("sleep: <!>0"), "= 0 J is out of range, allowed: > 0 J"},
-    {SECTION("modes: <!>some"), "'modes' of section 'a' is 'some', allowed: all, auto or a number"},
-    {SECTION("modes: <!>0"), "= 0 is out of range, allowed: 1...1000000"},
-    {"ergotic: 1\nsections: {<!>a: {geometry: plane, modes: all}}\n",
-     "modes of section 'a' are of no use there, allowed: in sections of geometry scalar"},
-    {SECTION("rate: <!>automatic"), "unknown rate 'automatic'"},
-    {SECTION("rate: gestural, sleep: 1") "mats: {<!>k: {type: slice}}\n",
-     "slice 'k' is in section 'a', which may sleep, allowed: sections without 'sleep'"},
-    {SECTION("sleep: 1") "mats: {<!>d: {type: driven}}\n",
-     "driven module 'd' is in section 'a', which may sleep, allowed: sections without 'sleep'"},
-    {SECTION("rate: audio") "mats: {<!>k: {type: slice}}\n",
-     "in a section that is not gestural, allowed: sections with rate: gestural or auto"},
-    {SECTION("rate: auto") "mats: {m: {type: mass, mass: 1}}\n"
-                           "generators:\n"
-                           "  - <!>{type: chaplet, name: c, from: m, mass: 1}\n",
-     "allowed: scalar sections with rate: audio"},
-};
-#define PLANE(mat) SECTION("geometry: plane") "mats: {m: {" mat "}}\n"
-const BadText kBadMats[] = {
-    {PLANE("type: mass, mass: 1, at: <!>[1]"),
-     "'at' of module 'm' is a list of 1, allowed: a list of 2 to 3 numbers"},
-    {PLANE("type: mass, mass: 1, at: <!>[1, 2, 3, 4]"), "is a list of 4"},
-    {PLANE("type: mass, mass: 1, at: [1, <!>x]"), "'x' is not a finite number"},
-    {PLANE("type: mass, mass: 1, x: <!>1"), "is a single value, allowed: a list of 2 numbers"},
-    {PLANE("type: mass, mass: 1, v: <!>[1, 2, 3]"), "is a list of 3, allowed: a list of 2"},
-    {PLANE("type: mass, mass: 1, <!>rest: 1"),
-     "'rest' of module 'm' has no meaning in section 'a' of geometry plane, allowed: 'at'"},
-    {PLANE("type: ground, <!>x: [1, 2]"), "'x' of module 'm' has no meaning in section 'a'"},
-    {PLANE("type: cell, mass: 1, matched: <!>yes"), "unknown matched 'yes' of module 'm'"},
-    {PLANE("type: mass, mass: 1, <!>matched: true"), "unknown key 'matched' of module 'm'"},
-    {SECTION("geometry: space") "mats: {m: {type: mass, mass: 1, at: <!>[1, 2]}}\n",
-     "allowed: a list of 3 numbers"},
-    {SECTION("geometry: line") "mats: {m: {type: mass, mass: 1, at: <!>[]}}\n",
-     "allowed: a number or a list of 1 to 3 numbers"},
-    {SECTION("") "mats: {m: {type: mass, mass: 1, x: <!>[1, 2]}}\n",
-     "is a list of 2, allowed: a number or a list of 1 number"},
-};
-#define PLANE_MASS SECTION("geometry: plane") "mats: {m: {type: mass, mass: 1}}\n"
-const BadText kBadAxes[] = {
-    {PLANE_MASS "inputs: {i: {mat: m, quantity: force, channel: 1, axis: <!>z}}\n",
-     "unknown axis 'z' of input 'i'"},
-    {PLANE_MASS "outputs: {o: {at: m, quantity: force, channel: 1, axis: <!>z}}\n",
-     "unknown axis 'z' of output 'o'"},
-    {SECTION("") "mats: {m: {type: mass, mass: 1}}\n"
-                 "outputs: {o: {at: m, quantity: force, channel: 1, axis: <!>y}}\n",
-     "unknown axis 'y' of output 'o'"},
-};
-#define STRING(section, fields) \
-  SECTION(section) "generators:\n  - {type: string, name: s, masses: 3, mass: 1, " fields "}\n"
-#define MESH(fields) \
-  SECTION("") "generators:\n  - {type: mesh, name: n, mass: 1, stiffness: 1, " fields "}\n"
-const BadText kBadGenerators[] = {
-    {STRING("geometry: plane", "stiffness: 1, to: <!>[0, 0]"), "is where it comes from"},
-    {STRING("geometry: plane", "stiffness: 1, to: <!>[0]"), "allowed: a list of 2 to 3 numbers"},
-    {STRING("geometry: plane", "frequency: 1, to: [1, 0], rest_length_ratio: <!>1"),
-     "leaves no tension for 'frequency'"},
-    {STRING("geometry: plane", "stiffness: 1, to: [1, 0], scheme: <!>guarded"),
-     "guarded without a rest length, allowed: explicit, or 'rest_length_ratio' above 0"},
-    {STRING("geometry: plane", "stiffness: 1, to: [1, 0], rest_length_ratio: <!>1.5"),
-     "= 1.5 is out of range, allowed: 0...1"},
-    {STRING("", "stiffness: 1, to: [1, 0], <!>rest_length_ratio: 0.5"),
-     "has no meaning in section 'a' of geometry scalar, allowed: line, plane, space"},
-    {STRING("geometry: plane", "frequency: 1, to: [1, 0], <!>coarse: true"),
-     "has no meaning in section 'a' of geometry plane, allowed: scalar"},
-    {STRING("", "<!>stiffness: 1, to: [1, 0], coarse: true"),
-     "is fitted for a coarse string, allowed: 'frequency'"},
-    {SECTION("") "generators:\n  - {type: string, name: s, masses: <!>2, mass: 1, frequency: 1, "
-                 "to: [1, 0], coarse: true}\n",
-     "= 2 is out of range, allowed: 3...1999998"},
-    {STRING("", "frequency: 1, to: [1, 0], coarse: <!>maybe"), "known: false, true"},
-    {MESH("rows: <!>2, columns: 3, spacing: 1"), "= 2 is out of range, allowed: 3...1000000"},
-    {MESH("rows: 2, columns: <!>1, spacing: 1, edges: free"), "allowed: 2...1000000"},
-    {MESH("rows: 3, columns: 3, spacing: <!>0"), "= 0 m is out of range, allowed: > 0 m"},
-    {SECTION("") "generators:\n  - {type: mesh, name: <!>n, mass: 1, stiffness: 1, rows: 3000, "
-                 "columns: 3000, spacing: 1}\n",
-     "would have 9000000 modules, allowed: at most 2000000"},
-    {MESH("rows: 3, columns: 3, spacing: 1, edges: <!>open"), "known: fixed, free, corners"},
-    {MESH("rows: 3, columns: 3, spacing: 1, neighbours: <!>6"),
-     "unknown neighbours '6' of generator"},
-    {MESH("rows: 3, columns: 3, spacing: 1, <!>diagonal_stiffness: 1"),
-     "without diagonals, allowed with neighbours: 8"},
-    {STRING("", "stiffness: 1, to: [1, 0]") "  - {type: mesh, name: <!>s, mass: 1, stiffness: 1, "
-                                            "rows: 3, columns: 3, spacing: 1}\n",
-     "'s.link.0' is defined twice, first in line 4"},
-};
 TEST(YamlGeometryTest, PortsMoveAnyCoordinateThatMoves) {
   const std::string mats =
       "  tip: {type: slice, section: space2, at: [1, 2, 3]}\n"
@@ -235,22 +140,6 @@ TEST(YamlGeometryTest, PortsMoveAnyCoordinateThatMoves) {
   }
   EXPECT_EQ(s.ports[2].offset, 0.5);
   EXPECT_TRUE(s.warnings.empty());
-}
-
-#define TWO_AXES                                                   \
-  "ergotic: 1\nsections: {p: {geometry: plane, rate: gestural}}\n" \
-  "mats: {k: {type: slice}}\n"
-const BadText kBadPorts[] = {
-    {TWO_AXES "ports: {a: {mat: k, axis: <!>z}}\n", "unknown axis 'z' of port 'a'"},
-    {TWO_AXES "ports: {a: {mat: k, axis: y}, <!>b: {mat: k, axis: y}}\n",
-     "port 'b' moves module 'k' along y, which port 'a' does"},
-};
-TEST(YamlGeometryTest, WhatIsWrongIsRefusedAtItsPlace) {
-  expectAllRefused(kBadSections, "bad.yaml");
-  expectAllRefused(kBadMats, "bad.yaml");
-  expectAllRefused(kBadAxes, "bad.yaml");
-  expectAllRefused(kBadGenerators, "bad.yaml");
-  expectAllRefused(kBadPorts, "geometry.yaml");
 }
 
 }  // namespace

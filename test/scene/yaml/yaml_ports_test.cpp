@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "scene/bad_text.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::scene {
@@ -107,49 +107,6 @@ TEST(YamlAgentsTest, TheHandMovesInTheSectionThatIsNamed) {
   const Scene s = readYaml(text, "a.yaml");
   EXPECT_EQ(s.mats[2].section, 0);
   EXPECT_EQ(s.mats[3].section, 1);
-}
-
-#define HEAD                                             \
-  "ergotic: 1\nsections: {s: {}, h: {rate: gestural}}\n" \
-  "mats: {m: {type: mass, section: s, mass: 1}}\n"
-#define AGENT(fields) HEAD "agents: {<!>a: {mat: m, stiffness: 1, " fields "}}\n"
-#define MARKED(fields) HEAD "agents: {a: {mat: m, stiffness: 1, " fields "}}\n"
-const BadText kBadAgents[] = {
-    {"ergotic: 1\nsections: {s: {}}\nmats: {m: {type: mass, mass: 1}}\n"
-     "agents: {<!>a: {mat: m, stiffness: 1, points: [[0, 0]]}}\n",
-     "agent 'a' needs a section for its hand and the scene has no gestural one, allowed: at least "
-     "one with rate: gestural"},
-    {"ergotic: 1\nsections: {s: {}, h: {rate: gestural}, i: {rate: gestural}}\n"
-     "mats: {m: {type: mass, section: s, mass: 1}}\n"
-     "agents: {<!>a: {mat: m, stiffness: 1, points: [[0, 0]]}}\n",
-     "missing key 'section' of agent 'a', allowed: h, i"},
-    {MARKED("section: <!>s, points: [[0, 0]]"), "in a section that is not gestural"},
-    {AGENT("damping: 1"), "has neither 'points' nor 'gesture', allowed: one of them"},
-    {AGENT("points: [[0, 0]], gesture: {file: g.csv, slice: 0}"), "has both"},
-    {MARKED("points: <!>[]"), "is not a list of points, allowed: 1...1048576 pairs [s, m]"},
-    {MARKED("points: [[0, 0], <!>[1]]"), "is not a pair of numbers"},
-    {MARKED("points: [[<!>-1, 0]]"), "= -1 s is out of range, allowed: >= 0 s"},
-    {MARKED("points: [[1, 0], [<!>1, 0]]"), "= 1 s is out of range, allowed: > 1 s"},
-    {MARKED("points: [[1, <!>.nan]]"), "is not a finite number"},
-    {MARKED("points: [[0, 0]], loop: <!>true"), "has no point after 0 s"},
-    {MARKED("points: [[0, 0], [2, 0]], period: <!>1"), "= 1 s is out of range, allowed: >= 2 s"},
-    {MARKED("points: [[0, 0], [2, 0]], loop: true, <!>period: 3"), "has both 'loop' and 'period'"},
-    {MARKED("points: [[0, 0]], axis: <!>y"), "unknown axis 'y'"},
-    {MARKED("points: [[0, 0]], damping: <!>-1"), "= -1 N s/m is out of range"},
-    {MARKED("points: [[0, 0]], <!>slice: 1"), "unknown key 'slice'"},
-    {MARKED("gesture: {file: <!>/g.csv, slice: 0}"), "is no path from the scene's folder"},
-    {MARKED("gesture: {file: <!>none.csv, slice: 0}"), "No such file"},
-    {MARKED("gesture: {file: g.csv, slice: <!>64}"), "allowed: 0...63"},
-    {MARKED("gesture: {file: g.csv, slice: 0, tick_rate: <!>1}"), "allowed: 500...48000 Hz"},
-    {MARKED("gesture: {file: <!>g.csv, slice: 0}") "---\ngestures: {b: [[0, 0]]}\n",
-     "the gesture of agent 'a' is not among those of the second document"},
-    {MARKED("gesture: {file: g.csv, slice: 0}") "---\ngestures: {a: [[0, 0]], <!>b: [[0, 0]]}\n",
-     "gesture 'b' is used by no agent"},
-    {MARKED("gesture: {file: g.csv, slice: 0}") "---\ngestures: {a: [[0, 0], [<!>0, 1]]}\n",
-     "time of a point of gesture 'a' = 0 s is out of range, allowed: > 0 s"},
-};
-TEST(YamlAgentsTest, WhatIsWrongIsRefusedAtItsPlace) {
-  expectAllRefused(kBadAgents, "bad.yaml");
 }
 
 /// A folder with gestures, `g.csv` as given.
@@ -289,30 +246,6 @@ TEST(YamlPortFilterTest, ItsMassMayMoveInAFasterSection) {
       "a.yaml");
   EXPECT_EQ(s.mats[1].section, 1);
   EXPECT_EQ(s.mats.at(static_cast<std::size_t>(s.lias[0].b)).section, 0);
-}
-
-#define FILTER(fields)                                                 \
-  "ergotic: 1\ngestural_rate: 3000\nsections: {h: {rate: gestural}}\n" \
-  "mats: {k: {type: slice}}\nports: {p: {mat: k, filter: {" fields "}}}\n"
-const BadText kBadFilters[] = {
-    {FILTER("mass: <!>0, frequency: 100"), "= 0 kg is out of range, allowed: > 0 kg"},
-    {FILTER("mass: 1, frequency: <!>0"), "allowed: above 0...497.189"},
-    {FILTER("mass: 1, frequency: <!>498"), "= 498 Hz is out of range, allowed: above 0...497.189"},
-    {FILTER("mass: 1, frequency: <!>955, damping_ratio: 0"), "allowed: above 0...954.929"},
-    {FILTER("mass: 1, frequency: 100, damping_ratio: <!>3"), "allowed: 0...2"},
-    {FILTER("mass: 1, frequency: 100, <!>stiffness: 3"), "unknown key 'stiffness'"},
-    {"ergotic: 1\nsections: {h: {rate: gestural}, l: {geometry: line}}\n"
-     "mats: {k: {type: slice, section: h}}\n"
-     "ports: {p: {mat: k, filter: {mass: 1, frequency: 9, section: <!>l}}}\n",
-     "in a section of another geometry or pose than that of 'k', allowed: the same"},
-    {"ergotic: 1\nsections: {h: {rate: gestural, geometry: plane}}\n"
-     "mats: {k: {type: slice}}\n"
-     "ports: {x: {mat: k, filter: {mass: 1, frequency: 9}},\n"
-     "        y: {mat: k, axis: y, <!>filter: {mass: 1, frequency: 9}}}\n",
-     "port 'y' has a filter and so has another port of its module"},
-};
-TEST(YamlPortFilterTest, WhatIsWrongIsRefusedAtItsPlace) {
-  expectAllRefused(kBadFilters, "bad.yaml");
 }
 
 }  // namespace

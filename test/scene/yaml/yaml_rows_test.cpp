@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/scene/text/read_scene.hpp"
-#include "scene/bad_text.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::scene {
@@ -105,41 +104,6 @@ TEST(YamlRowsTest, EveryElementHasThePlaceOfItsName) {
 TEST(YamlRowsTest, ATableMayHaveNoRows) {
   EXPECT_TRUE(readYaml(HEAD "mats: {t: {columns: [name], rows: []}}\n", "a.yaml").mats.empty());
 }
-
-class BadRowsTest : public testing::TestWithParam<BadText> {};
-
-TEST_P(BadRowsTest, IsRefusedAtItsPlace) {
-  expectRefused(GetParam(), "rows.yaml");
-}
-
-#define TABLE HEAD "mats:\n  t: {with: {type: mass, section: s}, "
-INSTANTIATE_TEST_SUITE_P(
-    All,
-    BadRowsTest,
-    testing::Values(
-        BadText{TABLE "columns: [name, mass], rows: [[a, 1], [b, <!>-2]]}\n",
-                "'mass' of module 'b' = -2 kg is out of range, allowed: > 0 kg"},
-        BadText{TABLE "columns: [name, mass], rows: [[a, 1], <!>[b]]}\n",
-                "a row of table 't' has 1 cells, allowed: one for each of the 2 columns"},
-        BadText{TABLE "columns: [name, mass], rows: [<!>b]}\n", "allowed: one for each"},
-        BadText{TABLE "columns: [name, mass], rows: [[a, 1], [<!>a, 1]]}\n",
-                "module 'a' is defined twice, first in line 5"},
-        BadText{TABLE "columns: [name, mass], rows: [[<!>1a, 1]]}\n", "name '1a' is not legal"},
-        BadText{TABLE "columns: [name, mass], rows: [[a, <!>[1]]]}\n",
-                "'mass' of module 'a' is a list"},
-        BadText{TABLE "columns: [name, <!>name, mass], rows: []}\n", "column 'name' of table 't'"},
-        BadText{TABLE "columns: <!>[mass], rows: []}\n", "has no 'name'"},
-        BadText{TABLE "columns: <!>mass, rows: []}\n", "is not a list"},
-        BadText{TABLE "columns: [name, mass], rows: <!>7}\n", "'rows' of table 't' is not a list"},
-        BadText{TABLE "columns: [name, mas], rows: [[a, <!>1]]}\n", "unknown key 'mas'"},
-        BadText{HEAD
-                "mats:\n  t: {with: {type: mass, <!>mass: 1}, columns: [name, mass], rows: []}\n",
-                "is a column, too"},
-        BadText{TABLE "columns: [name, mass], rows: [], <!>more: 1}\n", "unknown key 'more'"},
-        BadText{HEAD "mats:\n  <!>t: {rows: []}\n", "missing key 'columns' of table 't'"},
-        BadText{HEAD "mats:\n  t: {columns: [name], with: {type: mass, section: s}, rows: "
-                     "[[<!>a]]}\n",
-                "missing key 'mass' of module 'a'"}));
 
 }  // namespace
 }  // namespace ergotic::scene

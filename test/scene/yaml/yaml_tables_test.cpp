@@ -200,43 +200,5 @@ TEST_F(YamlTablesTest, TextAndTablesTogetherAreNoLongerThanATextMayBe) {
                                 "allowed: at most 67108864 in all"));
 }
 
-const BadText kBad[] = {
-    {BOW "{file: <!>/etc/hosts}}}\n", "is no path from the scene's folder"},
-    {BOW "{file: <!>\"\"}}}\n", "is no path from the scene's folder"},
-    {BOW "{file: <!>\"a\\nb\"}}}\n", "is no path from the scene's folder"},
-    {BOW "{file: <!>[a]}}}\n", "'file' of 'table' of link 'x' is a list"},
-    {HEAD
-     "lias: {x: {type: bow, between: [m, n], <!>table: {file: a, points: [[0, 0], [1, 1]]}}}\n",
-     "'table' of link 'x' has both 'points' and 'file', allowed: one of them"},
-    {HEAD "lias: {x: {type: bow, between: [m, n], <!>table: {interpolation: linear}}}\n",
-     "'table' of link 'x' has neither 'points' nor 'file', allowed: one of them"},
-    {BOW "{points: [[0, 0], [1, 1]], interpolation: <!>spline}}}\n",
-     "unknown interpolation 'spline' of 'table' of link 'x'; known: linear, monotone"},
-    {BOW "{points: [[0, 0], [1, 1]], <!>smooth: true}}}\n", "unknown key 'smooth'"},
-    {BOW "{points: <!>[[0, 0]]}}}\n", "is not a list of points, allowed: 2...4096 pairs"},
-    {BOW "{points: [[0, 0], <!>[0, 1]]}}}\n", "= 0 is out of range, allowed: > 0"},
-    {BOW "<!>3}}\n", "'table' of link 'x' is not a list of points"},
-    {BOW "{file: <!>t.csv}}}\n---\ntables: {\"u.csv\": [[0, 0], [1, 1]]}\n",
-     "file 't.csv' of 'table' of link 'x' is not among the tables of the second document"},
-    {BOW "{file: t.csv}}}\n---\ntables: {t.csv: [[0, 0], [1, 1]], <!>u.csv: [[0, 0], [1, 1]]}\n",
-     "table 'u.csv' is used by no link"},
-    {BOW "[[0, 0], [1, 1]]}}\n---\ntables: {<!>u.csv: 3}\n", "table 'u.csv' is used by no link"},
-    {BOW "{file: t.csv}}}\n---\ntables: {<!>t.csv: [[0, 0]]}\n",
-     "table 't.csv' is not a list of points, allowed: 2...4096 pairs"},
-    {BOW "{file: t.csv}}}\n---\ntables: {t.csv: [[0, 0], [1, <!>x]]}\n",
-     "'x' is not a finite number"},
-    {BOW "{file: t.csv}}}\n---\ntables: {t.csv: [[0, 0], [1, 1]], <!>t.csv: [[0, 0], [1, 1]]}\n",
-     "key 't.csv' of 'tables' of the second document comes twice"},
-    {BOW "{file: t.csv}}}\n---\n<!>tables: {t.csv: [[0, 0], [1, 1]]}\nmore: 1\n",
-     "a second document, allowed: one in each file, and one after it that begins with 'tables:'"},
-    {BOW "{file: t.csv}}}\n---\n<!>[tables]\n", "a second document"},
-    {BOW "{file: t.csv}}}\n---\ntables: <!>[1]\n", "is a list of 1, allowed: a map"},
-    {BOW "{file: t.csv}}}\n---\ntables: {t.csv: [[0, 0], [1, 1]]}\n---\n<!>a: 1\n",
-     "a third document, allowed: at most two"},
-};
-TEST_F(YamlTablesTest, WrongTablesAreRefusedAtTheirPlace) {
-  expectAllRefused(kBad, "bad.yaml");
-}
-
 }  // namespace
 }  // namespace ergotic::scene

@@ -16,6 +16,7 @@ namespace ergotic::tgr {
 namespace {
 
 constexpr double kMaxTimeS = 1e6;
+constexpr double kShortestS = 1e-9;  // between rows of a slice: a hand moves at finite speed
 
 bool isHeader(const CsvReader& csv) {
   if (csv.text(0) != "time_s") {
@@ -42,9 +43,9 @@ TargetGesture::TargetGesture(std::istream& in, const std::string& name, int slic
     const auto slice = static_cast<std::size_t>(csv.integer(1, "slice", 0, slices - 1));
     const double target_m = csv.number(2, "target_m", -kMaxTargetM, kMaxTargetM);
     std::vector<Knot>& knots = knots_[slice];
-    if (!knots.empty() && t_s <= knots.back().t) {
-      csv.fail(0,
-               "time_s '" + std::string(csv.text(0)) + "' is not after the slice's row before it");
+    if (!knots.empty() && t_s - knots.back().t < kShortestS) {
+      csv.fail(0, "time_s '" + std::string(csv.text(0)) +
+                      "' is not after the slice's row before it, by 1e-9 s at least");
     }
     knots.push_back({t_s, target_m});
   }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ergotic/scene/coarse_string.hpp"
+#include "ergotic/scene/generate/pitch.hpp"
 #include "physics/settling/coarse_string.hpp"
 
 namespace ergotic::physics {
@@ -35,7 +36,7 @@ double valueAt(const Measured& points, double x) {
 }
 
 /// h^2 w^2 of every mode in continuous time; empty if that cannot be had.
-std::vector<double> eigenvaluesOf(const scene::StringCut& cut, double pitch) {
+std::vector<double> eigenvaluesOf(const scene::StringCut& cut, double pitch, bool is_tuned) {
   std::vector<double> values;
   if (cut.coarse) {
     const int fitted = fittedPartials(cut.masses);
@@ -48,18 +49,20 @@ std::vector<double> eigenvaluesOf(const scene::StringCut& cut, double pitch) {
     }
     return values;
   }
-  const double half = kPi / (2.0 * (cut.masses + 1));
+  const double angle = 2.0 * kPi * pitch;
+  const double lowest = is_tuned ? scene::modeKappa(angle, 0.0) : angle * angle;
+  const double link = lowest / scene::stringEigenvalue(cut.masses, 1);
   for (int mode = 1; mode <= cut.masses; ++mode) {
-    values.push_back(std::pow(2.0 * kPi * pitch * std::sin(mode * half) / std::sin(half), 2));
+    values.push_back(link * scene::stringEigenvalue(cut.masses, mode));
   }
   return values;
 }
 
 }  // namespace
 
-std::vector<double> partialsOf(const scene::StringCut& cut, double pitch) {
+std::vector<double> partialsOf(const scene::StringCut& cut, double pitch, bool is_tuned) {
   std::vector<double> partials(kJudgedPartials, std::numeric_limits<double>::quiet_NaN());
-  const std::vector<double> values = eigenvaluesOf(cut, pitch);
+  const std::vector<double> values = eigenvaluesOf(cut, pitch, is_tuned);
   const auto holds = [](double value) { return value > 0.0 && value < 4.0; };
   if (std::all_of(values.begin(), values.end(), holds)) {
     const std::size_t count = std::min(partials.size(), values.size());
@@ -70,10 +73,10 @@ std::vector<double> partialsOf(const scene::StringCut& cut, double pitch) {
   return partials;
 }
 
-double stringError(const scene::StringCut& cut, double pitch) {
+double stringError(const scene::StringCut& cut, double pitch, bool is_tuned) {
   double worst = 0.0;
   double ideal = 0.0;
-  for (const double partial : partialsOf(cut, pitch)) {
+  for (const double partial : partialsOf(cut, pitch, is_tuned)) {
     ideal += pitch;
     const double error = std::abs(partial / ideal - 1.0);
     worst = error >= worst ? error : std::isnan(error) ? kInfinity : worst;

@@ -76,6 +76,10 @@ class StringPart final : public TargetPart {
   }
 
  private:
+  double errorOf(const StringCut& cut, double rate_hz) const {
+    return stringError(cut, pitch_hz_ / rate_hz, string_.frequency_hz > 0.0);
+  }
+
   PartOption search(const Rates& rates, double allowed) const {
     PartOption best = asItIs(rates);
     if (!reason_.empty()) {
@@ -92,7 +96,7 @@ class StringPart final : public TargetPart {
     // More masses are better until the step cannot carry them; the first that do are the cheapest.
     for (int masses = kJudgedPartials; masses <= kMostMasses; ++masses) {
       const StringCut cut{masses, false};
-      if (consider(cut) || !std::isfinite(stringError(cut, pitch_hz_ / rateOf(section_, rates)))) {
+      if (consider(cut) || !std::isfinite(errorOf(cut, rateOf(section_, rates)))) {
         break;
       }
     }
@@ -108,7 +112,7 @@ class StringPart final : public TargetPart {
     PartOption result;
     const double rate_hz = rateOf(section_, rates);
     result.cut = cut;
-    result.error = stringError(cut, pitch_hz_ / rate_hz);
+    result.error = errorOf(cut, rate_hz);
     result.cost = elementsOf(cut) * rate_hz;
     const StringCut now = scene::cutOf(string_);
     if (cut.masses != now.masses || cut.coarse != now.coarse) {

@@ -69,7 +69,7 @@ bool isSettled(const Scene& scene) {
     return std::none_of(all.begin(), all.end(), is_open);
   };
   return none(scene.sections, [](const Section& s) { return s.automatic_rate; }) &&
-         none(scene.strings, [](const StringInfo& s) { return s.corrected_hz > 0.0; }) &&
+         none(scene.strings, [](const StringInfo& s) { return s.frequency_hz > 0.0; }) &&
          none(scene.lias,
               [](const Lia& lia) { return lia.filtered || lia.scheme == Scheme::kAuto; });
 }

@@ -81,7 +81,7 @@ TEST(TargetOptionTest, CheckExplainsTheProposalPartByPart) {
   EXPECT_THAT(outcome.text,
               AllOf(HasSubstr("\ntarget:\n  asked: 1 cent\n  reached: yes\n"),
                     HasSubstr("part: string 'string'"), HasSubstr("worst of ten partials"),
-                    HasSubstr("now: 0.949 cents"), HasSubstr("steps_per_s: {now: "),
+                    HasSubstr("now: 0.967 cents"), HasSubstr("steps_per_s: {now: "),
                     HasSubstr("cpu_percent: {now: "), HasSubstr("chaplet 'plectrum'")));
   EXPECT_THAT(run("check", kString).text, Not(HasSubstr("target:")));
 }

@@ -33,7 +33,7 @@ double heardCents(const Scene& scene, const Rates& rates, Precision precision) {
   const scene::StringCut cut = scene::cutOf(scene.strings[0]);
   double worst = 0.0;
   double ideal_hz = 0.0;
-  for (const double partial : partialsOf(cut, 98.0 / rates.audio_hz)) {
+  for (const double partial : partialsOf(cut, 98.0 / rates.audio_hz, true)) {
     ideal_hz += 98.0;
     const double guess_hz = partial * rates.audio_hz;
     const double heard_hz = test::partialNear(player.heard[0], guess_hz, rates.audio_hz);
@@ -47,7 +47,7 @@ Proposal proposalFor(const Scene& scene, const std::string& target, const Freedo
 }
 
 double errorOf(const scene::StringCut& cut, double rate_hz) {
-  return 1200.0 * std::log2(1.0 + stringError(cut, 98.0 / rate_hz));
+  return 1200.0 * std::log2(1.0 + stringError(cut, 98.0 / rate_hz, true));
 }
 
 TEST(TargetTest, StringIsAsGoodAsAskedForWhenItIsPlayed) {

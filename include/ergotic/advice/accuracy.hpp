@@ -15,11 +15,13 @@ constexpr int kJudgedPartials = 10;
 
 /// The first ten partials of an undamped string under the explicit scheme, cycles per step; NaN
 /// where it has no such mode, and all of them if it is unstable or cannot be fitted at this step.
-/// \param pitch  its fundamental in continuous time, cycles per step
-std::vector<double> partialsOf(const scene::StringCut& cut, double pitch);
+/// \param pitch     its fundamental, cycles per step
+/// \param is_tuned  to that pitch as it sounds, as coarse ones always are; else it is the pitch in
+///                  continuous time
+std::vector<double> partialsOf(const scene::StringCut& cut, double pitch, bool is_tuned);
 
 /// The worst of the first ten partials against the ideal string; infinity if one is missing.
-double stringError(const scene::StringCut& cut, double pitch);
+double stringError(const scene::StringCut& cut, double pitch, bool is_tuned);
 
 /// A mode of a linear network that is stepped explicitly, against continuous time.
 /// \param angle  w h, rad; infinity from 2 on, where it is unstable

@@ -282,9 +282,11 @@ struct StringInfo {
   Value stiffness;  ///< of one link
   Value damping;    ///< of one link
   Value loss;       ///< of one mass to the ground
-  /// Coarse string: > 0, the wanted fundamental, Hz; `settle` then fits the springs to the next
-  /// three neighbours to the partials of an ideal string (links in the order of addString).
-  double corrected_hz = 0.0;
+  /// > 0: the wanted fundamental, Hz. `settle` tunes the links to it, and leaves 0.
+  double frequency_hz = 0.0;
+  /// Its links also go to the second and third neighbours, in the order of addString; `settle` fits
+  /// them to the partials of an ideal string.
+  bool coarse = false;
   int first_lia = 0;  ///< index of its first link
 };
 
@@ -327,7 +329,7 @@ struct Scene {
   int outputChannels() const;
 };
 
-/// True if the scene leaves nothing open: no rate, scheme, chaplet or coarse string is still to be
+/// True if the scene leaves nothing open: no rate, scheme, chaplet or pitch of a string is still to be
 /// chosen (physics::settle does); `compile` and `certify` need that.
 bool isSettled(const Scene& scene);
 

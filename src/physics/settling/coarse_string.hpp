@@ -2,11 +2,9 @@
 #pragma once
 
 #include <array>
-#include <string>
 #include <vector>
 
-#include "ergotic/physics/rates.hpp"
-#include "ergotic/scene/scene.hpp"
+#include "ergotic/scene/generate/pitch.hpp"
 
 namespace ergotic::physics {
 
@@ -22,20 +20,23 @@ struct CoarseFit {
 /// Half of the modes are fitted: the others are what a coarse string lacks.
 int fittedPartials(int masses);
 
-/// Least squares on the partials f, 2 f, ... of an ideal string, under the explicit scheme:
-/// 4 sin^2(w_j h/2) = sum over k of kappa_k (2 - 2 cos(k j pi / (N+1))), relative error.
+/// Least squares on the partials f, 2 f, ... of an ideal string, the first of them exact, under the
+/// explicit scheme: sum over k of kappa_k (2 - 2 cos(k j pi / (N+1))) = scene::modeKappa of partial
+/// j, relative error.
 /// \param masses     N, moving ones, at least 3
 /// \param frequency  f h, cycles per step
 /// \param partials   3...N
-/// \pre partials * frequency < 1/2
-CoarseFit fitCoarseString(int masses, double frequency, int partials);
+/// \pre partials * frequency < 1/2, and no mode loses all of its velocity in a step
+CoarseFit fitCoarseString(int masses,
+                          double frequency,
+                          int partials,
+                          const scene::StringLoss& loss = {});
 
-/// Eigenvalue of h^2 M^-1 K of mode j = 1...N: a string holds still if all are positive, and is
-/// stable if all are below 4.
+/// Eigenvalue of h^2 M^-1 K of mode j = 1...N.
 double coarseEigenvalue(const CoarseFit& fit, int masses, int mode);
 
-/// Sets the springs of every string that asks for it to the fit at its own step.
-/// \throws TextError if a string has less than 3 masses, or a pitch that its rate cannot carry
-void fitCoarseStrings(scene::Scene& scene, const Rates& rates, std::vector<std::string>& notes);
+/// The first mode j whose eigenvalue is not between 0, where the string does not hold still, and 4,
+/// where it is unstable; 0: there is none.
+int wildMode(const CoarseFit& fit, int masses);
 
 }  // namespace ergotic::physics

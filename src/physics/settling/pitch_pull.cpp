@@ -34,12 +34,7 @@ std::string noteOn(const scene::Scene& scene, const scene::StringInfo& string, c
   }
   const double rate_hz = rates.audio_hz / divisorOf(scene.sectionOf(first), rates);
   if (!scene::holdsPitch(scene, string, rate_hz)) {
-    return text +
-           "is flat, by up to some hundred cents: its guarded links hold their tension up to "
-           "h^2 K/M = 0.25, and it is " +
-           shortly(scene::stringKappa(scene, string, rate_hz)) +
-           ". Take scheme: explicit where that is stable, a higher rate, fewer masses or a smaller "
-           "rest_length_ratio";
+    return text + "is flat: " + flatness(scene, string, rate_hz);
   }
   text += "sounds " + shortly(pitchPullCents(slack, 0.001)) +
           " cents higher at an amplitude of 0.1 % of its length, " +
@@ -57,6 +52,21 @@ std::string noteOn(const scene::Scene& scene, const scene::StringInfo& string, c
 
 double pitchPullCents(double slack, double amplitude) {
   return 1602.0 * slack / (1.0 - slack) * amplitude * amplitude;
+}
+
+std::string flatness(const scene::Scene& scene, const scene::StringInfo& string, double rate_hz) {
+  const double kappa = scene::stringKappa(scene, string, rate_hz);
+  if (kappa > scene::kStiffestInTune) {
+    return "its guarded links hold their tension up to h^2 K/M = " +
+           shortly(scene::kStiffestInTune) + ", and it is " + shortly(kappa) +
+           ". Take scheme: explicit where that is stable, a higher rate, fewer masses or a smaller "
+           "rest_length_ratio";
+  }
+  return "the dampers of its guarded links take up to 2 h Z/M of their tension, which is not heard "
+         "up to h Z/M = " +
+         shortly(scene::kMostDampedInTune) + ", and it is " +
+         shortly(scene::stringZeta(scene, string, rate_hz)) +
+         ". Take 'loss' instead of 'damping', or scheme: explicit";
 }
 
 void notePitchPull(const scene::Scene& scene, const Rates& rates, std::vector<std::string>& notes) {

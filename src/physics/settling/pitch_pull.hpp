@@ -15,6 +15,9 @@ namespace ergotic::physics {
 /// \param amplitude  of the fundamental over the length of the string
 double pitchPullCents(double slack, double amplitude);
 
+/// Why a string does not hold its pitch, and what would help. \pre it does not
+std::string flatness(const scene::Scene& scene, const scene::StringInfo& string, double rate_hz);
+
 /// Says of every string in a plane or in space what it gains by not being scalar, or that it does
 /// not hold its pitch. \pre schemes and rates are chosen
 void notePitchPull(const scene::Scene& scene, const Rates& rates, std::vector<std::string>& notes);

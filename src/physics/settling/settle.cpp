@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "physics/settling/automatic_rate.hpp"
-#include "physics/settling/coarse_string.hpp"
 #include "physics/settling/filters.hpp"
 #include "physics/settling/pitch_pull.hpp"
 #include "physics/settling/scheme_choice.hpp"
 #include "physics/settling/sleep_bound.hpp"
+#include "physics/settling/string_tuning.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 /// Everything but the rates. A chaplet is tuned to the springs of what it touches; schemes depend
 /// on the masses that a link ends on.
 scene::Scene complete(scene::Scene scene, const Rates& rates, std::vector<std::string>& notes) {
-  fitCoarseStrings(scene, rates, notes);
+  tuneStrings(scene, rates, notes);
   insertFilters(scene, rates, notes);
   chooseSchemes(scene, rates, notes);
   return scene;

@@ -66,7 +66,8 @@ class Cutter {
     info.loss = (1.0 / finer_) * string_.loss;
     info.damping = finer_ * string_.damping;
     info.stiffness = stiffer * stiffer / finer_ * string_.stiffness;
-    info.corrected_hz = cut_.coarse ? idealPitchHz(from_, string_) : 0.0;
+    info.frequency_hz = cut_.coarse ? idealPitchHz(from_, string_) : string_.frequency_hz;
+    info.coarse = cut_.coarse;
   }
   static double halfSine(int masses) { return std::sin(M_PI / (2.0 * (masses + 1))); }
 
@@ -222,12 +223,12 @@ class Cutter {
 }  // namespace
 
 StringCut cutOf(const StringInfo& string) {
-  return {string.count - 2, string.corrected_hz > 0.0};
+  return {string.count - 2, string.coarse};
 }
 
 double idealPitchHz(const Scene& scene, const StringInfo& string) {
-  if (string.corrected_hz > 0.0) {
-    return string.corrected_hz;
+  if (string.frequency_hz > 0.0) {
+    return string.frequency_hz;
   }
   const Mat& mat = scene.mats[at(string.first)];
   double stiffness = scene.valueOf(string.stiffness);

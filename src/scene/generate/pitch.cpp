@@ -4,65 +4,106 @@
 #include <cmath>
 #include <limits>
 
+#include "at.hpp"
+
 namespace ergotic::scene {
 namespace {
 
-/// Share of a velocity that the ground takes in a step: zeta of one mass, by its loss and by the
-/// medium.
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// In the scene's time unit.
+double stepOf(const Scene& scene, double rate_hz) {
+  return 1.0 / (rate_hz * scene.time_unit_s);
+}
+
+bool movesAlong(const Scene& scene, const StringInfo& string) {
+  return dimensionsOf(scene.sectionOf(scene.mats[at(string.first)]).geometry) == 1;
+}
+
+/// zeta of one mass.
 double groundLoss(const Scene& scene, const StringInfo& string, double step) {
-  const Mat& mat = scene.mats[static_cast<std::size_t>(string.first + 1)];
+  const Mat& mat = scene.mats[at(string.first + 1)];
   const double damping = scene.valueOf(string.loss) + scene.valueOf(scene.sectionOf(mat).medium);
   const double zeta = damping * step / scene.valueOf(string.mass);
   const bool first_order = mat.type == MatType::kCell && !mat.matched;
   return first_order ? zeta : -std::expm1(-zeta);
 }
 
-/// What the tension leaves of a link's stiffness across the string.
-double transverseShare(const Scene& scene, const StringInfo& string) {
-  const Lia& link = scene.lias[static_cast<std::size_t>(string.first_lia)];
-  const Mat& first = scene.mats[static_cast<std::size_t>(string.first)];
-  const Mat& second = scene.mats[static_cast<std::size_t>(string.first + 1)];
+/// What the tension leaves of a link's stiffness across the string; 1 along it.
+double tensionShare(const Scene& scene, const StringInfo& string) {
+  if (movesAlong(scene, string)) {
+    return 1.0;
+  }
+  const Mat& first = scene.mats[at(string.first)];
+  const Mat& last = scene.mats[at(string.first + string.count - 1)];
   const int moving = dimensionsOf(scene.sectionOf(first).geometry);
-  return 1.0 - link.rest_length / (second.rest - first.rest).head(moving).norm();
+  const double length = (last.rest - first.rest).head(moving).norm() / (string.count - 1);
+  return 1.0 - scene.lias[at(string.first_lia)].rest_length / length;
 }
 
 }  // namespace
 
+double modeAngle(double kappa, double zeta) {
+  // (1 - zeta) - real^2, without the cancellation that a low mode would suffer
+  const double imaginary_squared = kappa - 0.25 * (kappa + zeta) * (kappa + zeta);
+  const double real = 0.5 * (2.0 - kappa - zeta);
+  return imaginary_squared > 0.0 ? std::atan2(std::sqrt(imaginary_squared), real) : kNone;
+}
+
+double modeKappa(double angle, double zeta) {
+  if (!(zeta < 1.0 && angle < M_PI)) {
+    return kNone;
+  }
+  const double rho = std::sqrt(1.0 - zeta);
+  const double lost = zeta / (1.0 + rho);  // 1 - rho
+  const double half = std::sin(0.5 * angle);
+  return lost * lost + 4.0 * rho * half * half;
+}
+
+double stringEigenvalue(int masses, int mode) {
+  const double half = std::sin(mode * M_PI / (2.0 * (masses + 1)));
+  return 4.0 * half * half;
+}
+
+StringLoss stringLoss(const Scene& scene, const StringInfo& string, double rate_hz) {
+  return {groundLoss(scene, string, stepOf(scene, rate_hz)),
+          movesAlong(scene, string) ? stringZeta(scene, string, rate_hz) : 0.0};
+}
+
 double stringKappa(const Scene& scene, const StringInfo& string, double rate_hz) {
-  const double h = 1.0 / (rate_hz * scene.time_unit_s);  // in the scene's time unit
-  return scene.valueOf(string.stiffness) * h * h / scene.valueOf(string.mass);
+  const double step = stepOf(scene, rate_hz);
+  return scene.valueOf(string.stiffness) * step * step / scene.valueOf(string.mass);
+}
+
+double stringZeta(const Scene& scene, const StringInfo& string, double rate_hz) {
+  return stepOf(scene, rate_hz) * scene.valueOf(string.damping) / scene.valueOf(string.mass);
 }
 
 bool holdsPitch(const Scene& scene, const StringInfo& string, double rate_hz) {
-  constexpr double kStiffest = 0.25;  // both masses and both neighbours count
-  const Lia& link = scene.lias[static_cast<std::size_t>(string.first_lia)];
-  return link.scheme != Scheme::kGuarded || stringKappa(scene, string, rate_hz) <= kStiffest;
+  return scene.lias[at(string.first_lia)].scheme != Scheme::kGuarded ||
+         (stringKappa(scene, string, rate_hz) <= kStiffestInTune &&
+          stringZeta(scene, string, rate_hz) <= kMostDampedInTune);
 }
 
 double stringPitchHz(const Scene& scene, const StringInfo& string, double rate_hz) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  if (string.corrected_hz > 0.0 || !holdsPitch(scene, string, rate_hz)) {
+  const bool is_open = string.coarse && string.frequency_hz > 0.0;
+  if (is_open || !holdsPitch(scene, string, rate_hz)) {
     return kNone;
   }
-  const double h = 1.0 / (rate_hz * scene.time_unit_s);  // in the scene's time unit
-  const double half = std::sin(M_PI / (2.0 * (string.count - 1)));
-  const double s = 4.0 * half * half;
-  const double mass = scene.valueOf(string.mass);
-  double kappa = s * stringKappa(scene, string, rate_hz);
-  double zeta = groundLoss(scene, string, h);
-  const Mat& first = scene.mats[static_cast<std::size_t>(string.first)];
-  if (dimensionsOf(scene.sectionOf(first).geometry) == 1) {
-    zeta += s * scene.valueOf(string.damping) * h / mass;
-  } else {
-    kappa *= transverseShare(scene, string);
-  }
-  const double real = 0.5 * (2.0 - kappa - zeta);
-  // (1 - zeta) - real^2, without the cancellation that a low mode would suffer
-  const double imaginary_squared = kappa - 0.25 * (kappa + zeta) * (kappa + zeta);
-  if (!(imaginary_squared > 0.0)) {
-    return kNone;
-  }
-  return std::atan2(std::sqrt(imaginary_squared), real) / (2.0 * M_PI) * rate_hz;
+  const int masses = string.count - 2;
+  const double kappa = stringEigenvalue(masses, 1) * tensionShare(scene, string) *
+                       stringKappa(scene, string, rate_hz);
+  const double zeta = stringLoss(scene, string, rate_hz).ofMode(masses, 1);
+  return modeAngle(kappa, zeta) / (2.0 * M_PI) * rate_hz;
+}
+
+Value tunedStiffness(const Scene& scene, const StringInfo& string, double rate_hz) {
+  const int masses = string.count - 2;
+  const double step = stepOf(scene, rate_hz);
+  const double kappa = modeKappa(2.0 * M_PI * string.frequency_hz / rate_hz,
+                                 stringLoss(scene, string, rate_hz).ofMode(masses, 1));
+  const double one_link = stringEigenvalue(masses, 1) * tensionShare(scene, string);
+  return kappa / (one_link * step * step) * string.mass;
 }
 
 }  // namespace ergotic::scene

@@ -42,9 +42,8 @@ Value stringStiffness(int masses, const Value& mass, double frequency_hz) {
 }
 
 void addString(SceneBuilder& builder, const StringSpec& spec) {
-  const bool coarse = spec.corrected_hz > 0.0;
   const int count = spec.masses + 2;
-  const int links = coarse ? coarseLinks(spec.masses) : spec.masses + 1;
+  const int links = spec.coarse ? coarseLinks(spec.masses) : spec.masses + 1;
   builder.reserve(static_cast<std::size_t>(count), static_cast<std::size_t>(links), spec.place);
   StringInfo info;
   info.name = spec.name;
@@ -55,7 +54,8 @@ void addString(SceneBuilder& builder, const StringSpec& spec) {
   info.stiffness = spec.stiffness;
   info.damping = spec.damping;
   info.loss = spec.loss.value_or(Value{});
-  info.corrected_hz = spec.corrected_hz;
+  info.frequency_hz = spec.frequency_hz;
+  info.coarse = spec.coarse;
   const Name stem(spec.name + ".");
   for (int i = 0; i < count; ++i) {
     builder.add(stringMat(builder, spec, stem, i));
@@ -66,7 +66,7 @@ void addString(SceneBuilder& builder, const StringSpec& spec) {
       spec.rest_length_ratio * (spec.to - spec.from).head(moving).norm() / (spec.masses + 1);
   const Name link_stem = linkStem(spec.name);
   for (int i = 0; i < links; ++i) {
-    const CoarseLink ends = coarse ? coarseLink(spec.masses, i) : CoarseLink{i, i + 1, {}};
+    const CoarseLink ends = spec.coarse ? coarseLink(spec.masses, i) : CoarseLink{i, i + 1, {}};
     Lia lia = generatedLink(link_stem, i, info.first + ends.a, info.first + ends.b, spec.place);
     if (i <= spec.masses) {
       lia.stiffness = spec.stiffness;

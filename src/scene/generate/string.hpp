@@ -21,9 +21,8 @@ struct StringSpec {
   Value stiffness;
   Value damping;              ///< of each link
   std::optional<Value> loss;  ///< of each mass to the ground
-  /// Coarse: the fundamental, Hz, > 0; 0: ordinary. A coarse string starts with the springs of the
-  /// ordinary one, the others being 0, until its stiffnesses are fitted.
-  double corrected_hz = 0.0;
+  double frequency_hz = 0.0;  ///< > 0: tuned to it when settled; the stiffness is a first guess
+  bool coarse = false;        ///< also links to the second and third neighbours, 0 until settled
   double rest_length_ratio = 0.0;     ///< rest length of a link / its length at rest; not scalar
   Scheme scheme = Scheme::kExplicit;  ///< of links with a rest length
   Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< rest of the first ground, m

@@ -239,12 +239,13 @@ class Validator {
     index({1, 1}, "first module" + of, s.first, scene_.mats.size());
     index({1, 1}, "last module" + of, s.count < 3 ? -1 : s.first + s.count - 1, scene_.mats.size());
     const Place place = scene_.mats[static_cast<std::size_t>(s.first)].place;
-    const bool coarse = s.corrected_hz != 0.0;
-    if (coarse) {
-      number(place, "frequency" + of, s.corrected_hz, kFrequencyLimits);
+    if (s.frequency_hz != 0.0) {
+      number(place, "frequency" + of, s.frequency_hz, kFrequencyLimits);
+    }
+    if (s.coarse) {
       number(place, "masses" + of, s.count - 2, {"", kFewestCoarseMasses});
     }
-    const int links = coarse ? coarseLinks(s.count - 2) : s.count - 1;
+    const int links = s.coarse ? coarseLinks(s.count - 2) : s.count - 1;
     index(place, "first link" + of, s.first_lia, scene_.lias.size());
     index(place, "last link" + of, s.first_lia + links - 1, scene_.lias.size());
   }

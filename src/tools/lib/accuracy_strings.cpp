@@ -35,7 +35,7 @@ std::string stringScene(int masses, const char* more) {
 double worstCents(const std::vector<double>& sound, const scene::StringCut& cut, double rate_hz) {
   double worst = 0.0;
   double ideal_hz = 0.0;
-  for (const double foretold : physics::partialsOf(cut, kPitchHz / rate_hz)) {
+  for (const double foretold : physics::partialsOf(cut, kPitchHz / rate_hz, true)) {
     ideal_hz += kPitchHz;
     const double is_hz = partialAt(sound, foretold * rate_hz, rate_hz).frequency_hz;
     worst = std::max(worst, std::abs(cents(is_hz, ideal_hz)));

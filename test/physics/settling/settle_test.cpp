@@ -77,7 +77,7 @@ TEST(SettleTest, EveryOpenChoiceMakesASceneUnsettled) {
   };
   EXPECT_FALSE(open([](scene::Scene&) {}));
   EXPECT_TRUE(open([](scene::Scene& s) { s.sections[1].automatic_rate = true; }));
-  EXPECT_TRUE(open([](scene::Scene& s) { s.strings[0].corrected_hz = 110.0; }));
+  EXPECT_TRUE(open([](scene::Scene& s) { s.strings[0].frequency_hz = 110.0; }));
   EXPECT_TRUE(open([](scene::Scene& s) { s.lias[2].scheme = scene::Scheme::kAuto; }));
   EXPECT_TRUE(open([](scene::Scene& s) { s.lias[2].filtered = true; }));
 }

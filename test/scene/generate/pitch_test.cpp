@@ -271,7 +271,8 @@ TEST(CutStringTest, ThereAndBackAgainIsTheSameString) {
   const Scene before = played();
   const Scene after = cutString(cutString(before, 0, {24, true}), 0, {39, false});
   const StringInfo& a = after.strings[0];
-  EXPECT_EQ(a.corrected_hz, 0.0);
+  EXPECT_EQ(a.frequency_hz, before.strings[0].frequency_hz);
+  EXPECT_FALSE(a.coarse);
   for (const Value StringInfo::*value :
        {&StringInfo::mass, &StringInfo::stiffness, &StringInfo::damping, &StringInfo::loss}) {
     const double was = (before.strings[0].*value).factor;
@@ -284,7 +285,8 @@ TEST(CutStringTest, ThereAndBackAgainIsTheSameString) {
 TEST(CutStringTest, CoarseOneHasTheLinksThatTheStationFits) {
   const Scene after = cutString(played(), 0, {24, true});
   const StringInfo& a = after.strings[0];
-  EXPECT_NEAR(a.corrected_hz, 110.0, 1e-9);
+  EXPECT_NEAR(a.frequency_hz, 110.0, 1e-9);
+  EXPECT_TRUE(a.coarse);
   for (int i = 0; i < coarseLinks(24); ++i) {
     const Lia& lia = after.lias[static_cast<std::size_t>(a.first_lia + i)];
     EXPECT_EQ(lia.name, "a.link." + std::to_string(i));
@@ -344,7 +346,8 @@ TEST(CoarseStringTest, GeneratorMakesTheLinksInTheirOrderStartingAsAnOrdinaryStr
       "     coarse: true, to: [1, 0]}\n",
       "coarse.yaml");
   const StringInfo& string = scene.strings[1];
-  EXPECT_EQ(string.corrected_hz, 110.0);
+  EXPECT_EQ(string.frequency_hz, 110.0);
+  EXPECT_TRUE(string.coarse);
   EXPECT_EQ(string.first_lia, 3);
   ASSERT_EQ(scene.lias.size(), 3U + static_cast<std::size_t>(coarseLinks(5)));
   for (int i = 0; i < coarseLinks(5); ++i) {

@@ -17,7 +17,7 @@ struct Settled {
 };
 
 /// Makes every choice that a scene leaves to the station, now that the rates are known: the rate of
-/// sections with `rate: auto`, the springs of coarse strings, chaplets of filtered links, the
+/// sections with `rate: auto`, the springs of strings with a pitch, chaplets of filtered links, the
 /// scheme of `auto` links. What the scene itself says is kept; new modules and links come last, so
 /// that indices stay. Realtime: no. \throws TextError if something asked for is impossible at these
 /// rates (C2 below R = 4)

@@ -24,7 +24,7 @@ std::string reasonAgainstCutting(const Scene& scene, int string);
 bool canBeCoarse(const Scene& scene, int string);
 
 /// Fundamental of the undamped string in continuous time, Hz, whatever it is cut into; the one that
-/// is wanted of a coarse one. Parameters have their present values.
+/// is wanted, if one is. Parameters have their present values.
 double idealPitchHz(const Scene& scene, const StringInfo& string);
 
 /// The same string cut into another number of masses: mass, tension, losses, pitch and shape at the

@@ -30,15 +30,13 @@ Value readStringStiffness(const SceneBuilder& builder, const YamlMap& map, const
   if (map.has("stiffness")) {
     return map.value("stiffness", kStiffnessLimits);
   }
-  const double frequency_hz = map.number("frequency", kFrequencyLimits);
   return 1.0 / transverseShare(builder, map, spec) *
-         stringStiffness(spec.masses, spec.mass, frequency_hz);
+         stringStiffness(spec.masses, spec.mass, spec.frequency_hz);
 }
 
-/// The frequency of a coarse string, 0 of an ordinary one.
-double readCoarse(const SceneBuilder& builder, const YamlMap& map, const StringSpec& spec) {
+bool readCoarse(const SceneBuilder& builder, const YamlMap& map, const StringSpec& spec) {
   if (!map.flag("coarse", false)) {
-    return 0.0;
+    return false;
   }
   const Section& section = sectionAt(builder, spec.section);
   if (section.geometry != Geometry::kScalar) {
@@ -53,7 +51,7 @@ double readCoarse(const SceneBuilder& builder, const YamlMap& map, const StringS
     map.fail("masses", outOfRange("'masses' of coarse " + map.what(), spec.masses,
                                   {"", kFewestCoarseMasses, kMaxMats - 2}));
   }
-  return map.number("frequency", kFrequencyLimits);
+  return true;
 }
 
 void readStringPlaces(const SceneBuilder& builder, const YamlMap& map, StringSpec& spec) {
@@ -81,8 +79,9 @@ void readString(SceneBuilder& builder, const std::string& name, const YamlMap& m
   spec.mass = map.value("mass", kMassLimits);
   spec.rest_length_ratio = readRestLengthRatio(builder, map, spec.section);
   spec.scheme = readScheme(map, spec.rest_length_ratio);
+  spec.frequency_hz = map.number("frequency", kFrequencyLimits, 0.0);
   spec.stiffness = readStringStiffness(builder, map, spec);
-  spec.corrected_hz = readCoarse(builder, map, spec);
+  spec.coarse = readCoarse(builder, map, spec);
   spec.damping = map.value("damping", kDampingLimits, {});
   if (map.has("loss")) {
     spec.loss = map.value("loss", kDampingLimits);

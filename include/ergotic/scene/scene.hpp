@@ -329,8 +329,8 @@ struct Scene {
   int outputChannels() const;
 };
 
-/// True if the scene leaves nothing open: no rate, scheme, chaplet or pitch of a string is still to be
-/// chosen (physics::settle does); `compile` and `certify` need that.
+/// True if the scene leaves nothing open: no rate, scheme, chaplet or pitch of a string is still to
+/// be chosen (physics::settle does); `compile` and `certify` need that.
 bool isSettled(const Scene& scene);
 
 /// Checks every rule that does not depend on how the scene was written.

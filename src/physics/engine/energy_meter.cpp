@@ -8,6 +8,20 @@
 #include "physics/kernels/link_kernels.hpp"
 
 namespace ergotic::physics {
+namespace {
+
+bool isSpring(const LinkRun& run) {
+  return scene::lawOf(run.law).kind == scene::Law::Kind::kLinear && !run.guarded;
+}
+
+/// Whether audio inputs change its stiffness, which is work that no balance has.
+bool isDriven(const scene::Scene& scene, const LinkRun& run) {
+  return std::any_of(run.lias.begin(), run.lias.end(),
+                     [&](int lia) { return scene.lias[at(lia)].stiffness.audio >= 0; });
+}
+
+}  // namespace
+
 template <class Real>
 EnergyMeter<Real>::EnergyMeter(const scene::Scene& scene, const Layout& layout, State<Real>& state)
     : layout_(layout),
@@ -40,6 +54,9 @@ EnergyMeter<Real>::EnergyMeter(const scene::Scene& scene, const Layout& layout, 
   for (const LinkRun& run : layout.runs) {
     coupling_of_run_.push_back(
         run.section_a == run.section_b ? kInside : couple(run.section_a, run.section_b));
+    const bool is_inside = coupling_of_run_.back() == kInside;
+    follows_positions_.push_back(isSpring(run) && run.dimensions == 0 &&
+                                 (is_inside || !isDriven(scene, run)));
   }
   scratch_ = make();
   if (!state.isMetered()) {
@@ -152,14 +169,12 @@ double EnergyMeter<Real>::storedIn(std::size_t run,
     return springsOf(layout_.blocks[at(asked.block)], asked, c.blocks[at(asked.block)], c.masses,
                      state);
   }
-  if (!remembers(asked)) {
+  const bool is_inside = coupling_of_run_[run] == kInside;
+  if (state.isMetered() ? follows_positions_[run] : is_inside && isSpring(asked)) {
     return springsOf(asked, c.runs[run], state);
   }
   if (!state.isMetered()) {
-    const bool is_spring =
-        scene::lawOf(asked.law).kind == scene::Law::Kind::kLinear && !asked.guarded;
-    return is_spring && coupling_of_run_[run] == kInside ? springsOf(asked, c.runs[run], state)
-                                                         : 0.0;
+    return 0.0;
   }
   const LinkWork work = workOf(run, state);
   return work.initial + work.stored;
@@ -210,10 +225,8 @@ void EnergyMeter<Real>::addLinks(const CoefficientsOf<Real>& c,
     CouplingEnergy& coupling = to.couplings[coupling_of_run_[r]];
     coupling.stored += stored;
     coupling.dissipated += work.dissipated;
-    coupling.breathing += work.stored + work.dissipated;
-    coupling.breathing += work.on_a;
+    coupling.made += work.made;
     to.sections[at(run.section_a)].from_links += work.on_a;
-    coupling.breathing += work.on_b;
     to.sections[at(run.section_b)].from_links += work.on_b;
   }
 }
@@ -276,7 +289,7 @@ double EnergyMeter<Real>::collect(const CoefficientsOf<Real>& c,
                                   const State<Real>& state,
                                   Energies& to) const noexcept {
   for (CouplingEnergy& coupling : to.couplings) {
-    coupling.stored = coupling.dissipated = coupling.breathing = 0.0;
+    coupling.stored = coupling.dissipated = coupling.made = 0.0;
   }
   addSections(c, state, to);
   addLinks(c, state, to);
@@ -289,7 +302,7 @@ double EnergyMeter<Real>::collect(const CoefficientsOf<Real>& c,
   }
   for (const CouplingEnergy& coupling : to.couplings) {
     to.stored += coupling.stored;
-    balance += coupling.dissipated - coupling.breathing;
+    balance += coupling.dissipated - coupling.made;
   }
   return balance + to.stored;
 }
@@ -335,7 +348,7 @@ void EnergyMeter<Real>::read(const CoefficientsOf<Real>& c,
     }
   }
   for (CouplingEnergy& coupling : to.couplings) {
-    for (double* value : {&coupling.stored, &coupling.dissipated, &coupling.breathing}) {
+    for (double* value : {&coupling.stored, &coupling.dissipated, &coupling.made}) {
       *value *= newton_;
     }
   }

@@ -116,6 +116,7 @@ class EnergyMeter {
   std::vector<std::vector<std::size_t>> forced_of_section_;
   std::vector<Coupled> couplings_;            // pairs of sections
   std::vector<std::size_t> coupling_of_run_;  // [runs] kInside: inside a section
+  std::vector<bool> follows_positions_;       // [runs] what they store
   Energies scratch_;
   std::size_t books_at_ = 0;
   std::size_t forced_at_ = 0;  // Feeding [forced]

@@ -33,7 +33,8 @@ struct RunStep {
 
 /// Half of the work of a force over the step in which the ends moved so far: each step is booked
 /// with half of the force before it and half of that after it. Across rates a damper takes what
-/// both sides do against it: the jumps of a held end are no motion of anything.
+/// both sides do against it: the jumps of a held end are no motion of anything. What they do to a
+/// spring nobody does; against what the slower end does in the same step, it is made.
 template <class Real>
 void addHalfWork(
     const LinkRun& run, Real moved_a, Real moved_b, Force<Real> force, LinkWork& work) noexcept {
@@ -45,8 +46,10 @@ void addHalfWork(
     work.on_b += 0.5 * static_cast<double>(moved_b * sum);
   } else {
     const Real fast = run.slow_is_a ? moved_b : -moved_a;
+    const Real jump = run.slow_is_a ? moved_a : -moved_b;
     (run.slow_is_a ? work.on_b : work.on_a) += 0.5 * static_cast<double>(fast * sum);
     work.dissipated -= 0.5 * static_cast<double>(fast * force.viscous);
+    work.made += 0.5 * static_cast<double>(jump * force.elastic);
   }
 }
 
@@ -100,6 +103,7 @@ void addWorkOfMean(const LinkRun& run,
       static_cast<double>(memory.mean_viscous[index] + memory.last_mean_viscous[index]);
   (run.slow_is_a ? work.on_a : work.on_b) += 0.5 * signed_moved * mean;
   work.dissipated -= 0.5 * signed_moved * viscous;
+  work.made += 0.5 * signed_moved * (mean - viscous);
 }
 
 /// The slower end has moved by d under the mean force: its side of the books closes.

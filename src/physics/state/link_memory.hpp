@@ -7,13 +7,14 @@ namespace ergotic::physics {
 
 /// What a run has taken and given since the start, in the scene's unit of energy.
 struct LinkWork {
-  double initial = 0.0;  ///< stored at the start
-  double stored = 0.0;   ///< since then, by elastic forces; of plain runs it follows from positions
+  double initial = 0.0;     ///< stored at the start
+  double stored = 0.0;      ///< since then, by elastic forces; of springs it follows from positions
   double dissipated = 0.0;  ///< by viscous forces
   double on_a = 0.0;        ///< done on the modules of side a; links between sections only
   double on_b = 0.0;
+  double made = 0.0;  ///< by holding the slower end and averaging its force; across rates only
 
-  static constexpr std::size_t kDoubles = 5;  ///< see numbersOf
+  static constexpr std::size_t kDoubles = 6;  ///< see numbersOf
 };
 
 /// What a run that remembers keeps for each link and coordinate: [coordinates][links]. Unmetered,

@@ -285,7 +285,7 @@ ModelEnergy toModelEnergy(const station::MotionFrame& motion) {
     message.couplings.push_back(static_cast<std::uint32_t>(coupling.section_b));
     message.coupling_stored.push_back(coupling.stored);
     message.coupling_dissipated.push_back(coupling.dissipated);
-    message.coupling_breathing.push_back(coupling.breathing);
+    message.coupling_made.push_back(coupling.made);
   }
   return message;
 }

@@ -31,7 +31,7 @@ Json couplingsOf(const scene::Scene& scene, const physics::Energies& energies) {
     report.push_back({{"between", name(energy.section_a) + " and " + name(energy.section_b)},
                       {"stored", energy.stored},
                       {"dissipated", energy.dissipated},
-                      {"breathing", energy.breathing}});
+                      {"made", energy.made}});
   }
   return report;
 }

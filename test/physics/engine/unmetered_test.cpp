@@ -156,7 +156,7 @@ TEST(UnmeteredEnergyTest, NothingElseIsKnown) {
                 0.0);
     }
     for (const CouplingEnergy& c : energies.couplings) {
-      EXPECT_EQ(std::abs(c.stored) + std::abs(c.dissipated) + std::abs(c.breathing), 0.0);
+      EXPECT_EQ(std::abs(c.stored) + std::abs(c.dissipated) + std::abs(c.made), 0.0);
     }
   }
 }

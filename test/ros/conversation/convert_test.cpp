@@ -160,7 +160,7 @@ TEST(ConvertTest, EnergyKeepsSectionsAndCouplingsApart) {
   EXPECT_EQ(energy.couplings, (std::vector<std::uint32_t>{0, 1}));
   EXPECT_EQ(energy.coupling_stored, std::vector<double>{13});
   EXPECT_EQ(energy.coupling_dissipated, std::vector<double>{14});
-  EXPECT_EQ(energy.coupling_breathing, std::vector<double>{15});
+  EXPECT_EQ(energy.coupling_made, std::vector<double>{15});
   EXPECT_EQ(energy.stored, 31);
   EXPECT_EQ(energy.from_parameters, 16);
   EXPECT_EQ(energy.residual, 1e-12);

@@ -22,16 +22,16 @@ struct CouplingEnergy {
   int section_b = 0;
   double stored = 0.0;
   double dissipated = 0.0;  ///< since the start
-  /// What hold and mean have borrowed: the work that the link saw less the work that both sides
-  /// did, since the start. It breathes within a step and does not drift.
-  double breathing = 0.0;
+  /// What hold and mean have made, since the start: the work of the held end's jumps on the springs
+  /// less that of the slower end against its mean force. Below 0 they took it. 0 at one rate.
+  double made = 0.0;
 };
 
 /// The balance: all that is stored, less what it was at the start, plus what was dissipated, less
-/// what came in. Only rounding may remain. Of an instrument without books of energy
-/// (CompileOptions::metered) only what positions tell is known: kinetic energy, and the potential
-/// energy of gravity, constant forces, cells and the explicit spring-dampers inside each section;
-/// all else, the residual too, is 0.
+/// what came in and what couplings made. Only rounding may remain. Of an instrument without books
+/// of energy (CompileOptions::metered) only what positions tell is known: kinetic energy, and the
+/// potential energy of gravity, constant forces, cells and the explicit spring-dampers inside each
+/// section; all else, the residual too, is 0.
 struct Energies {
   std::vector<SectionEnergy> sections;    ///< [Scene::sections]
   std::vector<CouplingEnergy> couplings;  ///< pairs of sections that links join

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <random>
 
+#include "at.hpp"
 #include "support/one_by_one.hpp"
 #include "support/test.hpp"
 
@@ -46,6 +47,52 @@ double energyBetweenSteps(const Player& player,
                   [&](std::size_t, double kg, double v) { energy += 0.5 * kg * v * v; });
   return std::accumulate(guards.begin(), guards.end(), energy,
                          [](double sum, const auto& guard) { return sum + guard.tank; });
+}
+
+namespace {
+
+double potentialOf(const physics::Energies& books) {
+  double energy = 0.0;
+  for (const physics::SectionEnergy& section : books.sections) {
+    energy += section.potential;
+  }
+  for (const physics::CouplingEnergy& coupling : books.couplings) {
+    energy += coupling.stored;
+  }
+  return energy;
+}
+
+double energyAtRest(const physics::Instrument& instrument) {
+  scene::Scene scene = instrument.scene();
+  for (scene::Mat& mat : scene.mats) {
+    mat.push.edit().velocity.setZero();
+  }
+  return potentialOf(
+      energiesOf(Player(physics::compile(scene, instrument.rates(), physics::Precision::kDouble))));
+}
+
+}  // namespace
+
+Swing::Swing(const physics::Instrument& instrument)
+    : layout_(physics::makeLayout(instrument.scene(), instrument.rates())),
+      at_rest_(energyAtRest(instrument)) {}
+
+double Swing::energyOf(const physics::Instrument& instrument,
+                       const physics::Energies& books) const {
+  const scene::Scene& scene = instrument.scene();
+  const std::vector<double> d = numbersOf<double>(instrument, "d");
+  double energy = potentialOf(books) - at_rest_;
+  for (std::size_t m = 0; m < scene.mats.size(); ++m) {
+    const scene::Mat& mat = scene.mats[m];
+    const physics::SectionRange& range = layout_.sections[at(mat.section)];
+    const double rate_hz = instrument.rates().audio_hz / range.divisor;
+    const bool is_free = mat.type == scene::MatType::kMass || mat.type == scene::MatType::kCell;
+    for (int k = 0; is_free && k < range.dimensions; ++k) {
+      const double v = d[at(layout_.slot_of_mat[m] + k * range.stride)] * rate_hz;
+      energy += 0.5 * scene.valueOf(mat.mass) * v * v;
+    }
+  }
+  return energy;
 }
 
 Eigen::Vector3d momentumOf(const Player& player, std::size_t n) {

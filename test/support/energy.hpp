@@ -2,12 +2,27 @@
 #pragma once
 
 #include "physics/laws/guarded_force.hpp"
+#include "physics/layout/layout.hpp"
 #include "support/scene_builder.hpp"
 
 namespace ergotic::test {
 
 /// The books of what has been played so far.
 physics::Energies energiesOf(const Player& player);
+
+/// The kinetic energy M v^2/2 of all that forces move, each with the velocity of its last step, and
+/// the potential energy, beyond what springs hold that rest stretched. The kinetic energy of the
+/// books, from one step and the next, is below 0 where these are opposite.
+class Swing {
+ public:
+  explicit Swing(const physics::Instrument& instrument);
+  /// J. \pre the same instrument, in double precision \param books  as they are now
+  double energyOf(const physics::Instrument& instrument, const physics::Energies& books) const;
+
+ private:
+  physics::Layout layout_;
+  double at_rest_;
+};
 
 /// Of all masses at frame n; the velocity of mass m is heard on the channels from 3 m on.
 Eigen::Vector3d momentumOf(const Player& player, std::size_t n);

@@ -13,7 +13,7 @@ namespace {
 struct StabilityOutcome {
   std::string verdict;        ///< of the certificate, before anything moved
   std::string findings;       ///< of the certificate
-  double growth = 0.0;        ///< largest kinetic energy over all energy at the start
+  double growth = 0.0;        ///< largest kinetic and potential energy, of that at the start
   double energy_error = 0.0;  ///< what the energy balance lacks, of the energy at the start
 };
 
@@ -37,12 +37,13 @@ enum class Closed {
   kYes,  ///< no more may ever be stored than at the start
 };
 
-/// Largest kinetic energy and largest error so far.
+/// Largest energy and largest error so far.
 class Witness {
  public:
-  /// \param start  kinetic energy at the start, J
+  /// \param start  kinetic energy at the start, J; all there is
   Witness(const Instrument& instrument, Closed closed, double start, StabilityOutcome& outcome)
       : instrument_(instrument),
+        swing_(instrument),
         closed_(closed),
         energies_(instrument.makeEnergies()),
         start_(start),
@@ -51,12 +52,9 @@ class Witness {
   /// \param outside  energy of what the instrument does not know of
   void look(double outside = 0.0) {
     instrument_.readEnergies(energies_);
-    double kinetic = outside;
-    for (const SectionEnergy& section : energies_.sections) {
-      kinetic += std::abs(section.kinetic);
-    }
+    const double energy = outside + swing_.energyOf(instrument_, energies_);
     // A number that is none compares false with everything.
-    outcome_.growth = kinetic / start_ <= kFar ? std::max(outcome_.growth, kinetic / start_) : kFar;
+    outcome_.growth = energy / start_ <= kFar ? std::max(outcome_.growth, energy / start_) : kFar;
     stored_ = stored_.value_or(energies_.stored);
     const double made = closed_ == Closed::kYes ? energies_.stored - *stored_ : 0.0;
     outcome_.energy_error =
@@ -66,6 +64,7 @@ class Witness {
 
  private:
   const Instrument& instrument_;
+  test::Swing swing_;
   Closed closed_;
   Energies energies_;
   double start_;
@@ -109,8 +108,8 @@ StabilityOutcome play(const SceneBuilder& builder,
   return performance.outcome;
 }
 
-/// The same at a rate a tenth above what the certificate asks for: close to it, kinetic energy is
-/// up to 1/(1 - lambda/4) of what there was.
+/// The same at a rate a tenth above what the certificate asks for: close to it, energy is up to
+/// 1/(1 - lambda/4) of what there was.
 StabilityOutcome playAtStableRate(const SceneBuilder& builder,
                                   int ticks,
                                   Closed closed = Closed::kYes) {
@@ -354,7 +353,7 @@ Cases allCases() {
 }
 
 constexpr double kDiverged = 1e3;
-constexpr double kHeld = 10.0;  // near the limit kinetic energy breathes, see the cases
+constexpr double kHeld = 10.0;  // near the limit energy breathes, see the cases
 constexpr double kEnergyError = 1e-11;
 
 class StabilityMapTest : public testing::TestWithParam<StabilityCase> {

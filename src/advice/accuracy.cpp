@@ -98,13 +98,14 @@ double contactDuration(double exponent, double stiffness, double mass, double de
 
 double contactError(ContactFigure figure, scene::Scheme scheme, double exponent, double steps) {
   const double above = exponent - 1.0;
-  const bool duration = figure == ContactFigure::kDuration;
-  if (scheme == scene::Scheme::kGuarded) {
-    const double size = duration ? 0.17 * std::exp(1.1 * above) : 1.15 * std::exp(1.2 * above);
-    return std::min(size / std::pow(steps, 4), 1.0);
+  const bool guarded = scheme == scene::Scheme::kGuarded;
+  if (figure == ContactFigure::kPeakForce) {
+    const double size = guarded ? 1.3 + 2.0 * above : 0.65 + 0.42 * above;
+    return std::min(size / (steps * steps), 1.0);
   }
-  const double size = duration ? kPi * kPi / 24.0 + 0.19 * above : 0.56 + 0.58 * above;
-  return std::min(size / (steps * steps), 1.0);
+  return std::min(guarded ? 0.17 * std::exp(1.1 * above) / std::pow(steps, 4)
+                          : (kPi * kPi / 24.0 + 0.19 * above) / (steps * steps),
+                  1.0);
 }
 
 double heldContactError(bool filtered, double slow_steps) {

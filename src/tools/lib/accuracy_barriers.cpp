@@ -26,7 +26,7 @@ struct Impact {
     deepest = duration * speed / (2.0 * integral);
     stiffness = (a + 1.0) * mass * speed * speed / (2.0 * std::pow(deepest, a + 1.0));
   }
-  double force(double p) const { return p > 0.0 ? stiffness * std::pow(p, exponent) : 0.0; }
+  double peakForce() const { return stiffness * std::pow(deepest, exponent); }
 };
 
 struct Errors {
@@ -36,22 +36,19 @@ struct Errors {
 };
 
 /// Duration: from where the straight line before crosses the wall to where that after does. Peak:
-/// by a parabola through the three deepest samples.
+/// the largest force that the mass was given in any step.
 Errors judge(const Impact& impact,
              const std::vector<std::vector<double>>& heard,
              double start,
              double rate_hz) {
   const std::vector<double>& p = heard[0];
   const double out_speed = heard[1].back() / rate_hz;
-  const auto top = std::max_element(p.begin() + 1, p.end() - 1);
-  const double curve = (top[-1] - 2.0 * top[0] + top[1]) / 2.0;
-  const double slope = (top[1] - top[-1]) / 2.0;
-  const double deepest = top[0] - slope * slope / (4.0 * curve);
+  // The wall pushes it back: below 0.
+  const double strongest = -*std::min_element(heard[2].begin(), heard[2].end());
   const double step = impact.speed / rate_hz;
   const double out = static_cast<double>(p.size() - 1) - p.back() / out_speed;
   return {(out + start / step) / (rate_hz * impact.duration) - 1.0,
-          impact.force(deepest) / impact.force(impact.deepest) - 1.0,
-          -heard[1].back() / impact.speed - 1.0};
+          strongest / impact.peakForce() - 1.0, -heard[1].back() / impact.speed - 1.0};
 }
 
 std::string impactScene(const Impact& impact, const char* scheme, double before) {
@@ -70,7 +67,8 @@ std::string impactScene(const Impact& impact, const char* scheme, double before)
        << "}\n"
           "outputs:\n"
           "  x: {at: ball, quantity: position, channel: 1}\n"
-          "  v: {at: ball, quantity: velocity, channel: 2}\n";
+          "  v: {at: ball, quantity: velocity, channel: 2}\n"
+          "  f: {at: ball, quantity: force, channel: 3}\n";
   return yaml.str();
 }
 

@@ -38,7 +38,7 @@ class Bodies(Laws):
         string = {"type": "string", "name": name, "section": section, "masses": masses,
                   "mass": self.value(unit.mass), "damping": self.value(self.losses(unit)),
                   "from": [0, 0, 0][:size], "to": [rounded(length), 0, 0][:size], **self.ties(geometry)}
-        if coarse or self.chance(0.4):
+        if self.chance(0.4) and string.get("scheme") != "guarded" or coarse:  # those may be flat
             string["frequency"] = rounded(
                 math.sqrt(kappa) / unit.step / math.pi * math.sin(math.pi / (2 * (masses + 1))))
         else:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <random>
 
 #include "at.hpp"
@@ -21,14 +22,15 @@ constexpr int kPeriods = 2000;
 constexpr double kMostSteps = 3e8;  // modules times audio frames
 constexpr double kScatter = 5e-6;   // of slopes, per period
 
-int slowestDivisor(const scene::Scene& scene, const Rates& rates) {
-  int slowest = 1;
+/// Until all that moves is stepped together again.
+int ticksOfAPeriod(const scene::Scene& scene, const Rates& rates) {
+  int frames = rates.ratio;
   for (const scene::Mat& mat : scene.mats) {
     if (mat.type == MatType::kMass || mat.type == MatType::kCell) {
-      slowest = std::max(slowest, divisorOf(scene.sectionOf(mat), rates));
+      frames = std::lcm(frames, divisorOf(scene.sectionOf(mat), rates));
     }
   }
-  return slowest;
+  return frames / rates.ratio;
 }
 
 /// Slots of what can move: blocks have places for nothing and for grounds too.
@@ -100,7 +102,7 @@ LinearStepper::LinearStepper(const scene::Scene& linear, const Rates& rates)
       instrument_(compile(linear, rates, Precision::kDouble)),
       rest_(instrument_->stateSize()),
       state_(instrument_->stateSize()),
-      ticks_(std::max(1, slowestDivisor(linear, rates) / rates.ratio)),
+      ticks_(ticksOfAPeriod(linear, rates)),
       period_s_(ticks_ / rates.gesturalHz()),
       positions_(static_cast<std::size_t>(instrument_->ports())),
       forces_(positions_.size()),

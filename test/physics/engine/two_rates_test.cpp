@@ -7,6 +7,8 @@
 
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/physics/certificate/monodromy.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
+#include "physics/certificate/linear_stepper.hpp"
 #include "support/physics.hpp"
 
 namespace ergotic::physics {
@@ -212,6 +214,16 @@ TEST(MonodromyTest, SectionsSlowerThanATickAreSteppedToTheirEnd) {
   b.scene.sections[SceneBuilder::kGestural].gestural = false;
   b.scene.sections[SceneBuilder::kGestural].divisor = 28;
   expectSameEigenvalues(monodromy(b.scene, {kRate, 14}), matrixOfEquations(p));
+}
+
+TEST(MonodromyTest, GoesOnUntilAllSectionsAreSteppedTogether) {
+  const scene::Scene scene = scene::readYaml(
+      "ergotic: 1\nsections:\n  two: {rate: {divisor: 4}}\n  three: {rate: {divisor: 6}}\n"
+      "mats:\n  a: {type: mass, section: two, mass: 1}\n  b: {type: mass, section: three, mass: "
+      "1}\n",
+      "rates.yaml");
+  EXPECT_EQ(LinearStepper(linearPart(scene), {kRate, 2}).ticks(), 6);
+  EXPECT_EQ(LinearStepper(linearPart(scene), {kRate, 12}).ticks(), 1);
 }
 
 TEST(MonodromyTest, TakesTheLinearPartOnly) {

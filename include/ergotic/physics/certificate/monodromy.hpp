@@ -10,7 +10,7 @@
 
 namespace ergotic::physics {
 
-/// The linear part of a scene over one period of its slowest section (at least one tick), as a
+/// The linear part of a scene until all sections are stepped together again (at least one tick), as a
 /// matrix: stepped by the instrument itself from unit states, so it is what is played.
 ///
 /// Linear part: the links that are springs or dampers, and K and Z of two-sided nonlinear ones;

@@ -125,7 +125,7 @@ class CouplingJudge {
         return;
       }
       worst = trial.radius >= worst.radius ? trial : worst;
-      prove(scene, period);
+      prove(scene, stepper.ticks() * networks_.rates().ratio, period);
     }
     if (worst.radius > 1.0 + kRounding) {
       const bool is_certain = worst.radius > 1.0 + kCertainGrowth;
@@ -139,14 +139,15 @@ class CouplingJudge {
     }
   }
 
-  void prove(const scene::Scene& scene, const Period& period) {
+  void prove(const scene::Scene& scene, int frames, const Period& period) {
     if (findings_.proof() == nullptr) {
       return;
     }
     std::optional<PeriodProof> proof = proofOf(period);
     if (!proof) {
-      proof = PeriodProof{{}, period.modules, {}, {}};
+      proof = PeriodProof{{}, 0, period.modules, {}, {}};
     }
+    proof->frames = frames;
     for (const scene::Parameter& parameter : scene.parameters) {
       proof->parameters.push_back(parameter.value);
     }

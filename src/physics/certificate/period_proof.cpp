@@ -118,7 +118,7 @@ std::optional<PeriodProof> proofOf(const Period& period) {
     return std::nullopt;
   }
   const Index modules = period.units.size();
-  PeriodProof proof{{}, period.modules, form.rows * kept.transpose(), form.turn};
+  PeriodProof proof{{}, 0, period.modules, form.rows * kept.transpose(), form.turn};
   proof.form.rightCols(modules) *= period.units.cwiseInverse().asDiagonal();
   return proof;
 }

@@ -166,6 +166,7 @@ Json periodsOf(const physics::Proof& proof) {
   Json all = Json::array();
   for (const physics::PeriodProof& period : proof.periods) {
     all.push_back({{"parameters", period.parameters},
+                   {"frames", period.frames},
                    {"modules", period.modules},
                    {"rows", period.form.rows()},
                    {"form", entriesOf(period.form)},

@@ -24,6 +24,7 @@ struct RateProof {
 /// displacements of its modules and then what they are about to move by, m, G s becomes B G s.
 struct PeriodProof {
   std::vector<double> parameters;  ///< values for which it holds, [Scene::parameters]
+  int frames = 0;                  ///< of audio, in a period
   std::vector<int> modules;
   Eigen::MatrixXd form;  ///< G, shape (rows, 2 modules); of what a period keeps as it is, 0
   Eigen::MatrixXd turn;  ///< B, shape (rows, rows)

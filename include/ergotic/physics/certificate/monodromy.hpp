@@ -10,8 +10,9 @@
 
 namespace ergotic::physics {
 
-/// The linear part of a scene until all sections are stepped together again (at least one tick), as a
-/// matrix: stepped by the instrument itself from unit states, so it is what is played.
+/// The linear part of a scene over a period, from one step of all sections to the next one that
+/// they have together (at least one tick), as a matrix: stepped by the instrument itself from unit
+/// states, so it is what is played.
 ///
 /// Linear part: the links that are springs or dampers, and K and Z of two-sided nonlinear ones;
 /// contacts open, pluck and bow away, guarded links away; hands and driven modules held; moving

@@ -79,9 +79,13 @@ class Tuning {
     string_.stiffness = scene::tunedStiffness(scene_, string_, rate_hz_);
     if (scene_.lias[at(string_.first_lia)].scheme == scene::Scheme::kGuarded) {
       requireTension();
-    } else if (!isStable(masses_)) {
+    } else if (!isStable(masses_, rate_hz_)) {
+      const auto stable = [this](int n) { return isStable(n, rate_hz_); };
+      const int most = mostMasses(1, masses_, stable);
       notes.push_back(note() + "cannot be stepped at " + cutTo() + ". Use " +
-                      remedy(mostMasses(1, masses_, [this](int n) { return isStable(n); })));
+                      (most > 0 ? "at most " + std::to_string(most) + " masses, " : "") +
+                      scene::numberText(std::ceil(stableRate())) +
+                      " Hz or more, or a lower frequency");
     }
     for (int i = 0; i <= masses_; ++i) {
       scene_.lias[at(string_.first_lia + i)].stiffness = string_.stiffness;
@@ -89,7 +93,9 @@ class Tuning {
   }
 
   void requireTension() const {
-    const auto holds = [this](int n) { return scene::holdsPitch(scene_, tunedInto(n), rate_hz_); };
+    const auto holds = [this](int n) {
+      return scene::holdsPitch(scene_, tunedInto(n, rate_hz_), rate_hz_);
+    };
     if (!holds(masses_)) {
       const int most = mostMasses(1, masses_, holds);
       fail("cannot be tuned to " + cutTo() + ": " + flatness(scene_, string_, rate_hz_) +
@@ -98,18 +104,33 @@ class Tuning {
   }
 
   /// The string with as many masses of the same weight, damped alike.
-  scene::StringInfo tunedInto(int masses) const {
+  scene::StringInfo tunedInto(int masses, double rate_hz) const {
     scene::StringInfo string = string_;
     string.count = masses + 2;
-    string.stiffness = scene::tunedStiffness(scene_, string, rate_hz_);
+    string.stiffness = scene::tunedStiffness(scene_, string, rate_hz);
     return string;
   }
   /// By itself, along its links, which are stiffest there.
-  bool isStable(int masses) const {
-    const double kappa = scene::stringKappa(scene_, tunedInto(masses), rate_hz_);
-    const double zeta = scene::stringZeta(scene_, string_, rate_hz_);
+  bool isStable(int masses, double rate_hz) const {
+    const double kappa = scene::stringKappa(scene_, tunedInto(masses, rate_hz), rate_hz);
+    const double zeta = scene::stringZeta(scene_, string_, rate_hz);
+    const double ground = scene::stringLoss(scene_, string_, rate_hz).ground;
     const double top = scene::stringEigenvalue(masses, masses);
-    return top * (kappa + 2.0 * zeta) + 2.0 * loss_.ground < 4.0;
+    return top * (kappa + 2.0 * zeta) + 2.0 * ground < 4.0;
+  }
+  /// The lowest rate at which it is stable, tuned anew: stiffer there than here. \pre here it is
+  /// not
+  double stableRate() const {
+    double stable = 2.0 * rate_hz_;
+    while (!isStable(masses_, stable)) {
+      stable *= 2.0;
+    }
+    double unstable = 0.5 * stable;
+    for (int halving = 0; halving < 40; ++halving) {
+      const double middle = 0.5 * (unstable + stable);
+      (isStable(masses_, middle) ? stable : unstable) = middle;
+    }
+    return stable;
   }
 
   void fit(std::vector<std::string>& notes) {

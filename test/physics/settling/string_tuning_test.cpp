@@ -177,13 +177,30 @@ TEST(StringTuningTest, RefusalsAdviseHowManyMassesWouldDo) {
 
 TEST(StringTuningTest, NoteAdvisesHowManyMassesCanBeStepped) {
   Wish wish{4186.0, 20, "mass: 1e-4", ""};
-  const auto note = HasSubstr("cannot be stepped at 4186 Hz with 20 masses. Use at most 4 masses");
+  const auto note =
+      HasSubstr("cannot be stepped at 4186 Hz with 20 masses. Use at most 4 masses, ");
   EXPECT_THAT(settle(open(wish), wish.rates).notes, ElementsAre(note));
   for (const int masses : {4, 5}) {
     const Settled settled = settle(open(cutInto(masses, wish)), wish.rates);
     const bool is_stable = certify(settled.scene, wish.rates).verdict == Verdict::kPassive;
     EXPECT_EQ(is_stable, masses == 4);
     EXPECT_EQ(settled.notes.empty(), masses == 4);
+  }
+}
+
+TEST(StringTuningTest, NoteAdvisesTheRateAtWhichItCanBeStepped) {
+  for (const char* fields : {"mass: 1e-4", "mass: 1e-4, loss: 2e-2, damping: 5e-2"}) {
+    Wish wish{4186.0, 5, fields, ""};
+    const std::vector<std::string> notes = settle(open(wish), wish.rates).notes;
+    ASSERT_EQ(notes.size(), 1U) << fields;
+    const std::size_t before = notes[0].find("masses, ") + 8;
+    const double rate_hz = std::stod(notes[0].substr(before));
+    for (const double off : {0.0, -2.0}) {
+      wish.rates = {rate_hz + off, 14};
+      const Settled settled = settle(open(wish), wish.rates);
+      const bool is_stable = certify(settled.scene, wish.rates).verdict == Verdict::kPassive;
+      EXPECT_EQ(is_stable, off == 0.0) << fields << ", " << rate_hz + off;
+    }
   }
 }
 

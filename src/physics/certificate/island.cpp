@@ -2,6 +2,8 @@
 #include "physics/certificate/island.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 
 #include "at.hpp"
 #include "scene/laws/law.hpp"
@@ -11,6 +13,8 @@ namespace {
 
 using scene::LiaType;
 using scene::MatType;
+
+constexpr double kRounding = 1e-12;  // of a cosine
 
 bool switches(const scene::Lia& lia) {
   return scene::lawOf(lia.type).switches;
@@ -109,7 +113,35 @@ bool Island::followsParameters() const {
   });
 }
 
+/// True if all coordinates move as one does by itself, or in one rate beside it. Links between
+/// different geometries act along the axes of the smaller one; what they leave is another network.
+bool Island::isOneLine() const {
+  std::set<scene::Geometry> geometries;
+  std::set<int> divisors;  // of Euclidean sections
+  const scene::Section* line = nullptr;
+  bool turns = false;
+  for (int m = 0; m < static_cast<int>(networks_.scene().mats.size()); ++m) {
+    if (!isMember(m)) {
+      continue;
+    }
+    const scene::Section& section = networks_.scene().sectionOf(networks_.scene().mats[at(m)]);
+    geometries.insert(section.geometry);
+    if (section.geometry != scene::Geometry::kScalar) {
+      divisors.insert(networks_.divisorOfMat(m));
+      continue;
+    }
+    line = line == nullptr ? &section : line;
+    const double cosine = line->pose.linear().col(0).dot(section.pose.linear().col(0));
+    turns = turns || std::abs(cosine) < 1.0 - kRounding;
+  }
+  return geometries.size() <= 1 || (!turns && divisors.size() == 1);
+}
+
 std::string Island::doubt() const {
+  if (!isOneLine()) {
+    return "its sections have different geometries and act along different axes, or at several "
+           "rates: what moves across is not what was worked out";
+  }
   const scene::Scene& scene = networks_.scene();
   for (const scene::Lia& lia : scene.lias) {
     if (!isMember(lia)) {

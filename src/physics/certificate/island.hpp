@@ -26,6 +26,7 @@ class Island {
  private:
   bool isMember(int mat) const;
   bool isMember(const scene::Lia& lia) const;
+  bool isOneLine() const;
   bool follows(const scene::Value& v) const;
   bool followsParameters() const;
   /// \param closed  links that switch are springs as stiff as they can be

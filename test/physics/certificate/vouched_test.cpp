@@ -3,6 +3,7 @@
 // does grow, and must not be vouched for.
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/physics/certificate/monodromy.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
 #include "support/physics.hpp"
 
 namespace ergotic::physics {
@@ -55,6 +56,35 @@ TEST(VouchedTest, SoftCouplingsOfLowModesGrowAllTheSame) {
   expectRefused(twoMasses(24703385.68, 7521536.778, 0.0, 32707988.93, 0.4417203012), 14, 1.0, 1e6);
   expectRefused(twoMasses(18522197.78, 23580390.53, 232.5266722, 8992567.081, 0.4100447551), 8, 3.0,
                 1e6);
+}
+
+/// A mass in a plane between two slow ones, each of which moves along another of its axes.
+std::string twoAxes(const std::string& rotation) {
+  return "ergotic: 1\ngestural_rate: 3150\nsections:\n"
+         "  fast: {rate: audio, geometry: plane}\n  along: {rate: gestural}\n"
+         "  across: {rate: gestural, pose: {position: [0, 0, 0], rotation: [0, 0, " +
+         rotation +
+         "]}}\nmats:\n  gf: {type: ground, section: fast}\n  ga: {type: ground, section: along}\n"
+         "  a: {type: mass, section: along, mass: 1, v: 0.01}\n"
+         "  b: {type: mass, section: across, mass: 1}\n"
+         "  f: {type: mass, section: fast, mass: 0.4417203012}\nlias:\n"
+         "  own_a: {type: spring, between: [a, ga], stiffness: 24703385.68}\n"
+         "  own_f: {type: spring, between: [f, gf], stiffness: 32707988.93}\n"
+         "  to_a: {type: spring, between: [a, f], stiffness: 7521536.778}\n"
+         "  to_b: {type: spring, between: [b, f], stiffness: 3e6}\n";
+}
+
+TEST(VouchedTest, WhatMovesAcrossMovesByItself) {
+  const scene::Scene across = scene::readYaml(twoAxes("1.5707963267948966"), "axes.yaml");
+  const scene::Scene along = scene::readYaml(twoAxes("0"), "axes.yaml");
+  Player player(compile(across, {kRate, 14}, Precision::kDouble));
+  const double start = kineticEnergy(player);
+  for (int n = 0; n < 500; ++n) {
+    player.tick();
+  }
+  EXPECT_GT(kineticEnergy(player), 1e6 * start);
+  EXPECT_EQ(certify(across, {kRate, 14}).verdict, Verdict::kUnproven);
+  EXPECT_EQ(certify(along, {kRate, 14}).verdict, Verdict::kPassive);
 }
 
 TEST(VouchedTest, ContactsOnOneMassAddUp) {

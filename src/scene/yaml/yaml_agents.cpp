@@ -191,8 +191,14 @@ void readAgent(SceneBuilder& builder,
 }  // namespace
 
 void readAgents(SceneBuilder& builder, const YamlMap& top, PointFiles& files) {
+  std::size_t points = 0;  // aliases share them in the text, but not in the scene
   forEachElement(builder, top, "agents", "agent", [&](const std::string& name, const YamlMap& map) {
     readAgent(builder, files, name, map);
+    points += builder.scene().agents.back().knots.size();
+    if (points > kMaxSceneTablePoints) {
+      builder.fail(map.place(), "the agents of the scene have more than " +
+                                    std::to_string(kMaxSceneTablePoints) + " points");
+    }
   });
 }
 

@@ -48,6 +48,21 @@ TEST(YamlErrorsTest, TablesSharedByAliasesAreLimitedInAll) {
               AllOf(StartsWith("tables.yaml:261:"), HasSubstr("more than 1048576 points")));
 }
 
+TEST(YamlErrorsTest, PointsOfAgentsSharedByAliasesAreLimitedInAll) {
+  std::string text =
+      "ergotic: 1\nsections: {h: {rate: gestural}}\nmats: {m: {type: mass, mass: 1}}\n"
+      "agents:\n  a: {mat: m, stiffness: 1, points: &p [";
+  for (int i = 0; i < 65536; ++i) {
+    text += "[" + std::to_string(i) + ", 0],";
+  }
+  text += "]}\n";
+  for (int i = 0; i < 17; ++i) {
+    text += "  a" + std::to_string(i) + ": {mat: m, stiffness: 1, points: *p}\n";
+  }
+  EXPECT_THAT(complaintOf<TextError>([&] { readYaml(text, "agents.yaml"); }),
+              AllOf(StartsWith("agents.yaml:21:"), HasSubstr("more than 1048576 points")));
+}
+
 TEST(YamlErrorsTest, EveryTruncationOfASceneIsReadOrRefusedWithItsPlace) {
   const std::string whole = TWO_MASSES
       "lias:\n  l: {type: spring, between: [m, n], stiffness: 1}\n"

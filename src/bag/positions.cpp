@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "ergotic/bag/recording.hpp"
+#include "bag/recorded_message.hpp"
 #include "ergotic/exception.hpp"
 
 namespace ergotic::bag {
@@ -44,8 +44,8 @@ class RecordedPositions : public tgr::GestureSource {
 
 }  // namespace
 
-std::unique_ptr<tgr::GestureSource> readPositions(const std::string& path) {
-  std::vector<Stretch> stretches = readRecording(path).stretches;
+std::unique_ptr<tgr::GestureSource> positionsOf(std::vector<Stretch> stretches,
+                                                const std::string& path) {
   stretches.erase(std::remove_if(stretches.begin(), stretches.end(),
                                  [](const Stretch& stretch) { return stretch.flags.empty(); }),
                   stretches.end());
@@ -62,6 +62,10 @@ std::unique_ptr<tgr::GestureSource> readPositions(const std::string& path) {
     }
   }
   return std::make_unique<RecordedPositions>(std::move(stretches));
+}
+
+std::unique_ptr<tgr::GestureSource> readPositions(const std::string& path) {
+  return positionsOf(readRecording(path).stretches, path);
 }
 
 }  // namespace ergotic::bag

@@ -13,7 +13,7 @@
 #include <rosbag/view.h>
 
 #include "bag/message_bytes.hpp"
-#include "ergotic/bag/recording.hpp"
+#include "bag/recorded_message.hpp"
 #include "ergotic/exception.hpp"
 
 namespace ergotic::bag {
@@ -124,41 +124,38 @@ Stretch fromMessage(const GestureBlock& message, const std::string& path) {
           message.flags,      message.positions, message.port_positions};
 }
 
-/// The message of this type in a recorded message, if it is one.
+station::Event fromMessage(const ergotic::Event& message, const std::string& path) {
+  check(message, path);
+  station::Event event;
+  event.type = static_cast<station::Event::Type>(message.type);
+  event.tick = message.tick;
+  event.frame = message.frame;
+  event.index = message.index;
+  event.value = message.value;
+  return event;
+}
+
+/// The message of this type in a recorded one, if it is one.
 template <class T>
-std::optional<T> as(const rosbag::MessageInstance& message, const std::string& path) {
-  if (message.getDataType() != ros::message_traits::DataType<T>::value()) {
+std::optional<T> as(RecordedMessage& message, const std::string& path) {
+  if (message.type != ros::message_traits::DataType<T>::value()) {
     return std::nullopt;
   }
-  if (message.getMD5Sum() != ros::message_traits::MD5Sum<T>::value()) {
-    throw Exception(path + ": " + message.getDataType() +
+  if (message.md5 != ros::message_traits::MD5Sum<T>::value()) {
+    throw Exception(path + ": " + message.type +
                     " was recorded with another definition of the message; play it with the "
                     "version of Ergotic that recorded it");
   }
-  std::vector<std::uint8_t> data(message.size() + std::size_t{1});  // never nowhere
-  ros::serialization::OStream out(data.data(), message.size());
-  message.write(out);
-  MessageBytes bytes(data.data(), message.size());
+  const auto size = static_cast<std::uint32_t>(message.data.size());
+  message.data.resize(size + std::size_t{1});  // never nowhere
+  MessageBytes bytes(message.data.data(), size);
   T read;
-  bytes.next(read);
-  return read;
-}
-
-void add(Recording& recording, const rosbag::MessageInstance& message, const std::string& path) {
-  if (const auto block = as<GestureBlock>(message, path)) {
-    recording.stretches.push_back(fromMessage(*block, path));
-  } else if (const auto keyframe = as<ergotic::Keyframe>(message, path)) {
-    recording.keyframes.push_back(fromMessage(*keyframe, path));
-  } else if (const auto told = as<ergotic::Event>(message, path)) {
-    check(*told, path);
-    station::Event event;
-    event.type = static_cast<station::Event::Type>(told->type);
-    event.tick = told->tick;
-    event.frame = told->frame;
-    event.index = told->index;
-    event.value = told->value;
-    recording.events.push_back(event);
+  try {
+    bytes.next(read);
+  } catch (const ros::serialization::StreamOverrunException&) {
+    throw Exception(path + ": a " + message.type + " in it is cut short");
   }
+  return read;
 }
 
 /// Ticks that never ran are played, too.
@@ -172,25 +169,26 @@ void requireNoLongGap(const std::vector<Stretch>& stretches, const std::string& 
   }
 }
 
-void readAll(const rosbag::Bag& bag, const std::string& path, Recording& recording) {
-  rosbag::View view(bag);
-  for (const rosbag::MessageInstance& message : view) {
-    add(recording, message, path);
-  }
+RecordedMessage bytesOf(const rosbag::MessageInstance& message) {
+  std::vector<std::uint8_t> data(message.size());
+  ros::serialization::OStream out(data.data(), message.size());
+  message.write(out);
+  return {message.getDataType(), message.getMD5Sum(), std::move(data)};
 }
 
 }  // namespace
 
-Recording readRecording(const std::string& path) {
-  Recording recording;
-  try {
-    const rosbag::Bag bag(path, rosbag::bagmode::Read);
-    readAll(bag, path, recording);
-  } catch (const ros::serialization::StreamOverrunException&) {
-    throw Exception(path + ": a message of a station in it is cut short");
-  } catch (const rosbag::BagException& error) {
-    throw Exception(path + ": " + error.what());
+void add(Recording& recording, RecordedMessage& message, const std::string& path) {
+  if (const auto block = as<GestureBlock>(message, path)) {
+    recording.stretches.push_back(fromMessage(*block, path));
+  } else if (const auto keyframe = as<ergotic::Keyframe>(message, path)) {
+    recording.keyframes.push_back(fromMessage(*keyframe, path));
+  } else if (const auto told = as<ergotic::Event>(message, path)) {
+    recording.events.push_back(fromMessage(*told, path));
   }
+}
+
+void finish(Recording& recording, const std::string& path) {
   if (recording.keyframes.empty() || recording.stretches.empty()) {
     throw Exception(path + ": no " + (recording.keyframes.empty() ? "keyframe" : "gesture") +
                     " of a station in this bag");
@@ -202,6 +200,23 @@ Recording readRecording(const std::string& path) {
   std::stable_sort(recording.stretches.begin(), recording.stretches.end(),
                    [](const Stretch& a, const Stretch& b) { return a.first_tick < b.first_tick; });
   requireNoLongGap(recording.stretches, path);
+}
+
+Recording readRecording(const std::string& path) {
+  Recording recording;
+  try {
+    const rosbag::Bag bag(path, rosbag::bagmode::Read);
+    rosbag::View view(bag);
+    for (const rosbag::MessageInstance& instance : view) {
+      if (instance.getDataType().rfind("ergotic/", 0) == 0) {
+        RecordedMessage message = bytesOf(instance);
+        add(recording, message, path);
+      }
+    }
+  } catch (const rosbag::BagException& error) {
+    throw Exception(path + ": " + error.what());
+  }
+  finish(recording, path);
   return recording;
 }
 

@@ -1,49 +1,53 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages of a bag that is whole: rosbag itself is not ours. The bytes are messages, each behind
-// its type and its length.
+// Messages of a bag: rosbag, which opens it, is not ours. The bytes are messages, each behind its
+// type and its length.
 #include <array>
 #include <cmath>
 
 #include <ergotic/Event.h>
 #include <ergotic/GestureBlock.h>
 #include <ergotic/Keyframe.h>
-#include <rosbag/bag.h>
 
-#include "bag/raw_message.hpp"
-#include "ergotic/bag/positions.hpp"
-#include "ergotic/bag/recording.hpp"
+#include "bag/recorded_message.hpp"
+#include "ergotic/tgr/driver.hpp"
 #include "fuzz/fuzz.hpp"
-#include "fuzz/memory_file.hpp"
 
 namespace ergotic::fuzz {
 namespace {
 
-bag::RawMessage messageOf(unsigned type, const std::uint8_t* data, std::size_t size) {
+template <class T>
+bag::RecordedMessage messageOf(const std::uint8_t* data, std::size_t size) {
+  return {ros::message_traits::DataType<T>::value(),
+          ros::message_traits::MD5Sum<T>::value(),
+          {data, data + size}};
+}
+
+bag::RecordedMessage messageOf(unsigned type, const std::uint8_t* data, std::size_t size) {
   switch (type % 3) {
     case 0:
-      return bag::rawMessage<GestureBlock>(data, size);
+      return messageOf<GestureBlock>(data, size);
     case 1:
-      return bag::rawMessage<Keyframe>(data, size);
+      return messageOf<Keyframe>(data, size);
     default:
-      return bag::rawMessage<Event>(data, size);
+      return messageOf<Event>(data, size);
   }
 }
 
-void write(const std::uint8_t* data, std::size_t size, const std::string& path) {
-  rosbag::Bag bag(path, rosbag::bagmode::Write);
+bag::Recording read(const std::uint8_t* data, std::size_t size) {
+  bag::Recording recording;
   while (size >= 3) {
     const std::size_t length = std::min<std::size_t>(data[1] + 256U * data[2], size - 3);
-    if (length > 0) {  // rosbag copies nothing from nowhere
-      bag.write("/station", ros::TIME_MIN, messageOf(data[0], data + 3, length));
-    }
+    bag::RecordedMessage message = messageOf(data[0], data + 3, length);
+    bag::add(recording, message, kFile);
     data += 3 + length;
     size -= 3 + length;
   }
+  bag::finish(recording, kFile);
+  return recording;
 }
 
-void read(const std::string& path) {
-  bag::readRecording(path);
-  const auto positions = bag::readPositions(path);
+void follow(const bag::Recording& recording) {
+  const auto positions = bag::positionsOf(recording.stretches, kFile);
   std::array<double, tgr::kMaxSlices> x{};
   for (int tick = 0; tick < 100 && positions->next(x.data()); ++tick) {
     if (!std::all_of(x.begin(), x.end(), [](double value) { return std::isfinite(value); })) {
@@ -57,10 +61,8 @@ void read(const std::string& path) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace ergotic;
-  const fuzz::MemoryFile file;
-  fuzz::write(data, size, file.path());
   try {
-    fuzz::read(file.path());
+    fuzz::follow(fuzz::read(data, size));
   } catch (const Exception&) {
   }
   return 0;

@@ -41,6 +41,7 @@ class LinkJudge {
       judgeFriction(lia, law.friction(networks_.scene(), lia));
     }
     judgeGift(lia, law);
+    judgeGate(lia, law, slopes);
     if (slopes.is_unbounded) {
       judgeGrowing(lia, law);
     } else if (law.switches && slopes.stiffness.highest > 0.0) {
@@ -127,6 +128,19 @@ class LinkJudge {
                         "value be 0 or less and its last 0 or more");
     } else if (law.canGive(lia)) {
       findings_.worsen(Verdict::kBounded);
+    }
+  }
+
+  /// A damper that only one side meets gives to what swings in time with the steps, at every
+  /// amplitude.
+  void judgeGate(const Lia& lia, const scene::Law& law, const Slopes& slopes) {
+    const bool is_damper = slopes.damping.highest > 0.0 && !(slopes.stiffness.highest > 0.0);
+    if (law.kind == scene::Law::Kind::kGap && !slopes.is_unbounded && is_damper &&
+        networks_.inverseMassStep(lia) > 0.0) {
+      findings_.add(Verdict::kUnproven, lia.place,
+                    "link '" + lia.name +
+                        "' is a damper that comes and goes: what swings in time with the steps "
+                        "may take energy from it. Use scheme: guarded, or a damper that stays");
     }
   }
 

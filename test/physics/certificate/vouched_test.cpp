@@ -58,6 +58,14 @@ TEST(VouchedTest, SoftCouplingsOfLowModesGrowAllTheSame) {
                 1e6);
 }
 
+TEST(VouchedTest, DampersThatComeAndGoDrive) {
+  SceneBuilder b;
+  const int mass = b.mass(1.0, 1e-4, 1.0);
+  b.spring(mass, b.ground(), 2.6032897528950336 * kRate * kRate);
+  b.link(LiaType::kContact, mass, b.ground(), 0.0, 0.5227855135986955 * kRate);
+  expectRefused(b, 14, 0.1, 1e6);
+}
+
 /// A mass in a plane between two slow ones, each of which moves along another of its axes.
 std::string twoAxes(const std::string& rotation) {
   return "ergotic: 1\ngestural_rate: 3150\nsections:\n"

@@ -9,7 +9,7 @@ import sys
 
 import numpy as np
 import yaml
-from scipy import interpolate
+from scipy import interpolate, sparse
 
 DEFAULTS = {"sections": {"medium": "0"}, "lias": {"rest_length": "0", "threshold": "0", "damping": "0"},
             "mats": {"stiffness": "0", "damping": "0", "matched": "true"}, "parameters": {}}
@@ -41,6 +41,12 @@ def slopes_of(table):
         turns = slope.derivative().roots(extrapolate=False)
         slopes = slope(np.concatenate([x, turns[np.isfinite(turns)]]))
     return min(slopes), max(slopes)
+
+
+def matrix_of(entries, rows, columns=None):
+    """Sparse, of its entries that are not 0."""
+    i, j, values = zip(*entries) if entries else ((), (), ())
+    return sparse.csc_matrix((values, (i, j)), (rows, columns or rows), dtype=float)
 
 
 def rows_of(part):

@@ -46,6 +46,10 @@ Json sectionsOf(const Scene& scene, const physics::Rates& rates, double frame) {
     if (section.modes != scene::kNoModes && section.modes != scene::kAllModes) {
       all.back()["modes"] = "some";
     }
+    const Eigen::Vector3d axis = section.pose.linear().col(0);
+    if (axis != Eigen::Vector3d::UnitX()) {
+      all.back()["axis"] = {axis[0], axis[1], axis[2]};
+    }
   }
   return all;
 }

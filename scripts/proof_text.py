@@ -59,15 +59,15 @@ def rows_of(part):
 
 def same(said, has):
     if isinstance(has, dict) and "parameter" in has:
-        times, _, name = said.rpartition("$")
-        return name == has["parameter"] and float(times.rstrip("*") or 1) == has["times"]
+        factor, _, name = said.rpartition("$")
+        return name == has["parameter"] and same(factor.rstrip("*") or "1", has["times"])
     if isinstance(has, dict):
         return "file" in said or all(same(said.get(key, "linear"), has[key]) for key in has)
     if isinstance(has, list):
         return len(said) == len(has) and all(map(same, said, has))
     if isinstance(has, (str, bool)):
         return said == str(has) or said == str(has).lower()
-    return float(said) == has
+    return math.isclose(float(said), has, rel_tol=1e-12)
 
 
 def has_of(proof, known):
@@ -80,6 +80,21 @@ def has_of(proof, known):
     return has
 
 
+def times(value):
+    return value["times"] if isinstance(value, dict) else value
+
+
+def whole(spring, tension):
+    """A guarded spring that is stretched is in two parts: one pulls at any length, the other rests at l."""
+    def both(key):
+        total = times(spring[key]) + times(tension[key])
+        follows = next((v for v in (spring[key], tension[key]) if isinstance(v, dict)), None)
+        return {**follows, "times": total} if follows else total
+    share = times(spring["stiffness"]) / (times(both("stiffness")) or 1.0)
+    return {**spring, "stiffness": both("stiffness"), "damping": both("damping"),
+            "rest_length": spring["rest_length"] * share}
+
+
 def differences(proof, text):
     """\\return what a scene says otherwise than its proof, one line each"""
     scene = yaml.load(text, yaml.BaseLoader)
@@ -90,6 +105,8 @@ def differences(proof, text):
         for name, keys in rows_of(scene.get(part) or {}):
             said = {"release": keys.get("engage"), **DEFAULTS[part], **keys}
             has = known.get(name, {})
+            if name + ".tension" in known:
+                has = whole(has, known[name + ".tension"])
             if "stiffness_limit" in keys and "tipping_point" in has:
                 k, q, limit = (float(keys[key]) for key in ("stiffness", "nonlinearity", "stiffness_limit"))
                 said.update(tipping_point=math.sqrt((limit - k) / q), limit_damping="0")

@@ -287,6 +287,7 @@ struct StringInfo {
   /// Its links also go to the second and third neighbours, in the order of addString; `settle` fits
   /// them to the partials of an ideal string.
   bool coarse = false;
+  double rest_length_ratio = 0.0;  ///< rest length of a link / its length at rest; not scalar
   int first_lia = 0;  ///< index of its first link
 };
 

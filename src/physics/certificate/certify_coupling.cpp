@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
+#include <optional>
 #include <utility>
 
 #include "at.hpp"
@@ -11,6 +10,7 @@
 #include "physics/certificate/island.hpp"
 #include "physics/certificate/linear_stepper.hpp"
 #include "physics/certificate/period_proof.hpp"
+#include "physics/network/couplings.hpp"
 #include "physics/network/network_analysis.hpp"
 
 namespace ergotic::physics {
@@ -19,15 +19,6 @@ namespace {
 constexpr int kMostMasses = 300;         // whose eigenvalues are worked out
 constexpr double kRounding = 1e-9;       // of a radius of 1
 constexpr double kCertainGrowth = 1e-2;  // per period
-
-/// What joins two rates in one island.
-struct Coupling {
-  std::set<int> slow_divisors;
-  int slow_section = 0;  // of the slowest module that a link joins to a faster section
-  int slowest = 0;       // its divisor
-  double coupling_damping = 0.0;
-  const scene::Lia* nonlinear = nullptr;  // a link on a module of the island
-};
 
 /// What the linear model does over one period of its slowest section.
 struct Trial {
@@ -42,50 +33,18 @@ class CouplingJudge {
       : networks_(networks), scene_(networks.scene()), findings_(findings) {}
 
   void run() {
-    for (const auto& [name, coupling] : couplings()) {
+    for (const auto& [name, coupling] : findCouplings(networks_)) {
       judge(name, coupling);
     }
   }
 
  private:
-  std::map<int, Coupling> couplings() const {
-    std::map<int, Coupling> found;
-    for (std::size_t l = 0; l < scene_.lias.size(); ++l) {
-      const scene::Lia& lia = scene_.lias[l];
-      const int slow = networks_.slowEnd(lia);
-      if (!networks_.isExplicit(lia) || !networks_.crossesRates(lia) ||
-          !(networks_.inverseMass(slow) > 0.0)) {
-        continue;
-      }
-      Coupling& coupling = found[networks_.islandOf(lia)];
-      coupling.slow_divisors.insert(networks_.divisorOfMat(slow));
-      if (networks_.divisorOfMat(slow) > coupling.slowest) {
-        coupling.slowest = networks_.divisorOfMat(slow);
-        coupling.slow_section = scene_.mats[at(slow)].section;
-      }
-      const Slopes& slopes = networks_.slopes(static_cast<int>(l));
-      coupling.coupling_damping = std::max(coupling.coupling_damping, slopes.damping.highest);
-    }
-    for (const scene::Lia& lia : scene_.lias) {
-      if (lia.type == scene::LiaType::kSpringDamper && networks_.isExplicit(lia)) {
-        continue;
-      }
-      for (const int name :
-           {networks_.islandOf(lia), networks_.islandOf(lia.a), networks_.islandOf(lia.b)}) {
-        const auto coupling = found.find(name);
-        if (coupling != found.end()) {
-          coupling->second.nonlinear = &lia;
-        }
-      }
-    }
-    return found;
-  }
-
   /// No bound says whether two rates get on: only the eigenvalues of a period do.
   void judge(int name, const Coupling& coupling) {
-    if (coupling.nonlinear != nullptr) {
+    if (!coupling.nonlinear.empty()) {
       say(coupling, Verdict::kUnproven,
-          "is coupled to a faster one, and link '" + coupling.nonlinear->name +
+          "is coupled to a faster one, and link '" +
+              scene_.lias[at(coupling.nonlinear.front())].name +
               "' acts beside it, which is not linear: hold and mean make no energy on the average "
               "only, and it may keep what they lend. Put all of that in one section, or let a hand "
               "hold the slower end");

@@ -35,7 +35,7 @@ class LinkJudge {
     }
     notePlaces(lia);
     judgeSignOfMoving(lia, slopes);
-    noteTurning(lia, slopes);
+    noteTurning(lia);
     const scene::Law& law = scene::lawOf(lia.type);
     if (law.friction != nullptr) {
       judgeFriction(lia, law.friction(networks_.scene(), lia));
@@ -96,21 +96,17 @@ class LinkJudge {
                       describe(kMostPower) + " W or less");
   }
 
-  /// A distance is linear in the coordinates only if the link wants to have none.
-  void noteTurning(const Lia& lia, const Slopes& slopes) {
-    const auto isScalar = [this](int mat) {
-      return networks_.scene().sectionOf(networks_.scene().mats[at(mat)]).geometry ==
-             scene::Geometry::kScalar;
-    };
-    const bool has_rest = slopes.stiffness.highest > 0.0 && lia.rest_length > 0.0;
-    if (has_rest && !isScalar(lia.a) && !isScalar(lia.b) && networks_.inverseMassStep2(lia) > 0.0) {
+  void noteTurning(const Lia& lia) {
+    if (networks_.turns(lia)) {
       Turning& turning = turning_[{lia.place.line, lia.place.column}];
       turning.first = turning.links++ == 0 ? &lia : turning.first;
     }
   }
 
   void judgeGuarded(const Lia& lia) {
-    judgeGift(lia, scene::lawOf(lia.type));
+    if (scene::lawOf(lia.type).canGive(lia)) {
+      findings_.worsen(Verdict::kBounded);  // though no more than its tank holds
+    }
     if (networks_.crossesRates(lia) && networks_.inverseMass(networks_.slowEnd(lia)) > 0.0) {
       findings_.add(Verdict::kUnproven, lia.place,
                     "guarded link '" + lia.name +

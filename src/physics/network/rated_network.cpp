@@ -113,6 +113,15 @@ bool RatedNetwork::isMoving(const scene::Lia& lia) const {
   return isMovingPoint(lia.a) || isMovingPoint(lia.b);
 }
 
+bool RatedNetwork::turns(const scene::Lia& lia) const {
+  const auto isScalar = [this](int mat) {
+    return scene_.sectionOf(scene_.mats[at(mat)]).geometry == scene::Geometry::kScalar;
+  };
+  return lia.type == scene::LiaType::kSpringDamper && lia.rest_length > 0.0 &&
+         linkOf(static_cast<int>(&lia - scene_.lias.data())).slopes.stiffness.highest > 0.0 &&
+         !isScalar(lia.a) && !isScalar(lia.b) && inverseMassStep2(lia) > 0.0;
+}
+
 int RatedNetwork::islandAt(int end) const {
   for (const Shares& place : placesOf(end)) {
     if (!place.empty()) {

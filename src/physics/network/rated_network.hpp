@@ -41,6 +41,9 @@ class RatedNetwork {
   /// True if an end is a point that can move.
   bool isMoving(const scene::Lia& lia) const;
   bool isMovingPoint(int mat) const;
+  /// True if a link wants to have a length and acts along a line that turns: a distance is linear
+  /// in the coordinates only where that length is 0.
+  bool turns(const scene::Lia& lia) const;
 
   /// Modules that explicit links join, at whatever rates, are one island, named by one of them.
   int islandOf(int mat) const { return island_[static_cast<std::size_t>(mat)]; }

@@ -67,7 +67,7 @@ class Finder {
     }
     const Chaplet chaplet(std::move(stages), divisor(first) / rates_.audio_hz,
                           slow_divisor / divisor(first));
-    return FoundChaplet{nameOf(first), chaplet, loadOn(last, first, chaplet)};
+    return FoundChaplet{nameOf(first), first, chaplet, loadOn(last, first, chaplet)};
   }
 
   scene::ChapletStage stageOf(int lia, int mat) const {

@@ -20,6 +20,6 @@ std::string flatness(const scene::Scene& scene, const scene::StringInfo& string,
 
 /// Says of every string in a plane or in space what it gains by not being scalar, or that it does
 /// not hold its pitch. \pre schemes and rates are chosen
-void notePitchPull(const scene::Scene& scene, const Rates& rates, std::vector<std::string>& notes);
+void notePitchPull(const scene::Scene& scene, std::vector<std::string>& notes);
 
 }  // namespace ergotic::physics

@@ -68,6 +68,9 @@ class Chooser {
     if (law.guarded == nullptr) {
       return {};
     }
+    if (networks_.turns(lia)) {
+      return {"length at rest of a line that turns, m", lia.rest_length, 0.0};
+    }
     const Slopes& slopes = networks_.slopes(static_cast<int>(&lia - scene_.lias.data()));
     if (slopes.is_unbounded) {
       const scene::Growth::Figure figure = law.growth->figure(scene_, lia);

@@ -7,8 +7,10 @@
 #include "physics/settling/automatic_rate.hpp"
 #include "physics/settling/filters.hpp"
 #include "physics/settling/pitch_pull.hpp"
+#include "physics/settling/raise_rates.hpp"
 #include "physics/settling/scheme_choice.hpp"
 #include "physics/settling/sleep_bound.hpp"
+#include "physics/settling/split_springs.hpp"
 #include "physics/settling/string_tuning.hpp"
 
 namespace ergotic::physics {
@@ -20,6 +22,7 @@ scene::Scene complete(scene::Scene scene, const Rates& rates, std::vector<std::s
   tuneStrings(scene, rates, notes);
   insertFilters(scene, rates, notes);
   chooseSchemes(scene, rates, notes);
+  splitSprings(scene);
   return scene;
 }
 
@@ -27,16 +30,15 @@ scene::Scene complete(scene::Scene scene, const Rates& rates, std::vector<std::s
 
 Settled settle(scene::Scene scene, const Rates& rates) {
   Settled settled;
-  chooseAutomaticRates(
-      scene, rates,
-      [&](scene::Scene candidate) {
-        std::vector<std::string> unsaid;
-        return complete(std::move(candidate), rates, unsaid);
-      },
-      settled.notes);
+  const Complete unsaid = [&](scene::Scene candidate) {
+    std::vector<std::string> notes;
+    return complete(std::move(candidate), rates, notes);
+  };
+  chooseAutomaticRates(scene, rates, unsaid, settled.notes);
+  raiseRates(scene, rates, unsaid, settled.notes);
   settled.scene = complete(std::move(scene), rates, settled.notes);
   noteSleep(settled.scene, settled.notes);
-  notePitchPull(settled.scene, rates, settled.notes);
+  notePitchPull(settled.scene, settled.notes);
   return settled;
 }
 

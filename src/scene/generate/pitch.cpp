@@ -31,14 +31,7 @@ double groundLoss(const Scene& scene, const StringInfo& string, double step) {
 
 /// What the tension leaves of a link's stiffness across the string; 1 along it.
 double tensionShare(const Scene& scene, const StringInfo& string) {
-  if (movesAlong(scene, string)) {
-    return 1.0;
-  }
-  const Mat& first = scene.mats[at(string.first)];
-  const Mat& last = scene.mats[at(string.first + string.count - 1)];
-  const int moving = dimensionsOf(scene.sectionOf(first).geometry);
-  const double length = (last.rest - first.rest).head(moving).norm() / (string.count - 1);
-  return 1.0 - scene.lias[at(string.first_lia)].rest_length / length;
+  return movesAlong(scene, string) ? 1.0 : 1.0 - string.rest_length_ratio;
 }
 
 }  // namespace
@@ -80,9 +73,9 @@ double stringZeta(const Scene& scene, const StringInfo& string, double rate_hz) 
 }
 
 bool holdsPitch(const Scene& scene, const StringInfo& string, double rate_hz) {
+  const double guarded = string.rest_length_ratio * stringKappa(scene, string, rate_hz);
   return scene.lias[at(string.first_lia)].scheme != Scheme::kGuarded ||
-         (stringKappa(scene, string, rate_hz) <= kStiffestInTune &&
-          stringZeta(scene, string, rate_hz) <= kMostDampedInTune);
+         !movesAlong(scene, string) || guarded <= kStiffestInTune;
 }
 
 double stringPitchHz(const Scene& scene, const StringInfo& string, double rate_hz) {

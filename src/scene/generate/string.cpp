@@ -56,6 +56,7 @@ void addString(SceneBuilder& builder, const StringSpec& spec) {
   info.loss = spec.loss.value_or(Value{});
   info.frequency_hz = spec.frequency_hz;
   info.coarse = spec.coarse;
+  info.rest_length_ratio = spec.rest_length_ratio;
   const Name stem(spec.name + ".");
   for (int i = 0; i < count; ++i) {
     builder.add(stringMat(builder, spec, stem, i));

@@ -183,6 +183,9 @@ TEST(SchemeChoiceTest, AcrossRatesOnlyWhatNoForceMovesMayBeSlow) {
   contact(b.slice(0));
   contact(b.mass(1.0, 0.0, 0.0, SceneBuilder::kGestural));
   contact(b.ground(0.0, SceneBuilder::kGestural));
+  for (int i = 0; i < 100; ++i) {
+    b.mass(1.0, 0.0, 0.0, SceneBuilder::kGestural);  // too many to be raised to the faster rate
+  }
   const Settled settled = settle(b.scene, kRates);
   EXPECT_EQ(settled.scene.lias[0].scheme, Scheme::kGuarded);
   EXPECT_EQ(settled.scene.lias[1].scheme, Scheme::kExplicit);

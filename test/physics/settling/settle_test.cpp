@@ -30,6 +30,7 @@ SceneBuilder spatialString(double rest_length, double height) {
   info.name = "string";
   info.first = first;
   info.count = 11;
+  info.rest_length_ratio = rest_length / 0.1;
   b.scene.strings.push_back(info);
   return b;
 }

@@ -77,6 +77,7 @@ double decibels(double gain);
 /// A chaplet in a scene, with the load that the structure at its last mass is taken for.
 struct FoundChaplet {
   std::string name;  ///< of its masses, without the number
+  int first = 0;     ///< index in Scene::mats of its first mass, which hangs on the slower module
   Chaplet chaplet;
   ChapletLoad load;
 };

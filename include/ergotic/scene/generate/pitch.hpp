@@ -39,12 +39,11 @@ double stringKappa(const Scene& scene, const StringInfo& string, double rate_hz)
 /// h Z/M of the links of a generated string.
 double stringZeta(const Scene& scene, const StringInfo& string, double rate_hz);
 
-constexpr double kStiffestInTune = 0.25;    ///< h^2 K/M of guarded links
-constexpr double kMostDampedInTune = 5e-5;  ///< h Z/M of guarded links: at most 0.09 cents flat
+constexpr double kStiffestInTune = 0.25;  ///< r h^2 K/M of guarded links
 
-/// False if the string is flat because its links are guarded (docs/physics.md, "Guarded links"):
-/// above h^2 K/M = 1/4 they look ahead to stay stable, which takes from the tension that they hold,
-/// up to some hundred cents; their dampers take up to 2 h Z/M of it.
+/// False if the string moves lengthwise and is flat, by up to some hundred cents: above
+/// r h^2 K/M = 1/4 guarded links look ahead to stay stable, which takes from what they hold
+/// (docs/physics.md, "Guarded links").
 bool holdsPitch(const Scene& scene, const StringInfo& string, double rate_hz);
 
 /// Fundamental of a generated string as it sounds, closed form, with the parameters at their

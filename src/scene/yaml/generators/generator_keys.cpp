@@ -16,13 +16,19 @@ double readRestLengthRatio(const SceneBuilder& builder, const YamlMap& map, int 
 }
 
 Scheme readScheme(const YamlMap& map, double rest_length_ratio) {
-  const bool guarded = map.has("scheme") && map.choice("scheme", {"explicit", "guarded"}) == 1;
-  if (guarded && !(rest_length_ratio > 0.0)) {
+  constexpr Scheme kSchemes[] = {Scheme::kAuto, Scheme::kExplicit, Scheme::kGuarded};
+  const Scheme scheme = map.has("scheme")
+                            ? kSchemes[map.choice("scheme", {"auto", "explicit", "guarded"})]
+                            : Scheme::kAuto;
+  if (rest_length_ratio > 0.0) {
+    return scheme;
+  }
+  if (scheme == Scheme::kGuarded) {
     map.fail("scheme", "'scheme' of " + map.what() +
-                           " is guarded without a rest length, allowed: explicit, or "
+                           " is guarded without a rest length, allowed: auto, explicit, or "
                            "'rest_length_ratio' above 0");
   }
-  return guarded ? Scheme::kGuarded : Scheme::kExplicit;
+  return Scheme::kExplicit;
 }
 
 }  // namespace ergotic::scene

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/settling/split_springs.hpp"
+
+#include <utility>
+
+#include "at.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+using scene::Geometry;
+using scene::Lia;
+using scene::Mat;
+using scene::MatType;
+using scene::Scene;
+
+/// Its length where its ends rest; 0 if it may be stretched otherwise than along their line.
+double lengthOf(const Scene& scene, const Lia& lia) {
+  const Mat& a = scene.mats[at(lia.a)];
+  const Mat& b = scene.mats[at(lia.b)];
+  const Geometry geometry = scene.sectionOf(a).geometry;
+  if (a.section != b.section || geometry == Geometry::kScalar || a.type == MatType::kPoint ||
+      b.type == MatType::kPoint) {
+    return 0.0;
+  }
+  return (a.rest - b.rest).head(dimensionsOf(geometry)).norm();
+}
+
+}  // namespace
+
+void splitSprings(Scene& scene) {
+  const std::size_t count = scene.lias.size();
+  for (std::size_t l = 0; l < count; ++l) {
+    Lia& lia = scene.lias[l];
+    const double length = lengthOf(scene, lia);
+    if (lia.type != scene::LiaType::kSpringDamper || lia.scheme != scene::Scheme::kGuarded ||
+        !(lia.rest_length < length)) {
+      continue;
+    }
+    const double slack = lia.rest_length / length;
+    Lia tension = lia;
+    tension.name = scene::Name(lia.name + ".tension");
+    tension.scheme = scene::Scheme::kExplicit;
+    tension.stiffness = (1.0 - slack) * lia.stiffness;
+    tension.rest_length = 0.0;
+    const bool is_straight = scene.sectionOf(scene.mats[at(lia.a)]).geometry == Geometry::kLine;
+    (is_straight ? lia : tension).damping = {};
+    lia.stiffness = slack * lia.stiffness;
+    lia.rest_length = length;
+    scene.lias.push_back(std::move(tension));
+  }
+}
+
+}  // namespace ergotic::physics

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "ergotic/advice/ranges.hpp"
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/physics/engine/instrument.hpp"
 #include "ergotic/physics/settling/settle.hpp"
@@ -28,6 +29,8 @@ namespace ergotic::tools {
 namespace {
 
 using scene::Scene;
+
+constexpr std::size_t kQuicklyJudged = 3000;  // modules and links, times parameters
 
 const scene::Mat& matAt(const Scene& scene, int index) {
   return scene.mats[static_cast<std::size_t>(index)];
@@ -128,6 +131,29 @@ std::shared_ptr<const Scene> shared(const Scene& scene) {
 
 std::string sizeText(const Scene& scene) {
   return std::to_string(scene.mats.size() + scene.lias.size()) + " modules and links";
+}
+
+const char* toString(physics::JudgedRange::End end) {
+  return end == physics::JudgedRange::End::kNone      ? "neither end"
+         : end == physics::JudgedRange::End::kMinimum ? "minimum"
+                                                      : "maximum";
+}
+
+/// Adds to each parameter which end of its range decides, and the range that the verdict bears.
+void addRanges(const Scene& scene,
+               const physics::Rates& rates,
+               const physics::DeviceTraits& device,
+               Json& report) {
+  const auto judged = physics::judgeRanges(scene, rates, device);
+  for (std::size_t p = 0; p < judged.size(); ++p) {
+    Json& entry = report["parameters"][p];
+    entry["decides"] = toString(judged[p].decides);
+    if (judged[p].holds) {
+      entry["largest_range"] = {judged[p].lowest, judged[p].highest};
+    } else {
+      entry["largest_range"] = "none: the verdict does not depend on it alone";
+    }
+  }
 }
 
 /// Ends with the program that `options` ask for, sharing the scene as in the station.
@@ -271,6 +297,8 @@ void addOptions(CLI::App& app, CheckOptions& options) {
   addTargetOption(app, options.target, "propose the cheapest setting that plays this accurately");
   addEndEffectorsOption(app, options.end_effectors);
   addOptions(app, options.device);
+  app.add_flag("--ranges", options.ranges,
+               "judge the ranges of the parameters of a large scene, too, which takes long");
   app.add_flag("--json", options.json, "for a program to read");
   app.add_option("--filter-response", options.filter_response,
                  "write what the chaplets of the scene let through to this table")
@@ -283,10 +311,10 @@ int check(const CheckOptions& options) {
   const tgr::EndEffectors end_effectors = readEndEffectors(options.end_effectors);
   LoadFigures load;
   load.begin("read_s", "read " + options.scene.scene);
-  Scene scene = readScene(options.scene);
+  const Scene scene = readScene(options.scene);
   const physics::Rates rates = chosenRates(scene, options.scene);
   load.begin("settle_s", "settle " + sizeText(scene));
-  const physics::Settled settled = physics::settle(std::move(scene), rates);
+  const physics::Settled settled = physics::settle(scene, rates);
   load.begin("certify_s", "certify " + sizeText(settled.scene));
   physics::DeviceTraits device = options.device.traits;
   device.taken_ports = tgr::takenPorts(settled.scene, end_effectors);
@@ -296,6 +324,10 @@ int check(const CheckOptions& options) {
   const physics::CompileOptions compile = chosenOptions(options.compile);
   Json report = reportOn(settled, rates, certificate, compile, options.device,
                          loadOf(settled.scene, rates, compile, load));
+  if (options.ranges ||
+      scene.parameters.size() * (scene.mats.size() + scene.lias.size()) <= kQuicklyJudged) {
+    addRanges(scene, rates, device, report);
+  }
   if (!options.target.empty()) {
     report["target"] = targetReport(readScene(options.scene), rates, compile, options.target,
                                     freedomOf(options.scene, options.compile));

@@ -14,6 +14,7 @@ struct CheckOptions {
   CompileChoice compile;
   std::string end_effectors;  ///< file; empty: ports move with their own slices
   DeviceChoice device;
+  bool ranges = false;  ///< judge those of large scenes, too
   bool json = false;
   std::string target;           ///< empty: nothing is proposed
   std::string filter_response;  ///< empty: not written

@@ -168,9 +168,8 @@ class ContactPart final : public SchemePart {
   }
 
  private:
-  bool mustBeGuarded(const Rates& rates) const override {
-    const double square = std::pow(touch().fastHz(rates), 2);
-    return exponent_ > 1.0 || stiffness_ / (touch().lightest() * square) > kExplicitSwitch;
+  bool mustBeGuarded(const Rates& /*rates*/) const override {
+    return exponent_ > 1.0 || stiffness_ / touch().lightest() > 0.0;
   }
   double errorOf(Scheme scheme, const Rates& rates) const override {
     const double steps = duration_s_ * touch().fastHz(rates);

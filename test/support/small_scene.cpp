@@ -115,6 +115,16 @@ class Maker {
     }
   }
 
+  /// A mass that swings in two, three, four or six steps a period, or nearly so: it meets whatever
+  /// the step does wrong at the same phase again and again.
+  void inTimeWithTheSteps() {
+    const double kappa = pick({1.0, 2.0, 2.0, 3.0, 3.0, 3.0, 3.9});
+    if (chance(0.4)) {
+      springTo(anyMass(), "g_all", kappa - pick({1.0, -1.0}) * decades(1e-6, 1e-1),
+               is_lossless_ ? 0.0 : anyLoss());
+    }
+  }
+
   void linear() {
     begin("linear");
     section("all", kRate);
@@ -176,6 +186,7 @@ class Maker {
       contact(anyMass(), decades(1e-3, 1.0), scheme({"explicit", "guarded", "auto"}));
     }
     springs(any(0, 3), 1.0);
+    inTimeWithTheSteps();
   }
 
   /// A mass between two walls of many contacts each: it hits them all the time.
@@ -261,6 +272,7 @@ class Maker {
            keys + ((parts & 2) != 0 ? "" : scheme({"explicit", "guarded", "auto"})));
     }
     springs(any(0, 3), 0.1);
+    inTimeWithTheSteps();
   }
 
   void snaps() {
@@ -281,6 +293,7 @@ class Maker {
       }
     }
     springs(any(1, 3), 0.1);
+    inTimeWithTheSteps();
   }
 
   /// A short string, and what strikes it from the same or from a slower section.
@@ -323,6 +336,7 @@ class Maker {
            keys + damping(m, 0.1) + scheme({"explicit", "guarded", "guarded", "auto"}));
     }
     springs(any(0, 2), 1.0);
+    inTimeWithTheSteps();
   }
 
   void friction() {
@@ -336,6 +350,7 @@ class Maker {
                ", width: " + number(decades(1e-2, 3.0)) + scheme({"explicit", "guarded", "auto"}));
     }
     springs(any(0, 3), 1.0);
+    inTimeWithTheSteps();
   }
 
   std::mt19937 random_;

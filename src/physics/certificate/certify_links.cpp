@@ -7,9 +7,8 @@
 
 #include "at.hpp"
 #include "physics/certificate/certify_parts.hpp"
+#include "physics/certificate/energy_loss.hpp"
 #include "physics/certificate/explicit_limits.hpp"
-#include "physics/certificate/switching_loads.hpp"
-#include "physics/network/network_analysis.hpp"
 #include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
@@ -17,13 +16,12 @@ namespace {
 
 using scene::Lia;
 
-constexpr double kMostPower = 100.0;    // W, of a hand that moves a point
-constexpr double kWarnedSwitch = 0.25;  // h^2 K (1/Ma + 1/Mb): gains a few per cent a hit
+constexpr double kMostPower = 100.0;  // W, of a hand that moves a point
 
 class LinkJudge {
  public:
   LinkJudge(const RatedNetwork& networks, Findings& findings)
-      : networks_(networks), loads_(networks), findings_(findings) {}
+      : networks_(networks), loss_(networks), findings_(findings) {}
 
   void judge(int l) {
     const Lia& lia = networks_.scene().lias[at(l)];
@@ -41,20 +39,32 @@ class LinkJudge {
       judgeFriction(lia, law.friction(networks_.scene(), lia));
     }
     judgeGift(lia, law);
-    judgeGate(lia, law, slopes);
     if (slopes.is_unbounded) {
       judgeGrowing(lia, law);
-    } else if (law.switches && slopes.stiffness.highest > 0.0) {
-      judgeSwitching(lia, law);
-      return;
     }
-    prove(lia, "slopes");
+    const bool acts = slopes.stiffness.highest > 0.0 ||
+                      (law.friction == nullptr && slopes.damping.highest > 0.0);
+    const bool switches = law.switches && acts && !slopes.is_unbounded;
+    const bool falls = law.friction != nullptr && !law.onlyBrakes(lia);
+    if (!(switches || falls) || !(networks_.inverseMassStep2(lia) > 0.0)) {
+      prove(lia, "slopes");
+    } else if ((law.is_held || falls) && loss_.surrounds(lia)) {
+      findings_.worsen(Verdict::kBounded);
+      prove(lia, "lossy");
+    } else if (switches) {
+      judgeSwitching(lia, law, slopes.stiffness.highest);
+    } else {
+      judgeFalling(lia);
+    }
   }
 
   /// What concerns many links at once.
   void finish() {
     for (const scene::Connection* place : moving_) {
       judgePlace(*place);
+    }
+    if (findings_.proof() != nullptr) {
+      findings_.proof()->losses = loss_.factors();
     }
     for (const auto& [place, turning] : turning_) {
       const std::string more =
@@ -127,19 +137,6 @@ class LinkJudge {
     }
   }
 
-  /// A damper that only one side meets gives to what swings in time with the steps, at every
-  /// amplitude.
-  void judgeGate(const Lia& lia, const scene::Law& law, const Slopes& slopes) {
-    const bool is_damper = slopes.damping.highest > 0.0 && !(slopes.stiffness.highest > 0.0);
-    if (law.kind == scene::Law::Kind::kGap && !slopes.is_unbounded && is_damper &&
-        networks_.inverseMassStep(lia) > 0.0) {
-      findings_.add(Verdict::kUnproven, lia.place,
-                    "link '" + lia.name +
-                        "' is a damper that comes and goes: what swings in time with the steps "
-                        "may take energy from it. Use scheme: guarded, or a damper that stays");
-    }
-  }
-
   /// Signs of links at rest are judged as a network.
   void judgeSignOfMoving(const Lia& lia, const Slopes& slopes) {
     if ((slopes.stiffness.lowest < 0.0 || slopes.damping.lowest < 0.0) && networks_.isMoving(lia)) {
@@ -180,69 +177,37 @@ class LinkJudge {
     if (!(unit > 0.0)) {
       return;  // no force moves either end
     }
-    const double limit = law.switches ? kWarnedSwitch : NetworkBound::kLimit;
-    const double reach = law.growth->elongation(networks_.scene(), lia, limit / unit);
-    const std::string how = law.switches ? "; it would count as soft up to an overlap of "
-                                         : "; no motion can be stable beyond an elongation of ";
+    const double reach =
+        law.growth->elongation(networks_.scene(), lia, NetworkBound::kLimit / unit);
     findings_.add(Verdict::kUnproven, lia.place,
                   "the slope of link '" + lia.name +
                       "' grows with its amplitude: stable only while it moves little" +
-                      (std::isfinite(reach) ? how + describe(reach) + " m" : "") +
+                      (std::isfinite(reach) ? "; no motion can be stable beyond an elongation of " +
+                                                  describe(reach) + " m"
+                                            : "") +
                       ". Use scheme: guarded");
   }
 
-  /// A stiffness that switches pumps energy: by little if it is soft for the step.
-  void judgeSwitching(const Lia& lia, const scene::Law& law) {
-    const double kappa = loads_.kappa(lia);
-    // What is meant to give energy may give a few per cent more.
-    const double silent = law.canGive(lia) ? kWarnedSwitch : kExplicitSwitch;
-    if (kappa <= silent && (law.canGive(lia) || loads_.losesMore(lia))) {
-      prove(lia, law.canGive(lia) ? "active" : "soft");
-      return;
-    }
-    if (law.is_held && losesEnergy(lia)) {
-      findings_.worsen(Verdict::kBounded);
-      prove(lia, "lossy");
-      return;
-    }
-    if (kappa <= silent) {
-      findings_.add(Verdict::kUnproven, lia.place,
-                    "link '" + lia.name +
-                        "' switches its stiffness: its step may give a little at every hit, which "
-                        "adds up, and its damping takes less than that. Give it " +
-                        describe(loads_.leastDamping(lia)) + " N s/m or more, or scheme: guarded");
-      return;
-    }
-    const std::string harm =
-        kappa <= kWarnedSwitch
-            ? "hard hits come back a few per cent faster, and undamped ones add up"
-            : "it may feed energy in at every hit";
+  /// A step gives a little at some hits and takes a little at others. What swings with the step,
+  /// three or four of them a period, meets the same ones again and again.
+  void judgeSwitching(const Lia& lia, const scene::Law& law, double stiffness) {
     const std::string cure =
         law.is_held ? "Damp every mass that it reaches" : "Use scheme: guarded";
-    findings_.add(
-        Verdict::kUnproven, lia.place,
-        "link '" + lia.name + "' switches its stiffness, h^2 K (1/Ma + 1/Mb) = " + describe(kappa) +
-            " with all that switch at its ends, silent below " + describe(silent) + ": " + harm +
-            ". " + cure + ", soften it, make its masses heavier, or raise the rate");
+    findings_.add(Verdict::kUnproven, lia.place,
+                  "link '" + lia.name + "' comes and goes, h^2 K (1/Ma + 1/Mb) = " +
+                      describe(networks_.inverseMassStep2(lia) * stiffness) +
+                      ": some of its hits come back faster, and what swings in time with the steps "
+                      "adds them up. " +
+                      cure);
   }
 
-  /// A bounded force keeps what it acts on bounded, if all of that loses energy and is stable, and
-  /// no guarded link hands it on to something that may keep it.
-  bool losesEnergy(const Lia& lia) {
-    if (networks_.crossesRates(lia)) {
-      return false;
-    }
-    const int island = networks_.islandOf(lia);
-    const auto [known, is_new] = loses_energy_.try_emplace(island);
-    if (is_new) {
-      const int divisor = networks_.divisorOfMat(lia.a);
-      auto proof = proofOfLoss(networks_.atOwnRate(divisor, island, true));
-      known->second = !isLeft(island) && proof;
-      if (known->second && findings_.proof() != nullptr) {
-        findings_.proof()->losses.push_back(std::move(*proof));
-      }
-    }
-    return known->second;
+  /// Friction that nowhere falls always brakes; one that falls may drive what swings with the step.
+  void judgeFalling(const Lia& lia) {
+    findings_.add(Verdict::kUnproven, lia.place,
+                  "friction of link '" + lia.name +
+                      "' falls where it slips faster, and something that it reaches loses no "
+                      "energy: what swings in time with the steps may be driven. Damp every mass "
+                      "that it reaches, or use scheme: guarded");
   }
 
   /// The rule that vouches for a link that is more than a spring and a damper.
@@ -250,27 +215,15 @@ class LinkJudge {
     const bool is_linear = lia.type == scene::LiaType::kSpringDamper && networks_.isExplicit(lia);
     if (findings_.proof() != nullptr && !is_linear) {
       const int index = static_cast<int>(&lia - networks_.scene().lias.data());
-      findings_.proof()->links.push_back(
-          {index, rule, loads_.kappa(lia), loads_.leastDamping(lia)});
+      findings_.proof()->links.push_back({index, rule});
     }
   }
 
-  bool isLeft(int island) const {
-    const auto& lias = networks_.scene().lias;
-    return std::any_of(lias.begin(), lias.end(), [&](const Lia& lia) {
-      const int a = networks_.islandAt(lia.a);
-      const int b = networks_.islandAt(lia.b);
-      return lia.scheme == scene::Scheme::kGuarded && a >= 0 && b >= 0 && a != b &&
-             (a == island || b == island);
-    });
-  }
-
   const RatedNetwork& networks_;
-  SwitchingLoads loads_;
+  EnergyLoss loss_;
   Findings& findings_;
   std::map<std::pair<int, int>, Turning> turning_;  // by line and column
   std::set<const scene::Connection*> moving_;
-  std::map<int, bool> loses_energy_;  // by island
 };
 
 }  // namespace

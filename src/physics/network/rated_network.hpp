@@ -38,6 +38,8 @@ class RatedNetwork {
   int slowEnd(const scene::Lia& lia) const;
   int fastEnd(const scene::Lia& lia) const;
   bool isExplicit(const scene::Lia& lia) const;
+  /// True if an explicit link acts on the module.
+  bool isLinked(int mat) const { return is_linked_[static_cast<std::size_t>(mat)] != 0; }
   /// True if an end is a point that can move.
   bool isMoving(const scene::Lia& lia) const;
   bool isMovingPoint(int mat) const;

@@ -5,8 +5,8 @@
 #include <map>
 #include <tuple>
 
+#include "physics/certificate/energy_loss.hpp"
 #include "physics/certificate/explicit_limits.hpp"
-#include "physics/certificate/switching_loads.hpp"
 #include "physics/network/rated_network.hpp"
 #include "physics/note.hpp"
 #include "scene/laws/law.hpp"
@@ -21,7 +21,6 @@ struct Reason {
   const char* figure = nullptr;  ///< null: it may stay explicit
   double value = 0.0;
   double allowed = 0.0;
-  const char* against = "explicit bears";
 };
 
 class Chooser {
@@ -30,7 +29,7 @@ class Chooser {
       : scene_(scene),
         network_(scene),
         networks_(network_, rates),
-        loads_(networks_),
+        loss_(networks_),
         notes_(notes) {}
 
   void run() {
@@ -58,7 +57,7 @@ class Chooser {
     return networks_.crossesRates(lia) && networks_.inverseMass(networks_.slowEnd(lia)) > 0.0;
   }
 
-  Reason reasonFor(const scene::Lia& lia) const {
+  Reason reasonFor(const scene::Lia& lia) {
     const double per_stiffness = networks_.inverseMassStep2(lia);
     const double per_damping = networks_.inverseMassStep(lia);
     if (!(per_stiffness > 0.0)) {
@@ -77,31 +76,21 @@ class Chooser {
       return {figure.name, figure.value, figure.allowed};
     }
     if (law.switches && slopes.stiffness.highest > 0.0) {
-      return switching(lia, per_stiffness * slopes.stiffness.highest);
+      const double kappa = per_stiffness * slopes.stiffness.highest;
+      const double allowed = law.is_held && loss_.surrounds(lia) ? kExplicitSwitch : 0.0;
+      return kappa > allowed ? Reason{"h^2 K (1/Ma + 1/Mb)", kappa, allowed} : Reason{};
     }
-    return law.friction == nullptr ? Reason{} : sliding(law.friction(scene_, lia), per_damping);
+    return law.friction == nullptr ? Reason{} : sliding(lia, law, per_damping);
   }
 
-  Reason switching(const scene::Lia& lia, double own) const {
-    const double together = loads_.kappa(lia);
-    if (own > kExplicitSwitch) {
-      return {"h^2 K (1/Ma + 1/Mb)", own, kExplicitSwitch};
-    }
-    if (together > kExplicitSwitch) {
-      return {"h^2 K/M of all that switch at its ends", together, kExplicitSwitch};
-    }
-    return loads_.losesMore(lia) || scene::lawOf(lia.type).canGive(lia)
-               ? Reason{}
-               : Reason{"loss that explicit hits need, N s/m", loads_.leastDamping(lia),
-                        scene::rangeOf(scene_, lia.damping).lowest, "there is"};
-  }
-
-  static Reason sliding(const scene::FrictionSlopes& slopes, double unit) {
+  Reason sliding(const scene::Lia& lia, const scene::Law& law, double unit) {
+    const scene::FrictionSlopes slopes = law.friction(scene_, lia);
     if (unit * slopes.rise >= kExplicitFriction) {
       return {"h max F' (1/Ma + 1/Mb)", unit * slopes.rise, kExplicitFriction};
     }
-    if (unit * slopes.fall >= kExplicitFalling) {
-      return {"h max(-F') (1/Ma + 1/Mb)", unit * slopes.fall, kExplicitFalling};
+    const double allowed = law.onlyBrakes(lia) || loss_.surrounds(lia) ? kExplicitFalling : 0.0;
+    if (unit * slopes.fall >= allowed) {
+      return {"h max(-F') (1/Ma + 1/Mb)", unit * slopes.fall, allowed};
     }
     return {};
   }
@@ -129,7 +118,7 @@ class Chooser {
       who += " and " + std::to_string(alike.links - 1) + " more";
     }
     const std::string why = std::string(alike.worst.figure) + " = " + shortly(alike.worst.value) +
-                            ", " + alike.worst.against + " " + shortly(alike.worst.allowed);
+                            ", explicit bears " + shortly(alike.worst.allowed);
     return noteAt(scene_, alike.first->place) + who +
            (alike.guarded ? ": guarded (" + why + ")"
                           : ": explicit, because one end is a slower mass, although " + why);
@@ -140,7 +129,7 @@ class Chooser {
   scene::Scene& scene_;
   Network network_;
   RatedNetwork networks_;
-  SwitchingLoads loads_;
+  EnergyLoss loss_;
   std::vector<std::string>& notes_;
   std::map<Key, AlikeLinks> alike_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/laws/bow_table.hpp"
+#include "scene/laws/table_curves.hpp"
 
 #include "scene/laws/families.hpp"
 

@@ -51,6 +51,7 @@ constexpr Law kConditionalLaw = {
     slopesFromZero,
     nullptr,  // growth
     nullptr,  // friction
+    never,    // onlyBrakes
     noStiffness,
 };
 

@@ -31,6 +31,7 @@ constexpr Law contactLaw(LawText text, decltype(Law::slopes) slopes, const Growt
           never,  // givesForEver
           slopes,     growth,
           nullptr,  // friction
+          never,    // onlyBrakes
           noStiffness};
 }
 
@@ -54,6 +55,7 @@ constexpr Law springLaw(LawText text,
           slopes,
           growth,
           nullptr,  // friction
+          never,    // onlyBrakes
           least_stiffness};
 }
 
@@ -69,32 +71,23 @@ template <class Explicit,
           class Curve,
           FrictionSlopes (*kFriction)(const Scene&, const Lia&)>
 constexpr Law frictionLaw(LawText text, decltype(Law::givesForEver) gives_for_ever) {
-  return {text,
-          Law::Kind::kFriction,
-          explicitForm<Explicit>(),
-          frictionForms<Curve>,
+  return {text,           Law::Kind::kFriction,    explicitForm<Explicit>(), frictionForms<Curve>,
           guardable,
           false,   // has_linear_part
           false,   // switches
           false,   // is_held
           always,  // canGive
-          gives_for_ever,
-          frictionRise<kFriction>,
+          gives_for_ever, frictionRise<kFriction>,
           nullptr,  // growth
           kFriction,
+          never,  // onlyBrakes
           noStiffness};
 }
 
-inline const char* aPluck(const Lia& /*lia*/) {
-  return "a pluck";
-}
-
-/// Holds, slips and gives what it stored: meant to be active.
-template <class Explicit>
+/// Holds, slips and gives what it stored.
+template <class Explicit, template <class> class Curve>
 constexpr Law pluckLaw(LawText text, decltype(Law::slopes) slopes) {
-  return {text,       Law::Kind::kElastic, explicitForm<Explicit>(),
-          nullptr,  // guarded
-          aPluck,
+  return {text,       Law::Kind::kElastic, explicitForm<Explicit>(), springForms<Curve>, guardable,
           false,   // has_linear_part
           true,    // switches
           true,    // is_held
@@ -103,6 +96,7 @@ constexpr Law pluckLaw(LawText text, decltype(Law::slopes) slopes) {
           slopes,
           nullptr,  // growth
           nullptr,  // friction
+          never,    // onlyBrakes
           noStiffness};
 }
 

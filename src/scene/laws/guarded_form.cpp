@@ -127,9 +127,10 @@ ERGOTIC_REALTIME void GuardedLaw<Real>::update(const Scene& scene,
   limit_damping = real(z + units.damping(scene.valueOf(lia.law->limit_damping)));
   tip = real(lia.law->tipping_point);
   exponent = real(scene.valueOf(lia.law->exponent));
-  width = real(units.velocity(scene.valueOf(lia.law->width)));
+  const double across = scene.valueOf(lia.law->width);
+  width = real(isFriction() ? units.velocity(across) : across);
   per_step = real(1.0 / units.step);
-  length = real(isContact() ? scene.valueOf(lia.law->width) : lia.rest_length);
+  length = real(isContact() ? across : lia.rest_length);
 }
 
 namespace {

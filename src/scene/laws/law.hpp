@@ -89,7 +89,7 @@ struct Law : LawText {
 
   Kind kind;
   ExplicitForm explicit_form;
-  const GuardedForms& (*guarded)(const Lia& lia);  ///< nullptr: none, it is meant to be active
+  const GuardedForms& (*guarded)(const Lia& lia);  ///< nullptr: none, it goes another way than it came
   const char* (*unguarded)(const Lia& lia);  ///< what `scheme: guarded` is refused for, or nullptr
 
   // Stability
@@ -102,6 +102,8 @@ struct Law : LawText {
   Slopes (*slopes)(const Scene& scene, const Lia& lia);
   const Growth* growth;                                            ///< nullptr: slopes are bounded
   FrictionSlopes (*friction)(const Scene& scene, const Lia& lia);  ///< nullptr: no friction
+  /// Its friction is odd and nowhere falls: any motion loses energy by it, step by step.
+  bool (*onlyBrakes)(const Lia& lia);
   /// Of the spring that it is at least; 0 if it may let go.
   double (*leastStiffness)(const Scene& scene, const Lia& lia);
 };

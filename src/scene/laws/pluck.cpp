@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 
 #include "scene/laws/families.hpp"
@@ -7,6 +8,7 @@ namespace ergotic::scene {
 namespace {
 
 constexpr double kSlope = 0.9;  // of K, while it holds
+constexpr double kTip = 0.1;    // of the width, up to where it does
 
 /// Pushes away, then slips.
 struct Pluck {
@@ -32,6 +34,34 @@ struct Pluck {
   }
 };
 
+/// A hill of the height 0.045 K width^2: up to its top it holds, beyond it slips.
+template <class Real>
+struct PluckCurve {
+  using Numbers = GuardedLaw<Real>;
+
+  ERGOTIC_REALTIME static GuardedForce<Real> push(const Numbers& n, Real p) noexcept {
+    const Real distance = std::abs(p);
+    const Real fall = Real(kTip) * n.stiffness;
+    if (distance >= n.width) {
+      return {Real(0), Real(0)};
+    }
+    return distance < Real(kTip) * n.width
+               ? GuardedForce<Real>{(fall - n.stiffness) * p, fall - n.stiffness}
+               : GuardedForce<Real>{std::copysign(fall * (distance - n.width), p), fall};
+  }
+  ERGOTIC_REALTIME static Real potential(const Numbers& n, Real p) noexcept {
+    const Real tip = Real(kTip) * n.width;
+    const Real distance = std::abs(p);
+    const Real slipping = std::max(Real(0), n.width - std::max(distance, tip));
+    const Real holding = distance < tip ? (tip - distance) * (tip + distance) : Real(0);
+    return Real(kTip / 2.0) * n.stiffness * slipping * slipping +
+           Real(kSlope / 2.0) * n.stiffness * holding;
+  }
+  ERGOTIC_REALTIME static Real damping(const Numbers& n, Real p, Real) noexcept {
+    return std::abs(p) < n.width ? std::max(Real(0), n.damping) : Real(0);
+  }
+};
+
 Slopes slopes(const Scene& scene, const Lia& lia) {
   return slopesUpTo(kSlope * largest(scene, lia.stiffness), largest(scene, lia.damping));
 }
@@ -42,6 +72,6 @@ constexpr LiaField kFields[] = {stiffnessField(), dampingField(), widthField("wi
 }  // namespace
 
 constexpr Law kPluckLaw =
-    pluckLaw<Pluck>({"pluck", kWords, kFields, Law::Tables::kNone, false}, slopes);
+    pluckLaw<Pluck, PluckCurve>({"pluck", kWords, kFields, Law::Tables::kNone, false}, slopes);
 
 }  // namespace ergotic::scene

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/laws/families.hpp"
+#include "scene/laws/table_curves.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -24,6 +25,6 @@ constexpr LawWord kWords[] = {{"pluck", "table", "rest_length"}};
 }  // namespace
 
 constexpr Law kPluckTableLaw =
-    pluckLaw<PluckTable>({"pluck", kWords, {}, Law::Tables::kOne, false}, slopes);
+    pluckLaw<PluckTable, TableCurve>({"pluck", kWords, {}, Law::Tables::kOne, false}, slopes);
 
 }  // namespace ergotic::scene

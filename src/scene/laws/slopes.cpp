@@ -24,6 +24,17 @@ bool rises(const Table& table) {
   return table.empty() || interpolate(table).smallest_slope >= 0.0;
 }
 
+bool isOdd(const Table& table) {
+  const auto& points = table.points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto& mirrored = points[points.size() - 1 - i];
+    if (points[i].first != -mirrored.first || points[i].second != -mirrored.second) {
+      return false;
+    }
+  }
+  return true;
+}
+
 FrictionSlopes frictionSlopesOf(const Table& table) {
   if (table.empty()) {
     return {};

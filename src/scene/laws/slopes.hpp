@@ -27,6 +27,8 @@ struct FrictionSlopes {
 double steepest(const Table& table);
 /// True if a table never falls, or there is none.
 bool rises(const Table& table);
+/// True if its points are mirrored at (0, 0).
+bool isOdd(const Table& table);
 FrictionSlopes frictionSlopesOf(const Table& table);
 
 }  // namespace ergotic::scene

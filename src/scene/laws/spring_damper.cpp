@@ -51,6 +51,7 @@ constexpr Law kSpringDamperLaw = {
     slopes,
     nullptr,  // growth
     nullptr,  // friction
+    never,    // onlyBrakes
     leastStiffness,
 };
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-
-#include "scene/laws/bow_table.hpp"
 #include "scene/laws/families.hpp"
+#include "scene/laws/table_curves.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -15,27 +13,6 @@ struct ElasticViscousTable {
   template <class Real>
   static Force<Real> force(const RunNumbers<Real>& c, std::size_t l, Real u, Real v) noexcept {
     return {c.table.at(l, u + c(0, l)), c.viscous.at(l, v * c(1, l))};
-  }
-};
-
-template <class Real>
-struct TableCurve {
-  using Numbers = GuardedLaw<Real>;
-
-  ERGOTIC_REALTIME static GuardedForce<Real> push(const Numbers& n, Real p) noexcept {
-    return n.table.at(p);
-  }
-  ERGOTIC_REALTIME static Real potential(const Numbers& n, Real p) noexcept {
-    return n.table.potential(p);
-  }
-  ERGOTIC_REALTIME static Real damping(const Numbers& n, Real, Real v) noexcept {
-    Real z = n.damping;
-    if (!n.viscous.empty()) {
-      // The chord, not the slope: it is what this much force dissipates at this velocity.
-      const GuardedForce<Real> at = n.viscous.at(v * n.per_step);
-      z += v != Real(0) ? at.force / v : at.slope * n.per_step;
-    }
-    return std::max(Real(0), z);
   }
 };
 
@@ -59,6 +36,10 @@ bool pushesOutBeyondItsEnds(const Lia& lia) {
 
 bool falls(const Lia& lia) {
   return !rises(lia.law->table) || !rises(lia.law->viscous_table);
+}
+
+bool onlyBrakes(const Lia& lia) {
+  return rises(lia.law->viscous_table) && isOdd(lia.law->viscous_table);
 }
 
 Slopes slopes(const Scene& /*scene*/, const Lia& lia) {
@@ -87,6 +68,7 @@ constexpr Law kTableLaw = {
     slopes,
     nullptr,  // growth
     friction,
+    onlyBrakes,
     noStiffness,
 };
 

@@ -190,10 +190,7 @@ Json lossesOf(const physics::Proof& proof) {
 Json rulesOf(const physics::Proof& proof) {
   Json all = Json::array();
   for (const physics::LinkProof& link : proof.links) {
-    all.push_back({{"link", link.link},
-                   {"rule", link.rule},
-                   {"load", link.load},
-                   {"least_damping", link.least_damping}});
+    all.push_back({{"link", link.link}, {"rule", link.rule}});
   }
   return all;
 }

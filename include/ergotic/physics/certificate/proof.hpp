@@ -32,10 +32,8 @@ struct PeriodProof {
 
 /// The rule by which a link that is not linear is vouched for.
 struct LinkProof {
-  int link = 0;              ///< in Scene::lias
-  std::string rule;          ///< docs/physics.md names them
-  double load = 0.0;         ///< h^2 (K_a/Ma + K_b/Mb) of all that switch at its ends
-  double least_damping = 0;  ///< with which it loses more than its step may give
+  int link = 0;      ///< in Scene::lias
+  std::string rule;  ///< docs/physics.md names them
 };
 
 /// A place of a point: modules and their weights.

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/certificate/energy_loss.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "at.hpp"
+#include "physics/network/network_analysis.hpp"
+
+namespace ergotic::physics {
+
+EnergyLoss::EnergyLoss(const RatedNetwork& networks)
+    : networks_(networks), joined_(networks.scene().mats.size()) {
+  for (const scene::Lia& lia : networks.scene().lias) {
+    const int a = networks.islandAt(lia.a);
+    const int b = networks.islandAt(lia.b);
+    if (!networks.isExplicit(lia) && a >= 0 && b >= 0) {
+      joined_.join(a, b);
+    }
+  }
+  for (int m = 0; m < static_cast<int>(networks.scene().mats.size()); ++m) {
+    const Network::Node& node = networks.network().nodes[at(m)];
+    if (!node.is_free) {
+      continue;
+    }
+    const int island = networks.islandOf(m);
+    Group& group = groups_[joined_.setOf(island)];
+    group.divisors.insert(networks.divisorOfMat(m));
+    if (!networks.isLinked(m)) {
+      group.keeps = group.keeps || !(node.damping.range.lowest > 0.0);
+    } else if (island == m) {
+      group.islands.push_back(island);
+    }
+  }
+}
+
+bool EnergyLoss::surrounds(const scene::Lia& lia) {
+  const int a = networks_.islandAt(lia.a);
+  const int b = networks_.islandAt(lia.b);
+  return !crossesToAMass(lia) && (a < 0 || loses(a)) && (b < 0 || loses(b));
+}
+
+bool EnergyLoss::crossesToAMass(const scene::Lia& lia) const {
+  return networks_.crossesRates(lia) && networks_.inverseMass(networks_.slowEnd(lia)) > 0.0;
+}
+
+bool EnergyLoss::loses(int island) {
+  const int name = joined_.setOf(island);
+  const auto [known, is_new] = of_group_.try_emplace(name);
+  if (is_new) {
+    known->second = judge(groups_[name]);
+  }
+  return known->second;
+}
+
+bool EnergyLoss::judge(const Group& group) {
+  if (group.keeps || group.divisors.size() != 1) {
+    return false;
+  }
+  std::vector<Factor> factors;
+  for (const int island : group.islands) {
+    std::optional<Factor> factor =
+        proofOfLoss(networks_.atOwnRate(*group.divisors.begin(), island, true));
+    if (!factor) {
+      return false;
+    }
+    factors.push_back(std::move(*factor));
+  }
+  std::move(factors.begin(), factors.end(), std::back_inserter(factors_));
+  return true;
+}
+
+}  // namespace ergotic::physics

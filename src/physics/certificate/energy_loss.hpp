@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <set>
+#include <vector>
+
+#include "ergotic/physics/certificate/proof.hpp"
+#include "physics/disjoint_sets.hpp"
+#include "physics/network/rated_network.hpp"
+
+namespace ergotic::physics {
+
+/// Where energy is lost whatever moves: the softest damping of the explicit links is positive
+/// definite there. A force that is bounded keeps what it acts on bounded only if all of that loses,
+/// and all that guarded links hand energy on to; what loses nothing collects the least that a step
+/// gives (docs/physics.md, "Stability").
+class EnergyLoss {
+ public:
+  /// \param networks  must outlive this; links of which the scheme is open count as guarded
+  explicit EnergyLoss(const RatedNetwork& networks);
+
+  /// True if all that a link acts on, at one rate, loses energy. Cost: a factorisation for each
+  /// island that is asked for.
+  bool surrounds(const scene::Lia& lia);
+  /// What shows it, of all islands around links for which it was true.
+  const std::vector<Factor>& factors() const { return factors_; }
+
+ private:
+  struct Group {
+    std::vector<int> islands;
+    std::set<int> divisors;
+    bool keeps = false;  // a module without explicit links or damping of its own is in it
+  };
+
+  bool loses(int island);
+  bool judge(const Group& group);
+  bool crossesToAMass(const scene::Lia& lia) const;
+
+  const RatedNetwork& networks_;
+  DisjointSets joined_;           // islands, by guarded links
+  std::map<int, Group> groups_;   // by the island that names them
+  std::map<int, bool> of_group_;  // known
+  std::vector<Factor> factors_;
+};
+
+}  // namespace ergotic::physics

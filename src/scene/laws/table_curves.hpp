@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+
+#include "scene/laws/guarded_form.hpp"
+
+namespace ergotic::scene {
+
+/// Guarded force of a table over elongation, with a damper or a table over velocity beside it.
+template <class Real>
+struct TableCurve {
+  using Numbers = GuardedLaw<Real>;
+
+  ERGOTIC_REALTIME static GuardedForce<Real> push(const Numbers& n, Real p) noexcept {
+    return n.table.at(p);
+  }
+  ERGOTIC_REALTIME static Real potential(const Numbers& n, Real p) noexcept {
+    return n.table.potential(p);
+  }
+  ERGOTIC_REALTIME static Real damping(const Numbers& n, Real, Real v) noexcept {
+    Real z = n.damping;
+    if (!n.viscous.empty()) {
+      // The chord, not the slope: it is what this much force dissipates at this velocity.
+      const GuardedForce<Real> at = n.viscous.at(v * n.per_step);
+      z += v != Real(0) ? at.force / v : at.slope * n.per_step;
+    }
+    return std::max(Real(0), z);
+  }
+};
+
+/// Guarded friction of a table over velocity.
+template <class Real>
+struct SlipTableCurve {
+  ERGOTIC_REALTIME static GuardedForce<Real> slip(const GuardedLaw<Real>& n, Real v) noexcept {
+    const GuardedForce<Real> at = n.viscous.at(v * n.per_step);
+    return {at.force, at.slope * n.per_step};
+  }
+};
+
+}  // namespace ergotic::scene

@@ -21,7 +21,8 @@ TEST(CertifyLinksTest, NothingNonlinearIsProvenBesideACoupledSlowMass) {
   };
   for (const auto scheme : {scene::Scheme::kExplicit, scene::Scheme::kGuarded}) {
     EXPECT_EQ(verdict(LiaType::kContact, scheme, false), Verdict::kUnproven);
-    EXPECT_EQ(verdict(LiaType::kContact, scheme, true), Verdict::kPassive);
+    EXPECT_EQ(verdict(LiaType::kContact, scheme, true),
+              scheme == scene::Scheme::kGuarded ? Verdict::kPassive : Verdict::kUnproven);
     EXPECT_EQ(verdict(LiaType::kBow, scheme, false), Verdict::kUnproven);
     EXPECT_EQ(verdict(LiaType::kBow, scheme, true), Verdict::kBounded);
   }
@@ -45,38 +46,52 @@ TEST(CertifyLinksTest, LinesThatTurnAreProvenOnlyWithoutRestLengthOrGuarded) {
   EXPECT_EQ(verdict(0.1, scene::Scheme::kGuarded).verdict, Verdict::kPassive);
 }
 
-TEST(CertifyLinksTest, SwitchingLinksAreJudgedByTheirKappa) {
-  const auto verdict = [](LiaType type, double kappa, double damping = 0.01) {
+/// However soft and damped: what swings in time with the steps is pumped all the same.
+TEST(CertifyLinksTest, NoForceThatSwitchesWithoutBoundIsProven) {
+  const auto verdict = [](LiaType type, double kappa) {
     SceneBuilder b;
     const int mass = b.mass(1.0);
+    b.spring(mass, b.ground(), 0.0, 0.01 * kRate);
     scene::Lia& lia = b.scene.lias[at(b.link(type, mass, b.ground(), kappa * kRate * kRate))];
     lia.law.edit().stiffness_limit = lia.stiffness;
-    lia.damping = {damping * kRate};
+    lia.damping = {0.01 * kRate};
     return certify(b.scene, {kRate, 14});
   };
   for (const LiaType type : {LiaType::kContact, LiaType::kCubicContact, LiaType::kClippedCubic}) {
-    EXPECT_EQ(verdict(type, 0.04).verdict, Verdict::kPassive);
-    EXPECT_TRUE(verdict(type, 0.04).findings.empty());
-    EXPECT_EQ(verdict(type, 0.04, 1e-3).verdict, Verdict::kUnproven) << "it loses too little";
-    EXPECT_THAT(verdict(type, 0.04, 0.0).findings, Contains(HasSubstr("Give it 70.56 N s/m")));
-    EXPECT_EQ(verdict(type, 0.2).verdict, Verdict::kUnproven);
-    EXPECT_THAT(verdict(type, 0.2).findings, Contains(HasSubstr("hard hits")));
-    EXPECT_EQ(verdict(type, 0.5).verdict, Verdict::kUnproven);
+    EXPECT_EQ(verdict(type, 0.004).verdict, Verdict::kUnproven);
+    EXPECT_THAT(verdict(type, 0.004).findings, Contains(HasSubstr("Use scheme: guarded")));
     EXPECT_EQ(verdict(type, 4.1).verdict, Verdict::kUnstable);
   }
 }
 
-TEST(CertifyLinksTest, SaturatingElementsAreBounded) {
+TEST(CertifyLinksTest, SaturatingElementsAreBoundedWhereEnergyIsLost) {
   for (const LiaType type : {LiaType::kPluck, LiaType::kBow, LiaType::kSmoothBow}) {
     SceneBuilder b;
+    b.scene.lias.reserve(3);
     const int mass = b.mass(1.0);
-    scene::Lia& lia = b.scene.lias[at(b.link(type, mass, b.ground(), 0.0, 0.0))];
+    scene::Lia& lia = b.scene.lias[at(b.link(type, mass, b.ground(), 0.1 * kRate * kRate))];
     lia.law.edit().width = {0.1};
     lia.damping = {0.1 * kRate};
+    EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnproven);
+    b.spring(mass, b.ground(), 0.0, 0.01);
     EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
     lia.damping = {3.5 * kRate};
     EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnstable);
   }
+}
+
+/// Odd and nowhere falling, it brakes step by step, whatever it acts on.
+TEST(CertifyLinksTest, FrictionThatOnlyBrakesIsPassive) {
+  SceneBuilder b;
+  b.spring(b.mass(1.0), b.ground(), 1.9 * kRate * kRate);
+  b.link(LiaType::kTable, 0, 1, 0.0);
+  auto& points = b.scene.lias[1].law.edit().viscous_table.points;
+  points = {{-1.0, -0.2 * kRate}, {0.0, 0.0}, {1.0, 0.2 * kRate}};
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kPassive);
+  points[2].second *= 0.9;
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnproven) << "it is not odd";
+  points = {{-2.0, -0.1 * kRate}, {-1.0, -0.2 * kRate}, {1.0, 0.2 * kRate}, {2.0, 0.1 * kRate}};
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnproven) << "it falls";
 }
 
 TEST(CertifyLinksTest, SteepestLineOfATableCounts) {
@@ -146,17 +161,13 @@ TEST(CertifyLinksTest, PowerContactSaysHowDeepItWouldHold) {
   const int mass = b.mass(1.0);
   scene::Lia& lia =
       b.scene.lias[at(b.link(LiaType::kPowerContact, mass, b.ground(), kRate * kRate))];
-  lia.law.edit().exponent = {2.0};  // slope 2 K p: h^2 2 K p / M = 0.25 at p = 0.125
+  lia.law.edit().exponent = {2.0};  // slope 2 K p: h^2 2 K p / M = 4 at p = 2
   const Certificate c = certify(b.scene, {kRate, 14});
   EXPECT_EQ(c.verdict, Verdict::kUnproven);
-  EXPECT_THAT(c.findings, Contains(HasSubstr("up to an overlap of 0.125 m")));
-  lia.law.edit().exponent = {1.0};
-  lia.stiffness = {0.04 * kRate * kRate};
-  lia.damping = {0.01 * kRate};
-  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kPassive);
+  EXPECT_THAT(c.findings, Contains(HasSubstr("beyond an elongation of 2 m")));
 }
 
-TEST(CertifyLinksTest, TablesThatFallAreBoundedAndOthersSwitch) {
+TEST(CertifyLinksTest, TablesAreBoundedWhereEnergyIsLost) {
   SceneBuilder b;
   const int mass = b.mass(1.0);
   scene::Lia& lia = b.scene.lias[at(b.link(LiaType::kTable, mass, b.ground(), 0.0))];
@@ -164,13 +175,9 @@ TEST(CertifyLinksTest, TablesThatFallAreBoundedAndOthersSwitch) {
   lia.law.edit().table.points = {{-0.01, -0.01 * k}, {0.0, 0.0}, {0.01, 0.005 * k}};
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnproven);
   EXPECT_NEAR(certify(b.scene, {kRate, 14}).sections[0].lambda, 0.04, 1e-6);
-  b.scene.sections[0].medium = {1e-3};  // what it gives is lost
-  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
-  b.scene.sections[0].medium = {};
   lia.law.edit().viscous_table.points = {{-1.0, -0.1 * kRate}, {1.0, 0.1 * kRate}};
   EXPECT_NEAR(certify(b.scene, {kRate, 14}).sections[0].lambda, 0.04 + 2.0 * 0.1, 1e-6);
-  lia.law.edit().table.points = {
-      {-0.01, -0.01 * k}, {0.0, 0.0}, {0.005, 0.004 * k}, {0.01, 0.001 * k}};
+  b.scene.sections[0].medium = {1e-3};  // what it gives is lost
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
   lia.law.edit().table.points[1].second = 2.0 * kRate * kRate;
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnstable);
@@ -195,6 +202,7 @@ TEST(CertifyLinksTest, SteepFrictionIsNoted) {
   const auto certificate = [](double rise) {
     SceneBuilder b;
     const int mass = b.mass(1.0);
+    b.spring(mass, b.ground(), 0.0, 0.001);
     scene::Lia& lia = b.scene.lias[at(b.link(LiaType::kBow, mass, b.ground(), 0.0))];
     lia.damping = {1.5 * rise * kRate};  // its steepest rise is 2/3 Z, its fall 1/3 Z
     lia.law.edit().width = {0.1};

@@ -259,6 +259,7 @@ TEST(CertifyTest, WorstFindingsComeFirst) {
   SceneBuilder b;
   b.link(LiaType::kBow, b.mass(1.0), b.ground(), 0.0, 1.6 * kRate);  // overshoots
   b.scene.lias.back().law.edit().width = {1.0};
+  b.scene.sections[0].medium = {1e-3};
   b.link(LiaType::kContact, b.mass(1.0), b.ground(), 0.5 * kRate * kRate);
   const Certificate c = certify(b.scene, {kRate, 14});
   ASSERT_GE(c.findings.size(), 2u);

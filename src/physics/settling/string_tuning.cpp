@@ -77,7 +77,7 @@ class Tuning {
 
   void tune(std::vector<std::string>& notes) {
     string_.stiffness = scene::tunedStiffness(scene_, string_, rate_hz_);
-    if (scene_.lias[at(string_.first_lia)].scheme == scene::Scheme::kGuarded) {
+    if (scene_.lias[at(string_.first_lia)].scheme != scene::Scheme::kExplicit) {
       requireTension();
     } else if (!isStable(masses_, rate_hz_)) {
       const auto stable = [this](int n) { return isStable(n, rate_hz_); };

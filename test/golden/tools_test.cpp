@@ -303,7 +303,7 @@ TEST_F(RenderTest, PlaysTheFrettedStringOpenAndOnAFret) {
   const std::string model = repository("models/fretted_string");
   EXPECT_THAT(
       run("check", model + ".yaml").text,
-      AllOf(HasSubstr("verdict: bounded"), HasSubstr("geometry: 3D"), HasSubstr("guarded: 4")));
+      AllOf(HasSubstr("verdict: bounded"), HasSubstr("geometry: 3D"), HasSubstr("guarded: 5")));
   const std::string out = path("out.wav");
   const Outcome outcome =
       run("render", model + ".yaml --gesture " + model +
@@ -333,8 +333,8 @@ TEST_F(CheckTest, SaysWhatASceneIsMadeOf) {
   EXPECT_THAT(outcome.text,
               AllOf(HasSubstr("modules: 2\n"), HasSubstr("gestural_rate_hz: 3150\n"),
                     HasSubstr("modules: {slice: 1}\n"),
-                    HasSubstr("types: {contact: 1}, schemes: {explicit: 1}"),
-                    HasSubstr("value: 2500, minimum: 1000, maximum: 8000}\n"),
+                    HasSubstr("types: {contact: 1}, schemes: {guarded: 1}"),
+                    HasSubstr("value: 2500\n    minimum: 1000\n    maximum: 8000\n"),
                     HasSubstr("verdict: passive\n"), HasSubstr("passive_up_to_n_per_m: 4200\n"),
                     HasSubstr("lowest_stable_audio_rate_hz: "), HasSubstr("state_bytes: "),
                     HasSubstr("real_time_factor: ")));

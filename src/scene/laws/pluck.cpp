@@ -47,7 +47,7 @@ struct PluckCurve {
     }
     return distance < Real(kTip) * n.width
                ? GuardedForce<Real>{(fall - n.stiffness) * p, fall - n.stiffness}
-               : GuardedForce<Real>{std::copysign(fall * (distance - n.width), p), fall};
+               : GuardedForce<Real>{fall * (p - std::copysign(n.width, p)), fall};
   }
   ERGOTIC_REALTIME static Real potential(const Numbers& n, Real p) noexcept {
     const Real tip = Real(kTip) * n.width;

@@ -139,6 +139,29 @@ TEST(VouchedTest, SoftPluckPumpsWhatSwingsInTimeWithTheSteps) {
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
 }
 
+/// A pluck is a hill of potential, so its guard has nothing to cut.
+TEST(VouchedTest, GuardedPluckPlaysAsTheExplicitOne) {
+  for (const double speed : {0.4, 0.9, 1.1}) {  // of what takes it over the hill
+    double after[2];
+    for (const Scheme scheme : {Scheme::kExplicit, Scheme::kGuarded}) {
+      SceneBuilder b;
+      const double k = 0.04 * kRate * kRate;
+      const int mass = b.mass(1.0, -0.0101, speed * 0.01 * std::sqrt(0.09 * k));
+      b.link(LiaType::kPluck, mass, b.ground(), k);
+      b.scene.lias[0].law.edit().width = {0.01};
+      b.scene.lias[0].scheme = scheme;
+      b.hear(mass, 0, Quantity::kVelocity);
+      Player player(compile(b.scene, {kRate, 1}, Precision::kDouble));
+      for (int n = 0; n < 4000; ++n) {
+        player.tick();
+      }
+      after[scheme == Scheme::kGuarded ? 1 : 0] = player.heard[0].back();
+    }
+    EXPECT_EQ(after[0] > 0.0, speed > 1.0);
+    EXPECT_NEAR(after[1], after[0], 1e-9 * std::abs(after[0])) << speed;
+  }
+}
+
 TEST(VouchedTest, BowPumpsWhatSwingsInTimeWithTheSteps) {
   double most = 0.0;
   for (int phase = 0; phase < 24; ++phase) {

@@ -161,12 +161,8 @@ void expectMost(const Wish& wish, int most) {
 TEST(StringTuningTest, RefusalsAdviseHowManyMassesWouldDo) {
   expectMost({4186.0, 20, "coarse: true, mass: 1e-4", ""}, 4);
   expectMost({1500.0, 20, "coarse: true, mass: 1e-4", ""}, 13);
-  expectMost({440.0, 20, "mass: 1e-4, rest_length_ratio: 0.9, scheme: guarded", "geometry: plane"},
-             6);
-  EXPECT_THAT(
-      refusalOf({440.0, 3, "mass: 1e-4, rest_length_ratio: 0.9, scheme: guarded, damping: 1",
-                 "geometry: plane"}),
-      HasSubstr("Take 'loss' instead of 'damping', or scheme: explicit"));
+  expectMost({1760.0, 20, "mass: 1e-4, rest_length_ratio: 0.9, scheme: guarded", "geometry: line"},
+             5);
   EXPECT_THAT(refusalOf({9000.0, 20, "coarse: true, mass: 1e-4", ""}),
               HasSubstr("Use a higher rate or a lower frequency"));
   EXPECT_THAT(refusalOf({23000.0, 1, "mass: 1e-4", ""}),

@@ -106,8 +106,8 @@ const Kind kKinds[] = {
     // Without a cube this is a straight spring.
     {"type: clipped_cubic, stiffness: 1, nonlinearity: 0, stiffness_limit: 2", false},
     {"type: cubic_contact, stiffness: 1, nonlinearity: 1, stiffness_limit: 2", true},
-    {"type: pluck, stiffness: 1, width: 1", false},
-    {"type: pluck, table: [[0, 0], [1, 1]]", false},
+    {"type: pluck, stiffness: 1, width: 1", true},
+    {"type: pluck, table: [[0, 0], [1, 1]]", true},
     {"type: bow, damping: 1, width: 1", true},
     {"type: bow, table: [[0, 0], [1, 1]]", true},
     {"type: smooth_bow, damping: 1, width: 1", true},
@@ -217,8 +217,9 @@ const Damage kDamages[] = {
      }},
     {"link 'x' cannot be guarded",
      [](Scene&, Lia& l) {
-       l.type = LiaType::kPluck;
+       l.type = LiaType::kConditional;
        l.law.edit().width = {1.0};
+       l.law.edit().release = 1.0;
        l.scheme = Scheme::kGuarded;
      }},
     {"link 'x' cannot be filtered", [](Scene&, Lia& l) { l.filtered = true; }},

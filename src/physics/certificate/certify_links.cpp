@@ -42,8 +42,8 @@ class LinkJudge {
     if (slopes.is_unbounded) {
       judgeGrowing(lia, law);
     }
-    const bool acts = slopes.stiffness.highest > 0.0 ||
-                      (law.friction == nullptr && slopes.damping.highest > 0.0);
+    const bool acts =
+        slopes.stiffness.highest > 0.0 || (law.friction == nullptr && slopes.damping.highest > 0.0);
     const bool switches = law.switches && acts && !slopes.is_unbounded;
     const bool falls = law.friction != nullptr && !law.onlyBrakes(lia);
     if (!(switches || falls) || !(networks_.inverseMassStep2(lia) > 0.0)) {

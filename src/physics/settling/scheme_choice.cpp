@@ -75,10 +75,14 @@ class Chooser {
       const scene::Growth::Figure figure = law.growth->figure(scene_, lia);
       return {figure.name, figure.value, figure.allowed};
     }
-    if (law.switches && slopes.stiffness.highest > 0.0) {
+    const bool acts =
+        slopes.stiffness.highest > 0.0 || (law.friction == nullptr && slopes.damping.highest > 0.0);
+    if (law.switches && acts) {
       const double kappa = per_stiffness * slopes.stiffness.highest;
-      const double allowed = law.is_held && loss_.surrounds(lia) ? kExplicitSwitch : 0.0;
-      return kappa > allowed ? Reason{"h^2 K (1/Ma + 1/Mb)", kappa, allowed} : Reason{};
+      const bool is_vouched = law.is_held && loss_.surrounds(lia);
+      const double allowed = is_vouched ? kExplicitSwitch : 0.0;
+      return is_vouched && kappa <= allowed ? Reason{}
+                                            : Reason{"h^2 K (1/Ma + 1/Mb)", kappa, allowed};
     }
     return law.friction == nullptr ? Reason{} : sliding(lia, law, per_damping);
   }

@@ -312,7 +312,7 @@ void addNonlinear(Cases& cases) {
                        return play(make(Scheme::kAuto), {kRate, 1}, 40000);
                      }});
   };
-  both("string on a barrier, kappa 30", "unstable", "switches its stiffness",
+  both("string on a barrier, kappa 30", "unstable", "comes and goes",
        [](Scheme scheme) { return stringOnBarrier(LiaType::kContact, 30.0, scheme); });
   both("string on a barrier, power 1.5", "unproven", "grows with its amplitude",
        [](Scheme scheme) { return stringOnBarrier(LiaType::kPowerContact, 30.0, scheme); });

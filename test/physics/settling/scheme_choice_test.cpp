@@ -83,6 +83,9 @@ void setStiffness(Lia& lia, double kappa) {
   lia.stiffness = stiff(kappa);
   lia.damping = damped(0.01);
 }
+void setContact(Lia& lia, double kappa) {
+  lia.stiffness = stiff(kappa);
+}
 void setDamping(Lia& lia, double s) {
   lia.damping = damped(s);
 }
@@ -102,8 +105,9 @@ void setElastic(Lia& lia, double kappa) {
 }
 const double kFallOfSmoothBow = 0.63 * 2.0 * std::exp(-1.0);
 const Turn kTurns[] = {
-    {"contact", LiaType::kContact, 0.0, setStiffness},
-    {"linear power contact", LiaType::kPowerContact, 0.0, setStiffness},
+    {"contact", LiaType::kContact, 0.0, setContact},
+    {"linear power contact", LiaType::kPowerContact, 0.0, setContact},
+    {"contact that only damps", LiaType::kContact, 0.0, setDamping},
     {"clipped cubic", LiaType::kClippedCubic, 0.0, setLimit},
     {"cubic contact", LiaType::kCubicContact, 0.0, setLimit},
     {"pluck", LiaType::kPluck, 0.05 / 0.9, setStiffness},

@@ -70,20 +70,9 @@ def same(said, has):
     return math.isclose(float(said), has, rel_tol=1e-12)
 
 
-def whole(guarded, tension):
-    """A spring of which settling made two: K e = K' (r - l) + K" r."""
-    times = lambda value: value["times"] if isinstance(value, dict) else value  # noqa: E731
-    part, rest = times(guarded["stiffness"]), times(tension["stiffness"])
-    both = part + rest
-    if isinstance(guarded["stiffness"], dict):
-        both = {**guarded["stiffness"], "times": both}
-    return {**guarded, "stiffness": both, "rest_length": part * guarded["rest_length"] / (part + rest),
-            "damping": guarded["damping"] or tension["damping"]}
-
-
-def has_of(proof, known, tensions):
+def has_of(proof, known):
     """By the words of scenes."""
-    has = whole(known, tensions[known["name"]]) if known["name"] in tensions else dict(known)
+    has = dict(known)
     if "section" in has:
         has["section"] = proof["sections"][has["section"]]["name"].removesuffix(".raised")
     if "between" in has:
@@ -112,8 +101,7 @@ def differences(proof, text):
     filtered = {port["mat"] for _, port in rows_of(scene.get("ports") or {}) if "filter" in port}
     for part, ours in (("parameters", "parameters"), ("sections", "sections"), ("mats", "modules"),
                        ("lias", "links")):
-        tensions = {each["name"][:-8]: each for each in proof[ours] if each["name"].endswith(".tension")}
-        known = {each["name"]: has_of(proof, each, tensions) for each in proof[ours]}
+        known = {each["name"]: has_of(proof, each) for each in proof[ours]}
         for name, keys in rows_of(scene.get(part) or {}):
             said = {"release": keys.get("engage"), **DEFAULTS[part], **keys}
             has = known.get(name, {})

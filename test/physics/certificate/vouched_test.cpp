@@ -3,8 +3,8 @@
 // does grow, and must not be vouched for.
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/physics/certificate/monodromy.hpp"
-#include "ergotic/scene/text/read_scene.hpp"
 #include "ergotic/physics/settling/settle.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
 #include "support/physics.hpp"
 
 namespace ergotic::physics {

@@ -10,14 +10,15 @@ namespace ergotic::physics {
 
 /// What a parameter's range means for the verdict, the other ranges as they are.
 struct JudgedRange {
-  /// The end of its range that decides, alone nearer to the limit than the other; kNone: both alike.
+  /// The end of its range that decides, alone nearer to the limit than the other; kNone: both
+  /// alike.
   enum class End { kNone, kMinimum, kMaximum };
   std::string name;
   End decides = End::kNone;
   /// True if some range around its present value is vouched for.
   bool holds = false;
-  /// The largest such range, each end by itself and to a thousandth; infinite where nothing ends it.
-  /// What may stand there at all (a mass above 0) ends it, too.
+  /// The largest such range, each end by itself and to a thousandth; infinite where nothing ends
+  /// it. What may stand there at all (a mass above 0) ends it, too.
   double lowest = 0.0;
   double highest = 0.0;
 };

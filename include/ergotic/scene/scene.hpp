@@ -288,7 +288,7 @@ struct StringInfo {
   /// them to the partials of an ideal string.
   bool coarse = false;
   double rest_length_ratio = 0.0;  ///< rest length of a link / its length at rest; not scalar
-  int first_lia = 0;  ///< index of its first link
+  int first_lia = 0;               ///< index of its first link
 };
 
 /// A whole scene.

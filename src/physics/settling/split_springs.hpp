@@ -9,8 +9,8 @@ namespace ergotic::physics {
 /// two: one of stiffness K (1 - L/l) without a rest length, which is linear, and one of K L/l with
 /// the rest length l, which then pushes nothing. Guarded ones become these two, the first of them
 /// explicit and appended as `<name>.tension`: what moves across the line is held by the tension
-/// alone, so it keeps its pitch at any stiffness, and the guard has nothing to hold at rest. The damper is that of
-/// the guarded one, but in a line, where it never turns, that of the other.
+/// alone, so it keeps its pitch at any stiffness, and the guard has nothing to hold at rest. The
+/// damper is that of the guarded one, but in a line, where it never turns, that of the other.
 /// \param scene  whose schemes are chosen
 /// Realtime: no. Source: docs/physics.md, "Guarded links".
 void splitSprings(scene::Scene& scene);

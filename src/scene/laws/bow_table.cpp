@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/laws/table_curves.hpp"
-
 #include "scene/laws/families.hpp"
+#include "scene/laws/table_curves.hpp"
 
 namespace ergotic::scene {
 namespace {

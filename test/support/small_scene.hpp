@@ -24,4 +24,7 @@ struct SmallScene {
 /// millimetres. \return the same scene for the same seed
 SmallScene smallScene(unsigned seed);
 
+/// The same, with every scheme left to the station.
+SmallScene leftOpen(SmallScene scene);
+
 }  // namespace ergotic::test

@@ -70,12 +70,12 @@ struct Judged {
   Verdict verdict = Verdict::kPassive;
 };
 
-Judged judge(const SmallScene& small, unsigned seed) {
+Judged judge(const SmallScene& small, unsigned seed, bool plays_all = false) {
   Judged judged;
   const scene::Scene scene = settle(scene::readYaml(small.text(), "small.yaml"), small.rates).scene;
   judged.verdict = certify(scene, small.rates).verdict;
   judged.is_vouched = isVouched(judged.verdict);
-  judged.grows = judged.is_vouched &&
+  judged.grows = (judged.is_vouched || plays_all) &&
                  grows(scene, small.rates, seed % 2 == 0 ? Precision::kDouble : Precision::kFloat);
   return judged;
 }
@@ -127,6 +127,29 @@ TEST(SmallScenesTest, SomeOfEveryFamilyAreVouchedFor) {
   EXPECT_EQ(vouched.size(), 10U);
   for (const auto& [family, scenes] : vouched) {
     EXPECT_GE(scenes, 2) << family;
+  }
+}
+
+/// Where schemes are left to the station. Links that snap cannot be guarded, and tables that push
+/// outwards are active: of these fewer are.
+TEST(SmallScenesTest, NearlyAllThatHoldsIsVouchedFor) {
+  struct Share {
+    int holding = 0;
+    int vouched = 0;
+  };
+  std::map<std::string, Share> shares;
+  for (unsigned seed = 0; seed < 400; ++seed) {
+    const SmallScene small = test::leftOpen(test::smallScene(seed));
+    const Judged judged = judge(small, seed, true);
+    Share& share = shares[small.family];
+    share.holding += judged.grows ? 0 : 1;
+    share.vouched += !judged.grows && judged.is_vouched ? 1 : 0;
+  }
+  for (const auto& [family, share] : shares) {
+    const bool is_active = family == "tables" || family == "snaps";
+    EXPECT_GE(share.vouched, (is_active ? 0.3 : 0.95) * share.holding)
+        << family << ": " << share.vouched << " of " << share.holding;
+    RecordProperty(family, std::to_string(share.vouched) + " of " + std::to_string(share.holding));
   }
 }
 

@@ -184,8 +184,13 @@ std::vector<station::Event> Bench::events() {
 }
 
 std::vector<station::GestureTick> Bench::recorded() {
-  std::vector<station::GestureTick> ticks(1U << 15U);
-  ticks.resize(station->pollGestures(ticks.data(), ticks.size()));
+  // A few at a time: a live station has locked all memory, and a buffer for the longest run would
+  // be mapped and filled with pages at each call, beside the tick.
+  std::vector<station::GestureTick> ticks;
+  std::array<station::GestureTick, 16> some;
+  while (const std::size_t count = station->pollGestures(some.data(), some.size())) {
+    ticks.insert(ticks.end(), some.begin(), some.begin() + static_cast<std::ptrdiff_t>(count));
+  }
   return ticks;
 }
 

@@ -38,12 +38,21 @@ class PortJudge {
     met.port = p;
     met.stiffness = links_.stiffness(port) * at_device / scene_.time_unit_s;
     met.stiffness_limit = loop_.stiffnessLimit();
-    met.damping = std::max(links_.atSlice(port).damping, 0.0) * at_device;
+    met.damping = std::max(links_.damping(port), 0.0) * at_device;
     met.damping_limit = damping_limit_;
     met.level = std::max(loop_.judge(met.stiffness, met.damping), ofFreeSlice(p));
     // What an end-effector makes of a port is known where that is.
     met.is_judged = port.slice >= 0 && !isTaken(p, device_);
     return met;
+  }
+
+  /// What drives the hand instead of resisting it; empty: nothing.
+  std::string describeDriving(const scene::Port& port) const {
+    const int link = links_.driving(port);
+    return link < 0 ? ""
+                    : "port '" + port.name + "': link '" + scene_.lias[at(link)].name +
+                          "' has a negative stiffness, damping or nonlinearity and drives the "
+                          "hand: it gives energy, no bound holds. Let it be 0 or more";
   }
 
   std::string describe(const PortCertificate& met) const {
@@ -124,6 +133,9 @@ std::vector<PortCertificate> judgePorts(const RatedNetwork& networks,
     const scene::Port& port = scene.ports[at(p)];
     if (port.agent >= 0) {
       continue;  // no hand is there
+    }
+    if (const std::string text = judge.describeDriving(port); !text.empty()) {
+      findings.add(Verdict::kUnproven, port.place, text);
     }
     PortCertificate met = judge.judge(p);
     if (met.level != HandLevel::kSilent) {

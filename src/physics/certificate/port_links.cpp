@@ -7,6 +7,7 @@
 
 #include "at.hpp"
 #include "scene/laws/law.hpp"
+#include "scene/laws/range.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -24,7 +25,16 @@ int largest(const std::vector<int>& links, const Value& value) {
 }  // namespace
 
 PortLinks::PortLinks(const Network& network)
-    : network_(network), scene_(network.scene), links_of_(linksOfNodes(network)) {}
+    : network_(network),
+      scene_(network.scene),
+      links_of_(linksOfNodes(network)),
+      is_in_hand_(scene_.mats.size(), 0) {
+  for (const scene::Port& port : scene_.ports) {
+    if (port.agent < 0) {
+      is_in_hand_[at(port.mat)] = 1;
+    }
+  }
+}
 
 double PortLinks::stiffness(const scene::Port& port) const {
   double sum = 0.0;
@@ -43,8 +53,28 @@ int PortLinks::stiffest(const scene::Port& port) const {
 }
 
 int PortLinks::mostDamped(const scene::Port& port) const {
-  return largest(links_of_[at(port.mat)],
-                 [&](int l) { return share(port, port.mat, l) * damping(l); });
+  return largest(links_of_[at(port.mat)], [&](int l) { return dampingAt(port, l); });
+}
+
+double PortLinks::damping(const scene::Port& port) const {
+  double sum = 0.0;
+  for (const int l : links_of_[at(port.mat)]) {
+    sum += dampingAt(port, l);
+  }
+  return sum;
+}
+
+int PortLinks::driving(const scene::Port& port) const {
+  const auto drives = [this](int l) {
+    const scene::Lia& lia = scene_.lias[at(l)];
+    const Slopes& slopes = link(l).slopes;
+    return lia.scheme == scene::Scheme::kExplicit &&
+           (slopes.stiffness.lowest < 0.0 || slopes.damping.lowest < 0.0 ||
+            scene::rangeOf(scene_, lia.law->nonlinearity).lowest < 0.0);
+  };
+  const std::vector<int>& links = links_of_[at(port.mat)];
+  const auto found = std::find_if(links.begin(), links.end(), drives);
+  return found == links.end() ? -1 : *found;
 }
 
 PortLinks::Resistance PortLinks::atSlice(const scene::Port& port) const {
@@ -86,9 +116,19 @@ double PortLinks::share(const scene::Port& port, int mat, int l) const {
   return seen;
 }
 
+/// Another hand may go the other way, and then each feels twice what it would if that were held.
+double PortLinks::hands(int mat) const {
+  return is_in_hand_[at(mat)] != 0 ? 2.0 : 1.0;
+}
+
 double PortLinks::along(const scene::Port& port, int l) const {
   const int mat = port.filter < 0 ? port.mat : port.filter;
-  return share(port, mat, l) * series(mat, l);
+  const Series all = series(mat, l);
+  return share(port, mat, l) * hands(all.end) * all.stiffness;
+}
+
+double PortLinks::dampingAt(const scene::Port& port, int l) const {
+  return share(port, port.mat, l) * hands(otherEnd(l, port.mat)) * damping(l);
 }
 
 double PortLinks::slope(int l) const {
@@ -100,19 +140,17 @@ double PortLinks::damping(int l) const {
 }
 
 /// One link after the other through masses that nothing else holds; what comes then is held.
-double PortLinks::series(int from, int l) const {
-  double stiffness = slope(l);
-  for (int links = 1; links < kLongestSeries && stiffness > 0.0; ++links) {
-    const int mat = otherEnd(l, from);
-    const std::vector<int>& here = links_of_[at(mat)];
-    if (scene_.mats[at(mat)].type != scene::MatType::kMass || here.size() != 2) {
+PortLinks::Series PortLinks::series(int from, int l) const {
+  Series all{slope(l), otherEnd(l, from)};
+  for (int links = 1; links < kLongestSeries && all.stiffness > 0.0; ++links) {
+    const std::vector<int>& here = links_of_[at(all.end)];
+    if (scene_.mats[at(all.end)].type != scene::MatType::kMass || here.size() != 2) {
       break;
     }
-    from = mat;
     l = here[0] == l ? here[1] : here[0];
-    stiffness = 1.0 / (1.0 / stiffness + 1.0 / slope(l));
+    all = {1.0 / (1.0 / all.stiffness + 1.0 / slope(l)), otherEnd(l, all.end)};
   }
-  return stiffness;
+  return all;
 }
 
 PortLinks::Resistance PortLinks::sum(const scene::Port& port,

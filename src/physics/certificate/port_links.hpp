@@ -20,8 +20,12 @@ class PortLinks {
   double stiffness(const scene::Port& port) const;
   /// The link that gives most of it, -1: none.
   int stiffest(const scene::Port& port) const;
+  /// What the links of its slice resist a step of it with, N s/m.
+  double damping(const scene::Port& port) const;
   /// The link of the slice with most damping, -1: none.
   int mostDamped(const scene::Port& port) const;
+  /// The explicit link of the slice that is below 0 somewhere and drives a hand, -1: none.
+  int driving(const scene::Port& port) const;
 
   /// What the links of a module resist a step of it with, everything else held.
   struct Resistance {
@@ -40,15 +44,23 @@ class PortLinks {
   /// Links behind the filter, or of the slice if it has none.
   std::vector<int> linksOf(const scene::Port& port) const;
   double share(const scene::Port& port, int mat, int l) const;
+  double hands(int mat) const;
   double along(const scene::Port& port, int l) const;
+  double dampingAt(const scene::Port& port, int l) const;
   double slope(int l) const;
   double damping(int l) const;
-  double series(int from, int l) const;
+  /// Links in a row, and what the last of them ends on.
+  struct Series {
+    double stiffness = 0.0;
+    int end = -1;
+  };
+  Series series(int from, int l) const;
   Resistance sum(const scene::Port& port, int mat, const std::vector<int>& links) const;
 
   const Network& network_;
   const scene::Scene& scene_;
   std::vector<std::vector<int>> links_of_;  // [mats]
+  std::vector<unsigned char> is_in_hand_;   // [mats]
 };
 
 }  // namespace ergotic::physics

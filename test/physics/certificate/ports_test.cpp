@@ -315,5 +315,54 @@ TEST(PassivityTest, ASliceWithoutStiffLinksIsFree) {
   EXPECT_TRUE(c.findings.empty());
 }
 
+/// Two slices against one another, each moved exactly by a force that is held and one tick late:
+/// their difference moves as one slice does on a spring of twice the stiffness.
+TEST(PassivityTest, ASliceThatIsJoinedToAnotherMayMeetTwiceTheLink) {
+  const auto joined = [](double stiffness, double damping) {
+    SceneBuilder b;
+    const int first = b.slice(0);
+    b.spring(first, b.slice(1), stiffness, damping);
+    return certify(b.scene, kRates);
+  };
+  EXPECT_LT(radiusOfHandOnWall(2.0 * 0.49 * kLimit, 0.3, kDeviceDamping), 1.0);
+  EXPECT_GT(radiusOfHandOnWall(2.0 * 0.51 * kLimit, 0.3, kDeviceDamping), 1.0);
+  const Certificate soft = certify(wall(600.0).scene, kRates);
+  const Certificate both = joined(300.0, 20.0);
+  EXPECT_DOUBLE_EQ(both.ports.at(1).stiffness, soft.ports.at(0).stiffness);
+  EXPECT_DOUBLE_EQ(both.ports.at(1).damping, 40.0);
+  EXPECT_EQ(joined(0.99 * kLimit, 0.0).verdict, Verdict::kPassive);
+  EXPECT_EQ(joined(1.01 * kLimit, 0.0).verdict, Verdict::kUnproven);
+}
+
+TEST(PassivityTest, ALightMassBetweenTwoSlicesIsNoWall) {
+  SceneBuilder b;
+  const int first = b.slice(0);
+  const int between = b.mass(1e-3);
+  b.spring(first, between, 1000.0);
+  b.spring(between, b.slice(1), 1000.0);
+  EXPECT_DOUBLE_EQ(certify(b.scene, kRates).ports.at(0).stiffness, 1000.0);
+}
+
+/// A slice that is only joined to what no force moves is in no network.
+TEST(PassivityTest, WhatDrivesAHandIsNotProven) {
+  const auto judged = [](LiaType type, double k, double z, double q, Scheme scheme) {
+    SceneBuilder b = wall(k, type);
+    b.scene.lias[0].damping = {z};
+    b.scene.lias[0].scheme = scheme;
+    b.scene.lias[0].law.edit().nonlinearity = {q};
+    return certify(b.scene, kRates);
+  };
+  const auto explicitly = Scheme::kExplicit;
+  for (const Certificate& c : {judged(LiaType::kSpringDamper, -100.0, 0.0, 0.0, explicitly),
+                               judged(LiaType::kSpringDamper, 0.0, -10.0, 0.0, explicitly),
+                               judged(LiaType::kQuadratic, 100.0, 0.0, -1e4, explicitly),
+                               judged(LiaType::kCubic, 100.0, 0.0, -1e6, explicitly)}) {
+    EXPECT_EQ(c.verdict, Verdict::kUnproven);
+    EXPECT_THAT(c.findings, Contains(HasSubstr("link 'l0' has a negative stiffness, damping or")));
+  }
+  EXPECT_EQ(judged(LiaType::kCubic, 100.0, 1.0, 1e6, explicitly).verdict, Verdict::kPassive);
+  EXPECT_EQ(judged(LiaType::kCubic, 100.0, 0.0, -1e6, Scheme::kGuarded).verdict, Verdict::kPassive);
+}
+
 }  // namespace
 }  // namespace ergotic::physics

@@ -209,6 +209,31 @@ TEST(GuardedTest, ContactThatComesToRestTouchingStaysFinite) {
   }
 }
 
+/// A spring pulls a ball off a wall, often harder than the wall pushes where it is about to let go.
+TEST(GuardedTest, ContactsNeverPull) {
+  for (const LiaType type : {LiaType::kContact, LiaType::kPowerContact, LiaType::kCubicContact}) {
+    for (const double kappa : {0.1, 1.0, 10.0, 100.0}) {
+      SceneBuilder b;
+      const int ball = b.mass(1.0, 1.0);
+      b.spring(ball, b.ground(), 0.9 * kRate * kRate);
+      const int wall = b.ground();
+      scene::Lia& lia = b.scene.lias[at(b.link(type, ball, wall, kappa * kRate * kRate))];
+      lia.law.edit().width = {-0.5};
+      lia.law.edit().exponent = {1.5};
+      lia.law.edit().nonlinearity = lia.stiffness;
+      lia.law.edit().stiffness_limit = 2.0 * lia.stiffness;
+      lia.law.edit().tipping_point = 1.0;
+      lia.scheme = Scheme::kGuarded;
+      b.hear(wall, 0, Quantity::kForce);
+      Player player(b.scene, {kRate, 1});
+      player.ticks(2000);
+      const auto [low, high] = std::minmax_element(player.heard[0].begin(), player.heard[0].end());
+      EXPECT_EQ(*low, 0.0) << static_cast<int>(type) << " " << kappa;
+      EXPECT_GT(*high, 0.01 * kRate * kRate) << static_cast<int>(type) << " " << kappa;
+    }
+  }
+}
+
 TEST(GuardedTest, ObliqueCollisionsKeepEnergyAndMomentum) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-1.0, 1.0);

@@ -35,7 +35,7 @@ inline Eigen::MatrixXd monodromy(const scene::Scene& scene, const Rates& rates) 
 }
 
 /// Largest absolute eigenvalue; 0 of an empty matrix. A rigid motion is a double eigenvalue 1 that
-/// rounding splits: what is within 1e-6 of 1, and no larger than 1 + 1e-7, counts as 1.
+/// rounding splits: one within 1e-6 of 1 is worked out again without the states that stay as is.
 /// Realtime: no. Cost: O(rows^3), about 1 s for 600 rows.
 double spectralRadius(const Eigen::MatrixXd& matrix);
 

@@ -36,9 +36,11 @@ TEST(RaiseRatesTest, WhoChoosesTheSchemeKeepsTheRate) {
   EXPECT_EQ(certify(settled.scene, kRates).verdict, Verdict::kUnproven);
 }
 
-TEST(RaiseRatesTest, SlicesStayWhereTheyAre) {
+TEST(RaiseRatesTest, SlicesAndDrivenModulesStayWhereTheyAre) {
   SceneBuilder b = hammered();
   const int slice = b.slice(0);
+  const int driven = b.driven(0);
+  b.scene.mats[at(driven)].section = SceneBuilder::kGestural;
   const int hammer = b.scene.lias.back().a;
   b.spring(slice, hammer, 500.0, 1.0);
   const Settled settled = settle(b.scene, kRates);
@@ -46,6 +48,7 @@ TEST(RaiseRatesTest, SlicesStayWhereTheyAre) {
   EXPECT_EQ(settled.scene.sections[2].name, b.scene.sections[1].name + ".raised");
   EXPECT_EQ(settled.scene.mats[at(hammer)].section, 2);
   EXPECT_EQ(settled.scene.mats[at(slice)].section, SceneBuilder::kGestural);
+  EXPECT_EQ(settled.scene.mats[at(driven)].section, SceneBuilder::kGestural);
   EXPECT_EQ(divisorOf(settled.scene.sections[SceneBuilder::kGestural], kRates), 14);
   EXPECT_EQ(certify(settled.scene, kRates).verdict, Verdict::kPassive);
 }

@@ -18,6 +18,24 @@ GuardedLaw<Real> lawOf(LiaType type) {
   return GuardedLaw<Real>::make(Scene{}, lia, Units{});
 }
 
+/// A guard that lets a damper drive would vouch for what grows.
+TEST(GuardedFormTest, DampingIsNeverNegative) {
+  for (const LiaType type : {LiaType::kSpringDamper, LiaType::kQuadratic, LiaType::kCubic,
+                             LiaType::kClippedCubic, LiaType::kContact, LiaType::kPowerContact,
+                             LiaType::kCubicContact, LiaType::kPluck, LiaType::kTable}) {
+    Lia lia;
+    lia.type = type;
+    lia.damping = {-1.0};
+    lia.law.edit().tipping_point = 0.5;
+    lia.law.edit().width = {2.0};
+    lia.law.edit().table.points = {{-2.0, -2.0}, {2.0, 2.0}};
+    const auto law = GuardedLaw<double>::make(Scene{}, lia, Units{});
+    for (const double p : {0.1, 0.9}) {
+      EXPECT_EQ(law.dampingAt(p, 0.1), 0.0) << static_cast<int>(type) << " " << p;
+    }
+  }
+}
+
 /// By the midpoint rule.
 double meanOf(const GuardedLaw<double>& law, double p, double w) {
   constexpr int kParts = 20000;

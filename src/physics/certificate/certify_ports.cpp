@@ -5,7 +5,6 @@
 #include "at.hpp"
 #include "physics/certificate/certify_parts.hpp"
 #include "physics/certificate/free_slice.hpp"
-#include "physics/certificate/linear_stepper.hpp"
 #include "physics/certificate/port_links.hpp"
 
 namespace ergotic::physics {
@@ -83,7 +82,7 @@ class PortJudge {
  private:
   /// What hangs on a slice may set it off at less than its links alone.
   HandLevel ofFreeSlice(int p) const {
-    const FreeSlice slice(networks_, links_.ofNodes(), p);
+    const FreeSlice slice(networks_, p);
     const auto growth = [&](double times) {
       DeviceTraits device = device_;
       device.damping *= times;
@@ -101,10 +100,15 @@ class PortJudge {
            physics::describe(device_.delay_ticks) + " ticks late, ";
   }
 
+  /// To what forces move.
+  bool leadsOn(const scene::Lia& lia) const {
+    return networks_.inverseMass(lia.a) > 0.0 || networks_.inverseMass(lia.b) > 0.0;
+  }
+
   std::string describeFree(const scene::Port& port) const {
     const std::vector<int>& links = links_.ofNodes()[at(port.mat)];
     const auto first = std::find_if(links.begin(), links.end(),
-                                    [this](int l) { return hasLinearPart(scene_.lias[at(l)]); });
+                                    [this](int l) { return leadsOn(scene_.lias[at(l)]); });
     return "port '" + port.name + "': in nobody's hand " + ofSlice() +
            "begins to swing with what hangs on link '" + scene_.lias[at(*first)].name + "'";
   }

@@ -8,7 +8,9 @@
 #include "at.hpp"
 #include "ergotic/physics/certificate/monodromy.hpp"
 #include "physics/certificate/linear_stepper.hpp"
+#include "physics/certificate/port_links.hpp"
 #include "physics/step_units.hpp"
+#include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -16,14 +18,59 @@ namespace {
 using scene::MatType;
 
 constexpr int kMostMasses = 100;
+// Of the steepest slope. Between a mass that is late by a half and by a quarter of its period, the
+// worst, is a factor of 4.
+constexpr double kParts[] = {0.0, 0.0625, 0.25, 1.0};
 
 bool isFree(const scene::Mat& mat) {
   return mat.type == MatType::kMass || mat.type == MatType::kCell;
 }
 
-/// Masses that links which always hold lead to from a slice, as far as they are to be counted:
-/// there may be a few more, on strings and meshes that other points join.
-int massesBehind(int slice, const Network& network, const std::vector<std::vector<int>>& links_of) {
+bool isAt(int mat, const scene::Lia& lia) {
+  return lia.a == mat || lia.b == mat;
+}
+
+/// A link that is not linear as the spring and damper that it is around some place: what always
+/// holds, and a part of what more it can be. Guarded, it moves its ends about as one whose force is
+/// the mean over the steps on both sides does.
+void makeLinear(scene::Lia& lia,
+                const RatedNetwork& networks,
+                const scene::Scene& now,
+                double part) {
+  const scene::Law& law = scene::lawOf(lia.type);
+  const Slopes steepest = slopesAt(now, lia, kHandDepth);
+  const double stiffness = law.has_linear_part ? now.valueOf(lia.stiffness) : 0.0;
+  const double damping = law.has_linear_part ? now.valueOf(lia.damping) : 0.0;
+  const double k = stiffness + part * (steepest.stiffness.highest - stiffness);
+  const double z = damping + part * (steepest.damping.highest - damping);
+  const double load = networks.inverseMassStep2(lia) * k + 2.0 * networks.inverseMassStep(lia) * z;
+  const double mean = networks.isExplicit(lia) ? 1.0 : 1.0 + 0.25 * std::max(load, 0.0);
+  lia.type = scene::LiaType::kSpringDamper;
+  lia.scheme = scene::Scheme::kExplicit;
+  lia.stiffness = {k / mean};
+  lia.damping = {z / mean};
+}
+
+/// What hangs on a slice with its links at a part of what they can be, and what always holds
+/// elsewhere. Links without a force are left out.
+scene::Scene linearAround(int slice, const RatedNetwork& networks, scene::Scene now, double part) {
+  std::vector<scene::Lia> lias;
+  for (scene::Lia lia : now.lias) {
+    if (!hasLinearPart(lia) || (isAt(slice, lia) && lia.type != scene::LiaType::kSpringDamper)) {
+      makeLinear(lia, networks, now, isAt(slice, lia) ? part : 0.0);
+    }
+    if (now.valueOf(lia.stiffness) != 0.0 || now.valueOf(lia.damping) != 0.0) {
+      lias.push_back(std::move(lia));
+    }
+  }
+  now.lias = std::move(lias);
+  return now;
+}
+
+/// Masses that links lead to from a slice, as far as they are to be counted: there may be a few
+/// more, on strings and meshes that other points join.
+int massesBehind(int slice, const Network& network) {
+  const std::vector<std::vector<int>> links_of = linksOfNodes(network);
   std::set<int> seen{slice};
   std::vector<int> open{slice};
   int masses = 0;
@@ -42,8 +89,7 @@ int massesBehind(int slice, const Network& network, const std::vector<std::vecto
     for (const int l : links_of[at(node)]) {
       const scene::Lia& lia = network.scene.lias[at(l)];
       const int other = lia.a == node ? lia.b : lia.a;
-      const bool is_held = !network.nodes[at(other)].is_free && network.point_of[at(other)] < 0;
-      if (hasLinearPart(lia) && !is_held) {
+      if (network.nodes[at(other)].is_free || network.point_of[at(other)] >= 0) {
         reach(other);
       }
     }
@@ -55,16 +101,15 @@ int massesBehind(int slice, const Network& network, const std::vector<std::vecto
 scene::Scene hangingOn(int slice, scene::Scene linear, const Rates& rates) {
   const Network network(linear);
   const RatedNetwork networks(network, rates);
-  const auto isAtSlice = [&](const scene::Lia& lia) { return lia.a == slice || lia.b == slice; };
   std::set<int> islands;
   for (const scene::Lia& lia : linear.lias) {
-    if (isAtSlice(lia)) {
+    if (isAt(slice, lia)) {
       islands.insert(networks.islandOf(lia));
     }
   }
   std::vector<scene::Lia> lias;
   for (const scene::Lia& lia : linear.lias) {
-    if (isAtSlice(lia) || islands.count(networks.islandOf(lia)) != 0) {
+    if (isAt(slice, lia) || islands.count(networks.islandOf(lia)) != 0) {
       lias.push_back(lia);
     }
   }
@@ -124,27 +169,41 @@ std::vector<Number> numbersOf(const LinearStepper& stepper,
 
 }  // namespace
 
-FreeSlice::FreeSlice(const RatedNetwork& networks,
-                     const std::vector<std::vector<int>>& links_of,
-                     int p)
+FreeSlice::FreeSlice(const RatedNetwork& networks, int p)
     : tick_s_(1.0 / networks.rates().gesturalHz()) {
+  const scene::Scene& scene = networks.scene();
+  const int slice = scene.ports[at(p)].mat;
+  const bool is_linear = std::all_of(scene.lias.begin(), scene.lias.end(), [&](const auto& lia) {
+    return !isAt(slice, lia) || lia.type == scene::LiaType::kSpringDamper;
+  });
+  for (const double part : kParts) {
+    if (part == 0.0 || !is_linear) {
+      addCases(networks, p, part);
+    }
+  }
+}
+
+void FreeSlice::addCases(const RatedNetwork& networks, int p, double part) {
   const Rates& rates = networks.rates();
   const scene::Port& port = networks.scene().ports[at(p)];
-  const int behind = massesBehind(port.mat, networks.network(), links_of);
-  if (behind == 0 || behind > kMostMasses) {
-    return;
-  }
-  const scene::Scene linear = hangingOn(port.mat, linearPart(networks.scene(), p), rates);
-  const auto masses = std::count_if(linear.mats.begin(), linear.mats.end(), isFree);
-  const bool is_slower =
-      std::any_of(linear.mats.begin(), linear.mats.end(), [&](const scene::Mat& mat) {
-        return isFree(mat) && divisorOf(linear.sectionOf(mat), rates) > rates.ratio;
-      });
-  if (masses > kMostMasses || is_slower) {
-    return;
-  }
-  for (const scene::Scene& one : casesOf(linear)) {
-    cases_.push_back(caseOf(one, rates, std::abs(port.force_scale / port.position_scale)));
+  for (const scene::Scene& now : casesOf(networks.scene())) {
+    const scene::Scene joined = linearAround(port.mat, networks, now, part);
+    const int behind = massesBehind(port.mat, Network(joined));
+    if (behind > kMostMasses) {
+      return;
+    }
+    if (behind == 0) {
+      continue;
+    }
+    const scene::Scene linear = hangingOn(port.mat, linearPart(joined, p), rates);
+    const auto masses = std::count_if(linear.mats.begin(), linear.mats.end(), isFree);
+    const bool is_slower =
+        std::any_of(linear.mats.begin(), linear.mats.end(), [&](const scene::Mat& mat) {
+          return isFree(mat) && divisorOf(linear.sectionOf(mat), rates) > rates.ratio;
+        });
+    if (masses <= kMostMasses && !is_slower) {
+      cases_.push_back(caseOf(linear, rates, std::abs(port.force_scale / port.position_scale)));
+    }
   }
 }
 
@@ -172,11 +231,20 @@ FreeSlice::Case FreeSlice::caseOf(const scene::Scene& linear,
 }
 
 double FreeSlice::radius(const DeviceTraits& device) const {
-  double worst = 0.0;
+  double worst = 1.0;
   for (const Case& one : cases_) {
-    worst = std::max(worst, radius(one, device));
+    const double radius = this->radius(one, device);
+    if (radius > worst && isOfSlice(one, radius)) {
+      worst = radius;
+    }
   }
   return worst;
+}
+
+/// False if it grows as much while the slice is held, as what is guarded may once it is explicit:
+/// that tells nothing of the slice.
+bool FreeSlice::isOfSlice(const Case& one, double radius) {
+  return spectralRadius(one.state.leftCols(one.state.rows())) - 1.0 < 0.5 * (radius - 1.0);
 }
 
 /// A tick of (masses and last position; position and step of the slice; forces on their way), the

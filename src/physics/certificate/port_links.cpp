@@ -12,7 +12,6 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr double kHandDepth = 1e-3;     // m, where a slope grows with it
 constexpr int kLongestSeries = 100000;  // links in a row
 
 template <class Value>

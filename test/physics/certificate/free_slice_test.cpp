@@ -32,7 +32,7 @@ struct Hanging {
 
 double radiusOf(const scene::Scene& scene, const DeviceTraits& device = {}) {
   const Network network(scene);
-  return FreeSlice(RatedNetwork(network, kRates), linksOfNodes(network), 0).radius(device);
+  return FreeSlice(RatedNetwork(network, kRates), 0).radius(device);
 }
 
 /// Factor by which the speed of a slice of `device` grows in a tick, so many ticks after a knock,
@@ -130,13 +130,13 @@ TEST(FreeSliceTest, AStringBehindASpringGrowsAsItIsForetold) {
 TEST(FreeSliceTest, IsNotWorkedOutForLargeNetsNorWhereNothingHangs) {
   const auto isJudged = [](const scene::Scene& scene) {
     const Network network(scene);
-    return FreeSlice(RatedNetwork(network, kRates), linksOfNodes(network), 0).isJudged();
+    return FreeSlice(RatedNetwork(network, kRates), 0).isJudged();
   };
   EXPECT_TRUE(isJudged(stringOn(100, false, 0.0)));
   EXPECT_FALSE(isJudged(stringOn(101, false, 0.0)));
-  scene::Scene touched = stringOn(30, false, 0.0);
-  touched.lias.back().type = LiaType::kContact;
-  EXPECT_FALSE(isJudged(touched));
+  SceneBuilder wall;
+  wall.link(LiaType::kContact, wall.slice(0), wall.ground(), 2000.0);
+  EXPECT_FALSE(isJudged(wall.scene));
 }
 
 TEST(FreeSliceTest, ScalesOfThePortCount) {
@@ -151,6 +151,93 @@ TEST(FreeSliceTest, UnitsOfTimeCount) {
       Hanging{2000.0 / (kRate * kRate), 0.2 / kRate, 0.1, 0.1 / kRate}.scene();
   in_samples.time_unit_s = 1.0 / kRate;
   EXPECT_NEAR(radiusOf(in_samples), radiusOf(Hanging{2000.0, 0.2, 0.1, 0.1}.scene()), 1e-9);
+}
+
+/// The same mass on another link.
+scene::Scene withLaw(const Hanging& hanging, LiaType type, Scheme scheme) {
+  scene::Scene scene = hanging.scene();
+  scene::Lia& lia = scene.lias.front();
+  lia.type = type;
+  lia.scheme = scheme;
+  lia.law.edit().nonlinearity = {1e-3};
+  lia.law.edit().width = {1.0};
+  lia.law.edit().release = 2.0;
+  lia.law.edit().exponent = {1.5};
+  const double force = hanging.stiffness * 0.1;
+  lia.law.edit().table.points = {{-0.1, -force}, {0.1, force}};
+  return scene;
+}
+
+TEST(FreeSliceTest, AGuardedSpringGrowsAsItIsForetold) {
+  for (const bool is_fast : {false, true}) {
+    Hanging hanging;
+    hanging.is_fast = is_fast;
+    const scene::Scene scene = withLaw(hanging, LiaType::kCubic, Scheme::kGuarded);
+    EXPECT_GT(playedGrowth(scene, {}), 1.0 + 1e-5);
+    EXPECT_NEAR(radiusOf(scene), playedGrowth(scene, {}), 2e-5);
+  }
+}
+
+TEST(FreeSliceTest, LinksThatAreNotLinearAreSeenAsTheSpringsThatTheyMayBe) {
+  const struct {
+    LiaType type;
+    Scheme scheme;
+  } laws[] = {{LiaType::kCubic, Scheme::kGuarded},  {LiaType::kCubic, Scheme::kExplicit},
+              {LiaType::kTable, Scheme::kGuarded},  {LiaType::kContact, Scheme::kGuarded},
+              {LiaType::kPluck, Scheme::kExplicit}, {LiaType::kConditional, Scheme::kExplicit}};
+  for (const auto& law : laws) {
+    const auto level = [&](const Hanging& hanging) {
+      return certify(withLaw(hanging, law.type, law.scheme), kRates).ports.at(0).level;
+    };
+    const int type = static_cast<int>(law.type);
+    EXPECT_EQ(level({2000.0, 0.0, 0.1, 0.0}), HandLevel::kWarned) << type;
+    EXPECT_EQ(level({4000.0, 0.0, 0.05, 0.0}), HandLevel::kRefused) << type;
+    EXPECT_EQ(level({2000.0, 0.0, 0.1, 0.5}), HandLevel::kSilent) << type;
+  }
+}
+
+/// Where they grow without an end, at a millimetre.
+TEST(FreeSliceTest, ALawThatGrowsIsSeenAsItIsAtAMillimetre) {
+  Hanging hanging;
+  hanging.stiffness = 2000.0 / (1.5 * std::sqrt(1e-3));
+  const scene::Scene scene = withLaw(hanging, LiaType::kPowerContact, Scheme::kGuarded);
+  EXPECT_NEAR(radiusOf(scene), radiusOf(Hanging{}.scene()), 1e-6);
+}
+
+/// The worst is not where it is steepest: there the mass answers too late to be driven.
+TEST(FreeSliceTest, AStiffContactIsSeenAsTheSoftOneThatItIsOnTheWay) {
+  Hanging steep{4000.0, 0.0, 1e-4, 0.0, true};
+  Hanging soft = steep;
+  soft.stiffness *= 0.25;
+  ASSERT_GT(radiusOf(soft.scene()), radiusOf(steep.scene()) + 1e-6);
+  EXPECT_NEAR(radiusOf(withLaw(steep, LiaType::kContact, Scheme::kGuarded)), radiusOf(soft.scene()),
+              1e-5);
+}
+
+TEST(FreeSliceTest, GuardedWallsAreNoAlarm) {
+  const auto findings = [](double mass, double stiffness, double loss) {
+    SceneBuilder b;
+    const int hung = b.mass(mass, 0.0);
+    b.link(LiaType::kContact, b.slice(0), hung, stiffness);
+    b.scene.lias.back().scheme = Scheme::kGuarded;
+    b.spring(hung, b.ground(), 1000.0, loss);
+    return certify(b.scene, kRates).findings;
+  };
+  EXPECT_TRUE(findings(1e-4, 1e6, 0.01).empty());  // 5 times what an explicit contact bears
+  EXPECT_TRUE(findings(1e-2, 2000.0, 0.1).empty());
+}
+
+/// Each bears it by itself; as explicit links, together, they would grow with no hand near.
+TEST(FreeSliceTest, WhatOnlyGuardsBearTellsNothingOfTheSlice) {
+  SceneBuilder b;
+  const int slice = b.slice(0);
+  const int hung = b.mass(1e-5, 0.0);
+  for (int i = 0; i < 2; ++i) {
+    b.link(LiaType::kContact, slice, hung, 1e6);
+    b.scene.lias.back().scheme = Scheme::kGuarded;
+  }
+  b.spring(hung, b.ground(), 1000.0, 0.01);
+  EXPECT_EQ(radiusOf(b.scene), 1.0);
 }
 
 }  // namespace

@@ -287,11 +287,12 @@ class Maker {
       if (chance(0.5)) {
         link("pluck", m.name, otherThan(m, 0.7),
              ", stiffness: " + full(m, decades(1e-3, 3.0)) + ", width: " + number(width) +
-                 damping(m, 0.1));
+                 damping(m, 0.1) + scheme({"explicit", "guarded", "auto"}));
       } else {
         link("conditional", m.name, otherThan(m, 0.7),
              ", stiffness: " + full(m, decades(1e-3, 3.0)) + ", engage: " + number(width) +
-                 ", release: " + number(width * decades(1.0, 10.0)) + damping(m, 0.1));
+                 ", release: " + number(width * decades(1.0, 10.0)) + damping(m, 0.1) +
+                 scheme({"explicit", "guarded", "auto"}));
       }
     }
     springs(any(1, 3), 0.1);

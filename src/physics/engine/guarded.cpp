@@ -132,6 +132,17 @@ typename GuardedLinks<Real>::Course GuardedLinks<Real>::courseOf(const GuardedVi
   return c;
 }
 
+/// A contact that closes within this step begins to push in it.
+template <class Real>
+bool pushes(const GuardedMotion<Real>& m,
+            const GuardedLaw<Real>& law,
+            GuardedState<Real>& state) noexcept {
+  if (law.isContact()) {
+    return m.p - std::min(Real(0), m.coasting / Real(2)) > Real(0);
+  }
+  return law.form->holds == nullptr || holdsAt(m.p, law, state);
+}
+
 /// Where the link is, how it opens if left alone, and whether it has a say.
 template <class Real>
 GuardedMotion<Real> GuardedLinks<Real>::measure(const GuardedView<Real>& view,
@@ -159,10 +170,8 @@ GuardedMotion<Real> GuardedLinks<Real>::measure(const GuardedView<Real>& view,
   m.opening += opened;
   m.coasting = Real(2) * opened;
   payArrears(moved, state);
-  // A contact that closes within this step begins to push in it.
-  const Real soonest = m.p - std::min(Real(0), m.coasting / Real(2));
-  m.is_pushing = !m.is_friction && (soonest > Real(0) || !law.isContact());
-  m.is_active = m.is_friction || m.is_pushing || state.tank > Real(0);
+  m.is_pushing = !m.is_friction && pushes(m, law, state);
+  m.is_active = m.is_friction || m.is_pushing || (law.isContact() && state.tank > Real(0));
   return m;
 }
 

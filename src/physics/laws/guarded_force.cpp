@@ -53,7 +53,7 @@ Real rebound(GuardedMotion<Real>& m,
     // It closes and could not open on its own: this step stands for the whole impact.
     state.lost += static_cast<double>(state.tank);
     state.tank = Real(0);
-    state.rebounding = Real(0);
+    state.phase = Real(0);
     const Real load = m.opening - m.coasting;
     const Real high =
         (-load - m.coasting * (Real(1) + e(-m.coasting / Real(2))) / Real(2)) / m.give;
@@ -62,7 +62,7 @@ Real rebound(GuardedMotion<Real>& m,
   }
   Real high = largestForce(state.tank, m.opening, m.give);
   const bool is_opening = m.opening + m.give * std::clamp(wanted, Real(0), high) > Real(0);
-  if (is_opening && state.rebounding == Real(0)) {
+  if (is_opening && state.phase == Real(0)) {
     const Real ratio =
         e(std::sqrt(Real(2) * m.own_give * state.tank));  // all motion is in the tank
     const Real kept = ratio * ratio * state.tank;
@@ -70,7 +70,7 @@ Real rebound(GuardedMotion<Real>& m,
     state.tank = kept;
     high = largestForce(kept, m.opening, m.give);
   }
-  state.rebounding = is_opening ? Real(1) : Real(0);
+  state.phase = is_opening ? Real(1) : Real(0);
   return high;
 }
 
@@ -165,11 +165,11 @@ void release(GuardedMotion<Real>& m,
              GuardedState<Real>& state) noexcept {
   m.empties = m.opening > Real(0);
   m.force = m.empties ? largestForce(state.tank, m.opening, m.give) : Real(0);
-  if (law.form->is_lossy && state.rebounding == Real(0)) {
+  if (law.form->is_lossy && state.phase == Real(0)) {
     brake(law.damping * m.force, m);
     keepFromPulling(m, state);
   }
-  state.rebounding = Real(0);
+  state.phase = Real(0);
 }
 
 template <class Real>
@@ -245,6 +245,17 @@ void exertFriction(GuardedMotion<Real>& m,
 }  // namespace
 
 template <class Real>
+bool holdsAt(Real p, const GuardedLaw<Real>& law, GuardedState<Real>& state) noexcept {
+  const bool held = state.phase != Real(0);
+  const bool holds = law.form->holds(law, p, held);
+  if (held && !holds) {
+    lose(std::min(state.tank, law.form->snap(law)), state);
+  }
+  state.phase = holds ? Real(1) : Real(0);
+  return holds;
+}
+
+template <class Real>
 void exertForce(GuardedMotion<Real>& m,
                 const GuardedLaw<Real>& law,
                 GuardedState<Real>& state) noexcept {
@@ -289,6 +300,8 @@ void payArrears(Real moved, GuardedState<Real>& state) noexcept {
   }
 }
 
+template bool holdsAt(float, const GuardedLaw<float>&, GuardedState<float>&) noexcept;
+template bool holdsAt(double, const GuardedLaw<double>&, GuardedState<double>&) noexcept;
 template void exertForce(GuardedMotion<float>&,
                          const GuardedLaw<float>&,
                          GuardedState<float>&) noexcept;

@@ -24,7 +24,7 @@ struct GuardedState {
   Real damper = Real(0);    ///< of the last step, damping or friction
   Real foreseen = Real(0);  ///< how far what forces do not move was to open it
   Real gradient[3] = {Real(0), Real(0), Real(0)};  ///< of the last step
-  Real rebounding = Real(0);                       ///< 1 once this impact has turned around
+  Real phase = Real(0);  ///< 1 once an impact has turned around, or while what lets go holds
 
   static constexpr std::size_t kDoubles = sizeof(Real) == sizeof(double) ? 12 : 4;
 };
@@ -53,6 +53,10 @@ struct GuardedMotion {
   /// force is charged for.
   Real swing() const noexcept { return opening + give * total(); }
 };
+
+/// Whether a spring that lets go holds at p; it loses what its law does. Realtime: yes
+template <class Real>
+bool holdsAt(Real p, const GuardedLaw<Real>& law, GuardedState<Real>& state) noexcept;
 
 /// Works out force and damper. \pre all that is above them in `m` is known
 /// Realtime: yes. Source: docs/physics.md, "Guarded links".

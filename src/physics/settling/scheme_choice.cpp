@@ -64,9 +64,6 @@ class Chooser {
       return {};
     }
     const scene::Law& law = scene::lawOf(lia.type);
-    if (law.guarded == nullptr) {
-      return {};
-    }
     if (networks_.turns(lia)) {
       return {"length at rest of a line that turns, m", lia.rest_length, 0.0};
     }

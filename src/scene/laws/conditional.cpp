@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 
 #include "scene/laws/contact.hpp"
@@ -28,8 +29,38 @@ struct Conditional {
   }
 };
 
-const char* unguarded(const Lia& /*lia*/) {
-  return "conditional";
+/// A well of the depth K engage^2/2. It stores no more than that where it engages and where it has
+/// let go, so what it held beyond is lost.
+template <class Real>
+struct ConditionalCurve : PlainDamping<Real> {
+  using Numbers = GuardedLaw<Real>;
+
+  ERGOTIC_REALTIME static GuardedForce<Real> push(const Numbers& n, Real p) noexcept {
+    return {n.stiffness * p, n.stiffness};
+  }
+  ERGOTIC_REALTIME static Real potential(const Numbers& n, Real p) noexcept {
+    const Real distance = std::min(std::abs(p), n.width);
+    return n.stiffness * distance * distance / Real(2);
+  }
+  ERGOTIC_REALTIME static bool holds(const Numbers& n, Real p, bool held) noexcept {
+    return held ? std::abs(p) <= n.release : std::abs(p) < n.width;
+  }
+  ERGOTIC_REALTIME static Real snap(const Numbers& n) noexcept {
+    return n.stiffness * (n.release - n.width) * (n.release + n.width) / Real(2);
+  }
+};
+
+template <class Real>
+constexpr GuardedForm<Real> form() {
+  GuardedForm<Real> form = springForm<ConditionalCurve<Real>, Real>();
+  form.holds = ConditionalCurve<Real>::holds;
+  form.snap = ConditionalCurve<Real>::snap;
+  return form;
+}
+
+const GuardedForms& forms(const Lia& /*lia*/) {
+  static constexpr GuardedForms kForms = {form<float>(), form<double>()};
+  return kForms;
 }
 
 constexpr LawWord kWords[] = {{"conditional", "stiffness engage", "damping release rest_length"}};
@@ -41,8 +72,8 @@ constexpr Law kConditionalLaw = {
     {"conditional spring-damper", kWords, kFields, Law::Tables::kNone, true},
     Law::Kind::kElastic,
     explicitForm<Conditional>(true),
-    nullptr,  // guarded
-    unguarded,
+    forms,
+    guardable,
     false,   // has_linear_part
     true,    // switches
     true,    // is_held

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ergotic/exception.hpp"
 #include "scene/laws/law.hpp"
 
 namespace ergotic::scene {
@@ -97,9 +96,6 @@ ERGOTIC_REALTIME Real GuardedCurve<Real>::potential(Real x) const noexcept {
 template <class Real>
 GuardedLaw<Real> GuardedLaw<Real>::make(const Scene& scene, const Lia& lia, const Units& units) {
   const Law& told = lawOf(lia.type);
-  if (told.guarded == nullptr) {
-    throw Exception("link '" + lia.name + "' has no law that can be guarded");
-  }
   const bool holds = told.tables == Law::Tables::kParts;
   GuardedLaw law;
   law.form = &told.guarded(lia).template get<Real>();
@@ -129,6 +125,7 @@ ERGOTIC_REALTIME void GuardedLaw<Real>::update(const Scene& scene,
   exponent = real(scene.valueOf(lia.law->exponent));
   const double across = scene.valueOf(lia.law->width);
   width = real(isFriction() ? units.velocity(across) : across);
+  release = real(lia.law->release);
   per_step = real(1.0 / units.step);
   length = real(isContact() ? across : lia.rest_length);
 }

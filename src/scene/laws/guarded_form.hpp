@@ -70,6 +70,9 @@ struct GuardedForm {
   /// Z >= 0 at p; v is the velocity of p per step.
   Real (*damping)(const GuardedLaw<Real>&, Real p, Real v) noexcept;
   ForceAt slip;  ///< F(v) and F'(v) of friction
+  /// Springs that let go: whether they hold at p, as they did or did not; null: always.
+  bool (*holds)(const GuardedLaw<Real>&, Real p, bool held) noexcept;
+  Real (*snap)(const GuardedLaw<Real>&) noexcept;  ///< what they lose where they let go
   /// Contacts: ratio of the speeds after and before an impact at `speed` per step with the damping
   /// z and the slope of the moment. `give`: opening per force.
   Real (*restitution)(const GuardedLaw<Real>&, Real z, Real slope, Real give, Real speed) noexcept;
@@ -102,13 +105,13 @@ struct GuardedLaw {
   Real limit_damping = Real(0);  ///< instead of `damping` beyond `tip`
   Real tip = Real(0);
   Real exponent = Real(1);
-  Real width = Real(0);        ///< of the friction curve, m per step
+  Real width = Real(0);        ///< of the friction curve, m per step; of springs that let go, m
+  Real release = Real(0);      ///< where they do, m
   Real per_step = Real(1);     ///< velocity of the tables per m per step
   Real length = Real(0);       ///< threshold of contacts, rest length of the others, m
   GuardedCurve<Real> table;    ///< elastic
   GuardedCurve<Real> viscous;  ///< over velocity
 
-  /// \throws Exception if the link has no law that can be guarded
   static GuardedLaw make(const Scene& scene, const Lia& lia, const Units& units);
   /// Takes all numbers again from the present values in `scene`; tables stay. Realtime: yes
   void update(const Scene& scene, const Lia& lia, const Units& units) noexcept;

@@ -89,7 +89,7 @@ struct Law : LawText {
 
   Kind kind;
   ExplicitForm explicit_form;
-  const GuardedForms& (*guarded)(const Lia& lia);  ///< nullptr: its way depends on where it was
+  const GuardedForms& (*guarded)(const Lia& lia);
   const char* (*unguarded)(const Lia& lia);  ///< what `scheme: guarded` is refused for, or nullptr
 
   // Stability

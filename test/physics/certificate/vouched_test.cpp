@@ -234,6 +234,12 @@ TEST(VouchedTest, WhatSnapsFeedsEnergyIn) {
     lia.law.edit().release = 1e-2;
     SCOPED_TRACE(static_cast<int>(snap.type));
     expectRefused(b, 14, 20.0, snap.times);
+    b.scene.lias[1].scheme = Scheme::kGuarded;
+    const Grown guarded = grown(b, 14, 20.0, Precision::kDouble);
+    // It falls into a well once, and no deeper at any later pass.
+    EXPECT_LT(guarded.times, 1.0 + 3.5 * kRate * kRate * snap.width * snap.width / (6.0 * 6.0));
+    EXPECT_EQ(guarded.certificate.verdict, Verdict::kBounded);
+    b.scene.lias[1].scheme = Scheme::kExplicit;
     // Where all that it reaches loses energy, what it gives is bounded, as its force is.
     b.scene.lias[0].damping = {10.0};
     EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);

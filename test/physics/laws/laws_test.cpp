@@ -160,23 +160,26 @@ TEST(LawsTest, ConditionalLinkHoldsFromWhereItEngagesToWhereItLetsGo) {
 }
 
 TEST(LawsTest, ConditionalLinkIsAsHeldAsItWasWhenItsStateIsLoaded) {
-  SceneBuilder b;
-  const int driven = b.driven(0);
-  const int ground = b.ground();
-  b.link(LiaType::kConditional, driven, ground, 100.0, 0.5);
-  b.scene.lias[0].law.edit().width = {0.1};
-  b.scene.lias[0].law.edit().release = 0.3;
-  b.hear(ground, 0, scene::Quantity::kForce);
-  Player held(b.scene, {kRate, 2});
-  held.inputs = {0.05, 0.2};
-  held.tick();
-  std::vector<unsigned char> state(held.instrument->stateSize());
-  held.instrument->saveState(state.data());
-  Player other(b.scene, {kRate, 2});
-  other.instrument->loadState(state.data());
-  other.inputs = {0.2, 0.2};
-  other.tick();
-  EXPECT_NEAR(other.heard[0].back(), 20.0, 1e-10);
+  for (const scene::Scheme scheme : {scene::Scheme::kExplicit, scene::Scheme::kGuarded}) {
+    SceneBuilder b;
+    const int driven = b.driven(0);
+    const int ground = b.ground();
+    b.link(LiaType::kConditional, driven, ground, 100.0, 0.5);
+    b.scene.lias[0].law.edit().width = {0.1};
+    b.scene.lias[0].law.edit().release = 0.3;
+    b.scene.lias[0].scheme = scheme;
+    b.hear(ground, 0, scene::Quantity::kForce);
+    Player held(b.scene, {kRate, 2});
+    held.inputs = {0.05, 0.2};
+    held.tick();
+    std::vector<unsigned char> state(held.instrument->stateSize());
+    held.instrument->saveState(state.data());
+    Player other(b.scene, {kRate, 2});
+    other.instrument->loadState(state.data());
+    other.inputs = {0.2, 0.2};
+    other.tick();
+    EXPECT_NEAR(other.heard[0].back(), 20.0, 1e-10);
+  }
 }
 
 }  // namespace

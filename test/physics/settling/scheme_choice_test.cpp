@@ -241,7 +241,7 @@ TEST(SchemeChoiceTest, WhatTheSceneSaysIsKept) {
 }
 
 TEST(SchemeChoiceTest, OtherLinksStayExplicit) {
-  for (const LiaType type : {LiaType::kSpringDamper, LiaType::kConditional, LiaType::kTable}) {
+  for (const LiaType type : {LiaType::kSpringDamper, LiaType::kTable}) {
     Pair pair(type);
     pair.lia().stiffness = stiff(0.9);
     pair.lia().damping = damped(1.5);

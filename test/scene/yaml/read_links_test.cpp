@@ -114,7 +114,7 @@ const Kind kKinds[] = {
     {"type: table, elastic: [[0, 0], [1, 1]]", true},
     {"type: table, viscous: [[0, 0], [1, 1]]", false},
     {"type: table, elastic: [[0, 0], [1, 1]], viscous: [[0, 0], [1, 1]]", false},
-    {"type: conditional, stiffness: 1, engage: 1", false},
+    {"type: conditional, stiffness: 1, engage: 1", true},
 };
 
 TEST(ReadLinksTest, SchemeIsLeftToBeChosenWhereThereIsAChoice) {
@@ -217,9 +217,7 @@ const Damage kDamages[] = {
      }},
     {"link 'x' cannot be guarded",
      [](Scene&, Lia& l) {
-       l.type = LiaType::kConditional;
-       l.law.edit().width = {1.0};
-       l.law.edit().release = 1.0;
+       l.type = LiaType::kSpringDamper;
        l.scheme = Scheme::kGuarded;
      }},
     {"link 'x' cannot be filtered", [](Scene&, Lia& l) { l.filtered = true; }},

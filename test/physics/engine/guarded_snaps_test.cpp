@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Guarded links that hold on to what comes near and let go of what leaves.
+#include <cmath>
+
+#include "support/physics.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+constexpr Rates kRates{44100.0, 1};
+constexpr double kEngage = 0.01;  // m
+
+/// A link to the ground that engages within 1 cm, with h^2 K/M = kappa. What moves is heard on the
+/// channels that energyBetweenSteps() reads.
+scene::Lia& snap(SceneBuilder& b, int mass, double kappa, double release, Scheme scheme) {
+  scene::Lia& lia = b.scene.lias[at(
+      b.link(LiaType::kConditional, mass, b.ground(), kappa * kRates.audio_hz * kRates.audio_hz))];
+  lia.law.edit().width = {kEngage};
+  lia.law.edit().release = release;
+  lia.scheme = scheme;
+  return lia;
+}
+
+double speedAfter(double kappa, double release, double v, double damping, Scheme scheme) {
+  SceneBuilder b;
+  const int mass = b.mass(1.0, -1.5 * kEngage, v);
+  snap(b, mass, kappa, release, scheme).damping = {damping};
+  b.hear(mass, 0, Quantity::kVelocity);
+  Player player(compile(b.scene, kRates, Precision::kDouble));
+  player.ticks(70000);
+  return player.heard[0].back();
+}
+
+/// It comes in with K engage^2/2 more and leaves with K release^2/2 less.
+TEST(GuardedSnapsTest, WhatIsTornOffHasLostWhatTheLinkHeldBeyond) {
+  const double kappa = 1e-6;
+  const double k = kappa * kRate * kRate;
+  for (const Scheme scheme : {Scheme::kExplicit, Scheme::kGuarded}) {
+    for (const double release : {1.0 * kEngage, 1.2 * kEngage}) {
+      const double slower = k * (release * release - kEngage * kEngage);
+      EXPECT_NEAR(speedAfter(kappa, release, 1.0, 0.0, scheme), std::sqrt(1.0 - slower), 2e-3);
+    }
+  }
+}
+
+TEST(GuardedSnapsTest, PlaysAsTheExplicitOneWhereThatIsFine) {
+  for (const double damping : {0.0, 3.0}) {
+    const double plain = speedAfter(1e-7, 2.0 * kEngage, 1.0, damping, Scheme::kExplicit);
+    EXPECT_NEAR(speedAfter(1e-7, 2.0 * kEngage, 1.0, damping, Scheme::kGuarded), plain, 2e-4);
+  }
+}
+
+TEST(GuardedSnapsTest, WhatIsCaughtSwingsAsOnASpring) {
+  const double w = 0.01;  // rad per sample
+  SceneBuilder b;
+  const int mass = b.mass(1.0, 0.0, 0.9 * kEngage * w * kRate);
+  snap(b, mass, 4.0 * std::pow(std::sin(w / 2.0), 2), kEngage, Scheme::kGuarded);
+  b.hear(mass);
+  Player player(compile(b.scene, kRates, Precision::kDouble));
+  player.ticks(7000);
+  const double amplitude = 0.9 * kEngage * w / std::sin(w);  // through 0 and one step before
+  for (std::size_t n = 0; n < player.heard[0].size(); ++n) {
+    ASSERT_NEAR(player.heard[0][n], amplitude * std::sin(w * static_cast<double>(n + 1)),
+                1e-3 * amplitude);
+  }
+}
+
+/// A ball that a cubic spring brings back again and again through a link that snaps.
+SceneBuilder swinging(double kappa, double release) {
+  SceneBuilder b;
+  const int mass = b.mass(1.0, 3.0 * kEngage, 1.0);
+  b.hear(mass, 3 * mass, Quantity::kVelocity);
+  snap(b, mass, kappa, release, Scheme::kGuarded);
+  scene::Lia& spring = b.scene.lias[at(b.link(LiaType::kCubic, mass, b.ground(), 1e4))];
+  spring.law.edit().nonlinearity = {1e7};
+  spring.scheme = Scheme::kGuarded;
+  return b;
+}
+
+TEST(GuardedSnapsTest, EnergyIsKeptWhereItLetsGoWhereItEngages) {
+  for (const double kappa : {1e-6, 1e-3, 3.0}) {
+    Player player(compile(swinging(kappa, kEngage).scene, kRates, Precision::kDouble));
+    player.tick();
+    auto guards = test::guardsOf(player);
+    player.tick();
+    const double start = test::energyBetweenSteps(player, guards);
+    int passes = 0;
+    for (int n = 0; n < 20000; ++n) {
+      guards = test::guardsOf(player);
+      player.tick();
+      ASSERT_NEAR(test::energyBetweenSteps(player, guards), start, 1e-12 * start) << n;
+      const bool holds = test::guardsOf(player)[0].phase != 0.0;
+      passes += holds != (guards[0].phase != 0.0) ? 1 : 0;
+    }
+    EXPECT_GT(passes, 20) << kappa;
+    EXPECT_NEAR(test::heatOf(guards), 0.0, 1e-12);
+  }
+}
+
+TEST(GuardedSnapsTest, EnergyOnlyFallsWhereItLetsGoLater) {
+  for (const double kappa : {1e-7, 1e-6, 1e-5}) {
+    Player player(compile(swinging(kappa, 1.5 * kEngage).scene, kRates, Precision::kDouble));
+    player.ticks(2);
+    double last = std::numeric_limits<double>::infinity();
+    for (int n = 0; n < 20000; ++n) {
+      const auto guards = test::guardsOf(player);
+      player.tick();
+      const double now = test::energyBetweenSteps(player, guards);
+      ASSERT_LE(now, last * (1.0 + 1e-12)) << n;
+      last = now;
+    }
+    EXPECT_GT(test::heatOf(test::guardsOf(player)), 0.1);
+  }
+}
+
+TEST(GuardedSnapsTest, RestsAnywhere) {
+  for (const Precision precision : {Precision::kDouble, Precision::kFloat}) {
+    const bool is_double = precision == Precision::kDouble;
+    for (const double engage : {is_double ? 1e300 : 1e30, 1.0, 1e-30, is_double ? 1e-310 : 1e-40}) {
+      for (const double x : {0.0, engage, -engage, engage / 2.0}) {
+        SceneBuilder b;
+        const int mass = b.mass(1.0, x);
+        scene::Lia& lia = snap(b, mass, 0.1, 2.0 * engage, Scheme::kGuarded);
+        lia.law.edit().width = {engage};
+        lia.stiffness = {engage > 1.0 ? 1e-300 : 1e6};
+        lia.damping = {1.0};
+        b.hear(mass);
+        Player player(compile(b.scene, kRates, precision));
+        player.ticks(100);
+        EXPECT_TRUE(player.instrument->isFinite()) << x;
+        EXPECT_LE(std::abs(player.heard[0].back()), engage * (1.0 + 1e-6)) << x;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ergotic::physics

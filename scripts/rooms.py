@@ -10,7 +10,7 @@ ROOMS = {
     "exception": "",
     "rt": "exception",
     "scene": "",
-    "scene/laws": "exception rt scene",
+    "scene/laws": "rt scene",
     "scene/rules": "exception scene scene/laws",
     "scene/generate": "exception scene",
     "scene/text": "exception scene",

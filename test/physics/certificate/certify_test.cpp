@@ -100,6 +100,9 @@ TEST(CertifyTest, WorstEndOfEveryParameterCounts) {
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnstable);
   b.scene.parameters[0].maximum = 3.9;
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kPassive);
+  b.scene.lias[0].stiffness = {-kRate * kRate, 0};  // where a factor is below 0, the other end
+  b.scene.parameters[0] = {"tension", -0.5, -3.9, -0.1, {}};
+  EXPECT_NEAR(certify(b.scene, {kRate, 14}).sections[0].lambda, 3.9, 1e-6);
 }
 
 TEST(CertifyTest, SectionsOfOneRateAreOneNetwork) {
@@ -205,6 +208,21 @@ TEST(CertifyTest, MatchedCellsAreStableAloneAndCountByTheirOwnCoefficients) {
   EXPECT_NE(certify(b.scene, {kRate, 14}).verdict, Verdict::kPassive);
 }
 
+/// Beyond a quarter of the rate a cell is worst where it is damped least.
+TEST(CertifyTest, MatchedCellsCountAtBothEndsOfTheirDamping) {
+  const auto lambda = [](double lowest, double highest) {
+    SceneBuilder b = cellWith(9.0);
+    b.scene.mats[0].matched = true;
+    b.scene.mats[0].stiffness = {9.0 * 0.01 * kRate * kRate};
+    b.scene.parameters.push_back({"z", highest, lowest, highest, {}});
+    b.scene.mats[0].damping = {0.01 * kRate, 0};
+    b.spring(0, b.ground(), 1e-6);
+    return certify(b.scene, {kRate, 14}).sections[0].lambda;
+  };
+  EXPECT_GT(lambda(0.0, 0.0), lambda(1.0, 1.0) + 0.1);
+  EXPECT_GE(lambda(0.0, 1.0), lambda(0.0, 0.0));
+}
+
 TEST(CertifyTest, MediumCountsOnEveryFreeMass) {
   SceneBuilder b;
   b.spring(b.mass(1.0), b.ground(), 1.0 * kRate * kRate);
@@ -244,6 +262,21 @@ TEST(CertifyTest, MovingPointsCountAtTheirWorstPlace) {
   EXPECT_NEAR(certificate(0.5).sections[0].lambda, 1.8 + std::sqrt(3.24 + 0.25), 2e-3);
   EXPECT_EQ(certificate(1.2).verdict, Verdict::kBounded) << "moving it may bring something";
   EXPECT_EQ(certificate(1.35).verdict, Verdict::kUnstable);
+}
+
+/// Two masses of two strings, as soft as nothing, and a spring between: 2 K h^2/M at least.
+TEST(CertifyTest, ASpringBetweenPointsThatMoveLoadsBoth) {
+  SceneBuilder b;
+  b.scene.parameters.push_back({"place", 0.5, 0.2, 0.8, {}});
+  int points[2];
+  for (int& point : points) {
+    point = b.point(b.grid(b.chain(9, 1e-4, 1.0), 11), 1.0);
+    b.scene.connections.back().along = {1.0, 0};
+  }
+  b.spring(points[0], points[1], 0.9 * 1e-4 * kRate * kRate);
+  const Certificate c = certify(b.scene, {kRate, 14});
+  EXPECT_GE(c.sections[0].lambda, 1.8);
+  EXPECT_LT(c.sections[0].lambda, 1.81);
 }
 
 TEST(CertifyTest, SlowMassesOnHeldFastModulesCount) {

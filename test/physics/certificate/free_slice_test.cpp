@@ -75,6 +75,16 @@ TEST(FreeSliceTest, GrowsAsItIsForetold) {
   }
 }
 
+TEST(FreeSliceTest, APartOfATickOfDelayIsAWholeOne) {
+  DeviceTraits late;
+  late.delay_ticks = 1.0;
+  const double whole = radiusOf(Hanging{}.scene(), late);
+  late.delay_ticks = 0.5;
+  EXPECT_EQ(radiusOf(Hanging{}.scene(), late), whole);
+  late.delay_ticks = 0.0;
+  EXPECT_LT(radiusOf(Hanging{}.scene(), late), whole);
+}
+
 TEST(FreeSliceTest, ALosslessMassOnASpringSetsOffASliceAtLessThanTheSpringAlone) {
   const scene::Scene scene = Hanging{}.scene();
   EXPECT_GT(playedGrowth(scene, {}), 1.0 + 1e-5);

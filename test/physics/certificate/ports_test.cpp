@@ -251,6 +251,16 @@ TEST(PassivityTest, LinksOfASliceAddUp) {
   EXPECT_DOUBLE_EQ(certify(b.scene, kRates).ports[0].stiffness, 1750.0);
 }
 
+TEST(PassivityTest, ThroughAFilterTheSeriesCounts) {
+  SceneBuilder b = wall(3000.0);
+  b.scene.mats[1].type = scene::MatType::kMass;
+  b.scene.mats[1].mass = {0.01};
+  b.scene.ports[0].filter = 1;
+  b.spring(1, b.ground(0.0, SceneBuilder::kGestural), 4000.0);
+  b.spring(1, b.ground(0.0, SceneBuilder::kGestural), 2000.0);
+  EXPECT_NEAR(certify(b.scene, kRates).ports[0].stiffness, 2000.0, 1e-9);
+}
+
 TEST(PassivityTest, ThroughAChapletTheSeriesCounts) {
   SceneBuilder b;
   const int slice = b.slice(0);

@@ -289,8 +289,14 @@ TEST(VouchedTest, GuardedLinksHandOnWhatSnapsGive) {
   b.scene.lias.back().law.edit().width = {5e-3};
   b.scene.lias.back().law.edit().release = 1e-2;
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
-  b.link(LiaType::kContact, mass, b.mass(1.0), 1e3);
+  const int cell = b.cell(1.0, 0.0, 1.0);
+  b.link(LiaType::kContact, mass, cell, 1e3);
   b.scene.lias.back().scheme = Scheme::kGuarded;
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
+  b.scene.parameters.push_back({"loss", 1.0, 0.0, 1.0, {}});
+  b.scene.mats[at(cell)].damping = {1.0, 0};
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnproven) << "it may be 0";
+  b.scene.mats[at(cell)] = b.scene.mats[at(b.mass(1.0))];
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnproven);
 }
 

@@ -278,6 +278,17 @@ TEST(MonodromyTest, ALittleLossMakesThatStringProven) {
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kPassive);
 }
 
+TEST(MonodromyTest, MediumThatFollowsAParameterIsProvenAtItsEndsOnly) {
+  SceneBuilder b = stringOnSlowMass(24, 2e-3);
+  b.scene.sections[SceneBuilder::kAudio].medium = {1e-3};
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kPassive);
+  b.scene.parameters.push_back({"medium", 1.0, 0.5, 1.0, {}});
+  b.scene.sections[SceneBuilder::kAudio].medium = {1e-3, 0};
+  const Certificate c = certify(b.scene, {kRate, 14});
+  EXPECT_EQ(c.verdict, Verdict::kUnproven);
+  EXPECT_THAT(c.findings, Contains(HasSubstr("not proven between")));
+}
+
 TEST(MonodromyTest, AGrowthOfThreeInAHundredMillionIsNotProven) {
   const auto growth = [](double loss) {
     return spectralRadius(monodromy(stringOnSlowMass(24, loss).scene, {kRate, 14})) - 1.0;

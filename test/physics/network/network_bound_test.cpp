@@ -351,6 +351,13 @@ TEST(NetworkBoundTest, MovingEverywhereCoversEveryPlace) {
   }
 }
 
+/// With one place only it is the spring itself: K (1/M + 1/m), and no less.
+TEST(NetworkBoundTest, MovingEverywhereLoadsBothEndsAsTheirSpringDoes) {
+  NetworkBound moving = gridOf(1, 2, 0.0, false);
+  moving.addMovingLink({{{0, 1.0}, {1, -1.0}}}, 0.9, 0.0, 7);
+  EXPECT_NEAR(Dense(moving.withMovingEverywhere()).lambda(1.0), 0.9 * 2.0, 1e-12);
+}
+
 TEST(NetworkSpectrumTest, NegativeSpringsAreFineWhereTheRestMakesUpForThem) {
   const auto pair = [](double own, double between_them) {
     NetworkBound network(1.0);

@@ -15,6 +15,7 @@ GuardedLaw<Real> lawOf(LiaType type) {
   lia.law.edit().stiffness_limit = {9.0};
   lia.law.edit().tipping_point = std::sqrt((9.0 - 3.0) / 5.0);
   lia.law.edit().exponent = {1.7};
+  lia.law.edit().width = {5.0};
   return GuardedLaw<Real>::make(Scene{}, lia, Units{});
 }
 
@@ -49,25 +50,40 @@ double meanOf(const GuardedLaw<double>& law, double p, double w) {
 
 TEST(GuardedFormTest, SlopePotentialAndMeanAreThoseOfThePush) {
   constexpr double kStep = 1e-5;
-  for (const LiaType type :
-       {LiaType::kSpringDamper, LiaType::kQuadratic, LiaType::kCubic, LiaType::kClippedCubic,
-        LiaType::kContact, LiaType::kPowerContact, LiaType::kCubicContact, LiaType::kFelt}) {
+  for (const LiaType type : {LiaType::kSpringDamper, LiaType::kQuadratic, LiaType::kCubic,
+                             LiaType::kClippedCubic, LiaType::kContact, LiaType::kPowerContact,
+                             LiaType::kCubicContact, LiaType::kFelt, LiaType::kPluck}) {
     const GuardedLaw<double> law = lawOf(type);
     const std::string what = std::to_string(static_cast<int>(type));
     for (const double p : {0.2, 0.7, 1.6}) {
       const double force = law.push(p).force;
       const double rise = law.push(p + kStep).force - law.push(p - kStep).force;
-      EXPECT_NEAR(law.push(p).slope, rise / (2.0 * kStep), 1e-7 * force) << what << " " << p;
+      EXPECT_NEAR(law.push(p).slope, rise / (2.0 * kStep), 1e-7 * std::abs(force))
+          << what << " " << p;
       EXPECT_NEAR((law.potential(p + kStep) - law.potential(p - kStep)) / (2.0 * kStep), force,
-                  1e-7 * force)
+                  1e-7 * std::abs(force))
           << what << " " << p;
       for (const double w : {0.03, -0.5, 2.0}) {
         if (law.isContact()) {
-          EXPECT_NEAR(law.meanPush(p, w), meanOf(law, p, w), 1e-5 * force) << what << " " << p;
+          EXPECT_NEAR(law.meanPush(p, w), meanOf(law, p, w), 1e-5 * std::abs(force))
+              << what << " " << p;
         }
       }
     }
   }
+}
+
+/// Down to its bottom at 0 a table of straight lines gives what lies below them.
+TEST(GuardedFormTest, PotentialOfATableIsWhatLiesBelowIt) {
+  Lia lia;
+  lia.type = LiaType::kTable;
+  lia.law.edit().table.points = {{-1.0, -4.0}, {0.0, 0.0}, {1.0, 1.0}, {3.0, 2.0}};
+  const auto law = GuardedLaw<double>::make(Scene{}, lia, Units{});
+  EXPECT_NEAR(law.potential(-1.0), 2.0, 1e-12);
+  EXPECT_NEAR(law.potential(0.0), 0.0, 1e-12);
+  EXPECT_NEAR(law.potential(0.5), 0.125, 1e-12);
+  EXPECT_NEAR(law.potential(3.0), 0.5 + 3.0, 1e-12);
+  EXPECT_NEAR(law.potential(4.0), 0.5 + 3.0 + 2.0, 1e-12) << "held beyond its end";
 }
 
 template <class Real>

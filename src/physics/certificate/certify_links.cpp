@@ -114,7 +114,10 @@ class LinkJudge {
   }
 
   void judgeGuarded(const Lia& lia) {
-    if (scene::lawOf(lia.type).canGive(lia)) {
+    const scene::Law& law = scene::lawOf(lia.type);
+    if (!(networks_.inverseMassStep2(lia) > 0.0)) {
+      judgeGift(lia, law);  // a guard holds back what forces move
+    } else if (law.canGive(lia)) {
       findings_.worsen(Verdict::kBounded);  // though no more than its tank holds
     }
     if (networks_.crossesRates(lia) && networks_.inverseMass(networks_.slowEnd(lia)) > 0.0) {

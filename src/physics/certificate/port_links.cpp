@@ -67,13 +67,21 @@ int PortLinks::driving(const scene::Port& port) const {
   const auto drives = [this](int l) {
     const scene::Lia& lia = scene_.lias[at(l)];
     const Slopes& slopes = link(l).slopes;
-    return lia.scheme == scene::Scheme::kExplicit &&
-           (slopes.stiffness.lowest < 0.0 || slopes.damping.lowest < 0.0 ||
-            scene::rangeOf(scene_, lia.law->nonlinearity).lowest < 0.0);
+    return !isHeldBack(l) && (slopes.stiffness.lowest < 0.0 || slopes.damping.lowest < 0.0 ||
+                              scene::rangeOf(scene_, lia.law->nonlinearity).lowest < 0.0);
   };
   const std::vector<int>& links = links_of_[at(port.mat)];
   const auto found = std::find_if(links.begin(), links.end(), drives);
   return found == links.end() ? -1 : *found;
+}
+
+/// Where forces move neither end a guard has nothing to hold back.
+bool PortLinks::isHeldBack(int l) const {
+  const auto moves = [this](int mat) {
+    return network_.nodes[at(mat)].is_free || network_.point_of[at(mat)] >= 0;
+  };
+  return scene_.lias[at(l)].scheme == scene::Scheme::kGuarded &&
+         (moves(link(l).a) || moves(link(l).b));
 }
 
 PortLinks::Resistance PortLinks::atSlice(const scene::Port& port) const {

@@ -27,7 +27,8 @@ class PortLinks {
   double damping(const scene::Port& port) const;
   /// The link of the slice with most damping, -1: none.
   int mostDamped(const scene::Port& port) const;
-  /// The explicit link of the slice that is below 0 somewhere and drives a hand, -1: none.
+  /// A link of the slice that is below 0 somewhere and drives a hand, -1: none. Not one that a
+  /// guard holds back.
   int driving(const scene::Port& port) const;
 
   /// What the links of a module resist a step of it with, everything else held.
@@ -46,6 +47,7 @@ class PortLinks {
   bool isHanging(const scene::Port& port, int l) const;
   /// Links behind the filter, or of the slice if it has none.
   std::vector<int> linksOf(const scene::Port& port) const;
+  bool isHeldBack(int l) const;
   double share(const scene::Port& port, int mat, int l) const;
   double hands(int mat) const;
   double along(const scene::Port& port, int l) const;

@@ -170,5 +170,45 @@ TEST(PortDampingTest, ScalesOfThePortCount) {
   EXPECT_DOUBLE_EQ(certify(b.scene, kRates).ports[0].damping, 2000.0);
 }
 
+/// As strong a push as a hand gives: how fast the slice is 2 s later, m/s.
+double speedAfterAPush(const scene::Scene& scene) {
+  const DeviceTraits slice;
+  const double decay = std::exp(-slice.damping / slice.mass * kTick);
+  const double glide = slice.mass / slice.damping * (1.0 - decay);
+  Player player(scene, kRates, Precision::kDouble);
+  double x = 0.0;
+  double v = 1.0;
+  double force = 0.0;
+  for (int n = 0; n < 6300 && std::abs(v) < 1e6; ++n) {
+    player.positions[0] = x;
+    player.tick();
+    x += glide * v + (kTick - glide) / slice.damping * force;
+    v = decay * v + glide / slice.mass * force;
+    force = player.forces[0];
+  }
+  return std::abs(v);
+}
+
+/// A guard holds back what forces move. Between a slice and a ground there is nothing of that.
+TEST(DrivenHandTest, NoGuardHoldsALinkThatDrivesAHandOnAGround) {
+  const auto joined = [](LiaType type, double nonlinearity, bool is_mass) {
+    SceneBuilder b;
+    const int slice = b.slice(0);
+    b.link(type, slice, is_mass ? b.mass(1.0, 0.0) : b.ground(), 100.0);
+    b.scene.lias[0].scheme = Scheme::kGuarded;
+    b.scene.lias[0].law.edit().nonlinearity = {nonlinearity};
+    b.scene.lias[0].law.edit().table.points = {{-0.01, 10.0}, {0.01, -10.0}};
+    return b.scene;
+  };
+  for (const auto& [type, nonlinearity] :
+       {std::pair(LiaType::kCubic, -1e6), std::pair(LiaType::kQuadratic, -1e4),
+        std::pair(LiaType::kTable, 0.0)}) {
+    EXPECT_GT(speedAfterAPush(joined(type, nonlinearity, false)), 1.0);
+    EXPECT_EQ(certify(joined(type, nonlinearity, false), kRates).verdict, Verdict::kUnproven);
+    EXPECT_LT(speedAfterAPush(joined(type, nonlinearity, true)), 0.1);
+    EXPECT_LE(certify(joined(type, nonlinearity, true), kRates).verdict, Verdict::kBounded);
+  }
+}
+
 }  // namespace
 }  // namespace ergotic::physics

@@ -110,17 +110,31 @@ std::vector<int> PortLinks::linksOf(const scene::Port& port) const {
 /// Where a link acts in a frame with fewer coordinates than the module has, these are seen along
 /// its axes; else its line may lie along any of them.
 double PortLinks::share(const scene::Port& port, int mat, int l) const {
+  return share(port, port, mat, l);
+}
+
+/// What pulls along one axis what moves along the other.
+double PortLinks::share(const scene::Port& port, const scene::Port& moved, int mat, int l) const {
   const scene::Section& from = scene_.sectionOf(scene_.mats[at(mat)]);
   const scene::Section& to = scene_.sectionOf(scene_.mats[at(otherEnd(l, mat))]);
   if (to.geometry >= from.geometry) {
-    return 1.0;
+    return port.axis == moved.axis ? 1.0 : 0.0;
   }
-  const Eigen::Vector3d axis = to.pose.linear().transpose() * from.pose.linear().col(port.axis);
-  double seen = 0.0;
-  for (int k = 0; k < dimensionsOf(to.geometry); ++k) {
-    seen += axis[k] * axis[k];
+  const Eigen::Matrix3d seen = to.pose.linear().transpose() * from.pose.linear();
+  const auto count = dimensionsOf(to.geometry);
+  return seen.col(port.axis).head(count).dot(seen.col(moved.axis).head(count));
+}
+
+/// Hands that move the axes of a module together feel more than one axis alone: the sum over a row
+/// bounds what any of them feels.
+double PortLinks::shareTogether(const scene::Port& port, int mat, int l) const {
+  double sum = 0.0;
+  for (const scene::Port& moved : scene_.ports) {
+    if (moved.mat == port.mat && moved.agent < 0) {
+      sum += std::abs(share(port, moved, mat, l));
+    }
   }
-  return seen;
+  return sum;
 }
 
 /// Another hand may go the other way, and then each feels twice what it would if that were held.
@@ -131,11 +145,11 @@ double PortLinks::hands(int mat) const {
 double PortLinks::along(const scene::Port& port, int l) const {
   const int mat = port.filter < 0 ? port.mat : port.filter;
   const Series all = series(mat, l);
-  return share(port, mat, l) * hands(all.end) * all.stiffness;
+  return shareTogether(port, mat, l) * hands(all.end) * all.stiffness;
 }
 
 double PortLinks::dampingAt(const scene::Port& port, int l) const {
-  return share(port, port.mat, l) * hands(otherEnd(l, port.mat)) * damping(l);
+  return shareTogether(port, port.mat, l) * hands(otherEnd(l, port.mat)) * damping(l);
 }
 
 double PortLinks::slope(int l) const {

@@ -19,11 +19,11 @@ class PortLinks {
   /// [nodes] of the network.
   const std::vector<std::vector<int>>& ofNodes() const { return links_of_; }
 
-  /// What everything resists the slow motion of a port with, at most.
+  /// What everything resists the slow motion of a port with, at most, other hands in the worst way.
   double stiffness(const scene::Port& port) const;
   /// The link that gives most of it, -1: none.
   int stiffest(const scene::Port& port) const;
-  /// What the links of its slice resist a step of it with, N s/m.
+  /// What the links of its slice resist a step of it with, other hands in the worst way.
   double damping(const scene::Port& port) const;
   /// The link of the slice with most damping, -1: none.
   int mostDamped(const scene::Port& port) const;
@@ -49,6 +49,8 @@ class PortLinks {
   std::vector<int> linksOf(const scene::Port& port) const;
   bool isHeldBack(int l) const;
   double share(const scene::Port& port, int mat, int l) const;
+  double share(const scene::Port& port, const scene::Port& moved, int mat, int l) const;
+  double shareTogether(const scene::Port& port, int mat, int l) const;
   double hands(int mat) const;
   double along(const scene::Port& port, int l) const;
   double dampingAt(const scene::Port& port, int l) const;

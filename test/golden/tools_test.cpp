@@ -336,6 +336,7 @@ TEST_F(CheckTest, SaysWhatASceneIsMadeOf) {
                     HasSubstr("types: {contact: 1}, schemes: {guarded: 1}"),
                     HasSubstr("value: 2500\n    minimum: 1000\n    maximum: 8000\n"),
                     HasSubstr("verdict: passive\n"), HasSubstr("passive_up_to_n_per_m: 4200\n"),
+                    HasSubstr("whatever the hands do, as long as its parameters stand still\n"),
                     HasSubstr("lowest_stable_audio_rate_hz: "), HasSubstr("state_bytes: "),
                     HasSubstr("real_time_factor: ")));
 }

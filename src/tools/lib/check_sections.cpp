@@ -66,22 +66,19 @@ double lowestStableAudioRate(const Scene& scene,
   return lowest;
 }
 
-/// Soft contacts and the like, worked out explicitly: passive but for a little at every hit.
-bool switchesExplicitly(const Scene& scene) {
-  return std::any_of(scene.lias.begin(), scene.lias.end(), [](const scene::Lia& lia) {
-    return lia.scheme == scene::Scheme::kExplicit && lia.type != scene::LiaType::kSpringDamper;
-  });
+/// Turning one in time with what swings works on it like a hand, and nothing bounds that.
+std::string whileStill(const Scene& scene) {
+  return scene.parameters.empty() ? "" : ", as long as its parameters stand still";
 }
 
 std::string adviceOn(const Scene& scene, Verdict verdict, double lowest_rate_hz) {
   const auto whole = std::to_string(std::llround(std::ceil(lowest_rate_hz)));
   switch (verdict) {
     case Verdict::kPassive:
-      return switchesExplicitly(scene)
-                 ? "stable: its explicit contacts are so soft that a hit gives hardly anything"
-                 : "it cannot blow up, whatever the hands do";
+      return "it cannot blow up, whatever the hands do" + whileStill(scene);
     case Verdict::kBounded:
-      return "it cannot blow up: what plucks, bows or moves gives energy, but only so much";
+      return "it cannot blow up: what plucks, bows or moves gives energy, but only so much" +
+             whileStill(scene);
     case Verdict::kUnproven:
       return "nothing bounds it: see the findings, or play it with allow_unproven at your own risk";
     case Verdict::kUnstable:

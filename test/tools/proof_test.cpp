@@ -85,6 +85,96 @@ TEST(ProofTest, OfRandomScenesAreVerifiedAndRefusedWithOneNumberChanged) {
   }
 }
 
+/// A scene, and one number or word of it changed, which is why it is not vouched for then.
+struct Lie {
+  std::string text;
+  std::string said;
+  std::string instead;
+  std::string reason;
+};
+
+/// A mass that is damped, and a guarded contact that hands its energy on.
+const std::string kDamped =
+    "ergotic: 1\nsections: {s: {rate: audio}}\nmats:\n  g: {type: ground}\n"
+    "  m: {type: mass, mass: 1}\n  c: {type: cell, mass: 1, stiffness: 0, damping: 1}\nlias:\n"
+    "  own: {type: spring_damper, between: [m, g], stiffness: 2e4, damping: 10}\n"
+    "  hit: {type: contact, between: [m, c], stiffness: 1e3, scheme: guarded}\n";
+const std::string kSnapping =
+    kDamped +
+    "  l: {type: conditional, between: [m, g], stiffness: 6e9, engage: 0.005, "
+    "release: 0.01, scheme: explicit}\n";
+const std::string kTable =
+    kDamped +
+    "  l: {type: table, between: [m, g], elastic: [[-1, -1], [1, 1]], scheme: explicit}\n";
+const std::string kFinger =
+    "ergotic: 1\nparameters: {place: {value: 0.5, range: [0.2, 0.8]}}\nsections: {s: {}}\n"
+    "generators:\n  - {type: string, name: string, masses: 30, mass: 1e-4, stiffness: 175033,\n"
+    "     to: [1, 0]}\nmats:\n  g: {type: ground}\n"
+    "  p: {type: point, along: string, at: $place, power: 1}\n"
+    "lias:\n  l: {type: spring, between: [p, g], stiffness: 233000}\n";
+const std::string kInSpace =
+    "ergotic: 1\nsections: {s: {geometry: space}}\nmats:\n  g: {type: ground}\n"
+    "  m: {type: mass, mass: 1, at: [0.1, 0, 0]}\nlias:\n"
+    "  l: {type: spring, between: [m, g], stiffness: 1e4, rest_length: 0, scheme: explicit}\n";
+const std::string kTwoRates =
+    "ergotic: 1\nparameters: {k: {value: 1, range: [1, 1]}}\n"
+    "sections: {fast: {geometry: plane}, slow: {rate: gestural, pose: {position: [0, 0, 0],\n"
+    "  rotation: [0, 0, 0]}}, along: {rate: gestural}}\nmats:\n"
+    "  a: {type: mass, section: along, mass: 1}\n  b: {type: mass, section: slow, mass: 1}\n"
+    "  f: {type: mass, section: fast, mass: 0.1}\nlias:\n"
+    "  l: {type: spring, between: [a, f], stiffness: 1e4*$k}\n"
+    "  r: {type: spring, between: [b, f], stiffness: 1e4}\n";
+/// Beyond a quarter of the rate a cell is worst where it is damped least.
+const std::string kMatched =
+    "ergotic: 1\nparameters: {z: {value: 1, range: [0, 1]}}\nsections: {s: {}}\nmats:\n"
+    "  g: {type: ground}\n  c: {type: cell, mass: 1, stiffness: 7.78e9, damping: 44100*$z}\n"
+    "lias:\n  l: {type: spring, between: [c, g], stiffness: 1}\n";
+
+scene::Scene settled(const std::string& text) {
+  return physics::settle(scene::readYaml(text, "lie.yaml"), {44100.0, 14}).scene;
+}
+
+/// What scripts/check_proof says of the proof of `text` if it stands beside the network of another.
+std::string refusal(const std::string& text, const std::string& other, bool says_passive = false) {
+  const physics::Rates rates{44100.0, 14};
+  physics::Proof proof;
+  const physics::Verdict found = physics::certify(settled(text), rates, {}, &proof).verdict;
+  EXPECT_LE(found, physics::Verdict::kBounded) << text;
+  const ScratchFile file;
+  const ScratchFile said;
+  tools::writeProof(file.path(), settled(other), rates,
+                    says_passive ? physics::Verdict::kPassive : found, proof);
+  const int code = python("scripts/check_proof " + file.path() + " 2> " + said.path());
+  EXPECT_EQ(code, said.text().empty() ? 0 : 1);
+  return said.text();
+}
+
+TEST(ProofTest, IsRefusedForEveryReasonThatIsMissing) {
+  const std::vector<Lie> lies = {
+      {kSnapping, "damping: 1}", "damping: 0}", "a mass keeps what a link gives"},
+      {kSnapping, "conditional, between: [m, g], stiffness: 6e9, engage: 0.005, release: 0.01",
+       "contact, between: [m, g], stiffness: 6e9", "l: it switches"},
+      {kTable, "[-1, -1], [1, 1]", "[-1, 1], [1, -1]", "l: its ends give"},
+      {kFinger, "233000", "263000", "it does not hold wherever points lie"},
+      {kFinger, "power: 1", "power: 1000", "a point brings too much"},
+      {kInSpace, "rest_length: 0", "rest_length: 0.05", "a line turns"},
+      {kTwoRates, "[1, 1]", "[0.5, 1]", "island"},
+      {kTwoRates, "rotation: [0, 0, 0]", "rotation: [0, 0, 1]", "island: its axes"},
+  };
+  for (const Lie& lie : lies) {
+    std::string other = lie.text;
+    const std::size_t at = other.find(lie.said);
+    ASSERT_NE(at, std::string::npos) << lie.said;
+    other.replace(at, lie.said.size(), lie.instead);
+    EXPECT_THAT(refusal(lie.text, other), HasSubstr(lie.reason)) << lie.instead;
+  }
+  for (const std::string& text : {kSnapping, kTable, kFinger, kInSpace, kTwoRates, kMatched}) {
+    EXPECT_EQ(refusal(text, text), "") << text;
+  }
+  EXPECT_THAT(refusal(kTable, kTable, true), HasSubstr("its verdict"));
+  EXPECT_THAT(refusal(kFinger, kFinger, true), HasSubstr("its verdict"));
+}
+
 TEST(ProofTest, ThereIsNoneOfWhatIsNotVouchedFor) {
   const ScratchFile scene(
       "ergotic: 1\nsections:\n  s: {rate: audio}\nmats:\n  g: {type: ground}\n"

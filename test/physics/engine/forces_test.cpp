@@ -200,17 +200,20 @@ TEST(LiveParameterTest, MassMediumAndGainsFollow) {
   EXPECT_NEAR(player.heard[1].back(), 8.0 * once * once, 1e-15);
 }
 
-TEST(LiveParameterTest, WorkOfAChangeIsBooked) {
-  Live b;
-  const int mass = b.mass(1e9, 0.01);
-  b.scene.lias[at(b.spring(mass, b.ground(), 0.0))].stiffness = {2.0, 0};
-  Player player(b.scene, {kRate, 1});
-  player.tick();
-  Live::set(player, 5.0);
-  player.ticks(2);
-  const Energies energies = energiesOf(player);
-  EXPECT_NEAR(energies.from_parameters, 0.5 * (10.0 - 2.0) * 1e-4, 1e-12);
-  EXPECT_LT(std::abs(energies.residual), 1e-12 * energies.stored);
+TEST(LiveParameterTest, WorkOfAChangeIsBookedInJoules) {
+  for (const double unit : {1.0, 1.0 / kRate}) {
+    Live b;
+    b.scene.time_unit_s = unit;
+    const int mass = b.mass(1e9, 0.01);
+    b.scene.lias[at(b.spring(mass, b.ground(), 0.0))].stiffness = {2.0 * unit * unit, 0};
+    Player player(b.scene, {kRate, 1});
+    player.tick();
+    Live::set(player, 5.0);
+    player.ticks(2);
+    const Energies energies = energiesOf(player);
+    EXPECT_NEAR(energies.from_parameters, 0.5 * (10.0 - 2.0) * 1e-4, 1e-12);
+    EXPECT_LT(std::abs(energies.residual), 1e-12 * energies.stored);
+  }
 }
 
 }  // namespace

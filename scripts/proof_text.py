@@ -14,6 +14,14 @@ from scipy import interpolate, sparse
 DEFAULTS = {"sections": {"medium": "0"}, "lias": {"rest_length": "0", "threshold": "0", "damping": "0"},
             "mats": {"stiffness": "0", "damping": "0", "matched": "true"}, "parameters": {}}
 WORDS = {"spring": "spring_damper", "damper": "spring_damper"}
+SPRING, CLIPPED = "stiffness damping rest_length", "nonlinearity stiffness_limit tipping_point limit_damping "
+KEYS = {  # what each word must say
+    "mass": "mass", "cell": "mass stiffness damping matched", "spring_damper": SPRING,
+    "quadratic": "nonlinearity " + SPRING, "cubic": "nonlinearity " + SPRING, "clipped_cubic": CLIPPED + SPRING,
+    "contact": "stiffness damping threshold", "power_contact": "stiffness exponent damping threshold",
+    "felt": "stiffness exponent damping threshold", "cubic_contact": CLIPPED + "stiffness damping threshold",
+    "pluck": "width " + SPRING, "conditional": "engage release " + SPRING, "bow": "damping width",
+    "smooth_bow": "damping width", "table": "rest_length", "ground": "", "driven": "", "slice": "", "point": ""}
 
 
 def need(condition, reason):
@@ -47,6 +55,14 @@ def matrix_of(entries, rows, columns=None):
     """Sparse, of its entries that are not 0."""
     i, j, values = zip(*entries) if entries else ((), (), ())
     return sparse.csc_matrix((values, (i, j)), (rows, columns or rows), dtype=float)
+
+
+def need_all_keys(proof):
+    """A key that is left out would count as 0."""
+    for each in proof["modules"] + proof["links"]:
+        keys = KEYS[each["type"]].split() if "table" not in each else []
+        need(all(key in each for key in keys), f"{each['name']}: not all of its numbers are there")
+        need(each["type"] != "table" or "elastic" in each or "viscous" in each, f"{each['name']}: no table")
 
 
 def rows_of(part):
@@ -102,6 +118,8 @@ def differences(proof, text):
     for part, ours in (("parameters", "parameters"), ("sections", "sections"), ("mats", "modules"),
                        ("lias", "links")):
         known = {each["name"]: has_of(proof, each) for each in proof[ours]}
+        for point in proof["points"] if part == "mats" else []:
+            known[proof["modules"][point["module"]]["name"]]["power"] = point["power"]
         for name, keys in rows_of(scene.get(part) or {}):
             said = {"release": keys.get("engage"), **DEFAULTS[part], **keys}
             has = known.get(name, {})
@@ -113,6 +131,8 @@ def differences(proof, text):
             is_open = {"scheme": said.get("scheme") == "auto", "section": has.get("type") == "point",
                        "between": "filter" in said or any(
                            "@" in end or end in filtered for end in said.get("between", []))}
+            if said.get("type") == "point":
+                said.setdefault("power", "1")
             said["type"] = WORDS.get(said.get("type"), said.get("type"))
             if name not in known:
                 yield f"{name} of {part} is not in the proof"
@@ -126,6 +146,7 @@ def read(path, scene=None):
     proof = json.load(open(path))
     said = proof.pop("sha256")
     need(proof["proof"] == 1 and digest(proof, hashlib.sha256()) == said, "something in it was changed")
+    need_all_keys(proof)
     if scene:
         text = open(scene, "rb").read()
         need(hashlib.sha256(text).hexdigest() == proof["scene"]["sha256"], "it is of another scene")

@@ -91,7 +91,7 @@ Touch touchOf(const scene::Scene& scene, Networks& networks, int index) {
   return {index,
           lia.name,
           lia.scheme,
-          scene::isGuardable(lia),
+          scene::isGuardable(scene, lia),
           endAt(scene, networks, lia.a),
           endAt(scene, networks, lia.b)};
 }

@@ -16,6 +16,14 @@ physics::Energies energiesOf(const Player& player) {
   return energies;
 }
 
+double kineticEnergy(const Player& player) {
+  double sum = 0.0;
+  for (const physics::SectionEnergy& section : energiesOf(player).sections) {
+    sum += std::abs(section.kinetic);
+  }
+  return sum;
+}
+
 namespace {
 
 /// \param visit  channel, mass, velocity

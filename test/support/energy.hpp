@@ -9,6 +9,8 @@ namespace ergotic::test {
 
 /// The books of what has been played so far.
 physics::Energies energiesOf(const Player& player);
+/// J, of all sections, without their signs: that of the books is below 0 where steps are opposite.
+double kineticEnergy(const Player& player);
 
 /// The kinetic energy M v^2/2 of all that forces move, each with the velocity of its last step, and
 /// the potential energy, beyond what springs hold that rest stretched. The kinetic energy of the

@@ -9,6 +9,7 @@
 namespace ergotic::physics {
 
 using ergotic::test::energiesOf;
+using ergotic::test::kineticEnergy;
 using ergotic::test::imbalanceOf;
 using ergotic::test::Player;
 using ergotic::test::SceneBuilder;

@@ -183,9 +183,6 @@ struct Lia {
   Scheme scheme = Scheme::kExplicit;
   bool filtered = false;  ///< `settle` puts a chaplet between the slower end and this link
 };
-/// True if the link may be guarded, see `Law::unguarded`.
-bool isGuardable(const Lia& lia);
-
 /// Modules in rows and columns between which points can lie: a string is one row.
 struct Grid {
   std::string name;
@@ -329,6 +326,10 @@ struct Scene {
   int inputChannels() const;
   int outputChannels() const;
 };
+
+/// True if the link may be guarded, see `Law::unguarded`; a damper without a rest length only where
+/// its line may turn. \pre the ends of the link exist
+bool isGuardable(const Scene& scene, const Lia& lia);
 
 /// True if the scene leaves nothing open: no rate, scheme, chaplet or pitch of a string is still to
 /// be chosen (physics::settle does); `compile` and `certify` need that.

@@ -45,10 +45,10 @@ class LinkJudge {
     const bool acts =
         slopes.stiffness.highest > 0.0 || (law.friction == nullptr && slopes.damping.highest > 0.0);
     const bool switches = law.switches && acts && !slopes.is_unbounded;
-    const bool falls = law.friction != nullptr && !law.onlyBrakes(lia);
+    const bool falls = law.friction != nullptr && !networks_.onlyBrakes(lia);
     if (!(switches || falls) || !(networks_.inverseMassStep2(lia) > 0.0)) {
       prove(lia, "slopes");
-    } else if ((law.is_held || falls) && loss_.surrounds(lia)) {
+    } else if (switches ? loss_.bears(lia) : loss_.surrounds(lia)) {
       findings_.worsen(Verdict::kBounded);
       prove(lia, "lossy");
     } else if (switches) {
@@ -71,9 +71,10 @@ class LinkJudge {
           turning.links > 1 ? " and " + std::to_string(turning.links - 1) + " more" : "";
       findings_.add(Verdict::kUnproven, turning.first->place,
                     "link '" + turning.first->name + "'" + more +
-                        " has a rest length and acts along a line that turns: stable while it "
-                        "moves little against its length, but large motion may feed energy in. "
-                        "Use rest length 0, scheme: guarded, or a scalar section");
+                        " has a rest length, or a damper, along a line that turns: stable while "
+                        "it moves little against its length, but large motion may feed energy in. "
+                        "Use scheme: guarded, rest length 0 and a medium or loss, or a scalar "
+                        "section");
     }
   }
 

@@ -8,6 +8,8 @@
 
 #include "at.hpp"
 #include "physics/network/network_analysis.hpp"
+#include "scene/laws/law.hpp"
+#include "scene/laws/range.hpp"
 
 namespace ergotic::physics {
 
@@ -28,12 +30,25 @@ EnergyLoss::EnergyLoss(const RatedNetwork& networks)
     const int island = networks.islandOf(m);
     Group& group = groups_[joined_.setOf(island)];
     group.divisors.insert(networks.divisorOfMat(m));
-    if (!networks.isLinked(m)) {
-      group.keeps = group.keeps || !(node.damping.range.lowest > 0.0);
-    } else if (island == m) {
+    group.keeps = group.keeps || mayKeep(m);
+    if (networks.isLinked(m) && island == m) {
       group.islands.push_back(island);
     }
   }
+}
+
+/// Alone, or in a plane or space, where a link damps along its line only and what circles keeps its
+/// distance, a module loses by its own damping or not at all.
+bool EnergyLoss::mayKeep(int mat) const {
+  const scene::Scene& scene = networks_.scene();
+  const bool is_scalar = scene::dimensionsOf(scene.sectionOf(scene.mats[at(mat)]).geometry) == 1;
+  return !(is_scalar && networks_.isLinked(mat)) &&
+         !(networks_.network().nodes[at(mat)].damping.range.lowest > 0.0);
+}
+
+bool EnergyLoss::bears(const scene::Lia& lia) {
+  return scene::lawOf(lia.type).is_held &&
+         scene::rangeOf(networks_.scene(), lia.damping).highest <= 0.0 && surrounds(lia);
 }
 
 bool EnergyLoss::surrounds(const scene::Lia& lia) {

@@ -23,6 +23,10 @@ class EnergyLoss {
   /// True if all that a link acts on, at one rate, loses energy. Cost: a factorisation for each
   /// island that is asked for.
   bool surrounds(const scene::Lia& lia);
+  /// True if what a link gives stays bounded: its force is held, and it is surrounded. A damper
+  /// that comes and goes with the link is not held, and two or more modes may meet it where it
+  /// drives.
+  bool bears(const scene::Lia& lia);
   /// What shows it, of all islands around links for which it was true.
   const std::vector<Factor>& factors() const { return factors_; }
 
@@ -30,9 +34,10 @@ class EnergyLoss {
   struct Group {
     std::vector<int> islands;
     std::set<int> divisors;
-    bool keeps = false;  // a module without explicit links or damping of its own is in it
+    bool keeps = false;  // a module in it may move without any loss
   };
 
+  bool mayKeep(int mat) const;
   bool loses(int island);
   bool judge(const Group& group);
   bool crossesToAMass(const scene::Lia& lia) const;

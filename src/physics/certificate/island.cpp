@@ -36,6 +36,31 @@ bool leavesModesOut(const Network& network, int section) {
   return most > scene::kNoModes && modules > most;
 }
 
+using Sections = std::vector<const scene::Section*>;
+
+bool areAlike(const Sections& flats) {
+  return std::all_of(flats.begin(), flats.end(), [&](const scene::Section* section) {
+    return section->pose.linear().isApprox(flats.front()->pose.linear(), kRounding);
+  });
+}
+
+bool haveOneAxis(const Sections& scalars) {
+  return std::all_of(scalars.begin(), scalars.end(), [&](const scene::Section* section) {
+    const double cosine = scalars.front()->pose.linear().col(0).dot(section->pose.linear().col(0));
+    return std::abs(cosine) >= 1.0 - kRounding;
+  });
+}
+
+/// True if the axis of the scalar sections lies in every line and plane.
+bool liesIn(const Sections& flats, const Sections& scalars) {
+  return scalars.empty() ||
+         std::all_of(flats.begin(), flats.end(), [&](const scene::Section* section) {
+           const Eigen::Vector3d seen =
+               section->pose.linear().transpose() * scalars.front()->pose.linear().col(0);
+           return seen.head(dimensionsOf(section->geometry)).norm() >= 1.0 - kRounding;
+         });
+}
+
 }  // namespace
 
 Island::Island(const RatedNetwork& networks, int island) : networks_(networks), island_(island) {
@@ -115,26 +140,30 @@ bool Island::followsParameters() const {
 
 /// True if all coordinates move as one does by itself, or in one rate beside it. Links between
 /// different geometries act along the axes of the smaller one; what they leave is another network.
+/// So do links between lines, and planes, that are turned against one another.
 bool Island::isOneLine() const {
   std::set<scene::Geometry> geometries;
   std::set<int> divisors;  // of Euclidean sections
-  const scene::Section* line = nullptr;
-  bool turns = false;
+  std::vector<const scene::Section*> scalars;
+  std::vector<const scene::Section*> flats;  // lines and planes
   for (int m = 0; m < static_cast<int>(networks_.scene().mats.size()); ++m) {
     if (!isMember(m)) {
       continue;
     }
     const scene::Section& section = networks_.scene().sectionOf(networks_.scene().mats[at(m)]);
     geometries.insert(section.geometry);
-    if (section.geometry != scene::Geometry::kScalar) {
-      divisors.insert(networks_.divisorOfMat(m));
+    if (section.geometry == scene::Geometry::kScalar) {
+      scalars.push_back(&section);
       continue;
     }
-    line = line == nullptr ? &section : line;
-    const double cosine = line->pose.linear().col(0).dot(section.pose.linear().col(0));
-    turns = turns || std::abs(cosine) < 1.0 - kRounding;
+    divisors.insert(networks_.divisorOfMat(m));
+    if (section.geometry != scene::Geometry::kSpace) {
+      flats.push_back(&section);
+    }
   }
-  return geometries.size() <= 1 || (!turns && divisors.size() == 1);
+  return areAlike(flats) &&
+         (geometries.size() <= 1 ||
+          (divisors.size() == 1 && haveOneAxis(scalars) && liesIn(flats, scalars)));
 }
 
 std::string Island::doubt() const {

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
+#include <set>
 
 #include "at.hpp"
+#include "physics/disjoint_sets.hpp"
 #include "physics/network/load_matrix.hpp"
 #include "physics/network/network_analysis.hpp"
 
@@ -78,13 +81,16 @@ bool allPivotsPositive(const Eigen::SimplicialLDLT<Matrix>& solver) {
   return solver.info() == Eigen::Success && (solver.vectorD().array() > 0.0).all();
 }
 
-Factor factorOf(const Eigen::SimplicialLDLT<Matrix>& solver, const NetworkBound& network) {
+/// \param nodes  of the network, one for each row
+Factor factorOf(const Eigen::SimplicialLDLT<Matrix>& solver,
+                const NetworkBound& network,
+                const std::vector<int>& nodes) {
   Factor factor;
   const Eigen::VectorXd pivots = solver.vectorD();
   factor.pivots.assign(pivots.begin(), pivots.end());
   factor.modules.resize(factor.pivots.size());
-  for (int node = 0; node < network.nodes(); ++node) {
-    factor.modules[at(solver.permutationP().indices()[node])] = network.ownerOf(node);
+  for (int row = 0; row < static_cast<int>(nodes.size()); ++row) {
+    factor.modules[at(solver.permutationP().indices()[row])] = network.ownerOf(nodes[at(row)]);
   }
   const Matrix& below = solver.matrixL().nestedExpression();
   for (int column = 0; column < below.outerSize(); ++column) {
@@ -95,27 +101,71 @@ Factor factorOf(const Eigen::SimplicialLDLT<Matrix>& solver, const NetworkBound&
   return factor;
 }
 
-/// What shows that the eigenvalues are above a limit. \param limit  of its norm
-std::optional<Factor> factorAbove(const NetworkBound& network, const Matrix& lower, double limit) {
+std::vector<int> allNodes(const NetworkBound& network) {
+  std::vector<int> nodes(at(network.nodes()));
+  std::iota(nodes.begin(), nodes.end(), 0);
+  return nodes;
+}
+
+/// What shows that the eigenvalues of some rows are above a margin. \param margin  of their norm
+std::optional<Factor> factorAbove(const NetworkBound& network,
+                                  const Matrix& lower,
+                                  const std::vector<int>& nodes,
+                                  double margin) {
   if (!isFinite(lower)) {
     return std::nullopt;
   }
   const double norm = normOf(lower);
   if (norm == 0.0) {
-    return limit < 0.0 ? std::optional<Factor>(Factor{}) : std::nullopt;
+    return std::nullopt;
   }
   Matrix shifted = lower;
   for (int i = 0; i < shifted.rows(); ++i) {
-    shifted.coeffRef(i, i) -= limit * norm;
+    shifted.coeffRef(i, i) -= margin * norm;
   }
   const Eigen::SimplicialLDLT<Matrix> solver(shifted);
-  return allPivotsPositive(solver) ? std::optional<Factor>(factorOf(solver, network))
+  return allPivotsPositive(solver) ? std::optional<Factor>(factorOf(solver, network, nodes))
                                    : std::nullopt;
 }
 
-Matrix softestDamping(const NetworkBound& network) {
-  return assemble(network, scaleOf(network),
-                  [](const NetworkBound::Link& link) { return link.damping.lowest; });
+/// Nodes of all that hangs together with something negative.
+template <class CoefficientOf>
+std::vector<int> besideNegative(const NetworkBound& network, CoefficientOf coefficient) {
+  DisjointSets bodies(at(network.nodes()));
+  for (const NetworkBound::Link& link : network.links()) {
+    for (const Share& end : link.ends) {
+      if (coefficient(link) != 0.0) {
+        bodies.join(end.node, link.ends.front().node);
+      }
+    }
+  }
+  std::set<int> negative;
+  for (const NetworkBound::Link& link : network.links()) {
+    if (coefficient(link) < 0.0 && !link.ends.empty()) {
+      negative.insert(bodies.setOf(link.ends.front().node));
+    }
+  }
+  std::vector<int> nodes = allNodes(network);
+  nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
+                             [&](int n) { return negative.count(bodies.setOf(n)) == 0; }),
+              nodes.end());
+  return nodes;
+}
+
+/// What is negative lets all that hangs together with it grow unless the whole is definite: how
+/// slowly is a matter of the norm, but however little is missing it grows.
+template <class CoefficientOf>
+std::optional<Factor> definiteBesideNegative(const NetworkBound& network,
+                                             CoefficientOf coefficient) {
+  const std::vector<int> nodes = besideNegative(network, coefficient);
+  Matrix select(network.nodes(), static_cast<int>(nodes.size()));
+  for (int row = 0; row < select.cols(); ++row) {
+    select.insert(nodes[at(row)], row) = 1.0;
+  }
+  const Matrix lower = assemble(network, scaleOf(network), coefficient);
+  const Matrix whole = lower.selfadjointView<Eigen::Lower>();
+  const Matrix part = Matrix(select.transpose() * whole * select).triangularView<Eigen::Lower>();
+  return factorAbove(network, part, nodes, kPivotMargin);
 }
 
 /// A direction that no mode is orthogonal to; the same at every run.
@@ -154,22 +204,25 @@ NetworkSpectrum::NetworkSpectrum(const NetworkBound& network)
 Factor NetworkSpectrum::factorAtLimit() {
   Pencil pencil = pencil_;
   pencil.limit = NetworkAnalysis::kProven;
-  return isDefinite(pencil, network_.step()) ? factorOf(solver_, network_) : Factor{};
+  return isDefinite(pencil, network_.step()) ? factorOf(solver_, network_, allNodes(network_))
+                                             : Factor{};
 }
 
 std::optional<Factor> NetworkSpectrum::semidefiniteStiffness(const NetworkBound& network) {
-  const Matrix softest = assemble(network, scaleOf(network), [](const NetworkBound::Link& link) {
-    return link.stiffness.lowest;
-  });
-  return factorAbove(network, softest, -kPivotMargin);
+  return definiteBesideNegative(
+      network, [](const NetworkBound::Link& link) { return link.stiffness.lowest; });
 }
 
 std::optional<Factor> NetworkSpectrum::semidefiniteDamping(const NetworkBound& network) {
-  return factorAbove(network, softestDamping(network), -kPivotMargin);
+  return definiteBesideNegative(network,
+                                [](const NetworkBound::Link& link) { return link.damping.lowest; });
 }
 
 std::optional<Factor> NetworkSpectrum::definiteDamping(const NetworkBound& network) {
-  return factorAbove(network, softestDamping(network), kPivotMargin);
+  const Matrix softest = assemble(network, scaleOf(network), [](const NetworkBound::Link& link) {
+    return link.damping.lowest;
+  });
+  return factorAbove(network, softest, allNodes(network), kPivotMargin);
 }
 
 bool NetworkSpectrum::isDefinite(const Pencil& pencil, double t) {

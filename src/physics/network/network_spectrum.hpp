@@ -39,8 +39,9 @@ class NetworkSpectrum {
   /// Of 4 (1 - 1e-6) M - h^2 K - 2 h Z, moving links left out. \pre lambda is below that limit
   Factor factorAtLimit();
 
-  /// What shows that the softest case of K (of Z) is positive semidefinite, to 1e-9 of its norm;
-  /// none if it is not.
+  /// What shows that the softest case of K (of Z) is positive semidefinite, although some of it is
+  /// negative: all that hangs together with that is definite, by 1e-9 of its norm; none if not.
+  /// \pre something is negative
   static std::optional<Factor> semidefiniteStiffness(const NetworkBound& network);
   static std::optional<Factor> semidefiniteDamping(const NetworkBound& network);
   /// The same, that Z is positive definite, by 1e-9 of its norm; none of nothing.

@@ -11,6 +11,7 @@
 #include "physics/disjoint_sets.hpp"
 #include "physics/laws/matched_cell.hpp"
 #include "physics/step_units.hpp"
+#include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
 /// A network being built, with the nodes of its modules.
@@ -113,13 +114,29 @@ bool RatedNetwork::isMoving(const scene::Lia& lia) const {
   return isMovingPoint(lia.a) || isMovingPoint(lia.b);
 }
 
+bool RatedNetwork::hasLineThatTurns(const scene::Lia& lia) const {
+  const scene::Geometry a = scene_.sectionOf(scene_.mats[at(lia.a)]).geometry;
+  const scene::Geometry b = scene_.sectionOf(scene_.mats[at(lia.b)]).geometry;
+  return a != scene::Geometry::kScalar && b != scene::Geometry::kScalar &&
+         (scene::dimensionsOf(a) > 1 || scene::dimensionsOf(b) > 1);
+}
+
 bool RatedNetwork::turns(const scene::Lia& lia) const {
-  const auto isScalar = [this](int mat) {
-    return scene_.sectionOf(scene_.mats[at(mat)]).geometry == scene::Geometry::kScalar;
-  };
-  return lia.type == scene::LiaType::kSpringDamper && lia.rest_length > 0.0 &&
-         linkOf(static_cast<int>(&lia - scene_.lias.data())).slopes.stiffness.highest > 0.0 &&
-         !isScalar(lia.a) && !isScalar(lia.b) && inverseMassStep2(lia) > 0.0;
+  const bool is_projected =
+      scene_.sectionOf(scene_.mats[at(lia.a)]).geometry == scene::Geometry::kScalar ||
+      scene_.sectionOf(scene_.mats[at(lia.b)]).geometry == scene::Geometry::kScalar;
+  if (lia.type != scene::LiaType::kSpringDamper || is_projected || !(inverseMassStep2(lia) > 0.0)) {
+    return false;
+  }
+  const Slopes& slopes = linkOf(static_cast<int>(&lia - scene_.lias.data())).slopes;
+  return (lia.rest_length > 0.0 && slopes.stiffness.highest > 0.0) ||
+         (hasLineThatTurns(lia) && (slopes.damping.lowest != 0.0 || slopes.damping.highest != 0.0));
+}
+
+bool RatedNetwork::onlyBrakes(const scene::Lia& lia) const {
+  const scene::Law& law = scene::lawOf(lia.type);
+  const bool along_slip = law.kind == scene::Law::Kind::kFriction;
+  return law.onlyBrakes(lia) && (along_slip || !hasLineThatTurns(lia));
 }
 
 int RatedNetwork::islandAt(int end) const {

@@ -43,9 +43,12 @@ class RatedNetwork {
   /// True if an end is a point that can move.
   bool isMoving(const scene::Lia& lia) const;
   bool isMovingPoint(int mat) const;
-  /// True if a link wants to have a length and acts along a line that turns: a distance is linear
-  /// in the coordinates only where that length is 0.
+  /// True if a link acts along a line that turns: a spring is linear in the coordinates only where
+  /// it has no rest length, and a damper only where they are one.
   bool turns(const scene::Lia& lia) const;
+  /// True if its friction takes energy in every step: odd, nowhere falling, and not along a line that
+  /// turns.
+  bool onlyBrakes(const scene::Lia& lia) const;
 
   /// Modules that explicit links join, at whatever rates, are one island, named by one of them.
   int islandOf(int mat) const { return island_[static_cast<std::size_t>(mat)]; }
@@ -63,6 +66,7 @@ class RatedNetwork {
   bool hasLinkedMatched(int divisor) const;
 
  private:
+  bool hasLineThatTurns(const scene::Lia& lia) const;
   struct Builder;
 
   void joinGroups();

@@ -65,7 +65,9 @@ class Chooser {
     }
     const scene::Law& law = scene::lawOf(lia.type);
     if (networks_.turns(lia)) {
-      return {"length at rest of a line that turns, m", lia.rest_length, 0.0};
+      return lia.rest_length > 0.0
+                 ? Reason{"length at rest of a line that turns, m", lia.rest_length, 0.0}
+                 : Reason{"damping along a line that turns, N s/m", lia.damping.factor, 0.0};
     }
     const Slopes& slopes = networks_.slopes(static_cast<int>(&lia - scene_.lias.data()));
     if (slopes.is_unbounded) {
@@ -76,7 +78,7 @@ class Chooser {
         slopes.stiffness.highest > 0.0 || (law.friction == nullptr && slopes.damping.highest > 0.0);
     if (law.switches && acts) {
       const double kappa = per_stiffness * slopes.stiffness.highest;
-      const bool is_vouched = law.is_held && loss_.surrounds(lia);
+      const bool is_vouched = loss_.bears(lia);
       const double allowed = is_vouched ? kExplicitSwitch : 0.0;
       return is_vouched && kappa <= allowed ? Reason{}
                                             : Reason{"h^2 K (1/Ma + 1/Mb)", kappa, allowed};
@@ -89,7 +91,7 @@ class Chooser {
     if (unit * slopes.rise >= kExplicitFriction) {
       return {"h max F' (1/Ma + 1/Mb)", unit * slopes.rise, kExplicitFriction};
     }
-    const double allowed = law.onlyBrakes(lia) || loss_.surrounds(lia) ? kExplicitFalling : 0.0;
+    const double allowed = networks_.onlyBrakes(lia) || loss_.surrounds(lia) ? kExplicitFalling : 0.0;
     if (unit * slopes.fall >= allowed) {
       return {"h max(-F') (1/Ma + 1/Mb)", unit * slopes.fall, allowed};
     }

@@ -14,6 +14,11 @@ using scene::Mat;
 using scene::MatType;
 using scene::Scene;
 
+/// True if part of it is linear: it has no rest length, or is stretched where its ends rest.
+bool isPartlyLinear(const Lia& lia, double length) {
+  return lia.rest_length == 0.0 ? lia.stiffness.factor != 0.0 : lia.rest_length < length;
+}
+
 /// Its length where its ends rest; 0 if it may be stretched otherwise than along their line.
 double lengthOf(const Scene& scene, const Lia& lia) {
   const Mat& a = scene.mats[at(lia.a)];
@@ -34,10 +39,10 @@ void splitSprings(Scene& scene) {
     Lia& lia = scene.lias[l];
     const double length = lengthOf(scene, lia);
     if (lia.type != scene::LiaType::kSpringDamper || lia.scheme != scene::Scheme::kGuarded ||
-        !(lia.rest_length < length)) {
+        !isPartlyLinear(lia, length)) {
       continue;
     }
-    const double slack = lia.rest_length / length;
+    const double slack = lia.rest_length > 0.0 ? lia.rest_length / length : 0.0;
     Lia tension = lia;
     tension.name = scene::Name(lia.name + ".tension");
     tension.scheme = scene::Scheme::kExplicit;
@@ -46,7 +51,7 @@ void splitSprings(Scene& scene) {
     const bool is_straight = scene.sectionOf(scene.mats[at(lia.a)]).geometry == Geometry::kLine;
     (is_straight ? lia : tension).damping = {};
     lia.stiffness = slack * lia.stiffness;
-    lia.rest_length = length;
+    lia.rest_length = slack > 0.0 ? length : 0.0;
     scene.lias.push_back(std::move(tension));
   }
 }

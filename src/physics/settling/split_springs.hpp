@@ -10,7 +10,8 @@ namespace ergotic::physics {
 /// the rest length l, which then pushes nothing. Guarded ones become these two, the first of them
 /// explicit and appended as `<name>.tension`: what moves across the line is held by the tension
 /// alone, so it keeps its pitch at any stiffness, and the guard has nothing to hold at rest. The
-/// damper is that of the guarded one, but in a line, where it never turns, that of the other.
+/// damper is that of the guarded one, but in a line, where it never turns, that of the other. One
+/// without a rest length is guarded for its damper only.
 /// \param scene  whose schemes are chosen
 /// Realtime: no. Source: docs/physics.md, "Guarded links".
 void splitSprings(scene::Scene& scene);

@@ -16,9 +16,9 @@ struct SpringDamper {
   }
 };
 
-/// With a rest length it is linear along its line only.
+/// With a rest length it is linear along its line only, and so is every damper.
 const char* unguarded(const Lia& lia) {
-  return lia.rest_length > 0.0 ? nullptr : "a linear spring or damper";
+  return lia.rest_length > 0.0 || lia.damping.factor > 0.0 ? nullptr : "a linear spring";
 }
 
 Slopes slopes(const Scene& scene, const Lia& lia) {

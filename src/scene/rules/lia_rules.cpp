@@ -11,10 +11,18 @@ const Section& sectionAt(const Scene& scene, int mat) {
   return scene.sectionOf(scene.mats[static_cast<std::size_t>(mat)]);
 }
 
+/// What `scheme: guarded` is refused for, or nullptr.
+const char* unguarded(const Scene& scene, const Lia& lia) {
+  const bool is_straight = dimensionsOf(sectionAt(scene, lia.a).geometry) == 1 ||
+                           dimensionsOf(sectionAt(scene, lia.b).geometry) == 1;
+  const bool is_linear = lia.type == LiaType::kSpringDamper && lia.rest_length == 0.0;
+  return is_linear && is_straight ? "a linear spring or damper" : lawOf(lia.type).unguarded(lia);
+}
+
 }  // namespace
 
-bool isGuardable(const Lia& lia) {
-  return lawOf(lia.type).unguarded(lia) == nullptr;
+bool isGuardable(const Scene& scene, const Lia& lia) {
+  return unguarded(scene, lia) == nullptr;
 }
 
 Limits restLengthLimits(const Scene& scene, const Lia& lia) {
@@ -32,8 +40,8 @@ Limits releaseLimits(const Scene& scene, const Lia& lia) {
   return {"m", engage};
 }
 
-std::string schemeFault(const Lia& lia) {
-  const char* kind = lawOf(lia.type).unguarded(lia);
+std::string schemeFault(const Scene& scene, const Lia& lia) {
+  const char* kind = unguarded(scene, lia);
   if (lia.scheme != Scheme::kGuarded || kind == nullptr) {
     return "";
   }

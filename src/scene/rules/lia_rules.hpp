@@ -17,7 +17,7 @@ Limits releaseLimits(const Scene& scene, const Lia& lia);
 
 /// What is wrong with the scheme or filter of a link; empty if nothing is.
 /// \pre the ends of the link exist
-std::string schemeFault(const Lia& lia);
+std::string schemeFault(const Scene& scene, const Lia& lia);
 std::string filterFault(const Scene& scene, const Lia& lia);
 
 }  // namespace ergotic::scene

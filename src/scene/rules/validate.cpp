@@ -260,7 +260,7 @@ class Validator {
     }
     number(l.place, "rest_length" + of, l.rest_length, restLengthLimits(scene_, l));
     laws(l, of);
-    for (const std::string& fault : {schemeFault(l), filterFault(scene_, l)}) {
+    for (const std::string& fault : {schemeFault(scene_, l), filterFault(scene_, l)}) {
       if (!fault.empty()) {
         fail(l.place, fault);
       }

@@ -142,9 +142,9 @@ void readTreatment(const Scene& scene, const YamlMap& map, Lia& lia) {
   lia.scheme = Scheme::kAuto;
   if (map.has("scheme")) {
     lia.scheme = kSchemes[map.choice("scheme", {"auto", "explicit", "guarded"})];
-    refuse(map, "scheme", schemeFault(lia));
+    refuse(map, "scheme", schemeFault(scene, lia));
   }
-  if (!isGuardable(lia)) {
+  if (!isGuardable(scene, lia)) {
     lia.scheme = Scheme::kExplicit;
   }
   if (map.has("filter")) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/lib/proof_file.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 
@@ -34,9 +35,24 @@ Json parametersOf(const Scene& scene) {
   return all;
 }
 
+/// Those along which it moves, in the frame of the scene; space has them all, however it is turned.
+Json axesOf(const scene::Section& section) {
+  Json all = Json::array();
+  const bool is_space = section.geometry == scene::Geometry::kSpace;
+  const Eigen::Matrix3d axes =
+      is_space ? Eigen::Matrix3d::Identity() : Eigen::Matrix3d(section.pose.linear());
+  for (int k = 0; k < dimensionsOf(section.geometry); ++k) {
+    all.push_back({axes(0, k), axes(1, k), axes(2, k)});
+  }
+  return all;
+}
+
 /// \param frame  one of audio, in time units
 Json sectionsOf(const Scene& scene, const physics::Rates& rates, double frame) {
   Json all = Json::array();
+  const bool is_turned = std::any_of(
+      scene.sections.begin(), scene.sections.end(),
+      [](const scene::Section& section) { return !section.pose.linear().isIdentity(0.0); });
   for (const scene::Section& section : scene.sections) {
     all.push_back({{"name", section.name},
                    {"divisor", physics::divisorOf(section, rates)},
@@ -46,9 +62,8 @@ Json sectionsOf(const Scene& scene, const physics::Rates& rates, double frame) {
     if (section.modes != scene::kNoModes && section.modes != scene::kAllModes) {
       all.back()["modes"] = "some";
     }
-    const Eigen::Vector3d axis = section.pose.linear().col(0);
-    if (axis != Eigen::Vector3d::UnitX()) {
-      all.back()["axis"] = {axis[0], axis[1], axis[2]};
+    if (is_turned) {
+      all.back()["axes"] = axesOf(section);
     }
   }
   return all;

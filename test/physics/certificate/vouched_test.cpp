@@ -15,14 +15,6 @@ struct Grown {
   Certificate certificate;
 };
 
-double kineticEnergy(const Player& player) {
-  double sum = 0.0;
-  for (const SectionEnergy& section : energiesOf(player).sections) {
-    sum += section.kinetic;
-  }
-  return sum;
-}
-
 Grown grown(const SceneBuilder& b, int ratio, double seconds, Precision precision) {
   Player player(compile(b.scene, {kRate, ratio}, precision));
   const double start = kineticEnergy(player);
@@ -298,6 +290,22 @@ TEST(VouchedTest, GuardedLinksHandOnWhatSnapsGive) {
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnproven) << "it may be 0";
   b.scene.mats[at(cell)] = b.scene.mats[at(b.mass(1.0))];
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnproven);
+}
+
+/// However little is missing beside what is stiff elsewhere, what is negative grows.
+TEST(VouchedTest, NegativeStiffnessIsNotHiddenByWhatIsStiffElsewhere) {
+  SceneBuilder b;
+  b.spring(b.mass(1.0), b.ground(), 7.5e9);
+  const int light = b.mass(1.0, 1e-6);
+  b.spring(light, b.ground(), -7.0);
+  Player player(compile(b.scene, {kRate, 14}, Precision::kDouble));
+  for (int n = 0; n < 10 * 3150; ++n) {
+    player.tick();
+  }
+  EXPECT_GT(kineticEnergy(player), 1e3);
+  EXPECT_GE(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnproven);
+  b.spring(light, b.ground(), 8.0);
+  EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kPassive) << "it is held by 1 N/m";
 }
 
 /// A table that has no elastic part switches no stiffness, whatever else acts on its mass.

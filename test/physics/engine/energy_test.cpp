@@ -103,7 +103,7 @@ TEST_P(EnergyTest, EveryLawBalancesAcrossRates) {
 TEST_P(EnergyTest, EveryGuardedLawBalances) {
   for (const LiaType type : kAllTypes) {
     const SceneBuilder b = guardedString(type);
-    if (scene::isGuardable(b.scene.lias.back())) {
+    if (scene::isGuardable(b.scene, b.scene.lias.back())) {
       EXPECT_LT(imbalance(b.scene, {kRate, GetParam()}, 3000), kUnbalanced)
           << "type " << static_cast<int>(type);
     }
@@ -221,7 +221,8 @@ scene::Scene closedNetwork(Geometry geometry) {
       Lia& lia = b.scene.lias[at(b.link(type, low, low + 3, 100.0))];
       shape(lia);
       lia.damping = {is_guarded ? 0.0 : 1e-3};
-      lia.scheme = is_guarded && scene::isGuardable(lia) ? Scheme::kGuarded : Scheme::kExplicit;
+      lia.scheme =
+          is_guarded && scene::isGuardable(b.scene, lia) ? Scheme::kGuarded : Scheme::kExplicit;
     }
     low += 2;
   }

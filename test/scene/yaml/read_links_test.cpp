@@ -124,7 +124,20 @@ TEST(ReadLinksTest, SchemeIsLeftToBeChosenWhereThereIsAChoice) {
     EXPECT_EQ(last(start + "}}\n").scheme, open) << kind.fields;
     EXPECT_EQ(last(start + ", scheme: auto}}\n").scheme, open) << kind.fields;
     EXPECT_EQ(last(start + ", scheme: explicit}}\n").scheme, Scheme::kExplicit) << kind.fields;
-    EXPECT_EQ(isGuardable(last(start + "}}\n")), kind.guardable) << kind.fields;
+    const Scene scene = readYaml(start + "}}\n", "links.yaml");
+    EXPECT_EQ(isGuardable(scene, scene.lias.back()), kind.guardable) << kind.fields;
+  }
+}
+
+/// Where their lines may turn, dampers are not linear.
+TEST(ReadLinksTest, SchemeOfADamperIsOpenInAPlane) {
+  for (const std::string geometry : {"line", "plane", "space"}) {
+    const std::string start = "ergotic: 1\nsections: {s: {rate: audio, geometry: " + geometry +
+                              "}}\nmats: {m: {type: mass, section: s, mass: 1}, "
+                              "n: {type: ground, section: s}}\nlias: {x: {between: [m, n], type: ";
+    const Scheme open = geometry == "line" ? Scheme::kExplicit : Scheme::kAuto;
+    EXPECT_EQ(last(start + "damper, damping: 1}}\n").scheme, open) << geometry;
+    EXPECT_EQ(last(start + "spring, stiffness: 1}}\n").scheme, Scheme::kExplicit) << geometry;
   }
 }
 

@@ -15,18 +15,22 @@ double readRestLengthRatio(const SceneBuilder& builder, const YamlMap& map, int 
   return map.number("rest_length_ratio", kFractionLimits, 0.0);
 }
 
-Scheme readScheme(const YamlMap& map, double rest_length_ratio) {
+Scheme readScheme(const YamlMap& map,
+                  const Section& section,
+                  const Value& damping,
+                  double rest_length_ratio) {
   constexpr Scheme kSchemes[] = {Scheme::kAuto, Scheme::kExplicit, Scheme::kGuarded};
   const Scheme scheme = map.has("scheme")
                             ? kSchemes[map.choice("scheme", {"auto", "explicit", "guarded"})]
                             : Scheme::kAuto;
-  if (rest_length_ratio > 0.0) {
+  const bool is_damped = damping.factor != 0.0 && dimensionsOf(section.geometry) > 1;
+  if (rest_length_ratio > 0.0 || is_damped) {
     return scheme;
   }
   if (scheme == Scheme::kGuarded) {
     map.fail("scheme", "'scheme' of " + map.what() +
-                           " is guarded without a rest length, allowed: auto, explicit, or "
-                           "'rest_length_ratio' above 0");
+                           " is guarded, but all of it is linear, allowed: auto, explicit, or "
+                           "'rest_length_ratio' above 0, or 'damping' in a plane or space");
   }
   return Scheme::kExplicit;
 }

@@ -11,7 +11,10 @@ const Section& sectionAt(const SceneBuilder& builder, int index);
 /// 0 in scalar sections, where the key is refused.
 double readRestLengthRatio(const SceneBuilder& builder, const YamlMap& map, int section);
 
-/// Of links with a rest length; without one there is nothing to guard.
-Scheme readScheme(const YamlMap& map, double rest_length_ratio);
+/// Of links with a rest length, or with a damper in a plane or space; others have nothing to guard.
+Scheme readScheme(const YamlMap& map,
+                  const Section& section,
+                  const Value& damping,
+                  double rest_length_ratio);
 
 }  // namespace ergotic::scene

@@ -78,11 +78,12 @@ void readString(SceneBuilder& builder, const std::string& name, const YamlMap& m
   spec.masses = map.integer("masses", {"", 1.0, kMaxMats - 2});
   spec.mass = map.value("mass", kMassLimits);
   spec.rest_length_ratio = readRestLengthRatio(builder, map, spec.section);
-  spec.scheme = readScheme(map, spec.rest_length_ratio);
   spec.frequency_hz = map.number("frequency", kFrequencyLimits, 0.0);
   spec.stiffness = readStringStiffness(builder, map, spec);
   spec.coarse = readCoarse(builder, map, spec);
   spec.damping = map.value("damping", kDampingLimits, {});
+  spec.scheme =
+      readScheme(map, sectionAt(builder, spec.section), spec.damping, spec.rest_length_ratio);
   if (map.has("loss")) {
     spec.loss = map.value("loss", kDampingLimits);
   }

@@ -55,9 +55,13 @@ bool haveOneAxis(const Sections& scalars) {
 bool liesIn(const Sections& flats, const Sections& scalars) {
   return scalars.empty() ||
          std::all_of(flats.begin(), flats.end(), [&](const scene::Section* section) {
-           const Eigen::Vector3d seen =
-               section->pose.linear().transpose() * scalars.front()->pose.linear().col(0);
-           return seen.head(dimensionsOf(section->geometry)).norm() >= 1.0 - kRounding;
+           const Eigen::Vector3d axis = scalars.front()->pose.linear().col(0);
+           double seen = 0.0;
+           for (int k = 0; k < dimensionsOf(section->geometry); ++k) {
+             const double cosine = section->pose.linear().col(k).dot(axis);
+             seen += cosine * cosine;
+           }
+           return seen >= 1.0 - kRounding;
          });
 }
 

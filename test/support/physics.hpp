@@ -9,8 +9,8 @@
 namespace ergotic::physics {
 
 using ergotic::test::energiesOf;
-using ergotic::test::kineticEnergy;
 using ergotic::test::imbalanceOf;
+using ergotic::test::kineticEnergy;
 using ergotic::test::Player;
 using ergotic::test::SceneBuilder;
 using scene::Geometry;

@@ -46,8 +46,8 @@ class RatedNetwork {
   /// True if a link acts along a line that turns: a spring is linear in the coordinates only where
   /// it has no rest length, and a damper only where they are one.
   bool turns(const scene::Lia& lia) const;
-  /// True if its friction takes energy in every step: odd, nowhere falling, and not along a line that
-  /// turns.
+  /// True if its friction takes energy in every step: odd, nowhere falling, and not along a line
+  /// that turns.
   bool onlyBrakes(const scene::Lia& lia) const;
 
   /// Modules that explicit links join, at whatever rates, are one island, named by one of them.

@@ -91,7 +91,8 @@ class Chooser {
     if (unit * slopes.rise >= kExplicitFriction) {
       return {"h max F' (1/Ma + 1/Mb)", unit * slopes.rise, kExplicitFriction};
     }
-    const double allowed = networks_.onlyBrakes(lia) || loss_.surrounds(lia) ? kExplicitFalling : 0.0;
+    const double allowed =
+        networks_.onlyBrakes(lia) || loss_.surrounds(lia) ? kExplicitFalling : 0.0;
     if (unit * slopes.fall >= allowed) {
       return {"h max(-F') (1/Ma + 1/Mb)", unit * slopes.fall, allowed};
     }

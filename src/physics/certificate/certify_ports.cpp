@@ -4,7 +4,7 @@
 
 #include "at.hpp"
 #include "physics/certificate/certify_parts.hpp"
-#include "physics/certificate/free_slice.hpp"
+#include "physics/certificate/free_slices.hpp"
 #include "physics/certificate/port_links.hpp"
 
 namespace ergotic::physics {
@@ -28,7 +28,8 @@ class PortJudge {
         links_(networks.network()),
         rate_hz_(networks.rates().gesturalHz()),
         loop_(device, 1.0 / rate_hz_),
-        damping_limit_(loop_.dampingLimit()) {}
+        damping_limit_(loop_.dampingLimit()),
+        free_levels_(levelsOfFreeSlices()) {}
 
   PortCertificate judge(int p) const {
     const scene::Port& port = scene_.ports[at(p)];
@@ -39,7 +40,7 @@ class PortJudge {
     met.stiffness_limit = loop_.stiffnessLimit();
     met.damping = std::max(links_.damping(port), 0.0) * at_device;
     met.damping_limit = damping_limit_;
-    met.level = std::max(loop_.judge(met.stiffness, met.damping), ofFreeSlice(p));
+    met.level = std::max(loop_.judge(met.stiffness, met.damping), free_levels_[at(port.mat)]);
     // What an end-effector makes of a port is known where that is.
     met.is_judged = port.slice >= 0 && !isTaken(p, device_);
     return met;
@@ -80,18 +81,29 @@ class PortJudge {
   }
 
  private:
-  /// What hangs on a slice may set it off at less than its links alone.
-  HandLevel ofFreeSlice(int p) const {
-    const FreeSlice slice(networks_, p);
-    const auto growth = [&](double times) {
-      DeviceTraits device = device_;
-      device.damping *= times;
-      return rate_hz_ * (slice.radius(device) - 1.0);
-    };
-    if (!(device_.mass > 0.0) || !slice.isJudged() || growth(1.0) <= kWarnedGrowth) {
-      return HandLevel::kSilent;
+  /// What hangs on a slice may set it off at less than its links alone. [mats]
+  std::vector<HandLevel> levelsOfFreeSlices() const {
+    std::vector<HandLevel> levels(scene_.mats.size(), HandLevel::kSilent);
+    const FreeSlices slices(networks_);
+    if (!(device_.mass > 0.0) || !slices.areJudged()) {
+      return levels;
     }
-    return growth(2.0) > kRefusedGrowth ? HandLevel::kRefused : HandLevel::kWarned;
+    DeviceTraits twice = device_;
+    twice.damping *= 2.0;
+    const auto grows = [this](double radius, double most) {
+      return rate_hz_ * (radius - 1.0) > most;
+    };
+    const std::vector<double> once = slices.radii(device_);
+    if (!grows(*std::max_element(once.begin(), once.end()), kWarnedGrowth)) {
+      return levels;
+    }
+    const std::vector<double> damped = slices.radii(twice);
+    for (std::size_t m = 0; m < levels.size(); ++m) {
+      if (grows(once[m], kWarnedGrowth)) {
+        levels[m] = grows(damped[m], kRefusedGrowth) ? HandLevel::kRefused : HandLevel::kWarned;
+      }
+    }
+    return levels;
   }
 
   std::string ofSlice() const {
@@ -120,6 +132,7 @@ class PortJudge {
   double rate_hz_;
   HandLoop loop_;
   double damping_limit_;
+  std::vector<HandLevel> free_levels_;  // [mats]
 };
 
 }  // namespace

@@ -57,14 +57,13 @@ bool hasLinearPart(const scene::Lia& lia) {
   return lia.scheme == scene::Scheme::kExplicit && scene::lawOf(lia.type).has_linear_part;
 }
 
-scene::Scene linearPart(scene::Scene scene, int port) {
-  std::vector<scene::Port> ports;
-  if (port >= 0) {
-    ports.resize(1);
-    ports[0].mat = scene.ports[static_cast<std::size_t>(port)].mat;
-    ports[0].slice = 0;
+scene::Scene linearPart(scene::Scene scene, const std::vector<int>& slices) {
+  std::vector<scene::Port> ports(slices.size());
+  for (std::size_t i = 0; i < slices.size(); ++i) {
+    ports[i].mat = slices[i];
+    ports[i].slice = static_cast<int>(i);
   }
-  scene.ports = ports;
+  scene.ports = std::move(ports);
   scene.inputs.clear();
   scene.outputs.clear();
   scene.strings.clear();
@@ -75,12 +74,14 @@ scene::Scene linearPart(scene::Scene scene, int port) {
     section.sleep_energy = 0.0;
     section.modes = scene::kNoModes;
   }
-  for (scene::Mat& mat : scene.mats) {
+  for (std::size_t m = 0; m < scene.mats.size(); ++m) {
+    scene::Mat& mat = scene.mats[m];
     mat.rest.setZero();
     mat.position.setZero();
     mat.push = {};
-    const bool is_held = !ports.empty() && &mat == &scene.mats[at(ports[0].mat)];
-    if (mat.type == MatType::kDriven || (mat.type == MatType::kSlice && !is_held)) {
+    const bool is_in_hand =
+        std::find(slices.begin(), slices.end(), static_cast<int>(m)) != slices.end();
+    if (mat.type == MatType::kDriven || (mat.type == MatType::kSlice && !is_in_hand)) {
       mat.type = MatType::kGround;
     }
   }
@@ -137,8 +138,10 @@ void LinearStepper::visitNumbers(const Visit& visit) {
   }
 }
 
-Eigen::VectorXd LinearStepper::step(const Eigen::VectorXd& state, double hand) {
-  std::fill(positions_.begin(), positions_.end(), hand);
+Eigen::VectorXd LinearStepper::step(const Eigen::VectorXd& state, int moved) {
+  for (std::size_t p = 0; p < positions_.size(); ++p) {
+    positions_[p] = static_cast<int>(p) == moved ? 1.0 : 0.0;
+  }
   state_ = rest_;
   visitNumbers([&](int i, double& number) { number = state[i]; });
   instrument_->loadState(state_.data());

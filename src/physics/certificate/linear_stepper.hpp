@@ -12,8 +12,8 @@
 namespace ergotic::physics {
 
 /// The linear part of a scene, see monodromy(): at rest at 0, nothing pulls, nobody touches it.
-/// \param port  index in Scene::ports of the only one that stays, at scales of 1; -1: none
-scene::Scene linearPart(scene::Scene scene, int port = -1);
+/// \param slices  modules that stay in a hand: the ports that are left, at scales of 1
+scene::Scene linearPart(scene::Scene scene, const std::vector<int>& slices = {});
 
 /// True of links of which something stays in that part.
 bool hasLinearPart(const scene::Lia& lia);
@@ -38,11 +38,12 @@ class LinearStepper {
   int ticks() const { return ticks_; }  ///< per period
 
   /// \param state  positions, differences, forces, shape (3 slots), at the start of a period
-  /// \param hand   position of the port, if there is one, from the start of the period on
+  /// \param moved  port whose position is 1 from the start of the period on, 0 of the others; -1:
+  ///               of all
   /// \return       the same one period later
-  Eigen::VectorXd step(const Eigen::VectorXd& state, double hand = 0.0);
-  /// On the slice of the port, in the last tick of that period.
-  double force() const { return forces_.at(0); }
+  Eigen::VectorXd step(const Eigen::VectorXd& state, int moved = -1);
+  /// [ports] on their slices, in the last tick of that period.
+  const std::vector<double>& forces() const { return forces_; }
 
  private:
   double& number(int which, std::size_t slot);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A slice in nobody's hand, with masses that hang on it: its loop against itself, played.
 
-#include "physics/certificate/free_slice.hpp"
+#include "physics/certificate/free_slices.hpp"
 
 #include "ergotic/physics/certificate/certify.hpp"
 #include "support/physics.hpp"
@@ -32,27 +32,36 @@ struct Hanging {
 
 double radiusOf(const scene::Scene& scene, const DeviceTraits& device = {}) {
   const Network network(scene);
-  return FreeSlice(RatedNetwork(network, kRates), 0).radius(device);
+  const RatedNetwork networks(network, kRates);
+  return FreeSlices(networks).radii(device).at(at(scene.ports.at(0).mat));
 }
 
-/// Factor by which the speed of a slice of `device` grows in a tick, so many ticks after a knock,
-/// answered one tick late.
+/// Factor by which the speed of slices of `device` grows in a tick, so many ticks after a knock to
+/// each, answered one tick late.
 double playedGrowth(const scene::Scene& scene, const DeviceTraits& device, int settled = 4000) {
   const double decay = std::exp(-device.damping / device.mass * kTick);
   const double glide = device.mass / device.damping * (1.0 - decay);
+  struct Moving {
+    double x = 0.0;
+    double v = 0.01;
+    double force = 0.0;
+  };
+  std::vector<Moving> slices(scene.ports.size());
   Player player(scene, kRates, Precision::kDouble);
-  double x = 0.0;
-  double v = 0.01;
-  double force = 0.0;
   const auto peak = [&](int ticks) {
     double most = 0.0;
     for (int n = 0; n < ticks; ++n) {
-      player.positions[0] = x;
+      for (std::size_t p = 0; p < slices.size(); ++p) {
+        player.positions[p] = slices[p].x;
+      }
       player.tick();
-      x += glide * v + (kTick - glide) / device.damping * force;
-      v = decay * v + glide / device.mass * force;
-      force = player.forces[0];
-      most = std::max(most, std::abs(v));
+      for (std::size_t p = 0; p < slices.size(); ++p) {
+        auto& [x, v, force] = slices[p];
+        x += glide * v + (kTick - glide) / device.damping * force;
+        v = decay * v + glide / device.mass * force;
+        force = player.forces[p];
+        most = std::max(most, std::abs(v));
+      }
     }
     return most;
   };
@@ -62,7 +71,7 @@ double playedGrowth(const scene::Scene& scene, const DeviceTraits& device, int s
   return std::pow(peak(kTicks) / early, 1.0 / kTicks);
 }
 
-TEST(FreeSliceTest, GrowsAsItIsForetold) {
+TEST(FreeSlicesTest, GrowsAsItIsForetold) {
   for (const bool is_fast : {false, true}) {
     for (const Hanging& hanging :
          {Hanging{2000.0, 0.0, 0.1, 0.0}, Hanging{3000.0, 0.0, 0.02, 0.0},
@@ -75,7 +84,7 @@ TEST(FreeSliceTest, GrowsAsItIsForetold) {
   }
 }
 
-TEST(FreeSliceTest, APartOfATickOfDelayIsAWholeOne) {
+TEST(FreeSlicesTest, APartOfATickOfDelayIsAWholeOne) {
   DeviceTraits late;
   late.delay_ticks = 1.0;
   const double whole = radiusOf(Hanging{}.scene(), late);
@@ -85,7 +94,7 @@ TEST(FreeSliceTest, APartOfATickOfDelayIsAWholeOne) {
   EXPECT_LT(radiusOf(Hanging{}.scene(), late), whole);
 }
 
-TEST(FreeSliceTest, ALosslessMassOnASpringSetsOffASliceAtLessThanTheSpringAlone) {
+TEST(FreeSlicesTest, ALosslessMassOnASpringSetsOffASliceAtLessThanTheSpringAlone) {
   const scene::Scene scene = Hanging{}.scene();
   EXPECT_GT(playedGrowth(scene, {}), 1.0 + 1e-5);
   const Certificate certificate = certify(scene, kRates);
@@ -94,12 +103,12 @@ TEST(FreeSliceTest, ALosslessMassOnASpringSetsOffASliceAtLessThanTheSpringAlone)
   EXPECT_THAT(certificate.findings, ElementsAre(HasSubstr("in nobody's hand a slice of 0.3 kg")));
 }
 
-TEST(FreeSliceTest, ALossKeepsItSilent) {
+TEST(FreeSlicesTest, ALossKeepsItSilent) {
   EXPECT_TRUE(certify(Hanging{2000.0, 0.0, 0.1, 0.5}.scene(), kRates).findings.empty());
   EXPECT_TRUE(certify(Hanging{500.0, 0.0, 0.1, 0.0}.scene(), kRates).findings.empty());
 }
 
-TEST(FreeSliceTest, IsRefusedWhereItGrowsFastWithTwiceTheDamping) {
+TEST(FreeSlicesTest, IsRefusedWhereItGrowsFastWithTwiceTheDamping) {
   const Hanging hanging{3500.0, 0.0, 0.05, 0.0};
   DeviceTraits twice;
   twice.damping *= 2.0;
@@ -126,7 +135,7 @@ scene::Scene stringOn(int masses, bool is_between, double loss) {
   return b.scene;
 }
 
-TEST(FreeSliceTest, AStringBehindASpringGrowsAsItIsForetold) {
+TEST(FreeSlicesTest, AStringBehindASpringGrowsAsItIsForetold) {
   for (const bool is_between : {false, true}) {
     const scene::Scene scene = stringOn(6, is_between, 0.0);
     const double growth = playedGrowth(scene, {}, 200000);
@@ -137,10 +146,11 @@ TEST(FreeSliceTest, AStringBehindASpringGrowsAsItIsForetold) {
   }
 }
 
-TEST(FreeSliceTest, IsNotWorkedOutForLargeNetsNorWhereNothingHangs) {
+TEST(FreeSlicesTest, IsNotWorkedOutForLargeNetsNorWhereNothingHangs) {
   const auto isJudged = [](const scene::Scene& scene) {
     const Network network(scene);
-    return FreeSlice(RatedNetwork(network, kRates), 0).isJudged();
+    const RatedNetwork networks(network, kRates);
+    return FreeSlices(networks).areJudged();
   };
   EXPECT_TRUE(isJudged(stringOn(100, false, 0.0)));
   EXPECT_FALSE(isJudged(stringOn(101, false, 0.0)));
@@ -149,14 +159,14 @@ TEST(FreeSliceTest, IsNotWorkedOutForLargeNetsNorWhereNothingHangs) {
   EXPECT_FALSE(isJudged(wall.scene));
 }
 
-TEST(FreeSliceTest, ScalesOfThePortCount) {
+TEST(FreeSlicesTest, ScalesOfThePortCount) {
   scene::Scene scene = Hanging{500.0, 0.0, 0.025, 0.0}.scene();
   scene.ports[0].force_scale = 2.0;
   scene.ports[0].position_scale = 0.5;  // felt as four times the mass and the stiffness
   EXPECT_NEAR(radiusOf(scene), radiusOf(Hanging{}.scene()), 1e-9);
 }
 
-TEST(FreeSliceTest, UnitsOfTimeCount) {
+TEST(FreeSlicesTest, UnitsOfTimeCount) {
   scene::Scene in_samples =
       Hanging{2000.0 / (kRate * kRate), 0.2 / kRate, 0.1, 0.1 / kRate}.scene();
   in_samples.time_unit_s = 1.0 / kRate;
@@ -178,7 +188,7 @@ scene::Scene withLaw(const Hanging& hanging, LiaType type, Scheme scheme) {
   return scene;
 }
 
-TEST(FreeSliceTest, AGuardedSpringGrowsAsItIsForetold) {
+TEST(FreeSlicesTest, AGuardedSpringGrowsAsItIsForetold) {
   for (const bool is_fast : {false, true}) {
     Hanging hanging;
     hanging.is_fast = is_fast;
@@ -188,7 +198,7 @@ TEST(FreeSliceTest, AGuardedSpringGrowsAsItIsForetold) {
   }
 }
 
-TEST(FreeSliceTest, LinksThatAreNotLinearAreSeenAsTheSpringsThatTheyMayBe) {
+TEST(FreeSlicesTest, LinksThatAreNotLinearAreSeenAsTheSpringsThatTheyMayBe) {
   const struct {
     LiaType type;
     Scheme scheme;
@@ -207,7 +217,7 @@ TEST(FreeSliceTest, LinksThatAreNotLinearAreSeenAsTheSpringsThatTheyMayBe) {
 }
 
 /// Where they grow without an end, at a millimetre.
-TEST(FreeSliceTest, ALawThatGrowsIsSeenAsItIsAtAMillimetre) {
+TEST(FreeSlicesTest, ALawThatGrowsIsSeenAsItIsAtAMillimetre) {
   Hanging hanging;
   hanging.stiffness = 2000.0 / (1.5 * std::sqrt(1e-3));
   const scene::Scene scene = withLaw(hanging, LiaType::kPowerContact, Scheme::kGuarded);
@@ -215,7 +225,7 @@ TEST(FreeSliceTest, ALawThatGrowsIsSeenAsItIsAtAMillimetre) {
 }
 
 /// The worst is not where it is steepest: there the mass answers too late to be driven.
-TEST(FreeSliceTest, AStiffContactIsSeenAsTheSoftOneThatItIsOnTheWay) {
+TEST(FreeSlicesTest, AStiffContactIsSeenAsTheSoftOneThatItIsOnTheWay) {
   Hanging steep{4000.0, 0.0, 1e-4, 0.0, true};
   Hanging soft = steep;
   soft.stiffness *= 0.25;
@@ -224,7 +234,7 @@ TEST(FreeSliceTest, AStiffContactIsSeenAsTheSoftOneThatItIsOnTheWay) {
               1e-5);
 }
 
-TEST(FreeSliceTest, GuardedWallsAreNoAlarm) {
+TEST(FreeSlicesTest, GuardedWallsAreNoAlarm) {
   const auto findings = [](double mass, double stiffness, double loss) {
     SceneBuilder b;
     const int hung = b.mass(mass, 0.0);
@@ -238,7 +248,7 @@ TEST(FreeSliceTest, GuardedWallsAreNoAlarm) {
 }
 
 /// Each bears it by itself; as explicit links, together, they would grow with no hand near.
-TEST(FreeSliceTest, WhatOnlyGuardsBearTellsNothingOfTheSlice) {
+TEST(FreeSlicesTest, WhatOnlyGuardsBearTellsNothingOfTheSlice) {
   SceneBuilder b;
   const int slice = b.slice(0);
   const int hung = b.mass(1e-5, 0.0);
@@ -248,6 +258,34 @@ TEST(FreeSliceTest, WhatOnlyGuardsBearTellsNothingOfTheSlice) {
   }
   b.spring(hung, b.ground(), 1000.0, 0.01);
   EXPECT_EQ(radiusOf(b.scene), 1.0);
+}
+
+/// Slices on one mass, each on a spring of its own.
+scene::Scene onOneMass(int slices, double stiffness, double loss) {
+  SceneBuilder b;
+  const int hung = b.mass(0.4, 0.0);
+  for (int i = 0; i < slices; ++i) {
+    b.spring(hung, b.slice(i), stiffness);
+  }
+  b.spring(hung, b.ground(), 0.0, loss);
+  return b.scene;
+}
+
+/// Let go together they swing against the mass like one that is as many times as strong.
+TEST(FreeSlicesTest, SlicesOnOneMassSetItOffTogether) {
+  EXPECT_TRUE(certify(onOneMass(1, 2000.0, 0.3), kRates).findings.empty());
+  const Certificate silent = certify(onOneMass(8, 250.0, 0.3), kRates);
+  EXPECT_TRUE(silent.findings.empty());
+  const Certificate warned = certify(onOneMass(8, 2000.0, 0.3), kRates);
+  EXPECT_EQ(warned.verdict, Verdict::kPassive);
+  EXPECT_THAT(warned.findings, testing::SizeIs(8));
+  const scene::Scene scene = onOneMass(8, 4000.0, 1.0);
+  DeviceTraits twice;
+  twice.damping *= 2.0;
+  const double growth = playedGrowth(scene, twice);
+  EXPECT_GT(growth, 1.0 + kTick);
+  EXPECT_NEAR(radiusOf(scene, twice), growth, 2e-5);
+  EXPECT_EQ(certify(scene, kRates).verdict, Verdict::kUnproven);
 }
 
 }  // namespace

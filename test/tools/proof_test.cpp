@@ -153,11 +153,11 @@ TEST(ProofTest, IsRefusedForEveryReasonThatIsMissing) {
   const std::vector<Lie> lies = {
       {kSnapping, "damping: 1}", "damping: 0}", "a mass keeps what a link gives"},
       {kSnapping, "conditional, between: [m, g], stiffness: 6e9, engage: 0.005, release: 0.01",
-       "contact, between: [m, g], stiffness: 6e9", "l: it switches"},
+       "contact, between: [m, g], stiffness: 6e9", "it switches"},
       {kTable, "[-1, -1], [1, 1]", "[-1, 1], [1, -1]", "l: its ends give"},
       {kFinger, "233000", "263000", "it does not hold wherever points lie"},
       {kFinger, "power: 1", "power: 1000", "a point brings too much"},
-      {kInSpace, "rest_length: 0", "rest_length: 0.05", "a line turns"},
+      {kInSpace, "rest_length: 0", "rest_length: 0.05", "it turns"},
       {kTwoRates, "[1, 1]", "[0.5, 1]", "island"},
       {kTwoRates, "rotation: [0, 0, 0]", "rotation: [0, 0, 1]", "island: its axes"},
   };

@@ -112,9 +112,13 @@ class PortJudge {
            physics::describe(device_.delay_ticks) + " ticks late, ";
   }
 
-  /// To what forces move.
+  /// From a slice to what forces move, or to another slice.
   bool leadsOn(const scene::Lia& lia) const {
-    return networks_.inverseMass(lia.a) > 0.0 || networks_.inverseMass(lia.b) > 0.0;
+    const auto isSlice = [this](int mat) {
+      return scene_.mats[at(mat)].type == scene::MatType::kSlice;
+    };
+    return networks_.inverseMass(lia.a) > 0.0 || networks_.inverseMass(lia.b) > 0.0 ||
+           (isSlice(lia.a) && isSlice(lia.b));
   }
 
   std::string describeFree(const scene::Port& port) const {
@@ -122,7 +126,8 @@ class PortJudge {
     const auto first = std::find_if(links.begin(), links.end(),
                                     [this](int l) { return leadsOn(scene_.lias[at(l)]); });
     return "port '" + port.name + "': in nobody's hand " + ofSlice() +
-           "begins to swing with what hangs on link '" + scene_.lias[at(*first)].name + "'";
+           "begins to swing with what hangs on link '" +
+           scene_.lias[at(first == links.end() ? links.front() : *first)].name + "'";
   }
 
   const RatedNetwork& networks_;

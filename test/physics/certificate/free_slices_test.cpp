@@ -288,5 +288,16 @@ TEST(FreeSlicesTest, SlicesOnOneMassSetItOffTogether) {
   EXPECT_EQ(certify(scene, kRates).verdict, Verdict::kUnproven);
 }
 
+TEST(FreeSlicesTest, ASliceIsToldOfAMassThatHangsOnAnother) {
+  scene::Scene scene = Hanging{}.scene();
+  SceneBuilder b;
+  b.scene = scene;
+  const int far = b.slice(1);
+  b.spring(far, b.ground(), 10.0);
+  b.spring(far, scene.ports.front().mat, 10.0);
+  const Certificate certificate = certify(b.scene, kRates);
+  EXPECT_THAT(certificate.findings, Contains(HasSubstr("what hangs on link 'l3'")));
+}
+
 }  // namespace
 }  // namespace ergotic::physics

@@ -116,6 +116,13 @@ const std::string kInSpace =
     "ergotic: 1\nsections: {s: {geometry: space}}\nmats:\n  g: {type: ground}\n"
     "  m: {type: mass, mass: 1, at: [0.1, 0, 0]}\nlias:\n"
     "  l: {type: spring, between: [m, g], stiffness: 1e4, rest_length: 0, scheme: explicit}\n";
+/// Pushed away, and held by more than that.
+const std::string kHeld =
+    "ergotic: 1\nsections: {s: {}, p: {geometry: scalar}}\nmats:\n"
+    "  g: {type: ground, section: s}\n  f: {type: ground, section: p}\n"
+    "  m: {type: mass, section: p, mass: 1}\nlias:\n"
+    "  n: {type: spring, between: [m, f], stiffness: -1000}\n"
+    "  l: {type: spring, between: [m, g], stiffness: 3000}\n";
 const std::string kTwoRates =
     "ergotic: 1\nparameters: {k: {value: 1, range: [1, 1]}}\n"
     "sections: {fast: {geometry: plane}, slow: {rate: gestural, pose: {position: [0, 0, 0],\n"
@@ -158,6 +165,7 @@ TEST(ProofTest, IsRefusedForEveryReasonThatIsMissing) {
       {kFinger, "233000", "263000", "it does not hold wherever points lie"},
       {kFinger, "power: 1", "power: 1000", "a point brings too much"},
       {kInSpace, "rest_length: 0", "rest_length: 0.05", "it turns"},
+      {kHeld, "geometry: scalar", "geometry: plane", "axes"},
       {kTwoRates, "[1, 1]", "[0.5, 1]", "island"},
       {kTwoRates, "rotation: [0, 0, 0]", "rotation: [0, 0, 1]", "island: its axes"},
   };
@@ -168,7 +176,8 @@ TEST(ProofTest, IsRefusedForEveryReasonThatIsMissing) {
     other.replace(at, lie.said.size(), lie.instead);
     EXPECT_THAT(refusal(lie.text, other), HasSubstr(lie.reason)) << lie.instead;
   }
-  for (const std::string& text : {kSnapping, kTable, kFinger, kInSpace, kTwoRates, kMatched}) {
+  for (const std::string& text :
+       {kSnapping, kTable, kFinger, kInSpace, kHeld, kTwoRates, kMatched}) {
     EXPECT_EQ(refusal(text, text), "") << text;
   }
   EXPECT_THAT(refusal(kTable, kTable, true), HasSubstr("its verdict"));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -118,12 +119,22 @@ class Certifier {
   Findings findings_;
 };
 
+/// Between scalar sections all links act along one axis. In others one that makes up for what is
+/// negative may act along another.
+bool isAlongOneAxis(const scene::Scene& scene, const std::optional<Factor>& factor) {
+  return !factor || std::all_of(factor->modules.begin(), factor->modules.end(), [&](int mat) {
+    return scene.sectionOf(scene.mats[at(mat)]).geometry == scene::Geometry::kScalar;
+  });
+}
+
 }  // namespace
 
 SignProof judgeSigns(const RatedNetwork& networks,
                      const NetworkBound& network,
                      Findings& findings) {
-  if (auto proof = proofOfSigns(network)) {
+  auto proof = proofOfSigns(network);
+  if (proof && isAlongOneAxis(networks.scene(), proof->stiffness) &&
+      isAlongOneAxis(networks.scene(), proof->damping)) {
     return std::move(*proof);
   }
   for (const NetworkBound::Link& link : network.links()) {
@@ -134,7 +145,8 @@ SignProof judgeSigns(const RatedNetwork& networks,
     findings.add(Verdict::kUnproven, lia.place,
                  "link '" + lia.name +
                      "' has a negative stiffness or damping that the links around it do not make "
-                     "up for: it gives energy, no bound holds. Make it weaker or those stronger");
+                     "up for: it gives energy, no bound holds. Make it weaker or those stronger, "
+                     "all of them between scalar sections");
     break;
   }
   return {};

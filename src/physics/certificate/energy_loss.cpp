@@ -37,11 +37,11 @@ EnergyLoss::EnergyLoss(const RatedNetwork& networks)
   }
 }
 
-/// Alone, or in a plane or space, where a link damps along its line only and what circles keeps its
-/// distance, a module loses by its own damping or not at all.
+/// Alone, or where it may move along several axes or another than what a link joins it to, a link
+/// damps along one line only: a module loses by its own damping or not at all.
 bool EnergyLoss::mayKeep(int mat) const {
   const scene::Scene& scene = networks_.scene();
-  const bool is_scalar = scene::dimensionsOf(scene.sectionOf(scene.mats[at(mat)]).geometry) == 1;
+  const bool is_scalar = scene.sectionOf(scene.mats[at(mat)]).geometry == scene::Geometry::kScalar;
   return !(is_scalar && networks_.isLinked(mat)) &&
          !(networks_.network().nodes[at(mat)].damping.range.lowest > 0.0);
 }

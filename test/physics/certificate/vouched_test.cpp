@@ -308,6 +308,55 @@ TEST(VouchedTest, NegativeStiffnessIsNotHiddenByWhatIsStiffElsewhere) {
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kPassive) << "it is held by 1 N/m";
 }
 
+double growthOf(const scene::Scene& scene, double seconds) {
+  Player player(compile(scene, {kRate, 14}, Precision::kDouble));
+  const double start = kineticEnergy(player);
+  player.ticks(static_cast<int>(seconds * kRate / 14));
+  return kineticEnergy(player) / start;
+}
+
+/// A mass in a plane that something pushes away, and that a scalar spring holds along one axis.
+TEST(VouchedTest, OneAxisDoesNotMakeUpForAnother) {
+  for (const char* const geometry : {"plane", "scalar"}) {
+    const scene::Scene scene = scene::readYaml(
+        "ergotic: 1\nsections: {s: {}, p: {geometry: " + std::string(geometry) +
+            "}}\nmats:\n  g: {type: ground, section: s}\n  gp: {type: ground, section: p}\n"
+            "  m: {type: mass, section: p, mass: 1, v: " +
+            (geometry[0] == 'p' ? "[0, 1e-4]" : "1e-4") +
+            "}\nlias:\n  n: {type: spring, between: [m, gp], stiffness: -1000}\n"
+            "  k: {type: spring, between: [m, g], stiffness: 3000}\n",
+        "axes.yaml");
+    const bool is_plane = geometry[0] == 'p';
+    EXPECT_EQ(growthOf(scene, 0.5) > 1e10, is_plane);
+    EXPECT_EQ(certify(scene, {kRate, 14}).verdict,
+              is_plane ? Verdict::kUnproven : Verdict::kPassive);
+  }
+}
+
+/// A damper does nothing to what moves across the axis of its other end.
+TEST(VouchedTest, DampersAcrossTakeNothing) {
+  for (const char* const angle : {"0", "1.5707963267948966"}) {
+    scene::Scene scene = scene::readYaml(
+        "ergotic: 1\nsections:\n  s: {}\n  l: {geometry: line, pose: {rotation: [0, 0, " +
+            std::string(angle) +
+            "]}}\nmats:\n  g: {type: ground, section: s}\n  gl: {type: ground, section: l}\n"
+            "  d: {type: mass, section: s, mass: 1}\n"
+            "  m: {type: mass, section: l, mass: 1, x: 0.0003, v: 20}\nlias:\n"
+            "  own: {type: spring, between: [m, gl], stiffness: 5834430000}\n"
+            "  loss: {type: damper, between: [m, d], damping: 441}\n"
+            "  more: {type: damper, between: [d, g], damping: 441}\n"
+            "  p: {type: pluck, between: [m, gl], stiffness: 388962000, width: 0.0005, "
+            "scheme: explicit}\n",
+        "across.yaml");
+    const bool is_across = angle[0] == '1';
+    EXPECT_EQ(growthOf(scene, 1.0) > 1e4, is_across);
+    EXPECT_EQ(certify(scene, {kRate, 14}).verdict, Verdict::kUnproven);
+    scene.mats[3].type = scene::MatType::kCell;
+    scene.mats[3].damping = {441.0};
+    EXPECT_EQ(certify(scene, {kRate, 14}).verdict, Verdict::kBounded);
+  }
+}
+
 /// A table that has no elastic part switches no stiffness, whatever else acts on its mass.
 TEST(VouchedTest, WhatSwitchesIsNamed) {
   SceneBuilder b;

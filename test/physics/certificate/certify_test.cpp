@@ -119,6 +119,7 @@ TEST(CertifyTest, SectionsOfOneRateAreOneNetwork) {
   EXPECT_GE(c.sections[0].lambda, 1.5 * (1.5 + std::sqrt(1.25)) - 1e-12);
   EXPECT_EQ(c.verdict, Verdict::kPassive);
   EXPECT_EQ(c.sections[0].lambda, c.sections[2].lambda);
+  EXPECT_EQ(c.sections[2].section, 2);
   b.scene.lias[0].stiffness = {3.0 * kRate * kRate};
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kUnstable);
 }

@@ -94,6 +94,13 @@ TEST(FreeSlicesTest, APartOfATickOfDelayIsAWholeOne) {
   EXPECT_LT(radiusOf(Hanging{}.scene(), late), whole);
 }
 
+TEST(FreeSlicesTest, EndsOfTheRangesOfParametersCount) {
+  scene::Scene scene = Hanging{}.scene();
+  scene.parameters.push_back({"k", 500.0, 500.0, 2000.0, {}});
+  scene.lias[0].stiffness = {1.0, 0};
+  EXPECT_EQ(radiusOf(scene), radiusOf(Hanging{}.scene()));
+}
+
 TEST(FreeSlicesTest, ALosslessMassOnASpringSetsOffASliceAtLessThanTheSpringAlone) {
   const scene::Scene scene = Hanging{}.scene();
   EXPECT_GT(playedGrowth(scene, {}), 1.0 + 1e-5);

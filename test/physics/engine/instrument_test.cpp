@@ -251,6 +251,9 @@ TEST(RatesTest, AnIllegalDivisorIsRefusedWithTheNearestLegalOne) {
   b.scene.sections[0].divisor = 5;
   EXPECT_THAT(complaintOf([&] { chooseRates(b.scene, 44100.0, 3150.0); }),
               HasSubstr("nearest legal value is 7"));
+  b.scene.sections[0].divisor = 29;
+  EXPECT_THAT(complaintOf([&] { chooseRates(b.scene, 44100.0, 3150.0); }),
+              HasSubstr("nearest legal value is 28"));
 }
 
 }  // namespace

@@ -151,6 +151,9 @@ TEST(SleepBoundTest, CellsAreHeldInEveryCoordinateThatMoves) {
   const Eigen::MatrixXd k(stiffnessOf(Network(b.scene), 0));
   EXPECT_EQ(k.rows(), 6);
   EXPECT_NEAR(largestCompliance(k.sparseView()), 1.0 / 10.0, 1e-12);
+  b.scene.parameters.push_back({"k", 1.0, 0.2, 5.0, {}});
+  b.scene.mats[0].stiffness = {40.0, 0};
+  EXPECT_NEAR(largestCompliance(stiffnessOf(Network(b.scene), 0)), 1.0 / 8.0, 1e-12);
 }
 
 TEST(SleepBoundTest, NoteComparesWithTheStart) {

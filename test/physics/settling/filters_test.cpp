@@ -150,6 +150,17 @@ TEST(FiltersTest, ChapletHangsBetweenTheHandAndTheLink) {
   EXPECT_NO_THROW(scene::validate(b.scene));
 }
 
+TEST(FiltersTest, ChapletOnAPointStartsWhereThatIs) {
+  FilteredString b;
+  const int slow = b.mass(2.0, 1.0, 8.0, SceneBuilder::kGestural);
+  b.mass(2.0, 3.0, 4.0, SceneBuilder::kGestural);
+  b.scene.lias[at(b.touch)].a = b.point(b.grid(slow, 2), 0.25);
+  insert(b.scene);
+  const scene::Mat& last = b.scene.mats[at(b.scene.lias[at(b.touch)].a)];
+  EXPECT_DOUBLE_EQ(last.position.x(), 1.5);
+  EXPECT_DOUBLE_EQ(last.push->velocity.x(), 7.0);
+}
+
 TEST(FiltersTest, IsAsHeavyAsTheImpedanceAsksFor) {
   FilteredString b;
   insert(b.scene);

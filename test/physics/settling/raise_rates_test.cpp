@@ -67,6 +67,26 @@ TEST(RaiseRatesTest, RattleBesideASlowBridge) {
   EXPECT_EQ(certify(settled.scene, kRates).verdict, Verdict::kPassive);
 }
 
+TEST(RaiseRatesTest, BehindAChapletItKeepsItsRate) {
+  SceneBuilder b = hammered();
+  b.scene.lias.back().filtered = true;
+  b.scene.mats[at(b.scene.lias.back().a)].mass = {50.0};  // chaplets are a tenth at most
+  const Settled settled = settle(b.scene, kRates);
+  EXPECT_EQ(divisorOf(settled.scene.sections[SceneBuilder::kGestural], kRates), 14);
+}
+
+TEST(RaiseRatesTest, TheFastestOfItsNeighboursCounts) {
+  SceneBuilder b = hammered();
+  b.scene.sections.push_back(b.scene.sections[0]);
+  b.scene.sections.back().name = "middle";
+  b.scene.sections.back().divisor = 7;
+  const int hammer = b.scene.lias.back().a;
+  b.spring(hammer, b.mass(0.1, 0.0, 0.0, 2), 10.0);
+  std::swap(b.scene.lias.front(), b.scene.lias.back());  // it comes first
+  const Settled settled = settle(b.scene, kRates);
+  EXPECT_EQ(divisorOf(settled.scene.sections[SceneBuilder::kGestural], kRates), 1);
+}
+
 TEST(RaiseRatesTest, WhatIsLargeKeepsItsRate) {
   SceneBuilder b = hammered();
   const int anchor = b.scene.lias.back().a;

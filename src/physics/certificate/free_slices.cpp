@@ -52,7 +52,9 @@ void makeLinear(scene::Lia& lia,
   const double stiffness = law.has_linear_part ? now.valueOf(lia.stiffness) : 0.0;
   const double damping = law.has_linear_part ? now.valueOf(lia.damping) : 0.0;
   const double k = stiffness + part * (steepest.stiffness.highest - stiffness);
-  const double z = damping + part * (steepest.damping.highest - damping);
+  const bool is_unforeseen = !networks.isExplicit(lia) && networks.crossesRates(lia);
+  const double z = (is_unforeseen ? 0.5 : 1.0) *  // of the steps of an end that seems to stay
+                   (damping + part * (steepest.damping.highest - damping));
   const double load = networks.inverseMassStep2(lia) * k + 2.0 * networks.inverseMassStep(lia) * z;
   const double mean = networks.isExplicit(lia) ? 1.0 : 1.0 + 0.25 * std::max(load, 0.0);
   lia.type = scene::LiaType::kSpringDamper;

@@ -205,6 +205,15 @@ TEST(FreeSlicesTest, AGuardedSpringGrowsAsItIsForetold) {
   }
 }
 
+/// Its damper sees half of the steps of a slice whose next place it does not know.
+TEST(FreeSlicesTest, AGuardedDamperBrakesASliceLess) {
+  const Hanging hanging{6500.0, 1.6, 0.7, 0.05, true};
+  const scene::Scene scene = withLaw(hanging, LiaType::kCubic, Scheme::kGuarded);
+  EXPECT_EQ(radiusOf(hanging.scene()), 1.0);
+  EXPECT_GT(playedGrowth(scene, {}, 20000), 1.0 + 1e-5);
+  EXPECT_GT(radiusOf(scene), playedGrowth(scene, {}, 20000));
+}
+
 TEST(FreeSlicesTest, LinksThatAreNotLinearAreSeenAsTheSpringsThatTheyMayBe) {
   const struct {
     LiaType type;

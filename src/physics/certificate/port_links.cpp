@@ -168,8 +168,14 @@ PortLinks::Series PortLinks::series(int from, int l) const {
     if (scene_.mats[at(all.end)].type != scene::MatType::kMass || here.size() != 2) {
       break;
     }
-    l = here[0] == l ? here[1] : here[0];
-    all = {1.0 / (1.0 / all.stiffness + 1.0 / slope(l)), otherEnd(l, all.end)};
+    const int next = here[0] == l ? here[1] : here[0];
+    const int end = otherEnd(next, all.end);
+    if (end == from) {
+      break;  // side by side
+    }
+    from = all.end;
+    l = next;
+    all = {1.0 / (1.0 / all.stiffness + 1.0 / slope(l)), end};
   }
   return all;
 }

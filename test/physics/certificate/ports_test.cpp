@@ -273,6 +273,17 @@ TEST(PassivityTest, ThroughAChapletTheSeriesCounts) {
               1.0 / (1.0 / 800.0 + 1.0 / 6000.0 + 1.0 / 20000.0), 1e-9);
 }
 
+/// A spring and a damper to one mass are two links of it, as are the parts of a spring that is
+/// split.
+TEST(PassivityTest, LinksSideBySideAreNoSeries) {
+  SceneBuilder b;
+  const int slice = b.slice(0);
+  const int mass = b.mass(0.1);
+  b.spring(slice, mass, 800.0);
+  b.spring(slice, mass, 0.0, 2.0);
+  EXPECT_DOUBLE_EQ(certify(b.scene, kRates).ports[0].stiffness, 800.0);
+}
+
 /// By itself; with the others, as much as bounds what hands feel that move all of them.
 TEST(PassivityTest, EveryAxisMeetsItsShareOfALinkThatActsAlongOne) {
   SceneBuilder b;

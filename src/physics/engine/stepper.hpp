@@ -113,8 +113,10 @@ class Stepper {
     const scene::RunNumbers<Real> numbers = numbersOf(run, c, trial.data());
     const bool is_gap = run.dimensions > 0 && law.kind == scene::Law::Kind::kGap;
     for (std::size_t l = 0; l < run.ends.size(); ++l) {
-      const Real u = apartAtStart(run, l, c.rests, state);
-      state.work()[r].initial += kernels::storedAtStart(law, numbers, l, is_gap ? -u : u);
+      const Real sign = is_gap ? Real(-1) : Real(1);
+      const Real u = sign * apartAtStart(run, l, c.rests, Real(1), state);
+      const Real before = sign * apartAtStart(run, l, c.rests, Real(0), state);
+      state.work()[r].initial += kernels::storedAtStart(law, numbers, l, u, u - before);
     }
   }
 
@@ -138,11 +140,13 @@ class Stepper {
     }
   }
 
+  /// \param steps  1: where the first step brings the ends, 0: before
   Real apartAtStart(const LinkRun& run,
                     std::size_t l,
                     const std::vector<Real>& rests,
+                    Real steps,
                     State<Real>& state) const {
-    const auto position = [&state](int slot) { return state.x()[slot] + state.d()[slot]; };
+    const auto position = [&](int slot) { return state.x()[slot] + steps * state.d()[slot]; };
     if (run.dimensions == 0) {
       return position(run.ends[l].a) - position(run.ends[l].b);
     }

@@ -173,12 +173,12 @@ void stepSpatial(const LinkRun& run,
   });
 }
 
-/// What a link holds at the start: the integral of its elastic force from where it is none.
+/// What a link holds after the first step: the integral of its elastic force from where it is none,
+/// less the half of the work of that step which the books begin with.
+/// \param moved  by how much the step has changed u
 template <class Real>
-double storedAtStart(const scene::Law& law,
-                     const RunNumbers<Real>& c,
-                     std::size_t l,
-                     Real u) noexcept {
+double storedAtStart(
+    const scene::Law& law, const RunNumbers<Real>& c, std::size_t l, Real u, Real moved) noexcept {
   if (law.kind == scene::Law::Kind::kFriction) {
     return 0.0;
   }
@@ -187,15 +187,15 @@ double storedAtStart(const scene::Law& law,
   const double from = -static_cast<double>(c(law.explicit_form.offset, l));
   const double width = (static_cast<double>(u) - from) / kIntervals;
   double sum = 0.0;
+  Force<Real> force{};
   for (int i = 0; i <= kIntervals; ++i) {
     const double weight = i == 0 || i == kIntervals ? 1.0 : (i % 2 == 0 ? 2.0 : 4.0);
     const Real at = static_cast<Real>(from + i * width);
     const Real still = Real(0);
-    Force<Real> force;
     forces(c, l, 1, &at, &still, &force);
     sum += weight * static_cast<double>(force.elastic);
   }
-  return sum * width / 3.0;
+  return sum * width / 3.0 - 0.5 * static_cast<double>(moved * force.elastic);
 }
 
 template <class Real>

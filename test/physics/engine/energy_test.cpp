@@ -168,6 +168,28 @@ TEST_P(EnergyTest, MovingPlaceBalances) {
 
 INSTANTIATE_TEST_SUITE_P(Ratios, EnergyTest, testing::Values(1, 4, 14, 44));
 
+/// A damper of one section takes what it did in the last step, that of the hand too.
+TEST(EnergyOfHandsTest, DampersOnThemBalance) {
+  SceneBuilder b;
+  const int hand = b.slice(0);
+  b.spring(hand, b.mass(0.1, 0.0, 0.0, SceneBuilder::kGestural), 500.0, 1.0);
+  EXPECT_LT(imbalance(b.scene, {kRate, 14}, 2000), kUnbalanced);
+}
+
+/// What flies off a wall has left nothing there of what it held at the start.
+TEST(EnergyOfContactsTest, HoldAtTheStartWhatTheyGive) {
+  SceneBuilder b;
+  const int ball = b.mass(1.0, 1e-3, 1e-4 * kRate);
+  b.link(LiaType::kContact, ball, b.ground(), 0.01 * kRate * kRate);
+  b.scene.lias[0].scheme = Scheme::kExplicit;
+  Player player(b.scene, {kRate, 1});
+  player.tick();
+  const double start = energiesOf(player).stored;
+  player.ticks(100);
+  EXPECT_NEAR(energiesOf(player).sections[0].potential, 0.0, 0.01 * start);
+  EXPECT_NEAR(energiesOf(player).sections[0].kinetic, start, 0.01 * start);
+}
+
 /// Sections at every 28th frame and at every second one beside the tick of 14: guarded links of a
 /// slow section are read in the middle of its step.
 TEST(EnergyOfManyRatesTest, Balances) {

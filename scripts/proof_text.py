@@ -51,6 +51,12 @@ def slopes_of(table):
     return min(slopes), max(slopes)
 
 
+def push_out(tables):
+    """Whether elastic and viscous force together, held beyond the ends, push outwards or drive."""
+    lows, highs = [table[0][1] for table in tables], [table[-1][1] for table in tables]
+    return any(low > high for low, high in zip(lows, highs)) or sum(lows) > 0 or sum(highs) < 0
+
+
 def matrix_of(entries, rows, columns=None):
     """Sparse, of its entries that are not 0."""
     i, j, values = zip(*entries) if entries else ((), (), ())

@@ -151,6 +151,10 @@ class LinkJudge {
     }
   }
 
+  static const char* cureOf(const Lia& lia) {
+    return scene::isGuardable(lia) ? "Use scheme: guarded, or raise the rate" : "Raise the rate";
+  }
+
   /// Never a matter of the verdict: whether it is stable, the network has told.
   void judgeFriction(const Lia& lia, const scene::FrictionSlopes& slopes) {
     const double unit = networks_.inverseMassStep(lia);
@@ -162,7 +166,7 @@ class LinkJudge {
                         "' is steep for the step, h max F' (1/Ma + "
                         "1/Mb) = " +
                         describe(rise) + " (silent below " + describe(kExplicitFriction) +
-                        "): it overshoots. Use scheme: guarded, or raise the rate");
+                        "): it overshoots. " + cureOf(lia));
     }
     if (fall >= kExplicitFalling) {
       findings_.add(Verdict::kPassive, lia.place,
@@ -170,8 +174,7 @@ class LinkJudge {
                         "' falls fast for the step, h max(-F') "
                         "(1/Ma + 1/Mb) = " +
                         describe(fall) + " (silent below " + describe(kExplicitFalling) +
-                        "): stick and slip will be inaccurate. Use scheme: guarded, or raise the "
-                        "rate");
+                        "): stick and slip will be inaccurate. " + cureOf(lia));
     }
   }
 
@@ -211,7 +214,8 @@ class LinkJudge {
                   "friction of link '" + lia.name +
                       "' falls where it slips faster, and something that it reaches loses no "
                       "energy: what swings in time with the steps may be driven. Damp every mass "
-                      "that it reaches, or use scheme: guarded");
+                      "that it reaches" +
+                      (scene::isGuardable(lia) ? ", or use scheme: guarded" : ""));
   }
 
   /// The rule that vouches for a link that is more than a spring and a damper.

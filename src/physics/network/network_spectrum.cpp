@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kPrecision = 2e-7;  // of a step; lambda goes with its square
 constexpr double kPivotMargin = 1e-9;
+constexpr double kHeld = 1e-6;   // of the norm, what counts as held
 constexpr int kIterations = 20;  // of Collatz-Wielandt
 constexpr int kRounds = 100;
 constexpr int kInverseIterations = 4;
@@ -223,6 +224,25 @@ std::optional<Factor> NetworkSpectrum::definiteDamping(const NetworkBound& netwo
     return link.damping.lowest;
   });
   return factorAbove(network, softest, allNodes(network), kPivotMargin);
+}
+
+double NetworkSpectrum::softness(const NetworkBound& network, const Shares& u) {
+  const Eigen::VectorXd scale = scaleOf(network);
+  Matrix lower = assemble(network, scale, [](const auto& link) { return link.stiffness.lowest; });
+  const double norm = normOf(lower);
+  if (u.empty() || !(norm > 0.0) || !physics::isFinite(lower)) {
+    return kInfinity;
+  }
+  for (int i = 0; i < lower.rows(); ++i) {
+    lower.coeffRef(i, i) += kPivotMargin * norm;
+  }
+  const Eigen::SimplicialLDLT<Matrix> solver(lower);
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(network.nodes());
+  for (const Share& share : u) {
+    force[share.node] += share.weight * scale[share.node];
+  }
+  const double give = allPivotsPositive(solver) ? force.dot(solver.solve(force)) : kInfinity;
+  return give * norm * kHeld < force.squaredNorm() ? give : kInfinity;
 }
 
 bool NetworkSpectrum::isDefinite(const Pencil& pencil, double t) {

@@ -11,6 +11,7 @@
 #include "physics/settling/scheme_choice.hpp"
 #include "physics/settling/sleep_bound.hpp"
 #include "physics/settling/split_springs.hpp"
+#include "physics/settling/split_tables.hpp"
 #include "physics/settling/string_tuning.hpp"
 
 namespace ergotic::physics {
@@ -21,6 +22,7 @@ namespace {
 scene::Scene complete(scene::Scene scene, const Rates& rates, std::vector<std::string>& notes) {
   tuneStrings(scene, rates, notes);
   insertFilters(scene, rates, notes);
+  splitTables(scene, rates);
   chooseSchemes(scene, rates, notes);
   splitSprings(scene);
   return scene;

@@ -5,13 +5,39 @@
 #include <cmath>
 
 #include "scene/laws/law.hpp"
+#include "scene/laws/table_ends.hpp"
 
 namespace ergotic::scene {
+
+namespace {
+
+Curve sum(Curve curve, double at_0, double slope) {
+  if (curve.pieces.empty()) {
+    curve.pieces.push_back({});
+  }
+  for (CurvePiece& piece : curve.pieces) {
+    piece.c0 += at_0 + slope * piece.begin;
+    piece.c1 += slope;
+  }
+  curve.end_value += at_0 + slope * curve.end;
+  curve.largest_slope += slope;
+  return curve;
+}
+
+}  // namespace
+
+template <class Real>
+GuardedCurve<Real>::GuardedCurve(const Curve& curve, double at_0, double slope)
+    : GuardedCurve(sum(curve, at_0, slope), true) {
+  beyond_ = static_cast<Real>(slope);
+  sinkToFloor();
+}
 
 template <class Real>
 GuardedCurve<Real>::GuardedCurve(const Curve& curve, bool holds)
     : end_(static_cast<Real>(curve.end)),
       end_value_(static_cast<Real>(curve.end_value)),
+      steepest_(static_cast<Real>(curve.largest_slope)),
       holds_(holds) {
   for (const CurvePiece& from : curve.pieces) {
     Piece piece{static_cast<Real>(from.begin), static_cast<Real>(from.c0),
@@ -26,10 +52,16 @@ GuardedCurve<Real>::GuardedCurve(const Curve& curve, bool holds)
   sinkToFloor();
 }
 
-/// The bottom of the well lies at an end of a piece or where the force crosses 0 upwards.
+/// The bottom of the well lies at an end of a piece or where the force crosses 0 upwards, beyond
+/// the ends too if it rises there.
 template <class Real>
 void GuardedCurve<Real>::sinkToFloor() {
-  Real floor = pieces_.front().potential;
+  const auto bottom = [this](Real from, Real outwards) {
+    return from - (outwards > Real(0) && beyond_ > Real(0)
+                       ? outwards * outwards / (Real(2) * beyond_)
+                       : Real(0));
+  };
+  Real floor = bottom(pieces_.front().potential, pieces_.front().c0);
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     const Real width = (i + 1 < pieces_.size() ? pieces_[i + 1].begin : end_) - pieces_[i].begin;
     Real low = Real(0);
@@ -43,6 +75,7 @@ void GuardedCurve<Real>::sinkToFloor() {
     floor = std::min({floor, pieces_[i].potential + integral(pieces_[i], high),
                       pieces_[i].potential + integral(pieces_[i], width)});
   }
+  floor = std::min(floor, bottom(potential(end_), -end_value_));
   for (Piece& piece : pieces_) {
     piece.potential -= floor;
   }
@@ -72,10 +105,10 @@ ERGOTIC_REALTIME GuardedForce<Real> GuardedCurve<Real>::at(Real x) const noexcep
   }
   const Piece& p = pieceOf(x);
   if (x < p.begin) {
-    return {holds_ ? p.c0 : Real(0), Real(0)};
+    return {holds_ ? p.c0 + beyond_ * (x - p.begin) : Real(0), beyond_};
   }
   if (x > end_) {
-    return {holds_ ? end_value_ : Real(0), Real(0)};
+    return {holds_ ? end_value_ + beyond_ * (x - end_) : Real(0), beyond_};
   }
   const Real u = x - p.begin;
   return {p.c0 + u * (p.c1 + u * (p.c2 + u * p.c3)),
@@ -89,25 +122,38 @@ ERGOTIC_REALTIME Real GuardedCurve<Real>::potential(Real x) const noexcept {
   }
   const Piece& p = pieceOf(x);
   const Real inside = std::clamp(x, p.begin, std::max(p.begin, end_));
-  const Real beyond = holds_ ? (x - inside) * at(inside).force : Real(0);
-  return p.potential + integral(p, inside - p.begin) + beyond;
+  const Real out = holds_ ? x - inside : Real(0);
+  return p.potential + integral(p, inside - p.begin) +
+         out * (at(inside).force + beyond_ * out / Real(2));
 }
 
 template <class Real>
 GuardedLaw<Real> GuardedLaw<Real>::make(const Scene& scene, const Lia& lia, const Units& units) {
   const Law& told = lawOf(lia.type);
-  const bool holds = told.tables == Law::Tables::kParts;
   GuardedLaw law;
   law.form = &told.guarded(lia).template get<Real>();
-  if (!lia.law->table.empty()) {
+  if (told.tables == Law::Tables::kParts) {
+    law.takeParts(scene, lia);
+  } else if (!lia.law->table.empty()) {
     (law.isFriction() ? law.viscous : law.table) =
-        GuardedCurve<Real>(interpolate(lia.law->table), holds);
-  }
-  if (!lia.law->viscous_table.empty()) {
-    law.viscous = GuardedCurve<Real>(interpolate(lia.law->viscous_table), holds);
+        GuardedCurve<Real>(interpolate(lia.law->table), false);
   }
   law.update(scene, lia, units);
   return law;
+}
+
+/// What the viscous table gives at rest is a constant force, which is elastic; the rest brakes.
+template <class Real>
+void GuardedLaw<Real>::takeParts(const Scene& scene, const Lia& lia) {
+  const auto curveOf = [](const Table& of) { return of.empty() ? Curve{} : interpolate(of); };
+  const Curve lossy = curveOf(lia.law->viscous_table);
+  const double at_rest = forceAtRest(lia);
+  const double slope = scene.valueOf(lia.stiffness);
+  const double shift = at_rest - slope * scene.valueOf(lia.law->width);
+  table = GuardedCurve<Real>(curveOf(lia.law->table), shift, slope);
+  if (!lossy.pieces.empty()) {
+    viscous = GuardedCurve<Real>(lossy, -at_rest, 0.0);
+  }
 }
 
 template <class Real>

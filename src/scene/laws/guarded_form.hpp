@@ -17,19 +17,23 @@ struct GuardedForce {
   Real slope = Real(0);
 };
 
-/// A table as pieces of polynomials with its integral. A default one is 0 everywhere.
+/// A table as pieces of polynomials with its integral, and a straight line beside it. A default one
+/// is 0 everywhere.
 template <class Real>
 class GuardedCurve {
  public:
   GuardedCurve() = default;
   /// \param holds  beyond its ends it keeps its last value; otherwise it is 0 there
   GuardedCurve(const Curve& curve, bool holds);
+  /// \param at_0, slope  of a line, which goes on beyond the ends of the curve; that may be empty
+  GuardedCurve(const Curve& curve, double at_0, double slope);
 
   bool empty() const noexcept { return pieces_.empty(); }
   /// Realtime: yes. Cost: O(log pieces)
   GuardedForce<Real> at(Real x) const noexcept;
   /// Integral over x, at its lowest 0 if it has a lowest value. Realtime: yes. O(log pieces)
   Real potential(Real x) const noexcept;
+  Real steepest() const noexcept { return steepest_; }  ///< the largest slope between its ends
 
  private:
   struct Piece {
@@ -43,6 +47,8 @@ class GuardedCurve {
   std::vector<Piece> pieces_;
   Real end_ = Real(0);
   Real end_value_ = Real(0);
+  Real beyond_ = Real(0);  // slope, where it holds on
+  Real steepest_ = Real(0);
   bool holds_ = true;
 };
 
@@ -113,6 +119,8 @@ struct GuardedLaw {
   GuardedCurve<Real> viscous;  ///< over velocity
 
   static GuardedLaw make(const Scene& scene, const Lia& lia, const Units& units);
+  /// Of a table with parts, beside which a spring K (e - width) may lie.
+  void takeParts(const Scene& scene, const Lia& lia);
   /// Takes all numbers again from the present values in `scene`; tables stay. Realtime: yes
   void update(const Scene& scene, const Lia& lia, const Units& units) noexcept;
 

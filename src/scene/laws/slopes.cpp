@@ -24,6 +24,16 @@ bool rises(const Table& table) {
   return table.empty() || interpolate(table).smallest_slope >= 0.0;
 }
 
+bool brakes(const Table& table) {
+  if (rises(table)) {
+    return true;
+  }
+  const double at_rest = valueAt(interpolate(table), 0.0);
+  return std::all_of(table.points.begin(), table.points.end(), [at_rest](const auto& point) {
+    return (point.second - at_rest) * point.first >= 0.0;
+  });
+}
+
 bool isOdd(const Table& table) {
   const auto& points = table.points;
   for (std::size_t i = 0; i < points.size(); ++i) {

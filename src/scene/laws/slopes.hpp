@@ -27,6 +27,9 @@ struct FrictionSlopes {
 double steepest(const Table& table);
 /// True if a table never falls, or there is none.
 bool rises(const Table& table);
+/// True if a table over velocity, less what it is at rest, is never against the velocity, or there
+/// is none: a constant force and what only brakes.
+bool brakes(const Table& table);
 /// True if its points are mirrored at (0, 0).
 bool isOdd(const Table& table);
 FrictionSlopes frictionSlopesOf(const Table& table);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/laws/families.hpp"
 #include "scene/laws/table_curves.hpp"
+#include "scene/laws/table_ends.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -16,22 +17,16 @@ struct ElasticViscousTable {
   }
 };
 
-/// One that only has a viscous table is a friction.
-const GuardedForms& forms(const Lia& lia) {
-  return lia.law->table.empty() ? frictionForms<SlipTableCurve>(lia) : springForms<TableCurve>(lia);
-}
-
 const char* unguarded(const Lia& lia) {
-  return lia.law->viscous_table.empty() ? nullptr : "a table with a viscous part";
+  return brakes(lia.law->viscous_table) ? nullptr : "a table that drives what moves";
 }
 
-/// Its last values hold beyond its ends: there it pushes away, or drives on what moves.
-bool pushesOut(const Table& table) {
-  return !table.empty() && (table.points.front().second > 0.0 || table.points.back().second < 0.0);
-}
-
+/// Its last values hold beyond its ends: there it pushes away, or drives on what moves, whatever
+/// constant force one part lends to the other.
 bool pushesOutBeyondItsEnds(const Lia& lia) {
-  return pushesOut(lia.law->table) || pushesOut(lia.law->viscous_table);
+  const auto [low, high] = endsOf(lia.law->table);
+  const auto [backwards, forwards] = endsOf(lia.law->viscous_table);
+  return low > high || backwards > forwards || low + backwards > 0.0 || high + forwards < 0.0;
 }
 
 bool falls(const Lia& lia) {
@@ -54,11 +49,21 @@ constexpr LawWord kWords[] = {{"table", "", "elastic viscous rest_length"}};
 
 }  // namespace
 
+double forceAtRest(const Lia& lia) {
+  const Table& lossy = lia.law->viscous_table;
+  return lossy.empty() ? 0.0 : valueAt(interpolate(lossy), 0.0);
+}
+
+TableEnds endsOf(const Table& table) {
+  return table.empty() ? TableEnds{}
+                       : TableEnds{table.points.front().second, table.points.back().second};
+}
+
 constexpr Law kTableLaw = {
     {"table", kWords, {}, Law::Tables::kParts, false},
     Law::Kind::kElastic,
     explicitForm<ElasticViscousTable>(),
-    forms,
+    springForms<TableCurve>,
     unguarded,
     false,  // has_linear_part
     true,   // switches

@@ -21,9 +21,11 @@ struct TableCurve {
   ERGOTIC_REALTIME static Real damping(const Numbers& n, Real, Real v) noexcept {
     Real z = n.damping;
     if (!n.viscous.empty()) {
-      // The chord, not the slope: it is what this much force dissipates at this velocity.
+      // The chord, not the slope: it is what this much force dissipates at this velocity. None is
+      // steeper than the curve, but where v is no more than rounding it would be.
       const GuardedForce<Real> at = n.viscous.at(v * n.per_step);
-      z += v != Real(0) ? at.force / v : at.slope * n.per_step;
+      const Real chord = v != Real(0) ? at.force / v : at.slope * n.per_step;
+      z += std::min(chord, n.viscous.steepest() * n.per_step);
     }
     return std::max(Real(0), z);
   }

@@ -130,14 +130,15 @@ TEST(SmallScenesTest, SomeOfEveryFamilyAreVouchedFor) {
   }
 }
 
-/// Where schemes are left to the station. Links that snap cannot be guarded, and tables that push
-/// outwards are active: of these fewer are.
+/// Where schemes are left to the station. Of tables fewer are: many drive, for ever or up to a
+/// speed.
 TEST(SmallScenesTest, NearlyAllThatHoldsIsVouchedFor) {
   struct Share {
     int holding = 0;
     int vouched = 0;
   };
   std::map<std::string, Share> shares;
+  Share of_one_rate;
   for (unsigned seed = 0; seed < 400; ++seed) {
     const SmallScene small = test::leftOpen(test::smallScene(seed));
     const Judged judged = judge(small, seed, true);
@@ -146,11 +147,15 @@ TEST(SmallScenesTest, NearlyAllThatHoldsIsVouchedFor) {
     share.vouched += !judged.grows && judged.is_vouched ? 1 : 0;
   }
   for (const auto& [family, share] : shares) {
-    const bool is_active = family == "tables" || family == "snaps";
-    EXPECT_GE(share.vouched, (is_active ? 0.3 : 0.95) * share.holding)
+    EXPECT_GE(share.vouched, (family == "tables" ? 0.6 : 0.95) * share.holding)
         << family << ": " << share.vouched << " of " << share.holding;
     RecordProperty(family, std::to_string(share.vouched) + " of " + std::to_string(share.holding));
+    if (family != "two rates" && family != "hammer on a string") {
+      of_one_rate.holding += share.holding;
+      of_one_rate.vouched += share.vouched;
+    }
   }
+  EXPECT_GE(of_one_rate.vouched, 0.94 * of_one_rate.holding);
 }
 
 }  // namespace

@@ -206,8 +206,8 @@ constexpr LawCase kLaws[] = {
     {"type: bow, table: [[-1, 0], [-0.1, -1], [0.1, 1], [1, 0]]", true},
     {"type: smooth_bow, damping: 1e-1, width: 1e-1", true},
     {"type: table, elastic: [[-1e-3, -1], [0, 0], [1e-3, 2]]", true},
-    {"type: table, viscous: {points: [[-1, -0.1], [0, 0], [2, 0.1]], interpolation: monotone}",
-     false},
+    {"type: table, viscous: {points: [[-1, -0.1], [0, 0.1], [2, 0.2]], interpolation: monotone}",
+     true},
     {"type: conditional, stiffness: 1e3, engage: 1e-3, release: 2e-3", true},
 };
 

@@ -112,8 +112,10 @@ const Kind kKinds[] = {
     {"type: bow, table: [[0, 0], [1, 1]]", true},
     {"type: smooth_bow, damping: 1, width: 1", true},
     {"type: table, elastic: [[0, 0], [1, 1]]", true},
-    {"type: table, viscous: [[0, 0], [1, 1]]", false},
-    {"type: table, elastic: [[0, 0], [1, 1]], viscous: [[0, 0], [1, 1]]", false},
+    {"type: table, viscous: [[0, 0], [1, 1]]", true},
+    {"type: table, viscous: [[-1, 1], [0, 2], [1, 4], [2, 3]]", true},
+    {"type: table, viscous: [[-1, 1], [0, 2], [1, 4], [2, 1]]", false},
+    {"type: table, elastic: [[0, 0], [1, 1]], viscous: [[0, 0], [1, 1]]", true},
     {"type: conditional, stiffness: 1, engage: 1", true},
 };
 

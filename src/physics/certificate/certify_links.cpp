@@ -151,8 +151,9 @@ class LinkJudge {
     }
   }
 
-  static const char* cureOf(const Lia& lia) {
-    return scene::isGuardable(lia) ? "Use scheme: guarded, or raise the rate" : "Raise the rate";
+  const char* cureOf(const Lia& lia) const {
+    return scene::isGuardable(networks_.scene(), lia) ? "Use scheme: guarded, or raise the rate"
+                                                      : "Raise the rate";
   }
 
   /// Never a matter of the verdict: whether it is stable, the network has told.
@@ -210,12 +211,13 @@ class LinkJudge {
 
   /// Friction that nowhere falls always brakes; one that falls may drive what swings with the step.
   void judgeFalling(const Lia& lia) {
-    findings_.add(Verdict::kUnproven, lia.place,
-                  "friction of link '" + lia.name +
-                      "' falls where it slips faster, and something that it reaches loses no "
-                      "energy: what swings in time with the steps may be driven. Damp every mass "
-                      "that it reaches" +
-                      (scene::isGuardable(lia) ? ", or use scheme: guarded" : ""));
+    findings_.add(
+        Verdict::kUnproven, lia.place,
+        "friction of link '" + lia.name +
+            "' falls where it slips faster, and something that it reaches loses no "
+            "energy: what swings in time with the steps may be driven. Damp every mass "
+            "that it reaches" +
+            (scene::isGuardable(networks_.scene(), lia) ? ", or use scheme: guarded" : ""));
   }
 
   /// The rule that vouches for a link that is more than a spring and a damper.

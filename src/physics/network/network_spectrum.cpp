@@ -4,169 +4,24 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <random>
-#include <set>
 
 #include "at.hpp"
-#include "physics/disjoint_sets.hpp"
-#include "physics/network/load_matrix.hpp"
 #include "physics/network/network_analysis.hpp"
+#include "physics/network/network_matrix.hpp"
 
 namespace ergotic::physics {
 namespace {
 
 constexpr double kPrecision = 2e-7;  // of a step; lambda goes with its square
-constexpr double kPivotMargin = 1e-9;
-constexpr double kHeld = 1e-6;   // of the norm, what counts as held
-constexpr int kIterations = 20;  // of Collatz-Wielandt
+constexpr double kHeld = 1e-6;       // of the norm, what counts as held
+constexpr int kIterations = 20;      // of Collatz-Wielandt
 constexpr int kRounds = 100;
 constexpr int kInverseIterations = 4;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-using Matrix = Eigen::SparseMatrix<double>;
-
-Eigen::VectorXd scaleOf(const NetworkBound& network) {
-  Eigen::VectorXd scale(network.nodes());
-  for (int i = 0; i < network.nodes(); ++i) {
-    scale[i] = 1.0 / std::sqrt(network.mass(i));
-  }
-  return scale;
-}
-
-/// Lower triangle of sum k u u^T for unit masses, with a place for every pair of nodes of a link
-/// and for the diagonal.
-template <class CoefficientOf>
-Matrix assemble(const NetworkBound& network,
-                const Eigen::VectorXd& scale,
-                CoefficientOf coefficient) {
-  LoadMatrix matrix(network.nodes());
-  for (int i = 0; i < network.nodes(); ++i) {
-    matrix.add(i, i, 0.0);
-  }
-  for (const NetworkBound::Link& link : network.links()) {
-    const double k = coefficient(link);
-    for (const Share& a : link.ends) {
-      for (const Share& b : link.ends) {
-        if (a.node >= b.node) {
-          const double u = a.weight * scale[a.node];
-          matrix.add(a.node, b.node, k * u * (b.weight * scale[b.node]));
-        }
-      }
-    }
-  }
-  return matrix.sum();
-}
-
-bool isFinite(const Matrix& matrix) {
-  return std::all_of(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros(),
-                     [](double v) { return std::isfinite(v); });
-}
-
 double quadratic(const Matrix& lower, const Eigen::VectorXd& x) {
   return x.dot(lower.selfadjointView<Eigen::Lower>() * x);
-}
-
-double normOf(const Matrix& lower) {
-  Eigen::VectorXd rows = Eigen::VectorXd::Zero(lower.rows());
-  for (int column = 0; column < lower.outerSize(); ++column) {
-    for (Matrix::InnerIterator it(lower, column); it; ++it) {
-      rows[it.row()] += std::abs(it.value());
-      rows[column] += it.row() == column ? 0.0 : std::abs(it.value());
-    }
-  }
-  return rows.size() == 0 ? 0.0 : rows.maxCoeff();
-}
-
-bool allPivotsPositive(const Eigen::SimplicialLDLT<Matrix>& solver) {
-  return solver.info() == Eigen::Success && (solver.vectorD().array() > 0.0).all();
-}
-
-/// \param nodes  of the network, one for each row
-Factor factorOf(const Eigen::SimplicialLDLT<Matrix>& solver,
-                const NetworkBound& network,
-                const std::vector<int>& nodes) {
-  Factor factor;
-  const Eigen::VectorXd pivots = solver.vectorD();
-  factor.pivots.assign(pivots.begin(), pivots.end());
-  factor.modules.resize(factor.pivots.size());
-  for (int row = 0; row < static_cast<int>(nodes.size()); ++row) {
-    factor.modules[at(solver.permutationP().indices()[row])] = network.ownerOf(nodes[at(row)]);
-  }
-  const Matrix& below = solver.matrixL().nestedExpression();
-  for (int column = 0; column < below.outerSize(); ++column) {
-    for (Matrix::InnerIterator it(below, column); it; ++it) {
-      factor.below.push_back({static_cast<int>(it.row()), column, it.value()});
-    }
-  }
-  return factor;
-}
-
-std::vector<int> allNodes(const NetworkBound& network) {
-  std::vector<int> nodes(at(network.nodes()));
-  std::iota(nodes.begin(), nodes.end(), 0);
-  return nodes;
-}
-
-/// What shows that the eigenvalues of some rows are above a margin. \param margin  of their norm
-std::optional<Factor> factorAbove(const NetworkBound& network,
-                                  const Matrix& lower,
-                                  const std::vector<int>& nodes,
-                                  double margin) {
-  if (!isFinite(lower)) {
-    return std::nullopt;
-  }
-  const double norm = normOf(lower);
-  if (norm == 0.0) {
-    return std::nullopt;
-  }
-  Matrix shifted = lower;
-  for (int i = 0; i < shifted.rows(); ++i) {
-    shifted.coeffRef(i, i) -= margin * norm;
-  }
-  const Eigen::SimplicialLDLT<Matrix> solver(shifted);
-  return allPivotsPositive(solver) ? std::optional<Factor>(factorOf(solver, network, nodes))
-                                   : std::nullopt;
-}
-
-/// Nodes of all that hangs together with something negative.
-template <class CoefficientOf>
-std::vector<int> besideNegative(const NetworkBound& network, CoefficientOf coefficient) {
-  DisjointSets bodies(at(network.nodes()));
-  for (const NetworkBound::Link& link : network.links()) {
-    for (const Share& end : link.ends) {
-      if (coefficient(link) != 0.0) {
-        bodies.join(end.node, link.ends.front().node);
-      }
-    }
-  }
-  std::set<int> negative;
-  for (const NetworkBound::Link& link : network.links()) {
-    if (coefficient(link) < 0.0 && !link.ends.empty()) {
-      negative.insert(bodies.setOf(link.ends.front().node));
-    }
-  }
-  std::vector<int> nodes = allNodes(network);
-  nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
-                             [&](int n) { return negative.count(bodies.setOf(n)) == 0; }),
-              nodes.end());
-  return nodes;
-}
-
-/// What is negative lets all that hangs together with it grow unless the whole is definite: how
-/// slowly is a matter of the norm, but however little is missing it grows.
-template <class CoefficientOf>
-std::optional<Factor> definiteBesideNegative(const NetworkBound& network,
-                                             CoefficientOf coefficient) {
-  const std::vector<int> nodes = besideNegative(network, coefficient);
-  Matrix select(network.nodes(), static_cast<int>(nodes.size()));
-  for (int row = 0; row < select.cols(); ++row) {
-    select.insert(nodes[at(row)], row) = 1.0;
-  }
-  const Matrix lower = assemble(network, scaleOf(network), coefficient);
-  const Matrix whole = lower.selfadjointView<Eigen::Lower>();
-  const Matrix part = Matrix(select.transpose() * whole * select).triangularView<Eigen::Lower>();
-  return factorAbove(network, part, nodes, kPivotMargin);
 }
 
 /// A direction that no mode is orthogonal to; the same at every run.
@@ -207,42 +62,6 @@ Factor NetworkSpectrum::factorAtLimit() {
   pencil.limit = NetworkAnalysis::kProven;
   return isDefinite(pencil, network_.step()) ? factorOf(solver_, network_, allNodes(network_))
                                              : Factor{};
-}
-
-std::optional<Factor> NetworkSpectrum::semidefiniteStiffness(const NetworkBound& network) {
-  return definiteBesideNegative(
-      network, [](const NetworkBound::Link& link) { return link.stiffness.lowest; });
-}
-
-std::optional<Factor> NetworkSpectrum::semidefiniteDamping(const NetworkBound& network) {
-  return definiteBesideNegative(network,
-                                [](const NetworkBound::Link& link) { return link.damping.lowest; });
-}
-
-std::optional<Factor> NetworkSpectrum::definiteDamping(const NetworkBound& network) {
-  const Matrix softest = assemble(network, scaleOf(network), [](const NetworkBound::Link& link) {
-    return link.damping.lowest;
-  });
-  return factorAbove(network, softest, allNodes(network), kPivotMargin);
-}
-
-double NetworkSpectrum::softness(const NetworkBound& network, const Shares& u) {
-  const Eigen::VectorXd scale = scaleOf(network);
-  Matrix lower = assemble(network, scale, [](const auto& link) { return link.stiffness.lowest; });
-  const double norm = normOf(lower);
-  if (u.empty() || !(norm > 0.0) || !physics::isFinite(lower)) {
-    return kInfinity;
-  }
-  for (int i = 0; i < lower.rows(); ++i) {
-    lower.coeffRef(i, i) += kPivotMargin * norm;
-  }
-  const Eigen::SimplicialLDLT<Matrix> solver(lower);
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(network.nodes());
-  for (const Share& share : u) {
-    force[share.node] += share.weight * scale[share.node];
-  }
-  const double give = allPivotsPositive(solver) ? force.dot(solver.solve(force)) : kInfinity;
-  return give * norm * kHeld < force.squaredNorm() ? give : kInfinity;
 }
 
 bool NetworkSpectrum::isDefinite(const Pencil& pencil, double t) {

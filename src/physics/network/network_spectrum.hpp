@@ -47,8 +47,9 @@ class NetworkSpectrum {
   /// The same, that Z is positive definite, by 1e-9 of its norm; none of nothing.
   static std::optional<Factor> definiteDamping(const NetworkBound& network);
 
-  /// u' K^-1 u for the weights u at some nodes, K in its softest case: K less a load of k u u^T is
-  /// definite for every k below its inverse. Infinite if K does not hold them, to 1e-6 of its norm.
+  /// u' K^-1 u for the weights u at some nodes, K in its softest case, rounded up: K less a load of
+  /// k u u^T is definite for every k below its inverse. Infinite if all that hangs together with
+  /// them is not held, by 4e-9 of the norm.
   static double softness(const NetworkBound& network, const Shares& u);
 
  private:

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+
+#include "ergotic/physics/network/factor.hpp"
+#include "physics/network/load_matrix.hpp"
+#include "physics/network/network_bound.hpp"
+
+namespace ergotic::physics {
+
+using Matrix = Eigen::SparseMatrix<double>;
+
+constexpr double kPivotMargin = 1e-9;  ///< of a norm, for rounding
+
+/// M^-1/2 of every node.
+Eigen::VectorXd scaleOf(const NetworkBound& network);
+
+/// Lower triangle of sum k u u^T for unit masses, with a place for every pair of nodes of a link
+/// and for the diagonal.
+template <class CoefficientOf>
+Matrix assemble(const NetworkBound& network,
+                const Eigen::VectorXd& scale,
+                CoefficientOf coefficient) {
+  LoadMatrix matrix(network.nodes());
+  for (int i = 0; i < network.nodes(); ++i) {
+    matrix.add(i, i, 0.0);
+  }
+  for (const NetworkBound::Link& link : network.links()) {
+    const double k = coefficient(link);
+    for (const Share& a : link.ends) {
+      for (const Share& b : link.ends) {
+        if (a.node >= b.node) {
+          const double u = a.weight * scale[a.node];
+          matrix.add(a.node, b.node, k * u * (b.weight * scale[b.node]));
+        }
+      }
+    }
+  }
+  return matrix.sum();
+}
+
+/// Of a lower triangle, and so below.
+bool isFinite(const Matrix& lower);
+/// The largest sum of absolute values over a row of the symmetric matrix.
+double normOf(const Matrix& lower);
+
+bool allPivotsPositive(const Eigen::SimplicialLDLT<Matrix>& solver);
+
+std::vector<int> allNodes(const NetworkBound& network);
+
+/// \param nodes  of the network, one for each row
+Factor factorOf(const Eigen::SimplicialLDLT<Matrix>& solver,
+                const NetworkBound& network,
+                const std::vector<int>& nodes);
+
+}  // namespace ergotic::physics

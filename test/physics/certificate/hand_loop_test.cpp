@@ -203,7 +203,8 @@ TEST(DrivenHandTest, NoGuardHoldsALinkThatDrivesAHandOnAGround) {
   for (const auto& [type, nonlinearity] :
        {std::pair(LiaType::kCubic, -1e6), std::pair(LiaType::kQuadratic, -1e4),
         std::pair(LiaType::kTable, 0.0)}) {
-    EXPECT_GT(speedAfterAPush(joined(type, nonlinearity, false)), 1.0);
+    // A table gives what it held at the start, and no more; nothing bounds the others.
+    EXPECT_EQ(speedAfterAPush(joined(type, nonlinearity, false)) > 1.0, type != LiaType::kTable);
     EXPECT_EQ(certify(joined(type, nonlinearity, false), kRates).verdict, Verdict::kUnproven);
     EXPECT_LT(speedAfterAPush(joined(type, nonlinearity, true)), 0.1);
     EXPECT_LE(certify(joined(type, nonlinearity, true), kRates).verdict, Verdict::kBounded);

@@ -11,6 +11,7 @@
 #include "physics/certificate/port_links.hpp"
 #include "physics/step_units.hpp"
 #include "scene/laws/law.hpp"
+#include "scene/laws/range.hpp"
 
 namespace ergotic::physics {
 /// What links join to a slice: modules that move, points, and the slices among them.
@@ -137,8 +138,20 @@ scene::Scene onlyOf(const FreeSlices::Group& group, scene::Scene linear) {
   return linear;
 }
 
-/// With the present values of the parameters, and with both ends of their ranges.
-std::vector<scene::Scene> casesOf(const scene::Scene& scene) {
+/// Without dampers along lines that turn: what moves across them they leave alone.
+scene::Scene withoutTurning(scene::Scene scene, const RatedNetwork& networks) {
+  for (scene::Lia& lia : scene.lias) {
+    if (networks.hasLineThatTurns(lia)) {
+      lia.damping = {};
+    }
+  }
+  return scene;
+}
+
+/// With the present values of the parameters, and with both ends of their ranges; with all dampers,
+/// and without those that may do nothing.
+std::vector<scene::Scene> casesOf(const RatedNetwork& networks) {
+  const scene::Scene& scene = networks.scene();
   std::vector<scene::Scene> cases{scene};
   for (double scene::Parameter::*end : {&scene::Parameter::minimum, &scene::Parameter::maximum}) {
     scene::Scene other = scene;
@@ -148,6 +161,13 @@ std::vector<scene::Scene> casesOf(const scene::Scene& scene) {
     if (!scene.parameters.empty()) {
       cases.push_back(std::move(other));
     }
+  }
+  const std::size_t count = cases.size();
+  const bool turns = std::any_of(scene.lias.begin(), scene.lias.end(), [&](const scene::Lia& lia) {
+    return networks.hasLineThatTurns(lia) && scene::largest(scene, lia.damping) > 0.0;
+  });
+  for (std::size_t i = 0; turns && i < count; ++i) {
+    cases.push_back(withoutTurning(cases[i], networks));
   }
   return cases;
 }
@@ -230,7 +250,7 @@ FreeSlices::FreeSlices(const RatedNetwork& networks)
     : networks_(networks), tick_s_(1.0 / networks.rates().gesturalHz()) {
   const scene::Scene& scene = networks.scene();
   const bool is_bent = bends(scene, slicesInHands(scene));
-  const std::vector<scene::Scene> cases = casesOf(scene);
+  const std::vector<scene::Scene> cases = casesOf(networks);
   for (const double part : kParts) {
     if (part == 0.0 || is_bent) {
       const bool is_end = part == 0.0 || part == 1.0;  // between them, present values will do

@@ -46,6 +46,8 @@ class RatedNetwork {
   /// True if a link acts along a line that turns: a spring is linear in the coordinates only where
   /// it has no rest length, and a damper only where they are one.
   bool turns(const scene::Lia& lia) const;
+  /// True if a link acts along the line between its ends and not along fixed axes.
+  bool hasLineThatTurns(const scene::Lia& lia) const;
   /// True if its friction takes energy in every step: odd, nowhere falling, and not along a line
   /// that turns.
   bool onlyBrakes(const scene::Lia& lia) const;
@@ -66,7 +68,6 @@ class RatedNetwork {
   bool hasLinkedMatched(int divisor) const;
 
  private:
-  bool hasLineThatTurns(const scene::Lia& lia) const;
   struct Builder;
 
   void joinGroups();

@@ -315,5 +315,18 @@ TEST(FreeSlicesTest, ASliceIsToldOfAMassThatHangsOnAnother) {
   EXPECT_THAT(certificate.findings, Contains(HasSubstr("what hangs on link 'l3'")));
 }
 
+/// In space a damper does nothing to what swings across its line, so it makes no hand safe.
+TEST(FreeSlicesTest, DampersInSpaceMayTakeNothing) {
+  Hanging light{975.0, 12.5, 1.75e-3, 0.0, true};
+  scene::Scene scene = light.scene();
+  EXPECT_LT(radiusOf(scene), 1.0 + 1e-9);
+  for (scene::Section& section : scene.sections) {
+    section.geometry = Geometry::kSpace;
+  }
+  scene.mats.at(0).position = {6.6e-3, 3.3e-3, 13.8e-3};
+  EXPECT_GT(playedGrowth(settle(scene, kRates).scene, {}), 1.0 + 1e-5);
+  EXPECT_GT(radiusOf(settle(scene, kRates).scene), 1.0 + 1e-5);
+}
+
 }  // namespace
 }  // namespace ergotic::physics

@@ -181,6 +181,17 @@ TEST(GuardedLinksTest, WorkOfAHandIsCountedWithItsRealMotion) {
   EXPECT_GT(pushed, 50.0);
 }
 
+TEST(GuardedLinksTest, WhatAHandPressesItHolds) {
+  SceneBuilder b;
+  guard(b, LiaType::kContact, b.slice(0), b.ground(0.0, SceneBuilder::kGestural), 1e4);
+  Player player(b.scene, kRates);
+  for (int n = 0; n < 20; ++n) {
+    player.positions[0] = 1e-4 * std::min(n, 10);
+    player.tick();
+  }
+  EXPECT_NEAR(energiesOf(player).stored, 0.5 * 1e4 * 1e-6, 1e-12);
+}
+
 TEST(GuardedLinksTest, TurningAKnobIsWorkOfTheKnob) {
   SceneBuilder b;
   b.scene.parameters.push_back({"k", 1.0, 0.5, 4.0, {}});

@@ -18,7 +18,9 @@ using scene::MatType;
 using scene::Scene;
 using scene::Scheme;
 
-constexpr double kShare = 0.5;  // of what holds a table, that it takes away
+/// Of what holds a table, that it takes away. What the two parts store apart, and could make motion
+/// of, is more than what they store together, by about this share.
+constexpr double kShare = 1e-3;
 
 /// While nothing moves.
 scene::TableEnds elasticEndsOf(const Lia& lia) {
@@ -102,7 +104,9 @@ void splitTables(Scene& scene, const Rates& rates) {
     }
     const Network network(scene);
     const RatedNetwork networks(network, rates);
-    const double held = mayBeSplit(networks, lia) ? heldBy(networks, lia) : 0.0;
+    const scene::TableEnds ends = elasticEndsOf(lia);
+    const bool is_constant = ends.low <= ends.high;
+    const double held = is_constant && mayBeSplit(networks, lia) ? heldBy(networks, lia) : 0.0;
     if (held > 0.0) {
       Lia push = splitOff(scene.lias[l], kShare * held);
       scene.lias.push_back(std::move(push));

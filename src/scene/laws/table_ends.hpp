@@ -15,8 +15,8 @@ struct TableEnds {
   TableEnds operator+(double force) const { return {low + force, high + force}; }
   /// One of them outwards: over elongation, its potential has no floor.
   bool push() const { return low > 0.0 || high < 0.0; }
-  /// What is left without it pushes outwards on no side, or as much on both.
-  double constant() const { return low <= high ? std::clamp(0.0, low, high) : (low + high) / 2.0; }
+  /// What is left without it pushes outwards on no side. \pre low <= high
+  double constant() const { return std::clamp(0.0, low, high); }
 };
 
 TableEnds endsOf(const Table& table);

@@ -34,10 +34,8 @@ SceneBuilder held(const Points& elastic, const Points& viscous, double x = 0.0, 
 }
 
 TEST(SplitTablesTest, WhatTheSpringsHoldIsSplit) {
-  for (const auto& [elastic, viscous, force] : {std::tuple(kOutward, Points{}, 0.0),
-                                                {kSlanted, Points{}, 50.0},
+  for (const auto& [elastic, viscous, force] : {std::tuple(kSlanted, Points{}, 50.0),
                                                 {Points{}, kConstant, 5.0},
-                                                {kOutward, kConstant, 5.0},
                                                 {kSlanted, kConstant, 55.0}}) {
     const scene::Scene scene = settle(held(elastic, viscous).scene, kRates).scene;
     ASSERT_EQ(scene.lias.size(), 3U);
@@ -45,7 +43,7 @@ TEST(SplitTablesTest, WhatTheSpringsHoldIsSplit) {
     const scene::Lia& push = scene.lias[2];
     EXPECT_EQ(push.name, "l1.push");
     EXPECT_EQ(push.scheme, Scheme::kExplicit);
-    EXPECT_NEAR(push.stiffness.factor, -kStiffness / 2.0, 1e-2);
+    EXPECT_NEAR(push.stiffness.factor, -1e-3 * kStiffness, 1e-2);
     EXPECT_NEAR(push.stiffness.factor * -push.rest_length, force, 1e-6);
     EXPECT_EQ(rest.scheme, Scheme::kGuarded);
     EXPECT_EQ(rest.stiffness.factor, -push.stiffness.factor);
@@ -77,15 +75,15 @@ TEST(SplitTablesTest, WhatNothingHoldsIsNotVouchedFor) {
   }
 }
 
-/// Each takes away half of what the ones before have left.
+/// Each takes away a share of what the ones before have left.
 TEST(SplitTablesTest, ManyTakeNoMoreThanThereIs) {
-  SceneBuilder b = held(kOutward, {});
+  SceneBuilder b = held(kSlanted, {});
   for (int n = 0; n < 6; ++n) {
     b.scene.lias.push_back(b.scene.lias[1]);
   }
   const scene::Scene scene = settle(b.scene, kRates).scene;
   EXPECT_EQ(scene.lias.size(), 1U + 2U * 7U);
-  EXPECT_EQ(certify(scene, kRates).verdict, Verdict::kBounded);
+  EXPECT_EQ(certify(scene, kRates).verdict, Verdict::kPassive);
 }
 
 TEST(SplitTablesTest, ConstantForceMovesTheRest) {
@@ -96,21 +94,18 @@ TEST(SplitTablesTest, ConstantForceMovesTheRest) {
   EXPECT_NEAR(*high, 0.0, 1e-9);
 }
 
-/// -100 N/mm beside 1000: within its points it is a spring of 900 N/mm.
-TEST(SplitTablesTest, WithinItsPointsAStraightTableIsASpring) {
-  const double kappa = 0.9 * kStiffness / (kRate * kRate);
-  const double w = 2.0 * std::asin(std::sqrt(kappa) / 2.0);
-  Player player(held(kOutward, {}, 1e-4, 0.0).scene, kRates);
-  player.ticks(2000);
-  for (std::size_t n = 0; n < player.heard[0].size(); ++n) {
-    const double expected = 1e-4 * std::cos((static_cast<double>(n) + 0.5) * w) / std::cos(w / 2.0);
-    ASSERT_NEAR(player.heard[0][n], expected, 2e-7) << n;
+/// Between two ways out there may be a well that is less deep: a tank would know of those alone.
+TEST(SplitTablesTest, WhatPushesOutwardsOnBothSidesStaysWhole) {
+  for (const auto& [viscous, scheme] :
+       {std::pair(Points{}, Scheme::kGuarded), {kConstant, Scheme::kExplicit}}) {
+    const scene::Scene scene = settle(held(kOutward, viscous).scene, kRates).scene;
+    EXPECT_EQ(scene.lias.size(), 2U);
+    EXPECT_EQ(scene.lias[1].scheme, scheme);
   }
 }
 
 TEST(SplitTablesTest, EnergyIsKeptWhereNothingIsLost) {
-  for (const auto& [elastic, viscous] :
-       {std::pair(kOutward, Points{}), {kSlanted, Points{}}, {kSlanted, kConstant}}) {
+  for (const auto& [elastic, viscous] : {std::pair(kSlanted, Points{}), {kSlanted, kConstant}}) {
     Player player(held(elastic, viscous, 3e-3, 1.0).scene, kRates);
     EXPECT_LT(imbalanceOf(player, 5000), 1e-12);
     EXPECT_NEAR(energiesOf(player).sections[0].dissipated, 0.0, 1e-9);
@@ -118,7 +113,7 @@ TEST(SplitTablesTest, EnergyIsKeptWhereNothingIsLost) {
 }
 
 TEST(SplitTablesTest, PlaysAsTheExplicitOneWhereTheStepIsSmall) {
-  for (const auto& [elastic, viscous] : {std::pair(kOutward, Points{}),
+  for (const auto& [elastic, viscous] : {std::pair(kSlanted, Points{}),
                                          {kSlanted, kConstant},
                                          {kSlanted, kBrake},
                                          {Points{}, kBrake}}) {

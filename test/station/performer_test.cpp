@@ -52,7 +52,6 @@ TEST(PerformerTest, StartsInTheStateThatWasCompiled) {
 TEST(PerformerTest, PlaysTheSettledSceneAndTellsWhatWasChosen) {
   scene::Scene scene = oscillator(1e3).scene;
   scene.lias[1].scheme = scene::Scheme::kAuto;
-  scene.lias[1].stiffness = {0.06 * 1e-3 * 44100.0 * 44100.0};
   scene.warnings = {"read"};
   const auto performer = make(scene);
   EXPECT_EQ(performer->instrument->scene().lias[1].scheme, scene::Scheme::kGuarded);

@@ -28,8 +28,13 @@ function(ergotic_add_gtests room)
   target_link_libraries(ergotic_${room}_test
     PRIVATE ergotic_test_support GTest::gtest_main ergotic_flags ${ARGN})
   ergotic_compile_soon(ergotic_${room}_test)
+  # JACK has one registry for all servers of a user, and may refuse two clients that come at once.
+  set(lock "")
+  if(room MATCHES "^(audio|tgr_jack)$")
+    set(lock RESOURCE_LOCK jack)
+  endif()
   gtest_discover_tests(ergotic_${room}_test
-    TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${room})
+    TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${room} ${lock})
 endfunction()
 
 foreach(room rt station audio golden)

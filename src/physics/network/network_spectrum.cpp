@@ -14,7 +14,6 @@ namespace ergotic::physics {
 namespace {
 
 constexpr double kPrecision = 2e-7;  // of a step; lambda goes with its square
-constexpr double kHeld = 1e-6;       // of the norm, what counts as held
 constexpr int kIterations = 20;      // of Collatz-Wielandt
 constexpr int kRounds = 100;
 constexpr int kInverseIterations = 4;

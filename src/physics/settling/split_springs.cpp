@@ -48,7 +48,8 @@ void splitSprings(Scene& scene) {
     tension.scheme = scene::Scheme::kExplicit;
     tension.stiffness = (1.0 - slack) * lia.stiffness;
     tension.rest_length = 0.0;
-    const bool is_straight = scene.sectionOf(scene.mats[at(lia.a)]).geometry == Geometry::kLine;
+    const bool is_straight = scene.sectionOf(scene.mats[at(lia.a)]).geometry == Geometry::kLine &&
+                             scene.sectionOf(scene.mats[at(lia.b)]).geometry == Geometry::kLine;
     (is_straight ? lia : tension).damping = {};
     lia.stiffness = slack * lia.stiffness;
     lia.rest_length = slack > 0.0 ? length : 0.0;

@@ -13,8 +13,10 @@ const Section& sectionAt(const Scene& scene, int mat) {
 
 /// What `scheme: guarded` is refused for, or nullptr.
 const char* unguarded(const Scene& scene, const Lia& lia) {
-  const bool is_straight = dimensionsOf(sectionAt(scene, lia.a).geometry) == 1 ||
-                           dimensionsOf(sectionAt(scene, lia.b).geometry) == 1;
+  const Geometry a = sectionAt(scene, lia.a).geometry;
+  const Geometry b = sectionAt(scene, lia.b).geometry;
+  const bool is_straight = a == Geometry::kScalar || b == Geometry::kScalar ||
+                           (dimensionsOf(a) == 1 && dimensionsOf(b) == 1);
   const bool is_linear = lia.type == LiaType::kSpringDamper && lia.rest_length == 0.0;
   return is_linear && is_straight ? "a linear spring or damper" : lawOf(lia.type).unguarded(lia);
 }

@@ -87,6 +87,20 @@ TEST(VouchedInPlanesTest, LinesThatAreTiltedAgainstScalarSectionsAreNoOneLine) {
   }
 }
 
+/// Whatever is advised against a damper between two geometries can be done.
+TEST(VouchedInPlanesTest, DampersBetweenALineAndAPlaneMayBeGuarded) {
+  for (const std::string between : {"[a, b]", "[b, a]"}) {
+    const scene::Scene scene = scene::readYaml(
+        "ergotic: 1\nsections: {l: {geometry: line}, p: {geometry: plane}}\nmats:\n"
+        "  a: {type: mass, section: l, mass: 1}\n  b: {type: mass, section: p, mass: 1}\n"
+        "lias: {z: {type: spring_damper, between: " +
+            between + ", stiffness: 1000, damping: 1}}\n",
+        "line.yaml");
+    EXPECT_EQ(certify(settle(scene, {kRate, 14}).scene, {kRate, 14}).verdict, Verdict::kPassive)
+        << between;
+  }
+}
+
 /// What circles keeps its distance, and its energy: only dampers of masses take that in a plane.
 TEST(VouchedInPlanesTest, DampersOfLinksAreNoLossInAPlane) {
   for (const bool is_damped : {false, true}) {

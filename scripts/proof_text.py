@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads a proof: nothing in its text was changed, and the numbers that are written out in a scene, not made
-by its generators, are those of the proof."""
+"""Reads a proof: nothing in its text was changed, and its network is the one that the text of a scene says."""
 import hashlib
 import json
 import math
@@ -8,12 +7,12 @@ import struct
 import sys
 
 import numpy as np
-import yaml
 from scipy import interpolate, sparse
+from scipy.sparse import csgraph
 
-DEFAULTS = {"sections": {"medium": "0"}, "lias": {"rest_length": "0", "threshold": "0", "damping": "0"},
-            "mats": {"stiffness": "0", "damping": "0", "matched": "true"}, "parameters": {}}
-WORDS = {"spring": "spring_damper", "damper": "spring_damper"}
+from proof_scene import AXES, DEFAULTS, PARTS, Said, axes_of
+
+MOST_RAISED = 100  # modules of a section
 SPRING, CLIPPED = "stiffness damping rest_length", "nonlinearity stiffness_limit tipping_point limit_damping "
 KEYS = {  # what each word must say
     "mass": "mass", "cell": "mass stiffness damping matched", "spring_damper": SPRING,
@@ -51,6 +50,15 @@ def slopes_of(table):
     return min(slopes), max(slopes)
 
 
+def brakes(table):
+    """Whether its force, but for what is there at rest, is against all that moves."""
+    x, y = np.array(table["points"], dtype=float).T
+    rest = np.clip(0.0, x[0], x[-1])
+    is_smooth = table["interpolation"] == "monotone"
+    work = (y - (interpolate.PchipInterpolator(x, y)(rest) if is_smooth else np.interp(rest, x, y))) * x
+    return (np.diff(y) >= 0).all() or (work >= -1e-12 * abs(x * y).max()).all()
+
+
 def push_out(tables):
     """Whether elastic and viscous force together, held beyond the ends, push outwards or drive."""
     lows, highs = [table[0][1] for table in tables], [table[-1][1] for table in tables]
@@ -69,93 +77,241 @@ def need_all_keys(proof):
         keys = KEYS[each["type"]].split() if "table" not in each else []
         need(all(key in each for key in keys), f"{each['name']}: not all of its numbers are there")
         need(each["type"] != "table" or "elastic" in each or "viscous" in each, f"{each['name']}: no table")
-
-
-def rows_of(part):
-    """Names and keys, out of tables, too."""
-    for name, keys in part.items():
-        for row in keys.get("rows", [[]]):
-            each = {**keys.get("with", {}), **dict(zip(keys.get("columns", []), row))}
-            yield each.pop("name", name), each or keys
+    ends = [end for each in proof["links"] for end in each["between"]] + [at["module"] for at in proof["points"]]
+    need(min(ends, default=0) >= 0, "an end that is no module")
 
 
 def same(said, has):
+    if said is None:  # not written anywhere
+        return True
     if isinstance(has, dict) and "parameter" in has:
         factor, _, name = said.rpartition("$")
-        return name == has["parameter"] and same(factor.rstrip("*") or "1", has["times"])
+        return name.strip() == has["parameter"] and same(factor.strip().rstrip("*") or "1", has["times"])
     if isinstance(has, dict):
         return "file" in said or all(same(said.get(key, "linear"), has[key]) for key in has)
     if isinstance(has, list):
         return len(said) == len(has) and all(map(same, said, has))
     if isinstance(has, (str, bool)):
         return said == str(has) or said == str(has).lower()
-    return math.isclose(float(said), has, rel_tol=1e-12)
-
-
-def has_of(proof, known):
-    """By the words of scenes."""
-    has = dict(known)
-    if "section" in has:
-        has["section"] = proof["sections"][has["section"]]["name"].removesuffix(".raised")
-    if "between" in has:
-        has["between"] = [proof["modules"][end]["name"] for end in has["between"]]
-    return has
+    return "$" not in said and math.isclose(float(said), has, rel_tol=1e-12)
 
 
 def times(value):
     return value["times"] if isinstance(value, dict) else value
 
 
+def total(a, b):
+    follows = next((v for v in (a, b) if isinstance(v, dict)), None)
+    return {**follows, "times": times(a) + times(b)} if follows else times(a) + times(b)
+
+
 def whole(spring, tension):
     """A guarded spring that is stretched is in two parts: one pulls at any length, the other rests at l."""
-    def both(key):
-        total = times(spring[key]) + times(tension[key])
-        follows = next((v for v in (spring[key], tension[key]) if isinstance(v, dict)), None)
-        return {**follows, "times": total} if follows else total
-    share = times(spring["stiffness"]) / (times(both("stiffness")) or 1.0)
-    return {**spring, "stiffness": both("stiffness"), "damping": both("damping"),
-            "rest_length": spring["rest_length"] * share}
+    both = {key: total(spring[key], tension[key]) for key in ("stiffness", "damping")}
+    share = times(spring["stiffness"]) / (times(both["stiffness"]) or 1.0)
+    return {**spring, **both, "rest_length": spring["rest_length"] * share}
 
 
-def differences(proof, text):
-    """\\return what a scene says otherwise than its proof, one line each"""
-    scene = yaml.load(text, yaml.BaseLoader)
-    filtered = {port["mat"] for _, port in rows_of(scene.get("ports") or {}) if "filter" in port}
-    for part, ours in (("parameters", "parameters"), ("sections", "sections"), ("mats", "modules"),
-                       ("lias", "links")):
-        known = {each["name"]: has_of(proof, each) for each in proof[ours]}
-        for point in proof["points"] if part == "mats" else []:
-            known[proof["modules"][point["module"]]["name"]]["power"] = point["power"]
-        for name, keys in rows_of(scene.get(part) or {}):
-            said = {"release": keys.get("engage"), **DEFAULTS[part], **keys}
-            has = known.get(name, {})
-            if name + ".tension" in known:
-                has = whole(has, known[name + ".tension"])
-            if "stiffness_limit" in keys and "tipping_point" in has:
-                k, q, limit = (float(keys[key]) for key in ("stiffness", "nonlinearity", "stiffness_limit"))
-                said.update(tipping_point=math.sqrt((limit - k) / q), limit_damping="0")
-            is_open = {"scheme": said.get("scheme") == "auto", "section": has.get("type") == "point",
-                       "between": "filter" in said or any(
-                           "@" in end or end in filtered for end in said.get("between", []))}
-            if said.get("type") == "point":
-                said.setdefault("power", "1")
-            said["type"] = WORDS.get(said.get("type"), said.get("type"))
-            if name not in known:
-                yield f"{name} of {part} is not in the proof"
-            for key in sorted(said.keys() & has.keys()):
-                if not is_open.get(key) and not same(said[key], has[key]):
-                    yield f"{name}: {key} is {said[key]}, not {has[key]}"
+class Comparison:
+    """Each difference between a proof and what is said is a line."""
+
+    def __init__(self, proof, said):
+        self.proof, self.said, self.sections, self.modules = proof, said, proof["sections"], proof["modules"]
+        self.mats, self.lias = ({each["name"]: each for each in proof[part]} for part in ("modules", "links"))
+        self.divisors = [s["divisor"] for s in self.sections]
+
+    def base_of(self, section):
+        name = section["name"]
+        return name if name in self.said.sections else name.removesuffix(".raised")
+
+    def has_of(self, each):
+        """By the words of scenes."""
+        has = dict(each)
+        if "section" in has:
+            has["section"] = self.base_of(self.sections[has["section"]])
+        if "between" in has:
+            has["between"] = [self.modules[end]["name"] for end in has["between"]]
+        if "geometry" in has:
+            has = {"modes": "no", "axes": np.eye(3)[:AXES[has["geometry"]]], **has}
+        return has
+
+    def differences(self):
+        for link in [name for name, keys in self.said.lias.items() if keys.get("filter") == "auto"]:
+            yield from self.filter_of(link)
+        for part, ours in PARTS.items():
+            known, said = {each["name"]: self.has_of(each) for each in self.proof[ours]}, self.said.parts[part]
+            if len(known) < len(self.proof[ours]):
+                yield f"a name of {part} is there twice"
+            if part in ("sections", "lias"):
+                yield from self.whole_sections(known) if part == "sections" else self.whole_links(known)
+            yield from (f"{name} of {part} is not in the proof" for name in said.keys() - known.keys())
+            yield from (f"{name} of {part} is not in the scene" for name in known.keys() - said.keys())
+            for name in sorted(said.keys() & known.keys()):
+                yield from self.keys_of(name, said[name], known[name])
+        for number, section in enumerate(self.sections):
+            if not self.is_at_its_rate(number, section["divisor"]):
+                yield f"{section['name']}: divisor is not {section['divisor']}"
+        yield from self.places()
+
+    def keys_of(self, name, said, has):
+        tables = said.keys() & {"elastic", "viscous", "table"}
+        for key in sorted(has.keys() - {"name", "divisor", "step", "axes"} | tables):
+            if key not in said or key not in has or not same(said[key], has[key]):
+                yield f"{name}: {key} is {said.get(key, 'not in the scene')}, not {has.get(key)}"
+        scheme = has.get("scheme", "explicit")
+        if scheme != "explicit" and not (scheme == "guarded" and self.is_guardable(has)):
+            yield f"{name}: its scheme"
+        if "axes" in has and not np.allclose(has["axes"], axes_of(said), rtol=0, atol=1e-12):
+            yield f"{name}: it is turned otherwise"
+
+    def whole_sections(self, known):
+        """With what was raised out of them."""
+        for number, section in enumerate(self.sections):
+            base = self.base_of(section)
+            if base != section["name"] and base in known:
+                raised, left = ([self.stays(i) for i, m in enumerate(self.modules) if self.is_written(i)
+                                 and self.sections[m["section"]]["name"] == name] for name in (section["name"], base))
+                if any(raised) or not all(left) or not left:
+                    yield f"{section['name']}: its modules"
+                yield from self.keys_of(section["name"], self.said.sections[base], known.pop(section["name"]))
+
+    def whole_links(self, known):
+        """Without what settling has split off, which is added again, or linear and holds less than nothing."""
+        for name in sorted(known.keys() - self.said.lias.keys()):
+            stem, _, part = name.rpartition(".")
+            if stem in known and stem in self.said.lias and part in ("tension", "push"):
+                link, split = known[stem], known.pop(name)
+                is_part = split["type"] == "spring_damper" and split["scheme"] == "explicit" and (
+                    link["scheme"] == "guarded" and link["between"] == split["between"])
+                if part == "tension":
+                    is_part = is_part and self.is_stretched(link, split)
+                    known[stem] = whole(link, split)
+                elif not (link["type"] == "table" and same("0", split["damping"]) and times(split["stiffness"]) < 0):
+                    is_part = False
+                if not is_part:
+                    yield f"{name}: it is no part of {stem}"
+
+    def is_stretched(self, link, split):
+        a, b = (self.said.mats[end] for end in link["between"])
+        is_straight = all(self.said.sections[end["section"]]["geometry"] == "line" for end in (a, b))
+        may_rest = a["section"] == b["section"] and "lies" in a and "lies" in b
+        at_rest = np.linalg.norm(a["lies"] - b["lies"]) if may_rest else math.nan
+        is_slack = link["rest_length"] == times(link["stiffness"]) == 0
+        return split["rest_length"] == 0 == times((link if is_straight else split)["damping"]) and (
+            is_slack or math.isclose(link["rest_length"], at_rest, rel_tol=1e-9))
+
+    def filter_of(self, link):
+        """Two masses before its slower end, in the section of the faster one or in their own."""
+        said, name, keys = self.said, f"{link}.filter", self.said.lias[link]
+        ends = [self.modules[end] for end in self.lias.get(link, {"between": []})["between"]]
+        slow = [end for end, there in zip(keys["between"], ends) if there["name"] == f"{name}.1"]
+        fast = [there for there in ends if there["name"] != f"{name}.1"]
+        if len(slow) != 1 or len(fast) != 1 or slow[0] not in self.mats or (
+                self.divisors[self.mats[slow[0]]["section"]] <= self.divisors[fast[0]["section"]]):
+            yield f"{link}: its filter"
+            return
+        keys["between"] = [f"{name}.1" if end == slow[0] else end for end in keys["between"]]
+        home, section = said.mats[slow[0]]["section"], self.base_of(self.sections[fast[0]["section"]])
+        if any(s["name"] == name for s in self.sections):
+            of, section = said.sections[home], name
+            said.sections[name] = {**DEFAULTS["sections"], "geometry": of["geometry"], "pose": of.get("pose", {}),
+                                   "modes": "no", "rate": {"divisor": self.divisors[fast[0]["section"]]}}
+        for i, before in enumerate((slow[0], f"{name}.0")):
+            said.add_mat(f"{name}.{i}", "mass", section, mass=None)
+            said.add_lia(f"{name}.link.{i}", [before, f"{name}.{i}"], scheme="explicit", stiffness=None, damping=None)
+        if f"{name}.ground" in self.mats:
+            said.add_mat(f"{name}.ground", "ground", home)
+            said.add_lia(f"{name}.dashpot", [slow[0], f"{name}.ground"], scheme="explicit", damping=None)
+
+    def is_at_its_rate(self, number, divisor):
+        """The one that is written; `auto` says that of a tick, or one that divides it; or a raised one."""
+        base, ratio = self.base_of(self.sections[number]), self.said.ratio
+        if base not in self.said.sections:
+            return False
+        rate = self.said.sections[base]["rate"]
+        if isinstance(rate, dict):
+            written = int(rate["divisor"])
+        else:
+            written = {"audio": 1, "gestural": ratio}.get(rate, ratio)
+        is_felt = any(m["type"] == "slice" and self.base_of(self.sections[m["section"]]) == base for m in self.modules)
+        return divisor == written or rate == "auto" and not is_felt and ratio % divisor == 0 or (
+            divisor < written and self.is_raised(number, divisor))
+
+    def is_raised(self, number, divisor):
+        """To the rate of what it is linked to, as a link that is not linear and is left open is joined to it."""
+        own = [i for i, m in enumerate(self.modules) if m["section"] == number]
+        beside = [self.modules[end]["section"] for l in self.proof["links"] for end in l["between"]
+                  if any(self.modules[other]["section"] == number for other in l["between"])]
+        return sum(self.is_written(i) for i in own) <= MOST_RAISED and not any(map(self.stays, own)) and any(
+            s != number and self.divisors[s] == divisor for s in beside) and not self.opened().isdisjoint(own)
+
+    def opened(self):
+        """Modules that hang together with a link that is not linear and whose scheme is left open."""
+        places = {at["module"]: at["places"] for at in self.proof["points"]}
+        moved = [[m for end in l["between"] for place in places.get(end, [[[end, 1.0]]]) for m, _ in place
+                  if "mass" in self.modules[m]] for l in self.proof["links"]]
+        pairs = [(ends[0], m, 1.0) for ends in moved for m in ends]
+        bodies = csgraph.connected_components(matrix_of(pairs, len(self.modules)), directed=False)[1]
+        open_bodies = {bodies[m] for l, ends in zip(self.proof["links"], moved) for m in ends
+                       if (l["type"] != "spring_damper" or l["scheme"] == "guarded")
+                       and self.said.lias.get(l["name"], {"scheme": ""}).get("scheme") is None}
+        return {i for i, m in enumerate(self.modules) if "mass" in m and bodies[i] in open_bodies}
+
+    def stays(self, i):
+        """What can be felt, and what the samples of an input move, stays where a section is raised."""
+        return self.modules[i]["type"] in ("slice", "driven")
+
+    def is_written(self, i):
+        return ".filter." not in self.modules[i]["name"]
+
+    def is_guardable(self, link):
+        """Neither a linear spring whose line does not turn, nor a table that drives what moves."""
+        over = [self.said.sections[self.said.mats[end]["section"]]["geometry"] for end in link["between"]]
+        is_straight = "scalar" in over or over == ["line", "line"]
+        if link["type"] == "table":
+            return "viscous" not in link or brakes(link["viscous"])
+        return link["type"] != "spring_damper" or link["rest_length"] > 0 or (
+            times(link["damping"]) > 0 and not (is_straight and link["rest_length"] == 0))
+
+    def places(self):
+        """Of points."""
+        has = {self.modules[at["module"]]["name"]: at for at in self.proof["points"]}
+        points = {name for name, keys in self.said.mats.items() if keys["type"] == "point"}
+        if len(has) < len(self.proof["points"]) or has.keys() != points:
+            yield "its points are others"
+        for name in sorted(has.keys() & points):
+            if not same(self.said.mats[name]["power"], has[name]["power"]):
+                yield f"{name}: power is {self.said.mats[name]['power']}, not {has[name]['power']}"
+            if not self.are_same(self.said.places_of(name), has[name]["places"]):
+                yield f"{name}: it lies elsewhere"
+
+    def are_same(self, said, has):
+        """Places, without modules that are not free."""
+        named = [{self.modules[m]["name"]: weight for m, weight in place} for place in has]
+        free = [{m: weight for m, weight in place.items() if "mass" in self.mats[m]} for place in said]
+        return len(said) == len(has) and all(len(ours) == len(place) and all(
+            math.isclose(a.get(m, 0.0), b.get(m, 0.0), rel_tol=0, abs_tol=1e-12) for m in a.keys() | b.keys())
+            for ours, place, a, b in zip(named, has, free, named))
 
 
-def read(path, scene=None):
+def need_scene(proof, name, gestural_hz):
+    """It is of that text, and says what is written there; of `.mdl`, that nothing is turned, slower or moves."""
+    text = open(name, "rb").read()
+    need(hashlib.sha256(text).hexdigest() == proof["scene"]["sha256"], "it is of another scene")
+    if name.endswith(".mdl"):
+        has = [(s["name"], s["divisor"], s["geometry"], s["medium"], len(s)) for s in proof["sections"]]
+        need(has == [("model", 1, "scalar", 0.0, 5)] and not proof["points"], "its section")
+    else:
+        others = list(Comparison(proof, Said(text, proof["frame"], gestural_hz)).differences())
+        need(not others, "; ".join(others))
+
+
+def read(path, scene=None, gestural_hz=None):
     """\return the proof; refuses it if it is not that of the scene"""
     proof = json.load(open(path))
     said = proof.pop("sha256")
     need(proof["proof"] == 1 and digest(proof, hashlib.sha256()) == said, "something in it was changed")
     need_all_keys(proof)
     if scene:
-        text = open(scene, "rb").read()
-        need(hashlib.sha256(text).hexdigest() == proof["scene"]["sha256"], "it is of another scene")
-        others = [] if scene.endswith(".mdl") else list(differences(proof, text))
-        need(not others, "; ".join(others))
+        need_scene(proof, scene, gestural_hz)
     return proof

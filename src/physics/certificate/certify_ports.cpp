@@ -29,6 +29,7 @@ class PortJudge {
         rate_hz_(networks.rates().gesturalHz()),
         loop_(device, 1.0 / rate_hz_),
         damping_limit_(loop_.dampingLimit()),
+        free_slices_(networks),
         free_levels_(levelsOfFreeSlices()) {}
 
   PortCertificate judge(int p) const {
@@ -41,6 +42,9 @@ class PortJudge {
     met.damping = std::max(links_.damping(port), 0.0) * at_device;
     met.damping_limit = damping_limit_;
     met.level = std::max(loop_.judge(met.stiffness, met.damping), free_levels_[at(port.mat)]);
+    if (free_slices_.leftOut(port.mat) != nullptr) {
+      met.level = std::max(met.level, HandLevel::kWarned);
+    }
     // What an end-effector makes of a port is known where that is.
     met.is_judged = port.slice >= 0 && !isTaken(p, device_);
     return met;
@@ -57,35 +61,26 @@ class PortJudge {
 
   std::string describe(const PortCertificate& met) const {
     const scene::Port& port = scene_.ports[at(met.port)];
-    if (loop_.judge(met.stiffness, met.damping) < met.level) {
-      return describeFree(port) + (met.level == HandLevel::kRefused ? ": it will buzz" : "") +
-             ". Damp what hangs there, soften the link, scale the force down, or raise the "
-             "gestural rate";
+    const HandLevel of_links = loop_.judge(met.stiffness, met.damping);
+    const HandLevel of_free = free_levels_[at(port.mat)];
+    std::string text = "port '" + port.name + "': ";
+    if (of_links < of_free) {
+      text += describeFree(port, of_free);
+    } else if (of_links != HandLevel::kSilent) {
+      text += describeLinks(port, met, of_links);
     }
-    const bool is_damper = met.damping * met.stiffness_limit > met.stiffness * met.damping_limit;
-    const int link = is_damper ? links_.mostDamped(port) : links_.stiffest(port);
-    std::string text = "port '" + port.name + "': the hand may meet " +
-                       physics::describe(is_damper ? met.damping : met.stiffness) +
-                       (is_damper ? " N s/m" : " N/m") + ", mostly by link '" +
-                       scene_.lias[at(link)].name + "'; a slice " +
-                       (is_damper ? "of " + physics::describe(device_.mass) + " kg " : "") +
-                       "with " + physics::describe(device_.damping) +
-                       " N s/m of its own, answered " + physics::describe(device_.delay_ticks) +
-                       " ticks late, " + (is_damper ? "bears up to " : "is passive up to ") +
-                       physics::describe(is_damper ? met.damping_limit : met.stiffness_limit) +
-                       (is_damper ? " N s/m at " : " N/m at ") + wholeHz(rate_hz_) + " Hz";
-    text +=
-        met.level == HandLevel::kRefused ? ": it will buzz or jump" : " (silent below half of it)";
-    return text + (is_damper ? ". Lower the damping" : ". Soften the link") +
-           ", scale the force down, or raise the gestural rate";
+    if (free_slices_.leftOut(port.mat) != nullptr) {
+      const bool is_alone = of_links == HandLevel::kSilent && of_free == HandLevel::kSilent;
+      text += (is_alone ? "" : ". Beside, ") + describeLeftOut(port);
+    }
+    return text;
   }
 
  private:
   /// What hangs on a slice may set it off at less than its links alone. [mats]
   std::vector<HandLevel> levelsOfFreeSlices() const {
     std::vector<HandLevel> levels(scene_.mats.size(), HandLevel::kSilent);
-    const FreeSlices slices(networks_);
-    if (!(device_.mass > 0.0) || !slices.areJudged()) {
+    if (!(device_.mass > 0.0) || !free_slices_.areJudged()) {
       return levels;
     }
     DeviceTraits twice = device_;
@@ -93,11 +88,11 @@ class PortJudge {
     const auto grows = [this](double radius, double most) {
       return rate_hz_ * (radius - 1.0) > most;
     };
-    const std::vector<double> once = slices.radii(device_);
+    const std::vector<double> once = free_slices_.radii(device_);
     if (!grows(*std::max_element(once.begin(), once.end()), kWarnedGrowth)) {
       return levels;
     }
-    const std::vector<double> damped = slices.radii(twice);
+    const std::vector<double> damped = free_slices_.radii(twice);
     for (std::size_t m = 0; m < levels.size(); ++m) {
       if (grows(once[m], kWarnedGrowth)) {
         levels[m] = grows(damped[m], kRefusedGrowth) ? HandLevel::kRefused : HandLevel::kWarned;
@@ -121,13 +116,44 @@ class PortJudge {
            (isSlice(lia.a) && isSlice(lia.b));
   }
 
-  std::string describeFree(const scene::Port& port) const {
+  std::string ofHanging(const scene::Port& port) const {
     const std::vector<int>& links = links_.ofNodes()[at(port.mat)];
     const auto first = std::find_if(links.begin(), links.end(),
                                     [this](int l) { return leadsOn(scene_.lias[at(l)]); });
-    return "port '" + port.name + "': in nobody's hand " + ofSlice() +
-           "begins to swing with what hangs on link '" +
+    return "what hangs on link '" +
            scene_.lias[at(first == links.end() ? links.front() : *first)].name + "'";
+  }
+
+  std::string describeFree(const scene::Port& port, HandLevel level) const {
+    return "in nobody's hand " + ofSlice() + "begins to swing with " + ofHanging(port) +
+           (level == HandLevel::kRefused ? ": it will buzz" : "") +
+           ". Damp what hangs there, soften the link, scale the force down, or raise the gestural "
+           "rate";
+  }
+
+  std::string describeLeftOut(const scene::Port& port) const {
+    return "whether in nobody's hand a slice begins to swing with " + ofHanging(port) +
+           " is not all worked out, because of " + free_slices_.leftOut(port.mat) +
+           ". Let go of it with care";
+  }
+
+  std::string describeLinks(const scene::Port& port,
+                            const PortCertificate& met,
+                            HandLevel level) const {
+    const bool is_damper = met.damping * met.stiffness_limit > met.stiffness * met.damping_limit;
+    const int link = is_damper ? links_.mostDamped(port) : links_.stiffest(port);
+    std::string text =
+        "the hand may meet " + physics::describe(is_damper ? met.damping : met.stiffness) +
+        (is_damper ? " N s/m" : " N/m") + ", mostly by link '" + scene_.lias[at(link)].name +
+        "'; a slice " + (is_damper ? "of " + physics::describe(device_.mass) + " kg " : "") +
+        "with " + physics::describe(device_.damping) + " N s/m of its own, answered " +
+        physics::describe(device_.delay_ticks) + " ticks late, " +
+        (is_damper ? "bears up to " : "is passive up to ") +
+        physics::describe(is_damper ? met.damping_limit : met.stiffness_limit) +
+        (is_damper ? " N s/m at " : " N/m at ") + wholeHz(rate_hz_) + " Hz";
+    text += level == HandLevel::kRefused ? ": it will buzz or jump" : " (silent below half of it)";
+    return text + (is_damper ? ". Lower the damping" : ". Soften the link") +
+           ", scale the force down, or raise the gestural rate";
   }
 
   const RatedNetwork& networks_;
@@ -137,6 +163,7 @@ class PortJudge {
   double rate_hz_;
   HandLoop loop_;
   double damping_limit_;
+  FreeSlices free_slices_;
   std::vector<HandLevel> free_levels_;  // [mats]
 };
 

@@ -3,39 +3,36 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "at.hpp"
 #include "ergotic/physics/certificate/monodromy.hpp"
+#include "physics/certificate/hand_slopes.hpp"
 #include "physics/certificate/linear_stepper.hpp"
-#include "physics/certificate/port_links.hpp"
 #include "physics/step_units.hpp"
 #include "scene/laws/law.hpp"
 #include "scene/laws/range.hpp"
 
 namespace ergotic::physics {
-/// What links join to a slice: modules that move, points, and the slices among them.
-struct FreeSlices::Group {
-  std::set<int> nodes;
-  std::vector<int> slices;
-  int masses = 0;  // no more than one too many are counted
+/// Of what more than always holds links can be: of slices, and of what hangs there.
+struct FreeSlices::Parts {
+  double of_slices = 0.0;
+  double of_others = 0.0;
+  bool areEnds() const { return of_slices == 0.0 || of_slices == 1.0; }
 };
 
 namespace {
 
+using Parts = FreeSlices::Parts;
 using scene::MatType;
 
-constexpr int kMostMasses = 100;
-// Of the steepest slope. Between a mass that is late by a half and by a quarter of its period, the
-// worst, is a factor of 4.
-constexpr double kParts[] = {0.0, 0.0625, 0.25, 1.0};
+// Between a mass that is late by a half and by a quarter of its period, the worst, is a factor
+// of 4.
+constexpr Parts kParts[] = {{0.0, 0.0}, {0.0625, 0.0}, {0.25, 0.0},
+                            {1.0, 0.0}, {0.0, 1.0},    {1.0, 1.0}};
 
-bool isFree(const scene::Mat& mat) {
-  return mat.type == MatType::kMass || mat.type == MatType::kCell;
+bool isBent(const scene::Lia& lia) {
+  return lia.type != scene::LiaType::kSpringDamper;
 }
-
-/// [mats] that hands move and let go.
-using Hands = std::vector<unsigned char>;
 
 bool isAt(const Hands& hands, const scene::Lia& lia) {
   return hands[at(lia.a)] != 0 || hands[at(lia.b)] != 0;
@@ -49,7 +46,7 @@ void makeLinear(scene::Lia& lia,
                 const scene::Scene& now,
                 double part) {
   const scene::Law& law = scene::lawOf(lia.type);
-  const Slopes steepest = slopesAt(now, lia, kHandDepth);
+  const Slopes steepest = slopesInHand(now, lia);
   const double stiffness = law.has_linear_part ? now.valueOf(lia.stiffness) : 0.0;
   const double damping = law.has_linear_part ? now.valueOf(lia.damping) : 0.0;
   const double k = stiffness + part * (steepest.stiffness.highest - stiffness);
@@ -64,17 +61,15 @@ void makeLinear(scene::Lia& lia,
   lia.damping = {z / mean};
 }
 
-/// A scene with the links of slices at a part of what they can be, and what always holds elsewhere.
-/// Links without a force are left out.
+/// A scene with its links at parts of what they can be. Links without a force are left out.
 scene::Scene linearAround(const Hands& hands,
                           const RatedNetwork& networks,
                           scene::Scene now,
-                          double part) {
+                          const Parts& parts) {
   std::vector<scene::Lia> lias;
   for (scene::Lia lia : now.lias) {
-    const bool is_at_slice = isAt(hands, lia);
-    if (!hasLinearPart(lia) || (is_at_slice && lia.type != scene::LiaType::kSpringDamper)) {
-      makeLinear(lia, networks, now, is_at_slice ? part : 0.0);
+    if (!hasLinearPart(lia) || isBent(lia)) {
+      makeLinear(lia, networks, now, isAt(hands, lia) ? parts.of_slices : parts.of_others);
     }
     if (now.valueOf(lia.stiffness) != 0.0 || now.valueOf(lia.damping) != 0.0) {
       lias.push_back(std::move(lia));
@@ -82,60 +77,6 @@ scene::Scene linearAround(const Hands& hands,
   }
   now.lias = std::move(lias);
   return now;
-}
-
-FreeSlices::Group groupOf(int slice, const Network& network, const Hands& hands) {
-  const std::vector<std::vector<int>> links_of = linksOfNodes(network);
-  std::vector<std::vector<int>> points_on(network.nodes.size());
-  for (int node = 0; node < static_cast<int>(network.nodes.size()); ++node) {
-    for (const Share& share : sharesNow(network, node)) {
-      points_on[at(share.node)].push_back(node);
-    }
-  }
-  FreeSlices::Group group{{slice}, {slice}, 0};
-  std::vector<int> open{slice};
-  const auto reach = [&](int node) {
-    const bool is_slice = hands[at(node)] != 0;
-    const bool is_free = network.nodes[at(node)].is_free;
-    if ((is_slice || is_free || network.point_of[at(node)] >= 0) &&
-        group.nodes.insert(node).second) {
-      open.push_back(node);
-      group.masses += is_free ? 1 : 0;
-      if (is_slice) {
-        group.slices.push_back(node);
-      }
-    }
-  };
-  while (!open.empty() && group.masses <= kMostMasses) {
-    const int node = open.back();
-    open.pop_back();
-    for (const Share& share : sharesNow(network, node)) {
-      reach(share.node);
-    }
-    for (const int point : points_on[at(node)]) {
-      reach(point);
-    }
-    for (const int l : links_of[at(node)]) {
-      reach(network.links[at(l)].a);
-      reach(network.links[at(l)].b);
-    }
-  }
-  return group;
-}
-
-/// A group by itself: everything else becomes ground, and is left alone.
-scene::Scene onlyOf(const FreeSlices::Group& group, scene::Scene linear) {
-  const auto isIn = [&](int node) { return group.nodes.count(node) != 0; };
-  linear.lias.erase(
-      std::remove_if(linear.lias.begin(), linear.lias.end(),
-                     [&](const scene::Lia& lia) { return !isIn(lia.a) && !isIn(lia.b); }),
-      linear.lias.end());
-  for (std::size_t m = 0; m < linear.mats.size(); ++m) {
-    if (isFree(linear.mats[m]) && !isIn(static_cast<int>(m))) {
-      linear.mats[m].type = MatType::kGround;
-    }
-  }
-  return linear;
 }
 
 /// Without dampers along lines that turn: what moves across them they leave alone.
@@ -212,84 +153,70 @@ double gainOf(const scene::Scene& scene, int slice) {
   return gain;
 }
 
-bool isSlower(const scene::Scene& linear, const Rates& rates) {
-  return std::any_of(linear.mats.begin(), linear.mats.end(), [&](const scene::Mat& mat) {
-    return isFree(mat) && divisorOf(linear.sectionOf(mat), rates) > rates.ratio;
-  });
-}
-
-Hands handsOn(const scene::Scene& scene, const std::vector<int>& slices) {
-  Hands hands(scene.mats.size(), 0);
-  for (const int slice : slices) {
-    hands[at(slice)] = 1;
-  }
-  return hands;
-}
-
-std::vector<int> slicesInHands(const scene::Scene& scene) {
-  std::set<int> slices;
-  for (const scene::Port& port : scene.ports) {
-    if (port.agent < 0) {
-      slices.insert(port.mat);
-    }
-  }
-  return {slices.begin(), slices.end()};
-}
-
-/// True if a link of one of them is not linear.
-bool bends(const scene::Scene& scene, const std::vector<int>& slices) {
-  const Hands hands = handsOn(scene, slices);
-  return std::any_of(scene.lias.begin(), scene.lias.end(), [&](const scene::Lia& lia) {
-    return isAt(hands, lia) && lia.type != scene::LiaType::kSpringDamper;
-  });
+/// True if links that move with it are not linear: of its slices, or its others.
+bool bends(const scene::Scene& scene, const Hanging& hanging, const Parts& parts) {
+  const Hands hands = handsOn(scene, hanging.slices);
+  const auto isIn = [&](int node) { return hanging.nodes.count(node) != 0; };
+  const auto has = [&](bool at_slices) {
+    return std::any_of(scene.lias.begin(), scene.lias.end(), [&](const scene::Lia& lia) {
+      return isBent(lia) && (isIn(lia.a) || isIn(lia.b)) && isAt(hands, lia) == at_slices;
+    });
+  };
+  return (parts.of_slices == 0.0 || has(true)) && (parts.of_others == 0.0 || has(false));
 }
 
 }  // namespace
 
 FreeSlices::FreeSlices(const RatedNetwork& networks)
-    : networks_(networks), tick_s_(1.0 / networks.rates().gesturalHz()) {
-  const scene::Scene& scene = networks.scene();
-  const bool is_bent = bends(scene, slicesInHands(scene));
+    : networks_(networks),
+      tick_s_(1.0 / networks.rates().gesturalHz()),
+      left_out_(networks.scene().mats.size(), nullptr) {
+  const std::vector<scene::Lia>& lias = networks.scene().lias;
+  const bool is_bent = std::any_of(lias.begin(), lias.end(), isBent);
   const std::vector<scene::Scene> cases = casesOf(networks);
-  for (const double part : kParts) {
-    if (part == 0.0 || is_bent) {
-      const bool is_end = part == 0.0 || part == 1.0;  // between them, present values will do
-      for (std::size_t i = 0; i < (is_end ? cases.size() : 1); ++i) {
-        addGroups(cases[i], part);
-      }
+  for (const Parts& parts : kParts) {
+    const std::size_t count =
+        parts.areEnds() ? cases.size() : 1;  // between them, the present will do
+    for (std::size_t i = 0; i < (is_bent || &parts == kParts ? count : 0); ++i) {
+      addAll(cases[i], parts);
     }
   }
 }
 
-void FreeSlices::addGroups(const scene::Scene& now, double part) {
+void FreeSlices::addAll(const scene::Scene& now, const Parts& parts) {
   const std::vector<int> slices = slicesInHands(now);
   const Hands all = handsOn(now, slices);
-  const scene::Scene joined = linearAround(all, networks_, now, part);
+  const scene::Scene joined = linearAround(all, networks_, now, parts);
   const Network network(joined);
   std::set<int> known;
   for (const int slice : slices) {
-    const Group alone = groupOf(slice, network, handsOn(now, {slice}));
-    addCase(joined, alone, part);
+    add(joined, hangingOn(slice, network, handsOn(now, {slice})), parts);
     if (known.count(slice) == 0) {
-      const Group group = groupOf(slice, network, all);
-      known.insert(group.slices.begin(), group.slices.end());
-      if (group.slices.size() > 1) {
-        addCase(joined, group, part);
+      const Hanging together = hangingOn(slice, network, all);
+      known.insert(together.slices.begin(), together.slices.end());
+      if (together.slices.size() > 1) {
+        add(joined, together, parts);
       }
     }
   }
 }
 
-void FreeSlices::addCase(const scene::Scene& joined, const Group& group, double part) {
-  const bool is_new = part == 0.0 || bends(networks_.scene(), group.slices);
-  if (group.masses == 0 || group.masses > kMostMasses || !is_new) {
+void FreeSlices::add(const scene::Scene& joined, const Hanging& hanging, const Parts& parts) {
+  if (hanging.masses == 0 || !bends(networks_.scene(), hanging, parts)) {
     return;
   }
-  const scene::Scene linear = onlyOf(group, linearPart(joined, group.slices));
-  if (!isSlower(linear, networks_.rates())) {
-    cases_.push_back(caseOf(linear));
-    cases_.back().slices = group.slices;
+  const char* const reason = notWorkedOut(hanging, joined, networks_.rates());
+  const bool always_hangs = parts.of_slices == 0.0 && parts.of_others == 0.0;
+  for (const int slice : hanging.slices) {
+    if (reason != nullptr || (hanging.is_cut && always_hangs)) {
+      left_out_[at(slice)] = reason == nullptr ? "more than 100 masses" : reason;
+    }
   }
+  if (reason != nullptr) {
+    return;
+  }
+  cases_.push_back(caseOf(onlyOf(hanging, linearPart(joined, hanging.slices))));
+  cases_.back().slices = hanging.slices;
 }
 
 FreeSlices::Case FreeSlices::caseOf(const scene::Scene& linear) const {

@@ -6,25 +6,26 @@
 #include <Eigen/Core>
 
 #include "ergotic/physics/certificate/hand_loop.hpp"
-#include "physics/network/rated_network.hpp"
+#include "physics/certificate/hanging.hpp"
 
 namespace ergotic::physics {
 
 /// Slices that nobody holds, and the masses that hang on their links: each with the others held,
 /// and all free that links join, Euclidean sections as scalar ones. A link of a slice that is not
 /// linear counts as the springs and dampers that it can be, from what always holds to its steepest
-/// slope (at 1 mm, if that grows); others count with what always holds, contacts open. Realtime:
-/// no. Source: docs/physics.md, "At the device".
+/// slope (1 mm from the start, if that grows); others count with what always holds, contacts open,
+/// and at their steepest, closed. Realtime: no. Source: docs/physics.md, "At the device".
 class FreeSlices {
  public:
-  struct Group;
+  struct Parts;
 
   /// \param networks  must outlive it
   explicit FreeSlices(const RatedNetwork& networks);
 
-  /// Something hangs on a slice that moves by itself, and is few enough, at no slower rate, to be
-  /// worked out.
+  /// Something hangs on a slice that moves by itself, and is worked out.
   bool areJudged() const { return !cases_.empty(); }
+  /// What of all that hangs on a slice is not worked out, nullptr: nothing.
+  const char* leftOut(int slice) const { return left_out_[static_cast<std::size_t>(slice)]; }
 
   /// Largest absolute eigenvalue of a tick of what each slice is part of, at least 1, the worst of
   /// the present values of the parameters and both ends of their ranges. [mats]
@@ -39,8 +40,8 @@ class FreeSlices {
     Eigen::MatrixXd state;   // [numbers][numbers + slices]
     Eigen::MatrixXd forces;  // [slices][numbers + slices] at the device, N
   };
-  void addGroups(const scene::Scene& now, double part);
-  void addCase(const scene::Scene& joined, const Group& group, double part);
+  void addAll(const scene::Scene& now, const Parts& parts);
+  void add(const scene::Scene& joined, const Hanging& hanging, const Parts& parts);
   Case caseOf(const scene::Scene& linear) const;
   double radius(const Case& one, const DeviceTraits& device) const;
   static bool isOfSlices(const Case& one, double radius);
@@ -48,6 +49,7 @@ class FreeSlices {
   const RatedNetwork& networks_;
   std::vector<Case> cases_;
   double tick_s_;
+  std::vector<const char*> left_out_;  // [mats]
 };
 
 }  // namespace ergotic::physics

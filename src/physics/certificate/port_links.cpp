@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "at.hpp"
+#include "physics/certificate/hand_slopes.hpp"
 #include "scene/laws/law.hpp"
 #include "scene/laws/range.hpp"
 
@@ -153,11 +154,11 @@ double PortLinks::dampingAt(const scene::Port& port, int l) const {
 }
 
 double PortLinks::slope(int l) const {
-  return std::abs(slopesAt(scene_, scene_.lias[at(l)], kHandDepth).stiffness.highest);
+  return std::abs(slopesInHand(scene_, scene_.lias[at(l)]).stiffness.highest);
 }
 
 double PortLinks::damping(int l) const {
-  return slopesAt(scene_, scene_.lias[at(l)], kHandDepth).damping.highest;
+  return slopesInHand(scene_, scene_.lias[at(l)]).damping.highest;
 }
 
 /// One link after the other through masses that nothing else holds; what comes then is held.

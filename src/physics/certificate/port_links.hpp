@@ -7,9 +7,6 @@
 
 namespace ergotic::physics {
 
-/// m: where the slopes of a law grow without an end, a hand meets them there.
-constexpr double kHandDepth = 1e-3;
-
 /// The links of every module, to see from a port what its hand meets. All in the model's units.
 class PortLinks {
  public:

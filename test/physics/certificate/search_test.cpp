@@ -20,6 +20,9 @@ constexpr double kBlownUp =
     1e8;  // of the energy at the start, beside what steps near their limit lend
 constexpr double kGrowing = 1.5;  // the last quarter against the first: looked at for longer
 constexpr double kGrown = 3.0;    // over eight times as long
+// Over another eight times, of what is said to be bounded: what a bounded force drives grows with
+// the square of the time at most, until its losses are as large.
+constexpr double kRunAway = 100.0;
 
 /// The largest kinetic energy in the quarters of a performance.
 struct Quarters {
@@ -54,10 +57,13 @@ Quarters play(const scene::Scene& scene, const Rates& rates, int frames, Precisi
   return quarters;
 }
 
-bool grows(const scene::Scene& scene, const Rates& rates, Precision precision) {
-  const double growth = play(scene, rates, kFrames, precision).growth();
-  return growth >= kBlownUp ||
-         (growth > kGrowing && play(scene, rates, 8 * kFrames, precision).growth() > kGrown);
+bool grows(const scene::Scene& scene, const Rates& rates, Precision precision, bool is_bounded) {
+  const auto growth = [&](int times) {
+    return play(scene, rates, times * kFrames, precision).growth();
+  };
+  const double first = growth(1);
+  return first >= kBlownUp ||
+         (first > kGrowing && growth(8) > kGrown && (!is_bounded || growth(64) > kRunAway));
 }
 
 bool isVouched(Verdict verdict) {
@@ -76,7 +82,8 @@ Judged judge(const SmallScene& small, unsigned seed, bool plays_all = false) {
   judged.verdict = certify(scene, small.rates).verdict;
   judged.is_vouched = isVouched(judged.verdict);
   judged.grows = (judged.is_vouched || plays_all) &&
-                 grows(scene, small.rates, seed % 2 == 0 ? Precision::kDouble : Precision::kFloat);
+                 grows(scene, small.rates, seed % 2 == 0 ? Precision::kDouble : Precision::kFloat,
+                       judged.verdict == Verdict::kBounded);
   return judged;
 }
 

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/certificate/hanging.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "at.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+using scene::MatType;
+
+constexpr int kMostMasses = 100;
+constexpr int kNearest = 16;  // of more
+constexpr double kRounding = 1e-9;
+
+/// True if what moves along the axes of one section is not all seen in another.
+bool isHidden(const scene::Section& axes, const scene::Section& from) {
+  const Eigen::Matrix3d turn = from.pose.linear().transpose() * axes.pose.linear();
+  const Eigen::Index seen = scene::dimensionsOf(from.geometry);
+  for (Eigen::Index axis = 0; axis < scene::dimensionsOf(axes.geometry); ++axis) {
+    if (turn.col(axis).head(seen).norm() < 1.0 - kRounding) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// True if a link acts along axes that are not those of a mass at its end, which by that is slower
+/// than its weight tells. A slice that is turned only feels less.
+bool hidesAMass(const scene::Scene& scene, const scene::Lia& lia) {
+  const auto isSlice = [&](int mat) { return scene.mats[at(mat)].type == MatType::kSlice; };
+  const scene::Section& a = scene.sectionOf(scene.mats[at(lia.a)]);
+  const scene::Section& b = scene.sectionOf(scene.mats[at(lia.b)]);
+  if (&a == &b || (a.geometry == b.geometry && a.geometry == scene::Geometry::kScalar)) {
+    return false;
+  }
+  const bool is_of_b = b.geometry < a.geometry;
+  return is_of_b ? !isSlice(lia.a) && isHidden(b, a) : !isSlice(lia.b) && isHidden(a, b);
+}
+
+/// Up to so many masses, the nearest.
+Hanging reachedFrom(int slice, const Network& network, const Hands& hands, int most) {
+  const std::vector<std::vector<int>> links_of = linksOfNodes(network);
+  std::vector<std::vector<int>> points_on(network.nodes.size());
+  for (int node = 0; node < static_cast<int>(network.nodes.size()); ++node) {
+    for (const Share& share : sharesNow(network, node)) {
+      points_on[at(share.node)].push_back(node);
+    }
+  }
+  Hanging hanging{{slice}, {slice}};
+  std::vector<int> reached{slice};
+  const auto reach = [&](int node) {
+    const bool is_slice = hands[at(node)] != 0;
+    const bool is_free = network.nodes[at(node)].is_free;
+    if ((!is_slice && !is_free && network.point_of[at(node)] < 0) ||
+        hanging.nodes.count(node) != 0) {
+      return;
+    }
+    if (is_free && hanging.masses == most) {
+      hanging.is_cut = true;
+      return;
+    }
+    hanging.nodes.insert(node);
+    reached.push_back(node);
+    hanging.masses += is_free ? 1 : 0;
+    if (is_slice) {
+      hanging.slices.push_back(node);
+    }
+  };
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const int node = reached[i];
+    for (const Share& share : sharesNow(network, node)) {
+      reach(share.node);
+    }
+    for (const int point : points_on[at(node)]) {
+      reach(point);
+    }
+    for (const int l : links_of[at(node)]) {
+      reach(network.links[at(l)].a);
+      reach(network.links[at(l)].b);
+    }
+  }
+  return hanging;
+}
+
+}  // namespace
+
+bool isFree(const scene::Mat& mat) {
+  return mat.type == MatType::kMass || mat.type == MatType::kCell;
+}
+
+std::vector<int> slicesInHands(const scene::Scene& scene) {
+  std::set<int> slices;
+  for (const scene::Port& port : scene.ports) {
+    if (port.agent < 0) {
+      slices.insert(port.mat);
+    }
+  }
+  return {slices.begin(), slices.end()};
+}
+
+Hands handsOn(const scene::Scene& scene, const std::vector<int>& slices) {
+  Hands hands(scene.mats.size(), 0);
+  for (const int slice : slices) {
+    hands[at(slice)] = 1;
+  }
+  return hands;
+}
+
+Hanging hangingOn(int slice, const Network& network, const Hands& hands) {
+  const Hanging all = reachedFrom(slice, network, hands, kMostMasses);
+  return all.is_cut ? reachedFrom(slice, network, hands, kNearest) : all;
+}
+
+scene::Scene onlyOf(const Hanging& hanging, scene::Scene scene) {
+  const auto isIn = [&](int node) { return hanging.nodes.count(node) != 0; };
+  scene.lias.erase(
+      std::remove_if(scene.lias.begin(), scene.lias.end(),
+                     [&](const scene::Lia& lia) { return !isIn(lia.a) && !isIn(lia.b); }),
+      scene.lias.end());
+  for (std::size_t m = 0; m < scene.mats.size(); ++m) {
+    if (isFree(scene.mats[m]) && !isIn(static_cast<int>(m))) {
+      scene.mats[m].type = MatType::kGround;
+    }
+  }
+  return scene;
+}
+
+const char* notWorkedOut(const Hanging& hanging, const scene::Scene& scene, const Rates& rates) {
+  for (const int node : hanging.nodes) {
+    const scene::Mat& mat = scene.mats[at(node)];
+    if (isFree(mat) && divisorOf(scene.sectionOf(mat), rates) > rates.ratio) {
+      return "a section that is slower than the slice";
+    }
+  }
+  const auto isIn = [&](int node) { return hanging.nodes.count(node) != 0; };
+  const bool is_hidden = std::any_of(scene.lias.begin(), scene.lias.end(), [&](const auto& lia) {
+    return isIn(lia.a) && isIn(lia.b) && hidesAMass(scene, lia);
+  });
+  return is_hidden ? "masses that move along other axes than their links" : nullptr;
+}
+
+}  // namespace ergotic::physics

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <set>
+#include <vector>
+
+#include "physics/network/rated_network.hpp"
+
+namespace ergotic::physics {
+
+/// True of what forces move.
+bool isFree(const scene::Mat& mat);
+
+/// [mats] that hands move and let go.
+using Hands = std::vector<unsigned char>;
+std::vector<int> slicesInHands(const scene::Scene& scene);
+Hands handsOn(const scene::Scene& scene, const std::vector<int>& slices);
+
+/// What links join to a slice: modules that move, of more than 100 the 16 nearest; points; and the
+/// slices among them.
+struct Hanging {
+  std::set<int> nodes;
+  std::vector<int> slices;
+  int masses = 0;
+  bool is_cut = false;  ///< there are more
+};
+/// \param hands  that let go; what the others move is held
+Hanging hangingOn(int slice, const Network& network, const Hands& hands);
+
+/// What hangs there by itself: everything else becomes ground, and is left alone.
+scene::Scene onlyOf(const Hanging& hanging, scene::Scene scene);
+
+/// Why it cannot be worked out as a scalar network at the rate of the slice; nullptr: it can be.
+const char* notWorkedOut(const Hanging& hanging, const scene::Scene& scene, const Rates& rates);
+
+}  // namespace ergotic::physics

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What hangs on a slice and is not worked out, or not all: that is said.
+
+#include "ergotic/physics/certificate/certify.hpp"
+#include "support/physics.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+constexpr Rates kRates{44100.0, 14};
+
+Certificate judged(const scene::Scene& scene) {
+  return certify(settle(scene, kRates).scene, kRates);
+}
+
+/// So many masses, 0.1 kg in all, that move nearly as one, and lose; on a link.
+scene::Scene bodyOn(int masses, LiaType type, double loss = 0.0) {
+  SceneBuilder b;
+  const int slice = b.slice(0);
+  const int ground = b.ground();
+  const int first = b.mass(0.1 / masses, 0.0);
+  for (int i = 1; i < masses; ++i) {
+    b.spring(b.mass(0.1 / masses, 0.0), first + i - 1, 1e5);
+  }
+  b.spring(first, ground, 0.0, loss);
+  b.link(type, slice, first, 2000.0);
+  b.scene.lias.back().scheme = type == LiaType::kContact ? Scheme::kGuarded : Scheme::kExplicit;
+  return b.scene;
+}
+
+TEST(LeftOutSlicesTest, MoreThanAHundredMasses) {
+  EXPECT_THAT(judged(bodyOn(100, LiaType::kSpringDamper)).findings,
+              ElementsAre(HasSubstr("begins to swing with what hangs on link 'l100'")));
+  const Certificate certificate = judged(bodyOn(101, LiaType::kSpringDamper));
+  EXPECT_THAT(certificate.findings, ElementsAre(HasSubstr("because of more than 100 masses")));
+  EXPECT_EQ(certificate.ports.at(0).level, HandLevel::kWarned);
+  EXPECT_EQ(certificate.ports[0].finding, certificate.findings[0]);
+}
+
+/// Of what may let go the nearest masses tell enough.
+TEST(LeftOutSlicesTest, MoreThanAHundredMassesBehindAContactAreNoAlarm) {
+  EXPECT_THAT(judged(bodyOn(101, LiaType::kSpringDamper, 1.0)).findings, testing::SizeIs(1));
+  EXPECT_TRUE(judged(bodyOn(101, LiaType::kContact, 1.0)).findings.empty());
+  EXPECT_THAT(judged(bodyOn(101, LiaType::kContact)).findings,
+              ElementsAre(HasSubstr("begins to swing with")));
+}
+
+scene::Scene massOn(int section, double stiffness) {
+  SceneBuilder b;
+  b.spring(b.mass(0.1, 0.0, 0.0, section), b.slice(0), stiffness);
+  return b.scene;
+}
+
+TEST(LeftOutSlicesTest, SectionsThatAreSlower) {
+  scene::Scene scene = massOn(SceneBuilder::kAudio, 2000.0);
+  scene.sections.at(SceneBuilder::kAudio).divisor = 28;
+  EXPECT_THAT(judged(scene).findings, ElementsAre(HasSubstr("slower than the slice")));
+}
+
+/// A mass on a line that is turned by 60 degrees moves against a slice like four times its weight.
+TEST(LeftOutSlicesTest, LinesThatAreTurned) {
+  scene::Scene scene = massOn(SceneBuilder::kAudio, 500.0);
+  scene::Section& section = scene.sections.at(SceneBuilder::kAudio);
+  section.geometry = Geometry::kLine;
+  EXPECT_TRUE(judged(scene).findings.empty());
+  section.pose.rotate(Eigen::AngleAxisd(kPi / 3.0, Eigen::Vector3d::UnitZ()));
+  EXPECT_THAT(judged(scene).findings, ElementsAre(HasSubstr("other axes than their links")));
+}
+
+}  // namespace
+}  // namespace ergotic::physics

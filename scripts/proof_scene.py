@@ -64,7 +64,7 @@ class Said:
         self.gestural_hz = float(gestural_hz or scene.get("gestural_rate", 3000))
         self.ratio = min(max(1, math.floor(1 / frame / self.gestural_hz + 0.5)), MOST_FRAMES)
         self.only = next(iter(self.sections)) if len(self.sections) == 1 else None
-        self.grids = {}  # of each its section, columns and rows
+        self.grids, self.tuned = {}, {}  # of grids the section, columns and rows; strings with a frequency
         for keys in scene.get("generators") or []:
             getattr(self, "add_" + keys["type"])(keys["name"], {"section": self.only, **keys})
         for keys in self.sections.values():
@@ -106,6 +106,8 @@ class Said:
         loss, damping, ends = keys.get("loss"), keys.get("damping", "0"), (0, count + 1)
         first, last = (vector(keys.get(end), self.size_of(section)) for end in ("from", "to"))
         self.grids[name] = section, count + 2, 1
+        if "frequency" in keys and not is_coarse:
+            self.tuned[name] = keys
         for i in range(count + 2):
             kind = "ground" if i in ends else "cell" if loss else "mass"
             self.add_mat(f"{name}.{i}", kind, section, mass=keys["mass"], damping=loss or "0",

@@ -10,7 +10,7 @@ import numpy as np
 from scipy import interpolate, sparse
 from scipy.sparse import csgraph
 
-from proof_scene import AXES, DEFAULTS, PARTS, Said, axes_of
+from proof_scene import AXES, DEFAULTS, PARTS, Said, axes_of, scaled
 
 MOST_RAISED = 100  # modules of a section
 SPRING, CLIPPED = "stiffness damping rest_length", "nonlinearity stiffness_limit tipping_point limit_damping "
@@ -138,6 +138,8 @@ class Comparison:
     def differences(self):
         for link in [name for name, keys in self.said.lias.items() if keys.get("filter") == "auto"]:
             yield from self.filter_of(link)
+        for name, keys in self.said.tuned.items():
+            self.tune(name, keys)
         for part, ours in PARTS.items():
             known, said = {each["name"]: self.has_of(each) for each in self.proof[ours]}, self.said.parts[part]
             if len(known) < len(self.proof[ours]):
@@ -163,6 +165,23 @@ class Comparison:
             yield f"{name}: its scheme"
         if "axes" in has and not np.allclose(has["axes"], axes_of(said), rtol=0, atol=1e-12):
             yield f"{name}: it is turned otherwise"
+
+    def tune(self, name, keys):
+        """The springs of a string, unless what damps it follows a parameter: then its value counts, not its range."""
+        section = self.mats[f"{name}.1"]["section"]
+        medium, size = self.said.sections[keys["section"]]["medium"], self.said.size_of(keys["section"])
+        (mass, most), *losses = (self.said.span_of(each) for each in (
+            keys["mass"], keys["damping"] if size == 1 and "damping" in keys else "0", keys.get("loss", "0"), medium))
+        if any(low != high or high and mass != most for low, high in losses):
+            return
+        step, count = self.divisors[section] * self.proof["frame"], int(keys["masses"])
+        one = 4 * math.sin(math.pi / (2 * (count + 1))) ** 2
+        (between, _), (own, _), (around, _) = losses
+        zeta = one * between * step / mass - math.expm1(-(own + around) * step / mass)
+        rho, share = math.sqrt(1 - zeta), 1 - float(keys.get("rest_length_ratio", 0)) * (size > 1)
+        kappa = (zeta / (1 + rho)) ** 2 + 4 * rho * math.sin(math.pi * float(keys["frequency"]) * step) ** 2
+        for i in range(count + 1):
+            self.said.lias[f"{name}.link.{i}"]["stiffness"] = scaled(keys["mass"], kappa / (one * share * step ** 2))
 
     def whole_sections(self, known):
         """With what was raised out of them."""

@@ -255,6 +255,8 @@ const std::string kMade =
     "     damping: 1e-2, rest_length_ratio: 0.5, to: [1, 0]}\n"
     "  - {type: string, name: coarse, section: s, masses: 12, mass: 1e-3, frequency: 440,\n"
     "     coarse: true, damping: 1e-4, to: [1, 0]}\n"
+    "  - {type: string, name: tuned, section: s, masses: 6, mass: 1e-3, frequency: 220,\n"
+    "     damping: 1e-4, loss: 1e-3, to: [1, 0]}\n"
     "  - {type: mesh, name: net, section: flat, rows: 3, columns: 4, spacing: 0.1, mass: $m,\n"
     "     stiffness: 1e3, rest_length_ratio: 0.8}\n"
     "  - {type: chaplet, name: soft, section: s, from: hand, mass: 2e-3}\n"
@@ -290,6 +292,7 @@ TEST(ProofTest, IsRefusedUnderTheNameOfAnotherScene) {
       {kRaised, "rate: gestural}", "rate: gestural, medium: 1}", "slow.raised: medium"},
       {kRaised, "stiffness: 1e4}\n  held", "stiffness: 2e4}\n  held", "own: stiffness"},
       {kMade, "ratio: 0.5", "ratio: 0.6", "tense.link.0: rest_length"},
+      {kMade, "frequency: 220", "frequency: 221", "tuned.link.0: stiffness"},
       {kMade, "gestural_rate: 3000", "gestural_rate: 2950", "soft.link.0: stiffness"},
       {kMade, "frequency: 100", "frequency: 90", "p.filter: stiffness"},
       {kMade, "mat: tense.2", "mat: tense.3", "a.hand: between"},

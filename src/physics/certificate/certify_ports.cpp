@@ -6,6 +6,7 @@
 #include "physics/certificate/certify_parts.hpp"
 #include "physics/certificate/free_slices.hpp"
 #include "physics/certificate/port_links.hpp"
+#include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -142,11 +143,13 @@ class PortJudge {
                             HandLevel level) const {
     const bool is_damper = met.damping * met.stiffness_limit > met.stiffness * met.damping_limit;
     const int link = is_damper ? links_.mostDamped(port) : links_.stiffest(port);
+    const bool is_growing = scene::lawOf(scene_.lias[at(link)].type).growth != nullptr;
     std::string text =
         "the hand may meet " + physics::describe(is_damper ? met.damping : met.stiffness) +
-        (is_damper ? " N s/m" : " N/m") + ", mostly by link '" + scene_.lias[at(link)].name +
-        "'; a slice " + (is_damper ? "of " + physics::describe(device_.mass) + " kg " : "") +
-        "with " + physics::describe(device_.damping) + " N s/m of its own, answered " +
+        (is_damper ? " N s/m" : " N/m") + (is_growing ? " within a millimetre" : "") +
+        ", mostly by link '" + scene_.lias[at(link)].name + "'; a slice " +
+        (is_damper ? "of " + physics::describe(device_.mass) + " kg " : "") + "with " +
+        physics::describe(device_.damping) + " N s/m of its own, answered " +
         physics::describe(device_.delay_ticks) + " ticks late, " +
         (is_damper ? "bears up to " : "is passive up to ") +
         physics::describe(is_damper ? met.damping_limit : met.stiffness_limit) +

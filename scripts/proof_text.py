@@ -119,6 +119,7 @@ class Comparison:
         self.proof, self.said, self.sections, self.modules = proof, said, proof["sections"], proof["modules"]
         self.mats, self.lias = ({each["name"]: each for each in proof[part]} for part in ("modules", "links"))
         self.divisors = [s["divisor"] for s in self.sections]
+        self.points = {at["module"]: at["places"] for at in proof["points"]}
 
     def base_of(self, section):
         name = section["name"]
@@ -209,15 +210,28 @@ class Comparison:
                     is_part = False
                 if not is_part:
                     yield f"{name}: it is no part of {stem}"
+        for name, link in known.items():
+            if link["scheme"] == "guarded" and link["type"] == "spring_damper" and (
+                    f"{name}.tension" not in self.lias and self.is_tense(link)):
+                yield f"{name}: what pulls at any length is not split off"
+
+    def is_tense(self, link):
+        """Where its ends rest, by more than rounding."""
+        rest = link["rest_length"]
+        return times(link["stiffness"]) != 0 if rest == 0 else rest < self.length_of(link) * (1 - 1e-9)
+
+    def length_of(self, link):
+        """Where its ends rest; NaN where they do not in the same section."""
+        a, b = (self.said.mats[end] for end in link["between"])
+        may_rest = a["section"] == b["section"] and "lies" in a and "lies" in b
+        return np.linalg.norm(a["lies"] - b["lies"]) if may_rest else math.nan
 
     def is_stretched(self, link, split):
         a, b = (self.said.mats[end] for end in link["between"])
         is_straight = all(self.said.sections[end["section"]]["geometry"] == "line" for end in (a, b))
-        may_rest = a["section"] == b["section"] and "lies" in a and "lies" in b
-        at_rest = np.linalg.norm(a["lies"] - b["lies"]) if may_rest else math.nan
         is_slack = link["rest_length"] == times(link["stiffness"]) == 0
         return split["rest_length"] == 0 == times((link if is_straight else split)["damping"]) and (
-            is_slack or math.isclose(link["rest_length"], at_rest, rel_tol=1e-9))
+            is_slack or math.isclose(link["rest_length"], self.length_of(link), rel_tol=1e-9))
 
     def filter_of(self, link):
         """Two masses before its slower end, in the section of the faster one or in their own."""
@@ -259,22 +273,28 @@ class Comparison:
     def is_raised(self, number, divisor):
         """To the rate of what it is linked to, as a link that is not linear and is left open is joined to it."""
         own = [i for i, m in enumerate(self.modules) if m["section"] == number]
-        beside = [self.modules[end]["section"] for l in self.proof["links"] for end in l["between"]
-                  if any(self.modules[other]["section"] == number for other in l["between"])]
-        return sum(self.is_written(i) for i in own) <= MOST_RAISED and not any(map(self.stays, own)) and any(
+        beside = {self.modules[other]["section"] for l in self.joining() for end, other in (
+            l["between"], l["between"][::-1]) if self.modules[end]["section"] == number and self.moved(end)}
+        return sum(map(self.is_written, own)) <= MOST_RAISED and not any(map(self.stays, own)) and any(
             s != number and self.divisors[s] == divisor for s in beside) and not self.opened().isdisjoint(own)
 
     def opened(self):
         """Modules that hang together with a link that is not linear and whose scheme is left open."""
-        places = {at["module"]: at["places"] for at in self.proof["points"]}
-        moved = [[m for end in l["between"] for place in places.get(end, [[[end, 1.0]]]) for m, _ in place
-                  if "mass" in self.modules[m]] for l in self.proof["links"]]
+        moved = [[m for end in l["between"] for m in self.moved(end)] for l in self.joining()]
         pairs = [(ends[0], m, 1.0) for ends in moved for m in ends]
         bodies = csgraph.connected_components(matrix_of(pairs, len(self.modules)), directed=False)[1]
-        open_bodies = {bodies[m] for l, ends in zip(self.proof["links"], moved) for m in ends
-                       if (l["type"] != "spring_damper" or l["scheme"] == "guarded")
-                       and self.said.lias.get(l["name"], {"scheme": ""}).get("scheme") is None}
+        opening = [l for l in self.proof["links"] if (l["type"] != "spring_damper" or l["scheme"] == "guarded")
+                   and self.said.lias.get(l["name"], {"scheme": ""}).get("scheme") is None]
+        open_bodies = {bodies[m] for l in opening for end in l["between"] for m in self.moved(end)}
         return {i for i, m in enumerate(self.modules) if "mass" in m and bodies[i] in open_bodies}
+
+    def joining(self):
+        """Links that may be explicit, whatever the rates."""
+        return [l for l in self.proof["links"] if self.said.lias.get(l["name"], {}).get("scheme") != "guarded"]
+
+    def moved(self, end):
+        places = self.points.get(end, [[[end, 1.0]]])
+        return {m for place in places for m, _ in place if "mass" in self.modules[m]}
 
     def stays(self, i):
         """What can be felt, and what the samples of an input move, stays where a section is raised."""

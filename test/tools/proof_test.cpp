@@ -247,6 +247,11 @@ const std::string kRaised =
     "  own: {type: spring, between: [f, g], stiffness: 1e4}\n"
     "  held: {type: spring, between: [m, hand], stiffness: 1e3}\n"
     "  hit: {type: contact, between: [m, f], stiffness: 1e4}\n";
+/// A spring that is stretched where its ends rest.
+const std::string kStretched =
+    "ergotic: 1\nsections: {s: {geometry: plane}}\nmats:\n  g: {type: ground}\n"
+    "  m: {type: mass, mass: 1, at: [0.1, 0]}\nlias:\n"
+    "  l: {type: spring, between: [m, g], stiffness: 1e4, rest_length: 0.05}\n";
 /// What generators, agents, filters and settling make beside what is written.
 const std::string kMade =
     "ergotic: 1\ngestural_rate: 3000\nparameters: {m: {value: 1e-3, range: [1e-3, 2e-3]}}\n"
@@ -291,6 +296,8 @@ TEST(ProofTest, IsRefusedUnderTheNameOfAnotherScene) {
        "more of lias is not in the scene"},
       {kRaised, "rate: gestural}", "rate: gestural, medium: 1}", "slow.raised: medium"},
       {kRaised, "stiffness: 1e4}\n  held", "stiffness: 2e4}\n  held", "own: stiffness"},
+      {kStretched, "[0.1, 0]", "[0.05, 0]", "l: what pulls at any length is not split off"},
+      {kStretched, "[0.1, 0]", "[0.2, 0]", "l.tension: it is no part of l"},
       {kMade, "ratio: 0.5", "ratio: 0.6", "tense.link.0: rest_length"},
       {kMade, "frequency: 220", "frequency: 221", "tuned.link.0: stiffness"},
       {kMade, "gestural_rate: 3000", "gestural_rate: 2950", "soft.link.0: stiffness"},
@@ -304,7 +311,7 @@ TEST(ProofTest, IsRefusedUnderTheNameOfAnotherScene) {
     other.replace(at, lie.said.size(), lie.instead);
     EXPECT_THAT(refusalUnderTheNameOf(lie.text, other), HasSubstr(lie.reason)) << lie.instead;
   }
-  for (const std::string& text : {kRates, kPoints, kRaised, kMade}) {
+  for (const std::string& text : {kRates, kPoints, kRaised, kStretched, kMade}) {
     EXPECT_EQ(refusalUnderTheNameOf(text, text), "") << text;
   }
 }
@@ -328,6 +335,16 @@ TEST(ProofTest, HoldsNoSectionFasterThanSettlingMakesIt) {
   EXPECT_THAT(refusalUnderTheNameOf(plain, fast), HasSubstr("slow: divisor is not 1"));
   const std::string joined = with("[n, g]", "[f, n]");
   EXPECT_EQ(refusalUnderTheNameOf(joined, joined), "");
+  // What is guarded by its text joins nothing.
+  const std::string apart =
+      "ergotic: 1\nsections: {fast: {}, slow: {rate: gestural}}\nmats:\n"
+      "  f: {type: mass, section: fast, mass: 1}\n  m: {type: mass, section: slow, mass: 1}\n"
+      "  g: {type: ground, section: slow}\nlias:\n"
+      "  hit: {type: contact, between: [m, f], stiffness: 1e4, scheme: guarded}\n"
+      "  open: {type: contact, between: [m, g], stiffness: 1e4}\n";
+  std::string raised = apart;
+  raised.replace(raised.find("slow: {rate: gestural}"), 22, "slow: {}");
+  EXPECT_THAT(refusalUnderTheNameOf(apart, raised), HasSubstr("slow: divisor is not 1"));
 }
 
 TEST(ProofTest, MustBeToldAGesturalRateThatTheSceneDoesNotWish) {

@@ -206,7 +206,8 @@ class Comparison:
                 if part == "tension":
                     is_part = is_part and self.is_stretched(link, split)
                     known[stem] = whole(link, split)
-                elif not (link["type"] == "table" and same("0", split["damping"]) and times(split["stiffness"]) < 0):
+                elif not (link["type"] == "table" and max(gives := (times(split["stiffness"]), times(split["damping"])))
+                          <= 0 > min(gives)):
                     is_part = False
                 if not is_part:
                     yield f"{name}: it is no part of {stem}"
@@ -308,7 +309,9 @@ class Comparison:
         over = [self.said.sections[self.said.mats[end]["section"]]["geometry"] for end in link["between"]]
         is_straight = "scalar" in over or over == ["line", "line"]
         if link["type"] == "table":
-            return "viscous" not in link or brakes(link["viscous"])
+            push = next((l for l in self.proof["links"] if l["name"] == f"{link['name']}.push"), {"damping": 0})
+            return "viscous" not in link or brakes(link["viscous"]) or -times(push["damping"]) >= -slopes_of(
+                link["viscous"])[0] * (1 - 1e-9)
         return link["type"] != "spring_damper" or link["rest_length"] > 0 or (
             times(link["damping"]) > 0 and not (is_straight and link["rest_length"] == 0))
 

@@ -17,6 +17,13 @@ namespace {
 constexpr double kHeld = 4e-9;  // of the norm: half of it is definite all the same
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+double stiffnessOf(const NetworkBound::Link& link) {
+  return link.stiffness.lowest;
+}
+double dampingOf(const NetworkBound::Link& link) {
+  return link.damping.lowest;
+}
+
 /// What shows that the eigenvalues of some rows are above a margin. \param margin  of their norm
 std::optional<Factor> factorAbove(const NetworkBound& network,
                                   const Matrix& lower,
@@ -97,35 +104,17 @@ std::optional<Factor> definiteBesideNegative(const NetworkBound& network,
   return factorAbove(network, assemblePart(network, nodes, coefficient), nodes, kPivotMargin);
 }
 
-}  // namespace
-
-std::optional<Factor> NetworkSpectrum::semidefiniteStiffness(const NetworkBound& network) {
-  return definiteBesideNegative(
-      network, [](const NetworkBound::Link& link) { return link.stiffness.lowest; });
-}
-
-std::optional<Factor> NetworkSpectrum::semidefiniteDamping(const NetworkBound& network) {
-  return definiteBesideNegative(network,
-                                [](const NetworkBound::Link& link) { return link.damping.lowest; });
-}
-
-std::optional<Factor> NetworkSpectrum::definiteDamping(const NetworkBound& network) {
-  const Matrix softest = assemble(network, scaleOf(network), [](const NetworkBound::Link& link) {
-    return link.damping.lowest;
-  });
-  return factorAbove(network, softest, allNodes(network), kPivotMargin);
-}
-
-double NetworkSpectrum::softness(const NetworkBound& network, const Shares& u) {
-  const auto stiffness = [](const NetworkBound::Link& link) { return link.stiffness.lowest; };
+/// u' A^-1 u for the weights u at some nodes, A of a positive coefficient.
+template <class CoefficientOf>
+double giveOf(const NetworkBound& network, const Shares& u, CoefficientOf coefficient) {
   std::vector<int> ends;
   Eigen::VectorXd pull = Eigen::VectorXd::Zero(network.nodes());
   for (const Share& share : u) {
     ends.push_back(share.node);
     pull[share.node] += share.weight / std::sqrt(network.mass(share.node));
   }
-  const std::vector<int> nodes = nodesBeside(network, ends, stiffness);
-  Matrix held = assemblePart(network, nodes, stiffness);
+  const std::vector<int> nodes = nodesBeside(network, ends, coefficient);
+  Matrix held = assemblePart(network, nodes, coefficient);
   const double margin = kHeld * normOf(held);
   Eigen::VectorXd force(held.rows());
   for (int row = 0; row < held.rows(); ++row) {
@@ -137,6 +126,29 @@ double NetworkSpectrum::softness(const NetworkBound& network, const Shares& u) {
   }
   const Eigen::SimplicialLDLT<Matrix> solver(held);
   return allPivotsPositive(solver) ? force.dot(solver.solve(force)) : kInfinity;
+}
+
+}  // namespace
+
+std::optional<Factor> NetworkSpectrum::semidefiniteStiffness(const NetworkBound& network) {
+  return definiteBesideNegative(network, stiffnessOf);
+}
+
+std::optional<Factor> NetworkSpectrum::semidefiniteDamping(const NetworkBound& network) {
+  return definiteBesideNegative(network, dampingOf);
+}
+
+std::optional<Factor> NetworkSpectrum::definiteDamping(const NetworkBound& network) {
+  const Matrix softest = assemble(network, scaleOf(network), dampingOf);
+  return factorAbove(network, softest, allNodes(network), kPivotMargin);
+}
+
+double NetworkSpectrum::softness(const NetworkBound& network, const Shares& u) {
+  return giveOf(network, u, stiffnessOf);
+}
+
+double NetworkSpectrum::mobility(const NetworkBound& network, const Shares& u) {
+  return giveOf(network, u, dampingOf);
 }
 
 }  // namespace ergotic::physics

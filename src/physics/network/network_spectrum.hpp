@@ -51,6 +51,8 @@ class NetworkSpectrum {
   /// k u u^T is definite for every k below its inverse. Infinite if all that hangs together with
   /// them is not held, by 4e-9 of the norm.
   static double softness(const NetworkBound& network, const Shares& u);
+  /// The same of Z.
+  static double mobility(const NetworkBound& network, const Shares& u);
 
  private:
   using Matrix = Eigen::SparseMatrix<double>;

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "physics/settling/split_tables.hpp"
 
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "at.hpp"
+#include "ergotic/scene/table.hpp"
 #include "physics/network/network_spectrum.hpp"
 #include "physics/network/rated_network.hpp"
+#include "scene/laws/slopes.hpp"
 #include "scene/laws/table_ends.hpp"
 
 namespace ergotic::physics {
@@ -18,9 +21,18 @@ using scene::MatType;
 using scene::Scene;
 using scene::Scheme;
 
-/// Of what holds a table, that it takes away. What the two parts store apart, and could make motion
-/// of, is more than what they store together, by about this share.
+/// Of what holds a table that pushes one way, that it takes away. What the two parts store apart,
+/// and could make motion of, is more than what they store together, by about this share.
 constexpr double kShare = 1e-3;
+/// Of what holds or brakes a table, the most that may be taken away.
+constexpr double kMost = 0.9;
+
+/// What is split off: -k (e - e0) - z v.
+struct Push {
+  double k = 0.0;
+  double e0 = 0.0;
+  double z = 0.0;
+};
 
 /// While nothing moves.
 scene::TableEnds elasticEndsOf(const Lia& lia) {
@@ -52,10 +64,32 @@ bool isOfOneRate(const RatedNetwork& networks, int island, int divisor) {
   return true;
 }
 
-/// The stiffness with which linear springs hold the ends of a link together; 0 if they do not.
-double heldBy(const RatedNetwork& networks, const Lia& lia) {
+/// The explicit network of an island without what ends on a slice: a hand may let go of that.
+NetworkBound withoutHands(const RatedNetwork& networks, int divisor, int island) {
+  const Scene& scene = networks.scene();
+  const auto isSlice = [&](int mat) { return scene.mats[at(mat)].type == MatType::kSlice; };
+  const NetworkBound all = networks.atOwnRate(divisor, island);
+  NetworkBound alone(all.step());
+  for (int node = 0; node < all.nodes(); ++node) {
+    alone.addNode(all.mass(node), all.ownerOf(node));
+  }
+  for (const NetworkBound::Link& link : all.links()) {
+    const bool is_own = link.label < 0;  // of a module
+    if (is_own ||
+        !(isSlice(scene.lias[at(link.label)].a) || isSlice(scene.lias[at(link.label)].b))) {
+      alone.addLink(link.ends, link.stiffness, link.damping, link.label);
+    }
+  }
+  return alone;
+}
+
+using Give = double (*)(const NetworkBound& network, const Shares& ends);
+
+/// The stiffness (damping) with which linear springs (dampers) hold the ends of a link together; 0
+/// if they do not.
+double heldBy(const RatedNetwork& networks, const Lia& lia, Give giveOf) {
   const int divisor = networks.divisorOfMat(lia.a);
-  double softness = 0.0;
+  double give = 0.0;
   for (const int island : std::set<int>{networks.islandAt(lia.a), networks.islandAt(lia.b)}) {
     if (island < 0) {
       continue;
@@ -63,7 +97,7 @@ double heldBy(const RatedNetwork& networks, const Lia& lia) {
     if (!isOfOneRate(networks, island, divisor)) {
       return 0.0;
     }
-    const NetworkBound network = networks.atOwnRate(divisor, island);
+    const NetworkBound network = withoutHands(networks, divisor, island);
     Shares ends;
     for (int node = 0; node < network.nodes(); ++node) {
       const int owner = network.ownerOf(node);
@@ -71,25 +105,61 @@ double heldBy(const RatedNetwork& networks, const Lia& lia) {
         ends.push_back({node, owner == lia.a ? 1.0 : -1.0});
       }
     }
-    softness += NetworkSpectrum::softness(network, ends);
+    give += giveOf(network, ends);
   }
-  return softness > 0.0 ? 1.0 / softness : 0.0;
+  return give > 0.0 ? 1.0 / give : 0.0;
 }
 
-/// \return -k (e - e0)
-Lia splitOff(Lia& lia, double k) {
-  const double e0 = elasticEndsOf(lia).constant() / k;
-  Lia push;
-  push.name = scene::Name(lia.name + ".push");
-  push.a = lia.a;
-  push.b = lia.b;
-  push.stiffness = {-k};
-  push.rest_length = lia.rest_length + e0;
-  push.place = lia.place;
-  lia.stiffness = {k};
-  lia.law.edit().width = {e0};
+/// With which what is left has a floor.
+bool findSpring(const RatedNetwork& networks, const Lia& lia, Push& push) {
+  const scene::TableEnds ends = elasticEndsOf(lia);
+  if (!ends.push()) {
+    return true;
+  }
+  const double held = heldBy(networks, lia, NetworkSpectrum::softness);
+  if (ends.low <= ends.high) {
+    push.k = kShare * held;
+    push.e0 = ends.constant() / push.k;
+    return held > 0.0;
+  }
+  // Between two ways out there may be wells, of which a tank would know the deepest: not so where
+  // what is left nowhere falls.
+  const Scene& scene = networks.scene();
+  const scene::Curve curve = scene::interpolate(lia.law->table);
+  const double e =
+      scene.mats[at(lia.a)].rest.x() - scene.mats[at(lia.b)].rest.x() - lia.rest_length;
+  push.k = -curve.smallest_slope;
+  push.e0 = e + (scene::valueAt(curve, e) + forceAtRest(lia)) / push.k;
+  return push.k <= kMost * held;
+}
+
+/// With which what is left only brakes.
+bool findDamper(const RatedNetwork& networks, const Lia& lia, Push& push) {
+  push.z = scene::drive(lia.law->viscous_table);
+  return push.z == 0.0 || push.z <= kMost * heldBy(networks, lia, NetworkSpectrum::mobility);
+}
+
+std::optional<Push> findPush(const RatedNetwork& networks, const Lia& lia) {
+  Push push;
+  const bool is_found = mayBeSplit(networks, lia) && findSpring(networks, lia, push) &&
+                        findDamper(networks, lia, push);
+  return is_found ? std::optional<Push>(push) : std::nullopt;
+}
+
+Lia splitOff(Lia& lia, const Push& push) {
+  Lia off;
+  off.name = scene::Name(lia.name + ".push");
+  off.a = lia.a;
+  off.b = lia.b;
+  off.stiffness = {-push.k};
+  off.damping = {-push.z};
+  off.rest_length = lia.rest_length + push.e0;
+  off.place = lia.place;
+  lia.stiffness = {push.k};
+  lia.damping = {push.z};
+  lia.law.edit().width = {push.e0};
   lia.scheme = Scheme::kGuarded;
-  return push;
+  return off;
 }
 
 }  // namespace
@@ -99,17 +169,14 @@ void splitTables(Scene& scene, const Rates& rates) {
   for (std::size_t l = 0; l < count; ++l) {
     const Lia& lia = scene.lias[l];
     if (lia.type != LiaType::kTable || lia.scheme == Scheme::kExplicit ||
-        !elasticEndsOf(lia).push()) {
+        !(elasticEndsOf(lia).push() || scene::drive(lia.law->viscous_table) > 0.0)) {
       continue;
     }
     const Network network(scene);
-    const RatedNetwork networks(network, rates);
-    const scene::TableEnds ends = elasticEndsOf(lia);
-    const bool is_constant = ends.low <= ends.high;
-    const double held = is_constant && mayBeSplit(networks, lia) ? heldBy(networks, lia) : 0.0;
-    if (held > 0.0) {
-      Lia push = splitOff(scene.lias[l], kShare * held);
-      scene.lias.push_back(std::move(push));
+    const std::optional<Push> push = findPush(RatedNetwork(network, rates), lia);
+    if (push) {
+      Lia off = splitOff(scene.lias[l], *push);
+      scene.lias.push_back(std::move(off));
     } else if (lia.scheme == Scheme::kAuto && !lia.law->viscous_table.empty()) {
       scene.lias[l].scheme = Scheme::kExplicit;
     }

@@ -34,6 +34,10 @@ bool brakes(const Table& table) {
   });
 }
 
+double drive(const Table& table) {
+  return brakes(table) ? 0.0 : -interpolate(table).smallest_slope;
+}
+
 bool isOdd(const Table& table) {
   const auto& points = table.points;
   for (std::size_t i = 0; i < points.size(); ++i) {

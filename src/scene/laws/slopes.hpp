@@ -30,6 +30,8 @@ bool rises(const Table& table);
 /// True if a table over velocity, less what it is at rest, is never against the velocity, or there
 /// is none: a constant force and what only brakes.
 bool brakes(const Table& table);
+/// A damper beside which it nowhere falls, N s/m; 0 if it brakes by itself.
+double drive(const Table& table);
 /// True if its points are mirrored at (0, 0).
 bool isOdd(const Table& table);
 FrictionSlopes frictionSlopesOf(const Table& table);

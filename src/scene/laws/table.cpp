@@ -18,7 +18,8 @@ struct ElasticViscousTable {
 };
 
 const char* unguarded(const Lia& lia) {
-  return brakes(lia.law->viscous_table) ? nullptr : "a table that drives what moves";
+  return drive(lia.law->viscous_table) <= lia.damping.factor ? nullptr
+                                                             : "a table that drives what moves";
 }
 
 /// Its last values hold beyond its ends: there it pushes away, or drives on what moves, whatever

@@ -25,7 +25,7 @@ struct TableCurve {
       // steeper than the curve, but where v is no more than rounding it would be.
       const GuardedForce<Real> at = n.viscous.at(v * n.per_step);
       const Real chord = v != Real(0) ? at.force / v : at.slope * n.per_step;
-      z += std::min(chord, n.viscous.steepest() * n.per_step);
+      z += std::min(chord, std::max(Real(0), n.viscous.steepest()) * n.per_step);
     }
     return std::max(Real(0), z);
   }

@@ -144,7 +144,8 @@ void readTreatment(const Scene& scene, const YamlMap& map, Lia& lia) {
     lia.scheme = kSchemes[map.choice("scheme", {"auto", "explicit", "guarded"})];
     refuse(map, "scheme", schemeFault(scene, lia));
   }
-  if (!isGuardable(scene, lia)) {
+  // A table may be split into parts that are.
+  if (!isGuardable(scene, lia) && lia.type != LiaType::kTable) {
     lia.scheme = Scheme::kExplicit;
   }
   if (map.has("filter")) {

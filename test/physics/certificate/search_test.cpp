@@ -15,6 +15,7 @@ using test::SmallScene;
 
 constexpr unsigned kScenes = 2000;
 constexpr unsigned kParts = 8;
+constexpr unsigned kFamilies = 10;
 constexpr int kFrames = 30000;
 constexpr double kBlownUp =
     1e8;  // of the energy at the start, beside what steps near their limit lend
@@ -76,14 +77,20 @@ struct Judged {
   Verdict verdict = Verdict::kPassive;
 };
 
-Judged judge(const SmallScene& small, unsigned seed, bool plays_all = false) {
+enum class Plays { kVouched, kOthers };
+
+/// Of every family, which come in turn, half of the scenes in each.
+Precision precisionOf(unsigned seed) {
+  return seed / kFamilies % 2 == 0 ? Precision::kDouble : Precision::kFloat;
+}
+
+Judged judge(const SmallScene& small, unsigned seed, Plays plays = Plays::kVouched) {
   Judged judged;
   const scene::Scene scene = settle(scene::readYaml(small.text(), "small.yaml"), small.rates).scene;
   judged.verdict = certify(scene, small.rates).verdict;
   judged.is_vouched = isVouched(judged.verdict);
-  judged.grows = (judged.is_vouched || plays_all) &&
-                 grows(scene, small.rates, seed % 2 == 0 ? Precision::kDouble : Precision::kFloat,
-                       judged.verdict == Verdict::kBounded);
+  judged.grows = judged.is_vouched == (plays == Plays::kVouched) &&
+                 grows(scene, small.rates, precisionOf(seed), judged.verdict == Verdict::kBounded);
   return judged;
 }
 
@@ -131,14 +138,15 @@ TEST(SmallScenesTest, SomeOfEveryFamilyAreVouchedFor) {
         settle(scene::readYaml(small.text(), "small.yaml"), small.rates).scene;
     vouched[small.family] += isVouched(certify(scene, small.rates).verdict) ? 1 : 0;
   }
-  EXPECT_EQ(vouched.size(), 10U);
+  EXPECT_EQ(vouched.size(), kFamilies);
   for (const auto& [family, scenes] : vouched) {
     EXPECT_GE(scenes, 2) << family;
   }
 }
 
 /// Where schemes are left to the station. Of tables fewer are: many drive, for ever or up to a
-/// speed.
+/// speed, and nothing around them brakes as much. What is vouched for counts as
+/// holding: that is the search above.
 TEST(SmallScenesTest, NearlyAllThatHoldsIsVouchedFor) {
   struct Share {
     int holding = 0;
@@ -146,15 +154,15 @@ TEST(SmallScenesTest, NearlyAllThatHoldsIsVouchedFor) {
   };
   std::map<std::string, Share> shares;
   Share of_one_rate;
-  for (unsigned seed = 0; seed < 400; ++seed) {
+  for (unsigned seed = 0; seed < 2 * kScenes; ++seed) {
     const SmallScene small = test::leftOpen(test::smallScene(seed));
-    const Judged judged = judge(small, seed, true);
+    const Judged judged = judge(small, seed, Plays::kOthers);
     Share& share = shares[small.family];
     share.holding += judged.grows ? 0 : 1;
-    share.vouched += !judged.grows && judged.is_vouched ? 1 : 0;
+    share.vouched += judged.is_vouched ? 1 : 0;
   }
   for (const auto& [family, share] : shares) {
-    EXPECT_GE(share.vouched, (family == "tables" ? 0.5 : 0.95) * share.holding)
+    EXPECT_GE(share.vouched, (family == "tables" ? 0.6 : 0.95) * share.holding)
         << family << ": " << share.vouched << " of " << share.holding;
     RecordProperty(family, std::to_string(share.vouched) + " of " + std::to_string(share.holding));
     if (family != "two rates" && family != "hammer on a string") {
@@ -162,7 +170,7 @@ TEST(SmallScenesTest, NearlyAllThatHoldsIsVouchedFor) {
       of_one_rate.vouched += share.vouched;
     }
   }
-  EXPECT_GE(of_one_rate.vouched, 0.93 * of_one_rate.holding);
+  EXPECT_GE(of_one_rate.vouched, 0.95 * of_one_rate.holding);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tables that push outwards, and what holds them.
+// Tables that push outwards or drive, and what holds them.
 #include "physics/settling/split_tables.hpp"
 
 #include <cmath>
@@ -19,12 +19,17 @@ const Points kOutward = {{-1e-3, 100.0}, {1e-3, -100.0}};
 const Points kSlanted = {{-1e-3, 50.0}, {0.0, 60.0}, {1e-3, 300.0}};
 const Points kConstant = {{-1.0, 5.0}, {1.0, 5.0}};
 const Points kBrake = {{-2.0, -3.0}, {0.0, 2.0}, {0.5, 20.0}};
+const Points kDrive = {{-2.0, 50.0}, {0.0, 5.0}, {1.0, -45.0}, {2.0, 20.0}};  // falls by 50 N s/m
 
-/// A mass on a spring, and a table between it and the ground.
-SceneBuilder held(const Points& elastic, const Points& viscous, double x = 0.0, double v = 0.0) {
+/// A mass on a spring and a damper, and a table between it and the ground.
+SceneBuilder held(const Points& elastic,
+                  const Points& viscous,
+                  double x = 0.0,
+                  double v = 0.0,
+                  double damping = 0.0) {
   SceneBuilder b;
   const int mass = b.mass(1.0, x, v);
-  b.spring(mass, b.ground(), kStiffness);
+  b.spring(mass, b.ground(), kStiffness, damping);
   scene::Lia& table = b.scene.lias[at(b.link(LiaType::kTable, mass, b.ground(), 0.0))];
   table.law.edit().table.points = elastic;
   table.law.edit().viscous_table.points = viscous;
@@ -75,6 +80,92 @@ TEST(SplitTablesTest, WhatNothingHoldsIsNotVouchedFor) {
   }
 }
 
+/// What the mass is held and braked by, and what a table falls by: nine tenths of that may be taken
+/// away.
+struct Limit {
+  Points elastic;
+  Points viscous;
+  double stiffness;
+  double damping;
+};
+const Limit kAtTheLimit[] = {
+    {kOutward, {}, 1e5 / 0.9, 0.0},
+    {kOutward, kConstant, 1e5 / 0.9, 0.0},
+    {{}, kDrive, 1.0, 50.0 / 0.9},
+    {kSlanted, kDrive, 1.0, 50.0 / 0.9},
+    {kOutward, kDrive, 1e5 / 0.9, 50.0 / 0.9},
+};
+
+SceneBuilder atALimit(const Limit& limit, double of_stiffness, double of_damping) {
+  SceneBuilder b = held(limit.elastic, limit.viscous, 1e-3, 1.0, of_damping * limit.damping);
+  b.scene.lias[0].stiffness = {of_stiffness * limit.stiffness};
+  return b;
+}
+
+TEST(SplitTablesTest, WhatIsLeftNowhereFalls) {
+  for (const Limit& limit : kAtTheLimit) {
+    const scene::Scene scene = settle(atALimit(limit, 1.01, 1.01).scene, kRates).scene;
+    ASSERT_EQ(scene.lias.size(), 3U);
+    const scene::Lia& rest = scene.lias[1];
+    const scene::Lia& push = scene.lias[2];
+    EXPECT_NEAR(push.stiffness.factor, limit.elastic == kOutward ? -1e5 : 0.0, 0.1);
+    EXPECT_NEAR(push.damping.factor, limit.damping > 0.0 ? -50.0 : 0.0, 1e-9);
+    EXPECT_EQ(push.scheme, Scheme::kExplicit);
+    EXPECT_EQ(rest.scheme, Scheme::kGuarded);
+    EXPECT_EQ(rest.stiffness.factor, -push.stiffness.factor);
+    EXPECT_EQ(rest.damping.factor, -push.damping.factor);
+    EXPECT_LE(certify(scene, kRates).verdict, Verdict::kBounded);
+  }
+}
+
+TEST(SplitTablesTest, WhatIsHeldAndBrakedTooLittleStaysWhole) {
+  for (const Limit& limit : kAtTheLimit) {
+    for (const auto& [stiffness, damping] : {std::pair(0.99, 1.01), {1.01, 0.99}}) {
+      if ((stiffness < 1.0 && limit.stiffness < 1e5) || (damping < 1.0 && limit.damping == 0.0)) {
+        continue;
+      }
+      const scene::Scene scene = settle(atALimit(limit, stiffness, damping).scene, kRates).scene;
+      EXPECT_EQ(scene.lias.size(), 2U);
+      if (!limit.viscous.empty()) {
+        EXPECT_EQ(scene.lias[1].scheme, Scheme::kExplicit);
+        EXPECT_EQ(certify(scene, kRates).verdict, Verdict::kUnproven);
+      }
+    }
+  }
+}
+
+/// Braked by a little more than it drives it comes to rest; by a little less it does not.
+TEST(SplitTablesTest, WhatDrivesGrowsUnlessItIsBraked) {
+  const Points drive = {{-1e3, 5e4}, {1e3, -5e4}};
+  const auto speedWith = [&](double damping) {
+    Player player(held({}, drive, 0.0, 1.0, damping).scene, kRates);
+    player.ticks(static_cast<int>(2.0 * kRate));
+    return std::sqrt(2.0 * energiesOf(player).sections[0].kinetic);
+  };
+  EXPECT_LT(speedWith(56.0), 0.1);
+  EXPECT_GT(speedWith(45.0), 10.0);
+}
+
+/// Not all that hangs together is braked.
+TEST(SplitTablesTest, DamperOfANeighbourBrakesNothing) {
+  SceneBuilder b = held({}, kDrive, 0.0, 0.0);
+  b.spring(b.mass(1.0), 0, kStiffness);
+  b.spring(2, 1, 0.0, 1e3);
+  const scene::Scene scene = settle(b.scene, kRates).scene;
+  EXPECT_EQ(scene.lias.size(), 4U);
+  EXPECT_EQ(certify(scene, kRates).verdict, Verdict::kUnproven);
+}
+
+/// Through a damper to a slice the table would drive whoever holds that, and lets go.
+TEST(SplitTablesTest, HandHoldsNothing) {
+  for (const bool is_hand : {false, true}) {
+    SceneBuilder b = held(kSlanted, kDrive);
+    b.scene.lias[0].stiffness = {0.0};
+    b.spring(0, is_hand ? b.slice(0) : b.ground(), kStiffness, 1e3);
+    EXPECT_EQ(settle(b.scene, kRates).scene.lias.size(), is_hand ? 3U : 4U);
+  }
+}
+
 /// Each takes away a share of what the ones before have left.
 TEST(SplitTablesTest, ManyTakeNoMoreThanThereIs) {
   SceneBuilder b = held(kSlanted, {});
@@ -94,18 +185,9 @@ TEST(SplitTablesTest, ConstantForceMovesTheRest) {
   EXPECT_NEAR(*high, 0.0, 1e-9);
 }
 
-/// Between two ways out there may be a well that is less deep: a tank would know of those alone.
-TEST(SplitTablesTest, WhatPushesOutwardsOnBothSidesStaysWhole) {
-  for (const auto& [viscous, scheme] :
-       {std::pair(Points{}, Scheme::kGuarded), {kConstant, Scheme::kExplicit}}) {
-    const scene::Scene scene = settle(held(kOutward, viscous).scene, kRates).scene;
-    EXPECT_EQ(scene.lias.size(), 2U);
-    EXPECT_EQ(scene.lias[1].scheme, scheme);
-  }
-}
-
 TEST(SplitTablesTest, EnergyIsKeptWhereNothingIsLost) {
-  for (const auto& [elastic, viscous] : {std::pair(kSlanted, Points{}), {kSlanted, kConstant}}) {
+  for (const auto& [elastic, viscous] :
+       {std::pair(kSlanted, Points{}), {kSlanted, kConstant}, {kOutward, kConstant}}) {
     Player player(held(elastic, viscous, 3e-3, 1.0).scene, kRates);
     EXPECT_LT(imbalanceOf(player, 5000), 1e-12);
     EXPECT_NEAR(energiesOf(player).sections[0].dissipated, 0.0, 1e-9);
@@ -116,8 +198,11 @@ TEST(SplitTablesTest, PlaysAsTheExplicitOneWhereTheStepIsSmall) {
   for (const auto& [elastic, viscous] : {std::pair(kSlanted, Points{}),
                                          {kSlanted, kConstant},
                                          {kSlanted, kBrake},
-                                         {Points{}, kBrake}}) {
-    SceneBuilder b = held(elastic, viscous, 2e-4, 0.3);
+                                         {Points{}, kBrake},
+                                         {kOutward, kBrake},
+                                         {Points{}, kDrive},
+                                         {kOutward, kDrive}}) {
+    SceneBuilder b = held(elastic, viscous, 2e-4, 0.3, 60.0);
     Player split(b.scene, {10.0 * kRate, 1});
     b.scene.lias[1].scheme = Scheme::kExplicit;
     Player whole(b.scene, {10.0 * kRate, 1});

@@ -114,7 +114,6 @@ const Kind kKinds[] = {
     {"type: table, elastic: [[0, 0], [1, 1]]", true},
     {"type: table, viscous: [[0, 0], [1, 1]]", true},
     {"type: table, viscous: [[-1, 1], [0, 2], [1, 4], [2, 3]]", true},
-    {"type: table, viscous: [[-1, 1], [0, 2], [1, 4], [2, 1]]", false},
     {"type: table, elastic: [[0, 0], [1, 1]], viscous: [[0, 0], [1, 1]]", true},
     {"type: conditional, stiffness: 1, engage: 1", true},
 };
@@ -129,6 +128,16 @@ TEST(ReadLinksTest, SchemeIsLeftToBeChosenWhereThereIsAChoice) {
     const Scene scene = readYaml(start + "}}\n", "links.yaml");
     EXPECT_EQ(isGuardable(scene, scene.lias.back()), kind.guardable) << kind.fields;
   }
+}
+
+/// What drives may be split into parts of which one is guarded.
+TEST(ReadLinksTest, SchemeOfATableThatDrivesIsOpen) {
+  const std::string start =
+      LINK "between: [m, n], type: table, viscous: [[-1, 1], [0, 2], [1, 4], [2, 1]]";
+  const Scene scene = readYaml(start + "}}\n", "links.yaml");
+  EXPECT_EQ(scene.lias.back().scheme, Scheme::kAuto);
+  EXPECT_FALSE(isGuardable(scene, scene.lias.back()));
+  EXPECT_EQ(last(start + ", scheme: explicit}}\n").scheme, Scheme::kExplicit);
 }
 
 /// Where their lines may turn, dampers are not linear.

@@ -158,6 +158,7 @@ class Comparison:
 
     def keys_of(self, name, said, has):
         tables = said.keys() & {"elastic", "viscous", "table"}
+        said = said | {key: {"points": said[key]} for key in tables if isinstance(said[key], list)}
         for key in sorted(has.keys() - {"name", "divisor", "step", "axes"} | tables):
             if key not in said or key not in has or not same(said[key], has[key]):
                 yield f"{name}: {key} is {said.get(key, 'not in the scene')}, not {has.get(key)}"

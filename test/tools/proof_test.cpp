@@ -113,6 +113,9 @@ const std::string kSnapping =
 const std::string kTable =
     kDamped +
     "  l: {type: table, between: [m, g], elastic: [[-1, -1], [1, 1]], scheme: explicit}\n";
+/// Drives, less than what is around it brakes.
+const std::string kDriving =
+    kDamped + "  l: {type: table, between: [m, g], viscous: [[-1, 1], [1, -1]]}\n";
 const std::string kFinger =
     "ergotic: 1\nparameters: {place: {value: 0.5, range: [0.2, 0.8]}}\nsections: {s: {}}\n"
     "generators:\n  - {type: string, name: string, masses: 30, mass: 1e-4, stiffness: 175033,\n"
@@ -298,6 +301,8 @@ TEST(ProofTest, IsRefusedUnderTheNameOfAnotherScene) {
       {kRaised, "stiffness: 1e4}\n  held", "stiffness: 2e4}\n  held", "own: stiffness"},
       {kStretched, "[0.1, 0]", "[0.05, 0]", "l: what pulls at any length is not split off"},
       {kStretched, "[0.1, 0]", "[0.2, 0]", "l.tension: it is no part of l"},
+      {kTable, "[1, 1]", "[1, 2]", "l: elastic is"},
+      {kDriving, "[-1, 1]", "[-1, 2]", "l: viscous is"},
       {kMade, "ratio: 0.5", "ratio: 0.6", "tense.link.0: rest_length"},
       {kMade, "frequency: 220", "frequency: 221", "tuned.link.0: stiffness"},
       {kMade, "gestural_rate: 3000", "gestural_rate: 2950", "soft.link.0: stiffness"},
@@ -311,7 +316,7 @@ TEST(ProofTest, IsRefusedUnderTheNameOfAnotherScene) {
     other.replace(at, lie.said.size(), lie.instead);
     EXPECT_THAT(refusalUnderTheNameOf(lie.text, other), HasSubstr(lie.reason)) << lie.instead;
   }
-  for (const std::string& text : {kRates, kPoints, kRaised, kStretched, kMade}) {
+  for (const std::string& text : {kRates, kPoints, kRaised, kStretched, kMade, kTable, kDriving}) {
     EXPECT_EQ(refusalUnderTheNameOf(text, text), "") << text;
   }
 }

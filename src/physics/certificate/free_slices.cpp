@@ -8,15 +8,18 @@
 #include "ergotic/physics/certificate/monodromy.hpp"
 #include "physics/certificate/hand_slopes.hpp"
 #include "physics/certificate/linear_stepper.hpp"
+#include "physics/certificate/parameter_cases.hpp"
 #include "physics/step_units.hpp"
 #include "scene/laws/law.hpp"
 #include "scene/laws/range.hpp"
 
 namespace ergotic::physics {
-/// Of what more than always holds links can be: of slices, and of what hangs there.
+/// Of what more than always holds links can be: of slices, and of what hangs there, with its
+/// contacts or without.
 struct FreeSlices::Parts {
   double of_slices = 0.0;
   double of_others = 0.0;
+  bool closes = false;
   bool areEnds() const { return of_slices == 0.0 || of_slices == 1.0; }
 };
 
@@ -27,8 +30,11 @@ using scene::MatType;
 
 // Between a mass that is late by a half and by a quarter of its period, the worst, is a factor
 // of 4.
-constexpr Parts kParts[] = {{0.0, 0.0}, {0.0625, 0.0}, {0.25, 0.0},
-                            {1.0, 0.0}, {0.0, 1.0},    {1.0, 1.0}};
+constexpr Parts kParts[] = {{0.0, 0.0}, {0.0625, 0.0}, {0.25, 0.0},      {1.0, 0.0},
+                            {0.0, 1.0}, {1.0, 1.0},    {0.0, 1.0, true}, {1.0, 1.0, true}};
+
+constexpr double kMostWork = 2e7;  // cubes of numbers of a state
+constexpr double kMostCases = 27.0;
 
 bool isBent(const scene::Lia& lia) {
   return lia.type != scene::LiaType::kSpringDamper;
@@ -38,13 +44,31 @@ bool isAt(const Hands& hands, const scene::Lia& lia) {
   return hands[at(lia.a)] != 0 || hands[at(lia.b)] != 0;
 }
 
+bool isContact(const scene::Lia& lia) {
+  return scene::lawOf(lia.type).kind == scene::Law::Kind::kGap;
+}
+
+/// Guarded links of every module. [mats]
+std::vector<int> guardsOn(const scene::Scene& scene) {
+  std::vector<int> guards(scene.mats.size(), 0);
+  for (const scene::Lia& lia : scene.lias) {
+    if (lia.scheme == scene::Scheme::kGuarded) {
+      ++guards[at(lia.a)];
+      ++guards[at(lia.b)];
+    }
+  }
+  return guards;
+}
+
 /// A link that is not linear as the spring and damper that it is around some place: what always
 /// holds, and a part of what more it can be. Guarded, it moves its ends about as one whose force is
 /// the mean over the steps on both sides does.
+/// \param guards  that share a module of the link
 void makeLinear(scene::Lia& lia,
                 const RatedNetwork& networks,
                 const scene::Scene& now,
-                double part) {
+                double part,
+                int guards) {
   const scene::Law& law = scene::lawOf(lia.type);
   const Slopes steepest = slopesInHand(now, lia);
   const double stiffness = law.has_linear_part ? now.valueOf(lia.stiffness) : 0.0;
@@ -54,7 +78,7 @@ void makeLinear(scene::Lia& lia,
   const double z = (is_unforeseen ? 0.5 : 1.0) *  // of the steps of an end that seems to stay
                    (damping + part * (steepest.damping.highest - damping));
   const double load = networks.inverseMassStep2(lia) * k + 2.0 * networks.inverseMassStep(lia) * z;
-  const double mean = networks.isExplicit(lia) ? 1.0 : 1.0 + 0.25 * std::max(load, 0.0);
+  const double mean = networks.isExplicit(lia) ? 1.0 : 1.0 + 0.25 * guards * std::max(load, 0.0);
   lia.type = scene::LiaType::kSpringDamper;
   lia.scheme = scene::Scheme::kExplicit;
   lia.stiffness = {k / mean};
@@ -66,10 +90,13 @@ scene::Scene linearAround(const Hands& hands,
                           const RatedNetwork& networks,
                           scene::Scene now,
                           const Parts& parts) {
+  const std::vector<int> guards = guardsOn(now);
   std::vector<scene::Lia> lias;
   for (scene::Lia lia : now.lias) {
     if (!hasLinearPart(lia) || isBent(lia)) {
-      makeLinear(lia, networks, now, isAt(hands, lia) ? parts.of_slices : parts.of_others);
+      const double of_others = parts.closes || !isContact(lia) ? parts.of_others : 0.0;
+      makeLinear(lia, networks, now, isAt(hands, lia) ? parts.of_slices : of_others,
+                 std::max(guards[at(lia.a)], guards[at(lia.b)]));
     }
     if (now.valueOf(lia.stiffness) != 0.0 || now.valueOf(lia.damping) != 0.0) {
       lias.push_back(std::move(lia));
@@ -89,20 +116,18 @@ scene::Scene withoutTurning(scene::Scene scene, const RatedNetwork& networks) {
   return scene;
 }
 
-/// With the present values of the parameters, and with both ends of their ranges; with all dampers,
-/// and without those that may do nothing.
+/// So many that what takes longest, the eigenvalues, stays below about a second.
+int mostCases(const scene::Scene& scene) {
+  const auto masses = std::count_if(scene.mats.begin(), scene.mats.end(), isFree);
+  const double numbers = 3.0 * std::clamp(static_cast<double>(masses), 1.0, 100.0);
+  return static_cast<int>(std::clamp(kMostWork / std::pow(numbers, 3), 3.0, kMostCases));
+}
+
+/// With the present values of the parameters, and others; with all dampers, and without those that
+/// may do nothing.
 std::vector<scene::Scene> casesOf(const RatedNetwork& networks) {
   const scene::Scene& scene = networks.scene();
-  std::vector<scene::Scene> cases{scene};
-  for (double scene::Parameter::*end : {&scene::Parameter::minimum, &scene::Parameter::maximum}) {
-    scene::Scene other = scene;
-    for (scene::Parameter& parameter : other.parameters) {
-      parameter.value = parameter.*end;
-    }
-    if (!scene.parameters.empty()) {
-      cases.push_back(std::move(other));
-    }
-  }
+  std::vector<scene::Scene> cases = parameterCases(scene, mostCases(scene));
   const std::size_t count = cases.size();
   const bool turns = std::any_of(scene.lias.begin(), scene.lias.end(), [&](const scene::Lia& lia) {
     return networks.hasLineThatTurns(lia) && scene::largest(scene, lia.damping) > 0.0;
@@ -153,13 +178,14 @@ double gainOf(const scene::Scene& scene, int slice) {
   return gain;
 }
 
-/// True if links that move with it are not linear: of its slices, or its others.
+/// True if that is something else than what always holds: of links that move with it.
 bool bends(const scene::Scene& scene, const Hanging& hanging, const Parts& parts) {
   const Hands hands = handsOn(scene, hanging.slices);
   const auto isIn = [&](int node) { return hanging.nodes.count(node) != 0; };
   const auto has = [&](bool at_slices) {
     return std::any_of(scene.lias.begin(), scene.lias.end(), [&](const scene::Lia& lia) {
-      return isBent(lia) && (isIn(lia.a) || isIn(lia.b)) && isAt(hands, lia) == at_slices;
+      return isBent(lia) && (isIn(lia.a) || isIn(lia.b)) && isAt(hands, lia) == at_slices &&
+             (at_slices || isContact(lia) == parts.closes);
     });
   };
   return (parts.of_slices == 0.0 || has(true)) && (parts.of_others == 0.0 || has(false));
@@ -176,7 +202,7 @@ FreeSlices::FreeSlices(const RatedNetwork& networks)
   const std::vector<scene::Scene> cases = casesOf(networks);
   for (const Parts& parts : kParts) {
     const std::size_t count =
-        parts.areEnds() ? cases.size() : 1;  // between them, the present will do
+        parts.areEnds() ? cases.size() : 1;  // between them, the present values will do
     for (std::size_t i = 0; i < (is_bent || &parts == kParts ? count : 0); ++i) {
       addAll(cases[i], parts);
     }

@@ -61,10 +61,22 @@ double elongationAtStart(const scene::Scene& scene, const scene::Lia& lia) {
   return std::abs((isScalar(scene, lia) ? line.x() : line.norm()) - lia.rest_length);
 }
 
+/// m of the model for a metre of the hands at a link, the largest.
+double scaleAt(const scene::Scene& scene, const scene::Lia& lia) {
+  double scale = 0.0;
+  for (const scene::Port& port : scene.ports) {
+    if (port.agent < 0 && (port.mat == lia.a || port.mat == lia.b)) {
+      scale = std::max(scale, 1.0 / std::abs(port.position_scale));
+    }
+  }
+  return scale > 0.0 ? scale : 1.0;
+}
+
 }  // namespace
 
 scene::Slopes slopesInHand(const scene::Scene& scene, const scene::Lia& lia) {
-  return scene::slopesAt(scene, lia, elongationAtStart(scene, lia) + kHandDepth);
+  return scene::slopesAt(scene, lia,
+                         elongationAtStart(scene, lia) + scaleAt(scene, lia) * kHandDepth);
 }
 
 }  // namespace ergotic::physics

@@ -252,6 +252,36 @@ TEST(FreeSlicesTest, ASpringThatIsStretchedIsSeenAsItIsThere) {
               Contains(HasSubstr("may meet 6543 N/m within a millimetre, mostly by link 'l0'")));
 }
 
+/// A millimetre of the hand is ten of the model.
+TEST(FreeSlicesTest, ALawThatGrowsIsSeenAsFarAsHandsMove) {
+  scene::Scene scene = withLaw(Hanging{0.0, 0.0, 100.0}, LiaType::kCubic, Scheme::kGuarded);
+  scene.lias.at(0).law.edit().nonlinearity = {1e6};
+  scene.lias.pop_back();
+  scene.ports.at(0).position_scale = 0.1;
+  scene.ports[0].force_scale = 0.1;
+  EXPECT_NEAR(certify(scene, kRates).ports.at(0).stiffness, 3.0 * 1e6 * 1e-4, 1e-6);
+}
+
+/// Those that close would hold what the table lets swing.
+TEST(FreeSlicesTest, ContactsBehindAMassHideNothing) {
+  Hanging hanging{1900.0, 0.0, 1e-4, 0.02, true};
+  SceneBuilder b;
+  b.scene = hanging.scene();
+  const int far = b.mass(0.1, 0.0);
+  b.link(LiaType::kTable, 0, far, 0.0);
+  b.scene.lias.back().scheme = Scheme::kGuarded;
+  b.scene.lias.back().law.edit().table.points = {{-10.0, -4e5}, {10.0, 4e5}};
+  EXPECT_GT(playedGrowth(b.scene, {}, 20000), 1.0 + 1e-5);
+  EXPECT_GT(radiusOf(b.scene), 1.0 + 1e-5);
+  const int wall = b.ground();
+  for (int i = 0; i < 3; ++i) {
+    b.link(LiaType::kContact, wall, far, 1e10);
+    b.scene.lias.back().scheme = Scheme::kGuarded;
+    b.scene.lias.back().law.edit().width = {-100.0};
+  }
+  EXPECT_GT(radiusOf(b.scene), 1.0 + 1e-5);
+}
+
 /// What a table between a mass and the ground makes of it while it holds.
 TEST(FreeSlicesTest, LinksBehindAMassAreSeenOpenAndClosed) {
   SceneBuilder b;

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "ergotic/scene/scene.hpp"
+
+namespace ergotic::physics {
+
+/// A scene at its present parameters, then at both ends of all ranges, and, as far as `most` goes,
+/// at all combinations of as many values of each range (at least both ends; by equal factors where
+/// all are above 0) of those parameters that its modules, links and points follow.
+/// \param most  at least 3
+std::vector<scene::Scene> parameterCases(const scene::Scene& scene, int most);
+
+}  // namespace ergotic::physics

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/certificate/parameter_cases.hpp"
+
+#include "ergotic/physics/certificate/certify.hpp"
+#include "support/physics.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+constexpr Rates kRates{44100.0, 14};
+
+scene::Scene massOn(double mass, double stiffness, double loss) {
+  SceneBuilder b;
+  const int hung = b.mass(mass, 0.0);
+  b.spring(hung, b.slice(0), stiffness);
+  b.spring(hung, b.ground(), 0.0, loss);
+  return b.scene;
+}
+
+TEST(ParameterCasesTest, AreThePresentBothEndsAndAsManyCombinationsAsAsked) {
+  scene::Scene scene = massOn(1.0, 1.0, 1.0);
+  EXPECT_EQ(parameterCases(scene, 27).size(), 1U);
+  scene.parameters.push_back({"unused", 1.0, 1.0, 100.0, {}});
+  EXPECT_EQ(parameterCases(scene, 27).size(), 3U);
+  scene.parameters.push_back({"k", 1.0, 1.0, 100.0, {}});
+  scene.lias.at(0).stiffness = {1.0, 1};
+  EXPECT_EQ(parameterCases(scene, 3).size(), 3U + 3U);
+  const std::vector<scene::Scene> cases = parameterCases(scene, 27);
+  ASSERT_EQ(cases.size(), 3U + 9U);
+  EXPECT_EQ(cases[1].parameters[1].value, 1.0);
+  EXPECT_EQ(cases[2].parameters[1].value, 100.0);
+  EXPECT_NEAR(cases[7].parameters[1].value, 10.0, 1e-12);
+  scene.parameters.push_back({"z", 0.0, 0.0, 1.0, {}});
+  scene.lias[1].damping = {1.0, 2};
+  EXPECT_EQ(parameterCases(scene, 27).size(), 3U + 25U);
+  EXPECT_EQ(parameterCases(scene, 27)[3 + 10].parameters[2].value, 0.5);
+  EXPECT_EQ(parameterCases(scene, 4).size(), 3U + 4U);
+}
+
+/// The worst is at one end of the one and the other of the other, or at neither.
+TEST(ParameterCasesTest, WhatHangsOnASliceIsSeenBetweenTheEndsOfRanges) {
+  const auto isWarned = [](const scene::Scene& scene) {
+    return certify(scene, kRates).ports.at(0).level != HandLevel::kSilent;
+  };
+  ASSERT_TRUE(isWarned(massOn(0.1, 2000.0, 0.0)));
+  scene::Scene two = massOn(0.1, 1.0, 1.0);
+  two.parameters = {{"k", 1.0, 1.0, 2000.0, {}}, {"z", 5.0, 0.0, 5.0, {}}};
+  two.lias.at(0).stiffness = {1.0, 0};
+  two.lias.at(1).damping = {1.0, 1};
+  EXPECT_TRUE(isWarned(two));
+  scene::Scene weight = massOn(1.0, 2000.0, 0.0);
+  EXPECT_FALSE(isWarned(massOn(1e-5, 2000.0, 0.0)) || isWarned(massOn(100.0, 2000.0, 0.0)));
+  weight.parameters.push_back({"m", 1e-5, 1e-5, 100.0, {}});
+  weight.mats.at(0).mass = {1.0, 0};
+  EXPECT_TRUE(isWarned(weight));
+}
+
+}  // namespace
+}  // namespace ergotic::physics

@@ -7,7 +7,7 @@
 namespace ergotic::scene {
 
 bool Limits::hold(double value) const {
-  return std::isfinite(value) && value <= maximum && (above ? value > minimum : value >= minimum);
+  return std::abs(value) <= kLargestNumber && value <= maximum && (above ? value > minimum : value >= minimum);
 }
 
 std::string Limits::text(bool with_unit) const {
@@ -27,7 +27,8 @@ std::string outOfRange(const std::string& what,
                        bool with_unit) {
   const std::string unit = with_unit && *limits.unit != '\0' ? std::string(" ") + limits.unit : "";
   return what + " = " + numberText(value) + unit +
-         " is out of range, allowed: " + limits.text(with_unit);
+         " is out of range, allowed: " + limits.text(with_unit) +
+         (std::abs(value) > kLargestNumber ? ", up to 1e30 in size" : "");
 }
 
 std::string numberText(double value) {

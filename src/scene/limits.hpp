@@ -11,13 +11,16 @@ namespace ergotic::scene {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// Single precision holds a hundred million times as much: room for steps and products.
+constexpr double kLargestNumber = 1e30;
+
 struct Limits {
   const char* unit = "";  ///< of scenes in SI units
   double minimum = -kInfinity;
   double maximum = kInfinity;
   bool above = false;  ///< the minimum itself is not allowed
 
-  /// True if finite and within.
+  /// True if within, and not beyond kLargestNumber.
   bool hold(double value) const;
   /// As in `> 0 kg`, `0...1`, `a finite number of m`; without unit if `with_unit` is false.
   std::string text(bool with_unit = true) const;

@@ -74,6 +74,7 @@ class CouplingJudge {
 
   void tryEigenvalues(const Island& members, const Coupling& coupling, const std::string& what) {
     Trial worst;
+    bool is_proven = true;
     for (const scene::Scene& scene : members.cases()) {
       const LinearStepper stepper(linearPart(scene), networks_.rates());
       const Period period = periodOf(scene, networks_.rates());
@@ -84,7 +85,7 @@ class CouplingJudge {
         return;
       }
       worst = trial.radius >= worst.radius ? trial : worst;
-      prove(scene, stepper.ticks() * networks_.rates().ratio, period);
+      is_proven = prove(scene, stepper.ticks() * networks_.rates().ratio, period) && is_proven;
     }
     if (worst.radius > 1.0 + kRounding) {
       const bool is_certain = worst.radius > 1.0 + kCertainGrowth;
@@ -95,22 +96,30 @@ class CouplingJudge {
     } else if (const std::string doubt = members.doubt(); !doubt.empty()) {
       say(coupling, Verdict::kUnproven,
           what + ". No eigenvalue over one of its steps is above 1, but " + doubt);
+    } else if (!is_proven) {
+      say(coupling, Verdict::kUnproven,
+          what +
+              ". No eigenvalue over one of its steps is above 1, but two are so near to one "
+              "another that rounding its numbers may let them grow. Change a stiffness or a "
+              "mass by a percent, or give its modes a little damping");
     }
   }
 
-  void prove(const scene::Scene& scene, int frames, const Period& period) {
-    if (findings_.proof() == nullptr) {
-      return;
-    }
+  /// False if no form is found that does not grow, or only one that rounding may change.
+  bool prove(const scene::Scene& scene, int frames, const Period& period) {
     std::optional<PeriodProof> proof = proofOf(period);
-    if (!proof) {
-      proof = PeriodProof{{}, 0, period.modules, {}, {}};
+    if (findings_.proof() != nullptr && proof) {
+      keep(*std::move(proof), scene, frames);
     }
-    proof->frames = frames;
+    return proof.has_value();
+  }
+
+  void keep(PeriodProof proof, const scene::Scene& scene, int frames) {
+    proof.frames = frames;
     for (const scene::Parameter& parameter : scene.parameters) {
-      proof->parameters.push_back(parameter.value);
+      proof.parameters.push_back(parameter.value);
     }
-    findings_.proof()->periods.push_back(std::move(*proof));
+    findings_.proof()->periods.push_back(std::move(proof));
   }
 
   void watch(const Island& members, const Coupling& coupling, const std::string& what) {

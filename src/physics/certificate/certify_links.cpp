@@ -17,6 +17,7 @@ namespace {
 using scene::Lia;
 
 constexpr double kMostPower = 100.0;  // W, of a hand that moves a point
+constexpr double kMostLoad = 1e30;    // with products of it, what single precision holds
 
 class LinkJudge {
  public:
@@ -27,7 +28,7 @@ class LinkJudge {
     const Lia& lia = networks_.scene().lias[at(l)];
     const Slopes& slopes = networks_.slopes(l);
     if (lia.scheme == scene::Scheme::kGuarded) {
-      judgeGuarded(lia);
+      judgeGuarded(lia, slopes);
       prove(lia, "guarded");
       return;
     }
@@ -114,9 +115,15 @@ class LinkJudge {
     }
   }
 
-  void judgeGuarded(const Lia& lia) {
+  void judgeGuarded(const Lia& lia, const Slopes& slopes) {
     const scene::Law& law = scene::lawOf(lia.type);
-    if (!(networks_.inverseMassStep2(lia) > 0.0)) {
+    const double give = networks_.inverseMassStep2(lia);
+    if (const double load = give * std::max(slopes.stiffness.highest, 1.0); !(load < kMostLoad)) {
+      findings_.add(Verdict::kUnproven, lia.place,
+                    "guarded link '" + lia.name + "': h^2 K (1/Ma + 1/Mb) = " + describe(load) +
+                        " is more than single precision can count with, up to 1e30");
+    }
+    if (!(give > 0.0)) {
       judgeGift(lia, law);  // a guard holds back what forces move
     } else if (law.canGive(lia)) {
       findings_.worsen(Verdict::kBounded);  // though no more than its tank holds

@@ -28,8 +28,8 @@ class FreeSlices {
   const char* leftOut(int slice) const { return left_out_[static_cast<std::size_t>(slice)]; }
 
   /// Largest absolute eigenvalue of a tick of what each slice is part of, at least 1, the worst of
-  /// the present values of the parameters and both ends of their ranges. [mats]
-  /// Cost: some 20 ms for 50 masses and each slice, three times that if its links are not linear
+  /// some places of the ranges of parameters and led points, see parameterCases(). [mats]
+  /// Cost: some 20 ms for 50 masses and each slice, six times that if its links are not linear
   std::vector<double> radii(const DeviceTraits& device) const;
 
  private:
@@ -44,6 +44,7 @@ class FreeSlices {
   void add(const scene::Scene& joined, const Hanging& hanging, const Parts& parts);
   Case caseOf(const scene::Scene& linear) const;
   double radius(const Case& one, const DeviceTraits& device) const;
+  static double heldRadius(const Case& one);
   static bool isOfSlices(const Case& one, double radius);
 
   const RatedNetwork& networks_;

@@ -18,6 +18,7 @@ constexpr double kFixed = 1e-12;    // of the largest pivot: what a period leave
 constexpr double kFading = 0.99;    // per period
 constexpr double kMostOff = 5e-10;  // of what G s becomes
 constexpr int kDoublings = 40;
+constexpr double kMostSensitive = 30.0;
 
 /// Rows that a period makes B times themselves.
 struct Form {
@@ -106,6 +107,14 @@ double errorOf(const Form& form, const MatrixXd& matrix) {
   return (becomes - form.turn).norm();
 }
 
+/// By how much more than a relative error of the matrix an eigenvalue may move: 1 where modes lie
+/// apart, the inverse of their distance where two are about to meet. What rounds each number of a
+/// scene by e, as single precision does by 6e-8, takes them together at about 1/sqrt(e).
+double sensitivityOf(const Form& form) {
+  const MatrixXd back = form.rows.inverse();
+  return (form.rows.cwiseAbs() * back.cwiseAbs()).diagonal().maxCoeff();
+}
+
 }  // namespace
 
 std::optional<PeriodProof> proofOf(const Period& period) {
@@ -114,7 +123,8 @@ std::optional<PeriodProof> proofOf(const Period& period) {
   Form lasting = lastingOf(matrix.transpose());
   lasting.rows.transposeInPlace();
   const Form form = joined(lasting, fadingOf(matrix, lastingOf(matrix).rows), matrix.cols());
-  if (form.rows.rows() != form.rows.cols() || !(errorOf(form, matrix) <= kMostOff)) {
+  if (form.rows.rows() != form.rows.cols() || !(errorOf(form, matrix) <= kMostOff) ||
+      !(sensitivityOf(form) <= kMostSensitive)) {
     return std::nullopt;
   }
   const Index modules = period.units.size();

@@ -9,7 +9,8 @@
 namespace ergotic::physics {
 
 /// A quadratic form that a period does not raise; none if what rounding leaves of it proves
-/// nothing, as where modes are about to meet. `parameters` and `frames` are left to the caller.
+/// nothing, and where modes are so near to meeting that rounding of the scene's numbers may take
+/// them there. `parameters` and `frames` are left to the caller.
 ///
 /// Modes that hardly fade: their left eigenvectors. The others lose so much that the form follows
 /// from a Lyapunov equation. Realtime: no. Cost: twice that of the eigenvalues.

@@ -22,17 +22,6 @@ bool isFinite(const Matrix& matrix) {
                      [](double v) { return std::isfinite(v); });
 }
 
-double normOf(const Matrix& lower) {
-  Eigen::VectorXd rows = Eigen::VectorXd::Zero(lower.rows());
-  for (int column = 0; column < lower.outerSize(); ++column) {
-    for (Matrix::InnerIterator it(lower, column); it; ++it) {
-      rows[it.row()] += std::abs(it.value());
-      rows[column] += it.row() == column ? 0.0 : std::abs(it.value());
-    }
-  }
-  return rows.size() == 0 ? 0.0 : rows.maxCoeff();
-}
-
 bool allPivotsPositive(const Eigen::SimplicialLDLT<Matrix>& solver) {
   return solver.info() == Eigen::Success && (solver.vectorD().array() > 0.0).all();
 }

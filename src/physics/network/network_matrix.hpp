@@ -43,10 +43,8 @@ Matrix assemble(const NetworkBound& network,
   return matrix.sum();
 }
 
-/// Of a lower triangle, and so below.
+/// Of a lower triangle.
 bool isFinite(const Matrix& lower);
-/// The largest sum of absolute values over a row of the symmetric matrix.
-double normOf(const Matrix& lower);
 
 bool allPivotsPositive(const Eigen::SimplicialLDLT<Matrix>& solver);
 

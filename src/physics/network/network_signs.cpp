@@ -14,7 +14,10 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr double kHeld = 4e-9;  // of the norm: half of it is definite all the same
+// Of the norm: single precision rounds each number by 6e-8 of itself, and what is negative lets
+// that grow.
+constexpr double kSignMargin = 1e-6;
+constexpr double kHeld = 2e-5;  // of the norm: a tenth of it is definite all the same
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double stiffnessOf(const NetworkBound::Link& link) {
@@ -24,23 +27,43 @@ double dampingOf(const NetworkBound::Link& link) {
   return link.damping.lowest;
 }
 
-/// What shows that the eigenvalues of some rows are above a margin. \param margin  of their norm
+/// Of the matrix of some nodes, as if nothing in it was taken from something else: what its numbers
+/// round by is a part of that.
+template <class CoefficientOf>
+double normOfParts(const NetworkBound& network,
+                   const std::vector<int>& nodes,
+                   CoefficientOf coefficient) {
+  const Eigen::VectorXd scale = scaleOf(network);
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(network.nodes());
+  for (const NetworkBound::Link& link : network.links()) {
+    double length = 0.0;
+    for (const Share& end : link.ends) {
+      length += std::abs(end.weight) * scale[end.node];
+    }
+    for (const Share& end : link.ends) {
+      sums[end.node] +=
+          std::abs(coefficient(link)) * length * std::abs(end.weight) * scale[end.node];
+    }
+  }
+  double norm = 0.0;
+  for (const int node : nodes) {
+    norm = std::max(norm, sums[node]);
+  }
+  return norm;
+}
+
+/// What shows that the eigenvalues of some rows are above a margin.
 std::optional<Factor> factorAbove(const NetworkBound& network,
-                                  const Matrix& lower,
+                                  Matrix lower,
                                   const std::vector<int>& nodes,
                                   double margin) {
-  if (!isFinite(lower)) {
+  if (!isFinite(lower) || !(margin > 0.0) || !std::isfinite(margin)) {
     return std::nullopt;
   }
-  const double norm = normOf(lower);
-  if (norm == 0.0) {
-    return std::nullopt;
+  for (int i = 0; i < lower.rows(); ++i) {
+    lower.coeffRef(i, i) -= margin;
   }
-  Matrix shifted = lower;
-  for (int i = 0; i < shifted.rows(); ++i) {
-    shifted.coeffRef(i, i) -= margin * norm;
-  }
-  const Eigen::SimplicialLDLT<Matrix> solver(shifted);
+  const Eigen::SimplicialLDLT<Matrix> solver(lower);
   return allPivotsPositive(solver) ? std::optional<Factor>(factorOf(solver, network, nodes))
                                    : std::nullopt;
 }
@@ -101,7 +124,8 @@ std::optional<Factor> definiteBesideNegative(const NetworkBound& network,
                                              CoefficientOf coefficient) {
   const std::vector<int> nodes =
       nodesBeside(network, negativeNodes(network, coefficient), coefficient);
-  return factorAbove(network, assemblePart(network, nodes, coefficient), nodes, kPivotMargin);
+  return factorAbove(network, assemblePart(network, nodes, coefficient), nodes,
+                     kSignMargin * normOfParts(network, nodes, coefficient));
 }
 
 /// u' A^-1 u for the weights u at some nodes, A of a positive coefficient.
@@ -115,7 +139,7 @@ double giveOf(const NetworkBound& network, const Shares& u, CoefficientOf coeffi
   }
   const std::vector<int> nodes = nodesBeside(network, ends, coefficient);
   Matrix held = assemblePart(network, nodes, coefficient);
-  const double margin = kHeld * normOf(held);
+  const double margin = kHeld * normOfParts(network, nodes, coefficient);
   Eigen::VectorXd force(held.rows());
   for (int row = 0; row < held.rows(); ++row) {
     held.coeffRef(row, row) -= margin;
@@ -140,7 +164,9 @@ std::optional<Factor> NetworkSpectrum::semidefiniteDamping(const NetworkBound& n
 
 std::optional<Factor> NetworkSpectrum::definiteDamping(const NetworkBound& network) {
   const Matrix softest = assemble(network, scaleOf(network), dampingOf);
-  return factorAbove(network, softest, allNodes(network), kPivotMargin);
+  const std::vector<int> nodes = allNodes(network);
+  return factorAbove(network, softest, nodes,
+                     kPivotMargin * normOfParts(network, nodes, dampingOf));
 }
 
 double NetworkSpectrum::softness(const NetworkBound& network, const Shares& u) {

@@ -14,6 +14,13 @@
 #include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
+namespace {
+
+/// (w h)^2 of a matched module, up to 0.1 % below half the rate.
+constexpr double kMostAngle2 = 9.85;
+
+}  // namespace
+
 /// A network being built, with the nodes of its modules.
 struct RatedNetwork::Builder {
   NetworkBound network;
@@ -167,15 +174,17 @@ void RatedNetwork::addModules(Builder& to, bool plain) const {
   for (int m = 0; m < static_cast<int>(scene_.mats.size()); ++m) {
     const Network::Node& node = nodeOf(m);
     const bool is_member = to.island == kAll || islandOf(m) == to.island;
-    const bool is_alone = is_linked_[at(m)] == 0;
-    if (!node.is_free || divisorOfMat(m) != to.divisor || !is_member ||
-        (is_alone && node.is_matched)) {
-      continue;  // alone, its pole is that of the continuous oscillator: always stable
-    }
     Range k = node.stiffness.range;
     Range z = node.damping.range;
+    const double step = to.network.step();
+    // Alone, its pole is that of the continuous oscillator: stable, unless rounding makes a double
+    // one of it at half the rate.
+    const bool is_safe = is_linked_[at(m)] == 0 && node.is_matched &&
+                         k.highest / node.mass.range.lowest * step * step <= kMostAngle2;
+    if (!node.is_free || divisorOfMat(m) != to.divisor || !is_member || is_safe) {
+      continue;
+    }
     if (node.is_matched && !plain) {
-      const double step = to.network.step();
       k = {0.0, matchedLoad(k, z, node.mass.range, step) / (step * step)};
       z = {};
     }

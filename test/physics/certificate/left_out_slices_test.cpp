@@ -37,6 +37,14 @@ TEST(LeftOutSlicesTest, MoreThanAHundredMasses) {
   EXPECT_EQ(certificate.ports[0].finding, certificate.findings[0]);
 }
 
+TEST(LeftOutSlicesTest, MoreThanAHundredMassesBehindATable) {
+  scene::Scene scene = bodyOn(101, LiaType::kTable, 1.0);
+  scene.lias.back().stiffness = {};
+  scene.lias.back().law.edit().table.points = {{-0.1, -200.0}, {0.1, 200.0}};
+  scene.lias.back().scheme = Scheme::kGuarded;
+  EXPECT_THAT(judged(scene).findings, ElementsAre(HasSubstr("because of more than 100 masses")));
+}
+
 /// Of what may let go the nearest masses tell enough.
 TEST(LeftOutSlicesTest, MoreThanAHundredMassesBehindAContactAreNoAlarm) {
   EXPECT_THAT(judged(bodyOn(101, LiaType::kSpringDamper, 1.0)).findings, testing::SizeIs(1));

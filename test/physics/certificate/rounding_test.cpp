@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What single precision makes of scenes whose numbers, as they are written, do not grow.
+#include <string>
+
+#include "ergotic/physics/certificate/certify.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
+#include "support/physics.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+const std::string kOfAudio = "ergotic: 1\nsections: {a: {}}\nmats:\n  g: {type: ground}\n";
+
+struct Vouched {
+  scene::Scene scene;
+  Rates rates;
+  explicit Vouched(const std::string& text)
+      : scene(scene::readYaml(text, "rounding.yaml")), rates(chooseRates(scene, kRate)) {
+    scene = settle(scene, rates).scene;
+  }
+  bool isVouchedFor() const { return certify(scene, rates).verdict <= Verdict::kBounded; }
+  /// m/s
+  double fastestOf(double seconds, Precision precision) const {
+    Player player(compile(scene, rates, precision));
+    double most = 0.0;
+    for (int n = 0; n < seconds * rates.gesturalHz(); ++n) {
+      player.tick();
+      most = std::max(most, std::abs(player.heard.at(0).back()));
+    }
+    return most;
+  }
+};
+
+std::string twoRates(double coupling) {
+  return "ergotic: 1\ngestural_rate: 14700\nsections: {a: {rate: audio}, g: {rate: gestural}}\n"
+         "mats:\n  w: {type: ground, section: a}\n  v: {type: ground, section: g}\n"
+         "  s: {type: mass, section: g, mass: 1, v: 0.1}\n"
+         "  m: {type: mass, section: a, mass: 0.95104052612866596, v: 0.05}\nlias:\n"
+         "  k0: {type: spring, between: [v, s], stiffness: 176471579.09136432}\n"
+         "  c: {type: spring, between: [s, m], stiffness: " +
+         std::to_string(coupling) +
+         "}\n  k2: {type: spring, between: [m, w], stiffness: 6446979860.1201553}\n"
+         "outputs: {o: {at: m, quantity: velocity, channel: 1}}\n";
+}
+
+/// Two modes that are about to meet; rounded, they have met.
+TEST(RoundingTest, ModesOfTwoRatesMayMeet) {
+  const Vouched near(twoRates(622786170.55229306));
+  EXPECT_GT(near.fastestOf(1.0, Precision::kFloat), 1e4);
+  EXPECT_LT(near.fastestOf(1.0, Precision::kDouble), 1e3);
+  EXPECT_FALSE(near.isVouchedFor());
+  EXPECT_THAT(certify(near.scene, near.rates).findings,
+              Contains(HasSubstr("so near to one another that rounding")));
+  EXPECT_TRUE(Vouched(twoRates(5e8)).isVouchedFor());
+}
+
+TEST(RoundingTest, WhatANegativeSpringLeavesMayBeLess) {
+  const auto held = [](double left) {
+    const double a = 341302181.43452132;
+    const double b = 1169473578.3015051;
+    char text[400];
+    std::snprintf(text, sizeof text,
+                  "  m: {type: mass, mass: 1, x: 1e-3}\nlias:\n"
+                  "  l: {type: spring, between: [g, m], stiffness: %.17g}\n"
+                  "  q: {type: spring, between: [g, m], stiffness: %.17g}\n"
+                  "  n: {type: spring, between: [g, m], stiffness: %.17g}\n"
+                  "outputs: {o: {at: m, quantity: velocity, channel: 1}}\n",
+                  a, b, -(a + b) * (1.0 - left));
+    return Vouched(kOfAudio + text);
+  };
+  const Vouched less = held(3e-9);
+  EXPECT_GT(less.fastestOf(2.0, Precision::kFloat), 1e3);
+  EXPECT_LT(less.fastestOf(2.0, Precision::kDouble), 1.0);
+  EXPECT_FALSE(less.isVouchedFor());
+  EXPECT_TRUE(held(1e-5).isVouchedFor());
+}
+
+/// Its pole becomes a double one.
+TEST(RoundingTest, ACellAtHalfTheRateIsNone) {
+  const auto cell = [](double frequency) {
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "  m: {type: cell, mass: 0.01, stiffness: %.17g, matched: true, v: 1}\n"
+                  "outputs: {o: {at: m, quantity: velocity, channel: 1}}\n",
+                  0.01 * std::pow(2.0 * kPi * frequency, 2));
+    return Vouched(kOfAudio + text);
+  };
+  EXPECT_FALSE(cell(22049.5).isVouchedFor());
+  EXPECT_FALSE(cell(22050.0).isVouchedFor());
+  EXPECT_TRUE(cell(22000.0).isVouchedFor());
+}
+
+TEST(RoundingTest, NumbersThatSinglePrecisionDoesNotHoldAreRefused) {
+  const auto contact = [](const char* stiffness, const char* mass) {
+    return kOfAudio + "  m: {type: mass, mass: " + mass + ", x: 0.001, v: -1}\nlias:\n" +
+           "  c: {type: contact, between: [g, m], stiffness: " + stiffness + "}\n" +
+           "  s: {type: spring, between: [g, m], stiffness: 1e-20}\n" +
+           "outputs: {o: {at: m, quantity: velocity, channel: 1}}\n";
+  };
+  EXPECT_THAT(
+      complaintOf([&] { const Vouched none(contact("1e39", "0.01")); }),
+      HasSubstr("'stiffness' of link 'c' = 1e+39 N/m is out of range, allowed: >= 0 N/m, up "
+                "to 1e30 in size"));
+  EXPECT_FALSE(Vouched(contact("1e30", "1e-12")).isVouchedFor());
+  EXPECT_THAT(complaintOf([&] { const Vouched none(contact("1", "1e-48")); }),
+              HasSubstr("mass of module 'm' = 1e-48 kg is out of range, allowed: >= 1e-30 kg"));
+  const Vouched largest(contact("1e30", "0.01"));
+  EXPECT_TRUE(largest.isVouchedFor());
+  EXPECT_LT(largest.fastestOf(1.0, Precision::kFloat), 10.0);
+}
+
+}  // namespace
+}  // namespace ergotic::physics

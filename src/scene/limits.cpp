@@ -7,7 +7,8 @@
 namespace ergotic::scene {
 
 bool Limits::hold(double value) const {
-  return std::abs(value) <= kLargestNumber && value <= maximum && (above ? value > minimum : value >= minimum);
+  return std::abs(value) <= kLargestNumber && value <= maximum &&
+         (above ? value > minimum : value >= minimum);
 }
 
 std::string Limits::text(bool with_unit) const {

@@ -22,6 +22,8 @@ struct FreeSlices::Parts {
   bool closes = false;
   bool are_fine = false;  ///< left out where much hangs
   bool areNone() const { return of_slices == 0.0 && of_others == 0.0; }
+  /// There are few of the first cases and many others.
+  int mostMasses() const { return areNone() ? 100 : 50; }
   bool areEnds() const { return of_slices == 0.0 || of_slices == 1.0; }
 };
 
@@ -267,9 +269,9 @@ void FreeSlices::addAll(const scene::Scene& now, const Parts& parts) {
   const Network network(joined);
   std::set<int> known;
   for (const int slice : slices) {
-    add(joined, hangingOn(slice, network, handsOn(now, {slice})), parts);
+    add(joined, hangingOn(slice, network, handsOn(now, {slice}), parts.mostMasses()), parts);
     if (known.count(slice) == 0) {
-      const Hanging together = hangingOn(slice, network, all);
+      const Hanging together = hangingOn(slice, network, all, parts.mostMasses());
       known.insert(together.slices.begin(), together.slices.end());
       if (together.slices.size() > 1) {
         add(joined, together, parts);
@@ -286,7 +288,7 @@ void FreeSlices::add(const scene::Scene& joined, const Hanging& hanging, const P
   const char* const reason = notWorkedOut(hanging, joined, networks_.rates());
   for (const int slice : hanging.slices) {
     if (reason != nullptr || (hanging.is_cut && !mayLetGo(networks_.scene(), slice, parts))) {
-      left_out_[at(slice)] = reason == nullptr ? "more than 100 masses" : reason;
+      left_out_[at(slice)] = reason == nullptr ? "so many masses" : reason;
     }
   }
   if (reason != nullptr) {

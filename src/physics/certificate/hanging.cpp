@@ -11,8 +11,7 @@ namespace {
 
 using scene::MatType;
 
-constexpr int kMostMasses = 100;
-constexpr int kNearest = 16;  // of more
+constexpr int kNearest = 16;  // of more than can be worked out
 constexpr double kRounding = 1e-9;
 
 /// True if what moves along the axes of one section is not all seen in another.
@@ -109,8 +108,8 @@ Hands handsOn(const scene::Scene& scene, const std::vector<int>& slices) {
   return hands;
 }
 
-Hanging hangingOn(int slice, const Network& network, const Hands& hands) {
-  const Hanging all = reachedFrom(slice, network, hands, kMostMasses);
+Hanging hangingOn(int slice, const Network& network, const Hands& hands, int most) {
+  const Hanging all = reachedFrom(slice, network, hands, most);
   return all.is_cut ? reachedFrom(slice, network, hands, kNearest) : all;
 }
 

@@ -16,7 +16,7 @@ using Hands = std::vector<unsigned char>;
 std::vector<int> slicesInHands(const scene::Scene& scene);
 Hands handsOn(const scene::Scene& scene, const std::vector<int>& slices);
 
-/// What links join to a slice: modules that move, of more than 100 the 16 nearest; points; and the
+/// What links join to a slice: modules that move, of too many the 16 nearest; points; and the
 /// slices among them.
 struct Hanging {
   std::set<int> nodes;
@@ -25,7 +25,8 @@ struct Hanging {
   bool is_cut = false;  ///< there are more
 };
 /// \param hands  that let go; what the others move is held
-Hanging hangingOn(int slice, const Network& network, const Hands& hands);
+/// \param most   modules that are not too many
+Hanging hangingOn(int slice, const Network& network, const Hands& hands, int most);
 
 /// What hangs there by itself: everything else becomes ground, and is left alone.
 scene::Scene onlyOf(const Hanging& hanging, scene::Scene scene);

@@ -32,21 +32,21 @@ TEST(LeftOutSlicesTest, MoreThanAHundredMasses) {
   EXPECT_THAT(judged(bodyOn(100, LiaType::kSpringDamper)).findings,
               ElementsAre(HasSubstr("begins to swing with what hangs on link 'l100'")));
   const Certificate certificate = judged(bodyOn(101, LiaType::kSpringDamper));
-  EXPECT_THAT(certificate.findings, ElementsAre(HasSubstr("because of more than 100 masses")));
+  EXPECT_THAT(certificate.findings, ElementsAre(HasSubstr("because of so many masses")));
   EXPECT_EQ(certificate.ports.at(0).level, HandLevel::kWarned);
   EXPECT_EQ(certificate.ports[0].finding, certificate.findings[0]);
 }
 
-TEST(LeftOutSlicesTest, MoreThanAHundredMassesBehindATable) {
-  scene::Scene scene = bodyOn(101, LiaType::kTable, 1.0);
+TEST(LeftOutSlicesTest, MoreThanFiftyMassesBehindATable) {
+  scene::Scene scene = bodyOn(51, LiaType::kTable, 1.0);
   scene.lias.back().stiffness = {};
   scene.lias.back().law.edit().table.points = {{-0.1, -200.0}, {0.1, 200.0}};
   scene.lias.back().scheme = Scheme::kGuarded;
-  EXPECT_THAT(judged(scene).findings, ElementsAre(HasSubstr("because of more than 100 masses")));
+  EXPECT_THAT(judged(scene).findings, ElementsAre(HasSubstr("because of so many masses")));
 }
 
 /// Of what may let go the nearest masses tell enough.
-TEST(LeftOutSlicesTest, MoreThanAHundredMassesBehindAContactAreNoAlarm) {
+TEST(LeftOutSlicesTest, ManyMassesBehindAContactAreNoAlarm) {
   EXPECT_THAT(judged(bodyOn(101, LiaType::kSpringDamper, 1.0)).findings, testing::SizeIs(1));
   EXPECT_TRUE(judged(bodyOn(101, LiaType::kContact, 1.0)).findings.empty());
   EXPECT_THAT(judged(bodyOn(101, LiaType::kContact)).findings,

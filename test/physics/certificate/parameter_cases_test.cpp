@@ -55,5 +55,23 @@ TEST(ParameterCasesTest, WhatHangsOnASliceIsSeenBetweenTheEndsOfRanges) {
   EXPECT_TRUE(isWarned(weight));
 }
 
+/// Where it is at the start a ground holds what it could swing with.
+TEST(ParameterCasesTest, LedPointsAreSeenWhereTheyMayBe) {
+  SceneBuilder b;
+  const int slice = b.slice(0);
+  const int ground = b.ground();
+  const int first = b.mass(1e-3, 0.0);
+  for (int i = 1; i < 9; ++i) {
+    b.spring(b.mass(1e-3, 0.0), first + i - 1, 2e4);
+  }
+  b.spring(first, ground, 2e4);
+  b.spring(first + 8, ground, 2e4);
+  b.spring(b.point(b.grid(ground, 10), 0.0), slice, 2000.0);
+  EXPECT_EQ(certify(b.scene, kRates).ports.at(0).level, HandLevel::kSilent);
+  b.scene.connections.at(0).guide = b.slice(1);
+  b.scene.connections[0].guide_scale = 1.0;
+  EXPECT_EQ(certify(b.scene, kRates).ports.at(0).level, HandLevel::kWarned);
+}
+
 }  // namespace
 }  // namespace ergotic::physics

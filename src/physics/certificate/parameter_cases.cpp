@@ -79,6 +79,13 @@ std::vector<scene::Scene> parameterCases(const scene::Scene& scene, int most) {
   const std::vector<int> followed = followedIn(scene);
   const int values = valuesOfEach(followed.size(), most);
   const auto combinations = static_cast<int>(std::pow(values, followed.size()));
+  for (const int p : followed) {
+    for (int i = 0; values < kMostValues && most > kMostValues && i < kMostValues; ++i) {
+      cases.push_back(scene);
+      scene::Parameter& parameter = cases.back().parameters[at(p)];
+      parameter.value = valueAt(parameter, static_cast<double>(i) / (kMostValues - 1));
+    }
+  }
   for (int i = 0; values > 1 && i < combinations; ++i) {
     scene::Scene other = scene;
     int rest = i;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "physics/certificate/period_proof.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <complex>
+#include <vector>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -19,6 +22,9 @@ constexpr double kFading = 0.99;    // per period
 constexpr double kMostOff = 5e-10;  // of what G s becomes
 constexpr int kDoublings = 40;
 constexpr double kMostSensitive = 30.0;
+constexpr double kAlike = 1e-6;   // of places of bodies
+constexpr double kTongue = 5e-7;  // eight times what single precision rounds by
+constexpr double kSlow = 1e-8;    // per period, of growth in one
 
 /// Rows that a period makes B times themselves.
 struct Form {
@@ -36,11 +42,32 @@ MatrixXd beside(const MatrixXd& columns) {
   return (solver.householderQ() * MatrixXd::Identity(size, size)).rightCols(size - columns.cols());
 }
 
-MatrixXd besideWhatStays(const MatrixXd& matrix) {
+/// True if what stays are the places of as many bodies, which nothing holds: the modules of each
+/// moved alike, all at rest. A mode that comes back to where it was within a period stays, too.
+bool areBodies(const MatrixXd& stays) {
+  const Index modules = stays.rows() / 2;
+  std::vector<Eigen::RowVectorXd> places;
+  for (Index m = 0; m < modules; ++m) {
+    const Eigen::RowVectorXd place = stays.row(m);
+    const auto isHere = [&](const auto& known) { return (known - place).norm() < kAlike; };
+    if (place.norm() >= kAlike && std::none_of(places.begin(), places.end(), isHere)) {
+      places.push_back(place);
+    }
+  }
+  return stays.bottomRows(modules).norm() < kAlike &&
+         static_cast<Index>(places.size()) <= stays.cols();
+}
+
+/// At right angles to what a period leaves as it is; none if that is not only where bodies lie.
+std::optional<MatrixXd> besideWhatStays(const MatrixXd& matrix) {
   const MatrixXd unit = MatrixXd::Identity(matrix.rows(), matrix.cols());
   Eigen::FullPivLU<MatrixXd> change(matrix - unit);
   change.setThreshold(kFixed);
-  return change.rank() == matrix.rows() ? unit : beside(change.kernel());
+  if (change.rank() == matrix.rows()) {
+    return unit;
+  }
+  const MatrixXd stays = change.kernel();
+  return areBodies(stays) ? std::optional<MatrixXd>(beside(stays)) : std::nullopt;
 }
 
 /// Real and imaginary parts of the eigenvectors of what hardly fades, as columns, and what becomes
@@ -115,16 +142,45 @@ double sensitivityOf(const Form& form) {
   return (form.rows.cwiseAbs() * back.cwiseAbs()).diagonal().maxCoeff();
 }
 
+/// True if two lasting modes, or one and its conjugate, are so near that rounding the numbers may
+/// bring them together. At the distance g, with the condition c of their vectors, they are g/(2 c)
+/// beside a tongue of instability, in which they grow by at most g sqrt(c^2 - 1) per period.
+bool mayMeet(const MatrixXd& matrix) {
+  const Eigen::EigenSolver<MatrixXd> solver(matrix);
+  const Eigen::VectorXcd values = solver.eigenvalues();
+  const Eigen::MatrixXcd right = solver.eigenvectors();
+  const Eigen::MatrixXcd left = right.inverse();
+  for (Index i = 0; i < values.size(); ++i) {
+    if (values[i].imag() == 0.0 || !(std::abs(values[i]) > kFading)) {
+      continue;
+    }
+    const double condition = left.row(i).cwiseAbs().dot(right.col(i).cwiseAbs());
+    double distance = 2.0;
+    for (Index j = 0; j < values.size(); ++j) {
+      distance = j == i ? distance : std::min(distance, std::abs(values[i] - values[j]));
+    }
+    const double growth = distance * std::sqrt(std::max(condition * condition - 1.0, 0.0));
+    if (!(distance > 2.0 * kTongue * condition || growth < kSlow)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 std::optional<PeriodProof> proofOf(const Period& period) {
-  const MatrixXd kept = besideWhatStays(period.matrix);
+  const std::optional<MatrixXd> beside_bodies = besideWhatStays(period.matrix);
+  if (!beside_bodies) {
+    return std::nullopt;
+  }
+  const MatrixXd& kept = *beside_bodies;
   const MatrixXd matrix = kept.transpose() * period.matrix * kept;
   Form lasting = lastingOf(matrix.transpose());
   lasting.rows.transposeInPlace();
   const Form form = joined(lasting, fadingOf(matrix, lastingOf(matrix).rows), matrix.cols());
   if (form.rows.rows() != form.rows.cols() || !(errorOf(form, matrix) <= kMostOff) ||
-      !(sensitivityOf(form) <= kMostSensitive)) {
+      !(sensitivityOf(form) <= kMostSensitive) || mayMeet(matrix)) {
     return std::nullopt;
   }
   const Index modules = period.units.size();

@@ -32,8 +32,9 @@ TEST(ParameterCasesTest, AreThePresentBothEndsAndAsManyCombinationsAsAsked) {
   EXPECT_NEAR(cases[7].parameters[1].value, 10.0, 1e-12);
   scene.parameters.push_back({"z", 0.0, 0.0, 1.0, {}});
   scene.lias[1].damping = {1.0, 2};
-  EXPECT_EQ(parameterCases(scene, 27).size(), 3U + 25U);
-  EXPECT_EQ(parameterCases(scene, 27)[3 + 10].parameters[2].value, 0.5);
+  EXPECT_EQ(parameterCases(scene, 27).size(), 3U + 18U + 25U);
+  EXPECT_EQ(parameterCases(scene, 27)[3 + 9 + 4].parameters[2].value, 0.5);
+  EXPECT_EQ(parameterCases(scene, 27)[3 + 18 + 10].parameters[2].value, 0.5);
   EXPECT_EQ(parameterCases(scene, 4).size(), 3U + 4U);
 }
 

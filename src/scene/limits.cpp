@@ -6,9 +6,23 @@
 
 namespace ergotic::scene {
 
+namespace {
+
+bool isTooLarge(double value) {
+  return std::abs(value) > kLargestNumber;
+}
+
+/// Of what is measured and must not be 0: its inverse is needed.
+bool isTooSmall(double value, const Limits& limits) {
+  return *limits.unit != '\0' && limits.above && limits.minimum == 0.0 && value > 0.0 &&
+         value < 1.0 / kLargestNumber;
+}
+
+}  // namespace
+
 bool Limits::hold(double value) const {
-  return std::abs(value) <= kLargestNumber && value <= maximum &&
-         (above ? value > minimum : value >= minimum);
+  return std::isfinite(value) && !isTooLarge(value) && !isTooSmall(value, *this) &&
+         value <= maximum && (above ? value > minimum : value >= minimum);
 }
 
 std::string Limits::text(bool with_unit) const {
@@ -29,7 +43,8 @@ std::string outOfRange(const std::string& what,
   const std::string unit = with_unit && *limits.unit != '\0' ? std::string(" ") + limits.unit : "";
   return what + " = " + numberText(value) + unit +
          " is out of range, allowed: " + limits.text(with_unit) +
-         (std::abs(value) > kLargestNumber ? ", up to 1e30 in size" : "");
+         (isTooLarge(value) ? ", up to 1e30 in size" : "") +
+         (isTooSmall(value, limits) ? ", at least 1e-30" : "");
 }
 
 std::string numberText(double value) {

@@ -20,7 +20,8 @@ struct Limits {
   double maximum = kInfinity;
   bool above = false;  ///< the minimum itself is not allowed
 
-  /// True if within, and not beyond kLargestNumber.
+  /// True if within, not beyond kLargestNumber and, of what has a unit and must not be 0, not below
+  /// its inverse.
   bool hold(double value) const;
   /// As in `> 0 kg`, `0...1`, `a finite number of m`; without unit if `with_unit` is false.
   std::string text(bool with_unit = true) const;

@@ -9,7 +9,8 @@ namespace ergotic::physics {
 
 /// A scene at its present parameters, then at both ends of all ranges, and, as far as `most` goes,
 /// at all combinations of as many values of each range (at least both ends; by equal factors where
-/// all are above 0) of those parameters that its modules, links and points follow.
+/// all are above 0) of those parameters that its modules, links and points follow; if `most` is
+/// above 9, also at nine values of each of these by itself.
 /// \param most  at least 3
 std::vector<scene::Scene> parameterCases(const scene::Scene& scene, int most);
 

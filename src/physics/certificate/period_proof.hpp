@@ -13,7 +13,7 @@ namespace ergotic::physics {
 /// them there. `parameters` and `frames` are left to the caller.
 ///
 /// Modes that hardly fade: their left eigenvectors. The others lose so much that the form follows
-/// from a Lyapunov equation. Realtime: no. Cost: twice that of the eigenvalues.
+/// from a Lyapunov equation. Realtime: no. Cost: some four times that of the eigenvalues.
 std::optional<PeriodProof> proofOf(const Period& period);
 
 }  // namespace ergotic::physics

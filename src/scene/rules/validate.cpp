@@ -137,7 +137,6 @@ class Validator {
     index(m.place, "section" + of, m.section, scene_.sections.size());
     if (m.type == MatType::kMass || m.type == MatType::kCell) {
       value(m.place, "mass" + of, m.mass, kMassLimits);
-      value(m.place, "mass" + of, m.mass, {kMassLimits.unit, 1.0 / kLargestNumber});
     }
     if (m.type == MatType::kCell) {
       value(m.place, "stiffness" + of, m.stiffness, kStiffnessLimits);

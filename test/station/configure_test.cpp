@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <ctime>
 #include <random>
 #include <set>
 #include <thread>
 
+#include <sys/resource.h>
+
 #include "ergotic/station/station.hpp"
-#include "ergotic/station/timer_source.hpp"
 #include "support/station_doubles.hpp"
 #include "support/test.hpp"
 
@@ -226,25 +229,72 @@ TEST(ConfigureTest, AThousandChangesAtRandomMakeNoForceStep) {
   EXPECT_LE(steepest, bench.station->config().safety.slew_n_per_s / 3150.0 + 1e-12);
 }
 
-/// Live and engaged, the tick that takes a configuration is no later than any other: if a change
-/// took longer than a tick, a thousand would be late. Some are late on a machine that others use.
+/// Ticks on a thread of their own while the test changes hands on its own, and how often a tick was
+/// slow by its own doing: it took the processor for longer than a tick, which no stall of the
+/// machine does, or gave it away, which every wait does.
+class LiveTicks {
+ public:
+  explicit LiveTicks(Bench& bench) : bench_(bench), thread_([this] { run(); }) {}
+
+  /// \return ticks that were slow
+  const std::set<std::int64_t>& stop() {
+    stopping_.store(true);
+    thread_.join();
+    return slow_;
+  }
+
+ private:
+  struct Cost {
+    std::int64_t cpu_ns;
+    std::int64_t waits;
+  };
+
+  static Cost read() {
+    timespec cpu{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &cpu);
+    rusage usage{};
+    getrusage(RUSAGE_THREAD, &usage);
+    return {1'000'000'000 * static_cast<std::int64_t>(cpu.tv_sec) + cpu.tv_nsec, usage.ru_nvcsw};
+  }
+
+  void run() {
+    const auto tick_ns =
+        static_cast<std::int64_t>(1e9 / bench_.station->config().rates.gesturalHz());
+    auto due = std::chrono::steady_clock::now();
+    while (!stopping_.load()) {
+      std::this_thread::sleep_until(due += std::chrono::nanoseconds(tick_ns));
+      const std::int64_t tick = bench_.station->nextTick();
+      const Cost before = read();
+      bench_.station->cycle({});
+      const Cost after = read();
+      if (after.cpu_ns - before.cpu_ns > tick_ns || after.waits > before.waits) {
+        slow_.insert(tick);
+      }
+    }
+  }
+
+  Bench& bench_;
+  std::atomic<bool> stopping_{false};
+  std::set<std::int64_t> slow_;
+  std::thread thread_;
+};
+
+/// Live and engaged, a tick that takes a configuration is done in time: if a change took longer
+/// than a tick, or waited for the thread that sends it, a thousand would be slow. (A hypervisor's
+/// stalls may count as time on the processor: they meet one of these ticks of microseconds once in
+/// many runs.)
 TEST(ConfigureTest, AThousandChangesLiveMakeNoTickLate) {
   Bench bench({}, swaying, asShipped(), RandomHands::kSlices);
   RandomHands hands(bench);
-  TimerSource source(*bench.station, nullptr);
-  source.start({});
+  LiveTicks live(bench);
   std::vector<std::int64_t> configured;
-  std::set<std::int64_t> late;
   int engaged = 0;
   const auto listen = [&] {
     for (const Event& event : bench.events()) {
+      EXPECT_NE(event.type, Event::Type::kFault);
+      engaged += event.type == Event::Type::kEngaged ? 1 : 0;
       if (event.type == Event::Type::kConfigured) {
         configured.push_back(event.tick);
-      } else if (event.type == Event::Type::kEngaged) {
-        ++engaged;
-      } else if (event.type == Event::Type::kLateTick &&
-                 event.index == static_cast<std::int64_t>(LateCause::kCompute)) {
-        late.insert(event.tick);
       }
     }
     bench.recorded();
@@ -256,13 +306,13 @@ TEST(ConfigureTest, AThousandChangesLiveMakeNoTickLate) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     listen();
   }
-  source.stop();
+  const std::set<std::int64_t>& slow = live.stop();
   listen();
   EXPECT_EQ(configured.size(), 1000U);
   EXPECT_GT(engaged, 100);
-  const auto slow = std::count_if(configured.begin(), configured.end(),
-                                  [&](std::int64_t tick) { return late.count(tick) > 0; });
-  EXPECT_LE(slow, 10) << late.size() << " ticks were late in all";
+  EXPECT_LE(std::count_if(configured.begin(), configured.end(),
+                          [&](std::int64_t tick) { return slow.count(tick) > 0; }),
+            10);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "ergotic/physics/engine/instrument.hpp"
 #include "ergotic/physics/settling/settle.hpp"
 #include "ergotic/scene/generate/pitch.hpp"
+#include "physics/certificate/rounding_noise.hpp"
 #include "scene/laws/law.hpp"
 #include "tools/lib/check_filters.hpp"
 #include "tools/lib/check_names.hpp"
@@ -227,7 +228,12 @@ Json reportOn(const physics::Settled& settled,
                  {"filters", filtersReport(scene, rates)},
                  {"load", std::move(load)}};
   addProgram(scene, rates, options, report);
-  report["notes"] = settled.notes;
+  std::vector<std::string> notes = settled.notes;
+  if (options.precision == physics::Precision::kFloat) {
+    const std::vector<std::string> rounding = physics::notesOnRounding(scene, rates);
+    notes.insert(notes.end(), rounding.begin(), rounding.end());
+  }
+  report["notes"] = std::move(notes);
   report["warnings"] = std::move(warnings);
   return report;
 }

@@ -4,6 +4,7 @@
 
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
+#include "physics/certificate/rounding_noise.hpp"
 #include "support/physics.hpp"
 
 namespace ergotic::physics {
@@ -137,6 +138,53 @@ TEST(RoundingTest, NumbersThatSinglePrecisionDoesNotHoldAreRefused) {
   const Vouched largest(contact("1e30", "0.01"));
   EXPECT_TRUE(largest.isVouchedFor());
   EXPECT_LT(largest.fastestOf(1.0, Precision::kFloat), 10.0);
+}
+
+/// Two masses in a plane on prestressed springs of 7 MN/m.
+std::string prestressed(double between, double damping) {
+  char text[900];
+  std::snprintf(text, sizeof text,
+                "ergotic: 1\nsections: {a: {geometry: plane}}\nmats:\n"
+                "  g1: {type: ground, section: a}\n"
+                "  m1: {type: mass, section: a, mass: 0.01, at: [%g, 0], v: [1e-4, 0]}\n"
+                "  m2: {type: mass, section: a, mass: 0.015, at: [%g, 0]}\n"
+                "  g2: {type: ground, section: a, at: [%g, 0]}\nlias:\n"
+                "  l1: {type: spring, between: [g1, m1], stiffness: 0.7e7}\n"
+                "  l2: {type: spring, between: [m1, m2], stiffness: 0.7e7}\n"
+                "  l3: {type: spring, between: [m2, g2], stiffness: 0.7e7}\n"
+                "  z1: {type: damper, between: [m1, g1], damping: %g}\n"
+                "outputs: {o: {at: m1, quantity: velocity, channel: 1}}\n",
+                between, 2 * between, 3 * between, damping);
+  return text;
+}
+
+/// The speed that a note on rounding tells, m/s; 0 without one.
+double toldOf(const Vouched& vouched) {
+  const std::vector<std::string> notes = notesOnRounding(vouched.scene, vouched.rates);
+  if (notes.empty()) {
+    return 0.0;
+  }
+  EXPECT_EQ(notes.size(), 1U);
+  const std::string& note = notes.front();
+  return std::stod(note.substr(note.find("up to about ") + 12));
+}
+
+TEST(RoundingTest, TellsHowFarNoiseHeatsWhatLosesNothing) {
+  const Vouched lossless(prestressed(1.0, 0.0));
+  EXPECT_TRUE(lossless.isVouchedFor());
+  const double told = toldOf(lossless);
+  const double played = lossless.fastestOf(60.0, Precision::kFloat);  // the rms times 3, about
+  EXPECT_GT(told, 0.25 * played);
+  EXPECT_LT(told, 2.0 * played);
+  EXPECT_LT(lossless.fastestOf(10.0, Precision::kDouble), 3e-4);
+  EXPECT_LT(toldOf(Vouched(prestressed(0.1, 0.0))), 0.11 * told + 0.05);
+}
+
+TEST(RoundingTest, TellsNoneWhereALossOrShortDistancesKeepItSmall) {
+  const Vouched lossy(prestressed(1.0, 1.0));
+  EXPECT_EQ(toldOf(lossy), 0.0);
+  EXPECT_LT(lossy.fastestOf(10.0, Precision::kFloat), 0.15);
+  EXPECT_EQ(toldOf(Vouched(prestressed(0.01, 0.0))), 0.0);
 }
 
 }  // namespace

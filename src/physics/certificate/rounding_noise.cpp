@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/certificate/rounding_noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "at.hpp"
+#include "physics/disjoint_sets.hpp"
+#include "physics/network/network.hpp"
+#include "physics/network/section_stiffness.hpp"
+#include "physics/note.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+constexpr double kRounding =
+    1.0 / (1 << 24);              // rms, of a distance, with what is worked out from it
+constexpr double kMinute = 60.0;  // s
+constexpr double kTold = 0.05;    // m/s
+
+/// Modules that hang together.
+struct Part {
+  double mass = 0.0;   // kg
+  double power = 0.0;  // W that rounding gives
+  double loss = 0.0;   // kg/s, of motion that is alike everywhere
+  double farthest = 0.0;
+  int first = -1;  // module
+
+  /// Speed after a minute, rms, m/s.
+  double speed() const {
+    const double rate = loss / mass;  // of energy, of which half is motion
+    const double time = rate * kMinute > 1e-9 ? -std::expm1(-rate * kMinute) / rate : kMinute;
+    return std::sqrt(power * time / mass);
+  }
+};
+
+/// What a spring adds up before it takes a difference: in Euclidean sections how far its ends lie
+/// apart, in scalar ones only by how much it is stretched there, m.
+double distanceOf(const scene::Scene& scene, const scene::Lia& lia) {
+  const scene::Mat& a = scene.mats[at(lia.a)];
+  const scene::Mat& b = scene.mats[at(lia.b)];
+  const scene::Geometry geometry = scene.sectionOf(a).geometry;
+  return geometry == scene::Geometry::kScalar ? std::abs(a.rest.x() - b.rest.x() - lia.rest_length)
+                                              : movingPart(a.rest - b.rest, geometry).norm();
+}
+
+class RoundingNoise {
+ public:
+  RoundingNoise(const scene::Scene& scene, const Rates& rates)
+      : network_(scene),
+        rates_(rates),
+        joined_(network_.nodes.size()),
+        parts_(network_.nodes.size()) {
+    for (const Network::Link& link : network_.links) {
+      for (const Share& share : endsOf(link)) {
+        joined_.join(share.node, endsOf(link).front().node);
+      }
+    }
+    for (std::size_t m = 0; m < network_.nodes.size(); ++m) {
+      addModule(static_cast<int>(m));
+    }
+    for (std::size_t l = 0; l < network_.links.size(); ++l) {
+      addLink(network_.links[l], scene.lias[l]);
+    }
+  }
+
+  const std::vector<Part>& parts() const { return parts_; }
+
+ private:
+  Shares endsOf(const Network::Link& link) const {
+    Shares ends = sharesNow(network_, link.a);
+    for (const Share& share : sharesNow(network_, link.b)) {
+      ends.push_back({share.node, -share.weight});
+    }
+    return ends;
+  }
+
+  Part& partOf(int node) { return parts_[at(joined_.setOf(node))]; }
+
+  void addModule(int m) {
+    const Network::Node& node = network_.nodes[at(m)];
+    if (node.is_free) {
+      Part& part = partOf(m);
+      part.first = part.first < 0 ? m : part.first;
+      part.mass += node.mass.now;
+      part.loss += node.damping.now / network_.scene.time_unit_s;
+    }
+  }
+
+  /// A force of noise f gives f^2 h / 2M a second.
+  void addLink(const Network::Link& link, const scene::Lia& lia) {
+    const Shares ends = endsOf(link);
+    if (ends.empty()) {
+      return;
+    }
+    const double unit = network_.scene.time_unit_s;
+    const scene::Section& section =
+        network_.scene.sections[at(network_.nodes[at(ends[0].node)].section)];
+    const double step_hz = rates_.audio_hz / divisorOf(section, rates_);
+    const double distance = distanceOf(network_.scene, lia);
+    const double force = link.at_rest / (unit * unit) * kRounding * distance;
+    Part& part = partOf(ends[0].node);
+    for (const Share& share : ends) {
+      const double mass = network_.nodes[at(share.node)].mass.now;
+      part.power += 0.5 * share.weight * share.weight * force * force / (mass * step_hz);
+      part.loss += share.weight * share.weight * network_.scene.valueOf(lia.damping) / unit;
+    }
+    part.farthest = link.at_rest > 0.0 ? std::max(part.farthest, distance) : part.farthest;
+  }
+
+  Network network_;
+  const Rates& rates_;
+  DisjointSets joined_;
+  std::vector<Part> parts_;  // [nodes] by the module that names them
+};
+
+}  // namespace
+
+std::vector<std::string> notesOnRounding(const scene::Scene& scene, const Rates& rates) {
+  std::vector<std::string> notes;
+  const RoundingNoise noise(scene, rates);
+  for (const Part& part : noise.parts()) {
+    if (part.power > 0.0 && part.speed() > kTold) {
+      const scene::Mat& mat = scene.mats[at(part.first)];
+      notes.push_back(noteAt(scene, mat.place) + "single precision rounds distances of up to " +
+                      shortly(part.farthest) + " m, which moves all that hangs together with '" +
+                      mat.name.str() + "' by up to about " + shortly(part.speed()) +
+                      " m/s after a minute; double precision or more loss keeps it quiet");
+    }
+  }
+  return notes;
+}
+
+}  // namespace ergotic::physics

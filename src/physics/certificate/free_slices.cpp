@@ -7,8 +7,8 @@
 #include "at.hpp"
 #include "ergotic/physics/certificate/monodromy.hpp"
 #include "physics/certificate/hand_slopes.hpp"
+#include "physics/certificate/hanging_cases.hpp"
 #include "physics/certificate/linear_stepper.hpp"
-#include "physics/certificate/parameter_cases.hpp"
 #include "physics/step_units.hpp"
 #include "scene/laws/law.hpp"
 #include "scene/laws/range.hpp"
@@ -51,9 +51,6 @@ std::vector<Parts> allParts() {
   return parts;
 }
 
-constexpr int kPlaces = 5;
-constexpr double kMostWork = 2e7;  // cubes of numbers of a state
-constexpr double kMostCases = 27.0;
 constexpr double kGrows = 1.0 + 1e-6;  // per tick
 
 bool isBent(const scene::Lia& lia) {
@@ -125,55 +122,6 @@ scene::Scene linearAround(const Hands& hands,
   }
   now.lias = std::move(lias);
   return now;
-}
-
-/// Without dampers along lines that turn: what moves across them they leave alone.
-scene::Scene withoutTurning(scene::Scene scene, const RatedNetwork& networks) {
-  for (scene::Lia& lia : scene.lias) {
-    if (networks.hasLineThatTurns(lia)) {
-      lia.damping = {};
-    }
-  }
-  return scene;
-}
-
-/// Points that are led, at places of their ranges.
-void addPlaces(const scene::Scene& scene, std::vector<scene::Scene>& cases) {
-  const auto& all = scene.connections;
-  const bool are_led =
-      std::any_of(all.begin(), all.end(), [](const auto& c) { return c.guide >= 0; });
-  for (int i = 0; are_led && i < kPlaces; ++i) {
-    cases.push_back(scene);
-    for (scene::Connection& connection : cases.back().connections) {
-      if (connection.guide >= 0) {
-        const double range = connection.along_maximum - connection.along_minimum;
-        connection.along = {connection.along_minimum + range * i / (kPlaces - 1)};
-      }
-    }
-  }
-}
-
-/// So many that what takes longest, the eigenvalues, stays below about a second.
-int mostCases(const scene::Scene& scene) {
-  const auto masses = std::count_if(scene.mats.begin(), scene.mats.end(), isFree);
-  const double numbers = 3.0 * std::clamp(static_cast<double>(masses), 1.0, 100.0);
-  return static_cast<int>(std::clamp(kMostWork / std::pow(numbers, 3), 3.0, kMostCases));
-}
-
-/// With the present values of the parameters, and others; with all dampers, and without those that
-/// may do nothing.
-std::vector<scene::Scene> casesOf(const RatedNetwork& networks) {
-  const scene::Scene& scene = networks.scene();
-  std::vector<scene::Scene> cases = parameterCases(scene, mostCases(scene));
-  addPlaces(scene, cases);
-  const std::size_t count = cases.size();
-  const bool turns = std::any_of(scene.lias.begin(), scene.lias.end(), [&](const scene::Lia& lia) {
-    return networks.hasLineThatTurns(lia) && scene::largest(scene, lia.damping) > 0.0;
-  });
-  for (std::size_t i = 0; turns && i < count; ++i) {
-    cases.push_back(withoutTurning(cases[i], networks));
-  }
-  return cases;
 }
 
 /// A number of the state, and by what it is multiplied to be about the length that it moves by.
@@ -250,20 +198,35 @@ FreeSlices::FreeSlices(const RatedNetwork& networks)
     : networks_(networks),
       tick_s_(1.0 / networks.rates().gesturalHz()),
       left_out_(networks.scene().mats.size(), nullptr) {
-  const std::vector<scene::Lia>& lias = networks.scene().lias;
-  const bool is_bent = std::any_of(lias.begin(), lias.end(), isBent);
-  const std::vector<scene::Scene> cases = casesOf(networks);
-  for (const Parts& parts : allParts()) {
-    const std::size_t count =
-        parts.areEnds() ? cases.size() : 1;  // between them, the present values will do
-    for (std::size_t i = 0; i < (is_bent || parts.areNone() ? count : 0); ++i) {
-      addAll(cases[i], parts);
+  const Network network(networks.scene());
+  const std::vector<int> slices = slicesInHands(networks.scene());
+  std::set<int> known;
+  for (const int slice : slices) {
+    if (known.count(slice) == 0) {
+      const Hanging body = bodyOn(slice, network, handsOn(networks.scene(), slices));
+      known.insert(body.slices.begin(), body.slices.end());
+      addBody(body);
     }
   }
 }
 
-void FreeSlices::addAll(const scene::Scene& now, const Parts& parts) {
-  const std::vector<int> slices = slicesInHands(now);
+void FreeSlices::addBody(const Hanging& body) {
+  const std::vector<scene::Scene> cases = casesOf(body, networks_);
+  const std::vector<scene::Lia>& lias = cases.front().lias;
+  const bool is_bent = std::any_of(lias.begin(), lias.end(), isBent);
+  for (const Parts& parts : allParts()) {
+    const std::size_t count =
+        parts.areEnds() ? cases.size() : 1;  // between them, the present values will do
+    for (std::size_t i = 0; i < (is_bent || parts.areNone() ? count : 0); ++i) {
+      addAll(body.slices, cases[i], parts);
+    }
+  }
+}
+
+/// \param slices  of one body, which need not hang together in this case
+void FreeSlices::addAll(const std::vector<int>& slices,
+                        const scene::Scene& now,
+                        const Parts& parts) {
   const Hands all = handsOn(now, slices);
   const scene::Scene joined = linearAround(all, networks_, now, parts);
   const Network network(joined);

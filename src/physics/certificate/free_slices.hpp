@@ -40,7 +40,8 @@ class FreeSlices {
     Eigen::MatrixXd state;   // [numbers][numbers + slices]
     Eigen::MatrixXd forces;  // [slices][numbers + slices] at the device, N
   };
-  void addAll(const scene::Scene& now, const Parts& parts);
+  void addBody(const Hanging& body);
+  void addAll(const std::vector<int>& slices, const scene::Scene& now, const Parts& parts);
   void add(const scene::Scene& joined, const Hanging& hanging, const Parts& parts);
   Case caseOf(const scene::Scene& linear) const;
   double radius(const Case& one, const DeviceTraits& device) const;

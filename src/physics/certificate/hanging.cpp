@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "at.hpp"
 
@@ -39,15 +40,30 @@ bool hidesAMass(const scene::Scene& scene, const scene::Lia& lia) {
   return is_of_b ? !isSlice(lia.a) && isHidden(b, a) : !isSlice(lia.b) && isHidden(a, b);
 }
 
-/// Up to so many masses, the nearest.
-Hanging reachedFrom(int slice, const Network& network, const Hands& hands, int most) {
-  const std::vector<std::vector<int>> links_of = linksOfNodes(network);
-  std::vector<std::vector<int>> points_on(network.nodes.size());
+/// Modules under every point, and points on every module: as they are now, or wherever they may be.
+std::vector<std::set<int>> joinedByPoints(const Network& network, bool anywhere) {
+  std::vector<std::set<int>> joined(network.nodes.size());
   for (int node = 0; node < static_cast<int>(network.nodes.size()); ++node) {
-    for (const Share& share : sharesNow(network, node)) {
-      points_on[at(share.node)].push_back(node);
+    for (const Shares& shares :
+         anywhere ? placesOf(network, node) : std::vector<Shares>{sharesNow(network, node)}) {
+      for (const Share& share : shares) {
+        if (share.node != node) {
+          joined[at(node)].insert(share.node);
+          joined[at(share.node)].insert(node);
+        }
+      }
     }
   }
+  return joined;
+}
+
+/// Up to so many masses, the nearest.
+Hanging reachedFrom(int slice,
+                    const Network& network,
+                    const std::vector<std::set<int>>& joined,
+                    const Hands& hands,
+                    int most) {
+  const std::vector<std::vector<int>> links_of = linksOfNodes(network);
   Hanging hanging{{slice}, {slice}};
   std::vector<int> reached{slice};
   const auto reach = [&](int node) {
@@ -70,11 +86,8 @@ Hanging reachedFrom(int slice, const Network& network, const Hands& hands, int m
   };
   for (std::size_t i = 0; i < reached.size(); ++i) {
     const int node = reached[i];
-    for (const Share& share : sharesNow(network, node)) {
-      reach(share.node);
-    }
-    for (const int point : points_on[at(node)]) {
-      reach(point);
+    for (const int other : joined[at(node)]) {
+      reach(other);
     }
     for (const int l : links_of[at(node)]) {
       reach(network.links[at(l)].a);
@@ -109,8 +122,14 @@ Hands handsOn(const scene::Scene& scene, const std::vector<int>& slices) {
 }
 
 Hanging hangingOn(int slice, const Network& network, const Hands& hands, int most) {
-  const Hanging all = reachedFrom(slice, network, hands, most);
-  return all.is_cut ? reachedFrom(slice, network, hands, kNearest) : all;
+  const std::vector<std::set<int>> joined = joinedByPoints(network, false);
+  const Hanging all = reachedFrom(slice, network, joined, hands, most);
+  return all.is_cut ? reachedFrom(slice, network, joined, hands, kNearest) : all;
+}
+
+Hanging bodyOn(int slice, const Network& network, const Hands& hands) {
+  return reachedFrom(slice, network, joinedByPoints(network, true), hands,
+                     std::numeric_limits<int>::max());
 }
 
 scene::Scene onlyOf(const Hanging& hanging, scene::Scene scene) {

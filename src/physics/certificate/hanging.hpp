@@ -28,6 +28,9 @@ struct Hanging {
 /// \param most   modules that are not too many
 Hanging hangingOn(int slice, const Network& network, const Hands& hands, int most);
 
+/// All of it, and wherever points may be led.
+Hanging bodyOn(int slice, const Network& network, const Hands& hands);
+
 /// What hangs there by itself: everything else becomes ground, and is left alone.
 scene::Scene onlyOf(const Hanging& hanging, scene::Scene scene);
 

@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kMostValues = 9;  // of one parameter
 
-/// Indices of those that something that moves, or pulls, follows.
-std::vector<int> followedIn(const scene::Scene& scene) {
+/// Indices of those that something among these modules and points, or a link on them, follows.
+std::vector<int> followedIn(const scene::Scene& scene, const std::set<int>& among) {
   std::set<int> followed;
   const auto add = [&](std::initializer_list<scene::Value> values) {
     for (const scene::Value& value : values) {
@@ -23,18 +23,20 @@ std::vector<int> followedIn(const scene::Scene& scene) {
       }
     }
   };
-  for (const scene::Section& section : scene.sections) {
-    add({section.medium});
-  }
-  for (const scene::Mat& mat : scene.mats) {
-    add({mat.mass, mat.stiffness, mat.damping});
+  for (const int node : among) {
+    const scene::Mat& mat = scene.mats[at(node)];
+    add({mat.mass, mat.stiffness, mat.damping, scene.sectionOf(mat).medium});
   }
   for (const scene::Lia& lia : scene.lias) {
-    add({lia.stiffness, lia.damping, lia.law->nonlinearity, lia.law->stiffness_limit,
-         lia.law->limit_damping, lia.law->width, lia.law->exponent});
+    if (among.count(lia.a) != 0 || among.count(lia.b) != 0) {
+      add({lia.stiffness, lia.damping, lia.law->nonlinearity, lia.law->stiffness_limit,
+           lia.law->limit_damping, lia.law->width, lia.law->exponent});
+    }
   }
   for (const scene::Connection& connection : scene.connections) {
-    add({connection.along, connection.across});
+    if (among.count(connection.mat) != 0) {
+      add({connection.along, connection.across});
+    }
   }
   std::vector<int> ranging;
   for (const int p : followed) {
@@ -65,7 +67,9 @@ int valuesOfEach(std::size_t parameters, int most) {
 
 }  // namespace
 
-std::vector<scene::Scene> parameterCases(const scene::Scene& scene, int most) {
+std::vector<scene::Scene> parameterCases(const scene::Scene& scene,
+                                         const std::set<int>& among,
+                                         int most) {
   std::vector<scene::Scene> cases{scene};
   for (double scene::Parameter::*end : {&scene::Parameter::minimum, &scene::Parameter::maximum}) {
     scene::Scene other = scene;
@@ -76,7 +80,7 @@ std::vector<scene::Scene> parameterCases(const scene::Scene& scene, int most) {
       cases.push_back(std::move(other));
     }
   }
-  const std::vector<int> followed = followedIn(scene);
+  const std::vector<int> followed = followedIn(scene, among);
   const int values = valuesOfEach(followed.size(), most);
   const auto combinations = static_cast<int>(std::pow(values, followed.size()));
   for (const int p : followed) {

@@ -19,23 +19,24 @@ scene::Scene massOn(double mass, double stiffness, double loss) {
 
 TEST(ParameterCasesTest, AreThePresentBothEndsAndAsManyCombinationsAsAsked) {
   scene::Scene scene = massOn(1.0, 1.0, 1.0);
-  EXPECT_EQ(parameterCases(scene, 27).size(), 1U);
+  EXPECT_EQ(parameterCases(scene, {0}, 27).size(), 1U);
   scene.parameters.push_back({"unused", 1.0, 1.0, 100.0, {}});
-  EXPECT_EQ(parameterCases(scene, 27).size(), 3U);
+  EXPECT_EQ(parameterCases(scene, {0}, 27).size(), 3U);
   scene.parameters.push_back({"k", 1.0, 1.0, 100.0, {}});
   scene.lias.at(0).stiffness = {1.0, 1};
-  EXPECT_EQ(parameterCases(scene, 3).size(), 3U + 3U);
-  const std::vector<scene::Scene> cases = parameterCases(scene, 27);
+  EXPECT_EQ(parameterCases(scene, {0}, 3).size(), 3U + 3U);
+  const std::vector<scene::Scene> cases = parameterCases(scene, {0}, 27);
   ASSERT_EQ(cases.size(), 3U + 9U);
   EXPECT_EQ(cases[1].parameters[1].value, 1.0);
   EXPECT_EQ(cases[2].parameters[1].value, 100.0);
   EXPECT_NEAR(cases[7].parameters[1].value, 10.0, 1e-12);
   scene.parameters.push_back({"z", 0.0, 0.0, 1.0, {}});
   scene.lias[1].damping = {1.0, 2};
-  EXPECT_EQ(parameterCases(scene, 27).size(), 3U + 18U + 25U);
-  EXPECT_EQ(parameterCases(scene, 27)[3 + 9 + 4].parameters[2].value, 0.5);
-  EXPECT_EQ(parameterCases(scene, 27)[3 + 18 + 10].parameters[2].value, 0.5);
-  EXPECT_EQ(parameterCases(scene, 4).size(), 3U + 4U);
+  EXPECT_EQ(parameterCases(scene, {0}, 27).size(), 3U + 18U + 25U);
+  EXPECT_EQ(parameterCases(scene, {0}, 27)[3 + 9 + 4].parameters[2].value, 0.5);
+  EXPECT_EQ(parameterCases(scene, {0}, 27)[3 + 18 + 10].parameters[2].value, 0.5);
+  EXPECT_EQ(parameterCases(scene, {0}, 4).size(), 3U + 4U);
+  EXPECT_EQ(parameterCases(scene, {1}, 27).size(), 3U + 9U) << "the slice and its spring";
 }
 
 /// The worst is at one end of the one and the other of the other, or at neither.
@@ -54,6 +55,30 @@ TEST(ParameterCasesTest, WhatHangsOnASliceIsSeenBetweenTheEndsOfRanges) {
   weight.parameters.push_back({"m", 1e-5, 1e-5, 100.0, {}});
   weight.mats.at(0).mass = {1.0, 0};
   EXPECT_TRUE(isWarned(weight));
+}
+
+/// What hangs elsewhere takes none of the values, with parameters of its own or many masses.
+TEST(ParameterCasesTest, WhatHangsElsewhereHidesNothing) {
+  SceneBuilder b;
+  const int hung = b.mass(1e-5, 0.0);
+  b.spring(hung, b.slice(0), 2000.0);
+  const int ground = b.ground();
+  const int other = b.mass(0.01, 0.0);
+  for (int i = 0; i < 3; ++i) {
+    b.scene.parameters.push_back({std::string(1, static_cast<char>('a' + i)), 1.0, 1.0, 2.0, {}});
+    b.spring(other, ground, 1.0);
+    b.scene.lias.back().stiffness = {1.0, i};
+  }
+  int last = ground;
+  for (int i = 0; i < 80; ++i) {
+    const int next = b.mass(1e-3, 0.0);
+    b.spring(next, last, 1e5);
+    last = next;
+  }
+  b.spring(last, b.slice(1), 100.0);  // of another slice, too
+  b.scene.parameters.push_back({"m", 1e-5, 1e-5, 100.0, {}});
+  b.scene.mats.at(0).mass = {1.0, 3};
+  EXPECT_NE(certify(b.scene, kRates).ports.at(0).level, HandLevel::kSilent);
 }
 
 /// Where it is at the start a ground holds what it could swing with.

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/certificate/hanging_cases.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/certificate/parameter_cases.hpp"
+#include "scene/laws/range.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+constexpr int kPlaces = 5;
+constexpr double kMostWork = 2e7;  // cubes of numbers of a state
+constexpr double kMostCases = 27.0;
+
+/// Without dampers along lines that turn: what moves across them they leave alone.
+scene::Scene withoutTurning(scene::Scene scene, const RatedNetwork& networks) {
+  for (scene::Lia& lia : scene.lias) {
+    if (networks.hasLineThatTurns(lia)) {
+      lia.damping = {};
+    }
+  }
+  return scene;
+}
+
+/// Points that are led, at places of their ranges.
+void addPlaces(const scene::Scene& scene, std::vector<scene::Scene>& cases) {
+  const auto& all = scene.connections;
+  const bool are_led =
+      std::any_of(all.begin(), all.end(), [](const auto& c) { return c.guide >= 0; });
+  for (int i = 0; are_led && i < kPlaces; ++i) {
+    cases.push_back(scene);
+    for (scene::Connection& connection : cases.back().connections) {
+      if (connection.guide >= 0) {
+        const double range = connection.along_maximum - connection.along_minimum;
+        connection.along = {connection.along_minimum + range * i / (kPlaces - 1)};
+      }
+    }
+  }
+}
+
+/// So many that what takes longest, the eigenvalues, stays below about a second.
+int mostCases(int masses) {
+  const double numbers = 3.0 * std::clamp(masses, 1, 100);
+  return static_cast<int>(std::clamp(kMostWork / std::pow(numbers, 3), 3.0, kMostCases));
+}
+
+}  // namespace
+
+std::vector<scene::Scene> casesOf(const Hanging& body, const RatedNetwork& networks) {
+  const scene::Scene scene = onlyOf(body, networks.scene());
+  std::vector<scene::Scene> cases = parameterCases(scene, body.nodes, mostCases(body.masses));
+  addPlaces(scene, cases);
+  const std::size_t count = cases.size();
+  const bool turns = std::any_of(scene.lias.begin(), scene.lias.end(), [&](const scene::Lia& lia) {
+    return networks.hasLineThatTurns(lia) && scene::largest(scene, lia.damping) > 0.0;
+  });
+  for (std::size_t i = 0; turns && i < count; ++i) {
+    cases.push_back(withoutTurning(cases[i], networks));
+  }
+  return cases;
+}
+
+}  // namespace ergotic::physics

@@ -5,7 +5,6 @@ namespace ergotic::physics {
 
 /// Where an explicit link is inaccurate, h the step of the link, slopes and masses at the worst
 /// ends of their ranges: what the certificate warns of, and the rules of `scheme: auto`.
-constexpr double kExplicitSwitch = 0.05;   ///< h^2 K (1/Ma + 1/Mb) of tables, above it guarded
 constexpr double kExplicitFriction = 1.0;  ///< h max F' (1/Ma + 1/Mb), from here on guarded
 constexpr double kExplicitFalling = 0.2;   ///< h max(-F') (1/Ma + 1/Mb), from here on guarded
 

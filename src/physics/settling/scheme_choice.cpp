@@ -77,11 +77,7 @@ class Chooser {
     const bool acts =
         slopes.stiffness.highest > 0.0 || (law.friction == nullptr && slopes.damping.highest > 0.0);
     if (law.switches && acts) {
-      const double kappa = per_stiffness * slopes.stiffness.highest;
-      const bool is_vouched = loss_.bears(lia);
-      const double allowed = is_vouched ? kExplicitSwitch : 0.0;
-      return is_vouched && kappa <= allowed ? Reason{}
-                                            : Reason{"h^2 K (1/Ma + 1/Mb)", kappa, allowed};
+      return {"h^2 K (1/Ma + 1/Mb)", per_stiffness * slopes.stiffness.highest, 0.0};
     }
     return law.friction == nullptr ? Reason{} : sliding(lia, law, per_damping);
   }

@@ -36,6 +36,7 @@ ROOMS = {
     "audio": "exception rt",
     "tgr/drivers/comedi": "exception rt tgr",
     "tgr/drivers/jack": "exception rt tgr audio",
+    "guardian": "exception rt tgr",
     "bag": "exception physics/engine tgr station",
     "ros/device": "exception rt scene physics/engine physics/certificate tgr station bag",
     "ros/display": "scene tgr station ros/device",
@@ -54,6 +55,7 @@ ROS = CORE + " ros/ rosbag/ nodelet/ pluginlib/ class_loader/ xmlrpcpp/ diagnost
              " ergotic/ diagnostic_msgs/ geometry_msgs/ sensor_msgs/ std_msgs/ std_srvs/ visualization_msgs/"
 FOREIGN = {
     "audio": CORE + " jack/ sndfile",
+    "guardian": CORE + " jack/",
     "tgr/drivers/comedi": CORE + " comedilib.h pluginlib/",
     "tgr/drivers/jack": CORE + " pluginlib/",
     "bag": ROS,

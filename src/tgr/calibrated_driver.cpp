@@ -74,6 +74,7 @@ class CalibratedDriverOverRaw final : public CalibratedDriver {
   double damping() const noexcept override { return raw_->damping(); }
   double declaredDamping() const noexcept override { return raw_->declaredDamping(); }
   DeviceClock* clock() noexcept override { return raw_->clock(); }
+  std::vector<Guard> guards() const override { return raw_->guards(); }
   bool setTarget(int slice, double target_m) noexcept override {
     return raw_->setTarget(slice, target_m);
   }

@@ -109,6 +109,16 @@ class CombinedDriver final : public Driver {
     return bits;
   }
 
+  std::vector<Guard> guards() const override {
+    std::vector<Guard> all;
+    for (const auto& driver : drivers_) {
+      for (Guard& guard : driver->guards()) {
+        all.push_back(std::move(guard));
+      }
+    }
+    return all;
+  }
+
   double damping() const noexcept override { return least(&Driver::damping); }
   double declaredDamping() const noexcept override { return least(&Driver::declaredDamping); }
 

@@ -83,6 +83,7 @@ class FaultyDriverOverAnother final : public FaultyDriver {
   int extraDelayTicks() const noexcept override { return inside_->extraDelayTicks(); }
   bool isRaw() const noexcept override { return inside_->isRaw(); }
   std::uint64_t uncalibrated() const noexcept override { return inside_->uncalibrated(); }
+  std::vector<Guard> guards() const override { return inside_->guards(); }
   double damping() const noexcept override { return inside_->damping(); }
   double declaredDamping() const noexcept override { return inside_->declaredDamping(); }
   DeviceClock* clock() noexcept override { return inside_->clock(); }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <csignal>
 #include <cstdio>
 
 #include "comedi/comedi_rig.hpp"
+#include "support/period_probe.hpp"
+#include "support/scratch_file.hpp"
 #include "support/test.hpp"
 
 /// A program that knows of libcomedi only, with the stand-in preloaded by its environment.
@@ -57,6 +60,28 @@ TEST(ComediPreloadTest, MeetsTheFaultsOfTheEnvironment) {
               ElementsAre(0U, failed, 0U, tgr::kDeviceLost, tgr::kDeviceLost, tgr::kDeviceLost))
       << text;
 }
+
+double voltsAtTerminals(const std::string& path) {
+  double volts = std::nan("");
+  std::ifstream(path).read(reinterpret_cast<char*>(&volts), sizeof volts);
+  return volts;
+}
+
+class ComediGuardianTest : public ::testing::TestWithParam<int> {};
+
+TEST_P(ComediGuardianTest, TakesTheVoltsOffABoardWhoseProgramDies) {
+  const ScratchFile terminals;
+  const std::string environment =
+      kPreload + "COMEDI_STANDIN_TERMINALS=" + terminals.path() + " timeout -s KILL 1";
+  const std::string text =
+      outputOf(environment, kOneSlice + "0.75 20 " + std::to_string(GetParam()));
+  EXPECT_GE(std::count(text.begin(), text.end(), '\n'), 20) << text;
+  EXPECT_TRUE(eventually([&] { return std::abs(voltsAtTerminals(terminals.path())) < 0.001; }))
+      << voltsAtTerminals(terminals.path()) << " V";
+}
+INSTANTIATE_TEST_SUITE_P(Ended,
+                         ComediGuardianTest,
+                         ::testing::Values(SIGKILL, SIGSEGV, SIGABRT, SIGSTOP));
 
 TEST(ComediPreloadTest, WithoutItTheSameProgramAsksTheRealLibrary) {
   EXPECT_THAT(outputOf("", "'{board: /dev/no_comedi, ai_channels: [0], ao_channels: [0]}' 0 1"),

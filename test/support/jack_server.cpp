@@ -82,28 +82,21 @@ void JackServer::giveBackPlace() {
 }
 
 void JackServer::start() {
-  // Real-time where permitted; synchronous, so that every block has the frame time of its cycle;
-  // two seconds before a client that a busy machine holds up is expelled.
+  // Real-time where permitted; two seconds before a client that a busy machine holds up is
+  // expelled.
   const std::string realtime = geteuid() == 0 ? "-R" : "-r";
-  const std::vector<std::string> words{"jackd",
-                                       "-n",
-                                       name_,
-                                       realtime,
-                                       "-P",
-                                       "70",
-                                       "-t",
-                                       "2000",
-                                       "-S",
-                                       "-d",
-                                       "dummy",
-                                       "-r",
-                                       std::to_string(settings_.sample_rate),
-                                       "-p",
-                                       std::to_string(settings_.period_frames),
-                                       "-C",
-                                       std::to_string(settings_.channels),
-                                       "-P",
-                                       std::to_string(settings_.channels)};
+  std::vector<std::string> words{"jackd", "-n",
+                                 name_,   realtime,
+                                 "-P",    "70",
+                                 "-t",    std::to_string(settings_.timeout_ms),
+                                 "-d",    "dummy",
+                                 "-r",    std::to_string(settings_.sample_rate),
+                                 "-p",    std::to_string(settings_.period_frames),
+                                 "-C",    std::to_string(settings_.channels),
+                                 "-P",    std::to_string(settings_.channels)};
+  if (settings_.synchronous) {
+    words.insert(words.begin() + 1, "-S");
+  }
   std::filesystem::remove(socketPath(name_));  // of one that was killed
   pid_ = fork();
   if (pid_ == 0) {

@@ -15,6 +15,9 @@ class JackServer {
     int sample_rate = 44100;  ///< Hz
     int period_frames = 256;
     int channels = 2;  ///< physical ports, each way
+    /// Every block waits for all clients, so that it has the frame time of its cycle.
+    bool synchronous = true;
+    int timeout_ms = 2000;  ///< before a client that a busy machine holds up is expelled
   };
 
   /// Not running yet; \param tag  tells servers of one test program apart

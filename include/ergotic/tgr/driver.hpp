@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "ergotic/tgr/device_clock.hpp"
 
@@ -27,6 +28,18 @@ enum ExchangeFlag : std::uint32_t {
 
 /// N s/m, of a slice of which nobody knows more.
 constexpr double kSupposedDamping = 2.0;
+
+/// What a process of its own needs to take the force off a device when this process cannot any
+/// more.
+struct Guard {
+  std::vector<std::string> words;  ///< kind of the device, then what that kind needs
+  int file = -1;                   ///< open file that it needs, too; -1: none
+  std::int64_t life = 0;           ///< tells one opening of the device from the one before
+
+  bool operator==(const Guard& other) const {
+    return words == other.words && file == other.file && life == other.life;
+  }
+};
 
 /// A force-feedback device, an impedance device: it gives positions and takes forces.
 ///
@@ -69,6 +82,10 @@ class Driver {
   /// Ticks of delay the driver adds to the loop's one (0 for a synchronous device). Constant after
   /// open.
   virtual int extraDelayTicks() const noexcept { return 0; }
+
+  /// What a guardian holds, see Guardian; empty if the device is without force as soon as this
+  /// process is. \pre open. Realtime: no. Thread: setup
+  virtual std::vector<Guard> guards() const { return {}; }
 
   /// True if `exchange` speaks volts: a CalibratedDriver has to stand in front.
   virtual bool isRaw() const noexcept { return false; }

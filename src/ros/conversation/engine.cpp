@@ -18,7 +18,8 @@ constexpr double kPresenceS = 0.2;
 constexpr int kMaxPriority = 99;
 constexpr double kPeriodsOfSilence = 3.0;
 constexpr double kMaxWatchdogS = 1.0;
-constexpr int kWatchdogAboveTick = 5;  // it must not wait for a tick that never ends
+constexpr double kPeriodsOfHang = 2.0;  // of the watchdog, which beats for the guardian
+constexpr int kWatchdogAboveTick = 5;   // it must not wait for a tick that never ends
 
 station::StationConfig stationConfig(const Parameters& parameters, const physics::Rates& rates) {
   station::StationConfig config;
@@ -45,6 +46,12 @@ double watchdogPeriod(double asked_s, tgr::Driver& driver) {
   const double least_s =
       clock == nullptr ? 0.0 : std::min(kPeriodsOfSilence * clock->periodS(), kMaxWatchdogS);
   return std::max(asked_s, least_s);
+}
+
+int watchdogPriority(const Parameters& parameters) {
+  return parameters.realtime != Realtime::kOff
+             ? std::min(kMaxPriority, parameters.priority + kWatchdogAboveTick)
+             : 0;
 }
 
 /// Hears of the server's rate, plays nothing.
@@ -89,8 +96,9 @@ Engine::Engine(const Parameters& parameters,
     bridge_ = std::make_unique<station::AudioBridge>(bridge);
     station_->setFramePort(bridge_.get());
   }
+  startGuardian();
   source_ = station::startTicks(*station_, bridge_.get(), timerOptions(parameters));
-  warnings_ = source_->warnings();
+  warnings_.insert(warnings_.end(), source_->warnings().begin(), source_->warnings().end());
   startWatchdog();
   if (parameters.realtime == Realtime::kRequire && !warnings_.empty()) {
     source_->stop();
@@ -119,7 +127,8 @@ Engine::~Engine() {
   master_watch_.reset();
   source_->stop();
   watchdog_->stop();
-  station_.reset();  // the device is given back before JACK, which may take its time
+  station_
+      .reset();  // the device is given back before its guardian and JACK, which may take its time
 }
 
 void Engine::startWatchdog() {
@@ -130,14 +139,44 @@ void Engine::startWatchdog() {
   watchdog_s_ = watchdogPeriod(parameters_.watchdog, station_->driver());
   tgr::WatchdogOptions options;
   options.period_s = watchdog_s_;
-  options.priority = parameters_.realtime != Realtime::kOff
-                         ? std::min(kMaxPriority, parameters_.priority + kWatchdogAboveTick)
-                         : 0;
+  options.priority = watchdogPriority(parameters_);
+  options.beat = [this] {
+    const std::lock_guard lock(guardian_mutex_);
+    if (guardian_) {
+      guardian_->beat();
+    }
+  };
   watchdog_->start(options);
   if (!watchdog_->warning().empty()) {
     warnings_.push_back(watchdog_->warning());
   }
   watchdog_->arm();
+}
+
+/// In place of one that there is. Without a guardian it plays all the same, and says so.
+void Engine::startGuardian() {
+  guards_ = station_->driver().guards();
+  std::unique_ptr<tgr::Guardian> next;
+  try {
+    if (!guards_.empty()) {
+      tgr::GuardianOptions options;
+      options.silence_s = kPeriodsOfHang * watchdogPeriod(parameters_.watchdog, station_->driver());
+      options.priority = watchdogPriority(parameters_);
+      next = std::make_unique<tgr::Guardian>(guards_, options);
+    }
+  } catch (const DeviceError& problem) {
+    warnings_.push_back(std::string(problem.what()) +
+                        ": if this process dies the devices may keep their force");
+  }
+  const std::lock_guard lock(guardian_mutex_);
+  guardian_.swap(next);
+}
+
+void Engine::keepGuardian() {
+  if (guardian_ && !guardian_->isThere()) {
+    warnings_.emplace_back("the guardian of the devices died: another takes its place");
+    startGuardian();
+  }
 }
 
 void Engine::watchMaster(const std::string& service) {
@@ -147,6 +186,9 @@ void Engine::watchMaster(const std::string& service) {
 
 void Engine::recover() {
   station_->driver().reconnect();  // may take its time
+  if (!(station_->driver().guards() == guards_)) {
+    startGuardian();
+  }
   if (master_watch_ && master_watch_->isMissing()) {
     throw Exception(
         "the ROS master does not answer, or does not know this station: nobody could find "
@@ -166,6 +208,7 @@ std::optional<audio::JackStatus> Engine::jackStatus() const {
 }
 
 std::vector<std::string> Engine::takeWarnings() {
+  keepGuardian();
   std::vector<std::string> warnings = std::exchange(warnings_, {});
   if (bridge_) {
     for (std::string& warning : bridge_->takeWarnings()) {

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "ergotic/station/audio_bridge.hpp"
 #include "ergotic/station/station.hpp"
 #include "ergotic/station/timer_source.hpp"
+#include "ergotic/tgr/safety/guardian.hpp"
 #include "ergotic/tgr/safety/watchdog.hpp"
 #include "ros/conversation/master_watch.hpp"
 #include "ros/device/hands.hpp"
@@ -61,6 +63,8 @@ class Engine {
 
  private:
   void startWatchdog();
+  void startGuardian();
+  void keepGuardian();
 
   Parameters parameters_;
   std::unique_ptr<Hands> hands_;  // outlives the station, which has its drivers
@@ -68,6 +72,9 @@ class Engine {
   std::unique_ptr<station::AudioBridge> bridge_;
   std::unique_ptr<station::TickSource> source_;
   std::unique_ptr<audio::JackHost> jack_;
+  std::vector<tgr::Guard> guards_;  // what the guardian holds
+  std::mutex guardian_mutex_;       // of the pointer, between the operator and the watchdog's beats
+  std::unique_ptr<tgr::Guardian> guardian_;
   std::unique_ptr<tgr::Watchdog> watchdog_;
   std::unique_ptr<MasterWatch> master_watch_;
   double watchdog_s_ = 0.0;

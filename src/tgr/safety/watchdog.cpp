@@ -24,12 +24,11 @@ void Watchdog::start(const WatchdogOptions& options) {
   warning_.clear();
   stopping_ = false;
   wanted_ = false;
-  const auto period_ns = static_cast<std::int64_t>(1e9 * options.period_s);
   std::promise<void> ready;
-  thread_ = std::thread([this, &ready, priority = options.priority, period_ns] {
-    setUpThread(priority);
+  thread_ = std::thread([this, &ready, options] {
+    setUpThread(options.priority);
     ready.set_value();
-    run(period_ns);
+    run(options);
   });
   ready.get_future().wait();
 }
@@ -48,11 +47,13 @@ void Watchdog::setUpThread(int priority) {
   rt::prefaultStack();
 }
 
-void Watchdog::run(std::int64_t period_ns) noexcept {
+void Watchdog::run(const WatchdogOptions& options) noexcept {
+  const auto period_ns = static_cast<std::int64_t>(1e9 * options.period_s);
   const std::int64_t interval_ns = period_ns / 4;
   TickWatch watch(period_ns, interval_ns);
   std::int64_t now_ns = rt::monotonicNs();
   while (!stopping_) {
+    options.beat();
     if (!wanted_) {
       watch.disarm();
     } else if (!watch.isArmed()) {

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "comedi/standin/board.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <thread>
+
+#include <sys/mman.h>
 
 namespace ergotic::test {
 namespace {
@@ -19,6 +25,12 @@ tgr::VirtualDriverConfig bankOf(const ComediStandinBoard& config) {
   bank.slice = config.slice;
   bank.gesture_file = config.gesture_file;
   return bank;
+}
+
+/// A file that COMEDI_STANDIN_TERMINALS names, or one without a name.
+int openTerminals() {
+  const char* const path = std::getenv("COMEDI_STANDIN_TERMINALS");
+  return path != nullptr ? ::open(path, O_RDWR | O_CREAT, 0600) : ::memfd_create("terminals", 0);
 }
 
 int nextGeneration() {
@@ -55,8 +67,13 @@ StandinBoard::StandinBoard(const ComediStandinBoard& config)
       sensed_(outputs_.size()),
       stuck_(outputs_.size()),
       railed_(outputs_.size()),
-      generation_(nextGeneration()) {
+      generation_(nextGeneration()),
+      terminals_(openTerminals()) {
   bank_.start(1.0 / config.rate_hz, config.rate_hz);
+}
+
+StandinBoard::~StandinBoard() {
+  ::close(terminals_);
 }
 
 bool StandinBoard::isPluggedIn() {
@@ -163,8 +180,10 @@ int StandinBoard::write(unsigned channel, const comedi_range& range, const comed
   if (count > kComediMost || range.unit != UNIT_volt) {
     return EINVAL;
   }
-  outputs_[channel] = comediVolts(count, range.min, range.max);
-  return 0;
+  const double volts = comediVolts(count, range.min, range.max);
+  outputs_[channel] = volts;
+  const auto at = static_cast<off_t>(channel * sizeof volts);
+  return ::pwrite(terminals_, &volts, sizeof volts, at) == sizeof volts ? 0 : EIO;
 }
 
 int StandinBoard::read(unsigned channel, const comedi_range& range, const comedi_insn& insn) {

@@ -22,6 +22,9 @@ const std::vector<comedi_range>& rangesOf(unsigned subdevice);
 class StandinBoard {
  public:
   explicit StandinBoard(const ComediStandinBoard& config);
+  ~StandinBoard();
+  StandinBoard(const StandinBoard&) = delete;
+  StandinBoard& operator=(const StandinBoard&) = delete;
 
   const ComediStandinBoard& config() const { return config_; }
   void inject(const ComediFaultOrder& order) { faults_.push_back(order); }
@@ -31,6 +34,10 @@ class StandinBoard {
   int generation() const { return generation_; }
   void hold(int channel, double target_m) { bank_.setTarget(channel, target_m); }
   double outputVolts(int channel) const { return outputs_[static_cast<std::size_t>(channel)]; }
+
+  /// What the outputs give, V, as doubles in a file: as the terminals of a board, it is seen from
+  /// outside, and does not end with the process.
+  int terminals() const { return terminals_; }
 
   /// \return instructions run, or minus an errno
   int run(comedi_insnlist& list);
@@ -60,6 +67,7 @@ class StandinBoard {
   bool plugged_ = true;
   std::chrono::steady_clock::time_point back_;  // plugged in again by itself
   int generation_;
+  int terminals_;
 };
 
 }  // namespace ergotic::test

@@ -14,6 +14,7 @@ struct WatchdogOptions {
   /// SCHED_FIFO, 1...99, above the tick's: a tick that never ends must not keep it from the
   /// processor. 0: an ordinary thread.
   int priority = 80;
+  std::function<void()> beat = [] {};  ///< called with each look, in its thread
 };
 
 /// What a watchdog has seen since it was made, for diagnostics.
@@ -65,7 +66,7 @@ class Watchdog {
 
  private:
   void setUpThread(int priority);
-  void run(std::int64_t period_ns) noexcept;
+  void run(const WatchdogOptions& options) noexcept;
 
   const std::atomic<std::int64_t>& ticks_;
   Bite bite_;

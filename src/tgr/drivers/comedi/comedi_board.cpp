@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "ergotic/exception.hpp"
+#include "ergotic/rt/clock.hpp"
 #include "ergotic/rt/realtime.hpp"
 
 namespace ergotic::tgr {
@@ -70,7 +71,8 @@ ComediBoard::ComediBoard(const ComediSettings& settings)
       written_(slices_),
       read_(slices_ * conversions_),
       safe_(slices_),
-      handle_(openHandle()) {
+      handle_(openHandle()),
+      opened_ns_(rt::monotonicNs()) {
   const ComediSettings& s = settings_;
   insns_.reserve(2 * slices_);
   outputs_ = setUp({"output", "ao", COMEDI_SUBD_AO, INSN_WRITE, s.ao_subdevice, s.ao_channels,
@@ -251,6 +253,16 @@ ERGOTIC_REALTIME std::uint32_t ComediBoard::exchange(const double* outputs,
     inputs[i] = inputs_[i].toVolts(sum / settings_.average);
   }
   return (done < slices_ ? kWriteFailed : 0U) | (fresh < slices_ ? kMissingSample : 0U);
+}
+
+Guard ComediBoard::guard() const {
+  Guard guard{{"comedi"}, comedi_fileno(handle_.get()), opened_ns_};
+  for (const comedi_insn& insn : safe_insns_) {
+    for (const unsigned number : {insn.subdev, insn.chanspec, *insn.data}) {
+      guard.words.push_back(std::to_string(number));
+    }
+  }
+  return guard;
 }
 
 ERGOTIC_REALTIME std::uint32_t ComediBoard::writeSafe() noexcept {

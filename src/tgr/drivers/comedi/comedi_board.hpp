@@ -50,6 +50,9 @@ class ComediBoard {
   /// \return ExchangeFlag bits. Realtime: as exchange. Thread: any
   std::uint32_t writeSafe() noexcept;
 
+  /// For a guardian: our file, and what is written to be safe. Realtime: no
+  Guard guard() const;
+
  private:
   struct Close {
     void operator()(comedi_t* handle) const noexcept { comedi_close(handle); }
@@ -77,6 +80,7 @@ class ComediBoard {
   std::vector<ComediScale> outputs_;
   std::vector<ComediScale> inputs_;
   std::unique_ptr<comedi_t, Close> handle_;
+  std::int64_t opened_ns_;
 };
 
 }  // namespace ergotic::tgr

@@ -34,6 +34,7 @@ class ComediDriver final : public Driver {
   /// Realtime: no; it waits for no more than one other caller's write.
   void makeSafe() noexcept override;
   void rearm() noexcept override { safe_ = false; }
+  std::vector<Guard> guards() const override { return {board_->guard()}; }
   bool isRaw() const noexcept override { return true; }
   double damping() const noexcept override { return settings_.damping.value_or(kSupposedDamping); }
   double declaredDamping() const noexcept override { return settings_.damping.value_or(0.0); }

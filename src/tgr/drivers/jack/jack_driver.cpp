@@ -77,6 +77,15 @@ void JackDriver::reconnect() {
   waitForDevice();
 }
 
+std::vector<Guard> JackDriver::guards() const {
+  const audio::JackStatus status = host_->status();
+  Guard guard{{"jack", config_.server}, -1, status.starts};
+  for (const std::string& port : jackConfig(config_).output_names) {
+    guard.words.push_back(status.client + ":" + port);
+  }
+  return {guard};
+}
+
 void JackDriver::waitForDevice() const {
   // What was seen before is no proof, nor is the look that may be under way.
   const std::int64_t fresh = host_->status().looks + 2;

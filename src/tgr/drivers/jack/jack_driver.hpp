@@ -44,6 +44,7 @@ class JackDriver final : public Driver {
   bool isRaw() const noexcept override { return true; }
   double damping() const noexcept override { return config_.damping.value_or(kSupposedDamping); }
   double declaredDamping() const noexcept override { return config_.damping.value_or(0.0); }
+  std::vector<Guard> guards() const override;
   DeviceClock* clock() noexcept override { return &ticks_; }
 
   /// Frames from a position at the plug to the force of the same tick at the plug. \pre open

@@ -182,6 +182,10 @@ void SharedMemoryDriver::rearm() noexcept {
   }
 }
 
+std::vector<Guard> SharedMemoryDriver::guards() const {
+  return {{{"shared_memory", name_}, -1, device_.load()->session}};
+}
+
 bool SharedMemoryDriver::setTarget(int slice, double target_m) noexcept {
   const bool valid = slice >= 0 && slice < slices_ && std::abs(target_m) <= kMaxTargetM;
   if (!valid || !open_) {

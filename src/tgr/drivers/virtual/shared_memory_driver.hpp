@@ -36,6 +36,7 @@ class SharedMemoryDriver final : public Driver {
   bool isRaw() const noexcept override { return is_raw_; }
   double damping() const noexcept override { return traits_.damping; }
   double declaredDamping() const noexcept override { return damping(); }
+  std::vector<Guard> guards() const override;
   bool setTarget(int slice, double target_m) noexcept override;
 
   static constexpr std::int64_t kMissingNs = 20'000'000;  ///< age of the device's last step

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <future>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <sys/types.h>
+
+#include "ergotic/tgr/driver.hpp"
+
+namespace ergotic::tgr {
+
+struct GuardianPage;
+
+struct GuardianOptions {
+  double silence_s = 0.04;  ///< without a beat before it acts, 0.008...2
+  int priority = 80;        ///< SCHED_FIFO of the guardian, 1...99; 0: an ordinary process
+};
+
+/// A small process that outlives this one. Whatever ends this process, or stops it, the guardian
+/// takes the force off the devices, through what it holds of them (Driver::guards).
+///
+/// It hears the end of this process from the kernel, at once, and knows a process that hangs by
+/// beats that do not come. Time in which the guardian itself did not run is no silence. It has a
+/// session of its own, so that no signal of a terminal reaches it, and ends by itself.
+class Guardian {
+ public:
+  /// Returns when the guardian holds all of them. Realtime: no. Thread: setup
+  /// \throws DeviceError saying what it cannot hold, or that there is no such program
+  Guardian(const std::vector<Guard>& guards, const GuardianOptions& options);
+  /// The guardian ends without touching a device. \pre the devices were given back
+  ~Guardian();
+  Guardian(const Guardian&) = delete;
+  Guardian& operator=(const Guardian&) = delete;
+
+  /// This process lives: at least four times in `silence_s`, from the first one on.
+  /// Realtime: yes. Thread: any
+  void beat() noexcept;
+  /// False once the guardian has died. Realtime: no. Thread: any
+  bool isThere() const noexcept;
+  pid_t pid() const noexcept { return pid_; }
+
+ private:
+  void hold(int priority);
+  void waitForAnswer(const std::string& program);
+  void end() noexcept;
+
+  GuardianPage* page_ = nullptr;
+  std::promise<void> done_;
+  std::thread holder_;  // of the page's lock
+  pid_t pid_ = -1;
+};
+
+}  // namespace ergotic::tgr

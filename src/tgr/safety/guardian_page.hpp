@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pthread.h>
+
+#include <atomic>
+#include <cstdint>
+
+#include <sys/mman.h>
+
+namespace ergotic::tgr {
+
+/// What a station and its guardian share.
+struct GuardianPage {
+  /// Held by a thread of the station. It is robust: the kernel hands it to the guardian as soon as
+  /// that thread is dead, before it gives back memory and files of the process, which takes long.
+  pthread_mutex_t life;
+  std::atomic<std::int64_t> beats{0};  ///< by the station
+  std::atomic<bool> quit{false};       ///< by the station: the devices were given back
+  std::atomic<bool> answered{false};   ///< by the guardian: `refusal` is what it cannot hold
+  char refusal[512] = "";
+};
+
+/// \param file  of its size. \return null if it cannot be mapped
+inline GuardianPage* mapGuardianPage(int file) noexcept {
+  void* const page =
+      ::mmap(nullptr, sizeof(GuardianPage), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  return page == MAP_FAILED ? nullptr : static_cast<GuardianPage*>(page);
+}
+
+}  // namespace ergotic::tgr

@@ -151,6 +151,16 @@ TEST(CertifyTest, CoupledMassesAreProvenByEigenvalues) {
   EXPECT_THAT(verdict(0.5, 1.0).findings, Contains(HasSubstr("grows by a factor of exp(")));
 }
 
+TEST(CertifyTest, CoupledMassesAreWatchedWhereTheyAreMoreThanThreeHundred) {
+  SceneBuilder b;
+  const int slow = b.mass(1.0, 0.0, 0.0, SceneBuilder::kGestural);
+  b.spring(slow, b.chain(300, 1e-3, 100.0) + 1, 1.0);
+  const Certificate certificate = certify(b.scene, {kRate, 14});
+  EXPECT_EQ(certificate.verdict, Verdict::kUnproven);
+  EXPECT_THAT(certificate.findings,
+              Contains(HasSubstr("With 301 masses it is too large for its eigenvalues")));
+}
+
 TEST(CertifyTest, ASliceIsHeldAndNeedsNoMass) {
   SceneBuilder b;
   const int slice = b.slice(0);

@@ -51,6 +51,21 @@ TEST(VouchedTest, SoftCouplingsOfLowModesGrowAllTheSame) {
                 1e6);
 }
 
+/// A damper takes nearly all that the coupling gives: 1e-7 of each period is left, or less than
+/// nothing.
+TEST(VouchedTest, SlowGrowthOfTwoRatesIsGrowth) {
+  const auto certified = [](double z, double growth) {
+    SceneBuilder b = twoMasses(24703385.68, 6434440.0, 0.0, 32707988.93, 0.4417203012);
+    b.scene.lias[2].damping = {z};
+    EXPECT_NEAR(spectralRadius(monodromy(b.scene, {kRate, 14})), 1.0 + growth, 1e-8);
+    return certify(b.scene, {kRate, 14});
+  };
+  const Certificate growing = certified(53.8864731, 1e-7);
+  EXPECT_EQ(growing.verdict, Verdict::kUnproven);
+  EXPECT_THAT(growing.findings, Contains(HasSubstr("grows by a factor of exp(")));
+  EXPECT_EQ(certified(53.8883209, -2.86e-7).verdict, Verdict::kPassive);
+}
+
 TEST(VouchedTest, DampersThatComeAndGoDrive) {
   SceneBuilder b;
   const int mass = b.mass(1.0, 1e-4, 1.0);

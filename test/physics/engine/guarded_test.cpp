@@ -234,6 +234,26 @@ TEST(GuardedTest, ContactsNeverPull) {
   }
 }
 
+/// Torn off in the very step in which an impact would throw it back.
+TEST(GuardedTest, ImpactsThatArePulledApartDoNotHoldOn) {
+  constexpr double kSpeed = 1e-3;
+  for (const double kt : {3.0, 30.0, 300.0}) {
+    for (const double pull : {0.0, 1.5, 2.0, 4.0}) {  // of the speed, per step
+      SceneBuilder b = dampedWall(kt, 0.3, -1.5 * kSpeed, kSpeed);
+      b.push(0);
+      b.hear(1, 0, Quantity::kForce);
+      Player player(b.scene, {kRate, 1});
+      player.tick();
+      player.inputs[0] = -pull * kSpeed * kRate * kRate;
+      player.tick();
+      const double most = *std::max_element(player.heard[0].begin(), player.heard[0].end());
+      const double least = *std::min_element(player.heard[0].begin(), player.heard[0].end());
+      EXPECT_GE(least, 0.0) << kt << " " << pull;
+      EXPECT_EQ(most > 0.0, pull == 0.0) << kt << " " << pull;
+    }
+  }
+}
+
 TEST(GuardedTest, ObliqueCollisionsKeepEnergyAndMomentum) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-1.0, 1.0);

@@ -95,25 +95,29 @@ TEST(PointTest, OnAModuleIsThatModule) {
 }
 
 TEST(PointTest, PlaceThatFollowsAParameterMovesAtItsSpeed) {
-  Built b;
-  const int on = b.ruler(11);
-  const int point = b.point(on, 1.0);
-  b.parameter(0.2, 0.0, 1.0);
-  b.scene.connections[0].along = {1.0, 0};
-  const double speed = 300.0;  // places per second
-  b.scene.connections[0].speed = speed;
-  b.hear(point, 0);
-  b.hear(point, 1, Quantity::kVelocity);
-  Player player(b.scene, {kRate, 10});
-  player.tick();
-  EXPECT_NEAR(player.heard[0].back(), 2.0, 1e-12);
-  player.instrument->exchange(player.instrument->prepare({0.8}));
-  player.ticks(20);
-  double place = 0.2;
-  for (int n = 0; n < 200; ++n) {
-    place += std::min(speed / kRate, (0.8 - place) / (10 - n % 10));  // there with the last frame
-    ASSERT_NEAR(player.heard[0][at(10 + n)], 10.0 * place, 1e-10) << n;
-    ASSERT_EQ(player.heard[1][at(10 + n)], 0.0) << "the string itself is at rest";
+  for (const auto& [from, to] : {std::pair(0.2, 0.8), {0.8, 0.2}}) {
+    Built b;
+    const int on = b.ruler(11);
+    const int point = b.point(on, 1.0);
+    b.parameter(from, 0.0, 1.0);
+    b.scene.connections[0].along = {1.0, 0};
+    const double speed = 300.0;  // places per second
+    b.scene.connections[0].speed = speed;
+    b.hear(point, 0);
+    b.hear(point, 1, Quantity::kVelocity);
+    Player player(b.scene, {kRate, 10});
+    player.tick();
+    EXPECT_NEAR(player.heard[0].back(), 10.0 * from, 1e-12);
+    player.instrument->exchange(player.instrument->prepare({to}));
+    player.ticks(20);
+    double place = from;
+    for (int n = 0; n < 200; ++n) {
+      const double way = (to - place) / (10 - n % 10);  // there with the last frame
+      place += std::clamp(way, -speed / kRate, speed / kRate);
+      ASSERT_NEAR(player.heard[0][at(10 + n)], 10.0 * place, 1e-10) << n;
+      ASSERT_EQ(player.heard[1][at(10 + n)], 0.0) << "the string itself is at rest";
+    }
+    EXPECT_NEAR(place, to, 1e-12);
   }
 }
 

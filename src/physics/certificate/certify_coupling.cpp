@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <random>
 #include <utility>
+#include <vector>
 
 #include "at.hpp"
 #include "ergotic/physics/certificate/monodromy.hpp"
@@ -19,6 +21,8 @@ namespace {
 constexpr int kMostMasses = 300;         // whose eigenvalues are worked out
 constexpr double kRounding = 1e-9;       // of a radius of 1
 constexpr double kCertainGrowth = 1e-2;  // per period
+constexpr int kRoundings = 6;
+constexpr double kRoundingOfFloat = 2.5e-7;
 
 /// What the linear model does over one period of its slowest section.
 struct Trial {
@@ -26,6 +30,36 @@ struct Trial {
   double period_s = 0.0;
   double growthPerSecond() const { return std::log(radius) / period_s; }
 };
+
+/// With every mass, stiffness and damping off by four times what single precision rounds it by, up
+/// or down at random.
+scene::Scene roundedAtRandom(scene::Scene scene, std::mt19937& random) {
+  const auto round = [&random](scene::Value& value) {
+    value.factor *= 1.0 + ((random() & 1U) != 0 ? kRoundingOfFloat : -kRoundingOfFloat);
+  };
+  for (scene::Section& section : scene.sections) {
+    round(section.medium);
+  }
+  for (scene::Mat& mat : scene.mats) {
+    round(mat.mass);
+    round(mat.stiffness);
+    round(mat.damping);
+  }
+  for (scene::Lia& lia : scene.lias) {
+    round(lia.stiffness);
+    round(lia.damping);
+  }
+  return scene;
+}
+
+std::vector<Eigen::MatrixXd> rounded(const scene::Scene& scene, const Rates& rates) {
+  std::mt19937 random(1);
+  std::vector<Eigen::MatrixXd> matrices;
+  for (int i = 0; i < kRoundings; ++i) {
+    matrices.push_back(periodOf(roundedAtRandom(scene, random), rates).matrix);
+  }
+  return matrices;
+}
 
 class CouplingJudge {
  public:
@@ -107,7 +141,7 @@ class CouplingJudge {
 
   /// False if no form is found that does not grow, or only one that rounding may change.
   bool prove(const scene::Scene& scene, int frames, const Period& period) {
-    std::optional<PeriodProof> proof = proofOf(period);
+    std::optional<PeriodProof> proof = proofOf(period, rounded(scene, networks_.rates()));
     if (findings_.proof() != nullptr && proof) {
       keep(*std::move(proof), scene, frames);
     }

@@ -21,10 +21,10 @@ constexpr double kFixed = 1e-12;    // of the largest pivot: what a period leave
 constexpr double kFading = 0.99;    // per period
 constexpr double kMostOff = 5e-10;  // of what G s becomes
 constexpr int kDoublings = 40;
-constexpr double kMostSensitive = 30.0;
-constexpr double kAlike = 1e-6;   // of places of bodies
-constexpr double kTongue = 5e-7;  // eight times what single precision rounds by
-constexpr double kSlow = 1e-8;    // per period, of growth in one
+constexpr double kAlike = 1e-6;     // of places of bodies
+constexpr double kStaying = 1e-10;  // of a body, whatever rounds
+constexpr double kNear = 0.1;       // of eigenvalues that rounding might bring together
+constexpr double kSlow = 1e-8;      // per period, of growth that is none
 
 /// Rows that a period makes B times themselves.
 struct Form {
@@ -58,8 +58,10 @@ bool areBodies(const MatrixXd& stays) {
          static_cast<Index>(places.size()) <= stays.cols();
 }
 
-/// At right angles to what a period leaves as it is; none if that is not only where bodies lie.
-std::optional<MatrixXd> besideWhatStays(const MatrixXd& matrix) {
+/// At right angles to what a period leaves as it is; none if that is not only where bodies lie,
+/// however it is rounded.
+std::optional<MatrixXd> besideWhatStays(const MatrixXd& matrix,
+                                        const std::vector<MatrixXd>& rounded) {
   const MatrixXd unit = MatrixXd::Identity(matrix.rows(), matrix.cols());
   Eigen::FullPivLU<MatrixXd> change(matrix - unit);
   change.setThreshold(kFixed);
@@ -67,7 +69,10 @@ std::optional<MatrixXd> besideWhatStays(const MatrixXd& matrix) {
     return unit;
   }
   const MatrixXd stays = change.kernel();
-  return areBodies(stays) ? std::optional<MatrixXd>(beside(stays)) : std::nullopt;
+  const bool stay = std::all_of(rounded.begin(), rounded.end(), [&](const MatrixXd& other) {
+    return (other * stays - stays).norm() <= kStaying * stays.norm();
+  });
+  return stay && areBodies(stays) ? std::optional<MatrixXd>(beside(stays)) : std::nullopt;
 }
 
 /// Real and imaginary parts of the eigenvectors of what hardly fades, as columns, and what becomes
@@ -134,34 +139,45 @@ double errorOf(const Form& form, const MatrixXd& matrix) {
   return (becomes - form.turn).norm();
 }
 
-/// By how much more than a relative error of the matrix an eigenvalue may move: 1 where modes lie
-/// apart, the inverse of their distance where two are about to meet. What rounds each number of a
-/// scene by e, as single precision does by 6e-8, takes them together at about 1/sqrt(e).
-double sensitivityOf(const Form& form) {
-  const MatrixXd back = form.rows.inverse();
-  return (form.rows.cwiseAbs() * back.cwiseAbs()).diagonal().maxCoeff();
+/// By how much two eigenvalues grow, at most, while a perturbation of them grows from -1 to 1:
+/// those of [[x, 0], [0, y]] + t [[a, b], [c, d]].
+double growthOfPair(std::complex<double> x,
+                    std::complex<double> y,
+                    const Eigen::Matrix2cd& perturbation) {
+  // Of logarithms: real parts grow, imaginary ones turn.
+  const std::complex<double> apart = 0.5 * std::log(x / y);
+  const std::complex<double> change = 0.5 * (perturbation(0, 0) / x - perturbation(1, 1) / y);
+  const std::complex<double> joint = perturbation(0, 1) * perturbation(1, 0) / (x * y);
+  const double nearest =
+      change == 0.0 ? 0.0 : -(std::conj(change) * apart).real() / std::norm(change);
+  double growth = 0.0;
+  for (const double t : {0.0, -1.0, 1.0, std::clamp(nearest, -1.0, 1.0)}) {
+    const std::complex<double> off = apart + t * change;
+    growth = std::max(growth, std::sqrt(off * off + t * t * joint).real());
+  }
+  return growth;
 }
 
-/// True if two lasting modes, or one and its conjugate, are so near that rounding the numbers may
-/// bring them together. At the distance g, with the condition c of their vectors, they are g/(2 c)
-/// beside a tongue of instability, in which they grow by at most g sqrt(c^2 - 1) per period.
-bool mayMeet(const MatrixXd& matrix) {
+/// True if rounding may make two lasting modes, or one and its conjugate, feed one another.
+bool mayGrow(const MatrixXd& matrix, const MatrixXd& rounding) {
   const Eigen::EigenSolver<MatrixXd> solver(matrix);
   const Eigen::VectorXcd values = solver.eigenvalues();
   const Eigen::MatrixXcd right = solver.eigenvectors();
-  const Eigen::MatrixXcd left = right.inverse();
+  const Eigen::MatrixXcd shift = right.inverse() * rounding * right;
+  if (!shift.allFinite()) {
+    return true;
+  }
   for (Index i = 0; i < values.size(); ++i) {
-    if (values[i].imag() == 0.0 || !(std::abs(values[i]) > kFading)) {
-      continue;
-    }
-    const double condition = left.row(i).cwiseAbs().dot(right.col(i).cwiseAbs());
-    double distance = 2.0;
-    for (Index j = 0; j < values.size(); ++j) {
-      distance = j == i ? distance : std::min(distance, std::abs(values[i] - values[j]));
-    }
-    const double growth = distance * std::sqrt(std::max(condition * condition - 1.0, 0.0));
-    if (!(distance > 2.0 * kTongue * condition || growth < kSlow)) {
-      return true;
+    for (Index j = 0; j < i; ++j) {
+      const double lasting = std::min(std::abs(values[i]), std::abs(values[j]));
+      if (!(lasting > kFading) || std::abs(values[i] - values[j]) > kNear) {
+        continue;
+      }
+      Eigen::Matrix2cd pair;
+      pair << shift(i, i), shift(i, j), shift(j, i), shift(j, j);
+      if (growthOfPair(values[i], values[j], pair) > 1.0 - lasting + kSlow) {
+        return true;
+      }
     }
   }
   return false;
@@ -169,8 +185,8 @@ bool mayMeet(const MatrixXd& matrix) {
 
 }  // namespace
 
-std::optional<PeriodProof> proofOf(const Period& period) {
-  const std::optional<MatrixXd> beside_bodies = besideWhatStays(period.matrix);
+std::optional<PeriodProof> proofOf(const Period& period, const std::vector<MatrixXd>& rounded) {
+  const std::optional<MatrixXd> beside_bodies = besideWhatStays(period.matrix, rounded);
   if (!beside_bodies) {
     return std::nullopt;
   }
@@ -179,9 +195,13 @@ std::optional<PeriodProof> proofOf(const Period& period) {
   Form lasting = lastingOf(matrix.transpose());
   lasting.rows.transposeInPlace();
   const Form form = joined(lasting, fadingOf(matrix, lastingOf(matrix).rows), matrix.cols());
-  if (form.rows.rows() != form.rows.cols() || !(errorOf(form, matrix) <= kMostOff) ||
-      !(sensitivityOf(form) <= kMostSensitive) || mayMeet(matrix)) {
+  if (form.rows.rows() != form.rows.cols() || !(errorOf(form, matrix) <= kMostOff)) {
     return std::nullopt;
+  }
+  for (const MatrixXd& other : rounded) {
+    if (mayGrow(matrix, kept.transpose() * (other - period.matrix) * kept)) {
+      return std::nullopt;
+    }
   }
   const Index modules = period.units.size();
   PeriodProof proof{{}, 0, period.modules, form.rows * kept.transpose(), form.turn};

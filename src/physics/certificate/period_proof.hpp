@@ -2,6 +2,9 @@
 #pragma once
 
 #include <optional>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "ergotic/physics/certificate/monodromy.hpp"
 #include "ergotic/physics/certificate/proof.hpp"
@@ -14,6 +17,8 @@ namespace ergotic::physics {
 ///
 /// Modes that hardly fade: their left eigenvectors. The others lose so much that the form follows
 /// from a Lyapunov equation. Realtime: no. Cost: some four times that of the eigenvalues.
-std::optional<PeriodProof> proofOf(const Period& period);
+/// \param rounded  the same period with the scene's numbers off by what rounding may do to them
+std::optional<PeriodProof> proofOf(const Period& period,
+                                   const std::vector<Eigen::MatrixXd>& rounded);
 
 }  // namespace ergotic::physics

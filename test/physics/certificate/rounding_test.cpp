@@ -83,6 +83,31 @@ TEST(RoundingTest, ModesMayMeetWhereTheySeemToLieApart) {
   }
 }
 
+/// A fast mode makes whole turns in a tick, and hardly anything of its pull is left for the slow
+/// mass: rounded, that may push.
+TEST(RoundingTest, WholeTurnsInATickLeaveADifferenceOfLargeForces) {
+  const auto freePair = [](double gestural_hz, double mass, double slow, double stiffness) {
+    char text[400];
+    std::snprintf(
+        text, sizeof text,
+        "ergotic: 1\ngestural_rate: %.17g\nsections: {a: {rate: audio}, g: {rate: gestural}}\n"
+        "mats:\n  s: {type: mass, section: g, mass: %.17g, x: 0.01}\n"
+        "  m: {type: mass, section: a, mass: %.17g}\nlias:\n"
+        "  c: {type: spring, between: [s, m], stiffness: %.17g}\n"
+        "outputs: {o: {at: m, quantity: velocity, channel: 1}}\n",
+        gestural_hz, slow, mass, stiffness);
+    return Vouched(text);
+  };
+  const Vouched turning =
+      freePair(4009.090909090909, 0.0016446230878211844, 1.0, 10586076.054260574);
+  EXPECT_GT(turning.fastestOf(10.0, Precision::kFloat),
+            100.0 * turning.fastestOf(10.0, Precision::kDouble));
+  EXPECT_FALSE(turning.isVouchedFor());
+  EXPECT_TRUE(freePair(4009.090909090909, 0.0016446230878211844, 1.0, 1.0e7).isVouchedFor());
+  EXPECT_FALSE(freePair(11025.0, 0.017862855732460367, 0.25428376636417033, 69479721.879332632)
+                   .isVouchedFor());
+}
+
 TEST(RoundingTest, WhatANegativeSpringLeavesMayBeLess) {
   const auto held = [](double left) {
     const double a = 341302181.43452132;

@@ -22,6 +22,11 @@ namespace ergotic::physics {
 /// \throws Exception if there are not as many, or if one is outside its range
 scene::Scene withParameters(scene::Scene scene, const std::vector<double>& values);
 
+inline std::int64_t waitLimitNs(const CompileOptions& options, const Rates& rates) {
+  return options.wait_limit_ns == kOneTick ? std::llround(1e9 / rates.gesturalHz())
+                                           : options.wait_limit_ns;
+}
+
 /// The instrument in one precision: all of a tick, on one thread or several.
 template <class Real>
 class InstrumentOf final : public Instrument {
@@ -41,7 +46,7 @@ class InstrumentOf final : public Instrument {
         heard_of_held_(heardOf(mechanism_->groups.held)),
         workers_(Workers::useful(options.threads, mechanism_->groups.running.size()),
                  mechanism_->groups.running.size(),
-                 options.wait_limit_ns,
+                 waitLimitNs(options, rates),
                  [this](std::size_t g) { stepGroup(g); }) {
     for (const Group& group : mechanism_->groups.running) {
       heard_.push_back(heardOf(group));
@@ -209,7 +214,7 @@ class InstrumentOf final : public Instrument {
 
   /// Brings a stalled tick to its end. \return false if another thread is still at it
   bool finishTick() noexcept {
-    if (is_under_way_ && workers_.finish()) {
+    if (is_under_way_ && workers_.areDone()) {
       endTick();
       is_under_way_ = false;
     }

@@ -131,19 +131,15 @@ ERGOTIC_REALTIME bool Workers::run() noexcept {
       items_[i].done.store(block, std::memory_order_relaxed);
     }
   }
-  return finish();
+  return spinUntil(rt::monotonicNs() + limit_ns_, [this]() noexcept { return areDone(); });
 }
 
-ERGOTIC_REALTIME bool Workers::finish() const noexcept {
+ERGOTIC_REALTIME bool Workers::areDone() const noexcept {
   const std::uint64_t block = block_.load(std::memory_order_relaxed);
-  std::size_t next = 0;
-  const auto all_done = [&]() noexcept {
-    while (next < items_count_ && items_[next].done.load(std::memory_order_acquire) == block) {
-      ++next;
-    }
-    return next == items_count_;
+  const auto is_done = [block](const Item& item) noexcept {
+    return item.done.load(std::memory_order_acquire) == block;
   };
-  return all_done() || spinUntil(rt::monotonicNs() + limit_ns_, all_done);
+  return std::all_of(items_.get(), items_.get() + items_count_, is_done);
 }
 
 void Workers::takeLast(std::uint64_t block) noexcept {

@@ -16,7 +16,7 @@ namespace ergotic::physics {
 /// Every item is claimed once per block, by whoever comes first: the running thread from the first
 /// on, the others from the last. The running thread never waits for anybody to begin: what nobody
 /// has claimed it does itself. Only for items that another thread has begun it waits, within a
-/// limit. It neither locks nor calls the system.
+/// limit, once. It neither locks nor calls the system.
 ///
 /// Between blocks the threads spin for a short while, then sleep until shortly before they expect
 /// the next one. They flush denormals, and take the real-time priority of the running thread.
@@ -40,13 +40,12 @@ class Workers {
 
   int threads() const noexcept { return static_cast<int>(threads_.size()) + 1; }
 
-  /// Does every item once. \return false if some are still under way at the limit: finish() tells
+  /// Does every item once. \return false if some are still under way at the limit: areDone() tells
   /// when they are done. \pre none is under way. Thread: one at a time. Realtime: yes
   bool run() noexcept;
 
-  /// Waits for the items of the last run(), within the limit. \return true if all are done.
-  /// Realtime: yes
-  bool finish() const noexcept;
+  /// Whether all items of the last run() are done. Realtime: yes
+  bool areDone() const noexcept;
 
  private:
   struct alignas(64) Item {

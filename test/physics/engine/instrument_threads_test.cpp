@@ -7,6 +7,7 @@
 #include "ergotic/physics/engine/instrument.hpp"
 #include "ergotic/physics/settling/settle.hpp"
 #include "ergotic/rt/clock.hpp"
+#include "physics/engine/instrument_of.hpp"
 #include "physics/engine/orchestra.hpp"
 #include "physics/engine/workers.hpp"
 #include "support/alloc_count.hpp"
@@ -333,15 +334,35 @@ class StuckWorker {
 TEST(WorkersThreadsTest, AStuckWorkerIsNotWaitedForForever) {
   StuckWorker stuck;
   stuck.getStuck();
-  EXPECT_FALSE(stuck.workers.finish());
-  EXPECT_FALSE(stuck.workers.finish());
+  EXPECT_FALSE(stuck.workers.areDone());
+  EXPECT_FALSE(stuck.workers.areDone());
   stuck.letGo();
-  while (!stuck.workers.finish()) {
+  while (!stuck.workers.areDone()) {
   }
   EXPECT_EQ(stuck.done[0], stuck.done[1]);
   const int before = stuck.done[0];
-  EXPECT_TRUE(stuck.workers.run() || stuck.workers.finish());
+  EXPECT_TRUE(stuck.workers.run() || stuck.workers.areDone());
   EXPECT_EQ(stuck.done[0], before + 1);
+}
+
+TEST(WorkersThreadsTest, AStuckWorkerIsWaitedForOnceAndOnlyAsLongAsAllowed) {
+  StuckWorker stuck;
+  stuck.getStuck();
+  const std::int64_t from_ns = rt::monotonicNs();
+  constexpr int kLooks = 1000;
+  for (int n = 0; n < kLooks; ++n) {
+    EXPECT_FALSE(stuck.workers.areDone());
+  }
+  EXPECT_LT(rt::monotonicNs() - from_ns, kLooks * 1'000'000 / 2) << "of 1 ms each, if it waited";
+  stuck.letGo();
+}
+
+TEST(InstrumentThreadsTest, WaitsForOneTickWhereAHandWaits) {
+  EXPECT_EQ(waitLimitNs(CompileOptions(), {44100.0, 14}), CompileOptions().wait_limit_ns);
+  CompileOptions live;
+  live.wait_limit_ns = kOneTick;
+  EXPECT_EQ(waitLimitNs(live, {44100.0, 14}), 317460);
+  EXPECT_EQ(waitLimitNs(live, {44100.0, 1}), 22676);
 }
 
 TEST(WorkersThreadsTest, NoMoreThreadsAreUsefulThanThereAreItemsOrProcessors) {

@@ -50,8 +50,8 @@ class Instrument {
   virtual std::int64_t stalledTicks() const noexcept { return 0; }
   /// True after a tick that stalled, until a later one finds the share finished and goes on from
   /// there. In between nothing is read: `isFinite` is true, the other `read` functions leave `to`
-  /// alone, the state must not be saved or loaded, and `exchange` waits, then hands back what it
-  /// got. Realtime: yes.
+  /// alone, the state must not be saved or loaded, and `exchange` hands back what it got.
+  /// Realtime: yes.
   virtual bool isUnderWay() const noexcept { return false; }
 
   /// Coefficients for these parameter values (one per Scene::parameters).

@@ -26,7 +26,9 @@ constexpr const char* kLimitsHelp =
     "/etc/security/limits.d/audio.conf (Debian's jackd2 offers to), add yourself to the group "
     "`audio`, and log in again";
 
-thread_local int own_priority = 0;
+// Initial-exec: it is there with the thread. What a library that is loaded later has else, would be
+// allocated when a tick first looks at it.
+[[gnu::tls_model("initial-exec")]] thread_local int own_priority = 0;
 
 bool hasCapability(int capability) {
   std::ifstream status("/proc/self/status");

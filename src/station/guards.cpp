@@ -70,7 +70,7 @@ void Station::fault(FaultReason reason, int slice) noexcept {
     return;
   }
   if (reason == FaultReason::kWriteFailed || reason == FaultReason::kDeviceLost) {
-    driver_->makeSafe();  // the zero of the next exchange may not arrive either
+    driver_->makeSafeInTick();  // the zero of the next exchange may not arrive either
   }
   state_ = ForceState::kFault;
   fault_ = reason;

@@ -68,6 +68,7 @@ class CalibratedDriverOverRaw final : public CalibratedDriver {
   void reconnect() override { raw_->reconnect(); }
   int slices() const noexcept override { return raw_->slices(); }
   void makeSafe() noexcept override { raw_->makeSafe(); }
+  void makeSafeInTick() noexcept override { raw_->makeSafeInTick(); }
   void rearm() noexcept override { raw_->rearm(); }
   int extraDelayTicks() const noexcept override { return raw_->extraDelayTicks(); }
   std::uint64_t uncalibrated() const noexcept override { return uncalibrated_; }

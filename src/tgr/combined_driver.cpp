@@ -85,6 +85,12 @@ class CombinedDriver final : public Driver {
     }
   }
 
+  void makeSafeInTick() noexcept override {
+    for (const auto& driver : drivers_) {
+      driver->makeSafeInTick();
+    }
+  }
+
   void rearm() noexcept override {
     for (const auto& driver : drivers_) {
       driver->rearm();

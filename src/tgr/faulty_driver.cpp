@@ -79,6 +79,7 @@ class FaultyDriverOverAnother final : public FaultyDriver {
   }
   int slices() const noexcept override { return inside_->slices(); }
   void makeSafe() noexcept override { inside_->makeSafe(); }
+  void makeSafeInTick() noexcept override { inside_->makeSafeInTick(); }
   void rearm() noexcept override { inside_->rearm(); }
   int extraDelayTicks() const noexcept override { return inside_->extraDelayTicks(); }
   bool isRaw() const noexcept override { return inside_->isRaw(); }

@@ -59,6 +59,20 @@ TEST(ComediThreadsTest, OutputsAreSafeAfterMakeSafeWhileTicksGoOn) {
   EXPECT_EQ(armed, kRounds) << "or the test sees nothing";
 }
 
+/// A tick may neither wait for a lock nor run a list of its own beside that of its exchange.
+TEST(ComediThreadsTest, ATickThatMakesSafeLeavesItToItsNextExchange) {
+  ComediRig rig;
+  rig.driver().open(1000.0);
+  rig.exchange(1.0);
+  const std::int64_t lists = ComediRig::counters().lists;
+  rig.driver().makeSafeInTick();
+  EXPECT_EQ(ComediRig::counters().lists, lists);
+  ComediRig::inject(ComediFault::kError);  // of lists that read
+  EXPECT_NE(rig.exchange(1.0) & tgr::kMadeSafe, 0U);
+  EXPECT_EQ(comediStandinOutputVolts(0), comediVolts(kMidCount)) << "by a list that only writes";
+  EXPECT_EQ(ComediRig::counters().lists, lists + 2);
+}
+
 /// The list of a tick takes long, and the latch comes meanwhile: the same exchange undoes it.
 TEST(ComediThreadsTest, AListThatOverlapsMakeSafeIsUndoneByItsOwnExchange) {
   ComediRig rig;

@@ -75,6 +75,9 @@ class Driver {
   /// Zero force now and from now on: later exchanges send zero until `rearm`. Idempotent, from any
   /// thread or a signal's helper thread, also while exchange runs; takes at most one tick.
   virtual void makeSafe() noexcept = 0;
+  /// As makeSafe, for the tick itself: what takes a lock or more than its next exchange is left to
+  /// that. Realtime: yes. Thread: tick
+  virtual void makeSafeInTick() noexcept { makeSafe(); }
 
   /// Allows force again after makeSafe; the caller's chain ramps it in. Thread: setup
   virtual void rearm() noexcept = 0;

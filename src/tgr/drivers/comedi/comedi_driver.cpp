@@ -49,7 +49,7 @@ ERGOTIC_REALTIME std::uint32_t ComediDriver::exchange(const double* outputs,
   std::uint32_t flags = kDeviceLost;
   if (online_) {
     flags = board_->exchange(safe ? settings_.safe_volts.data() : outputs, inputs_.data());
-    if (!safe && safe_) {
+    if ((!safe && safe_) || (safe && (flags & kWriteFailed) != 0)) {
       flags |= board_->writeSafe();
     }
     if ((flags & kDeviceLost) != 0) {

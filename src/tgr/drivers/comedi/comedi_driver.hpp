@@ -18,7 +18,8 @@ namespace ergotic::tgr {
 /// Safe: `makeSafe` latches, then writes the safe volts itself, in the calling thread. A list of
 /// the tick that the kernel runs after that one was made before the latch; the tick looks at the
 /// latch again when its list has run, and writes the safe volts as well. So no more than one list
-/// can come late, and it is undone by the same `exchange`.
+/// can come late, and it is undone by the same `exchange`. The tick itself only latches: its next
+/// list has the safe volts, and where that fails it writes nothing but them.
 ///
 /// Lost: `board_` is the tick's as long as `online_`, else of the thread that opens and closes.
 class ComediDriver final : public Driver {
@@ -33,6 +34,7 @@ class ComediDriver final : public Driver {
   std::uint32_t exchange(const double* outputs, double* inputs) noexcept override;
   /// Realtime: no; it waits for no more than one other caller's write.
   void makeSafe() noexcept override;
+  void makeSafeInTick() noexcept override { safe_ = true; }
   void rearm() noexcept override { safe_ = false; }
   std::vector<Guard> guards() const override { return {board_->guard()}; }
   bool isRaw() const noexcept override { return true; }

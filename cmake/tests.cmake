@@ -37,7 +37,7 @@ function(ergotic_add_gtests room)
     TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${room} ${lock})
 endfunction()
 
-foreach(room rt station audio golden)
+foreach(room rt files station audio golden)
   ergotic_add_gtests(${room})
 endforeach()
 ergotic_add_gtests(scene yaml-cpp)  # broken scenes are listed in it
@@ -53,7 +53,8 @@ add_library(comedi_standin SHARED ${standin_sources}
   src/tgr/drivers/virtual/slice_bank.cpp src/tgr/drivers/virtual/target_gesture.cpp
   src/tgr/drivers/virtual/virtual_slice.cpp src/tgr/drivers/virtual/virtual_slice_fields.cpp
   src/tgr/calibration.cpp src/tgr/gesture_csv.cpp src/tgr/csv.cpp src/tgr/require.cpp
-  src/scene/limits.cpp src/exception.cpp)
+  src/scene/limits.cpp src/files/printable.cpp src/files/read_file.cpp
+  src/exception.cpp)
 set_target_properties(comedi_standin PROPERTIES CXX_VISIBILITY_PRESET hidden)
 target_include_directories(comedi_standin PUBLIC test PRIVATE include src)
 target_link_libraries(comedi_standin PRIVATE ergotic_flags Eigen3::Eigen)

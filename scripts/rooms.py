@@ -8,13 +8,14 @@ from pathlib import Path
 # include/ergotic/; folders that are not named here belong to the room around them.
 ROOMS = {
     "exception": "",
+    "files": "exception",
     "rt": "exception",
-    "scene": "",
+    "scene": "files",
     "scene/laws": "rt scene",
     "scene/rules": "exception scene scene/laws",
     "scene/generate": "exception scene",
-    "scene/text": "exception scene",
-    "scene/yaml": "exception scene scene/laws scene/rules scene/generate scene/text",
+    "scene/text": "exception files scene",
+    "scene/yaml": "exception files scene scene/laws scene/rules scene/generate scene/text",
     "scene/mdl": "scene scene/laws scene/generate scene/text",
     "physics": "exception rt scene scene/laws",
     "physics/laws": "scene scene/laws physics",
@@ -31,21 +32,21 @@ ROOMS = {
                         " physics/certificate",
     "advice": "exception scene scene/laws scene/generate physics physics/network physics/certificate"
               " physics/settling",
-    "tgr": "exception rt scene scene/text scene/yaml",
+    "tgr": "exception files rt scene scene/text scene/yaml",
     "station": "exception rt scene physics physics/engine physics/certificate physics/settling tgr",
     "audio": "exception rt",
     "tgr/drivers/comedi": "exception rt tgr",
     "tgr/drivers/jack": "exception rt tgr audio",
     "guardian": "exception rt tgr",
-    "bag": "exception physics/engine tgr station",
-    "ros/device": "exception rt scene physics/engine physics/certificate tgr station bag",
+    "bag": "exception files physics/engine tgr station",
+    "ros/device": "exception files rt scene physics/engine physics/certificate tgr station bag",
     "ros/display": "scene tgr station ros/device",
     "ros/conversation": "exception rt scene scene/laws scene/text physics/engine tgr station audio ros/device"
                         " ros/display",
     "ros": "ros/device ros/conversation",
-    "tools/lib": "exception rt scene scene/laws scene/generate scene/text physics physics/engine"
+    "tools/lib": "exception files rt scene scene/laws scene/generate scene/text physics physics/engine"
                  " physics/certificate physics/settling advice tgr station audio bag",
-    "tools": "exception rt tgr audio tgr/drivers/jack tools/lib",
+    "tools": "exception files rt scene tgr audio tgr/drivers/jack tools/lib",
 }
 
 # Headers of others that a room may know beside those of the C++ library and the system: by the

@@ -15,6 +15,7 @@
 #include "bag/message_bytes.hpp"
 #include "bag/recorded_message.hpp"
 #include "ergotic/exception.hpp"
+#include "files/read_file.hpp"
 
 namespace ergotic::bag {
 namespace {
@@ -203,6 +204,7 @@ void finish(Recording& recording, const std::string& path) {
 }
 
 Recording readRecording(const std::string& path) {
+  files::requireFile(path);
   Recording recording;
   try {
     const rosbag::Bag bag(path, rosbag::bagmode::Read);

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "files/printable.hpp"
+
 namespace ergotic::scene {
 namespace {
 
@@ -96,14 +98,7 @@ std::vector<std::string> NameTable::names() const {
 }
 
 std::string quoted(const std::string& text) {
-  if (text.size() <= kLongestQuote) {
-    return "'" + text + "'";
-  }
-  std::size_t end = kLongestQuote;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
-    --end;  // not in the middle of a UTF-8 character
-  }
-  return "'" + text.substr(0, end) + "...'";
+  return "'" + files::printable(text, kLongestQuote) + "'";
 }
 
 std::string suggestion(const std::string& word, const std::vector<std::string>& known) {

@@ -1,31 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
 #include <limits>
-#include <system_error>
 #include <vector>
 
 #include "ergotic/exception.hpp"
 #include "ergotic/tgr/driver.hpp"
 #include "ergotic/tgr/gesture.hpp"
+#include "files/read_file.hpp"
 #include "tgr/csv.hpp"
 
 namespace ergotic::tgr {
 namespace {
 
-std::ifstream openForReading(const std::string& path) {
-  std::ifstream in(path);
-  if (!in) {
-    throw Exception(path + ": cannot be read: " + std::generic_category().message(errno));
-  }
-  return in;
-}
-
 class CsvSource final : public GestureSource {
  public:
   explicit CsvSource(const std::string& path) {
-    std::ifstream in = openForReading(path);
+    std::ifstream in = files::openFile(path, files::kMaxRecordingBytes);
     CsvReader csv(in, path);
     if (!csv.nextRow()) {
       throw TextError(path, 1, 1, "no header line, expected tick,x0,...");
@@ -89,7 +79,7 @@ std::unique_ptr<GestureSource> readPositionsCsv(const std::string& path) {
 }
 
 GestureKind gestureKindOf(const std::string& path) {
-  std::ifstream in = openForReading(path);
+  std::ifstream in = files::openFile(path, files::kMaxRecordingBytes);
   CsvReader csv(in, path);
   return csv.nextRow() && csv.text(0) == "tick" ? GestureKind::kPositions : GestureKind::kTargets;
 }

@@ -2,10 +2,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
-#include <fstream>
 #include <iostream>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <thread>
 
@@ -14,6 +12,8 @@
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/thread.hpp"
 #include "ergotic/tgr/device.hpp"
+#include "files/read_file.hpp"
+#include "scene/limits.hpp"
 #include "tgr/drivers/virtual/virtual_device.hpp"
 #include "tgr/drivers/virtual/virtual_settings.hpp"
 #include "tools/lib/device_process.hpp"
@@ -56,12 +56,8 @@ void declare(CLI::App& app, Options& options) {
 
 /// Of the first virtual device in a file.
 tgr::VirtualDriverConfig readDevice(const std::string& path) {
-  std::ifstream in(path);
-  std::ostringstream text;
-  if (!(text << in.rdbuf())) {
-    throw Exception(path + ": cannot be read");
-  }
-  const tgr::StationDevices devices = tgr::readDevices(text.str(), path);
+  const tgr::StationDevices devices =
+      tgr::readDevices(files::readFile(path, scene::kMaxTextBytes), path);
   const auto found =
       std::find_if(devices.devices.begin(), devices.devices.end(),
                    [](const tgr::DeviceConfig& device) { return device.driver == "virtual"; });

@@ -93,6 +93,10 @@ void writeNumbers(std::ostream& to, const T* from, std::size_t count) {
 
 /// \return null if the file does not hold these modes whole
 std::shared_ptr<const Modes> load(const fs::path& file, const Key& key, int size) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) {
+    return nullptr;
+  }
   std::ifstream from(file, std::ios::binary);
   Header header;
   if (!readNumbers(from, &header, 1) || header.magic != kMagic || header.version != kVersion ||

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -15,6 +14,8 @@
 #include "ergotic/exception.hpp"
 #include "ergotic/station/audio_bridge.hpp"
 #include "ergotic/tgr/driver.hpp"
+#include "files/read_file.hpp"
+#include "scene/limits.hpp"
 #include "scene/names.hpp"
 #include "tgr/settings.hpp"
 
@@ -266,13 +267,7 @@ Text textOrFile(const std::string& value, const std::string& inline_name) {
   if (value.find('\n') != std::string::npos) {
     return {value, inline_name};
   }
-  std::ifstream file(value);
-  if (!file) {
-    throw Exception(value + ": cannot be read, allowed: a path, or YAML of more than one line");
-  }
-  std::ostringstream text;
-  text << file.rdbuf();
-  return {text.str(), value};
+  return {files::readFile(value, scene::kMaxTextBytes), value};
 }
 
 /// One device without calibration, as `driver` and the settings of the virtual one say.

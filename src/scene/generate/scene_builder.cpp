@@ -137,6 +137,12 @@ void SceneBuilder::fail(Place place, const std::string& what) const {
 }
 
 void SceneBuilder::warn(Place place, const std::string& what) {
+  constexpr std::size_t kMost = 100;  // a status carries them all
+  if (scene_.warnings.size() >= kMost) {
+    scene_.warnings.resize(kMost, "");
+    scene_.warnings.back() = scene_.file + ": warning: there are more of them";
+    return;
+  }
   scene_.warnings.push_back(scene_.file + ":" + std::to_string(place.line) + ":" +
                             std::to_string(place.column) + ": warning: " + what);
 }

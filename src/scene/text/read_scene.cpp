@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/scene/text/read_scene.hpp"
 
-#include <cerrno>
-#include <cstring>
-#include <optional>
-
-#include "ergotic/exception.hpp"
-#include "scene/text/source_text.hpp"
+#include "files/read_file.hpp"
+#include "scene/limits.hpp"
 
 namespace ergotic::scene {
 
@@ -18,11 +14,7 @@ Scene readScene(const std::string& text, const std::string& name, const Override
 }
 
 Scene readSceneFile(const std::string& path, const Overrides& overrides) {
-  const std::optional<std::string> text = readBytes(path);
-  if (!text) {
-    throw Exception(path + ": error: cannot read the scene: " + std::strerror(errno));
-  }
-  return readScene(*text, path, overrides);
+  return readScene(files::readFile(path, kMaxTextBytes), path, overrides);
 }
 
 }  // namespace ergotic::scene

@@ -2,9 +2,7 @@
 #include "scene/text/source_text.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
-#include <fstream>
 
 #include "ergotic/exception.hpp"
 #include "scene/limits.hpp"
@@ -56,20 +54,6 @@ std::string hex(unsigned byte) {
 }
 
 }  // namespace
-
-std::optional<std::string> readBytes(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text;
-  std::array<char, 1U << 16U> chunk;
-  while (file.good() && text.size() <= kMaxTextBytes) {
-    file.read(chunk.data(), chunk.size());
-    text.append(chunk.data(), static_cast<std::size_t>(file.gcount()));
-  }
-  if (!file.is_open() || file.bad()) {
-    return std::nullopt;
-  }
-  return text;
-}
 
 void checkBytes(const std::string& text, const std::string& file, Bytes allowed) {
   if (text.size() > kMaxTextBytes) {

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "ergotic/scene/scene.hpp"
 
 namespace ergotic::scene {
-
-/// The bytes of a file, but not many more than a text may have: who reads the text says so.
-/// \return nothing if the file cannot be read; `errno` says why
-std::optional<std::string> readBytes(const std::string& path);
 
 /// Which bytes a text may hold.
 enum class Bytes {

@@ -2,11 +2,9 @@
 #include "scene/yaml/point_files.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <optional>
 
 #include "ergotic/exception.hpp"
+#include "files/read_file.hpp"
 #include "scene/text/number.hpp"
 #include "scene/text/source_text.hpp"
 
@@ -100,12 +98,16 @@ std::string PointFiles::nameOf(const YamlMap& spec) {
 
 PointFiles::File PointFiles::open(const YamlMap& spec) const {
   const std::string path = besideFile(nameOf(spec), builder_.scene().file);
-  std::optional<std::string> text = readBytes(path);
-  if (!text) {
-    spec.fail("file",
-              "cannot read " + quoted(path) + " of " + spec.what() + ": " + std::strerror(errno));
+  // Errors in a file tell what it says, and a scene may be a stranger's.
+  if (!files::isBelow(path, besideFile(".", builder_.scene().file))) {
+    spec.fail("file", "file " + quoted(path) + " of " + spec.what() +
+                          " is elsewhere, allowed: below the scene's folder");
   }
-  return {std::move(*text), path};
+  try {
+    return {files::readFile(path, kMaxTextBytes), path};
+  } catch (const Exception& refusal) {
+    spec.fail("file", spec.what() + ": " + refusal.what());
+  }
 }
 
 void PointFiles::keep(Part part, const std::string& key, PointList points) {

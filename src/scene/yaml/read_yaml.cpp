@@ -15,6 +15,7 @@ namespace ergotic::scene {
 namespace {
 
 constexpr int kFormatVersion = 1;
+constexpr std::size_t kMaxTitleBytes = 200;
 
 /// The scene, and after it the tables of its files if the text has them.
 std::vector<YAML::Node> parse(const SceneBuilder& builder, const std::string& text) {
@@ -25,6 +26,16 @@ std::vector<YAML::Node> parse(const SceneBuilder& builder, const std::string& te
   return documents;
 }
 
+/// It goes into every status.
+std::string readTitle(const YamlMap& top) {
+  std::string title = top.word("name");
+  if (title.size() > kMaxTitleBytes) {
+    top.fail("name", "the title has " + std::to_string(title.size()) + " bytes, allowed: at most " +
+                         std::to_string(kMaxTitleBytes));
+  }
+  return title;
+}
+
 void readHead(SceneBuilder& builder, const YamlMap& top, const Overrides& overrides) {
   const int version = top.integer("ergotic", {});
   if (version != kFormatVersion) {
@@ -32,7 +43,7 @@ void readHead(SceneBuilder& builder, const YamlMap& top, const Overrides& overri
                             " is not known, allowed: " + std::to_string(kFormatVersion));
   }
   Scene& scene = builder.scene();
-  scene.name = top.has("name") ? top.word("name") : stemOf(scene.file);
+  scene.name = top.has("name") ? readTitle(top) : stemOf(scene.file);
   scene.gestural_rate_hz = overrideGesturalRate(
       overrides, top.number("gestural_rate", kGesturalRateLimits, scene.gestural_rate_hz),
       scene.file);

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "ergotic/exception.hpp"
-#include "scene/text/source_text.hpp"
+#include "files/read_file.hpp"
+#include "scene/limits.hpp"
 
 namespace ergotic::tools {
 
@@ -12,11 +12,7 @@ tgr::EndEffectors readEndEffectors(const std::string& file) {
   if (file.empty()) {
     return {};
   }
-  const auto text = scene::readBytes(file);
-  if (!text) {
-    throw Exception(file + ": cannot be read");
-  }
-  return tgr::readEndEffectors(*text, file);
+  return tgr::readEndEffectors(files::readFile(file, scene::kMaxTextBytes), file);
 }
 
 Json slicesReport(const tgr::EndEffectors& end_effectors,

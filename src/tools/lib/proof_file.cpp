@@ -7,8 +7,9 @@
 
 #include "at.hpp"
 #include "ergotic/exception.hpp"
+#include "files/read_file.hpp"
 #include "scene/laws/law.hpp"
-#include "scene/text/source_text.hpp"
+#include "scene/limits.hpp"
 #include "tools/lib/report.hpp"
 #include "tools/lib/sha256.hpp"
 
@@ -272,21 +273,21 @@ void writeProof(const std::string& file,
     }
   }
   const double frame = 1.0 / (rates.audio_hz * scene.time_unit_s);
-  Json parts = {
-      {"proof", 1},
-      {"scene",
-       {{"file", scene.file}, {"sha256", digestOf(scene::readBytes(scene.file).value_or(""))}}},
-      {"verdict", toString(verdict)},
-      {"frame", frame},
-      {"parameters", parametersOf(scene)},
-      {"sections", sectionsOf(scene, rates, frame)},
-      {"modules", modulesOf(scene)},
-      {"points", pointsOf(scene, proof)},
-      {"links", linksOf(scene)},
-      {"rates", ratesOf(proof)},
-      {"periods", periodsOf(proof)},
-      {"losses", lossesOf(proof)},
-      {"rules", rulesOf(proof)}};
+  Json parts = {{"proof", 1},
+                {"scene",
+                 {{"file", scene.file},
+                  {"sha256", digestOf(files::readFile(scene.file, scene::kMaxTextBytes))}}},
+                {"verdict", toString(verdict)},
+                {"frame", frame},
+                {"parameters", parametersOf(scene)},
+                {"sections", sectionsOf(scene, rates, frame)},
+                {"modules", modulesOf(scene)},
+                {"points", pointsOf(scene, proof)},
+                {"links", linksOf(scene)},
+                {"rates", ratesOf(proof)},
+                {"periods", periodsOf(proof)},
+                {"losses", lossesOf(proof)},
+                {"rules", rulesOf(proof)}};
   parts["sha256"] = digestOf(parts);
   std::ofstream out(file, std::ios::binary);
   print(parts, out);

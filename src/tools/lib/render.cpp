@@ -17,6 +17,8 @@
 #include "ergotic/rt/thread.hpp"
 #include "ergotic/station/health.hpp"
 #include "ergotic/tgr/gesture.hpp"
+#include "files/read_file.hpp"
+#include "scene/limits.hpp"
 #include "tools/lib/end_effectors.hpp"
 #include "tools/lib/frame_writer.hpp"
 #include "tools/lib/player.hpp"
@@ -109,12 +111,7 @@ void compareScene(const std::string& path, const bag::Keyframe& keyframe) {
   if (path.empty()) {
     return;
   }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    throw Exception(path + ": cannot be read");
-  }
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (text != keyframe.scene_text) {
+  if (files::readFile(path, scene::kMaxTextBytes) != keyframe.scene_text) {
     say("warning: " + path + " is not the scene of the recording (" + keyframe.scene_name +
         "); the recording's is played");
   }

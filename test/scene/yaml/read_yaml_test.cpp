@@ -287,8 +287,7 @@ TEST(ReadSceneFileTest, ReadsTheBytesOfTheFile) {
 
 TEST(ReadSceneFileTest, UnreadableFilesAreNamed) {
   for (const std::string path : {"/nonexistent/scene.yaml", "/"}) {
-    EXPECT_THAT(complaintOf([&] { readSceneFile(path); }),
-                HasSubstr(path + ": error: cannot read the scene: "));
+    EXPECT_THAT(complaintOf([&] { readSceneFile(path); }), HasSubstr(path + ": cannot be read: "));
   }
 }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <sys/resource.h>
+
 #include "scene/bad_text.hpp"
 #include "support/test.hpp"
 
@@ -33,6 +35,31 @@ TEST(YamlErrorsTest, DeepNestingIsAnErrorNotACrash) {
 TEST(YamlErrorsTest, TooLongATextIsRefusedUnread) {
   const std::string text((std::size_t{64} << 20U) + 1, '#');
   EXPECT_THROW(readYaml(text, "long.yaml"), TextError);
+}
+
+/// As many nodes as bytes, and each takes half a kB.
+TEST(YamlErrorsTest, TooManyNodesAreRefusedBeforeTheyTakeRoom) {
+  const auto most_kb = [] {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+  };
+  std::string text = "ergotic: 1\nname: [";
+  for (int i = 0; i < 2'000'001; ++i) {
+    text += "a,";
+  }
+  text += "]\n";
+  const auto before_kb = most_kb();
+  EXPECT_THAT(complaintOf<TextError>([&] { readYaml(text, "many.yaml"); }),
+              AllOf(StartsWith("many.yaml:2:"), HasSubstr("more than 2000000 scalars")));
+  EXPECT_LT(most_kb() - before_kb, 100'000);
+}
+
+TEST(YamlErrorsTest, TitlesThatEveryStatusCarriesAreShort) {
+  const std::string most(200, 't');
+  EXPECT_EQ(readYaml(HEAD "name: " + most + "\n", "title.yaml").name, most);
+  expectRefused({(HEAD "name: <!>" + most + "t\n").c_str(), "has 201 bytes, allowed: at most 200"},
+                "bad.yaml");
 }
 
 TEST(YamlErrorsTest, TablesSharedByAliasesAreLimitedInAll) {

@@ -186,9 +186,16 @@ TEST_F(YamlTablesTest, ErrorsInAFileAreToldWithItsPlace) {
 
 TEST_F(YamlTablesTest, UnreadableFilesAreToldAtTheirPlaceInTheScene) {
   const std::string name = folder_ + "scene.yaml";
-  expectRefused({BOW "{file: <!>none.csv}}}\n", "none.csv' of 'table' of link 'x': No such file"},
-                name);
-  expectRefused({BOW "{file: <!>.}}}\n", "cannot read"}, name);
+  expectRefused({BOW "{file: <!>none.csv}}}\n", "none.csv: cannot be read: No such file"}, name);
+  expectRefused({BOW "{file: <!>.}}}\n", "cannot be read: Is a directory"}, name);
+}
+
+TEST_F(YamlTablesTest, FilesElsewhereAreNotOpened) {
+  const std::string name = folder_ + "scene.yaml";
+  const char elsewhere[] = "is elsewhere, allowed: below the scene's folder";
+  expectRefused({BOW "{file: <!>../../../etc/passwd}}}\n", elsewhere}, name);
+  ASSERT_EQ(::symlink("/etc/passwd", (folder_ + "link.csv").c_str()), 0);
+  expectRefused({BOW "{file: <!>link.csv}}}\n", elsewhere}, name);
 }
 
 TEST_F(YamlTablesTest, TextAndTablesTogetherAreNoLongerThanATextMayBe) {

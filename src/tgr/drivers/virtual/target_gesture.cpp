@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <fstream>
-#include <system_error>
 
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/realtime.hpp"
+#include "files/read_file.hpp"
 #include "tgr/csv.hpp"
 #include "tgr/require.hpp"
 
@@ -99,10 +97,7 @@ TargetGesture readTargetGesture(const std::string& path, int slices) {
   if (gestureKindOf(path) == GestureKind::kPositions) {
     return {*readPositionsCsv(path), path, slices};
   }
-  std::ifstream in(path);
-  if (!in) {
-    throw Exception(path + ": cannot be read: " + std::generic_category().message(errno));
-  }
+  std::ifstream in = files::openFile(path, files::kMaxRecordingBytes);
   return {in, path, slices};
 }
 

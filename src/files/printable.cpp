@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "files/printable.hpp"
+
+#include <cstdio>
+
+namespace ergotic::files {
+namespace {
+
+/// Where to cut: not in the middle of a UTF-8 character.
+std::size_t endOf(const std::string& text, std::size_t most) {
+  std::size_t end = most;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
+    --end;
+  }
+  return end;
+}
+
+}  // namespace
+
+std::string printable(const std::string& text, std::size_t most) {
+  const bool is_long = text.size() > most;
+  std::string shown;
+  for (const char c : text.substr(0, is_long ? endOf(text, most) : text.size())) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20U || byte == 0x7FU) {
+      char code[8];
+      std::snprintf(code, sizeof code, "\\x%02X", byte);
+      shown += code;
+    } else {
+      shown += c;
+    }
+  }
+  return is_long ? shown + "..." : shown;
+}
+
+}  // namespace ergotic::files

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/rt/thread.hpp"
 
+#include <malloc.h>
 #include <pthread.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
@@ -29,6 +31,11 @@ constexpr const char* kLimitsHelp =
 // Initial-exec: it is there with the thread. What a library that is loaded later has else, would be
 // allocated when a tick first looks at it.
 [[gnu::tls_model("initial-exec")]] thread_local int own_priority = 0;
+std::atomic<bool> is_locked{false};
+
+Outcome notLocked() {
+  return {false, std::string("memory is not locked: mlockall: ") + std::strerror(errno)};
+}
 
 bool hasCapability(int capability) {
   std::ifstream status("/proc/self/status");
@@ -67,10 +74,19 @@ Outcome lockMemory() {
             << " kB, needed: unlimited. Page faults can make ticks late; " << kLimitsHelp;
     return {false, message.str()};
   }
-  if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
-    return {false, std::string("memory is not locked: mlockall: ") + std::strerror(errno)};
+  is_locked = mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
+  return is_locked ? Outcome{} : notLocked();
+}
+
+Outcome giveMemoryBack() {
+  const bool locked = is_locked;
+  if (locked) {
+    munlockall();
   }
-  return {};
+  malloc_trim(0);
+  // Not MCL_CURRENT alone, which would make resident again what was just given back.
+  is_locked = locked && mlockall(MCL_CURRENT | MCL_ONFAULT) == 0 && mlockall(MCL_FUTURE) == 0;
+  return is_locked == locked ? Outcome{} : notLocked();
 }
 
 Outcome makeRealtime(int priority) {

@@ -16,6 +16,13 @@ struct Outcome {
 /// Realtime: no. Thread: any
 Outcome lockMemory();
 
+/// Gives back to the system what was freed, which takes milliseconds: what allocates elsewhere
+/// waits as long. Locked pages would stay. Afterwards memory is locked as it was, but for this:
+/// where memory of the heap was given back, its pages are resident only from their first use on.
+/// Realtime: no. Thread: any, one at a time
+/// \return not ok if what was locked no longer is
+Outcome giveMemoryBack();
+
 /// Gives the calling thread SCHED_FIFO at `priority` (1...99).
 /// Realtime: no
 Outcome makeRealtime(int priority);

@@ -7,6 +7,7 @@
 #include <ros/console.h>
 
 #include "ergotic/exception.hpp"
+#include "ergotic/rt/thread.hpp"
 #include "ergotic/station/judge_hands.hpp"
 #include "ros/conversation/description.hpp"
 #include "ros/conversation/model_loader.hpp"
@@ -62,6 +63,10 @@ LoadModel::Response Loader::load(const std::string& model, bool allow_unproven) 
   } else {
     ROS_ERROR_STREAM(answer.message);
     operator_.tell(answer.message);
+  }
+  // A text takes far more memory while it is read than what plays does.
+  if (const rt::Outcome kept = rt::giveMemoryBack(); !kept.ok) {
+    ROS_WARN_STREAM(kept.message);
   }
   response.success = answer.ok ? 1U : 0U;
   response.message = answer.message;

@@ -160,6 +160,23 @@ TEST(CertifyLinksTest, GuardedLinksMakeNoEnergy) {
   EXPECT_EQ(verdict(LiaType::kContact, 0, scene::Scheme::kExplicit), Verdict::kUnstable);
 }
 
+/// Forces move neither end: a guard has nothing to hold back, and the hand is given energy for
+/// ever.
+TEST(CertifyLinksTest, GuardedTablesBesideAHandGiveAsTheExplicitOnes) {
+  const auto verdict = [](double last, Scheme scheme) {
+    SceneBuilder b;
+    Lia& lia = b.scene.lias[at(b.link(LiaType::kTable, b.slice(0), b.ground(), 0.0))];
+    lia.law.edit().table.points = {{-0.1, -1.0}, {0.1, 1.0}, {0.2, last}};
+    lia.scheme = scheme;
+    return certify(b.scene, {kRate, 14}).verdict;
+  };
+  for (const Scheme scheme : {Scheme::kExplicit, Scheme::kGuarded}) {
+    EXPECT_EQ(verdict(-1.0, scheme), Verdict::kUnproven);
+    EXPECT_EQ(verdict(0.0, scheme), Verdict::kBounded);
+    EXPECT_EQ(verdict(1.0, scheme), Verdict::kPassive);
+  }
+}
+
 TEST(CertifyLinksTest, PowerContactSaysHowDeepItWouldHold) {
   SceneBuilder b;
   const int mass = b.mass(1.0);

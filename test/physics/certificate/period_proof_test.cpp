@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/certificate/period_proof.hpp"
+
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+#include "support/test.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Matrix4d;
+
+/// Of so many modules as the matrix has, in units of their own.
+Period periodOf(const Eigen::MatrixXd& matrix) {
+  const Eigen::Index modules = matrix.rows() / 2;
+  return {matrix, std::vector<int>(static_cast<std::size_t>(modules), 0),
+          Eigen::VectorXd::Ones(modules)};
+}
+
+Matrix2d turn(double angle) {
+  Matrix2d matrix;
+  matrix << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  return matrix;
+}
+
+/// Two modules, each with its position and what it is about to move by.
+Matrix4d ofTwo(const Matrix2d& a, const Matrix2d& b) {
+  Matrix4d matrix = Matrix4d::Zero();
+  for (int row = 0; row < 2; ++row) {
+    for (int column = 0; column < 2; ++column) {
+      matrix(2 * row, 2 * column) = a(row, column);
+      matrix(2 * row + 1, 2 * column + 1) = b(row, column);
+    }
+  }
+  return matrix;
+}
+
+TEST(PeriodProofTest, FormIsKeptByThePeriod) {
+  const Matrix4d matrix = ofTwo(turn(1.0), 0.5 * turn(2.0));
+  const std::optional<PeriodProof> proof = proofOf(periodOf(matrix));
+  ASSERT_TRUE(proof);
+  EXPECT_LT((proof->form * matrix - proof->turn * proof->form).norm(), 1e-12);
+  EXPECT_LE(proof->turn.operatorNorm(), 1.0 + 1e-12);
+}
+
+/// What stays is where bodies are. A mode that comes back after a period stays, too, and the least
+/// that is rounded may let it grow.
+TEST(PeriodProofTest, OnlyBodiesMayStay) {
+  Matrix2d drift;
+  drift << 1.0, 1.0, 0.0, 1.0;
+  EXPECT_TRUE(proofOf(periodOf(ofTwo(turn(1.0), drift))));
+  EXPECT_FALSE(proofOf(periodOf(ofTwo(turn(1.0), Matrix2d::Identity()))));
+}
+
+/// Modes that lie apart, but move nearly alike: what is rounded counts as many times.
+TEST(PeriodProofTest, ModesThatMoveNearlyAlikeProveNothing) {
+  const auto apart = [](double by) {
+    Matrix2d alike;
+    alike << 1.0, 1.0, 1.0, 1.0 + by;
+    Matrix4d shapes = Matrix4d::Zero();
+    shapes.topLeftCorner<2, 2>() = shapes.bottomRightCorner<2, 2>() = alike;
+    return Matrix4d(shapes * ofTwo(turn(1.0), turn(2.0)) * shapes.inverse());
+  };
+  EXPECT_TRUE(proofOf(periodOf(apart(0.2))));
+  EXPECT_FALSE(proofOf(periodOf(apart(0.02))));
+}
+
+}  // namespace
+}  // namespace ergotic::physics

@@ -64,8 +64,14 @@ std::unique_ptr<tgr::GestureSource> positionsOf(std::vector<Stretch> stretches,
   return std::make_unique<RecordedPositions>(std::move(stretches));
 }
 
-std::unique_ptr<tgr::GestureSource> readPositions(const std::string& path) {
-  return positionsOf(readRecording(path).stretches, path);
+std::unique_ptr<tgr::GestureSource> readPositions(const std::string& path,
+                                                  const std::string& station) {
+  Recording recording = readRecording(path, station);
+  for (Stretch& stretch : recording.stretches) {
+    recording.load(stretch);
+    stretch.ports_at = {};
+  }
+  return positionsOf(std::move(recording.stretches), path);
 }
 
 }  // namespace ergotic::bag

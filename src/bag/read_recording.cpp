@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -121,8 +124,13 @@ Keyframe fromMessage(const ergotic::Keyframe& message, const std::string& path) 
 
 Stretch fromMessage(const GestureBlock& message, const std::string& path) {
   check(message, path);
-  return {message.first_tick, message.slices,    message.ports,
-          message.flags,      message.positions, message.port_positions};
+  return {message.first_tick,
+          message.slices,
+          message.ports,
+          message.flags,
+          message.positions,
+          message.port_positions,
+          0};
 }
 
 station::Event fromMessage(const ergotic::Event& message, const std::string& path) {
@@ -177,6 +185,65 @@ RecordedMessage bytesOf(const rosbag::MessageInstance& message) {
   return {message.getDataType(), message.getMD5Sum(), std::move(data)};
 }
 
+/// Where the positions of a recording are.
+struct Blocks {
+  explicit Blocks(const std::string& path) : bag(path, rosbag::bagmode::Read) {}
+
+  void load(Stretch& stretch, const std::string& path) const {
+    RecordedMessage message = bytesOf(messages[stretch.block]);
+    Stretch whole = fromMessage(as<GestureBlock>(message, path).value(), path);
+    stretch.positions = std::move(whole.positions);
+    stretch.ports_at = std::move(whole.ports_at);
+  }
+
+  rosbag::Bag bag;
+  std::vector<rosbag::MessageInstance> messages;
+};
+
+/// `station` of `/station/gesture`.
+std::string stationOf(const rosbag::ConnectionInfo& connection) {
+  const std::size_t first = connection.topic.find_first_not_of('/');
+  const std::size_t last = connection.topic.rfind('/');
+  return last == std::string::npos || first > last ? ""
+                                                   : connection.topic.substr(first, last - first);
+}
+
+bool isOurs(const rosbag::ConnectionInfo& connection) {
+  return connection.datatype.rfind("ergotic/", 0) == 0;
+}
+
+/// What the messages of one station are among.
+std::function<bool(const rosbag::ConnectionInfo*)> ofStation(const rosbag::Bag& bag,
+                                                             const std::string& wanted,
+                                                             const std::string& path) {
+  std::set<std::string> stations;
+  rosbag::View all(bag);
+  for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
+    if (connection->datatype == ros::message_traits::DataType<GestureBlock>::value()) {
+      stations.insert(stationOf(*connection));
+    }
+  }
+  std::string list;
+  for (const std::string& station : stations) {
+    list += (list.empty() ? "/" : ", /") + station;
+  }
+  const std::string name = wanted.substr(std::min(wanted.find_first_not_of('/'), wanted.size()));
+  if (wanted.empty() && stations.size() > 1) {
+    throw Exception(path + ": gestures of several stations, say which: " + list);
+  }
+  if (!wanted.empty() && stations.count(name) == 0) {
+    throw Exception(path + ": no gesture of a station " + wanted + " in this bag" +
+                    (list.empty() ? "" : ", allowed: " + list));
+  }
+  if (stations.empty()) {
+    return [](const rosbag::ConnectionInfo* connection) { return isOurs(*connection); };
+  }
+  const std::string station = wanted.empty() ? *stations.begin() : name;
+  return [station](const rosbag::ConnectionInfo* connection) {
+    return isOurs(*connection) && stationOf(*connection) == station;
+  };
+}
+
 }  // namespace
 
 void add(Recording& recording, RecordedMessage& message, const std::string& path) {
@@ -203,18 +270,31 @@ void finish(Recording& recording, const std::string& path) {
   requireNoLongGap(recording.stretches, path);
 }
 
-Recording readRecording(const std::string& path) {
+void Recording::unload(Stretch& stretch) const {
+  if (load) {
+    stretch.positions = {};
+    stretch.ports_at = {};
+  }
+}
+
+Recording readRecording(const std::string& path, const std::string& station) {
   files::requireFile(path);
   Recording recording;
   try {
-    const rosbag::Bag bag(path, rosbag::bagmode::Read);
-    rosbag::View view(bag);
+    const auto blocks = std::make_shared<Blocks>(path);
+    rosbag::View view(blocks->bag, ofStation(blocks->bag, station, path));
     for (const rosbag::MessageInstance& instance : view) {
-      if (instance.getDataType().rfind("ergotic/", 0) == 0) {
-        RecordedMessage message = bytesOf(instance);
-        add(recording, message, path);
+      RecordedMessage message = bytesOf(instance);
+      const std::size_t before = recording.stretches.size();
+      add(recording, message, path);
+      if (recording.stretches.size() > before) {
+        recording.stretches.back().block = blocks->messages.size();
+        recording.stretches.back().positions = {};
+        recording.stretches.back().ports_at = {};
+        blocks->messages.push_back(instance);
       }
     }
+    recording.load = [blocks, path](Stretch& stretch) { blocks->load(stretch, path); };
   } catch (const rosbag::BagException& error) {
     throw Exception(path + ": " + error.what());
   }

@@ -66,12 +66,14 @@ TEST(ReadRecordingTest, GivesBackEveryFieldInTheOrderOfTicks) {
     parameter.value = 0.25;
     bag.write("/station/gesture", kStart, block(14));
     bag.write("/chatter", kStart, other);
-    bag.write("/elsewhere/gesture", kStart, block(12));
+    bag.write("/station/gesture", kStart, block(12));
     bag.write("/station/events", kStart, parameter);
     bag.write("/station/keyframe", kStart, keyframe());
   }
-  const Recording recording = readRecording(file.path());
+  Recording recording = readRecording(file.path());
   ASSERT_EQ(recording.stretches.size(), 2U);
+  EXPECT_TRUE(recording.stretches[0].positions.empty()) << "an hour of them does not fit in memory";
+  recording.load(recording.stretches[0]);
   EXPECT_EQ(recording.stretches[0].first_tick, 12);
   EXPECT_EQ(recording.stretches[1].endTick(), 16);
   EXPECT_EQ(recording.stretches[0].slices, 2U);
@@ -79,6 +81,8 @@ TEST(ReadRecordingTest, GivesBackEveryFieldInTheOrderOfTicks) {
   EXPECT_THAT(recording.stretches[0].positions, ElementsAre(0.1, 0.2, 0.3, 1.0 / 3.0));
   EXPECT_EQ(recording.stretches[0].ports, 1U);
   EXPECT_THAT(recording.stretches[0].ports_at, ElementsAre(0.5, 1.0 / 7.0));
+  recording.unload(recording.stretches[0]);
+  EXPECT_TRUE(recording.stretches[0].positions.empty());
   ASSERT_EQ(recording.events.size(), 1U);
   EXPECT_EQ(recording.events[0].type, station::Event::Type::kParameter);
   EXPECT_EQ(recording.events[0].tick, 13);
@@ -99,6 +103,24 @@ TEST(ReadRecordingTest, GivesBackEveryFieldInTheOrderOfTicks) {
   EXPECT_EQ(got.slices, 2);
   EXPECT_THAT(got.state, ElementsAre(1, 2, 3));
   EXPECT_THAT(got.parameters, ElementsAre(0.7));
+}
+
+TEST(ReadRecordingTest, OfSeveralStationsReadsTheOneThatIsChosen) {
+  const test::ScratchFile file;
+  {
+    rosbag::Bag bag(file.path(), rosbag::bagmode::Write);
+    for (const std::string name : {"/left", "/stage/right"}) {
+      bag.write(name + "/gesture", kStart, block(name == "/left" ? 12 : 40));
+      bag.write(name + "/keyframe", kStart, keyframe());
+    }
+  }
+  EXPECT_THAT(errorOf(file.path()), HasSubstr("several stations, say which: /left, /stage/right"));
+  EXPECT_THAT(complaintOf([&] { readRecording(file.path(), "/none"); }),
+              HasSubstr("no gesture of a station /none in this bag, allowed: /left, /stage/right"));
+  const Recording recording = readRecording(file.path(), "stage/right");
+  ASSERT_EQ(recording.stretches.size(), 1U);
+  EXPECT_EQ(recording.stretches[0].first_tick, 40);
+  EXPECT_EQ(readRecording(file.path(), "/left").stretches.at(0).first_tick, 12);
 }
 
 TEST(ReadRecordingTest, SaysWhatIsMissing) {

@@ -49,9 +49,27 @@ class PlayGestureTest(unittest.TestCase):
                 ("tick,x0\n0,0\n", None, "--rate"),
                 ("time_s,slice,target_m\n0,1\n", None, "g.csv:2: error: expected time_s"),
                 ("tick,x0\n0,zero\n", 100.0, "g.csv:2: error: expected tick"),
+                ("tick,x0\n0,nan\n", 100.0, "g.csv:2: error: expected tick"),
+                ("time_s,slice,target_m\n0,1,inf\n", None, "g.csv:2: error: expected time_s"),
                 ("# nothing\n", None, "no targets")]:
             with self.assertRaises(SystemExit) as refused:
                 play_gesture.read_csv(self.write(text), rate)
+            self.assertIn(expected, str(refused.exception))
+
+    def test_refuses_positions_that_are_no_numbers(self):
+        blocks = [block(5, (0.1, 0.2)), block(6, (0.3, float("nan")))]
+        with self.assertRaises(SystemExit) as refused:
+            list(play_gesture.checked(blocks, "g.bag"))
+        self.assertIn("tick 6", str(refused.exception))
+
+    def test_takes_the_station_that_is_chosen(self):
+        topics = ["/left/gesture", "/stage/right/gesture"]
+        self.assertEqual(play_gesture.choose(topics, "stage/right", "g.bag"), topics[1])
+        self.assertEqual(play_gesture.choose(topics[:1], "", "g.bag"), topics[0])
+        for station, expected in [("", "say by --of which: /left, /stage/right"),
+                                  ("none", "no gesture of /none, allowed: /left")]:
+            with self.assertRaises(SystemExit) as refused:
+                play_gesture.choose(topics, station, "g.bag")
             self.assertIn(expected, str(refused.exception))
 
     def test_takes_each_recorded_tick_once_and_fills_gaps(self):

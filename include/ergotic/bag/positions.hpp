@@ -11,8 +11,9 @@ namespace ergotic::bag {
 
 /// Positions of the slices, tick by tick, as a bag of a station recorded them, read into memory.
 /// Over ticks that never ran the last position is held.
-/// \throws Exception if the file cannot be read, holds no gesture, or if the number of slices
-///         changes on the way
-std::unique_ptr<tgr::GestureSource> readPositions(const std::string& path);
+/// \param station  as of `readRecording`
+/// \throws Exception as `readRecording`, or if the number of slices changes on the way
+std::unique_ptr<tgr::GestureSource> readPositions(const std::string& path,
+                                                  const std::string& station = "");
 
 }  // namespace ergotic::bag

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -36,20 +37,28 @@ struct Stretch {
   std::vector<std::uint32_t> flags;  ///< [ticks] station::GestureTick::Flag
   std::vector<double> positions;     ///< [ticks][slices] m, validated
   std::vector<double> ports_at;      ///< [ticks][ports] m, in the model, as the instrument got them
+  std::size_t block = 0;             ///< for `Recording::load`
 
   std::int64_t endTick() const { return first_tick + static_cast<std::int64_t>(flags.size()); }
 };
 
-/// One performance. Each list is in the order of ticks.
+/// One performance. Each list is in the order of ticks. An hour of twelve slices has two GB of
+/// positions, so that stretches of a bag have theirs only from `load` to `unload`.
 struct Recording {
   std::vector<Keyframe> keyframes;
   std::vector<Stretch> stretches;
   std::vector<station::Event> events;  ///< without pointers: what changed the sound, and when
+
+  /// Brings the positions of a stretch; empty where all are there. \throws Exception
+  std::function<void(Stretch&)> load;
+  void unload(Stretch& stretch) const;
 };
 
-/// Reads the messages of a station, under whatever topic names, into memory.
-/// \throws Exception if the file cannot be read, or holds no keyframe or no gesture
+/// Reads and checks the messages of a station; positions are read again when they are needed.
+/// \param station  name of its node; may be empty where the bag holds one station
+/// \throws Exception if the file cannot be read, holds no keyframe or no gesture, or if it is not
+///         said whose of several stations
 /// Realtime: no. Thread: any
-Recording readRecording(const std::string& path);
+Recording readRecording(const std::string& path, const std::string& station = "");
 
 }  // namespace ergotic::bag

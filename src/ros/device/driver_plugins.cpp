@@ -21,14 +21,24 @@ std::string pluginNamed(const std::string& driver) {
   return driver.find('/') == std::string::npos ? std::string(kPackage) + "/" + driver : driver;
 }
 
+struct BagOfStation {
+  std::string bag;
+  std::string station;
+};
+
 /// The bag that a `replay` shall play; nothing if it plays something else.
-std::optional<std::string> bagOf(const std::string& driver, const YAML::Node& settings) {
+std::optional<BagOfStation> bagOf(const std::string& driver, const YAML::Node& settings) {
   // Of anything else the core's replay driver says what is wrong, and where.
-  if (driver == "replay" && settings.IsMap() && settings.size() == 1 && settings["bag"] &&
-      settings["bag"].IsScalar()) {
-    return settings["bag"].Scalar();
+  const auto is_text = [&](const char* key) { return settings[key] && settings[key].IsScalar(); };
+  if (driver != "replay" || !settings.IsMap() || !is_text("bag")) {
+    return std::nullopt;
   }
-  return std::nullopt;
+  if (settings.size() == 1) {
+    return BagOfStation{settings["bag"].Scalar(), ""};
+  }
+  return settings.size() == 2 && is_text("station")
+             ? std::optional(BagOfStation{settings["bag"].Scalar(), settings["station"].Scalar()})
+             : std::nullopt;
 }
 
 }  // namespace
@@ -60,7 +70,7 @@ std::unique_ptr<tgr::Driver> DriverPlugins::make(const std::string& driver,
                                                  const YAML::Node& settings,
                                                  const std::string& place) {
   if (const auto bag = bagOf(driver, settings)) {
-    return tgr::makeReplayDriver(bag::readPositions(*bag));
+    return tgr::makeReplayDriver(bag::readPositions(bag->bag, bag->station));
   }
   if (driver == "virtual" || driver == "replay") {
     return tgr::makeCoreDriver(driver, settings, place);

@@ -147,8 +147,8 @@ void requireNothingElse(const RenderOptions& options) {
 
 std::unique_ptr<Replay> playRecording(const RenderOptions& options) {
   requireNothingElse(options);
-  auto replay = std::make_unique<Replay>(bag::readRecording(options.gesture), policyOf(options),
-                                         options.compile);
+  auto replay = std::make_unique<Replay>(bag::readRecording(options.gesture, options.station),
+                                         policyOf(options), options.compile);
   requireBooks(options, replay->start());
   compareScene(options.scene.scene, replay->start());
   compareIsa(replay->start(), replay->instrument().options().isa, !options.compile.isa.empty());
@@ -236,6 +236,7 @@ void addOptions(CLI::App& app, RenderOptions& options) {
   app.add_option("--gesture", options.gesture,
                  "who plays: targets of a hand or recorded positions (CSV), or a recording (bag)")
       ->type_name("F.csv|F.bag");
+  app.add_option("--station", options.station, "whose performance, of a bag with several stations");
   addEndEffectorsOption(app, options.end_effectors);
   addTargetOption(app, options.target,
                   "play it in the cheapest way that is this accurate, within --rate, "

@@ -17,6 +17,7 @@ struct RenderOptions {
   std::string out_format = "float";
   std::vector<std::string> inputs;  ///< NAME=FILE
   std::string gesture;              ///< empty: nobody plays
+  std::string station;              ///< whose recording of a bag; empty: of the only one
   std::string end_effectors;        ///< file; empty: ports move with their own slices
   std::string target;               ///< empty: the scene is played as it is
   bool energies = false;

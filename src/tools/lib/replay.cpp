@@ -199,11 +199,11 @@ bool Replay::wasLost(std::int64_t tick) const {
 }
 
 void Replay::takePositions() {
-  const auto& stretches = recording_.stretches;
+  auto& stretches = recording_.stretches;
   while (stretches[stretch_].endTick() <= tick_) {
-    ++stretch_;
+    recording_.unload(stretches[stretch_++]);
   }
-  const bag::Stretch& stretch = stretches[stretch_];
+  bag::Stretch& stretch = stretches[stretch_];
   const bool missing = tick_ < stretch.first_tick;
   if (missing && !in_gap_) {
     addFlaw(tick_, "gap of " + std::to_string(stretch.first_tick - tick_) + " ticks");
@@ -216,6 +216,9 @@ void Replay::takePositions() {
     throw Exception("the device has " + std::to_string(stretch.slices) + " slices at tick " +
                     std::to_string(tick_) + " of the recording and " +
                     std::to_string(position_.size()) + " at its start");
+  }
+  if (stretch.positions.empty() && recording_.load) {
+    recording_.load(stretch);
   }
   const auto row = static_cast<std::size_t>(tick_ - stretch.first_tick);
   const auto copyRow = [row](const std::vector<double>& from, std::vector<double>& to) {

@@ -12,14 +12,15 @@ namespace {
 // A storm of commands must not make a tick long.
 constexpr int kCommandsPerTick = 16;
 
+// Of a keyframe it is the buffer: until it comes back nobody else may write it.
 bool carriesOwnership(Command::Type type) {
   return type == Command::Type::kSwap || type == Command::Type::kParameter ||
-         type == Command::Type::kConfigure;
+         type == Command::Type::kConfigure || type == Command::Type::kKeyframe;
 }
 
 bool carriesOwnership(Event::Type type) {
   return type == Event::Type::kSwapped || type == Event::Type::kParameter ||
-         type == Event::Type::kConfigured;
+         type == Event::Type::kConfigured || type == Event::Type::kKeyframe;
 }
 
 }  // namespace
@@ -38,6 +39,9 @@ bool Station::submit(const Command& command) {
     throw Exception("a configuration needs a rig");
   }
   // The event ring keeps `command_ring` places for what is handed back: it can never be lost.
+  if (command.type == Command::Type::kKeyframe && keyframe_asked_) {
+    return true;
+  }
   const bool owes = carriesOwnership(command.type);
   if (owes && owed_ >= config_.command_ring) {
     return false;
@@ -49,6 +53,7 @@ bool Station::submit(const Command& command) {
     return false;
   }
   owed_ += owes ? 1U : 0U;
+  keyframe_asked_ = keyframe_asked_ || command.type == Command::Type::kKeyframe;
   return true;
 }
 
@@ -57,16 +62,21 @@ bool Station::poll(Event& event) noexcept {
     return false;
   }
   owed_ -= carriesOwnership(event.type) ? 1U : 0U;
+  keyframe_asked_ = keyframe_asked_ && event.type != Event::Type::kKeyframe;
   return true;
 }
 
+/// While another thread is at the last tick, nothing may be changed: commands wait, without force.
 void Station::drainCommands() noexcept {
+  if (!performer_->instrument->finish()) {
+    return;
+  }
   Command command;
   for (int i = 0; i < kCommandsPerTick && commands_.pop(command); ++i) {
     obey(command);
   }
-  // Not within a fade: a replay starts at full gain.
-  for (; keyframes_wanted_ > 0 && fade_.isFull(); --keyframes_wanted_) {
+  if (keyframe_wanted_ && mayTakeKeyframe()) {
+    keyframe_wanted_ = false;
     takeKeyframe();
   }
 }
@@ -99,7 +109,7 @@ void Station::obey(const Command& command) noexcept {
       takeInjection(command);
       break;
     case Command::Type::kKeyframe:
-      ++keyframes_wanted_;
+      keyframe_wanted_ = true;
       break;
   }
 }
@@ -133,9 +143,6 @@ void Station::refuse(Refusal refusal) noexcept {
 
 void Station::recover() noexcept {
   const bool anew = blown_up_;
-  if (anew && performer_->instrument->isUnderWay()) {
-    return refuse(Refusal::kBusy);
-  }
   if (anew) {
     performer_->restart();
     blown_up_ = false;
@@ -250,11 +257,17 @@ void Station::takeInjection(const Command& command) noexcept {
   tell(injected);
 }
 
+/// Not within a fade: a replay starts at full gain. And no hand waits while much is copied.
+bool Station::mayTakeKeyframe() const noexcept {
+  const bool is_short = performer_->instrument->stateSize() <= config_.keyframe_bytes_in_force;
+  return fade_.isFull() && (is_short || !hasForce());
+}
+
 void Station::takeKeyframe() noexcept {
   const physics::Instrument& instrument = *performer_->instrument;
   Event taken = event(Event::Type::kKeyframe);
   // Within the capacities reserved at the start, resizing and assigning do not allocate.
-  if (!instrument.isUnderWay() && instrument.stateSize() <= keyframe_.state.capacity() &&
+  if (instrument.stateSize() <= keyframe_.state.capacity() &&
       performer_->parameters.size() <= keyframe_.parameters.capacity()) {
     keyframe_.tick = tick_;
     keyframe_.state.resize(instrument.stateSize());
@@ -262,7 +275,7 @@ void Station::takeKeyframe() noexcept {
     keyframe_.parameters.assign(performer_->parameters.begin(), performer_->parameters.end());
     taken.index = 1;
   }
-  tell(taken);
+  handBack(taken);
 }
 
 }  // namespace ergotic::station

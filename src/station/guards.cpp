@@ -62,6 +62,23 @@ void Station::injectModelFault() noexcept {
   ++inject_age_;
 }
 
+bool Station::hasForce() const noexcept {
+  return state_ == ForceState::kEngaging || state_ == ForceState::kPlaying;
+}
+
+/// Force that was there is gone, and comes back in a ramp. Often, that is a hand that is shaken.
+void Station::kick() noexcept {
+  if (!hasForce()) {
+    return;
+  }
+  const double passed_s = 1e-9 * tick_ns_ * static_cast<double>(tick_ - kick_tick_);
+  kicks_ = std::max(0.0, kicks_ - config_.max_stalls * passed_s) + 1.0;
+  kick_tick_ = tick_;
+  if (kicks_ > config_.max_stalls) {
+    fault(FaultReason::kStall, -1);
+  }
+}
+
 /// The first reason is the one to tell; later ones find the force latched at zero already.
 void Station::fault(FaultReason reason, int slice) noexcept {
   chain_.disengage();

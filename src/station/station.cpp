@@ -36,6 +36,7 @@ const StationConfig& checked(const StationConfig& config) {
   checkRange("output channels", config.output_channels, 1, 256);
   checkRange("input channels", config.input_channels, 0, 256);
   checkRange("max_stall (s)", config.max_stall_s, 0.001, 1.0);
+  checkRange("max_stalls", config.max_stalls, 1, 1e6);
   checkRange("display rate (Hz)", config.display_hz, 1.0, 1000.0);
   checkRange("presence (s)", config.presence_s, 0.0, 10.0);
   checkRange("glide (s)", config.glide_s, 0.001, 10.0);
@@ -174,6 +175,7 @@ void Station::catchUp(std::int64_t ticks, std::int64_t stall_ns) noexcept {
     skip(ticks - run);
     fault(FaultReason::kStall, -1);
   }
+  kick();
   chain_.resume();
   const Slices origin = position_;
   for (std::int64_t i = 1; i < run; ++i) {
@@ -306,6 +308,9 @@ void Station::tickInstrument() noexcept {
   }
   Performer& p = *performer_;
   p.instrument->tick({p.positions.data(), p.forces.data(), p.inputs.data(), p.outputs.data()});
+  if (p.instrument->isUnderWay() && !std::exchange(is_held_up_, true)) {
+    kick();
+  }
   const bool look_inside = tick_ % kLookInsideTicks == 0;
   if (!std::all_of(p.forces.begin(), p.forces.end(), isOfThisWorld) ||
       (look_inside && !p.instrument->isFinite())) {
@@ -339,6 +344,11 @@ void Station::pushFrames() noexcept {
 void Station::updateForces(bool muted) noexcept {
   force_.fill(0.0);
   followCalibration();
+  if (is_held_up_) {  // as after a stall, once the tick is whole
+    chain_.resume();
+    is_held_up_ = performer_->instrument->isUnderWay();
+    return;
+  }
   if (muted || blown_up_ || gliding_ > 0) {
     return;
   }

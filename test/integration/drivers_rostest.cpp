@@ -91,6 +91,7 @@ class StationProcess {
     node_.setParam("/station/gestural_rate", kTickHz);
     node_.setParam("/station/ramp", 0.1);
     node_.setParam("/station/max_stall", 1.0);
+    node_.setParam("/station/max_stalls", 1'000'000);
     process_ = startStation(environment);
   }
   ~StationProcess() {

@@ -34,6 +34,7 @@ class PushedStation {
     node_.setParam("/station/jack", "none");
     node_.setParam("/station/ramp", 0.1);
     node_.setParam("/station/max_stall", 1.0);
+    node_.setParam("/station/max_stalls", 1'000'000);
     node_.setParam("/station/watchdog", 1.0);
     node_.setParam("/station/max_missing", 1000);
     node_.setParam("/station/max_speed", 100.0);

@@ -235,5 +235,55 @@ TEST(CommandsTest, SaysWhenAStateIsTooLargeForAKeyframe) {
   EXPECT_EQ(events[0].index, 0);
 }
 
+// With several threads, one of them may still be at its share of the last tick.
+TEST(HeldUpTest, AParameterIsToldAsSetWhenItIs) {
+  Bench bench;
+  bench.engage();
+  const double before = bench.log.forces[0];
+  bench.instrument->held_up = true;
+  bench.run(1);
+  Command change;
+  change.type = Command::Type::kParameter;
+  change.value = 2.0 * SpringInstrument::Setting().stiffness;
+  change.coefficients = bench.instrument->prepare({change.value}).release();
+  ASSERT_TRUE(bench.station->submit(change));
+  bench.run(10);
+  EXPECT_EQ(test::count(bench.events(), Event::Type::kParameter), 0);
+  bench.instrument->held_up = false;
+  bench.run(1);
+  EXPECT_EQ(test::count(bench.events(), Event::Type::kParameter), 1);
+  bench.run(Bench::kRampTicks);
+  EXPECT_DOUBLE_EQ(bench.log.forces[0], 2.0 * before);
+}
+
+// The second keyframe would be written while the first is read.
+TEST(KeyframeTest, IsNotWrittenAgainBeforeItWasHeardOf) {
+  Bench bench;
+  for (int n = 0; n < 3; ++n) {
+    ASSERT_TRUE(bench.command(Command::Type::kKeyframe));
+    bench.run(5);
+  }
+  EXPECT_EQ(test::count(bench.events(), Event::Type::kKeyframe), 1);
+  EXPECT_EQ(bench.station->keyframe().tick, 0);
+  ASSERT_TRUE(bench.command(Command::Type::kKeyframe));
+  bench.run(1);
+  EXPECT_EQ(test::count(bench.events(), Event::Type::kKeyframe), 1);
+  EXPECT_EQ(bench.station->keyframe().tick, 15);
+}
+
+TEST(KeyframeTest, OfALargeStateWaitsUntilThereIsNoForce) {
+  StationConfig config = Bench::quickConfig();
+  config.keyframe_bytes_in_force = 1;
+  Bench bench(
+      {}, [](std::int64_t, int) { return 0.01; }, config);
+  bench.engage();
+  ASSERT_TRUE(bench.command(Command::Type::kKeyframe));
+  bench.run(100);
+  EXPECT_EQ(test::count(bench.events(), Event::Type::kKeyframe), 0);
+  ASSERT_TRUE(bench.command(Command::Type::kStop));
+  bench.run(2);
+  EXPECT_EQ(test::count(bench.events(), Event::Type::kKeyframe), 1);
+}
+
 }  // namespace
 }  // namespace ergotic::station

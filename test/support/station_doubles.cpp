@@ -60,6 +60,11 @@ SpringInstrument::~SpringInstrument() {
 }
 
 void SpringInstrument::tick(const physics::TickIo& io) noexcept {
+  if (held_up) {
+    io.forces[0] = 0.0;
+    std::fill_n(io.outputs, rates().ratio * outputChannels(), 0.0);
+    return;
+  }
   const std::int64_t tick = frames_ / rates().ratio;
   io.forces[0] =
       tick == setting_.bad_force_at ? std::nan("") : -stiffness_->value * io.positions[0];
@@ -84,6 +89,9 @@ std::unique_ptr<physics::Coefficients> SpringInstrument::prepare(
 
 std::unique_ptr<physics::Coefficients> SpringInstrument::exchange(
     std::unique_ptr<physics::Coefficients> next) noexcept {
+  if (held_up) {
+    return next;
+  }
   std::unique_ptr<physics::Coefficients> old(stiffness_.release());
   stiffness_.reset(static_cast<Stiffness*>(next.release()));
   return old;

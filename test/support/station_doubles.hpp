@@ -92,6 +92,10 @@ class SpringInstrument : public physics::Instrument {
   std::vector<std::string> describe() const override { return {}; }
   bool isFinite() const noexcept override;
 
+  bool isUnderWay() const noexcept override { return held_up; }
+  bool finish() noexcept override { return !held_up; }
+
+  bool held_up = false;     ///< another thread does not finish its share of a tick
   double last_input = 0.0;  ///< sum of all input samples of the last tick
 
  private:

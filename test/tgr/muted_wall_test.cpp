@@ -307,5 +307,36 @@ TEST(PumpTest, DoesNotGatherRampsWhileTheHandIsHeld) {
   EXPECT_GT(givenOutAfter(100, withoutClamp()), 5.0 * most);
 }
 
+/// What stalls of 1.2 ms give to a hand that is pushed with 15 N, J in a second.
+double givenByStalls(int per_second) {
+  constexpr double kRateHz = 3000.0;
+  constexpr int kSeconds = 10;
+  const SafetyConfig config = withoutDetector();
+  const Wall wall{1000.0, 2.0, 0.0};
+  WallLoop loop(test::plainDevice(), config, kRateHz);
+  loop.engage();
+  loop.aimAt(-0.045);
+  loop.run(2.0, wall);
+  EXPECT_NEAR(loop.force(), 15.0, 0.1);
+  double given = 0.0;
+  for (int n = 0; n < kSeconds * per_second; ++n) {
+    loop.startMeter();
+    loop.resume(4);
+    loop.run(1.0 / per_second, wall);
+    given -= loop.leastEnergy();
+  }
+  return given / kSeconds;
+}
+
+// docs/safety.md, "Stalls".
+TEST(StallsTest, GiveAHandNoMoreThanIsSaid) {
+  const double three = givenByStalls(3);
+  const double ten = givenByStalls(10);
+  RecordProperty("three_mW", std::to_string(1e3 * three));
+  RecordProperty("ten_mW", std::to_string(1e3 * ten));
+  EXPECT_LT(three, 0.6);
+  EXPECT_GT(ten, 1.5 * three) << "which is why so many are a fault";
+}
+
 }  // namespace
 }  // namespace ergotic::tgr

@@ -26,16 +26,19 @@ struct StationConfig {
   int output_channels = 24;  ///< audio channels out; a model's higher channels are dropped
   int input_channels = 12;   ///< audio channels in; a model's higher channels get silence
   tgr::SafetyConfig safety;
-  double max_stall_s = 0.05;               ///< longer ones are a Fault, 0.001...1
-  double display_hz = 60.0;                ///< how often snapshots and motion are published
-  double presence_s = 0.0;                 ///< longest time between kPresence; 0: no switch
-  double glide_s = 0.1;                    ///< of the ports to another configuration, 0.001...10
+  double max_stall_s = 0.05;  ///< longer ones are a Fault, 0.001...1
+  int max_stalls = 3;         ///< that a second of force may bring; more are a Fault, 1...1e6
+  double display_hz = 60.0;   ///< how often snapshots and motion are published
+  double presence_s = 0.0;    ///< longest time between kPresence; 0: no switch
+  double glide_s = 0.1;       ///< of the ports to another configuration, 0.001...10
   bool allow_fault_injection = false;      ///< obey kInject
   std::size_t record_ring = 1U << 14U;     ///< gesture ticks
   std::size_t event_ring = 1U << 12U;      ///< events, beside those that hand something back
   std::size_t command_ring = 1U << 8U;     ///< commands
   std::size_t keyframe_bytes = 1U << 24U;  ///< largest state that a keyframe can hold
-  std::int64_t first_tick = 0;             ///< number of the tick that runs first, >= 0
+  /// Largest state that a tick copies while there is force; for a larger one it waits.
+  std::size_t keyframe_bytes_in_force = 1U << 18U;
+  std::int64_t first_tick = 0;  ///< number of the tick that runs first, >= 0
 };
 
 /// State of an instrument at the start of a recording.
@@ -133,7 +136,8 @@ class Station {
   const Snapshot* snapshot() noexcept {
     return snapshots_.refresh() ? &snapshots_.latest() : nullptr;
   }
-  /// Valid from an Event::kKeyframe to the next Command::kKeyframe. Thread: operator
+  /// Valid from when `poll` gave an Event::kKeyframe to the next Command::kKeyframe. Commands that
+  /// come before that event ask for the same keyframe. Thread: operator
   const Keyframe& keyframe() const noexcept { return keyframe_; }
   /// Thread: operator
   tgr::Driver& driver() noexcept { return *driver_; }
@@ -176,8 +180,11 @@ class Station {
   void recover() noexcept;
   void refuse(Refusal refusal) noexcept;
   void takeInjection(const Command& command) noexcept;
+  bool mayTakeKeyframe() const noexcept;
   void takeKeyframe() noexcept;
 
+  bool hasForce() const noexcept;
+  void kick() noexcept;
   void fault(FaultReason reason, int slice) noexcept;
   void blowUp() noexcept;
   Event event(Event::Type type) const noexcept;
@@ -206,7 +213,10 @@ class Station {
   ForceState state_ = ForceState::kReady;
   FaultReason fault_ = FaultReason::kNone;
   bool blown_up_ = false;
-  int keyframes_wanted_ = 0;                    // wait for the end of a fade
+  bool is_held_up_ = false;     // another thread has not finished the last tick
+  double kicks_ = 0.0;          // not yet forgotten
+  std::int64_t kick_tick_ = 0;  // of the last one
+  bool keyframe_wanted_ = false;
   Slices force_{};                              // N, of the last tick, for the next exchange
   Slices position_{};                           // m, of the last tick
   Slices velocity_{};                           // m/s
@@ -232,7 +242,8 @@ class Station {
   Keyframe keyframe_;
 
   // The operator's own.
-  std::size_t owed_ = 0;  // what was submitted with a pointer and did not yet come back
+  std::size_t owed_ = 0;         // what was submitted with a pointer and did not yet come back
+  bool keyframe_asked_ = false;  // and not yet come, or not yet seen
 };
 
 }  // namespace ergotic::station

@@ -55,7 +55,7 @@ class InstrumentOf final : public Instrument {
 
   void tick(const TickIo& io) noexcept override {
     const rt::FlushDenormals flush_denormals;
-    if (!finishTick()) {
+    if (!finish()) {
       stall(io);
       return;
     }
@@ -78,7 +78,7 @@ class InstrumentOf final : public Instrument {
   }
 
   std::unique_ptr<Coefficients> exchange(std::unique_ptr<Coefficients> next) noexcept override {
-    if (!finishTick()) {
+    if (!finish()) {
       return next;
     }
     if (!changed_ && mechanism_->state.frame() > 0) {
@@ -140,6 +140,13 @@ class InstrumentOf final : public Instrument {
 
   std::int64_t stalledTicks() const noexcept override { return stalled_; }
   bool isUnderWay() const noexcept override { return is_under_way_; }
+  bool finish() noexcept override {
+    if (is_under_way_ && workers_.areDone()) {
+      endTick();
+      is_under_way_ = false;
+    }
+    return !is_under_way_;
+  }
 
   bool isFinite() const noexcept override {
     const Real* x = mechanism_->state.x();
@@ -210,15 +217,6 @@ class InstrumentOf final : public Instrument {
       mechanism_->meter.endChange(*mechanism_->coefficients, mechanism_->state);
       changed_ = false;
     }
-  }
-
-  /// Brings a stalled tick to its end. \return false if another thread is still at it
-  bool finishTick() noexcept {
-    if (is_under_way_ && workers_.areDone()) {
-      endTick();
-      is_under_way_ = false;
-    }
-    return !is_under_way_;
   }
 
   void stall(const TickIo& io) noexcept {

@@ -26,6 +26,7 @@ station::StationConfig stationConfig(const Parameters& parameters, const physics
   config.rates = rates;
   config.safety = parameters.safety;
   config.max_stall_s = parameters.max_stall;
+  config.max_stalls = parameters.max_stalls;
   config.presence_s = parameters.presence ? kPresenceS : 0.0;
   config.allow_fault_injection = parameters.allow_fault_injection;
   return config;

@@ -245,6 +245,7 @@ void visitParameters(Visitor& on, P& p) {
   on.integer("ring_depth", p.ring_depth, 1, station::AudioBridge::kMaxLatencyFrames);
   visitSafety(on, p.safety);
   on.number("max_stall", p.max_stall, 0.001, 1.0);
+  on.integer("max_stalls", p.max_stalls, 1, 1'000'000);
   on.number("watchdog", p.watchdog, 0.004, 1.0);
   on.choice("presence", p.presence, kPresence);
   on.flag("require_master", p.require_master);

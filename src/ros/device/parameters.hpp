@@ -40,6 +40,7 @@ struct Parameters {
   int ring_depth = 768;               ///< audio frames from a tick's due time to its sound
   tgr::SafetyConfig safety;
   double max_stall = 0.05;     ///< s, longer stalls are a fault
+  int max_stalls = 3;          ///< in a second of force, more are a fault
   double watchdog = 0.02;      ///< s without a tick after which the device is made safe
   bool presence = false;       ///< force needs messages of the presence switch
   bool require_master = true;  ///< force needs a ROS master that knows the station

@@ -53,6 +53,9 @@ class Instrument {
   /// alone, the state must not be saved or loaded, and `exchange` hands back what it got.
   /// Realtime: yes.
   virtual bool isUnderWay() const noexcept { return false; }
+  /// Ends such a tick if all shares of it are done. \return false if it is still under way.
+  /// Realtime: yes.
+  virtual bool finish() noexcept { return true; }
 
   /// Coefficients for these parameter values (one per Scene::parameters).
   /// Realtime: no.

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Force that goes and comes back with every stall is a hand that is kicked.
+#include "ergotic/station/station.hpp"
+#include "support/station_doubles.hpp"
+#include "support/test.hpp"
+
+namespace ergotic::station {
+namespace {
+
+using test::Bench;
+
+class KicksTest : public ::testing::Test {
+ protected:
+  /// So many stalls of four ticks in `seconds`, evenly spaced, until one is a fault.
+  /// \return how many there were
+  int stall(double per_second, double seconds) {
+    const auto apart =
+        static_cast<std::int64_t>(bench_.station->config().rates.gesturalHz() / per_second);
+    const int most = static_cast<int>(per_second * seconds);
+    for (int n = 1; n <= most; ++n) {
+      bench_.run(apart - 4);
+      bench_.station->catchUp(4, 1'200'000);
+      if (test::count(bench_.events(), Event::Type::kFault) > 0) {
+        return n;
+      }
+    }
+    return most;
+  }
+  bool hasForce() {
+    bench_.run(Bench::kRampTicks);
+    return bench_.log.forces[0] != 0.0;
+  }
+
+  Bench bench_;
+};
+
+TEST_F(KicksTest, AreAFaultWhenTheyComeTenTimesASecond) {
+  bench_.engage();
+  EXPECT_LE(stall(10.0, 10.0), 10);
+  EXPECT_FALSE(hasForce());
+}
+
+TEST_F(KicksTest, AreAFaultWhenTheyComeSixTimesASecond) {
+  bench_.engage();
+  EXPECT_LE(stall(6.0, 180.0), 12);
+}
+
+TEST_F(KicksTest, MayComeNowAndThen) {
+  bench_.engage();
+  EXPECT_EQ(stall(1.0, 60.0), 60);
+  EXPECT_TRUE(hasForce());
+}
+
+TEST_F(KicksTest, AreForgottenAfterASecondEach) {
+  bench_.engage();
+  for (int n = 0; n < 5; ++n) {
+    EXPECT_EQ(stall(1000.0, 0.003), 3) << "as many as may come at once";
+    bench_.run(static_cast<std::int64_t>(bench_.station->config().rates.gesturalHz()));
+  }
+  EXPECT_TRUE(hasForce());
+}
+
+TEST_F(KicksTest, AreNoneWithoutForce) {
+  EXPECT_EQ(stall(10.0, 10.0), 100);
+  bench_.engage();
+  EXPECT_TRUE(hasForce()) << "and none is owed";
+}
+
+TEST_F(KicksTest, AreAsManyAsTheSettingSays) {
+  StationConfig config = Bench::quickConfig();
+  config.max_stalls = 20;
+  Bench patient(
+      {}, [](std::int64_t, int) { return 0.01; }, config);
+  patient.engage();
+  for (int n = 0; n < 20; ++n) {
+    patient.station->catchUp(4, 1'200'000);
+  }
+  EXPECT_EQ(test::count(patient.events(), Event::Type::kFault), 0);
+  patient.station->catchUp(4, 1'200'000);
+  EXPECT_EQ(test::firstOf(patient.events(), Event::Type::kFault).index,
+            static_cast<int>(FaultReason::kStall));
+}
+
+TEST_F(KicksTest, AreWhatAThreadMakesThatDoesNotFinishItsShare) {
+  bench_.engage();
+  const double whole = bench_.log.forces[0];
+  bench_.instrument->held_up = true;
+  bench_.run(2);
+  EXPECT_EQ(bench_.log.forces[0], 0.0) << "one tick later at the most";
+  bench_.run(10);
+  bench_.instrument->held_up = false;
+  bench_.run(3);
+  EXPECT_LT(std::abs(bench_.log.forces[0]), 0.2 * std::abs(whole)) << "it comes back in a ramp";
+  bench_.run(Bench::kRampTicks);
+  EXPECT_EQ(bench_.log.forces[0], whole);
+  for (int n = 0; n < 3; ++n) {
+    bench_.instrument->held_up = true;
+    bench_.run(1);
+    bench_.instrument->held_up = false;
+    bench_.run(5);
+  }
+  EXPECT_EQ(test::firstOf(bench_.events(), Event::Type::kFault).index,
+            static_cast<int>(FaultReason::kStall));
+}
+
+}  // namespace
+}  // namespace ergotic::station

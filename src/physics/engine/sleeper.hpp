@@ -14,8 +14,9 @@
 namespace ergotic::physics {
 
 /// Puts quiet sections to rest: one whose energy has fallen below its limit, and on which no link
-/// of another section pulls, is set to 0 and stepped no more until a force comes. The error is
-/// bounded (docs/physics.md, "Model no more than a scene needs").
+/// of another section pulls, is stepped no more until a force comes. By itself it rests at 0; linked
+/// to others it stops where it is, for a jump would stretch what it hangs on. The error is bounded
+/// (docs/physics.md, "Model no more than a scene needs").
 template <class Real>
 class Sleeper {
  public:
@@ -54,8 +55,8 @@ class Sleeper {
       } else if (first % (kStepsBetween * divisor) == 0 && !isTouched(section, state)) {
         const double energy = meter.storedIn(section, c, state);
         if (energy < limit.energy) {
-          meter.addDissipated(section, energy, state);
-          rest(section, state);
+          stop(section, state);
+          meter.addDissipated(section, energy - meter.storedIn(section, c, state), state);
           asleep = 1;
         }
       }
@@ -119,9 +120,10 @@ class Sleeper {
     });
   }
 
-  void rest(int section, State<Real>& state) const noexcept {
+  void stop(int section, State<Real>& state) const noexcept {
     const SectionRange& range = layout_.sections[static_cast<std::size_t>(section)];
-    for (Real* values : {state.x(), state.d(), state.dLast(), state.f()}) {
+    const bool is_alone = limits_[static_cast<std::size_t>(section)].joins.empty();
+    for (Real* values : {is_alone ? state.x() : state.d(), state.d(), state.dLast(), state.f()}) {
       for (int k = 0; k < range.dimensions; ++k) {
         std::fill(values + range.first + k * range.stride, values + range.fixed + k * range.stride,
                   Real(0));

@@ -15,7 +15,7 @@ bool isTooLarge(double value) {
 /// Of what is measured and must not be 0: its inverse is needed.
 bool isTooSmall(double value, const Limits& limits) {
   return *limits.unit != '\0' && limits.above && limits.minimum == 0.0 && value > 0.0 &&
-         value < 1.0 / kLargestNumber;
+         value < kSmallestNumber;
 }
 
 }  // namespace
@@ -43,7 +43,7 @@ std::string outOfRange(const std::string& what,
   const std::string unit = with_unit && *limits.unit != '\0' ? std::string(" ") + limits.unit : "";
   return what + " = " + numberText(value) + unit +
          " is out of range, allowed: " + limits.text(with_unit) +
-         (isTooLarge(value) ? ", up to 1e30 in size" : "") +
+         (isTooLarge(value) ? ", up to 1e15 in size" : "") +
          (isTooSmall(value, limits) ? ", at least 1e-30" : "");
 }
 

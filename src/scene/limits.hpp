@@ -11,8 +11,9 @@ namespace ergotic::scene {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Single precision holds a hundred million times as much: room for steps and products.
-constexpr double kLargestNumber = 1e30;
+/// Single precision holds 3e38: a product of two of these, steps, and what is far off by that.
+constexpr double kLargestNumber = 1e15;
+constexpr double kSmallestNumber = 1e-30;
 
 struct Limits {
   const char* unit = "";  ///< of scenes in SI units
@@ -21,7 +22,7 @@ struct Limits {
   bool above = false;  ///< the minimum itself is not allowed
 
   /// True if within, not beyond kLargestNumber and, of what has a unit and must not be 0, not below
-  /// its inverse.
+  /// kSmallestNumber.
   bool hold(double value) const;
   /// As in `> 0 kg`, `0...1`, `a finite number of m`; without unit if `with_unit` is false.
   std::string text(bool with_unit = true) const;

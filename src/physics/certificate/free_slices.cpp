@@ -211,6 +211,12 @@ FreeSlices::FreeSlices(const RatedNetwork& networks)
 }
 
 void FreeSlices::addBody(const Hanging& body) {
+  if (const char* const reason = notTold(body, networks_.network())) {
+    for (const int slice : body.slices) {
+      left_out_[at(slice)] = reason;
+    }
+    return;
+  }
   const std::vector<scene::Scene> cases = casesOf(body, networks_);
   const std::vector<scene::Lia>& lias = cases.front().lias;
   const bool is_bent = std::any_of(lias.begin(), lias.end(), isBent);

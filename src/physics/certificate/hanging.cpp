@@ -6,13 +6,16 @@
 #include <limits>
 
 #include "at.hpp"
+#include "physics/network/section_stiffness.hpp"
 
 namespace ergotic::physics {
 namespace {
 
 using scene::MatType;
 
-constexpr int kNearest = 16;  // of more than can be worked out
+constexpr double kSway = 0.01;     // m
+constexpr double kMostLead = 0.1;  // of what a link itself answers
+constexpr int kNearest = 16;       // of more than can be worked out
 constexpr double kRounding = 1e-9;
 
 /// True if what moves along the axes of one section is not all seen in another.
@@ -38,6 +41,20 @@ bool hidesAMass(const scene::Scene& scene, const scene::Lia& lia) {
   }
   const bool is_of_b = b.geometry < a.geometry;
   return is_of_b ? !isSlice(lia.a) && isHidden(b, a) : !isSlice(lia.b) && isHidden(a, b);
+}
+
+/// How far the force of a link to a point leads, per metre, when what guides it moves by a metre:
+/// the modules under it lie so much apart at the start, or come to by moving a centimetre.
+double leadOf(const scene::Scene& scene, const scene::Connection& connection) {
+  const scene::Grid& grid = scene.grids[at(connection.grid)];
+  const scene::Geometry geometry = scene.sectionOf(scene.mats[at(connection.mat)]).geometry;
+  double apart = 0.0;
+  for (int m = grid.first; m < grid.first + grid.columns * grid.rows - 1; ++m) {
+    const bool ends_row = (m - grid.first + 1) % grid.columns == 0;
+    const Eigen::Vector3d step = scene.mats[at(m + 1)].position - scene.mats[at(m)].position;
+    apart = ends_row ? apart : std::max(apart, movingPart(step, geometry).norm());
+  }
+  return std::abs(connection.guide_scale) * (apart * (grid.columns - 1) + kSway);
 }
 
 /// Modules under every point, and points on every module: as they are now, or wherever they may be.
@@ -144,6 +161,24 @@ scene::Scene onlyOf(const Hanging& hanging, scene::Scene scene) {
     }
   }
   return scene;
+}
+
+const char* notTold(const Hanging& body, const Network& network) {
+  const scene::Scene& scene = network.scene;
+  for (const int node : body.nodes) {
+    if (network.nodes[at(node)].is_free &&
+        leavesModesOut(network, network.nodes[at(node)].section)) {
+      return "a section that is played by fewer modes";
+    }
+  }
+  const auto leads = [&](const scene::Connection& connection) {
+    return body.nodes.count(connection.mat) != 0 &&
+           std::count(body.slices.begin(), body.slices.end(), connection.guide) != 0 &&
+           leadOf(scene, connection) > kMostLead;
+  };
+  return std::any_of(scene.connections.begin(), scene.connections.end(), leads)
+             ? "a point that it moves and pulls at"
+             : nullptr;
 }
 
 const char* notWorkedOut(const Hanging& hanging, const scene::Scene& scene, const Rates& rates) {

@@ -34,6 +34,10 @@ Hanging bodyOn(int slice, const Network& network, const Hands& hands);
 /// What hangs there by itself: everything else becomes ground, and is left alone.
 scene::Scene onlyOf(const Hanging& hanging, scene::Scene scene);
 
+/// Why what a slice meets cannot be told from it, whatever hangs there: fewer modes than modules,
+/// or a point that one of the slices moves far along what is not straight. nullptr: it can be.
+const char* notTold(const Hanging& body, const Network& network);
+
 /// Why it cannot be worked out as a scalar network at the rate of the slice; nullptr: it can be.
 const char* notWorkedOut(const Hanging& hanging, const scene::Scene& scene, const Rates& rates);
 

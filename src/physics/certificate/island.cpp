@@ -26,16 +26,6 @@ void setParameters(scene::Scene& scene, double scene::Parameter::*end) {
   }
 }
 
-/// True if a section is to be played by fewer modes than it has free modules.
-bool leavesModesOut(const Network& network, int section) {
-  int modules = 0;
-  for (const Network::Node& node : network.nodes) {
-    modules += node.is_free && node.section == section ? 1 : 0;
-  }
-  const int most = network.scene.sections[at(section)].modes;
-  return most > scene::kNoModes && modules > most;
-}
-
 using Sections = std::vector<const scene::Section*>;
 
 bool areAlike(const Sections& flats) {

@@ -166,7 +166,9 @@ PortLinks::Series PortLinks::series(int from, int l) const {
   Series all{slope(l), otherEnd(l, from)};
   for (int links = 1; links < kLongestSeries && all.stiffness > 0.0; ++links) {
     const std::vector<int>& here = links_of_[at(all.end)];
-    if (scene_.mats[at(all.end)].type != scene::MatType::kMass || here.size() != 2) {
+    const scene::Mat& mat = scene_.mats[at(all.end)];
+    if (mat.type != scene::MatType::kMass || here.size() != 2 ||
+        leavesModesOut(network_, mat.section)) {  // it gives way less than it seems
       break;
     }
     const int next = here[0] == l ? here[1] : here[0];

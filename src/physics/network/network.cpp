@@ -153,6 +153,15 @@ Shares endsAmong(const Network& network,
   return ends;
 }
 
+bool leavesModesOut(const Network& network, int section) {
+  int modules = 0;
+  for (const Network::Node& node : network.nodes) {
+    modules += node.is_free && node.section == section ? 1 : 0;
+  }
+  const int most = network.scene.sections[at(section)].modes;
+  return most > scene::kNoModes && modules > most;
+}
+
 std::vector<std::vector<int>> linksOfNodes(const Network& network) {
   std::vector<std::vector<int>> links(network.nodes.size());
   for (std::size_t l = 0; l < network.links.size(); ++l) {

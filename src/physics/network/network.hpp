@@ -69,6 +69,9 @@ std::vector<Shares> placesOf(const Network& network, int node);
 Shares sharesAmong(const Network& network, const std::vector<int>& row_of, int node);
 Shares endsAmong(const Network& network, const std::vector<int>& row_of, const Network::Link& link);
 
+/// True if a section is to be played by fewer modes than it has free modules.
+bool leavesModesOut(const Network& network, int section);
+
 /// Links of every node.
 std::vector<std::vector<int>> linksOfNodes(const Network& network);
 

@@ -75,5 +75,47 @@ TEST(LeftOutSlicesTest, LinesThatAreTurned) {
   EXPECT_THAT(judged(scene).findings, ElementsAre(HasSubstr("other axes than their links")));
 }
 
+/// Three modes of seven give way less than the seven masses do: set in motion, it never rests.
+TEST(LeftOutSlicesTest, ASectionThatIsPlayedByFewerModes) {
+  const auto string = [](int modes) {
+    SceneBuilder b;
+    int last = b.ground();
+    for (int i = 0; i < 7; ++i) {
+      const int next = b.mass(0.0367, 0.0);
+      b.spring(next, last, 655.0, 0.52);
+      last = next;
+    }
+    b.spring(b.slice(0), last, 9092.0);
+    b.scene.sections[0].medium = {0.0035};
+    b.scene.sections[0].modes = modes;
+    return judged(b.scene);
+  };
+  EXPECT_EQ(string(scene::kAllModes).ports.at(0).level, HandLevel::kSilent);
+  EXPECT_NE(string(3).ports.at(0).level, HandLevel::kSilent);
+}
+
+/// The place under a link moves as its hand does, and so does what the link pulls at.
+TEST(LeftOutSlicesTest, APointThatItMovesAndPullsAt) {
+  const auto guided = [](double scale, double height) {
+    SceneBuilder b;
+    const int hand = b.slice(0);
+    const int wall = b.ground();
+    const int first = b.mass(0.01, 0.0);
+    b.mass(0.01, 0.0);
+    b.scene.mats.at(at(first + 1)).position.x() = height;
+    b.spring(wall, first, 1e6, 100.0);
+    b.spring(wall, first + 1, 1e6, 100.0);
+    b.spring(hand, b.point(b.grid(first, 2), 0.5), 200.0);
+    b.scene.connections.at(0).guide = hand;
+    b.scene.connections[0].guide_scale = scale;
+    return judged(b.scene);
+  };
+  EXPECT_THAT(guided(200.0, 0.0).findings,
+              Contains(HasSubstr("a point that it moves and pulls at")));
+  EXPECT_THAT(guided(-2.0, 0.1).findings,
+              Contains(HasSubstr("a point that it moves and pulls at")));
+  EXPECT_EQ(guided(2.0, 0.0).ports.at(0).level, HandLevel::kSilent);
+}
+
 }  // namespace
 }  // namespace ergotic::physics

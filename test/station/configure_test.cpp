@@ -306,13 +306,15 @@ TEST(ConfigureTest, AThousandChangesLiveMakeNoTickLate) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     listen();
   }
-  const std::set<std::int64_t>& slow = live.stop();
+  [[maybe_unused]] const std::set<std::int64_t>& slow = live.stop();
   listen();
   EXPECT_EQ(configured.size(), 1000U);
   EXPECT_GT(engaged, 100);
+#ifndef ERGOTIC_SANITIZED  // which takes the processor, and waits, for purposes of its own
   EXPECT_LE(std::count_if(configured.begin(), configured.end(),
                           [&](std::int64_t tick) { return slow.count(tick) > 0; }),
             10);
+#endif
 }
 
 }  // namespace

@@ -14,9 +14,9 @@
 namespace ergotic::physics {
 
 /// Puts quiet sections to rest: one whose energy has fallen below its limit, and on which no link
-/// of another section pulls, is stepped no more until a force comes. By itself it rests at 0; linked
-/// to others it stops where it is, for a jump would stretch what it hangs on. The error is bounded
-/// (docs/physics.md, "Model no more than a scene needs").
+/// of another section pulls, is stepped no more until a force comes. By itself it rests at 0;
+/// linked to others it stops where it is, for a jump would stretch what it hangs on. The error is
+/// bounded (docs/physics.md, "Model no more than a scene needs").
 template <class Real>
 class Sleeper {
  public:

@@ -9,12 +9,14 @@
 #include "audio/jack_wires.hpp"
 #include "audio/semaphore.hpp"
 #include "ergotic/exception.hpp"
+#include "ergotic/rt/clock.hpp"
 
 namespace ergotic::audio {
 
 namespace {
 
 constexpr std::int64_t kRetryNs = 1'000'000'000;
+constexpr std::int64_t kStillNs = 1'000'000'000;  // many times the longest period
 constexpr std::size_t kMaxNameLength = 60;  // JACK's 64 less its terminator and the number it adds
 
 void requirePorts(int count, const char* what) {
@@ -77,8 +79,9 @@ struct JackHost::Impl {
   std::atomic<bool> look_asked{false};   // and not begun yet: looks do not pile up
   std::unique_ptr<JackSession> session;  // the supervisor's
   bool complained_of_wires = false;      // so is this
-  mutable std::mutex mutex;              // of status
+  mutable std::mutex mutex;              // of what follows
   JackStatus status;
+  std::shared_ptr<const std::atomic<std::int64_t>> last_period_ns;
   std::thread supervisor;
 };
 
@@ -160,6 +163,7 @@ void JackHost::Impl::updateStatus() {
   const std::lock_guard<std::mutex> lock(mutex);
   ++status.looks;
   status.running = session && session->isFlowing();
+  last_period_ns = session ? session->lastPeriodNs() : nullptr;
   status.freewheeling = session && session->isFreewheeling();
   status.client = session ? session->clientName() : "";
   status.wired = session && session->isWired();
@@ -187,7 +191,13 @@ JackHost::~JackHost() = default;
 
 JackStatus JackHost::status() const {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
-  return impl_->status;
+  JackStatus status = impl_->status;
+  // Not the supervisor's to see: what it asks of a stopped server is not answered.
+  if (status.running && rt::monotonicNs() - *impl_->last_period_ns > kStillNs) {
+    status.running = false;
+    status.message = "the JACK server stands still: it is stopped, or too busy";
+  }
+  return status;
 }
 
 void JackHost::look() {

@@ -76,6 +76,7 @@ struct JackSession::Core {
 
   Gate gate;
   std::atomic<std::uint32_t> period{0};
+  std::atomic<std::int64_t> last_period_ns{0};
   std::atomic<bool> has_ports{false};  // all of them; callbacks do not look at them before
   std::atomic<bool> lost{false};
   std::atomic<bool> changed{false};
@@ -136,6 +137,7 @@ struct JackSession::Core {
 
   static int onProcess(jack_nframes_t nframes, void* self) {
     auto& core = *static_cast<Core*>(self);
+    core.last_period_ns = rt::monotonicNs();
     if (!core.has_ports) {
       return 0;
     }
@@ -305,6 +307,7 @@ void JackSession::resume() {
   core_->changed = false;  // what changes from here on is noted again
   core_->period = jack_get_buffer_size(core_->client);
   core_->processor->audioStarted(sampleRate(), core_->period);
+  core_->last_period_ns = rt::monotonicNs();
   flowing_ = true;
   core_->gate.open();
 }
@@ -315,6 +318,10 @@ void JackSession::pause() noexcept {
     flowing_ = false;
     core_->processor->audioStopped();
   }
+}
+
+std::shared_ptr<const std::atomic<std::int64_t>> JackSession::lastPeriodNs() const {
+  return {core_, &core_->last_period_ns};
 }
 
 bool JackSession::isLost() const noexcept {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -35,6 +36,9 @@ class JackSession {
   /// Blocks stop, then audioStopped. No effect while paused.
   void pause() noexcept;
   bool isFlowing() const noexcept { return flowing_; }
+
+  /// CLOCK_MONOTONIC of the last period, ns: a server that is stopped says nothing. Thread: any
+  std::shared_ptr<const std::atomic<std::int64_t>> lastPeriodNs() const;
 
   bool isLost() const noexcept;          ///< the server went away or threw us out
   bool isFreewheeling() const noexcept;  ///< of the server

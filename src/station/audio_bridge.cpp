@@ -9,6 +9,7 @@
 namespace ergotic::station {
 namespace {
 
+constexpr std::int64_t kStillNs = 1'000'000'000;  // without a period, many times the longest
 constexpr double kClockBandwidthHz = 0.5;
 constexpr int kReadingsToConnect = 8;  // the first periods of a host are the least regular
 constexpr std::size_t kFifoFrames = 2U * AudioBridge::kMaxLatencyFrames;
@@ -61,6 +62,7 @@ void AudioBridge::audioStarted(double sample_rate_hz, std::uint32_t period_frame
   latency_.store(std::max(needed, config_.latency_frames), std::memory_order_relaxed);
   input_lag_.store(lag, std::memory_order_relaxed);
   connection_.fetch_add(1, std::memory_order_release);
+  last_period_ns_.store(rt::monotonicNs(), std::memory_order_relaxed);
   running_.store(true, std::memory_order_release);
 }
 
@@ -88,6 +90,7 @@ bool AudioBridge::hostRuns(std::uint32_t connection) const noexcept {
 
 void AudioBridge::process(const rt::Period& period) noexcept {
   const std::uint32_t connection = connection_.load(std::memory_order_acquire);
+  last_period_ns_.store(rt::monotonicNs(), std::memory_order_relaxed);
   readings_.draft() = {connection, period.start};
   readings_.publish();
   capture(period);
@@ -283,10 +286,15 @@ bool AudioBridge::popEvent(Event& event) noexcept {
 }
 
 AudioStatus AudioBridge::status() const noexcept {
-  return {
-      running_.load(std::memory_order_relaxed),   clock_locked_.load(std::memory_order_relaxed),
-      underruns_.load(std::memory_order_relaxed), underrun_frames_.load(std::memory_order_relaxed),
-      xruns_.load(std::memory_order_relaxed),     dropped_records_.load(std::memory_order_relaxed)};
+  const std::int64_t silent_ns =
+      rt::monotonicNs() - last_period_ns_.load(std::memory_order_relaxed);
+  const bool running = running_.load(std::memory_order_relaxed) && silent_ns < kStillNs;
+  return {running,
+          clock_locked_.load(std::memory_order_relaxed),
+          underruns_.load(std::memory_order_relaxed),
+          underrun_frames_.load(std::memory_order_relaxed),
+          xruns_.load(std::memory_order_relaxed),
+          dropped_records_.load(std::memory_order_relaxed)};
 }
 
 }  // namespace ergotic::station

@@ -120,6 +120,18 @@ TEST_F(JackHostTest, OutlivesAServerThatIsKilledAndRunsWithTheNext) {
   expectOrderlyBlocks(probe_);
 }
 
+TEST_F(JackHostTest, SaysThatAStoppedServerStandsStill) {
+  server_.start();
+  JackHost host(config_, probe_);
+  ASSERT_TRUE(blocksFlow(probe_, 50));
+  ASSERT_TRUE(eventually([&] { return host.status().running; }));
+  server_.freeze();
+  EXPECT_TRUE(eventually([&] { return !host.status().running; }));
+  EXPECT_THAT(host.status().message, HasSubstr("stands still"));
+  server_.thaw();
+  EXPECT_TRUE(eventually([&] { return host.status().running && host.status().message.empty(); }));
+}
+
 TEST_F(JackHostTest, BeginsAnewWhenTheServerEndsInGoodOrder) {
   server_.start();
   JackHost host(config_, probe_);

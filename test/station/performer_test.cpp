@@ -1,11 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/station/performer.hpp"
 
+#include "ergotic/scene/text/read_scene.hpp"
+#include "support/places.hpp"
 #include "support/scene_builder.hpp"
 #include "support/test.hpp"
+#include "tgr/drivers/virtual/virtual_device.hpp"
 
 namespace ergotic::station {
 namespace {
+
+/// The default instrument on a `virtual_tgr` that is a process of its own, with all defaults.
+TEST(PerformerTest, DefaultInstrumentGreetsWithoutAWarning) {
+  const double rate_hz = tgr::VirtualDeviceConfig().rate_hz;
+  for (const double audio_hz : {44100.0, 48000.0}) {
+    const scene::Scene scene = scene::readSceneFile(test::repository("models/string.yaml"));
+    const physics::Rates rates = physics::chooseRates(scene, audio_hz, 0.0);
+    PerformerPolicy policy;
+    policy.device.delay_ticks = 1.0 + std::ceil(2.0 / rate_hz * rates.gesturalHz());
+    EXPECT_EQ(policy.device.delay_ticks, 2.0);
+    const auto performer = makePerformer(scene, rates, physics::Precision::kFloat, policy);
+    for (const std::string& warning : performer->warnings) {
+      EXPECT_THAT(warning, Not(HasSubstr("warning")));
+    }
+  }
+}
 
 constexpr physics::Rates kRates{44100.0, 14};
 

@@ -126,6 +126,14 @@ void JackServer::kill() {
   end(SIGKILL);
 }
 
+void JackServer::freeze() {
+  ::kill(pid_, SIGSTOP);
+}
+
+void JackServer::thaw() {
+  ::kill(pid_, SIGCONT);
+}
+
 void JackServer::end(int signal) {
   if (pid_ < 0) {
     return;

@@ -34,6 +34,10 @@ class JackServer {
   /// SIGKILL: clients are not told.
   void kill();
 
+  /// SIGSTOP, until `thaw`: it is there, and does nothing.
+  void freeze();
+  void thaw();
+
   const std::string& name() const noexcept { return name_; }
   /// Runs one of JACK's command line tools against this server. \return its exit status
   int tool(const std::string& command) const;

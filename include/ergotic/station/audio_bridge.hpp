@@ -125,7 +125,8 @@ class AudioBridge : public rt::AudioProcessor, public FramePort {
 
   // Shared.
   std::atomic<bool> running_{false};
-  std::atomic<std::uint32_t> connection_{0};  // counts audioStarted
+  std::atomic<std::int64_t> last_period_ns_{0};  // a host that is stopped does not say so
+  std::atomic<std::uint32_t> connection_{0};     // counts audioStarted
   std::atomic<int> latency_;
   std::atomic<int> input_lag_{0};
   std::atomic<std::int64_t> underruns_{0};

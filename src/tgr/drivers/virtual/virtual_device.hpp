@@ -16,7 +16,7 @@ namespace ergotic::tgr {
 struct VirtualDeviceConfig {
   std::string shared_memory;  ///< name of the segment
   VirtualDriverConfig bank;   ///< its slices; delay and shared memory are not those of a process
-  double rate_hz = 4000.0;    ///< of the mechanics, 100...50000
+  double rate_hz = 8000.0;    ///< of the mechanics, 100...50000
   double watchdog_s = 0.010;  ///< longest time between exchanges, 0.001...10
 };
 

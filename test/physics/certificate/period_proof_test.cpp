@@ -40,32 +40,42 @@ Matrix4d ofTwo(const Matrix2d& a, const Matrix2d& b) {
 
 TEST(PeriodProofTest, FormIsKeptByThePeriod) {
   const Matrix4d matrix = ofTwo(turn(1.0), 0.5 * turn(2.0));
-  const std::optional<PeriodProof> proof = proofOf(periodOf(matrix));
+  const std::optional<PeriodProof> proof = proofOf(periodOf(matrix), {});
   ASSERT_TRUE(proof);
   EXPECT_LT((proof->form * matrix - proof->turn * proof->form).norm(), 1e-12);
   EXPECT_LE(proof->turn.operatorNorm(), 1.0 + 1e-12);
 }
 
-/// What stays is where bodies are. A mode that comes back after a period stays, too, and the least
-/// that is rounded may let it grow.
+/// What stays is where bodies are, however it is rounded. A mode that comes back after a period
+/// stays, too, and the least that is rounded may let it grow.
 TEST(PeriodProofTest, OnlyBodiesMayStay) {
   Matrix2d drift;
   drift << 1.0, 1.0, 0.0, 1.0;
-  EXPECT_TRUE(proofOf(periodOf(ofTwo(turn(1.0), drift))));
-  EXPECT_FALSE(proofOf(periodOf(ofTwo(turn(1.0), Matrix2d::Identity()))));
+  Matrix2d held = drift;
+  held(1, 0) = 1e-7;
+  const Matrix4d body = ofTwo(turn(1.0), drift);
+  EXPECT_TRUE(proofOf(periodOf(body), {body}));
+  EXPECT_FALSE(proofOf(periodOf(body), {ofTwo(turn(1.0), held)}));
+  EXPECT_FALSE(proofOf(periodOf(ofTwo(turn(1.0), Matrix2d::Identity())), {}));
 }
 
-/// Modes that lie apart, but move nearly alike: what is rounded counts as many times.
-TEST(PeriodProofTest, ModesThatMoveNearlyAlikeProveNothing) {
-  const auto apart = [](double by) {
-    Matrix2d alike;
-    alike << 1.0, 1.0, 1.0, 1.0 + by;
-    Matrix4d shapes = Matrix4d::Zero();
-    shapes.topLeftCorner<2, 2>() = shapes.bottomRightCorner<2, 2>() = alike;
-    return Matrix4d(shapes * ofTwo(turn(1.0), turn(2.0)) * shapes.inverse());
+/// As far as rounding joins two modes they grow, if each drives the other: not where they are apart
+/// by more than twice that, and not where one brakes what the other drives.
+TEST(PeriodProofTest, RoundingMayJoinModes) {
+  const auto isProven = [](double apart, double joined, double back) {
+    const Matrix4d matrix = ofTwo(turn(1.0), turn(1.0 + apart));
+    Matrix4d rounded = matrix;
+    for (int row = 0; row < 2; ++row) {
+      for (int column = 0; column < 2; ++column) {
+        rounded(2 * row, 2 * column + 1) = joined * turn(1.0)(row, column);
+        rounded(2 * row + 1, 2 * column) = back * turn(1.0)(row, column);
+      }
+    }
+    return proofOf(periodOf(matrix), {rounded}).has_value();
   };
-  EXPECT_TRUE(proofOf(periodOf(apart(0.2))));
-  EXPECT_FALSE(proofOf(periodOf(apart(0.02))));
+  EXPECT_TRUE(isProven(1e-5, 4e-6, 4e-6));
+  EXPECT_FALSE(isProven(1e-5, 6e-6, 6e-6));
+  EXPECT_TRUE(isProven(1e-5, 6e-6, -6e-6));
 }
 
 }  // namespace

@@ -86,6 +86,18 @@ TEST(GuardedFormTest, PotentialOfATableIsWhatLiesBelowIt) {
   EXPECT_NEAR(law.potential(4.0), 0.5 + 3.0 + 2.0, 1e-12) << "held beyond its end";
 }
 
+/// Beside a line that rises, what pushes out of a table ends beyond it, on either side.
+TEST(GuardedFormTest, BottomMayLieBeyondEitherEndOfATable) {
+  for (const double push : {-1.0, 1.0}) {
+    const Curve curve = interpolate({{{-1.0, push}, {1.0, push}}, false});
+    const GuardedCurve<double> well(curve, 0.0, 0.1);
+    const double bottom = -10.0 * push;
+    EXPECT_NEAR(well.at(bottom).force, 0.0, 1e-12);
+    EXPECT_NEAR(well.potential(bottom), 0.0, 1e-12);
+    EXPECT_NEAR(well.potential(bottom + 2.0), 0.5 * 0.1 * 4.0, 1e-12);
+  }
+}
+
 template <class Real>
 void expectTheLawWhereNothingMoves() {
   for (const LiaType type :

@@ -101,6 +101,12 @@ TEST(PointTest, OnAStringIsReadFieldByField) {
   EXPECT_NEAR(q.position.x(), 0.006, 1e-15);
 }
 
+TEST(PointTest, RangeMayBeOnePlace) {
+  const Scene s = pointScene("along: s, at: 0.3, guide: {mat: k, scale: 5}, range: [0.3, 0.3]");
+  EXPECT_EQ(s.connections.at(0).along_minimum, 0.3);
+  EXPECT_EQ(s.connections[0].along_maximum, 0.3);
+}
+
 TEST(PointTest, OnAMeshStartsBetweenItsFourModules) {
   const Scene s = pointScene("along: net, at: [0.3, 0.75]");
   const Connection& c = s.connections.at(0);

@@ -31,10 +31,9 @@ class StationNodelet : public nodelet::Nodelet {
       diagnostics_ = std::make_unique<Diagnostics>(getNodeHandle(), node, getName());
       feed_ = std::make_unique<Feed>(node);
       operator_ = std::make_unique<Operator>(*feed_, *diagnostics_);
-      guard_ = std::make_unique<SignalGuard>([this] {
-        operator_->makeSafe(tgr::FaultReason::kMadeSafe);
-        operator_->close();
-      });
+      guard_ = std::make_unique<SignalGuard>(
+          [this] { operator_->makeSafe(tgr::FaultReason::kMadeSafe); },
+          [this] { operator_->close(); });
       services_ = std::make_unique<Services>(node, *operator_);
     } catch (const std::exception& failure) {
       NODELET_ERROR_STREAM(failure.what());

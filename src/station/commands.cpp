@@ -101,10 +101,6 @@ void Station::obey(const Command& command) noexcept {
     case Command::Type::kRecover:
       recover();
       break;
-    case Command::Type::kPresence:
-      present_ = command.value > 0.0;
-      absent_ = 0;
-      break;
     case Command::Type::kInject:
       takeInjection(command);
       break;

@@ -30,6 +30,10 @@ void Station::followPresence() noexcept {
   if (presence_ticks_ == 0) {
     return;
   }
+  if (const unsigned told = told_presence_.exchange(0); told != 0) {
+    present_ = (told & kLetGo) == 0;
+    absent_ = 0;
+  }
   if (present_ && ++absent_ > presence_ticks_) {
     present_ = false;
   }

@@ -226,8 +226,8 @@ std::uint32_t Station::accept(Slices& positions,
 
 void Station::runTick(const Slices& positions, std::uint32_t flags) noexcept {
   advanceSwap();
-  drainCommands();
   followPresence();
+  drainCommands();
   if (pullInputs()) {
     flags |= GestureTick::kAudioInput;
   }

@@ -33,7 +33,7 @@ double still(std::int64_t /*exchange*/, int /*slice*/) {
 }
 
 void tellPresence(Bench& bench, bool present) {
-  ASSERT_TRUE(bench.command(Command::Type::kPresence, present ? 1.0 : 0.0));
+  bench.station->tellPresence(present);
 }
 
 FaultReason faultOf(Bench& bench) {
@@ -113,6 +113,16 @@ TEST(PresenceGuardTest, LettingGoIsAFaultThatStays) {
   tellPresence(bench, true);
   bench.run(kRampTicks);
   EXPECT_EQ(bench.log.forces[0], 0.0);
+}
+
+TEST(PresenceGuardTest, LettingGoForLessThanATickIsLettingGo) {
+  Bench bench({}, still, withPresence(0.2));
+  tellPresence(bench, true);
+  bench.engage();
+  tellPresence(bench, false);
+  tellPresence(bench, true);
+  bench.run(1);
+  EXPECT_EQ(faultOf(bench), FaultReason::kPresence);
 }
 
 TEST(PresenceGuardTest, ASwitchThatIsNotToldAnyMoreIsLetGo) {

@@ -36,7 +36,6 @@ struct Command {
                  ///< say which parameter got which value, for the record
     kConfigure,  ///< force to zero, state Ready; take `rig`, made for the performer submitted last
     kRecover,    ///< from Fault to Ready; a model that blew up starts anew
-    kPresence,   ///< value: 1 the player holds the switch, 0 not; to be repeated
     kInject,     ///< index: InjectedModelFault, value: ticks; if the configuration allows it. Other
                  ///< indices are told, no more: faults that are made elsewhere
     kKeyframe,   ///< copy the state for a recording that starts now, or after the fade of a swap

@@ -29,7 +29,7 @@ struct StationConfig {
   double max_stall_s = 0.05;  ///< longer ones are a Fault, 0.001...1
   int max_stalls = 3;         ///< that a second of force may bring; more are a Fault, 1...1e6
   double display_hz = 60.0;   ///< how often snapshots and motion are published
-  double presence_s = 0.0;    ///< longest time between kPresence; 0: no switch
+  double presence_s = 0.0;    ///< longest time between two tellPresence; 0: no switch
   double glide_s = 0.1;       ///< of the ports to another configuration, 0.001...10
   bool allow_fault_injection = false;      ///< obey kInject
   std::size_t record_ring = 1U << 14U;     ///< gesture ticks
@@ -115,6 +115,9 @@ class Station {
   /// Forces to zero at once, latched until kRecover: for signals, watchdogs, emergency stops.
   /// Realtime: as the driver's. Thread: any
   void makeSafe(FaultReason reason = FaultReason::kMadeSafe) noexcept;
+  /// The player holds the presence switch, or not; to be repeated. Of two that come within a tick
+  /// the one that lets go counts. Realtime: yes. Thread: any
+  void tellPresence(bool is_held) noexcept { told_presence_ |= is_held ? kHeld : kLetGo; }
   /// Counts up with every cycle and catchUp: what a watchdog looks at. Realtime: yes. Thread: any
   const std::atomic<std::int64_t>& heartbeat() const noexcept { return heartbeat_; }
 
@@ -147,6 +150,8 @@ class Station {
 
  private:
   using Slices = std::array<double, tgr::kMaxSlices>;
+  static constexpr unsigned kHeld = 1;  // presence as it was told since the last tick, bits
+  static constexpr unsigned kLetGo = 2;
 
   // One tick, step by step (station.cpp).
   std::uint32_t accept(Slices& positions,
@@ -201,7 +206,7 @@ class Station {
   FramePort* frame_port_ = nullptr;
   TickMeter* meter_ = nullptr;
   std::int64_t glide_ticks_;     // length of a glide
-  std::int64_t presence_ticks_;  // longest time between two kPresence; 0: no switch
+  std::int64_t presence_ticks_;  // longest time between two that tell it; 0: no switch
 
   // The tick's own.
   tgr::SafetyChain chain_;
@@ -233,6 +238,7 @@ class Station {
   Counters counters_;
 
   // Shared.
+  std::atomic<unsigned> told_presence_{0};
   std::atomic<FaultReason> make_safe_{FaultReason::kNone};
   std::atomic<std::int64_t> heartbeat_{0};
   rt::Ring<Command> commands_;

@@ -7,6 +7,7 @@
 #include <ros/console.h>
 
 #include "ergotic/exception.hpp"
+#include "ergotic/rt/clock.hpp"
 #include "ergotic/rt/thread.hpp"
 #include "ergotic/station/judge_hands.hpp"
 #include "ros/conversation/description.hpp"
@@ -14,6 +15,8 @@
 
 namespace ergotic::node {
 namespace {
+
+constexpr std::int64_t kPatienceNs = 10'000'000'000;  // for devices that are busy
 
 /// \param[out] verdict  also set when the model is refused for its sake
 std::unique_ptr<station::Performer> makePerformer(scene::Scene scene,
@@ -52,8 +55,12 @@ double audioRateFor(const Parameters& parameters) {
 LoadModel::Response Loader::load(const std::string& model, bool allow_unproven) {
   LoadModel::Response response;
   Answer answer;
+  is_device_missing_ = false;
   try {
     answer = play(readModel(model), allow_unproven, response.verdict);
+  } catch (const DeviceError& missing) {
+    is_device_missing_ = true;
+    answer = {false, missing.what()};
   } catch (const std::exception& refusal) {
     answer = {false, refusal.what()};
   }
@@ -73,12 +80,26 @@ LoadModel::Response Loader::load(const std::string& model, bool allow_unproven) 
   return response;
 }
 
+/// \return false if there shall be none
+bool Loader::waitUntilNextTry(std::int64_t end_ns) const {
+  constexpr std::int64_t kPauseNs = 50'000'000;
+  constexpr int kPauses = 10;
+  for (int i = 0; i < kPauses && !gives_up_; ++i) {
+    rt::sleepUntilNs(rt::monotonicNs() + kPauseNs);
+  }
+  return !gives_up_ && rt::monotonicNs() < end_ns;
+}
+
 void Loader::loadFromParameters() {
   try {
     const Parameters parameters = readParameters(node_);
-    if (!parameters.model.empty()) {
-      load(parameters.model, parameters.allow_unproven);
+    if (parameters.model.empty()) {
+      return;
     }
+    const std::int64_t end_ns = rt::monotonicNs() + kPatienceNs;
+    do {
+      load(parameters.model, parameters.allow_unproven);
+    } while (is_device_missing_ && waitUntilNextTry(end_ns));
   } catch (const Exception& refusal) {
     ROS_ERROR_STREAM(refusal.what());
     operator_.tell(refusal.what());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <string>
 
@@ -26,15 +27,21 @@ class Loader {
   /// \param model  path or YAML text
   LoadModel::Response load(const std::string& model, bool allow_unproven);
 
-  /// Plays the model that the parameter `model` names, if it names one.
+  /// Plays the model that the parameter `model` names, if it names one. While its devices cannot be
+  /// opened it tries again for some seconds: a station of this name may be about to end.
   void loadFromParameters();
+  /// No more of that. Thread: any
+  void giveUp() { gives_up_ = true; }
 
  private:
+  bool waitUntilNextTry(std::int64_t end_ns) const;
   Answer play(scene::Scene scene, bool allow_unproven, std::string& verdict);
   Answer start(scene::Scene scene, bool allow_unproven, std::string& verdict);
 
   ::ros::NodeHandle node_;
   Operator& operator_;
+  bool is_device_missing_ = false;  // because of that the last load failed
+  std::atomic<bool> gives_up_{false};
 };
 
 }  // namespace ergotic::node

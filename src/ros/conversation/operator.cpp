@@ -115,10 +115,6 @@ Answer Operator::inject(const InjectFault::Request& request) {
   return ask([=](const Promise& promise) { performance_.inject(request, promise); });
 }
 
-void Operator::setPresence(bool present) {
-  post([this, present] { performance_.setPresence(present); });
-}
-
 std::optional<Operator::Terms> Operator::terms() {
   const auto terms = std::make_shared<std::optional<Terms>>();
   ask([this, terms](const Promise& promise) {

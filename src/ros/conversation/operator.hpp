@@ -67,7 +67,7 @@ class Operator {
   /// Force to zero at once, latched. \return false if there is no device
   bool makeSafe(tgr::FaultReason reason) { return performance_.makeSafe(reason); }
   /// The presence switch is held, or not.
-  void setPresence(bool present);
+  void tellPresence(bool is_held) { performance_.tellPresence(is_held); }
 
   /// Forces to zero, device closed, no engine taken any more; waits for it, 0.9 s at most.
   /// Thread: any

@@ -154,12 +154,6 @@ void Performance::setTarget(int slice, double target_m, const Promise& promise) 
   answer(promise, taken, taken ? "" : refusal.str());
 }
 
-void Performance::setPresence(bool present) {
-  if (engine_) {
-    command(CommandType::kPresence, 0, present ? 1.0 : 0.0);
-  }
-}
-
 bool Performance::command(CommandType type, int index, double value) {
   station::Command command;
   command.type = type;
@@ -317,6 +311,13 @@ void Performance::close() {
   if (closing) {
     closing.reset();
     feed_.showSilence("closed");
+  }
+}
+
+void Performance::tellPresence(bool is_held) {
+  const std::lock_guard lock(engine_mutex_);
+  if (engine_) {
+    engine_->station().tellPresence(is_held);
   }
 }
 

@@ -30,7 +30,7 @@ using Promise = std::shared_ptr<std::promise<Answer>>;
 /// What plays, and what was asked of it: the operator's side of the station.
 ///
 /// Requests are answered when the real-time thread has obeyed, or said why not.
-/// Thread: operator, all but `makeSafe`
+/// Thread: operator, all but `makeSafe` and `tellPresence`
 class Performance {
  public:
   explicit Performance(Feed& feed) : feed_(feed) {}
@@ -54,7 +54,6 @@ class Performance {
                  const std::shared_ptr<Calibrate::Response>& measured,
                  const Promise& promise);
   void inject(const InjectFault::Request& request, const Promise& promise);
-  void setPresence(bool present);
 
   /// Brings the news of the station to ROS and to those who wait for them.
   void poll();
@@ -64,6 +63,8 @@ class Performance {
 
   /// Force to zero at once, latched. \return false if there is no device. Thread: any
   bool makeSafe(tgr::FaultReason reason);
+  /// The presence switch is held, or not. Thread: any
+  void tellPresence(bool is_held);
 
  private:
   /// A model on its way into the station, which owns it.
@@ -107,7 +108,7 @@ class Performance {
   void reportWarnings();
 
   Feed& feed_;
-  std::mutex engine_mutex_;  // held while engine_ changes, and by makeSafe
+  std::mutex engine_mutex_;  // held while engine_ changes, and by those that any thread may call
   std::unique_ptr<Engine> engine_;
   station::Performer* playing_ = nullptr;    // owned by the station
   station::Performer* submitted_ = nullptr;  // the newest, owned by the station

@@ -66,6 +66,7 @@ Services::Services(::ros::NodeHandle node, Operator& operator_thread)
 }
 
 Services::~Services() {
+  loader_.giveUp();
   loading_spinner_.stop();  // after the load that runs, if one does
   safety_spinner_.stop();
 }
@@ -100,7 +101,11 @@ void Services::onHandTarget(const SliceTarget& target) {
 }
 
 bool Services::onRecover(Trigger::Request& /*request*/, Trigger::Response& response) {
-  return fill(response, operator_.recover());
+  const Answer answer = operator_.recover();
+  if (answer.ok) {
+    presence_owner_.acceptAnother();
+  }
+  return fill(response, answer);
 }
 
 Answer Services::configure(const std::vector<EndEffector>& end_effectors) {
@@ -143,8 +148,15 @@ void Services::onEmergencyTopic(const std_msgs::Empty& /*stop*/) {
   operator_.makeSafe(tgr::FaultReason::kEmergencyStop);
 }
 
-void Services::onPresence(const std_msgs::Bool& present) {
-  operator_.setPresence(present.data != 0U);
+void Services::onPresence(const ::ros::MessageEvent<const std_msgs::Bool>& present) {
+  if (presence_owner_.hears(present.getPublisherName())) {
+    operator_.tellPresence(present.getMessage()->data != 0U);
+    return;
+  }
+  ROS_WARN_STREAM_THROTTLE(kLogPeriodS,
+                           "presence: " << present.getPublisherName() << " is not heard, for "
+                                        << presence_owner_.name()
+                                        << " holds the switch; recover accepts another");
 }
 
 }  // namespace ergotic::node

@@ -20,6 +20,7 @@
 
 #include "ros/conversation/loader.hpp"
 #include "ros/conversation/operator.hpp"
+#include "ros/conversation/presence_owner.hpp"
 
 namespace ergotic::node {
 
@@ -53,9 +54,10 @@ class Services {
   bool onInjectFault(InjectFault::Request& request, InjectFault::Response& response);
   bool onEmergencyStop(Trigger::Request& request, Trigger::Response& response);
   void onEmergencyTopic(const std_msgs::Empty& stop);
-  void onPresence(const std_msgs::Bool& present);
+  void onPresence(const ::ros::MessageEvent<const std_msgs::Bool>& present);
 
   Operator& operator_;
+  PresenceOwner presence_owner_;
   Loader loader_;
   ::ros::NodeHandle node_;
   ::ros::CallbackQueue loading_queue_;

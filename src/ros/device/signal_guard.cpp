@@ -104,7 +104,10 @@ class SignalGuard::Pipe {
       {
         const std::lock_guard lock(mutex_);
         for (SignalGuard* guard : guards_) {
-          guard->on_signal_();
+          guard->make_safe_();
+        }
+        for (SignalGuard* guard : guards_) {
+          guard->close_();
         }
         guards_.clear();
       }
@@ -120,8 +123,8 @@ class SignalGuard::Pipe {
   std::thread thread_;
 };
 
-SignalGuard::SignalGuard(std::function<void()> on_signal)
-    : on_signal_(std::move(on_signal)), pipe_(Pipe::ofProcess()) {
+SignalGuard::SignalGuard(std::function<void()> make_safe, std::function<void()> close)
+    : make_safe_(std::move(make_safe)), close_(std::move(close)), pipe_(Pipe::ofProcess()) {
   pipe_->add(this);
 }
 

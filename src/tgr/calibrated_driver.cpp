@@ -21,7 +21,8 @@ using Slices = std::array<double, kMaxSlices>;
 /// What the tick goes by.
 struct Table {
   std::array<SliceCalibration, kMaxSlices> slices;
-  std::uint64_t uncalibrated = 0;  // bits
+  std::array<std::uint32_t, kMaxSlices> renewals{};  // of slices that had a calibration
+  std::uint64_t uncalibrated = 0;                    // bits
 };
 
 ERGOTIC_REALTIME double positionOf(double volts, const SliceCalibration& c) noexcept {
@@ -83,7 +84,10 @@ class CalibratedDriverOverRaw final : public CalibratedDriver {
   void set(int slice, const SliceCalibration& calibration) override {
     requireWithin("slice of the calibration", slice, 0, slices() - 1, "");
     checkCalibration(calibration, " of slice " + std::to_string(slice));
-    calibration_.slices[static_cast<std::size_t>(slice)] = calibration;
+    SliceCalibration& old = calibration_.slices[static_cast<std::size_t>(slice)];
+    renewals_[static_cast<std::size_t>(slice)] +=
+        old.is_calibrated && calibration.is_calibrated ? 1U : 0U;
+    old = calibration;
     publish();
   }
   const Calibration& calibration() const noexcept override { return calibration_; }
@@ -97,16 +101,17 @@ class CalibratedDriverOverRaw final : public CalibratedDriver {
                                           double* positions) noexcept override {
     table_.refresh();
     const auto& table = table_.latest().slices;
-    uncalibrated_ = table_.latest().uncalibrated;  // with the positions that it goes with
+    const std::uint64_t away = takeRenewals() | table_.latest().uncalibrated;
+    uncalibrated_ = away;  // with the positions that it goes with
     const auto count = static_cast<std::size_t>(slices());
     for (std::size_t i = 0; i < count; ++i) {
-      outputs_[i] = voltsOf(forces[i], table[i]);
+      outputs_[i] = voltsOf(hasBit(away, i) ? 0.0 : forces[i], table[i]);
     }
     Slices& sensors = volts_.draft();
     const std::uint32_t flags = raw_->exchange(outputs_.data(), sensors.data());
     if ((flags & kDeviceLost) == 0) {
       for (std::size_t i = 0; i < count; ++i) {
-        positions_[i] = positionOf(sensors[i], table[i]);
+        positions_[i] = hasBit(away, i) ? 0.0 : positionOf(sensors[i], table[i]);
       }
       volts_.publish();
     }
@@ -115,9 +120,25 @@ class CalibratedDriverOverRaw final : public CalibratedDriver {
   }
 
  private:
+  static constexpr bool hasBit(std::uint64_t bits, std::size_t i) noexcept {
+    return (bits >> i & 1U) != 0;
+  }
+
+  /// A slice whose calibration is another one is away for one exchange: whoever plays lets it come
+  /// back as one that had none, wherever it now is.
+  ERGOTIC_REALTIME std::uint64_t takeRenewals() noexcept {
+    std::uint64_t renewed = 0;
+    const auto& renewals = table_.latest().renewals;
+    for (std::size_t i = 0; i < renewals.size(); ++i) {
+      renewed |= std::exchange(seen_[i], renewals[i]) != renewals[i] ? std::uint64_t{1} << i : 0U;
+    }
+    return renewed;
+  }
+
   void publish() noexcept {
     Table& table = table_.draft();
     table.uncalibrated = 0;
+    table.renewals = renewals_;
     for (std::size_t i = 0; i < calibration_.slices.size(); ++i) {
       table.slices[i] = calibration_.slices[i];
       table.uncalibrated |= table.slices[i].is_calibrated ? 0U : std::uint64_t{1} << i;
@@ -126,12 +147,14 @@ class CalibratedDriverOverRaw final : public CalibratedDriver {
   }
 
   std::unique_ptr<Driver> raw_;
-  Calibration calibration_;                     // the operator's
+  Calibration calibration_;  // the operator's, as is
+  std::array<std::uint32_t, kMaxSlices> renewals_{};
   std::atomic<std::uint64_t> uncalibrated_{0};  // bits
   rt::Mailbox<Table> table_;                    // to the tick
   rt::Mailbox<Slices> volts_;                   // to the operator
 
   // The tick's own.
+  std::array<std::uint32_t, kMaxSlices> seen_{};
   Slices outputs_{};    // V
   Slices positions_{};  // m
 };

@@ -101,6 +101,26 @@ void requireStroke(const std::vector<CalibrationPoint>& points) {
 
 }  // namespace
 
+namespace {
+
+/// The gain and what was measured at full scale say the same thing twice.
+void requireFullScale(const SliceCalibration& c, const std::string& of) {
+  require("full_scale_newtons" + of, c.full_scale_newtons, kFullScaleLimits);
+  if (c.full_scale_newtons == 0.0 || c.volts_per_newton == 0.0) {
+    return;
+  }
+  constexpr double kMostApart = 1.1;
+  const double by_gain = c.max_volts / std::abs(c.volts_per_newton);
+  if (by_gain > kMostApart * c.full_scale_newtons || by_gain < c.full_scale_newtons / kMostApart) {
+    throw Exception("max_volts = " + numberText(c.max_volts) +
+                    " V and volts_per_newton = " + numberText(c.volts_per_newton) + " V/N" + of +
+                    " make " + numberText(by_gain) + " N of full scale, full_scale_newtons says " +
+                    numberText(c.full_scale_newtons) + " N, allowed: the same within a tenth");
+  }
+}
+
+}  // namespace
+
 void checkCalibration(const SliceCalibration& c, const std::string& of) {
   require("low_volts" + of, c.low_volts, kVoltsLimits);
   require("high_volts" + of, c.high_volts, {"V", c.low_volts, kVoltsLimits.maximum, true});
@@ -108,6 +128,7 @@ void checkCalibration(const SliceCalibration& c, const std::string& of) {
   require("zero_volts" + of, c.zero_volts, {"V", -c.max_volts, c.max_volts});
   require("metres_per_volt" + of, c.metres_per_volt, kMetresPerVoltLimits);
   require("volts_per_newton" + of, c.volts_per_newton, kVoltsPerNewtonLimits);
+  requireFullScale(c, of);
   require("residual_m" + of, c.residual_m, kErrorLimits);
   require("noise_m" + of, c.noise_m, kErrorLimits);
   require("zero_volts" + of, c.zero_volts,

@@ -211,15 +211,19 @@ void HandsTest::calibrateSlice(std::uint32_t slice, const std::string& file) {
 }
 
 TEST_F(HandsTest, IsGuidedThroughACalibrationThatTakesEffectAndIsWritten) {
-  const auto file = std::filesystem::temp_directory_path() /
-                    ("ergotic_hands_" + std::to_string(getpid()) + ".yaml");
+  const std::string name = "ergotic_hands_" + std::to_string(getpid()) + ".yaml";
+  const char* const ros_home = std::getenv("ROS_HOME");
+  const auto file =
+      std::filesystem::path(ros_home != nullptr ? ros_home
+                                                : std::string(std::getenv("HOME")) + "/.ros") /
+      "ergotic" / name;
   calibrateSlice(1, "");
   if (HasFatalFailure()) {
     return;
   }
   EXPECT_TRUE(eventually(
       [] { return world_->status.latest().uncalibrated == std::vector<std::uint32_t>{0}; }));
-  calibrateSlice(0, file.string());
+  calibrateSlice(0, name);
   if (HasFatalFailure()) {
     return;
   }

@@ -2,6 +2,7 @@
 #include "ergotic/tgr/calibration.hpp"
 
 #include "support/test.hpp"
+#include "tgr/calibration_rules.hpp"
 #include "tgr/scripted_driver.hpp"
 
 namespace ergotic::tgr {
@@ -143,6 +144,20 @@ TEST(CalibrationYamlTest, SaysWhereATextIsWrong) {
   EXPECT_EQ(complaint("{}").substr(0, 27), "c.yaml:1:1: error: missing ");
 }
 
+TEST(CalibrationFullScaleTest, MustNotContradictTheGain) {
+  SliceCalibration calibration = someCalibration();  // 4 V, -0.05 V/N
+  for (const double same : {0.0, 75.0, 80.0, 85.0}) {
+    calibration.full_scale_newtons = same;
+    EXPECT_EQ(complaintOf([&] { checkCalibration(calibration, ""); }), "") << same;
+  }
+  for (const double other : {8.0, 70.0, 90.0, 800.0}) {
+    calibration.full_scale_newtons = other;
+    EXPECT_THAT(complaintOf([&] { checkCalibration(calibration, " of slice 2"); }),
+                HasSubstr("of slice 2 make 80 N of full scale, full_scale_newtons says"))
+        << other;
+  }
+}
+
 class CalibratedDriverTest : public ::testing::Test {
  protected:
   CalibratedDriverTest() { script_.is_raw = true; }
@@ -234,6 +249,24 @@ TEST_F(CalibratedDriverTest, LetsASliceWithoutCalibrationNeitherMoveNorPush) {
   exchange();
   EXPECT_EQ(driver_->uncalibrated(), 2U);
   EXPECT_EQ(positions_[1], 0.0);
+}
+
+TEST_F(CalibratedDriverTest, TakesASliceAwayForOneExchangeWhenItIsCalibratedAnew) {
+  open({{someCalibration(), someCalibration()}});
+  script_.positions = {5.0, 3.0};
+  forces_ = {20.0, 20.0};
+  exchange();
+  SliceCalibration other = someCalibration();
+  other.metres_per_volt *= 2.0;
+  driver_->set(0, other);
+  exchange();
+  EXPECT_EQ(driver_->uncalibrated(), 1U) << "so that its port glides to where the hand is now";
+  EXPECT_EQ(positions_[0], 0.0);
+  EXPECT_EQ(script_.forces[0], 0.004) << "no force";
+  EXPECT_DOUBLE_EQ(script_.forces[1], 0.004 - 1.0);
+  exchange();
+  EXPECT_EQ(driver_->uncalibrated(), 0U);
+  EXPECT_DOUBLE_EQ(positions_[0], 0.03);
 }
 
 TEST_F(CalibratedDriverTest, TakesSlicesThatNobodyCalibratedForUncalibrated) {

@@ -21,9 +21,10 @@ struct SliceCalibration {
   /// Output at zero force, at most 0.1 N away from 0 V: at 0 V is a device that was made safe, or
   /// whose station died.
   double zero_volts = 0.0;
-  double max_volts = 10.0;  ///< the output's range is +-max_volts
-  double residual_m = 0.0;  ///< rms of the fit
-  double noise_m = 0.0;     ///< rms of the sensor at rest
+  double max_volts = 10.0;          ///< the output's range is +-max_volts
+  double full_scale_newtons = 0.0;  ///< what max_volts really give, as was measured; 0: not known
+  double residual_m = 0.0;          ///< rms of the fit
+  double noise_m = 0.0;             ///< rms of the sensor at rest
 };
 
 /// Calibrations of the slices of a device, from slice 0 on.
@@ -57,7 +58,8 @@ SliceCalibration fit(const std::vector<CalibrationPoint>& points,
 /// change while ticks go on.
 class CalibratedDriver : public Driver {
  public:
-  /// Takes effect with a later exchange, which `uncalibrated` then tells of. Thread: operator
+  /// Takes effect with a later exchange, which `uncalibrated` then tells of: a slice that had
+  /// another calibration is without one for that exchange. Thread: operator
   /// \throws Exception if a slice does not exist or a number is out of range
   virtual void set(int slice, const SliceCalibration& calibration) = 0;
   /// Thread: operator

@@ -164,11 +164,10 @@ std::string Performance::finish(const Calibrate::Request& request, Calibrate::Re
     return "in use; no file was asked for";
   }
   try {
-    engine_->hands().save(request.file);
+    return "in use, and written to " + engine_->hands().save(request.file);
   } catch (const Exception& failure) {
     return std::string("in use, but not kept: ") + failure.what();
   }
-  return "in use, and written to " + request.file;
 }
 
 void Performance::pollCalibration() {

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/device/hands.hpp"
 
-#include <filesystem>
-#include <fstream>
+#include <cstdlib>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
-#include "ergotic/exception.hpp"
+#include "files/replace_file.hpp"
 
 namespace ergotic::node {
 namespace {
@@ -23,25 +21,13 @@ tgr::DriverStack makeDrivers(DriverPlugins& plugins,
   return tgr::makeDrivers(devices, make, allow_fault_injection);
 }
 
-/// All of it or nothing: written beside the old one, which goes only when the new one is complete.
-void replaceFile(const std::string& path, const std::string& text) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  const fs::path file = fs::weakly_canonical(path, error);  // a link stays one
-  if (error || (fs::exists(file, error) && !fs::is_regular_file(file, error))) {
-    throw Exception(path + ": cannot be written, allowed: a file");
+/// Where calibrations are written, whoever asks for it.
+std::string calibrationFolder() {
+  if (const char* ros = std::getenv("ROS_HOME")) {
+    return std::string(ros) + "/ergotic";
   }
-  const fs::path draft = file.string() + ".new";
-  std::ofstream out(draft);
-  out << text;
-  out.close();
-  if (out) {
-    fs::rename(draft, file, error);
-  }
-  if (!out || error) {
-    fs::remove(draft, error);
-    throw Exception(path + ": cannot be written");
-  }
+  const char* home = std::getenv("HOME");
+  return std::string(home != nullptr ? home : ".") + "/.ros/ergotic";
 }
 
 }  // namespace
@@ -60,12 +46,12 @@ void Hands::probe(double tick_rate_hz, double slice_mass_kg) {
   driver.close();
 }
 
-void Hands::save(const std::string& path) {
+std::string Hands::save(const std::string& name) {
   for (const tgr::DriverStack::Part& part : drivers_.raw_parts) {
     config_.devices[static_cast<std::size_t>(part.device)].calibration =
         part.calibrated->calibration();
   }
-  replaceFile(path, tgr::toYaml(config_));
+  return files::replaceFile(calibrationFolder(), name, tgr::toYaml(config_));
 }
 
 }  // namespace ergotic::node

@@ -41,9 +41,10 @@ class Hands {
   void setEndEffectors(tgr::EndEffectors end_effectors) {
     config_.end_effectors = std::move(end_effectors);
   }
-  /// Devices with the calibrations that they have now, as a YAML file.
+  /// Devices with the calibrations that they have now, as a YAML file below `$ROS_HOME/ergotic`
+  /// (`~/.ros/ergotic`). \return its path
   /// \throws Exception naming the file if it cannot be written; an old one is left as it was then
-  void save(const std::string& path);
+  std::string save(const std::string& name);
 
  private:
   DriverPlugins plugins_;

@@ -10,7 +10,7 @@
 namespace ergotic::tgr {
 namespace {
 
-constexpr WatchdogOptions kQuick{0.004, 0};
+const WatchdogOptions kQuick{0.004, 0};
 constexpr std::int64_t kPeriodNs = 4'000'000;
 
 void pause(int ms) {

@@ -88,6 +88,16 @@ TEST_P(SignalTest, ReleasesFifteenNewtonsInTime) {
   EXPECT_GE(passes, kNeededPasses) << "of " << attempts << " attempts";
 }
 
+// ROS ends the first of two nodes with one name. The device is busy until that has closed it.
+TEST(TwoStationsTest, TheSecondOfANameGetsTheDeviceOfTheFirst) {
+  PushedStation station;
+  ASSERT_TRUE(station.isPushed()) << station.status().state_text;
+  const auto second = startStation();
+  ASSERT_TRUE(station.process().wait(PushedStation::kLongS).has_value()) << "the first plays on";
+  EXPECT_TRUE(eventually([&] { return station.force() == 0.0; }));
+  EXPECT_TRUE(station.isPushed()) << station.status().message;
+}
+
 std::string nameOf(const ::testing::TestParamInfo<int>& tested) {
   return std::string("Sig") + sigabbrev_np(tested.param);
 }

@@ -80,6 +80,21 @@ void read(const Words& words, int page, Settings& settings) {
   }
 }
 
+void makeSafe(const Settings& settings) {
+  for (const auto& hold : settings.holds) {
+    hold->makeSafe();
+  }
+}
+
+const Settings* told = nullptr;  // whose devices a signal makes safe
+
+/// A store, a system call or a post for each device: all that may be done here.
+void onAct(int /*signal*/) {
+  const int saved = errno;
+  makeSafe(*told);
+  errno = saved;
+}
+
 /// Only what is stronger than the station's own faults may end it.
 void outlive(int priority) {
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE}) {
@@ -105,12 +120,6 @@ Heard listen(tgr::GuardianPage& page, int timeout_ms) {
     return Heard::kNothing;
   }
   return page.quit ? Heard::kQuit : Heard::kEnd;
-}
-
-void makeSafe(const Settings& settings) {
-  for (const auto& hold : settings.holds) {
-    hold->makeSafe();
-  }
 }
 
 /// A look that finds no new beat stands for a quarter of the silence, however late it comes: what
@@ -160,6 +169,8 @@ int run(const Words& words) {
     answer(*settings.page, problem.what());
     return EXIT_FAILURE;
   }
+  told = &settings;
+  ::signal(tgr::kGuardianAct, onAct);
   answer(*settings.page, "");
   if (watch(settings)) {
     bury(settings);

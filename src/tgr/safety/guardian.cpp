@@ -6,9 +6,13 @@
 #include <spawn.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <cmath>
 #include <filesystem>
+#include <mutex>
 #include <new>
 #include <string>
 #include <system_error>
@@ -84,6 +88,65 @@ pid_t spawn(std::vector<std::string> words, const std::vector<int>& files) {
   return pid;
 }
 
+/// The guardians of this process, told when a thread of it commits a fault: the kernel would do so
+/// only when it has stopped all threads, and written a core file.
+class FaultTeller {
+ public:
+  static void add(pid_t guardian) {
+    const std::lock_guard lock(mutex);
+    if (count++ == 0) {
+      struct sigaction ours = {};
+      ours.sa_handler = &FaultTeller::onFault;
+      for (std::size_t i = 0; i < kFaults.size(); ++i) {
+        ::sigaction(kFaults[i], &ours, &earlier[i]);
+      }
+    }
+    replace(0, guardian);
+  }
+  static void remove(pid_t guardian) {
+    const std::lock_guard lock(mutex);
+    replace(guardian, 0);
+    if (--count == 0) {
+      std::for_each(kFaults.begin(), kFaults.end(), restore);
+    }
+  }
+
+ private:
+  static constexpr std::array<int, 5> kFaults = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
+  static constexpr std::size_t kMost = 16;  // more are told by the kernel
+
+  /// Then it goes its usual way.
+  static void onFault(int signal) {
+    for (const std::atomic<pid_t>& guardian : guardians) {
+      if (const pid_t pid = guardian; pid != 0) {
+        ::kill(pid, kGuardianAct);
+      }
+    }
+    restore(signal);
+    ::raise(signal);
+  }
+  /// What stood there before, where ours still stands.
+  static void restore(int signal) {
+    const auto at = std::find(kFaults.begin(), kFaults.end(), signal) - kFaults.begin();
+    struct sigaction now = {};
+    ::sigaction(signal, nullptr, &now);
+    if (now.sa_handler == &FaultTeller::onFault) {
+      ::sigaction(signal, &earlier[static_cast<std::size_t>(at)], nullptr);
+    }
+  }
+  static void replace(pid_t from, pid_t to) {
+    const auto found = std::find(guardians.begin(), guardians.end(), from);
+    if (found != guardians.end()) {
+      *found = to;
+    }
+  }
+
+  static inline std::mutex mutex;
+  static inline int count = 0;
+  static inline std::array<struct sigaction, kFaults.size()> earlier{};
+  static inline std::array<std::atomic<pid_t>, kMost> guardians{};
+};
+
 /// A page of memory without a name. \return its file
 int makePage() {
   const int file = ::memfd_create("ergotic_guardian", MFD_CLOEXEC);
@@ -129,6 +192,8 @@ Guardian::Guardian(const std::vector<Guard>& guards, const GuardianOptions& opti
     pid_ = spawn(std::move(words), files);
     ::close(file);
     waitForAnswer(program);
+    FaultTeller::add(pid_);
+    is_told_ = true;
   } catch (const DeviceError&) {
     end();
     throw;
@@ -167,6 +232,9 @@ void Guardian::waitForAnswer(const std::string& program) {
 }
 
 void Guardian::end() noexcept {
+  if (is_told_) {
+    FaultTeller::remove(pid_);
+  }
   page_->quit = true;
   done_.set_value();
   holder_.join();

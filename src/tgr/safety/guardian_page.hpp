@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pthread.h>
+#include <signal.h>
 
 #include <atomic>
 #include <cstdint>
@@ -9,6 +10,9 @@
 #include <sys/mman.h>
 
 namespace ergotic::tgr {
+
+/// Tells a guardian to act at once: a thread of the station committed a fault.
+constexpr int kGuardianAct = SIGUSR1;
 
 /// What a station and its guardian share.
 struct GuardianPage {

@@ -51,6 +51,7 @@ class Guardian {
   std::promise<void> done_;
   std::thread holder_;  // of the page's lock
   pid_t pid_ = -1;
+  bool is_told_ = false;  // of faults
 };
 
 }  // namespace ergotic::tgr

@@ -46,15 +46,26 @@ bool Station::submit(const Command& command) {
   if (owes && owed_ >= config_.command_ring) {
     return false;
   }
-  if (command.type == Command::Type::kRecover) {
-    driver_->rearm();
-  }
-  if (!commands_.push(command)) {
+  if (commands_.writable() == 0) {
     return false;
   }
+  Command stamped = command;
+  stamped.asked = command.asked == kAskedNow ? interlock_->ticket() : command.asked;
+  if (command.type == Command::Type::kRecover) {
+    rearm(stamped.asked);
+  }
+  commands_.push(stamped);
   owed_ += owes ? 1U : 0U;
   keyframe_asked_ = keyframe_asked_ || command.type == Command::Type::kKeyframe;
   return true;
+}
+
+/// Whoever makes safe tells the interlock before the driver: one of the two sees the other.
+void Station::rearm(Ticket asked) noexcept {
+  driver_->rearm();
+  if (interlock_->ticket() != asked) {
+    driver_->makeSafe();
+  }
 }
 
 bool Station::poll(Event& event) noexcept {
@@ -84,13 +95,10 @@ void Station::drainCommands() noexcept {
 void Station::obey(const Command& command) noexcept {
   switch (command.type) {
     case Command::Type::kEngage:
-      engage();
-      break;
-    case Command::Type::kStop:
-      stop();
+      engage(command);
       break;
     case Command::Type::kSwap:
-      takeSwap(command.performer);
+      takeSwap(command);
       break;
     case Command::Type::kParameter:
       takeCoefficients(command);
@@ -99,7 +107,7 @@ void Station::obey(const Command& command) noexcept {
       takeRig(command.rig);
       break;
     case Command::Type::kRecover:
-      recover();
+      recover(command);
       break;
     case Command::Type::kInject:
       takeInjection(command);
@@ -110,64 +118,64 @@ void Station::obey(const Command& command) noexcept {
   }
 }
 
-void Station::engage() noexcept {
-  if (state_ == ForceState::kFault) {
-    return refuse(Refusal::kFault);
+void Station::engage(const Command& command) noexcept {
+  const Interlock::Reading now = interlock_->read();
+  if (now.isLatched()) {
+    return refuse(command, Refusal::kFault);
   }
-  if (state_ == ForceState::kUncalibrated) {
-    return refuse(Refusal::kUncalibrated);
+  if (now.state == ForceState::kUncalibrated) {
+    return refuse(command, Refusal::kUncalibrated);
   }
   if (presence_ticks_ > 0 && !present_) {
-    return refuse(Refusal::kPresence);
+    return refuse(command, Refusal::kPresence);
   }
   if (gliding_ > 0) {
-    return refuse(Refusal::kBusy);
+    return refuse(command, Refusal::kBusy);
+  }
+  if (!interlock_->engage(command.asked)) {
+    return refuse(command, Refusal::kOutdated);
   }
   chain_.disengage();  // from zero in any case
   chain_.engage();
-  state_ = ForceState::kEngaging;
   Event engaged = event(Event::Type::kEngaged);
+  engaged.id = command.id;
   engaged.value = config_.safety.ramp_s;
   tell(engaged);
 }
 
-void Station::refuse(Refusal refusal) noexcept {
+void Station::refuse(const Command& command, Refusal refusal) noexcept {
   Event refused = event(Event::Type::kRefused);
+  refused.id = command.id;
   refused.index = static_cast<std::int64_t>(refusal);
   tell(refused);
 }
 
-void Station::recover() noexcept {
+void Station::recover(const Command& command) noexcept {
   const bool anew = blown_up_;
+  if (!interlock_->recover(command.asked)) {
+    return refuse(command, Refusal::kOutdated);
+  }
   if (anew) {
     performer_->restart();
     blown_up_ = false;
   }
   inject_ticks_ = 0;
+  is_latched_ = false;
   chain_.recover();
-  state_ = ForceState::kReady;
-  fault_ = FaultReason::kNone;
   Event recovered = event(Event::Type::kRecovered);
+  recovered.id = command.id;
   recovered.index = anew ? 1 : 0;
   tell(recovered);
 }
 
-void Station::stop() noexcept {
-  chain_.disengage();
-  force_.fill(0.0);
-  if (state_ != ForceState::kFault) {
-    state_ = ForceState::kReady;
-  }
-  tell(event(Event::Type::kStopped));
-}
-
-void Station::takeSwap(Performer* next) noexcept {
+void Station::takeSwap(const Command& command) noexcept {
   if (incoming_ != nullptr) {
     Event superseded = event(Event::Type::kSwapped);
     superseded.performer = incoming_.release();
     handBack(superseded);
   }
-  incoming_.reset(next);
+  incoming_.reset(command.performer);
+  incoming_takes_force_ = command.index != 0;
 }
 
 /// A swap waits for the fade-out of the old performer, which itself waits for the end of the
@@ -188,6 +196,10 @@ void Station::advanceSwap() noexcept {
   gliding_ = 0;
   fade_.startIn();
   chain_.resume();
+  if (incoming_takes_force_) {
+    stop();
+    followInterlock();
+  }
   Event swapped = event(Event::Type::kSwapped);
   swapped.performer = incoming_.release();
   swapped.index = 1;
@@ -223,6 +235,7 @@ void Station::glideFromThere() noexcept {
 void Station::takeRig(tgr::Rig* next) noexcept {
   Event configured = event(Event::Type::kConfigured);
   stop();
+  followInterlock();
   if (incoming_ != nullptr) {
     configured.rig = incoming_->rig.release();
     incoming_->rig.reset(next);

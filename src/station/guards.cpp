@@ -13,16 +13,8 @@ void Station::followCalibration() noexcept {
   const std::uint64_t used = performer_->rig->slicesInUse();
   const std::uint64_t uncalibrated = driver_->uncalibrated();
   chain_.setInUse(used & ~uncalibrated);
-  if (state_ == ForceState::kFault) {
-    return;
-  }
-  const bool complete = (used & uncalibrated) == 0;
-  if (!complete && state_ != ForceState::kUncalibrated) {
-    stop();
-    state_ = ForceState::kUncalibrated;
-  } else if (complete && state_ == ForceState::kUncalibrated) {
-    state_ = ForceState::kReady;
-  }
+  interlock_->setCalibrated((used & uncalibrated) == 0);
+  followInterlock();
 }
 
 /// The switch has to be told again and again: a program that hangs lets go of it.
@@ -37,7 +29,7 @@ void Station::followPresence() noexcept {
   if (present_ && ++absent_ > presence_ticks_) {
     present_ = false;
   }
-  if (!present_ && (state_ == ForceState::kEngaging || state_ == ForceState::kPlaying)) {
+  if (!present_ && hasForce()) {
     fault(FaultReason::kPresence, -1);
   }
 }
@@ -67,7 +59,7 @@ void Station::injectModelFault() noexcept {
 }
 
 bool Station::hasForce() const noexcept {
-  return state_ == ForceState::kEngaging || state_ == ForceState::kPlaying;
+  return interlock_->read().isOpen();
 }
 
 /// Force that was there is gone, and comes back in a ramp. Often, that is a hand that is shaken.
@@ -83,22 +75,43 @@ void Station::kick() noexcept {
   }
 }
 
-/// The first reason is the one to tell; later ones find the force latched at zero already.
-void Station::fault(FaultReason reason, int slice) noexcept {
+/// Force may have been taken away by any thread, this one as well.
+void Station::followInterlock() noexcept {
+  const Interlock::Reading now = interlock_->read();
+  if (now.ticket == seen_) {
+    return;
+  }
+  seen_ = now.ticket;
+  takeForceAway();
+  if (!now.isLatched()) {
+    tell(event(Event::Type::kStopped));
+  } else if (!is_latched_) {
+    is_latched_ = true;
+    Event told = event(Event::Type::kFault);
+    told.index = static_cast<std::int64_t>(now.reason);
+    told.value = fault_slice_;
+    tell(told);
+  }
+}
+
+void Station::takeForceAway() noexcept {
   chain_.disengage();
   force_.fill(0.0);
-  if (state_ == ForceState::kFault) {
+}
+
+/// The first reason is the one to tell; later ones find the force latched at zero already.
+void Station::fault(FaultReason reason, int slice) noexcept {
+  takeForceAway();
+  if (interlock_->read().isLatched()) {
     return;
   }
   if (reason == FaultReason::kWriteFailed || reason == FaultReason::kDeviceLost) {
     driver_->makeSafeInTick();  // the zero of the next exchange may not arrive either
   }
-  state_ = ForceState::kFault;
-  fault_ = reason;
-  Event told = event(Event::Type::kFault);
-  told.index = static_cast<std::int64_t>(reason);
-  told.value = slice;
-  tell(told);
+  fault_slice_ = slice;
+  interlock_->latch(reason);
+  followInterlock();
+  fault_slice_ = -1;
 }
 
 }  // namespace ergotic::station

@@ -31,6 +31,8 @@ const char* toString(Refusal refusal) {
       return "the presence switch is not held";
     case Refusal::kBusy:
       return "the model is still busy, try again in a moment";
+    case Refusal::kOutdated:
+      return "force was taken away after this was asked for: ask again";
   }
   return "?";
 }

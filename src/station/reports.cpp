@@ -26,8 +26,9 @@ void Station::publish() noexcept {
   Snapshot& s = snapshots_.draft();
   const AudioStatus audio = frame_port_ != nullptr ? frame_port_->status() : AudioStatus{};
   s.tick = tick_;
-  s.state = state_;
-  s.fault = fault_;
+  const Interlock::Reading force = interlock_->read();
+  s.state = force.state;
+  s.fault = force.reason;
   s.audio_running = audio.running;
   s.clock_locked = audio.clock_locked;
   s.counters = counters_;

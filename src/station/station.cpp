@@ -80,13 +80,15 @@ std::size_t samples(int frames, int channels) {
 
 Station::Station(const StationConfig& config,
                  std::unique_ptr<tgr::Driver> driver,
-                 std::unique_ptr<Performer> performer)
+                 std::unique_ptr<Performer> performer,
+                 std::shared_ptr<Interlock> interlock)
     : config_(checked(config)),
       tick_ns_(1e9 / config.rates.gesturalHz()),
       max_catch_up_(atLeastOne(config.max_stall_s * config.rates.gesturalHz())),
       display_ticks_(atLeastOne(config.rates.gesturalHz() / config.display_hz)),
       driver_(std::move(driver)),
       slices_(openDriver(*driver_, config.rates.gesturalHz())),
+      interlock_(std::move(interlock)),
       glide_ticks_(atLeastOne(config.glide_s * config.rates.gesturalHz())),
       presence_ticks_(
           config.presence_s > 0.0 ? atLeastOne(config.presence_s * config.rates.gesturalHz()) : 0),
@@ -140,6 +142,7 @@ void Station::checkFits(const Performer& performer) const {
 void Station::cycle(const Timing& timing) noexcept {
   heartbeat_.fetch_add(1, std::memory_order_relaxed);
   const std::int64_t begin = rt::monotonicNs();
+  followInterlock();
   Slices positions{};
   const std::uint32_t met = driver_->exchange(force_.data(), positions.data());
   const std::int64_t exchanged = rt::monotonicNs();
@@ -190,36 +193,29 @@ void Station::catchUp(std::int64_t ticks, std::int64_t stall_ns) noexcept {
 }
 
 void Station::rest() noexcept {
-  chain_.disengage();
-  force_.fill(0.0);
-  if (state_ != ForceState::kFault) {
-    state_ = ForceState::kReady;
-  }
+  stop();
+  followInterlock();
   present_ = false;
   Slices positions{};
   driver_->exchange(force_.data(), positions.data());
 }
 
+/// The interlock first: a recovery under way then sees that it came too late, and latches the
+/// driver again if it had set it free before.
 void Station::makeSafe(FaultReason reason) noexcept {
+  interlock_->latch(reason);
   driver_->makeSafe();
-  FaultReason none = FaultReason::kNone;  // the first reason is the one to tell
-  make_safe_.compare_exchange_strong(none, reason, std::memory_order_acq_rel);
 }
 
 std::uint32_t Station::accept(Slices& positions,
                               std::uint32_t exchange_flags,
                               std::int64_t host_missed) noexcept {
   const std::uint64_t held = chain_.validate(positions.data(), exchange_flags, host_missed);
-  FaultReason made_safe = make_safe_.exchange(FaultReason::kNone, std::memory_order_acq_rel);
-  if (made_safe == FaultReason::kNone && (exchange_flags & tgr::kMadeSafe) != 0) {
-    made_safe = FaultReason::kMadeSafe;
-  }
-  if (state_ != ForceState::kFault) {
-    if (made_safe != FaultReason::kNone) {
-      fault(made_safe, -1);
-    } else if (chain_.fault() != FaultReason::kNone) {
-      fault(chain_.fault(), chain_.faultSlice());
-    }
+  followInterlock();
+  if ((exchange_flags & tgr::kMadeSafe) != 0) {
+    fault(FaultReason::kMadeSafe, -1);
+  } else if (chain_.fault() != FaultReason::kNone) {
+    fault(chain_.fault(), chain_.faultSlice());
   }
   return held != 0 ? GestureTick::kHeld : 0U;
 }
@@ -355,14 +351,13 @@ void Station::updateForces(bool muted) noexcept {
   performer_->rig->toDevice(performer_->forces.data(), force_.data());
   injectModelFault();
   chain_.limit(force_.data(), fade_.isFadingOut() ? fade_.gainAt(config_.rates.ratio - 1) : 1.0);
-  if (chain_.fault() != FaultReason::kNone && state_ != ForceState::kFault) {
+  if (chain_.fault() != FaultReason::kNone) {
     fault(chain_.fault(), chain_.faultSlice());
   }
   for (std::size_t s = 0; s < static_cast<std::size_t>(slices_); ++s) {
     counters_.peak_force_n = std::max(counters_.peak_force_n, std::abs(force_[s]));
   }
-  if (state_ == ForceState::kEngaging && chain_.gain() >= 1.0) {
-    state_ = ForceState::kPlaying;
+  if (chain_.gain() >= 1.0 && interlock_->play()) {
     tell(event(Event::Type::kPlaying));
   }
 }

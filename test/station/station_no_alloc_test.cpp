@@ -103,7 +103,7 @@ TEST(StationNoAllocTest, TickNeverTouchesTheHeapWhateverIsAsked) {
       command.rig = live.rig.release();
       ASSERT_TRUE(station.submit(command));
     } else if (n % 25'000 == 20'000) {
-      at(Command::Type::kStop);
+      station.stop();
     } else if (n == 70'000) {
       station.makeSafe(FaultReason::kEmergencyStop);
     } else if (n == 71'000) {

@@ -140,11 +140,12 @@ TEST(StationTest, HoldsForcesAtZeroUntilEngagedThenRampsThenPlays) {
 TEST(StationTest, StopsForceWithTheNextExchange) {
   Bench bench;
   bench.engage();
-  bench.command(Command::Type::kStop);
-  bench.run(1);  // the tick that takes the stop
+  bench.run(1);
   EXPECT_EQ(bench.log.forces[0], -1.0);
+  bench.station->stop();
   bench.run(1);
   EXPECT_EQ(bench.log.forces[0], 0.0);
+  EXPECT_EQ(test::count(bench.events(), Event::Type::kStopped), 1);
 }
 
 TEST(StationTest, ShowsStatePositionsAndForcesAtTheDisplayRate) {

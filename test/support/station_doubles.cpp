@@ -132,7 +132,8 @@ Bench::Bench(const SpringInstrument::Setting& setting,
   driver = made.get();
   auto performer = makeSpring(setting);
   instrument = static_cast<SpringInstrument*>(performer->instrument.get());
-  station = std::make_unique<station::Station>(config, std::move(made), std::move(performer));
+  station =
+      std::make_unique<station::Station>(config, std::move(made), std::move(performer), interlock);
 }
 
 station::StationConfig Bench::quickConfig() {

@@ -139,6 +139,7 @@ struct Bench {
   std::vector<std::unique_ptr<station::Performer>> performers;       ///< handed back
   std::vector<std::unique_ptr<physics::Coefficients>> coefficients;  ///< handed back
   std::vector<std::unique_ptr<tgr::Rig>> rigs;                       ///< handed back
+  std::shared_ptr<station::Interlock> interlock = std::make_shared<station::Interlock>();
   std::unique_ptr<station::Station> station;
 };
 

@@ -23,6 +23,10 @@ enum class ForceState : std::uint8_t {
 };
 const char* toString(ForceState state);
 
+/// How often force had been taken away when something was asked for, see Interlock.
+using Ticket = std::uint64_t;
+constexpr Ticket kAskedNow = ~Ticket{0};  ///< it is asked for when it is submitted
+
 /// An instrument ready to play and what its ports need, made outside, owned by whoever holds it.
 struct Performer;
 
@@ -30,8 +34,8 @@ struct Performer;
 struct Command {
   enum class Type : std::uint8_t {
     kEngage,     ///< ramp force in
-    kStop,       ///< force to zero at once, state Ready
-    kSwap,       ///< take `performer`, hand the old one back
+    kSwap,       ///< take `performer`, hand the old one back; index: 1 force goes to zero with it
+                 ///< and waits for kEngage, 0 it comes back by itself
     kParameter,  ///< take `coefficients`, prepared by the performer submitted last; index and value
                  ///< say which parameter got which value, for the record
     kConfigure,  ///< force to zero, state Ready; take `rig`, made for the performer submitted last
@@ -40,9 +44,11 @@ struct Command {
                  ///< indices are told, no more: faults that are made elsewhere
     kKeyframe,   ///< copy the state for a recording that starts now, or after the fade of a swap
   };
-  Type type = Type::kStop;
+  Type type = Type::kKeyframe;
   int index = 0;
   double value = 0.0;
+  std::uint64_t id = 0;      ///< of kEngage and kRecover: their answer carries it
+  Ticket asked = kAskedNow;  ///< of kEngage and kRecover: no effect if force was taken away since
   Performer* performer = nullptr;
   physics::Coefficients* coefficients = nullptr;
   tgr::Rig* rig = nullptr;
@@ -59,7 +65,7 @@ enum class InjectedModelFault : std::uint8_t {
 /// From the tick to everyone, in order, stamped with the tick at which it took effect.
 struct Event {
   enum class Type : std::uint8_t {
-    kEngaged,  ///< value: ramp, s
+    kEngaged,  ///< id; value: ramp, s
     kPlaying,  ///< the ramp is over
     kStopped,
     kSwapped,    ///< performer: to be freed by the receiver; index: 1 it was replaced at this tick,
@@ -76,8 +82,8 @@ struct Event {
     kAudioStarted,  ///< frame: station frame; value: JACK frame time at which it sounds
     kAudioStopped,
     kConfigured,  ///< rig: the old one, to be freed; force is zero, state Ready
-    kRecovered,   ///< from Fault to Ready; index: 1 the model began anew
-    kRefused,     ///< index: Refusal; an `engage` or `recover` that was not obeyed
+    kRecovered,   ///< id; from Fault to Ready; index: 1 the model began anew
+    kRefused,     ///< id; index: Refusal; an `engage` or `recover` that was not obeyed
     kInjected,    ///< a fault is made on purpose, from this tick on; index: of the command
   };
   Type type = Type::kStopped;
@@ -85,6 +91,7 @@ struct Event {
   std::int64_t frame = 0;
   std::int64_t index = 0;
   double value = 0.0;
+  std::uint64_t id = 0;  ///< of the command that it answers
   Performer* performer = nullptr;
   physics::Coefficients* coefficients = nullptr;
   tgr::Rig* rig = nullptr;
@@ -96,6 +103,7 @@ enum class Refusal : std::uint8_t {
   kUncalibrated,  ///< a slice in use has no calibration
   kPresence,      ///< the presence switch is not held
   kBusy,          ///< the model still glides to other end-effectors, or finishes a tick
+  kOutdated,      ///< force was taken away since this was asked for
 };
 const char* toString(Refusal refusal);
 

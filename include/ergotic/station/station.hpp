@@ -12,6 +12,7 @@
 #include "ergotic/rt/realtime.hpp"
 #include "ergotic/rt/ring.hpp"
 #include "ergotic/station/frame_port.hpp"
+#include "ergotic/station/interlock.hpp"
 #include "ergotic/station/messages.hpp"
 #include "ergotic/station/performer.hpp"
 #include "ergotic/station/swap_fade.hpp"
@@ -60,11 +61,13 @@ struct Keyframe {
 class Station {
  public:
   /// Opens the driver. Realtime: no. Thread: setup
+  /// \param interlock  not null; it may have been latched before
   /// \throws DeviceError from the driver, Exception if a setting is outside its range or the
   ///         performer does not fit (rates, slices)
   Station(const StationConfig& config,
           std::unique_ptr<tgr::Driver> driver,
-          std::unique_ptr<Performer> performer);
+          std::unique_ptr<Performer> performer,
+          std::shared_ptr<Interlock> interlock = std::make_shared<Interlock>());
   /// Forces to zero, driver closed; frees what was submitted and never handed back.
   /// Realtime: no. \pre no tick is running
   ~Station();
@@ -112,12 +115,15 @@ class Station {
   int swapDelayTicks() const noexcept { return fade_.ticks() + 1; }
 
   // Any thread:
-  /// Forces to zero at once, latched until kRecover: for signals, watchdogs, emergency stops.
-  /// Realtime: as the driver's. Thread: any
+  /// Forces to zero at once, latched until a kRecover that is asked for later: for signals,
+  /// watchdogs, emergency stops. Realtime: as the driver's. Thread: any
   void makeSafe(FaultReason reason = FaultReason::kMadeSafe) noexcept;
   /// The player holds the presence switch, or not; to be repeated. Of two that come within a tick
   /// the one that lets go counts. Realtime: yes. Thread: any
   void tellPresence(bool is_held) noexcept { told_presence_ |= is_held ? kHeld : kLetGo; }
+  /// Forces to zero with the next exchange, until a kEngage that is asked for later. Realtime: yes.
+  /// Thread: any
+  void stop() noexcept { interlock_->stop(); }
   /// Counts up with every cycle and catchUp: what a watchdog looks at. Realtime: yes. Thread: any
   const std::atomic<std::int64_t>& heartbeat() const noexcept { return heartbeat_; }
 
@@ -174,22 +180,24 @@ class Station {
   void late(LateCause cause, std::int64_t& counter, std::int64_t ns) noexcept;
 
   // What operators ask for (commands.cpp).
+  void rearm(Ticket asked) noexcept;
   void drainCommands() noexcept;
   void obey(const Command& command) noexcept;
-  void engage() noexcept;
-  void stop() noexcept;
-  void takeSwap(Performer* next) noexcept;
+  void engage(const Command& command) noexcept;
+  void takeSwap(const Command& command) noexcept;
   void advanceSwap() noexcept;
   void takeCoefficients(const Command& command) noexcept;
   void takeRig(tgr::Rig* next) noexcept;
-  void recover() noexcept;
-  void refuse(Refusal refusal) noexcept;
+  void recover(const Command& command) noexcept;
+  void refuse(const Command& command, Refusal refusal) noexcept;
   void takeInjection(const Command& command) noexcept;
   bool mayTakeKeyframe() const noexcept;
   void takeKeyframe() noexcept;
 
   bool hasForce() const noexcept;
   void kick() noexcept;
+  void followInterlock() noexcept;
+  void takeForceAway() noexcept;
   void fault(FaultReason reason, int slice) noexcept;
   void blowUp() noexcept;
   Event event(Event::Type type) const noexcept;
@@ -205,6 +213,7 @@ class Station {
   int slices_;
   FramePort* frame_port_ = nullptr;
   TickMeter* meter_ = nullptr;
+  std::shared_ptr<Interlock> interlock_;
   std::int64_t glide_ticks_;     // length of a glide
   std::int64_t presence_ticks_;  // longest time between two that tell it; 0: no switch
 
@@ -213,10 +222,12 @@ class Station {
   SwapFade fade_;
   std::unique_ptr<Performer> performer_;
   std::unique_ptr<Performer> incoming_;  // waits for the fade-out
+  bool incoming_takes_force_ = false;    // force waits for kEngage when it plays
   std::uint64_t uncalibrated_;           // slices, as of the last tick
   std::int64_t tick_;
-  ForceState state_ = ForceState::kReady;
-  FaultReason fault_ = FaultReason::kNone;
+  Ticket seen_ = 0;          // of the interlock
+  bool is_latched_ = false;  // and the fault was told
+  int fault_slice_ = -1;     // of the fault that is about to be told
   bool blown_up_ = false;
   bool is_held_up_ = false;     // another thread has not finished the last tick
   double kicks_ = 0.0;          // not yet forgotten
@@ -239,7 +250,6 @@ class Station {
 
   // Shared.
   std::atomic<unsigned> told_presence_{0};
-  std::atomic<FaultReason> make_safe_{FaultReason::kNone};
   std::atomic<std::int64_t> heartbeat_{0};
   rt::Ring<Command> commands_;
   rt::Ring<Event> events_;

@@ -42,6 +42,7 @@ target_link_libraries(clock_shift PRIVATE ergotic_flags ${CMAKE_DL_LIBS})
 target_compile_definitions(outside_rostest PRIVATE CLOCK_SHIFT="$<TARGET_FILE:clock_shift>")
 add_dependencies(outside_rostest ergotic_ros virtual_tgr render clock_shift)
 add_dependencies(master_rostest ergotic_ros virtual_tgr)
+add_dependencies(force_rostest ergotic_ros ergotic_generate_messages_py)
 target_compile_definitions(drivers_rostest PRIVATE COMEDI_STANDIN="$<TARGET_FILE:comedi_standin>")
 add_dependencies(drivers_rostest
   ergotic_ros ergotic_comedi_plugin ergotic_jack_plugin comedi_standin jack_tgr)

@@ -8,6 +8,7 @@
 #include "ros/conversation/feed.hpp"
 #include "ros/conversation/operator.hpp"
 #include "ros/conversation/services.hpp"
+#include "ros/device/own_host.hpp"
 #include "ros/device/signal_guard.hpp"
 
 namespace ergotic::node {
@@ -30,7 +31,8 @@ class StationNodelet : public nodelet::Nodelet {
       ::ros::NodeHandle& node = getMTPrivateNodeHandle();
       diagnostics_ = std::make_unique<Diagnostics>(getNodeHandle(), node, getName());
       feed_ = std::make_unique<Feed>(node);
-      operator_ = std::make_unique<Operator>(*feed_, *diagnostics_);
+      own_host_ = std::make_unique<OwnHost>(node.param("allow_remote", false));
+      operator_ = std::make_unique<Operator>(*feed_, *diagnostics_, *own_host_);
       guard_ = std::make_unique<SignalGuard>(
           [this] { operator_->makeSafe(tgr::FaultReason::kMadeSafe); },
           [this] { operator_->close(); });
@@ -42,6 +44,7 @@ class StationNodelet : public nodelet::Nodelet {
 
   std::unique_ptr<Diagnostics> diagnostics_;
   std::unique_ptr<Feed> feed_;
+  std::unique_ptr<OwnHost> own_host_;
   std::unique_ptr<Operator> operator_;
   std::unique_ptr<Services> services_;
   std::unique_ptr<SignalGuard> guard_;

@@ -268,6 +268,19 @@ TEST_F(HandsTest, TakesAwayAForceThatWasJustAskedForToCalibrate) {
   }
 }
 
+// So soon after `stop` that no state has told of it.
+TEST_F(HandsTest, CalibratesRightAfterAnAnsweredStop) {
+  constexpr int kTimes = 20;
+  for (int i = 0; i < kTimes; ++i) {
+    ASSERT_TRUE(call("engage").success);
+    ASSERT_TRUE(stateBecomes(Status::PLAYING));
+    ASSERT_TRUE(call("stop").success);
+    const auto begun = calibrate(Calibrate::Request::BEGIN, 0);
+    ASSERT_TRUE(begun.success) << begun.message;
+    ASSERT_TRUE(calibrate(Calibrate::Request::ABORT).success);
+  }
+}
+
 TEST_F(HandsTest, PutsOtherEndEffectorsInPlaceWithForceAtZero) {
   const auto answer = configure({bow()});
   ASSERT_TRUE(answer.success) << answer.message;

@@ -83,11 +83,13 @@ class RateProbe : public rt::AudioProcessor {
 
 Engine::Engine(const Parameters& parameters,
                std::unique_ptr<Hands> hands,
-               std::unique_ptr<station::Performer> performer)
+               std::unique_ptr<station::Performer> performer,
+               std::shared_ptr<station::Interlock> interlock)
     : parameters_(parameters), hands_(std::move(hands)) {
   const physics::Rates rates = performer->instrument->rates();
   const station::StationConfig config = stationConfig(parameters, rates);
-  station_ = std::make_unique<station::Station>(config, hands_->takeDriver(), std::move(performer));
+  station_ = std::make_unique<station::Station>(config, hands_->takeDriver(), std::move(performer),
+                                                std::move(interlock));
   if (parameters.jack) {
     station::AudioBridgeConfig bridge;
     bridge.rates = rates;

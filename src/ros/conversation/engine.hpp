@@ -29,7 +29,8 @@ class Engine {
   /// \throws DeviceError or Exception saying what is missing
   Engine(const Parameters& parameters,
          std::unique_ptr<Hands> hands,
-         std::unique_ptr<station::Performer> performer);
+         std::unique_ptr<station::Performer> performer,
+         std::shared_ptr<station::Interlock> interlock);
   /// Forces to zero, threads ended, device closed.
   ~Engine();
   Engine(const Engine&) = delete;

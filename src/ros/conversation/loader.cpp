@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <ros/console.h>
+#include <ros/this_node.h>
 
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/clock.hpp"
@@ -52,12 +53,14 @@ double audioRateFor(const Parameters& parameters) {
 
 }  // namespace
 
-LoadModel::Response Loader::load(const std::string& model, bool allow_unproven) {
+LoadModel::Response Loader::load(const std::string& model,
+                                 bool allow_unproven,
+                                 const std::string& loader) {
   LoadModel::Response response;
   Answer answer;
   is_device_missing_ = false;
   try {
-    answer = play(readModel(model), allow_unproven, response.verdict);
+    answer = play(readModel(model), allow_unproven, loader, response.verdict);
   } catch (const DeviceError& missing) {
     is_device_missing_ = true;
     answer = {false, missing.what()};
@@ -98,7 +101,7 @@ void Loader::loadFromParameters() {
     }
     const std::int64_t end_ns = rt::monotonicNs() + kPatienceNs;
     do {
-      load(parameters.model, parameters.allow_unproven);
+      load(parameters.model, true, ::ros::this_node::getName());
     } while (is_device_missing_ && waitUntilNextTry(end_ns));
   } catch (const Exception& refusal) {
     ROS_ERROR_STREAM(refusal.what());
@@ -106,21 +109,24 @@ void Loader::loadFromParameters() {
   }
 }
 
-Answer Loader::play(scene::Scene scene, bool allow_unproven, std::string& verdict) {
+Answer Loader::play(scene::Scene scene,
+                    bool allow_unproven,
+                    const std::string& loader,
+                    std::string& verdict) {
   const auto terms = operator_.terms();
   if (!terms) {
     return start(std::move(scene), allow_unproven, verdict);
   }
   station::PerformerPolicy policy;
   policy.on_stage = logStage;
-  policy.allow_unproven = allow_unproven || terms->parameters.allow_unproven;
+  policy.allow_unproven = allow_unproven && terms->parameters.allow_unproven;
   policy.slices = terms->slices;
   policy.device = terms->device;
   policy.end_effectors = terms->end_effectors;
   const physics::Rates rates =
       physics::chooseRates(scene, terms->rates.audio_hz, terms->rates.gesturalHz());
   return operator_.swap(
-      makePerformer(std::move(scene), rates, terms->parameters.compile, policy, verdict));
+      makePerformer(std::move(scene), rates, terms->parameters.compile, policy, verdict), loader);
 }
 
 Answer Loader::start(scene::Scene scene, bool allow_unproven, std::string& verdict) {
@@ -131,14 +137,15 @@ Answer Loader::start(scene::Scene scene, bool allow_unproven, std::string& verdi
   hands->probe(rates.gesturalHz(), parameters.safety.slice_mass_kg);
   station::PerformerPolicy policy;
   policy.on_stage = logStage;
-  policy.allow_unproven = allow_unproven || parameters.allow_unproven;
+  policy.allow_unproven = allow_unproven && parameters.allow_unproven;
   policy.slices = hands->slices();
   policy.device = hands->traits();
   policy.end_effectors = hands->config().end_effectors;
   auto performer = makePerformer(std::move(scene), rates, parameters.compile, policy, verdict);
   station::giveHands(*performer, policy.end_effectors, policy.slices, policy.device);
   station::Performer* const first = performer.get();
-  auto engine = std::make_unique<Engine>(parameters, std::move(hands), std::move(performer));
+  auto engine = std::make_unique<Engine>(parameters, std::move(hands), std::move(performer),
+                                         operator_.interlock());
   if (parameters.require_master) {
     engine->watchMaster(node_.resolveName("emergency_stop"));
   }

@@ -24,8 +24,12 @@ class Loader {
       : node_(std::move(private_node)), operator_(operator_thread) {}
 
   /// Plays a model. The one that plays keeps playing if this fails.
-  /// \param model  path or YAML text
-  LoadModel::Response load(const std::string& model, bool allow_unproven);
+  /// \param model           path or YAML text
+  /// \param allow_unproven  no more than the station itself allows
+  /// \param loader          node that asks, by what it says itself
+  LoadModel::Response load(const std::string& model,
+                           bool allow_unproven,
+                           const std::string& loader);
 
   /// Plays the model that the parameter `model` names, if it names one. While its devices cannot be
   /// opened it tries again for some seconds: a station of this name may be about to end.
@@ -35,7 +39,10 @@ class Loader {
 
  private:
   bool waitUntilNextTry(std::int64_t end_ns) const;
-  Answer play(scene::Scene scene, bool allow_unproven, std::string& verdict);
+  Answer play(scene::Scene scene,
+              bool allow_unproven,
+              const std::string& loader,
+              std::string& verdict);
   Answer start(scene::Scene scene, bool allow_unproven, std::string& verdict);
 
   ::ros::NodeHandle node_;

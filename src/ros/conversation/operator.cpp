@@ -2,7 +2,13 @@
 #include "ros/conversation/operator.hpp"
 
 #include <chrono>
+#include <limits>
 #include <utility>
+
+#include <ros/console.h>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/rt/clock.hpp"
 
 namespace ergotic::node {
 namespace {
@@ -10,14 +16,19 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kPollPeriod = 5ms;
-constexpr auto kAnswerTimeout = 5s;
+constexpr std::int64_t kAnswerTimeoutNs = 5'000'000'000;
+constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 constexpr auto kCloseTimeout = 900ms;
 constexpr std::size_t kMaxTasks = 1024;
+constexpr std::size_t kMaxParameters = 1024;    // names that wait
+constexpr std::size_t kParametersPerPoll = 64;  // fewer than the tick takes meanwhile
+constexpr double kLogPeriodS = 1.0;
+const char kTooLate[] = "no answer within 5 s: the request is withdrawn";
 
 }  // namespace
 
-Operator::Operator(Feed& feed, Diagnostics& diagnostics)
-    : feed_(feed), diagnostics_(diagnostics), performance_(feed) {
+Operator::Operator(Feed& feed, Diagnostics& diagnostics, const OwnHost& own_host)
+    : feed_(feed), diagnostics_(diagnostics), performance_(feed, interlock_, own_host) {
   thread_ = std::thread([this] { run(); });
 }
 
@@ -43,21 +54,35 @@ bool Operator::post(Task task) {
   return true;
 }
 
-Answer Operator::ask(const std::function<void(const Promise&)>& request) {
+Answer Operator::ask(const Request& request) {
+  return ask(request, rt::monotonicNs() + kAnswerTimeoutNs);
+}
+
+Answer Operator::ask(const Request& request, std::int64_t deadline_ns) {
   auto promise = std::make_shared<std::promise<Answer>>();
   std::future<Answer> future = promise->get_future();
-  if (!post([request, promise] { request(promise); })) {
+  if (!post({[request, promise] { request(promise); }, deadline_ns})) {
     return {false, "the station is closing, or too busy to take a request"};
   }
   promise.reset();  // whoever drops the request breaks the promise
-  if (future.wait_for(kAnswerTimeout) != std::future_status::ready) {
-    return {false, "no answer from the real-time thread within 5 s"};
+  const std::chrono::nanoseconds left(deadline_ns - rt::monotonicNs());
+  if (future.wait_for(left) != std::future_status::ready) {
+    return {false, kTooLate};
   }
   try {
     return future.get();
   } catch (const std::future_error&) {
-    return {false, "the station closed before it could answer"};
+    return {false, "the station closed before it could answer, or it was too late for one"};
   }
+}
+
+/// Whoever got no answer must not meet force later.
+Answer Operator::askForForce(const ForceRequest& request, const Request& ask_for) {
+  Answer answer = ask(ask_for, request.arrival.time_ns + kAnswerTimeoutNs);
+  if (answer.message == kTooLate) {
+    interlock_->stop();
+  }
+  return answer;
 }
 
 Answer Operator::begin(std::unique_ptr<Engine> engine, station::Performer* performer) {
@@ -68,22 +93,21 @@ Answer Operator::begin(std::unique_ptr<Engine> engine, station::Performer* perfo
   });
 }
 
-Answer Operator::swap(std::unique_ptr<station::Performer> performer) {
+Answer Operator::swap(std::unique_ptr<station::Performer> performer, const std::string& loader) {
   const auto shared = std::make_shared<std::unique_ptr<station::Performer>>(std::move(performer));
-  return ask(
-      [this, shared](const Promise& promise) { performance_.swap(std::move(*shared), promise); });
+  return ask([this, shared, loader](const Promise& promise) {
+    performance_.swap(std::move(*shared), loader, promise);
+  });
 }
 
-Answer Operator::engage() {
-  return ask([this](const Promise& promise) { performance_.engage(promise); });
+Answer Operator::engage(const ForceRequest& request) {
+  return askForForce(request,
+                     [=](const Promise& promise) { performance_.engage(request, promise); });
 }
 
-Answer Operator::recover() {
-  return ask([this](const Promise& promise) { performance_.recover(promise); });
-}
-
-Answer Operator::stop() {
-  return ask([this](const Promise& promise) { performance_.stop(promise); });
+Answer Operator::recover(const ForceRequest& request) {
+  return askForForce(request,
+                     [=](const Promise& promise) { performance_.recover(request, promise); });
 }
 
 Answer Operator::setParameter(const std::string& name, double value) {
@@ -115,9 +139,18 @@ Answer Operator::inject(const InjectFault::Request& request) {
   return ask([=](const Promise& promise) { performance_.inject(request, promise); });
 }
 
+bool Operator::setParameterSoon(const std::string& name, double value) {
+  const std::lock_guard lock(mutex_);
+  if (parameters_.size() >= kMaxParameters && parameters_.count(name) == 0) {
+    return false;
+  }
+  parameters_[name] = value;
+  return true;
+}
+
 std::optional<Operator::Terms> Operator::terms() {
   const auto terms = std::make_shared<std::optional<Terms>>();
-  ask([this, terms](const Promise& promise) {
+  const Answer answer = ask([this, terms](const Promise& promise) {
     if (Engine* engine = performance_.engine()) {
       const Hands& hands = engine->hands();
       *terms = Terms{engine->station().config().rates, hands.slices(), hands.traits(),
@@ -125,17 +158,21 @@ std::optional<Operator::Terms> Operator::terms() {
     }
     promise->set_value({true, ""});
   });
+  if (!answer.ok) {
+    throw Exception(answer.message);
+  }
   return *terms;
 }
 
 void Operator::tell(const std::string& message) {
-  post([this, message] {
+  const auto show = [this, message] {
     if (performance_.engine() == nullptr) {
       feed_.showSilence(message);
     } else {
       feed_.addMessage(message);
     }
-  });
+  };
+  post({show, kNever});
 }
 
 void Operator::close() {
@@ -147,10 +184,11 @@ void Operator::close() {
       return;
     }
     closed_ = true;
-    tasks_.push_back([this, done] {
+    const auto close = [this, done] {
       performance_.close();
       done->set_value();
-    });
+    };
+    tasks_.push_back({close, kNever});
   }
   woken_.notify_all();
   closed.wait_for(kCloseTimeout);
@@ -166,6 +204,7 @@ void Operator::run() {
       }
     }
     runTasks();
+    setParameters();
     performance_.poll();
     feed_.refresh();
     diagnostics_.refresh(feed_.status(), performance_.engine());
@@ -181,8 +220,29 @@ void Operator::runTasks() {
     const std::lock_guard lock(mutex_);
     tasks.swap(tasks_);
   }
-  for (const Task& task : tasks) {
-    task();
+  for (Task& task : tasks) {
+    if (rt::monotonicNs() < task.deadline_ns) {
+      task.run();
+    }
+    task.run = nullptr;  // what waits for it hears so now
+  }
+}
+
+void Operator::setParameters() {
+  std::map<std::string, double> some;
+  {
+    const std::lock_guard lock(mutex_);
+    while (!parameters_.empty() && some.size() < kParametersPerPoll) {
+      some.insert(parameters_.extract(parameters_.begin()));
+    }
+  }
+  for (const auto& [name, value] : some) {
+    const auto promise = std::make_shared<std::promise<Answer>>();
+    std::future<Answer> refusal = promise->get_future();
+    performance_.setParameter(name, value, promise);
+    if (refusal.wait_for(0s) == std::future_status::ready) {
+      ROS_WARN_STREAM_THROTTLE(kLogPeriodS, "parameters: " << refusal.get().message);
+    }
   }
 }
 

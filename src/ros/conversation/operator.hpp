@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -13,6 +14,7 @@
 #include <ergotic/Calibrate.h>
 #include <ergotic/InjectFault.h>
 
+#include "ros/conversation/arrivals.hpp"
 #include "ros/conversation/diagnostics.hpp"
 #include "ros/conversation/performance.hpp"
 
@@ -23,23 +25,25 @@ namespace ergotic::node {
 /// ROS callbacks never touch the station; they hand a request over here and wait for its answer.
 class Operator {
  public:
-  Operator(Feed& feed, Diagnostics& diagnostics);
+  Operator(Feed& feed, Diagnostics& diagnostics, const OwnHost& own_host);
   ~Operator();  ///< forces to zero, device closed
   Operator(const Operator&) = delete;
   Operator& operator=(const Operator&) = delete;
 
-  // Thread: any, but never this operator's own. All wait for their answer, 5 s at most.
+  // Thread: any, but never this operator's own. All wait for their answer, 5 s at most; what was
+  // not begun by then never is.
 
   /// Takes over a running engine and the performer it was made with. A closed operator destroys it.
   Answer begin(std::unique_ptr<Engine> engine, station::Performer* performer);
   /// Plays another model; answers when it plays.
-  Answer swap(std::unique_ptr<station::Performer> performer);
-  /// Lets force ramp in; answers when it does, or why it may not.
-  Answer engage();
+  /// \param loader  who asked for it
+  Answer swap(std::unique_ptr<station::Performer> performer, const std::string& loader);
+  /// Lets force ramp in; answers when it does, or why it may not. An answer that does not come
+  /// withdraws the request, as `stop` would.
+  Answer engage(const ForceRequest& request);
   /// Gets lost devices back and ends a fault; answers when it has ended. Force stays at zero.
-  Answer recover();
-  /// Force to zero; answers when it is.
-  Answer stop();
+  /// Withdrawn as `engage`.
+  Answer recover(const ForceRequest& request);
   /// Answers when the tick plays with the new value.
   Answer setParameter(const std::string& name, double value);
   /// Moves the hand of a virtual device.
@@ -58,6 +62,7 @@ class Operator {
     Parameters parameters;
   };
   /// \return nothing if no engine runs
+  /// \throws Exception if it does not answer
   std::optional<Terms> terms();
 
   // Thread: any. None of these waits.
@@ -66,6 +71,13 @@ class Operator {
   void tell(const std::string& message);
   /// Force to zero at once, latched. \return false if there is no device
   bool makeSafe(tgr::FaultReason reason) { return performance_.makeSafe(reason); }
+  /// Force to zero with the next tick, until an `engage` that is asked for later.
+  void stop() { interlock_->stop(); }
+  /// Sets a parameter soon: of several values for one name, the newest.
+  /// \return false if too many names wait
+  bool setParameterSoon(const std::string& name, double value);
+  /// Who owns the state of force.
+  const std::shared_ptr<station::Interlock>& interlock() const { return interlock_; }
   /// The presence switch is held, or not.
   void tellPresence(bool is_held) { performance_.tellPresence(is_held); }
 
@@ -74,20 +86,29 @@ class Operator {
   void close();
 
  private:
-  using Task = std::function<void()>;
+  struct Task {
+    std::function<void()> run;
+    std::int64_t deadline_ns = 0;  ///< it is dropped when it comes later; CLOCK_MONOTONIC
+  };
+  using Request = std::function<void(const Promise&)>;
 
   bool post(Task task);
-  Answer ask(const std::function<void(const Promise&)>& request);
+  Answer ask(const Request& request);
+  Answer ask(const Request& request, std::int64_t deadline_ns);
+  Answer askForForce(const ForceRequest& request, const Request& ask_for);
   void run();
   void runTasks();
+  void setParameters();
 
   Feed& feed_;
   Diagnostics& diagnostics_;
+  std::shared_ptr<station::Interlock> interlock_ = std::make_shared<station::Interlock>();
   Performance performance_;
 
   std::mutex mutex_;  // of what follows
   std::condition_variable woken_;
   std::deque<Task> tasks_;
+  std::map<std::string, double> parameters_;  // that shall be set soon
   bool quit_ = false;
   bool closed_ = false;
 

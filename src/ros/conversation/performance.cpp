@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <ros/console.h>
+#include <ros/this_node.h>
 
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/clock.hpp"
@@ -22,6 +23,7 @@ constexpr std::int64_t kObeyTimeoutNs = 1'000'000'000;
 constexpr std::size_t kGestureBatch = 256;
 constexpr double kLogPeriodS = 5.0;
 const char kNothingPlays[] = "nothing plays: load a model first";
+const char kForceWaits[] = "\nforce is zero until engage";
 const char kTooMany[] = "too many requests wait for the real-time thread";
 
 void answer(const Promise& promise, bool ok, std::string message) {
@@ -59,17 +61,22 @@ void Performance::begin(std::unique_ptr<Engine> engine, station::Performer* perf
   show(endEffectors());
   play(performer);
   if (engine_->parameters().autoengage) {
-    engage(std::make_shared<std::promise<Answer>>());
+    engage({{rt::monotonicNs(), began_}, ::ros::this_node::getName()},
+           std::make_shared<std::promise<Answer>>());
   }
 }
 
-void Performance::swap(std::unique_ptr<station::Performer> performer, const Promise& promise) {
+void Performance::swap(std::unique_ptr<station::Performer> performer,
+                       const std::string& loader,
+                       const Promise& promise) {
   if (!engine_) {
     return answer(promise, false, kNothingPlays);
   }
   station::Command swap;
   swap.type = CommandType::kSwap;
   swap.performer = performer.get();
+  const bool takes_force = takesForce(loader);
+  swap.index = takes_force ? 1 : 0;
   const std::vector<double> parameters = performer->parameters;  // the tick's from now on
   try {
     // End-effectors may have changed while the model was made.
@@ -83,17 +90,34 @@ void Performance::swap(std::unique_ptr<station::Performer> performer, const Prom
   }
   submitted_ = performer.release();
   parameters_ = parameters;
-  incoming_.push_back({submitted_, promise});
+  incoming_.push_back({submitted_, takes_force && interlock_->read().isOpen(), promise});
 }
 
-void Performance::engage(const Promise& promise) {
+/// Whether a model of this loader leaves force at zero.
+bool Performance::takesForce(const std::string& loader) const {
+  switch (engine_->parameters().force_after_swap) {
+    case ForceAfterSwap::kAlways:
+      return false;
+    case ForceAfterSwap::kNever:
+      return true;
+    case ForceAfterSwap::kLoader:
+      return loader != engaged_by_;
+  }
+  return true;
+}
+
+void Performance::engage(const ForceRequest& request, const Promise& promise) {
   if (guide_.isUnderWay()) {
     return answer(promise, false, "a slice is being calibrated: finish or abort first");
   }
-  request(CommandType::kEngage, requests_, promise);
+  if (const auto breach = own_host_.breach()) {
+    ROS_ERROR_STREAM("engage: " << *breach);
+    return answer(promise, false, *breach);
+  }
+  this->request(CommandType::kEngage, request, promise);
 }
 
-void Performance::recover(const Promise& promise) {
+void Performance::recover(const ForceRequest& request, const Promise& promise) {
   if (engine_) {
     try {
       engine_->recover();
@@ -101,14 +125,7 @@ void Performance::recover(const Promise& promise) {
       return answer(promise, false, failure.what());
     }
   }
-  request(CommandType::kRecover, requests_, promise);
-}
-
-void Performance::stop(const Promise& promise) {
-  if (!engine_) {
-    return answer(promise, true, "nothing plays");
-  }
-  request(CommandType::kStop, stops_, promise);
+  this->request(CommandType::kRecover, request, promise);
 }
 
 void Performance::setParameter(const std::string& name, double value, const Promise& promise) {
@@ -159,6 +176,10 @@ bool Performance::command(CommandType type, int index, double value) {
   command.type = type;
   command.index = index;
   command.value = value;
+  return submit(command);
+}
+
+bool Performance::submit(const station::Command& command) {
   const bool taken = engine_->station().submit(command);
   if (!taken) {
     ROS_ERROR_STREAM(kTooMany);
@@ -166,14 +187,18 @@ bool Performance::command(CommandType type, int index, double value) {
   return taken;
 }
 
-void Performance::request(CommandType type, std::deque<Waiter>& waiters, const Promise& promise) {
+void Performance::request(CommandType type, const ForceRequest& request, const Promise& promise) {
   if (!engine_) {
     return answer(promise, false, kNothingPlays);
   }
-  if (!command(type)) {
+  station::Command command;
+  command.type = type;
+  command.id = ++last_request_;
+  command.asked = request.arrival.ticket;
+  if (!submit(command)) {
     return answer(promise, false, kTooMany);
   }
-  waiters.push_back({promise, rt::monotonicNs() + kObeyTimeoutNs});
+  requests_[command.id] = {request.caller, promise, rt::monotonicNs() + kObeyTimeoutNs};
 }
 
 void Performance::poll() {
@@ -198,8 +223,7 @@ void Performance::poll() {
     feed_.show(playing_->motion.latest(), playing_->instrument->scene());
   }
   pollCalibration();
-  giveUp(requests_);
-  giveUp(stops_);
+  giveUp();
   reportWarnings();
 }
 
@@ -232,18 +256,16 @@ void Performance::take(const station::Event& event) {
 }
 
 void Performance::takeObeyed(const station::Event& event, const std::string& text) {
-  const bool refused = event.type == EventType::kRefused;
-  if (refused || event.type == EventType::kEngaged || event.type == EventType::kRecovered) {
-    if (!requests_.empty()) {
-      answer(requests_.front().promise, !refused, text);
-      requests_.pop_front();
-    }
-  } else if (event.type == EventType::kStopped) {
-    for (const Waiter& waiter : stops_) {
-      answer(waiter.promise, true, text);
-    }
-    stops_.clear();
+  const auto waiter = requests_.find(event.id);
+  if (waiter == requests_.end()) {
+    return;
   }
+  if (event.type == EventType::kEngaged) {
+    engaged_by_ = waiter->second.caller;
+    ROS_INFO_STREAM("force was let out by " << engaged_by_);
+  }
+  answer(waiter->second.promise, event.type != EventType::kRefused, text);
+  requests_.erase(waiter);
 }
 
 void Performance::takeSwapped(const station::Event& event) {
@@ -258,7 +280,7 @@ void Performance::takeSwapped(const station::Event& event) {
   const Incoming next = incoming_.front();
   incoming_.pop_front();
   play(next.performer);
-  answer(next.promise, true, feed_.status().message);
+  answer(next.promise, true, feed_.status().message + (next.takes_force ? kForceWaits : ""));
 }
 
 void Performance::takeKeyframe(const station::Event& event) {
@@ -271,12 +293,14 @@ void Performance::takeKeyframe(const station::Event& event) {
   }
 }
 
-void Performance::giveUp(std::deque<Waiter>& waiters) {
+/// What is too late must have no effect any more: not a force that nobody waits for.
+void Performance::giveUp() {
   const std::int64_t now_ns = rt::monotonicNs();
-  while (!waiters.empty() && now_ns > waiters.front().deadline_ns) {
-    answer(waiters.front().promise, false,
-           "not obeyed, the station is: " + feed_.status().state_text);
-    waiters.pop_front();
+  while (!requests_.empty() && now_ns > requests_.begin()->second.deadline_ns) {
+    interlock_->stop();
+    answer(requests_.begin()->second.promise, false,
+           "not obeyed and withdrawn, the station is: " + feed_.status().state_text);
+    requests_.erase(requests_.begin());
   }
 }
 
@@ -300,7 +324,6 @@ void Performance::close() {
   changes_.clear();
   configurations_.clear();
   requests_.clear();
-  stops_.clear();
   guide_.abort();
   sampled_.reset();
   std::unique_ptr<Engine> closing;
@@ -322,6 +345,7 @@ void Performance::tellPresence(bool is_held) {
 }
 
 bool Performance::makeSafe(tgr::FaultReason reason) {
+  interlock_->latch(reason);
   const std::lock_guard lock(engine_mutex_);
   if (engine_) {
     engine_->station().makeSafe(reason);

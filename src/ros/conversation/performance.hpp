@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 #include <future>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -14,9 +15,11 @@
 #include <ergotic/Calibrate.h>
 #include <ergotic/InjectFault.h>
 
+#include "ros/conversation/arrivals.hpp"
 #include "ros/conversation/engine.hpp"
 #include "ros/conversation/feed.hpp"
 #include "ros/device/calibration_guide.hpp"
+#include "ros/device/own_host.hpp"
 
 namespace ergotic::node {
 
@@ -27,13 +30,21 @@ struct Answer {
 };
 using Promise = std::shared_ptr<std::promise<Answer>>;
 
+/// Somebody wants force, or the end of a fault.
+struct ForceRequest {
+  Arrival arrival;
+  std::string caller;  ///< node that asks, by what it says itself
+};
+
 /// What plays, and what was asked of it: the operator's side of the station.
 ///
 /// Requests are answered when the real-time thread has obeyed, or said why not.
 /// Thread: operator, all but `makeSafe` and `tellPresence`
 class Performance {
  public:
-  explicit Performance(Feed& feed) : feed_(feed) {}
+  /// \param interlock  not null
+  Performance(Feed& feed, std::shared_ptr<station::Interlock> interlock, const OwnHost& own_host)
+      : feed_(feed), interlock_(std::move(interlock)), own_host_(own_host) {}
   ~Performance() { close(); }
   Performance(const Performance&) = delete;
   Performance& operator=(const Performance&) = delete;
@@ -42,10 +53,11 @@ class Performance {
 
   /// Takes over a running engine and the performer it was made with.
   void begin(std::unique_ptr<Engine> engine, station::Performer* performer);
-  void swap(std::unique_ptr<station::Performer> performer, const Promise& promise);
-  void engage(const Promise& promise);
-  void recover(const Promise& promise);
-  void stop(const Promise& promise);
+  void swap(std::unique_ptr<station::Performer> performer,
+            const std::string& loader,
+            const Promise& promise);
+  void engage(const ForceRequest& request, const Promise& promise);
+  void recover(const ForceRequest& request, const Promise& promise);
   void setParameter(const std::string& name, double value, const Promise& promise);
   void setTarget(int slice, double target_m, const Promise& promise);
   void configure(const tgr::EndEffectors& end_effectors, const Promise& promise);
@@ -61,7 +73,8 @@ class Performance {
   /// Forces to zero, device closed, waiting requests refused.
   void close();
 
-  /// Force to zero at once, latched. \return false if there is no device. Thread: any
+  /// Force to zero at once, latched, also if no device is open yet. \return whether one is.
+  /// Thread: any
   bool makeSafe(tgr::FaultReason reason);
   /// The presence switch is held, or not. Thread: any
   void tellPresence(bool is_held);
@@ -70,6 +83,7 @@ class Performance {
   /// A model on its way into the station, which owns it.
   struct Incoming {
     station::Performer* performer = nullptr;
+    bool takes_force = false;  ///< which was there, and waits for `engage` then
     Promise promise;
   };
   /// Somebody waits for a parameter to take effect.
@@ -85,12 +99,15 @@ class Performance {
   };
   /// Somebody waits for the tick to obey.
   struct Waiter {
+    std::string caller;
     Promise promise;
     std::int64_t deadline_ns = 0;
   };
 
   bool command(station::Command::Type type, int index = 0, double value = 0.0);
-  void request(station::Command::Type type, std::deque<Waiter>& waiters, const Promise& promise);
+  bool submit(const station::Command& command);
+  void request(station::Command::Type type, const ForceRequest& request, const Promise& promise);
+  bool takesForce(const std::string& loader) const;
   const tgr::EndEffectors& endEffectors() const;
   void show(const tgr::EndEffectors& end_effectors);
   void begin(int slice);
@@ -103,11 +120,14 @@ class Performance {
   void takeConfigured(const station::Event& event);
   void takeSwapped(const station::Event& event);
   void takeKeyframe(const station::Event& event);
-  void giveUp(std::deque<Waiter>& waiters);
+  void giveUp();
   void play(station::Performer* performer);
   void reportWarnings();
 
   Feed& feed_;
+  std::shared_ptr<station::Interlock> interlock_;
+  const OwnHost& own_host_;
+  const station::Ticket began_ = interlock_->ticket();  // when `autoengage` was asked for
   std::mutex engine_mutex_;  // held while engine_ changes, and by those that any thread may call
   std::unique_ptr<Engine> engine_;
   station::Performer* playing_ = nullptr;    // owned by the station
@@ -116,8 +136,9 @@ class Performance {
   std::deque<Incoming> incoming_;
   std::deque<Change> changes_;
   std::deque<Configuration> configurations_;
-  std::deque<Waiter> requests_;  // engage and recover: each is obeyed or refused, in their order
-  std::deque<Waiter> stops_;
+  std::map<std::uint64_t, Waiter> requests_;  // engage and recover, by their numbers
+  std::uint64_t last_request_ = 0;
+  std::string engaged_by_;  // who let force out last
   CalibrationGuide guide_;
   std::shared_ptr<Calibrate::Response> measured_;  // of the sample under way
   Promise sampled_;

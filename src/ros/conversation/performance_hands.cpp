@@ -139,17 +139,12 @@ void Performance::calibrate(const Calibrate::Request& request,
 }
 
 void Performance::begin(int slice) {
-  const std::uint8_t state = feed_.status().state;
-  if (state == Status::ENGAGING || state == Status::PLAYING) {
+  if (interlock_->read().isOpen()) {
     throw Exception("force is on: stop first");
   }
   const Hands& hands = engine_->hands();
   guide_.begin(hands.rawParts(), hands.slices(), slice);
-  // An engage may be on its way whose state nobody could see yet. Later ones are refused.
-  if (!command(CommandType::kStop)) {
-    guide_.abort();
-    throw Exception("too many requests wait for the real-time thread");
-  }
+  interlock_->stop();  // an engage may be on its way; later ones are refused
 }
 
 std::string Performance::finish(const Calibrate::Request& request, Calibrate::Response& measured) {

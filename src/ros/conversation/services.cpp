@@ -11,7 +11,22 @@ namespace ergotic::node {
 namespace {
 
 constexpr std::uint32_t kQueue = 100;
+constexpr std::uint32_t kParameterQueue = 10'000;  // taken at once: the newest of each name counts
 constexpr double kLogPeriodS = 1.0;
+
+/// How many are in here.
+class Counted {
+ public:
+  explicit Counted(std::atomic<int>& count) : count_(count), number_(++count) {}
+  ~Counted() { --count_; }
+  Counted(const Counted&) = delete;
+  Counted& operator=(const Counted&) = delete;
+  int number() const { return number_; }
+
+ private:
+  std::atomic<int>& count_;
+  int number_;
+};
 
 template <class Response>
 bool fill(Response& response, const Answer& answer) {
@@ -31,27 +46,29 @@ void complain(const std::string& topic, const Answer& answer) {
 Services::Services(::ros::NodeHandle node, Operator& operator_thread)
     : operator_(operator_thread),
       loader_(node, operator_thread),
+      queue_(*node.getCallbackQueue(), operator_thread.interlock()),
       node_(node),
       loading_node_(node),
       loading_spinner_(1, &loading_queue_),
       safety_node_(node),
       safety_spinner_(1, &safety_queue_) {
+  node_.setCallbackQueue(&queue_);
   loading_node_.setCallbackQueue(&loading_queue_);
   safety_node_.setCallbackQueue(&safety_queue_);
   servers_ = {
       loading_node_.advertiseService("load_model", &Services::onLoadModel, this),
       node_.advertiseService("engage", &Services::onEngage, this),
-      node_.advertiseService("stop", &Services::onStop, this),
       node_.advertiseService("set_parameter", &Services::onSetParameter, this),
       node_.advertiseService("recover", &Services::onRecover, this),
       node_.advertiseService("configure_end_effectors", &Services::onConfigure, this),
       node_.advertiseService("calibrate", &Services::onCalibrate, this),
       node_.advertiseService("inject_fault", &Services::onInjectFault, this),
       safety_node_.advertiseService("emergency_stop", &Services::onEmergencyStop, this),
+      safety_node_.advertiseService("stop", &Services::onStop, this),
   };
   subscribers_ = {
       loading_node_.subscribe("model", 1, &Services::onModel, this),
-      node_.subscribe("parameters", kQueue, &Services::onParameter, this),
+      node_.subscribe("parameters", kParameterQueue, &Services::onParameter, this),
       node_.subscribe("hand_target", kQueue, &Services::onHandTarget, this),
       node_.subscribe("end_effectors", 1, &Services::onEndEffectors, this),
       safety_node_.subscribe("emergency_stop", 1, &Services::onEmergencyTopic, this),
@@ -71,21 +88,26 @@ Services::~Services() {
   safety_spinner_.stop();
 }
 
-bool Services::onLoadModel(LoadModel::Request& request, LoadModel::Response& response) {
-  response = loader_.load(request.model, request.allow_unproven != 0U);
+bool Services::onLoadModel(Call<LoadModel>& call) {
+  const LoadModel::Request& request = call.getRequest();
+  call.getResponse() =
+      loader_.load(request.model, request.allow_unproven != 0U, call.getCallerName());
   return true;
 }
 
-void Services::onModel(const std_msgs::String& model) {
-  loader_.load(model.data, false);  // logs what goes wrong, and the status says it
+void Services::onModel(const ::ros::MessageEvent<const std_msgs::String>& model) {
+  // It logs what goes wrong, and the status says it.
+  loader_.load(model.getConstMessage()->data, false, model.getPublisherName());
 }
 
-bool Services::onEngage(Trigger::Request& /*request*/, Trigger::Response& response) {
-  return fill(response, operator_.engage());
+bool Services::onEngage(Call<Trigger>& call) {
+  return fill(call.getResponse(),
+              operator_.engage({ArrivalQueue::ofThisCall(), call.getCallerName()}));
 }
 
 bool Services::onStop(Trigger::Request& /*request*/, Trigger::Response& response) {
-  return fill(response, operator_.stop());
+  operator_.stop();
+  return fill(response, {true, "force is zero until engage"});
 }
 
 bool Services::onSetParameter(SetParameter::Request& request, SetParameter::Response& response) {
@@ -93,22 +115,29 @@ bool Services::onSetParameter(SetParameter::Request& request, SetParameter::Resp
 }
 
 void Services::onParameter(const ParameterValue& parameter) {
-  complain("parameters", operator_.setParameter(parameter.name, parameter.value));
+  if (!operator_.setParameterSoon(parameter.name, parameter.value)) {
+    complain("parameters", {false, "too many names at once: " + parameter.name});
+  }
 }
 
 void Services::onHandTarget(const SliceTarget& target) {
   complain("hand_target", operator_.setTarget(static_cast<int>(target.slice), target.target));
 }
 
-bool Services::onRecover(Trigger::Request& /*request*/, Trigger::Response& response) {
-  const Answer answer = operator_.recover();
+bool Services::onRecover(Call<Trigger>& call) {
+  const Answer answer = operator_.recover({ArrivalQueue::ofThisCall(), call.getCallerName()});
   if (answer.ok) {
     presence_owner_.acceptAnother();
   }
-  return fill(response, answer);
+  return fill(call.getResponse(), answer);
 }
 
+/// Those that wait would keep the threads from everything else.
 Answer Services::configure(const std::vector<EndEffector>& end_effectors) {
+  const Counted counted(configurations_);
+  if (counted.number() > 1) {
+    return {false, "other end-effectors are being put in place: ask again after that"};
+  }
   try {
     Answer answer = operator_.configure(fromMessages(end_effectors));
     if (answer.ok) {
@@ -141,7 +170,7 @@ bool Services::onInjectFault(InjectFault::Request& request, InjectFault::Respons
 bool Services::onEmergencyStop(Trigger::Request& /*request*/, Trigger::Response& response) {
   const bool latched = operator_.makeSafe(tgr::FaultReason::kEmergencyStop);
   return fill(response, {true, latched ? "force is latched at zero until recover"
-                                       : "no device is open: there is no force"});
+                                       : "no device is open; none gets force before recover"});
 }
 
 void Services::onEmergencyTopic(const std_msgs::Empty& /*stop*/) {

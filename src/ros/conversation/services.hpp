@@ -3,6 +3,8 @@
 
 #include <std_srvs/Trigger.h>
 
+#include <atomic>
+
 #include <ergotic/Calibrate.h>
 #include <ergotic/ConfigureEndEffectors.h>
 #include <ergotic/EndEffectors.h>
@@ -18,16 +20,16 @@
 #include <std_msgs/Empty.h>
 #include <std_msgs/String.h>
 
+#include "ros/conversation/arrivals.hpp"
 #include "ros/conversation/loader.hpp"
 #include "ros/conversation/operator.hpp"
 #include "ros/conversation/presence_owner.hpp"
 
 namespace ergotic::node {
 
-/// What ROS can ask of the station. `engage`, `stop` and the topics come through the queue of
-/// `node`; everything that loads a model has a queue and a thread of its own, one at a time, so
-/// that a long load never delays a `stop`. So have emergency stops and the presence switch, which
-/// nothing may delay.
+/// What ROS can ask of the station. Most comes through the queue of `node`, which notes when it
+/// came; everything that loads a model has a queue and a thread of its own, one at a time. So has
+/// what takes force away, and the presence switch: nothing may delay them.
 class Services {
  public:
   Services(::ros::NodeHandle node, Operator& operator_thread);
@@ -37,16 +39,18 @@ class Services {
 
  private:
   using Trigger = std_srvs::Trigger;
+  template <class Service>
+  using Call = ::ros::ServiceEvent<typename Service::Request, typename Service::Response>;
 
-  bool onLoadModel(LoadModel::Request& request, LoadModel::Response& response);
-  void onModel(const std_msgs::String& model);
-  bool onEngage(Trigger::Request& request, Trigger::Response& response);
+  bool onLoadModel(Call<LoadModel>& call);
+  void onModel(const ::ros::MessageEvent<const std_msgs::String>& model);
+  bool onEngage(Call<Trigger>& call);
   bool onStop(Trigger::Request& request, Trigger::Response& response);
   bool onSetParameter(SetParameter::Request& request, SetParameter::Response& response);
   void onParameter(const ParameterValue& parameter);
   void onHandTarget(const SliceTarget& target);
   Answer configure(const std::vector<EndEffector>& end_effectors);
-  bool onRecover(Trigger::Request& request, Trigger::Response& response);
+  bool onRecover(Call<Trigger>& call);
   bool onConfigure(ConfigureEndEffectors::Request& request,
                    ConfigureEndEffectors::Response& response);
   void onEndEffectors(const EndEffectors& end_effectors);
@@ -59,7 +63,9 @@ class Services {
   Operator& operator_;
   PresenceOwner presence_owner_;
   Loader loader_;
+  ArrivalQueue queue_;  // in front of the usual one
   ::ros::NodeHandle node_;
+  std::atomic<int> configurations_{0};  // that are being read
   ::ros::CallbackQueue loading_queue_;
   ::ros::NodeHandle loading_node_;
   ::ros::AsyncSpinner loading_spinner_;

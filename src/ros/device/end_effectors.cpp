@@ -5,6 +5,7 @@
 
 #include "ergotic/exception.hpp"
 #include "ergotic/tgr/driver.hpp"
+#include "ergotic/tgr/rig.hpp"
 
 namespace ergotic::node {
 namespace {
@@ -87,6 +88,28 @@ EndEffectorConfig fromMessage(std::size_t index, const EndEffector& message) {
   return config;
 }
 
+/// Refused before anything is read: nobody has so many slices.
+void checkSizes(const std::vector<EndEffector>& messages) {
+  const auto check = [](const std::string& what, std::size_t count, std::size_t most) {
+    if (count > most) {
+      throw TextError(
+          kFile, 1, 1,
+          std::to_string(count) + " " + what + ", allowed: 0..." + std::to_string(most));
+    }
+  };
+  constexpr std::size_t kLongestName = 256;
+  check("end-effectors", messages.size(), std::size_t{tgr::kMaxSlices});
+  for (const EndEffector& message : messages) {
+    check("slices", message.slices.size(), std::size_t{tgr::kMaxSlices});
+    check("ports", message.ports.size(), std::size_t{tgr::kMaxPorts});
+    check("points", message.points.size(), std::size_t{tgr::kMaxPorts});
+    check("letters of a name", message.name.size(), kLongestName);
+    for (const std::string& port : message.ports) {
+      check("letters of a port", port.size(), kLongestName);
+    }
+  }
+}
+
 }  // namespace
 
 geometry_msgs::Pose toPose(const Eigen::Isometry3d& pose) {
@@ -139,6 +162,7 @@ std::vector<EndEffector> toMessages(const tgr::EndEffectors& end_effectors) {
 }
 
 tgr::EndEffectors fromMessages(const std::vector<EndEffector>& messages) {
+  checkSizes(messages);
   tgr::EndEffectors end_effectors;
   for (std::size_t i = 0; i < messages.size(); ++i) {
     end_effectors.list.push_back(fromMessage(i, messages[i]));

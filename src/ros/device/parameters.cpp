@@ -31,6 +31,9 @@ const std::map<std::string, physics::Precision> kPrecisions = {
 const std::map<std::string, bool> kJack = {{"auto", true}, {"none", false}};
 const std::map<std::string, Realtime> kRealtime = {
     {"try", Realtime::kTry}, {"require", Realtime::kRequire}, {"off", Realtime::kOff}};
+const std::map<std::string, ForceAfterSwap> kForceAfterSwap = {{"loader", ForceAfterSwap::kLoader},
+                                                               {"always", ForceAfterSwap::kAlways},
+                                                               {"never", ForceAfterSwap::kNever}};
 const std::map<std::string, bool> kPresence = {{"topic", true}, {"none", false}};
 
 std::map<std::string, rt::Isa> isas() {
@@ -255,6 +258,8 @@ void visitParameters(Visitor& on, P& p) {
   on.choice("realtime", p.realtime, kRealtime);
   on.flag("allow_unproven", p.allow_unproven);
   on.flag("autoengage", p.autoengage);
+  on.choice("force_after_swap", p.force_after_swap, kForceAfterSwap);
+  on.flag("allow_remote", p.allow_remote);
   on.number("display_rate", p.display_rate, 1.0, 60.0);
   on.number("display_zoom", p.display_zoom, 0.0, 1e6);
 }

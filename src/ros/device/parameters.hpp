@@ -20,6 +20,13 @@ enum class Realtime {
   kOff,
 };
 
+/// For whom another model keeps the force that was there.
+enum class ForceAfterSwap {
+  kLoader,  ///< who let force out and now loads the model
+  kAlways,
+  kNever,  ///< it waits for `engage`
+};
+
 /// Private parameters of the nodelet, read once; docs/ros.md says the same with more words.
 struct Parameters {
   std::string model;                  ///< path of a scene, or its YAML text; empty: wait for one
@@ -50,8 +57,10 @@ struct Parameters {
   Realtime realtime = Realtime::kTry;
   bool allow_unproven = false;  ///< play what the certificate cannot prove to be stable
   bool autoengage = false;      ///< engage once the first model plays
-  double display_rate = 30.0;   ///< Hz, of model_state and markers
-  double display_zoom = 5.0;    ///< of x in markers, about x = 0
+  ForceAfterSwap force_after_swap = ForceAfterSwap::kLoader;
+  bool allow_remote = false;   ///< other hosts may call; heard when the node starts
+  double display_rate = 30.0;  ///< Hz, of model_state and markers
+  double display_zoom = 5.0;   ///< of x in markers, about x = 0
 };
 
 /// \param node  private

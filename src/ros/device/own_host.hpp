@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ergotic::node {
+
+/// Who can reach what listens here. Linux only. Realtime: no. Thread: any
+
+/// The sockets of this process that listen on these TCP ports hear only this host from now on,
+/// whatever address they are bound to.
+/// \return why some of them could not be told, else nothing
+std::optional<std::string> hearOwnHostOnly(const std::vector<std::uint16_t>& ports);
+
+/// Whether every socket of this host that listens on a TCP port has an address of this host alone;
+/// false also if none listens, for then it is another host that does.
+bool listensOnOwnHostOnly(std::uint16_t port);
+
+/// ROS has no authentication: whoever reaches the nodes or the master of a station may do anything
+/// that its player may.
+class OwnHost {
+ public:
+  /// Closes this process to other hosts, unless they are allowed.
+  /// \pre ros::start was called
+  explicit OwnHost(bool allow_remote);
+
+  /// Why others may call, or nothing: then force may be let out. The master may have changed.
+  std::optional<std::string> breach() const;
+
+ private:
+  bool allow_remote_;
+  std::optional<std::string> failure_;
+};
+
+}  // namespace ergotic::node

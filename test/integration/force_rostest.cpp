@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Who may let force out, and who takes it away: an ordinary virtual device in a real nodelet.
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <future>
+#include <iostream>
+#include <limits>
+#include <random>
+#include <thread>
+
+#include <ergotic/Calibrate.h>
+#include <ergotic/ConfigureEndEffectors.h>
+#include <ergotic/Event.h>
+#include <ergotic/GestureBlock.h>
+#include <ergotic/InjectFault.h>
+#include <ergotic/LoadModel.h>
+#include <ergotic/ParameterValue.h>
+#include <ergotic/SliceTarget.h>
+#include <ergotic/Status.h>
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+
+#include "ergotic/rt/clock.hpp"
+#include "integration/child_process.hpp"
+#include "integration/gesture_record.hpp"
+#include "integration/listener.hpp"
+#include "integration/reference_threads.hpp"
+#include "integration/station_services.hpp"
+#include "support/test.hpp"
+
+namespace ergotic::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::int64_t kNsPerMs = 1'000'000;
+constexpr std::int64_t kLimitNs = 10 * kNsPerMs;
+constexpr double kPushedN = 5.0;
+
+/// A wall whose stiffness can be set, and sound beside it that takes its time to be certified.
+std::string wall(const std::string& name, int rows) {
+  return "ergotic: 1\nname: " + name + R"(
+parameters:
+  stiffness: {value: 1000, range: [500, 1500]}
+sections:
+  hand: {rate: gestural}
+  plate: {rate: audio}
+mats:
+  key: {type: slice, section: hand}
+  ground: {type: ground, section: hand, at: [0, 0]}
+generators:
+  - {type: mesh, name: plate, section: plate, rows: )" +
+         std::to_string(rows) + ", columns: " + std::to_string(rows) +
+         R"(, spacing: 0.01, mass: 1.0e-4, stiffness: 2000, damping: 1.0e-3, edges: fixed}
+lias:
+  wall: {type: spring_damper, between: [key, ground], stiffness: $stiffness, damping: 2}
+ports:
+  key: {mat: key, slice: 0}
+)";
+}
+constexpr int kSmall = 6;
+constexpr int kLarge = 60;
+
+/// When force was there last, in the ticks of a station.
+class ForceWatch {
+ public:
+  explicit ForceWatch(::ros::NodeHandle& node) {
+    blocks_ = node.subscribe<GestureBlock>("/station/gesture", 10000,
+                                           [this](const auto& block) { take(*block); });
+  }
+
+  /// When the last tick with a force was due, CLOCK_MONOTONIC.
+  std::int64_t lastForceNs() const {
+    const std::lock_guard lock(mutex_);
+    return last_force_ < 0 ? 0 : dueNs(last_force_);
+  }
+  /// Until when all is known.
+  std::int64_t knownNs() const {
+    const std::lock_guard lock(mutex_);
+    return newest_ < 0 ? 0 : dueNs(newest_);
+  }
+
+ private:
+  std::int64_t dueNs(std::int64_t tick) const {
+    return first_ns_ + static_cast<std::int64_t>(1e9 * static_cast<double>(tick) / rate_hz_);
+  }
+  /// No block is stamped before its first tick: the earliest stamp tells best when ticks are due.
+  void take(const GestureBlock& block) {
+    const std::lock_guard lock(mutex_);
+    rate_hz_ = block.tick_rate_hz;
+    const std::int64_t stamp_ns =
+        static_cast<std::int64_t>(block.header.stamp.toNSec()) - wallLessMonotonicNs();
+    first_ns_ =
+        std::min(first_ns_, stamp_ns - static_cast<std::int64_t>(
+                                           1e9 * static_cast<double>(block.first_tick) / rate_hz_));
+    for (std::uint32_t i = 0; i < block.ticks; ++i) {
+      const auto first = block.forces.begin() + static_cast<std::ptrdiff_t>(i * block.slices);
+      if (std::any_of(first, first + block.slices, [](float force) { return force != 0.0F; })) {
+        last_force_ = block.first_tick + i;
+      }
+    }
+    newest_ = block.first_tick + block.ticks - 1;
+  }
+
+  mutable std::mutex mutex_;
+  double rate_hz_ = 1.0;
+  std::int64_t first_ns_ = std::numeric_limits<std::int64_t>::max();
+  std::int64_t last_force_ = -1;
+  std::int64_t newest_ = -1;
+  ::ros::Subscriber blocks_;
+};
+
+/// A station of its own for each test.
+class ForceTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    node_.deleteParam("/station");
+    node_.setParam("/station/model", wall("wall", kSmall));
+    node_.setParam("/station/jack", "none");
+    node_.setParam("/station/ramp", 0.1);
+    node_.setParam("/station/allow_fault_injection", true);
+  }
+  void start() {
+    station_ = startStation();
+    ASSERT_TRUE(::ros::service::waitForService("/station/emergency_stop", 30000));
+  }
+  void startToPlay() {
+    start();
+    ASSERT_TRUE(eventually([this] { return plays("wall"); })) << status_.latest().message;
+    ASSERT_TRUE(eventually([this] { return hand_.getNumSubscribers() > 0; }));
+  }
+  bool plays(const std::string& model) const { return status_.latest().model == model; }
+  bool stateBecomes(std::uint8_t state) const {
+    return eventually([=] { return status_.latest().state == state; });
+  }
+  double effort() const {
+    const auto joints = joints_.latest();
+    return joints.effort.empty() ? 0.0 : joints.effort.front();
+  }
+  /// Until the hand meets a force.
+  void push() {
+    ASSERT_TRUE(eventually([] { return call("recover").success != 0U; }));
+    moveHand(hand_, 0, 0.02);
+    ASSERT_TRUE(eventually([this] {
+      return (status_.latest().state != Status::FAULT || call("recover").success != 0U) &&
+             (status_.latest().state == Status::PLAYING || call("engage").success != 0U) &&
+             eventually([this] { return effort() < -kPushedN; }, 2.0);
+    })) << status_.latest().state_text;
+  }
+  static LoadModel::Response load(const std::string& model, bool allow_unproven = false) {
+    LoadModel load;
+    load.request.model = model;
+    load.request.allow_unproven = allow_unproven ? 1U : 0U;
+    EXPECT_TRUE(::ros::service::call("/station/load_model", load));
+    return load.response;
+  }
+  static ConfigureEndEffectors::Response configure(std::size_t count) {
+    ConfigureEndEffectors configure;
+    configure.request.end_effectors.resize(count);
+    for (EndEffector& end_effector : configure.request.end_effectors) {
+      end_effector.name = "key";
+      end_effector.slices = {0};
+      end_effector.ports = {"key"};
+    }
+    EXPECT_TRUE(::ros::service::call("/station/configure_end_effectors", configure));
+    return configure.response;
+  }
+  static void stall(double seconds) {
+    InjectFault inject;
+    inject.request.kind = "stopped";
+    inject.request.amount = seconds;
+    EXPECT_TRUE(::ros::service::call("/station/inject_fault", inject));
+  }
+
+  ::ros::NodeHandle node_;
+  Listener<Status> status_{node_, "/station/status"};
+  Listener<Event> events_{node_, "/station/events"};
+  Listener<sensor_msgs::JointState> joints_{node_, "/station/joint_states"};
+  ForceWatch force_{node_};
+  ::ros::Publisher hand_ = node_.advertise<SliceTarget>("/station/hand_target", 10);
+  std::unique_ptr<ChildProcess> station_;
+};
+
+TEST_F(ForceTest, AnEmergencyStopBeforeTheFirstModelPlaysHolds) {
+  node_.setParam("/station/model", wall("wall", kLarge));
+  node_.setParam("/station/autoengage", true);
+  start();
+  EXPECT_TRUE(call("emergency_stop").success);
+  ASSERT_TRUE(eventually([this] { return plays("wall"); })) << status_.latest().message;
+  ASSERT_TRUE(stateBecomes(Status::FAULT)) << status_.latest().state_text;
+  EXPECT_EQ(status_.latest().fault, Status::FAULT_EMERGENCY_STOP);
+  moveHand(hand_, 0, 0.02);
+  std::this_thread::sleep_for(1s);
+  EXPECT_EQ(force_.lastForceNs(), 0);
+  push();
+}
+
+/// What goes on when somebody hits the button.
+struct Moment {
+  const char* name;
+  std::function<void()> act;
+};
+
+TEST_F(ForceTest, AnEmergencyStopHoldsFromItsRequestOnWhateverGoesOn) {
+  const char* const asked = std::getenv("ERGOTIC_STOPS");
+  const int stops = asked == nullptr ? 60 : std::atoi(asked);
+  startToPlay();
+  const ReferenceThreads reference;
+  const std::vector<Moment> moments = {{"load", [] { load(wall("other", kSmall)); }},
+                                       {"load more", [] { load(wall("more", kLarge)); }},
+                                       {"recover", [] { call("recover"); }},
+                                       {"recover, engage",
+                                        [] {
+                                          call("recover");
+                                          call("engage");
+                                        }},
+                                       {"calibrate",
+                                        [] {
+                                          Calibrate begin;
+                                          begin.request.action = Calibrate::Request::BEGIN;
+                                          ::ros::service::call("/station/calibrate", begin);
+                                        }},
+                                       {"configure",
+                                        [] {
+                                          configure(1);
+                                          call("engage");
+                                        }},
+                                       {"stall", [] { stall(0.03); }}};
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> wait_s(0.0, 0.012);
+  std::int64_t worst_ns = 0;
+  int excused = 0;
+  for (int i = 0; i < stops; ++i) {
+    push();
+    if (HasFatalFailure()) {
+      return;
+    }
+    const Moment& moment = moments[static_cast<std::size_t>(i) % moments.size()];
+    if (i % 2 == 1) {
+      InjectFault inject;  // another reason is there already
+      inject.request.kind = "signal";
+      ::ros::service::call("/station/inject_fault", inject);
+    }
+    auto going_on = std::async(std::launch::async, moment.act);
+    std::this_thread::sleep_for(std::chrono::duration<double>(wait_s(random)));
+    const std::int64_t asked_ns = rt::monotonicNs();
+    ASSERT_TRUE(call("emergency_stop").success);
+    const std::int64_t answered_ns = rt::monotonicNs();
+    going_on.wait();
+    std::this_thread::sleep_for(20ms);
+    EXPECT_FALSE(call("engage").success) << moment.name;
+    const std::int64_t end_ns = rt::monotonicNs();
+    ASSERT_TRUE(eventually([&] { return force_.knownNs() > end_ns; }));
+    const std::int64_t last_ns = force_.lastForceNs();
+    EXPECT_LE(last_ns, answered_ns + kLimitNs) << moment.name << ": it does not stay so";
+    const bool is_excused = reference.sawGap(asked_ns, asked_ns + kLimitNs) ||
+                            std::string(moment.name) == "stall";  // nothing can be heard in it
+    excused += is_excused ? 1 : 0;
+    if (!is_excused) {
+      EXPECT_LE(last_ns, asked_ns + kLimitNs) << moment.name;
+      worst_ns = std::max(worst_ns, last_ns - asked_ns);
+    }
+    EXPECT_TRUE(stateBecomes(Status::FAULT)) << moment.name << ", stop " << i;
+  }
+  std::cout << stops << " emergency stops, force gone after "
+            << 1e-6 * static_cast<double>(worst_ns) << " ms at the latest; " << excused
+            << " met a stall, made on purpose or not\n";
+}
+
+// Somebody asks for things that take long, twice: both threads are taken that answer such calls.
+TEST_F(ForceTest, AStopWaitsForNobody) {
+  constexpr std::size_t kFarTooMany = 20'000;
+  startToPlay();
+  push();
+  std::vector<std::future<ConfigureEndEffectors::Response>> refusals;
+  for (int i = 0; i < 3; ++i) {
+    refusals.push_back(std::async(std::launch::async, [] { return configure(kFarTooMany); }));
+  }
+  std::this_thread::sleep_for(200ms);
+  const std::int64_t asked_ns = rt::monotonicNs();
+  EXPECT_TRUE(call("stop").success);
+  ASSERT_TRUE(eventually([&] { return force_.knownNs() > asked_ns + 200 * kNsPerMs; }));
+  EXPECT_LT(force_.lastForceNs(), asked_ns + 100 * kNsPerMs);
+  for (auto& refusal : refusals) {
+    const auto answer = refusal.get();
+    EXPECT_FALSE(answer.success);
+    EXPECT_THAT(answer.message,
+                AnyOf(HasSubstr("allowed: 0...64"), HasSubstr("being put in place")));
+  }
+}
+
+TEST_F(ForceTest, KeepsTheNewestValueOfEachParameter) {
+  startToPlay();
+  ::ros::Publisher topic = node_.advertise<ParameterValue>("/station/parameters", 10000);
+  ASSERT_TRUE(eventually([&] { return topic.getNumSubscribers() > 0; }));
+  constexpr int kValues = 2000;
+  ParameterValue value;
+  value.name = "stiffness";
+  for (int i = 0; i < kValues; ++i) {
+    value.value = 500.0 + 0.5 * i;
+    topic.publish(value);
+    std::this_thread::sleep_for(1ms);
+  }
+  const auto is_set = [&] {
+    const auto events = events_.messages();
+    return std::any_of(events.begin(), events.end(), [&](const Event& event) {
+      return event.type == Event::PARAMETER && event.value == value.value;
+    });
+  };
+  EXPECT_TRUE(eventually(is_set, 0.25)) << "not behind all the older ones";
+}
+
+TEST_F(ForceTest, AModelBringsForceBackForWhoLetItOutAndForNobodyElse) {
+  startToPlay();
+  push();
+  EXPECT_TRUE(load(wall("mine", kSmall)).success);
+  ASSERT_TRUE(eventually([this] { return plays("mine"); }));
+  EXPECT_TRUE(eventually([this] { return effort() < -kPushedN; }));
+  EXPECT_TRUE(stateBecomes(Status::PLAYING));
+
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("ergotic_yours_" + std::to_string(getpid()) + ".yaml");
+  std::ofstream(path) << wall("yours", kSmall);
+  const ChildProcess somebody(
+      {"/usr/bin/rosservice", "call", "/station/load_model", "model: " + path.string()});
+  ASSERT_TRUE(eventually([this] { return plays("yours"); }));
+  EXPECT_TRUE(stateBecomes(Status::READY));
+  EXPECT_TRUE(eventually([this] { return effort() == 0.0; }));
+  std::filesystem::remove(path);
+}
+
+TEST_F(ForceTest, ACallerAllowsNoMoreThanTheStation) {
+  std::string unproven = wall("unproven", kSmall);
+  const std::string mats = "mats:\n";
+  unproven.insert(unproven.find(mats) + mats.size(),
+                  "  bob: {type: mass, section: hand, mass: 0.01}\n");
+  const std::string lias = "lias:\n";
+  unproven.insert(unproven.find(lias) + lias.size(),
+                  "  steep: {type: cubic, between: [bob, ground], stiffness: 10, nonlinearity: "
+                  "1000, scheme: explicit}\n");
+  startToPlay();
+  const auto refused = load(unproven, true);
+  EXPECT_FALSE(refused.success);
+  EXPECT_EQ(refused.verdict, "unproven") << refused.message;
+  EXPECT_TRUE(plays("wall"));
+}
+
+}  // namespace
+}  // namespace ergotic::test

@@ -201,6 +201,7 @@ TEST_F(ForceTest, AnEmergencyStopBeforeTheFirstModelPlaysHolds) {
 /// What goes on when somebody hits the button.
 struct Moment {
   const char* name;
+  bool after_a_fault;
   std::function<void()> act;
 };
 
@@ -209,26 +210,28 @@ TEST_F(ForceTest, AnEmergencyStopHoldsFromItsRequestOnWhateverGoesOn) {
   const int stops = asked == nullptr ? 60 : std::atoi(asked);
   startToPlay();
   const ReferenceThreads reference;
-  const std::vector<Moment> moments = {{"load", [] { load(wall("other", kSmall)); }},
-                                       {"load more", [] { load(wall("more", kLarge)); }},
-                                       {"recover", [] { call("recover"); }},
-                                       {"recover, engage",
+  const std::vector<Moment> moments = {{"load", false, [] { load(wall("other", kSmall)); }},
+                                       {"load more", false, [] { load(wall("more", kLarge)); }},
+                                       {"recover", true, [] { call("recover"); }},
+                                       {"recover, engage", true,
                                         [] {
                                           call("recover");
                                           call("engage");
                                         }},
-                                       {"calibrate",
+                                       {"calibrate", false,
                                         [] {
                                           Calibrate begin;
                                           begin.request.action = Calibrate::Request::BEGIN;
                                           ::ros::service::call("/station/calibrate", begin);
                                         }},
-                                       {"configure",
+                                       {"configure", false,
                                         [] {
                                           configure(1);
                                           call("engage");
                                         }},
-                                       {"stall", [] { stall(0.03); }}};
+                                       {"stall", false, [] { stall(0.03); }}};
+  constexpr bool kPersistent = true;  // who may need it has found it before
+  auto button = node_.serviceClient<std_srvs::Trigger>("/station/emergency_stop", kPersistent);
   std::mt19937 random(13);
   std::uniform_real_distribution<double> wait_s(0.0, 0.012);
   std::int64_t worst_ns = 0;
@@ -239,15 +242,16 @@ TEST_F(ForceTest, AnEmergencyStopHoldsFromItsRequestOnWhateverGoesOn) {
       return;
     }
     const Moment& moment = moments[static_cast<std::size_t>(i) % moments.size()];
-    if (i % 2 == 1) {
-      InjectFault inject;  // another reason is there already
+    if (moment.after_a_fault) {
+      InjectFault inject;
       inject.request.kind = "signal";
       ::ros::service::call("/station/inject_fault", inject);
     }
     auto going_on = std::async(std::launch::async, moment.act);
     std::this_thread::sleep_for(std::chrono::duration<double>(wait_s(random)));
     const std::int64_t asked_ns = rt::monotonicNs();
-    ASSERT_TRUE(call("emergency_stop").success);
+    std_srvs::Trigger stop;
+    ASSERT_TRUE(button.call(stop));
     const std::int64_t answered_ns = rt::monotonicNs();
     going_on.wait();
     std::this_thread::sleep_for(20ms);
@@ -260,7 +264,8 @@ TEST_F(ForceTest, AnEmergencyStopHoldsFromItsRequestOnWhateverGoesOn) {
                             std::string(moment.name) == "stall";  // nothing can be heard in it
     excused += is_excused ? 1 : 0;
     if (!is_excused) {
-      EXPECT_LE(last_ns, asked_ns + kLimitNs) << moment.name;
+      EXPECT_LE(last_ns, asked_ns + kLimitNs)
+          << moment.name << ", answered after " << answered_ns - asked_ns << " ns";
       worst_ns = std::max(worst_ns, last_ns - asked_ns);
     }
     EXPECT_TRUE(stateBecomes(Status::FAULT)) << moment.name << ", stop " << i;

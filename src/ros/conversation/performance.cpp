@@ -20,9 +20,13 @@ using CommandType = station::Command::Type;
 using EventType = station::Event::Type;
 
 constexpr std::int64_t kObeyTimeoutNs = 1'000'000'000;
+// From a call to its arrival, where the caller has to find the service first.
+constexpr std::int64_t kOnItsWayNs = 50'000'000;
 constexpr std::size_t kGestureBatch = 256;
 constexpr double kLogPeriodS = 5.0;
 const char kNothingPlays[] = "nothing plays: load a model first";
+const char kWasOnItsWay[] =
+    "it was on its way when somebody asked for an emergency stop: ask again";
 const char kForceWaits[] = "\nforce is zero until engage";
 const char kTooMany[] = "too many requests wait for the real-time thread";
 
@@ -118,6 +122,9 @@ void Performance::engage(const ForceRequest& request, const Promise& promise) {
 }
 
 void Performance::recover(const ForceRequest& request, const Promise& promise) {
+  if (request.arrival.time_ns < emergency_ns_ + kOnItsWayNs) {
+    return answer(promise, false, kWasOnItsWay);
+  }
   if (engine_) {
     try {
       engine_->recover();
@@ -345,6 +352,9 @@ void Performance::tellPresence(bool is_held) {
 }
 
 bool Performance::makeSafe(tgr::FaultReason reason) {
+  if (reason == tgr::FaultReason::kEmergencyStop) {
+    emergency_ns_ = rt::monotonicNs();
+  }
   interlock_->latch(reason);
   const std::lock_guard lock(engine_mutex_);
   if (engine_) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <future>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -127,6 +129,7 @@ class Performance {
   Feed& feed_;
   std::shared_ptr<station::Interlock> interlock_;
   const OwnHost& own_host_;
+  std::atomic<std::int64_t> emergency_ns_{std::numeric_limits<std::int64_t>::min() / 2};
   const station::Ticket began_ = interlock_->ticket();  // when `autoengage` was asked for
   std::mutex engine_mutex_;  // held while engine_ changes, and by those that any thread may call
   std::unique_ptr<Engine> engine_;

@@ -9,6 +9,7 @@
 #include "ergotic/exception.hpp"
 #include "ergotic/physics/settling/settle.hpp"
 #include "ergotic/scene/scene.hpp"
+#include "ergotic/station/measure_load.hpp"
 
 namespace ergotic::station {
 namespace {
@@ -52,6 +53,14 @@ void warm(Performer& performer) {
   instrument.saveState(performer.initial.data());
   instrument.loadState(performer.initial.data());
   performer.publishMotion(0);
+}
+
+/// \throws Exception if its ticks would come late
+void requireLight(Performer& performer, double max_load) {
+  const double load = measureLoad(performer);
+  if (load > max_load) {
+    throw Exception(describeLoad(*performer.instrument, load, max_load));
+  }
 }
 
 }  // namespace
@@ -122,6 +131,10 @@ std::unique_ptr<Performer> makePerformer(scene::Scene scene,
   performer->allow_unproven = policy.allow_unproven || policy.allow_unstable;
   malloc_trim(0);  // reading leaves many times what stays, and locked memory would keep it all
   warm(*performer);
+  if (policy.max_load > 0.0) {
+    tell("measure");
+    requireLight(*performer, policy.max_load);
+  }
   return performer;
 }
 

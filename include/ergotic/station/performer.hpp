@@ -57,6 +57,7 @@ struct Performer {
 struct PerformerPolicy {
   bool allow_unproven = false;   ///< play what has no bound
   bool allow_unstable = false;   ///< play even what is known to blow up
+  double max_load = 0.0;         ///< of measureLoad; 0: it is not measured
   int slices = tgr::kMaxSlices;  ///< of the device that it will be played with
   physics::DeviceTraits device;  ///< what its passivity depends on
   tgr::EndEffectors end_effectors;
@@ -78,7 +79,7 @@ class RefusedScene : public Exception {
 /// Validates, settles, certifies, compiles and warms a scene: the instrument's is the settled one.
 /// Realtime: no. Thread: any
 /// \throws TextError or Exception if the scene is not valid, needs a slice that the device does not
-///         have; RefusedScene
+///         have, or is too heavy; RefusedScene
 std::unique_ptr<Performer> makePerformer(scene::Scene scene,
                                          const physics::Rates& rates,
                                          const physics::CompileOptions& options,

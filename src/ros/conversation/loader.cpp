@@ -120,6 +120,7 @@ Answer Loader::play(scene::Scene scene,
   station::PerformerPolicy policy;
   policy.on_stage = logStage;
   policy.allow_unproven = allow_unproven && terms->parameters.allow_unproven;
+  policy.max_load = terms->parameters.max_load;
   policy.slices = terms->slices;
   policy.device = terms->device;
   policy.end_effectors = terms->end_effectors;
@@ -138,6 +139,7 @@ Answer Loader::start(scene::Scene scene, bool allow_unproven, std::string& verdi
   station::PerformerPolicy policy;
   policy.on_stage = logStage;
   policy.allow_unproven = allow_unproven && parameters.allow_unproven;
+  policy.max_load = parameters.max_load;
   policy.slices = hands->slices();
   policy.device = hands->traits();
   policy.end_effectors = hands->config().end_effectors;

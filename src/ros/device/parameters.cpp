@@ -257,6 +257,7 @@ void visitParameters(Visitor& on, P& p) {
   on.integer("cpu", p.cpu, -1, 1023);
   on.choice("realtime", p.realtime, kRealtime);
   on.flag("allow_unproven", p.allow_unproven);
+  on.number("max_load", p.max_load, 0.01, 1000.0);
   on.flag("autoengage", p.autoengage);
   on.choice("force_after_swap", p.force_after_swap, kForceAfterSwap);
   on.flag("allow_remote", p.allow_remote);

@@ -56,6 +56,7 @@ struct Parameters {
   int cpu = -1;       ///< processor of the tick, -1: any
   Realtime realtime = Realtime::kTry;
   bool allow_unproven = false;  ///< play what the certificate cannot prove to be stable
+  double max_load = 0.8;        ///< share of a tick's time that the model may need at best
   bool autoengage = false;      ///< engage once the first model plays
   ForceAfterSwap force_after_swap = ForceAfterSwap::kLoader;
   bool allow_remote = false;   ///< other hosts may call; heard when the node starts

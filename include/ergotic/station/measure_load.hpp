@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "ergotic/physics/engine/instrument.hpp"
+#include "ergotic/station/performer.hpp"
+
+namespace ergotic::station {
+
+/// Share of the time between two ticks that the fastest of many ticks takes here and now, by the
+/// clock of the calling thread: 1 fills it. Ticks that meet cold caches, contacts or other programs
+/// take longer. The performer is left as it was made.
+/// \return 0 if a thread that shares its ticks does not keep up
+/// \pre it does not play. Realtime: no. Thread: any. Takes a tenth of a second, or five ticks
+double measureLoad(Performer& performer);
+
+/// What to say of a model that is too heavy: by how much, and what would help.
+/// \param load  of measureLoad, above `max_load`
+std::string describeLoad(const physics::Instrument& instrument, double load, double max_load);
+
+}  // namespace ergotic::station

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ergotic/station/measure_load.hpp"
+
+#include "ergotic/exception.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
+#include "support/test.hpp"
+
+namespace ergotic::station {
+namespace {
+
+/// Of so many modules, of which none is moved.
+scene::Scene plate(int rows) {
+  const std::string size = std::to_string(rows);
+  return scene::readYaml(
+      "ergotic: 1\nname: plate\nsections:\n  plate: {rate: audio}\ngenerators:\n"
+      "  - {type: mesh, name: plate, section: plate, rows: " +
+          size + ", columns: " + size +
+          ", spacing: 0.01, mass: 1.0e-4, stiffness: 2000, damping: 1.0e-3, edges: fixed}\n",
+      "plate.yaml");
+}
+
+std::unique_ptr<Performer> make(int rows, double max_load = 0.0) {
+  PerformerPolicy policy;
+  policy.max_load = max_load;
+  return makePerformer(plate(rows), {44100.0, 14}, {}, policy);
+}
+
+TEST(MeasureLoadTest, GrowsWithTheModel) {
+  const double small = measureLoad(*make(20));
+  const double large = measureLoad(*make(100));
+  EXPECT_GT(small, 0.0);
+  EXPECT_GT(large, 4.0 * small);
+}
+
+TEST(MeasureLoadTest, LeavesThePerformerAsItWasMade) {
+  const auto performer = make(20);
+  measureLoad(*performer);
+  std::vector<unsigned char> state(performer->instrument->stateSize());
+  performer->instrument->saveState(state.data());
+  EXPECT_EQ(state, performer->initial);
+  EXPECT_EQ(performer->ticks, 0);
+}
+
+TEST(MeasureLoadTest, RefusesWhatIsTooHeavyAndSaysByHowMuchAndWhatWouldHelp) {
+  EXPECT_NO_THROW(make(20, 100.0));
+  try {
+    make(100, 1e-4);
+    FAIL() << "it is too heavy";
+  } catch (const Exception& refusal) {
+    EXPECT_THAT(refusal.what(),
+                AllOf(HasSubstr("plate.yaml: error: "), HasSubstr("max_load = 0.0001"),
+                      HasSubstr("times less"), HasSubstr("energies: false")));
+  }
+}
+
+}  // namespace
+}  // namespace ergotic::station

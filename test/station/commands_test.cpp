@@ -280,7 +280,7 @@ TEST(KeyframeTest, OfALargeStateWaitsUntilThereIsNoForce) {
   ASSERT_TRUE(bench.command(Command::Type::kKeyframe));
   bench.run(100);
   EXPECT_EQ(test::count(bench.events(), Event::Type::kKeyframe), 0);
-  ASSERT_TRUE(bench.command(Command::Type::kStop));
+  bench.station->stop();
   bench.run(2);
   EXPECT_EQ(test::count(bench.events(), Event::Type::kKeyframe), 1);
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/conversation/arrivals.hpp"
 
-#include <boost/make_shared.hpp>
-
 #include "ergotic/rt/clock.hpp"
 
 namespace ergotic::node {
@@ -29,7 +27,7 @@ class Noted : public ::ros::CallbackInterface {
 
 void ArrivalQueue::addCallback(const ::ros::CallbackInterfacePtr& callback, std::uint64_t owner) {
   const Arrival now{rt::monotonicNs(), interlock_->ticket()};
-  next_.addCallback(boost::make_shared<Noted>(callback, now), owner);
+  next_.addCallback(::ros::CallbackInterfacePtr(new Noted(callback, now)), owner);
 }
 
 const Arrival& ArrivalQueue::ofThisCall() {

@@ -4,7 +4,6 @@
 #include <functional>
 #include <thread>
 
-#include <boost/make_shared.hpp>
 #include <ros/callback_queue.h>
 
 #include "support/test.hpp"
@@ -27,7 +26,7 @@ class Callback : public ::ros::CallbackInterface {
 class ArrivalQueueTest : public ::testing::Test {
  protected:
   void add(std::function<void()> act, std::uint64_t owner = 0) {
-    arrivals_.addCallback(boost::make_shared<Callback>(std::move(act)), owner);
+    arrivals_.addCallback(::ros::CallbackInterfacePtr(new Callback(std::move(act))), owner);
   }
   std::shared_ptr<station::Interlock> interlock_ = std::make_shared<station::Interlock>();
   ::ros::CallbackQueue queue_;

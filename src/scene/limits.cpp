@@ -43,7 +43,7 @@ std::string outOfRange(const std::string& what,
   const std::string unit = with_unit && *limits.unit != '\0' ? std::string(" ") + limits.unit : "";
   return what + " = " + numberText(value) + unit +
          " is out of range, allowed: " + limits.text(with_unit) +
-         (isTooLarge(value) ? ", up to 1e15 in size" : "") +
+         (isTooLarge(value) ? ", up to 1e30 in size" : "") +
          (isTooSmall(value, limits) ? ", at least 1e-30" : "");
 }
 

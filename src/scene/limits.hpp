@@ -11,8 +11,8 @@ namespace ergotic::scene {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Single precision holds 3e38: a product of two of these, steps, and what is far off by that.
-constexpr double kLargestNumber = 1e15;
+/// Single precision holds a hundred million times as much: room for steps and products.
+constexpr double kLargestNumber = 1e30;
 constexpr double kSmallestNumber = 1e-30;
 
 struct Limits {

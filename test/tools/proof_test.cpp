@@ -147,8 +147,8 @@ const std::string kMatched =
     "  g: {type: ground}\n  c: {type: cell, mass: 1, stiffness: 7.78e9, damping: 44100*$z}\n"
     "lias:\n  l: {type: spring, between: [c, g], stiffness: 1}\n";
 
-scene::Scene settled(const std::string& text) {
-  return physics::settle(scene::readYaml(text, "lie.yaml"), {44100.0, 14}).scene;
+scene::Scene settled(const std::string& text, const std::string& file = "lie.yaml") {
+  return physics::settle(scene::readYaml(text, file), {44100.0, 14}).scene;
 }
 
 /// What scripts/check_proof says of the proof of `text` if it stands beside the network of another.
@@ -159,7 +159,8 @@ std::string refusal(const std::string& text, const std::string& other, bool says
   EXPECT_LE(found, physics::Verdict::kBounded) << text;
   const ScratchFile file;
   const ScratchFile said;
-  tools::writeProof(file.path(), settled(other), rates,
+  const ScratchFile beside(other);
+  tools::writeProof(file.path(), settled(other, beside.path()), rates,
                     says_passive ? physics::Verdict::kPassive : found, proof);
   const int code = python("scripts/check_proof " + file.path() + " 2> " + said.path());
   EXPECT_EQ(code, said.text().empty() ? 0 : 1);

@@ -18,11 +18,16 @@ using scene::Lia;
 
 constexpr double kMostPower = 100.0;  // W, of a hand that moves a point
 constexpr double kMostLoad = 1e30;    // with products of it, what single precision holds
+constexpr double kMostForce = 1e36;   // likewise, with some of them on one module
 
 class LinkJudge {
  public:
   LinkJudge(const RatedNetwork& networks, Findings& findings)
-      : networks_(networks), loss_(networks), findings_(findings) {}
+      : networks_(networks), loss_(networks), findings_(findings) {
+    for (const scene::Mat& mat : networks.scene().mats) {
+      farthest_ = std::max(farthest_, mat.position.cwiseAbs().maxCoeff());
+    }
+  }
 
   void judge(int l) {
     const Lia& lia = networks_.scene().lias[at(l)];
@@ -33,6 +38,7 @@ class LinkJudge {
       return;
     }
     notePlaces(lia);
+    judgeForce(lia, slopes);
     judgeSignOfMoving(lia, slopes);
     noteTurning(lia);
     const scene::Law& law = scene::lawOf(lia.type);
@@ -148,6 +154,15 @@ class LinkJudge {
     }
   }
 
+  void judgeForce(const Lia& lia, const Slopes& slopes) {
+    const double force = slopes.stiffness.highest * (farthest_ + lia.rest_length);
+    if (!(force < kMostForce) && !slopes.is_unbounded) {
+      findings_.add(Verdict::kUnproven, lia.place,
+                    "link '" + lia.name + "' may come to a force of " + describe(force) +
+                        ", more than single precision can count with, up to 1e36");
+    }
+  }
+
   /// Signs of links at rest are judged as a network.
   void judgeSignOfMoving(const Lia& lia, const Slopes& slopes) {
     if ((slopes.stiffness.lowest < 0.0 || slopes.damping.lowest < 0.0) && networks_.isMoving(lia)) {
@@ -239,6 +254,7 @@ class LinkJudge {
   const RatedNetwork& networks_;
   EnergyLoss loss_;
   Findings& findings_;
+  double farthest_ = 0.0;  // of all modules at the start, from the origin, m
   std::map<std::pair<int, int>, Turning> turning_;  // by line and column
   std::set<const scene::Connection*> moving_;
 };

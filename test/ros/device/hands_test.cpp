@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include <sys/resource.h>
 
@@ -41,8 +42,18 @@ class FullDisk {
   sighandler_t handler_ = SIG_DFL;
 };
 
+/// Calibrations are written below a folder of the test.
 class HandsTest : public ::testing::Test {
  protected:
+  HandsTest() {
+    setenv("ROS_HOME", folder_.c_str(), 1);
+    fs::create_directories(fs::path(path_).parent_path());
+    std::ofstream(path_) << "the old calibration";
+  }
+  ~HandsTest() override {
+    unsetenv("ROS_HOME");
+    fs::remove_all(folder_);
+  }
   static tgr::StationDevices devices() {
     test::findBuiltPackages();
     return tgr::readDevices("devices:\n- {driver: virtual, settings: {slices: 2}}\n", "d.yaml");
@@ -52,39 +63,43 @@ class HandsTest : public ::testing::Test {
   }
 
   Hands hands_{devices(), false};
-  test::ScratchFile file_{"the old calibration"};
+  const std::string folder_ = "/tmp/ergotic_hands_" + std::to_string(::getpid());
+  const std::string path_ = folder_ + "/ergotic/devices.yaml";
 };
 
 TEST_F(HandsTest, AreWrittenInPlaceOfTheOldFile) {
-  hands_.save(file_.path());
-  EXPECT_EQ(file_.text(), tgr::toYaml(hands_.config()));
-  EXPECT_FALSE(fs::exists(file_.path() + ".new"));
+  hands_.save(path_);
+  EXPECT_EQ(textOf(path_), tgr::toYaml(hands_.config()));
+  EXPECT_FALSE(fs::exists(path_ + ".new"));
 }
 
 TEST_F(HandsTest, LeaveTheOldFileWhenTheDiskIsFull) {
   std::string refusal;
   {
     const FullDisk disk;
-    refusal = refusalOf(file_.path());
+    refusal = refusalOf(path_);
   }
-  EXPECT_EQ(refusal, file_.path() + ": cannot be written");
-  EXPECT_EQ(file_.text(), "the old calibration");
-  EXPECT_FALSE(fs::exists(file_.path() + ".new"));
+  EXPECT_EQ(refusal, path_ + ": cannot be written: File too large");
+  EXPECT_EQ(textOf(path_), "the old calibration");
+  EXPECT_FALSE(fs::exists(path_ + ".new"));
 }
 
 TEST_F(HandsTest, AreWrittenToWhatALinkPointsTo) {
-  const std::string link = file_.path() + ".link";
-  fs::create_symlink(file_.path(), link);
+  const std::string link = path_ + ".link";
+  fs::create_symlink(path_, link);
   hands_.save(link);
   EXPECT_TRUE(fs::is_symlink(link));
   fs::remove(link);
-  EXPECT_EQ(file_.text(), tgr::toYaml(hands_.config()));
+  EXPECT_EQ(textOf(path_), tgr::toYaml(hands_.config()));
 }
 
 TEST_F(HandsTest, ReplaceNothingButFiles) {
-  EXPECT_EQ(refusalOf("/dev/null"), "/dev/null: cannot be written, allowed: a file");
-  EXPECT_FALSE(fs::is_regular_file("/dev/null"));
-  EXPECT_EQ(refusalOf("/nowhere/devices.yaml"), "/nowhere/devices.yaml: cannot be written");
+  const std::string folder = folder_ + "/ergotic/folder";
+  fs::create_directories(folder);
+  EXPECT_EQ(refusalOf(folder), folder + ": cannot be written, allowed: a file");
+  EXPECT_TRUE(fs::is_directory(folder));
+  EXPECT_THAT(refusalOf("/dev/null"),
+              HasSubstr("cannot be written, allowed: files below " + folder_));
 }
 
 EndEffector handle() {

@@ -106,25 +106,24 @@ TEST(DriverThreadsTest, MadeSafeByAnotherThreadIsSafeFromTheNextExchangeOn) {
 
 TEST(DriverThreadsTest, TakesCalibrationsAndFaultsWhileTicksGoOn) {
   constexpr int kRounds = 2000;
-  SliceCalibration narrow;
-  narrow.is_calibrated = true;
-  narrow.metres_per_volt = 0.001;
-  narrow.volts_per_newton = 0.05;
-  SliceCalibration wide = narrow;
+  SliceCalibration plain;
+  plain.is_calibrated = true;
+  plain.metres_per_volt = 0.001;
+  plain.volts_per_newton = 0.05;
+  SliceCalibration narrow = plain;  // 4 mm at 0 V
+  narrow.rest_volts = -4.0;
+  SliceCalibration wide = plain;  // 2 mm; of half the one and half the other 1 or 8 mm
   wide.metres_per_volt = 0.002;
+  wide.rest_volts = -1.0;
   VirtualDriverConfig config;
   config.slices = 1;
   config.slice = test::plainSlice();
-  config.slice.volts = narrow;
+  config.slice.volts = plain;
   auto calibrated = makeCalibratedDriver(makeVirtualDriver(config), {{narrow}});
   CalibratedDriver& calibration = *calibrated;
   const auto faulty = makeFaultyDriver(std::move(calibrated));
   faulty->open(1000.0);
-  const double force = 2.0;  // 4 mm: 4 V
-  double settled = 0.0;
-  for (int n = 0; n < 3000; ++n) {
-    faulty->exchange(&force, &settled);
-  }
+  const double force = 0.0;
   std::atomic<bool> done{false};
   std::thread operators([&] {
     for (int round = 0; round < kRounds; ++round) {
@@ -137,6 +136,7 @@ TEST(DriverThreadsTest, TakesCalibrationsAndFaultsWhileTicksGoOn) {
     done = true;
   });
   int other = 0;
+  int met = 0;
   int jumps = 0;
   while (!done) {
     double x = 0.0;
@@ -144,13 +144,15 @@ TEST(DriverThreadsTest, TakesCalibrationsAndFaultsWhileTicksGoOn) {
     const bool jumped = x > 0.4;
     jumps += jumped ? 1 : 0;
     const double place = jumped ? x - 0.5 : x;
-    const bool is_either =
-        std::abs(place - settled) < 1e-6 || std::abs(place - 2.0 * settled) < 1e-6;
-    other += is_either ? 0 : 1;
+    const bool is_away = calibration.uncalibrated() != 0;  // for one exchange after each change
+    const bool is_either = std::abs(place - 0.004) < 1e-6 || std::abs(place - 0.002) < 1e-6;
+    other += is_away || is_either ? 0 : 1;
+    met += is_away ? 0 : 1;
     std::this_thread::yield();
   }
   operators.join();
   EXPECT_EQ(other, 0) << "neither of the two calibrations";
+  EXPECT_GT(met, 0);
   EXPECT_GT(jumps, 0);
 }
 

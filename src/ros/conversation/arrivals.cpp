@@ -6,7 +6,7 @@
 namespace ergotic::node {
 namespace {
 
-thread_local Arrival of_this_call;
+[[gnu::tls_model("initial-exec")]] thread_local Arrival of_this_call;
 
 class Noted : public ::ros::CallbackInterface {
  public:

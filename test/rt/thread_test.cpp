@@ -12,6 +12,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include "support/alloc_count.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::rt {
@@ -136,6 +137,9 @@ long freedButResidentKb() {
 }
 
 TEST(GiveMemoryBackTest, FreesLockedPagesAndLeavesTheRestLocked) {
+  if (!test::AllocationScope::isAvailable()) {
+    GTEST_SKIP() << "the sanitizer has its own heap";
+  }
   const pid_t child = fork();
   if (child == 0) {
     const bool locked = lockMemory().ok;

@@ -2,6 +2,7 @@
 #include <sys/resource.h>
 
 #include "scene/bad_text.hpp"
+#include "support/alloc_count.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::scene {
@@ -52,7 +53,9 @@ TEST(YamlErrorsTest, TooManyNodesAreRefusedBeforeTheyTakeRoom) {
   const auto before_kb = most_kb();
   EXPECT_THAT(complaintOf<TextError>([&] { readYaml(text, "many.yaml"); }),
               AllOf(StartsWith("many.yaml:2:"), HasSubstr("more than 2000000 scalars")));
-  EXPECT_LT(most_kb() - before_kb, 100'000);
+  if (test::AllocationScope::isAvailable()) {  // a sanitizer's heap gives nothing back for long
+    EXPECT_LT(most_kb() - before_kb, 100'000);
+  }
 }
 
 TEST(YamlErrorsTest, TitlesThatEveryStatusCarriesAreShort) {

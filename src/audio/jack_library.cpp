@@ -3,6 +3,8 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <future>
 #include <memory>
@@ -11,6 +13,8 @@
 #include <utility>
 
 #include <jack/jack.h>
+
+#include "ergotic/rt/clock.hpp"
 
 namespace ergotic::audio::jack_library {
 
@@ -87,6 +91,23 @@ bool callPatiently(std::function<void()> call) {
 bool isStuck() {
   const std::lock_guard<std::mutex> lock(calls_mutex);
   return calls_out != 0;
+}
+
+std::int64_t clockOffsetNs() {
+  constexpr std::int64_t kNsPerUs = 1000;
+  std::int64_t offset = 0;
+  std::int64_t narrowest = INT64_MAX;
+  for (int i = 0; i < 16; ++i) {
+    const std::int64_t before = rt::monotonicNs();
+    const auto jack_ns = static_cast<std::int64_t>(jack_get_time()) * kNsPerUs;
+    const std::int64_t after = rt::monotonicNs();
+    if (after - before < narrowest) {
+      narrowest = after - before;
+      offset = jack_ns - (before + narrowest / 2);
+    }
+  }
+  // jack_get_time truncates to a microsecond.
+  return std::abs(offset) <= kNsPerUs + narrowest ? 0 : offset;
 }
 
 }  // namespace ergotic::audio::jack_library

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -19,5 +20,8 @@ bool callPatiently(std::function<void()> call);
 
 /// A call above has not come back: libjack holds its lock, no client can be opened. Thread: any
 bool isStuck();
+
+/// JACK's clock minus CLOCK_MONOTONIC, ns; 0 if they agree as far as can be told. Thread: any
+std::int64_t clockOffsetNs();
 
 }  // namespace ergotic::audio::jack_library

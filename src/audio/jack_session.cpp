@@ -22,23 +22,6 @@ namespace {
 
 constexpr std::int64_t kNsPerUs = 1000;
 
-/// JACK's clock minus CLOCK_MONOTONIC, ns; 0 if they agree as far as can be told.
-std::int64_t jackClockOffset() {
-  std::int64_t offset = 0;
-  std::int64_t narrowest = INT64_MAX;
-  for (int i = 0; i < 16; ++i) {
-    const std::int64_t before = rt::monotonicNs();
-    const auto jack_ns = static_cast<std::int64_t>(jack_get_time()) * kNsPerUs;
-    const std::int64_t after = rt::monotonicNs();
-    if (after - before < narrowest) {
-      narrowest = after - before;
-      offset = jack_ns - (before + narrowest / 2);
-    }
-  }
-  // jack_get_time truncates to a microsecond.
-  return std::abs(offset) <= kNsPerUs + narrowest ? 0 : offset;
-}
-
 [[noreturn]] void fail(const std::string& what) {
   const std::string reason = jack_library::takeMessage();
   throw DeviceError("JACK: " + what + (reason.empty() ? "" : ": " + reason));
@@ -303,7 +286,7 @@ void JackSession::activate(const JackConfig& config, rt::AudioProcessor& process
 }
 
 void JackSession::resume() {
-  core_->clock_offset_ns = jackClockOffset();
+  core_->clock_offset_ns = jack_library::clockOffsetNs();
   core_->changed = false;  // what changes from here on is noted again
   core_->period = jack_get_buffer_size(core_->client);
   core_->processor->audioStarted(sampleRate(), core_->period);

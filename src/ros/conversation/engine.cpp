@@ -130,8 +130,8 @@ Engine::~Engine() {
   master_watch_.reset();
   source_->stop();
   watchdog_->stop();
-  station_
-      .reset();  // the device is given back before its guardian and JACK, which may take its time
+  // The device is given back before its guardian, and before JACK, which may take its time.
+  station_.reset();
 }
 
 void Engine::startWatchdog() {

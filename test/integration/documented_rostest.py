@@ -36,6 +36,7 @@ class DocumentedTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.wait_for_service("/station/engage", 60)
+        rospy.wait_for_message("/station/model_state", rospy.AnyMsg, 60)  # all is offered by then
         cls.master = rosgraph.Master("/documented")
         cls.published, cls.subscribed, cls.services = cls.master.getSystemState()
         cls.types = dict(cls.master.getTopicTypes())

@@ -87,6 +87,7 @@ class Search {
 
 /// Until enough is recorded. \return why it ended before that, empty: it did not
 std::string record(JackSession& session,
+                   const std::vector<std::string>& sources,
                    Semaphore& wake,
                    const std::atomic<bool>& stop,
                    Recorder& recorder,
@@ -100,6 +101,11 @@ std::string record(JackSession& session,
     }
     if (session.takeChange()) {
       return "the JACK server changed its period or freewheels";
+    }
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+      if (!session.isConnected(static_cast<int>(i))) {  // from here on there would be silence
+        return "`" + sources[i] + "` went away";
+      }
     }
   }
   return "";
@@ -137,7 +143,7 @@ CaptureReport capture(const CaptureConfig& config,
   }
   const std::int64_t limit =
       config.seconds > 0.0 ? std::llround(config.seconds * report.sample_rate_hz) : INT64_MAX;
-  report.message = record(*session, *wake, stop, recorder, file, limit);
+  report.message = record(*session, sources, *wake, stop, recorder, file, limit);
   session->pause();
   recorder.finish(file, limit);
   file.finish();

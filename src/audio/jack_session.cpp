@@ -339,6 +339,10 @@ bool JackSession::isSource(const std::string& exact) const {
   return port != nullptr && (jack_port_flags(port) & JackPortIsOutput) != 0;
 }
 
+bool JackSession::isConnected(int input) const {
+  return jack_port_connected(core_->inputs[static_cast<std::size_t>(input)]) > 0;
+}
+
 void JackSession::connectInput(int input, const std::string& source) {
   const char* own = jack_port_name(core_->inputs[static_cast<std::size_t>(input)]);
   if (jack_connect(core_->client, source.c_str(), own) != 0) {

@@ -56,6 +56,8 @@ class JackSession {
   bool isSource(const std::string& exact) const;
   /// \param input  index of our port. \throws DeviceError
   void connectInput(int input, const std::string& source);
+  /// Whether anything is connected to one of our inputs: what was ends with its client.
+  bool isConnected(int input) const;
   /// out_i to the i-th physical playback port, unless another output of this process is wired to
   /// it; what is connected there stays.
   void connectToPlayback();

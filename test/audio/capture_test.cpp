@@ -128,6 +128,23 @@ TEST_F(CaptureTest, KeepsWhatItHasWhenTheServerIsKilled) {
   EXPECT_EQ(WavReader(config_.path).frames(), report.frames);
 }
 
+TEST_F(CaptureTest, EndsWhereWhatItRecordsGoesAway) {
+  server_.start();
+  auto sender = std::make_unique<JackHost>(sender_config_, probe_);
+  config_.ports = {"sender:out_1"};
+  config_.seconds = 60.0;
+  std::atomic<bool> recording{false};
+  auto recorder = std::async(std::launch::async, [&] {
+    return capture(config_, stop_, [&](const std::vector<std::string>&) { recording = true; });
+  });
+  EXPECT_TRUE(eventually([&] { return recording.load(); }));
+  sender.reset();
+  const CaptureReport report = recorder.get();
+  EXPECT_EQ(report.message, "`sender:out_1` went away");
+  EXPECT_LT(report.frames, 44100 * 30);
+  EXPECT_EQ(WavReader(config_.path).frames(), report.frames);
+}
+
 TEST_F(CaptureTest, SaysWhatItWaitedForInVain) {
   config_.wait_s = 0.3;
   EXPECT_THROW(capture(config_, stop_), Exception);  // no ports named

@@ -130,3 +130,12 @@ start_private_master() {
   master_runs() { timeout 10 rosnode list; }
   wait_until 30 master_runs
 }
+
+# A display in memory, drawn by the processor. \return 1 if there is none within 15 seconds
+start_display() {
+  spawn xvfb Xvfb -displayfd 1 -screen 0 1280x800x24 -nolisten tcp
+  has_display() { [ -s "$logs/xvfb.out" ]; }
+  wait_until 15 has_display || return 1
+  DISPLAY=":$(<"$logs/xvfb.out")"
+  export DISPLAY LIBGL_ALWAYS_SOFTWARE=1 QT_QPA_PLATFORM=xcb XDG_RUNTIME_DIR="$logs"
+}

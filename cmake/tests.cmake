@@ -88,6 +88,9 @@ foreach(script build check_includes demo_report soak_report bench_faust latency 
 endforeach()
 add_test(NAME scripts.draw_rooms
   COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/draw_rooms --check)
+add_test(NAME scripts.documents
+  COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/documents_test.py
+          $<TARGET_FILE_DIR:render>)
 add_test(NAME scripts.compare_builds
   COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/compare_builds_test.py
           $<TARGET_FILE_DIR:render>)

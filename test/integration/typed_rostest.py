@@ -1,0 +1,93 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every line that README.md and docs/ros.md show for a shell, typed into one beside a station."""
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+import rospy
+import rostest
+
+ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
+
+
+def text_of(*path):
+    with open(os.path.join(ROOT, *path), encoding="utf-8") as file:
+        return file.read()
+
+
+def shown(document):
+    """Command lines of a document, without what follows `#`; some go over several lines."""
+    lines = []
+    for block in re.findall(r"^```(?:sh)?\n(.*?)^```$", text_of(document), re.DOTALL | re.MULTILINE):
+        block = re.sub(r" +# .*", "", block).replace("\\\n", "")
+        starts = r"^(?=roslaunch |rosservice |rostopic |rosrun |rosbag |scripts/station)"
+        lines += [line.strip() for line in re.split(starts, block, flags=re.MULTILINE)
+                  if re.match(starts, line)]
+    return lines
+
+
+def tried(line):
+    """What is run in place of a line: no second station, no window, no recording without end."""
+    launch = re.match(r"(scripts/station|roslaunch ergotic station.launch)(?! --)", line)
+    if launch:
+        return line.replace(launch.group(1), "roslaunch --nodes ergotic station.launch")
+    if line == "rosbag record -a":
+        return "timeout --signal=INT 5 rosbag record -a; mv *.bag performance.bag"
+    return line
+
+
+class TypedTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.wait_for_service("/station/engage", 60)
+        rospy.wait_for_message("/station/model_state", rospy.AnyMsg, 60)
+
+    def setUp(self):
+        """A folder like a user's: a clone, with a scene of one's own."""
+        self.folder = tempfile.TemporaryDirectory()
+        for name in ("models", "config"):
+            os.symlink(os.path.join(ROOT, name), os.path.join(self.folder.name, name))
+        with open(os.path.join(self.folder.name, "my_scene.yaml"), "w", encoding="utf-8") as file:
+            file.write(re.search(r"```yaml\n(.*?)```", text_of("docs/scene.md"), re.DOTALL).group(1))
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def type_all(self, document):
+        """{line: what came of it}; each has to succeed, as far as a shell knows."""
+        said = {}
+        for line in shown(document):
+            if line.startswith("scripts/station --demo"):
+                continue  # which runs as a whole before every change
+            done = subprocess.run(["bash", "-c", tried(line)], cwd=self.folder.name, timeout=60, text=True,
+                                  stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, check=False)
+            self.assertEqual(done.returncode, 0, f"{line}\n{done.stdout}")
+            said[line] = done.stdout
+        return said
+
+    def test_lines_of_the_readme_do_what_they_say(self):
+        said = self.type_all("README.md")
+        for line, answer in said.items():
+            if line.startswith("rosservice"):
+                self.assertIn("success: True", answer, line)
+        self.assertEqual(len(said), 12)
+
+    def test_lines_of_the_docs_are_understood(self):
+        self.assertEqual(len(self.type_all("docs/ros.md")), 12)
+
+    def test_arguments_of_the_launch_file_are_its_own(self):
+        launch = xml.etree.ElementTree.fromstring(text_of("launch", "station.launch"))
+        known = {argument.get("name") for argument in launch.iter("arg")}
+        used = {name for document in ("README.md", "docs/ros.md", "docs/safety.md", "docs/tgr.md")
+                for name in re.findall(r"(?<![\w:])([a-z_]+):=", text_of(document))}
+        self.assertEqual(used - known, set())
+
+
+if __name__ == "__main__":
+    rospy.init_node("typed")
+    rostest.rosrun("ergotic", "typed", TypedTest)

@@ -47,6 +47,11 @@ target_compile_definitions(drivers_rostest PRIVATE COMEDI_STANDIN="$<TARGET_FILE
 add_dependencies(drivers_rostest
   ergotic_ros ergotic_comedi_plugin ergotic_jack_plugin comedi_standin jack_tgr)
 
+# Who reaches a station from another host, with masters of its own.
+add_test(NAME integration.remote
+  COMMAND ${in_devel_space} ${PROJECT_SOURCE_DIR}/test/integration/remote_test.py)
+set_tests_properties(integration.remote PROPERTIES RUN_SERIAL TRUE TIMEOUT 300 LABELS integration)
+
 # roslaunch reads the file, finds every package and every substitution, and names the nodes.
 file(GLOB launch_files CONFIGURE_DEPENDS launch/*.launch)
 foreach(launch ${launch_files})

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "ergotic/tgr/calibration.hpp"
 #include "tgr/calibration_rules.hpp"
 #include "tgr/require.hpp"
+#include "tgr/slice_push.hpp"
 
 namespace ergotic::tgr {
 namespace {
@@ -64,7 +66,10 @@ class CalibratedDriverOverRaw final : public CalibratedDriver {
     uncalibrated_ = table_.latest().uncalibrated;
   }
 
-  void open(double tick_rate_hz) override { raw_->open(tick_rate_hz); }
+  void open(double tick_rate_hz) override {
+    raw_->open(tick_rate_hz);
+    push_.open(1.0 / tick_rate_hz, 1 + raw_->extraDelayTicks());
+  }
   void close() noexcept override { raw_->close(); }
   void reconnect() override { raw_->reconnect(); }
   int slices() const noexcept override { return raw_->slices(); }
@@ -85,12 +90,25 @@ class CalibratedDriverOverRaw final : public CalibratedDriver {
     requireWithin("slice of the calibration", slice, 0, slices() - 1, "");
     checkCalibration(calibration, " of slice " + std::to_string(slice));
     SliceCalibration& old = calibration_.slices[static_cast<std::size_t>(slice)];
+    const bool is_elsewhere = calibration.metres_per_volt != old.metres_per_volt ||
+                              calibration.rest_volts != old.rest_volts;
     renewals_[static_cast<std::size_t>(slice)] +=
-        old.is_calibrated && calibration.is_calibrated ? 1U : 0U;
+        old.is_calibrated && calibration.is_calibrated && is_elsewhere ? 1U : 0U;
     old = calibration;
     publish();
   }
   const Calibration& calibration() const noexcept override { return calibration_; }
+
+  void push(int slice, double newtons) override {
+    requireWithin("slice to push", slice, 0, slices() - 1, "");
+    requireWithin("push", newtons, kLeastPushN, kPushN, "N");
+    if (!calibration_.slices[static_cast<std::size_t>(slice)].is_calibrated) {
+      throw Exception("slice " + std::to_string(slice) + " has no calibration yet");
+    }
+    push_.begin(slice, newtons);
+  }
+  void endPush() noexcept override { push_.end(); }
+  std::optional<Push> takePush() noexcept override { return push_.take(); }
 
   void readVolts(double* volts) noexcept override {
     volts_.refresh();
@@ -107,6 +125,13 @@ class CalibratedDriverOverRaw final : public CalibratedDriver {
     for (std::size_t i = 0; i < count; ++i) {
       outputs_[i] = voltsOf(hasBit(away, i) ? 0.0 : forces[i], table[i]);
     }
+    const int pushed = push_.slice();
+    bool may_push = false;
+    if (pushed >= 0) {
+      const auto slice = static_cast<std::size_t>(pushed);
+      may_push = forces[slice] == 0.0 && !hasBit(away, slice);
+      outputs_[slice] = may_push ? voltsOf(push_.force(), table[slice]) : outputs_[slice];
+    }
     Slices& sensors = volts_.draft();
     const std::uint32_t flags = raw_->exchange(outputs_.data(), sensors.data());
     if ((flags & kDeviceLost) == 0) {
@@ -114,6 +139,10 @@ class CalibratedDriverOverRaw final : public CalibratedDriver {
         positions_[i] = hasBit(away, i) ? 0.0 : positionOf(sensors[i], table[i]);
       }
       volts_.publish();
+    }
+    if (pushed >= 0) {
+      push_.follow(positions_[static_cast<std::size_t>(pushed)],
+                   may_push && (flags & (kDeviceLost | kMadeSafe)) == 0);
     }
     std::copy_n(positions_.begin(), count, positions);
     return flags;
@@ -152,6 +181,8 @@ class CalibratedDriverOverRaw final : public CalibratedDriver {
   std::atomic<std::uint64_t> uncalibrated_{0};  // bits
   rt::Mailbox<Table> table_;                    // to the tick
   rt::Mailbox<Slices> volts_;                   // to the operator
+
+  SlicePush push_;
 
   // The tick's own.
   std::array<std::uint32_t, kMaxSlices> seen_{};

@@ -129,6 +129,7 @@ void checkCalibration(const SliceCalibration& c, const std::string& of) {
   require("metres_per_volt" + of, c.metres_per_volt, kMetresPerVoltLimits);
   require("volts_per_newton" + of, c.volts_per_newton, kVoltsPerNewtonLimits);
   requireFullScale(c, of);
+  require("checked" + of, c.checked, kCheckedLimits);
   require("residual_m" + of, c.residual_m, kErrorLimits);
   require("noise_m" + of, c.noise_m, kErrorLimits);
   require("zero_volts" + of, c.zero_volts,
@@ -143,6 +144,44 @@ void checkCalibration(const SliceCalibration& c, const std::string& of) {
                     " and volts_per_newton = " + numberText(c.volts_per_newton) + of +
                     ", allowed: neither is 0 in a slice that is calibrated");
   }
+}
+
+bool isChecked(const SliceCalibration& c) {
+  constexpr double kRounding = 1e-6;
+  const double now = c.metres_per_volt * c.volts_per_newton;
+  return c.is_calibrated && std::abs(c.checked - now) <= kRounding * std::abs(now);
+}
+
+double judgePush(const Push& push, double mass_kg) {
+  // A hand, friction and other masses than was said: what counts is a factor of ten.
+  constexpr double kLeast = 0.2;
+  constexpr double kMost = 4.0;
+  if (push.seconds == 0.0 && push.moved_m != 0.0) {
+    throw Exception("the slice moved by " + numberText(1e3 * push.moved_m) +
+                    " mm before it was pushed, allowed: at most " + numberText(1e3 * kRestM) +
+                    " mm in " + numberText(kRestS) + " s: hands off, and wait until it rests");
+  }
+  if (!(push.seconds > 0.0)) {
+    throw Exception(
+        "the push was ended before it told anything: force was taken away or let out, the device is"
+        " lost, or the sensor is at its rail");
+  }
+  const double force = 6.0 * mass_kg * kPushS * push.moved_m / std::pow(push.seconds, 3);
+  const std::string what = "a push of up to " + numberText(push.newtons) +
+                           " N moved the slice by " + numberText(1e3 * push.moved_m) + " mm in " +
+                           numberText(1e3 * push.seconds) + " ms, as one of " + numberText(force) +
+                           " N would: ";
+  if (force < -kLeast * push.newtons) {
+    throw Exception(what + "the sign of volts_per_newton or of metres_per_volt is wrong");
+  }
+  if (!(force >= kLeast * push.newtons && force <= kMost * push.newtons)) {
+    throw Exception(what +
+                    "volts_per_newton is wrong, or a hand holds the slice, or the amplifier is"
+                    " off, allowed: " +
+                    numberText(kLeast * push.newtons) + "..." + numberText(kMost * push.newtons) +
+                    " N");
+  }
+  return force;
 }
 
 SliceCalibration fit(const std::vector<CalibrationPoint>& points,

@@ -15,6 +15,7 @@ constexpr scene::Limits kMaxVoltsLimits{"V", 0.0, 1000.0, true};
 constexpr scene::Limits kMetresPerVoltLimits{"m/V", -10.0, 10.0};
 constexpr scene::Limits kVoltsPerNewtonLimits{"V/N", -100.0, 100.0};
 constexpr scene::Limits kFullScaleLimits{"N", 0.0, 1000.0};
+constexpr scene::Limits kCheckedLimits{"m/N", -1000.0, 1000.0};
 constexpr scene::Limits kErrorLimits{"m", 0.0, 1.0};
 
 /// What zero volts may do to a hand. A device is at zero volts when it is made safe, when its

@@ -22,7 +22,7 @@ struct Field {
 };
 
 /// Every number of a slice, in the order in which they are written.
-constexpr std::array<Field, 10> kFields{
+constexpr std::array<Field, 11> kFields{
     {{"metres_per_volt", &SliceCalibration::metres_per_volt, kMetresPerVoltLimits},
      {"rest_volts", &SliceCalibration::rest_volts, kVoltsLimits},
      {"low_volts", &SliceCalibration::low_volts, kVoltsLimits},
@@ -31,6 +31,7 @@ constexpr std::array<Field, 10> kFields{
      {"zero_volts", &SliceCalibration::zero_volts, kVoltsLimits},
      {"max_volts", &SliceCalibration::max_volts, kMaxVoltsLimits},
      {"full_scale_newtons", &SliceCalibration::full_scale_newtons, kFullScaleLimits},
+     {"checked", &SliceCalibration::checked, kCheckedLimits},
      {"residual_m", &SliceCalibration::residual_m, kErrorLimits},
      {"noise_m", &SliceCalibration::noise_m, kErrorLimits}}};
 

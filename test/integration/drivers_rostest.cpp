@@ -6,9 +6,11 @@
 #include <iostream>
 #include <map>
 #include <optional>
+#include <regex>
 #include <thread>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <ergotic/Calibrate.h>
 #include <ergotic/GestureBlock.h>
 #include <ergotic/Status.h>
 #include <ros/ros.h>
@@ -217,10 +219,17 @@ constexpr int kPluggedInS = 25;
 constexpr int kUnpluggedS = 2;
 constexpr double kBoardWall = 1000.0;  // N/m
 
+/// The board of the example, as if its slices had answered their pushes.
+std::string checkedBoard() {
+  const std::string gain = "volts_per_newton: 0.05";
+  return std::regex_replace(textOf(repository("config/comedi.yaml")), std::regex(gain),
+                            gain + ", checked: 0.0002");
+}
+
 TEST(ComediStationTest, PlaysUntilItsBoardIsGoneAndAgainWhenItIsBack) {
   const ScratchFile gesture(pressesOfAHand());
   const StationProcess station(
-      repository("config/comedi.yaml"), kBoardWall, "none",
+      checkedBoard(), kBoardWall, "none",
       {{"LD_PRELOAD", COMEDI_STANDIN},
        {"COMEDI_STANDIN_RATE_HZ", std::to_string(kTickHz)},
        {"COMEDI_STANDIN_GESTURE", gesture.path()},
@@ -255,7 +264,7 @@ const char kCard[] = R"(devices:
       volts_per_unit: 10
       wait_s: 3
     calibration:
-      - {metres_per_volt: 0.005, volts_per_newton: 0.05}
+      - {metres_per_volt: 0.005, volts_per_newton: 0.05, checked: 0.00025}
 )";
 
 class JackStationTest : public ::testing::Test {
@@ -334,6 +343,55 @@ TEST_F(JackStationTest, SaysThatItsServerIsGoneThoughNothingTicks) {
   server_.start();
   station.expectComesBack(forceBehind(kCardWall));
 }
+
+/// A virtual device of which 0.05 V are a newton upwards, and what its calibration says of that.
+std::string deviceBelievedToHave(double volts_per_newton, double full_scale) {
+  std::ostringstream text;
+  text << R"(devices:
+  - driver: virtual
+    settings: {slices: 1, volts: {metres_per_volt: 0.005, volts_per_newton: 0.05}}
+    calibration:
+      - {metres_per_volt: 0.005, volts_per_newton: )"
+       << volts_per_newton << ", full_scale_newtons: " << full_scale << "}\n";
+  return text.str();
+}
+
+struct Belief {
+  double volts_per_newton = 0.0;
+  double full_scale = 0.0;
+  const char* complaint = "";
+};
+
+Calibrate::Response check() {
+  Calibrate calibrate;
+  calibrate.request.action = Calibrate::Request::CHECK;
+  EXPECT_TRUE(::ros::service::call("/station/calibrate", calibrate));
+  return calibrate.response;
+}
+
+class WrongGainTest : public ::testing::TestWithParam<Belief> {};
+
+// Ten times too much would be 167 N in place of 15; the wrong sign pulls the hand into the wall.
+TEST_P(WrongGainTest, LetsNoForceOut) {
+  const Belief belief = GetParam();
+  const StationProcess station(deviceBelievedToHave(belief.volts_per_newton, belief.full_scale),
+                               kBoardWall, "none", {});
+  ASSERT_TRUE(station.becomes(Status::READY)) << station.status().message;
+  EXPECT_THAT(call("engage").message, HasSubstr("slice 0 was not checked"));
+  const auto checked = check();
+  EXPECT_FALSE(checked.success);
+  EXPECT_THAT(checked.message, HasSubstr(belief.complaint));
+  EXPECT_FALSE(call("engage").success);
+  EXPECT_TRUE(station.isWithoutForce());
+  EXPECT_EQ(station.status().state, Status::READY) << station.status().state_text;
+}
+
+INSTANTIATE_TEST_SUITE_P(Beliefs,
+                         WrongGainTest,
+                         ::testing::Values(Belief{0.5, 20.0, "volts_per_newton is wrong"},
+                                           Belief{0.01, 1000.0, "volts_per_newton is wrong"},
+                                           Belief{-0.05, 200.0, "the sign of volts_per_newton"},
+                                           Belief{0.05, 0.0, "full_scale_newtons of slice 0"}));
 
 }  // namespace
 }  // namespace ergotic::test

@@ -31,7 +31,7 @@ namespace {
 const char kDevices[] = R"(devices:
   - driver: virtual
     settings: {slices: 2, volts: {metres_per_volt: -0.004, rest_volts: 1.5, volts_per_newton: 0.05}}
-    calibration: [{volts_per_newton: 0.05}, {volts_per_newton: 0.05}]
+    calibration: [{volts_per_newton: 0.05, full_scale_newtons: 200}, {volts_per_newton: 0.05, full_scale_newtons: 200}]
   - driver: virtual
     settings: {slices: 3}
 )";
@@ -233,6 +233,30 @@ TEST_F(HandsTest, IsGuidedThroughACalibrationThatTakesEffectAndIsWritten) {
   EXPECT_TRUE(stateBecomes(Status::READY));
   EXPECT_THAT(textOf(file), HasSubstr("metres_per_volt: -0.00"));
   std::filesystem::remove(file);
+}
+
+TEST_F(HandsTest, EngagesWhenEachCalibratedSliceHasAnsweredAPush) {
+  ASSERT_TRUE(stateBecomes(Status::READY));
+  EXPECT_THAT(call("engage").message, HasSubstr("slice 0 was not checked"));
+  EXPECT_THAT(calibrate(Calibrate::Request::CHECK, 2).message, HasSubstr("speaks metres"));
+  ASSERT_TRUE(call("emergency_stop").success);
+  EXPECT_THAT(calibrate(Calibrate::Request::CHECK, 0).message, HasSubstr("recover first"));
+  ASSERT_TRUE(eventually([] { return call("recover").success != 0U; }));
+
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));  // until the hand is at rest
+  const auto first = calibrate(Calibrate::Request::CHECK, 0);
+  EXPECT_TRUE(first.success) << first.message;
+  EXPECT_THAT(call("engage").message, HasSubstr("slice 1 was not checked"));
+  auto ended =
+      std::async(std::launch::async, [] { return calibrate(Calibrate::Request::CHECK, 1); });
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  ASSERT_TRUE(call("stop").success);
+  EXPECT_THAT(ended.get().message, HasSubstr("force was taken away"));
+  const auto second = calibrate(Calibrate::Request::CHECK, 1);
+  EXPECT_TRUE(second.success) << second.message;
+  ASSERT_TRUE(call("engage").success);
+  EXPECT_THAT(calibrate(Calibrate::Request::CHECK, 0).message, HasSubstr("stop first"));
+  ASSERT_TRUE(call("stop").success);
 }
 
 TEST_F(HandsTest, LetsOneHandFeelTheOtherThroughTheModel) {

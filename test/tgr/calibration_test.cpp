@@ -269,6 +269,16 @@ TEST_F(CalibratedDriverTest, TakesASliceAwayForOneExchangeWhenItIsCalibratedAnew
   EXPECT_DOUBLE_EQ(positions_[0], 0.03);
 }
 
+TEST(CalibrationCheckTest, HoldsForTheGainsThatWereChecked) {
+  SliceCalibration c = someCalibration();
+  EXPECT_FALSE(isChecked(c));
+  c.checked = c.metres_per_volt * c.volts_per_newton;
+  EXPECT_TRUE(isChecked(c));
+  EXPECT_TRUE(isChecked(readCalibration(toYaml(Calibration{{c}}), "c.yaml").slices.at(0)));
+  c.volts_per_newton *= -1.0;
+  EXPECT_FALSE(isChecked(c));
+}
+
 TEST_F(CalibratedDriverTest, TakesSlicesThatNobodyCalibratedForUncalibrated) {
   EXPECT_EQ(open({}).uncalibrated(), 3U);
   EXPECT_EQ(driver_->calibration().slices.size(), 2U);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,36 @@ struct SliceCalibration {
   double zero_volts = 0.0;
   double max_volts = 10.0;          ///< the output's range is +-max_volts
   double full_scale_newtons = 0.0;  ///< what max_volts really give, as was measured; 0: not known
-  double residual_m = 0.0;          ///< rms of the fit
-  double noise_m = 0.0;             ///< rms of the sensor at rest
+  /// metres_per_volt times volts_per_newton as it was when a push was answered; of another product
+  /// nothing is known. 0: never
+  double checked = 0.0;
+  double residual_m = 0.0;  ///< rms of the fit
+  double noise_m = 0.0;     ///< rms of the sensor at rest
 };
+
+/// Whether a push has told sign and scale of these very gains.
+bool isChecked(const SliceCalibration& calibration);
+
+// A push is a force that grows in a straight line, until a slice that was at rest has moved.
+constexpr double kRestS = 0.1;   ///< before it
+constexpr double kRestM = 1e-4;  ///< most that a slice moves meanwhile that is at rest
+constexpr double kPushN = 1.0;   ///< most that is asked for, at its end
+constexpr double kLeastPushN = 0.1;
+constexpr double kPushS = 0.05;   ///< it ends then
+constexpr double kPushM = 0.001;  ///< or there, which too large a gain reaches while it is weak
+
+/// How a slice answered a push upwards.
+struct Push {
+  double newtons = 0.0;  ///< that were asked for after `kPushS`
+  double moved_m = 0.0;  ///< until it ended, as the calibration says
+  double seconds = 0.0;  ///< from when the device had the force; 0: it never had, or not to the end
+};
+
+/// \param mass_kg  that the push moves
+/// \throws Exception if the slice was not at rest, went down, its force was not about that, or the
+///         push did not come to its end
+/// \return the force that moved it, as it would have been after `kPushS`, N
+double judgePush(const Push& push, double mass_kg);
 
 /// Calibrations of the slices of a device, from slice 0 on.
 struct Calibration {
@@ -64,6 +92,13 @@ class CalibratedDriver : public Driver {
   virtual void set(int slice, const SliceCalibration& calibration) = 0;
   /// Thread: operator
   virtual const Calibration& calibration() const noexcept = 0;
+  /// Pushes a calibrated slice, soon. Forces of the model end it, and stay. Thread: operator
+  /// \throws Exception if it has no calibration, does not exist, or `newtons` is out of range
+  virtual void push(int slice, double newtons) = 0;
+  /// No push any more. Idempotent. Thread: operator
+  virtual void endPush() noexcept = 0;
+  /// What became of the last push, once. Thread: operator
+  virtual std::optional<Push> takePush() noexcept = 0;
   /// Newest sensor values. \param[out] volts  [slices]. Realtime: yes. Thread: operator
   virtual void readVolts(double* volts) noexcept = 0;
 };

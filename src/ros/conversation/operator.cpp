@@ -122,10 +122,10 @@ Answer Operator::configure(const tgr::EndEffectors& end_effectors) {
   return ask([=](const Promise& promise) { performance_.configure(end_effectors, promise); });
 }
 
-Calibrate::Response Operator::calibrate(const Calibrate::Request& request) {
+Calibrate::Response Operator::calibrate(const Calibrate::Request& request, const Arrival& arrival) {
   const auto measured = std::make_shared<Calibrate::Response>();
-  const Answer answer =
-      ask([=](const Promise& promise) { performance_.calibrate(request, measured, promise); });
+  const Answer answer = ask(
+      [=](const Promise& promise) { performance_.calibrate(request, arrival, measured, promise); });
   Calibrate::Response response;
   if (answer.ok) {  // otherwise it may still be written
     response = *measured;

@@ -50,7 +50,7 @@ class Operator {
   Answer setTarget(int slice, double target_m);
   /// Puts other end-effectors on the slices; answers when they are in place, with force at zero.
   Answer configure(const tgr::EndEffectors& end_effectors);
-  Calibrate::Response calibrate(const Calibrate::Request& request);
+  Calibrate::Response calibrate(const Calibrate::Request& request, const Arrival& arrival);
   Answer inject(const InjectFault::Request& request);
 
   /// What a new model must fit.

@@ -114,6 +114,11 @@ void Performance::engage(const ForceRequest& request, const Promise& promise) {
   if (guide_.isUnderWay()) {
     return answer(promise, false, "a slice is being calibrated: finish or abort first");
   }
+  if (const auto slice = engine_ ? engine_->hands().uncheckedSlice() : std::nullopt) {
+    return answer(promise, false,
+                  "slice " + std::to_string(*slice) +
+                      " was not checked since it was calibrated: calibrate with CHECK, hands off");
+  }
   if (const auto breach = own_host_.breach()) {
     ROS_ERROR_STREAM("engage: " << *breach);
     return answer(promise, false, *breach);
@@ -333,6 +338,7 @@ void Performance::close() {
   requests_.clear();
   guide_.abort();
   sampled_.reset();
+  check_ = {};
   std::unique_ptr<Engine> closing;
   {
     const std::lock_guard lock(engine_mutex_);

@@ -65,6 +65,7 @@ class Performance {
   void configure(const tgr::EndEffectors& end_effectors, const Promise& promise);
   /// \param measured  written before a promise is kept that says that all went well
   void calibrate(const Calibrate::Request& request,
+                 const Arrival& arrival,
                  const std::shared_ptr<Calibrate::Response>& measured,
                  const Promise& promise);
   void inject(const InjectFault::Request& request, const Promise& promise);
@@ -106,6 +107,13 @@ class Performance {
     std::int64_t deadline_ns = 0;
   };
 
+  /// Somebody waits for what a push tells.
+  struct Check {
+    station::Ticket ticket = 0;  ///< of the interlock, until somebody takes force away
+    std::string file;
+    Promise promise;
+  };
+
   bool command(station::Command::Type type, int index = 0, double value = 0.0);
   bool submit(const station::Command& command);
   void request(station::Command::Type type, const ForceRequest& request, const Promise& promise);
@@ -113,6 +121,9 @@ class Performance {
   const tgr::EndEffectors& endEffectors() const;
   void show(const tgr::EndEffectors& end_effectors);
   void begin(int slice);
+  void check(const Calibrate::Request& request, const Arrival& arrival, const Promise& promise);
+  void pollCheck();
+  std::string keep(const std::string& file);
   std::string finish(const Calibrate::Request& request, Calibrate::Response& measured);
   void pollCalibration();
   void tellInjected(int index, std::int64_t ticks);
@@ -145,6 +156,7 @@ class Performance {
   CalibrationGuide guide_;
   std::shared_ptr<Calibrate::Response> measured_;  // of the sample under way
   Promise sampled_;
+  Check check_;  // the one under way
   std::vector<station::GestureTick> gestures_;
 };
 

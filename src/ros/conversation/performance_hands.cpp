@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the hands hold, how it is calibrated, and what may go wrong with it on purpose.
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +25,7 @@ using station::InjectedModelFault;
 const char kNothingPlays[] = "nothing plays: load a model first";
 const char kNotAllowed[] = "faults can be injected only with the parameter allow_fault_injection";
 constexpr std::int64_t kMostTicks = 1'000'000;
+constexpr double kPushOfLimit = 0.1;  // a push is at most that part of the force limit
 
 const std::map<std::string, InjectedModelFault> kModelFaults = {
     {"model_not_a_number", InjectedModelFault::kNotANumber},
@@ -106,6 +109,7 @@ void Performance::takeConfigured(const station::Event& event) {
 }
 
 void Performance::calibrate(const Calibrate::Request& request,
+                            const Arrival& arrival,
                             const std::shared_ptr<Calibrate::Response>& measured,
                             const Promise& promise) {
   if (!engine_) {
@@ -123,15 +127,19 @@ void Performance::calibrate(const Calibrate::Request& request,
         return;  // pollCalibration answers
       case Calibrate::Request::FINISH:
         return answer(promise, true, finish(request, *measured));
+      case Calibrate::Request::CHECK:
+        return check(request, arrival, promise);  // pollCheck answers
       case Calibrate::Request::ABORT:
         guide_.abort();
-        if (sampled_) {
-          answer(std::exchange(sampled_, nullptr), false, "the calibration was aborted");
+        for (Promise* waiting : {&sampled_, &check_.promise}) {
+          if (*waiting) {
+            answer(std::exchange(*waiting, nullptr), false, "the calibration was aborted");
+          }
         }
         return answer(promise, true, "nothing has changed");
       default:
         throw Exception("action is " + std::to_string(request.action) + ", allowed: 0..." +
-                        std::to_string(Calibrate::Request::ABORT));
+                        std::to_string(Calibrate::Request::CHECK));
     }
   } catch (const Exception& refusal) {
     answer(promise, false, refusal.what());
@@ -147,6 +155,25 @@ void Performance::begin(int slice) {
   interlock_->stop();  // an engage may be on its way; later ones are refused
 }
 
+/// A push is a force: it is for those who could engage, and ends when somebody takes force away.
+void Performance::check(const Calibrate::Request& request,
+                        const Arrival& arrival,
+                        const Promise& promise) {
+  if (const auto breach = own_host_.breach()) {
+    throw Exception(*breach);
+  }
+  const station::Interlock::Reading now = interlock_->read();
+  if (now.isLatched()) {
+    throw Exception("force is latched at zero: recover first");
+  }
+  if (now.ticket != arrival.ticket) {
+    throw Exception("force was taken away since this was asked for");
+  }
+  begin(static_cast<int>(request.slice));
+  guide_.push(std::min(tgr::kPushN, kPushOfLimit * engine_->parameters().safety.force_limit_n));
+  check_ = {arrival.ticket + 1, request.file, promise};  // after the stop of `begin`
+}
+
 std::string Performance::finish(const Calibrate::Request& request, Calibrate::Response& measured) {
   const tgr::SliceCalibration fitted = guide_.finish(
       request.max_residual > 0.0 ? request.max_residual : CalibrationGuide::kUsualResidualM,
@@ -155,17 +182,42 @@ std::string Performance::finish(const Calibrate::Request& request, Calibrate::Re
   measured.rest = fitted.rest_volts;
   measured.residual = fitted.residual_m;
   measured.noise = fitted.noise_m / std::abs(fitted.metres_per_volt);
-  if (request.file.empty()) {
+  return keep(request.file);
+}
+
+/// What becomes of a calibration that is in use.
+std::string Performance::keep(const std::string& file) {
+  if (file.empty()) {
     return "in use; no file was asked for";
   }
   try {
-    return "in use, and written to " + engine_->hands().save(request.file);
+    return "in use, and written to " + engine_->hands().save(file);
   } catch (const Exception& failure) {
     return std::string("in use, but not kept: ") + failure.what();
   }
 }
 
+void Performance::pollCheck() {
+  if (!guide_.isPushing()) {
+    return;
+  }
+  try {
+    if (interlock_->ticket() != check_.ticket) {
+      guide_.abort();
+      throw Exception("force was taken away: the push has ended before it told anything");
+    }
+    if (const auto force = guide_.pollPush(engine_->hands().traits().mass)) {
+      std::ostringstream told;
+      told << "the slice was moved as by " << *force << " N; ";
+      answer(std::exchange(check_.promise, nullptr), true, told.str() + keep(check_.file));
+    }
+  } catch (const Exception& failure) {
+    answer(std::exchange(check_.promise, nullptr), false, failure.what());
+  }
+}
+
 void Performance::pollCalibration() {
+  pollCheck();
   const auto point = guide_.poll();
   if (!point) {
     return;

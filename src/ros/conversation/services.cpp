@@ -159,7 +159,7 @@ void Services::onEndEffectors(const EndEffectors& end_effectors) {
 }
 
 bool Services::onCalibrate(Calibrate::Request& request, Calibrate::Response& response) {
-  response = operator_.calibrate(request);
+  response = operator_.calibrate(request, ArrivalQueue::ofThisCall());
   return true;
 }
 

@@ -50,6 +50,51 @@ void CalibrationGuide::begin(const std::vector<tgr::DriverStack::Part>& raw_part
   slice_ = slice - found->first_slice;
   points_.clear();
   sampling_ = false;
+  pushing_ = false;
+}
+
+const tgr::SliceCalibration& CalibrationGuide::now() const {
+  return part_->calibrated->calibration().slices[static_cast<std::size_t>(slice_)];
+}
+
+void CalibrationGuide::push(double newtons) {
+  requireUnderWay();
+  try {
+    if (now().full_scale_newtons == 0.0) {
+      throw Exception("full_scale_newtons of slice " + std::to_string(part_->first_slice + slice_) +
+                      " is not in the device file, allowed: the force that max_volts really give");
+    }
+    part_->calibrated->push(slice_, newtons);
+  } catch (const Exception&) {
+    abort();
+    throw;
+  }
+  pushing_ = true;
+}
+
+std::optional<double> CalibrationGuide::pollPush(double mass_kg) {
+  const auto push = pushing_ ? part_->calibrated->takePush() : std::nullopt;
+  if (!push) {
+    return std::nullopt;
+  }
+  tgr::CalibratedDriver& driver = *part_->calibrated;
+  tgr::SliceCalibration checked = now();
+  const int slice = slice_;
+  abort();
+  checked.checked = 0.0;
+  driver.set(slice, checked);  // unless it answers well
+  const double force = tgr::judgePush(*push, mass_kg);
+  checked.checked = checked.metres_per_volt * checked.volts_per_newton;
+  driver.set(slice, checked);
+  return force;
+}
+
+void CalibrationGuide::abort() {
+  if (pushing_) {
+    part_->calibrated->endPush();
+  }
+  pushing_ = false;
+  part_.reset();
 }
 
 void CalibrationGuide::sample(double position_m) {
@@ -98,7 +143,7 @@ tgr::SliceCalibration CalibrationGuide::finish(double max_residual_m, double vol
 }
 
 void CalibrationGuide::requireUnderWay() const {
-  if (!isUnderWay()) {
+  if (!isUnderWay() || pushing_) {
     throw Exception("nothing is being calibrated: begin first");
   }
 }

@@ -32,20 +32,31 @@ class CalibrationGuide {
   /// \param volts_per_newton  of the slice's amplifier; 0: as it was
   /// \throws Exception from `tgr::fit`: the calibration goes on
   tgr::SliceCalibration finish(double max_residual_m, double volts_per_newton);
-  /// The calibration is over, nothing has changed. Idempotent
-  void abort() { part_.reset(); }
+  /// Pushes the slice, which nobody holds, after `begin`. \param newtons  at most
+  /// \throws Exception if it has no calibration, its full scale is not stated, or samples were
+  ///         taken. Nothing is under way then
+  void push(double newtons);
+  /// \return once a push is over: the force that answered, N. The calibration is over then.
+  /// \throws Exception if sign or scale are wrong
+  std::optional<double> pollPush(double mass_kg);
+
+  /// The calibration is over, nothing has changed, nothing is pushed. Idempotent
+  void abort();
 
   bool isUnderWay() const { return part_.has_value(); }
+  bool isPushing() const { return pushing_; }
   std::size_t samples() const { return points_.size(); }
 
  private:
   void requireUnderWay() const;
+  const tgr::SliceCalibration& now() const;
 
   std::optional<tgr::DriverStack::Part> part_;  // whose slice it is
   int slice_ = 0;                               // within the part
   std::vector<tgr::CalibrationPoint> points_;
   std::vector<double> readings_;  // V, of the sample under way
   bool sampling_ = false;
+  bool pushing_ = false;
   double position_m_ = 0.0;
 };
 

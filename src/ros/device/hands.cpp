@@ -46,6 +46,18 @@ void Hands::probe(double tick_rate_hz, double slice_mass_kg) {
   driver.close();
 }
 
+std::optional<int> Hands::uncheckedSlice() const {
+  for (const tgr::DriverStack::Part& part : drivers_.raw_parts) {
+    const auto& slices = part.calibrated->calibration().slices;
+    for (std::size_t i = 0; i < slices.size(); ++i) {
+      if (slices[i].is_calibrated && !tgr::isChecked(slices[i])) {
+        return part.first_slice + static_cast<int>(i);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 std::string Hands::save(const std::string& name) {
   for (const tgr::DriverStack::Part& part : drivers_.raw_parts) {
     config_.devices[static_cast<std::size_t>(part.device)].calibration =

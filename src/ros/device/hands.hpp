@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,8 @@ class Hands {
   const tgr::StationDevices& config() const { return config_; }
   /// The devices that speak volts.
   const std::vector<tgr::DriverStack::Part>& rawParts() const { return drivers_.raw_parts; }
+  /// The first calibrated slice whose sign and scale no push has told.
+  std::optional<int> uncheckedSlice() const;
   /// \return null unless faults may be injected
   tgr::FaultyDriver* faulty() const { return drivers_.faulty; }
   void setEndEffectors(tgr::EndEffectors end_effectors) {

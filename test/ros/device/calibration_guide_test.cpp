@@ -21,6 +21,12 @@ class RawDevice : public tgr::CalibratedDriver {
     calibration_.slices.at(static_cast<std::size_t>(slice)) = calibration;
   }
   const tgr::Calibration& calibration() const noexcept override { return calibration_; }
+  void push(int slice, double newtons) override {
+    pushed_ = slice;
+    newtons_ = newtons;
+  }
+  void endPush() noexcept override { pushed_ = -1; }
+  std::optional<tgr::Push> takePush() noexcept override { return push_; }
   void readVolts(double* volts) noexcept override {
     noise_ = -noise_;
     volts[0] = 0.0;
@@ -29,6 +35,9 @@ class RawDevice : public tgr::CalibratedDriver {
 
   double volts_ = 0.0;
   double noise_ = 0.001;
+  int pushed_ = -1;
+  double newtons_ = 0.0;
+  std::optional<tgr::Push> push_;
 
  private:
   tgr::Calibration calibration_{std::vector<tgr::SliceCalibration>(2)};
@@ -53,6 +62,57 @@ class CalibrationGuideTest : public ::testing::Test {
   std::vector<tgr::DriverStack::Part> raw_parts_;
   CalibrationGuide guide_;
 };
+
+TEST_F(CalibrationGuideTest, ChecksSignAndScaleByAPush) {
+  constexpr double kMassKg = 0.3;
+  const auto check = [&] {
+    begin(1);
+    guide_.push(0.5);
+  };
+  const auto slice = [&] { return device_.calibration().slices[1]; };
+  tgr::SliceCalibration calibration;
+  calibration.is_calibrated = true;
+  calibration.metres_per_volt = 0.005;
+  calibration.volts_per_newton = 0.05;
+  device_.set(1, calibration);
+  EXPECT_THAT(complaintOf([&] { guide_.push(0.5); }), HasSubstr("begin first"));
+  EXPECT_THAT(complaintOf(check), HasSubstr("full_scale_newtons of slice 1 is not in"));
+  EXPECT_FALSE(guide_.isUnderWay());
+  EXPECT_EQ(device_.pushed_, -1);
+  calibration.full_scale_newtons = 200.0;
+  device_.set(1, calibration);
+
+  check();
+  EXPECT_EQ(device_.pushed_, 1);
+  EXPECT_EQ(device_.newtons_, 0.5);
+  EXPECT_FALSE(guide_.pollPush(kMassKg).has_value()) << "under way";
+  EXPECT_THAT(complaintOf([&] { guide_.sample(0.0); }), HasSubstr("begin first"));
+  EXPECT_THAT(complaintOf(check), HasSubstr("is being calibrated"));
+  device_.push_ = tgr::Push{0.5, 0.001, 0.05};
+  EXPECT_NEAR(guide_.pollPush(kMassKg).value(), 0.72, 1e-9);
+  EXPECT_FALSE(guide_.isUnderWay());
+  EXPECT_TRUE(isChecked(slice()));
+
+  check();
+  device_.push_ = tgr::Push{0.5, -0.001, 0.05};
+  EXPECT_THAT(complaintOf([&] { guide_.pollPush(kMassKg); }), HasSubstr("sign"));
+  EXPECT_FALSE(guide_.isUnderWay());
+  EXPECT_FALSE(isChecked(slice())) << "it was well before";
+}
+
+TEST_F(CalibrationGuideTest, EndsAPushWhenItIsAborted) {
+  tgr::SliceCalibration calibration;
+  calibration.is_calibrated = true;
+  calibration.full_scale_newtons = 200.0;
+  device_.set(1, calibration);
+  begin(1);
+  guide_.push(1.0);
+  EXPECT_TRUE(guide_.isPushing());
+  guide_.abort();
+  EXPECT_EQ(device_.pushed_, -1);
+  EXPECT_FALSE(guide_.isPushing());
+  EXPECT_FALSE(guide_.isUnderWay());
+}
 
 TEST_F(CalibrationGuideTest, FitsALineThroughPlacesAndVolts) {
   begin(1);

@@ -21,7 +21,6 @@ namespace {
 constexpr int kMostMasses = 300;         // whose eigenvalues are worked out
 constexpr double kRounding = 1e-9;       // of a radius of 1
 constexpr double kCertainGrowth = 1e-2;  // per period
-constexpr int kRoundings = 6;
 constexpr double kRoundingOfFloat = 2.5e-7;
 
 /// What the linear model does over one period of its slowest section.
@@ -31,32 +30,80 @@ struct Trial {
   double growthPerSecond() const { return std::log(radius) / period_s; }
 };
 
-/// With every mass, stiffness and damping off by four times what single precision rounds it by, up
-/// or down at random.
-scene::Scene roundedAtRandom(scene::Scene scene, std::mt19937& random) {
-  const auto round = [&random](scene::Value& value) {
-    value.factor *= 1.0 + ((random() & 1U) != 0 ? kRoundingOfFloat : -kRoundingOfFloat);
-  };
-  for (scene::Section& section : scene.sections) {
-    round(section.medium);
+/// Moves the numbers of an island off by four times what single precision rounds them by, each up
+/// in half of the cases and down in the others, any two alike in half of them (the rows of a
+/// Hadamard matrix): what several do together is as large in one case as the root of the sum of
+/// their squares. Where there are more numbers than cases, the last ones move at random.
+class Roundings {
+ public:
+  explicit Roundings(const scene::Scene& scene) : scene_(scene) {
+    scene::Scene counted = scene;
+    int numbers = 0;
+    forNumbers(counted, [&numbers](scene::Value&) { ++numbers; });
+    while (cases_ <= numbers && cases_ < (numbers > kMany ? kFewCases : kMostCases)) {
+      cases_ *= 2;
+    }
   }
-  for (scene::Mat& mat : scene.mats) {
-    round(mat.mass);
-    round(mat.stiffness);
-    round(mat.damping);
+
+  int cases() const { return cases_; }
+
+  scene::Scene at(int number) {
+    scene::Scene rounded = scene_;
+    int code = 0;
+    forNumbers(rounded, [&](scene::Value& value) {
+      ++code;
+      const bool is_up = code < cases_ ? isOdd(code & number) : (random_() & 1U) != 0;
+      value.factor *= 1.0 + (is_up ? kRoundingOfFloat : -kRoundingOfFloat);
+    });
+    return rounded;
   }
-  for (scene::Lia& lia : scene.lias) {
-    round(lia.stiffness);
-    round(lia.damping);
+
+ private:
+  static constexpr int kMostCases = 64;
+  static constexpr int kFewCases = 16;  // as they take long
+  static constexpr int kMany = 200;
+  static bool isOdd(int bits) {
+    bool odd = false;
+    for (; bits != 0; bits &= bits - 1) {
+      odd = !odd;
+    }
+    return odd;
   }
-  return scene;
-}
+
+  /// Masses of modules that nothing moves, and what is 0, are rounded to what they are.
+  template <class Visit>
+  static void forNumbers(scene::Scene& scene, const Visit& visit) {
+    const auto see = [&visit](scene::Value& value) {
+      if (value.factor != 0.0) {
+        visit(value);
+      }
+    };
+    for (scene::Section& section : scene.sections) {
+      see(section.medium);
+    }
+    for (scene::Mat& mat : scene.mats) {
+      if (mat.type == scene::MatType::kMass || mat.type == scene::MatType::kCell) {
+        see(mat.mass);
+        see(mat.stiffness);
+        see(mat.damping);
+      }
+    }
+    for (scene::Lia& lia : scene.lias) {
+      see(lia.stiffness);
+      see(lia.damping);
+    }
+  }
+
+  const scene::Scene& scene_;
+  int cases_ = 2;
+  std::mt19937 random_{1};
+};
 
 std::vector<Eigen::MatrixXd> rounded(const scene::Scene& scene, const Rates& rates) {
-  std::mt19937 random(1);
+  Roundings roundings(scene);
   std::vector<Eigen::MatrixXd> matrices;
-  for (int i = 0; i < kRoundings; ++i) {
-    matrices.push_back(periodOf(roundedAtRandom(scene, random), rates).matrix);
+  for (int i = 0; i < roundings.cases(); ++i) {
+    matrices.push_back(periodOf(roundings.at(i), rates).matrix);
   }
   return matrices;
 }

@@ -19,6 +19,7 @@ using Eigen::MatrixXd;
 
 constexpr double kFixed = 1e-12;    // of the largest pivot: what a period leaves as it is
 constexpr double kFading = 0.99;    // per period
+constexpr double kMeeting = 300.0;  // of |G| |G^-1|: 1/how near modes are to meeting
 constexpr double kMostOff = 5e-10;  // of what G s becomes
 constexpr int kDoublings = 40;
 constexpr double kAlike = 1e-6;     // of places of bodies
@@ -42,37 +43,46 @@ MatrixXd beside(const MatrixXd& columns) {
   return (solver.householderQ() * MatrixXd::Identity(size, size)).rightCols(size - columns.cols());
 }
 
-/// True if what stays are the places of as many bodies, which nothing holds: the modules of each
-/// moved alike, all at rest. A mode that comes back to where it was within a period stays, too.
-bool areBodies(const MatrixXd& stays) {
+/// What a period does not change, and the first module of each body.
+struct Staying {
+  MatrixXd beside;  // at right angles to it
+  std::vector<Index> bodies;
+};
+
+/// The first modules of as many bodies as there is that stays, which nothing holds: the modules of
+/// each moved alike, all at rest; more if it is not so. A mode that comes back to where it was
+/// within a period stays, too.
+std::vector<Index> bodiesOf(const MatrixXd& stays) {
   const Index modules = stays.rows() / 2;
-  std::vector<Eigen::RowVectorXd> places;
+  std::vector<Index> bodies;
   for (Index m = 0; m < modules; ++m) {
-    const Eigen::RowVectorXd place = stays.row(m);
-    const auto isHere = [&](const auto& known) { return (known - place).norm() < kAlike; };
-    if (place.norm() >= kAlike && std::none_of(places.begin(), places.end(), isHere)) {
-      places.push_back(place);
+    const auto isHere = [&](Index known) {
+      return (stays.row(known) - stays.row(m)).norm() < kAlike;
+    };
+    if (stays.row(m).norm() >= kAlike && std::none_of(bodies.begin(), bodies.end(), isHere)) {
+      bodies.push_back(m);
     }
   }
-  return stays.bottomRows(modules).norm() < kAlike &&
-         static_cast<Index>(places.size()) <= stays.cols();
+  return bodies;
 }
 
-/// At right angles to what a period leaves as it is; none if that is not only where bodies lie,
-/// however it is rounded.
-std::optional<MatrixXd> besideWhatStays(const MatrixXd& matrix,
-                                        const std::vector<MatrixXd>& rounded) {
+/// None if what stays is not only where bodies lie, however it is rounded.
+std::optional<Staying> besideWhatStays(const MatrixXd& matrix,
+                                       const std::vector<MatrixXd>& rounded) {
   const MatrixXd unit = MatrixXd::Identity(matrix.rows(), matrix.cols());
   Eigen::FullPivLU<MatrixXd> change(matrix - unit);
   change.setThreshold(kFixed);
   if (change.rank() == matrix.rows()) {
-    return unit;
+    return Staying{unit, {}};
   }
   const MatrixXd stays = change.kernel();
   const bool stay = std::all_of(rounded.begin(), rounded.end(), [&](const MatrixXd& other) {
     return (other * stays - stays).norm() <= kStaying * stays.norm();
   });
-  return stay && areBodies(stays) ? std::optional<MatrixXd>(beside(stays)) : std::nullopt;
+  Staying staying{beside(stays), bodiesOf(stays)};
+  const bool are_bodies = stays.bottomRows(matrix.rows() / 2).norm() < kAlike &&
+                          static_cast<Index>(staying.bodies.size()) == stays.cols();
+  return stay && are_bodies ? std::optional<Staying>(std::move(staying)) : std::nullopt;
 }
 
 /// Real and imaginary parts of the eigenvectors of what hardly fades, as columns, and what becomes
@@ -139,58 +149,101 @@ double errorOf(const Form& form, const MatrixXd& matrix) {
   return (becomes - form.turn).norm();
 }
 
-/// By how much two eigenvalues grow, at most, while a perturbation of them grows from -1 to 1:
-/// those of [[x, 0], [0, y]] + t [[a, b], [c, d]].
-double growthOfPair(std::complex<double> x,
-                    std::complex<double> y,
-                    const Eigen::Matrix2cd& perturbation) {
-  // Of logarithms: real parts grow, imaginary ones turn.
-  const std::complex<double> apart = 0.5 * std::log(x / y);
-  const std::complex<double> change = 0.5 * (perturbation(0, 0) / x - perturbation(1, 1) / y);
-  const std::complex<double> joint = perturbation(0, 1) * perturbation(1, 0) / (x * y);
-  const double nearest =
-      change == 0.0 ? 0.0 : -(std::conj(change) * apart).real() / std::norm(change);
-  double growth = 0.0;
-  for (const double t : {0.0, -1.0, 1.0, std::clamp(nearest, -1.0, 1.0)}) {
-    const std::complex<double> off = apart + t * change;
-    growth = std::max(growth, std::sqrt(off * off + t * t * joint).real());
-  }
-  return growth;
-}
-
-/// True if rounding may make two lasting modes, or one and its conjugate, feed one another.
-bool mayGrow(const MatrixXd& matrix, const MatrixXd& rounding) {
-  const Eigen::EigenSolver<MatrixXd> solver(matrix);
-  const Eigen::VectorXcd values = solver.eigenvalues();
-  const Eigen::MatrixXcd right = solver.eigenvectors();
-  const Eigen::MatrixXcd shift = right.inverse() * rounding * right;
-  if (!shift.allFinite()) {
-    return true;
-  }
-  for (Index i = 0; i < values.size(); ++i) {
-    for (Index j = 0; j < i; ++j) {
-      const double lasting = std::min(std::abs(values[i]), std::abs(values[j]));
-      if (!(lasting > kFading) || std::abs(values[i] - values[j]) > kNear) {
-        continue;
-      }
-      Eigen::Matrix2cd pair;
-      pair << shift(i, i), shift(i, j), shift(j, i), shift(j, j);
-      if (growthOfPair(values[i], values[j], pair) > 1.0 - lasting + kSlow) {
-        return true;
-      }
+/// How large a motion may become that begins small: of G without the places of one module of each
+/// body, the largest of |G| |G^-1|.
+double conditionOf(const MatrixXd& form, const std::vector<Index>& bodies) {
+  MatrixXd seen(form.rows(), form.rows());
+  Index to = 0;
+  for (Index column = 0; column < form.cols(); ++column) {
+    if (std::count(bodies.begin(), bodies.end(), column) == 0) {
+      seen.col(to++) = form.col(column);
     }
   }
-  return false;
+  const MatrixXd back = seen.inverse();
+  return (seen.cwiseAbs() * back.cwiseAbs()).diagonal().maxCoeff();
 }
+
+/// What rounding does to the modes of a period: in their eigenvectors, one matrix for each case.
+class RoundedModes {
+ public:
+  RoundedModes(const MatrixXd& matrix, const std::vector<MatrixXd>& roundings) {
+    const Eigen::EigenSolver<MatrixXd> solver(matrix);
+    values_ = solver.eigenvalues();
+    const Eigen::MatrixXcd right = solver.eigenvectors();
+    const Eigen::MatrixXcd left = right.inverse();
+    for (const MatrixXd& rounding : roundings) {
+      shifts_.push_back(left * rounding * right);
+    }
+  }
+
+  /// True if one of them, or two that feed one another, grow by more than nothing.
+  bool mayGrow() const {
+    for (Index i = 0; i < values_.size(); ++i) {
+      if (!(std::abs(values_[i]) > kFading)) {
+        continue;
+      }
+      if (!(std::log(std::abs(values_[i])) + changeOf(i) <= kSlow)) {
+        return true;
+      }
+      for (Index j = 0; j < i; ++j) {
+        if (std::abs(values_[i] - values_[j]) <= kNear && !(growthOf(i, j) <= kSlow)) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+ private:
+  /// By how much more or less one grows. Exact in what only turns it.
+  double changeOf(Index i) const {
+    return largest([&](const Eigen::MatrixXcd& shift) {
+      return std::abs(std::log(std::abs(1.0 + shift(i, i) / values_[i])));
+    });
+  }
+
+  /// By how much two grow at most while rounding grows from -1 to 1, to first order: those of
+  /// [[x, 0], [0, y]] + t [[a, b], [c, d]], as near as any case brings them.
+  double growthOf(Index i, Index j) const {
+    const std::complex<double> x = values_[i];
+    const std::complex<double> y = values_[j];
+    // Of logarithms: real parts grow, imaginary ones turn.
+    const std::complex<double> apart = 0.5 * std::log(x / y);
+    const double nearer = largest([&](const Eigen::MatrixXcd& shift) {
+      return 0.5 * std::abs(shift(i, i) / x - shift(j, j) / y);
+    });
+    const double left = std::max(0.0, std::abs(apart) - nearer);
+    const std::complex<double> nearest = left > 0.0 ? apart * (left / std::abs(apart)) : 0.0;
+    const double together = largest([&](const Eigen::MatrixXcd& shift) {
+      const std::complex<double> joint = shift(i, j) * shift(j, i) / (x * y);
+      return std::max(std::sqrt(nearest * nearest + joint).real(),
+                      std::sqrt(apart * apart + joint).real());
+    });
+    return 0.5 * std::log(std::abs(x * y)) + together;
+  }
+
+  template <class Function>
+  double largest(const Function& function) const {
+    double most = 0.0;
+    for (const Eigen::MatrixXcd& shift : shifts_) {
+      const double value = function(shift);
+      most = value <= most ? most : value;  // what is not a number stays
+    }
+    return most;
+  }
+
+  Eigen::VectorXcd values_;
+  std::vector<Eigen::MatrixXcd> shifts_;
+};
 
 }  // namespace
 
 std::optional<PeriodProof> proofOf(const Period& period, const std::vector<MatrixXd>& rounded) {
-  const std::optional<MatrixXd> beside_bodies = besideWhatStays(period.matrix, rounded);
-  if (!beside_bodies) {
+  const std::optional<Staying> staying = besideWhatStays(period.matrix, rounded);
+  if (!staying) {
     return std::nullopt;
   }
-  const MatrixXd& kept = *beside_bodies;
+  const MatrixXd& kept = staying->beside;
   const MatrixXd matrix = kept.transpose() * period.matrix * kept;
   Form lasting = lastingOf(matrix.transpose());
   lasting.rows.transposeInPlace();
@@ -198,13 +251,16 @@ std::optional<PeriodProof> proofOf(const Period& period, const std::vector<Matri
   if (form.rows.rows() != form.rows.cols() || !(errorOf(form, matrix) <= kMostOff)) {
     return std::nullopt;
   }
+  std::vector<MatrixXd> roundings;
   for (const MatrixXd& other : rounded) {
-    if (mayGrow(matrix, kept.transpose() * (other - period.matrix) * kept)) {
-      return std::nullopt;
-    }
+    roundings.push_back(kept.transpose() * (other - period.matrix) * kept);
+  }
+  PeriodProof proof{{}, 0, period.modules, form.rows * kept.transpose(), form.turn};
+  if (!(conditionOf(proof.form, staying->bodies) < kMeeting) ||
+      RoundedModes(matrix, roundings).mayGrow()) {
+    return std::nullopt;
   }
   const Index modules = period.units.size();
-  PeriodProof proof{{}, 0, period.modules, form.rows * kept.transpose(), form.turn};
   proof.form.rightCols(modules) *= period.units.cwiseInverse().asDiagonal();
   return proof;
 }

@@ -38,6 +38,17 @@ Matrix4d ofTwo(const Matrix2d& a, const Matrix2d& b) {
   return matrix;
 }
 
+/// What the second of two modules makes of the first, and the other way round.
+Matrix4d joinedBy(const Matrix2d& first, const Matrix2d& second, Matrix4d matrix) {
+  for (int row = 0; row < 2; ++row) {
+    for (int column = 0; column < 2; ++column) {
+      matrix(2 * row, 2 * column + 1) = first(row, column);
+      matrix(2 * row + 1, 2 * column) = second(row, column);
+    }
+  }
+  return matrix;
+}
+
 TEST(PeriodProofTest, FormIsKeptByThePeriod) {
   const Matrix4d matrix = ofTwo(turn(1.0), 0.5 * turn(2.0));
   const std::optional<PeriodProof> proof = proofOf(periodOf(matrix), {});
@@ -64,18 +75,46 @@ TEST(PeriodProofTest, OnlyBodiesMayStay) {
 TEST(PeriodProofTest, RoundingMayJoinModes) {
   const auto isProven = [](double apart, double joined, double back) {
     const Matrix4d matrix = ofTwo(turn(1.0), turn(1.0 + apart));
-    Matrix4d rounded = matrix;
-    for (int row = 0; row < 2; ++row) {
-      for (int column = 0; column < 2; ++column) {
-        rounded(2 * row, 2 * column + 1) = joined * turn(1.0)(row, column);
-        rounded(2 * row + 1, 2 * column) = back * turn(1.0)(row, column);
-      }
-    }
-    return proofOf(periodOf(matrix), {rounded}).has_value();
+    return proofOf(periodOf(matrix), {joinedBy(joined * turn(1.0), back * turn(1.0), matrix)})
+        .has_value();
   };
   EXPECT_TRUE(isProven(1e-5, 4e-6, 4e-6));
   EXPECT_FALSE(isProven(1e-5, 6e-6, 6e-6));
   EXPECT_TRUE(isProven(1e-5, 6e-6, -6e-6));
+}
+
+/// One of two loses more than the other: what it feeds need not make up for both losses to grow.
+TEST(PeriodProofTest, RoundingMayFeedTheModeThatLosesLess) {
+  const auto isProven = [](double joined) {
+    const Matrix4d matrix = ofTwo(0.995 * turn(1.0), turn(1.0));
+    const Matrix4d rounded = joinedBy(joined * turn(1.0), joined * turn(1.0), matrix);
+    EXPECT_GT(rounded.eigenvalues().cwiseAbs().maxCoeff(), 1.0 + joined * joined);
+    return proofOf(periodOf(matrix), {rounded}).has_value();
+  };
+  EXPECT_FALSE(isProven(3e-3));
+  EXPECT_TRUE(isProven(1e-6));
+}
+
+TEST(PeriodProofTest, RoundingMayTakeAwayWhatAModeLoses) {
+  const auto isProven = [](double loss) {
+    const Matrix4d matrix = ofTwo((1.0 - loss) * turn(1.0), 0.9 * turn(2.0));
+    return proofOf(periodOf(matrix), {ofTwo((1.0 - loss + 1e-6) * turn(1.0), 0.9 * turn(2.0))})
+        .has_value();
+  };
+  EXPECT_FALSE(isProven(9e-7));
+  EXPECT_TRUE(isProven(1.1e-6));
+}
+
+/// Two modes that have nearly met: what begins small becomes large before it comes back.
+TEST(PeriodProofTest, ModesThatNearlyMeetAreNoProof) {
+  const auto isProven = [](double left) {
+    const double apart = 0.01;
+    const Matrix2d joined = (1.0 - left) * std::sin(apart / 2.0) * turn(1.0 + apart / 2.0);
+    const Matrix4d matrix = joinedBy(joined, joined, ofTwo(turn(1.0), turn(1.0 + apart)));
+    return proofOf(periodOf(matrix), {}).has_value();
+  };
+  EXPECT_FALSE(isProven(1e-6));
+  EXPECT_TRUE(isProven(1e-3));
 }
 
 }  // namespace

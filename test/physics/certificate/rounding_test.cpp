@@ -108,6 +108,43 @@ TEST(RoundingTest, WholeTurnsInATickLeaveADifferenceOfLargeForces) {
                    .isVouchedFor());
 }
 
+/// The same among modules that do nothing: whichever numbers are there, none are rounded alike in
+/// all cases.
+TEST(RoundingTest, NoNumbersAreRoundedAlike) {
+  std::string text =
+      "ergotic: 1\ngestural_rate: 4009.090909090909\n"
+      "sections: {a: {rate: audio}, g: {rate: gestural}}\nmats:\n";
+  for (int i = 0; i < 27; ++i) {
+    const std::string idle = "  d" + std::to_string(i) + ": {type: ground, section: a}\n";
+    text += i == 1    ? "  s: {type: mass, section: g, mass: 1, x: 0.01}\n"
+            : i == 23 ? "  m: {type: mass, section: a, mass: 0.0016446230878211844}\n"
+                      : idle;
+  }
+  const Vouched scene(text +
+                      "lias: {c: {type: spring, between: [s, m], stiffness: 10586076.054260574}}\n"
+                      "outputs: {o: {at: m, quantity: velocity, channel: 1}}\n");
+  EXPECT_GT(scene.fastestOf(10.0, Precision::kFloat),
+            100.0 * scene.fastestOf(10.0, Precision::kDouble));
+  EXPECT_FALSE(scene.isVouchedFor());
+}
+
+/// Fast masses make nearly whole turns in a tick: 0.05 m/s become 60, in double, too, and come
+/// back after seconds.
+TEST(RoundingTest, WhatBecomesAThousandTimesAsLargeIsNotVouchedFor) {
+  const Vouched scene(
+      "ergotic: 1\ngestural_rate: 1470\nsections: {a: {rate: audio}, c: {rate: gestural}}\nmats:\n"
+      "  m0: {type: mass, section: a, mass: 3.8037751663184009e-05, v: 0.05}\n"
+      "  m1: {type: mass, section: a, mass: 5.6824164402537729e-05, v: 0.06}\n"
+      "  m2: {type: mass, section: c, mass: 0.036240692695251916, v: 0.07}\n"
+      "  m3: {type: mass, section: c, mass: 0.0058381114174321106, v: 0.08}\nlias:\n"
+      "  l0: {type: spring, between: [m1, m0], stiffness: 3102.324677720243}\n"
+      "  l1: {type: spring, between: [m2, m0], stiffness: 70475.512925410352}\n"
+      "  l2: {type: spring, between: [m3, m1], stiffness: 75868.358480854266}\n"
+      "outputs: {o: {at: m0, quantity: velocity, channel: 1}}\n");
+  EXPECT_GT(scene.fastestOf(10.0, Precision::kDouble), 50.0);
+  EXPECT_FALSE(scene.isVouchedFor());
+}
+
 TEST(RoundingTest, WhatANegativeSpringLeavesMayBeLess) {
   const auto held = [](double left) {
     const double a = 341302181.43452132;

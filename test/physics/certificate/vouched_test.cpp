@@ -52,7 +52,7 @@ TEST(VouchedTest, SoftCouplingsOfLowModesGrowAllTheSame) {
 }
 
 /// A damper takes nearly all that the coupling gives: 1e-7 of each period is left, or less than
-/// nothing.
+/// nothing, by more than rounding or not.
 TEST(VouchedTest, SlowGrowthOfTwoRatesIsGrowth) {
   const auto certified = [](double z, double growth) {
     SceneBuilder b = twoMasses(24703385.68, 6434440.0, 0.0, 32707988.93, 0.4417203012);
@@ -63,7 +63,8 @@ TEST(VouchedTest, SlowGrowthOfTwoRatesIsGrowth) {
   const Certificate growing = certified(53.8864731, 1e-7);
   EXPECT_EQ(growing.verdict, Verdict::kUnproven);
   EXPECT_THAT(growing.findings, Contains(HasSubstr("grows by a factor of exp(")));
-  EXPECT_EQ(certified(53.8883209, -2.86e-7).verdict, Verdict::kPassive);
+  EXPECT_EQ(certified(53.8883209, -2.86e-7).verdict, Verdict::kUnproven);  // as it may be rounded
+  EXPECT_EQ(certified(53.9054, -3.856e-6).verdict, Verdict::kPassive);
 }
 
 TEST(VouchedTest, DampersThatComeAndGoDrive) {

@@ -35,6 +35,14 @@ endforeach()
 target_sources(safety_rostest
   PRIVATE test/integration/fault_injection.cpp test/integration/fault_table.cpp)
 add_dependencies(safety_rostest ergotic_ros virtual_tgr)
+# Sees what real-time threads do that they may not, in programs that have it preloaded.
+add_library(realtime_watch SHARED test/realtime_watch/realtime_watch.cpp
+  test/support/alloc_count.cpp test/support/realtime_scope.cpp)
+target_include_directories(realtime_watch PRIVATE test include)
+target_compile_options(realtime_watch PRIVATE -ftls-model=initial-exec)
+target_link_libraries(realtime_watch PRIVATE PkgConfig::SECCOMP ergotic_flags ${CMAKE_DL_LIBS})
+target_compile_definitions(realtime_rostest PRIVATE REALTIME_WATCH="$<TARGET_FILE:realtime_watch>")
+add_dependencies(realtime_rostest ergotic_ros virtual_tgr realtime_watch)
 # A wall clock that jumps, for programs that have it preloaded.
 add_library(clock_shift SHARED test/clock_shift/clock_shift.cpp)
 target_include_directories(clock_shift PRIVATE test)

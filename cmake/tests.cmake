@@ -6,8 +6,10 @@ target_include_directories(ergotic_test_support PUBLIC test src)
 set_source_files_properties(test/support/places.cpp PROPERTIES COMPILE_DEFINITIONS
   "ERGOTIC_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\";ERGOTIC_BINARY_DIR=\"${PROJECT_BINARY_DIR}\";\
 ERGOTIC_DEVEL_DIR=\"${CATKIN_DEVEL_PREFIX}\";ERGOTIC_TOOLS_DIR=\"$<TARGET_FILE_DIR:render>\"")
+pkg_check_modules(SECCOMP REQUIRED IMPORTED_TARGET libseccomp)
 target_link_libraries(ergotic_test_support
-  PUBLIC ergotic_audio GTest::gtest GTest::gmock PkgConfig::SNDFILE PRIVATE ergotic_flags)
+  PUBLIC ergotic_audio GTest::gtest GTest::gmock PkgConfig::SNDFILE
+  PRIVATE PkgConfig::SECCOMP ergotic_flags)
 
 include(GoogleTest)
 # Tests are compiled sooner than optimized, all with the headers that the first of them has read.

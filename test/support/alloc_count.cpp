@@ -5,21 +5,29 @@
 
 #include <cerrno>
 #include <cstddef>
+#include <utility>
 
 namespace {
+
+using ergotic::test::AllocationScope;
 
 // Only ever plain integers: the first heap call of a thread comes before any constructor.
 thread_local int active_scopes = 0;
 thread_local std::int64_t heap_calls = 0;
 thread_local std::int64_t heap_bytes = 0;
+thread_local AllocationScope::Tell tell_call = nullptr;
 
 }  // namespace
 
 #ifndef ERGOTIC_SANITIZED
 
 namespace {
-void count() noexcept {
+void count(const char* function) noexcept {
   heap_calls += active_scopes > 0 ? 1 : 0;
+  if (const AllocationScope::Tell tell = std::exchange(tell_call, nullptr); tell != nullptr) {
+    tell(function);  // nothing of what it does
+    tell_call = tell;
+  }
 }
 void* taken(void* block) noexcept {
   heap_bytes += active_scopes > 0 ? static_cast<std::int64_t>(malloc_usable_size(block)) : 0;
@@ -39,33 +47,33 @@ void* __libc_memalign(std::size_t alignment, std::size_t size);
 void __libc_free(void* block);
 
 void* malloc(std::size_t size) {
-  count();
+  count("malloc");
   return taken(__libc_malloc(size));
 }
 void* calloc(std::size_t items, std::size_t size) {
-  count();
+  count("calloc");
   return taken(__libc_calloc(items, size));
 }
 void* realloc(void* old, std::size_t size) {
-  count();
+  count("realloc");
   givenBack(old);
   return taken(__libc_realloc(old, size));
 }
 void* memalign(std::size_t alignment, std::size_t size) {
-  count();
+  count("memalign");
   return taken(__libc_memalign(alignment, size));
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  count();
+  count("aligned_alloc");
   return taken(__libc_memalign(alignment, size));
 }
 int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
-  count();
+  count("posix_memalign");
   *block = taken(__libc_memalign(alignment, size));
   return *block == nullptr ? ENOMEM : 0;
 }
 void free(void* block) {
-  count();
+  count("free");
   givenBack(block);
   __libc_free(block);
 }
@@ -75,15 +83,18 @@ void free(void* block) {
 
 namespace ergotic::test {
 
-AllocationScope::AllocationScope() noexcept {
+AllocationScope::AllocationScope(Tell tell) noexcept {
   if (active_scopes++ == 0) {
     heap_calls = 0;
     heap_bytes = 0;
+    tell_call = tell;
   }
 }
 
 AllocationScope::~AllocationScope() {
-  --active_scopes;
+  if (--active_scopes == 0) {
+    tell_call = nullptr;
+  }
 }
 
 std::int64_t AllocationScope::calls() const noexcept {

@@ -10,7 +10,10 @@ namespace ergotic::test {
 /// counts nothing.
 class AllocationScope {
  public:
-  AllocationScope() noexcept;
+  using Tell = void (*)(const char* function) noexcept;
+
+  /// \param tell  is called at every heap call of the scope, if it is the outermost one
+  explicit AllocationScope(Tell tell = nullptr) noexcept;
   ~AllocationScope();
   AllocationScope(const AllocationScope&) = delete;
   AllocationScope& operator=(const AllocationScope&) = delete;

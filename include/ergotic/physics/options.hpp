@@ -21,7 +21,7 @@ struct CompileOptions {
   rt::Isa isa = rt::bestIsa();  ///< of the kernels; every level gives the same bits
   int threads = 1;  ///< 1...kMaxThreads that share a tick; any number gives the same bits
   /// Longest wait in a tick for a thread that has begun its share; beyond it the tick stalls
-  /// (Instrument::stalledTicks). Where a hand waits: kOneTick.
+  /// (Instrument::stalledTicks). Where a hand waits: kOneTick (liveOptions).
   std::int64_t wait_limit_ns = 1'000'000'000;
   /// Keeps the books of energy; else readEnergies knows only what positions tell (energy.hpp), the
   /// state is smaller, and the instrument plays the same bits in less time.
@@ -33,5 +33,12 @@ struct CompileOptions {
 
 constexpr int kMaxThreads = 8;
 constexpr std::int64_t kOneTick = -1;  ///< of the instrument's own rates
+
+/// As a station plays, where a hand waits: no tick waits longer for a thread than a tick.
+inline CompileOptions liveOptions() {
+  CompileOptions options;
+  options.wait_limit_ns = kOneTick;
+  return options;
+}
 
 }  // namespace ergotic::physics

@@ -320,7 +320,7 @@ Parameters readParameters(const Value& values, const std::string& node) {
   read.text("gesture", p.gesture);
   read.text("virtual_shared_memory", p.virtual_shared_memory);
   read.text("end_effectors", p.end_effectors);
-  p.compile.wait_limit_ns = physics::kOneTick;
+  p.compile = physics::liveOptions();
   p.safety.frozen_s = kFrozenS;
   visitParameters(read, p);
   read.refuseUnread();

@@ -8,7 +8,6 @@
 #include "ergotic/rt/clock.hpp"
 #include "physics/engine/instrument_of.hpp"
 #include "physics/engine/orchestra.hpp"
-#include "support/alloc_count.hpp"
 #include "support/physics.hpp"
 #include "support/random_scene.hpp"
 #include "support/test.hpp"
@@ -190,18 +189,6 @@ TEST(InstrumentThreadsTest, BooksOfEnergyCloseAcrossGroups) {
     }
     EXPECT_GT(moved, 1e-3);
   }
-}
-
-TEST(InstrumentThreadsTest, ATickDoesNotAllocate) {
-  if (!ergotic::test::AllocationScope::isAvailable()) {
-    GTEST_SKIP() << "the heap cannot be counted here";
-  }
-  Playing playing(compileFor(Orchestra(4).scene(), {kRate, 14}, Precision::kFloat, 2));
-  const ergotic::test::AllocationScope scope;
-  for (int n = 0; n < 500; ++n) {
-    playing.tick();
-  }
-  EXPECT_EQ(scope.calls(), 0);
 }
 
 /// Free sections that nothing outside moves, with a slow mass that all of them hang on.

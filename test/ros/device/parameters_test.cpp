@@ -31,6 +31,11 @@ TEST(ParametersTest, AreTheDefaultsWhereNothingIsSaid) {
   EXPECT_TRUE(p.jack);
 }
 
+TEST(ParametersTest, LetNoTickWaitLongerThanATickForAThread) {
+  EXPECT_EQ(readParameters(XmlRpcValue(), "/station").compile.wait_limit_ns, physics::kOneTick);
+  EXPECT_EQ(physics::liveOptions().wait_limit_ns, physics::kOneTick);
+}
+
 TEST(ParametersTest, AreWhatIsSaid) {
   XmlRpcValue values;
   values["force_limit"] = 5;  // YAML does not tell 5 from 5.0

@@ -2,16 +2,14 @@
 #include "ergotic/scene/text/read_scene.hpp"
 #include "ergotic/station/audio_bridge.hpp"
 #include "ergotic/station/station.hpp"
-#include "support/alloc_count.hpp"
 #include "support/audio_host.hpp"
+#include "support/realtime_scope.hpp"
 #include "support/scene_builder.hpp"
 #include "support/station_doubles.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::station {
 namespace {
-
-using test::AllocationScope;
 
 constexpr physics::Rates kRates{44100.0, 14};
 
@@ -53,25 +51,7 @@ struct Live {
   std::unique_ptr<tgr::Rig> rig;
 };
 
-TEST(AllocationScopeTest, CountsTheHeapCallsOfItsThreadOnly) {
-  if (!AllocationScope::isAvailable()) {
-    GTEST_SKIP() << "the sanitizer has its own heap";
-  }
-  const AllocationScope scope;
-  EXPECT_EQ(scope.calls(), 0);
-  auto block = std::make_unique<std::vector<double>>(1000);
-  EXPECT_EQ(scope.calls(), 2);
-  block.reset();
-  EXPECT_EQ(scope.calls(), 4);
-  void* volatile aligned = std::aligned_alloc(64, 128);  // or the compiler leaves the pair out
-  EXPECT_EQ(scope.calls(), 5);
-  std::free(aligned);
-}
-
-TEST(StationNoAllocTest, TickNeverTouchesTheHeapWhateverIsAsked) {
-  if (!AllocationScope::isAvailable()) {
-    GTEST_SKIP() << "the sanitizer has its own heap";
-  }
+TEST(StationRealtimeTest, TickDoesNothingThatItMayNotWhateverIsAsked) {
   Live live;
   Station& station = *live.station;
   const auto at = [&](Command::Type type) {
@@ -79,9 +59,7 @@ TEST(StationNoAllocTest, TickNeverTouchesTheHeapWhateverIsAsked) {
     command.type = type;
     ASSERT_TRUE(station.submit(command));
   };
-  std::int64_t heap_calls = 0;
-  for (int n = 0; n < 100'000; ++n) {
-    const AllocationScope scope;
+  const auto tick = [&](int n) {
     if (n % 25'000 == 10) {
       at(Command::Type::kEngage);
     } else if (n == 20'000) {
@@ -114,9 +92,12 @@ TEST(StationNoAllocTest, TickNeverTouchesTheHeapWhateverIsAsked) {
     } else {
       station.cycle({0, false});
     }
-    heap_calls += scope.calls();
-  }
-  EXPECT_EQ(heap_calls, 0);
+  };
+  test::expectRealtime([&] {
+    for (int n = 0; n < 100'000; ++n) {
+      tick(n);
+    }
+  });
   int handed_back = 0;
   int recovered = 0;
   Event event;
@@ -162,10 +143,7 @@ ports:
   b: {mat: slider, slice: 1}
 )";
 
-TEST(StationNoAllocTest, PlacesMoveWhilePlayingWithoutTheHeap) {
-  if (!AllocationScope::isAvailable()) {
-    GTEST_SKIP() << "the sanitizer has its own heap";
-  }
+TEST(StationRealtimeTest, PlacesMoveWhilePlaying) {
   PerformerPolicy policy;
   policy.allow_unproven = true;
   auto made = makePerformer(scene::readYaml(kMovedPlaces, "places.yaml"), kRates,
@@ -183,16 +161,14 @@ TEST(StationNoAllocTest, PlacesMoveWhilePlayingWithoutTheHeap) {
   move.type = Command::Type::kParameter;
   move.value = 0.7;
   move.coefficients = coefficients.release();
-  std::int64_t heap_calls = 0;
-  for (int n = 0; n < 6000; ++n) {
-    const AllocationScope scope;
-    if (n == 3000) {
-      ASSERT_TRUE(station.submit(move));
+  test::expectRealtime([&] {
+    for (int n = 0; n < 6000; ++n) {
+      if (n == 3000) {
+        ASSERT_TRUE(station.submit(move));
+      }
+      station.cycle({0, false});
     }
-    station.cycle({0, false});
-    heap_calls += scope.calls();
-  }
-  EXPECT_EQ(heap_calls, 0);
+  });
   Event event;
   while (station.poll(event)) {
     delete event.coefficients;
@@ -213,10 +189,7 @@ TEST(StationNoAllocTest, PlacesMoveWhilePlayingWithoutTheHeap) {
   }
 }
 
-TEST(StationNoAllocTest, AudioBridgeNeverTouchesTheHeapOnEitherSide) {
-  if (!AllocationScope::isAvailable()) {
-    GTEST_SKIP() << "the sanitizer has its own heap";
-  }
+TEST(StationRealtimeTest, AudioBridgeDoesNothingThatItMayNotOnEitherSide) {
   AudioBridgeConfig config;
   config.rates = kRates;
   config.output_channels = 1;
@@ -228,17 +201,17 @@ TEST(StationNoAllocTest, AudioBridgeNeverTouchesTheHeapOnEitherSide) {
   const float* inputs = in.data();
   float* outputs = out.data();
   std::vector<float> frames(14, 0.25F);
-  const AllocationScope scope;
-  for (std::int64_t block = 0; block < 1000; ++block) {
-    const std::int64_t first = block * 140;
-    bridge.process({140, {first, first * 22676}, &inputs, &outputs, 1, 1});
-    for (std::int64_t n = block * 10; n < (block + 1) * 10; ++n) {
-      bridge.track(n, n * 317460);
-      bridge.pull(n * 14, frames.data(), 14);
-      bridge.push(n * 14, frames.data(), 14);
+  test::expectRealtime([&] {
+    for (std::int64_t block = 0; block < 1000; ++block) {
+      const std::int64_t first = block * 140;
+      bridge.process({140, {first, first * 22676}, &inputs, &outputs, 1, 1});
+      for (std::int64_t n = block * 10; n < (block + 1) * 10; ++n) {
+        bridge.track(n, n * 317460);
+        bridge.pull(n * 14, frames.data(), 14);
+        bridge.push(n * 14, frames.data(), 14);
+      }
     }
-  }
-  EXPECT_EQ(scope.calls(), 0);
+  });
   EXPECT_EQ(out[0], 0.5F) << "input came back through both rings";
 }
 

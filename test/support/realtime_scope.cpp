@@ -19,13 +19,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "support/passing_call.hpp"
+
 namespace ergotic::test {
 namespace {
 
-// In the last argument of a call it lets the call pass. Calls with six arguments that a thread
-// makes between its ticks do not read it: futex without a mask, mmap without a file, for which it
-// has to be a multiple of a page.
-constexpr std::uint64_t kPass = 0x5afe'0000;
 constexpr int kCalls = 512;  // more than there are
 constexpr int kMostTold = 20;
 
@@ -97,7 +95,7 @@ void onTrap(int, siginfo_t* info, void* context) {
   }
   Call call(context);
   const long result = syscall(info->si_syscall, call.argument(0), call.argument(1),
-                              call.argument(2), call.argument(3), call.argument(4), kPass);
+                              call.argument(2), call.argument(3), call.argument(4), kPassingCall);
   call.answer(result == -1 ? -errno : result);
   errno = error;
 }
@@ -127,7 +125,7 @@ Filter makeFilter() {
         seccomp_syscall_resolve_num_arch(SCMP_ARCH_NATIVE, call), &std::free);
     if (name != nullptr && call != SCMP_SYS(clock_gettime) && call != SCMP_SYS(rt_sigreturn)) {
       std::strncpy(names[static_cast<std::size_t>(call)].data(), name.get(), 31);
-      allow(call, {SCMP_A5_64(SCMP_CMP_EQ, kPass, 0)});
+      allow(call, {SCMP_A5_64(SCMP_CMP_EQ, kPassingCall, 0)});
     }
   }
   return filter;

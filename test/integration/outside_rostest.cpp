@@ -5,6 +5,7 @@
 #include <sndfile.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <filesystem>
@@ -14,6 +15,7 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <ergotic/Event.h>
+#include <ergotic/GestureBlock.h>
 #include <ergotic/InjectFault.h>
 #include <ergotic/ModelState.h>
 #include <ergotic/Status.h>
@@ -22,6 +24,7 @@
 #include <std_msgs/Bool.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include "clock_shift/clock_shift.hpp"
 #include "ergotic/rt/clock.hpp"
@@ -139,6 +142,64 @@ TEST_F(ClockTest, IsNothingToAStationWhenItJumpsByAnHour) {
   node_.deleteParam("/station/presence");
   EXPECT_EQ(fault, Status::FAULT_NONE)
       << (excused ? "the machine stalls too often to be tested on" : "");
+}
+
+/// The middle one of what some calls of a service took, s.
+class AnswerTimes {
+ public:
+  explicit AnswerTimes(std::string service) : service_(std::move(service)) {}
+  void ask() {
+    const std::int64_t from_ns = rt::monotonicNs();
+    EXPECT_TRUE(call(service_).success) << service_;
+    times_s_.push_back(1e-9 * static_cast<double>(rt::monotonicNs() - from_ns));
+  }
+  double median() const {
+    std::vector<double> sorted = times_s_;
+    std::sort(sorted.begin(), sorted.end());
+    return sorted.at(sorted.size() / 2);
+  }
+
+ private:
+  std::string service_;
+  std::vector<double> times_s_;
+};
+
+TEST(DisplayTest, LetsNothingWaitForAPicture) {
+  constexpr int kTimes = 9;
+  constexpr double kPictureS = 2.0;
+  ::ros::NodeHandle node;
+  node.setParam("/station/presence", "topic");
+  const HeldSwitch presence(node);
+  const Listener<visualization_msgs::MarkerArray> pictures(node, "/station/markers");
+  const Listener<GestureBlock> gesture(node, "/station/gesture");
+  const std::map<std::string, std::string> environment{{"LD_PRELOAD", SLOW_DISPLAY}};
+  PushedStation station(environment);
+  node.deleteParam("/station/presence");
+  ASSERT_TRUE(eventually([&] { return pictures.count() > 2; }, PushedStation::kLongS));
+  const std::size_t drawn_before = pictures.count();
+  const std::size_t told_before = gesture.count();
+  const std::int64_t from_ns = rt::monotonicNs();
+  AnswerTimes stop("stop");
+  AnswerTimes engage("engage");
+  AnswerTimes recover("recover");
+  for (int n = 0; n < kTimes; ++n) {
+    engage.ask();
+    EXPECT_TRUE(eventually([&] { return station.force() < -1.0; }));
+    stop.ask();
+    EXPECT_TRUE(eventually([&] { return station.force() == 0.0; }));
+    recover.ask();
+  }
+  const double took_s = 1e-9 * static_cast<double>(rt::monotonicNs() - from_ns);
+  std::cout << "with " << kPictureS << " s for a picture: stop " << stop.median() << " s, engage "
+            << engage.median() << " s, recover " << recover.median() << " s\n";
+  EXPECT_LT(stop.median(), 0.1);
+  EXPECT_LT(engage.median(), 0.2);
+  EXPECT_LT(recover.median(), 0.2);
+  EXPECT_GT(static_cast<double>(gesture.count() - told_before), 25.0 * took_s);
+  EXPECT_LE(static_cast<double>(pictures.count() - drawn_before), 2.0 + took_s / kPictureS)
+      << "they do not take as long as they should";
+  EXPECT_TRUE(station.status().fault == Status::FAULT_NONE || presence.wasLate())
+      << station.status().state_text;
 }
 
 /// Frames of a WAV file, 0 if there is none.

@@ -2,8 +2,7 @@
 #include "ros/conversation/feed.hpp"
 
 #include <algorithm>
-
-#include <ergotic/ModelState.h>
+#include <utility>
 
 #include "ergotic/rt/build_id.hpp"
 #include "ergotic/rt/clock.hpp"
@@ -21,11 +20,8 @@ constexpr bool kLatched = true;
 
 }  // namespace
 
-Feed::Feed(const ::ros::NodeHandle& node) : node_(node) {
+Feed::Feed(const ::ros::NodeHandle& node) : node_(node), display_(node) {
   joint_states_ = node_.advertise<sensor_msgs::JointState>("joint_states", kQueue);
-  model_structure_ = node_.advertise<ModelStructure>("model_structure", 1, kLatched);
-  model_state_ = node_.advertise<ModelState>("model_state", kQueue);
-  markers_topic_ = node_.advertise<visualization_msgs::MarkerArray>("markers", 2);
   keyframe_ = node_.advertise<Keyframe>("keyframe", kQueue, kLatched);
   events_ = node_.advertise<Event>("events", kEventQueue);
   status_topic_ = node_.advertise<Status>("status", 1, kLatched);
@@ -37,7 +33,6 @@ Feed::Feed(const ::ros::NodeHandle& node) : node_(node) {
 
 void Feed::configure(const Parameters& parameters, const Hands& hands) {
   station_config_ = toYaml(parameters, hands.config());
-  display_zoom_ = parameters.display_zoom;
   motion_period_ns_ = static_cast<std::int64_t>(1e9 / parameters.display_rate);
   status_.devices.clear();
   for (const tgr::DeviceConfig& device : hands.config().devices) {
@@ -53,11 +48,13 @@ void Feed::configure(const Parameters& parameters, const Hands& hands) {
 void Feed::show(const tgr::EndEffectors& end_effectors) {
   frames_ = EndEffectorFrames(end_effectors);
   status_.end_effectors = toMessages(end_effectors);
-  markers_topic_.publish(Markers::eraseAll());  // those that are gone
+  display_.show(end_effectors);
   sendStatus();
 }
 
-void Feed::showModel(const station::Performer& performer, const std::string& note) {
+void Feed::showModel(const station::Performer& performer,
+                     std::shared_ptr<Picture> picture,
+                     const std::string& note) {
   const physics::Instrument& instrument = *performer.instrument;
   fillStatus(instrument, status_);
   status_.verdict = physics::toString(performer.certificate.verdict);
@@ -66,12 +63,7 @@ void Feed::showModel(const station::Performer& performer, const std::string& not
   note_ = note;
   sendStatus();
 
-  ModelStructure structure = toModelStructure(instrument.scene(), instrument.rates());
-  structure.header.stamp = ::ros::Time::now();
-  model_structure_.publish(structure);
-
-  markers_topic_.publish(Markers::eraseAll());
-  markers_.emplace(instrument.scene(), display_zoom_);
+  display_.show(std::move(picture));
   if (!blocks_) {  // rates hold until the next `configure`
     blocks_.emplace(instrument.rates().gesturalHz());
   }
@@ -83,7 +75,7 @@ void Feed::showSilence(const std::string& message) {
   status_.audio_running = 0U;
   status_.message = message;
   note_ = message;
-  markers_.reset();
+  display_.show(std::shared_ptr<Picture>());
   sendStatus();
 }
 
@@ -142,30 +134,16 @@ void Feed::showStandstill() {
 
 void Feed::show(const station::MotionFrame& motion, const scene::Scene& scene) {
   const std::int64_t now_ns = rt::monotonicNs();  // ROS time may jump
-  if (now_ns < motion_due_ns_ || !markers_) {
+  if (now_ns < motion_due_ns_) {
     return;
   }
   motion_due_ns_ = std::max(motion_due_ns_ + motion_period_ns_, now_ns);
   watch(motion, scene);
-  const ::ros::Time now = ::ros::Time::now();
+  display_.show(motion);
   if (model_energy_.getNumSubscribers() > 0) {
     ModelEnergy message = toModelEnergy(motion);
-    message.header.stamp = now;
+    message.header.stamp = ::ros::Time::now();
     model_energy_.publish(message);
-  }
-  if (model_state_.getNumSubscribers() > 0) {
-    ModelState message;
-    message.header.stamp = now;
-    message.header.frame_id = "model";
-    message.tick = motion.tick;
-    message.displacement = motion.displacement;
-    model_state_.publish(message);
-  }
-  if (markers_topic_.getNumSubscribers() > 0) {
-    markers_topic_.publish(markers_->draw(motion.displacement, now));
-    if (const auto& shapes = frames_.shapes(now); !shapes.markers.empty()) {
-      markers_topic_.publish(shapes);
-    }
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,12 +17,13 @@
 #include "ros/conversation/gesture_blocks.hpp"
 #include "ros/device/hands.hpp"
 #include "ros/device/parameters.hpp"
+#include "ros/display/display.hpp"
 #include "ros/display/end_effector_frames.hpp"
-#include "ros/display/markers.hpp"
 
 namespace ergotic::node {
 
-/// Everything the station tells ROS. All but the constructor: operator thread.
+/// Everything the station tells ROS, pictures through the thread of a `Display`.
+/// Thread: operator, all but the constructor
 class Feed {
  public:
   explicit Feed(const ::ros::NodeHandle& node);
@@ -30,8 +32,10 @@ class Feed {
   void configure(const Parameters& parameters, const Hands& hands);
   /// These end-effectors stand on the slices from now on.
   void show(const tgr::EndEffectors& end_effectors);
-  /// Another model plays from now on.
-  void showModel(const station::Performer& performer, const std::string& note);
+  /// Another model plays from now on. \param picture  of it, not null
+  void showModel(const station::Performer& performer,
+                 std::shared_ptr<Picture> picture,
+                 const std::string& note);
   /// Nothing plays any more, or nothing yet; `message` says why.
   void showSilence(const std::string& message);
 
@@ -63,13 +67,9 @@ class Feed {
   ::ros::NodeHandle node_;
   std::atomic<bool> new_listener_{false};
   std::string station_config_;
-  double display_zoom_ = 1.0;
   std::int64_t motion_period_ns_ = 0;
   ::ros::Publisher joint_states_;
-  ::ros::Publisher model_structure_;
-  ::ros::Publisher model_state_;
   ::ros::Publisher model_energy_;  // only if the books are kept
-  ::ros::Publisher markers_topic_;
   ::ros::Publisher gesture_;
   ::ros::Publisher keyframe_;
   ::ros::Publisher events_;
@@ -80,10 +80,10 @@ class Feed {
   Status status_;
   std::string note_;  // of the model that plays; status_.message adds the latest news
   std::optional<GestureBlocks> blocks_;
-  std::optional<Markers> markers_;
   EndEffectorFrames frames_;
   std::int64_t motion_due_ns_ = 0;
   std::int64_t status_due_ns_ = 0;
+  Display display_;
 };
 
 }  // namespace ergotic::node

@@ -11,6 +11,7 @@
 #include "ergotic/rt/clock.hpp"
 #include "ergotic/rt/thread.hpp"
 #include "ergotic/station/judge_hands.hpp"
+#include "ros/conversation/convert.hpp"
 #include "ros/conversation/description.hpp"
 #include "ros/conversation/model_loader.hpp"
 
@@ -33,6 +34,12 @@ std::unique_ptr<station::Performer> makePerformer(scene::Scene scene,
     verdict = physics::toString(refusal.verdict());
     throw;
   }
+}
+
+std::shared_ptr<Picture> pictureOf(const physics::Instrument& instrument, double zoom) {
+  const scene::Scene& scene = instrument.scene();
+  return std::make_shared<Picture>(
+      Picture{toModelStructure(scene, instrument.rates()), Markers(scene, zoom)});
 }
 
 void logStage(const std::string& stage) {
@@ -126,8 +133,10 @@ Answer Loader::play(scene::Scene scene,
   policy.end_effectors = terms->end_effectors;
   const physics::Rates rates =
       physics::chooseRates(scene, terms->rates.audio_hz, terms->rates.gesturalHz());
-  return operator_.swap(
-      makePerformer(std::move(scene), rates, terms->parameters.compile, policy, verdict), loader);
+  auto performer =
+      makePerformer(std::move(scene), rates, terms->parameters.compile, policy, verdict);
+  const auto picture = pictureOf(*performer->instrument, terms->parameters.display_zoom);
+  return operator_.swap(std::move(performer), picture, loader);
 }
 
 Answer Loader::start(scene::Scene scene, bool allow_unproven, std::string& verdict) {
@@ -146,12 +155,13 @@ Answer Loader::start(scene::Scene scene, bool allow_unproven, std::string& verdi
   auto performer = makePerformer(std::move(scene), rates, parameters.compile, policy, verdict);
   station::giveHands(*performer, policy.end_effectors, policy.slices, policy.device);
   station::Performer* const first = performer.get();
+  const auto picture = pictureOf(*first->instrument, parameters.display_zoom);
   auto engine = std::make_unique<Engine>(parameters, std::move(hands), std::move(performer),
                                          operator_.interlock());
   if (parameters.require_master) {
     engine->watchMaster(node_.resolveName("emergency_stop"));
   }
-  Answer answer = operator_.begin(std::move(engine), first);
+  Answer answer = operator_.begin(std::move(engine), first, picture);
   setDescription(node_, operator_);
   return answer;
 }

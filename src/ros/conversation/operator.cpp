@@ -85,18 +85,22 @@ Answer Operator::askForForce(const ForceRequest& request, const Request& ask_for
   return answer;
 }
 
-Answer Operator::begin(std::unique_ptr<Engine> engine, station::Performer* performer) {
+Answer Operator::begin(std::unique_ptr<Engine> engine,
+                       station::Performer* performer,
+                       const std::shared_ptr<Picture>& picture) {
   const auto shared = std::make_shared<std::unique_ptr<Engine>>(std::move(engine));
-  return ask([this, shared, performer](const Promise& promise) {
-    performance_.begin(std::move(*shared), performer);
+  return ask([=](const Promise& promise) {
+    performance_.begin(std::move(*shared), performer, picture);
     promise->set_value({true, feed_.status().message});
   });
 }
 
-Answer Operator::swap(std::unique_ptr<station::Performer> performer, const std::string& loader) {
+Answer Operator::swap(std::unique_ptr<station::Performer> performer,
+                      const std::shared_ptr<Picture>& picture,
+                      const std::string& loader) {
   const auto shared = std::make_shared<std::unique_ptr<station::Performer>>(std::move(performer));
-  return ask([this, shared, loader](const Promise& promise) {
-    performance_.swap(std::move(*shared), loader, promise);
+  return ask([=](const Promise& promise) {
+    performance_.swap(std::move(*shared), picture, loader, promise);
   });
 }
 

@@ -33,11 +33,17 @@ class Operator {
   // Thread: any, but never this operator's own. All wait for their answer, 5 s at most; what was
   // not begun by then never is.
 
+  // A picture is of the performer beside it, and not null.
+
   /// Takes over a running engine and the performer it was made with. A closed operator destroys it.
-  Answer begin(std::unique_ptr<Engine> engine, station::Performer* performer);
+  Answer begin(std::unique_ptr<Engine> engine,
+               station::Performer* performer,
+               const std::shared_ptr<Picture>& picture);
   /// Plays another model; answers when it plays.
   /// \param loader  who asked for it
-  Answer swap(std::unique_ptr<station::Performer> performer, const std::string& loader);
+  Answer swap(std::unique_ptr<station::Performer> performer,
+              const std::shared_ptr<Picture>& picture,
+              const std::string& loader);
   /// Lets force ramp in; answers when it does, or why it may not. An answer that does not come
   /// withdraws the request, as `stop` would.
   Answer engage(const ForceRequest& request);

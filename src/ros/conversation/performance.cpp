@@ -53,7 +53,9 @@ void log(const Event& event) {
 
 }  // namespace
 
-void Performance::begin(std::unique_ptr<Engine> engine, station::Performer* performer) {
+void Performance::begin(std::unique_ptr<Engine> engine,
+                        station::Performer* performer,
+                        std::shared_ptr<Picture> picture) {
   {
     const std::lock_guard lock(engine_mutex_);
     engine_ = std::move(engine);
@@ -63,7 +65,7 @@ void Performance::begin(std::unique_ptr<Engine> engine, station::Performer* perf
   parameters_ = performer->parameters;
   feed_.configure(engine_->parameters(), engine_->hands());
   show(endEffectors());
-  play(performer);
+  play(performer, std::move(picture));
   if (engine_->parameters().autoengage) {
     engage({{rt::monotonicNs(), began_}, ::ros::this_node::getName()},
            std::make_shared<std::promise<Answer>>());
@@ -71,6 +73,7 @@ void Performance::begin(std::unique_ptr<Engine> engine, station::Performer* perf
 }
 
 void Performance::swap(std::unique_ptr<station::Performer> performer,
+                       std::shared_ptr<Picture> picture,
                        const std::string& loader,
                        const Promise& promise) {
   if (!engine_) {
@@ -94,7 +97,8 @@ void Performance::swap(std::unique_ptr<station::Performer> performer,
   }
   submitted_ = performer.release();
   parameters_ = parameters;
-  incoming_.push_back({submitted_, takes_force && interlock_->read().isOpen(), promise});
+  incoming_.push_back(
+      {submitted_, std::move(picture), takes_force && interlock_->read().isOpen(), promise});
 }
 
 /// Whether a model of this loader leaves force at zero.
@@ -289,9 +293,9 @@ void Performance::takeSwapped(const station::Event& event) {
     incoming_.erase(lost);
     return;
   }
-  const Incoming next = incoming_.front();
+  Incoming next = std::move(incoming_.front());
   incoming_.pop_front();
-  play(next.performer);
+  play(next.performer, std::move(next.picture));
   answer(next.promise, true, feed_.status().message + (next.takes_force ? kForceWaits : ""));
 }
 
@@ -316,9 +320,9 @@ void Performance::giveUp() {
   }
 }
 
-void Performance::play(station::Performer* performer) {
+void Performance::play(station::Performer* performer, std::shared_ptr<Picture> picture) {
   playing_ = performer;
-  feed_.showModel(*performer, noteOn(*performer));
+  feed_.showModel(*performer, std::move(picture), noteOn(*performer));
   command(CommandType::kKeyframe);
 }
 

@@ -53,9 +53,14 @@ class Performance {
 
   Engine* engine() { return engine_.get(); }
 
+  // A picture is of the performer beside it, and not null.
+
   /// Takes over a running engine and the performer it was made with.
-  void begin(std::unique_ptr<Engine> engine, station::Performer* performer);
+  void begin(std::unique_ptr<Engine> engine,
+             station::Performer* performer,
+             std::shared_ptr<Picture> picture);
   void swap(std::unique_ptr<station::Performer> performer,
+            std::shared_ptr<Picture> picture,
             const std::string& loader,
             const Promise& promise);
   void engage(const ForceRequest& request, const Promise& promise);
@@ -86,6 +91,7 @@ class Performance {
   /// A model on its way into the station, which owns it.
   struct Incoming {
     station::Performer* performer = nullptr;
+    std::shared_ptr<Picture> picture;
     bool takes_force = false;  ///< which was there, and waits for `engage` then
     Promise promise;
   };
@@ -134,7 +140,7 @@ class Performance {
   void takeSwapped(const station::Event& event);
   void takeKeyframe(const station::Event& event);
   void giveUp();
-  void play(station::Performer* performer);
+  void play(station::Performer* performer, std::shared_ptr<Picture> picture);
   void reportWarnings();
 
   Feed& feed_;

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/display/display.hpp"
+
+#include <utility>
+
+namespace ergotic::node {
+namespace {
+
+constexpr std::uint32_t kQueue = 100;
+constexpr std::uint32_t kMarkersQueue = 2;
+constexpr bool kLatched = true;
+
+}  // namespace
+
+Display::Display(const ::ros::NodeHandle& node)
+    : node_(node),
+      model_structure_(node_.advertise<ModelStructure>("model_structure", 1, kLatched)),
+      model_state_(node_.advertise<ModelState>("model_state", kQueue)),
+      markers_(node_.advertise<visualization_msgs::MarkerArray>("markers", kMarkersQueue)),
+      news_([this](News& news) { draw(news); }) {}
+
+void Display::show(std::shared_ptr<Picture> picture) {
+  news_.tell([&](News& news) {
+    news.picture = std::move(picture);
+    news.has_moved = false;  // that was another model
+  });
+}
+
+void Display::show(const tgr::EndEffectors& end_effectors) {
+  news_.tell([&](News& news) { news.end_effectors = end_effectors; });
+}
+
+void Display::show(const station::MotionFrame& motion) {
+  if (model_state_.getNumSubscribers() == 0 && markers_.getNumSubscribers() == 0) {
+    return;
+  }
+  news_.tell([&](News& news) {
+    news.has_moved = true;
+    news.motion.header.stamp = ::ros::Time::now();
+    news.motion.header.frame_id = "model";
+    news.motion.tick = motion.tick;
+    news.motion.displacement = motion.displacement;
+  });
+}
+
+void Display::draw(News& news) {
+  if (news.picture) {
+    begin(std::move(*news.picture));
+  }
+  if (news.end_effectors) {
+    frames_ = EndEffectorFrames(*news.end_effectors);
+    markers_.publish(Markers::eraseAll());  // those that are gone
+  }
+  if (news.has_moved && picture_) {
+    draw(news.motion);
+  }
+  news.picture.reset();
+  news.end_effectors.reset();
+  news.has_moved = false;
+}
+
+void Display::begin(std::shared_ptr<Picture> picture) {
+  picture_ = std::move(picture);
+  if (picture_) {
+    picture_->structure.header.stamp = ::ros::Time::now();
+    model_structure_.publish(picture_->structure);
+    markers_.publish(Markers::eraseAll());
+  }
+}
+
+void Display::draw(const ModelState& motion) {
+  if (model_state_.getNumSubscribers() > 0) {
+    model_state_.publish(motion);
+  }
+  if (markers_.getNumSubscribers() > 0) {
+    const ::ros::Time stamp = motion.header.stamp;
+    markers_.publish(picture_->markers.draw(motion.displacement, stamp));
+    if (const auto& shapes = frames_.shapes(stamp); !shapes.markers.empty()) {
+      markers_.publish(shapes);
+    }
+  }
+}
+
+}  // namespace ergotic::node

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <ergotic/ModelState.h>
+#include <ergotic/ModelStructure.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include "ergotic/station/performer.hpp"
+#include "ros/display/end_effector_frames.hpp"
+#include "ros/display/markers.hpp"
+#include "ros/display/newest.hpp"
+
+namespace ergotic::node {
+
+/// What a model looks like. It is made where the model is loaded, for that takes time as well.
+struct Picture {
+  ModelStructure structure;  ///< without a stamp
+  Markers markers;
+};
+
+/// Draws what plays, in a thread of its own: however long a picture takes, nothing else waits for
+/// it. Frames that come meanwhile are left out, but for the newest.
+/// Thread: operator, all but the constructor. None of these waits for a picture
+class Display {
+ public:
+  explicit Display(const ::ros::NodeHandle& node);
+
+  /// Another model plays from now on; null: none.
+  void show(std::shared_ptr<Picture> picture);
+  /// These end-effectors stand on the slices from now on.
+  void show(const tgr::EndEffectors& end_effectors);
+  /// How the model that was shown last stands. It is copied if anybody looks.
+  void show(const station::MotionFrame& motion);
+
+ private:
+  struct News {
+    std::optional<std::shared_ptr<Picture>> picture;
+    std::optional<tgr::EndEffectors> end_effectors;
+    bool has_moved = false;
+    ModelState motion;  // keeps its memory
+  };
+
+  // Thread: the display's own.
+  void draw(News& news);
+  void begin(std::shared_ptr<Picture> picture);
+  void draw(const ModelState& motion);
+
+  ::ros::NodeHandle node_;
+  ::ros::Publisher model_structure_;
+  ::ros::Publisher model_state_;
+  ::ros::Publisher markers_;
+
+  std::shared_ptr<Picture> picture_;
+  EndEffectorFrames frames_;
+
+  Newest<News> news_;  // last: its thread needs all the others
+};
+
+}  // namespace ergotic::node

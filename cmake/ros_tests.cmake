@@ -29,7 +29,7 @@ foreach(rostest ${rostests})
   endif()
   add_test(NAME integration.${name} COMMAND ${in_devel_space} /usr/bin/rostest ${rostest})
   set_tests_properties(integration.${name} PROPERTIES
-    RUN_SERIAL TRUE TIMEOUT 300 LABELS integration)
+    RUN_SERIAL TRUE TIMEOUT 300 LABELS integration FIXTURES_REQUIRED trials)
 endforeach()
 
 target_sources(safety_rostest

@@ -36,8 +36,16 @@ function(ergotic_add_gtests room)
     set(lock RESOURCE_LOCK jack)
   endif()
   gtest_discover_tests(ergotic_${room}_test
-    TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${room} ${lock})
+    TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 60
+    PROPERTIES TIMEOUT 300 LABELS ${room} FIXTURES_REQUIRED trials ${lock})
 endfunction()
+# What a run is excused for, over all of its tests: see test/support/trials.hpp.
+add_test(NAME trials.begin COMMAND ${CMAKE_COMMAND} -E rm -f ${PROJECT_BINARY_DIR}/trials.txt)
+set_tests_properties(trials.begin PROPERTIES FIXTURES_SETUP trials)
+add_test(NAME trials.sum
+  COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/support/sum_trials.py
+          ${PROJECT_BINARY_DIR}/trials.txt)
+set_tests_properties(trials.sum PROPERTIES FIXTURES_CLEANUP trials)
 
 foreach(room rt files station audio golden)
   ergotic_add_gtests(${room})
@@ -84,7 +92,7 @@ add_test(NAME scripts.bound_at_load
   COMMAND ${PROJECT_SOURCE_DIR}/test/integration/bound_at_load.sh ${bound_at_load})
 # The scripts: what is built; what rooms may include, and how they are drawn; what measures a demo, a soak,
 # a peer and another build; what users do in the devel and in an install space.
-foreach(script build check_includes demo_report soak_report bench_faust latency play_gesture)
+foreach(script build check_includes demo_report soak_report bench_faust latency play_gesture sum_trials)
   add_test(NAME scripts.${script}
     COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/${script}_test.py)
 endforeach()

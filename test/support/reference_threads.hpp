@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace ergotic::test {
+
+/// A thread on each processor notes when the machine did not let it run: the host may take one
+/// processor away and leave the others. Thread: any
+class ReferenceThreads {
+ public:
+  /// For what has real-time priority: threads that nothing in a test outranks. For what goes
+  /// through ordinary threads, as all messages of ROS do: one of these.
+  enum class Rank { kAboveAll, kOrdinary };
+
+  explicit ReferenceThreads(Rank rank = Rank::kAboveAll);
+  ~ReferenceThreads();
+  ReferenceThreads(const ReferenceThreads&) = delete;
+  ReferenceThreads& operator=(const ReferenceThreads&) = delete;
+
+  /// For how long at a time one of the processors stood still between these times of
+  /// CLOCK_MONOTONIC, ns. What is shorter than kLeastNs is not seen.
+  std::int64_t longestStallNs(std::int64_t from_ns, std::int64_t to_ns) const;
+
+  static constexpr std::int64_t kLeastNs = 400'000;
+  /// Of threads above all; what they judge stands next to them, so that other tests come after it.
+  static constexpr int kPriority = 90;
+
+ private:
+  struct Stall {
+    std::int64_t from_ns = 0;
+    std::int64_t to_ns = 0;
+  };
+  struct Processor {
+    int number = 0;
+    std::atomic<std::int64_t> ran_ns{0};  // last
+    std::thread thread;
+  };
+
+  void run(Processor& processor);
+
+  Rank rank_;
+  std::atomic<bool> stop_{false};
+  mutable std::mutex mutex_;
+  std::vector<Stall> stalls_;
+  std::vector<std::unique_ptr<Processor>> processors_;
+};
+
+}  // namespace ergotic::test

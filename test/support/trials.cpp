@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/trials.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "support/places.hpp"
+#include "support/reference_threads.hpp"
+
+namespace ergotic::test {
+namespace {
+
+std::string nameOfTest() {
+  const auto* const test = ::testing::UnitTest::GetInstance()->current_test_info();
+  return test == nullptr ? "" : std::string(test->test_suite_name()) + '.' + test->name();
+}
+
+double msOf(std::int64_t ns) {
+  return 1e-6 * static_cast<double>(ns);
+}
+
+}  // namespace
+
+Trials::Trials(const ReferenceThreads& reference)
+    : Trials([&reference](std::int64_t from_ns,
+                          std::int64_t to_ns) { return reference.longestStallNs(from_ns, to_ns); },
+             trialNotes()) {}
+
+Trials::Trials(Watch watch, std::string notes)
+    : watch_(std::move(watch)), notes_(std::move(notes)) {}
+
+Trials::~Trials() {
+  close();
+  if (excused_ > 0) {
+    std::cout << nameOfTest() << ": " << excused_ << " of " << tries_ << " tries excused\n";
+  }
+  if (tries_ > 0 && !notes_.empty()) {
+    std::ostringstream line;  // one write, for others add theirs
+    line << nameOfTest() << '\t' << tries_ << '\t' << excused_ << '\n';
+    std::ofstream(notes_, std::ios::app) << line.str();
+  }
+}
+
+void Trials::close() {
+  tries_ += trying_ ? 1 : 0;
+  excused_ += trying_ && verdict_ == Verdict::kExcused ? 1 : 0;
+  late_ += trying_ && verdict_ == Verdict::kLate ? 1 : 0;
+  trying_ = false;
+  verdict_ = Verdict::kOnTime;
+}
+
+void Trials::next() {
+  close();
+  trying_ = true;
+}
+
+bool Trials::goOn() {
+  close();
+  if (late_ > 0 || onTime() >= kWanted) {
+    return false;
+  }
+  if (tries_ == kMost) {
+    ADD_FAILURE() << "the machine stands still too often to be tested on: " << excused_ << " of "
+                  << tries_ << " tries excused";
+    return false;
+  }
+  trying_ = true;
+  return true;
+}
+
+Trials::Verdict Trials::judge(const Window& window,
+                              std::int64_t happened_ns,
+                              const std::string& what) {
+  if (happened_ns <= window.limit_ns) {
+    return Verdict::kOnTime;
+  }
+  const std::int64_t stall_ns = watch_(window.from_ns, window.limit_ns);
+  const Verdict verdict = stall_ns >= window.stall_ns ? Verdict::kExcused : Verdict::kLate;
+  verdict_ = std::max(verdict_, verdict);
+  if (verdict == Verdict::kLate) {
+    ADD_FAILURE() << what
+                  << (happened_ns == kNever
+                          ? " was not so"
+                          : " came after " + std::to_string(msOf(happened_ns - window.from_ns)) +
+                                " ms")
+                  << ", limit " << msOf(window.limit_ns - window.from_ns)
+                  << " ms; the machine stood still for no more than " << msOf(stall_ns) << " ms";
+  }
+  return verdict;
+}
+
+Trials::Verdict Trials::judgeThat(bool holds, const Window& window, const std::string& what) {
+  return judge(window, holds ? window.limit_ns : kNever, what);
+}
+
+void Trials::expectNineOfTen() {
+  close();
+  EXPECT_LE(10 * excused_, tries_) << "the machine stands still too often to be tested on";
+}
+
+}  // namespace ergotic::test

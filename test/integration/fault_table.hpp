@@ -15,7 +15,6 @@ struct Outcome {
   double released_ms = 0.0;  ///< from its start to force below 1 % at the device, for good
   double recovered_s = 0.0;  ///< from the request to its answer
   double largest_n = 0.0;    ///< at the device
-  std::string excuse;        ///< why it proves nothing; empty if it does
 };
 
 /// The table of faults in docs/safety.md.

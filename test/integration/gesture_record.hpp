@@ -44,16 +44,6 @@ class GestureRecord {
     return ticks;
   }
 
-  /// Whether the slice was twice at the same place in the last 20 ticks before this one: if it
-  /// moves, its device came late.
-  bool stoodStill(std::int64_t before, std::size_t slice) const {
-    constexpr std::int64_t kTicks = 20;
-    const std::vector<Tick> last = from(before - kTicks);
-    return std::adjacent_find(last.begin(), last.end(), [=](const Tick& a, const Tick& b) {
-             return b.tick < before && a.positions[slice] == b.positions[slice];
-           }) != last.end();
-  }
-
   /// When a tick was due, CLOCK_MONOTONIC. Ticks are due in equal steps, and no block is stamped
   /// before its first one: the earliest stamp, less the steps up to it, tells best.
   /// \pre a block came

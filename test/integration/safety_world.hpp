@@ -24,10 +24,10 @@
 #include "integration/device_log.hpp"
 #include "integration/fault_table.hpp"
 #include "integration/listener.hpp"
-#include "integration/reference_threads.hpp"
 #include "integration/station_services.hpp"
 #include "integration/wall.hpp"
 #include "support/places.hpp"
+#include "support/reference_threads.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::test {
@@ -163,7 +163,8 @@ class SafetyWorld {
   PresenceSwitch presence{node};
   std::unique_ptr<ChildProcess> station;
   std::unique_ptr<DeviceLog> log;  // of the present device
-  ReferenceThreads reference;
+  const ReferenceThreads reference;
+  const ReferenceThreads ordinary{ReferenceThreads::Rank::kOrdinary};
   FaultTable table;
 
  private:

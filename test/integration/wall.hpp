@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "support/reference_threads.hpp"
+#include "support/trials.hpp"
+
 namespace ergotic::test {
 
 // A wall for slice 0: 15 N at 15 mm. Two more points move freely, for an end-effector.
@@ -22,5 +25,11 @@ ports:
   tip_y: {mat: tip_y}
 )";
 constexpr double kForceN = 15.0;
+
+/// Where even the shortest stall excuses that there is not all of the force: a station mutes it
+/// when it has missed ticks, and lets it back in 50 ms.
+inline Trials::Window mutedBefore(std::int64_t time_ns) {
+  return {time_ns - 60'000'000, time_ns, ReferenceThreads::kLeastNs};
+}
 
 }  // namespace ergotic::test

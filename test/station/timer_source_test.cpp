@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/station/timer_source.hpp"
 
+#include <map>
 #include <thread>
 
+#include "ergotic/rt/clock.hpp"
 #include "ergotic/station/station.hpp"
+#include "support/reference_threads.hpp"
 #include "support/station_doubles.hpp"
 #include "support/test.hpp"
+#include "support/trials.hpp"
 
 namespace ergotic::station {
 namespace {
@@ -15,6 +19,7 @@ using test::Bench;
 constexpr double kStiffness = 100.0;
 constexpr std::int64_t kRampTicks = Bench::kRampTicks;
 constexpr std::int64_t kResumeTicks = 18;  // 5 ms and a little
+constexpr std::int64_t kMissedNs = 200'000;
 
 double stampOf(std::int64_t n, int /*slice*/) {
   return 1e-6 * static_cast<double>(n % 20001 - 10000);
@@ -35,44 +40,106 @@ StationConfig longRecord() {
   return config;
 }
 
-TEST(TimerSourceTest, LiveForceOfATickGoesOutWithTheExchangeThatReadsTheNextPosition) {
-  Bench bench({}, stampOf, longRecord());
-  std::vector<double> sent;  // [exchange]
-  sent.reserve(1U << 16U);
-  bench.driver->watch = [&](std::int64_t, const double* forces) { sent.push_back(forces[0]); };
-  TimerSource timer(*bench.station, nullptr);
-  bench.command(Command::Type::kEngage);
-  timer.start(ordinary());
-  std::this_thread::sleep_for(std::chrono::seconds(2));
-  timer.stop();
-
-  const std::vector<GestureTick> ticks = bench.recorded();
-  ASSERT_GT(ticks.size(), 1000U);
-  std::size_t exchange = 0;
-  std::int64_t since_stall = 0;
-  std::int64_t ramped = 0;
-  std::int64_t proved = 0;
-  for (std::size_t i = 0; i < ticks.size(); ++i) {
-    const bool caught_up = (ticks[i].flags & GestureTick::kCatchUp) != 0;
-    const bool last_of_stall =
-        caught_up && ticks[i].position[0] == stampOf(static_cast<std::int64_t>(exchange), 0);
-    since_stall = caught_up ? 0 : since_stall + 1;
-    ramped += caught_up ? 0 : 1;  // the ramp stands still while force is muted
-    if (caught_up && !last_of_stall) {
-      continue;  // an interpolated tick: no exchange of its own
-    }
-    ASSERT_EQ(ticks[i].position[0], stampOf(static_cast<std::int64_t>(exchange), 0));
-    ++exchange;
-    ASSERT_LT(exchange, sent.size());
-    if (i + 1 < ticks.size() && ramped > kRampTicks && since_stall > kResumeTicks &&
-        (ticks[i + 1].flags & GestureTick::kCatchUp) == 0) {
-      ASSERT_EQ(sent[exchange], -kStiffness * ticks[i].position[0]) << "tick " << ticks[i].tick;
-      ++proved;
+/// Two seconds of force under the timer, and the time of every exchange.
+class LiveForce {
+ public:
+  LiveForce() {
+    exchanges_.reserve(1U << 16U);
+    bench_.driver->watch = [this](std::int64_t, const double* forces) {
+      exchanges_.push_back({forces[0], rt::monotonicNs()});
+    };
+    TimerSource timer(*bench_.station, nullptr);
+    bench_.command(Command::Type::kEngage);
+    TimerOptions options = ordinary();
+    options.priority = test::ReferenceThreads::kPriority - 1;
+    timer.start(options);
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    timer.stop();
+    ticks_ = bench_.recorded();
+    for (const Event& event : bench_.events()) {
+      if (event.type == Event::Type::kStall) {
+        stalls_.push_back(event);
+      }
     }
   }
-  EXPECT_GT(proved, 500) << "the machine stalls all the time";
-  RecordProperty("ticks_proved", static_cast<int>(proved));
-  EXPECT_EQ(sent.back(), 0.0) << "the timer leaves the device at rest";
+
+  /// That each position is that of its exchange, and that the next one sends the force of it. Where
+  /// the station caught up, and so muted the force, the machine has to have stood still.
+  void expectInStep(test::Trials& trials) {
+    ASSERT_GT(ticks_.size(), 1000U);
+    std::vector<bool> proves(ticks_.size() - 1);
+    std::int64_t since_stall = 0;
+    std::int64_t ramped = 0;
+    std::size_t exchange = 0;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < proves.size(); ++i) {
+      const bool caught_up = isCaughtUp(i);
+      since_stall = caught_up ? 0 : since_stall + 1;
+      ramped += caught_up ? 0 : 1;  // the ramp stands still while force is muted
+      first = ramped <= kRampTicks ? i + 1 : first;
+      if (caught_up && positionOf(i) != stampOf(exchange)) {
+        continue;  // it is interpolated, without an exchange of its own
+      }
+      ASSERT_EQ(positionOf(i), stampOf(exchange));
+      if (caught_up) {
+        noteStall(i, exchanges_[exchange].time_ns);
+      }
+      ++exchange;
+      proves[i] = since_stall > kResumeTicks && !isCaughtUp(i + 1);
+      if (proves[i] && i >= first) {
+        ASSERT_EQ(exchanges_[exchange].sent, -kStiffness * positionOf(i)) << "tick " << i;
+      }
+    }
+    EXPECT_EQ(exchanges_.back().sent, 0.0) << "the timer leaves the device at rest";
+    for (std::size_t i = first; i < proves.size(); ++i) {
+      trials.next();
+      trials.judgeThat(proves[i], windowOf(i), "tick " + std::to_string(i));
+    }
+  }
+
+ private:
+  struct Exchange {
+    double sent = 0.0;
+    std::int64_t time_ns = 0;
+  };
+
+  static double stampOf(std::size_t exchange) {
+    return station::stampOf(static_cast<std::int64_t>(exchange), 0);
+  }
+  bool isCaughtUp(std::size_t i) const { return (ticks_[i].flags & GestureTick::kCatchUp) != 0; }
+  double positionOf(std::size_t i) const { return ticks_[i].position[0]; }
+
+  /// That ended with the exchange of tick `i`, at this time.
+  void noteStall(std::size_t i, std::int64_t end_ns) {
+    const double seconds = stalls_.at(due_.size()).value;
+    due_.emplace(i, end_ns - static_cast<std::int64_t>(1e9 * seconds));
+  }
+  /// Of the stall because of which tick `i` was without its force: from when the first tick was due
+  /// that it missed until one is caught up, two periods later.
+  test::Trials::Window windowOf(std::size_t i) const {
+    const bool before = isCaughtUp(i) || isCaughtUp(i + 1);
+    auto stall = before ? due_.lower_bound(i) : due_.upper_bound(i);
+    if (!before && stall != due_.begin()) {
+      --stall;
+    }
+    const double period_ns = 1e9 / bench_.station->config().rates.gesturalHz();
+    const std::int64_t due_ns = stall == due_.end() ? 0 : stall->second;
+    return {due_ns, due_ns + static_cast<std::int64_t>(2.0 * period_ns), kMissedNs};
+  }
+
+  Bench bench_{{}, station::stampOf, longRecord()};
+  std::vector<Exchange> exchanges_;
+  std::vector<GestureTick> ticks_;
+  std::vector<Event> stalls_;
+  std::map<std::size_t, std::int64_t> due_;  // by the tick of the exchange that ended a stall
+};
+
+TEST(TimerSourceTest, LiveForceOfATickGoesOutWithTheExchangeThatReadsTheNextPosition) {
+  const test::ReferenceThreads reference;
+  test::Trials trials(reference);
+  LiveForce live;
+  live.expectInStep(trials);
+  trials.expectNineOfTen();
 }
 
 TEST(TimerSourceTest, TickIndexKeepsUpWithTheClockThroughStalls) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How long a force takes to answer a position, and what that means for a stiff wall.
 
+#include "ergotic/rt/clock.hpp"
+#include "support/reference_threads.hpp"
 #include "support/test.hpp"
+#include "support/trials.hpp"
 #include "tgr/drivers/jack/step_meter.hpp"
 #include "tgr_jack/jack_rigs.hpp"
 
@@ -65,10 +68,19 @@ TEST_P(JackRoundTripTest, IsTheOneThatIsDeclaredToTheFrame) {
   JackDriver driver(test::jackDriver(server));
   driver.open(static_cast<double>(kRate) / loop.ratio);
   EchoTarget echo(driver);
+  const test::ReferenceThreads reference;
+  const std::int64_t from_ns = rt::monotonicNs();
   driver.clock()->start(echo);
   const StepSummary summary = measured(meter, 2 * loop.period);  // at all phases of ticks
   driver.clock()->stop();
-  RecordProperty("disturbed", summary.disturbed);
+  test::Trials trials(reference);
+  for (int step = 0; step < summary.answered + summary.disturbed; ++step) {
+    trials.next();
+    trials.judgeThat(step >= summary.disturbed,
+                     {from_ns, rt::monotonicNs(), test::ReferenceThreads::kLeastNs},
+                     "an answer without blocks left out");
+  }
+  trials.expectNineOfTen();
   ASSERT_GE(summary.answered, 2 * loop.period);
   EXPECT_EQ(summary.unanswered, 0);
   const auto measured_frames = static_cast<int>(summary.most_frames) - loop.ratio;

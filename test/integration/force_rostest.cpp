@@ -299,6 +299,28 @@ TEST_F(ForceTest, AStopWaitsForNobody) {
   }
 }
 
+TEST_F(ForceTest, ARequestThatGotNoAnswerHasNoEffectLater) {
+  startToPlay();
+  push();
+  InjectFault inject;
+  inject.request.kind = "slow";
+  inject.request.amount = 8.0;  // s, of one tick
+  ASSERT_TRUE(::ros::service::call("/station/inject_fault", inject));
+  ASSERT_TRUE(stateBecomes(Status::FAULT)) << "the watchdog acts";
+  const std::int64_t asked_ns = rt::monotonicNs();
+  std::future<std_srvs::Trigger::Response> engaged =
+      std::async(std::launch::async, [] { return call("engage"); });
+  const auto recovered = call("recover");
+  const std::int64_t answered_ns = rt::monotonicNs();
+  EXPECT_FALSE(recovered.success);
+  EXPECT_THAT(recovered.message, HasSubstr("withdrawn"));
+  EXPECT_FALSE(engaged.get().success);
+  EXPECT_LT(answered_ns - asked_ns, 6'000 * kNsPerMs);
+  ASSERT_TRUE(eventually([&] { return force_.knownNs() > answered_ns + 1000 * kNsPerMs; }));
+  EXPECT_EQ(status_.latest().state, Status::FAULT);
+  EXPECT_LT(force_.lastForceNs(), asked_ns);
+}
+
 TEST_F(ForceTest, KeepsTheNewestValueOfEachParameter) {
   startToPlay();
   ::ros::Publisher topic = node_.advertise<ParameterValue>("/station/parameters", 10000);

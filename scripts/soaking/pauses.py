@@ -9,13 +9,19 @@ PAUSE_S = 1e-3
 LEAST_NS = 3_000_000  # what counts as a pause
 
 
-def note(cpu, path, end):
-    """Appends `start_ns,end_ns` (CLOCK_MONOTONIC) of each pause of a processor to a file until `end` (time.monotonic, s)."""
-    os.sched_setaffinity(0, {cpu})
+def outrank(priority):
+    """Gives this thread, and those that it starts, a real-time priority."""
     try:
-        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(PRIORITY))
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(priority))
     except PermissionError:
-        print("pauses: no real-time priority: some may be other programs'", file=sys.stderr)
+        print("no real-time priority: what other programs do is taken for a pause, or for late", file=sys.stderr)
+
+
+def note(cpu, path, end):
+    """Appends `start_ns,end_ns` (CLOCK_MONOTONIC) of each pause of a processor to a file until `end`
+    (time.monotonic, s)."""
+    os.sched_setaffinity(0, {cpu})
+    outrank(PRIORITY)
     with open(path, "a", encoding="utf-8", buffering=1) as file:
         last = time.monotonic_ns()
         while time.monotonic() < end:

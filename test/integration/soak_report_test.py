@@ -9,6 +9,8 @@ import sys
 import tempfile
 import unittest
 
+import numpy as np
+
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "..", "scripts"))
 import soak_report  # noqa: E402
 from soaking.pauses import overlap_ns  # noqa: E402
@@ -81,11 +83,12 @@ class StopsTest(unittest.TestCase):
 
 class OthersTest(unittest.TestCase):
     def test_force_keeps_its_limit_and_its_slew(self):
-        good = [(n / 3.15, 0, 1.58 * n) for n in range(12)]
-        self.assertTrue(passes(soak_report.judge_force, forces(*good), TICK_RATE))
-        self.assertTrue(passes(soak_report.judge_force, forces(*good, (9, 0, 0.0)), TICK_RATE))
-        self.assertFalse(passes(soak_report.judge_force, forces(*good, (9, 0, -4.0)), TICK_RATE))
-        self.assertFalse(passes(soak_report.judge_force, forces(*good, (9, 0, 20.1)), TICK_RATE))
+        felt = forces((1, 0, 20.0))
+        sent = np.array([[1.58 * n, 0.0] for n in range(12)] + [[0.0, -1.58]])
+        self.assertTrue(passes(soak_report.judge_force, felt, sent, TICK_RATE))
+        self.assertFalse(passes(soak_report.judge_force, forces((1, 0, 20.1)), sent, TICK_RATE))
+        for late in ([0.0, -3.2], [1.6, -1.58], [0.0, 1.6]):
+            self.assertFalse(passes(soak_report.judge_force, felt, np.append(sent, [late], axis=0), TICK_RATE))
 
     def test_a_process_must_not_grow(self):
         def looks(**last):

@@ -41,6 +41,15 @@ void complain(const std::string& topic, const Answer& answer) {
   }
 }
 
+/// Below JACK and the ticks, above everything ordinary. Of parameters that are refused later, where
+/// a model is loaded, the usual ones count.
+int urgencyOf(const ::ros::NodeHandle& node) {
+  constexpr int kUrgent = 40;
+  return node.param<std::string>("realtime", "try") == "off"
+             ? 0
+             : std::min(kUrgent, node.param("priority", kUrgent + 1) - 1);
+}
+
 }  // namespace
 
 Services::Services(::ros::NodeHandle node, Operator& operator_thread)
@@ -51,7 +60,7 @@ Services::Services(::ros::NodeHandle node, Operator& operator_thread)
       loading_node_(node),
       loading_spinner_(1, &loading_queue_),
       safety_node_(node),
-      safety_spinner_(1, &safety_queue_) {
+      safety_spinner_(safety_queue_, urgencyOf(node)) {
   node_.setCallbackQueue(&queue_);
   loading_node_.setCallbackQueue(&loading_queue_);
   safety_node_.setCallbackQueue(&safety_queue_);
@@ -78,14 +87,12 @@ Services::Services(::ros::NodeHandle node, Operator& operator_thread)
   first_load_ = loading_node_.createWallTimer(
       ::ros::WallDuration(0.0), [this](const auto& /*event*/) { loader_.loadFromParameters(); },
       kOnce);
-  safety_spinner_.start();
   loading_spinner_.start();
 }
 
 Services::~Services() {
   loader_.giveUp();
   loading_spinner_.stop();  // after the load that runs, if one does
-  safety_spinner_.stop();
 }
 
 bool Services::onLoadModel(Call<LoadModel>& call) {

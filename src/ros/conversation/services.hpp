@@ -24,6 +24,7 @@
 #include "ros/conversation/loader.hpp"
 #include "ros/conversation/operator.hpp"
 #include "ros/conversation/presence_owner.hpp"
+#include "ros/conversation/urgent_spinner.hpp"
 
 namespace ergotic::node {
 
@@ -71,10 +72,10 @@ class Services {
   ::ros::AsyncSpinner loading_spinner_;
   ::ros::CallbackQueue safety_queue_;
   ::ros::NodeHandle safety_node_;
-  ::ros::AsyncSpinner safety_spinner_;
   ::ros::WallTimer first_load_;
   std::vector<::ros::ServiceServer> servers_;
   std::vector<::ros::Subscriber> subscribers_;
+  UrgentSpinner safety_spinner_;  // ends first
 };
 
 }  // namespace ergotic::node

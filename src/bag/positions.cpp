@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <exception>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -12,23 +14,30 @@
 namespace ergotic::bag {
 namespace {
 
+/// Those of the stretch that is played, read when it begins.
 class RecordedPositions : public tgr::GestureSource {
  public:
-  explicit RecordedPositions(std::vector<Stretch> stretches)
-      : stretches_(std::move(stretches)), tick_(stretches_.front().first_tick) {}
+  explicit RecordedPositions(Recording recording)
+      : recording_(std::move(recording)), tick_(recording_.stretches.front().first_tick) {}
 
-  int slices() const noexcept override { return static_cast<int>(stretches_.front().slices); }
+  int slices() const noexcept override {
+    return static_cast<int>(recording_.stretches.front().slices);
+  }
 
   bool next(double* positions) noexcept override {
-    while (stretch_ < stretches_.size() && tick_ >= stretches_[stretch_].endTick()) {
+    const std::vector<Stretch>& stretches = recording_.stretches;
+    while (stretch_ < stretches.size() && tick_ >= stretches[stretch_].endTick()) {
       ++stretch_;
     }
-    if (stretch_ == stretches_.size()) {
+    if (stretch_ == stretches.size()) {
       return false;
     }
     // Between two stretches the last tick of the one before is held.
-    const Stretch& stretch =
-        tick_ < stretches_[stretch_].first_tick ? stretches_[stretch_ - 1] : stretches_[stretch_];
+    const std::size_t played = tick_ < stretches[stretch_].first_tick ? stretch_ - 1 : stretch_;
+    if (!bring(played)) {
+      return false;
+    }
+    const Stretch& stretch = stretches[played];
     const std::int64_t row = std::min(tick_, stretch.endTick() - 1) - stretch.first_tick;
     std::copy_n(stretch.positions.begin() + row * static_cast<std::ptrdiff_t>(stretch.slices),
                 stretch.slices, positions);
@@ -37,15 +46,34 @@ class RecordedPositions : public tgr::GestureSource {
   }
 
  private:
-  std::vector<Stretch> stretches_;  // none of them empty
+  /// \return false if the file cannot be read any more
+  bool bring(std::size_t stretch) noexcept {
+    if (!recording_.load || (is_here_ && *is_here_ == stretch)) {
+      return true;
+    }
+    try {
+      if (is_here_) {
+        recording_.unload(recording_.stretches[*is_here_]);
+      }
+      recording_.load(recording_.stretches[stretch]);
+      is_here_ = stretch;
+      return true;
+    } catch (const std::exception&) {
+      stretch_ = recording_.stretches.size();  // the end
+      return false;
+    }
+  }
+
+  Recording recording_;  // no stretch is empty
   std::size_t stretch_ = 0;
+  std::optional<std::size_t> is_here_;
   std::int64_t tick_;
 };
 
 }  // namespace
 
-std::unique_ptr<tgr::GestureSource> positionsOf(std::vector<Stretch> stretches,
-                                                const std::string& path) {
+std::unique_ptr<tgr::GestureSource> positionsOf(Recording recording, const std::string& path) {
+  std::vector<Stretch>& stretches = recording.stretches;
   stretches.erase(std::remove_if(stretches.begin(), stretches.end(),
                                  [](const Stretch& stretch) { return stretch.flags.empty(); }),
                   stretches.end());
@@ -61,17 +89,12 @@ std::unique_ptr<tgr::GestureSource> positionsOf(std::vector<Stretch> stretches,
                       " as the first one, 1..." + std::to_string(tgr::kMaxSlices));
     }
   }
-  return std::make_unique<RecordedPositions>(std::move(stretches));
+  return std::make_unique<RecordedPositions>(std::move(recording));
 }
 
 std::unique_ptr<tgr::GestureSource> readPositions(const std::string& path,
                                                   const std::string& station) {
-  Recording recording = readRecording(path, station);
-  for (Stretch& stretch : recording.stretches) {
-    recording.load(stretch);
-    stretch.ports_at = {};
-  }
-  return positionsOf(std::move(recording.stretches), path);
+  return tgr::readAhead(positionsOf(readRecording(path, station), path));
 }
 
 }  // namespace ergotic::bag

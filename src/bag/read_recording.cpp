@@ -185,6 +185,12 @@ RecordedMessage bytesOf(const rosbag::MessageInstance& message) {
   return {message.getDataType(), message.getMD5Sum(), std::move(data)};
 }
 
+/// With their memory, which a vector keeps that is given `{}`.
+void forgetPositions(Stretch& stretch) {
+  stretch.positions = std::vector<double>();
+  stretch.ports_at = std::vector<double>();
+}
+
 /// Where the positions of a recording are.
 struct Blocks {
   explicit Blocks(const std::string& path) : bag(path, rosbag::bagmode::Read) {}
@@ -272,8 +278,7 @@ void finish(Recording& recording, const std::string& path) {
 
 void Recording::unload(Stretch& stretch) const {
   if (load) {
-    stretch.positions = {};
-    stretch.ports_at = {};
+    forgetPositions(stretch);
   }
 }
 
@@ -289,8 +294,7 @@ Recording readRecording(const std::string& path, const std::string& station) {
       add(recording, message, path);
       if (recording.stretches.size() > before) {
         recording.stretches.back().block = blocks->messages.size();
-        recording.stretches.back().positions = {};
-        recording.stretches.back().ports_at = {};
+        forgetPositions(recording.stretches.back());
         blocks->messages.push_back(instance);
       }
     }

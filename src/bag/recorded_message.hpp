@@ -26,8 +26,8 @@ void add(Recording& recording, RecordedMessage& message, const std::string& path
 /// Puts everything in the order of ticks. \throws Exception if it is no whole performance
 void finish(Recording& recording, const std::string& path);
 
-/// As `readPositions`. \throws Exception as `readPositions`
-std::unique_ptr<tgr::GestureSource> positionsOf(std::vector<Stretch> stretches,
-                                                const std::string& path);
+/// As `readPositions`, but none is read before it is asked for. Realtime: no
+/// \throws Exception as `readPositions`
+std::unique_ptr<tgr::GestureSource> positionsOf(Recording recording, const std::string& path);
 
 }  // namespace ergotic::bag

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <chrono>
 #include <cstdio>
+#include <thread>
 
 #include <ergotic/Event.h>
 #include <ergotic/GestureBlock.h>
@@ -8,8 +10,10 @@
 #include <std_msgs/String.h>
 
 #include "bag/raw_message.hpp"
+#include "bag/recorded_message.hpp"
 #include "ergotic/bag/positions.hpp"
 #include "ergotic/bag/recording.hpp"
+#include "ergotic/exception.hpp"
 #include "support/scratch_file.hpp"
 #include "support/test.hpp"
 
@@ -72,7 +76,8 @@ TEST(ReadRecordingTest, GivesBackEveryFieldInTheOrderOfTicks) {
   }
   Recording recording = readRecording(file.path());
   ASSERT_EQ(recording.stretches.size(), 2U);
-  EXPECT_TRUE(recording.stretches[0].positions.empty()) << "an hour of them does not fit in memory";
+  EXPECT_EQ(recording.stretches[0].positions.capacity(), 0U)
+      << "an hour of them does not fit in memory";
   recording.load(recording.stretches[0]);
   EXPECT_EQ(recording.stretches[0].first_tick, 12);
   EXPECT_EQ(recording.stretches[1].endTick(), 16);
@@ -82,7 +87,8 @@ TEST(ReadRecordingTest, GivesBackEveryFieldInTheOrderOfTicks) {
   EXPECT_EQ(recording.stretches[0].ports, 1U);
   EXPECT_THAT(recording.stretches[0].ports_at, ElementsAre(0.5, 1.0 / 7.0));
   recording.unload(recording.stretches[0]);
-  EXPECT_TRUE(recording.stretches[0].positions.empty());
+  EXPECT_EQ(recording.stretches[0].positions.capacity(), 0U);
+  EXPECT_EQ(recording.stretches[0].ports_at.capacity(), 0U);
   ASSERT_EQ(recording.events.size(), 1U);
   EXPECT_EQ(recording.events[0].type, station::Event::Type::kParameter);
   EXPECT_EQ(recording.events[0].tick, 13);
@@ -308,6 +314,56 @@ TEST(BagPositionsTest, ComeBackBitForBitAndAreHeldOverTicksThatNeverRan) {
   EXPECT_FALSE(source->next(positions.data()));
   EXPECT_FALSE(source->next(positions.data()));
   EXPECT_EQ(positions, expected.back());
+}
+
+TEST(BagPositionsTest, AreReadWhileTheyArePlayed) {
+  constexpr int kBlocks = 400;
+  constexpr int kBlockTicks = 64;
+  const test::ScratchFile file;
+  std::vector<GestureBlock> blocks;
+  for (int n = 0; n < kBlocks; ++n) {
+    std::vector<double> positions;
+    for (int tick = n * kBlockTicks; tick < (n + 1) * kBlockTicks; ++tick) {
+      positions.insert(positions.end(), {1e-6 * tick, 1.0 / (1.0 + tick)});
+    }
+    blocks.push_back(block(n * kBlockTicks, positions));
+  }
+  write(file.path(), blocks);
+  const auto source = readPositions(file.path());
+  std::size_t there = 0;
+  for (int tick = 0; tick < kBlocks * kBlockTicks; ++tick) {
+    std::array<double, 2> positions{};
+    if (source->next(positions.data())) {  // a tick that comes late is left out
+      ++there;
+      ASSERT_EQ(positions, (std::array<double, 2>{1e-6 * tick, 1.0 / (1.0 + tick)}));
+    }
+    if (tick % 1000 == 0) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    }
+  }
+  EXPECT_GT(there, 2 * tgr::kTicksAhead);
+}
+
+TEST(BagPositionsTest, EndWhereTheFileCannotBeReadAnyMore) {
+  Recording recording;
+  recording.stretches.resize(2);
+  for (Stretch& stretch : recording.stretches) {
+    stretch.slices = 1;
+    stretch.flags = {0};
+  }
+  recording.stretches[1].first_tick = 1;
+  recording.load = [](Stretch& stretch) {
+    if (stretch.first_tick == 1) {
+      throw Exception("the disk is gone");
+    }
+    stretch.positions = {0.1};
+  };
+  const auto source = positionsOf(recording, "a.bag");
+  double x = 0.0;
+  EXPECT_TRUE(source->next(&x));
+  EXPECT_FALSE(source->next(&x));
+  EXPECT_FALSE(source->next(&x));
+  EXPECT_EQ(x, 0.1);
 }
 
 TEST(BagPositionsTest, AreRefusedWhenTheNumberOfSlicesChanges) {

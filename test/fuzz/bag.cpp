@@ -47,7 +47,7 @@ bag::Recording read(const std::uint8_t* data, std::size_t size) {
 }
 
 void follow(const bag::Recording& recording) {
-  const auto positions = bag::positionsOf(recording.stretches, kFile);
+  const auto positions = bag::positionsOf(recording, kFile);
   std::array<double, tgr::kMaxSlices> x{};
   for (int tick = 0; tick < 100 && positions->next(x.data()); ++tick) {
     if (!std::all_of(x.begin(), x.end(), [](double value) { return std::isfinite(value); })) {

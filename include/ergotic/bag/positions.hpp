@@ -9,7 +9,7 @@
 
 namespace ergotic::bag {
 
-/// Positions of the slices, tick by tick, as a bag of a station recorded them, read into memory.
+/// Positions of the slices, tick by tick, as a bag of a station recorded them, read ahead.
 /// Over ticks that never ran the last position is held.
 /// \param station  as of `readRecording`
 /// \throws Exception as `readRecording`, or if the number of slices changes on the way

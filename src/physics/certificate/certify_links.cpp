@@ -9,6 +9,7 @@
 #include "physics/certificate/certify_parts.hpp"
 #include "physics/certificate/energy_loss.hpp"
 #include "physics/certificate/explicit_limits.hpp"
+#include "physics/certificate/largest_numbers.hpp"
 #include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
@@ -17,28 +18,28 @@ namespace {
 using scene::Lia;
 
 constexpr double kMostPower = 100.0;  // W, of a hand that moves a point
-constexpr double kMostLoad = 1e30;    // with products of it, what single precision holds
-constexpr double kMostForce = 1e36;   // likewise, with some of them on one module
+// With products and some hundred times more, what single precision holds:
+constexpr double kMostLoad = 1e30;
+constexpr double kMostForce = 1e36;   // kg m/time_unit^2
+constexpr double kMostLength = 1e18;  // m, whose square is worked out
+constexpr double kSecond = 1.0;       // s, more than guards look ahead
+constexpr double kDay = 1e5;
 
 class LinkJudge {
  public:
   LinkJudge(const RatedNetwork& networks, Findings& findings)
-      : networks_(networks), loss_(networks), findings_(findings) {
-    for (const scene::Mat& mat : networks.scene().mats) {
-      farthest_ = std::max(farthest_, mat.position.cwiseAbs().maxCoeff());
-    }
-  }
+      : networks_(networks), loss_(networks), largest_(networks), findings_(findings) {}
 
   void judge(int l) {
     const Lia& lia = networks_.scene().lias[at(l)];
     const Slopes& slopes = networks_.slopes(l);
+    judgeSize(lia);
     if (lia.scheme == scene::Scheme::kGuarded) {
       judgeGuarded(lia, slopes);
       prove(lia, "guarded");
       return;
     }
     notePlaces(lia);
-    judgeForce(lia, slopes);
     judgeSignOfMoving(lia, slopes);
     noteTurning(lia);
     const scene::Law& law = scene::lawOf(lia.type);
@@ -154,12 +155,30 @@ class LinkJudge {
     }
   }
 
-  void judgeForce(const Lia& lia, const Slopes& slopes) {
-    const double force = slopes.stiffness.highest * (farthest_ + lia.rest_length);
-    if (!(force < kMostForce) && !slopes.is_unbounded) {
+  /// Between its ends, whose distance is a root of squares.
+  bool isAlongALine(const Lia& lia) const {
+    const auto isScalar = [this](int mat) {
+      const scene::Scene& scene = networks_.scene();
+      return scene.sectionOf(scene.mats[at(mat)]).geometry == scene::Geometry::kScalar;
+    };
+    return !isScalar(lia.a) && !isScalar(lia.b);
+  }
+
+  /// Whether single precision can count with what the link does.
+  void judgeSize(const Lia& lia) {
+    const auto tell = [&](const char* of, double what, double most) {
       findings_.add(Verdict::kUnproven, lia.place,
-                    "link '" + lia.name + "' may come to a force of " + describe(force) +
-                        ", more than single precision can count with, up to 1e36");
+                    "link '" + lia.name + "' may come to " + of + " of " + describe(what) +
+                        ", more than single precision can count with, up to " + describe(most));
+    };
+    const bool is_guarded = lia.scheme == scene::Scheme::kGuarded;
+    const double length = largest_.reach(isAlongALine(lia) ? kDay : is_guarded ? kSecond : 0.0);
+    if (const double force = largest_.forceOf(lia); !(force < kMostForce)) {
+      tell("a force", force, kMostForce);
+    } else if (is_guarded && !(largest_.energy() < kMostForce)) {
+      tell("an energy", largest_.energy(), kMostForce);
+    } else if (!(length < kMostLength)) {
+      tell("a length", length, kMostLength);
     }
   }
 
@@ -253,8 +272,8 @@ class LinkJudge {
 
   const RatedNetwork& networks_;
   EnergyLoss loss_;
+  LargestNumbers largest_;
   Findings& findings_;
-  double farthest_ = 0.0;  // of all modules at the start, from the origin, m
   std::map<std::pair<int, int>, Turning> turning_;  // by line and column
   std::set<const scene::Connection*> moving_;
 };

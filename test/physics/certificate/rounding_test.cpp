@@ -213,6 +213,30 @@ TEST(RoundingTest, ForcesThatSinglePrecisionDoesNotHoldAreNotVouchedFor) {
   EXPECT_LT(far("1e5").fastestOf(2.0, Precision::kFloat), 1.1e5);
 }
 
+TEST(RoundingTest, NorIsWhatMovesTooFast) {
+  const auto moving = [](const std::string& geometry, const std::string& mass,
+                         const std::string& link) {
+    return Vouched("ergotic: 1\nsections: {a: {geometry: " + geometry +
+                   "}}\nmats:\n  g: {type: ground}\n  m: {type: mass, mass: " + mass +
+                   "}\nlias:\n  k: {between: [g, m], " + link +
+                   "}\noutputs: {o: {at: m, quantity: position, channel: 1}}\n");
+  };
+  const std::string spring = "type: spring, stiffness: 1e30";
+  const Vouched fast = moving("scalar", "1e24, v: 1e17", spring);
+  Player player(compile(fast.scene, fast.rates, Precision::kFloat));
+  player.tick();
+  EXPECT_FALSE(std::isfinite(player.heard.at(0).back()));
+  EXPECT_FALSE(fast.isVouchedFor());
+  EXPECT_TRUE(moving("scalar", "1e24, v: 1e7", spring).isVouchedFor());
+  EXPECT_FALSE(moving("scalar", "1e22, v: 1e20", "type: damper, damping: 1e20").isVouchedFor());
+  EXPECT_FALSE(moving("line", "1, v: 1e24", "type: spring, stiffness: 1e4").isVouchedFor());
+  EXPECT_TRUE(moving("line", "1, v: 1e6", "type: spring, stiffness: 1e4").isVouchedFor());
+  const std::string contact = "type: contact, stiffness: ";
+  EXPECT_FALSE(moving("scalar", "1, v: 1e24", contact + "1e4").isVouchedFor());
+  EXPECT_FALSE(moving("scalar", "1e20, x: 1e9", contact + "1e30").isVouchedFor());
+  EXPECT_TRUE(moving("scalar", "1, v: 1e6", contact + "1e4").isVouchedFor());
+}
+
 /// Two masses in a plane on prestressed springs of 7 MN/m.
 std::string prestressed(double between, double damping) {
   char text[900];

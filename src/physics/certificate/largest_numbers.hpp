@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "physics/network/rated_network.hpp"
+
+namespace ergotic::physics {
+
+/// How large the numbers become that a scene is played with: bounds by the energy it starts with,
+/// by its weight, and by how far hands and inputs go. They are for numbers that single precision
+/// cannot hold: close to the limit of stability, or in resonance, they may be some hundred times as
+/// large.
+class LargestNumbers {
+ public:
+  /// \param networks  must outlive this
+  explicit LargestNumbers(const RatedNetwork& networks);
+
+  /// Of a link, kg m/time_unit^2.
+  double forceOf(const scene::Lia& lia) const;
+  /// Of what guarded links hold, kg m^2/time_unit^2.
+  double energy() const { return energy_; }
+  /// From the origin, m.
+  double reach(double seconds) const;
+
+ private:
+  double stiffnessOf(const scene::Lia& lia, double elongation) const;
+
+  const RatedNetwork& networks_;
+  double farthest_ = 0.0;  // from the origin at the start, or where a hand goes, m
+  double energy_ = 0.0;
+  double weight_ = 0.0;  // of all modules
+  double lightest_;      // kg
+};
+
+}  // namespace ergotic::physics

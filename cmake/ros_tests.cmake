@@ -32,9 +32,11 @@ foreach(rostest ${rostests})
     RUN_SERIAL TRUE TIMEOUT 300 LABELS integration FIXTURES_REQUIRED trials)
 endforeach()
 
-target_sources(safety_rostest
-  PRIVATE test/integration/fault_injection.cpp test/integration/fault_table.cpp)
-add_dependencies(safety_rostest ergotic_ros virtual_tgr)
+foreach(rostest safety_rostest pairs_rostest)
+  target_sources(${rostest}
+    PRIVATE test/integration/fault_injection.cpp test/integration/fault_table.cpp)
+  add_dependencies(${rostest} ergotic_ros virtual_tgr)
+endforeach()
 # Sees what real-time threads do that they may not, in programs that have it preloaded.
 add_library(realtime_watch SHARED test/realtime_watch/realtime_watch.cpp
   test/support/alloc_count.cpp test/support/realtime_scope.cpp)

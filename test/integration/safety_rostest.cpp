@@ -23,7 +23,6 @@ namespace ergotic::test {
 namespace {
 
 constexpr double kReleased = 0.01;
-constexpr double kPatienceS = 5.0;
 constexpr std::int64_t kUncertainNs = 500'000;
 constexpr std::int64_t kToldNs = 10'000'000;
 constexpr std::int64_t kNoticedNs = 5'000'000;  // of a stall: the device waits for 10 ms
@@ -63,11 +62,8 @@ class SafetyTest : public ::testing::Test {
     record_ = std::make_unique<GestureRecord>(the_world->node);
     ASSERT_TRUE(eventually([this] { return record_->count() > 0; }));
   }
-  static bool stateBecomes(std::uint8_t state, double seconds = 30.0) {
-    return eventually([state] { return the_world->status.latest().state == state; }, seconds);
-  }
+  static bool stateBecomes(std::uint8_t state) { return the_world->stateBecomes(state); }
 
-  static bool push();
   static bool push(Trials& trials);
   static std::optional<Event> firstEvent(std::size_t from, std::uint8_t type);
   std::int64_t injectedTick(std::size_t first_event) const;
@@ -85,27 +81,9 @@ class SafetyTest : public ::testing::Test {
   std::unique_ptr<GestureRecord> record_;  // of one test
 };
 
-/// Until the hand meets 15 N. It comes from outside: a wall that appears where the hand already is
-/// may not push it away, for it never got the energy.
-bool SafetyTest::push() {
-  the_world->presence.hold();
-  if (!eventually([] { return call("recover").success != 0U; }, kPatienceS)) {
-    return false;  // a device that was started again is not there yet
-  }
-  the_world->log->forget();  // long before any fault, for what was felt just before one counts, too
-  the_world->moveHand(0, 0.0);
-  the_world->moveHand(1, 0.0);
-  const bool engaged = eventually([] { return the_world->isNear(0, 0.0); }, kPatienceS) &&
-                       call("recover").success != 0U &&
-                       eventually([] { return call("engage").success != 0U; }, kPatienceS) &&
-                       stateBecomes(Status::PLAYING, kPatienceS);
-  the_world->pushHand();
-  return engaged && eventually([] { return the_world->isPushed(); }, kPatienceS);
-}
-
 bool SafetyTest::push(Trials& trials) {
   const std::int64_t from_ns = rt::monotonicNs();
-  const bool pushed = push();
+  const bool pushed = the_world->push();
   return trials.judgeThat(pushed, {from_ns, rt::monotonicNs(), kNoticedNs},
                           "15 N, " + the_world->status.latest().state_text + ',') ==
          Trials::Verdict::kOnTime;

@@ -145,6 +145,26 @@ class SafetyWorld {
              return at.time_ns < from_ns || std::abs(at.force_n + kForceN) < 0.05 * kForceN;
            });
   }
+  /// Until the hand meets 15 N. It comes from outside: a wall that appears where the hand already
+  /// is may not push it away, for it never got the energy. \return false if that took too long
+  bool push() {
+    presence.hold();
+    if (!eventually([] { return call("recover").success != 0U; }, kPatienceS)) {
+      return false;  // a device that was started again is not there yet
+    }
+    log->forget();  // long before any fault, for what was felt just before one counts, too
+    moveHand(0, 0.0);
+    moveHand(1, 0.0);
+    const bool engaged = eventually([this] { return isNear(0, 0.0); }, kPatienceS) &&
+                         call("recover").success != 0U &&
+                         eventually([] { return call("engage").success != 0U; }, kPatienceS) &&
+                         stateBecomes(Status::PLAYING, kPatienceS);
+    pushHand();
+    return engaged && eventually([this] { return isPushed(); }, kPatienceS);
+  }
+  bool stateBecomes(std::uint8_t state, double seconds = 30.0) const {
+    return eventually([=] { return status.latest().state == state; }, seconds);
+  }
   bool handIsConnected() const { return hand_.getNumSubscribers() > 0; }
   double effort() const {
     const auto joints = joints_.latest();
@@ -170,6 +190,7 @@ class SafetyWorld {
  private:
   static constexpr double kUsualWatchdogMs = 10.0;
   static constexpr double kLongS = 60.0;  // a busy machine is slow
+  static constexpr double kPatienceS = 5.0;
 
   void startDevice(double watchdog_ms) {
     const auto path = folder_ / ("forces_" + std::to_string(++devices_) + ".csv");

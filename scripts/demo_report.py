@@ -9,6 +9,7 @@ import sys
 import numpy as np
 from report import picture, sound
 from report.performance import Performance
+from report.verdict import Verdict
 
 MOVED_M = 1e-3  # a key this far from where it was at first has been moved by the hand
 STILL_M = 2e-4  # a key that moves less than this is at rest
@@ -22,17 +23,6 @@ FORCE_N = 1.0
 CORRELATION = 0.5
 SHARE_EQUAL = 0.9
 PIXELS = 50
-
-
-class Verdict:
-    """Prints a line per check; fails if one of them fails."""
-
-    def __init__(self):
-        self.passed = True
-
-    def check(self, what, ok, detail):
-        self.passed &= bool(ok)
-        print(f"{'PASS' if ok else 'FAIL'}  {what}: {detail}")
 
 
 def tell_counters(performance):

@@ -11,6 +11,7 @@ import sys
 import numpy as np
 import rosbag
 from report import sound
+from report.verdict import Verdict
 from soaking.pauses import overlap_ns
 
 MS = 1_000_000
@@ -26,15 +27,6 @@ SLACK_BYTES = 20e6     # beyond
 MORE = {"descriptors": 8, "threads": 2}
 STOPS = ("stop", "emergency_stop", "emergency_stop topic")
 STANDSTILLS = ("stopped", "slow", "unplugged")
-
-
-class Verdict:
-    def __init__(self):
-        self.passed = True
-
-    def check(self, what, ok, detail):
-        self.passed &= bool(ok)
-        print(f"{'PASS' if ok else 'FAIL'}  {what}: {detail}")
 
 
 def growth_of(before, after):

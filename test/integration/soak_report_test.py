@@ -13,6 +13,7 @@ import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "..", "scripts"))
 import soak_report  # noqa: E402
+from report.verdict import Verdict  # noqa: E402
 from soaking.pauses import overlap_ns  # noqa: E402
 
 MS = soak_report.MS
@@ -33,7 +34,7 @@ def asked(what, time, **more):
 
 
 def passes(judge, *arguments):
-    verdict = soak_report.Verdict()
+    verdict = Verdict()
     with contextlib.redirect_stdout(io.StringIO()):
         judge(verdict, *arguments)
     return verdict.passed

@@ -156,6 +156,43 @@ TEST(DriverThreadsTest, TakesCalibrationsAndFaultsWhileTicksGoOn) {
   EXPECT_GT(jumps, 0);
 }
 
+TEST(DriverThreadsTest, PushesAndEndsPushesWhileTicksGoOn) {
+  constexpr int kRounds = 500;
+  constexpr int kPatience = 300;
+  SliceCalibration plain;
+  plain.is_calibrated = true;
+  plain.metres_per_volt = 0.001;
+  plain.volts_per_newton = 0.05;
+  VirtualDriverConfig config;
+  config.slices = 1;
+  config.slice = test::plainSlice();
+  config.slice.volts = plain;
+  const auto driver = makeCalibratedDriver(makeVirtualDriver(config), {{plain}});
+  driver->open(1000.0);
+  std::atomic<bool> done{false};
+  std::thread ticks([&] {
+    const double force = 0.0;
+    double x = 0.0;
+    while (!done) {
+      driver->exchange(&force, &x);
+      std::this_thread::yield();
+    }
+  });
+  int told = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    driver->push(0, kPushN);
+    for (int i = 0; i < round % kPatience; ++i) {
+      std::this_thread::yield();
+      told += driver->takePush() ? 1 : 0;
+    }
+    driver->endPush();
+    EXPECT_FALSE(driver->takePush().has_value()) << "it was ended";
+  }
+  done = true;
+  ticks.join();
+  EXPECT_LE(told, kRounds);
+}
+
 TEST(DriverThreadsTest, TakesEveryTargetThatAnotherThreadSets) {
   constexpr int kTargets = 20000;
   test::InProcessRig rig;

@@ -11,8 +11,6 @@
 namespace ergotic::station {
 namespace {
 
-constexpr double kTrustedDamping = 0.5;        // of what a driver says of its device
-constexpr double kMostTrustedDamping = 100.0;  // N s/m
 constexpr double kSwapFadeS = 0.005;
 constexpr std::int64_t kLookInsideTicks = 50;  // a replay must look at the same ticks
 constexpr double kMostOfModel = 1e9;  // N, or full scales: a model that gives more has blown up
@@ -51,7 +49,7 @@ int openDriver(tgr::Driver& driver, double tick_rate_hz) {
 
 tgr::SafetyConfig safetyOf(const StationConfig& config, const tgr::Driver& driver) {
   tgr::SafetyConfig safety = config.safety;
-  safety.slice_damping = std::min(kTrustedDamping * driver.declaredDamping(), kMostTrustedDamping);
+  safety.slice_damping = trustedDamping(driver.declaredDamping());
   return safety;
 }
 
@@ -77,6 +75,12 @@ std::size_t samples(int frames, int channels) {
 }
 
 }  // namespace
+
+double trustedDamping(double declared) noexcept {
+  constexpr double kShare = 0.5;
+  constexpr double kMost = 100.0;
+  return std::min(kShare * declared, kMost);
+}
 
 Station::Station(const StationConfig& config,
                  std::unique_ptr<tgr::Driver> driver,

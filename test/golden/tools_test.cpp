@@ -364,8 +364,9 @@ TEST_F(CheckTest, WritesJsonThatAProgramReads) {
       run("check",
           scene +
               " --json | /usr/bin/python3 -c 'import json, sys; r = json.load(sys.stdin);"
-              " print(r[\"modules\"], r[\"ports\"][0][\"slice\"], r[\"sections\"][0][\"axis\"])'");
-  EXPECT_EQ(outcome.text, "2 0 [1.0, 0.0, 0.0]\n");
+              " print(r[\"modules\"], r[\"ports\"][0][\"slice\"], r[\"sections\"][0][\"axis\"],"
+              " r[\"outputs\"][0][\"channel\"])'");
+  EXPECT_EQ(outcome.text, "2 0 [1.0, 0.0, 0.0] 1\n");
 }
 
 TEST_F(CheckTest, RefusesWhatIsUnstable) {

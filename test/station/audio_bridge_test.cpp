@@ -169,6 +169,25 @@ TEST(AudioBridgeTest, SkippedPushesAreZerosExactlyWhereReported) {
   EXPECT_EQ(rig.bridge.status().underrun_frames, 5 * kRatio);
 }
 
+TEST(AudioBridgeTest, TellsOfTheVeryFirstFramesThatAreMissing) {
+  Rig rig;
+  rig.host.start(kPeriod, 1'000'000, 20'000'000);
+  while (!rig.bridge.isMaster()) {
+    rig.hear();
+    rig.bridge.track(rig.tick, rig.schedule.dueNs());
+    if (!rig.bridge.isMaster()) {
+      rig.runTicksUntil(rig.host.timeOf(rig.host.nextFrame()));
+    }
+  }
+  rig.tick += 2;  // ticks that never ran
+  rig.schedule.advance(2);
+  for (int i = 0; i < 50; ++i) {
+    rig.step();
+  }
+  rig.expectExactExceptReported();
+  EXPECT_EQ(rig.bridge.status().underrun_frames, 2 * kRatio);
+}
+
 TEST(AudioBridgeTest, DiscardsWhatComesTooLateAndNeverShifts) {
   Rig rig;
   rig.host.start(kPeriod, 1'000'000, 20'000'000);
@@ -201,6 +220,7 @@ TEST(AudioBridgeTest, TellsWhatTheHostLeftOut) {
   ASSERT_NE(skipped, rig.events.end());
   EXPECT_EQ(skipped->frame, expected - rig.offset());
   EXPECT_EQ(skipped->index, 512);
+  EXPECT_EQ(static_cast<std::int64_t>(skipped->value), expected) << "in frames of the host";
   EXPECT_EQ(rig.bridge.status().xruns, 1);
   EXPECT_EQ(rig.bridge.status().underruns, 0);
 }

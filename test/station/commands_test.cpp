@@ -78,6 +78,12 @@ TEST(CommandsTest, SwapUnderPlayHasNoStepInAudioAndNoGrowthInForce) {
   }
   EXPECT_LE(largest_step, 1.0001F / (kFadeTicks * 14));
   EXPECT_EQ(frames.samples[500 * 14], 1.0F);
+  for (std::size_t f = 0; f < kFadeTicks * 14; ++f) {
+    EXPECT_NEAR(frames.samples[501 * 14 + f], 1.0 - static_cast<double>(f + 1) / (kFadeTicks * 14),
+                1e-6);
+    EXPECT_NEAR(frames.samples[(501 + kFadeTicks) * 14 + f],
+                -static_cast<double>(f + 1) / (kFadeTicks * 14), 1e-6);
+  }
   EXPECT_EQ(frames.samples.back(), -1.0F);
 
   // |F| = 1 N before, falls to zero with the fade, then grows by a ramp step of 5 N / 157 at most.

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/station/device_source.hpp"
 
+#include <unistd.h>
+
 #include <set>
+
+#include <sys/wait.h>
 
 #include "ergotic/rt/clock.hpp"
 #include "ergotic/station/timer_source.hpp"
@@ -68,6 +72,51 @@ TEST_F(DeviceSourceTest, TicksWhenTheDeviceSays) {
   tick(7);
   EXPECT_EQ(station_->nextTick(), 7);
   EXPECT_EQ(log_.exchanges, 7);
+}
+
+long lockedKb() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    if (word == "VmLck:") {
+      long kb = 0;
+      status >> kb;
+      return kb;
+    }
+  }
+  return -1;
+}
+
+/// In a process of its own, for memory stays locked. \return whether it says why it is not
+bool locksMemory(TickSource& source, const std::function<void(bool)>& start) {
+  const pid_t child = fork();
+  if (child == 0) {
+    start(false);
+    const bool left = lockedKb() == 0;
+    source.stop();
+    start(true);
+    const bool locked = lockedKb() > 0 || !source.warnings().empty();
+    source.stop();
+    _exit(left && locked ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+TEST_F(DeviceSourceTest, LocksTheMemoryIfAskedTo) {
+  DeviceSource source(*station_, nullptr);
+  EXPECT_TRUE(locksMemory(source, [&](bool lock) { source.start(lock); }));
+}
+
+TEST(TimerSourceMemoryTest, IsLockedIfAskedTo) {
+  Bench bench;
+  TimerSource timer(*bench.station, nullptr);
+  EXPECT_TRUE(locksMemory(timer, [&](bool lock) {
+    TimerOptions options;
+    options.priority = 0;
+    options.lock_memory = lock;
+    timer.start(options);
+  }));
 }
 
 TEST_F(DeviceSourceTest, IsWhatTicksADeviceWithAClockAndATimerAnyOther) {

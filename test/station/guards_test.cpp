@@ -129,11 +129,32 @@ TEST(PresenceGuardTest, ASwitchThatIsNotToldAnyMoreIsLetGo) {
   Bench bench({}, still, withPresence(0.2));  // 630 ticks
   tellPresence(bench, true);
   bench.command(Command::Type::kEngage);
-  bench.run(630);
+  bench.run(631);  // the first one heard it
   EXPECT_EQ(bench.log.forces[0], -1.0);
-  bench.run(3);
+  bench.run(1);
   EXPECT_EQ(bench.log.forces[0], 0.0);
   EXPECT_EQ(faultOf(bench), FaultReason::kPresence);
+}
+
+/// What the zero of the next exchange may not reach.
+TEST(DeviceGuardTest, ADeviceThatIsLostOrTakesNoForceIsMadeSafeInTheSameTick) {
+  for (const std::uint32_t met : {tgr::kDeviceLost, tgr::kWriteFailed}) {
+    Bench bench;
+    bench.engage();
+    EXPECT_FALSE(bench.log.safe);
+    bench.driver->flags_of = [met](std::int64_t) { return met; };
+    for (int n = 0; n < 400 && bench.interlock->read().isOpen(); ++n) {
+      bench.run(1);
+    }
+    EXPECT_TRUE(bench.interlock->read().isLatched()) << met;
+    EXPECT_TRUE(bench.log.safe) << met;
+  }
+}
+
+TEST(DeviceGuardTest, OfADeclaredDampingHalfIsReliedOn) {
+  EXPECT_EQ(trustedDamping(0.0), 0.0);
+  EXPECT_EQ(trustedDamping(3.0), 1.5);
+  EXPECT_EQ(trustedDamping(1000.0), 100.0);
 }
 
 class InjectionTest : public testing::TestWithParam<InjectedModelFault> {

@@ -312,6 +312,13 @@ TEST(StationTest, CountsALateWakeUpByItsCause) {
   EXPECT_DOUBLE_EQ(test::firstOf(events, Event::Type::kLateTick).value, 1e-3);
 }
 
+TEST(StationTest, CountsAsLateWhatComesMoreThanATickAfterItsTime) {
+  Bench bench;
+  bench.station->cycle({317'460, false});
+  bench.station->cycle({317'461, false});
+  EXPECT_EQ(lateEvents(bench.events(), LateCause::kWakeUp), 1);
+}
+
 TEST(StationTest, CountsASlowDeviceByItsCause) {
   Bench bench;
   bench.driver->flags_of = [](std::int64_t) {

@@ -208,6 +208,17 @@ TEST_F(BlowUpDetectorTest, FindsAnOscillationThatGrowsHoweverSlowly) {
   EXPECT_LE(found.beyond, 1);
 }
 
+TEST(SmallForceLimitTest, LetsGrowthBelowFourNewtonsBe) {
+  for (const double limit : {0.5, 2.0}) {
+    const auto found = [limit](double newtons) {
+      BlowUpDetector detector(limit, kRawLimit);
+      return look(detector, 20, [=](int n) { return n % 2 == 0 ? newtons : -newtons; }).reason;
+    };
+    EXPECT_EQ(found(3.9), FaultReason::kNone) << limit;
+    EXPECT_EQ(found(4.1), FaultReason::kModelBlowUp) << limit;
+  }
+}
+
 TEST_F(BlowUpDetectorTest, FindsWhatIsNotFinite) {
   for (const double bad : {kNan, kInfinity, -kInfinity}) {
     detector_.look(1.0);

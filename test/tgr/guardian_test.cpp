@@ -25,6 +25,7 @@ using test::eventually;
 
 constexpr double kForceN = 15.0;
 constexpr double kSilenceS = 0.04;
+constexpr double kLongSilenceS = 2.0;
 
 class GuardianTest : public ::testing::Test {
  protected:
@@ -75,9 +76,12 @@ class GuardianTest : public ::testing::Test {
   }
 
   [[noreturn]] void pushForEver() const {
+    if (slow_to_die_) {  // as one that writes a large core file
+      ::signal(SIGSEGV, [](int) { ::sleep(30); });
+    }
     const auto driver = makeVirtualDriver(driver_);
     driver->open(1000.0);
-    Guardian guardian(driver->guards(), {kSilenceS, 0});
+    Guardian guardian(driver->guards(), {slow_to_die_ ? kLongSilenceS : kSilenceS, 0});
     double position = 0.0;
     for (std::int64_t due_ns = rt::monotonicNs();; due_ns += 1'000'000) {
       guardian.beat();
@@ -87,6 +91,7 @@ class GuardianTest : public ::testing::Test {
   }
 
   const std::string name_;
+  bool slow_to_die_ = false;
   VirtualDriverConfig driver_;
   VirtualDeviceConfig device_;
   std::optional<VirtualDevice> made_;
@@ -111,6 +116,12 @@ INSTANTIATE_TEST_SUITE_P(GuardianTest,
                          Ended,
                          ::testing::Values(SIGKILL, SIGSEGV, SIGABRT, SIGBUS, SIGTERM),
                          &nameOf);
+
+TEST_F(GuardianTest, TakesTheForceOffAtOnceThoughItsProcessTakesLongToDie) {
+  slow_to_die_ = true;
+  push();
+  EXPECT_LT(timeToZero(SIGSEGV), 1.0) << "not because it is silent";
+}
 
 TEST_F(GuardianTest, TakesTheForceOffWhenItsProcessHangs) {
   push();

@@ -7,6 +7,7 @@
 
 #include <sys/wait.h>
 
+#include "ergotic/rt/clock.hpp"
 #include "support/test.hpp"
 #include "tgr/driver_rigs.hpp"
 
@@ -106,6 +107,18 @@ TEST_F(SharedMemoryDriverTest, TellsTheDeviceOfAMakeSafeFromBeforeOpen) {
   rig_.driver().makeSafe();
   rig_.driver().open(1000.0);
   EXPECT_NE(SharedSegment::attach(rig_.name())->safe.load(), 0U);
+}
+
+TEST_F(SharedMemoryDriverTest, ADeviceThatIsSilentForASecondIsLost) {
+  play(15.0);
+  const SharedSegment segment = SharedSegment::attach(rig_.name());
+  const auto metAfter = [&](std::int64_t silence_ns) {
+    segment->heartbeat_ns = rt::monotonicNs() - silence_ns;
+    return exchange(15.0) & (kDeviceLost | kMissingSample);
+  };
+  EXPECT_EQ(metAfter(0), 0U);
+  EXPECT_EQ(metAfter(900'000'000), kMissingSample);
+  EXPECT_EQ(metAfter(1'000'000'001), kDeviceLost);
 }
 
 TEST_F(SharedMemoryDriverTest, MakeSafeNeedsNoExchange) {

@@ -262,4 +262,8 @@ class Station {
   bool keyframe_asked_ = false;  // and not yet come, or not yet seen
 };
 
+/// What a station relies on of the damping that a driver declares, both in N s/m: half of it, and
+/// no more than 100 (docs/safety.md). Realtime: yes. Thread: any
+double trustedDamping(double declared) noexcept;
+
 }  // namespace ergotic::station

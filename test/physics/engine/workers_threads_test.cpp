@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <atomic>
+#include <ctime>
 #include <limits>
 #include <thread>
 
@@ -45,6 +46,34 @@ TEST(WorkersThreadsTest, OthersTakeTheirShare) {
     ASSERT_TRUE(workers.run());
   }
   EXPECT_GT(by_others, 0);
+}
+
+/// Of the whole process.
+double processorS() {
+  timespec used{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
+
+TEST(WorkersThreadsTest, SleepWhileThereIsNothingToDo) {
+  Workers workers(3, 3, kPatienceNs, [](std::size_t) { dawdle(100); });
+  for (int block = 0; block < 20; ++block) {
+    ASSERT_TRUE(workers.run());
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  const double before_s = processorS();
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  EXPECT_LT(processorS() - before_s, 0.05) << "of 1 s, if two were awake";
+}
+
+TEST(WorkersThreadsTest, SleepBetweenTheBlocks) {
+  Workers workers(2, 2, kPatienceNs, [](std::size_t) { dawdle(100); });
+  const double before_s = processorS();
+  for (int block = 0; block < 250; ++block) {
+    ASSERT_TRUE(workers.run());
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  EXPECT_LT(processorS() - before_s, 0.25) << "of half a second, if it was awake";
 }
 
 /// A worker that is stuck in an item until it is let go.

@@ -22,6 +22,7 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
+  pid_t pid() const noexcept { return pid_; }
   void signal(int number) const;
   bool isRunning();
   /// \return status as of waitpid, nothing if it still runs after `seconds`

@@ -4,9 +4,11 @@
 import importlib.machinery
 import importlib.util
 import os
+import sys
 import tempfile
 import types
 import unittest
+from unittest import mock
 
 SCRIPT = os.path.join(os.path.dirname(__file__), "..", "..", "scripts", "play_gesture")
 loader = importlib.machinery.SourceFileLoader("play_gesture", SCRIPT)
@@ -55,6 +57,25 @@ class PlayGestureTest(unittest.TestCase):
             with self.assertRaises(SystemExit) as refused:
                 play_gesture.read_csv(self.write(text), rate)
             self.assertIn(expected, str(refused.exception))
+
+    def test_lets_force_in_before_and_stops_it_after(self):
+        done = []
+        rospy = mock.MagicMock()
+        rospy.get_time.return_value = 0.0
+        note = lambda *arguments: done.append(arguments[-1])  # noqa: E731
+        with mock.patch.dict(sys.modules, {"rospy": rospy, "ergotic": mock.MagicMock(),
+                                           "ergotic.msg": mock.MagicMock()}), \
+                mock.patch.object(play_gesture, "call", note), \
+                mock.patch.object(play_gesture, "wait_for_force", lambda _: done.append("wait")), \
+                mock.patch.object(play_gesture, "play", lambda *_: done.append("play")):
+            options = types.SimpleNamespace(station="/station", engage=True, seconds=1.0, repeat=1.0)
+            rospy.Publisher.return_value.get_num_connections.return_value = 1
+            play_gesture.perform(mock.MagicMock(), options)
+            self.assertEqual(done, ["engage", "wait", "play", "stop"])
+            done.clear()
+            options.engage = False
+            play_gesture.perform(mock.MagicMock(), options)
+            self.assertEqual(done, ["play"])
 
     def test_refuses_positions_that_are_no_numbers(self):
         blocks = [block(5, (0.1, 0.2)), block(6, (0.3, float("nan")))]

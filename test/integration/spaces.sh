@@ -19,6 +19,10 @@ try_space() { # NAME SETUP
     die "$name: roslaunch does not find station.launch"
   [[ $'\n'$(roslaunch --nodes ergotic station.launch)$'\n' == *$'\n'/station$'\n'* ]] ||
     die "$name: station.launch starts no /station"
+  local library
+  for library in $(sed -n 's/.*<library path="\([^"]*\)".*/\1/p' "$(rospack find ergotic)"/*_plugins.xml); do
+    [ -e "$(dirname "$2")/$library.so" ] || die "$name: there is no $library, which a plugin is in"
+  done
   local model
   model="$(rospack find ergotic)/models/string.yaml"
   rosrun ergotic check "$model" >/dev/null || die "$name: check refuses the default model"

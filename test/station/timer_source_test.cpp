@@ -36,6 +36,7 @@ StationConfig longRecord() {
   config.record_ring = 1U << 15U;
   // Stalls of the machine are no fault of what is tested.
   config.max_stall_s = 1.0;
+  config.max_stalls = 1'000'000;
   config.safety.resume_ramp_s = 0.005;
   return config;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <semaphore.h>
 
+#include <algorithm>
+#include <atomic>
 #include <thread>
 
 #include <jack/jack.h>
@@ -26,23 +28,32 @@ class JackHold final : public Hold {
     if (client_ == nullptr) {
       throw DeviceError("JACK takes no client of the guardian");
     }
-    ::sem_init(&wanted_, 0, 0);
-    std::thread([this] { run(); }).detach();
+    ::sem_init(&woken_, 0, 0);
+    thread_ = std::thread([this] { run(); });
   }
-  ~JackHold() override { jack_client_close(client_); }
+  /// Once all is cut that was to be.
+  ~JackHold() override {
+    ends_ = true;
+    ::sem_post(&woken_);
+    thread_.join();
+    jack_client_close(client_);
+  }
   JackHold(const JackHold&) = delete;
   JackHold& operator=(const JackHold&) = delete;
 
-  void makeSafe() noexcept override { ::sem_post(&wanted_); }
+  void makeSafe() noexcept override {
+    wanted_ = true;
+    ::sem_post(&woken_);
+  }
 
  private:
-  [[noreturn]] void run() {
-    while (true) {
-      ::sem_wait(&wanted_);
-      for (const std::string& port : ports_) {
-        cut(port);
+  void run() {
+    do {
+      ::sem_wait(&woken_);
+      if (wanted_.exchange(false)) {
+        std::for_each(ports_.begin(), ports_.end(), [this](const auto& port) { cut(port); });
       }
-    }
+    } while (!ends_ || wanted_);
   }
   void cut(const std::string& name) {
     const jack_port_t* const port = jack_port_by_name(client_, name.c_str());
@@ -58,7 +69,10 @@ class JackHold final : public Hold {
 
   std::vector<std::string> ports_;
   jack_client_t* client_ = nullptr;
-  sem_t wanted_{};
+  sem_t woken_{};
+  std::atomic<bool> wanted_{false};
+  std::atomic<bool> ends_{false};
+  std::thread thread_;
 };
 
 }  // namespace

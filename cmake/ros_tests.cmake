@@ -45,7 +45,13 @@ add_library(realtime_watch SHARED test/realtime_watch/realtime_watch.cpp
 target_include_directories(realtime_watch PRIVATE test include)
 target_compile_options(realtime_watch PRIVATE -ftls-model=initial-exec)
 target_link_libraries(realtime_watch PRIVATE PkgConfig::SECCOMP ergotic_flags ${CMAKE_DL_LIBS})
-target_compile_definitions(realtime_rostest PRIVATE REALTIME_WATCH="$<TARGET_FILE:realtime_watch>")
+if(ERGOTIC_SANITIZE STREQUAL "thread")  # or the first library that wants TSan comes too late
+  execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=libtsan.so
+    OUTPUT_VARIABLE watch OUTPUT_STRIP_TRAILING_WHITESPACE)
+else()
+  set(watch $<TARGET_FILE:realtime_watch>)
+endif()
+target_compile_definitions(realtime_rostest PRIVATE REALTIME_WATCH="${watch}")
 add_dependencies(realtime_rostest ergotic_ros virtual_tgr realtime_watch)
 # A wall clock that jumps, for programs that have it preloaded.
 add_library(clock_shift SHARED test/clock_shift/clock_shift.cpp)

@@ -68,6 +68,9 @@ class RealtimeTest : public ::testing::Test {
     node_.setParam("/station/allow_fault_injection", true);
     node_.setParam("/station/max_stall", 1.0);
     node_.setParam("/station/max_stalls", 1'000'000);  // of a busy machine
+    node_.setParam("/station/max_missing", 1000);      // of the same
+    node_.setParam("/station/watchdog", 1.0);
+    node_.setParam("/station/max_load", 100.0);
   }
   void start(std::map<std::string, std::string> environment = {}) {
     environment["LD_PRELOAD"] = REALTIME_WATCH;
@@ -75,7 +78,8 @@ class RealtimeTest : public ::testing::Test {
     environment["JACK_DEFAULT_SERVER"] = jack_.name();
     station_ = startStation(environment);
     ASSERT_TRUE(becomes("first"));
-    ASSERT_TRUE(eventually([this] { return status_.latest().audio_running != 0U; }, kLongS));
+    ASSERT_TRUE(eventually([this] { return status_.latest().audio_running != 0U; }, kLongS))
+        << status_.latest().message;
     ASSERT_TRUE(eventually([this] { return hand_.getNumSubscribers() > 0; }));
   }
   /// \return all that was seen
@@ -97,9 +101,12 @@ class RealtimeTest : public ::testing::Test {
   }
 
   void play() {
-    ASSERT_TRUE(eventually([] { return call("recover").success != 0U; }));
-    ASSERT_TRUE(eventually([] { return call("engage").success != 0U; }));
-    ASSERT_TRUE(becomes(Status::PLAYING)) << status_.latest().state_text;
+    const auto isPlaying = [this] { return status_.latest().state == Status::PLAYING; };
+    const auto begins = [&] {
+      return call("recover").success != 0U && call("engage").success != 0U &&
+             eventually(isPlaying, 2.0);
+    };
+    ASSERT_TRUE(eventually(begins, kLongS)) << status_.latest().state_text;
     for (const double target_m : {0.01, -0.01, 0.0}) {
       moveHand(hand_, 0, target_m);
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -185,12 +192,18 @@ std::string offences(const std::vector<std::string>& seen) {
   return text;
 }
 
+void expectWatched(const std::vector<std::string>& seen, int threads) {
+  if (RealtimeScope::isAvailable()) {
+    EXPECT_GE(std::count(seen.begin(), seen.end(), kWatched), threads);
+  }
+}
+
 TEST_F(RealtimeTest, AStationWithOneThread) {
   ASSERT_NO_FATAL_FAILURE(start());
   askForEverything();
   const auto seen = endAndRead();
   EXPECT_EQ(offences(seen), "");
-  EXPECT_GE(std::count(seen.begin(), seen.end(), kWatched), 2) << "the tick and JACK";
+  expectWatched(seen, 2);  // the tick and JACK
 }
 
 TEST_F(RealtimeTest, AStationWithTwoThreads) {
@@ -199,8 +212,7 @@ TEST_F(RealtimeTest, AStationWithTwoThreads) {
   askForEverything();
   const auto seen = endAndRead();
   EXPECT_EQ(offences(seen), "");
-  EXPECT_GE(std::count(seen.begin(), seen.end(), kWatched), 4)
-      << "the tick, JACK, a worker of the first model and one of the second";
+  expectWatched(seen, 4);  // the tick, JACK, a worker of the first model and one of the second
 }
 
 TEST_F(RealtimeTest, AStationWhoseDeviceIsAnotherProcess) {
@@ -215,10 +227,13 @@ TEST_F(RealtimeTest, AStationWhoseDeviceIsAnotherProcess) {
   EXPECT_TRUE(becomes(Status::FAULT));
   const auto seen = endAndRead();
   EXPECT_EQ(offences(seen), "");
-  EXPECT_GE(std::count(seen.begin(), seen.end(), kWatched), 2);
+  expectWatched(seen, 2);
 }
 
 TEST_F(RealtimeTest, SeesWhatAThreadMayNotDo) {
+  if (!RealtimeScope::isAvailable()) {
+    GTEST_SKIP() << "under a sanitizer nothing is seen";
+  }
   ASSERT_NO_FATAL_FAILURE(start({{"ERGOTIC_REALTIME_OFFEND", "1"}}));
   const std::string seen = offences(endAndRead());
   EXPECT_THAT(seen, HasSubstr("system call sched_yield\n"));

@@ -114,6 +114,33 @@ Hanging reachedFrom(int slice,
   return hanging;
 }
 
+/// True if what hangs there moves a point that it pulls at: far along what is not straight, or at
+/// all by way of other bodies that it moves points of.
+bool leadsBack(const Hanging& body, const Network& network) {
+  const scene::Scene& scene = network.scene;
+  const Hands hands = handsOn(scene, slicesInHands(scene));
+  const auto isOfBody = [&](int mat) { return body.nodes.count(mat) != 0; };
+  std::set<int> moved = body.nodes;
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (const scene::Connection& connection : scene.connections) {
+      if (moved.count(connection.guide) == 0 || connection.guide_scale == 0.0) {
+        continue;
+      }
+      const double most = isOfBody(connection.guide) ? kMostLead : 0.0;
+      if (isOfBody(connection.mat) && leadOf(scene, connection) > most) {
+        return true;
+      }
+      if (moved.count(connection.mat) == 0) {
+        const Hanging other = bodyOn(connection.mat, network, hands);
+        moved.insert(other.nodes.begin(), other.nodes.end());
+        grows = true;
+      }
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 bool isFree(const scene::Mat& mat) {
@@ -164,21 +191,13 @@ scene::Scene onlyOf(const Hanging& hanging, scene::Scene scene) {
 }
 
 const char* notTold(const Hanging& body, const Network& network) {
-  const scene::Scene& scene = network.scene;
   for (const int node : body.nodes) {
     if (network.nodes[at(node)].is_free &&
         leavesModesOut(network, network.nodes[at(node)].section)) {
       return "a section that is played by fewer modes";
     }
   }
-  const auto leads = [&](const scene::Connection& connection) {
-    return body.nodes.count(connection.mat) != 0 &&
-           std::count(body.slices.begin(), body.slices.end(), connection.guide) != 0 &&
-           leadOf(scene, connection) > kMostLead;
-  };
-  return std::any_of(scene.connections.begin(), scene.connections.end(), leads)
-             ? "a point that it moves and pulls at"
-             : nullptr;
+  return leadsBack(body, network) ? "a point that it moves and pulls at" : nullptr;
 }
 
 const char* notWorkedOut(const Hanging& hanging, const scene::Scene& scene, const Rates& rates) {

@@ -35,7 +35,8 @@ Hanging bodyOn(int slice, const Network& network, const Hands& hands);
 scene::Scene onlyOf(const Hanging& hanging, scene::Scene scene);
 
 /// Why what a slice meets cannot be told from it, whatever hangs there: fewer modes than modules,
-/// or a point that one of the slices moves far along what is not straight. nullptr: it can be.
+/// or a point that it moves, far along what is not straight or by way of what else its points move,
+/// and pulls at. nullptr: it can be.
 const char* notTold(const Hanging& body, const Network& network);
 
 /// Why it cannot be worked out as a scalar network at the rate of the slice; nullptr: it can be.

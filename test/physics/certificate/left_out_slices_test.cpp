@@ -117,5 +117,51 @@ TEST(LeftOutSlicesTest, APointThatItMovesAndPullsAt) {
   EXPECT_EQ(guided(2.0, 0.0).ports.at(0).level, HandLevel::kSilent);
 }
 
+/// Two masses on stiff springs, a spring from a slice to the place between them.
+struct Slope {
+  int hand;
+  int point;
+};
+Slope slopeOf(SceneBuilder& b, int slice) {
+  const int hand = b.slice(slice);
+  const int wall = b.ground();
+  const int first = b.mass(0.01, 0.0);
+  b.mass(0.01, 0.0);
+  b.scene.mats.at(at(first + 1)).position.x() = 0.05;
+  b.spring(wall, first, 1e6, 100.0);
+  b.spring(wall, first + 1, 1e6, 100.0);
+  const Slope slope{hand, b.point(b.grid(first, 2), 0.5)};
+  b.spring(hand, slope.point, 200.0);
+  return slope;
+}
+
+/// A mass that goes with the slice moves the point, and is pushed by nothing of that.
+TEST(LeftOutSlicesTest, APointThatAMassOnItMoves) {
+  SceneBuilder b;
+  const Slope slope = slopeOf(b, 0);
+  const int mass = b.mass(1e-5, 0.0);
+  b.spring(slope.hand, mass, 1500.0, 0.1);
+  EXPECT_EQ(judged(b.scene).ports.at(0).level, HandLevel::kSilent);
+  b.scene.connections.at(0).guide = mass;
+  b.scene.connections[0].guide_scale = -200.0;
+  EXPECT_THAT(judged(b.scene).findings, Contains(HasSubstr("a point that it moves and pulls at")));
+}
+
+/// Each of two slices moves the point that the other one pulls at.
+TEST(LeftOutSlicesTest, APointThatItMovesByAnotherSlice) {
+  SceneBuilder b;
+  const Slope left = slopeOf(b, 0);
+  const Slope right = slopeOf(b, 1);
+  for (scene::Connection& connection : b.scene.connections) {
+    connection.guide = connection.mat == left.point ? right.hand : left.hand;
+    connection.guide_scale = -200.0;
+  }
+  const Certificate certificate = judged(b.scene);
+  EXPECT_NE(certificate.ports.at(0).level, HandLevel::kSilent);
+  EXPECT_NE(certificate.ports.at(1).level, HandLevel::kSilent);
+  b.scene.connections.at(0).guide = -1;  // one way is no loop
+  EXPECT_EQ(judged(b.scene).ports.at(0).level, HandLevel::kSilent);
+}
+
 }  // namespace
 }  // namespace ergotic::physics

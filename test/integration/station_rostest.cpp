@@ -50,6 +50,7 @@ class StationTest : public ::testing::Test {
           std::map<std::string, std::string>{{"JACK_DEFAULT_SERVER", jack.name()}});
       node.setParam("/station/model", kModel);
       node.setParam("/station/ramp", 0.1);
+      node.setParam("/station/max_stalls", 1'000'000);  // of a busy machine
       node.setParam("/station/jack_wait", 30.0);
       node.setParam("/station/jack_connect", false);
       node.setParam("/station/allow_fault_injection", true);

@@ -65,6 +65,7 @@ target_compile_definitions(outside_rostest PRIVATE
   CLOCK_SHIFT="$<TARGET_FILE:clock_shift>" SLOW_DISPLAY="$<TARGET_FILE:slow_display>")
 add_dependencies(outside_rostest ergotic_ros virtual_tgr render clock_shift slow_display)
 add_dependencies(master_rostest ergotic_ros virtual_tgr)
+add_dependencies(crowd_rostest ergotic_ros virtual_tgr)
 add_dependencies(force_rostest ergotic_ros ergotic_generate_messages_py)
 add_dependencies(deployed_rostest ergotic_ros)
 target_compile_definitions(drivers_rostest PRIVATE COMEDI_STANDIN="$<TARGET_FILE:comedi_standin>")

@@ -53,7 +53,7 @@ ROOMS = {
 # beginnings of their names. The core knows neither ROS nor JACK.
 CORE = "Eigen/ yaml-cpp/ boost/lockfree/"
 ROS = CORE + " ros/ rosbag/ nodelet/ pluginlib/ class_loader/ xmlrpcpp/ diagnostic_updater/ tf2_ros/" \
-             " ergotic/ diagnostic_msgs/ geometry_msgs/ sensor_msgs/ std_msgs/ std_srvs/ visualization_msgs/"
+             " console_bridge/ ergotic/ diagnostic_msgs/ geometry_msgs/ sensor_msgs/ std_msgs/ std_srvs/ visualization_msgs/"
 FOREIGN = {
     "audio": CORE + " jack/ sndfile",
     "guardian": CORE + " jack/",

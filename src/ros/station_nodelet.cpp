@@ -4,6 +4,7 @@
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "ros/conversation/console.hpp"
 #include "ros/conversation/diagnostics.hpp"
 #include "ros/conversation/feed.hpp"
 #include "ros/conversation/operator.hpp"
@@ -42,6 +43,7 @@ class StationNodelet : public nodelet::Nodelet {
     }
   }
 
+  const std::shared_ptr<Console> console_ = Console::ofThisProcess();  // of all that follows
   std::unique_ptr<Diagnostics> diagnostics_;
   std::unique_ptr<Feed> feed_;
   std::unique_ptr<OwnHost> own_host_;

@@ -70,6 +70,12 @@ class PushedStation {
     const auto& forces = device_log_.read();
     return forces.empty() ? 0.0 : forces.back().force_n;
   }
+  /// When the force that the device felt became zero, CLOCK_MONOTONIC; nothing if it has not.
+  std::optional<std::int64_t> releasedNs() {
+    const auto& forces = device_log_.read();
+    const bool is_free = !forces.empty() && forces.back().force_n == 0.0;
+    return is_free ? std::optional(forces.back().time_ns) : std::nullopt;
+  }
   bool isPushed() {
     return eventually([this] { return force() < -0.95 * kForceN; }, kLongS);
   }

@@ -14,12 +14,20 @@ namespace {
 constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 constexpr double kMaxOmega = 0.5;  // rad per update: keeps the loop stable over long gaps
 
+std::int64_t nsOf(clockid_t clock) noexcept {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return now.tv_sec * kNsPerSecond + now.tv_nsec;
+}
+
 }  // namespace
 
 std::int64_t monotonicNs() noexcept {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec * kNsPerSecond + now.tv_nsec;
+  return nsOf(CLOCK_MONOTONIC);
+}
+
+std::int64_t threadCpuNs() noexcept {
+  return nsOf(CLOCK_THREAD_CPUTIME_ID);
 }
 
 void sleepUntilNs(std::int64_t deadline_ns) noexcept {

@@ -108,6 +108,13 @@ Outcome makeRealtime(int priority) {
   return {false, message.str()};
 }
 
+void makeOrdinary() noexcept {
+  const sched_param none{};
+  if (pthread_setschedparam(pthread_self(), SCHED_OTHER, &none) == 0) {
+    own_priority = 0;
+  }
+}
+
 int realtimePriority() noexcept {
   return own_priority;
 }

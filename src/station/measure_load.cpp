@@ -19,13 +19,6 @@ constexpr std::int64_t kBatchNs = 500'000;
 constexpr int kLeastBatches = 5;
 constexpr int kPatienceMs = 100;
 
-/// Not while others have the processor.
-std::int64_t threadNs() {
-  timespec time = {};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1'000'000'000LL * time.tv_sec + time.tv_nsec;
-}
-
 void tick(Performer& p) {
   p.instrument->tick({p.positions.data(), p.forces.data(), p.inputs.data(), p.outputs.data()});
 }
@@ -42,11 +35,11 @@ bool finish(Performer& p) {
 /// From the initial state: what is quiet is not asleep there. \return ns of each tick
 double batch(Performer& p, int ticks) {
   p.restart();
-  const std::int64_t begin = threadNs();
+  const std::int64_t begin = rt::threadCpuNs();
   for (int i = 0; i < ticks; ++i) {
     tick(p);
   }
-  return static_cast<double>(threadNs() - begin) / ticks;
+  return static_cast<double>(rt::threadCpuNs() - begin) / ticks;
 }
 
 double tickNs(const physics::Instrument& instrument) {

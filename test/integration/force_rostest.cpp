@@ -178,7 +178,7 @@ struct Moment {
 
 TEST_F(ForceTest, AnEmergencyStopHoldsFromItsRequestOnWhateverGoesOn) {
   const char* const asked = std::getenv("ERGOTIC_STOPS");
-  const int stops = asked == nullptr ? 60 : std::atoi(asked);
+  const int stops = asked == nullptr ? 28 : std::atoi(asked);
   startToPlay();
   const ReferenceThreads reference(ReferenceThreads::Rank::kOrdinary);
   Trials trials(reference);

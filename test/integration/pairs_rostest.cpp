@@ -20,7 +20,7 @@ constexpr double kReleasedN = 0.15;
 constexpr int kUsual = 12;                       // pairs, where not all are asked for
 constexpr std::int64_t kTicksNs = 1'000'000;     // from an answer to the tick that is spoilt
 constexpr double kBetweenS = 0.004;              // at most, from one fault to the other
-constexpr std::chrono::milliseconds kAsOld{60};  // a recover after an emergency stop
+constexpr std::chrono::milliseconds kAsOld{510};  // a recover after an emergency stop
 
 struct Pair {
   FaultCase first;

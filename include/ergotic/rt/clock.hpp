@@ -8,6 +8,9 @@ namespace ergotic::rt {
 /// CLOCK_MONOTONIC, ns. Realtime: yes (vDSO).
 std::int64_t monotonicNs() noexcept;
 
+/// What the calling thread has had of processors, ns.
+std::int64_t threadCpuNs() noexcept;
+
 /// Sleeps until an absolute CLOCK_MONOTONIC time; the only system call of a waiting tick.
 void sleepUntilNs(std::int64_t deadline_ns) noexcept;
 

@@ -27,6 +27,9 @@ Outcome giveMemoryBack();
 /// Realtime: no
 Outcome makeRealtime(int priority);
 
+/// Takes it back: the thread is an ordinary one again. Realtime: no
+void makeOrdinary() noexcept;
+
 /// What `makeRealtime` gave the calling thread; 0: nothing. Realtime: yes
 int realtimePriority() noexcept;
 

@@ -20,8 +20,8 @@ using CommandType = station::Command::Type;
 using EventType = station::Event::Type;
 
 constexpr std::int64_t kObeyTimeoutNs = 1'000'000'000;
-// From a call to its arrival, where the caller has to find the service first.
-constexpr std::int64_t kOnItsWayNs = 50'000'000;
+// From a call to its arrival, where the caller has to find the service first, on a busy machine.
+constexpr std::int64_t kOnItsWayNs = 500'000'000;
 constexpr std::size_t kGestureBatch = 256;
 constexpr double kLogPeriodS = 5.0;
 const char kNothingPlays[] = "nothing plays: load a model first";

@@ -5,6 +5,7 @@
 
 #include "ergotic/rt/clock.hpp"
 #include "ergotic/rt/thread.hpp"
+#include "ergotic/rt/urgency.hpp"
 
 namespace ergotic::node {
 
@@ -12,11 +13,26 @@ namespace {
 
 const ::ros::WallDuration kLook(0.1);  // whether it ends
 
-void makeUrgent(int priority) {
-  if (rt::realtimePriority() < priority) {
-    (void)rt::makeRealtime(priority);
+/// Of one thread, which asks for it again and again.
+class Priority {
+ public:
+  explicit Priority(int priority) : priority_(priority) {}
+
+  void follow() {
+    const bool is_urgent = priority_ > 0 && urgency_.allows(rt::monotonicNs(), rt::threadCpuNs());
+    if (is_urgent && !was_urgent_) {
+      (void)rt::makeRealtime(priority_);
+    } else if (!is_urgent && was_urgent_) {
+      rt::makeOrdinary();
+    }
+    was_urgent_ = is_urgent;
   }
-}
+
+ private:
+  int priority_;
+  rt::Urgency urgency_;
+  bool was_urgent_ = false;
+};
 
 /// roscpp looks at a socket again and again as long as another thread holds its connection, which
 /// on a full machine may be an ordinary one that waits for the processor of this urgent one.
@@ -39,13 +55,10 @@ class Pause {
 
 UrgentSpinner::UrgentSpinner(::ros::CallbackQueue& queue, int priority) : queue_(queue) {
   if (priority > 0) {
-    // Called whenever that thread has looked at its sockets, several times a second.
+    // Called each time that thread has looked at its sockets, ten times a second at least.
     sockets_ = ::ros::PollManager::instance()->addPollThreadListener(
-        [priority, tried = false, pause = Pause()]() mutable {
-          if (!tried) {
-            makeUrgent(priority);
-          }
-          tried = true;
+        [own = Priority(priority), pause = Pause()]() mutable {
+          own.follow();
           pause.takeIfOften();
         });
   }
@@ -59,8 +72,9 @@ UrgentSpinner::~UrgentSpinner() {
 }
 
 void UrgentSpinner::run(int priority) {
-  makeUrgent(priority);
+  Priority own(priority);
   while (!ends_) {
+    own.follow();
     queue_.callAvailable(kLook);
   }
 }

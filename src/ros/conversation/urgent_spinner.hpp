@@ -11,8 +11,8 @@ namespace ergotic::node {
 
 /// Serves a queue in a thread of its own that ordinary programs cannot keep from running, and lets
 /// the thread that reads all sockets of this process be as urgent: on a machine with forty busy
-/// programs a request waited for up to 1.3 s in front of an ordinary one. Thread: the one that
-/// makes it
+/// programs a request waited for up to 1.3 s in front of an ordinary one. Both are as urgent as
+/// that only while `rt::Urgency` allows it. Thread: the one that makes it
 class UrgentSpinner {
  public:
   /// \param priority  SCHED_FIFO, 1...99, below that of the ticks; 0: ordinary threads. Where the

@@ -244,9 +244,11 @@ TEST_F(ForceTest, AnEmergencyStopHoldsFromItsRequestOnWhateverGoesOn) {
             << 1e-6 * static_cast<double>(worst_ns) << " ms at the latest\n";
 }
 
+// One in a hundred meets a lock of roscpp that an ordinary thread of the station holds, which waits
+// for a processor; to ordinary threads half of them came too late.
 TEST_F(ForceTest, AStopIsHeardOnABusyMachine) {
   constexpr int kPrograms = 40;
-  constexpr int kStops = 15;  // half of them came too late to an ordinary thread
+  constexpr std::size_t kStops = 20;
   startToPlay();
   push();
   constexpr bool kPersistent = true;
@@ -254,20 +256,22 @@ TEST_F(ForceTest, AStopIsHeardOnABusyMachine) {
   std_srvs::Trigger stop;
   ASSERT_TRUE(button.call(stop)) << "looks for it once";
   std::vector<std::unique_ptr<ChildProcess>> busy;
-  for (int i = 0; i < kPrograms; ++i) {
+  for (int i = 0; i < kPrograms; ++i) {  // the kernel shares processors out among sessions
     busy.push_back(std::make_unique<ChildProcess>(
-        std::vector<std::string>{"/bin/sh", "-c", "while :; do :; done"}));
+        std::vector<std::string>{"/usr/bin/setsid", "/bin/sh", "-c", "while :; do :; done"}));
   }
-  const ReferenceThreads reference;
-  Trials trials(reference);
-  for (int i = 0; i < kStops; ++i) {
-    trials.next();
+  std::vector<std::int64_t> released_ns;
+  while (released_ns.size() < kStops && !HasFailure()) {
     push();
     const std::int64_t asked_ns = whenSent(button);
     ASSERT_TRUE(eventually([&] { return force_.knownNs() > asked_ns + 100 * kNsPerMs; }));
-    trials.judge({asked_ns, asked_ns + kLimitNs}, force_.lastForceNs(), "its release");
+    released_ns.push_back(force_.lastForceNs() - asked_ns);
   }
-  trials.expectNineOfTen();
+  std::sort(released_ns.begin(), released_ns.end());
+  EXPECT_LT(released_ns.at(kStops * 9 / 10 - 1), kLimitNs) << "nine of ten";
+  std::cout << "beside " << kPrograms << " busy programs force is gone after "
+            << 1e-6 * static_cast<double>(released_ns.at(kStops / 2)) << " ms, "
+            << 1e-6 * static_cast<double>(released_ns.back()) << " ms at the latest\n";
 }
 
 // Somebody asks for things that take long, twice: both threads are taken that answer such calls.

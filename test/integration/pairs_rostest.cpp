@@ -17,9 +17,9 @@ namespace ergotic::test {
 namespace {
 
 constexpr double kReleasedN = 0.15;
-constexpr int kUsual = 12;                       // pairs, where not all are asked for
-constexpr std::int64_t kTicksNs = 1'000'000;     // from an answer to the tick that is spoilt
-constexpr double kBetweenS = 0.004;              // at most, from one fault to the other
+constexpr int kUsual = 12;                        // pairs, where not all are asked for
+constexpr std::int64_t kTicksNs = 1'000'000;      // from an answer to the tick that is spoilt
+constexpr double kBetweenS = 0.004;               // at most, from one fault to the other
 constexpr std::chrono::milliseconds kAsOld{510};  // a recover after an emergency stop
 
 struct Pair {

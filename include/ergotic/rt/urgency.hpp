@@ -10,8 +10,8 @@ namespace ergotic::rt {
 /// the kernel allots real-time threads 95 % of each second, the ticks as well. Thread: one
 class Urgency {
  public:
-  static constexpr double kShare = 0.2;                  ///< of a processor, that it may take
-  static constexpr std::int64_t kWindowNs = 20'000'000;  ///< in which that is looked at, at least
+  static constexpr double kShare = 0.25;                  ///< of a processor, that it may take
+  static constexpr std::int64_t kWindowNs = 200'000'000;  ///< in which that is looked at, at least
 
   /// To be asked often. \param now_ns  CLOCK_MONOTONIC. \param used_ns  of processors, by the
   /// thread

@@ -67,19 +67,21 @@ def ports_of(pid):
 
 
 class World:
-    """A ROS master that hears `master_ip` ("" for all addresses), and a station."""
+    """A ROS master that hears `master_ip` ("" for all addresses), here or elsewhere, and a station."""
 
-    def __init__(self, master_ip, *parameters):
+    def __init__(self, master_ip, *parameters, elsewhere=None):
         self.folder = tempfile.TemporaryDirectory()
         self.port = free_port()
-        self.environment = {**os.environ, "ROS_MASTER_URI": f"http://localhost:{self.port}",
+        host = elsewhere.ITS if elsewhere else "localhost"
+        self.environment = {**os.environ, "ROS_MASTER_URI": f"http://{host}:{self.port}",
                             "ROS_LOG_DIR": self.folder.name}
         for name in ("ROS_IP", "ROS_HOSTNAME"):
             self.environment.pop(name, None)
         self.started = []
         own = {"ROS_IP": master_ip} if master_ip else {}
-        self.start({**own}, "rosmaster", "--core", "-p", str(self.port))
-        self.wait(lambda: is_open("127.0.0.1", self.port), "a master")
+        there = ("ip", "netns", "exec", elsewhere.name) if elsewhere else ()
+        self.start({**own}, *there, "rosmaster", "--core", "-p", str(self.port))
+        self.wait(lambda: is_open(host, self.port), "a master")
         self.station = self.start({"ROS_HOSTNAME": "localhost"}, "rosrun", "nodelet", "nodelet", "standalone",
                                   "ergotic/Station", "__name:=station", "_jack:=none",
                                   f"_model:={os.getcwd()}/models/string.yaml", *parameters)
@@ -159,6 +161,14 @@ class RemoteTest(unittest.TestCase):
             answer = world.engage()
             self.assertIn("success: False", answer)
             self.assertIn("ROS_IP=127.0.0.1", answer)
+
+    def test_a_master_on_another_host_lets_no_force_out(self):
+        """Though another one here, which nobody else reaches, has the same port."""
+        with World("", elsewhere=self.other_host) as world, \
+                socket.create_server(("127.0.0.1", world.port)):
+            answer = world.engage()
+            self.assertIn("success: False", answer)
+            self.assertIn("can be reached from other hosts", answer)
 
     def test_who_allows_others_is_reached_by_them(self):
         with World("", "_allow_remote:=true") as world:

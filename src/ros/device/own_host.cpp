@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/device/own_host.hpp"
 
+#include <netdb.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <sstream>
 
 #include <netinet/in.h>
@@ -60,6 +62,18 @@ bool isOfOwnHost(const std::string& address) {
   return address == kLoopback6 || (v4.size() == 8 && v4.substr(6) == "7F");
 }
 
+bool isLoopback(const sockaddr& address) {
+  switch (address.sa_family) {
+    case AF_INET:
+      return ntohl(reinterpret_cast<const sockaddr_in&>(address).sin_addr.s_addr) >> 24U ==
+             IN_LOOPBACKNET;
+    case AF_INET6:
+      return IN6_IS_ADDR_LOOPBACK(&reinterpret_cast<const sockaddr_in6&>(address).sin6_addr);
+    default:
+      return false;
+  }
+}
+
 struct Listening {
   bool anybody = false;
   bool own_host_only = true;
@@ -107,7 +121,21 @@ bool listensOnOwnHostOnly(std::uint16_t port) {
   return listening.anybody && listening.own_host_only;
 }
 
-OwnHost::OwnHost(bool allow_remote) : allow_remote_(allow_remote) {
+bool isLoopback(const std::string& host) {
+  addrinfo* found = nullptr;
+  if (getaddrinfo(host.c_str(), nullptr, nullptr, &found) != 0) {
+    return false;
+  }
+  const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> all(found, &freeaddrinfo);
+  const addrinfo* address = all.get();
+  while (address != nullptr && isLoopback(*address->ai_addr)) {
+    address = address->ai_next;
+  }
+  return address == nullptr;
+}
+
+OwnHost::OwnHost(bool allow_remote)
+    : allow_remote_(allow_remote), is_master_here_(isLoopback(::ros::master::getHost())) {
   if (!allow_remote) {
     failure_ = hearOwnHostOnly(
         {static_cast<std::uint16_t>(::ros::XMLRPCManager::instance()->getServerPort()),
@@ -119,7 +147,8 @@ std::optional<std::string> OwnHost::breach() const {
   if (allow_remote_ || failure_) {
     return allow_remote_ ? std::nullopt : failure_;
   }
-  if (listensOnOwnHostOnly(static_cast<std::uint16_t>(::ros::master::getPort()))) {
+  if (is_master_here_ &&
+      listensOnOwnHostOnly(static_cast<std::uint16_t>(::ros::master::getPort()))) {
     return std::nullopt;
   }
   return "the ROS master at " + ::ros::master::getURI() +

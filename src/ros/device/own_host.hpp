@@ -19,6 +19,9 @@ std::optional<std::string> hearOwnHostOnly(const std::vector<std::uint16_t>& por
 /// false also if none listens, for then it is another host that does.
 bool listensOnOwnHostOnly(std::uint16_t port);
 
+/// Whether this name or address of a host is the loopback interface, and nothing else.
+bool isLoopback(const std::string& host);
+
 /// ROS has no authentication: whoever reaches the nodes or the master of a station may do anything
 /// that its player may.
 class OwnHost {
@@ -32,6 +35,7 @@ class OwnHost {
 
  private:
   bool allow_remote_;
+  bool is_master_here_;
   std::optional<std::string> failure_;
 };
 

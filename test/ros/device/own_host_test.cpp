@@ -59,6 +59,16 @@ TEST(OwnHostTest, WhereNobodyListensItIsAnotherHostThatDoes) {
   EXPECT_FALSE(listensOnOwnHostOnly(free_port));
 }
 
+TEST(OwnHostTest, KnowsItselfByNameAndAddress) {
+  EXPECT_TRUE(isLoopback("localhost"));
+  EXPECT_TRUE(isLoopback("127.0.1.1"));
+  EXPECT_TRUE(isLoopback("::1"));
+  EXPECT_FALSE(isLoopback("198.18.77.2"));
+  EXPECT_FALSE(isLoopback("128.0.0.1"));
+  EXPECT_FALSE(isLoopback("::2"));
+  EXPECT_FALSE(isLoopback("nobody.invalid"));
+}
+
 TEST(OwnHostTest, ClosesThePortsThatItIsToldAndNoOthers) {
   const Listening ours(INADDR_ANY);
   const Listening others(INADDR_ANY);

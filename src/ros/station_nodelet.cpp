@@ -3,6 +3,8 @@
 
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
+#include <ros/callback_queue.h>
+#include <ros/spinner.h>
 
 #include "ros/conversation/console.hpp"
 #include "ros/conversation/diagnostics.hpp"
@@ -29,8 +31,11 @@ class StationNodelet : public nodelet::Nodelet {
   /// nodelet that fails in onInit leaves its name taken.
   void onInit() override {
     try {
-      ::ros::NodeHandle& node = getMTPrivateNodeHandle();
-      diagnostics_ = std::make_unique<Diagnostics>(getNodeHandle(), node, getName());
+      ::ros::NodeHandle shared = getNodeHandle();
+      ::ros::NodeHandle node = getPrivateNodeHandle();
+      shared.setCallbackQueue(&calls_);
+      node.setCallbackQueue(&calls_);
+      diagnostics_ = std::make_unique<Diagnostics>(shared, node, getName());
       feed_ = std::make_unique<Feed>(node);
       own_host_ = std::make_unique<OwnHost>(node.param("allow_remote", false));
       operator_ = std::make_unique<Operator>(*feed_, *diagnostics_, *own_host_);
@@ -38,12 +43,16 @@ class StationNodelet : public nodelet::Nodelet {
           [this] { operator_->makeSafe(tgr::FaultReason::kMadeSafe); },
           [this] { operator_->close(); });
       services_ = std::make_unique<Services>(node, *operator_);
+      spinner_.start();
     } catch (const std::exception& failure) {
       NODELET_ERROR_STREAM(failure.what());
     }
   }
 
   const std::shared_ptr<Console> console_ = Console::ofThisProcess();  // of all that follows
+  // Not the queues of nodelet: who is unloaded during a call from these is destroyed after them.
+  ::ros::CallbackQueue calls_;
+  ::ros::AsyncSpinner spinner_{0, &calls_};  // a thread per processor
   std::unique_ptr<Diagnostics> diagnostics_;
   std::unique_ptr<Feed> feed_;
   std::unique_ptr<OwnHost> own_host_;

@@ -154,6 +154,27 @@ TEST(CrowdTest, AStopIsHeardOnOneProcessor) {
   trials.expectNineOfTen();
 }
 
+TEST(CrowdTest, AStationIsUnloadedInTheMiddleOfCalls) {
+  constexpr int kTimes = 20;
+  const std::string nodelet = "/usr/lib/nodelet/nodelet";
+  ::ros::NodeHandle node;
+  node.setParam("/station/model", kWall);
+  node.setParam("/station/jack", "none");
+  node.deleteParam("/station/virtual_shared_memory");
+  ChildProcess manager({nodelet, "manager", "__name:=manager"});
+  ASSERT_TRUE(::ros::service::waitForService("/manager/load_nodelet", 30000));
+  for (int i = 0; i < kTimes && manager.isRunning(); ++i) {
+    ChildProcess load({nodelet, "load", "ergotic/Station", "manager", "__name:=station"});
+    ASSERT_TRUE(::ros::service::waitForService("/station/set_parameter", 30000));
+    const Talker one;
+    const Talker another;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100 + 20 * (i % 10)));
+    load.signal(SIGINT);  // it unloads what it has loaded
+    ASSERT_TRUE(load.wait(30.0).has_value()) << "load " << i;
+  }
+  EXPECT_TRUE(manager.isRunning());
+}
+
 // As a terminal does that somebody holds by Ctrl-S.
 TEST(CrowdTest, AStopIsHeardThoughNobodyReadsWhatIsLogged) {
   constexpr int kComplaints = 60;

@@ -75,10 +75,10 @@ class TypedTest(unittest.TestCase):
         for line, answer in said.items():
             if line.startswith("rosservice"):
                 self.assertIn("success: True", answer, line)
-        self.assertEqual(len(said), 12)
+        self.assertGreaterEqual(len(said), 12)
 
     def test_lines_of_the_docs_are_understood(self):
-        self.assertEqual(len(self.type_all("docs/ros.md")), 12)
+        self.assertGreaterEqual(len(self.type_all("docs/ros.md")), 12)
 
     def test_arguments_of_the_launch_file_are_its_own(self):
         launch = xml.etree.ElementTree.fromstring(text_of("launch", "station.launch"))

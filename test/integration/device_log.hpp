@@ -55,6 +55,16 @@ class DeviceLog {
   std::vector<ForceRecord> records_;
 };
 
+/// Whether a force was felt for the last 100 ms, to a twentieth of it.
+inline bool isSteady(const std::vector<ForceRecord>& forces, double force_n) {
+  constexpr std::int64_t kSteadyNs = 100'000'000;
+  const std::int64_t from_ns = forces.empty() ? 0 : forces.back().time_ns - kSteadyNs;
+  return !forces.empty() && forces.front().time_ns < from_ns &&
+         std::all_of(forces.begin(), forces.end(), [=](const ForceRecord& at) {
+           return at.time_ns < from_ns || std::abs(at.force_n - force_n) < 0.05 * std::abs(force_n);
+         });
+}
+
 /// 0 before the first record.
 inline double forceAt(const std::vector<ForceRecord>& forces, std::int64_t time_ns) {
   double force = 0.0;

@@ -77,7 +77,7 @@ class PushedStation {
     return is_free ? std::optional(forces.back().time_ns) : std::nullopt;
   }
   bool isPushed() {
-    return eventually([this] { return force() < -0.95 * kForceN; }, kLongS);
+    return eventually([this] { return isSteady(device_log_.read(), -kForceN); }, kLongS);
   }
   bool becomes(std::uint8_t state) const {
     return eventually([&] { return statuses() > 0 && status().state == state; }, kLongS);

@@ -136,15 +136,7 @@ class SafetyWorld {
   }
   /// Whether the device felt 15 N for a while: longer than between two messages of the presence
   /// switch, so that also at the last of them there was all the force.
-  bool isPushed() const {
-    constexpr std::int64_t kSteadyNs = 100'000'000;
-    const std::vector<ForceRecord>& forces = log->read();
-    const std::int64_t from_ns = forces.empty() ? 0 : forces.back().time_ns - kSteadyNs;
-    return !forces.empty() && forces.front().time_ns < from_ns &&
-           std::all_of(forces.begin(), forces.end(), [from_ns](const ForceRecord& at) {
-             return at.time_ns < from_ns || std::abs(at.force_n + kForceN) < 0.05 * kForceN;
-           });
-  }
+  bool isPushed() const { return isSteady(log->read(), -kForceN); }
   /// Until the hand meets 15 N. It comes from outside: a wall that appears where the hand already
   /// is may not push it away, for it never got the energy. \return false if that took too long
   bool push() {

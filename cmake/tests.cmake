@@ -108,5 +108,5 @@ if(ERGOTIC_ROS)
   add_test(NAME integration.spaces
     COMMAND ${PROJECT_SOURCE_DIR}/test/integration/spaces.sh
             ${PROJECT_BINARY_DIR} ${CATKIN_DEVEL_PREFIX})
-  set_tests_properties(integration.spaces PROPERTIES RUN_SERIAL ON TIMEOUT 300 LABELS integration)
+  set_tests_properties(integration.spaces PROPERTIES TIMEOUT 300 LABELS integration)
 endif()

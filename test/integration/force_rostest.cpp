@@ -248,7 +248,7 @@ TEST_F(ForceTest, AnEmergencyStopHoldsFromItsRequestOnWhateverGoesOn) {
 // for a processor; to ordinary threads half of them came too late.
 TEST_F(ForceTest, AStopIsHeardOnABusyMachine) {
   constexpr int kPrograms = 40;
-  constexpr std::size_t kStops = 20;
+  constexpr std::size_t kStops = 10;
   startToPlay();
   push();
   constexpr bool kPersistent = true;

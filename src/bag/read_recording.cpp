@@ -185,12 +185,6 @@ RecordedMessage bytesOf(const rosbag::MessageInstance& message) {
   return {message.getDataType(), message.getMD5Sum(), std::move(data)};
 }
 
-/// With their memory, which a vector keeps that is given `{}`.
-void forgetPositions(Stretch& stretch) {
-  stretch.positions = std::vector<double>();
-  stretch.ports_at = std::vector<double>();
-}
-
 /// Where the positions of a recording are.
 struct Blocks {
   explicit Blocks(const std::string& path) : bag(path, rosbag::bagmode::Read) {}
@@ -276,12 +270,6 @@ void finish(Recording& recording, const std::string& path) {
   requireNoLongGap(recording.stretches, path);
 }
 
-void Recording::unload(Stretch& stretch) const {
-  if (load) {
-    forgetPositions(stretch);
-  }
-}
-
 Recording readRecording(const std::string& path, const std::string& station) {
   files::requireFile(path);
   Recording recording;
@@ -294,7 +282,7 @@ Recording readRecording(const std::string& path, const std::string& station) {
       add(recording, message, path);
       if (recording.stretches.size() > before) {
         recording.stretches.back().block = blocks->messages.size();
-        forgetPositions(recording.stretches.back());
+        recording.stretches.back().forgetPositions();
         blocks->messages.push_back(instance);
       }
     }

@@ -39,6 +39,11 @@ struct Stretch {
   std::vector<double> ports_at;      ///< [ticks][ports] m, in the model, as the instrument got them
   std::size_t block = 0;             ///< for `Recording::load`
 
+  /// With their memory, which a vector keeps that is given `{}`.
+  void forgetPositions() {
+    positions = std::vector<double>();
+    ports_at = std::vector<double>();
+  }
   std::int64_t endTick() const { return first_tick + static_cast<std::int64_t>(flags.size()); }
 };
 
@@ -51,7 +56,11 @@ struct Recording {
 
   /// Brings the positions of a stretch; empty where all are there. \throws Exception
   std::function<void(Stretch&)> load;
-  void unload(Stretch& stretch) const;
+  void unload(Stretch& stretch) const {
+    if (load) {
+      stretch.forgetPositions();
+    }
+  }
 };
 
 /// Reads and checks the messages of a station; positions are read again when they are needed.

@@ -133,7 +133,7 @@ TEST(CrowdTest, AStopIsHeardOnOneProcessor) {
     busy = std::make_unique<ChildProcess>(
         std::vector<std::string>{"/bin/sh", "-c", "while :; do :; done"});
   }
-  ASSERT_TRUE(station->isPushed()) << station->status().state_text;
+  ASSERT_TRUE(station->wasPushed()) << station->status().state_text;
   constexpr bool kPersistent = true;
   auto button = ::ros::NodeHandle().serviceClient<std_srvs::Trigger>("/station/stop", kPersistent);
   std_srvs::Trigger stop;
@@ -144,7 +144,7 @@ TEST(CrowdTest, AStopIsHeardOnOneProcessor) {
   for (int i = 0; i < kStops; ++i) {
     trials.next();
     ASSERT_TRUE(eventually([] { return call("engage").success != 0U; }, 30.0));
-    ASSERT_TRUE(station->isPushed()) << station->status().state_text;
+    ASSERT_TRUE(station->wasPushed()) << station->status().state_text;
     const std::int64_t asked_ns = rt::monotonicNs();
     ASSERT_TRUE(button.call(stop));
     EXPECT_TRUE(eventually([&] { return station->releasedNs().has_value(); }, kWaitS));

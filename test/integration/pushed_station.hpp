@@ -76,6 +76,10 @@ class PushedStation {
     const bool is_free = !forces.empty() && forces.back().force_n == 0.0;
     return is_free ? std::optional(forces.back().time_ns) : std::nullopt;
   }
+  /// For a moment at least: where ticks stall all the time, force is never steady.
+  bool wasPushed() {
+    return eventually([this] { return force() < -0.95 * kForceN; }, kLongS);
+  }
   bool isPushed() {
     return eventually([this] { return isSteady(device_log_.read(), -kForceN); }, kLongS);
   }

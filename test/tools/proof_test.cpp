@@ -141,6 +141,14 @@ const std::string kTwoRates =
     "  f: {type: mass, section: fast, mass: 0.1}\nlias:\n"
     "  l: {type: spring, between: [a, f], stiffness: 1e4*$k}\n"
     "  r: {type: spring, between: [b, f], stiffness: 1e4}\n";
+/// Two scalar masses that are joined, and one in a line that both of them see.
+const std::string kRing =
+    "ergotic: 1\nsections: {s: {}, t: {pose: {rotation: [0, 0, 0]}}, l: {geometry: line}}\nmats:\n"
+    "  a: {type: mass, section: s, mass: 1}\n  b: {type: mass, section: t, mass: 1}\n"
+    "  c: {type: mass, section: l, mass: 1}\nlias:\n"
+    "  ab: {type: spring, between: [a, b], stiffness: 2.3e9}\n"
+    "  bc: {type: spring, between: [b, c], stiffness: 2.3e9}\n"
+    "  ca: {type: spring, between: [c, a], stiffness: 2.3e9}\n";
 /// Beyond a quarter of the rate a cell is worst where it is damped least.
 const std::string kMatched =
     "ergotic: 1\nparameters: {z: {value: 1, range: [0, 1]}}\nsections: {s: {}}\nmats:\n"
@@ -179,6 +187,7 @@ TEST(ProofTest, IsRefusedForEveryReasonThatIsMissing) {
       {kHeld, "geometry: scalar", "geometry: plane", "axes"},
       {kTwoRates, "[1, 1]", "[0.5, 1]", "island"},
       {kTwoRates, "rotation: [0, 0, 0]", "rotation: [0, 0, 1]", "island: its axes"},
+      {kRing, "rotation: [0, 0, 0]", "rotation: [0, 0, 3.141592653589793]", "its axis"},
   };
   for (const Lie& lie : lies) {
     std::string other = lie.text;
@@ -188,7 +197,7 @@ TEST(ProofTest, IsRefusedForEveryReasonThatIsMissing) {
     EXPECT_THAT(refusal(lie.text, other), HasSubstr(lie.reason)) << lie.instead;
   }
   for (const std::string& text :
-       {kSnapping, kTable, kFinger, kInSpace, kHeld, kTwoRates, kMatched}) {
+       {kSnapping, kTable, kFinger, kInSpace, kHeld, kTwoRates, kRing, kMatched}) {
     EXPECT_EQ(refusal(text, text), "") << text;
   }
   EXPECT_THAT(refusal(kTable, kTable, true), HasSubstr("its verdict"));

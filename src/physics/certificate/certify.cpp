@@ -46,6 +46,7 @@ class Certifier {
       result.sections.push_back(known->second);
       result.sections.back().section = s;
     }
+    judgeAxes(networks_, findings_);
     judgeCouplings(networks_, findings_);
     for (const scene::AudioParameter& parameter : scene_.audio_parameters) {
       findings_.add(Verdict::kUnproven, parameter.place,

@@ -12,6 +12,9 @@ namespace ergotic::physics {
 /// Links that are more than springs and dampers: rules of contact, friction, tables, guards.
 void judgeLinks(const RatedNetwork& networks, Findings& findings);
 
+/// Scalar modules that meet lines, planes and space along different axes.
+void judgeAxes(const RatedNetwork& networks, Findings& findings);
+
 /// Masses that links join to faster ones.
 void judgeCouplings(const RatedNetwork& networks, Findings& findings);
 

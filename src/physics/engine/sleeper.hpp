@@ -6,6 +6,7 @@
 
 #include "ergotic/exception.hpp"
 #include "physics/engine/energy_meter.hpp"
+#include "physics/engine/stored_energy.hpp"
 #include "physics/layout/groups.hpp"
 #include "physics/layout/layout.hpp"
 #include "physics/state/coefficients.hpp"
@@ -54,7 +55,7 @@ class Sleeper {
         asleep = isTouched(section, state) ? 0 : 1;
       } else if (first % (kStepsBetween * divisor) == 0 && !isTouched(section, state)) {
         const double energy = meter.storedIn(section, c, state);
-        if (energy < limit.energy) {
+        if (energy < limit.energy && restsWithNoMore(section, c, state)) {
           stop(section, state);
           meter.addDissipated(section, energy - meter.storedIn(section, c, state), state);
           asleep = 1;
@@ -118,6 +119,15 @@ class Sleeper {
       return feed.section == section && state.asleep()[section] != 0 &&
              state.f()[feed.slot] != Real(0);
     });
+  }
+
+  /// What stops keeps what its springs hold. Where steps are nearly opposite, motion counts below
+  /// 0, and that is more than the energy was.
+  bool restsWithNoMore(int section,
+                       const CoefficientsOf<Real>& c,
+                       const State<Real>& state) const noexcept {
+    const auto s = static_cast<std::size_t>(section);
+    return limits_[s].joins.empty() || kineticOf(layout_.sections[s], c.masses, state) >= 0.0;
   }
 
   void stop(int section, State<Real>& state) const noexcept {

@@ -87,6 +87,28 @@ TEST(VouchedInPlanesTest, LinesThatAreTiltedAgainstScalarSectionsAreNoOneLine) {
   }
 }
 
+/// A ring of three masses, two of them scalar and joined by the axis that these have in common, the
+/// third one in a line. Where one of the two sees the line turned round no displacements of the
+/// three make up for that: the highest mode takes 4 k/M, not 3 k/M.
+TEST(VouchedInPlanesTest, RingsThatSeeOneAxisTurnedRoundAreStiffer) {
+  for (const bool is_turned : {false, true}) {
+    const std::string k = ", stiffness: 23.3e6}\n";  // h^2 k/M = 1.198
+    const scene::Scene scene = scene::readYaml(
+        std::string("ergotic: 1\nsections:\n  s: {}\n  t: {pose: {rotation: [0, 0, ") +
+            (is_turned ? "3.141592653589793" : "0") +
+            "]}}\n  l: {geometry: line}\nmats:\n  a: {type: mass, section: s, mass: 0.01, v: 1}\n"
+            "  b: {type: mass, section: t, mass: 0.01}\n"
+            "  c: {type: mass, section: l, mass: 0.01}\n"
+            "lias:\n  ab: {type: spring, between: [a, b]" +
+            k + "  bc: {type: spring, between: [b, c]" + k +
+            "  ca: {type: spring, between: [c, a]" + k,
+        "ring.yaml");
+    EXPECT_EQ(growsAMillionfold(scene, 14), is_turned);
+    EXPECT_EQ(certify(scene, {kRate, 14}).verdict,
+              is_turned ? Verdict::kUnproven : Verdict::kPassive);
+  }
+}
+
 /// Whatever is advised against a damper between two geometries can be done.
 TEST(VouchedInPlanesTest, DampersBetweenALineAndAPlaneMayBeGuarded) {
   for (const std::string between : {"[a, b]", "[b, a]"}) {

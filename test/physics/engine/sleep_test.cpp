@@ -83,6 +83,30 @@ TEST(SleeperTest, StopsWhereItIs) {
   EXPECT_EQ(energiesOf(player).sections[0].kinetic, 0.0);
 }
 
+/// Near half the rate motion counts below 0: what stops there would keep up to E/(1 - lambda/4).
+TEST(SleeperTest, StopsWhereItKeepsNoMoreThanItHad) {
+  SceneBuilder b;
+  b.scene.sections[0].sleep_energy = 1.0;
+  scene::Section other = b.scene.sections[0];
+  other.name = "other";
+  other.sleep_energy = 0.0;
+  b.scene.sections.push_back(other);
+  const int mass = b.mass(1.0, 0.0, 1.0);
+  b.spring(mass, b.ground(), 3.99 * kRate * kRate);
+  b.link(scene::LiaType::kContact, mass, b.ground(0.0, 2), 1.0);  // is never reached
+  b.scene.lias.back().law.edit().width = {-1.0};
+  Player player(b.scene, {kRate, 1});
+  const double start = energiesOf(player).stored;
+  bool slept = false;
+  for (int n = 0; n < 5000; ++n) {
+    player.tick();
+    const Energies now = energiesOf(player);
+    slept = slept || now.sections[0].dissipated > 0.0;
+    EXPECT_LE(now.stored, start * (1.0 + 1e-9));
+  }
+  EXPECT_TRUE(slept);
+}
+
 TEST(SleeperTest, RefusesASectionThatDoesNotRestAtZero) {
   scene::Scene scene = struckTwice(1e-9);
   scene.sections[0].gravity.x() = -9.81;

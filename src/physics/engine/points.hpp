@@ -175,14 +175,13 @@ class Points {
     return static_cast<Real>(around.weights[static_cast<std::size_t>(i)]);
   }
 
-  /// The modes of a section at rest are all at 0.
+  /// A section at rest stays where it is.
   void gatherModes(std::size_t p, State<Real>& state) const noexcept {
     const ModalPlace& point = layout_.modal_places[p];
     keepLast(point.slot, 1, state);
     if (state.asleep()[point.section] == 0) {
       modal_.gather(p, state.x(), state.d());
     } else {
-      state.x()[point.slot] = static_cast<Real>(point.offset);
       state.d()[point.slot] = Real(0);
     }
     copyMoved(point.slot, 1, state);

@@ -30,14 +30,15 @@ bool isClose(double a, double b) {
   return std::abs(a - b) <= kSame * std::max(std::abs(a), std::abs(b));
 }
 
-double largestOf(const Eigen::SparseMatrix<double>& matrix) {
-  double largest = 0.0;
+bool isPositive(const Eigen::SparseMatrix<double>& matrix) {
   for (int column = 0; column < matrix.outerSize(); ++column) {
     for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it; ++it) {
-      largest = std::max(largest, std::abs(it.value()));
+      if (it.value() > 0.0) {
+        return true;
+      }
     }
   }
-  return largest;
+  return false;
 }
 
 StepUnits unitsOf(const scene::Scene& scene, const Rates& rates, int section) {
@@ -215,12 +216,18 @@ class Finder {
     return parts;
   }
 
-  /// Both matrices have the same eigenvectors if their order does not matter.
+  /// Both matrices have the same eigenvectors if their order does not matter: entry by entry, as
+  /// what is soft has small ones.
   bool sharesModes(const LinearPart& part) const {
     const PartMatrices matrices = matricesOf(network_, rates_, found_.row_of, part);
-    const Eigen::SparseMatrix<double> one = matrices.pull * matrices.loss;
-    const Eigen::SparseMatrix<double> other = matrices.loss * matrices.pull;
-    return largestOf(one - other) <= kSame * largestOf(matrices.pull) * largestOf(matrices.loss);
+    using Sparse = Eigen::SparseMatrix<double>;
+    const Sparse pull = matrices.pull.cwiseAbs();
+    const Sparse loss = matrices.loss.cwiseAbs();
+    const Sparse one = matrices.pull * matrices.loss;
+    const Sparse other = matrices.loss * matrices.pull;
+    const Sparse apart = (one - other).cwiseAbs();
+    const Sparse parts = Sparse(pull * loss) + Sparse(loss * pull);
+    return !isPositive(apart - kSame * parts);
   }
 
   void offendByModule(const LinearPart& part, double alpha) {

@@ -216,6 +216,24 @@ TEST_F(ModalChoiceTest, WhatCannotBePlayedIsRefusedWithItsPlace) {
   }
 }
 
+/// Two masses at 7 Hz, of which one is damped, beside something stiff that is damped more.
+TEST_F(ModalChoiceTest, WhatIsSoftBesideTheRestSharesModesOrIsRefused) {
+  SceneBuilder b;
+  const int ground = b.ground();
+  const int damped = b.cell(1.0, 0.0, 4.41);
+  const int free = b.mass(1.0);
+  const int stiff = b.cell(1e-4, 1e5, 4.41);
+  for (const int mass : {damped, free}) {
+    b.spring(mass, ground, 1945.0);
+  }
+  b.spring(damped, free, 1945.0);
+  b.spring(damped, stiff, 4e-3);
+  b.hear(free);
+  EXPECT_THAT(
+      errorOf(withModes(b.scene, scene::kAllModes)),
+      HasSubstr("cannot be played by its modes: module 'm2' loses 0 of its speed per step"));
+}
+
 TEST_F(ModalChoiceTest, GuardedLinksOnPlacesThatMoveEachOtherAreRefused) {
   EXPECT_THAT(errorOf(withModes(playedPlate().scene, 60)),
               AllOf(HasSubstr("guarded link"), HasSubstr("modes are left out")));

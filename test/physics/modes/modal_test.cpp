@@ -177,6 +177,26 @@ TEST_F(ModalTest, SectionsFallAsleepAndWakeAsTheirNetwork) {
   EXPECT_NE(modal.heard[0][4050], 0.0);
 }
 
+/// What is linked to others stops where it is, and is seen there.
+TEST_F(ModalTest, SectionsFallAsleepWhereTheyAre) {
+  SceneBuilder b;
+  const double k = 0.3 * 1e-3 * kRate * kRate;
+  const int first = b.chain(20, 1e-3, k, 1e-6 * k);
+  b.scene.mats[at(first + 7)].position.x() = 1e-3;
+  b.scene.sections[0].medium = {0.5};
+  b.scene.sections[0].sleep_energy = 1e-3;
+  b.hear(first + 7);
+  const int l = b.link(LiaType::kContact, first + 7, b.ground(0.0, SceneBuilder::kGestural), 1.0);
+  b.scene.lias[at(l)].law.edit().width = {-1.0};  // is never reached
+  Player network(b.scene, kRates);
+  Player modal(withModes(b.scene, scene::kAllModes), kRates);
+  play(network, modal, 3000);
+  expectSameSound(network, modal, 1e-10);
+  EXPECT_GT(std::abs(network.heard[0].back()), 1e-7);
+  EXPECT_EQ(modal.heard[0].back(),
+            modal.heard[0][at(static_cast<int>(modal.heard[0].size()) - 99)]);
+}
+
 TEST_F(ModalTest, PictureShowsModulesThatNothingTouches) {
   const Plate b = playedPlate();
   Player network(b.scene, kRates);

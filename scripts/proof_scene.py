@@ -14,6 +14,7 @@ DEFAULTS = {"sections": {"rate": "audio", "geometry": "scalar", "medium": "0"},
 WORDS = {"spring": "spring_damper", "damper": "spring_damper"}
 AXES = {"scalar": 1, "line": 1, "plane": 2, "space": 3}
 MOST_FRAMES = 48  # of a tick
+CHAPLET = ((0.0083, 0.2237, 0.4475), (0.0705, 0.0, 0.5525))  # stiffness, damping, mass, from its slower end on
 NEAREST = ((0, 1), (1, 0), (1, 1), (1, -1))  # of a mesh: rows and columns to the modules it is linked to
 
 
@@ -147,7 +148,7 @@ class Said:
     def add_chaplet(self, name, keys):
         """Of two masses, tuned to the gestural rate that is wanted."""
         before, nyquist = keys["from"], math.pi * self.gestural_hz
-        for i, (stiffness, damping, mass) in enumerate(((0.0083, 0.2237, 0.4475), (0.0705, 0.0, 0.5525))):
+        for i, (stiffness, damping, mass) in enumerate(CHAPLET):
             self.add_mat(f"{name}.{i}", "mass", keys["section"], mass=scaled(keys["mass"], mass))
             self.add_lia(f"{name}.link.{i}", [before, f"{name}.{i}"], scheme="explicit",
                          stiffness=scaled(keys["mass"], stiffness * nyquist * nyquist),

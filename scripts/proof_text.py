@@ -10,7 +10,7 @@ import numpy as np
 from scipy import interpolate, sparse
 from scipy.sparse import csgraph
 
-from proof_scene import AXES, DEFAULTS, PARTS, Said, axes_of, scaled
+from proof_scene import AXES, CHAPLET, DEFAULTS, PARTS, Said, axes_of, scaled
 
 MOST_RAISED = 100  # modules of a section
 SPRING, CLIPPED = "stiffness damping rest_length", "nonlinearity stiffness_limit tipping_point limit_damping "
@@ -258,16 +258,17 @@ class Comparison:
             said.add_mat(f"{name}.ground", "ground", home)
             said.add_lia(f"{name}.dashpot", [slow[0], f"{name}.ground"], scheme="explicit", damping=None)
 
+    def written_of(self, number):
+        """The divisor that is written for a section, or what it is raised out of."""
+        rate = self.said.sections[self.base_of(self.sections[number])]["rate"]
+        return int(rate["divisor"]) if isinstance(rate, dict) else 1 if rate == "audio" else self.said.ratio
+
     def is_at_its_rate(self, number, divisor):
         """The one that is written; `auto` says that of a tick, or one that divides it; or a raised one."""
         base, ratio = self.base_of(self.sections[number]), self.said.ratio
         if base not in self.said.sections:
             return False
-        rate = self.said.sections[base]["rate"]
-        if isinstance(rate, dict):
-            written = int(rate["divisor"])
-        else:
-            written = {"audio": 1, "gestural": ratio}.get(rate, ratio)
+        rate, written = self.said.sections[base]["rate"], self.written_of(number)
         is_felt = any(m["type"] == "slice" and self.base_of(self.sections[m["section"]]) == base for m in self.modules)
         return divisor == written or rate == "auto" and not is_felt and ratio % divisor == 0 or (
             divisor < written and self.is_raised(number, divisor))
@@ -278,7 +279,34 @@ class Comparison:
         beside = {self.modules[other]["section"] for l in self.joining() for end, other in (
             l["between"], l["between"][::-1]) if self.modules[end]["section"] == number and self.moved(end)}
         return sum(map(self.is_written, own)) <= MOST_RAISED and not any(map(self.stays, own)) and any(
-            s != number and self.divisors[s] == divisor for s in beside) and not self.opened().isdisjoint(own)
+            s != number and self.divisors[s] == divisor for s in beside) and not (
+                self.opened().isdisjoint(own) or self.has_chaplet(own))
+
+    def has_chaplet(self, own):
+        """Whether one hangs on what explicit links join to these, at the rates that are written: it keeps them."""
+        rates = [self.written_of(m["section"]) for m in self.modules]
+        pairs = []
+        for l in self.proof["links"]:
+            a, b = sorted(l["between"], key=lambda end: rates[end])
+            is_open = self.said.lias.get(l["name"], {"scheme": ""}).get("scheme") is None
+            if l["scheme"] == "explicit" or is_open and rates[a] < rates[b] and self.moved(b):
+                ends = [*self.moved(a), *self.moved(b)]
+                pairs += [(ends[0], m, 1.0) for m in ends]
+        bodies = csgraph.connected_components(matrix_of(pairs, len(self.modules)), directed=False)[1]
+        return any(bodies[m] in bodies[own] and self.is_chaplet(m, rates) for m in range(len(self.modules)))
+
+    def is_chaplet(self, first, rates):
+        """Whether a mass is the first one of a chaplet, which hangs on something slower."""
+        links = [l for l in self.proof["links"] if first in l["between"]]
+        if len(links) != 2 or any(l["type"] != "spring_damper" for l in links):
+            return False
+        ends = [sum(l["between"]) - first for l in links]
+        (hanging, slow), (between, last) = sorted(zip(links, ends), key=lambda each: -rates[each[1]])
+        near = [times(v) for v in (hanging["stiffness"], hanging["damping"], self.modules[first].get("mass", 0.0))]
+        far = [times(v) for v in (between["stiffness"], between["damping"], self.modules[last].get("mass", 0.0))]
+        (k, z, m), (l, _, n) = CHAPLET
+        return rates[slow] > rates[first] and far[1] == 0 and all(math.isclose(a, b, rel_tol=1e-5) for a, b in (
+            (near[0] * l, far[0] * k), (near[2] * n, far[2] * m), ((near[1] / z) ** 2, near[0] * near[2] / (k * m))))
 
     def opened(self):
         """Modules that hang together with a link that is not linear and whose scheme is left open."""

@@ -5,22 +5,16 @@
 #include <filesystem>
 #include <fstream>
 
-#include <sys/wait.h>
-
-#include "ergotic/scene/text/read_scene.hpp"
 #include "support/physics.hpp"
-#include "support/places.hpp"
-#include "support/scratch_file.hpp"
 #include "support/small_scene.hpp"
 #include "support/tool_process.hpp"
-#include "tools/lib/proof_file.hpp"
 #include "tools/lib/sha256.hpp"
+#include "tools/proofs.hpp"
 
 namespace ergotic {
 namespace {
 
 namespace fs = std::filesystem;
-using test::ScratchFile;
 using test::SmallScene;
 
 constexpr unsigned kScenes = 100;
@@ -30,12 +24,6 @@ constexpr int kGolden = 7;  // of those models are vouched for
 unsigned scenes() {
   const char* const asked = std::getenv("ERGOTIC_PROOFS");
   return asked == nullptr ? kScenes : static_cast<unsigned>(std::strtoul(asked, nullptr, 10));
-}
-
-/// Of a script of this repository.
-int python(const std::string& command) {
-  const int status = std::system(("/usr/bin/python3 " + repository("") + command).c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 std::string digestOf(const std::string& text) {
@@ -204,24 +192,6 @@ TEST(ProofTest, IsRefusedForEveryReasonThatIsMissing) {
   EXPECT_THAT(refusal(kFinger, kFinger, true), HasSubstr("its verdict"));
 }
 
-/// What scripts/check_proof says of the proof of `other`, whole, under the name of `text`.
-std::string refusalUnderTheNameOf(const std::string& text, const std::string& other) {
-  const ScratchFile scene_file(text);
-  const ScratchFile file;
-  const ScratchFile said;
-  scene::Scene scene = scene::readYaml(other, scene_file.path());
-  const physics::Rates rates = physics::chooseRates(scene, 44100.0, 0.0);
-  scene = physics::settle(std::move(scene), rates).scene;
-  physics::Proof proof;
-  const physics::Verdict found = physics::certify(scene, rates, {}, &proof).verdict;
-  EXPECT_LE(found, physics::Verdict::kBounded) << other;
-  tools::writeProof(file.path(), scene, rates, found, proof);
-  const int code =
-      python("scripts/check_proof " + file.path() + " " + scene_file.path() + " 2> " + said.path());
-  EXPECT_EQ(code, said.text().empty() ? 0 : 1);
-  return said.text();
-}
-
 /// Three rates, of which one is the gestural one; sections that are turned.
 const std::string kRates =
     "ergotic: 1\ngestural_rate: 3000\nsections:\n  fast: {geometry: plane}\n"
@@ -329,37 +299,6 @@ TEST(ProofTest, IsRefusedUnderTheNameOfAnotherScene) {
   for (const std::string& text : {kRates, kPoints, kRaised, kStretched, kMade, kTable, kDriving}) {
     EXPECT_EQ(refusalUnderTheNameOf(text, text), "") << text;
   }
-}
-
-/// Only what is not linear and is joined to it raises a section.
-TEST(ProofTest, HoldsNoSectionFasterThanSettlingMakesIt) {
-  const std::string plain =
-      "ergotic: 1\nsections: {fast: {}, slow: {rate: gestural}}\nmats:\n"
-      "  g: {type: ground, section: fast}\n  f: {type: mass, section: fast, mass: 1}\n"
-      "  m: {type: mass, section: slow, mass: 1}\n  n: {type: mass, section: fast, mass: "
-      "1}\nlias:\n"
-      "  own: {type: spring, between: [f, g], stiffness: 1e4}\n"
-      "  joins: {type: spring, between: [m, f], stiffness: 1e4}\n"
-      "  hit: {type: contact, between: [n, g], stiffness: 1e4}\n";
-  const auto with = [&](const std::string& said, const std::string& instead) {
-    std::string text = plain;
-    return text.replace(text.find(said), said.size(), instead);
-  };
-  const std::string fast = with("slow: {rate: gestural}", "slow: {}");
-  EXPECT_EQ(refusalUnderTheNameOf(plain, plain), "");
-  EXPECT_THAT(refusalUnderTheNameOf(plain, fast), HasSubstr("slow: divisor is not 1"));
-  const std::string joined = with("[n, g]", "[f, n]");
-  EXPECT_EQ(refusalUnderTheNameOf(joined, joined), "");
-  // What is guarded by its text joins nothing.
-  const std::string apart =
-      "ergotic: 1\nsections: {fast: {}, slow: {rate: gestural}}\nmats:\n"
-      "  f: {type: mass, section: fast, mass: 1}\n  m: {type: mass, section: slow, mass: 1}\n"
-      "  g: {type: ground, section: slow}\nlias:\n"
-      "  hit: {type: contact, between: [m, f], stiffness: 1e4, scheme: guarded}\n"
-      "  open: {type: contact, between: [m, g], stiffness: 1e4}\n";
-  std::string raised = apart;
-  raised.replace(raised.find("slow: {rate: gestural}"), 22, "slow: {}");
-  EXPECT_THAT(refusalUnderTheNameOf(apart, raised), HasSubstr("slow: divisor is not 1"));
 }
 
 TEST(ProofTest, MustBeToldAGesturalRateThatTheSceneDoesNotWish) {

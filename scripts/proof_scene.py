@@ -3,6 +3,7 @@
 from docs/scene.md alone."""
 import itertools
 import math
+import os
 
 import numpy as np
 import yaml
@@ -55,8 +56,9 @@ class Said:
     """A scene by its text: in `parts` by name the keys of each element, those that are made, too. A key
     that is None is worked out elsewhere and is not compared."""
 
-    def __init__(self, text, frame, gestural_hz):
-        scene = next(yaml.load_all(text, yaml.BaseLoader))
+    def __init__(self, name, frame, gestural_hz):
+        scene, *appended = yaml.load_all(open(name, "rb").read(), yaml.BaseLoader)
+        self.folder, self.tables = os.path.dirname(name), appended[0]["tables"] if appended else {}
         self.parts = {part: dict(rows_of(scene.get(part))) for part in PARTS}
         self.sections, self.mats, self.lias = (self.parts[part] for part in ("sections", "mats", "lias"))
         for part, elements in self.parts.items():
@@ -167,6 +169,9 @@ class Said:
         keys.update(type=WORDS.get(keys["type"], keys["type"]), between=list(map(self.end_at, keys["between"])))
         keys["scheme"] = None if keys.get("scheme") == "auto" else keys.get("scheme")
         keys.setdefault("release", keys.get("engage"))
+        for key in keys.keys() & {"table", "elastic", "viscous"}:
+            if "file" in keys[key]:
+                keys[key] = {**keys[key], "points": self.points_of(keys[key]["file"])}
         if keys["type"] in ("clipped_cubic", "cubic_contact"):
             k, q, limit = (float(keys[key]) for key in ("stiffness", "nonlinearity", "stiffness_limit"))
             if q and k < limit:
@@ -174,6 +179,13 @@ class Said:
             else:
                 keys.update(type="contact" if keys["type"] == "cubic_contact" else "spring_damper",
                             stiffness=repr(limit if q else k))
+
+    def points_of(self, file):
+        """Those of a table beside the scene, or appended to its text."""
+        if file not in self.tables:
+            lines = [line.partition("#")[0] for line in open(os.path.join(self.folder, file), encoding="utf-8-sig")]
+            self.tables[file] = [line.replace(",", " ").split() for line in lines if line.strip()]
+        return self.tables[file]
 
     def end_at(self, said):
         """A module by its name, or what lies at `grid@along` or `grid@along:across`."""

@@ -88,7 +88,7 @@ def same(said, has):
         factor, _, name = said.rpartition("$")
         return name.strip() == has["parameter"] and same(factor.strip().rstrip("*") or "1", has["times"])
     if isinstance(has, dict):
-        return "file" in said or all(same(said.get(key, "linear"), has[key]) for key in has)
+        return all(same(said.get(key, "linear"), has[key]) for key in has)
     if isinstance(has, list):
         return len(said) == len(has) and all(map(same, said, has))
     if isinstance(has, (str, bool)):
@@ -373,7 +373,7 @@ def need_scene(proof, name, gestural_hz):
         has = [(s["name"], s["divisor"], s["geometry"], s["medium"], len(s)) for s in proof["sections"]]
         need(has == [("model", 1, "scalar", 0.0, 5)] and not proof["points"], "its section")
     else:
-        others = list(Comparison(proof, Said(text, proof["frame"], gestural_hz)).differences())
+        others = list(Comparison(proof, Said(name, proof["frame"], gestural_hz)).differences())
         need(not others, "; ".join(others))
 
 

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 
 #include "support/physics.hpp"
 #include "support/small_scene.hpp"
@@ -296,7 +297,15 @@ TEST(ProofTest, IsRefusedUnderTheNameOfAnotherScene) {
     other.replace(at, lie.said.size(), lie.instead);
     EXPECT_THAT(refusalUnderTheNameOf(lie.text, other), HasSubstr(lie.reason)) << lie.instead;
   }
-  for (const std::string& text : {kRates, kPoints, kRaised, kStretched, kMade, kTable, kDriving}) {
+  const ScratchFile points("# m, N\n-1, -1\n1 1 # the last one\n");
+  std::string from_file = kTable;
+  from_file.replace(from_file.find("[[-1, -1], [1, 1]]"), 18,
+                    "{file: " + points.path().substr(5) + "}");  // beside the scene
+  EXPECT_THAT(
+      refusalUnderTheNameOf(from_file, std::regex_replace(kTable, std::regex("1, 1"), "1, 2")),
+      HasSubstr("l: elastic is"));
+  for (const std::string& text :
+       {kRates, kPoints, kRaised, kStretched, kMade, kTable, kDriving, from_file}) {
     EXPECT_EQ(refusalUnderTheNameOf(text, text), "") << text;
   }
 }

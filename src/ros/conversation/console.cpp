@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/conversation/console.hpp"
 
-#include <atomic>
 #include <utility>
 
 #include <ros/console.h>
@@ -11,7 +10,9 @@ namespace {
 
 constexpr std::size_t kMostLines = 1000;
 
-std::atomic<Console*> of_this_process{nullptr};  // rosconsole calls a plain function
+// rosconsole calls a plain function, which other nodelets do while the last station is unloaded.
+std::mutex taking;
+Console* taker = nullptr;
 
 }  // namespace
 
@@ -31,7 +32,10 @@ Console::Console() {
   ::ros::console::initialize();
   write_ = ::ros::console::backend::function_print;
   thread_ = std::thread([this] { run(); });
-  of_this_process = this;
+  {
+    const std::lock_guard lock(taking);
+    taker = this;
+  }
   ::ros::console::backend::function_print = &Console::take;
   console_bridge::useOutputHandler(this);
 }
@@ -39,7 +43,10 @@ Console::Console() {
 Console::~Console() {
   console_bridge::restorePreviousOutputHandler();
   ::ros::console::backend::function_print = write_;
-  of_this_process = nullptr;
+  {
+    const std::lock_guard lock(taking);
+    taker = nullptr;
+  }
   {
     const std::lock_guard lock(mutex_);
     ends_ = true;
@@ -54,8 +61,9 @@ void Console::take(void* logger,
                    const char* file,
                    const char* function,
                    int number) {
-  if (Console* const console = of_this_process) {
-    console->add({logger, level, text, file, function, number});
+  const std::lock_guard lock(taking);
+  if (taker != nullptr) {
+    taker->add({logger, level, text, file, function, number});
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/conversation/urgent_spinner.hpp"
 
+#include <chrono>
 #include <cstdint>
 
 #include "ergotic/rt/clock.hpp"
@@ -13,25 +14,25 @@ namespace {
 
 const ::ros::WallDuration kLook(0.1);  // whether it ends
 
-/// Of one thread, which asks for it again and again.
+/// Of one thread, which asks for it again and again. Others may do so for the same one.
 class Priority {
  public:
   explicit Priority(int priority) : priority_(priority) {}
 
   void follow() {
-    const bool is_urgent = priority_ > 0 && urgency_.allows(rt::monotonicNs(), rt::threadCpuNs());
-    if (is_urgent && !was_urgent_) {
-      (void)rt::makeRealtime(priority_);
-    } else if (!is_urgent && was_urgent_) {
+    const bool is_urgent = rt::realtimePriority() > 0;
+    const bool may_be = priority_ > 0 && urgency_.allows(rt::monotonicNs(), rt::threadCpuNs());
+    if (may_be && !is_urgent && !is_refused_) {
+      is_refused_ = !rt::makeRealtime(priority_).ok;
+    } else if (!may_be && is_urgent) {
       rt::makeOrdinary();
     }
-    was_urgent_ = is_urgent;
   }
 
  private:
   int priority_;
   rt::Urgency urgency_;
-  bool was_urgent_ = false;
+  bool is_refused_ = false;
 };
 
 /// roscpp looks at a socket again and again as long as another thread holds its connection, which
@@ -51,15 +52,24 @@ class Pause {
   std::int64_t last_ns_ = 0;
 };
 
+constexpr std::chrono::milliseconds kLastLook{300};  // of a thread that looks every 100 ms
+
 }  // namespace
 
 UrgentSpinner::UrgentSpinner(::ros::CallbackQueue& queue, int priority) : queue_(queue) {
   if (priority > 0) {
     // Called each time that thread has looked at its sockets, ten times a second at least.
+    reader_ = std::make_shared<Reader>();
     sockets_ = ::ros::PollManager::instance()->addPollThreadListener(
-        [own = Priority(priority), pause = Pause()]() mutable {
-          own.follow();
-          pause.takeIfOften();
+        [reader = reader_, own = Priority(priority), pause = Pause()]() mutable {
+          if (!reader->ends) {
+            own.follow();
+            pause.takeIfOften();
+          } else if (!reader->has_ended) {
+            rt::makeOrdinary();
+            reader->has_ended = true;
+            reader->ended.set_value();
+          }
         });
   }
   thread_ = std::thread([this, priority] { run(priority); });
@@ -67,8 +77,14 @@ UrgentSpinner::UrgentSpinner(::ros::CallbackQueue& queue, int priority) : queue_
 
 UrgentSpinner::~UrgentSpinner() {
   ends_ = true;
+  if (reader_) {
+    // It outlives this station, and would stay urgent with nobody to see how much it takes. Where
+    // ROS has shut down it looks no more.
+    reader_->ends = true;
+    (void)reader_->ended.get_future().wait_for(kLastLook);
+    ::ros::PollManager::instance()->removePollThreadListener(sockets_);
+  }
   thread_.join();
-  ::ros::PollManager::instance()->removePollThreadListener(sockets_);
 }
 
 void UrgentSpinner::run(int priority) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <atomic>
+#include <future>
+#include <memory>
 #include <thread>
 
 #include <ros/callback_queue.h>
@@ -23,10 +25,18 @@ class UrgentSpinner {
   UrgentSpinner& operator=(const UrgentSpinner&) = delete;
 
  private:
+  /// What the thread that reads the sockets is told, which others keep when this one goes.
+  struct Reader {
+    std::atomic<bool> ends{false};
+    std::promise<void> ended;  // it is ordinary again
+    bool has_ended = false;    // its own
+  };
+
   void run(int priority);
 
   ::ros::CallbackQueue& queue_;
   std::atomic<bool> ends_{false};
+  std::shared_ptr<Reader> reader_;  // none where nothing is urgent
   boost::signals2::connection sockets_;
   std::thread thread_;
 };

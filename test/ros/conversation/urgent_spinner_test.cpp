@@ -12,6 +12,7 @@
 #include <ros/poll_manager.h>
 #include <sys/epoll.h>
 
+#include "ergotic/rt/thread.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::node {
@@ -43,6 +44,41 @@ class UnreadSocket {
   static ::ros::PollSet& sockets() { return ::ros::PollManager::instance()->getPollSet(); }
   std::array<int, 2> ends_{};
 };
+
+/// What the thread that reads the sockets is, by its own word, when it has looked twice more.
+int priorityOfReader() {
+  const auto polls = ::ros::PollManager::instance();
+  std::promise<int> told;
+  int looks = 0;
+  const boost::signals2::connection asked = polls->addPollThreadListener([&] {
+    if (++looks == 2) {
+      told.set_value(rt::realtimePriority());
+    }
+  });
+  const int priority = told.get_future().get();
+  polls->removePollThreadListener(asked);
+  return priority;
+}
+
+TEST(UrgentSpinnerTest, TheReaderOfSocketsIsUrgentAsLongAsSomebodyWantsIt) {
+  if (!std::async(std::launch::async, [] { return rt::makeRealtime(1).ok; }).get()) {
+    GTEST_SKIP() << "no real-time priority here";
+  }
+  const auto polls = ::ros::PollManager::instance();
+  polls->start();
+  ::ros::CallbackQueue queue;
+  EXPECT_EQ(priorityOfReader(), 0);
+  {
+    const UrgentSpinner stays(queue, kPriority);
+    {
+      const UrgentSpinner goes(queue, kPriority);
+      EXPECT_EQ(priorityOfReader(), kPriority);
+    }
+    EXPECT_EQ(priorityOfReader(), kPriority);
+  }
+  EXPECT_EQ(priorityOfReader(), 0);
+  polls->shutdown();
+}
 
 TEST(UrgentSpinnerTest, LeavesTheProcessorToWhoeverHoldsAConnection) {
   const auto polls = ::ros::PollManager::instance();

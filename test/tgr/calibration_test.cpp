@@ -8,19 +8,7 @@
 namespace ergotic::tgr {
 namespace {
 
-/// 1 V is 5 mm from 2 V on; 1 N is -0.05 V.
-SliceCalibration someCalibration() {
-  SliceCalibration c;
-  c.is_calibrated = true;
-  c.metres_per_volt = 0.005;
-  c.rest_volts = 2.0;
-  c.low_volts = -5.0;
-  c.high_volts = 8.0;
-  c.volts_per_newton = -0.05;
-  c.zero_volts = 0.004;
-  c.max_volts = 4.0;
-  return c;
-}
+using test::someCalibration;
 
 std::vector<CalibrationPoint> pointsOf(const SliceCalibration& c, std::vector<double> positions) {
   std::vector<CalibrationPoint> points;

@@ -8,16 +8,11 @@
 namespace ergotic::tgr {
 namespace {
 
-/// 1 V is 5 mm from 2 V on; 1 N is -0.05 V.
-SliceCalibration someCalibration() {
-  SliceCalibration c;
-  c.is_calibrated = true;
-  c.metres_per_volt = 0.005;
-  c.rest_volts = 2.0;
-  c.low_volts = -5.0;
-  c.high_volts = 8.0;
-  c.volts_per_newton = -0.05;
-  c.zero_volts = 0.003;
+constexpr double kZeroVolts = 0.003;
+
+SliceCalibration pushedCalibration() {
+  SliceCalibration c = test::someCalibration();
+  c.zero_volts = kZeroVolts;
   c.max_volts = 10.0;
   return c;
 }
@@ -27,7 +22,7 @@ class PushTest : public ::testing::Test {
   PushTest() {
     script_.is_raw = true;
     driver_ = makeCalibratedDriver(std::make_unique<test::ScriptedDriver>(script_),
-                                   {{someCalibration(), {}}});
+                                   {{pushedCalibration(), {}}});
     driver_->open(1000.0);
   }
   void exchange() { driver_->exchange(forces_.data(), positions_.data()); }
@@ -49,7 +44,7 @@ struct PushedSlice {
   double x = 0.0;
 
   Push push(CalibratedDriver& driver, test::Script& script, double newtons) {
-    const SliceCalibration c = someCalibration();
+    const SliceCalibration c = pushedCalibration();
     const std::array<double, 2> forces{};
     std::array<double, 2> positions{};
     driver.push(0, newtons);
@@ -107,18 +102,18 @@ class PushUnderWayTest : public PushTest {
     driver_->push(0, kPushN);
     for (int i = 0; i < 100; ++i) {
       exchange();
-      EXPECT_EQ(script_.forces[0], 0.003) << "does the slice rest?";
+      EXPECT_EQ(script_.forces[0], kZeroVolts) << "does the slice rest?";
     }
     for (int i = 0; i < 10; ++i) {
       exchange();
     }
-    EXPECT_NEAR(script_.forces[0], 0.003 - 0.05 * 9.5 / 50.0, 1e-12);
+    EXPECT_NEAR(script_.forces[0], kZeroVolts - 0.05 * 9.5 / 50.0, 1e-12);
     EXPECT_FALSE(driver_->takePush().has_value());
   }
   void expectNoForceAnyMore() {
     for (int i = 0; i < 100; ++i) {
       exchange();
-      ASSERT_EQ(script_.forces[0], 0.003) << i;
+      ASSERT_EQ(script_.forces[0], kZeroVolts) << i;
     }
   }
   void expectToldNothing() {
@@ -153,7 +148,7 @@ TEST_F(PushUnderWayTest, EndsWhenTheSensorIsAtItsRail) {
 TEST_F(PushUnderWayTest, EndsBeforeAForceOfTheModel) {
   forces_[0] = 3.0;
   exchange();
-  EXPECT_NEAR(script_.forces[0], 0.003 - 0.15, 1e-12);
+  EXPECT_NEAR(script_.forces[0], kZeroVolts - 0.15, 1e-12);
   forces_[0] = 0.0;
   expectNoForceAnyMore();
   expectToldNothing();
@@ -162,9 +157,9 @@ TEST_F(PushUnderWayTest, EndsBeforeAForceOfTheModel) {
 TEST_F(PushTest, IsNotMadeWhereTheSliceMovesAnyway) {
   driver_->push(0, kPushN);
   for (int i = 0; i < 200; ++i) {
-    script_.positions[0] = 2.0 + 0.003 * i * kTickS / 0.005;  // 3 mm/s
+    script_.positions[0] = 2.0 + kZeroVolts * i * kTickS / 0.005;  // 3 mm/s
     exchange();
-    ASSERT_EQ(script_.forces[0], 0.003);
+    ASSERT_EQ(script_.forces[0], kZeroVolts);
   }
   EXPECT_THAT(complaintOf([&] { judgePush(driver_->takePush().value(), kSliceKg); }),
               HasSubstr("mm before it was pushed"));
@@ -180,7 +175,7 @@ TEST_F(PushUnderWayTest, EndsByItselfWhereNothingMoves) {
   for (int i = 0; i < 41; ++i) {  // one tick until a position shows the first force
     exchange();
   }
-  EXPECT_NEAR(script_.forces[0], 0.003 - 0.05, 1e-12);
+  EXPECT_NEAR(script_.forces[0], kZeroVolts - 0.05, 1e-12);
   expectNoForceAnyMore();
   const Push push = driver_->takePush().value();
   EXPECT_DOUBLE_EQ(push.seconds, kPushS);
@@ -190,10 +185,10 @@ TEST_F(PushUnderWayTest, EndsByItselfWhereNothingMoves) {
 TEST_F(PushUnderWayTest, BeginsAnewWithAnother) {
   driver_->push(0, kPushN);
   for (int i = 0; i < 101; ++i) {
-    EXPECT_NEAR(script_.forces[0], i == 0 ? 0.003 - 0.05 * 9.5 / 50.0 : 0.003, 1e-12);
+    EXPECT_NEAR(script_.forces[0], i == 0 ? kZeroVolts - 0.05 * 9.5 / 50.0 : kZeroVolts, 1e-12);
     exchange();
   }
-  EXPECT_NEAR(script_.forces[0], 0.003 - 0.05 * 0.5 / 50.0, 1e-12);
+  EXPECT_NEAR(script_.forces[0], kZeroVolts - 0.05 * 0.5 / 50.0, 1e-12);
 }
 
 /// What a calibration says of a virtual slice of the usual mechanics, with the hand at it.
@@ -203,7 +198,7 @@ class PushedVirtualSliceTest : public ::testing::TestWithParam<double> {
   std::string complaintAt(double times) {
     VirtualDriverConfig config;
     config.slices = 1;
-    config.slice.volts = someCalibration();
+    config.slice.volts = pushedCalibration();
     config.slice.volts->zero_volts = 0.0;
     SliceCalibration believed = *config.slice.volts;
     believed.volts_per_newton *= times;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "ergotic/tgr/calibration.hpp"
 #include "ergotic/tgr/driver.hpp"
 #include "support/test.hpp"
 
@@ -27,6 +28,20 @@ struct Script {
   int reconnections = 0;
   std::pair<int, double> target{-1, 0.0};
 };
+
+/// 1 V is 5 mm from 2 V on; 1 N is -0.05 V.
+inline tgr::SliceCalibration someCalibration() {
+  tgr::SliceCalibration c;
+  c.is_calibrated = true;
+  c.metres_per_volt = 0.005;
+  c.rest_volts = 2.0;
+  c.low_volts = -5.0;
+  c.high_volts = 8.0;
+  c.volts_per_newton = -0.05;
+  c.zero_volts = 0.004;
+  c.max_volts = 4.0;
+  return c;
+}
 
 class ScriptedDriver final : public tgr::Driver, private tgr::DeviceClock {
  public:

@@ -155,7 +155,7 @@ TEST(CrowdTest, AStopIsHeardOnOneProcessor) {
 }
 
 TEST(CrowdTest, AStationIsUnloadedInTheMiddleOfCalls) {
-  constexpr int kTimes = 20;
+  constexpr int kTimes = 10;
   const std::string nodelet = "/usr/lib/nodelet/nodelet";
   ::ros::NodeHandle node;
   node.setParam("/station/model", kWall);

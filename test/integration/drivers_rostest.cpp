@@ -66,16 +66,16 @@ ports:
   return text.str();
 }
 
-/// A hand that presses for half a second, every two seconds. From outside each time: a wall that
+/// A hand that presses for a quarter of a second, every second. From outside each time: a wall that
 /// appears where the hand already is may not push it away, for it never got the energy.
 std::string pressesOfAHand() {
-  constexpr int kPresses = 150;
+  constexpr int kPresses = 300;
   std::ostringstream rows;
   for (int n = 0; n < kPresses; ++n) {
-    rows << 2.0 * n << ",0,0\n"
-         << 2.0 * n + 0.5 << ",0,0\n"
-         << 2.0 * n + 1.0 << ",0," << kTargetM << '\n'
-         << 2.0 * n + 1.5 << ",0," << kTargetM << '\n';
+    rows << n << ",0,0\n"
+         << n + 0.2 << ",0,0\n"
+         << n + 0.5 << ",0," << kTargetM << '\n'
+         << n + 0.75 << ",0," << kTargetM << '\n';
   }
   return rows.str();
 }
@@ -201,7 +201,7 @@ class StationProcess {
 };
 
 // The board falls out of its slot after so many ticks, in which the station has to have played.
-constexpr int kPluggedInS = 15;
+constexpr int kPluggedInS = 10;
 constexpr int kUnpluggedS = 2;
 constexpr double kBoardWall = 1000.0;  // N/m
 
@@ -271,7 +271,8 @@ class JackStationTest : public ::testing::Test {
         [this] { return server_.tool("jack_lsp jack_tgr:heartbeat | grep -q .") == 0; });
   }
 
-  JackServer server_{"drivers", {kAudioHz, kPeriod, 2}};
+  // A client that is killed holds up the graph for ten of these timeouts.
+  JackServer server_{"drivers", {kAudioHz, kPeriod, 2, true, 1000}};
   const ScratchFile gesture_{pressesOfAHand()};
   std::optional<ChildProcess> device_;
 };

@@ -68,7 +68,8 @@ class Points {
         keepLast(point.slot, point.dimensions, state);
         gatherPlace(p, x, d, state.places());
         std::copy_n(d + point.slot, point.dimensions, state.placeD() + point.coordinate);
-        if (state.placesOwe()[p] <= c.places[p].credit) {
+        // What is asleep has no force by which it would pay.
+        if (state.asleep()[point.section] == 0 && state.placesOwe()[p] <= c.places[p].credit) {
           glide(p, c.places[p], now, state);
         }
         for (int k = point.slot; k < point.slot + point.dimensions; ++k) {

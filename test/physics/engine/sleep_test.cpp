@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 
 #include "ergotic/physics/settling/settle.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
 #include "physics/network/section_stiffness.hpp"
 #include "physics/settling/sleep_bound.hpp"
 #include "support/physics.hpp"
@@ -105,6 +106,31 @@ TEST(SleeperTest, StopsWhereItKeepsNoMoreThanItHad) {
     EXPECT_LE(now.stored, start * (1.0 + 1e-9));
   }
   EXPECT_TRUE(slept);
+}
+
+/// A fret that went on along a string that rests bent would be stretched by what nobody paid.
+TEST(SleeperTest, PlacesWaitUntilWhatTheyLieOnWakes) {
+  const scene::Scene scene = scene::readYaml(
+      "ergotic: 1\nsections: {s: {sleep: 1e-3}, h: {}}\nmats:\n"
+      "  gs: {type: ground, section: s}\n  gh: {type: ground, section: h}\n"
+      "  guide: {type: cell, section: h, mass: 1e-12, stiffness: 4e-10, x: 0.45}\n"
+      "  p: {type: point, along: q, at: 0.5, guide: {mat: guide, scale: 1}, range: [0.05, 0.95],\n"
+      "      power: 1e-6}\n"
+      "  k: {type: mass, section: h, mass: 0.01, x: 0.001, v: -1}\ngenerators:\n"
+      "  - {type: string, name: q, section: s, masses: 20, mass: 0.01, stiffness: 100, loss: 0.3,\n"
+      "     to: [0.65, 0]}\nlias:\n"
+      "  fret: {type: spring, between: [p, gs], stiffness: 1e6}\n"
+      "  back: {type: spring, between: [k, gh], stiffness: 10, rest_length: -0.001}\n"
+      "  hit: {type: contact, between: [q.10, k], stiffness: 1000}\n",
+      "fret.yaml");
+  Player player(scene, {kRate, 14});
+  player.tick();
+  const double start = energiesOf(player).stored;
+  for (int n = 0; n < 12000; ++n) {
+    player.tick();
+    ASSERT_LE(energiesOf(player).stored, 1.1 * start) << n;
+  }
+  EXPECT_GT(energiesOf(player).sections[0].dissipated, 0.5 * start);
 }
 
 TEST(SleeperTest, RefusesASectionThatDoesNotRestAtZero) {

@@ -20,7 +20,8 @@ KEYS = {  # what each word must say
     "contact": "stiffness damping threshold", "power_contact": "stiffness exponent damping threshold",
     "felt": "stiffness exponent damping threshold", "cubic_contact": CLIPPED + "stiffness damping threshold",
     "pluck": "width " + SPRING, "conditional": "engage release " + SPRING, "bow": "damping width",
-    "smooth_bow": "damping width", "table": "rest_length", "ground": "", "driven": "", "slice": "", "point": ""}
+    "smooth_bow": "damping width", "table": "rest_length",
+    "bend": "weights " + SPRING, "ground": "", "driven": "", "slice": "", "point": ""}
 
 
 def need(condition, reason):
@@ -69,6 +70,14 @@ def matrix_of(entries, rows, columns=None):
     """Sparse, of its entries that are not 0."""
     i, j, values = zip(*entries) if entries else ((), (), ())
     return sparse.csc_matrix((values, (i, j)), (rows, columns or rows), dtype=float)
+
+
+def ends_of(link, places, modules):
+    """Of both ends all places, as modules with weights, without what no force moves; of a link of many
+    ends these as one, linked to what does not move."""
+    if "weights" in link:
+        return [[[[m, w] for m, w in zip(link["between"], link["weights"]) if modules[m]["free"]]], [[]]]
+    return [places.get(m, [[[m, 1.0]] if modules[m]["free"] else []]) for m in link["between"]]
 
 
 def need_all_keys(proof):

@@ -179,3 +179,27 @@ class Bodies(Laws):
             "columns": ["name", "between", "stiffness", "rest_length"], "rows": rows}
         self.features[f"lattice {geometry}"] += 1
         return [Body(section, names, places, None, unit)]
+
+    def bar(self):
+        """Masses whose curvature counts: clamped, hinged or free, now and then bent at rest."""
+        section, unit = self.section(self.pick("scalar", "scalar", "scalar", "line", "space"))
+        geometry = self.parts["sections"][section]["geometry"]
+        held, count = self.pick(0, 1, 2), self.random.randint(5, 40)
+        size, names, places = max(2, DIMENSIONS[geometry]), [], {}
+        for i in range(count + held):
+            keys = {"type": "ground" if i < held else "mass", "section": section,
+                    "at": [rounded(i * SPACING), 0.0, 0.0][:size]}
+            if i >= held:
+                keys["mass"] = rounded(unit.mass)
+            names.append(self.mat(keys))
+            places[names[-1]] = [i * SPACING, 0.0, 0.0]
+        bend = {"type": "bend", "weights": [1, -2, 1],
+                "stiffness": self.value(self.within(0.02, 0.15) * unit.full)}
+        if geometry in ("scalar", "line"):
+            bend["damping"] = self.value(self.losses(unit))
+        if geometry == "scalar" and self.chance(0.3):
+            bend["rest_length"] = rounded(self.within(-1, 1) * unit.reach)
+        for ends in zip(names, names[1:], names[2:]):
+            self.parts["lias"][self.name("lias", "l")] = {"between": list(ends), **bend}
+        self.features[f"bar {geometry}"] += 1
+        return [Body(section, names[held:], places, None, unit)]

@@ -22,7 +22,8 @@ class Scene(Bodies):
         bodies = []
         for _ in range(self.random.randint(1, 4)):
             bodies += self.pick(self.string, self.string, self.mesh, self.net, self.net,
-                                self.lattice, self.choir, self.modal, self.cells, self.sleeper)()
+                                self.lattice, self.choir, self.modal, self.cells, self.sleeper,
+                                self.bar)()
         for first, second in zip(bodies, bodies[1:]):
             if self.chance(0.5):
                 self.join(first, second)

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "support/small_scene_dice.hpp"
 
@@ -15,8 +17,9 @@ class Maker : SmallSceneDice {
 
   SmallScene make(unsigned family) {
     static constexpr void (Maker::*kFamilies[])() = {
-        &Maker::linear, &Maker::twoRates, &Maker::contacts, &Maker::space,      &Maker::tables,
-        &Maker::snaps,  &Maker::box,      &Maker::hammer,   &Maker::stiffening, &Maker::friction};
+        &Maker::linear,     &Maker::twoRates, &Maker::contacts, &Maker::space,
+        &Maker::tables,     &Maker::snaps,    &Maker::box,      &Maker::hammer,
+        &Maker::stiffening, &Maker::friction, &Maker::bends};
     is_lossless_ = chance(0.5);
     (this->*kFamilies[family % std::size(kFamilies)])();
     return made_;
@@ -251,6 +254,58 @@ class Maker : SmallSceneDice {
                ", width: " + number(decades(1e-2, 3.0)) + scheme({"explicit", "guarded", "auto"}));
     }
     springs(any(0, 3), 1.0);
+    inTimeWithTheSteps();
+  }
+
+  /// A link of some ends with weights in hundredths.
+  void bend(bool is_flat, double kappa) {
+    std::vector<std::string> names{"g_all"};
+    for (const Mass& m : masses_) {
+      names.push_back(m.name);
+    }
+    std::shuffle(names.begin(), names.end(), random_);
+    const int ends = any(3, std::min(5, last() + 2));
+    std::string between;
+    std::string weights;
+    double sum = 0.0;
+    double squares = 0.0;
+    for (int i = 0; i < ends; ++i) {
+      double weight = static_cast<double>(any(1, 300)) * pick({0.01, -0.01});
+      if (i == ends - 1) {
+        weight = -sum;
+      } else if (std::abs(sum + weight) < 0.005) {
+        weight *= 2.0;
+      }
+      sum += weight;
+      squares += weight * weight;
+      between += (i == 0 ? "[" : ", ") + names[static_cast<std::size_t>(i)];
+      weights += (i == 0 ? "[" : ", ") + number(weight);
+    }
+    const Mass& m = anyMass();
+    made_.lias.push_back("b" + std::to_string(made_.lias.size()) +
+                         ": {type: bend, between: " + between + "], weights: " + weights +
+                         "], stiffness: " + full(m, within(0.0, 1.0) * kappa / squares) +
+                         (is_flat ? "" : damping(m, 0.1)) +
+                         (is_flat || chance(0.7) ? "" : ", rest_length: 0.0007") + "}");
+  }
+
+  void bends() {
+    begin("bends");
+    const bool is_flat = chance(0.3);
+    section("all", kRate, is_flat ? ", geometry: plane" : "");
+    const int masses = any(3, 8);
+    for (int i = 0; is_flat && i < masses; ++i) {
+      mass(decades(0.3, 3.0), ", at: [" + number(0.01 * i) + ", " + number(within(-0.01, 0.01)) +
+                                  "], v: [" + number(within(-3.0, 3.0)) + ", " +
+                                  number(within(-3.0, 3.0)) + "]");
+    }
+    scalarMasses(is_flat ? 0 : masses);
+    for (int i = any(1, 8); i > 0; --i) {
+      bend(is_flat, pick({0.5, 1.0, 2.0, 4.0}));
+    }
+    for (int i = is_flat ? 0 : any(0, 3); i > 0; --i) {
+      springTo(anyMass(), "g_all", decades(1e-3, 1.0), anyLoss());
+    }
     inTimeWithTheSteps();
   }
 };

@@ -182,7 +182,26 @@ struct Lia {
   LiaType type = LiaType::kSpringDamper;
   Scheme scheme = Scheme::kExplicit;
   bool filtered = false;  ///< `settle` puts a chaplet between the slower end and this link
+  int bend = -1;          ///< index in Scene::bends of what it is a part of, -1: none
 };
+
+/// A link of three to five ends, with e = sum u x - rest_length and -u (K e + Z v) on each; the
+/// weights u add up to 0. It is stepped as a spring between any two of them (`addBend`), some of
+/// which are negative; what judges sees one load.
+struct Bend {
+  struct End {
+    int mat = 0;          ///< index in Scene::mats: a mass, a cell or a ground, all of one section
+    double weight = 0.0;  ///< u, not 0
+  };
+  Name name;
+  std::vector<End> ends;
+  Value stiffness{};         ///< K >= 0, kg/time_unit^2
+  Value damping{};           ///< Z >= 0, kg/time_unit; 0 in a plane and in space
+  double rest_length = 0.0;  ///< m; scalar sections only
+  int first_lia = 0;         ///< of its springs
+  Place place;
+};
+
 /// Modules in rows and columns between which points can lie: a string is one row.
 struct Grid {
   std::string name;
@@ -301,6 +320,7 @@ struct Scene {
   std::vector<Section> sections;
   std::vector<Mat> mats;
   std::vector<Lia> lias;
+  std::vector<Bend> bends;
   std::vector<Agent> agents;
   std::vector<Port> ports;
   std::vector<Input> inputs;

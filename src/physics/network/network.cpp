@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "at.hpp"
 #include "ergotic/scene/grid.hpp"
@@ -50,7 +51,25 @@ Network::Link linkOf(const scene::Scene& scene, const scene::Lia& lia) {
   link.slopes = law.slopes(scene, lia);
   link.at_rest = law.has_linear_part ? scene.valueOf(lia.stiffness) : 0.0;
   link.at_least = law.leastStiffness(scene, lia);
+  if (lia.bend >= 0) {
+    // All its springs are soft together, those that are negative too.
+    const Range& k = link.slopes.stiffness;
+    link.at_least = k.lowest < 0.0 ? k.highest : k.lowest;
+  }
   return link;
+}
+
+Network::Bend bendOf(const scene::Scene& scene,
+                     const std::vector<Network::Node>& nodes,
+                     const scene::Bend& bend) {
+  Shares ends;
+  for (const scene::Bend::End& end : bend.ends) {
+    if (nodes[at(end.mat)].is_free) {
+      ends.push_back({end.mat, end.weight});
+    }
+  }
+  return {std::move(ends), rangeOf(scene, bend.stiffness), rangeOf(scene, bend.damping),
+          bend.first_lia};
 }
 
 /// Fractions of a grid at which its lines are that a place can lie between; one if it stays.
@@ -112,6 +131,9 @@ Network::Network(const scene::Scene& of) : scene(of), point_of(of.mats.size(), -
   links.reserve(scene.lias.size());
   for (const scene::Lia& lia : scene.lias) {
     links.push_back(linkOf(scene, lia));
+  }
+  for (const scene::Bend& bend : scene.bends) {
+    bends.push_back(bendOf(scene, nodes, bend));
   }
   for (const scene::Connection& connection : scene.connections) {
     point_of[at(connection.mat)] = static_cast<int>(points.size());

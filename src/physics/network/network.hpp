@@ -50,12 +50,21 @@ struct Network {
     double at_least = 0.0;  ///< slope that it has wherever it is, over all ranges; 0: it may let go
   };
 
+  /// A link of many ends: a load of its own, which the links that it is stepped as are not.
+  struct Bend {
+    Shares ends;  ///< the free ones
+    Range stiffness;
+    Range damping;
+    int first_link = 0;  ///< of those links
+  };
+
   /// \param scene  must outlive it
   explicit Network(const scene::Scene& scene);
 
   const scene::Scene& scene;
   std::vector<Node> nodes;    ///< [Scene::mats]
   std::vector<Link> links;    ///< [Scene::lias]
+  std::vector<Bend> bends;    ///< [Scene::bends]
   std::vector<Point> points;  ///< [Scene::connections]
   std::vector<int> point_of;  ///< [nodes] index in `points`, -1: no point
 };

@@ -234,6 +234,21 @@ void RatedNetwork::addLink(Builder& to, int l, bool hold_a, bool hold_b) const {
   }
 }
 
+/// Links of many ends, all of one section.
+void RatedNetwork::addBends(Builder& to) const {
+  for (const Network::Bend& bend : network_.bends) {
+    if (bend.ends.empty() || divisorOfMat(bend.ends.front().node) != to.divisor ||
+        (to.island != kAll && islandOf(bend.ends.front().node) != to.island)) {
+      continue;
+    }
+    Shares ends = bend.ends;
+    for (Share& end : ends) {
+      end.node = to.nodeOf(end.node, nodeOf(end.node).mass.range.lowest);
+    }
+    to.network.addLink(ends, bend.stiffness, bend.damping, bend.first_link);
+  }
+}
+
 /// Of the meshes that are in the network.
 void RatedNetwork::addCells(Builder& to) const {
   const auto nodeOf = [&](int mat) {
@@ -258,12 +273,12 @@ void RatedNetwork::addCells(Builder& to) const {
 NetworkBound RatedNetwork::atOwnRate(int divisor, int island, bool plain) const {
   Builder builder{NetworkBound(StepUnits(scene_, rates_, divisor).step), divisor, island, {}};
   addModules(builder, plain);
+  addBends(builder);
   for (int l = 0; l < static_cast<int>(scene_.lias.size()); ++l) {
     const scene::Lia& lia = scene_.lias[at(l)];
     const int a = divisorOfMat(lia.a);
     const int b = divisorOfMat(lia.b);
-    if (isExplicit(lia) && std::min(a, b) == divisor &&
-        (island == kAll || islandOf(lia) == island)) {
+    if (isLoad(lia) && std::min(a, b) == divisor && (island == kAll || islandOf(lia) == island)) {
       addLink(builder, l, a != divisor, b != divisor);
     }
   }
@@ -274,6 +289,7 @@ NetworkBound RatedNetwork::atOwnRate(int divisor, int island, bool plain) const 
 NetworkBound RatedNetwork::atSlowRate(int divisor, int island) const {
   Builder builder{NetworkBound(StepUnits(scene_, rates_, divisor).step), divisor, island, {}};
   addModules(builder, false);
+  addBends(builder);
   for (int l = 0; l < static_cast<int>(scene_.lias.size()); ++l) {
     const scene::Lia& lia = scene_.lias[at(l)];
     const int a = divisorOfMat(lia.a);
@@ -281,7 +297,7 @@ NetworkBound RatedNetwork::atSlowRate(int divisor, int island) const {
     // A slower end still is held; a held slow end leaves the link to the faster rate.
     const bool is_own = std::min(a, b) == divisor;
     const bool is_coupling = a != b && std::max(a, b) == divisor && inverseMass(slowEnd(lia)) > 0.0;
-    if (isExplicit(lia) && (is_own || is_coupling) && (island == kAll || islandOf(lia) == island)) {
+    if (isLoad(lia) && (is_own || is_coupling) && (island == kAll || islandOf(lia) == island)) {
       addLink(builder, l, a > divisor, b > divisor);
     }
   }

@@ -71,6 +71,8 @@ class RatedNetwork {
   struct Builder;
 
   void joinGroups();
+  /// True if it is explicit, and by itself: a bend is one load, whatever it is stepped as.
+  bool isLoad(const scene::Lia& lia) const { return isExplicit(lia) && lia.bend < 0; }
   const Network::Link& linkOf(int lia) const {
     return network_.links[static_cast<std::size_t>(lia)];
   }
@@ -80,6 +82,7 @@ class RatedNetwork {
   std::vector<Shares> placesOf(int mat) const { return physics::placesOf(network_, mat); }
   void addModules(Builder& to, bool plain) const;
   void addLink(Builder& to, int lia, bool hold_a, bool hold_b) const;
+  void addBends(Builder& to) const;
   void addCells(Builder& to) const;
 
   const Network& network_;

@@ -36,11 +36,15 @@ void CoefficientsOf<Real>::fillBlocks(const scene::Scene& scene,
   for (const Block& block : layout.blocks) {
     const StepUnits units(scene, rates, layout.sections[at(block.section)].divisor);
     BlockCoefficients<Real> to;
-    for (const int l : block.reference) {
-      to.uniform_k.push_back(
-          static_cast<Real>(l < 0 ? 0.0 : scene.valueOf(scene.lias[at(l)].stiffness)));
-      to.uniform_z.push_back(
-          static_cast<Real>(l < 0 ? 0.0 : units.damping(scene.valueOf(scene.lias[at(l)].damping))));
+    for (const std::vector<int>& links : block.reference) {
+      Real k(0);
+      Real z(0);
+      for (const int l : links) {
+        k += static_cast<Real>(scene.valueOf(scene.lias[at(l)].stiffness));
+        z += static_cast<Real>(units.damping(scene.valueOf(scene.lias[at(l)].damping)));
+      }
+      to.uniform_k.push_back(k);
+      to.uniform_z.push_back(z);
     }
     const std::size_t elements = at(block.elements);
     if (block.kind == Block::Kind::kSparse) {

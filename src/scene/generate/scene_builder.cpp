@@ -52,8 +52,11 @@ Scene SceneBuilder::finish() {
   return std::move(scene_);
 }
 
-template <class T>
-int SceneBuilder::append(std::vector<T>& list, NameTable& table, const char* kind, T item) {
+template <class T, class Item>
+int SceneBuilder::name(const std::vector<T>& list,
+                       NameTable& table,
+                       const char* kind,
+                       const Item& item) const {
   const int index = static_cast<int>(list.size());
   const int first = table.add(item.name, index);
   if (first >= 0) {
@@ -61,6 +64,12 @@ int SceneBuilder::append(std::vector<T>& list, NameTable& table, const char* kin
     fail(placeOf(item, scene_), std::string(kind) + " " + quoted(item.name) +
                                     " is defined twice, first in line " + std::to_string(line));
   }
+  return index;
+}
+
+template <class T>
+int SceneBuilder::append(std::vector<T>& list, NameTable& table, const char* kind, T item) {
+  const int index = name(list, table, kind, item);
   list.push_back(std::move(item));
   return index;
 }
@@ -82,6 +91,12 @@ int SceneBuilder::add(Mat mat) {
 
 int SceneBuilder::add(Lia lia) {
   return append(scene_.lias, lias_, "link", std::move(lia));
+}
+
+int SceneBuilder::add(Bend bend) {
+  bend.first_lia = name(scene_.lias, lias_, "link", bend);
+  scene_.bends.push_back(std::move(bend));
+  return static_cast<int>(scene_.bends.size()) - 1;
 }
 
 int SceneBuilder::add(StringInfo string) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "ergotic/scene/scene.hpp"
 #include "scene/names.hpp"
@@ -24,6 +25,8 @@ class SceneBuilder {
   int add(Section section);
   int add(Mat mat);
   int add(Lia lia);
+  /// The next link must be the first of its springs: they share the place of its name.
+  int add(Bend bend);
   int add(StringInfo string);
   int add(Grid grid);
   /// Makes room for that many modules and links more.
@@ -44,6 +47,9 @@ class SceneBuilder {
 
  private:
   int find(const NameTable& table, const char* kind, const std::string& name, Place place) const;
+  /// Takes a name for the next of a list. \return its index
+  template <class T, class Item>
+  int name(const std::vector<T>& list, NameTable& table, const char* kind, const Item& item) const;
   template <class T>
   int append(std::vector<T>& list, NameTable& table, const char* kind, T item);
 

@@ -11,8 +11,8 @@
 #include "scene/laws/law.hpp"
 #include "scene/limits.hpp"
 #include "scene/names.hpp"
+#include "scene/rules/bend_rules.hpp"
 #include "scene/rules/lia_rules.hpp"
-#include "scene/rules/mover_rules.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -38,8 +38,10 @@ class Validator {
     each(scene_.outputs, "output", &Validator::output);
     each(scene_.agents, "agent", &Validator::agent);
     each(scene_.ports, "port", &Validator::port);
-    if (const std::optional<Fault> fault = movedTwice(scene_)) {
-      fail(fault->place, fault->text);
+    for (const std::optional<Fault>& fault : {movedTwice(scene_), wrongBend(scene_)}) {
+      if (fault) {
+        fail(fault->place, fault->text);
+      }
     }
     for (const StringInfo& s : scene_.strings) {
       string(s);

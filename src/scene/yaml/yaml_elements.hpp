@@ -21,6 +21,8 @@ void readMats(SceneBuilder& builder, const YamlMap& top);  ///< all but the poin
 void readGenerators(SceneBuilder& builder, const YamlMap& top);
 void readPoints(SceneBuilder& builder, const YamlMap& top);  ///< of `mats`: they lie on grids
 void readLias(SceneBuilder& builder, const YamlMap& top, YamlTables& tables);
+/// A link of many ends, `type: bend`.
+void readBend(SceneBuilder& builder, const std::string& name, const YamlMap& map);
 void readPorts(SceneBuilder& builder, const YamlMap& top);
 void readAgents(SceneBuilder& builder, const YamlMap& top, PointFiles& files);
 void readPortFilters(SceneBuilder& builder, const YamlMap& top);  ///< when all links are there

@@ -17,6 +17,8 @@ namespace {
 
 using Keys = std::vector<std::string>;
 
+constexpr const char* kBend = "bend";  // of many ends
+
 /// A word of a scene for a law.
 struct LiaKind {
   LiaType type;
@@ -154,10 +156,10 @@ void readTreatment(const Scene& scene, const YamlMap& map, Lia& lia) {
   }
 }
 
-/// Some words mean one law with a table and another without.
-const LiaKind& kindOf(const YamlMap& map) {
+/// One of the words for laws, or for a link of many ends.
+const std::string& wordOf(const YamlMap& map) {
   static const Keys kWords = [] {
-    Keys words;
+    Keys words{kBend};
     for (const LiaKind& each : liaKinds()) {
       if (!contains(words, each.word)) {
         words.push_back(each.word);
@@ -165,7 +167,11 @@ const LiaKind& kindOf(const YamlMap& map) {
     }
     return words;
   }();
-  const std::string& word = kWords[map.choice("type", kWords)];
+  return kWords[map.choice("type", kWords)];
+}
+
+/// Some words mean one law with a table and another without.
+const LiaKind& kindOf(const YamlMap& map, const std::string& word) {
   const LiaKind* found = nullptr;
   for (const LiaKind& each : liaKinds()) {
     const bool fits = (lawOf(each.type).tables == Law::Tables::kOne) == map.has("table");
@@ -179,8 +185,9 @@ const LiaKind& kindOf(const YamlMap& map) {
 Lia readLia(SceneBuilder& builder,
             YamlTables& tables,
             const std::string& name,
+            const std::string& word,
             const YamlMap& map) {
-  const LiaKind& kind = kindOf(map);
+  const LiaKind& kind = kindOf(map, word);
   Keys keys = {"type", "between", "scheme", "coupling", "filter"};
   for (const Keys& more : {kind.required, kind.optional}) {
     keys.insert(keys.end(), more.begin(), more.end());
@@ -203,7 +210,12 @@ Lia readLia(SceneBuilder& builder,
 
 void readLias(SceneBuilder& builder, const YamlMap& top, YamlTables& tables) {
   forEachElement(builder, top, "lias", "link", [&](const std::string& name, const YamlMap& map) {
-    builder.add(readLia(builder, tables, name, map));
+    const std::string& word = wordOf(map);
+    if (word == kBend) {
+      readBend(builder, name, map);
+    } else {
+      builder.add(readLia(builder, tables, name, word, map));
+    }
   });
 }
 

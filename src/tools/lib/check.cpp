@@ -41,13 +41,22 @@ Json linksOf(const Scene& scene) {
   std::map<std::string, std::size_t> by_type;
   std::map<std::string, std::size_t> by_scheme;
   std::size_t between_sections = 0;
+  std::size_t parts = 0;  // of links of many ends
   for (const scene::Lia& lia : scene.lias) {
+    if (lia.bend >= 0) {
+      ++parts;
+      continue;
+    }
     ++by_type[scene::lawOf(lia.type).name];
     ++by_scheme[lia.scheme == scene::Scheme::kGuarded ? "guarded" : "explicit"];
     const bool across = matAt(scene, lia.a).section != matAt(scene, lia.b).section;
     between_sections += across ? 1 : 0;
   }
-  return {{"count", scene.lias.size()},
+  if (!scene.bends.empty()) {
+    by_type["bend"] = scene.bends.size();
+    by_scheme["explicit"] += scene.bends.size();
+  }
+  return {{"count", scene.lias.size() - parts + scene.bends.size()},
           {"types", by_type},
           {"schemes", by_scheme},
           {"between_sections", between_sections}};

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 #include <fstream>
+#include <utility>
+#include <vector>
 
 #include "at.hpp"
 #include "ergotic/exception.hpp"
@@ -138,10 +140,31 @@ Json linkOf(const Scene& scene, const scene::Lia& lia) {
   return link;
 }
 
+/// One load, whatever it is stepped as.
+Json linkOf(const Scene& scene, const scene::Bend& bend) {
+  Json link = {{"name", std::string(bend.name)},
+               {"scheme", "explicit"},
+               {"type", "bend"},
+               {"stiffness", valueOf(scene, bend.stiffness)},
+               {"damping", valueOf(scene, bend.damping)},
+               {"rest_length", bend.rest_length}};
+  for (const scene::Bend::End& end : bend.ends) {
+    link["between"].push_back(end.mat);
+    link["weights"].push_back(end.weight);
+  }
+  return link;
+}
+
+/// Parts of bends are left out; the bends come last.
 Json linksOf(const Scene& scene) {
   Json all = Json::array();
   for (const scene::Lia& lia : scene.lias) {
-    all.push_back(linkOf(scene, lia));
+    if (lia.bend < 0) {
+      all.push_back(linkOf(scene, lia));
+    }
+  }
+  for (const scene::Bend& bend : scene.bends) {
+    all.push_back(linkOf(scene, bend));
   }
   return all;
 }
@@ -203,10 +226,16 @@ Json lossesOf(const physics::Proof& proof) {
   return all;
 }
 
-Json rulesOf(const physics::Proof& proof) {
+Json rulesOf(const Scene& scene, const physics::Proof& proof) {
+  std::vector<int> written;  // [lias] before each
+  int count = 0;
+  for (const scene::Lia& lia : scene.lias) {
+    written.push_back(count);
+    count += lia.bend < 0 ? 1 : 0;
+  }
   Json all = Json::array();
   for (const physics::LinkProof& link : proof.links) {
-    all.push_back({{"link", link.link}, {"rule", link.rule}});
+    all.push_back({{"link", written[at(link.link)]}, {"rule", link.rule}});
   }
   return all;
 }
@@ -287,7 +316,7 @@ void writeProof(const std::string& file,
                 {"rates", ratesOf(proof)},
                 {"periods", periodsOf(proof)},
                 {"losses", lossesOf(proof)},
-                {"rules", rulesOf(proof)}};
+                {"rules", rulesOf(scene, proof)}};
   parts["sha256"] = digestOf(parts);
   std::ofstream out(file, std::ios::binary);
   print(parts, out);

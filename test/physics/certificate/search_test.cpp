@@ -15,7 +15,7 @@ using test::SmallScene;
 
 constexpr unsigned kScenes = 2000;
 constexpr unsigned kParts = 8;
-constexpr unsigned kFamilies = 10;
+constexpr unsigned kFamilies = 11;
 constexpr int kFrames = 30000;
 constexpr double kBlownUp =
     1e8;  // of the energy at the start, beside what steps near their limit lend

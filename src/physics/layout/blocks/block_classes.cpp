@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <numeric>
+#include <vector>
 
 #include "at.hpp"
 #include "physics/layout/blocks/block_parts.hpp"
@@ -22,9 +23,25 @@ bool same(const scene::Lia& a, const scene::Lia& b) {
   return same(a.stiffness, b.stiffness) && same(a.damping, b.damping);
 }
 
-bool isAlwaysPositive(const scene::Scene& scene, const Value& value) {
-  return value.factor > 0.0 &&
+bool isNeverZero(const scene::Scene& scene, const Value& value) {
+  return value.factor != 0.0 &&
          (value.parameter < 0 || scene.parameters[at(value.parameter)].minimum > 0.0);
+}
+
+/// Links that lie side by side, in the order of the scene.
+struct Beside {
+  const int* first = nullptr;
+  const int* last = nullptr;
+
+  const int* begin() const { return first; }
+  const int* end() const { return last; }
+  bool empty() const { return first == last; }
+};
+
+bool same(const scene::Scene& scene, const Beside& a, const Beside& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](int one, int other) {
+    return same(scene.lias[at(one)], scene.lias[at(other)]);
+  });
 }
 
 /// The links of a block by element and diagonal.
@@ -32,54 +49,63 @@ class Links {
  public:
   /// \param element  [mats] scratch
   Links(const scene::Scene& scene, const Block& block, std::vector<int>& element)
-      : scene_(scene), block_(block), links_(block.offsets.size() * block.mats.size(), kNone) {
+      : scene_(scene), block_(block), first_(block.offsets.size() * block.mats.size() + 1, 0) {
     for (int e = 0; e < block.elements; ++e) {
       if (block.mats[at(e)] >= 0) {
         element[at(block.mats[at(e)])] = e;
       }
     }
-    for (const int l : block.lias) {
+    const auto placeOf = [&](int l) {
       const int a = element[at(scene.lias[at(l)].a)];
       const int b = element[at(scene.lias[at(l)].b)];
       const auto diagonal = std::find(block.offsets.begin(), block.offsets.end(), std::abs(a - b));
-      int& place =
-          links_[at(static_cast<int>(diagonal - block.offsets.begin())) * block.mats.size() +
-                 at(std::min(a, b))];
-      place = place == kNone ? l : kSeveral;
+      return at(static_cast<int>(diagonal - block.offsets.begin())) * block.mats.size() +
+             at(std::min(a, b));
+    };
+    for (const int l : block.lias) {
+      ++first_[placeOf(l)];
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    links_.resize(block.lias.size());
+    for (auto l = block.lias.rbegin(); l != block.lias.rend(); ++l) {
+      links_[at(--first_[placeOf(*l)])] = *l;
     }
   }
 
-  static constexpr int kNone = -1;
-  static constexpr int kSeveral = -2;
-
-  /// The link that begins at an element; kNone outside.
-  int of(std::size_t diagonal, int element) const {
-    return element < 0 ? kNone : links_[diagonal * block_.mats.size() + at(element)];
+  /// Those that begin at an element; none outside.
+  Beside of(std::size_t diagonal, int element) const {
+    if (element < 0) {
+      return {};
+    }
+    const std::size_t place = diagonal * block_.mats.size() + at(element);
+    return {links_.data() + first_[place], links_.data() + first_[place + 1]};
   }
 
-  /// For each diagonal the link whose coefficients are most frequent among its first.
-  std::vector<int> reference() const {
-    std::vector<int> best;
+  /// For each diagonal the links whose coefficients are most frequent among its first.
+  std::vector<std::vector<int>> reference() const {
+    std::vector<std::vector<int>> best;
     for (std::size_t k = 0; k < block_.offsets.size(); ++k) {
-      std::vector<std::pair<int, int>> found;  // link, how many are like it
+      std::vector<std::pair<Beside, int>> found;  // links, how many are like them
       for (int e = 0; e < block_.elements; ++e) {
-        const int l = of(k, e);
-        if (l < 0) {
+        const Beside here = of(k, e);
+        if (here.empty()) {
           continue;
         }
-        const auto known = std::find_if(found.begin(), found.end(), [&](const auto& f) {
-          return same(scene_.lias[at(f.first)], scene_.lias[at(l)]);
-        });
+        const auto known = std::find_if(found.begin(), found.end(),
+                                        [&](const auto& f) { return same(scene_, f.first, here); });
         if (known != found.end()) {
           ++known->second;
         } else if (found.size() < 8) {
-          found.push_back({l, 1});
+          found.push_back({here, 1});
         }
       }
       const auto most =
           std::max_element(found.begin(), found.end(),
                            [](const auto& a, const auto& b) { return a.second < b.second; });
-      best.push_back(most == found.end() ? kNone : most->first);
+      best.emplace_back();
+      if (most != found.end()) {
+        best.back().assign(most->first.begin(), most->first.end());
+      }
     }
     return best;
   }
@@ -87,8 +113,15 @@ class Links {
  private:
   const scene::Scene& scene_;
   const Block& block_;
-  std::vector<int> links_;  // [diagonals][elements]
+  std::vector<int> first_;  // [diagonals][elements] in links_
+  std::vector<int> links_;
 };
+
+/// Of a diagonal, what uniform segments share.
+Beside referenceOf(const Block& block, std::size_t diagonal) {
+  const std::vector<int>& links = block.reference[diagonal];
+  return {links.data(), links.data() + links.size()};
+}
 
 /// True if forces on an element do not matter: nothing, or a ground that nobody listens to.
 bool isIndifferent(const scene::Scene& scene, const std::vector<unsigned char>& heard, int mat) {
@@ -108,9 +141,8 @@ void findSegments(const scene::Scene& scene,
                   Block& block) {
   const auto isUniform = [&](int element) {
     for (std::size_t k = 0; k < block.offsets.size(); ++k) {
-      for (const int l : {links.of(k, element), links.of(k, element - block.offsets[k])}) {
-        if (l < 0 || block.reference[k] < 0 ||
-            !same(scene.lias[at(l)], scene.lias[at(block.reference[k])])) {
+      for (const Beside& here : {links.of(k, element), links.of(k, element - block.offsets[k])}) {
+        if (here.empty() || !same(scene, here, referenceOf(block, k))) {
           return false;
         }
       }
@@ -157,7 +189,7 @@ bool hasOneRatio(const scene::Scene& scene, const Block& block) {
   const double ratio = first.damping.factor / first.stiffness.factor;
   return std::all_of(block.lias.begin(), block.lias.end(), [&](int l) {
     const scene::Lia& lia = scene.lias[at(l)];
-    return isAlwaysPositive(scene, lia.stiffness) &&
+    return isNeverZero(scene, lia.stiffness) &&
            lia.stiffness.parameter == first.stiffness.parameter &&
            lia.damping.parameter == first.damping.parameter &&
            std::abs(lia.damping.factor / lia.stiffness.factor - ratio) <=
@@ -167,12 +199,13 @@ bool hasOneRatio(const scene::Scene& scene, const Block& block) {
 
 bool isPerLane(const scene::Scene& scene, const Links& links, const Block& block) {
   for (int lane = 0; lane < kLanes; ++lane) {
-    const int first = links.of(0, lane);
+    const Beside first = links.of(0, lane);
     for (int e = lane; e < block.elements; e += kLanes) {
-      const int l = links.of(0, e);
-      if (l == Links::kSeveral ||
-          (l < 0 && e + kLanes < block.elements && !endsAtRest(scene, block.mats[at(e)])) ||
-          (l >= 0 && (first < 0 || !same(scene.lias[at(l)], scene.lias[at(first)])))) {
+      const Beside here = links.of(0, e);
+      if (here.empty() && (e + kLanes >= block.elements || endsAtRest(scene, block.mats[at(e)]))) {
+        continue;
+      }
+      if (here.end() - here.begin() != 1 || !same(scene, here, first)) {
         return false;
       }
     }
@@ -183,17 +216,16 @@ bool isPerLane(const scene::Scene& scene, const Links& links, const Block& block
 /// \return elements of a row if the first diagonals are those of a plate, else 0
 int pitchOf(const scene::Scene& scene, const Block& block) {
   const std::vector<int>& o = block.offsets;
-  const bool is_known =
-      std::all_of(block.reference.begin(), block.reference.end(), [](int l) { return l >= 0; });
+  const bool is_known = std::none_of(block.reference.begin(), block.reference.end(),
+                                     [](const std::vector<int>& links) { return links.empty(); });
   if (block.has_bias || !is_known || o.size() < 2 || o[0] != 1) {
     return 0;
   }
   if (o.size() == 2) {
     return o[1];
   }
-  const bool has_corners =
-      o.size() >= 4 && o[1] == o[2] - 1 && o[3] == o[2] + 1 &&
-      same(scene.lias[at(block.reference[1])], scene.lias[at(block.reference[3])]);
+  const bool has_corners = o.size() >= 4 && o[1] == o[2] - 1 && o[3] == o[2] + 1 &&
+                           same(scene, referenceOf(block, 1), referenceOf(block, 3));
   return has_corners ? o[2] : 0;
 }
 

@@ -25,13 +25,18 @@ bool isFree(const Mat& mat) {
          (mat.type == MatType::kCell && !follows(mat.stiffness) && !follows(mat.damping));
 }
 
+/// Of a bend that rests bent: beside others, such springs may add up to a force without stiffness.
+bool isOffsetPart(const scene::Lia& lia) {
+  return lia.bend >= 0 && lia.rest_length != 0.0;
+}
+
 bool isLinear(const scene::Scene& scene, const scene::Lia& lia) {
   const Mat& a = scene.mats[at(lia.a)];
   const Mat& b = scene.mats[at(lia.b)];
   const bool a_free = isFree(a);
   const bool b_free = isFree(b);
   return lia.type == LiaType::kSpringDamper && lia.scheme == scene::Scheme::kExplicit &&
-         a.section == b.section && lia.a != lia.b &&
+         a.section == b.section && lia.a != lia.b && !isOffsetPart(lia) &&
          scene.sectionOf(a).geometry == scene::Geometry::kScalar && !follows(lia.stiffness) &&
          !follows(lia.damping) && (a_free || b_free) && (a_free || a.type == MatType::kGround) &&
          (b_free || b.type == MatType::kGround);

@@ -35,7 +35,8 @@ struct Block {
   std::vector<int> mats;          ///< [elements] -1: none, always 0; until slots are given
   std::vector<int> lias;          ///< links among them; until they are in runs
   std::vector<int> offsets;       ///< in elements, > 0; those of a plate first, else ascending
-  std::vector<int> reference;     ///< [offsets] the link whose coefficients uniform segments share
+  /// [offsets] links side by side whose coefficients uniform segments share
+  std::vector<std::vector<int>> reference;
   std::vector<Segment> segments;  ///< from the first free module to the last
   bool has_cells = false;         ///< or masses in a medium
   bool has_drift = false;         ///< constant forces or gravity

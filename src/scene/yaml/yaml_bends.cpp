@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <utility>
+#include <vector>
+
+#include "scene/generate/bend.hpp"
+#include "scene/rules/bend_rules.hpp"
+#include "scene/yaml/yaml_elements.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+void refuse(const YamlMap& map, const std::string& key, const std::string& fault) {
+  if (!fault.empty()) {
+    map.fail(key, fault);
+  }
+}
+
+void readEnds(const SceneBuilder& builder, const YamlMap& map, Bend& bend) {
+  const YAML::Node& ends = map.at("between");
+  if (!ends.IsSequence()) {
+    map.fail("between", "'between' of " + map.what() + " is " + kindOf(ends) +
+                            ", allowed: a list of 3...5 modules");
+  }
+  for (const YAML::Node& end : ends) {
+    const Place place = placeOf(end, map.placeAt("between"));
+    const std::string name = wordOf(builder, end, "an end of " + map.what(), place);
+    bend.ends.push_back({builder.mat(name, place), 0.0});
+  }
+  refuse(map, "between", endsFault(builder.scene(), bend));
+}
+
+}  // namespace
+
+void readBend(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
+  map.allow({"type", "between", "weights", "stiffness", "damping", "rest_length"});
+  Bend bend;
+  bend.name = name;
+  bend.place = map.place();
+  readEnds(builder, map, bend);
+  const std::vector<double> weights =
+      map.numbers("weights", bend.ends.size(), bend.ends.size(), {});
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    bend.ends[i].weight = weights[i];
+  }
+  refuse(map, "weights", weightsFault(bend));
+  bend.stiffness = map.value("stiffness", kStiffnessLimits);
+  bend.damping = map.value("damping", kDampingLimits, {});
+  refuse(map, "damping", dampingFault(builder.scene(), bend));
+  bend.rest_length = map.number("rest_length", kMetreLimits, 0.0);
+  refuse(map, "rest_length", restFault(builder.scene(), bend));
+  addBend(builder, std::move(bend));
+}
+
+}  // namespace ergotic::scene

@@ -16,6 +16,10 @@ WORDS = {"spring": "spring_damper", "damper": "spring_damper"}
 AXES = {"scalar": 1, "line": 1, "plane": 2, "space": 3}
 MOST_FRAMES = 48  # of a tick
 CHAPLET = ((0.0083, 0.2237, 0.4475), (0.0705, 0.0, 0.5525))  # stiffness, damping, mass, from its slower end on
+MATERIALS = {"felt": 0.3, "nylon": 0.03, "gut": 0.02, "wood": 0.01}
+CONSTANT_LOSS = (((0.4964, 0.6296, -0.3916), (4.715, 0.8373, -0.2502)),
+                 ((0.2132, 2.305, -0.8829), (6.796, 0.6413, -0.128)),
+                 ((0.4939, 4.001, -0.8781), (8.876, 0.8478, 0.006458)))  # powers of the loss factor
 NEAREST = ((0, 1), (1, 0), (1, 1), (1, -1))  # of a mesh: rows and columns to the modules it is linked to
 
 
@@ -167,6 +171,10 @@ class Said:
     def complete_lia(self, keys):
         """Its ends, and what follows from other numbers."""
         keys.update(type=WORDS.get(keys["type"], keys["type"]), between=list(map(self.end_at, keys["between"])))
+        if keys["type"] == "relaxing" and "branches" not in keys:
+            eta = float(keys.pop("loss_factor", 0) or MATERIALS[keys.pop("material", "felt")])
+            keys["branches"] = [[scaled(keys["stiffness"], eta * math.exp(a + eta * (b + eta * c))), repr(
+                1 / (2 * math.pi * math.exp(d + eta * (e + eta * f))))] for (a, b, c), (d, e, f) in CONSTANT_LOSS]
         keys["scheme"] = None if keys.get("scheme") == "auto" else keys.get("scheme")
         keys.setdefault("release", keys.get("engage"))
         for key in keys.keys() & {"table", "elastic", "viscous"}:

@@ -7,9 +7,10 @@ import struct
 import sys
 
 import numpy as np
-from scipy import interpolate, sparse
+from scipy import sparse
 from scipy.sparse import csgraph
 
+from proof_laws import brakes, slopes_of
 from proof_scene import AXES, CHAPLET, DEFAULTS, PARTS, Said, axes_of, scaled
 
 MOST_RAISED = 100  # modules of a section
@@ -21,7 +22,7 @@ KEYS = {  # what each word must say
     "felt": "stiffness exponent damping threshold", "cubic_contact": CLIPPED + "stiffness damping threshold",
     "pluck": "width " + SPRING, "conditional": "engage release " + SPRING, "bow": "damping width",
     "smooth_bow": "damping width", "table": "rest_length",
-    "bend": "weights " + SPRING, "ground": "", "driven": "", "slice": "", "point": ""}
+    "bend": "weights " + SPRING, "relaxing": "branches " + SPRING, "ground": "", "driven": "", "slice": "", "point": ""}
 
 
 def need(condition, reason):
@@ -38,32 +39,6 @@ def digest(tree, to):
         else:
             to.update(child.encode() + b"\0" if isinstance(child, str) else struct.pack("<d", child))
     return to.hexdigest()
-
-
-def slopes_of(table):
-    """Lowest and highest; monotone tables are the cubic of Fritsch and Butland 1984."""
-    x, y = np.array(table["points"] if table else [[0, 0], [1, 0]], dtype=float).T
-    slopes = np.diff(y) / np.diff(x)
-    if table and table["interpolation"] == "monotone":
-        slope = interpolate.PchipInterpolator(x, y).derivative()
-        turns = slope.derivative().roots(extrapolate=False)
-        slopes = slope(np.concatenate([x, turns[np.isfinite(turns)]]))
-    return min(slopes), max(slopes)
-
-
-def brakes(table):
-    """Whether its force, but for what is there at rest, is against all that moves."""
-    x, y = np.array(table["points"], dtype=float).T
-    rest = np.clip(0.0, x[0], x[-1])
-    is_smooth = table["interpolation"] == "monotone"
-    work = (y - (interpolate.PchipInterpolator(x, y)(rest) if is_smooth else np.interp(rest, x, y))) * x
-    return (np.diff(y) >= 0).all() or (work >= -1e-12 * abs(x * y).max()).all()
-
-
-def push_out(tables):
-    """Whether elastic and viscous force together, held beyond the ends, push outwards or drive."""
-    lows, highs = [table[0][1] for table in tables], [table[-1][1] for table in tables]
-    return any(low > high for low, high in zip(lows, highs)) or sum(lows) > 0 or sum(highs) < 0
 
 
 def matrix_of(entries, rows, columns=None):

@@ -6,8 +6,8 @@ ELASTIC = ("spring", "spring_damper", "quadratic", "cubic", "clipped_cubic", "ta
 CONTACTS = ("contact", "power_contact", "cubic_contact")
 FRICTION = ("bow", "smooth_bow", "damper")
 ACTIVE = ("pluck", "conditional")
-LAWS = ELASTIC + CONTACTS + FRICTION + ACTIVE
-ALWAYS_EXPLICIT = ("spring", "spring_damper", "damper") + ACTIVE
+LAWS = ELASTIC + CONTACTS + FRICTION + ACTIVE + ("relaxing",)
+ALWAYS_EXPLICIT = ("spring", "spring_damper", "damper", "relaxing") + ACTIVE
 
 
 class Laws(Dice):
@@ -20,7 +20,7 @@ class Laws(Dice):
             stiff *= self.between(1, 30)
         damping = self.between(1e-4, 1e-2) * unit.mass / unit.step
         keys = getattr(self, "law_" + kind)(unit, stiff, damping)
-        if length > 0 and kind in ELASTIC + ACTIVE:
+        if length > 0 and kind in ELASTIC + ACTIVE + ("relaxing",):
             keys["rest_length"] = rounded(length)
         if length > 0 and kind in CONTACTS:
             keys["threshold"] = rounded(length - 0.1 * unit.reach)
@@ -75,6 +75,11 @@ class Laws(Dice):
 
     def law_smooth_bow(self, unit, stiff, damping):
         return {"damping": self.value(5 * damping), "width": self.value(SPEED)}
+
+    def law_relaxing(self, unit, stiff, damping):
+        keys = {"stiffness": self.value(stiff), "damping": self.value(damping)}
+        return {**keys, **self.pick({"material": self.pick("felt", "nylon", "gut", "wood")},
+                                    {"branches": [[self.value(0.3 * stiff), rounded(self.between(1, 300) * unit.step)]]})}
 
     def law_table(self, unit, stiff, damping):
         keys = {"elastic": self.table(2 * unit.reach, 2 * stiff * unit.reach),

@@ -19,7 +19,7 @@ class Maker : SmallSceneDice {
     static constexpr void (Maker::*kFamilies[])() = {
         &Maker::linear,     &Maker::twoRates, &Maker::contacts, &Maker::space,
         &Maker::tables,     &Maker::snaps,    &Maker::box,      &Maker::hammer,
-        &Maker::stiffening, &Maker::friction, &Maker::bends};
+        &Maker::stiffening, &Maker::friction, &Maker::bends,    &Maker::relaxing};
     is_lossless_ = chance(0.5);
     (this->*kFamilies[family % std::size(kFamilies)])();
     return made_;
@@ -254,6 +254,31 @@ class Maker : SmallSceneDice {
                ", width: " + number(decades(1e-2, 3.0)) + scheme({"explicit", "guarded", "auto"}));
     }
     springs(any(0, 3), 1.0);
+    inTimeWithTheSteps();
+  }
+
+  void relaxing() {
+    begin("relaxing");
+    section("all", kRate);
+    scalarMasses(any(1, 4));
+    for (int i = any(1, 4); i > 0; --i) {
+      const Mass& m = anyMass();
+      const double kappa = pick({0.1, 1.0, 2.0, 3.0});
+      std::string branches;
+      for (int r = any(1, 3); r > 0; --r) {
+        branches += (branches.empty() ? "[" : ", [") + full(m, within(0.0, 1.0) * kappa) + ", " +
+                    number(std::max(1e-6, decades(1e-2, 1e4) / m.rate)) + "]";
+      }
+      const double slow = chance(0.2) ? 0.0 : within(0.0, 1.0) * kappa;
+      link("relaxing", m.name, otherThan(m, 0.5),
+           ", stiffness: " + full(m, slow) + damping(m, 0.1) +
+               (chance(0.3) ? ", loss_factor: " + number(decades(1e-3, 0.5))
+                            : ", branches: [" + branches + "]"));
+    }
+    if (chance(0.3)) {
+      contact(anyMass(), decades(1e-3, 1.0), scheme({"explicit", "guarded", "auto"}));
+    }
+    springs(any(0, 2), 1.0);
     inTimeWithTheSteps();
   }
 

@@ -22,7 +22,8 @@
   ROW(Conditional)  /* f = K e + Z v from when |e| < width until |e| > release */            \
   ROW(PluckTable)   /* f = table(e), 0 outside */                                            \
   ROW(BowTable)     /* friction f = table(v), 0 outside */                                   \
-  ROW(Felt)         /* f = K e^exponent (1 + damping v) while e > 0, never pulls */
+  ROW(Felt)         /* f = K e^exponent (1 + damping v) while e > 0, never pulls */          \
+  ROW(Relaxing)     /* f = K e + Z v + sum K_r q_r, each q_r follows e and fades */
 
 namespace ergotic::scene {
 

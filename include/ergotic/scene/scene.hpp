@@ -149,6 +149,13 @@ struct Table {
   bool empty() const { return points.empty(); }
 };
 
+/// Of a link that remembers: a spring that follows the elongation and fades.
+struct Relaxation {
+  Value stiffness{};  ///< K_r >= 0, kg/time_unit^2
+  double time = 1.0;  ///< in which it fades, time units
+};
+constexpr std::size_t kMostRelaxations = 3;
+
 /// What only some laws of links need.
 struct LiaLaw {
   Value nonlinearity{};     ///< Q, kg/(m time_unit^2) or kg/(m^2 time_unit^2)
@@ -164,7 +171,8 @@ struct LiaLaw {
   double release = 0.0;  ///< conditional: |e| at which it lets go, m, >= width
   /// (e, force): pluck and LNL; (v, force): bow. Pluck and bow are 0 outside, LNL holds its ends.
   Table table;
-  Table viscous_table;  ///< (v, force): LNL
+  Table viscous_table;                  ///< (v, force): LNL
+  std::vector<Relaxation> relaxations;  ///< relaxing: 1...kMostRelaxations
 };
 
 /// (LIA) An interaction: takes two positions, gives one force, -f to `a` and +f to `b`,

@@ -41,7 +41,11 @@ class LinkJudge {
     }
     notePlaces(lia);
     judgeSignOfMoving(lia, slopes);
-    noteTurning(lia);
+    if (scene::lawOf(lia.type).kind == scene::Law::Kind::kRelaxing) {
+      judgeMemory(lia);
+    } else {
+      noteTurning(lia);
+    }
     const scene::Law& law = scene::lawOf(lia.type);
     if (law.friction != nullptr) {
       judgeFriction(lia, law.friction(networks_.scene(), lia));
@@ -189,6 +193,16 @@ class LinkJudge {
                     "link '" + lia.name +
                         "' has a negative stiffness or damping and an end that moves: it gives "
                         "energy, no bound holds");
+    }
+  }
+
+  /// What it remembers is of one line, between the same places.
+  void judgeMemory(const Lia& lia) {
+    if (networks_.turns(lia) || networks_.isMoving(lia)) {
+      findings_.add(Verdict::kUnproven, lia.place,
+                    "link '" + lia.name +
+                        "' remembers, along a line that turns or at a point that moves: nothing "
+                        "is proven of that. Use a scalar section, and a point that stays");
     }
   }
 

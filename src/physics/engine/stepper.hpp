@@ -108,8 +108,9 @@ class Stepper {
   /// Books what remembering links hold before anything moves. Realtime: no.
   void storeAtStart(std::size_t r, const RunCoefficients<Real>& c, State<Real>& state) const {
     const LinkRun& run = layout_.runs[r];
-    std::vector<Real> trial(run.ends.size(), Real(0));  // nothing changes state by this
     const scene::Law& law = scene::lawOf(run.law);
+    // Nothing changes state by this.
+    std::vector<Real> trial(law.explicit_form.states * run.ends.size(), Real(0));
     const scene::RunNumbers<Real> numbers = numbersOf(run, c, trial.data());
     const bool is_gap = run.dimensions > 0 && law.kind == scene::Law::Kind::kGap;
     for (std::size_t l = 0; l < run.ends.size(); ++l) {

@@ -199,15 +199,12 @@ double storedAtStart(
 }
 
 template <class Real>
-void step(const LinkRun& run,
-          const RunNumbers<Real>& c,
-          const Real* rests,
-          const RunStep<Real>& at) noexcept {
+void stepByLaw(const LinkRun& run,
+               const RunNumbers<Real>& c,
+               const Real* rests,
+               const RunStep<Real>& at) noexcept {
   switch (run.dimensions) {
     case 0:
-      if (scene::lawOf(run.law).kind == scene::Law::Kind::kLinear && at.memory.elastic == nullptr) {
-        return at.work != nullptr ? stepPlain<true>(run, c, at) : stepPlain<false>(run, c, at);
-      }
       return stepScalar(run, c, at);
     case 1:
       return stepSpatial<Real, 1>(run, c, rests, at);
@@ -216,6 +213,25 @@ void step(const LinkRun& run,
     default:
       return stepSpatial<Real, 3>(run, c, rests, at);
   }
+}
+
+template <class Real>
+void step(const LinkRun& run,
+          RunNumbers<Real> c,
+          const Real* rests,
+          const RunStep<Real>& at) noexcept {
+  const bool is_linear = scene::lawOf(run.law).kind == scene::Law::Kind::kLinear;
+  if (run.dimensions == 0 && is_linear && at.memory.elastic == nullptr) {
+    return at.work != nullptr ? stepPlain<true>(run, c, at) : stepPlain<false>(run, c, at);
+  }
+  if (at.work == nullptr) {
+    return stepByLaw(run, c, rests, at);
+  }
+  double lost = 0.0;
+  c.lost = &lost;
+  stepByLaw(run, c, rests, at);
+  at.work->stored -= lost;
+  at.work->dissipated += lost;
 }
 
 }  // namespace ergotic::physics::kernels

@@ -132,12 +132,15 @@ bool RatedNetwork::turns(const scene::Lia& lia) const {
   const bool is_projected =
       scene_.sectionOf(scene_.mats[at(lia.a)]).geometry == scene::Geometry::kScalar ||
       scene_.sectionOf(scene_.mats[at(lia.b)]).geometry == scene::Geometry::kScalar;
-  if (lia.type != scene::LiaType::kSpringDamper || is_projected || !(inverseMassStep2(lia) > 0.0)) {
+  const scene::Law::Kind kind = scene::lawOf(lia.type).kind;
+  const bool is_spring = kind == scene::Law::Kind::kLinear || kind == scene::Law::Kind::kRelaxing;
+  if (!is_spring || is_projected || !(inverseMassStep2(lia) > 0.0)) {
     return false;
   }
   const Slopes& slopes = linkOf(static_cast<int>(&lia - scene_.lias.data())).slopes;
   return (lia.rest_length > 0.0 && slopes.stiffness.highest > 0.0) ||
-         (hasLineThatTurns(lia) && (slopes.damping.lowest != 0.0 || slopes.damping.highest != 0.0));
+         (hasLineThatTurns(lia) && (kind == scene::Law::Kind::kRelaxing ||
+                                    slopes.damping.lowest != 0.0 || slopes.damping.highest != 0.0));
 }
 
 bool RatedNetwork::onlyBrakes(const scene::Lia& lia) const {
@@ -207,8 +210,9 @@ void RatedNetwork::addLink(Builder& to, int l, bool hold_a, bool hold_b) const {
   const std::vector<Shares> held(1);
   const std::vector<Shares> at_a = hold_a ? held : placesOf(lia.a);
   const std::vector<Shares> at_b = hold_b ? held : placesOf(lia.b);
-  const Range& k = slopes(l).stiffness;
-  const Range& z = slopes(l).damping;
+  const Slopes steepest = scene::slopesInSteps(scene_, lia, stepOf(lia));
+  const Range& k = steepest.stiffness;
+  const Range& z = steepest.damping;
   if (at_a.size() > 1 && at_b.size() > 1) {
     // (u - v)(u - v)^T <= 2 u u^T + 2 v v^T: each end by itself.
     for (const std::vector<Shares>& end : {at_a, at_b}) {

@@ -127,8 +127,8 @@ class State {
       at.across = run.slow_section >= 0;
       at.memory = arena_.add<Real>(name + ".forces", (at.across ? 6 : 2) * at.links);
     }
-    if (scene::lawOf(run.law).explicit_form.has_state) {
-      at.law_state = arena_.add<Real>(name + ".engaged", run.ends.size());
+    if (const std::size_t states = scene::lawOf(run.law).explicit_form.states; states > 0) {
+      at.law_state = arena_.add<Real>(name + ".law", states * run.ends.size());
     }
     return at;
   }

@@ -71,7 +71,7 @@ constexpr LiaField kFields[] = {stiffnessField(), dampingField(), widthField("en
 constexpr Law kConditionalLaw = {
     {"conditional spring-damper", kWords, kFields, Law::Tables::kNone, true},
     Law::Kind::kElastic,
-    explicitForm<Conditional>(true),
+    explicitForm<Conditional>(1),
     forms,
     guardable,
     false,   // has_linear_part

@@ -62,7 +62,8 @@ struct RunNumbers {
   std::size_t links = 0;
   Tables<Real> table{};  ///< elastic; friction: its only one
   Tables<Real> viscous{};
-  Real* state = nullptr;  ///< [links] of laws that have one
+  Real* state = nullptr;   ///< [links][states] of laws that have one
+  double* lost = nullptr;  ///< where these add what their elastic forces lose; null: nobody asks
 
   Real operator()(std::size_t number, std::size_t link) const noexcept {
     return base[number * links + link];
@@ -123,11 +124,11 @@ using RunForces = void (*)(const RunNumbers<Real>& c,
 
 /// How a law is worked out in the explicit scheme.
 struct ExplicitForm {
-  static constexpr std::size_t kMostNumbers = 8;
+  static constexpr std::size_t kMostNumbers = 12;
 
   std::size_t numbers;  ///< of each link, at most kMostNumbers
   std::size_t offset;   ///< the number that u + it is e; not of friction
-  bool has_state;       ///< remembers a number from step to step, 0 at the start
+  std::size_t states;   ///< numbers that it remembers from step to step, 0 at the start
   void (*convert)(const LinkInSteps& link, double* to);  ///< its numbers. Realtime: yes
   RunForces<float> single_forces;
   RunForces<double> double_forces;
@@ -164,9 +165,9 @@ void convertNumbers(const LinkInSteps& link, double* to) {
 
 /// Of a law that says kNumbers, kOffset and force().
 template <class Law>
-constexpr ExplicitForm explicitForm(bool has_state = false) {
+constexpr ExplicitForm explicitForm(std::size_t states = 0) {
   static_assert(std::size(Law::kNumbers) <= ExplicitForm::kMostNumbers);
-  return {std::size(Law::kNumbers), Law::kOffset,          has_state,
+  return {std::size(Law::kNumbers), Law::kOffset,          states,
           convertNumbers<Law>,      runForces<Law, float>, runForces<Law, double>};
 }
 

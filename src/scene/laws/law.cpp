@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/laws/law.hpp"
 
+#include "scene/laws/relaxing.hpp"
+
 namespace ergotic::scene {
 
 const Law& lawOf(LiaType type) {
@@ -18,6 +20,11 @@ const Value& memberOf(const Lia& lia, LiaMember member) {
 void setMember(Lia& lia, LiaMember member, const Value& value) {
   const auto* const own = std::get_if<Value Lia::*>(&member);
   (own != nullptr ? lia.*(*own) : lia.law.edit().*(std::get<Value LiaLaw::*>(member))) = value;
+}
+
+Slopes slopesInSteps(const Scene& scene, const Lia& lia, double step) {
+  return lawOf(lia.type).kind == Law::Kind::kRelaxing ? relaxingSlopes(scene, lia, step)
+                                                      : slopesOf(scene, lia);
 }
 
 Slopes slopesAt(const Scene& scene, const Lia& lia, double elongation) {

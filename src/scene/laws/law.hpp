@@ -82,6 +82,7 @@ struct Law : LawText {
   /// What the force acts on, for geometries and books of energy.
   enum class Kind {
     kLinear,    ///< elongation and velocity, linear
+    kRelaxing,  ///< the same, and what it remembers of them
     kElastic,   ///< elongation and velocity
     kGap,       ///< a distance that is too short
     kFriction,  ///< velocity alone
@@ -114,6 +115,8 @@ const Law& lawOf(LiaType type);
 inline Slopes slopesOf(const Scene& scene, const Lia& lia) {
   return lawOf(lia.type).slopes(scene, lia);
 }
+/// Those of an explicit link in steps of that length, time units.
+Slopes slopesInSteps(const Scene& scene, const Lia& lia, double step);
 /// The steepest up to an elongation, m.
 Slopes slopesAt(const Scene& scene, const Lia& lia, double elongation);
 

@@ -2,6 +2,7 @@
 #include "scene/rules/lia_rules.hpp"
 
 #include "scene/laws/law.hpp"
+#include "scene/laws/relaxing.hpp"
 #include "scene/names.hpp"
 
 namespace ergotic::scene {
@@ -60,6 +61,38 @@ std::string filterFault(const Scene& scene, const Lia& lia) {
            " cannot be filtered, allowed: links between a gestural section and a faster one";
   }
   return "";
+}
+
+std::string relaxationFault(const Scene& scene, const Lia& lia) {
+  const std::vector<Relaxation>& all = lia.law->relaxations;
+  const std::string of = " of link " + quoted(lia.name);
+  const bool relaxes = lawOf(lia.type).kind == Law::Kind::kRelaxing;
+  if (all.size() > (relaxes ? kMostRelaxations : 0) || all.empty() == relaxes) {
+    return "branches" + of + " are " + std::to_string(all.size()) +
+           ", allowed: 1...3 of a relaxing link";
+  }
+  for (const Relaxation& each : all) {
+    const Range k = rangeOf(scene, each.stiffness);
+    for (const double end : {k.lowest, k.highest}) {
+      if (!kStiffnessLimits.hold(end)) {
+        return outOfRange("stiffness of a branch" + of, end, kStiffnessLimits);
+      }
+    }
+    if (!kRelaxationTimeLimits.hold(each.time * scene.time_unit_s)) {
+      return outOfRange("time of a branch" + of, each.time * scene.time_unit_s,
+                        kRelaxationTimeLimits);
+    }
+  }
+  return {};
+}
+
+std::string liaFault(const Scene& scene, const Lia& lia) {
+  for (const auto& faultOf : {schemeFault, filterFault, relaxationFault}) {
+    if (std::string fault = faultOf(scene, lia); !fault.empty()) {
+      return fault;
+    }
+  }
+  return {};
 }
 
 }  // namespace ergotic::scene

@@ -20,4 +20,10 @@ Limits releaseLimits(const Scene& scene, const Lia& lia);
 std::string schemeFault(const Scene& scene, const Lia& lia);
 std::string filterFault(const Scene& scene, const Lia& lia);
 
+/// Of what a relaxing link remembers: how many there are, and their numbers.
+std::string relaxationFault(const Scene& scene, const Lia& lia);
+
+/// The first of these faults.
+std::string liaFault(const Scene& scene, const Lia& lia);
+
 }  // namespace ergotic::scene

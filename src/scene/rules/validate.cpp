@@ -262,10 +262,8 @@ class Validator {
     }
     number(l.place, "rest_length" + of, l.rest_length, restLengthLimits(scene_, l));
     laws(l, of);
-    for (const std::string& fault : {schemeFault(scene_, l), filterFault(scene_, l)}) {
-      if (!fault.empty()) {
-        fail(l.place, fault);
-      }
+    if (const std::string fault = liaFault(scene_, l); !fault.empty()) {
+      fail(l.place, fault);
     }
   }
 

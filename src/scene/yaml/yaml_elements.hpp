@@ -23,6 +23,8 @@ void readPoints(SceneBuilder& builder, const YamlMap& top);  ///< of `mats`: the
 void readLias(SceneBuilder& builder, const YamlMap& top, YamlTables& tables);
 /// A link of many ends, `type: bend`.
 void readBend(SceneBuilder& builder, const std::string& name, const YamlMap& map);
+/// What a relaxing link remembers. \pre its stiffness is read
+void readRelaxations(const SceneBuilder& builder, const YamlMap& map, Lia& lia);
 void readPorts(SceneBuilder& builder, const YamlMap& top);
 void readAgents(SceneBuilder& builder, const YamlMap& top, PointFiles& files);
 void readPortFilters(SceneBuilder& builder, const YamlMap& top);  ///< when all links are there

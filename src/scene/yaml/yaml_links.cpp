@@ -118,6 +118,9 @@ void readCoefficients(const SceneBuilder& builder,
   if (law.has_release) {
     readRelease(builder, map, lia);
   }
+  if (law.kind == Law::Kind::kRelaxing) {
+    readRelaxations(builder, map, lia);
+  }
 }
 
 void readTables(const SceneBuilder& builder, YamlTables& tables, const YamlMap& map, Lia& lia) {

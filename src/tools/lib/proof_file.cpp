@@ -126,7 +126,10 @@ void addLaw(const Scene& scene, const scene::Lia& lia, Json& link) {
     link["tipping_point"] = lia.law->tipping_point;
     link["limit_damping"] = valueOf(scene, lia.law->limit_damping);
   }
-  if (law.kind == scene::Law::Kind::kLinear || law.kind == scene::Law::Kind::kElastic) {
+  for (const scene::Relaxation& branch : lia.law->relaxations) {
+    link["branches"].push_back({valueOf(scene, branch.stiffness), branch.time});
+  }
+  if (law.kind != scene::Law::Kind::kGap && law.kind != scene::Law::Kind::kFriction) {
     link["rest_length"] = lia.rest_length;
   }
 }

@@ -11,7 +11,7 @@ constexpr LiaType kAllTypes[] = {
     LiaType::kSpringDamper, LiaType::kContact,      LiaType::kQuadratic, LiaType::kCubic,
     LiaType::kClippedCubic, LiaType::kCubicContact, LiaType::kPluck,     LiaType::kBow,
     LiaType::kSmoothBow,    LiaType::kPowerContact, LiaType::kTable,     LiaType::kConditional,
-    LiaType::kFelt};
+    LiaType::kFelt,         LiaType::kRelaxing};
 
 double imbalance(const scene::Scene& scene, const Rates& rates, int ticks) {
   Player player(scene, rates);
@@ -29,6 +29,9 @@ void shape(Lia& lia) {
   lia.law.edit().exponent = {1.5};
   lia.law.edit().width = {is_gap ? 0.0 : 0.01};
   lia.law.edit().release = 0.02;
+  if (lia.type == LiaType::kRelaxing) {
+    lia.law.edit().relaxations = {{{50.0}, 1e-3}, {{100.0}, 1e-4}};
+  }
   if (lia.type == LiaType::kTable) {
     lia.stiffness = {};
     lia.damping = {};

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a proof says of laws of force and of modules by themselves, worked out from docs/physics.md alone."""
+import math
+
+import numpy as np
+from scipy import interpolate
+
+
+def slopes_of(table):
+    """Lowest and highest; monotone tables are the cubic of Fritsch and Butland 1984."""
+    x, y = np.array(table["points"] if table else [[0, 0], [1, 0]], dtype=float).T
+    slopes = np.diff(y) / np.diff(x)
+    if table and table["interpolation"] == "monotone":
+        slope = interpolate.PchipInterpolator(x, y).derivative()
+        turns = slope.derivative().roots(extrapolate=False)
+        slopes = slope(np.concatenate([x, turns[np.isfinite(turns)]]))
+    return min(slopes), max(slopes)
+
+
+def brakes(table):
+    """Whether its force, but for what is there at rest, is against all that moves."""
+    x, y = np.array(table["points"], dtype=float).T
+    rest = np.clip(0.0, x[0], x[-1])
+    is_smooth = table["interpolation"] == "monotone"
+    work = (y - (interpolate.PchipInterpolator(x, y)(rest) if is_smooth else np.interp(rest, x, y))) * x
+    return (np.diff(y) >= 0).all() or (work >= -1e-12 * abs(x * y).max()).all()
+
+
+def push_out(tables):
+    """Whether elastic and viscous force together, held beyond the ends, push outwards or drive."""
+    lows, highs = [table[0][1] for table in tables], [table[-1][1] for table in tables]
+    return any(low > high for low, high in zip(lows, highs)) or sum(lows) > 0 or sum(highs) < 0
+
+
+def relaxed(link, stiffness, span_of, step):
+    """What a spring that remembers counts as, in steps of that length: what swings in two of them."""
+    more = [(span_of(k)[1], step / 2 / time) for k, time in link.get("branches", [])]
+    return stiffness[0], stiffness[1] + sum(k * math.tanh(x) / x for k, x in more)
+
+
+def matched(slow, fast, square):
+    """What a matched module loses and how it is pulled, at most; square: (w h)^2 of its swing."""
+    root, swing = math.sqrt(abs(square)), math.sinh if square < 0 else math.sin
+    root = root if square < 0 else min(root, math.pi)
+    fade = slow if square > 0 and math.cos(root) < 0 else fast
+    return -math.expm1(-2 * fast), math.expm1(-fade) ** 2 + math.copysign(
+        4 * math.exp(-fade) * swing(root / 2) ** 2, square) + math.exp(-2 * fast) - math.exp(-2 * fade)

@@ -29,12 +29,12 @@ struct Block {
 
   Kind kind = Kind::kLattice;
   int section = 0;
-  int first = 0;                  ///< slot of the first element
-  int guard = 0;                  ///< slots before and after that are always 0
-  int elements = 0;               ///< a multiple of kLanes
-  std::vector<int> mats;          ///< [elements] -1: none, always 0; until slots are given
-  std::vector<int> lias;          ///< links among them; until they are in runs
-  std::vector<int> offsets;       ///< in elements, > 0; those of a plate first, else ascending
+  int first = 0;             ///< slot of the first element
+  int guard = 0;             ///< slots before and after that are always 0
+  int elements = 0;          ///< a multiple of kLanes
+  std::vector<int> mats;     ///< [elements] -1: none, always 0; until slots are given
+  std::vector<int> lias;     ///< links among them; until they are in runs
+  std::vector<int> offsets;  ///< in elements, > 0; those of a plate first, else ascending
   /// [offsets] links side by side whose coefficients uniform segments share
   std::vector<std::vector<int>> reference;
   std::vector<Segment> segments;  ///< from the first free module to the last

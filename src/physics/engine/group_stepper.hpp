@@ -74,8 +74,8 @@ class GroupStepper {
     feedPositions(group, frames);
     gatherPoints(group, frames.first);
     for (int k = 0; k < frames.count; ++k) {
-      mechanism_.taps.takePositions(group, *mechanism_.coefficients, mechanism_.state,
-                                    outputsOf(group, frames, k));
+      mechanism_.pickups.takePositions(group, *mechanism_.coefficients, mechanism_.state,
+                                       outputsOf(group, frames, k));
     }
     for (const std::size_t r : group.runs) {
       const LinkRun& run = mechanism_.layout.runs[r];
@@ -100,8 +100,8 @@ class GroupStepper {
     mechanism_.meter.endFrame(group, last, state);
     mechanism_.points.endFrame(group, *mechanism_.coefficients, last, state);
     for (int k = 0; k < frames.count; ++k) {
-      mechanism_.taps.takeForces(group, *mechanism_.coefficients, frames.first + k, state,
-                                 outputsOf(group, frames, k));
+      mechanism_.pickups.takeForces(group, *mechanism_.coefficients, frames.first + k, state,
+                                    outputsOf(group, frames, k));
     }
     mechanism_.sleeper.endFrames(group, frames.first, *mechanism_.coefficients, mechanism_.meter,
                                  state);
@@ -125,13 +125,13 @@ class GroupStepper {
 
   void hearLoneBlock(
       const LoneBlock& lone, std::int64_t now, int first, int last, double* out) noexcept {
-    for (std::size_t i = 0; i < lone.taps.size(); ++i) {
-      const std::size_t k = lone.taps[i];
-      const int slot = mechanism_.taps.slotOf(k);
+    for (std::size_t i = 0; i < lone.pickups.size(); ++i) {
+      const std::size_t k = lone.pickups[i];
+      const int slot = mechanism_.pickups.slotOf(k);
       if (slot >= first && slot < last) {
-        out[lone.tap_columns[i]] +=
-            mechanism_.taps.position(k, *mechanism_.coefficients, mechanism_.state) +
-            mechanism_.taps.force(k, *mechanism_.coefficients, now, mechanism_.state);
+        out[lone.pickup_columns[i]] +=
+            mechanism_.pickups.position(k, *mechanism_.coefficients, mechanism_.state) +
+            mechanism_.pickups.force(k, *mechanism_.coefficients, now, mechanism_.state);
       }
     }
   }

@@ -6,10 +6,10 @@
 
 #include "physics/engine/energy_meter.hpp"
 #include "physics/engine/guarded_runs.hpp"
+#include "physics/engine/pickups.hpp"
 #include "physics/engine/points.hpp"
 #include "physics/engine/sleeper.hpp"
 #include "physics/engine/stepper.hpp"
-#include "physics/engine/taps.hpp"
 #include "physics/layout/groups.hpp"
 #include "physics/layout/layout.hpp"
 #include "physics/state/coefficients.hpp"
@@ -35,7 +35,7 @@ struct Mechanism {
         stepper(layout, options),
         points(*scene, layout, options.isa),
         guarded(*scene, layout, groups, points, state),
-        taps(layout),
+        pickups(layout),
         sleeper(*scene, layout, *coefficients) {
     state.allocate();
   }
@@ -51,7 +51,7 @@ struct Mechanism {
   Stepper<Real> stepper;
   Points<Real> points;
   GuardedRuns<Real> guarded;
-  Taps<Real> taps;
+  Pickups<Real> pickups;
   Sleeper<Real> sleeper;
 };
 

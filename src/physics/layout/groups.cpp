@@ -47,8 +47,8 @@ class Dealer {
         groupOf(layout_.blocks[b].section).lone.push_back({b, {}, {}});
       }
     }
-    for (std::size_t k = 0; k < layout_.taps.size(); ++k) {
-      dealTap(k, groupOf(scene_.mats[at(scene_.outputs[k].point.mat)].section));
+    for (std::size_t k = 0; k < layout_.pickups.size(); ++k) {
+      dealPickup(k, groupOf(scene_.mats[at(scene_.outputs[k].point.mat)].section));
     }
     const std::vector<GuardedGroup> guarded = guardedGroupsOf(layout_);
     for (std::size_t g = 0; g < guarded.size(); ++g) {
@@ -73,7 +73,7 @@ class Dealer {
     }
     return !has_modules && blocks == group.lone.size() && group.runs.empty() &&
            group.guarded.empty() && group.places.empty() && group.projections.empty() &&
-           group.feeds.empty() && group.followers.empty() && group.taps.empty() &&
+           group.feeds.empty() && group.followers.empty() && group.pickups.empty() &&
            group.proxies.empty();
   }
 
@@ -89,16 +89,16 @@ class Dealer {
     }
   }
 
-  void dealTap(std::size_t k, Group& group) {
-    const int channel = layout_.taps[k].channel;
+  void dealPickup(std::size_t k, Group& group) {
+    const int channel = layout_.pickups[k].channel;
     const auto known = std::find(group.channels.begin(), group.channels.end(), channel);
-    const int block = layout_.blockOf(layout_.taps[k].slot);
+    const int block = layout_.blockOf(layout_.pickups[k].slot);
     const auto lone = std::find_if(group.lone.begin(), group.lone.end(), [&](const LoneBlock& l) {
       return static_cast<int>(l.block) == block;
     });
-    auto& taps = lone == group.lone.end() ? group.taps : lone->taps;
-    auto& columns = lone == group.lone.end() ? group.tap_columns : lone->tap_columns;
-    taps.push_back(k);
+    auto& pickups = lone == group.lone.end() ? group.pickups : lone->pickups;
+    auto& columns = lone == group.lone.end() ? group.pickup_columns : lone->pickup_columns;
+    pickups.push_back(k);
     columns.push_back(static_cast<std::size_t>(known - group.channels.begin()));
     if (known == group.channels.end()) {
       group.channels.push_back(channel);

@@ -13,24 +13,24 @@ namespace ergotic::physics {
 /// A block that nothing but its own links acts on while it runs (Block::is_alone), and what is
 /// heard of it.
 struct LoneBlock {
-  std::size_t block = 0;                 ///< Layout::blocks
-  std::vector<std::size_t> taps;         ///< Layout::taps
-  std::vector<std::size_t> tap_columns;  ///< [taps] index in Group::channels
+  std::size_t block = 0;                    ///< Layout::blocks
+  std::vector<std::size_t> pickups;         ///< Layout::pickups
+  std::vector<std::size_t> pickup_columns;  ///< [pickups] index in Group::channels
 };
 
 /// What needs each other at the same instant, as indices: it is stepped by one thread.
 struct Group {
-  std::vector<int> sections;              ///< Layout::sections
-  std::vector<std::size_t> runs;          ///< Layout::runs, explicit ones
-  std::vector<std::size_t> guarded;       ///< guardedGroupsOf
-  std::vector<std::size_t> modal_places;  ///< Layout::modal_places
-  std::vector<std::size_t> places;        ///< Layout::places
-  std::vector<std::size_t> projections;   ///< Layout::projections
-  std::vector<std::size_t> feeds;         ///< Layout::feeds
-  std::vector<std::size_t> followers;     ///< Layout::followers
-  std::vector<std::size_t> taps;          ///< Layout::taps
-  std::vector<int> channels;              ///< of outputs that the taps are heard on, each once
-  std::vector<std::size_t> tap_columns;   ///< [taps] index in `channels`
+  std::vector<int> sections;                ///< Layout::sections
+  std::vector<std::size_t> runs;            ///< Layout::runs, explicit ones
+  std::vector<std::size_t> guarded;         ///< guardedGroupsOf
+  std::vector<std::size_t> modal_places;    ///< Layout::modal_places
+  std::vector<std::size_t> places;          ///< Layout::places
+  std::vector<std::size_t> projections;     ///< Layout::projections
+  std::vector<std::size_t> feeds;           ///< Layout::feeds
+  std::vector<std::size_t> followers;       ///< Layout::followers
+  std::vector<std::size_t> pickups;         ///< Layout::pickups
+  std::vector<int> channels;                ///< of outputs that the pickups are heard on, each once
+  std::vector<std::size_t> pickup_columns;  ///< [pickups] index in `channels`
   std::vector<LoneBlock> lone;
   bool has_only_lone = false;  ///< there is nothing to do frame by frame
   std::vector<Proxy> proxies;

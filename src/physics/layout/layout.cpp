@@ -115,33 +115,34 @@ class MatPlacer {
   std::vector<Block> blocks_;
 };
 
-Tap describeTap(const scene::Scene& scene,
-                const Rates& rates,
-                const scene::Output& output,
-                const Layout& layout) {
+Pickup describePickup(const scene::Scene& scene,
+                      const Rates& rates,
+                      const scene::Output& output,
+                      const Layout& layout) {
   const scene::Mat& mat = scene.mats[at(output.point.mat)];
-  Tap tap;
+  Pickup pickup;
   const auto slotOf = [&](int m) {
     return layout.slot_of_mat[at(m)] + output.axis * layout.strideOf(scene, m);
   };
-  tap.quantity = output.quantity;
-  tap.slot = slotOf(output.point.mat);
-  tap.rest = mat.rest[output.axis];
+  pickup.quantity = output.quantity;
+  pickup.slot = slotOf(output.point.mat);
+  pickup.rest = mat.rest[output.axis];
   if (output.point.next >= 0) {
     const double f = output.point.fraction;
-    tap.next = slotOf(output.point.next);
-    tap.fraction = f;
-    tap.rest = (1.0 - f) * tap.rest + f * scene.mats[at(output.point.next)].rest[output.axis];
+    pickup.next = slotOf(output.point.next);
+    pickup.fraction = f;
+    pickup.rest = (1.0 - f) * pickup.rest + f * scene.mats[at(output.point.next)].rest[output.axis];
   }
-  tap.divisor = layout.sections[at(mat.section)].divisor;
-  tap.velocity = 1.0 / StepUnits(scene, rates, tap.divisor).step;
-  tap.channel = output.channel;
-  if (mat.type == MatType::kPoint && tap.quantity == scene::Quantity::kForce && tap.divisor > 1) {
+  pickup.divisor = layout.sections[at(mat.section)].divisor;
+  pickup.velocity = 1.0 / StepUnits(scene, rates, pickup.divisor).step;
+  pickup.channel = output.channel;
+  if (mat.type == MatType::kPoint && pickup.quantity == scene::Quantity::kForce &&
+      pickup.divisor > 1) {
     throw Exception("output '" + output.name +
                     "' hears the force on a point of a section slower than audio, allowed: a "
                     "module beside it");
   }
-  return tap;
+  return pickup;
 }
 
 bool follows(const scene::Value& v) {
@@ -190,7 +191,7 @@ Layout makeLayout(const scene::Scene& scene,
                                 port.axis * layout.strideOf(scene, port.mat));
   }
   for (const scene::Output& output : scene.outputs) {
-    layout.taps.push_back(describeTap(scene, rates, output, layout));
+    layout.pickups.push_back(describePickup(scene, rates, output, layout));
   }
   for (const scene::Input& input : scene.inputs) {
     const scene::Mat& mat = scene.mats[at(input.mat)];

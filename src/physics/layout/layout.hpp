@@ -100,7 +100,7 @@ inline std::size_t coordinatesOf(const std::vector<PlacePoint>& points) {
              : static_cast<std::size_t>(points.back().coordinate + points.back().dimensions);
 }
 
-struct Tap {
+struct Pickup {
   scene::Quantity quantity = scene::Quantity::kPosition;
   int slot = 0;
   int next = -1;
@@ -147,7 +147,7 @@ struct Layout {
   std::vector<ProjectedPoint> projections;
   std::vector<LinkRun> runs;
   std::vector<int> port_slots;  ///< [ports] of the coordinate that it moves
-  std::vector<Tap> taps;
+  std::vector<Pickup> pickups;
   std::vector<Feed> feeds;
   std::vector<Follower> followers;
   std::vector<int> group_of_section;        ///< [sections] index of the group that steps it

@@ -231,10 +231,10 @@ void findLoneBlocks(const scene::Scene& scene, const Rates& rates, Layout& layou
   for (const Feed& feed : layout.feeds) {
     touch(feed.slot);
   }
-  for (const Tap& tap : layout.taps) {
-    if (tap.next >= 0 && layout.blockOf(tap.slot) != layout.blockOf(tap.next)) {
-      touch(tap.slot);
-      touch(tap.next);
+  for (const Pickup& pickup : layout.pickups) {
+    if (pickup.next >= 0 && layout.blockOf(pickup.slot) != layout.blockOf(pickup.next)) {
+      touch(pickup.slot);
+      touch(pickup.next);
     }
   }
   for (std::size_t b = 0; b < touched.size(); ++b) {

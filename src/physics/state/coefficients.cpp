@@ -60,7 +60,7 @@ CoefficientsOf<Real>::CoefficientsOf(const scene::Scene& scene,
   fillBlocks(scene, rates, layout);
   fillGuarded(scene, rates, layout);
   for (const scene::Output& output : scene.outputs) {
-    tap_gains.push_back(static_cast<Real>(scene.valueOf(output.gain)));
+    pickup_gains.push_back(static_cast<Real>(scene.valueOf(output.gain)));
   }
   for (const scene::Input& input : scene.inputs) {
     feed_gains.push_back(static_cast<Real>(scene.valueOf(input.gain)));

@@ -91,7 +91,7 @@ class CoefficientsOf final : public Coefficients {
   std::vector<RunCoefficients<Real>> runs;             ///< [Layout::runs]
   std::vector<BlockCoefficients<Real>> blocks;         ///< [Layout::blocks]
   std::vector<std::vector<GuardedLaw<Real>>> guarded;  ///< [guardedGroupsOf(layout)][links]
-  std::vector<Real> tap_gains;                         ///< [Layout::taps]
+  std::vector<Real> pickup_gains;                      ///< [Layout::pickups]
   std::vector<Real> feed_gains;                        ///< [Layout::feeds]
   std::vector<PlaceCoefficients> places;               ///< [Layout::places]
 

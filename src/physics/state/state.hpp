@@ -45,7 +45,7 @@ class State {
     place_d_at_ = arena_.add<Real>("place_d", coordinatesOf(layout.places));
     place_forces_at_ = arena_.add<PlaceForce<Real>>("place_forces", coordinatesOf(layout.places));
     places_owe_at_ = arena_.add<double>("places_owe", layout.places.size());
-    last_forces_at_ = arena_.add<Real>("last_force_outputs", layout.taps.size());
+    last_forces_at_ = arena_.add<Real>("last_force_outputs", layout.pickups.size());
     asleep_at_ = arena_.add<unsigned char>("asleep", layout.sections.size());
     work_at_ = arena_.add<LinkWork>("link_work", metered ? layout.runs.size() : 0);
     for (const LinkRun& run : layout.runs) {

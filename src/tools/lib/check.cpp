@@ -85,19 +85,19 @@ Json pointsOf(const Scene& scene) {
 }
 
 /// Inputs or outputs.
-template <class Tap>
-Json tap(const Scene& scene, const Tap& tap, const scene::Mat& mat) {
-  return {{"name", tap.name},
-          {"quantity", tap.quantity},
+template <class Channel>
+Json channelOf(const Scene& scene, const Channel& channel, const scene::Mat& mat) {
+  return {{"name", channel.name},
+          {"quantity", channel.quantity},
           {"module", mat.name},
-          {"channel", tap.channel + 1},
-          {"gain", scene.valueOf(tap.gain)}};
+          {"channel", channel.channel + 1},
+          {"gain", scene.valueOf(channel.gain)}};
 }
 
 Json inputsOf(const Scene& scene) {
   Json report = Json::array();
   for (const scene::Input& input : scene.inputs) {
-    report.push_back(tap(scene, input, matAt(scene, input.mat)));
+    report.push_back(channelOf(scene, input, matAt(scene, input.mat)));
   }
   return report;
 }
@@ -105,7 +105,7 @@ Json inputsOf(const Scene& scene) {
 Json outputsOf(const Scene& scene) {
   Json report = Json::array();
   for (const scene::Output& output : scene.outputs) {
-    report.push_back(tap(scene, output, matAt(scene, output.point.mat)));
+    report.push_back(channelOf(scene, output, matAt(scene, output.point.mat)));
   }
   return report;
 }

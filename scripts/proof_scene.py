@@ -162,6 +162,11 @@ class Said:
             before = f"{name}.{i}"
 
     def complete_mat(self, keys):
+        if keys["type"] == "tap":
+            of, weights = ([keys.get(key, [])] if isinstance(keys.get(key), str) else keys.get(key, [])
+                           for key in ("of", "weights"))
+            keys.update(type="point", section=self.mats[of[0]].get("section", self.only),
+                        weights=dict(zip(of, map(float, weights or [1 / len(of)] * len(of)))))
         if "section" not in keys:
             keys["section"] = self.grids[keys["along"]][0] if keys["type"] == "point" else self.only
         if keys["type"] in ("mass", "cell", "ground") and "lies" not in keys:
@@ -250,6 +255,8 @@ class Said:
     def places_of(self, name):
         """Of a point all that are judged: names of modules with weights."""
         keys = self.mats[name]
+        if "weights" in keys:
+            return [{m: weight for m, weight in keys["weights"].items() if weight}]
         (_, columns, rows), at = self.grids[keys["along"]], keys["at"]
         along, across = at if rows > 1 else (at, "0")
         allowed = [float(end) for end in keys.get("range", ("0", "1"))]

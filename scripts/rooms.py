@@ -22,7 +22,7 @@ ROOMS = {
     "physics/network": "exception scene scene/laws physics physics/laws",
     "physics/layout/blocks": "exception scene physics",
     "physics/layout": "exception scene physics physics/layout/blocks",
-    "physics/modes": "exception scene physics physics/laws physics/layout physics/network",
+    "physics/modes": "exception scene physics physics/laws physics/network",
     "physics/state": "exception scene scene/laws physics physics/laws physics/layout physics/layout/blocks",
     "physics/kernels": "rt scene/laws physics/layout physics/layout/blocks physics/state",
     "physics/engine": "exception rt scene physics physics/laws physics/modes physics/layout"

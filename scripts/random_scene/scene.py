@@ -45,7 +45,12 @@ class Scene(Bodies):
         return "modes" in self.section_of(body)
 
     def place(self, body):
-        """A module, or a connection point."""
+        """A module, a tap on some of them, or a connection point."""
+        if not self.is_modal(body) and self.chance(0.1):
+            self.features["tap"] += 1
+            of = self.random.sample(body.modules, min(len(body.modules), self.random.randint(1, 4)))
+            return self.mat({"type": "tap", "of": of, "weights": [
+                rounded(self.within(-1, 1)) for _ in of]}, "tap")
         if body.along is None or not self.chance(0.4):
             return self.random.choice(body.modules)
         self.features["point"] += 1

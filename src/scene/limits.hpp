@@ -45,6 +45,7 @@ constexpr Limits kFractionLimits{"", 0.0, 1.0};
 constexpr Limits kGuideScaleLimits{"1/m"};
 constexpr Limits kPointSpeedLimits{"1/s", 0.0, kInfinity, true};
 constexpr Limits kPointPowerLimits{"W", 0.0, kInfinity, true};
+constexpr Limits kWeightLimits{"", -1e6, 1e6};  ///< of a tap
 constexpr Limits kSpacingLimits{"m", 0.0, kInfinity, true};
 constexpr Limits kInnerFractionLimits{"", 0.001, 0.999};
 constexpr Limits kFrequencyLimits{"Hz", 0.0, 24000.0, true};

@@ -166,12 +166,22 @@ class Maker {
       const bool is_soft = chance(0.1) || is_soft_;
       const double k = is_soft ? softest * within(0.05, 0.5) : kappa_ * kUnit * within(0.02, 0.5);
       const int slow = slow_[at(throwTo(static_cast<int>(slow_.size())))];
-      const int fast = chance(0.4) ? pointOnString() : anyMoving();
+      const int fast = chance(0.4) ? pointOnString() : chance(0.3) ? anyTap() : anyMoving();
       chance(0.5) ? spring(slow, fast, k) : spring(fast, slow, k);
     }
   }
 
   int anyMoving() { return moving_[at(throwTo(static_cast<int>(moving_.size())))]; }
+
+  int anyTap() {
+    std::vector<scene::Tap::Share> shares;
+    for (const int m : moving_) {
+      if (shares.empty() || chance(0.2)) {
+        shares.push_back({m, within(-1.0, 1.5)});
+      }
+    }
+    return b_.tap(shares);
+  }
 
   int pointOnString() {
     const scene::Grid& grid = b_.scene.grids[0];
@@ -204,10 +214,11 @@ class Maker {
     for (int i = 0; i < count; ++i) {
       const bool slow = !slow_.empty() && chance(0.2);
       const auto& from = slow ? slow_ : moving_;
-      const int a = from[at(throwTo(static_cast<int>(from.size())))];
+      const int on = from[at(throwTo(static_cast<int>(from.size())))];
+      const int a = !slow && chance(0.3) ? anyTap() : on;
       const int b = chance(0.3) ? otherGround(a) : otherMoving(a, from);
       const double rate = slow ? made_.rates.gesturalHz() : kRate;
-      addLaw(a, b, std::pow(10.0, within(-2.0, 1.0)) * mat(a).mass.factor * rate * rate, rate);
+      addLaw(a, b, std::pow(10.0, within(-2.0, 1.0)) * mat(on).mass.factor * rate * rate, rate);
     }
   }
 

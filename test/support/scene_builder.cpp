@@ -84,6 +84,19 @@ int SceneBuilder::point(int grid, double along, double across) {
   return m;
 }
 
+int SceneBuilder::tap(std::vector<scene::Tap::Share> shares) {
+  const int section = scene.mats[at(shares.front().mat)].section;
+  const int m = add(scene::MatType::kPoint, 1.0, 0.0, 0.0, section);
+  scene::Mat& point = scene.mats.back();
+  point.name = "t" + std::to_string(m);
+  for (const scene::Tap::Share& share : shares) {
+    point.rest += share.weight * scene.mats[at(share.mat)].rest;
+    point.position += share.weight * scene.mats[at(share.mat)].position;
+  }
+  scene.taps.push_back({m, std::move(shares), {700 + static_cast<int>(scene.taps.size()), 1}, 0.0});
+  return m;
+}
+
 int SceneBuilder::push(int mat, int channel) {
   scene::Input input;
   input.name = "push" + std::to_string(scene.inputs.size());

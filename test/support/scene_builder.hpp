@@ -24,6 +24,9 @@ class SceneBuilder {
   /// A point of a grid; its connection is the last one.
   int point(int grid, double along, double across = 0.0);
 
+  /// A tap on modules, which starts where they take it.
+  int tap(std::vector<scene::Tap::Share> shares);
+
   /// Gives the index of the new link.
   int link(scene::LiaType type, int a, int b, double k, double z = 0.0);
   int spring(int a, int b, double k, double z = 0.0) {

@@ -24,6 +24,9 @@ struct SmallScene {
 /// millimetres. \return the same scene for the same seed
 SmallScene smallScene(unsigned seed);
 
+/// The same, with most ends of links on taps of the masses and grounds around.
+SmallScene withTaps(SmallScene scene, unsigned seed);
+
 /// The same, with every scheme left to the station.
 SmallScene leftOpen(SmallScene scene);
 

@@ -73,7 +73,9 @@ TEST(ProofTest, OfRandomScenesAreVerifiedAndRefusedWithOneNumberChanged) {
   fs::create_directory(folder);
   unsigned seed = 0;
   for (unsigned written = 0; written < scenes(); ++seed) {
-    written += write(test::smallScene(seed), (folder / std::to_string(seed)).string()) ? 1 : 0;
+    const SmallScene plain = test::smallScene(seed);
+    const SmallScene small = seed % 2 == 0 ? plain : test::withTaps(plain, seed);
+    written += write(small, (folder / std::to_string(seed)).string()) ? 1 : 0;
   }
   EXPECT_EQ(python("test/support/falsify_proofs.py " + folder.string()), 0) << "in " << folder;
   if (!HasFailure()) {
@@ -115,6 +117,10 @@ const std::string kInSpace =
     "ergotic: 1\nsections: {s: {geometry: space}}\nmats:\n  g: {type: ground}\n"
     "  m: {type: mass, mass: 1, at: [0.1, 0, 0]}\nlias:\n"
     "  l: {type: spring, between: [m, g], stiffness: 1e4, rest_length: 0, scheme: explicit}\n";
+const std::string kLever =
+    "ergotic: 1\nsections: {s: {}}\nmats:\n  g: {type: ground}\n  m: {type: mass, mass: 1}\n"
+    "  t: {type: tap, of: m, weights: 10}\nlias:\n"
+    "  l: {type: spring, between: [t, g], stiffness: 7.7e7}\n";
 /// Pushed away, and held by more than that.
 const std::string kHeld =
     "ergotic: 1\nsections: {s: {}, p: {geometry: scalar}}\nmats:\n"
@@ -172,6 +178,7 @@ TEST(ProofTest, IsRefusedForEveryReasonThatIsMissing) {
       {kTable, "[-1, -1], [1, 1]", "[-1, 1], [1, -1]", "l: its ends give"},
       {kFinger, "233000", "263000", "it does not hold wherever points lie"},
       {kFinger, "power: 1", "power: 1000", "a point brings too much"},
+      {kLever, "7.7e7", "7.9e7", "the factor is not that of the network"},
       {kInSpace, "rest_length: 0", "rest_length: 0.05", "it turns"},
       {kHeld, "geometry: scalar", "geometry: plane", "axes"},
       {kTwoRates, "[1, 1]", "[0.5, 1]", "island"},
@@ -186,7 +193,7 @@ TEST(ProofTest, IsRefusedForEveryReasonThatIsMissing) {
     EXPECT_THAT(refusal(lie.text, other), HasSubstr(lie.reason)) << lie.instead;
   }
   for (const std::string& text :
-       {kSnapping, kTable, kFinger, kInSpace, kHeld, kTwoRates, kRing, kMatched}) {
+       {kSnapping, kTable, kFinger, kLever, kInSpace, kHeld, kTwoRates, kRing, kMatched}) {
     EXPECT_EQ(refusal(text, text), "") << text;
   }
   EXPECT_THAT(refusal(kTable, kTable, true), HasSubstr("its verdict"));
@@ -223,6 +230,17 @@ const std::string kPoints =
     "  d: {type: spring, between: [over, g], stiffness: 1e3}\n"
     "  e: {type: spring, between: [s@0.37, m@0.5:0.3], stiffness: 1e3}\n"
     "  f: {type: spring, between: [s@0.2, g], stiffness: 1e3}\n";
+/// Places that are many, in two sections.
+const std::string kTaps =
+    "ergotic: 1\nsections: {s: {}, p: {geometry: plane}}\nmats:\n  g: {type: ground, section: s}\n"
+    "  a: {type: mass, section: s, mass: 1}\n  b: {type: mass, section: s, mass: 2}\n"
+    "  c: {type: mass, section: p, mass: 1}\n  lever: {type: tap, of: a, weights: 3}\n"
+    "  both: {type: tap, of: [b, a, g], weights: [2, -1.5, 0.5]}\n"
+    "  mean: {type: tap, of: [a, b]}\n  far: {type: tap, of: c, weights: 0.5}\nlias:\n"
+    "  k: {type: spring, between: [both, g], stiffness: 1e4}\n"
+    "  l: {type: spring, between: [lever, mean], stiffness: 1e4}\n"
+    "  m: {type: contact, between: [mean, both], stiffness: 1e4}\n"
+    "  n: {type: spring, between: [far, lever], stiffness: 1e4}\n";
 /// Settling raises the slower section, for the contact; what is felt stays where it is.
 const std::string kRaised =
     "ergotic: 1\ngestural_rate: 3000\nsections: {fast: {}, slow: {rate: gestural}}\nmats:\n"
@@ -278,6 +296,11 @@ TEST(ProofTest, IsRefusedUnderTheNameOfAnotherScene) {
       {kPoints, "masses: 9", "masses: 8", "s.10 of mats is not in the proof"},
       {kPoints, "  f: {", "  more: {type: damper, between: [s.1, g], damping: 1}\n  f: {",
        "more of lias is not in the scene"},
+      {kTaps, "weights: 3", "weights: 3.1", "lever: it lies elsewhere"},
+      {kTaps, "[2, -1.5", "[2, -1.4", "both: it lies elsewhere"},
+      {kTaps, "of: [a, b]", "of: [b]", "mean: it lies elsewhere"},
+      {kTaps, "of: c, weights: 0.5", "of: c", "far: it lies elsewhere"},
+      {kTaps, "[both, g]", "[mean, g]", "k: between"},
       {kRaised, "rate: gestural}", "rate: gestural, medium: 1}", "slow.raised: medium"},
       {kRaised, "stiffness: 1e4}\n  held", "stiffness: 2e4}\n  held", "own: stiffness"},
       {kStretched, "[0.1, 0]", "[0.05, 0]", "l: what pulls at any length is not split off"},
@@ -305,7 +328,7 @@ TEST(ProofTest, IsRefusedUnderTheNameOfAnotherScene) {
       refusalUnderTheNameOf(from_file, std::regex_replace(kTable, std::regex("1, 1"), "1, 2")),
       HasSubstr("l: elastic is"));
   for (const std::string& text :
-       {kRates, kPoints, kRaised, kStretched, kMade, kTable, kDriving, from_file}) {
+       {kRates, kPoints, kTaps, kRaised, kStretched, kMade, kTable, kDriving, from_file}) {
     EXPECT_EQ(refusalUnderTheNameOf(text, text), "") << text;
   }
 }

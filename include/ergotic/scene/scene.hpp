@@ -100,7 +100,7 @@ enum class MatType : std::uint8_t {
   kCell,  ///< (CEL) mass with a spring and a damper to x = 0, or in Euclidean sections to its rest
   kDriven,  ///< its position is an input (`.mdl` posInput)
   kSlice,   ///< moved from outside by ports, which feel its force; along x unless they say more
-  kPoint,   ///< massless: lies between the modules of a grid, see Connection
+  kPoint,   ///< massless: lies between the modules of a grid, or on any; see Connection and Tap
 };
 
 /// What drives a module beside its links. Of the coordinates that move; the others are ignored.
@@ -218,8 +218,8 @@ struct Grid {
   int rows = 1;
 };
 
-/// Where a kPoint lies. Its position is the weighted mean of the modules around it, and these
-/// receive its force with the same weights: a finger, the place of a bow, a fret, a bridge.
+/// Where a kPoint on a grid lies. Its position is the weighted mean of the modules around it, and
+/// these receive its force with the same weights: a finger, the place of a bow, a fret, a bridge.
 /// along = 0 is the first column, 1 the last; across = 0 the first row, 1 the last.
 struct Connection {
   int mat = 0;   ///< a kPoint, in the section of the grid
@@ -234,6 +234,20 @@ struct Connection {
   double speed = 0.0;  ///< largest change of along and across per time_unit; 0: at once
   double power = 1.0;  ///< W, the most that moving it may bring; it waits where it owes more
   Place place;
+};
+
+/// A kPoint on any modules of its section, with weights of any size and sign that stay: x = sum of
+/// weight x, counted from where these rest, and each receives weight times its force. A lever, the
+/// mean of several places, the hair of a bow, a place on a body that is played by its modes.
+struct Tap {
+  struct Share {
+    int mat = 0;  ///< a mass, cell or ground
+    double weight = 1.0;
+  };
+  int mat = 0;  ///< a kPoint
+  std::vector<Share> shares;
+  Place place;
+  double offset = 0.0;  ///< where its modules are at rest, along x from its own rest, m
 };
 
 /// A hand inside the scene that is not the player's: where it wants to be over time. Its stiffness
@@ -336,6 +350,7 @@ struct Scene {
   std::vector<StringInfo> strings;
   std::vector<Grid> grids;
   std::vector<Connection> connections;
+  std::vector<Tap> taps;
   std::vector<std::string> warnings;  ///< from reading, `file:line:col: warning: ...`
 
   double valueOf(const Value& v) const {

@@ -39,7 +39,7 @@ class Roundings {
   explicit Roundings(const scene::Scene& scene) : scene_(scene) {
     scene::Scene counted = scene;
     int numbers = 0;
-    forNumbers(counted, [&numbers](scene::Value&) { ++numbers; });
+    forNumbers(counted, [&numbers](double&) { ++numbers; });
     while (cases_ <= numbers && cases_ < (numbers > kMany ? kFewCases : kMostCases)) {
       cases_ *= 2;
     }
@@ -47,13 +47,13 @@ class Roundings {
 
   int cases() const { return cases_; }
 
-  scene::Scene at(int number) {
+  scene::Scene at(int turn) {
     scene::Scene rounded = scene_;
     int code = 0;
-    forNumbers(rounded, [&](scene::Value& value) {
+    forNumbers(rounded, [&](double& number) {
       ++code;
-      const bool is_up = code < cases_ ? isOdd(code & number) : (random_() & 1U) != 0;
-      value.factor *= 1.0 + (is_up ? kRoundingOfFloat : -kRoundingOfFloat);
+      const bool is_up = code < cases_ ? isOdd(code & turn) : (random_() & 1U) != 0;
+      number *= 1.0 + (is_up ? kRoundingOfFloat : -kRoundingOfFloat);
     });
     return rounded;
   }
@@ -73,11 +73,17 @@ class Roundings {
   /// Masses of modules that nothing moves, and what is 0, are rounded to what they are.
   template <class Visit>
   static void forNumbers(scene::Scene& scene, const Visit& visit) {
-    const auto see = [&visit](scene::Value& value) {
-      if (value.factor != 0.0) {
-        visit(value);
+    const auto seeNumber = [&visit](double& number) {
+      if (number != 0.0) {
+        visit(number);
       }
     };
+    const auto see = [&seeNumber](scene::Value& value) { seeNumber(value.factor); };
+    for (scene::Tap& tap : scene.taps) {
+      for (scene::Tap::Share& share : tap.shares) {
+        seeNumber(share.weight);
+      }
+    }
     for (scene::Section& section : scene.sections) {
       see(section.medium);
     }

@@ -16,10 +16,9 @@ namespace ergotic::physics {
 EnergyLoss::EnergyLoss(const RatedNetwork& networks)
     : networks_(networks), joined_(networks.scene().mats.size()) {
   for (const scene::Lia& lia : networks.scene().lias) {
-    const int a = networks.islandAt(lia.a);
-    const int b = networks.islandAt(lia.b);
-    if (!networks.isExplicit(lia) && a >= 0 && b >= 0) {
-      joined_.join(a, b);
+    const std::set<int> islands = networks.islandsAt(lia);
+    for (const int island : islands) {
+      joined_.join(island, *islands.begin());
     }
   }
   for (int m = 0; m < static_cast<int>(networks.scene().mats.size()); ++m) {
@@ -52,9 +51,9 @@ bool EnergyLoss::bears(const scene::Lia& lia) {
 }
 
 bool EnergyLoss::surrounds(const scene::Lia& lia) {
-  const int a = networks_.islandAt(lia.a);
-  const int b = networks_.islandAt(lia.b);
-  return !crossesToAMass(lia) && (a < 0 || loses(a)) && (b < 0 || loses(b));
+  const std::set<int> islands = networks_.islandsAt(lia);
+  return !crossesToAMass(lia) &&
+         std::all_of(islands.begin(), islands.end(), [this](int island) { return loses(island); });
 }
 
 bool EnergyLoss::crossesToAMass(const scene::Lia& lia) const {

@@ -51,7 +51,15 @@ LargestNumbers::LargestNumbers(const RatedNetwork& networks)
       energy_ += 0.5 * mass * mat.push->velocity.squaredNorm() +
                  0.5 * node.stiffness.range.highest * mat.position.squaredNorm();
       weight_ += mass * scene.sectionOf(mat).gravity.norm() + mat.push->force.norm();
-      lightest_ = std::min(lightest_, node.mass.range.lowest);
+    }
+    if (const double inverse = networks.inverseMass(static_cast<int>(m)); inverse > 0.0) {
+      lightest_ = std::min(lightest_, 1.0 / inverse);
+    }
+  }
+  for (const scene::Tap& tap : scene.taps) {
+    for (const scene::Tap::Share& share : tap.shares) {
+      const double weight = std::abs(share.weight);
+      leverage_ = std::max({leverage_, weight, weight > 0.0 ? 1.0 / weight : 1.0});
     }
   }
   for (const scene::Lia& lia : scene.lias) {
@@ -77,7 +85,7 @@ double LargestNumbers::forceOf(const scene::Lia& lia) const {
   }
   const double damping = scene::largest(networks_.scene(), lia.damping);
   const double give = networks_.inverseMass(lia.a) + networks_.inverseMass(lia.b);
-  return stiffness * apart + damping * std::sqrt(2.0 * energy_ * give) + weight_;
+  return leverage_ * (stiffness * apart + damping * std::sqrt(2.0 * energy_ * give) + weight_);
 }
 
 double LargestNumbers::reach(double seconds) const {

@@ -27,8 +27,9 @@ class LargestNumbers {
   const RatedNetwork& networks_;
   double farthest_ = 0.0;  // from the origin at the start, or where a hand goes, m
   double energy_ = 0.0;
-  double weight_ = 0.0;  // of all modules
-  double lightest_;      // kg
+  double weight_ = 0.0;    // of all modules
+  double leverage_ = 1.0;  // of taps, the largest either way
+  double lightest_;        // kg
 };
 
 }  // namespace ergotic::physics

@@ -28,7 +28,13 @@ PortLinks::PortLinks(const Network& network)
     : network_(network),
       scene_(network.scene),
       links_of_(linksOfNodes(network)),
-      is_in_hand_(scene_.mats.size(), 0) {
+      is_in_hand_(scene_.mats.size(), 0),
+      is_under_tap_(scene_.mats.size(), 0) {
+  for (const scene::Tap& tap : scene_.taps) {
+    for (const scene::Tap::Share& share : tap.shares) {
+      is_under_tap_[at(share.mat)] = 1;
+    }
+  }
   for (const scene::Port& port : scene_.ports) {
     if (port.agent < 0) {
       is_in_hand_[at(port.mat)] = 1;
@@ -167,7 +173,7 @@ PortLinks::Series PortLinks::series(int from, int l) const {
   for (int links = 1; links < kLongestSeries && all.stiffness > 0.0; ++links) {
     const std::vector<int>& here = links_of_[at(all.end)];
     const scene::Mat& mat = scene_.mats[at(all.end)];
-    if (mat.type != scene::MatType::kMass || here.size() != 2 ||
+    if (mat.type != scene::MatType::kMass || here.size() != 2 || is_under_tap_[at(all.end)] != 0 ||
         leavesModesOut(network_, mat.section)) {  // it gives way less than it seems
       break;
     }

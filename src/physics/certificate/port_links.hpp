@@ -63,8 +63,9 @@ class PortLinks {
 
   const Network& network_;
   const scene::Scene& scene_;
-  std::vector<std::vector<int>> links_of_;  // [mats]
-  std::vector<unsigned char> is_in_hand_;   // [mats]
+  std::vector<std::vector<int>> links_of_;   // [mats]
+  std::vector<unsigned char> is_in_hand_;    // [mats]
+  std::vector<unsigned char> is_under_tap_;  // [mats] what is on a tap pulls at it, too
 };
 
 }  // namespace ergotic::physics

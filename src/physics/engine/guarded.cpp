@@ -27,10 +27,9 @@ GuardedLinks<Real>::GuardedLinks(const std::vector<GuardedLink>& links,
                                  std::vector<GuardedModule<Real>>& modules)
     : motions_(links.size()), modules_(modules) {
   for (const GuardedLink& link : links) {
-    const std::size_t capacity = std::max(link.capacity, link.terms.size());
     const bool euclidean = link.dimensions > 0;
     links_.push_back({euclidean, std::max(1, link.dimensions), terms_.size(), 0, {}});
-    terms_.resize(terms_.size() + capacity);
+    terms_.resize(terms_.size() + link.terms.size());
     setTerms(links_.size() - 1, link.terms.data(), link.terms.size(), link.offset);
   }
 }
@@ -54,7 +53,7 @@ ERGOTIC_REALTIME void GuardedLinks<Real>::setTerms(std::size_t link,
       const bool opens = after == last;
       after += opens ? 0 : 1;
       std::move_backward(after, last, last + 1);
-      *after = {t->slot, t->module, t->component, t->slow_section, t->is_modal, opens, {}};
+      *after = {t->slot, t->module, t->component, t->slow_section, t->is_tap, opens, {}};
       same = after;
       ++last;
     }
@@ -120,7 +119,7 @@ typename GuardedLinks<Real>::Course GuardedLinks<Real>::courseOf(const GuardedVi
     const bool is_held = term.slow_section >= 0;
     // A held module moved when its section did, and will stay until that does again.
     const Real now = is_held && v.due[term.slow_section] == 0 ? Real(0) : v.d[i];
-    const Real next = is_held ? Real(0) : term.is_modal ? v.ahead[i] : stepOf(v, i, now);
+    const Real next = is_held ? Real(0) : term.is_tap ? v.ahead[i] : stepOf(v, i, now);
     const Real fixed = isFree(v, term) ? Real(0) : Real(1);
     for (int k = 0; k < link.dimensions; ++k) {
       c.now[k] += term.weight[k] * now;

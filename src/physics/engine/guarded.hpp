@@ -15,13 +15,12 @@ struct GuardedTerm {
   int component = 0;             ///< 0 x, 1 y, 2 z
   double weight[3] = {1, 0, 0};  ///< in each coordinate of end a less end b
   int slow_section = -1;         ///< where the module is stepped, if more slowly than the link
-  bool is_modal = false;         ///< a sum of modes: its next step is in GuardedView::ahead
+  bool is_tap = false;           ///< its next step is in GuardedView::ahead
 };
 
 struct GuardedLink {
   int dimensions = 0;  ///< 0: scalar; otherwise it works along the line that joins its ends
   std::vector<GuardedTerm> terms;
-  std::size_t capacity = 0;      ///< most terms it will ever have; 0: as many as now
   double offset[3] = {0, 0, 0};  ///< end a less end b while all displacements are 0, m
 };
 
@@ -38,7 +37,7 @@ struct GuardedView {
   const Real* pull = nullptr;
   const unsigned char* due = nullptr;   ///< [sections] 1 if it moved in this step
   const unsigned char* idle = nullptr;  ///< [links] 1 if it sleeps; none: all are awake
-  const Real* ahead = nullptr;          ///< [slots] the step to come of sums of modes
+  const Real* ahead = nullptr;          ///< [slots] the step to come of taps
 };
 
 /// A module as the guarded links on it see it.
@@ -86,7 +85,7 @@ class GuardedLinks {
               GuardedState<Real>* states) const noexcept;
 
   /// Other modules for a link whose end has moved along a string.
-  /// \pre at most `capacity` of the link. Realtime: yes. Cost: O(count^2)
+  /// \pre as many terms as it was made with. Realtime: yes. Cost: O(count^2)
   void setTerms(std::size_t link,
                 const GuardedTerm* terms,
                 std::size_t count,
@@ -103,7 +102,7 @@ class GuardedLinks {
     int module;
     int component;
     int slow_section;
-    bool is_modal;
+    bool is_tap;
     bool opens_module;  // first term of the link on this module
     Real weight[3];
   };

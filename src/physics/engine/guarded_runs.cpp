@@ -15,25 +15,11 @@ GuardedRuns<Real>::GuardedRuns(const scene::Scene& scene,
                                State<Real>& state)
     : layout_(layout),
       points_(points),
-      place_of_slot_(at(layout.slots()), -1),
-      projection_of_slot_(at(layout.slots()), -1),
-      modal_of_slot_(at(layout.slots()), -1),
-      ahead_(layout.modal_places.empty() ? 0 : at(layout.slots())),
+      ahead_(layout.taps.empty() ? 0 : at(layout.slots())),
       members_(guardedGroupsOf(layout)),
+      reach_(scene, layout, members_),
       modules_(members_.empty() ? 0 : at(layout.slots())),
       forces_(members_.empty() ? 0 : at(layout.slots()), Real(0)) {
-  for (const scene::Mat& mat : scene.mats) {
-    rests_.push_back(mat.rest);
-  }
-  for (std::size_t p = 0; p < layout.places.size(); ++p) {
-    place_of_slot_[at(layout.places[p].slot)] = static_cast<int>(p);
-  }
-  for (std::size_t p = 0; p < layout.projections.size(); ++p) {
-    projection_of_slot_[at(layout.projections[p].slot)] = static_cast<int>(p);
-  }
-  for (std::size_t p = 0; p < layout.modal_places.size(); ++p) {
-    modal_of_slot_[at(layout.modal_places[p].slot)] = static_cast<int>(p);
-  }
   for (const GuardedGroup& members : members_) {
     addLinks(members, state);
     reached_.push_back(reachedBy(
@@ -46,34 +32,35 @@ void GuardedRuns<Real>::addLinks(const GuardedGroup& members, State<Real>& state
   const std::vector<double> somewhere(2 * layout_.places.size(), 0.0);
   std::vector<GuardedLink> links;
   std::vector<std::size_t> moving;
-  std::vector<std::size_t> modal;
+  std::vector<std::size_t> taps;
   std::vector<int> slow;
+  GuardedReach::Terms terms;  // has room for those of any link then
   for (const GuardedRef& ref : members.links) {
     const LinkRun& run = layout_.runs[ref.run];
-    if (isOnPlace(run.ends[ref.link].a) || isOnPlace(run.ends[ref.link].b)) {
+    if (reach_.isOnPlace(ref)) {
       moving.push_back(links.size());
     }
-    for (const int end : {run.ends[ref.link].a, run.ends[ref.link].b}) {
-      if (const int p = modalPlaceUnder(end); p >= 0) {
-        modal.push_back(at(p));
-      }
-    }
+    const std::vector<std::size_t> ends = reach_.tapsAt(ref);
+    taps.insert(taps.end(), ends.begin(), ends.end());
     if (run.slow_section >= 0 && (slow.empty() || slow.back() != run.slow_section)) {
       slow.push_back(run.slow_section);
     }
-    links.push_back(describe(ref, somewhere.data()));
+    reach_.find(ref, somewhere.data(), terms);
+    links.push_back({run.dimensions, terms.terms, {}});
+    std::copy_n(terms.offset, 3, links.back().offset);
   }
-  std::sort(modal.begin(), modal.end());
-  modal.erase(std::unique(modal.begin(), modal.end()), modal.end());
+  std::sort(taps.begin(), taps.end());
+  taps.erase(std::unique(taps.begin(), taps.end()), taps.end());
   const std::string name = "guarded" + std::to_string(links_.size());
-  links_.push_back({GuardedLinks<Real>(links, modules_), moving, modal,
+  links_.push_back({GuardedLinks<Real>(links, modules_), moving, taps,
                     std::vector<unsigned char>(links.size(), 0), slow,
                     std::vector<unsigned char>(layout_.sections.size(), 0),
-                    state.arena().template add<GuardedState<Real>>(name, links.size())});
+                    state.arena().template add<GuardedState<Real>>(name, links.size()),
+                    std::move(terms)});
 }
 
-/// The ends of guarded links, all points, and the modules that points hand their forces to. Sums of
-/// modes hand theirs to the modes themselves.
+/// The ends of guarded links, all points, and the modules that points hand their forces to. Taps
+/// hand theirs to their modules themselves.
 template <class Real>
 std::vector<int> GuardedRuns<Real>::reachedBy(const Group& group) const {
   std::vector<int> reached;
@@ -98,7 +85,7 @@ std::vector<int> GuardedRuns<Real>::reachedBy(const Group& group) const {
   for (const std::size_t p : group.places) {
     const PlacePoint& point = layout_.places[p];
     add(point.slot, 1, point.dimensions);
-    for (const int slot : points_.slotsUnder(p)) {
+    for (const int slot : reach_.slotsUnder(p)) {
       add(slot, point.stride, point.dimensions);
     }
   }
@@ -107,100 +94,16 @@ std::vector<int> GuardedRuns<Real>::reachedBy(const Group& group) const {
   return reached;
 }
 
-template <class Real>
-bool GuardedRuns<Real>::isOnPlace(int slot) const noexcept {
-  const int projection = projection_of_slot_[at(slot)];
-  return place_of_slot_[at(slot)] >= 0 ||
-         (projection >= 0 && isOnPlace(layout_.projections[at(projection)].of.slot));
-}
-
-/// The sum of modes that an end is, or that is seen there in another frame; -1: none.
-template <class Real>
-int GuardedRuns<Real>::modalPlaceUnder(int slot) const noexcept {
-  const int projection = projection_of_slot_[at(slot)];
-  return projection >= 0 ? modalPlaceUnder(layout_.projections[at(projection)].of.slot)
-                         : modal_of_slot_[at(slot)];
-}
-
-/// \pre forces of everything else are on the modes
+/// \pre forces of everything else are on the modules
 template <class Real>
 void GuardedRuns<Real>::lookAhead(std::size_t g,
                                   const CoefficientsOf<Real>& c,
                                   const State<Real>& state) noexcept {
-  for (const std::size_t p : links_[g].modal) {
-    ahead_[at(layout_.modal_places[p].slot)] =
-        points_.modal().stepAhead(p, c.masses, state.x(), state.d(), state.f());
-  }
-}
-
-template <class Real>
-GuardedLink GuardedRuns<Real>::describe(const GuardedRef& ref, const double* places) const {
-  const Reach reach = reachOf(ref, places);
-  GuardedLink link;
-  link.dimensions = layout_.runs[ref.run].dimensions;
-  link.terms.assign(reach.terms.begin(), reach.terms.begin() + reach.count);
-  link.capacity = reach.terms.size();
-  std::copy_n(reach.offset, 3, link.offset);
-  return link;
-}
-
-template <class Real>
-typename GuardedRuns<Real>::Reach GuardedRuns<Real>::reachOf(const GuardedRef& ref,
-                                                             const double* places) const noexcept {
-  const LinkRun& run = layout_.runs[ref.run];
-  const int divisor = layout_.sections[at(run.section)].divisor;
-  const auto slowOf = [&](int section) {
-    return layout_.sections[at(section)].divisor > divisor ? section : -1;
-  };
-  const int dimensions = std::max(1, run.dimensions);
-  const LinkEnds& ends = run.ends[ref.link];
-  const Eigen::Matrix3d map = Eigen::Matrix3d::Identity();
-  Reach reach;
-  Eigen::Map<Eigen::Vector3d>(reach.offset) = run.rests[ref.link];
-  reachEnd(ends.a, run.stride_a, dimensions, map, slowOf(run.section_a), places, reach);
-  reachEnd(ends.b, run.stride_b, dimensions, -map, slowOf(run.section_b), places, reach);
-  return reach;
-}
-
-/// \param map  from the coordinates of the end to those of the link, signed
-template <class Real>
-void GuardedRuns<Real>::reachEnd(int slot,
-                                 int stride,
-                                 int dimensions,
-                                 const Eigen::Matrix3d& map,
-                                 int slow_section,
-                                 const double* places,
-                                 Reach& to) const noexcept {
-  const auto add = [&](int module, int step, double weight) {
-    for (int c = 0; c < dimensions; ++c) {
-      GuardedTerm& term = to.terms[to.count++];
-      const bool is_modal = modal_of_slot_[at(module)] >= 0;
-      term = {module + c * step, module, c, {}, slow_section, is_modal};
-      Eigen::Map<Eigen::Vector3d>(term.weight) = weight * map.col(c);
+  for (const std::size_t t : links_[g].taps) {
+    for (int k = 0; k < layout_.taps[t].dimensions; ++k) {
+      ahead_[at(layout_.taps[t].slot + k)] =
+          points_.taps().stepAhead(t, k, c.masses, state.x(), state.d(), state.f());
     }
-  };
-  const int projection = projection_of_slot_[at(slot)];
-  const int place = place_of_slot_[at(slot)];
-  if (projection >= 0) {
-    const ProjectedPoint& point = layout_.projections[at(projection)];
-    Eigen::Matrix3d seen = Eigen::Matrix3d::Zero();
-    seen.topRows(point.dimensions) = point.axes.topRows(point.dimensions);
-    reachEnd(point.of.slot, point.of.stride, point.source_dimensions, map * seen, slow_section,
-             places, to);
-  } else if (place >= 0) {
-    const PlacePoint& point = layout_.places[at(place)];
-    const scene::GridPlace around = points_.around(at(place), places);
-    const Eigen::Vector3d& rest = rests_[at(layout_.mat_of_slot[at(slot)])];
-    for (int i = 0; i < around.count; ++i) {
-      const double weight = around.weights[at(i)];
-      add(points_.slotOf(around, i), point.stride, weight);
-      const Eigen::Vector3d apart = rests_[at(around.mats[at(i)])] - rest;
-      for (int c = 0; c < dimensions; ++c) {
-        Eigen::Map<Eigen::Vector3d>(to.offset) += weight * apart[c] * map.col(c);
-      }
-    }
-  } else {
-    add(slot, stride, 1.0);
   }
 }
 
@@ -224,9 +127,10 @@ GuardedView<Real> GuardedRuns<Real>::viewOf(const Links& links,
 
 template <class Real>
 void GuardedRuns<Real>::followPlaces(std::size_t g, State<Real>& state) noexcept {
+  GuardedReach::Terms& to = links_[g].terms;
   for (const std::size_t l : links_[g].moving) {
-    const Reach reach = reachOf(members_[g].links[l], state.places());
-    links_[g].links.setTerms(l, reach.terms.data(), reach.count, reach.offset);
+    reach_.find(members_[g].links[l], state.places(), to);
+    links_[g].links.setTerms(l, to.terms.data(), to.terms.size(), to.offset);
   }
 }
 
@@ -327,8 +231,8 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::step(const Group& group,
     closeBooks(g, false, state);
   }
   if (any) {
-    points_.scatterToModules(group, forces_.data(), state.places());
-    points_.scatterToModes(group, forces_.data(), state.f());
+    points_.scatterPlaces(group, forces_.data(), state.places());
+    points_.scatterTaps(group, forces_.data(), state.f());
     for (const int slot : reached_[group.guarded.front()]) {
       state.f()[slot] += forces_[at(slot)];
       forces_[at(slot)] = Real(0);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
 #include "ergotic/physics/engine/instrument.hpp"
 #include "physics/engine/guarded.hpp"
+#include "physics/engine/guarded_reach.hpp"
 #include "physics/engine/points.hpp"
 #include "physics/engine/stepper.hpp"
 #include "physics/layout/groups.hpp"
@@ -51,35 +51,19 @@ class GuardedRuns {
   bool isFinite(const State<Real>& state) const noexcept;
 
  private:
-  /// The modules behind both ends of a link.
-  struct Reach {
-    std::array<GuardedTerm, 24> terms;
-    std::size_t count = 0;
-    double offset[3] = {0.0, 0.0, 0.0};
-  };
   /// Links of one rate in one group.
   struct Links {
     GuardedLinks<Real> links;
     std::vector<std::size_t> moving;  // those with an end on a place
-    std::vector<std::size_t> modal;   // modal places that they reach
+    std::vector<std::size_t> taps;    // that they reach as modules
     std::vector<unsigned char> idle;  // [links]
     std::vector<int> slow;            // sections that are stepped more slowly
     std::vector<unsigned char> due;   // [sections] of these, that moved as the present step began
     std::size_t states_at;
+    GuardedReach::Terms terms;  // of one of the moving
   };
 
   void addLinks(const GuardedGroup& members, State<Real>& state);
-  GuardedLink describe(const GuardedRef& ref, const double* places) const;
-  Reach reachOf(const GuardedRef& ref, const double* places) const noexcept;
-  void reachEnd(int slot,
-                int stride,
-                int dimensions,
-                const Eigen::Matrix3d& map,
-                int slow_section,
-                const double* places,
-                Reach& to) const noexcept;
-  bool isOnPlace(int slot) const noexcept;
-  int modalPlaceUnder(int slot) const noexcept;
   void lookAhead(std::size_t g, const CoefficientsOf<Real>& c, const State<Real>& state) noexcept;
   std::vector<int> reachedBy(const Group& group) const;
   GuardedView<Real> viewOf(const Links& links,
@@ -99,12 +83,9 @@ class GuardedRuns {
 
   const Layout& layout_;
   const Points<Real>& points_;
-  std::vector<Eigen::Vector3d> rests_;        // [mats]
-  std::vector<int> place_of_slot_;            // -1: none
-  std::vector<int> projection_of_slot_;       // -1: none
-  std::vector<int> modal_of_slot_;            // -1: none
-  std::vector<Real> ahead_;                   // [slots] how far sums of modes will go
-  std::vector<GuardedGroup> members_;         // guardedGroupsOf
+  std::vector<Real> ahead_;            // [slots] how far taps will go
+  std::vector<GuardedGroup> members_;  // guardedGroupsOf
+  GuardedReach reach_;
   std::vector<GuardedModule<Real>> modules_;  // [slots]
   std::vector<Links> links_;                  // [members_]
   std::vector<Real> forces_;                  // [slots], of guarded links; zero between steps

@@ -60,7 +60,7 @@ std::unique_ptr<Instrument> compileFor(std::shared_ptr<const scene::Scene> writt
   std::optional<ModalScene> modal = withModes(*written, rates, notes);
   const auto played =
       modal ? std::make_shared<const scene::Scene>(std::move(modal->scene)) : written;
-  Layout layout = makeLayout(*played, rates, modal ? modal->points : std::vector<ModalPoint>{});
+  Layout layout = makeLayout(*played, rates);
   Groups groups = makeGroups(*played, rates, layout);
   auto coefficients = std::make_unique<CoefficientsOf<Real>>(*played, rates, layout);
   State<Real> state(layout, options.metered);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "ergotic/scene/grid.hpp"
-#include "physics/engine/modal_points.hpp"
+#include "physics/engine/taps.hpp"
 #include "physics/layout/groups.hpp"
 #include "physics/layout/layout.hpp"
 #include "physics/state/coefficients.hpp"
@@ -15,15 +15,15 @@
 
 namespace ergotic::physics {
 
-/// Massless modules through which links see others: places on grids, other frames.
+/// Massless modules through which links see others: places on grids, taps, other frames.
 /// Each takes its position as a weighted sum and hands its force back with the same weights, so
 /// that no work is lost between.
 template <class Real>
 class Points {
  public:
-  /// \param isa  of the sums over modes
+  /// \param isa  of the sums over modules
   Points(const scene::Scene& scene, const Layout& layout, rt::Isa isa)
-      : layout_(layout), modal_(layout, isa) {
+      : layout_(layout), taps_(layout, isa) {
     for (const PlacePoint& point : layout.places) {
       const scene::Connection& connection =
           scene.connections[static_cast<std::size_t>(point.connection)];
@@ -36,8 +36,8 @@ class Points {
 
   /// Where a place is at the start.
   void placeAtStart(const CoefficientsOf<Real>& c, Real* x, Real* d, double* places) const {
-    for (std::size_t p = 0; p < layout_.modal_places.size(); ++p) {
-      modal_.gather(p, x, d);
+    for (std::size_t t = 0; t < layout_.taps.size(); ++t) {
+      taps_.gather(t, x, d);
     }
     for (std::size_t p = 0; p < layout_.places.size(); ++p) {
       const PlaceCoefficients& wanted = c.places[p];
@@ -57,9 +57,12 @@ class Points {
               State<Real>& state) const noexcept {
     Real* x = state.x();
     Real* d = state.d();
-    for (const std::size_t p : group.modal_places) {
-      if (layout_.isDue(layout_.modal_places[p].section, now)) {
-        gatherModes(p, state);
+    for (const std::size_t t : group.taps) {
+      const TapPoint& tap = layout_.taps[t];
+      if (layout_.isDue(tap.section, now)) {
+        keepLast(tap.slot, tap.dimensions, state);
+        taps_.gather(t, x, d);
+        copyMoved(tap.slot, tap.dimensions, state);
       }
     }
     for (const std::size_t p : group.places) {
@@ -91,8 +94,8 @@ class Points {
     const auto clear = [f](const auto& point) {
       std::fill_n(f + point.slot, point.dimensions, Real(0));
     };
-    for (const std::size_t p : group.modal_places) {
-      f[layout_.modal_places[p].slot] = Real(0);
+    for (const std::size_t t : group.taps) {
+      clear(layout_.taps[t]);
     }
     for (const std::size_t p : group.places) {
       clear(layout_.places[p]);
@@ -104,8 +107,8 @@ class Points {
 
   /// Forces go on to the modules, in the reverse order of gather().
   void scatter(const Group& group, State<Real>& state) const noexcept {
-    scatterToModules(group, state.f(), state.places());
-    scatterToModes(group, state.f(), state.f());
+    scatterPlaces(group, state.f(), state.places());
+    scatterTaps(group, state.f(), state.f());
     for (const std::size_t p : group.places) {
       const PlacePoint& point = layout_.places[p];
       for (int k = 0; k < point.dimensions; ++k) {
@@ -113,8 +116,8 @@ class Points {
       }
     }
   }
-  /// As far as modules that are sums of modes.
-  void scatterToModules(const Group& group, Real* f, const double* places) const noexcept {
+  /// As far as taps.
+  void scatterPlaces(const Group& group, Real* f, const double* places) const noexcept {
     for (const std::size_t p : group.projections) {
       const ProjectedPoint& point = layout_.projections[p];
       for (int k = 0; k < point.dimensions; ++k) {
@@ -147,45 +150,27 @@ class Points {
     }
   }
 
-  /// What these have received goes on to the modes. \param f  forces on modes, added to
-  void scatterToModes(const Group& group, const Real* forces, Real* f) const noexcept {
-    for (const std::size_t p : group.modal_places) {
-      modal_.scatter(p, forces, f);
+  /// What taps have received goes on to their modules. \param f  added to
+  void scatterTaps(const Group& group, const Real* forces, Real* f) const noexcept {
+    for (const std::size_t t : group.taps) {
+      taps_.scatter(t, forces, f);
     }
   }
 
-  const ModalPoints<Real>& modal() const noexcept { return modal_; }
-  /// The modules around a place, and their weights: what else acts through a point needs them.
+  const Taps<Real>& taps() const noexcept { return taps_; }
+
+ private:
+  static constexpr int kTries = 4;  // a string that is not straight: less of the way may cost more
+
   scene::GridPlace around(std::size_t p, const double* places) const noexcept {
     return scene::placeOn(grids_[p], places[2 * p], places[2 * p + 1]);
-  }
-  /// Slots of all modules that a place can come to. Realtime: no
-  std::vector<int> slotsUnder(std::size_t p) const {
-    const scene::Grid& grid = grids_[p];
-    const auto first = layout_.slot_of_mat.begin() + grid.first;
-    return {first, first + grid.columns * grid.rows};
   }
   int slotOf(const scene::GridPlace& around, int i) const noexcept {
     return layout_.slot_of_mat[static_cast<std::size_t>(around.mats[static_cast<std::size_t>(i)])];
   }
 
- private:
-  static constexpr int kTries = 4;  // a string that is not straight: less of the way may cost more
-
   static Real weight(const scene::GridPlace& around, int i) noexcept {
     return static_cast<Real>(around.weights[static_cast<std::size_t>(i)]);
-  }
-
-  /// A section at rest stays where it is.
-  void gatherModes(std::size_t p, State<Real>& state) const noexcept {
-    const ModalPlace& point = layout_.modal_places[p];
-    keepLast(point.slot, 1, state);
-    if (state.asleep()[point.section] == 0) {
-      modal_.gather(p, state.x(), state.d());
-    } else {
-      state.d()[point.slot] = Real(0);
-    }
-    copyMoved(point.slot, 1, state);
   }
 
   /// Remembers the last step; `moved` holds -x until the new position is known.
@@ -333,7 +318,7 @@ class Points {
   }
 
   const Layout& layout_;
-  ModalPoints<Real> modal_;
+  Taps<Real> taps_;
   std::vector<scene::Grid> grids_;      // [places]
   std::vector<Eigen::Vector3d> rests_;  // [mats], if there are places
 };

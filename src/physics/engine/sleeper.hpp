@@ -139,11 +139,6 @@ class Sleeper {
                   Real(0));
       }
     }
-    for (const ModalPlace& place : layout_.modal_places) {
-      if (is_alone && place.section == section) {
-        state.x()[place.slot] = static_cast<Real>(place.offset);
-      }
-    }
   }
 
   const Layout& layout_;

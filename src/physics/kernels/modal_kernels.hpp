@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// Cells, modes among them, and weighted sums over modes (modal_points.hpp). One translation unit
+/// Cells, modes among them, and the weighted sums of taps (taps.hpp). One translation unit
 /// per level of vector instructions compiles the same source (modal_kernels.cpp); all give
 /// the same bits.
 namespace ergotic::physics::kernels {

@@ -35,8 +35,7 @@ class Dealer {
 
   Groups deal() {
     dealRuns();
-    dealBySection(layout_.modal_places, &Group::modal_places,
-                  [](const auto& p) { return p.section; });
+    dealBySection(layout_.taps, &Group::taps, [](const auto& t) { return t.section; });
     dealBySection(layout_.places, &Group::places, [](const auto& p) { return p.section; });
     dealBySection(layout_.projections, &Group::projections,
                   [](const auto& p) { return p.of.section; });
@@ -72,9 +71,9 @@ class Dealer {
       blocks += std::count(group.sections.begin(), group.sections.end(), block.section) > 0 ? 1 : 0;
     }
     return !has_modules && blocks == group.lone.size() && group.runs.empty() &&
-           group.guarded.empty() && group.places.empty() && group.projections.empty() &&
-           group.feeds.empty() && group.followers.empty() && group.pickups.empty() &&
-           group.proxies.empty();
+           group.guarded.empty() && group.taps.empty() && group.places.empty() &&
+           group.projections.empty() && group.feeds.empty() && group.followers.empty() &&
+           group.pickups.empty() && group.proxies.empty();
   }
 
   Group& byIndex(int g) { return g == kHeld ? groups_.held : groups_.running[at(g)]; }
@@ -129,7 +128,7 @@ Group everythingOf(const Layout& layout) {
   Group everything;
   all(everything.sections, layout.sections.size());
   all(everything.feeds, layout.feeds.size());
-  all(everything.modal_places, layout.modal_places.size());
+  all(everything.taps, layout.taps.size());
   all(everything.places, layout.places.size());
   all(everything.projections, layout.projections.size());
   return everything;

@@ -23,7 +23,7 @@ struct Group {
   std::vector<int> sections;                ///< Layout::sections
   std::vector<std::size_t> runs;            ///< Layout::runs, explicit ones
   std::vector<std::size_t> guarded;         ///< guardedGroupsOf
-  std::vector<std::size_t> modal_places;    ///< Layout::modal_places
+  std::vector<std::size_t> taps;            ///< Layout::taps
   std::vector<std::size_t> places;          ///< Layout::places
   std::vector<std::size_t> projections;     ///< Layout::projections
   std::vector<std::size_t> feeds;           ///< Layout::feeds

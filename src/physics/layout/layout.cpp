@@ -178,12 +178,10 @@ int Layout::strideOf(const scene::Scene& scene, int mat) const {
   return m.type == MatType::kPoint ? 1 : sections[at(m.section)].stride;
 }
 
-Layout makeLayout(const scene::Scene& scene,
-                  const Rates& rates,
-                  const std::vector<ModalPoint>& modal_points) {
+Layout makeLayout(const scene::Scene& scene, const Rates& rates) {
   Layout layout;
   MatPlacer(scene, rates, layout).place();
-  placeModalPoints(scene, modal_points, layout);
+  placeTaps(scene, layout);
   placeConnections(scene, layout);
   placeLinks(scene, layout);
   for (const scene::Port& port : scene.ports) {

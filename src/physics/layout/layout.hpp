@@ -12,7 +12,6 @@
 #include "ergotic/scene/scene.hpp"
 #include "physics/layout/blocks/blocks.hpp"
 #include "physics/layout/blocks/link_ends.hpp"
-#include "physics/layout/modal_point.hpp"
 
 namespace ergotic::physics {
 
@@ -74,15 +73,32 @@ struct PlacePoint {
   int guide = -1;      ///< slot
 };
 
-/// A module that is a weighted sum of modes, which lie in consecutive slots.
-struct ModalPlace {
+/// A tap: its slots follow one another. Its modules are taken in the order of their slots, so that
+/// those that lie side by side are summed together.
+struct TapPoint {
+  struct Span {
+    int first = 0;  ///< slot of the x coordinate
+    int count = 0;
+  };
   int slot = 0;
+  int dimensions = 1;
   int section = 0;
-  int first = 0;  ///< slot of its first mode
-  int count = 0;
-  double offset = 0.0;          ///< m, where all modes are at 0
-  std::vector<double> weights;  ///< [count]
+  int stride = 0;       ///< of the modules
+  double offset = 0.0;  ///< of x, where its modules are at rest
+  std::vector<Span> spans;
+  std::vector<double> weights;  ///< of all spans, one after the other
 };
+
+/// Calls `visit(slot of the x coordinate, weight)` for the modules of a tap.
+template <class Visit>
+void forEachShare(const TapPoint& tap, const Visit& visit) {
+  std::size_t w = 0;
+  for (const TapPoint::Span& span : tap.spans) {
+    for (int i = 0; i < span.count; ++i, ++w) {
+      visit(span.first + i, tap.weights[w]);
+    }
+  }
+}
 
 /// A module seen in the frame of a section with fewer coordinates: y = axes x.
 struct ProjectedPoint {
@@ -142,7 +158,7 @@ struct Layout {
   std::vector<int> component;    ///< [slots] 0 x, 1 y, 2 z
   std::vector<SectionRange> sections;
   std::vector<Block> blocks;  ///< by section, then by slot
-  std::vector<ModalPlace> modal_places;
+  std::vector<TapPoint> taps;
   std::vector<PlacePoint> places;
   std::vector<ProjectedPoint> projections;
   std::vector<LinkRun> runs;
@@ -191,10 +207,7 @@ struct Layout {
 
 /// Places everything, decides what is stepped together, and gives proxies to what groups see of
 /// held modules. Realtime: no
-/// \param modal_points  of a scene in which modes stand in for modules
 /// \throws Exception if links join sections whose divisors do not divide one another
-Layout makeLayout(const scene::Scene& scene,
-                  const Rates& rates,
-                  const std::vector<ModalPoint>& modal_points = {});
+Layout makeLayout(const scene::Scene& scene, const Rates& rates);
 
 }  // namespace ergotic::physics

@@ -126,24 +126,29 @@ void placeLink(const scene::Scene& scene, int l, Ends& ends, LinkRun& run, End& 
 
 }  // namespace
 
-void placeModalPoints(const scene::Scene& scene,
-                      const std::vector<ModalPoint>& points,
-                      Layout& layout) {
-  for (const ModalPoint& point : points) {
-    ModalPlace place;
-    place.slot = addSlots(layout, 1, point.mat);
-    place.section = scene.mats[at(point.mat)].section;
-    place.first = layout.slot_of_mat[at(point.first)];
-    place.count = static_cast<int>(point.weights.size());
-    place.offset = point.offset;
-    place.weights = point.weights;
-    for (int i = 0; i < place.count; ++i) {
-      if (layout.slot_of_mat[at(point.first + i)] != place.first + i) {
-        throw Exception("modes do not lie side by side");
-      }
+void placeTaps(const scene::Scene& scene, Layout& layout) {
+  for (const scene::Tap& tap : scene.taps) {
+    TapPoint point;
+    point.section = scene.mats[at(tap.mat)].section;
+    const SectionRange& range = layout.sections[at(point.section)];
+    point.dimensions = range.dimensions;
+    point.stride = range.stride;
+    point.offset = tap.offset;
+    point.slot = addSlots(layout, point.dimensions, tap.mat);
+    layout.slot_of_mat[at(tap.mat)] = point.slot;
+    std::vector<std::pair<int, double>> shares;  // by slot
+    for (const scene::Tap::Share& share : tap.shares) {
+      shares.emplace_back(layout.slot_of_mat[at(share.mat)], share.weight);
     }
-    layout.slot_of_mat[at(point.mat)] = place.slot;
-    layout.modal_places.push_back(std::move(place));
+    std::sort(shares.begin(), shares.end());
+    for (const auto& [slot, weight] : shares) {
+      if (point.spans.empty() || slot != point.spans.back().first + point.spans.back().count) {
+        point.spans.push_back({slot, 0});
+      }
+      ++point.spans.back().count;
+      point.weights.push_back(weight);
+    }
+    layout.taps.push_back(std::move(point));
   }
 }
 

@@ -218,6 +218,9 @@ void findLoneBlocks(const scene::Scene& scene, const Rates& rates, Layout& layou
       }
     }
   }
+  for (const TapPoint& tap : layout.taps) {
+    forEachShare(tap, [&](int slot, double) { touch(slot); });
+  }
   for (const PlacePoint& point : layout.places) {
     touch(point.guide);
     const scene::Grid& grid = scene.grids[at(scene.connections[at(point.connection)].grid)];

@@ -16,8 +16,7 @@ namespace {
 
 using scene::Scene;
 
-constexpr double kRounding = 1e-10;    // of the largest eigenvalue
-constexpr double kIndependent = 1e-9;  // of how far two places move each other
+constexpr double kRounding = 1e-10;  // of the largest eigenvalue
 
 bool moves(const Scene& scene, const scene::Connection& place) {
   const auto changes = [](const scene::Value& v) { return v.parameter >= 0 || v.audio >= 0; };
@@ -98,28 +97,6 @@ class Planner {
     return std::nullopt;
   }
 
-  /// Guarded links on two places know of each other only if these move by themselves.
-  std::optional<Offence> checkGuarded() const {
-    std::vector<const scene::Lia*> guarded;
-    for (const scene::Lia& lia : scene_.lias) {
-      const bool is_here = touch_of_[at(lia.a)] >= 0 || touch_of_[at(lia.b)] >= 0;
-      if (lia.scheme == scene::Scheme::kGuarded && is_here) {
-        guarded.push_back(&lia);
-      }
-    }
-    for (const scene::Lia* one : guarded) {
-      for (const scene::Lia* other : guarded) {
-        if (actTogether(*one, *other)) {
-          return Offence{one->place, "guarded link '" + one->name + "' acts at one place and '" +
-                                         other->name +
-                                         "' at another that moves in the same step, as modes "
-                                         "are left out or both lie between the same modules"};
-        }
-      }
-    }
-    return std::nullopt;
-  }
-
  private:
   std::optional<Offence> findTouches() {
     for (std::size_t l = 0; l < scene_.lias.size(); ++l) {
@@ -144,7 +121,18 @@ class Planner {
     }
     for (int c = 0; c < static_cast<int>(scene_.connections.size()); ++c) {
       if (isOnParts(scene_.connections[at(c)])) {
-        if (std::optional<Offence> offence = touchBetween(c)) {
+        plan_.connections.push_back(c);
+        if (std::optional<Offence> offence = touchPlace(scene_.connections[at(c)])) {
+          return offence;
+        }
+      }
+    }
+    for (int t = 0; t < static_cast<int>(scene_.taps.size()); ++t) {
+      const scene::Tap& tap = scene_.taps[at(t)];
+      if (std::any_of(tap.shares.begin(), tap.shares.end(),
+                      [this](const auto& share) { return isOfPart(share.mat); })) {
+        plan_.taps.push_back(t);
+        if (std::optional<Offence> offence = touchPoint(tap)) {
           return offence;
         }
       }
@@ -164,46 +152,49 @@ class Planner {
     plan_.touches.push_back(std::move(touch));
   }
 
+  bool isOfPart(int mat) const { return plan_.linear.part_of[at(mat)] >= 0; }
+
   bool isOnParts(const scene::Connection& place) const {
     const scene::Grid& grid = scene_.grids[at(place.grid)];
     const auto first = plan_.linear.part_of.begin() + grid.first;
     return std::any_of(first, first + grid.columns * grid.rows, [](int part) { return part >= 0; });
   }
 
-  std::optional<Offence> touchBetween(int c) {
-    const scene::Connection& place = scene_.connections[at(c)];
-    const scene::Mat& point = scene_.mats[at(place.mat)];
-    const std::string who = "point '" + point.name + "' ";
+  std::optional<Offence> touchPlace(const scene::Connection& place) {
     if (moves(scene_, place)) {
-      return Offence{place.place, who + "can move, allowed on modes: points that stay"};
+      return Offence{place.place, "point '" + scene_.mats[at(place.mat)].name +
+                                      "' can move, allowed on modes: points that stay"};
     }
     const double along =
         std::clamp(scene_.valueOf(place.along), place.along_minimum, place.along_maximum);
     const scene::GridPlace around =
         scene::placeOn(scene_.grids[at(place.grid)], along, scene_.valueOf(place.across));
-    ModalTouch touch{place.mat, -1, {}, -point.rest.x()};
-    for (int i = 0; i < around.count; ++i) {
-      const int m = around.mats[at(i)];
-      const double weight = around.weights[at(i)];
-      const scene::Mat& mat = scene_.mats[at(m)];
-      const int part = plan_.linear.part_of[at(m)];
-      touch.offset += weight * mat.rest.x();
-      if (weight == 0.0) {
+    scene::Tap tap{place.mat, {}, place.place, -scene_.mats[at(place.mat)].rest.x()};
+    for (std::size_t i = 0; i < at(around.count); ++i) {
+      tap.shares.push_back({around.mats[i], around.weights[i]});
+      tap.offset += around.weights[i] * scene_.mats[at(around.mats[i])].rest.x();
+    }
+    return touchPoint(tap);
+  }
+
+  std::optional<Offence> touchPoint(const scene::Tap& tap) {
+    ModalTouch touch{tap.mat, -1, {}, tap.offset};
+    for (const scene::Tap::Share& share : tap.shares) {
+      if (share.weight == 0.0) {
         continue;
       }
-      if (part >= 0 && (touch.part < 0 || touch.part == part)) {
-        touch.part = part;
-        touch.shares.emplace_back(m, weight);
-      } else if (part < 0 && mat.type == scene::MatType::kGround && !isForceHeard(m)) {
-        touch.offset += weight * (mat.position.x() - mat.rest.x());
-      } else {
-        return Offence{place.place,
-                       who +
-                           "lies between modules that do not share their modes, or on one "
+      const int part = plan_.linear.part_of[at(share.mat)];
+      const bool is_shared = part >= 0 && (touch.part < 0 || touch.part == part);
+      const bool is_ground = scene_.mats[at(share.mat)].type == scene::MatType::kGround;
+      if (!is_shared && !(is_ground && !isForceHeard(share.mat))) {
+        return Offence{tap.place,
+                       "point '" + scene_.mats[at(tap.mat)].name +
+                           "' lies between modules that do not share their modes, or on one "
                            "whose force is an output"};
       }
+      touch.part = is_shared ? part : touch.part;
+      touch.shares.push_back(share);
     }
-    plan_.connections.push_back(c);
     add(std::move(touch));
     return std::nullopt;
   }
@@ -234,52 +225,13 @@ class Planner {
     }
     to.weights.setZero(static_cast<Eigen::Index>(touches.size()), vectors.cols());
     for (std::size_t t = 0; t < touches.size(); ++t) {
-      for (const auto& [m, weight] : touches[t]->shares) {
-        const Eigen::Index i = plan_.linear.row_of[at(m)];
-        to.weights.row(static_cast<Eigen::Index>(t)) += weight / root[i] * vectors.row(i);
-      }
-    }
-  }
-
-  bool areCoupled(int one, int other) const {
-    if (one < 0 || other < 0) {
-      return false;
-    }
-    const ModalTouch& a = plan_.touches[at(one)];
-    const ModalTouch& b = plan_.touches[at(other)];
-    if (a.part < 0 || a.part != b.part) {
-      return false;
-    }
-    const ModalPart& part = plan_.parts[at(a.part)];
-    double own_a = 0.0;
-    double own_b = 0.0;
-    double both = 0.0;
-    for (const int k : part.kept) {
-      const double wa = part.weights(rowOf(one), k);
-      const double wb = part.weights(rowOf(other), k);
-      own_a += wa * wa;
-      own_b += wb * wb;
-      both += wa * wb;
-    }
-    return std::abs(both) > kIndependent * std::sqrt(own_a * own_b);
-  }
-
-  bool actTogether(const scene::Lia& one, const scene::Lia& other) const {
-    for (const int a : {one.a, one.b}) {
-      for (const int b : {other.a, other.b}) {
-        if (a < b && areCoupled(touch_of_[at(a)], touch_of_[at(b)])) {
-          return true;
+      for (const scene::Tap::Share& share : touches[t]->shares) {
+        if (isOfPart(share.mat)) {
+          const Eigen::Index i = plan_.linear.row_of[at(share.mat)];
+          to.weights.row(static_cast<Eigen::Index>(t)) += share.weight / root[i] * vectors.row(i);
         }
       }
     }
-    return false;
-  }
-
-  /// Of a touch among those of its part.
-  Eigen::Index rowOf(int touch) const {
-    const int part = plan_.touches[at(touch)].part;
-    return std::count_if(plan_.touches.begin(), plan_.touches.begin() + touch,
-                         [part](const ModalTouch& t) { return t.part == part; });
   }
 
   const Network& network_;
@@ -352,9 +304,6 @@ bool planModes(const Network& network,
   const double step = StepUnits(scene, rates, divisorOf(section, rates)).step;
   const int kept = is_free_to_choose ? cost.modes : std::min(section.modes, cost.modes);
   plan.error = keepModes(plan.parts, kept, step);
-  if (const std::optional<Offence> offence = planner.checkGuarded()) {
-    return refuse(*offence);
-  }
   cost.modal_ns *= static_cast<double>(kept) / cost.modes;
   notes.push_back(noteAt(scene, section.place) + who + "is played by " + std::to_string(kept) +
                   " modes, touched at " + std::to_string(plan.touches.size()) +

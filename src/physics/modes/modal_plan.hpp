@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "ergotic/physics/rates.hpp"
@@ -15,9 +14,9 @@ namespace ergotic::physics {
 /// A place of a part that something touches: a module, or one between modules.
 struct ModalTouch {
   int mat = 0;
-  int part = -1;                               ///< -1: it does not move
-  std::vector<std::pair<int, double>> shares;  ///< module of the part, weight
-  double offset = 0.0;                         ///< where these are at 0, m from rest
+  int part = -1;                          ///< -1: it does not move
+  std::vector<scene::Tap::Share> shares;  ///< of modules of the part, and of grounds
+  double offset = 0.0;                    ///< where these are at rest, m from its own
 };
 
 /// What modes stand in for in one section, and where it is touched.
@@ -26,6 +25,7 @@ struct ModalPlan {
   LinearParts linear;
   std::vector<ModalTouch> touches;
   std::vector<int> connections;  ///< in Scene::connections, those among the touches
+  std::vector<int> taps;         ///< the same in Scene::taps
   std::vector<ModalPart> parts;  ///< [linear.parts]
   ModalError error;              ///< of leaving modes out
 };

@@ -28,6 +28,7 @@ class Rewriter {
     to_.scene.mats.clear();
     to_.scene.lias.clear();
     to_.scene.strings.clear();
+    to_.scene.taps.clear();
     copyMats();
     copyLias();
     for (const ModalPlan& plan : plans_) {
@@ -94,16 +95,21 @@ class Rewriter {
     }
     std::vector<Eigen::Index> next(plan.parts.size(), 0);
     for (const ModalTouch& touch : plan.touches) {
-      ModalPoint point{newIndex(touch.mat), 0, touch.offset, {}};
+      scene::Tap tap{newIndex(touch.mat), {}, from_.mats[at(touch.mat)].place, touch.offset};
       if (touch.part >= 0) {
         const ModalPart& part = plan.parts[at(touch.part)];
         const Eigen::Index row = next[at(touch.part)]++;
-        point.first = first_of[at(touch.part)];
+        int cell = first_of[at(touch.part)];
         for (const int k : part.kept) {
-          point.weights.push_back(part.weights(row, k));
+          tap.shares.push_back({cell++, part.weights(row, k)});
         }
       }
-      to_.points.push_back(std::move(point));
+      for (const scene::Tap::Share& share : touch.shares) {
+        if (plan.linear.part_of[at(share.mat)] < 0) {
+          tap.shares.push_back({newIndex(share.mat), share.weight});
+        }
+      }
+      to_.scene.taps.push_back(std::move(tap));
     }
     for (std::size_t p = 0; p < plan.parts.size(); ++p) {
       addPictures(plan.linear.parts[p], plan.parts[p], first_of[p]);
@@ -169,11 +175,7 @@ class Rewriter {
     to_.scene.connections.clear();
     std::vector<int> grid_of(from_.grids.size(), -1);
     for (int c = 0; c < static_cast<int>(from_.connections.size()); ++c) {
-      const bool is_modal = std::any_of(plans_.begin(), plans_.end(), [c](const ModalPlan& plan) {
-        return std::find(plan.connections.begin(), plan.connections.end(), c) !=
-               plan.connections.end();
-      });
-      if (is_modal) {
+      if (isTouched(&ModalPlan::connections, c)) {
         continue;
       }
       scene::Connection place = from_.connections[at(c)];
@@ -188,6 +190,22 @@ class Rewriter {
       place.guide = place.guide < 0 ? -1 : newIndex(place.guide);
       to_.scene.connections.push_back(std::move(place));
     }
+    for (int t = 0; t < static_cast<int>(from_.taps.size()); ++t) {
+      if (!isTouched(&ModalPlan::taps, t)) {
+        scene::Tap tap = from_.taps[at(t)];
+        tap.mat = newIndex(tap.mat);
+        for (scene::Tap::Share& share : tap.shares) {
+          share.mat = newIndex(share.mat);
+        }
+        to_.scene.taps.push_back(std::move(tap));
+      }
+    }
+  }
+
+  bool isTouched(std::vector<int> ModalPlan::*among, int point) const {
+    return std::any_of(plans_.begin(), plans_.end(), [&](const ModalPlan& plan) {
+      return std::count((plan.*among).begin(), (plan.*among).end(), point) > 0;
+    });
   }
 
   const Scene& from_;

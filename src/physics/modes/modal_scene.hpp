@@ -8,7 +8,6 @@
 
 #include "ergotic/physics/rates.hpp"
 #include "ergotic/scene/scene.hpp"
-#include "physics/layout/modal_point.hpp"
 
 namespace ergotic::physics {
 
@@ -29,11 +28,10 @@ struct AsWritten {
 /// Forces in the very first step, before links have acted: index of a module, N.
 using FirstForces = std::vector<std::pair<int, double>>;
 
-/// A scene in which modes stand in for linear parts of sections, for `compile` alone: everything
-/// else knows the scene as it was written.
+/// A scene in which modes, cells behind taps, stand in for linear parts of sections, for `compile`
+/// alone: everything else knows the scene as it was written.
 struct ModalScene {
   scene::Scene scene;
-  std::vector<ModalPoint> points;
   AsWritten as_written;
   FirstForces first_forces;
 };

@@ -46,7 +46,7 @@ std::map<int, Coupling> findCouplings(const RatedNetwork& networks) {
     if (lia.type == scene::LiaType::kSpringDamper && networks.isExplicit(lia)) {
       continue;
     }
-    for (const int name : std::set<int>{networks.islandAt(lia.a), networks.islandAt(lia.b)}) {
+    for (const int name : networks.islandsAt(lia)) {
       const auto coupling = found.find(name);
       if (coupling != found.end()) {
         coupling->second.nonlinear.push_back(static_cast<int>(l));

@@ -84,8 +84,24 @@ double LinearNetwork::massAt(int mat) const {
   return effectiveMass(sharesOf(mat), 1.0);
 }
 
+/// Modules of a tap may lie on bodies that do not know of each other.
 double LinearNetwork::impedanceAt(int mat) const {
   const Shares shares = sharesOf(mat);
+  if (!isTap(network_, mat)) {
+    return impedanceOf(shares);
+  }
+  double mobility = 0.0;
+  for (const auto& [node, weight] : shares) {
+    const double impedance = impedanceOf({{node, 1.0}});
+    if (impedance == 0.0) {
+      return 0.0;
+    }
+    mobility += weight * weight / impedance;
+  }
+  return 1.0 / mobility;
+}
+
+double LinearNetwork::impedanceOf(const Shares& shares) const {
   double impedance = 0.0;
   double weights = 0.0;
   for (const auto& [node, weight] : shares) {

@@ -34,7 +34,8 @@ class LinearNetwork {
   double stiffnessAt(int mat) const;
 
   /// Resistance that a wave leaving from there meets, kg/s: the sum over its links of
-  /// sqrt(K min(M_i, M_j)) and what damps it to the ground; 0 if it has none of these.
+  /// sqrt(K min(M_i, M_j)) and what damps it to the ground; 0 if it has none of these. At a tap
+  /// 1/(sum of w^2/Z) over its modules.
   /// \pre moves(mat)
   double impedanceAt(int mat) const;
 
@@ -64,6 +65,7 @@ class LinearNetwork {
   void addSprings(int section, int absent);
   bool counts(const scene::Lia& lia, int section, int absent) const;
   Shares sharesOf(int mat) const { return sharesAmong(network_, node_of_mat_, mat); }
+  double impedanceOf(const Shares& shares) const;
   double effectiveMass(const Shares& shares, double sign) const;
   Part partAround(int mat) const;
 

@@ -89,14 +89,27 @@ std::vector<double> linesOf(
   return lines;
 }
 
+void addShare(const std::vector<Network::Node>& nodes, int mat, double weight, Shares& to) {
+  if (weight != 0.0 && nodes[at(mat)].is_free) {
+    to.push_back({mat, weight});
+  }
+}
+
 Shares freeShares(const std::vector<Network::Node>& nodes, const scene::GridPlace& place) {
   Shares shares;
   for (std::size_t i = 0; i < at(place.count); ++i) {
-    if (place.weights[i] != 0.0 && nodes[at(place.mats[i])].is_free) {
-      shares.push_back({place.mats[i], place.weights[i]});
-    }
+    addShare(nodes, place.mats[i], place.weights[i], shares);
   }
   return shares;
+}
+
+Network::Point pointOf(const std::vector<Network::Node>& nodes, const scene::Tap& tap) {
+  Network::Point point;
+  for (const scene::Tap::Share& share : tap.shares) {
+    addShare(nodes, share.mat, share.weight, point.now);
+  }
+  point.places = {point.now};
+  return point;
 }
 
 /// The largest eigenvalue is convex in the place between two grid lines, so places on them suffice.
@@ -139,6 +152,10 @@ Network::Network(const scene::Scene& of) : scene(of), point_of(of.mats.size(), -
     point_of[at(connection.mat)] = static_cast<int>(points.size());
     points.push_back(pointOf(scene, nodes, connection));
   }
+  for (const scene::Tap& tap : scene.taps) {
+    point_of[at(tap.mat)] = static_cast<int>(points.size());
+    points.push_back(pointOf(nodes, tap));
+  }
 }
 
 Shares sharesNow(const Network& network, int node) {
@@ -173,6 +190,10 @@ Shares endsAmong(const Network& network,
     ends.push_back({row, -weight});
   }
   return ends;
+}
+
+bool isTap(const Network& network, int node) {
+  return network.point_of[at(node)] >= static_cast<int>(network.scene.connections.size());
 }
 
 bool leavesModesOut(const Network& network, int section) {

@@ -37,7 +37,7 @@ struct Network {
     Varying stiffness;  ///< to the ground
     Varying damping;    ///< to the ground, its section's medium included
   };
-  /// What a point can lie between.
+  /// What a point can lie between, or is the weighted sum of.
   struct Point {
     Shares now;                  ///< at the present values of the parameters
     std::vector<Shares> places;  ///< on all grid lines that it can reach: the worst is among them
@@ -65,7 +65,7 @@ struct Network {
   std::vector<Node> nodes;    ///< [Scene::mats]
   std::vector<Link> links;    ///< [Scene::lias]
   std::vector<Bend> bends;    ///< [Scene::bends]
-  std::vector<Point> points;  ///< [Scene::connections]
+  std::vector<Point> points;  ///< [Scene::connections], then [Scene::taps]
   std::vector<int> point_of;  ///< [nodes] index in `points`, -1: no point
 };
 
@@ -77,6 +77,8 @@ std::vector<Shares> placesOf(const Network& network, int node);
 /// part of the network. \param row_of  [nodes] -1: outside, held
 Shares sharesAmong(const Network& network, const std::vector<int>& row_of, int node);
 Shares endsAmong(const Network& network, const std::vector<int>& row_of, const Network::Link& link);
+
+bool isTap(const Network& network, int node);
 
 /// True if a section is to be played by fewer modes than it has free modules.
 bool leavesModesOut(const Network& network, int section);

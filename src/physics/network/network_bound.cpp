@@ -56,18 +56,25 @@ NetworkBound NetworkBound::withMovingEverywhere() const {
   NetworkBound all = *this;
   all.moving_.clear();
   for (const MovingLink& link : moving_) {
-    // At every place all nodes of the end together carry |weights| of one sign that sum to at most
-    // 1, so (w x)^2 <= sum w x^2: a load on each node by itself is the larger one.
+    // Of the weights of one sign at a place, which add up to s, (w x)^2 <= s sum |w| x^2: a load on
+    // each node by itself is the larger one.
     std::map<int, double> largest[2];
+    double most[2] = {0.0, 0.0};
     for (const Shares& place : link.places) {
+      double sum[2] = {0.0, 0.0};
       for (const Share& share : place) {
-        double& weight = largest[share.weight < 0.0 ? 1 : 0][share.node];
+        const int side = share.weight < 0.0 ? 1 : 0;
+        double& weight = largest[side][share.node];
         weight = std::max(weight, std::abs(share.weight));
+        sum[side] += std::abs(share.weight);
       }
+      most[0] = std::max(most[0], sum[0]);
+      most[1] = std::max(most[1], sum[1]);
     }
-    double ease[2] = {0.0, 0.0};  // largest weight / mass of either end
+    double ease[2] = {0.0, 0.0};  // largest load / mass of either sign
     for (const int side : {0, 1}) {
-      for (const auto& [node, weight] : largest[side]) {
+      for (auto& [node, weight] : largest[side]) {
+        weight *= most[side];
         ease[side] = std::max(ease[side], weight / mass(node));
       }
     }

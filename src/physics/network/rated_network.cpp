@@ -73,13 +73,15 @@ int RatedNetwork::divisorOfMat(int mat) const {
 }
 
 double RatedNetwork::inverseMass(int mat) const {
-  double inverse = 0.0;
+  double largest = 0.0;
   for (const Shares& place : placesOf(mat)) {
+    double inverse = 0.0;
     for (const Share& share : place) {
-      inverse = std::max(inverse, 1.0 / nodeOf(share.node).mass.range.lowest);
+      inverse += share.weight * share.weight / nodeOf(share.node).mass.range.lowest;
     }
+    largest = std::max(largest, inverse);
   }
-  return inverse;
+  return largest;
 }
 
 double RatedNetwork::stepOf(const scene::Lia& lia) const {
@@ -149,18 +151,27 @@ bool RatedNetwork::onlyBrakes(const scene::Lia& lia) const {
   return law.onlyBrakes(lia) && (along_slip || !hasLineThatTurns(lia));
 }
 
-int RatedNetwork::islandAt(int end) const {
-  for (const Shares& place : placesOf(end)) {
-    if (!place.empty()) {
-      return islandOf(place.front().node);
+std::set<int> RatedNetwork::islandsAt(const scene::Lia& lia) const {
+  std::set<int> islands;
+  for (const int end : {lia.a, lia.b}) {
+    for (const Shares& place : placesOf(end)) {
+      for (const Share& share : place) {
+        islands.insert(islandOf(share.node));
+      }
     }
   }
-  return -1;
+  return islands;
 }
 
 int RatedNetwork::islandOf(const scene::Lia& lia) const {
-  const int island = islandAt(lia.a);
-  return island >= 0 ? island : islandAt(lia.b);
+  for (const int end : {lia.a, lia.b}) {
+    for (const Shares& place : placesOf(end)) {
+      if (!place.empty()) {
+        return islandOf(place.front().node);
+      }
+    }
+  }
+  return -1;
 }
 
 bool RatedNetwork::hasLinkedMatched(int divisor) const {

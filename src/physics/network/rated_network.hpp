@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include "ergotic/physics/rates.hpp"
@@ -26,7 +27,7 @@ class RatedNetwork {
   const Slopes& slopes(int lia) const { return linkOf(lia).slopes; }
   int divisorOfMat(int mat) const;
 
-  /// Largest 1/M of a module, or of the lightest one that a point can lie on; 0: held.
+  /// Largest 1/M of a module, or sum of w^2/M of a point, wherever it can lie; 0: held.
   double inverseMass(int mat) const;
   /// h^2 (1/Ma + 1/Mb) and h (1/Ma + 1/Mb) of a link at the rate it is computed at.
   double inverseMassStep2(const scene::Lia& lia) const;
@@ -54,9 +55,9 @@ class RatedNetwork {
 
   /// Modules that explicit links join, at whatever rates, are one island, named by one of them.
   int islandOf(int mat) const { return island_[static_cast<std::size_t>(mat)]; }
-  /// That of the modules at an end of a link; -1 if no force moves any.
-  int islandAt(int end) const;
-  /// That of a link's modules; -1 if no force moves any.
+  /// Those of the modules at both ends of a link that forces move: one, if it is explicit.
+  std::set<int> islandsAt(const scene::Lia& lia) const;
+  /// That of an explicit link's modules; -1 if no force moves any.
   int islandOf(const scene::Lia& lia) const;
 
   /// Everything that is computed at one rate, slower ends held.

@@ -2,7 +2,6 @@
 #include "physics/settling/split_tables.hpp"
 
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "at.hpp"
@@ -90,10 +89,7 @@ using Give = double (*)(const NetworkBound& network, const Shares& ends);
 double heldBy(const RatedNetwork& networks, const Lia& lia, Give giveOf) {
   const int divisor = networks.divisorOfMat(lia.a);
   double give = 0.0;
-  for (const int island : std::set<int>{networks.islandAt(lia.a), networks.islandAt(lia.b)}) {
-    if (island < 0) {
-      continue;
-    }
+  for (const int island : networks.islandsAt(lia)) {
     if (!isOfOneRate(networks, island, divisor)) {
       return 0.0;
     }

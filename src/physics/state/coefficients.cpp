@@ -86,13 +86,12 @@ void CoefficientsOf<Real>::fillMasses(const scene::Scene& scene,
       }
     }
   }
-  for (const ModalPlace& point : layout.modal_places) {
+  for (const TapPoint& tap : layout.taps) {
     double inverse = 0.0;
-    for (int i = 0; i < point.count; ++i) {
-      const double weight = point.weights[at(i)];
-      inverse += weight * weight * static_cast<double>(masses.inverse_mass[at(point.first + i)]);
-    }
-    masses.inverse_mass[at(point.slot)] = static_cast<Real>(inverse);
+    forEachShare(tap, [&](int slot, double weight) {
+      inverse += weight * weight * static_cast<double>(masses.inverse_mass[at(slot)]);
+    });
+    std::fill_n(masses.inverse_mass.begin() + tap.slot, tap.dimensions, static_cast<Real>(inverse));
   }
 }
 

@@ -139,6 +139,12 @@ class Cutter {
       connection.mat = moved(connection.mat);
       connection.guide = moved(connection.guide);
     }
+    for (Tap& tap : to_.taps) {
+      tap.mat = moved(tap.mat);
+      for (Tap::Share& share : tap.shares) {
+        share.mat = moved(share.mat);
+      }
+    }
     for (Grid& grid : to_.grids) {
       grid.first = moved(grid.first);
     }
@@ -256,6 +262,13 @@ std::string reasonAgainstCutting(const Scene& scene, int string) {
   for (const Connection& connection : scene.connections) {
     if (isInner(info, connection.guide)) {
       return "point '" + scene.mats[at(connection.mat)].name + "' is guided by one of its masses";
+    }
+  }
+  for (const Tap& tap : scene.taps) {
+    for (const Tap::Share& share : tap.shares) {
+      if (isInner(info, share.mat)) {
+        return "tap '" + scene.mats[at(tap.mat)].name + "' lies on one of its masses";
+      }
     }
   }
   return {};

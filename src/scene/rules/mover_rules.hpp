@@ -2,20 +2,14 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "ergotic/scene/scene.hpp"
 #include "scene/limits.hpp"
+#include "scene/rules/fault.hpp"
 
 namespace ergotic::scene {
 
 constexpr Limits kTargetLimits{"m", -1e6, 1e6};  ///< of agents: differences stay finite
-
-/// What is wrong, and where.
-struct Fault {
-  Place place;
-  std::string text;
-};
 
 /// One port for a slice, one port for a coordinate of a module, one position input for a driven
 /// module.

@@ -13,6 +13,7 @@
 #include "scene/names.hpp"
 #include "scene/rules/bend_rules.hpp"
 #include "scene/rules/lia_rules.hpp"
+#include "scene/rules/point_rules.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -32,13 +33,17 @@ class Validator {
     each(scene_.sections, "section", &Validator::section);
     each(scene_.mats, "module", &Validator::mat);
     std::for_each(scene_.grids.begin(), scene_.grids.end(), [this](const Grid& g) { grid(g); });
-    connections();
+    for (const Connection& c : scene_.connections) {
+      index(c.place, "point of a connection", c.mat, scene_.mats.size());
+      connection(c, scene_.mats[static_cast<std::size_t>(c.mat)]);
+    }
     each(scene_.lias, "link", &Validator::lia);
     each(scene_.inputs, "input", &Validator::input);
     each(scene_.outputs, "output", &Validator::output);
     each(scene_.agents, "agent", &Validator::agent);
     each(scene_.ports, "port", &Validator::port);
-    for (const std::optional<Fault>& fault : {movedTwice(scene_), wrongBend(scene_)}) {
+    for (const std::optional<Fault>& fault :
+         {misplacedPoint(scene_), movedTwice(scene_), wrongBend(scene_)}) {
       if (fault) {
         fail(fault->place, fault->text);
       }
@@ -187,23 +192,6 @@ class Validator {
       if (m.section != first.section || m.type == MatType::kPoint) {
         fail(m.place, "module " + quoted(m.name) + " of " + what +
                           " is a point or in another section, allowed: modules of one section");
-      }
-    }
-  }
-
-  /// Every point has one connection.
-  void connections() const {
-    std::vector<int> found(scene_.mats.size(), 0);
-    for (const Connection& c : scene_.connections) {
-      index(c.place, "point of a connection", c.mat, scene_.mats.size());
-      connection(c, scene_.mats[static_cast<std::size_t>(c.mat)]);
-      ++found[static_cast<std::size_t>(c.mat)];
-    }
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      const Mat& m = scene_.mats[i];
-      if (m.type == MatType::kPoint && found[i] != 1) {
-        fail(m.place, "point " + quoted(m.name) + " has " + std::to_string(found[i]) +
-                          " connections, allowed: 1");
       }
     }
   }

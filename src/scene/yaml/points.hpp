@@ -38,4 +38,9 @@ int pointAt(SceneBuilder& builder, const std::string& text, Place place);
 /// \throws TextError  if the name is taken
 int addPoint(SceneBuilder& builder, const std::string& name, Connection connection);
 
+/// Adds a tap and its kPoint, which starts where its modules take it.
+/// \param tap  all but `mat`; one share at least
+/// \throws TextError  if the name is taken
+void addTap(SceneBuilder& builder, const std::string& name, Tap tap);
+
 }  // namespace ergotic::scene

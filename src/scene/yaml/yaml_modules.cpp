@@ -2,13 +2,14 @@
 #include <utility>
 #include <vector>
 
+#include "scene/rules/point_rules.hpp"
 #include "scene/yaml/points.hpp"
 #include "scene/yaml/yaml_elements.hpp"
 
 namespace ergotic::scene {
 namespace {
 
-/// One type of module and the keys it takes beside `type`, `section` and `at`.
+/// One type of module and the keys it takes beside `type` and `section`.
 struct MatKind {
   const char* name;
   MatType type;
@@ -18,12 +19,13 @@ struct MatKind {
 
 const std::vector<MatKind>& matKinds() {
   static const std::vector<MatKind> kKinds = {
-      {"mass", MatType::kMass, {"mass", "x", "v"}, {"rest"}},
-      {"ground", MatType::kGround, {}, {"x"}},
-      {"cell", MatType::kCell, {"mass", "stiffness", "damping", "matched", "x", "v"}, {}},
-      {"driven", MatType::kDriven, {"x"}, {"rest"}},
-      {"slice", MatType::kSlice, {}, {"rest"}},
-      {"point", MatType::kPoint, {"along", "guide", "range", "speed", "power"}, {}},
+      {"mass", MatType::kMass, {"at", "mass", "x", "v"}, {"rest"}},
+      {"ground", MatType::kGround, {"at"}, {"x"}},
+      {"cell", MatType::kCell, {"at", "mass", "stiffness", "damping", "matched", "x", "v"}, {}},
+      {"driven", MatType::kDriven, {"at", "x"}, {"rest"}},
+      {"slice", MatType::kSlice, {"at"}, {"rest"}},
+      {"point", MatType::kPoint, {"at", "along", "guide", "range", "speed", "power"}, {}},
+      {"tap", MatType::kPoint, {"of", "weights"}, {}},
   };
   return kKinds;
 }
@@ -40,7 +42,7 @@ const MatKind& kindOf(const YamlMap& map) {
 }
 
 void allowKeys(const YamlMap& map, const MatKind& kind) {
-  std::vector<std::string> keys = {"type", "section", "at"};
+  std::vector<std::string> keys = {"type", "section"};
   keys.insert(keys.end(), kind.keys.begin(), kind.keys.end());
   keys.insert(keys.end(), kind.scalar_keys.begin(), kind.scalar_keys.end());
   map.allow(keys);
@@ -129,10 +131,6 @@ void readGuide(const SceneBuilder& builder, const YamlMap& map, Connection& conn
 void readPoint(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
   Connection connection;
   connection.place = map.place();
-  if (map.has("section")) {
-    builder.fail(map.keyPlaceAt("section"),
-                 "'section' of " + map.what() + ", allowed: none, it is that of what it lies on");
-  }
   connection.grid = builder.grid(map.word("along"), map.placeAt("along"));
   if (map.has("range")) {
     const std::vector<double> range = map.vector("range", 2, kFractionLimits);
@@ -150,6 +148,49 @@ void readPoint(SceneBuilder& builder, const std::string& name, const YamlMap& ma
   addPoint(builder, name, connection);
 }
 
+/// `of: key` or `of: [a, b]`.
+std::vector<Tap::Share> readModules(const SceneBuilder& builder, const YamlMap& map) {
+  const YAML::Node& of = map.at("of");
+  if (of.IsSequence() && of.size() == 0) {
+    map.fail("of", "'of' of " + map.what() + " is empty, allowed: one module at least");
+  }
+  std::vector<Tap::Share> shares;
+  for (std::size_t i = 0; i < (of.IsSequence() ? of.size() : 1); ++i) {
+    const YAML::Node& node = of.IsSequence() ? of[i] : of;
+    const Place place = placeOf(node, map.placeAt("of"));
+    const int mat = builder.mat(wordOf(builder, node, "a module of " + map.what(), place), place);
+    shares.push_back({mat, 1.0});
+    const Mat& first = builder.scene().mats[static_cast<std::size_t>(shares.front().mat)];
+    const std::string reason = reasonAgainstTap(builder.scene(), first.section, mat);
+    if (!reason.empty()) {
+      builder.fail(place, map.what() + " " + reason);
+    }
+  }
+  return shares;
+}
+
+/// Without weights it is the mean of its modules.
+void readTap(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
+  Tap tap;
+  tap.place = map.place();
+  tap.shares = readModules(builder, map);
+  const std::size_t count = tap.shares.size();
+  const std::vector<double> weights =
+      map.has("weights") ? map.numbers("weights", count, count, kWeightLimits)
+                         : std::vector<double>(count, 1.0 / static_cast<double>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    tap.shares[i].weight = weights[i];
+  }
+  addTap(builder, name, std::move(tap));
+}
+
+void refuseSection(const SceneBuilder& builder, const YamlMap& map) {
+  if (map.has("section")) {
+    builder.fail(map.keyPlaceAt("section"),
+                 "'section' of " + map.what() + ", allowed: none, it is that of what it lies on");
+  }
+}
+
 }  // namespace
 
 void readMats(SceneBuilder& builder, const YamlMap& top) {
@@ -165,7 +206,8 @@ void readPoints(SceneBuilder& builder, const YamlMap& top) {
     const MatKind& kind = kindOf(map);
     if (kind.type == MatType::kPoint) {
       allowKeys(map, kind);
-      readPoint(builder, name, map);
+      refuseSection(builder, map);
+      (map.word("type") == "tap" ? readTap : readPoint)(builder, name, map);
     }
   });
 }

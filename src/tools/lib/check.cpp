@@ -81,6 +81,21 @@ Json pointsOf(const Scene& scene) {
     }
     report.push_back(std::move(entry));
   }
+  for (const scene::Tap& tap : scene.taps) {
+    Json entry = {{"name", matAt(scene, tap.mat).name}};
+    double mobility = 0.0;
+    for (const scene::Tap::Share& share : tap.shares) {
+      const scene::Mat& mat = matAt(scene, share.mat);
+      const bool is_ground = mat.type == scene::MatType::kGround;
+      mobility += is_ground ? 0.0 : share.weight * share.weight / scene.valueOf(mat.mass);
+      entry["of"].push_back(mat.name);
+      entry["weights"].push_back(share.weight);
+    }
+    if (mobility > 0.0) {
+      entry["mass"] = 1.0 / mobility;
+    }
+    report.push_back(std::move(entry));
+  }
   return report;
 }
 

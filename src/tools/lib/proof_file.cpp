@@ -97,9 +97,14 @@ Json modulesOf(const Scene& scene) {
 
 Json pointsOf(const Scene& scene, const physics::Proof& proof) {
   Json all = Json::array();
-  for (std::size_t p = 0; p < scene.connections.size(); ++p) {
-    const scene::Connection& point = scene.connections[p];
-    all.push_back({{"module", point.mat}, {"power", point.power}, {"places", proof.places[p]}});
+  for (const scene::Connection& point : scene.connections) {
+    all.push_back(
+        {{"module", point.mat}, {"power", point.power}, {"places", proof.places[all.size()]}});
+  }
+  for (const scene::Tap& tap : scene.taps) {  // one that stays never brings its power
+    all.push_back({{"module", tap.mat},
+                   {"power", scene::Connection{}.power},
+                   {"places", proof.places[all.size()]}});
   }
   return all;
 }

@@ -115,13 +115,22 @@ unsigned scenes() {
 
 class SearchTest : public testing::TestWithParam<unsigned> {};
 
+void expectNotToGrow(const SmallScene& small, unsigned seed) {
+  const Judged judged = judge(small, seed);
+  EXPECT_FALSE(judged.is_vouched && judged.grows)
+      << "seed " << seed << ", " << small.family << ", " << toString(judged.verdict) << ":\n"
+      << shrunk(small, seed).text();
+}
+
 TEST_P(SearchTest, WhatIsVouchedForDoesNotGrow) {
   for (unsigned seed = GetParam(); seed < GetParam() + scenes() / kParts; ++seed) {
-    const SmallScene small = test::smallScene(seed);
-    const Judged judged = judge(small, seed);
-    EXPECT_FALSE(judged.is_vouched && judged.grows)
-        << "seed " << seed << ", " << small.family << ", " << toString(judged.verdict) << ":\n"
-        << shrunk(small, seed).text();
+    expectNotToGrow(test::smallScene(seed), seed);
+  }
+}
+
+TEST_P(SearchTest, WhatIsVouchedForOnTapsDoesNotGrow) {
+  for (unsigned seed = GetParam(); seed < GetParam() + scenes() / kParts; ++seed) {
+    expectNotToGrow(test::withTaps(test::smallScene(seed), seed), seed);
   }
 }
 
@@ -133,12 +142,15 @@ INSTANTIATE_TEST_SUITE_P(Seeds,
 TEST(SmallScenesTest, SomeOfEveryFamilyAreVouchedFor) {
   std::map<std::string, int> vouched;
   for (unsigned seed = 0; seed < 200 * kFamilies; ++seed) {
-    const SmallScene small = test::smallScene(seed);
-    const scene::Scene scene =
-        settle(scene::readYaml(small.text(), "small.yaml"), small.rates).scene;
-    vouched[small.family] += isVouched(certify(scene, small.rates).verdict) ? 1 : 0;
+    const SmallScene plain = test::smallScene(seed);
+    for (const SmallScene& small : {plain, test::withTaps(plain, seed)}) {
+      const scene::Scene scene =
+          settle(scene::readYaml(small.text(), "small.yaml"), small.rates).scene;
+      const std::string family = small.family + (scene.taps.empty() ? "" : " on taps");
+      vouched[family] += isVouched(certify(scene, small.rates).verdict) ? 1 : 0;
+    }
   }
-  EXPECT_EQ(vouched.size(), kFamilies);
+  EXPECT_EQ(vouched.size(), 2 * kFamilies);
   for (const auto& [family, scenes] : vouched) {
     EXPECT_GE(scenes, 2) << family;
   }

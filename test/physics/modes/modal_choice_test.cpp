@@ -234,11 +234,6 @@ TEST_F(ModalChoiceTest, WhatIsSoftBesideTheRestSharesModesOrIsRefused) {
       HasSubstr("cannot be played by its modes: module 'm2' loses 0 of its speed per step"));
 }
 
-TEST_F(ModalChoiceTest, GuardedLinksOnPlacesThatMoveEachOtherAreRefused) {
-  EXPECT_THAT(errorOf(withModes(playedPlate().scene, 60)),
-              AllOf(HasSubstr("guarded link"), HasSubstr("modes are left out")));
-}
-
 namespace fs = std::filesystem;
 
 class ModalCacheTest : public ::testing::Test {

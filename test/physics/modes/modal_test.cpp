@@ -270,6 +270,43 @@ TEST_F(ModalTest, EigenvaluesAcrossRatesProveNothingOfFewerModes) {
   EXPECT_THAT(some.findings[0], HasSubstr("all modes"));
 }
 
+/// With modes left out a force at one place moves the others within the step.
+TEST_F(ModalTest, GuardedLinksOnPlacesThatMoveEachOtherMakeNothing) {
+  Plate b(0.1 * Plate::kMass * kRate * kRate, 1e-3);
+  for (const int m : {b.of(2, 3), b.of(3, 3), b.of(7, 7)}) {
+    const int hammer = b.mass(2e-3, 1e-4, -2.0);
+    b.link(scene::LiaType::kContact, m, hammer, 2e5);
+    b.scene.lias.back().scheme = scene::Scheme::kGuarded;
+    b.spring(hammer, b.ground(1e-4), 100.0);
+  }
+  b.hear(b.of(2, 3));
+  for (const int modes : {6, 40}) {
+    Player player(withModes(b.scene, modes), kRates);
+    player.tick();
+    Energies energies = energiesOf(player);
+    const double start = energies.stored;
+    for (int n = 0; n < 2000; ++n) {
+      player.tick();
+      player.instrument->readEnergies(energies);
+      ASSERT_LT(std::abs(energies.residual), 1e-11 * start) << n;
+      ASSERT_LT(energies.stored, start * (1.0 + 1e-9)) << n;
+    }
+    EXPECT_GT(std::abs(player.heard[0].back()), 1e-9);
+  }
+}
+
+TEST_F(ModalTest, TapsOnAStringAreTapsOnItsModes) {
+  SceneBuilder b = dampedString();
+  const int tap = b.tap({{3, 0.7}, {8, -1.4}, {21, 2.0}, {0, 0.3}});
+  b.scene.outputs.pop_back();  // the force on the ground under it
+  b.hear(tap, 3);
+  b.push(tap);
+  b.link(scene::LiaType::kContact, tap, b.ground(2e-4), 2e5, 1e-3);
+  b.scene.lias.back().scheme = scene::Scheme::kGuarded;
+  b.spring(tap, b.ground(), 1e3);
+  expectExact(b.scene);
+}
+
 TEST_F(ModalTest, CertificateIsThatOfTheNetwork) {
   const Plate b = playedPlate();
   const Certificate network = certify(b.scene, kRates);

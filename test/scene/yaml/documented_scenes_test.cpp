@@ -53,7 +53,7 @@ TEST(DocumentedScenesTest, AreWholeScenesOrPiecesOfOne) {
       ++pieces;
     }
   }
-  EXPECT_EQ(pieces, 4);
+  EXPECT_EQ(pieces, 5);
 }
 
 TEST(DocumentedScenesTest, ShowEachWayToWriteATable) {

@@ -40,7 +40,7 @@ struct LinkProof {
 using PlaceProof = std::vector<std::pair<int, double>>;
 
 struct Proof {
-  /// All places that are judged, the worst among them, [Scene::connections].
+  /// All places that are judged, the worst among them, [Scene::connections], then [Scene::taps].
   std::vector<std::vector<PlaceProof>> places;
   std::vector<RateProof> rates;
   std::vector<PeriodProof> periods;

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "physics/engine/guarded.hpp"
+#include "physics/layout/guarded_groups.hpp"
+#include "physics/layout/layout.hpp"
+
+namespace ergotic::physics {
+
+/// The modules behind the ends of guarded links, through points and other frames. A tap counts as
+/// one module where what guarded links do to it moves nothing else that they act on, as places on a
+/// body with all its modes; else the links reach the modules under it, where they know of each
+/// other.
+class GuardedReach {
+ public:
+  struct Terms {
+    std::vector<GuardedTerm> terms;
+    double offset[3] = {0.0, 0.0, 0.0};
+  };
+
+  GuardedReach(const scene::Scene& scene,
+               const Layout& layout,
+               const std::vector<GuardedGroup>& groups);
+
+  /// As many terms wherever places lie, which `to` has room for when it was found before.
+  /// Realtime: then
+  void find(const GuardedRef& ref, const double* places, Terms& to) const noexcept;
+
+  /// True if an end lies on a place, which may move.
+  bool isOnPlace(const GuardedRef& ref) const noexcept;
+  /// Taps among the ends that count as one module. Realtime: no
+  std::vector<std::size_t> tapsAt(const GuardedRef& ref) const;
+  /// Slots of all modules that a place can come to. Realtime: no
+  std::vector<int> slotsUnder(std::size_t place) const;
+
+ private:
+  /// What an end is behind other frames.
+  int behind(int slot) const noexcept;
+  void findWholeTaps(const scene::Scene& scene, const std::vector<GuardedGroup>& groups);
+  void reachEnd(int slot,
+                int stride,
+                int dimensions,
+                const Eigen::Matrix3d& map,
+                int slow_section,
+                const double* places,
+                Terms& to) const noexcept;
+
+  const Layout& layout_;
+  std::vector<scene::Grid> grids_;       // [places]
+  std::vector<Eigen::Vector3d> rests_;   // [mats]
+  std::vector<int> place_of_slot_;       // -1: none
+  std::vector<int> projection_of_slot_;  // -1: none
+  std::vector<int> tap_of_slot_;         // -1: none
+  std::vector<unsigned char> is_whole_;  // [taps] 1: counts as one module
+};
+
+}  // namespace ergotic::physics

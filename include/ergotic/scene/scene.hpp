@@ -105,8 +105,9 @@ enum class MatType : std::uint8_t {
 
 /// What drives a module beside its links. Of the coordinates that move; the others are ignored.
 struct Push {
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/time_unit, at the start
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();     ///< constant, kg m/time_unit^2
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();     ///< m/time_unit, at the start
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();        ///< constant, kg m/time_unit^2
+  Eigen::Vector3d first_force = Eigen::Vector3d::Zero();  ///< only in the very first step
 };
 
 /// (MAT) A material point: takes a force, gives a position.

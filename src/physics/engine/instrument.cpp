@@ -13,11 +13,8 @@ namespace ergotic::physics {
 namespace {
 
 /// Modules start where the scene says, with the velocity that it says.
-/// \param first_forces  N, by module of the scene
 template <class Real>
-void placeInitialState(const Rates& rates,
-                       const FirstForces& first_forces,
-                       Mechanism<Real>& mechanism) {
+void placeInitialState(const Rates& rates, Mechanism<Real>& mechanism) {
   const scene::Scene& scene = *mechanism.scene;
   for (std::size_t s = 0; s < mechanism.layout.sections.size(); ++s) {
     const SectionRange& range = mechanism.layout.sections[s];
@@ -32,12 +29,10 @@ void placeInitialState(const Rates& rates,
         mechanism.state.x()[here] = static_cast<Real>(mat.position[k] - mat.rest[k]);
         if (slot < range.fixed && mat.type != scene::MatType::kGround) {
           mechanism.state.d()[here] = static_cast<Real>(units.velocity(mat.push->velocity[k]));
+          mechanism.state.f()[here] = static_cast<Real>(mat.push->first_force[k]);
         }
       }
     }
-  }
-  for (const auto& [mat, force] : first_forces) {
-    mechanism.state.f()[mechanism.layout.slot_of_mat[at(mat)]] = static_cast<Real>(force);
   }
   mechanism.points.placeAtStart(*mechanism.coefficients, mechanism.state.x(), mechanism.state.d(),
                                 mechanism.state.places());
@@ -57,9 +52,8 @@ std::unique_ptr<Instrument> compileFor(std::shared_ptr<const scene::Scene> writt
                                        const Rates& rates,
                                        const CompileOptions& options) {
   std::vector<std::string> notes;
-  std::optional<ModalScene> modal = withModes(*written, rates, notes);
-  const auto played =
-      modal ? std::make_shared<const scene::Scene>(std::move(modal->scene)) : written;
+  std::optional<scene::Scene> modal = withModes(*written, rates, notes);
+  const auto played = modal ? std::make_shared<const scene::Scene>(*std::move(modal)) : written;
   Layout layout = makeLayout(*played, rates);
   Groups groups = makeGroups(*played, rates, layout);
   auto coefficients = std::make_unique<CoefficientsOf<Real>>(*played, rates, layout);
@@ -67,9 +61,8 @@ std::unique_ptr<Instrument> compileFor(std::shared_ptr<const scene::Scene> writt
   auto mechanism =
       std::make_unique<Mechanism<Real>>(played, options, std::move(layout), std::move(groups),
                                         std::move(coefficients), std::move(state));
-  placeInitialState(rates, modal ? modal->first_forces : FirstForces{}, *mechanism);
-  Picture picture(written, played, mechanism->layout,
-                  modal ? std::optional(std::move(modal->as_written)) : std::nullopt);
+  placeInitialState(rates, *mechanism);
+  Picture picture(played, written->mats.size(), mechanism->layout);
   return std::make_unique<InstrumentOf<Real>>(std::move(written), rates, options,
                                               std::move(mechanism), std::move(picture),
                                               std::move(notes));

@@ -22,6 +22,19 @@ namespace ergotic::physics {
 /// \throws Exception if there are not as many, or if one is outside its range
 scene::Scene withParameters(scene::Scene scene, const std::vector<double>& values);
 
+/// Of each link that is played, its index in the scene as it was written, of which it has some.
+inline std::vector<int> liasAsWritten(const scene::Scene& written, const scene::Scene& played) {
+  std::vector<int> indices;
+  int next = 0;
+  for (const scene::Lia& lia : played.lias) {
+    while (!(written.lias[at(next)].name == lia.name)) {
+      ++next;
+    }
+    indices.push_back(next++);
+  }
+  return indices;
+}
+
 inline std::int64_t waitLimitNs(const CompileOptions& options, const Rates& rates) {
   return options.wait_limit_ns == kOneTick ? std::llround(1e9 / rates.gesturalHz())
                                            : options.wait_limit_ns;
@@ -115,8 +128,9 @@ class InstrumentOf final : public Instrument {
   }
   std::vector<GuardReport> makeGuardReports() const override {
     std::vector<GuardReport> reports = mechanism_->guarded.makeReports();
+    const std::vector<int> written = liasAsWritten(scene(), *mechanism_->scene);
     for (GuardReport& report : reports) {
-      report.lia = picture_.liaAsWritten(report.lia);
+      report.lia = written[at(report.lia)];
     }
     return reports;
   }

@@ -80,7 +80,8 @@ struct TapPoint {
     int first = 0;  ///< slot of the x coordinate
     int count = 0;
   };
-  int slot = 0;
+  int mat = 0;
+  int slot = -1;  ///< -1: nothing but the picture asks where it is
   int dimensions = 1;
   int section = 0;
   int stride = 0;       ///< of the modules
@@ -153,12 +154,13 @@ struct Proxy {
 
 /// Where everything of a scene lies in the arrays of an instrument.
 struct Layout {
-  std::vector<int> slot_of_mat;  ///< of the x coordinate
+  std::vector<int> slot_of_mat;  ///< of the x coordinate; -1: a tap that is only seen
   std::vector<int> mat_of_slot;  ///< -1: internal point
   std::vector<int> component;    ///< [slots] 0 x, 1 y, 2 z
   std::vector<SectionRange> sections;
-  std::vector<Block> blocks;  ///< by section, then by slot
-  std::vector<TapPoint> taps;
+  std::vector<Block> blocks;        ///< by section, then by slot
+  std::vector<TapPoint> taps;       ///< those that anything acts on or hears
+  std::vector<TapPoint> seen_taps;  ///< the others, by module: they have no slots
   std::vector<PlacePoint> places;
   std::vector<ProjectedPoint> projections;
   std::vector<LinkRun> runs;

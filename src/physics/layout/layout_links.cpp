@@ -124,32 +124,64 @@ void placeLink(const scene::Scene& scene, int l, Ends& ends, LinkRun& run, End& 
   run.stride_b = run.dimensions == 0 ? 0 : b.stride;
 }
 
+/// [mats] 1 where links, inputs or outputs end, and what leads a point.
+std::vector<unsigned char> usedMats(const scene::Scene& scene) {
+  std::vector<unsigned char> is_used(scene.mats.size(), 0);
+  for (const scene::Lia& lia : scene.lias) {
+    is_used[at(lia.a)] = is_used[at(lia.b)] = 1;
+  }
+  for (const scene::Input& input : scene.inputs) {
+    is_used[at(input.mat)] = 1;
+  }
+  for (const scene::Output& output : scene.outputs) {
+    is_used[at(output.point.mat)] = 1;
+    is_used[at(output.point.next < 0 ? output.point.mat : output.point.next)] = 1;
+  }
+  for (const scene::Connection& place : scene.connections) {
+    if (place.guide >= 0) {
+      is_used[at(place.guide)] = 1;
+    }
+  }
+  return is_used;
+}
+
+TapPoint tapOf(const scene::Scene& scene, const scene::Tap& tap, const Layout& layout) {
+  TapPoint point;
+  point.mat = tap.mat;
+  point.section = scene.mats[at(tap.mat)].section;
+  const SectionRange& range = layout.sections[at(point.section)];
+  point.dimensions = range.dimensions;
+  point.stride = range.stride;
+  point.offset = tap.offset;
+  std::vector<std::pair<int, double>> shares;  // by slot
+  for (const scene::Tap::Share& share : tap.shares) {
+    shares.emplace_back(layout.slot_of_mat[at(share.mat)], share.weight);
+  }
+  std::sort(shares.begin(), shares.end());
+  for (const auto& [slot, weight] : shares) {
+    if (point.spans.empty() || slot != point.spans.back().first + point.spans.back().count) {
+      point.spans.push_back({slot, 0});
+    }
+    ++point.spans.back().count;
+    point.weights.push_back(weight);
+  }
+  return point;
+}
+
 }  // namespace
 
 void placeTaps(const scene::Scene& scene, Layout& layout) {
+  const std::vector<unsigned char> is_used = usedMats(scene);
   for (const scene::Tap& tap : scene.taps) {
-    TapPoint point;
-    point.section = scene.mats[at(tap.mat)].section;
-    const SectionRange& range = layout.sections[at(point.section)];
-    point.dimensions = range.dimensions;
-    point.stride = range.stride;
-    point.offset = tap.offset;
-    point.slot = addSlots(layout, point.dimensions, tap.mat);
-    layout.slot_of_mat[at(tap.mat)] = point.slot;
-    std::vector<std::pair<int, double>> shares;  // by slot
-    for (const scene::Tap::Share& share : tap.shares) {
-      shares.emplace_back(layout.slot_of_mat[at(share.mat)], share.weight);
+    TapPoint point = tapOf(scene, tap, layout);
+    if (is_used[at(tap.mat)] != 0) {
+      point.slot = addSlots(layout, point.dimensions, tap.mat);
+      layout.slot_of_mat[at(tap.mat)] = point.slot;
     }
-    std::sort(shares.begin(), shares.end());
-    for (const auto& [slot, weight] : shares) {
-      if (point.spans.empty() || slot != point.spans.back().first + point.spans.back().count) {
-        point.spans.push_back({slot, 0});
-      }
-      ++point.spans.back().count;
-      point.weights.push_back(weight);
-    }
-    layout.taps.push_back(std::move(point));
+    (point.slot < 0 ? layout.seen_taps : layout.taps).push_back(std::move(point));
   }
+  std::sort(layout.seen_taps.begin(), layout.seen_taps.end(),
+            [](const TapPoint& a, const TapPoint& b) { return a.mat < b.mat; });
 }
 
 void placeConnections(const scene::Scene& scene, Layout& layout) {

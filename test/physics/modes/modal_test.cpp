@@ -295,6 +295,22 @@ TEST_F(ModalTest, GuardedLinksOnPlacesThatMoveEachOtherMakeNothing) {
   }
 }
 
+TEST_F(ModalTest, PlacesThatAModuleLeadsAreLedByItsModes) {
+  SceneBuilder b = dampedString();
+  scene::Section other = b.scene.sections[0];
+  other.name = "other";
+  other.gravity.setZero();
+  b.scene.sections.push_back(other);
+  const int first = static_cast<int>(b.scene.mats.size());
+  for (int i = 0; i < 5; ++i) {
+    b.ground(1e-3 * i, 2);
+  }
+  b.hear(b.point(b.grid(first, 5), 0.5), 4);
+  b.scene.connections.back().guide = 11;
+  b.scene.connections.back().guide_scale = 20.0;
+  expectExact(b.scene);
+}
+
 TEST_F(ModalTest, TapsOnAStringAreTapsOnItsModes) {
   SceneBuilder b = dampedString();
   const int tap = b.tap({{3, 0.7}, {8, -1.4}, {21, 2.0}, {0, 0.3}});

@@ -282,7 +282,7 @@ class Maker : SmallSceneDice {
     inTimeWithTheSteps();
   }
 
-  /// A link of some ends with weights in hundredths.
+  /// A link of some ends.
   void bend(bool is_flat, double kappa) {
     std::vector<std::string> names{"g_all"};
     for (const Mass& m : masses_) {
@@ -295,10 +295,10 @@ class Maker : SmallSceneDice {
     double sum = 0.0;
     double squares = 0.0;
     for (int i = 0; i < ends; ++i) {
-      double weight = static_cast<double>(any(1, 300)) * pick({0.01, -0.01});
+      double weight = static_cast<double>(any(1, 2)) * pick({1.0, -1.0});
       if (i == ends - 1) {
         weight = -sum;
-      } else if (std::abs(sum + weight) < 0.005) {
+      } else if (sum + weight == 0.0) {
         weight *= 2.0;
       }
       sum += weight;

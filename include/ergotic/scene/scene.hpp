@@ -200,7 +200,7 @@ struct Lia {
 struct Bend {
   struct End {
     int mat = 0;          ///< index in Scene::mats: a mass, a cell or a ground, all of one section
-    double weight = 0.0;  ///< u, not 0
+    double weight = 0.0;  ///< u, a whole number, not 0
   };
   Name name;
   std::vector<End> ends;

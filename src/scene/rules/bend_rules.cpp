@@ -11,7 +11,7 @@
 namespace ergotic::scene {
 namespace {
 
-constexpr double kRounding = 1e-9;  // of the sum of all sizes
+constexpr double kMostWeight = 8.0;
 
 const Mat& matAt(const Scene& scene, const Bend::End& end) {
   return scene.mats[static_cast<std::size_t>(end.mat)];
@@ -90,19 +90,18 @@ std::string endsFault(const Scene& scene, const Bend& bend) {
 
 std::string weightsFault(const Bend& bend) {
   double sum = 0.0;
-  double size = 0.0;
   for (const Bend::End& end : bend.ends) {
-    if (end.weight == 0.0 || !kMetreLimits.hold(end.weight)) {
+    const bool is_whole =
+        std::abs(end.weight) <= kMostWeight && std::rint(end.weight) == end.weight;
+    if (!is_whole || end.weight == 0.0) {
       return "a weight of link " + quoted(bend.name) + " is " + numberText(end.weight) +
-             ", allowed: any finite number but 0";
+             ", allowed: whole numbers from -8 to 8 but 0";
     }
     sum += end.weight;
-    size += std::abs(end.weight);
   }
-  return std::abs(sum) <= kRounding * size
-             ? ""
-             : "weights of link " + quoted(bend.name) + " add up to " + numberText(sum) +
-                   ", allowed: 0, so that moving all ends alike takes no force";
+  return sum == 0.0 ? ""
+                    : "weights of link " + quoted(bend.name) + " add up to " + numberText(sum) +
+                          ", allowed: 0, so that moving all ends alike takes no force";
 }
 
 std::string dampingFault(const Scene& scene, const Bend& bend) {

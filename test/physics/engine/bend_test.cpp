@@ -193,7 +193,7 @@ TEST(BendTest, ItsSpringsGiveItsForce) {
       "ergotic: 1\nsections: {s: {}}\nmats:\n"
       "  a: {type: mass, mass: 0.5, x: 0.01}\n  b: {type: mass, mass: 0.7, x: -0.02, v: 0.3}\n"
       "  c: {type: mass, mass: 0.2, x: 0.05, rest: 0.01}\n  d: {type: ground, x: 0.03}\n"
-      "lias: {l: {type: bend, between: [a, b, c, d], weights: [1, -2.5, 0.7, 0.8],\n"
+      "lias: {l: {type: bend, between: [a, b, c, d], weights: [1, -5, 1, 3],\n"
       "  stiffness: 300, damping: 20, rest_length: 0.004}}\noutputs:\n"
       "  a: {at: a, quantity: force, channel: 1}\n  b: {at: b, quantity: force, channel: 2}\n"
       "  c: {at: c, quantity: force, channel: 3}\n  d: {at: d, quantity: force, channel: 4}\n"
@@ -205,9 +205,9 @@ TEST(BendTest, ItsSpringsGiveItsForce) {
       "  vc: {at: c, quantity: velocity, channel: 10}\n";
   Player player(scene::readYaml(text, "bend.yaml"), kRates);
   player.ticks(20);
-  constexpr double kWeights[] = {1.0, -2.5, 0.7, 0.8};
+  constexpr double kWeights[] = {1.0, -5.0, 1.0, 3.0};
   for (std::size_t n = 0; n < player.heard[0].size(); ++n) {
-    double e = 0.8 * 0.03 - 0.004;
+    double e = 3.0 * 0.03 - 0.004;
     double v = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
       e += kWeights[i] * player.heard[4 + i][n];

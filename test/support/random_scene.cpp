@@ -241,9 +241,10 @@ class Maker {
 
   /// A law whose slope is about k where the ends move.
   void addLaw(int x, int y, double k, double rate) {
-    const LiaType type = pick({LiaType::kContact, LiaType::kPowerContact, LiaType::kQuadratic,
-                               LiaType::kCubic, LiaType::kClippedCubic, LiaType::kCubicContact,
-                               LiaType::kBow, LiaType::kSmoothBow, LiaType::kTable});
+    const LiaType type =
+        pick({LiaType::kContact, LiaType::kPowerContact, LiaType::kQuadratic, LiaType::kCubic,
+              LiaType::kClippedCubic, LiaType::kCubicContact, LiaType::kBow, LiaType::kSmoothBow,
+              LiaType::kTable, LiaType::kFriction});
     Lia& lia = b_.scene.lias[at(b_.link(type, x, y, k))];
     lia.scheme = scene::Scheme::kAuto;
     const double reach = reach_ * kRate / rate;
@@ -286,6 +287,14 @@ class Maker {
         lia.stiffness = {0.0};
         lia.rest_length = 0.0;
         lia.law.edit().width = {kSpeed * within(0.1, 1.0)};
+        break;
+      case LiaType::kFriction:
+        made_.is_lossless = false;
+        lia.stiffness = {0.0};
+        lia.rest_length = 0.0;
+        lia.law.edit().normal = {k * reach * within(0.01, 1.0)};
+        lia.law.edit().steady = 0.3;
+        lia.law.edit().falls[0] = {0.7, kSpeed * within(0.01, 1.0)};
         break;
       case LiaType::kTable:
         lia.stiffness = {0.0};

@@ -135,6 +135,9 @@ class Maker : SmallSceneDice {
     }
     if (chance(0.4)) {
       contact(anyMass(), decades(1e-3, 1.0), scheme({"explicit", "guarded", "auto"}));
+      if (chance(0.5)) {
+        rubAcross(std::string(made_.lias.back()));
+      }
     }
     inTimeWithTheSteps();
   }
@@ -249,9 +252,18 @@ class Maker : SmallSceneDice {
     scalarMasses(any(1, 3));
     for (int i = any(1, 3); i > 0; --i) {
       const Mass& m = anyMass();
+      if (chance(0.5)) {
+        rub(m.name, otherThan(m, 0.5), number(decades(1e-3, 10.0) * m.kg * m.rate));
+        continue;
+      }
       link(pick({"bow", "smooth_bow"}), m.name, otherThan(m, 0.5),
            ", damping: " + number(decades(1e-3, 10.0) * m.kg * m.rate) +
                ", width: " + number(decades(1e-2, 3.0)) + scheme({"explicit", "guarded", "auto"}));
+    }
+    if (chance(0.3)) {
+      contact(anyMass(), decades(1e-3, 1.0), ", scheme: guarded");
+      const Mass& m = anyMass();
+      rub(m.name, otherThan(m, 0.5), nameOf(made_.lias.back()));
     }
     springs(any(0, 3), 1.0);
     inTimeWithTheSteps();

@@ -119,6 +119,30 @@ class SmallSceneDice {
     }
   }
 
+  static std::string nameOf(const std::string& lia) { return lia.substr(0, lia.find(':')); }
+
+  /// Friction that sticks. \param normal  N, or the contact that presses it
+  void rub(const std::string& a, const std::string& b, const std::string& normal) {
+    std::string keys = ", normal: " + normal;
+    if (chance(0.3)) {
+      const double width = decades(1e-2, 3.0);
+      keys += ", table: [[0, " + number(within(0.6, 1.5)) + "], [" + number(width) + ", 0.5], [" +
+              number(10.0 * width) + ", " + number(within(0.0, 2.0)) + "]]";
+    } else {
+      keys += ", steady: " + number(within(0.0, 0.5)) + ", parts: [[" + number(within(0.1, 1.0)) +
+              ", " + number(decades(1e-3, 3.0)) + "]]";
+    }
+    link("friction", a, b, keys + scheme({"guarded", "auto"}));
+  }
+
+  /// Across a contact, which presses it.
+  void rubAcross(const std::string& contact) {
+    const std::size_t ends = contact.find('[') + 1;
+    const std::size_t comma = contact.find(", ", ends);
+    rub(contact.substr(ends, comma - ends),
+        contact.substr(comma + 2, contact.find(']') - comma - 2), nameOf(contact));
+  }
+
   std::mt19937 random_;
   SmallScene made_;
   std::vector<Mass> masses_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -170,10 +171,21 @@ struct LiaLaw {
   /// sqrt(K_limit - K) / Q, YAML sqrt((K_limit - K) / Q), where the force is continuous.
   double tipping_point = 0.0;
   double release = 0.0;  ///< conditional: |e| at which it lets go, m, >= width
-  /// (e, force): pluck and LNL; (v, force): bow. Pluck and bow are 0 outside, LNL holds its ends.
+  /// (e, force): pluck and LNL; (v, force): bow; (|v|, mu): friction. Pluck and bow are 0 outside,
+  /// the others hold their ends.
   Table table;
   Table viscous_table;                  ///< (v, force): LNL
   std::vector<Relaxation> relaxations;  ///< relaxing: 1...kMostRelaxations
+  /// Friction: the normal force, kg m/time_unit^2, unless a contact gives it.
+  Value normal{};
+  Name pressed_by;  ///< the contact whose force, where it pushes, is the normal force
+  /// Friction: mu = steady + sum of share e^(-|v|/width), or the table of mu over |v|.
+  struct Fall {
+    double share = 0.0;
+    double width = 1.0;  ///< m/time_unit
+  };
+  double steady = 0.0;
+  std::array<Fall, 2> falls{};
 };
 
 /// (LIA) An interaction: takes two positions, gives one force, -f to `a` and +f to `b`,

@@ -13,6 +13,8 @@ namespace {
 
 using scene::Geometry;
 
+constexpr double kRigid = 1e30;  // N s/m, of what sticks together
+
 /// In its section.
 Eigen::Vector3d startOf(const scene::Scene& scene, int mat) {
   for (const scene::Connection& connection : scene.connections) {
@@ -75,6 +77,9 @@ double scaleAt(const scene::Scene& scene, const scene::Lia& lia) {
 }  // namespace
 
 scene::Slopes slopesInHand(const scene::Scene& scene, const scene::Lia& lia) {
+  if (scene::sticks(lia.type)) {
+    return scene::slopesUpTo(0.0, kRigid);
+  }
   return scene::slopesAt(scene, lia,
                          elongationAtStart(scene, lia) + scaleAt(scene, lia) * kHandDepth);
 }

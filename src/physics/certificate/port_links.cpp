@@ -13,6 +13,7 @@
 namespace ergotic::physics {
 namespace {
 
+constexpr double kRigid = 1e30;         // N/m, of what sticks together
 constexpr int kLongestSeries = 100000;  // links in a row
 
 template <class Value>
@@ -160,6 +161,9 @@ double PortLinks::dampingAt(const scene::Port& port, int l) const {
 }
 
 double PortLinks::slope(int l) const {
+  if (scene::sticks(scene_.lias[at(l)].type)) {
+    return kRigid;
+  }
   return std::abs(slopesInHand(scene_, scene_.lias[at(l)]).stiffness.highest);
 }
 
@@ -194,6 +198,9 @@ PortLinks::Resistance PortLinks::sum(const scene::Port& port,
                                      const std::vector<int>& links) const {
   Resistance sum;
   for (const int l : links) {
+    if (scene::sticks(scene_.lias[at(l)].type)) {
+      continue;  // which it does up to some force only
+    }
     const double part = share(port, mat, l);
     sum.stiffness += part * slope(l);
     sum.damping += part * damping(l);

@@ -28,7 +28,14 @@ GuardedLinks<Real>::GuardedLinks(const std::vector<GuardedLink>& links,
     : motions_(links.size()), modules_(modules) {
   for (const GuardedLink& link : links) {
     const bool euclidean = link.dimensions > 0;
-    links_.push_back({euclidean, std::max(1, link.dimensions), terms_.size(), 0, {}});
+    (link.sticks ? sticking_ : others_).push_back(links_.size());
+    links_.push_back({euclidean,
+                      link.sticks,
+                      std::max(1, link.dimensions),
+                      static_cast<Real>(link.share),
+                      terms_.size(),
+                      0,
+                      {}});
     terms_.resize(terms_.size() + link.terms.size());
     setTerms(links_.size() - 1, link.terms.data(), link.terms.size(), link.offset);
   }
@@ -66,6 +73,11 @@ ERGOTIC_REALTIME void GuardedLinks<Real>::setTerms(std::size_t link,
 }
 
 template <class Real>
+bool isIdle(const GuardedView<Real>& view, std::size_t link) noexcept {
+  return view.idle != nullptr && view.idle[link] != 0;
+}
+
+template <class Real>
 bool GuardedLinks<Real>::isFree(const GuardedView<Real>& view, const Term& term) const noexcept {
   return term.slow_section < 0 && view.inverse_mass[term.module] > Real(0);
 }
@@ -99,15 +111,12 @@ Real stepOf(const GuardedView<Real>& v, int i, Real now) noexcept {
   return now - (v.lose[i] * now + v.pull[i] * v.x[i]) + (v.inverse_mass[i] * v.f[i] + v.drift[i]);
 }
 
-/// How far end a moves against end b: in the step just made, in the one to come if nothing guarded
-/// pushes, and the part of both by modules that forces do not move.
-template <class Real>
-struct GuardedLinks<Real>::Course {
-  Real now[3] = {Real(0), Real(0), Real(0)};
-  Real next[3] = {Real(0), Real(0), Real(0)};
-  Real fixed_now[3] = {Real(0), Real(0), Real(0)};
-  Real fixed_next[3] = {Real(0), Real(0), Real(0)};
-};
+/// How far a module of a slower section goes in this step of the link: in the step that this began
+/// with, all of its way. Friction that sticks takes it to go evenly, or it would stick to leaps.
+template <class Real, class Link>
+Real heldStepOf(const GuardedView<Real>& v, const Link& link, int section, Real d) noexcept {
+  return link.sticks ? link.share * d : v.due[section] == 0 ? Real(0) : d;
+}
 
 template <class Real>
 typename GuardedLinks<Real>::Course GuardedLinks<Real>::courseOf(const GuardedView<Real>& v,
@@ -117,9 +126,10 @@ typename GuardedLinks<Real>::Course GuardedLinks<Real>::courseOf(const GuardedVi
     const Term& term = terms_[t];
     const int i = term.slot;
     const bool is_held = term.slow_section >= 0;
-    // A held module moved when its section did, and will stay until that does again.
-    const Real now = is_held && v.due[term.slow_section] == 0 ? Real(0) : v.d[i];
-    const Real next = is_held ? Real(0) : term.is_tap ? v.ahead[i] : stepOf(v, i, now);
+    const Real now = is_held ? heldStepOf(v, link, term.slow_section, v.d[i]) : v.d[i];
+    // A held module stays until its section is stepped again.
+    const Real held_next = link.sticks ? now : Real(0);
+    const Real next = is_held ? held_next : term.is_tap ? v.ahead[i] : stepOf(v, i, now);
     const Real fixed = isFree(v, term) ? Real(0) : Real(1);
     for (int k = 0; k < link.dimensions; ++k) {
       c.now[k] += term.weight[k] * now;
@@ -274,17 +284,16 @@ void GuardedLinks<Real>::refund(const GuardedView<Real>& view,
   });
 }
 
+/// All but what sticks: the forces depend on one another only by how many there are.
 template <class Real>
-ERGOTIC_REALTIME void GuardedLinks<Real>::step(const GuardedView<Real>& view,
-                                               const GuardedLaw<Real>* laws,
-                                               GuardedState<Real>* states) noexcept {
-  const std::size_t links = links_.size();
-  const auto isIdle = [&view](std::size_t l) { return view.idle != nullptr && view.idle[l] != 0; };
-  for (std::size_t l = 0; l < links; ++l) {
-    motions_[l] = isIdle(l) ? Motion{} : measure(view, laws[l], links_[l], states[l]);
+void GuardedLinks<Real>::exertOthers(const GuardedView<Real>& view,
+                                     const GuardedLaw<Real>* laws,
+                                     GuardedState<Real>* states) noexcept {
+  for (const std::size_t l : others_) {
+    motions_[l] = isIdle(view, l) ? Motion{} : measure(view, laws[l], links_[l], states[l]);
     countActive(view, links_[l], motions_[l]);
   }
-  for (std::size_t l = 0; l < links; ++l) {
+  for (const std::size_t l : others_) {
     if (motions_[l].is_active) {
       yieldOf(view, links_[l], motions_[l]);
       exertForce(motions_[l], laws[l], states[l]);
@@ -292,16 +301,33 @@ ERGOTIC_REALTIME void GuardedLinks<Real>::step(const GuardedView<Real>& view,
     }
     payWork(motions_[l], states[l]);
   }
-  for (std::size_t l = 0; l < links; ++l) {
+  for (const std::size_t l : others_) {
     if (motions_[l].is_active) {
       collect(view, links_[l], motions_[l], states[l]);
     }
   }
-  for (std::size_t l = 0; l < links; ++l) {
+  for (const std::size_t l : others_) {
     if (motions_[l].is_active) {
       refund(view, links_[l], motions_[l], states[l]);
     }
     closeStep(motions_[l], states[l]);
+  }
+}
+
+template <class Real>
+ERGOTIC_REALTIME void GuardedLinks<Real>::step(const GuardedView<Real>& view,
+                                               const GuardedLaw<Real>* laws,
+                                               GuardedState<Real>* states) noexcept {
+  exertOthers(view, laws, states);
+  for (const std::size_t l : sticking_) {
+    if (!isIdle(view, l)) {
+      rub(view, laws[l], view.pressed[l], links_[l], motions_[l], states[l]);
+    }
+  }
+  for (const std::size_t l : sticking_) {
+    if (!isIdle(view, l)) {
+      closeRub(view, links_[l], motions_[l], states[l]);
+    }
   }
   for (const Link& link : links_) {
     for (std::size_t t = link.first; t < link.first + link.count; ++t) {

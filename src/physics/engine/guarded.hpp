@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "physics/laws/dry_friction.hpp"
 #include "physics/laws/guarded_force.hpp"
 
 namespace ergotic::physics {
@@ -22,6 +23,15 @@ struct GuardedLink {
   int dimensions = 0;  ///< 0: scalar; otherwise it works along the line that joins its ends
   std::vector<GuardedTerm> terms;
   double offset[3] = {0, 0, 0};  ///< end a less end b while all displacements are 0, m
+  bool sticks = false;           ///< friction that comes after all others
+  double share = 1.0;            ///< of the step of a slower end in one of the link's own
+};
+
+/// What presses a friction that sticks.
+template <class Real>
+struct Pressure {
+  Real force = Real(0);                        ///< >= 0
+  Real line[3] = {Real(0), Real(0), Real(0)};  ///< unit vector of the contact; 0: all slip counts
 };
 
 /// The modules as links see them within a step; `f`: forces of everything else.
@@ -35,9 +45,10 @@ struct GuardedView {
   const Real* drift = nullptr;
   const Real* lose = nullptr;
   const Real* pull = nullptr;
-  const unsigned char* due = nullptr;   ///< [sections] 1 if it moved in this step
-  const unsigned char* idle = nullptr;  ///< [links] 1 if it sleeps; none: all are awake
-  const Real* ahead = nullptr;          ///< [slots] the step to come of taps
+  const unsigned char* due = nullptr;       ///< [sections] 1 if it moved in this step
+  const unsigned char* idle = nullptr;      ///< [links] 1 if it sleeps; none: all are awake
+  const Real* ahead = nullptr;              ///< [slots] the step to come of taps
+  const Pressure<Real>* pressed = nullptr;  ///< [links]
 };
 
 /// A module as the guarded links on it see it.
@@ -47,6 +58,9 @@ struct GuardedModule {
   Real load[3] = {Real(0), Real(0), Real(0)};  // sum F, of their forces
   Real refunds = Real(0);                      // sum of h^2 F (c F - sum F)/2M where > 0
   Real arrears = Real(0);                      // sum of the same where < 0 that tanks cannot pay
+  // Of frictions that stick, in this step:
+  Real heat = Real(0);   // what they took
+  Real spent = Real(0);  // what others of them gave of that
 };
 
 /// Links that never give more energy than they took, of one rate, all together: those that share
@@ -54,8 +68,9 @@ struct GuardedModule {
 ///
 /// Each has a tank: the work its force has absorbed. Its force is that of the law at a point a
 /// little ahead (fourth order in contact time and rebound), cut to what the tank can pay for.
-/// Friction has no tank, so it can only slow the slip down, at most to rest.
-/// Source: docs/physics.md, "Guarded links".
+/// Friction has no tank, so it can only slow the slip down, at most to rest. That which sticks
+/// comes after all others, one after the other: each knows what those before it have done. Source:
+/// docs/physics.md, "Guarded links".
 template <class Real>
 class GuardedLinks {
  public:
@@ -108,7 +123,9 @@ class GuardedLinks {
   };
   struct Link {
     bool euclidean;
+    bool sticks;
     int dimensions;
+    Real share;
     std::size_t first;
     std::size_t count;
     Real offset[3];
@@ -125,11 +142,41 @@ class GuardedLinks {
              const GuardedLaw<Real>& law,
              const Link& link,
              Motion& motion) const noexcept;
-  struct Course;
+  /// How far end a moves against end b: in the step just made, in the one to come if nothing
+  /// guarded pushes, and the part of both by modules that forces do not move.
+  struct Course {
+    Real now[3] = {Real(0), Real(0), Real(0)};
+    Real next[3] = {Real(0), Real(0), Real(0)};
+    Real fixed_now[3] = {Real(0), Real(0), Real(0)};
+    Real fixed_next[3] = {Real(0), Real(0), Real(0)};
+  };
   Course courseOf(const GuardedView<Real>& view, const Link& link) const noexcept;
   void countActive(const GuardedView<Real>& view, const Link& link, const Motion& m) noexcept;
   void yieldOf(const GuardedView<Real>& view, const Link& link, Motion& m) const noexcept;
   void load(const Link& link, const Motion& m) noexcept;
+  void exertOthers(const GuardedView<Real>& view,
+                   const GuardedLaw<Real>* laws,
+                   GuardedState<Real>* states) noexcept;
+  void rub(const GuardedView<Real>& view,
+           const GuardedLaw<Real>& law,
+           const Pressure<Real>& pressed,
+           const Link& link,
+           Motion& m,
+           GuardedState<Real>& state) noexcept;
+  Slide<Real> slideOf(const GuardedView<Real>& view,
+                      const Pressure<Real>& pressed,
+                      const Link& link,
+                      Motion& m,
+                      GuardedState<Real>& state) const noexcept;
+  template <class Visit>
+  void visitShares(const GuardedView<Real>& view,
+                   const Link& link,
+                   const Motion& m,
+                   const Visit& visit) noexcept;
+  void closeRub(const GuardedView<Real>& view,
+                const Link& link,
+                const Motion& m,
+                GuardedState<Real>& state) noexcept;
   static Real leverOf(const Term& term, const Motion& m) noexcept;
   template <class Visit>
   void visitShared(const GuardedView<Real>& view,
@@ -146,6 +193,8 @@ class GuardedLinks {
               GuardedState<Real>& state) noexcept;
 
   std::vector<Link> links_;
+  std::vector<std::size_t> others_;    // that do not stick
+  std::vector<std::size_t> sticking_;  // that do
   std::vector<Term> terms_;
   std::vector<Motion> motions_;
   std::vector<Module>& modules_;

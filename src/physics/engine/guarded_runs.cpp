@@ -18,6 +18,7 @@ GuardedRuns<Real>::GuardedRuns(const scene::Scene& scene,
       ahead_(layout.taps.empty() ? 0 : at(layout.slots())),
       members_(guardedGroupsOf(layout)),
       reach_(scene, layout, members_),
+      pressures_(layout, members_),
       modules_(members_.empty() ? 0 : at(layout.slots())),
       forces_(members_.empty() ? 0 : at(layout.slots()), Real(0)) {
   for (const GuardedGroup& members : members_) {
@@ -46,7 +47,7 @@ void GuardedRuns<Real>::addLinks(const GuardedGroup& members, State<Real>& state
       slow.push_back(run.slow_section);
     }
     reach_.find(ref, somewhere.data(), terms);
-    links.push_back({run.dimensions, terms.terms, {}});
+    links.push_back({run.dimensions, terms.terms, {}, scene::sticks(run.law), run.share});
     std::copy_n(terms.offset, 3, links.back().offset);
   }
   std::sort(taps.begin(), taps.end());
@@ -211,7 +212,7 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::step(const Group& group,
                                               State<Real>& state) noexcept {
   bool any = false;
   for (const std::size_t g : group.guarded) {
-    const GuardedView<Real> view = viewOf(links_[g], c, state);
+    GuardedView<Real> view = viewOf(links_[g], c, state);
     if (first == 0) {
       followPlaces(g, state);
       links_[g].links.start(view, c.guarded[g].data(), states(g, state));
@@ -226,6 +227,7 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::step(const Group& group,
     markIdle(g, state);
     const std::int64_t began = last + 1 - members_[g].divisor;
     markDue(g, began);
+    view.pressed = pressures_.read(g, c.guarded[g].data(), state);
     links_[g].links.step(view, c.guarded[g].data(), states(g, state));
     exchange(g, began, stepper, state);
     closeBooks(g, false, state);

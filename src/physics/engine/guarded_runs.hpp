@@ -8,6 +8,7 @@
 #include "physics/engine/guarded.hpp"
 #include "physics/engine/guarded_reach.hpp"
 #include "physics/engine/points.hpp"
+#include "physics/engine/pressures.hpp"
 #include "physics/engine/stepper.hpp"
 #include "physics/layout/groups.hpp"
 #include "physics/layout/guarded_groups.hpp"
@@ -86,6 +87,7 @@ class GuardedRuns {
   std::vector<Real> ahead_;            // [slots] how far taps will go
   std::vector<GuardedGroup> members_;  // guardedGroupsOf
   GuardedReach reach_;
+  Pressures<Real> pressures_;
   std::vector<GuardedModule<Real>> modules_;  // [slots]
   std::vector<Links> links_;                  // [members_]
   std::vector<Real> forces_;                  // [slots], of guarded links; zero between steps

@@ -11,16 +11,6 @@ namespace {
 constexpr double kEmptyTank = 1e-6;
 constexpr double kShortContact = 3.0;  // kt above which a contact is over before a sample sees it
 
-/// The largest force whose work F (opening + give F) / 2 is at most `energy`.
-template <class Real>
-Real largestForce(Real energy, Real opening, Real give) noexcept {
-  const Real root = std::sqrt(opening * opening + Real(8) * give * energy);
-  if (opening > Real(0)) {
-    return Real(4) * energy / (opening + root);  // without cancellation, and for give = 0
-  }
-  return give > Real(0) ? (root - opening) / (Real(2) * give) : std::numeric_limits<Real>::max();
-}
-
 /// How far ahead the law is taken. 1/12 cancels the second-order error of the step in time and
 /// energy; 1/4 - 1/(2 kt) is the least that is stable on a stiffness that does not change.
 template <class Real>

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "scene/laws/guarded_form.hpp"
 
@@ -24,7 +26,8 @@ struct GuardedState {
   Real damper = Real(0);    ///< of the last step, damping or friction
   Real foreseen = Real(0);  ///< how far what forces do not move was to open it
   Real gradient[3] = {Real(0), Real(0), Real(0)};  ///< of the last step
-  Real phase = Real(0);  ///< 1 once an impact has turned around, or while what lets go holds
+  /// 1 once an impact has turned around, while what lets go holds, or while what may stick slips.
+  Real phase = Real(0);
 
   static constexpr std::size_t kDoubles = sizeof(Real) == sizeof(double) ? 12 : 4;
 };
@@ -53,6 +56,16 @@ struct GuardedMotion {
   /// force is charged for.
   Real swing() const noexcept { return opening + give * total(); }
 };
+
+/// The largest force whose work F (opening + give F) / 2 is at most `energy`. Realtime: yes
+template <class Real>
+Real largestForce(Real energy, Real opening, Real give) noexcept {
+  const Real root = std::sqrt(opening * opening + Real(8) * give * energy);
+  if (opening > Real(0)) {
+    return Real(4) * energy / (opening + root);  // without cancellation, and for give = 0
+  }
+  return give > Real(0) ? (root - opening) / (Real(2) * give) : std::numeric_limits<Real>::max();
+}
 
 /// Whether a spring that lets go holds at p; it loses what its law does. Realtime: yes
 template <class Real>

@@ -51,6 +51,7 @@ struct LinkRun {
   int slow_section = -1;
   bool slow_is_a = false;
   double share = 1.0;
+  bool presses = false;  ///< what its forces are is asked for by frictions
   static constexpr int kHeldGroup = -1;
   int group = kHeldGroup;  ///< that steps it, as of Layout::group_of_section
   int block = -1;          ///< index in Layout::blocks: its sweep works these links out
@@ -60,6 +61,16 @@ struct LinkRun {
   std::vector<LinkEnds> ends;          ///< [links]
   std::vector<Eigen::Vector3d> rests;  ///< [links] rest of a less rest of b
   std::vector<LinkSpan> spans;  ///< all links, as spatial kernels take them; empty: one by one
+};
+
+/// A friction, and the contact whose force is its normal force. As indices of Layout::runs and of
+/// links of these.
+struct Pressing {
+  std::size_t run = 0;
+  std::size_t link = 0;
+  std::size_t by_run = 0;
+  std::size_t by_link = 0;
+  bool is_tangent = false;  ///< in one plane or space: what slips is across the contact
 };
 
 /// A connection: its slots follow one another.
@@ -164,6 +175,7 @@ struct Layout {
   std::vector<PlacePoint> places;
   std::vector<ProjectedPoint> projections;
   std::vector<LinkRun> runs;
+  std::vector<Pressing> pressings;
   std::vector<int> port_slots;  ///< [ports] of the coordinate that it moves
   std::vector<Pickup> pickups;
   std::vector<Feed> feeds;

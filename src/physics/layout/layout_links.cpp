@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 #include <tuple>
 
 #include "at.hpp"
 #include "ergotic/exception.hpp"
 #include "physics/layout/link_spans.hpp"
+#include "scene/pressers.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -168,6 +170,34 @@ TapPoint tapOf(const scene::Scene& scene, const scene::Tap& tap, const Layout& l
   return point;
 }
 
+/// Whether a friction has a tangent of the contact that presses it: both act in one plane or space.
+bool haveTangent(const scene::Scene& scene, const scene::Lia& lia, const scene::Lia& by) {
+  const scene::Section& one = scene.sections[at(frameOf(scene, lia).section)];
+  const scene::Section& other = scene.sections[at(frameOf(scene, by).section)];
+  return one.geometry == other.geometry && dimensionsOf(one.geometry) > 1 &&
+         one.pose.matrix() == other.pose.matrix();
+}
+
+/// \param pressers  of scene::pressersOf
+void placePressings(const scene::Scene& scene, const std::vector<int>& pressers, Layout& layout) {
+  std::map<int, std::pair<std::size_t, std::size_t>> places;  // of links that press
+  for (std::size_t r = 0; r < layout.runs.size(); ++r) {
+    for (std::size_t l = 0; layout.runs[r].presses && l < layout.runs[r].lias.size(); ++l) {
+      places[layout.runs[r].lias[l]] = {r, l};
+    }
+  }
+  for (std::size_t r = 0; r < layout.runs.size() && !pressers.empty(); ++r) {
+    for (std::size_t l = 0; l < layout.runs[r].lias.size(); ++l) {
+      const int lia = layout.runs[r].lias[l];
+      if (const int by = pressers[at(lia)]; by >= 0) {
+        const auto [by_run, by_link] = places.at(by);
+        const bool is_tangent = haveTangent(scene, scene.lias[at(lia)], scene.lias[at(by)]);
+        layout.pressings.push_back({r, l, by_run, by_link, is_tangent});
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void placeTaps(const scene::Scene& scene, Layout& layout) {
@@ -202,7 +232,9 @@ void placeConnections(const scene::Scene& scene, Layout& layout) {
 }
 
 void placeLinks(const scene::Scene& scene, Layout& layout) {
-  using Key = std::tuple<scene::LiaType, bool, int, int, int, int, int, int, int, int>;
+  using Key = std::tuple<scene::LiaType, bool, bool, int, int, int, int, int, int, int, int>;
+  const std::vector<int> pressers = scene::pressersOf(scene);
+  const std::set<int> pressing(pressers.begin(), pressers.end());
   std::map<Key, std::size_t> known;
   Ends ends(scene, layout);
   std::vector<int> block_of_lia(scene.lias.size(), -1);
@@ -218,8 +250,10 @@ void placeLinks(const scene::Scene& scene, Layout& layout) {
     End b;
     placeLink(scene, l, ends, run, a, b);
     run.block = block_of_lia[at(l)];
-    const Key key{run.law,       run.guarded,  run.dimensions, run.section,      run.section_a,
-                  run.section_b, run.stride_a, run.stride_b,   run.slow_section, run.block};
+    run.presses = pressing.count(l) > 0;
+    const Key key{run.law,      run.guarded,      run.presses,   run.dimensions,
+                  run.section,  run.section_a,    run.section_b, run.stride_a,
+                  run.stride_b, run.slow_section, run.block};
     const auto [found, is_new] = known.emplace(key, layout.runs.size());
     if (is_new) {
       layout.runs.push_back(std::move(run));
@@ -234,6 +268,7 @@ void placeLinks(const scene::Scene& scene, Layout& layout) {
   for (LinkRun& run : layout.runs) {
     arrangeInSpans(run);
   }
+  placePressings(scene, pressers, layout);
 }
 
 }  // namespace ergotic::physics

@@ -74,6 +74,10 @@ class Split {
     for (const LinkRun& run : layout_.runs) {
       join(run.section_a, run.section_b);
     }
+    for (const Pressing& pressing : layout_.pressings) {
+      const LinkRun& by = layout_.runs[pressing.by_run];
+      join(layout_.runs[pressing.run].section, isHeld(by.section_a) ? by.section_b : by.section_a);
+    }
     for (const PlacePoint& point : layout_.places) {
       if (sectionOfGuide(point) >= 0) {
         join(point.section, sectionOfGuide(point));

@@ -96,6 +96,9 @@ class Chooser {
   }
 
   Scheme choose(const scene::Lia& lia) {
+    if (scene::sticks(lia.type)) {
+      return Scheme::kGuarded;
+    }
     const Reason reason = reasonFor(lia);
     if (reason.figure == nullptr) {
       return Scheme::kExplicit;

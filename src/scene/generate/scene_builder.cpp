@@ -135,6 +135,10 @@ int SceneBuilder::grid(const std::string& name, Place place) const {
   return find(grids_, "string or mesh", name, place);
 }
 
+int SceneBuilder::lia(const std::string& name, Place place) const {
+  return find(lias_, "link", name, place);
+}
+
 int SceneBuilder::find(const NameTable& table,
                        const char* kind,
                        const std::string& name,

@@ -39,6 +39,7 @@ class SceneBuilder {
   int section(const std::string& name, Place place) const;
   int mat(const std::string& name, Place place) const;
   int grid(const std::string& name, Place place) const;
+  int lia(const std::string& name, Place place) const;
   /// \return -1 if there is no such module
   int findMat(const std::string& name) const { return mats_.find(name); }
 

@@ -135,8 +135,8 @@ GuardedLaw<Real> GuardedLaw<Real>::make(const Scene& scene, const Lia& lia, cons
   if (told.tables == Law::Tables::kParts) {
     law.takeParts(scene, lia);
   } else if (!lia.law->table.empty()) {
-    (law.isFriction() ? law.viscous : law.table) =
-        GuardedCurve<Real>(interpolate(lia.law->table), false);
+    (law.isFriction() || law.isDry() ? law.viscous : law.table) =
+        GuardedCurve<Real>(interpolate(lia.law->table), law.isDry());
   }
   law.update(scene, lia, units);
   return law;
@@ -174,6 +174,12 @@ ERGOTIC_REALTIME void GuardedLaw<Real>::update(const Scene& scene,
   release = real(lia.law->release);
   per_step = real(1.0 / units.step);
   length = real(isContact() ? across : lia.rest_length);
+  normal = real(scene.valueOf(lia.law->normal));
+  steady = real(lia.law->steady);
+  for (std::size_t i = 0; i < lia.law->falls.size(); ++i) {
+    share[i] = real(lia.law->falls[i].share);
+    per_width[i] = real(1.0 / units.velocity(lia.law->falls[i].width));
+  }
 }
 
 namespace {

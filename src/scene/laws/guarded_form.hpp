@@ -64,6 +64,7 @@ struct GuardedForm {
     kContact,   ///< pushes while p > 0 and lets go beyond
     kSpring,    ///< two-sided
     kFriction,  ///< over velocity alone
+    kDry,       ///< the same per normal force, and it sticks
   };
   using Number = Real (*)(const GuardedLaw<Real>&, Real) noexcept;
   using ForceAt = GuardedForce<Real> (*)(const GuardedLaw<Real>&, Real) noexcept;
@@ -75,7 +76,7 @@ struct GuardedForm {
   Number bend;       ///< contacts: f''(p)
   /// Z >= 0 at p; v is the velocity of p per step.
   Real (*damping)(const GuardedLaw<Real>&, Real p, Real v) noexcept;
-  ForceAt slip;  ///< F(v) and F'(v) of friction
+  ForceAt slip;  ///< F(v) and F'(v) of friction; dry: mu(v) and mu'(v), v >= 0
   /// Springs that let go: whether they hold at p, as they did or did not; null: always.
   bool (*holds)(const GuardedLaw<Real>&, Real p, bool held) noexcept;
   Real (*snap)(const GuardedLaw<Real>&) noexcept;  ///< what they lose where they let go
@@ -111,12 +112,16 @@ struct GuardedLaw {
   Real limit_damping = Real(0);  ///< instead of `damping` beyond `tip`
   Real tip = Real(0);
   Real exponent = Real(1);
-  Real width = Real(0);        ///< of the friction curve, m per step; of springs that let go, m
-  Real release = Real(0);      ///< where they do, m
-  Real per_step = Real(1);     ///< velocity of the tables per m per step
-  Real length = Real(0);       ///< threshold of contacts, rest length of the others, m
-  GuardedCurve<Real> table;    ///< elastic
-  GuardedCurve<Real> viscous;  ///< over velocity
+  Real width = Real(0);     ///< of the friction curve, m per step; of springs that let go, m
+  Real release = Real(0);   ///< where they do, m
+  Real per_step = Real(1);  ///< velocity of the tables per m per step
+  Real length = Real(0);    ///< threshold of contacts, rest length of the others, m
+  Real normal = Real(0);    ///< force of dry friction, unless a contact gives it
+  Real steady = Real(0);    ///< mu far from rest
+  Real share[2] = {Real(0), Real(0)};      ///< of mu that falls
+  Real per_width[2] = {Real(0), Real(0)};  ///< by e for so much slip, per m per step
+  GuardedCurve<Real> table;                ///< elastic
+  GuardedCurve<Real> viscous;              ///< over velocity
 
   static GuardedLaw make(const Scene& scene, const Lia& lia, const Units& units);
   /// Of a table with parts, beside which a spring K (e - width) may lie.
@@ -126,6 +131,7 @@ struct GuardedLaw {
 
   bool isContact() const noexcept { return form->sort == GuardedForm<Real>::Sort::kContact; }
   bool isFriction() const noexcept { return form->sort == GuardedForm<Real>::Sort::kFriction; }
+  bool isDry() const noexcept { return form->sort == GuardedForm<Real>::Sort::kDry; }
 
   /// f(p) and f'(p) of the elastic laws. \pre p > 0 for contacts. Realtime: yes
   GuardedForce<Real> push(Real p) const noexcept { return form->push(*this, p); }

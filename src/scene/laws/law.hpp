@@ -65,8 +65,9 @@ struct Growth {
 struct LawText {
   enum class Tables {
     kNone,
-    kOne,    ///< `table`, 0 beyond its ends
-    kParts,  ///< `elastic`, `viscous` or both, held beyond their ends
+    kOne,          ///< `table`, 0 beyond its ends
+    kParts,        ///< `elastic`, `viscous` or both, held beyond their ends
+    kCoefficient,  ///< `table` of mu over |v|, held beyond its ends, or `steady` and `parts`
   };
 
   const char* name;  ///< in reports
@@ -111,6 +112,11 @@ struct Law : LawText {
 
 /// The row of a law.
 const Law& lawOf(LiaType type);
+
+/// True if it may hold two bodies together as if they were one, which only a guard can do.
+inline bool sticks(LiaType type) {
+  return lawOf(type).explicit_form.single_forces == nullptr;
+}
 
 inline Slopes slopesOf(const Scene& scene, const Lia& lia) {
   return lawOf(lia.type).slopes(scene, lia);

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/rules/lia_rules.hpp"
 
+#include <vector>
+
+#include "scene/laws/friction.hpp"
 #include "scene/laws/law.hpp"
 #include "scene/laws/relaxing.hpp"
 #include "scene/names.hpp"
+#include "scene/pressers.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -44,6 +48,9 @@ Limits releaseLimits(const Scene& scene, const Lia& lia) {
 }
 
 std::string schemeFault(const Scene& scene, const Lia& lia) {
+  if (lia.scheme == Scheme::kExplicit && sticks(lia.type)) {
+    return "link " + quoted(lia.name) + " cannot be explicit, it sticks, allowed: auto, guarded";
+  }
   const char* kind = unguarded(scene, lia);
   if (lia.scheme != Scheme::kGuarded || kind == nullptr) {
     return "";
@@ -86,13 +93,56 @@ std::string relaxationFault(const Scene& scene, const Lia& lia) {
   return {};
 }
 
+/// A slice stands still within a tick and leaps between two: what sticks to it would, too.
+std::string frictionFault(const Scene& scene, const Lia& lia) {
+  if (lawOf(lia.type).tables != Law::Tables::kCoefficient) {
+    return "";
+  }
+  const auto isSlice = [&](int mat) {
+    return scene.mats[static_cast<std::size_t>(mat)].type == MatType::kSlice;
+  };
+  if (isSlice(lia.a) || isSlice(lia.b)) {
+    return "link " + quoted(lia.name) +
+           " is friction on a slice, which moves in leaps, allowed: a mass that hangs on it (of a "
+           "chaplet, or of the filter of its port)";
+  }
+  if (!lia.law->table.empty()) {
+    const std::string fault = coefficientFault(lia.law->table);
+    return fault.empty() ? "" : "the table of link " + quoted(lia.name) + " " + fault;
+  }
+  for (const LiaLaw::Fall& fall : lia.law->falls) {
+    if (!kFrictionLimits.hold(fall.share) || !kFallWidthLimits.hold(fall.width)) {
+      return "a part of link " + quoted(lia.name) + " is out of range, allowed: [" +
+             kFrictionLimits.text() + ", " + kFallWidthLimits.text() + "]";
+    }
+  }
+  return kFrictionLimits.hold(lia.law->steady)
+             ? ""
+             : outOfRange("steady of link " + quoted(lia.name), lia.law->steady, kFrictionLimits);
+}
+
 std::string liaFault(const Scene& scene, const Lia& lia) {
-  for (const auto& faultOf : {schemeFault, filterFault, relaxationFault}) {
+  for (const auto& faultOf : {schemeFault, filterFault, relaxationFault, frictionFault}) {
     if (std::string fault = faultOf(scene, lia); !fault.empty()) {
       return fault;
     }
   }
   return {};
+}
+
+std::optional<Fault> unpressed(const Scene& scene) {
+  const std::vector<int> pressers = pressersOf(scene);
+  for (std::size_t l = 0; l < pressers.size(); ++l) {
+    const Name& name = scene.lias[l].law->pressed_by;
+    const int by = pressers[l];
+    const bool presses =
+        by >= 0 && lawOf(scene.lias[static_cast<std::size_t>(by)].type).kind == Law::Kind::kGap;
+    if (!name.empty() && !presses) {
+      return Fault{scene.lias[l].place, "link " + quoted(scene.lias[l].name) + " is pressed by " +
+                                            quoted(name) + ", allowed: a contact"};
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace ergotic::scene

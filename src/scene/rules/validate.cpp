@@ -43,14 +43,13 @@ class Validator {
     each(scene_.agents, "agent", &Validator::agent);
     each(scene_.ports, "port", &Validator::port);
     for (const std::optional<Fault>& fault :
-         {misplacedPoint(scene_), movedTwice(scene_), wrongBend(scene_)}) {
+         {misplacedPoint(scene_), movedTwice(scene_), wrongBend(scene_), unpressed(scene_)}) {
       if (fault) {
         fail(fault->place, fault->text);
       }
     }
-    for (const StringInfo& s : scene_.strings) {
-      string(s);
-    }
+    std::for_each(scene_.strings.begin(), scene_.strings.end(),
+                  [this](const auto& s) { string(s); });
   }
 
  private:

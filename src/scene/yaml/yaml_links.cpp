@@ -10,6 +10,7 @@
 #include "scene/rules/lia_rules.hpp"
 #include "scene/yaml/points.hpp"
 #include "scene/yaml/yaml_elements.hpp"
+#include "scene/yaml/yaml_friction.hpp"
 #include "scene/yaml/yaml_tables.hpp"
 
 namespace ergotic::scene {
@@ -108,6 +109,9 @@ void readCoefficients(const SceneBuilder& builder,
                       const Keys& required,
                       Lia& lia) {
   const Law& law = lawOf(lia.type);
+  if (law.tables == Law::Tables::kCoefficient) {
+    return;  // it has read its own
+  }
   for (const LiaField& field : law.fields) {
     if (contains(required, field.key) || map.has(field.key)) {
       setMember(lia, field.member, map.value(field.key, field.limits));
@@ -129,6 +133,9 @@ void readTables(const SceneBuilder& builder, YamlTables& tables, const YamlMap& 
       return;
     case Law::Tables::kOne:
       lia.law.edit().table = tables.read(map, "table");
+      return;
+    case Law::Tables::kCoefficient:
+      readFriction(builder, tables, map, lia);
       return;
     case Law::Tables::kParts:
       readLaws(builder, tables, map, lia);
@@ -212,14 +219,20 @@ Lia readLia(SceneBuilder& builder,
 }  // namespace
 
 void readLias(SceneBuilder& builder, const YamlMap& top, YamlTables& tables) {
+  Pressed pressed;
   forEachElement(builder, top, "lias", "link", [&](const std::string& name, const YamlMap& map) {
     const std::string& word = wordOf(map);
     if (word == kBend) {
       readBend(builder, name, map);
-    } else {
-      builder.add(readLia(builder, tables, name, word, map));
+      return;
     }
+    Lia lia = readLia(builder, tables, name, word, map);
+    if (!lia.law->pressed_by.empty()) {
+      pressed.emplace_back(lia.law->pressed_by, map.placeAt("normal"));
+    }
+    builder.add(std::move(lia));
   });
+  checkPressers(builder, pressed);
 }
 
 }  // namespace ergotic::scene

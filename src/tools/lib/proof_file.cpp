@@ -109,6 +109,22 @@ Json pointsOf(const Scene& scene, const physics::Proof& proof) {
   return all;
 }
 
+/// What presses friction, and mu where no table says it.
+void addFriction(const scene::LiaLaw& law, Json& link) {
+  if (!law.pressed_by.empty()) {
+    link["normal"] = law.pressed_by.str();
+  }
+  if (law.table.empty()) {
+    link["steady"] = law.steady;
+    link["parts"] = Json::array();
+    for (const scene::LiaLaw::Fall& fall : law.falls) {
+      if (fall.share > 0.0) {
+        link["parts"].push_back({fall.share, fall.width});
+      }
+    }
+  }
+}
+
 /// What a law has, by the words of scenes.
 void addLaw(const Scene& scene, const scene::Lia& lia, Json& link) {
   const scene::Law& law = scene::lawOf(lia.type);
@@ -123,6 +139,9 @@ void addLaw(const Scene& scene, const scene::Lia& lia, Json& link) {
       link[key] = {{"points", table->points},
                    {"interpolation", table->smooth ? "monotone" : "linear"}};
     }
+  }
+  if (law.tables == scene::LawText::Tables::kCoefficient) {
+    addFriction(*lia.law, link);
   }
   if (law.has_release) {
     link["release"] = lia.law->release;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A search for scenes that the certificate vouches for and that grow all the same.
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 
@@ -94,9 +95,20 @@ Judged judge(const SmallScene& small, unsigned seed, Plays plays = Plays::kVouch
   return judged;
 }
 
+/// Whether a link is the normal force of another one.
+bool presses(const SmallScene& scene, const std::string& link) {
+  const std::string key = "normal: " + link.substr(0, link.find(':')) + ",";
+  return std::any_of(scene.lias.begin(), scene.lias.end(), [&](const std::string& other) {
+    return other.find(key) != std::string::npos;
+  });
+}
+
 /// The same without the links that are not needed for it to lie.
 SmallScene shrunk(SmallScene liar, unsigned seed) {
   for (std::size_t i = liar.lias.size(); i-- > 0 && liar.lias.size() > 1;) {
+    if (presses(liar, liar.lias[i])) {
+      continue;
+    }
     SmallScene smaller = liar;
     smaller.lias.erase(smaller.lias.begin() + static_cast<std::ptrdiff_t>(i));
     const Judged judged = judge(smaller, seed);

@@ -53,7 +53,7 @@ TEST(DocumentedScenesTest, AreWholeScenesOrPiecesOfOne) {
       ++pieces;
     }
   }
-  EXPECT_EQ(pieces, 5);
+  EXPECT_EQ(pieces, 6);
 }
 
 TEST(DocumentedScenesTest, ShowEachWayToWriteATable) {

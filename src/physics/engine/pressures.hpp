@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "physics/engine/guarded.hpp"
+#include "physics/layout/guarded_groups.hpp"
+#include "physics/layout/layout.hpp"
+#include "physics/state/state.hpp"
+
+namespace ergotic::physics {
+
+/// What presses the frictions of an instrument: numbers, or contacts by the last force they gave.
+/// Contacts are of the group of the friction, or of held sections, which stand still while it runs.
+template <class Real>
+class Pressures {
+ public:
+  Pressures(const Layout& layout, const std::vector<GuardedGroup>& groups);
+
+  /// Of the guarded links of a group. \param laws  [links] of it. Realtime: yes
+  const Pressure<Real>* read(std::size_t group,
+                             const GuardedLaw<Real>* laws,
+                             State<Real>& state) noexcept;
+
+ private:
+  /// By index in its group.
+  struct Friction {
+    std::size_t link = 0;
+    int pressing = -1;  ///< index in Layout::pressings, -1: a number presses it
+  };
+  void readContact(const Pressing& by, State<Real>& state, Pressure<Real>& to) const noexcept;
+
+  const Layout& layout_;
+  std::vector<std::vector<Friction>> frictions_;      // [groups]
+  std::vector<std::vector<Pressure<Real>>> pressed_;  // [groups][links]
+};
+
+extern template class Pressures<float>;
+extern template class Pressures<double>;
+
+}  // namespace ergotic::physics

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "physics/laws/guarded_force.hpp"
+
+/// Friction that sticks. Source: docs/physics.md, "Friction that sticks".
+namespace ergotic::physics {
+
+/// One step of what rubs, along the slip as it would be without this friction, m per step.
+template <class Real>
+struct Slide {
+  Real free = Real(0);    ///< g_free >= 0, the slip of the step to come
+  Real before = Real(0);  ///< d + p, that of the step just made, and by what it was changed since
+  Real give = Real(0);    ///< q, how much less it slips per force
+  Real normal = Real(0);  ///< N >= 0
+  bool goes_on = false;   ///< to the side to which it slipped
+};
+
+/// The force against the slip, >= 0; the link then slips or sticks.
+/// \param budget  the most that its work may be
+/// Realtime: yes
+template <class Real>
+Real exertDry(const Slide<Real>& slide,
+              Real budget,
+              const GuardedLaw<Real>& law,
+              GuardedState<Real>& state) noexcept;
+
+/// What this force takes from the motion; below 0 it gives. Realtime: yes
+template <class Real>
+Real workOf(const Slide<Real>& slide, Real force) noexcept {
+  return force * (slide.before + slide.free - slide.give * force) / Real(2);
+}
+
+}  // namespace ergotic::physics

@@ -10,7 +10,7 @@ import yaml
 
 PARTS = {"parameters": "parameters", "sections": "sections", "mats": "modules", "lias": "links"}
 DEFAULTS = {"sections": {"rate": "audio", "geometry": "scalar", "medium": "0"},
-            "lias": {"rest_length": "0", "threshold": "0", "stiffness": "0", "damping": "0"},
+            "lias": {"rest_length": "0", "threshold": "0", "stiffness": "0", "damping": "0", "parts": []},
             "mats": {"stiffness": "0", "damping": "0", "matched": "true", "power": "1"}, "parameters": {}}
 WORDS = {"spring": "spring_damper", "damper": "spring_damper"}
 AXES = {"scalar": 1, "line": 1, "plane": 2, "space": 3}

@@ -4,7 +4,7 @@ from random_scene.dice import SPEED, Dice, rounded
 
 ELASTIC = ("spring", "spring_damper", "quadratic", "cubic", "clipped_cubic", "table")
 CONTACTS = ("contact", "power_contact", "cubic_contact")
-FRICTION = ("bow", "smooth_bow", "damper")
+FRICTION = ("bow", "smooth_bow", "damper", "friction")
 ACTIVE = ("pluck", "conditional")
 LAWS = ELASTIC + CONTACTS + FRICTION + ACTIVE + ("relaxing",)
 ALWAYS_EXPLICIT = ("spring", "spring_damper", "damper", "relaxing") + ACTIVE
@@ -15,6 +15,8 @@ class Laws(Dice):
         """Keys of a link, with its scheme."""
         scheme = "explicit" if kind in ALWAYS_EXPLICIT else self.pick("auto", "auto", "guarded",
                                                                       "explicit")
+        if kind == "friction" and scheme == "explicit":
+            scheme = "guarded"
         stiff = self.between(0.01, 0.05) * unit.full
         if scheme == "guarded" and not soft:
             stiff *= self.between(1, 30)
@@ -24,7 +26,8 @@ class Laws(Dice):
             keys["rest_length"] = rounded(length)
         if length > 0 and kind in CONTACTS:
             keys["threshold"] = rounded(length - 0.1 * unit.reach)
-        if kind not in ALWAYS_EXPLICIT and "viscous" not in keys and "table" not in keys:
+        may_choose = kind == "friction" or "viscous" not in keys and "table" not in keys
+        if kind not in ALWAYS_EXPLICIT and may_choose:
             keys["scheme"] = scheme
         elif self.chance(0.5):
             keys["scheme"] = self.pick("auto", "explicit")
@@ -80,6 +83,15 @@ class Laws(Dice):
         keys = {"stiffness": self.value(stiff), "damping": self.value(damping)}
         return {**keys, **self.pick({"material": self.pick("felt", "nylon", "gut", "wood")},
                                     {"branches": [[self.value(0.3 * stiff), rounded(self.between(1, 300) * unit.step)]]})}
+
+    def law_friction(self, unit, stiff, damping):
+        keys = {"normal": self.value(damping * SPEED)}
+        if self.chance(0.3):
+            return {**keys, "table": {"points": [[0, 1.2], [rounded(0.1 * SPEED), 0.5], [SPEED, 0.3]]}}
+        keys["steady"] = rounded(self.within(0, 0.5))
+        parts = [[rounded(self.within(0.1, 1)), rounded(SPEED * self.between(1e-2, 1))]
+                 for _ in range(self.random.randint(0, 2))]
+        return {**keys, "parts": parts} if parts else keys
 
     def law_table(self, unit, stiff, damping):
         keys = {"elastic": self.table(2 * unit.reach, 2 * stiff * unit.reach),

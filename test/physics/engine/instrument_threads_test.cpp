@@ -145,6 +145,13 @@ class Merged {
       connection.guide += connection.guide < 0 ? 0 : mats;
       scene.connections.push_back(connection);
     }
+    for (scene::Tap& tap : from.taps) {
+      tap.mat += mats;
+      for (scene::Tap::Share& share : tap.shares) {
+        share.mat += mats;
+      }
+      scene.taps.push_back(tap);
+    }
     scene::Output output;
     output.name = "out" + suffix;
     output.point.mat = mats + 1;

@@ -31,6 +31,7 @@ class Rewriter {
     for (std::size_t l = 0; l < from_.lias.size(); ++l) {
       if (!isAmong([l](const ModalPlan& plan) { return plan.linear.is_in[l] != 0; })) {
         to_.lias.push_back(from_.lias[l]);
+        to_.lias.back().bend = -1;  // what is left of one are springs
       }
     }
     to_.connections = without(from_.connections, &ModalPlan::connections);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Links of many ends: bars and plates swing as closed forms say, and are stepped as springs.
 
+#include <algorithm>
+
 #include <Eigen/Dense>
 
 #include "ergotic/physics/certificate/certify.hpp"
@@ -247,6 +249,32 @@ TEST(BendTest, TheBooksBalanceAndLossesAreTold) {
     EXPECT_LT(imbalanceOf(player, 8000, 97), 1e-10) << keys;
     const Energies books = energiesOf(player);
     EXPECT_EQ(books.sections[0].dissipated > 0.0, *keys != '\0') << keys;
+  }
+}
+
+/// One that is damped in a way of its own stays beside the modes of all others.
+TEST(BendTest, ModesStandInForBendsInEitherPrecision) {
+  const auto heard = [](const char* section, Precision precision) {
+    Bars bars(0.1, ", damping: 0.02");
+    bars.section = section;
+    bars.displacements = bentAt(20);
+    const std::string text =
+        bars.bar(20, Edge::kClamped, Edge::kFree) +
+        "  own: {type: bend, between: [m3, m4, m5], weights: [1, -2, 1], stiffness: 9e4,\n"
+        "    damping: 3}\noutputs: {o: {at: m20, quantity: velocity, channel: 1}}\n";
+    Player player(scene::readYaml(text, "bars.yaml"), kRates, precision);
+    player.ticks(100);
+    return player.heard[0];
+  };
+  const std::vector<double> plain = heard("{}", Precision::kDouble);
+  const double most = std::abs(*std::max_element(
+      plain.begin(), plain.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
+  for (const auto& [precision, rounding] :
+       {std::pair(Precision::kDouble, 1e-9), std::pair(Precision::kFloat, 1e-2)}) {
+    const std::vector<double> modal = heard("{modes: all}", precision);
+    for (std::size_t n = 0; n < plain.size(); ++n) {
+      ASSERT_NEAR(modal[n], plain[n], rounding * most) << n;
+    }
   }
 }
 

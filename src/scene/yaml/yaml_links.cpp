@@ -198,7 +198,7 @@ Lia readLia(SceneBuilder& builder,
             const std::string& word,
             const YamlMap& map) {
   const LiaKind& kind = kindOf(map, word);
-  Keys keys = {"type", "between", "scheme", "coupling", "filter"};
+  Keys keys = {"type", "between", "scheme", "filter"};
   for (const Keys& more : {kind.required, kind.optional}) {
     keys.insert(keys.end(), more.begin(), more.end());
   }

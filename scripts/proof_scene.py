@@ -259,10 +259,13 @@ class Said:
             return [{m: weight for m, weight in keys["weights"].items() if weight}]
         (_, columns, rows), at = self.grids[keys["along"]], keys["at"]
         along, across = at if rows > 1 else (at, "0")
-        allowed = [float(end) for end in keys.get("range", ("0", "1"))]
-        return [self.around(keys["along"], x, y)
-                for x in self.lines_of(along, allowed, "guide" in keys, columns)
-                for y in self.lines_of(across, (0.0, 1.0), False, rows)]
+        guides, ranges = keys.get("guide", "~"), keys.get("range", "~")
+        guides = guides if isinstance(guides, list) else [guides, "~"]
+        ranges = ranges if any(isinstance(each, list) for each in ranges) else [ranges, "~"]
+        lines = [self.lines_of(said, [float(end) for end in allowed] if isinstance(allowed, list) else (0.0, 1.0),
+                               isinstance(guide, dict), count)
+                 for said, allowed, guide, count in zip((along, across), ranges, guides, (columns, rows))]
+        return [self.around(keys["along"], x, y) for x in lines[0] for y in lines[1]]
 
     def around(self, grid, *place):
         _, columns, rows = self.grids[grid]

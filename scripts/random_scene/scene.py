@@ -58,13 +58,17 @@ class Scene(Bodies):
         return f"{body.along}@{rounded(self.within(0.1, 0.9))}{across}"
 
     def moving_point(self, body, guide):
-        """A point that a parameter, or a hand, takes along a string."""
-        keys = {"type": "point", "along": body.along, "at": self.value(rounded(self.within(0.3, 0.6)))}
+        """A point that a parameter, or a hand, takes along a string, or about a mesh."""
+        is_string = body.along.startswith("s")
+        at = [self.value(rounded(self.within(0.3, 0.6))) for _ in range(1 if is_string else 2)]
+        keys = {"type": "point", "along": body.along, "at": at[0] if is_string else at}
         if guide and self.chance(0.7):
             keys["guide"] = {"mat": guide, "scale": rounded(self.within(5, 30))}
+            if not is_string and self.chance(0.5):
+                keys["guide"] = [keys["guide"], {"mat": guide, "axis": "x", "scale": rounded(self.within(5, 30))}]
             self.features["guide"] += 1
         if self.chance(0.5):
-            keys["range"] = [0.1, 0.9]
+            keys["range"] = [0.1, 0.9] if is_string or self.chance(0.5) else [[0.1, 0.9], [0.2, 0.7]]
         if self.chance(0.5):
             keys["speed"] = rounded(self.within(0.5, 5))
         self.features["moving point"] += 1
@@ -113,7 +117,7 @@ class Scene(Bodies):
         is_scalar = "scalar" == geometry == self.section_of(body)["geometry"]
         rate = self.section_of(body)["rate"]
         is_sleepy = "sleep" in self.section_of(body)
-        if body.along and body.along.startswith("s") and not self.is_modal(body) and self.chance(0.4):
+        if body.along and not self.is_modal(body) and self.chance(0.4):
             other = self.moving_point(body, hand)
         elif is_scalar and rate == "audio" and self.ratio >= 4 and not is_sleepy and self.chance(0.4):
             other_end, name = other, f"ch{len(self.generators)}"

@@ -109,14 +109,21 @@ const Damage kDamages[] = {
     {"string or mesh of point 'u'", [](Scene& s) { s.connections[0].grid = 1; }},
     {"section of point 'u' is another", [](Scene& s) { s.mats.back().section = 1; }},
     {"place along of point 'u' = 0.3 is out of range, allowed: 0.4...1",
-     [](Scene& s) { s.connections[0].along_minimum = 0.4; }},
-    {"upper end of the range of point 'u'", [](Scene& s) { s.connections[0].along_maximum = 2; }},
-    {"place across of point 'u'", [](Scene& s) { s.connections[0].across.factor = 2.0; }},
+     [](Scene& s) { s.connections[0].along.minimum = 0.4; }},
+    {"upper end of the range along of point 'u'", [](Scene& s) { s.connections[0].along.maximum = 2; }},
+    {"place across of point 'u'", [](Scene& s) { s.connections[0].across.at.factor = 2.0; }},
     {"speed of point 'u'", [](Scene& s) { s.connections[0].speed = -1.0; }},
     {"power of point 'u'", [](Scene& s) { s.connections[0].power = 0.0; }},
-    {"guide of point 'u' = 99", [](Scene& s) { s.connections[0].guide = 99; }},
-    {"guide of point 'u' is a point", [](Scene& s) { s.connections[0].guide = 6; }},
-    {"scale of the guide of point 'u'", [](Scene& s) { s.connections[0].guide_scale = kNan; }},
+    {"guide along of point 'u' = 99", [](Scene& s) { s.connections[0].along.guide = 99; }},
+    {"guide along of point 'u' is a point", [](Scene& s) { s.connections[0].along.guide = 6; }},
+    {"guide across of point 'u', allowed: none, 's' has one row",
+     [](Scene& s) { s.connections[0].across.guide = 0; }},
+    {"axis of the guide along of point 'u' = 1 does not exist, there are 1",
+     [](Scene& s) {
+       s.connections[0].along.guide = 0;
+       s.connections[0].along.axis = 1;
+     }},
+    {"scale of the guide along of point 'u'", [](Scene& s) { s.connections[0].along.scale = kNan; }},
 };
 TEST(ValidateTest, AcceptsWhatTheReaderMakes) {
   EXPECT_NO_THROW(validate(legal()));

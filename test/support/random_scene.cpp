@@ -190,9 +190,9 @@ class Maker {
     point.type = scene::MatType::kPoint;
     scene::Connection connection;
     connection.mat = m;
-    connection.along = {within(0.05, 0.95)};
+    connection.along.at = {within(0.05, 0.95)};
     if (geometryOf(m) != Geometry::kScalar) {
-      point.rest.x() = mesh_ * connection.along.factor * (grid.columns - 1);
+      point.rest.x() = mesh_ * connection.along.at.factor * (grid.columns - 1);
       point.position = point.rest;
     }
     b_.scene.connections.push_back(connection);

@@ -77,8 +77,8 @@ int SceneBuilder::point(int grid, double along, double across) {
   scene::Connection connection;
   connection.mat = m;
   connection.grid = grid;
-  connection.along = {along};
-  connection.across = {across};
+  connection.along.at = {along};
+  connection.across.at = {across};
   connection.place = {500 + static_cast<int>(scene.connections.size()), 1};
   scene.connections.push_back(connection);
   return m;

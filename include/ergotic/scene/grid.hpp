@@ -48,4 +48,13 @@ inline GridPlace placeOn(const Grid& grid, double along, double across) noexcept
   return place;
 }
 
+/// Where a point is while nothing leads it.
+inline GridPlace placeOf(const Scene& scene, const Connection& point) {
+  const auto fraction = [&](const Connection::Way& way) {
+    return std::clamp(scene.valueOf(way.at), way.minimum, way.maximum);
+  };
+  return placeOn(scene.grids[static_cast<std::size_t>(point.grid)], fraction(point.along),
+                 fraction(point.across));
+}
+
 }  // namespace ergotic::scene

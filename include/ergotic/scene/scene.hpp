@@ -235,15 +235,19 @@ struct Grid {
 /// these receive its force with the same weights: a finger, the place of a bow, a fret, a bridge.
 /// along = 0 is the first column, 1 the last; across = 0 the first row, 1 the last.
 struct Connection {
+  /// A fraction: that asked for, plus scale times the displacement of a module.
+  struct Way {
+    Value at{};
+    int guide = -1;        ///< module, no point; -1: none
+    int axis = 0;          ///< along which its displacement counts; 0: x
+    double scale = 0.0;    ///< 1/m
+    double minimum = 0.0;  ///< it never leaves this range, whatever asks for it
+    double maximum = 1.0;
+  };
   int mat = 0;   ///< a kPoint, in the section of the grid
   int grid = 0;  ///< index in Scene::grids
-  Value along{};
-  Value across{};
-  /// Module whose displacement along x moves the point: along + guide_scale * x, -1: none.
-  int guide = -1;
-  double guide_scale = 0.0;    ///< 1/m
-  double along_minimum = 0.0;  ///< it never leaves this range, whatever asks for it
-  double along_maximum = 1.0;
+  Way along{};
+  Way across{};  ///< of one row it does not matter
   double speed = 0.0;  ///< largest change of along and across per time_unit; 0: at once
   double power = 1.0;  ///< W, the most that moving it may bring; it waits where it owes more
   Place place;

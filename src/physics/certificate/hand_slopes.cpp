@@ -19,9 +19,7 @@ constexpr double kRigid = 1e30;  // N s/m, of what sticks together
 Eigen::Vector3d startOf(const scene::Scene& scene, int mat) {
   for (const scene::Connection& connection : scene.connections) {
     if (connection.mat == mat) {
-      const scene::GridPlace place =
-          scene::placeOn(scene.grids[at(connection.grid)], scene.valueOf(connection.along),
-                         scene.valueOf(connection.across));
+      const scene::GridPlace place = scene::placeOf(scene, connection);
       Eigen::Vector3d mean = Eigen::Vector3d::Zero();
       for (std::size_t i = 0; i < at(place.count); ++i) {
         mean += place.weights[i] * scene.mats[at(place.mats[i])].position;

@@ -45,16 +45,21 @@ bool hidesAMass(const scene::Scene& scene, const scene::Lia& lia) {
 
 /// How far the force of a link to a point leads, per metre, when what guides it moves by a metre:
 /// the modules under it lie so much apart at the start, or come to by moving a centimetre.
-double leadOf(const scene::Scene& scene, const scene::Connection& connection) {
+double leadOf(const scene::Scene& scene,
+              const scene::Connection& connection,
+              const scene::Connection::Way& way) {
   const scene::Grid& grid = scene.grids[at(connection.grid)];
   const scene::Geometry geometry = scene.sectionOf(scene.mats[at(connection.mat)]).geometry;
+  const bool is_along = &way == &connection.along;
+  const int next = is_along ? 1 : grid.columns;
   double apart = 0.0;
-  for (int m = grid.first; m < grid.first + grid.columns * grid.rows - 1; ++m) {
-    const bool ends_row = (m - grid.first + 1) % grid.columns == 0;
-    const Eigen::Vector3d step = scene.mats[at(m + 1)].position - scene.mats[at(m)].position;
+  for (int m = grid.first; m < grid.first + grid.columns * grid.rows - next; ++m) {
+    const bool ends_row = is_along && (m - grid.first + 1) % grid.columns == 0;
+    const Eigen::Vector3d step = scene.mats[at(m + next)].position - scene.mats[at(m)].position;
     apart = ends_row ? apart : std::max(apart, movingPart(step, geometry).norm());
   }
-  return std::abs(connection.guide_scale) * (apart * (grid.columns - 1) + kSway);
+  const int count = is_along ? grid.columns : grid.rows;
+  return std::abs(way.scale) * (apart * (count - 1) + kSway);
 }
 
 /// Modules under every point, and points on every module: as they are now, or wherever they may be.
@@ -124,17 +129,19 @@ bool leadsBack(const Hanging& body, const Network& network) {
   for (bool grows = true; grows;) {
     grows = false;
     for (const scene::Connection& connection : scene.connections) {
-      if (moved.count(connection.guide) == 0 || connection.guide_scale == 0.0) {
-        continue;
-      }
-      const double most = isOfBody(connection.guide) ? kMostLead : 0.0;
-      if (isOfBody(connection.mat) && leadOf(scene, connection) > most) {
-        return true;
-      }
-      if (moved.count(connection.mat) == 0) {
-        const Hanging other = bodyOn(connection.mat, network, hands);
-        moved.insert(other.nodes.begin(), other.nodes.end());
-        grows = true;
+      for (const scene::Connection::Way* way : {&connection.along, &connection.across}) {
+        if (moved.count(way->guide) == 0 || way->scale == 0.0) {
+          continue;
+        }
+        const double most = isOfBody(way->guide) ? kMostLead : 0.0;
+        if (isOfBody(connection.mat) && leadOf(scene, connection, *way) > most) {
+          return true;
+        }
+        if (moved.count(connection.mat) == 0) {
+          const Hanging other = bodyOn(connection.mat, network, hands);
+          moved.insert(other.nodes.begin(), other.nodes.end());
+          grows = true;
+        }
       }
     }
   }

@@ -24,18 +24,27 @@ scene::Scene withoutTurning(scene::Scene scene, const RatedNetwork& networks) {
   return scene;
 }
 
+bool areLed(const scene::Scene& scene, scene::Connection::Way scene::Connection::*way) {
+  return std::any_of(scene.connections.begin(), scene.connections.end(),
+                     [&](const scene::Connection& c) { return (c.*way).guide >= 0; });
+}
+
+/// To one of so many places of its range, if it is led. \param i  of kPlaces
+void putAt(int i, scene::Connection::Way& way) {
+  if (way.guide >= 0) {
+    way.at = {way.minimum + (way.maximum - way.minimum) * i / (kPlaces - 1)};
+  }
+}
+
 /// Points that are led, at places of their ranges.
 void addPlaces(const scene::Scene& scene, std::vector<scene::Scene>& cases) {
-  const auto& all = scene.connections;
-  const bool are_led =
-      std::any_of(all.begin(), all.end(), [](const auto& c) { return c.guide >= 0; });
-  for (int i = 0; are_led && i < kPlaces; ++i) {
+  const int along = areLed(scene, &scene::Connection::along) ? kPlaces : 1;
+  const int across = areLed(scene, &scene::Connection::across) ? kPlaces : 1;
+  for (int i = 0; i < along * across && along * across > 1; ++i) {
     cases.push_back(scene);
     for (scene::Connection& connection : cases.back().connections) {
-      if (connection.guide >= 0) {
-        const double range = connection.along_maximum - connection.along_minimum;
-        connection.along = {connection.along_minimum + range * i / (kPlaces - 1)};
-      }
+      putAt(i % along, connection.along);
+      putAt(i / along, connection.across);
     }
   }
 }

@@ -86,7 +86,7 @@ scene::Scene linearPart(scene::Scene scene, const std::vector<int>& slices) {
     }
   }
   for (scene::Connection& connection : scene.connections) {
-    connection.guide = -1;
+    connection.along.guide = connection.across.guide = -1;
   }
   scene.lias.erase(std::remove_if(scene.lias.begin(), scene.lias.end(),
                                   [](const scene::Lia& lia) { return !hasLinearPart(lia); }),

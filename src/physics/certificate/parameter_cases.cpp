@@ -35,7 +35,7 @@ std::vector<int> followedIn(const scene::Scene& scene, const std::set<int>& amon
   }
   for (const scene::Connection& connection : scene.connections) {
     if (among.count(connection.mat) != 0) {
-      add({connection.along, connection.across});
+      add({connection.along.at, connection.across.at});
     }
   }
   std::vector<int> ranging;

@@ -41,8 +41,10 @@ class Points {
     }
     for (std::size_t p = 0; p < layout_.places.size(); ++p) {
       const PlaceCoefficients& wanted = c.places[p];
-      places[2 * p] = std::clamp(wanted.along, wanted.minimum, wanted.maximum);
-      places[2 * p + 1] = std::clamp(wanted.across, 0.0, 1.0);
+      for (std::size_t k = 0; k < wanted.ways.size(); ++k) {
+        const PlaceCoefficients::Way& way = wanted.ways[k];
+        places[2 * p + k] = std::clamp(way.at, way.minimum, way.maximum);
+      }
       gatherPlace(p, x, d, places);
     }
     for (const ProjectedPoint& point : layout_.projections) {
@@ -260,24 +262,23 @@ class Points {
               const PlaceCoefficients& wanted,
               std::int64_t now,
               State<Real>& state) const noexcept {
-    double* places = state.places();
-    const int guide = layout_.places[p].guide;
-    const double led = guide < 0 ? 0.0 : wanted.guide_scale * static_cast<double>(state.x()[guide]);
-    const double targets[2] = {std::clamp(wanted.along + led, wanted.minimum, wanted.maximum),
-                               std::clamp(wanted.across, 0.0, 1.0)};
-    if (targets[0] == places[2 * p] && targets[1] == places[2 * p + 1]) {
-      return false;  // most places stand still
-    }
-    const std::int64_t divisor =
-        layout_.sections[static_cast<std::size_t>(layout_.places[p].section)].divisor;
-    const std::int64_t frames = wanted.glide - now % wanted.glide;
-    const auto steps = static_cast<double>((frames + divisor - 1) / divisor);
     bool moves = false;
-    for (std::size_t k = 0; k < 2; ++k) {
-      double& place = places[2 * p + k];
-      const double way = (targets[k] - place) / steps;
-      place += wanted.speed > 0.0 ? std::clamp(way, -wanted.speed, wanted.speed) : way;
-      moves = moves || way != 0.0;
+    for (std::size_t k = 0; k < wanted.ways.size(); ++k) {
+      const PlaceCoefficients::Way& way = wanted.ways[k];
+      const int guide = layout_.places[p].guides[k];
+      const double led = guide < 0 ? 0.0 : way.scale * static_cast<double>(state.x()[guide]);
+      const double target = std::clamp(way.at + led, way.minimum, way.maximum);
+      double& place = state.places()[2 * p + k];
+      if (target == place) {
+        continue;  // most places stand still
+      }
+      const std::int64_t divisor =
+          layout_.sections[static_cast<std::size_t>(layout_.places[p].section)].divisor;
+      const std::int64_t frames = way.glide - now % way.glide;
+      const auto steps = static_cast<double>((frames + divisor - 1) / divisor);
+      const double step = (target - place) / steps;
+      place += wanted.speed > 0.0 ? std::clamp(step, -wanted.speed, wanted.speed) : step;
+      moves = moves || step != 0.0;
     }
     return moves;
   }

@@ -81,7 +81,7 @@ struct PlacePoint {
   int section = 0;     ///< of the grid
   int stride = 0;      ///< of the modules around it
   int connection = 0;  ///< index in Scene::connections
-  int guide = -1;      ///< slot
+  std::array<int, 2> guides{-1, -1};  ///< slots of what leads along and across
 };
 
 /// A tap: its slots follow one another. Its modules are taken in the order of their slots, so that

@@ -140,8 +140,10 @@ std::vector<unsigned char> usedMats(const scene::Scene& scene) {
     is_used[at(output.point.next < 0 ? output.point.mat : output.point.next)] = 1;
   }
   for (const scene::Connection& place : scene.connections) {
-    if (place.guide >= 0) {
-      is_used[at(place.guide)] = 1;
+    for (const scene::Connection::Way& way : {place.along, place.across}) {
+      if (way.guide >= 0) {
+        is_used[at(way.guide)] = 1;
+      }
     }
   }
   return is_used;
@@ -214,6 +216,15 @@ void placeTaps(const scene::Scene& scene, Layout& layout) {
             [](const TapPoint& a, const TapPoint& b) { return a.mat < b.mat; });
 }
 
+/// The slot of the coordinate that leads.
+int guideOf(const scene::Scene& scene, const Layout& layout, const scene::Connection::Way& way) {
+  if (way.guide < 0) {
+    return -1;
+  }
+  const int section = scene.mats[at(way.guide)].section;
+  return layout.slot_of_mat[at(way.guide)] + way.axis * layout.sections[at(section)].stride;
+}
+
 void placeConnections(const scene::Scene& scene, Layout& layout) {
   for (int k = 0; k < static_cast<int>(scene.connections.size()); ++k) {
     const scene::Connection& connection = scene.connections[at(k)];
@@ -225,7 +236,8 @@ void placeConnections(const scene::Scene& scene, Layout& layout) {
     point.coordinate = static_cast<int>(coordinatesOf(layout.places));
     point.slot = addSlots(layout, point.dimensions, connection.mat);
     point.connection = k;
-    point.guide = connection.guide < 0 ? -1 : layout.slot_of_mat[at(connection.guide)];
+    point.guides = {guideOf(scene, layout, connection.along),
+                    guideOf(scene, layout, connection.across)};
     layout.slot_of_mat[at(connection.mat)] = point.slot;
     layout.places.push_back(point);
   }

@@ -32,9 +32,16 @@ class Split {
   int leaderOf(int section) { return sets_.setOf(section); }
 
  private:
-  int sectionOfGuide(const PlacePoint& point) const {
-    const int guide = scene_.connections[at(point.connection)].guide;
-    return guide < 0 ? -1 : scene_.mats[at(guide)].section;
+  /// Of those that it has.
+  std::vector<int> sectionsOfGuides(const PlacePoint& point) const {
+    const scene::Connection& connection = scene_.connections[at(point.connection)];
+    std::vector<int> sections;
+    for (const scene::Connection::Way& way : {connection.along, connection.across}) {
+      if (way.guide >= 0) {
+        sections.push_back(scene_.mats[at(way.guide)].section);
+      }
+    }
+    return sections;
   }
 
   /// A held section that a running one needs in the middle of a tick runs too.
@@ -44,9 +51,10 @@ class Split {
       return true;
     };
     for (const PlacePoint& point : layout_.places) {
-      const int guide = sectionOfGuide(point);
-      if (guide >= 0 && isHeld(point.section) && !isHeld(guide)) {
-        return release(point.section);
+      for (const int guide : sectionsOfGuides(point)) {
+        if (isHeld(point.section) && !isHeld(guide)) {
+          return release(point.section);
+        }
       }
     }
     for (const LinkRun& run : layout_.runs) {
@@ -79,8 +87,8 @@ class Split {
       join(layout_.runs[pressing.run].section, isHeld(by.section_a) ? by.section_b : by.section_a);
     }
     for (const PlacePoint& point : layout_.places) {
-      if (sectionOfGuide(point) >= 0) {
-        join(point.section, sectionOfGuide(point));
+      for (const int guide : sectionsOfGuides(point)) {
+        join(point.section, guide);
       }
     }
     for (const scene::Output& output : scene_.outputs) {
@@ -226,7 +234,9 @@ void findLoneBlocks(const scene::Scene& scene, const Rates& rates, Layout& layou
     forEachShare(tap, [&](int slot, double) { touch(slot); });
   }
   for (const PlacePoint& point : layout.places) {
-    touch(point.guide);
+    for (const int guide : point.guides) {
+      touch(guide);
+    }
     const scene::Grid& grid = scene.grids[at(scene.connections[at(point.connection)].grid)];
     for (int m = grid.first; m < grid.first + grid.columns * grid.rows; ++m) {
       touch(layout.slot_of_mat[at(m)]);

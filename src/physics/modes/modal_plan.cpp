@@ -19,9 +19,11 @@ using scene::Scene;
 constexpr double kRounding = 1e-10;  // of the largest eigenvalue
 
 bool moves(const Scene& scene, const scene::Connection& place) {
-  const auto changes = [](const scene::Value& v) { return v.parameter >= 0 || v.audio >= 0; };
+  const auto changes = [](const scene::Connection::Way& way) {
+    return way.guide >= 0 || way.at.parameter >= 0 || way.at.audio >= 0;
+  };
   const bool has_rows = scene.grids[at(place.grid)].rows > 1;
-  return place.guide >= 0 || changes(place.along) || (has_rows && changes(place.across));
+  return changes(place.along) || (has_rows && changes(place.across));
 }
 
 class Planner {
@@ -115,8 +117,10 @@ class Planner {
       }
     }
     for (const scene::Connection& place : scene_.connections) {
-      if (place.guide >= 0) {
-        touch(place.guide);
+      for (const scene::Connection::Way& way : {place.along, place.across}) {
+        if (way.guide >= 0) {
+          touch(way.guide);
+        }
       }
     }
     for (int c = 0; c < static_cast<int>(scene_.connections.size()); ++c) {
@@ -165,10 +169,7 @@ class Planner {
       return Offence{place.place, "point '" + scene_.mats[at(place.mat)].name +
                                       "' can move, allowed on modes: points that stay"};
     }
-    const double along =
-        std::clamp(scene_.valueOf(place.along), place.along_minimum, place.along_maximum);
-    const scene::GridPlace around =
-        scene::placeOn(scene_.grids[at(place.grid)], along, scene_.valueOf(place.across));
+    const scene::GridPlace around = scene::placeOf(scene_, place);
     scene::Tap tap{place.mat, {}, place.place, -scene_.mats[at(place.mat)].rest.x()};
     for (std::size_t i = 0; i < at(around.count); ++i) {
       tap.shares.push_back({around.mats[i], around.weights[i]});

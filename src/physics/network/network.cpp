@@ -73,9 +73,11 @@ Network::Bend bendOf(const scene::Scene& scene,
 }
 
 /// Fractions of a grid at which its lines are that a place can lie between; one if it stays.
-std::vector<double> linesOf(
-    const scene::Scene& scene, const scene::Value& v, Range allowed, bool moves, int count) {
-  const Range range = moves || v.audio >= 0 ? allowed : rangeOf(scene, v);
+std::vector<double> linesOf(const scene::Scene& scene,
+                            const scene::Connection::Way& way,
+                            int count) {
+  const Range allowed{way.minimum, way.maximum};
+  const Range range = way.guide >= 0 || way.at.audio >= 0 ? allowed : rangeOf(scene, way.at);
   const double low = std::clamp(range.lowest, allowed.lowest, allowed.highest);
   const double high = std::clamp(range.highest, allowed.lowest, allowed.highest);
   if (low == high || count < 2) {
@@ -117,18 +119,12 @@ Network::Point pointOf(const scene::Scene& scene,
                        const std::vector<Network::Node>& nodes,
                        const scene::Connection& connection) {
   const scene::Grid& grid = scene.grids[at(connection.grid)];
-  const auto sharesAt = [&](double along, double across) {
-    return freeShares(nodes, scene::placeOn(grid, along, across));
-  };
-  const Range allowed{connection.along_minimum, connection.along_maximum};
-  const std::vector<double> across =
-      linesOf(scene, connection.across, {0.0, 1.0}, false, grid.rows);
+  const std::vector<double> across = linesOf(scene, connection.across, grid.rows);
   Network::Point point;
-  point.now = sharesAt(scene.valueOf(connection.along), scene.valueOf(connection.across));
-  for (const double x :
-       linesOf(scene, connection.along, allowed, connection.guide >= 0, grid.columns)) {
+  point.now = freeShares(nodes, scene::placeOf(scene, connection));
+  for (const double x : linesOf(scene, connection.along, grid.columns)) {
     for (const double y : across) {
-      point.places.push_back(sharesAt(x, y));
+      point.places.push_back(freeShares(nodes, scene::placeOn(grid, x, y)));
     }
   }
   return point;

@@ -133,9 +133,7 @@ scene::Mat startOf(const Scene& scene, int mat) {
   if (connection == scene.connections.end()) {
     return start;
   }
-  const scene::GridPlace place =
-      scene::placeOn(scene.grids[at(connection->grid)], scene.valueOf(connection->along),
-                     scene.valueOf(connection->across));
+  const scene::GridPlace place = scene::placeOf(scene, *connection);
   start.rest.setZero();
   start.position.setZero();
   start.push = {};

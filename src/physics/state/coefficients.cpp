@@ -18,9 +18,13 @@ namespace {
 constexpr double kCreditSeconds = 0.1;  // of what a place may bring, in advance
 
 /// What guides a place moves it in its own step, parameters between two ticks.
-int glideOf(const scene::Scene& scene, const Rates& rates, const scene::Connection& place) {
-  return place.guide < 0 ? rates.ratio
-                         : divisorOf(scene.sectionOf(scene.mats[at(place.guide)]), rates);
+PlaceCoefficients::Way wayOf(const scene::Scene& scene,
+                             const Rates& rates,
+                             const scene::Connection::Way& way) {
+  const int glide = way.guide < 0
+                        ? rates.ratio
+                        : divisorOf(scene.sectionOf(scene.mats[at(way.guide)]), rates);
+  return {scene.valueOf(way.at), way.scale, way.minimum, way.maximum, glide};
 }
 
 /// [mats] Sums of the explicit links that end there, at their steepest.
@@ -129,10 +133,9 @@ void CoefficientsOf<Real>::fillPlaces(const scene::Scene& scene,
     const scene::Connection& from = scene.connections[at(point.connection)];
     const SectionRange& range = layout.sections[at(point.section)];
     const StepUnits units(scene, rates, range.divisor);
-    PlaceCoefficients to{scene.valueOf(from.along), scene.valueOf(from.across),
-                         from.guide_scale,          from.along_minimum,
-                         from.along_maximum,        units.velocity(from.speed)};
-    to.glide = glideOf(scene, rates, from);
+    PlaceCoefficients to;
+    to.ways = {wayOf(scene, rates, from.along), wayOf(scene, rates, from.across)};
+    to.speed = units.velocity(from.speed);
     const double energy = from.power * std::pow(scene.time_unit_s, 3.0);  // per time unit
     to.allowance = energy * units.step;
     to.credit = energy * kCreditSeconds / scene.time_unit_s;

@@ -61,13 +61,15 @@ struct RunCoefficients {
 /// Where a point of a grid is asked to be, and what it may bring there. `speed` and `allowance` are
 /// per step of its section; energies in units of the scene.
 struct PlaceCoefficients {
-  double along = 0.0;
-  double across = 0.0;
-  double guide_scale = 0.0;
-  double minimum = 0.0;
-  double maximum = 1.0;
+  struct Way {
+    double at = 0.0;
+    double scale = 0.0;
+    double minimum = 0.0;
+    double maximum = 1.0;
+    int glide = 1;  ///< frames between two changes of what is asked for
+  };
+  std::array<Way, 2> ways;  ///< along, across
   double speed = 0.0;
-  int glide = 1;            ///< frames between two changes of what is asked for
   double allowance = 0.0;   ///< energy that moving it may bring
   double credit = 0.0;      ///< the most that it may owe and go on
   double stiffness = 0.0;   ///< of the explicit links that end there, at their steepest

@@ -137,7 +137,8 @@ class Cutter {
     }
     for (Connection& connection : to_.connections) {
       connection.mat = moved(connection.mat);
-      connection.guide = moved(connection.guide);
+      connection.along.guide = moved(connection.along.guide);
+      connection.across.guide = moved(connection.across.guide);
     }
     for (Tap& tap : to_.taps) {
       tap.mat = moved(tap.mat);
@@ -169,8 +170,9 @@ class Cutter {
       return string_.first + static_cast<int>(std::round(index));
     }
     for (const Connection& known : to_.connections) {
-      const bool stays = known.guide < 0 && known.along.parameter < 0 && known.along.audio < 0;
-      if (known.grid == grid_ && stays && known.along.factor == along) {
+      const Value& there = known.along.at;
+      const bool stays = known.along.guide < 0 && there.parameter < 0 && there.audio < 0;
+      if (known.grid == grid_ && stays && there.factor == along) {
         return known.mat;
       }
     }
@@ -181,7 +183,7 @@ class Cutter {
     Connection connection;
     connection.mat = static_cast<int>(to_.mats.size());
     connection.grid = grid_;
-    connection.along = {along};
+    connection.along.at = {along};
     connection.place = place;
     const GridPlace around = placeOn(to_.grids[at(grid_)], along, 0.0);
     Mat point;
@@ -260,7 +262,7 @@ std::string reasonAgainstCutting(const Scene& scene, int string) {
     }
   }
   for (const Connection& connection : scene.connections) {
-    if (isInner(info, connection.guide)) {
+    if (isInner(info, connection.along.guide) || isInner(info, connection.across.guide)) {
       return "point '" + scene.mats[at(connection.mat)].name + "' is guided by one of its masses";
     }
   }

@@ -206,21 +206,32 @@ class Validator {
       fail(c.place,
            "section" + of + " is another than that of " + quoted(g.name) + ", allowed: the same");
     }
-    number(c.place, "lower end of the range" + of, c.along_minimum, kFractionLimits);
-    number(c.place, "upper end of the range" + of, c.along_maximum, {"", c.along_minimum, 1.0});
-    value(c.place, "place along" + of, c.along, {"", c.along_minimum, c.along_maximum});
-    value(c.place, "place across" + of, c.across, kFractionLimits);
+    way(c.place, " along" + of, c.along);
+    way(c.place, " across" + of, c.across);
     if (c.speed != 0.0) {
       number(c.place, "speed" + of, c.speed, kPointSpeedLimits);
     }
     number(c.place, "power" + of, c.power, kPointPowerLimits);
-    if (c.guide != -1) {
-      index(c.place, "guide" + of, c.guide, scene_.mats.size());
-      number(c.place, "scale of the guide" + of, c.guide_scale, kGuideScaleLimits);
-      if (scene_.mats[static_cast<std::size_t>(c.guide)].type == MatType::kPoint) {
-        fail(c.place, "guide" + of + " is a point, allowed: modules of any other type");
-      }
+    if (g.rows == 1 && c.across.guide != -1) {
+      fail(c.place, "guide across" + of + ", allowed: none, " + quoted(g.name) + " has one row");
     }
+  }
+
+  void way(Place place, const std::string& of, const Connection::Way& way) const {
+    number(place, "lower end of the range" + of, way.minimum, kFractionLimits);
+    number(place, "upper end of the range" + of, way.maximum, {"", way.minimum, 1.0});
+    value(place, "place" + of, way.at, {"", way.minimum, way.maximum});
+    if (way.guide == -1) {
+      return;
+    }
+    index(place, "guide" + of, way.guide, scene_.mats.size());
+    number(place, "scale of the guide" + of, way.scale, kGuideScaleLimits);
+    const Mat& guide = scene_.mats[static_cast<std::size_t>(way.guide)];
+    if (guide.type == MatType::kPoint) {
+      fail(place, "guide" + of + " is a point, allowed: modules of any other type");
+    }
+    const int axes = dimensionsOf(scene_.sectionOf(guide).geometry);
+    index(place, "axis of the guide" + of, way.axis, static_cast<std::size_t>(axes));
   }
 
   void string(const StringInfo& s) const {

@@ -85,17 +85,15 @@ int pointAt(SceneBuilder& builder, const std::string& text, Place place) {
   }
   Connection connection;
   connection.grid = at.grid;
-  connection.along = {at.along};
-  connection.across = {at.across};
+  connection.along.at = {at.along};
+  connection.across.at = {at.across};
   connection.place = place;
   return addPoint(builder, name, std::move(connection));
 }
 
 int addPoint(SceneBuilder& builder, const std::string& name, Connection connection) {
   Scene& scene = builder.scene();
-  const Grid& grid = scene.grids[static_cast<std::size_t>(connection.grid)];
-  const GridPlace around =
-      placeOn(grid, scene.valueOf(connection.along), scene.valueOf(connection.across));
+  const GridPlace around = placeOf(scene, connection);
   std::vector<Tap::Share> shares;
   for (std::size_t i = 0; i < static_cast<std::size_t>(around.count); ++i) {
     shares.push_back({around.mats[i], around.weights[i]});

@@ -21,6 +21,8 @@ void readMats(SceneBuilder& builder, const YamlMap& top);  ///< all but the poin
 void readGenerators(SceneBuilder& builder, const YamlMap& top);
 void readPoints(SceneBuilder& builder, const YamlMap& top);  ///< of `mats`: they lie on grids
 void readLias(SceneBuilder& builder, const YamlMap& top, YamlTables& tables);
+/// A module that lies on a grid, `type: point`.
+void readPoint(SceneBuilder& builder, const std::string& name, const YamlMap& map);
 /// A link of many ends, `type: bend`.
 void readBend(SceneBuilder& builder, const std::string& name, const YamlMap& map);
 /// What a relaxing link remembers. \pre its stiffness is read

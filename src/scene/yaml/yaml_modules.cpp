@@ -94,60 +94,6 @@ Mat readMat(const SceneBuilder& builder, const std::string& name, const YamlMap&
   return mat;
 }
 
-/// `at: u` on a string, `at: [u, v]` on a mesh.
-void readStart(const SceneBuilder& builder, const YamlMap& map, Connection& connection) {
-  const Grid& grid = builder.scene().grids[static_cast<std::size_t>(connection.grid)];
-  const Limits along{"", connection.along_minimum, connection.along_maximum};
-  if (grid.rows == 1) {
-    connection.along = map.value("at", along);
-    return;
-  }
-  const YAML::Node& pair = map.at("at");
-  if (!pair.IsSequence() || pair.size() != 2) {
-    map.fail("at", "'at' of " + map.what() + " is no place on mesh " + quoted(grid.name) +
-                       ", allowed: [along, across]");
-  }
-  const std::string what = " number of 'at' of " + map.what();
-  connection.along = valueOf(builder, pair[0], "first" + what, along, map.placeAt("at"));
-  connection.across =
-      valueOf(builder, pair[1], "second" + what, kFractionLimits, map.placeAt("at"));
-}
-
-void readGuide(const SceneBuilder& builder, const YamlMap& map, Connection& connection) {
-  if (!map.has("guide")) {
-    return;
-  }
-  const YamlMap guide = map.map("guide");
-  guide.allow({"mat", "scale"});
-  connection.guide = builder.mat(guide.word("mat"), guide.placeAt("mat"));
-  connection.guide_scale = guide.number("scale", kGuideScaleLimits);
-  const Mat& mat = builder.scene().mats[static_cast<std::size_t>(connection.guide)];
-  if (mat.type == MatType::kPoint) {
-    guide.fail("mat", map.what() + " is guided by point " + quoted(mat.name) +
-                          ", allowed: modules of any other type");
-  }
-}
-
-void readPoint(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
-  Connection connection;
-  connection.place = map.place();
-  connection.grid = builder.grid(map.word("along"), map.placeAt("along"));
-  if (map.has("range")) {
-    const std::vector<double> range = map.vector("range", 2, kFractionLimits);
-    if (range[0] > range[1]) {
-      map.fail("range", "'range' of " + map.what() + " is [" + numberText(range[0]) + ", " +
-                            numberText(range[1]) + "], allowed: [lowest, highest]");
-    }
-    connection.along_minimum = range[0];
-    connection.along_maximum = range[1];
-  }
-  readStart(builder, map, connection);
-  readGuide(builder, map, connection);
-  connection.speed = map.number("speed", kPointSpeedLimits, 0.0);
-  connection.power = map.number("power", kPointPowerLimits, connection.power);
-  addPoint(builder, name, connection);
-}
-
 /// `of: key` or `of: [a, b]`.
 std::vector<Tap::Share> readModules(const SceneBuilder& builder, const YamlMap& map) {
   const YAML::Node& of = map.at("of");

@@ -195,12 +195,12 @@ void addPlayedPoint(SceneBuilder& builder, int hands, double across) {
   builder.scene().mats.back().type = scene::MatType::kPoint;
   scene::Connection place;
   place.mat = point;
-  place.along = {0.5};
-  place.across = {across};
-  place.guide = moves;
-  place.guide_scale = 10.0;
-  place.along_minimum = 0.1;
-  place.along_maximum = 0.9;
+  place.along.at = {0.5};
+  place.across.at = {across};
+  place.along.guide = moves;
+  place.along.scale = 10.0;
+  place.along.minimum = 0.1;
+  place.along.maximum = 0.9;
   place.speed = 1.0;
   builder.scene().connections.push_back(place);
   addContact(builder, presses, point, {2000.0});

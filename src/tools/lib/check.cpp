@@ -62,23 +62,32 @@ Json linksOf(const Scene& scene) {
           {"between_sections", between_sections}};
 }
 
+/// What moves a point along, or across.
+void tellWay(const Scene& scene,
+             const scene::Connection::Way& way,
+             const std::string& suffix,
+             Json& entry) {
+  if (way.at.parameter >= 0) {
+    const auto moved_by = static_cast<std::size_t>(way.at.parameter);
+    entry["parameter" + suffix] = scene.parameters[moved_by].name;
+  }
+  if (way.guide >= 0) {
+    entry["guide" + suffix] = matAt(scene, way.guide).name;
+  }
+}
+
 Json pointsOf(const Scene& scene) {
   Json report = Json::array();
   for (const scene::Connection& point : scene.connections) {
     const scene::Grid& grid = scene.grids[static_cast<std::size_t>(point.grid)];
     Json entry = {{"name", matAt(scene, point.mat).name},
                   {"on", grid.name},
-                  {"along", scene.valueOf(point.along)}};
+                  {"along", scene.valueOf(point.along.at)}};
     if (grid.rows > 1) {
-      entry["across"] = scene.valueOf(point.across);
+      entry["across"] = scene.valueOf(point.across.at);
     }
-    if (point.along.parameter >= 0) {
-      const auto moved_by = static_cast<std::size_t>(point.along.parameter);
-      entry["parameter"] = scene.parameters[moved_by].name;
-    }
-    if (point.guide >= 0) {
-      entry["guide"] = matAt(scene, point.guide).name;
-    }
+    tellWay(scene, point.along, "", entry);
+    tellWay(scene, point.across, "_across", entry);
     report.push_back(std::move(entry));
   }
   for (const scene::Tap& tap : scene.taps) {

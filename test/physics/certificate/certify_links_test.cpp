@@ -129,8 +129,8 @@ TEST(CertifyLinksTest, WhatNoBoundCoversIsUnproven) {
     SceneBuilder moving;
     const int first = moving.chain(3, 1.0, 1e4, 1.0);
     const int place = moving.point(moving.grid(first, 5), 0.5);
-    moving.scene.connections.back().guide = moving.slice(0);
-    moving.scene.connections.back().guide_scale = 1.0;
+    moving.scene.connections.back().along.guide = moving.slice(0);
+    moving.scene.connections.back().along.scale = 1.0;
     moving.spring(place, moving.ground(), k, z);
     const bool gives = k < 0.0 || z < 0.0;
     const Certificate certificate = certify(moving.scene, {kRate, 14});

@@ -265,7 +265,7 @@ TEST(CertifyTest, MovingPointsCountAtTheirWorstPlace) {
     const int first = b.chain(30, 1e-4, 0.9 * 1e-4 * kRate * kRate);
     b.scene.parameters.push_back({"place", 0.5, 0.2, 0.8, {}});
     const int point = b.point(b.grid(first, 32), 1.0);
-    b.scene.connections[0].along = {1.0, 0};
+    b.scene.connections[0].along.at = {1.0, 0};
     b.spring(point, b.ground(), finger * 1e-4 * kRate * kRate);
     return certify(b.scene, {kRate, 14});
   };
@@ -282,7 +282,7 @@ TEST(CertifyTest, ASpringBetweenPointsThatMoveLoadsBoth) {
   int points[2];
   for (int& point : points) {
     point = b.point(b.grid(b.chain(9, 1e-4, 1.0), 11), 1.0);
-    b.scene.connections.back().along = {1.0, 0};
+    b.scene.connections.back().along.at = {1.0, 0};
   }
   b.spring(points[0], points[1], 0.9 * 1e-4 * kRate * kRate);
   const Certificate c = certify(b.scene, {kRate, 14});

@@ -107,7 +107,7 @@ TEST(LeftOutSlicesTest, APointThatItMovesAndPullsAt) {
     b.spring(wall, first + 1, 1e6, 100.0);
     b.spring(hand, b.point(b.grid(first, 2), 0.5), 200.0);
     b.scene.connections.at(0).guide = hand;
-    b.scene.connections[0].guide_scale = scale;
+    b.scene.connections[0].along.scale = scale;
     return judged(b.scene);
   };
   EXPECT_THAT(guided(200.0, 0.0).findings,
@@ -143,7 +143,7 @@ TEST(LeftOutSlicesTest, APointThatAMassOnItMoves) {
   b.spring(slope.hand, mass, 1500.0, 0.1);
   EXPECT_EQ(judged(b.scene).ports.at(0).level, HandLevel::kSilent);
   b.scene.connections.at(0).guide = mass;
-  b.scene.connections[0].guide_scale = -200.0;
+  b.scene.connections[0].along.scale = -200.0;
   EXPECT_THAT(judged(b.scene).findings, Contains(HasSubstr("a point that it moves and pulls at")));
 }
 
@@ -153,8 +153,8 @@ TEST(LeftOutSlicesTest, APointThatItMovesByAnotherSlice) {
   const Slope left = slopeOf(b, 0);
   const Slope right = slopeOf(b, 1);
   for (scene::Connection& connection : b.scene.connections) {
-    connection.guide = connection.mat == left.point ? right.hand : left.hand;
-    connection.guide_scale = -200.0;
+    connection.along.guide = connection.mat == left.point ? right.hand : left.hand;
+    connection.along.scale = -200.0;
   }
   const Certificate certificate = judged(b.scene);
   EXPECT_NE(certificate.ports.at(0).level, HandLevel::kSilent);

@@ -43,7 +43,7 @@ TEST(TapCertificateTest, BoundBesideAPointThatMovesHoldsWeightsOfAnySize) {
     const int point = b.point(b.grid(first, 8), moves ? 1.0 : along);
     if (moves) {
       b.scene.parameters.push_back({"place", along, 0.0, 1.0, {}});
-      b.scene.connections[0].along = {1.0, 0};
+      b.scene.connections[0].along.at = {1.0, 0};
     }
     const int one = b.mass(2e-3);
     const int other = b.mass(1e-3);

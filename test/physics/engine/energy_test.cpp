@@ -155,9 +155,9 @@ TEST_P(EnergyTest, MovingPlaceBalances) {
     const int finger = b.point(b.grid(first, 32), 0.1);
     const int hand = b.slice(0);
     scene::Connection& place = b.scene.connections[0];
-    place.guide = hand;
-    place.guide_scale = 300.0;
-    place.along_maximum = 0.9;
+    place.along.guide = hand;
+    place.along.scale = 300.0;
+    place.along.maximum = 0.9;
     b.spring(b.ground(), finger, 300.0, 0.1);
     b.spring(hand, finger, 30.0, 0.1);
     if (is_guarded) {

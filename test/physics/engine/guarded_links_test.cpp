@@ -71,8 +71,8 @@ TEST(GuardedLinksTest, EveryLawBalancesInEveryGeometryAndAcrossRates) {
 /// A string with a place on it that a guide moves.
 int movingPlace(SceneBuilder& b, int first, int columns, int guide) {
   const int place = b.point(b.grid(first, columns), 0.4);
-  b.scene.connections.back().guide = guide;
-  b.scene.connections.back().guide_scale = 200.0;
+  b.scene.connections.back().along.guide = guide;
+  b.scene.connections.back().along.scale = 200.0;
   return place;
 }
 

@@ -142,7 +142,7 @@ class Merged {
     for (scene::Connection& connection : from.connections) {
       connection.mat += mats;
       connection.grid += grids;
-      connection.guide += connection.guide < 0 ? 0 : mats;
+      connection.along.guide += connection.along.guide < 0 ? 0 : mats;
       scene.connections.push_back(connection);
     }
     for (scene::Tap& tap : from.taps) {

@@ -75,8 +75,8 @@ class Orchestra {
   /// A finger on the last string, led along it by a hand.
   int addPoint(int grid, int guide) {
     const int m = b_.point(grid, 0.5);
-    b_.scene.connections.back().guide = guide;
-    b_.scene.connections.back().guide_scale = 100.0;
+    b_.scene.connections.back().along.guide = guide;
+    b_.scene.connections.back().along.scale = 100.0;
     return m;
   }
 

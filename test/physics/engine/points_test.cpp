@@ -100,7 +100,7 @@ TEST(PointTest, PlaceThatFollowsAParameterMovesAtItsSpeed) {
     const int on = b.ruler(11);
     const int point = b.point(on, 1.0);
     b.parameter(from, 0.0, 1.0);
-    b.scene.connections[0].along = {1.0, 0};
+    b.scene.connections[0].along.at = {1.0, 0};
     const double speed = 300.0;  // places per second
     b.scene.connections[0].speed = speed;
     b.hear(point, 0);
@@ -125,7 +125,7 @@ TEST(PointTest, PlaceWithoutASpeedIsThereWithinATick) {
   Built b;
   const int point = b.point(b.ruler(11), 1.0);
   b.parameter(0.2, 0.0, 1.0);
-  b.scene.connections[0].along = {1.0, 0};
+  b.scene.connections[0].along.at = {1.0, 0};
   b.hear(point);
   Player player(b.scene, {kRate, 1});
   player.tick();
@@ -139,7 +139,7 @@ TEST(PointTest, SpeedIsPerSecondInSlowerSectionsToo) {
   b.scene.sections[0].divisor = 5;
   const int point = b.point(b.ruler(11), 1.0);
   b.parameter(0.2, 0.0, 1.0);
-  b.scene.connections[0].along = {1.0, 0};
+  b.scene.connections[0].along.at = {1.0, 0};
   b.scene.connections[0].speed = 300.0;
   b.hear(point);
   Player player(b.scene, {kRate, 10});
@@ -156,10 +156,10 @@ TEST(PointTest, GuideLeadsAlongTheStringWithinItsRange) {
   Built b;
   const int point = b.point(b.ruler(11), 0.4);
   scene::Connection& connection = b.scene.connections[0];
-  connection.guide = b.slice(0);
-  connection.guide_scale = 20.0;
-  connection.along_minimum = 0.1;
-  connection.along_maximum = 0.7;
+  connection.along.guide = b.slice(0);
+  connection.along.scale = 20.0;
+  connection.along.minimum = 0.1;
+  connection.along.maximum = 0.7;
   b.hear(point);
   Player player(b.scene, {kRate, 2});
   for (const double hand : {0.0, 0.01, -0.01, 0.014, 0.1, -0.1}) {
@@ -180,7 +180,7 @@ TEST(PointTest, LinkBetweenTwoMovingPlacesKeepsMomentumAndEnergyBalances) {
     }
     points.push_back(b.point(b.grid(first, 12), 0.0));
     scene::Connection& connection = b.scene.connections[at(s)];
-    connection.along = {s == 0 ? 1.0 : 0.5, 0};
+    connection.along.at = {s == 0 ? 1.0 : 0.5, 0};
     connection.speed = 40.0;
   }
   b.parameter(0.1, 0.0, 1.0);
@@ -210,7 +210,7 @@ TEST(PointTest, GlidingUpASlopeTakesTheWorkThatTheSpringStores) {
     Built b;
     const int point = b.point(b.ruler(11), 1.0);  // a slope of fixed modules: 0...10 m
     b.parameter(0.2, 0.0, 1.0);
-    b.scene.connections[0].along = {1.0, 0};
+    b.scene.connections[0].along.at = {1.0, 0};
     b.scene.connections[0].speed = 30.0;
     b.scene.connections[0].power = 1e9;
     b.link(cubic > 0.0 ? LiaType::kCubic : LiaType::kSpringDamper, point, b.ground(), 100.0);

@@ -33,7 +33,7 @@ class Sections {
     const int first = b.mass(1.0, 0.0, 0.0, 3);
     b.mass(1.0, 0.0, 0.0, 3);
     b.point(b.grid(first, 2), 0.0);
-    b.scene.connections[0].guide = 0;
+    b.scene.connections[0].along.guide = 0;
   }
 
   Groups split(const Rates& rates = kRates) {
@@ -122,7 +122,7 @@ TEST(GroupsTest, PlacesRunWithWhatLeadsThem) {
     Sections sections({1, is_held ? 0 : 1, 0});
     sections.leadPointOfB();
     EXPECT_EQ(sections.told(), "ab : c") << "even if it would be held otherwise";
-    sections.b.scene.connections[0].guide = 2;
+    sections.b.scene.connections[0].along.guide = 2;
     EXPECT_EQ(sections.told(), is_held ? "a : bc" : "a b : c");
   }
 }

@@ -150,7 +150,7 @@ TEST_F(ModalChoiceTest, AutomaticModesArePlayedWhereTheyCostLessAndCanBe) {
   even.hear(first + 70);
   SceneBuilder moving = dampedString();
   moving.point(moving.grid(0, 32), 0.3);
-  moving.scene.connections.back().guide = 3;
+  moving.scene.connections.back().along.guide = 3;
   const auto chosen = [](const SceneBuilder& b) {
     return described(withModes(b.scene, scene::kAutomaticModes));
   };

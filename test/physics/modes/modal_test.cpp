@@ -306,8 +306,8 @@ TEST_F(ModalTest, PlacesThatAModuleLeadsAreLedByItsModes) {
     b.ground(1e-3 * i, 2);
   }
   b.hear(b.point(b.grid(first, 5), 0.5), 4);
-  b.scene.connections.back().guide = 11;
-  b.scene.connections.back().guide_scale = 20.0;
+  b.scene.connections.back().along.guide = 11;
+  b.scene.connections.back().along.scale = 20.0;
   expectExact(b.scene);
 }
 

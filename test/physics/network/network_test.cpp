@@ -10,7 +10,7 @@ namespace {
 /// A point on a string of three masses between two grounds.
 int addPoint(SceneBuilder& b, int string, const scene::Value& along) {
   const int point = b.point(b.grid(string, 5), 0.0);
-  b.scene.connections.back().along = along;
+  b.scene.connections.back().along.at = along;
   return point;
 }
 

@@ -193,8 +193,8 @@ TEST(SchemeChoiceTest, PointIsAsLightAsTheLightestModuleUnderIt) {
     const int first = b.chain(3, kHeavy, 1.0, 1.0);
     b.scene.mats[3].mass = {kLight};
     const int point = b.point(b.grid(first, 5), 0.5);
-    b.scene.connections[0].guide = moves ? b.slice(0) : -1;
-    b.scene.connections[0].guide_scale = 1.0;
+    b.scene.connections[0].along.guide = moves ? b.slice(0) : -1;
+    b.scene.connections[0].along.scale = 1.0;
     scene::Lia& lia =
         b.scene.lias[static_cast<std::size_t>(b.link(LiaType::kBow, b.ground(), point, 0.0))];
     lia.scheme = Scheme::kAuto;

@@ -217,7 +217,7 @@ const Lia& liaNamed(const Scene& scene, const std::string& name) {
 double alongOf(const Scene& scene, int mat) {
   for (const Connection& connection : scene.connections) {
     if (connection.mat == mat) {
-      return connection.along.factor;
+      return connection.along.at.factor;
     }
   }
   const StringInfo& a = scene.strings[0];

@@ -87,12 +87,12 @@ TEST(PointTest, OnAStringIsReadFieldByField) {
   EXPECT_EQ(q.type, MatType::kPoint);
   EXPECT_EQ(q.section, 0);
   EXPECT_EQ(s.grids[static_cast<std::size_t>(c.grid)].name, "s");
-  EXPECT_EQ(c.along.parameter, 0);
-  EXPECT_EQ(c.across.factor, 0.0);
-  EXPECT_EQ(s.mats[static_cast<std::size_t>(c.guide)].name, "k");
-  EXPECT_EQ(c.guide_scale, 5.0);
-  EXPECT_EQ(c.along_minimum, 0.1);
-  EXPECT_EQ(c.along_maximum, 0.9);
+  EXPECT_EQ(c.along.at.parameter, 0);
+  EXPECT_EQ(c.across.at.factor, 0.0);
+  EXPECT_EQ(s.mats[static_cast<std::size_t>(c.along.guide)].name, "k");
+  EXPECT_EQ(c.along.scale, 5.0);
+  EXPECT_EQ(c.along.minimum, 0.1);
+  EXPECT_EQ(c.along.maximum, 0.9);
   EXPECT_EQ(c.speed, 2.0);
   EXPECT_EQ(c.power, 0.5);
   EXPECT_EQ(c.place.line, 11);
@@ -103,23 +103,50 @@ TEST(PointTest, OnAStringIsReadFieldByField) {
 
 TEST(PointTest, RangeMayBeOnePlace) {
   const Scene s = pointScene("along: s, at: 0.3, guide: {mat: k, scale: 5}, range: [0.3, 0.3]");
-  EXPECT_EQ(s.connections.at(0).along_minimum, 0.3);
-  EXPECT_EQ(s.connections[0].along_maximum, 0.3);
+  EXPECT_EQ(s.connections.at(0).along.minimum, 0.3);
+  EXPECT_EQ(s.connections[0].along.maximum, 0.3);
 }
 
 TEST(PointTest, OnAMeshStartsBetweenItsFourModules) {
   const Scene s = pointScene("along: net, at: [0.3, 0.75]");
   const Connection& c = s.connections.at(0);
   const Mat& q = s.mats[static_cast<std::size_t>(c.mat)];
-  EXPECT_EQ(c.along.factor, 0.3);
-  EXPECT_EQ(c.across.factor, 0.75);
-  EXPECT_EQ(c.guide, -1);
+  EXPECT_EQ(c.along.at.factor, 0.3);
+  EXPECT_EQ(c.across.at.factor, 0.75);
+  EXPECT_EQ(c.along.guide, -1);
   EXPECT_EQ(c.speed, 0.0);
   EXPECT_EQ(c.power, 1.0);
   EXPECT_EQ(q.section, 1);
   EXPECT_NEAR(q.rest.x(), 1.0 + 0.3 * 0.4, 1e-15);
   EXPECT_NEAR(q.rest.y(), 2.0 + 0.75 * 0.2, 1e-15);
   EXPECT_TRUE(q.position.isApprox(q.rest, 1e-15));
+}
+
+TEST(PointTest, OnAMeshMayBeLedBothWays) {
+  const Scene s = pointScene(
+      "along: net, at: [0.3, 0.75], guide: [{mat: net.0.0, axis: y, scale: 5}, {mat: k, scale: -2}],"
+      " range: [[0.1, 0.9], [0.6, 0.8]]");
+  const Connection& c = s.connections.at(0);
+  EXPECT_EQ(s.mats[static_cast<std::size_t>(c.along.guide)].name, "net.0.0");
+  EXPECT_EQ(c.along.axis, 1);
+  EXPECT_EQ(c.along.scale, 5.0);
+  EXPECT_EQ(c.along.minimum, 0.1);
+  EXPECT_EQ(c.along.maximum, 0.9);
+  EXPECT_EQ(s.mats[static_cast<std::size_t>(c.across.guide)].name, "k");
+  EXPECT_EQ(c.across.axis, 0);
+  EXPECT_EQ(c.across.scale, -2.0);
+  EXPECT_EQ(c.across.minimum, 0.6);
+  EXPECT_EQ(c.across.maximum, 0.8);
+}
+
+TEST(PointTest, OnAMeshMayBeLedAcrossAlone) {
+  const Scene s = pointScene(
+      "along: net, at: [0.3, 0.75], guide: [~, {mat: k, scale: 1}], range: [~, [0.7, 0.8]]");
+  const Connection& c = s.connections.at(0);
+  EXPECT_EQ(c.along.guide, -1);
+  EXPECT_EQ(c.along.minimum, 0.0);
+  EXPECT_EQ(s.mats[static_cast<std::size_t>(c.across.guide)].name, "k");
+  EXPECT_EQ(c.across.minimum, 0.7);
 }
 
 TEST(PointTest, CanBeNamedByLinksAndOutputs) {
@@ -141,8 +168,8 @@ TEST(PointTest, OfALinkEndIsMadeOnceForAllLinks) {
                                "  m: {type: damper, between: [g, net@0.3:0.7], damping: 1}\n",
                            "point.yaml");
   ASSERT_EQ(s.connections.size(), 1U);
-  EXPECT_EQ(s.connections[0].along.factor, 0.3);
-  EXPECT_EQ(s.connections[0].across.factor, 0.7);
+  EXPECT_EQ(s.connections[0].along.at.factor, 0.3);
+  EXPECT_EQ(s.connections[0].across.at.factor, 0.7);
   const std::size_t links = s.lias.size();
   EXPECT_EQ(s.lias[links - 1].b, s.connections[0].mat);
   EXPECT_EQ(s.lias[links - 2].b, s.connections[0].mat);
@@ -187,11 +214,11 @@ TEST_F(PointAtTest, IsMadeOnceAndFoundAgain) {
   ASSERT_EQ(builder_.scene().connections.size(), 2U);
   const Connection& c = builder_.scene().connections[0];
   EXPECT_EQ(c.mat, first);
-  EXPECT_EQ(c.along.factor, 0.35);
-  EXPECT_EQ(c.along_minimum, 0.0);
-  EXPECT_EQ(c.along_maximum, 1.0);
+  EXPECT_EQ(c.along.at.factor, 0.35);
+  EXPECT_EQ(c.along.minimum, 0.0);
+  EXPECT_EQ(c.along.maximum, 1.0);
   EXPECT_EQ(c.place.line, 3);
-  EXPECT_EQ(builder_.scene().connections[1].across.factor, 0.7);
+  EXPECT_EQ(builder_.scene().connections[1].across.at.factor, 0.7);
 }
 
 TEST_F(PointAtTest, RefusesWhatIsNoPlace) {

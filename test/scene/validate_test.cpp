@@ -110,7 +110,8 @@ const Damage kDamages[] = {
     {"section of point 'u' is another", [](Scene& s) { s.mats.back().section = 1; }},
     {"place along of point 'u' = 0.3 is out of range, allowed: 0.4...1",
      [](Scene& s) { s.connections[0].along.minimum = 0.4; }},
-    {"upper end of the range along of point 'u'", [](Scene& s) { s.connections[0].along.maximum = 2; }},
+    {"upper end of the range along of point 'u'",
+     [](Scene& s) { s.connections[0].along.maximum = 2; }},
     {"place across of point 'u'", [](Scene& s) { s.connections[0].across.at.factor = 2.0; }},
     {"speed of point 'u'", [](Scene& s) { s.connections[0].speed = -1.0; }},
     {"power of point 'u'", [](Scene& s) { s.connections[0].power = 0.0; }},
@@ -123,7 +124,8 @@ const Damage kDamages[] = {
        s.connections[0].along.guide = 0;
        s.connections[0].along.axis = 1;
      }},
-    {"scale of the guide along of point 'u'", [](Scene& s) { s.connections[0].along.scale = kNan; }},
+    {"scale of the guide along of point 'u'",
+     [](Scene& s) { s.connections[0].along.scale = kNan; }},
 };
 TEST(ValidateTest, AcceptsWhatTheReaderMakes) {
   EXPECT_NO_THROW(validate(legal()));

@@ -247,7 +247,7 @@ struct Connection {
   int mat = 0;   ///< a kPoint, in the section of the grid
   int grid = 0;  ///< index in Scene::grids
   Way along{};
-  Way across{};  ///< of one row it does not matter
+  Way across{};        ///< of one row it does not matter
   double speed = 0.0;  ///< largest change of along and across per time_unit; 0: at once
   double power = 1.0;  ///< W, the most that moving it may bring; it waits where it owes more
   Place place;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "at.hpp"
+#include "physics/engine/near_links.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -28,7 +29,9 @@ GuardedLinks<Real>::GuardedLinks(const std::vector<GuardedLink>& links,
     : motions_(links.size()), modules_(modules) {
   for (const GuardedLink& link : links) {
     const bool euclidean = link.dimensions > 0;
-    (link.sticks ? sticking_ : others_).push_back(links_.size());
+    if (link.sticks) {
+      sticking_.push_back(links_.size());
+    }
     links_.push_back({euclidean,
                       link.sticks,
                       std::max(1, link.dimensions),
@@ -286,39 +289,48 @@ void GuardedLinks<Real>::refund(const GuardedView<Real>& view,
 
 /// All but what sticks: the forces depend on one another only by how many there are.
 template <class Real>
-void GuardedLinks<Real>::exertOthers(const GuardedView<Real>& view,
+void GuardedLinks<Real>::exertOthers(const NearLinks<Real>& near,
+                                     const GuardedView<Real>& view,
                                      const GuardedLaw<Real>* laws,
                                      GuardedState<Real>* states) noexcept {
-  for (const std::size_t l : others_) {
+  const auto forEachOther = [&](const auto& visit) {
+    for (const std::size_t l : near) {
+      if (!links_[l].sticks) {
+        visit(l);
+      }
+    }
+  };
+  forEachOther([&](std::size_t l) {
     motions_[l] = isIdle(view, l) ? Motion{} : measure(view, laws[l], links_[l], states[l]);
     countActive(view, links_[l], motions_[l]);
-  }
-  for (const std::size_t l : others_) {
+  });
+  forEachOther([&](std::size_t l) {
     if (motions_[l].is_active) {
       yieldOf(view, links_[l], motions_[l]);
       exertForce(motions_[l], laws[l], states[l]);
       load(links_[l], motions_[l]);
     }
     payWork(motions_[l], states[l]);
-  }
-  for (const std::size_t l : others_) {
+  });
+  forEachOther([&](std::size_t l) {
     if (motions_[l].is_active) {
       collect(view, links_[l], motions_[l], states[l]);
     }
-  }
-  for (const std::size_t l : others_) {
+  });
+  forEachOther([&](std::size_t l) {
     if (motions_[l].is_active) {
       refund(view, links_[l], motions_[l], states[l]);
     }
     closeStep(motions_[l], states[l]);
-  }
+  });
 }
 
 template <class Real>
-ERGOTIC_REALTIME void GuardedLinks<Real>::step(const GuardedView<Real>& view,
+ERGOTIC_REALTIME void GuardedLinks<Real>::step(const NearLinks<Real>& near,
+                                               const GuardedView<Real>& view,
                                                const GuardedLaw<Real>* laws,
                                                GuardedState<Real>* states) noexcept {
-  exertOthers(view, laws, states);
+  exertOthers(near, view, laws, states);
   for (const std::size_t l : sticking_) {
     if (!isIdle(view, l)) {
       rub(view, laws[l], view.pressed[l], links_[l], motions_[l], states[l]);
@@ -329,11 +341,19 @@ ERGOTIC_REALTIME void GuardedLinks<Real>::step(const GuardedView<Real>& view,
       closeRub(view, links_[l], motions_[l], states[l]);
     }
   }
-  for (const Link& link : links_) {
+  for (const std::size_t l : near) {
+    const Link& link = links_[l];
     for (std::size_t t = link.first; t < link.first + link.count; ++t) {
       modules_[at(terms_[t].module)] = Module{};
     }
   }
+}
+
+template <class Real>
+Real GuardedLinks<Real>::gapOf(std::size_t link, const GuardedState<Real>& state) const noexcept {
+  const bool acts = motions_[link].is_active || state.tank > Real(0) || state.force != Real(0) ||
+                    state.damper != Real(0);
+  return acts ? Real(0) : -motions_[link].p;
 }
 
 template <class Real>

@@ -25,7 +25,11 @@ struct GuardedLink {
   double offset[3] = {0, 0, 0};  ///< end a less end b while all displacements are 0, m
   bool sticks = false;           ///< friction that comes after all others
   double share = 1.0;            ///< of the step of a slower end in one of the link's own
+  bool may_wait = false;         ///< a contact that nothing but the motion of its terms closes
 };
+
+template <class Real>
+class NearLinks;
 
 /// What presses a friction that sticks.
 template <class Real>
@@ -87,10 +91,16 @@ class GuardedLinks {
              GuardedState<Real>* states) const noexcept;
 
   /// Works out the forces of this step, see GuardedState. End b receives them along the gradient,
-  /// end a against it. Realtime: yes. Cost: O(links)
-  void step(const GuardedView<Real>& view,
+  /// end a against it.
+  /// \param near  the links that may have any. Realtime: yes. Cost: O(near)
+  void step(const NearLinks<Real>& near,
+            const GuardedView<Real>& view,
             const GuardedLaw<Real>* laws,
             GuardedState<Real>* states) noexcept;
+
+  /// How far apart the ends of a contact were in the last step, m; 0 if it does anything, or may do
+  /// so though nothing moves. \pre it was near then. Realtime: yes
+  Real gapOf(std::size_t link, const GuardedState<Real>& state) const noexcept;
 
   /// Other laws come: their tanks follow, by work of whoever turned the knob.
   /// Realtime: yes. Cost: O(links)
@@ -154,7 +164,8 @@ class GuardedLinks {
   void countActive(const GuardedView<Real>& view, const Link& link, const Motion& m) noexcept;
   void yieldOf(const GuardedView<Real>& view, const Link& link, Motion& m) const noexcept;
   void load(const Link& link, const Motion& m) noexcept;
-  void exertOthers(const GuardedView<Real>& view,
+  void exertOthers(const NearLinks<Real>& near,
+                   const GuardedView<Real>& view,
                    const GuardedLaw<Real>* laws,
                    GuardedState<Real>* states) noexcept;
   void rub(const GuardedView<Real>& view,
@@ -193,8 +204,7 @@ class GuardedLinks {
               GuardedState<Real>& state) noexcept;
 
   std::vector<Link> links_;
-  std::vector<std::size_t> others_;    // that do not stick
-  std::vector<std::size_t> sticking_;  // that do
+  std::vector<std::size_t> sticking_;
   std::vector<Term> terms_;
   std::vector<Motion> motions_;
   std::vector<Module>& modules_;

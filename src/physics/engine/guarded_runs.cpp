@@ -22,14 +22,30 @@ GuardedRuns<Real>::GuardedRuns(const scene::Scene& scene,
       modules_(members_.empty() ? 0 : at(layout.slots())),
       forces_(members_.empty() ? 0 : at(layout.slots()), Real(0)) {
   for (const GuardedGroup& members : members_) {
-    addLinks(members, state);
+    addLinks(scene, members, state);
     reached_.push_back(reachedBy(
         members.group == LinkRun::kHeldGroup ? groups.held : groups.running[at(members.group)]));
   }
 }
 
+/// Contacts whose ends come nearer by their own motion only, which falling asleep and places that
+/// move are not.
 template <class Real>
-void GuardedRuns<Real>::addLinks(const GuardedGroup& members, State<Real>& state) {
+bool GuardedRuns<Real>::mayWait(const scene::Scene& scene, const GuardedRef& ref) const {
+  const LinkRun& run = layout_.runs[ref.run];
+  const auto isAwake = [&](int section) { return scene.sections[at(section)].sleep_energy == 0.0; };
+  const auto isThis = [&](const Follower& follower) {
+    return follower.run >= 0 && at(follower.run) == ref.run && at(follower.index) == ref.link;
+  };
+  return scene::lawOf(run.law).kind == scene::Law::Kind::kGap && !reach_.isOnPlace(ref) &&
+         reach_.tapsAt(ref).empty() && isAwake(run.section_a) && isAwake(run.section_b) &&
+         std::none_of(layout_.followers.begin(), layout_.followers.end(), isThis);
+}
+
+template <class Real>
+void GuardedRuns<Real>::addLinks(const scene::Scene& scene,
+                                 const GuardedGroup& members,
+                                 State<Real>& state) {
   const std::vector<double> somewhere(2 * layout_.places.size(), 0.0);
   std::vector<GuardedLink> links;
   std::vector<std::size_t> moving;
@@ -47,17 +63,22 @@ void GuardedRuns<Real>::addLinks(const GuardedGroup& members, State<Real>& state
       slow.push_back(run.slow_section);
     }
     reach_.find(ref, somewhere.data(), terms);
-    links.push_back({run.dimensions, terms.terms, {}, scene::sticks(run.law), run.share});
+    links.push_back(
+        {run.dimensions, terms.terms, {}, scene::sticks(run.law), run.share, mayWait(scene, ref)});
     std::copy_n(terms.offset, 3, links.back().offset);
   }
   std::sort(taps.begin(), taps.end());
   taps.erase(std::unique(taps.begin(), taps.end()), taps.end());
   const std::string name = "guarded" + std::to_string(links_.size());
-  links_.push_back({GuardedLinks<Real>(links, modules_), moving, taps,
+  NearLinks<Real> near(links);
+  const std::size_t states_at = state.arena().template add<GuardedState<Real>>(name, links.size());
+  const std::size_t clearances_at =
+      near.waiting() == 0 ? 0
+                          : state.arena().template add<Real>(name + ".clearances", near.waiting());
+  links_.push_back({GuardedLinks<Real>(links, modules_), std::move(near), moving, taps,
                     std::vector<unsigned char>(links.size(), 0), slow,
-                    std::vector<unsigned char>(layout_.sections.size(), 0),
-                    state.arena().template add<GuardedState<Real>>(name, links.size()),
-                    std::move(terms)});
+                    std::vector<unsigned char>(layout_.sections.size(), 0), states_at,
+                    clearances_at, std::move(terms)});
 }
 
 /// The ends of guarded links, all points, and the modules that points hand their forces to. Taps
@@ -137,7 +158,7 @@ void GuardedRuns<Real>::followPlaces(std::size_t g, State<Real>& state) noexcept
 
 template <class Real>
 void GuardedRuns<Real>::markIdle(std::size_t g, State<Real>& state) noexcept {
-  for (std::size_t l = 0; l < members_[g].links.size(); ++l) {
+  for (const std::size_t l : links_[g].near) {
     const LinkRun& run = layout_.runs[members_[g].links[l].run];
     const bool is_inside = run.section_a == run.section_b;
     links_[g].idle[l] = is_inside ? state.asleep()[run.section_a] : 0;
@@ -158,7 +179,7 @@ void GuardedRuns<Real>::exchange(std::size_t g,
                                  const Stepper<Real>& stepper,
                                  State<Real>& state) noexcept {
   const GuardedState<Real>* all = states(g, state);
-  for (std::size_t l = 0; l < members_[g].links.size(); ++l) {
+  for (const std::size_t l : links_[g].near) {
     const GuardedRef& ref = members_[g].links[l];
     const LinkRun& run = layout_.runs[ref.run];
     if (links_[g].idle[l] != 0) {
@@ -177,6 +198,36 @@ void GuardedRuns<Real>::exchange(std::size_t g,
       }
     }
   }
+}
+
+/// True if a force of a link has still to be booked, or to be felt by a slower end.
+template <class Real>
+bool GuardedRuns<Real>::remembersForce(const GuardedRef& ref,
+                                       const State<Real>& state) const noexcept {
+  const LinkRun& run = layout_.runs[ref.run];
+  const LinkMemory<const Real> memory = state.memory(ref.run);
+  const auto isAny = [&](const Real* forces) {
+    bool is_any = false;
+    for (int k = 0; forces != nullptr && k < std::max(1, run.dimensions); ++k) {
+      is_any = is_any || forces[at(k) * run.ends.size() + ref.link] != Real(0);
+    }
+    return is_any;
+  };
+  return isAny(memory.elastic) || isAny(memory.viscous) || isAny(memory.mean) ||
+         isAny(memory.last_mean);
+}
+
+/// How far apart the ends of contacts are that have no force, and have told a slower end so.
+template <class Real>
+void GuardedRuns<Real>::rememberGaps(std::size_t g, State<Real>& state) noexcept {
+  if (links_[g].near.waiting() == 0) {
+    return;
+  }
+  const auto gapOf = [&](std::size_t l) noexcept {
+    const GuardedRef& ref = members_[g].links[l];
+    return remembersForce(ref, state) ? Real(0) : links_[g].links.gapOf(l, states(g, state)[l]);
+  };
+  links_[g].near.remember(gapOf, clearances(g, state));
 }
 
 /// What its tanks hold is what a run stores; the rest of what it took is gone.
@@ -224,12 +275,14 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::step(const Group& group,
     any = true;
     followPlaces(g, state);
     lookAhead(g, c, state);
+    links_[g].near.find(state.x(), state.d(), clearances(g, state));
     markIdle(g, state);
     const std::int64_t began = last + 1 - members_[g].divisor;
     markDue(g, began);
     view.pressed = pressures_.read(g, c.guarded[g].data(), state);
-    links_[g].links.step(view, c.guarded[g].data(), states(g, state));
+    links_[g].links.step(links_[g].near, view, c.guarded[g].data(), states(g, state));
     exchange(g, began, stepper, state);
+    rememberGaps(g, state);
     closeBooks(g, false, state);
   }
   if (any) {
@@ -256,6 +309,7 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::retune(const CoefficientsOf<Real>& from
     };
     book(-1.0);
     links_[g].links.retune(view, from.guarded[g].data(), to.guarded[g].data(), states(g, state));
+    std::fill_n(clearances(g, state), links_[g].near.waiting(), Real(0));
     book(1.0);
   }
 }

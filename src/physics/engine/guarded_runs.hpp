@@ -7,6 +7,7 @@
 #include "ergotic/physics/engine/instrument.hpp"
 #include "physics/engine/guarded.hpp"
 #include "physics/engine/guarded_reach.hpp"
+#include "physics/engine/near_links.hpp"
 #include "physics/engine/points.hpp"
 #include "physics/engine/pressures.hpp"
 #include "physics/engine/stepper.hpp"
@@ -55,16 +56,19 @@ class GuardedRuns {
   /// Links of one rate in one group.
   struct Links {
     GuardedLinks<Real> links;
+    NearLinks<Real> near;
     std::vector<std::size_t> moving;  // those with an end on a place
     std::vector<std::size_t> taps;    // that they reach as modules
     std::vector<unsigned char> idle;  // [links]
     std::vector<int> slow;            // sections that are stepped more slowly
     std::vector<unsigned char> due;   // [sections] of these, that moved as the present step began
     std::size_t states_at;
+    std::size_t clearances_at;
     GuardedReach::Terms terms;  // of one of the moving
   };
 
-  void addLinks(const GuardedGroup& members, State<Real>& state);
+  void addLinks(const scene::Scene& scene, const GuardedGroup& members, State<Real>& state);
+  bool mayWait(const scene::Scene& scene, const GuardedRef& ref) const;
   void lookAhead(std::size_t g, const CoefficientsOf<Real>& c, const State<Real>& state) noexcept;
   std::vector<int> reachedBy(const Group& group) const;
   GuardedView<Real> viewOf(const Links& links,
@@ -77,9 +81,14 @@ class GuardedRuns {
                 std::int64_t began,
                 const Stepper<Real>& stepper,
                 State<Real>& state) noexcept;
+  bool remembersForce(const GuardedRef& ref, const State<Real>& state) const noexcept;
+  void rememberGaps(std::size_t g, State<Real>& state) noexcept;
   void closeBooks(std::size_t g, bool starts, State<Real>& state) const noexcept;
   GuardedState<Real>* states(std::size_t g, State<Real>& state) const noexcept {
     return state.arena().template at<GuardedState<Real>>(links_[g].states_at);
+  }
+  Real* clearances(std::size_t g, State<Real>& state) const noexcept {
+    return state.arena().template at<Real>(links_[g].clearances_at);
   }
 
   const Layout& layout_;

@@ -77,10 +77,10 @@ struct Pressing {
 struct PlacePoint {
   int slot = 0;
   int dimensions = 1;
-  int coordinate = 0;  ///< first of its own among those of all places
-  int section = 0;     ///< of the grid
-  int stride = 0;      ///< of the modules around it
-  int connection = 0;  ///< index in Scene::connections
+  int coordinate = 0;                 ///< first of its own among those of all places
+  int section = 0;                    ///< of the grid
+  int stride = 0;                     ///< of the modules around it
+  int connection = 0;                 ///< index in Scene::connections
   std::array<int, 2> guides{-1, -1};  ///< slots of what leads along and across
 };
 

@@ -21,9 +21,8 @@ constexpr double kCreditSeconds = 0.1;  // of what a place may bring, in advance
 PlaceCoefficients::Way wayOf(const scene::Scene& scene,
                              const Rates& rates,
                              const scene::Connection::Way& way) {
-  const int glide = way.guide < 0
-                        ? rates.ratio
-                        : divisorOf(scene.sectionOf(scene.mats[at(way.guide)]), rates);
+  const int glide =
+      way.guide < 0 ? rates.ratio : divisorOf(scene.sectionOf(scene.mats[at(way.guide)]), rates);
   return {scene.valueOf(way.at), way.scale, way.minimum, way.maximum, glide};
 }
 

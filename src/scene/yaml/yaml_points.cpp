@@ -46,15 +46,15 @@ void refuseListOnString(const YamlMap& map, const std::string& key, const Grid& 
   }
 }
 
-/// `range: [lowest, highest]`, on a mesh that along it, or `[[lowest, highest], [lowest, highest]]`.
+/// `range: [lowest, highest]`, on a mesh that along it, or `[[lowest, highest], [lowest,
+/// highest]]`.
 void readRange(const SceneBuilder& builder,
                const YamlMap& map,
                const Grid& grid,
                std::size_t index,
                Way& way) {
-  const bool is_list =
-      map.has("range") && map.at("range").IsSequence() && map.at("range").size() > 0 &&
-      !map.at("range")[0].IsScalar();
+  const bool is_list = map.has("range") && map.at("range").IsSequence() &&
+                       map.at("range").size() > 0 && !map.at("range")[0].IsScalar();
   if (is_list) {
     refuseListOnString(map, "range", grid);
   }
@@ -99,9 +99,10 @@ void readGuide(const SceneBuilder& builder,
   }
   const int last = dimensionsOf(builder.scene().sectionOf(mat).geometry) - 1;
   if (way.axis > last) {
-    guide.fail("axis", "'axis' of " + guide.what() + " is " + kAxes[static_cast<std::size_t>(way.axis)] +
-                           ", allowed: along which " + quoted(mat.name) + " moves, x" +
-                           (last > 0 ? std::string(" to ") + kAxes[static_cast<std::size_t>(last)] : ""));
+    guide.fail("axis",
+               "'axis' of " + guide.what() + " is " + kAxes[static_cast<std::size_t>(way.axis)] +
+                   ", allowed: along which " + quoted(mat.name) + " moves, x" +
+                   (last > 0 ? std::string(" to ") + kAxes[static_cast<std::size_t>(last)] : ""));
   }
 }
 
@@ -121,10 +122,10 @@ void readStart(const SceneBuilder& builder,
                        ", allowed: [along, across]");
   }
   const std::string what = " number of 'at' of " + map.what();
-  connection.along.at = valueOf(builder, pair[0], "first" + what, limitsOf(connection.along),
-                                map.placeAt("at"));
-  connection.across.at = valueOf(builder, pair[1], "second" + what, limitsOf(connection.across),
-                                 map.placeAt("at"));
+  connection.along.at =
+      valueOf(builder, pair[0], "first" + what, limitsOf(connection.along), map.placeAt("at"));
+  connection.across.at =
+      valueOf(builder, pair[1], "second" + what, limitsOf(connection.across), map.placeAt("at"));
 }
 
 }  // namespace

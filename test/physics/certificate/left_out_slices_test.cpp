@@ -106,7 +106,7 @@ TEST(LeftOutSlicesTest, APointThatItMovesAndPullsAt) {
     b.spring(wall, first, 1e6, 100.0);
     b.spring(wall, first + 1, 1e6, 100.0);
     b.spring(hand, b.point(b.grid(first, 2), 0.5), 200.0);
-    b.scene.connections.at(0).guide = hand;
+    b.scene.connections.at(0).along.guide = hand;
     b.scene.connections[0].along.scale = scale;
     return judged(b.scene);
   };
@@ -142,7 +142,7 @@ TEST(LeftOutSlicesTest, APointThatAMassOnItMoves) {
   const int mass = b.mass(1e-5, 0.0);
   b.spring(slope.hand, mass, 1500.0, 0.1);
   EXPECT_EQ(judged(b.scene).ports.at(0).level, HandLevel::kSilent);
-  b.scene.connections.at(0).guide = mass;
+  b.scene.connections.at(0).along.guide = mass;
   b.scene.connections[0].along.scale = -200.0;
   EXPECT_THAT(judged(b.scene).findings, Contains(HasSubstr("a point that it moves and pulls at")));
 }
@@ -159,7 +159,7 @@ TEST(LeftOutSlicesTest, APointThatItMovesByAnotherSlice) {
   const Certificate certificate = judged(b.scene);
   EXPECT_NE(certificate.ports.at(0).level, HandLevel::kSilent);
   EXPECT_NE(certificate.ports.at(1).level, HandLevel::kSilent);
-  b.scene.connections.at(0).guide = -1;  // one way is no loop
+  b.scene.connections.at(0).along.guide = -1;  // one way is no loop
   EXPECT_EQ(judged(b.scene).ports.at(0).level, HandLevel::kSilent);
 }
 

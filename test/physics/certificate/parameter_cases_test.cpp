@@ -94,7 +94,7 @@ TEST(ParameterCasesTest, LedPointsAreSeenWhereTheyMayBe) {
   b.spring(first + 8, ground, 2e4);
   b.spring(b.point(b.grid(ground, 10), 0.0), slice, 2000.0);
   EXPECT_EQ(certify(b.scene, kRates).ports.at(0).level, HandLevel::kSilent);
-  b.scene.connections.at(0).guide = b.slice(1);
+  b.scene.connections.at(0).along.guide = b.slice(1);
   b.scene.connections[0].along.scale = 1.0;
   EXPECT_EQ(certify(b.scene, kRates).ports.at(0).level, HandLevel::kWarned);
 }

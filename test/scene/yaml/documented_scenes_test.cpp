@@ -22,6 +22,7 @@ mats:
   slider: {type: slice, section: hand}
   thumb: {type: mass, section: hand, mass: 0.1}
   m2: {type: mass, section: plate, mass: 1e-4, at: [0.02, 0]}
+  mallet: {type: mass, section: plate, mass: 1e-2, at: [0.15, 0.1]}
 generators:
   - {type: string, name: s, section: a, masses: 9, mass: 1e-4, stiffness: 3000, to: [0.65, 0]}
   - {type: mesh, name: plate, section: plate, columns: 4, rows: 4, spacing: 0.1, mass: 1e-4,

@@ -124,7 +124,8 @@ TEST(PointTest, OnAMeshStartsBetweenItsFourModules) {
 
 TEST(PointTest, OnAMeshMayBeLedBothWays) {
   const Scene s = pointScene(
-      "along: net, at: [0.3, 0.75], guide: [{mat: net.0.0, axis: y, scale: 5}, {mat: k, scale: -2}],"
+      "along: net, at: [0.3, 0.75], guide: [{mat: net.0.0, axis: y, scale: 5}, {mat: k, scale: "
+      "-2}],"
       " range: [[0.1, 0.9], [0.6, 0.8]]");
   const Connection& c = s.connections.at(0);
   EXPECT_EQ(s.mats[static_cast<std::size_t>(c.along.guide)].name, "net.0.0");

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "physics/engine/guarded.hpp"
+
+namespace ergotic::physics {
+
+/// Which of the guarded links have to be looked at. Contacts of one body with all of another come
+/// in tiles, and a tile whose narrowest gap cannot have closed yet is passed over: a step changes
+/// the gap of a link by at most W max |d|, W the sum of the weights of its modules. What is played
+/// is the same, bit for bit. Source: docs/physics.md, "Contacts that are far".
+template <class Real>
+class NearLinks {
+ public:
+  explicit NearLinks(const std::vector<GuardedLink>& links);
+
+  /// Tiles that may be passed over.
+  std::size_t waiting() const noexcept { return waiting_; }
+
+  /// Finds the links of this step, in their order.
+  /// \param clearances  [waiting()] by how much gaps may close unseen; 0 at the start
+  /// Realtime: yes. Cost: O(modules + links found)
+  void find(const Real* x, const Real* d, Real* clearances) noexcept;
+  const std::size_t* begin() const noexcept { return found_.data(); }
+  const std::size_t* end() const noexcept { return found_.data() + count_; }
+
+  /// Remembers how far apart the ends of what was found are.
+  /// \param gapOf  of a link of index l, m; 0 if it does anything or still has to
+  template <class GapOf>
+  void remember(const GapOf& gapOf, Real* clearances) noexcept;
+
+ private:
+  static constexpr std::size_t kTile = 32;
+  static constexpr std::size_t kFewest = 2 * kTile;  // with fewer, looking is as quick
+
+  struct Tile {
+    std::size_t first;  // index of a link
+    std::size_t count;
+    int clearance;       // index, -1: it is always looked at
+    Real weight;         // W
+    Real offset;         // m, the largest: gaps are rounded by so much
+    bool found = false;  // in this step
+  };
+
+  void findSpans(const std::vector<GuardedLink>& links);
+
+  std::vector<Tile> tiles_;
+  std::size_t waiting_ = 0;
+  std::vector<std::pair<int, int>> spans_;  // of slots, first and count
+  std::vector<std::size_t> found_;          // [links]
+  std::size_t count_ = 0;
+  Real farthest_ = Real(0);  // |x|, m
+};
+
+extern template class NearLinks<float>;
+extern template class NearLinks<double>;
+
+template <class Real>
+template <class GapOf>
+void NearLinks<Real>::remember(const GapOf& gapOf, Real* clearances) noexcept {
+  constexpr Real kRounding = Real(64) * std::numeric_limits<Real>::epsilon();
+  for (const Tile& tile : tiles_) {
+    if (!tile.found || tile.clearance < 0) {
+      continue;
+    }
+    Real gap = std::numeric_limits<Real>::max();
+    for (std::size_t l = tile.first; l < tile.first + tile.count; ++l) {
+      gap = std::min(gap, gapOf(l));
+    }
+    clearances[tile.clearance] =
+        gap / Real(2) - kRounding * (tile.offset + tile.weight * farthest_);
+  }
+}
+
+}  // namespace ergotic::physics

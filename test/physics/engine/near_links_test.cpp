@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contacts that are far are passed over, and nothing that is played changes by that.
+#include "physics/engine/near_links.hpp"
+
+#include <cmath>
+#include <random>
+
+#include "support/physics.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+constexpr Rates kRates{44100.0, 14};
+
+double uniform(std::mt19937& random, double a, double b) {
+  return std::uniform_real_distribution<double>(a, b)(random);
+}
+
+/// What touches, and what it may touch: balls on springs, in a row. As many as are looked at each
+/// by itself; with others at a distance that nothing comes to, they are passed over in tiles.
+class Row : public SceneBuilder {
+ public:
+  static constexpr int kBalls = 60;
+
+  Row(unsigned seed, Geometry geometry, bool is_hand, int far) : random_(seed) {
+    scene.sections[0].geometry = geometry;
+    const bool is_scalar = geometry == Geometry::kScalar;
+    const int toucher = is_hand ? slice(0) : mass(2e-3);
+    if (!is_hand) {
+      // It swings to and fro through the row.
+      const int pivot = placed(ground(), {0.06, 0.0, 0.0});
+      placed(toucher, {-0.005, is_scalar ? 0.0 : 0.006, 0.0});
+      setVelocity(scene.mats[at(toucher)], {uniform(random_, 1.0, 3.0), 0.0, 0.0});
+      spring(toucher, pivot, uniform(random_, 2.0, 20.0));
+    }
+    for (int i = 0; i < kBalls; ++i) {
+      const Eigen::Vector3d place(0.002 * i, 0.0, 0.0);
+      const int held = placed(ground(), place);
+      const int ball = placed(mass(1e-4), place);
+      spring(ball, held, 400.0, is_scalar ? 1e-3 : 0.0);
+      touch(toucher, ball, is_scalar ? 0.0 : 0.003);
+      if (i % 7 == 0) {
+        hear(ball, i / 7);
+      }
+    }
+    for (int i = 0; i < far; ++i) {
+      touch(toucher, placed(ground(), {50.0 + i, 0.0, 0.0}), 0.0);
+    }
+  }
+
+ private:
+  int placed(int mat, const Eigen::Vector3d& place) {
+    scene.mats[at(mat)].position = place;
+    scene.mats[at(mat)].rest = place;
+    return mat;
+  }
+  void touch(int toucher, int other, double threshold) {
+    scene::Lia& lia = scene.lias[at(link(LiaType::kContact, toucher, other, 50.0, 0.002))];
+    lia.scheme = scene::Scheme::kGuarded;
+    lia.law.edit().width = {threshold};
+  }
+
+  std::mt19937 random_;
+};
+
+struct Played {
+  std::vector<std::vector<double>> heard;
+  std::vector<double> forces;
+  std::int64_t active = 0;
+  int touched = 0;
+};
+
+Played play(const Row& row, unsigned seed, Precision precision, bool metered) {
+  std::mt19937 random(seed);
+  CompileOptions options(precision);
+  options.metered = metered;
+  Player player(compile(settle(row.scene, kRates).scene, kRates, options));
+  Played played;
+  for (int n = 0; n < 600; ++n) {
+    if (!player.positions.empty()) {
+      player.positions[0] = n % 100 < 50 ? 1e-3 * n * uniform(random, 0.9, 1.0) : -0.01;
+    }
+    player.tick();
+    played.forces.insert(played.forces.end(), player.forces.begin(), player.forces.end());
+  }
+  played.heard = player.heard;
+  std::vector<GuardReport> reports = player.instrument->makeGuardReports();
+  player.instrument->readGuards(reports);
+  for (const GuardReport& report : reports) {
+    played.active += report.active;
+    played.touched += report.active > 0 ? 1 : 0;
+  }
+  return played;
+}
+
+TEST(NearLinksTest, WhatIsPassedOverChangesNoBit) {
+  for (const auto& [geometry, is_hand] :
+       {std::pair(Geometry::kScalar, false), std::pair(Geometry::kScalar, true),
+        std::pair(Geometry::kPlane, false), std::pair(Geometry::kSpace, false)}) {
+    int touched = 0;
+    for (unsigned seed = 0; seed < 12; ++seed) {
+      const Precision precision = seed % 2 == 0 ? Precision::kDouble : Precision::kFloat;
+      const bool metered = seed % 3 == 0;
+      const Played all = play(Row(seed, geometry, is_hand, 0), seed, precision, metered);
+      const Played near = play(Row(seed, geometry, is_hand, 100), seed, precision, metered);
+      EXPECT_EQ(all.heard, near.heard) << seed;
+      EXPECT_EQ(all.forces, near.forces) << seed;
+      EXPECT_EQ(all.active, near.active) << seed;
+      touched += near.touched;
+    }
+    EXPECT_GT(touched, 12 * 5);
+  }
+}
+
+/// Links along one coordinate, from module 0 to all others.
+std::vector<GuardedLink> starOf(int others) {
+  std::vector<GuardedLink> links;
+  for (int i = 1; i <= others; ++i) {
+    GuardedLink link;
+    link.terms = {{0, 0, 0, {1, 0, 0}}, {i, i, 0, {-1, 0, 0}}};
+    link.may_wait = true;
+    links.push_back(link);
+  }
+  return links;
+}
+
+/// What is not found could not have closed by the next step.
+TEST(NearLinksTest, FindsAllThatCouldCloseAndLittleElse) {
+  constexpr int kOthers = 640;
+  std::mt19937 random(1);
+  NearLinks<float> near(starOf(kOthers));
+  ASSERT_EQ(near.waiting(), 20U);
+  std::vector<float> clearances(near.waiting(), 0.0F);
+  std::vector<float> x(kOthers + 1);
+  std::vector<float> d(kOthers + 1);
+  for (int i = 1; i <= kOthers; ++i) {
+    x[at(i)] = static_cast<float>(1e-3 * i);
+  }
+  const auto gapOf = [&](std::size_t l) { return x[l + 1] - x[0]; };
+  std::size_t found = 0;
+  constexpr int kSteps = 20000;
+  double speed = 0.0;
+  for (int n = 0; n < kSteps; ++n) {
+    speed = 0.99 * speed + uniform(random, -2e-6, 2e-6);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      d[i] = static_cast<float>(i == 0 ? speed : uniform(random, -1e-7, 1e-7));
+      x[i] += d[i];
+    }
+    near.find(x.data(), d.data(), clearances.data());
+    std::vector<bool> is_found(at(kOthers), false);
+    for (const std::size_t l : near) {
+      is_found[l] = true;
+    }
+    for (std::size_t l = 0; l < at(kOthers); ++l) {
+      const float closing = d[0] - d[l + 1];
+      ASSERT_TRUE(is_found[l] || gapOf(l) > closing) << n << ", " << l;
+    }
+    found += static_cast<std::size_t>(near.end() - near.begin());
+    near.remember([&](std::size_t l) { return std::max(0.0F, gapOf(l)); }, clearances.data());
+  }
+  EXPECT_LT(found, 0.15 * kSteps * kOthers);
+  x[3] = std::nanf("");
+  d[3] = x[3];
+  near.find(x.data(), d.data(), clearances.data());
+  EXPECT_EQ(near.end() - near.begin(), kOthers);
+}
+
+TEST(NearLinksTest, LooksAtFewLinksAlways) {
+  std::vector<GuardedLink> links = starOf(200);
+  for (std::size_t l = 0; l < links.size(); ++l) {
+    links[l].may_wait = l < 63;
+  }
+  EXPECT_EQ(NearLinks<double>(links).waiting(), 0U);
+  links[100].may_wait = true;
+  EXPECT_EQ(NearLinks<double>(links).waiting(), 3U);
+}
+
+}  // namespace
+}  // namespace ergotic::physics

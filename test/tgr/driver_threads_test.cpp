@@ -128,7 +128,8 @@ TEST(DriverThreadsTest, TakesCalibrationsAndFaultsWhileTicksGoOn) {
   std::atomic<bool> done{false};
   std::thread operators([&] {
     for (int round = 0; round < kRounds; ++round) {
-      // The first may have missed the change before; the second goes by it, and has ended at the third.
+      // The first may have missed the change before; the second goes by it, and has ended at the
+      // third.
       const int from = begun;
       while (begun < from + 3) {
         std::this_thread::yield();

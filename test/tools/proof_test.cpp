@@ -223,13 +223,16 @@ const std::string kPoints =
     "  g: {type: ground, section: s}\n  hand: {type: slice, section: h}\n"
     "  still: {type: point, along: s, at: 0.43}\n  moved: {type: point, along: s, at: $u}\n"
     "  guided: {type: point, along: s, at: 0.5, guide: {mat: hand, scale: 2}, range: [0.4, 0.6]}\n"
-    "  over: {type: point, along: m, at: [2*$u, 0.61]}\nlias:\n"
+    "  over: {type: point, along: m, at: [2*$u, 0.61]}\n"
+    "  across: {type: point, along: m, at: [0.41, 0.61], guide: [~, {mat: hand, scale: 2}],\n"
+    "    range: [~, [0.26, 0.74]]}\nlias:\n"
     "  a: {type: spring, between: [still, g], stiffness: 1e3}\n"
     "  b: {type: spring, between: [moved, g], stiffness: 1e3}\n"
     "  c: {type: spring, between: [guided, g], stiffness: 1e3}\n"
     "  d: {type: spring, between: [over, g], stiffness: 1e3}\n"
     "  e: {type: spring, between: [s@0.37, m@0.5:0.3], stiffness: 1e3}\n"
-    "  f: {type: spring, between: [s@0.2, g], stiffness: 1e3}\n";
+    "  f: {type: spring, between: [s@0.2, g], stiffness: 1e3}\n"
+    "  h: {type: spring, between: [across, g], stiffness: 1e3}\n";
 /// Places that are many, in two sections.
 const std::string kTaps =
     "ergotic: 1\nsections: {s: {}, p: {geometry: plane}}\nmats:\n  g: {type: ground, section: s}\n"
@@ -288,7 +291,9 @@ TEST(ProofTest, IsRefusedUnderTheNameOfAnotherScene) {
       {kPoints, "at: $u", "at: 1.5*$u", "moved: it lies elsewhere"},
       {kPoints, "[0.4, 0.6]", "[0.4, 0.5]", "guided: it lies elsewhere"},
       {kPoints, "guide: {mat: hand, scale: 2}, ", "", "guided: it lies elsewhere"},
-      {kPoints, "0.61]", "0.6]", "over: it lies elsewhere"},
+      {kPoints, "2*$u, 0.61]", "2*$u, 0.6]", "over: it lies elsewhere"},
+      {kPoints, "[0.26, 0.74]", "[0.26, 0.76]", "across: it lies elsewhere"},
+      {kPoints, "[~, {mat: hand, scale: 2}]", "{mat: hand, scale: 2}", "across: it lies elsewhere"},
       {kPoints, "s@0.37", "s@0.38", "e: between"},
       {kPoints, "0.5:0.3", "0.5:0.5", "e: between"},
       {kPoints, "s@0.2", "s@0.3", "f: between"},

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <filesystem>
 #include <iterator>
 
 #include "ergotic/scene/text/read_scene.hpp"
@@ -283,6 +284,7 @@ TEST(ReadSceneFileTest, ReadsTheBytesOfTheFile) {
   EXPECT_EQ(s.text, kHead + kMats);
   EXPECT_EQ(s.file, path);
   EXPECT_EQ(s.mats.size(), 6U);
+  std::filesystem::remove(path);
 }
 
 TEST(ReadSceneFileTest, UnreadableFilesAreNamed) {

@@ -2,9 +2,8 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <random>
-
-#include <sys/stat.h>
 
 #include "ergotic/scene/text/read_scene.hpp"
 #include "scene/bad_text.hpp"
@@ -35,10 +34,9 @@ std::string pointsText(const Table& table) {
 /// A folder with tables, `t.csv` as given.
 class YamlTablesTest : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = testing::TempDir() + "ergotic_tables_" + std::to_string(::getpid()) + "/";
-    ::mkdir(folder_.c_str(), 0755);
-  }
+  YamlTablesTest() { std::filesystem::create_directories(folder_); }
+  ~YamlTablesTest() override { std::filesystem::remove_all(folder_); }
+
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ + name, std::ios::binary) << text;
   }
@@ -54,7 +52,7 @@ class YamlTablesTest : public testing::Test {
         << csv;
   }
 
-  std::string folder_;
+  std::string folder_ = testing::TempDir() + "ergotic_tables_" + std::to_string(::getpid()) + "/";
 };
 
 TEST_F(YamlTablesTest, InlinePointsAreStraightUnlessToldOtherwise) {
@@ -148,7 +146,7 @@ TEST_F(YamlTablesTest, KeptTextWinsOverTheFile) {
 }
 
 TEST_F(YamlTablesTest, PathsBeginAtTheFolderOfTheScene) {
-  ::mkdir((folder_ + "sub").c_str(), 0755);
+  std::filesystem::create_directories(folder_ + "sub");
   write("sub/t.csv", "0 1\n1 2\n");
   EXPECT_EQ(
       readYaml(BOW "{file: sub/t.csv}}}\n", folder_ + "a.yaml").lias[0].law->table.points.size(),

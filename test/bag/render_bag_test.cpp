@@ -24,6 +24,47 @@ using test::run;
 
 const std::string kScene = test::struckBar("{quantity: velocity, at: bar, channel: 1}");
 
+/// A hand that strikes a skin through all kinds of links and points that remember something.
+std::string manyMatters() {
+  std::string touches;
+  for (int m = 0; m < 81; ++m) {
+    touches += (m == 0 ? "" : ", ") + ("[t" + std::to_string(m)) + ", [stick, skin." +
+               std::to_string(m / 9) + "." + std::to_string(m % 9) + "]]";
+  }
+  return R"(ergotic: 1
+gestural_rate: 3150
+parameters: {k: {value: 3000, range: [1000, 5000]}}
+sections: {a: {medium: 1e-3}, keys: {rate: gestural}}
+generators:
+  - {type: mesh, name: skin, section: a, rows: 9, columns: 9, spacing: 0.02, mass: 1e-3, stiffness: $k}
+mats:
+  key: {type: slice, section: keys}
+  g: {type: ground, section: a}
+  stick: {type: mass, section: a, mass: 0.01, x: 0.002}
+  one: {type: mass, section: a, mass: 1e-3}
+  two: {type: mass, section: a, mass: 1e-3}
+  three: {type: mass, section: a, mass: 1e-3}
+  under: {type: point, along: skin, at: [0.5, 0.5], guide: [{mat: key, scale: 30}, {mat: stick, scale: 90}]}
+  hair: {type: tap, of: [skin.3.3, skin.3.4, skin.4.3], weights: [0.5, 1, -0.3]}
+lias:
+  arm: {type: spring_damper, between: [key, stick], stiffness: 100, damping: 0.1}
+  gut: {type: relaxing, between: [stick, g], stiffness: 30, material: gut}
+  head: {type: felt, between: [under, stick], stiffness: 1e4, exponent: 1.5, damping: 0.3}
+  bar: {type: bend, between: [one, two, three], weights: [1, -2, 1], stiffness: 2000, damping: 1e-4}
+  left: {type: spring, between: [one, g], stiffness: 300}
+  right: {type: spring, between: [three, g], stiffness: $k}
+  press: {type: contact, between: [two, stick], stiffness: 400}
+  rub: {type: friction, between: [two, hair], normal: press, steady: 0.3, parts: [[0.5, 0.05]]}
+  touch:
+    with: {type: contact, stiffness: 100, threshold: -0.001, scheme: guarded}
+    columns: [name, between]
+    rows: [)" +
+         touches + R"(]
+ports: {hand: {mat: key, slice: 0}}
+outputs: {o: {at: hair, quantity: velocity, channel: 1}}
+)";
+}
+
 void write(rosbag::Bag& bag, const bag::Keyframe& keyframe) {
   ergotic::Keyframe message;
   message.tick = keyframe.tick;
@@ -92,7 +133,9 @@ class RenderBagTest : public testing::Test {
     for (const station::Event& event : recording.events) {
       write(bag, event);
     }
-    write(bag, recording.keyframes.at(0));
+    for (const bag::Keyframe& keyframe : recording.keyframes) {
+      write(bag, keyframe);
+    }
   }
 
   Outcome render(const std::string& arguments = "") {
@@ -100,10 +143,11 @@ class RenderBagTest : public testing::Test {
   }
 
   /// Samples that differ from the performance, from tick 150 on.
-  std::size_t differences() {
+  std::size_t differences() { return differencesFrom(live_); }
+  std::size_t differencesFrom(const LiveRun& live) {
     const std::vector<double> got = audio::WavReader(sound_path_).readAll();
-    const std::vector<float> wanted(live_.sound().begin() + 150 * LiveRun::kRates.ratio,
-                                    live_.sound().end());
+    const std::vector<float> wanted(live.sound().begin() + 150 * LiveRun::kRates.ratio,
+                                    live.sound().end());
     EXPECT_EQ(got.size(), wanted.size());
     std::size_t count = 0;
     for (std::size_t i = 0; i < std::min(got.size(), wanted.size()); ++i) {
@@ -124,6 +168,26 @@ TEST_F(RenderBagTest, GivesTheSamplesOfThePerformance) {
   EXPECT_EQ(outcome.code, 0) << outcome.text;
   EXPECT_EQ(differences(), 0U);
   EXPECT_THAT(outcome.text, HasSubstr("recorded by build 0 another"));
+}
+
+TEST_F(RenderBagTest, GivesTheSamplesOfAllMatterThatRemembers) {
+  for (const physics::Precision precision :
+       {physics::Precision::kFloat, physics::Precision::kDouble}) {
+    physics::CompileOptions options(precision);
+    options.metered = precision == physics::Precision::kDouble;
+    LiveRun live(manyMatters(), options);
+    perform(live);
+    live.swap(manyMatters());
+    live.play(500);
+    live.takeKeyframe();
+    live.play(500);
+    record(live.recording(), std::nullopt);
+    const Outcome outcome = render();
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+    EXPECT_EQ(differencesFrom(live), 0U);
+    const auto [low, high] = std::minmax_element(live.sound().begin(), live.sound().end());
+    EXPECT_GT(*high - *low, 1e-3F);
+  }
 }
 
 TEST_F(RenderBagTest, RefusesGapsUnlessTheyAreAllowed) {

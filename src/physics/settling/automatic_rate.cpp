@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "at.hpp"
 #include "ergotic/exception.hpp"
@@ -49,12 +51,6 @@ double lambdaOf(const scene::Scene& scene, const Rates& rates, int section) {
   return analyse(alone.atOwnRate(divisorOf(scene.sections[at(section)], rates))).lambda;
 }
 
-/// What a rate would mean for a section.
-struct Trial {
-  double lambda = std::numeric_limits<double>::infinity();
-  Verdict verdict = Verdict::kUnstable;
-};
-
 class Chooser {
  public:
   Chooser(scene::Scene& scene, const Rates& rates, const Complete& complete)
@@ -67,36 +63,46 @@ class Chooser {
       section.gestural = true;
       return say(s, "is gestural: slices of the device are in it");
     }
-    const Trial fastest = tryDivisor(s, 1);
+    const std::optional<scene::Scene> fastest = atDivisor(s, 1);
+    std::optional<Verdict> least;  // worked out where it is asked for, which takes long
     for (int d = rates_.ratio; d > 1; --d) {
-      if (rates_.ratio % d == 0 && suitsNeighbours(s, d)) {
-        const Trial trial = tryDivisor(s, d);
-        if (trial.lambda < kSlowEnough && trial.verdict <= fastest.verdict) {
-          section.divisor = d;
-          return say(s, describe(d, trial.lambda));
-        }
+      if (rates_.ratio % d != 0 || !suitsNeighbours(s, d)) {
+        continue;
+      }
+      const std::optional<scene::Scene> candidate = atDivisor(s, d);
+      const double lambda = lambdaAt(candidate, s);
+      if (!(lambda < kSlowEnough)) {
+        continue;
+      }
+      least = least ? least : verdictOf(fastest);
+      if (verdictOf(candidate) <= least) {
+        section.divisor = d;
+        return say(s, describe(d, lambda));
       }
     }
     section.divisor = 1;
-    return say(s, describe(1, fastest.lambda));
+    return say(s, describe(1, lambdaAt(fastest, s)));
   }
 
  private:
-  Trial tryDivisor(int s, int d) const {
+  /// What a rate would mean for a section; none if something in the scene cannot be at this rate.
+  std::optional<scene::Scene> atDivisor(int s, int d) const {
     scene::Scene candidate = scene_;
     candidate.sections[at(s)].divisor = d;
     for (scene::Section& section : candidate.sections) {
       section.automatic_rate = false;
     }
     try {
-      candidate = complete_(std::move(candidate));
+      return complete_(std::move(candidate));
     } catch (const Exception&) {
-      return {};  // something in the scene cannot be at this rate
+      return std::nullopt;
     }
-    Trial trial;
-    trial.verdict = certify(candidate, rates_).verdict;
-    trial.lambda = lambdaOf(candidate, rates_, s);
-    return trial;
+  }
+  double lambdaAt(const std::optional<scene::Scene>& candidate, int s) const {
+    return candidate ? lambdaOf(*candidate, rates_, s) : std::numeric_limits<double>::infinity();
+  }
+  Verdict verdictOf(const std::optional<scene::Scene>& candidate) const {
+    return candidate ? certify(*candidate, rates_).verdict : Verdict::kUnstable;
   }
 
   bool suitsNeighbours(int s, int d) const {

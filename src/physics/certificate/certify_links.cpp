@@ -196,13 +196,14 @@ class LinkJudge {
     }
   }
 
-  /// What it remembers is of one line, between the same places.
+  /// What it remembers is of one axis, between the same places.
   void judgeMemory(const Lia& lia) {
     if (networks_.turns(lia) || networks_.isMoving(lia)) {
       findings_.add(Verdict::kUnproven, lia.place,
                     "link '" + lia.name +
-                        "' remembers, along a line that turns or at a point that moves: nothing "
-                        "is proven of that. Use a scalar section, and a point that stays");
+                        "' remembers a distance, which may turn round, or is at a point that "
+                        "moves: nothing is proven of that. Use a scalar section, and a point that "
+                        "stays");
     }
   }
 

@@ -140,9 +140,9 @@ bool RatedNetwork::turns(const scene::Lia& lia) const {
     return false;
   }
   const Slopes& slopes = linkOf(static_cast<int>(&lia - scene_.lias.data())).slopes;
-  return (lia.rest_length > 0.0 && slopes.stiffness.highest > 0.0) ||
-         (hasLineThatTurns(lia) && (kind == scene::Law::Kind::kRelaxing ||
-                                    slopes.damping.lowest != 0.0 || slopes.damping.highest != 0.0));
+  return kind == scene::Law::Kind::kRelaxing ||
+         (lia.rest_length > 0.0 && slopes.stiffness.highest > 0.0) ||
+         (hasLineThatTurns(lia) && (slopes.damping.lowest != 0.0 || slopes.damping.highest != 0.0));
 }
 
 bool RatedNetwork::onlyBrakes(const scene::Lia& lia) const {

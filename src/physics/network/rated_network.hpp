@@ -45,7 +45,8 @@ class RatedNetwork {
   bool isMoving(const scene::Lia& lia) const;
   bool isMovingPoint(int mat) const;
   /// True if a link acts along a line that turns: a spring is linear in the coordinates only where
-  /// it has no rest length, and a damper only where they are one.
+  /// it has no rest length, and a damper only where they are one; one that remembers remembers a
+  /// distance, which turns round where its ends pass one another.
   bool turns(const scene::Lia& lia) const;
   /// True if a link acts along the line between its ends and not along fixed axes.
   bool hasLineThatTurns(const scene::Lia& lia) const;

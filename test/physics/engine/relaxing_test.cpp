@@ -256,7 +256,7 @@ TEST(RelaxingTest, JustAboveTheLimitEveryRandomNetDiverges) {
   }
 }
 
-TEST(RelaxingTest, AlongALineThatTurnsOrAtAPointThatMovesNothingIsProven) {
+TEST(RelaxingTest, OfADistanceOrAtAPointThatMovesNothingIsProven) {
   const auto verdict = [](const std::string& geometry, const std::string& ends) {
     const std::string text =
         "ergotic: 1\nparameters: {at: {value: 0.5, range: [0.2, 0.8]}}\n"
@@ -270,9 +270,28 @@ TEST(RelaxingTest, AlongALineThatTurnsOrAtAPointThatMovesNothingIsProven) {
     return certify(settle(scene::readYaml(text, "l.yaml"), {kRate, 14}).scene, {kRate, 14}).verdict;
   };
   EXPECT_EQ(verdict("scalar", "[t.3, g]"), Verdict::kPassive);
-  EXPECT_EQ(verdict("line", "[t.3, g]"), Verdict::kPassive);
+  EXPECT_EQ(verdict("line", "[t.3, g]"), Verdict::kUnproven);
   EXPECT_EQ(verdict("plane", "[t.3, g]"), Verdict::kUnproven);
   EXPECT_EQ(verdict("scalar", "[p, g]"), Verdict::kUnproven);
+}
+
+/// Where they pass one another their distance turns round, and with it what v says of it.
+TEST(RelaxingTest, WhatPassesOneAnotherAlongALineMayGrow) {
+  const scene::Scene scene =
+      settle(scene::readYaml("ergotic: 1\nsections: {s: {geometry: line}}\nmats:\n"
+                             "  a: {type: mass, mass: 0.003, at: 0.04}\n"
+                             "  b: {type: mass, mass: 0.02, at: -0.01}\nlias:\n"
+                             "  l: {type: relaxing, between: [a, b], stiffness: 1.2e6, "
+                             "branches: [[1.5e5, 1.3e-3]]}\n",
+                             "l.yaml"),
+             kEveryFrame)
+          .scene;
+  EXPECT_EQ(certify(scene, kEveryFrame).verdict, Verdict::kUnproven);
+  Player player(scene, kEveryFrame);
+  player.tick();
+  const double start = energiesOf(player).stored;
+  player.ticks(44100);
+  EXPECT_GT(test::kineticEnergy(player), 1e3 * start);
 }
 
 }  // namespace

@@ -201,7 +201,12 @@ class CouplingJudge {
     return proof.has_value();
   }
 
+  /// The first one of an island: others are it with bends as single precision rounds them.
   void keep(PeriodProof proof, const scene::Scene& scene, int frames) {
+    const std::vector<PeriodProof>& known = findings_.proof()->periods;
+    if (!known.empty() && known.back().modules == proof.modules) {
+      return;
+    }
     proof.frames = frames;
     for (const scene::Parameter& parameter : scene.parameters) {
       proof.parameters.push_back(parameter.value);

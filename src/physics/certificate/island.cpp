@@ -6,6 +6,8 @@
 #include <set>
 
 #include "at.hpp"
+#include "physics/state/bend_parts.hpp"
+#include "physics/step_units.hpp"
 #include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
@@ -18,6 +20,28 @@ constexpr double kRounding = 1e-12;  // of a cosine
 
 bool switches(const scene::Lia& lia) {
   return scene::lawOf(lia.type).switches;
+}
+
+bool isOfBend(const scene::Lia& lia) {
+  return lia.bend >= 0;
+}
+
+/// Single precision plays bends with few digits: these decide whether modes meet.
+scene::Scene withBendsInFloat(scene::Scene scene, const Rates& rates) {
+  for (scene::Lia& lia : scene.lias) {
+    if (!isOfBend(lia)) {
+      continue;
+    }
+    const StepUnits units(scene, rates, divisorOf(scene.sectionOf(scene.mats[at(lia.a)]), rates));
+    const auto rounding = [&](double number) {
+      return number == 0.0 ? 1.0 : double{inPrecision<float>(scene, lia, number)} / number;
+    };
+    const double of_stiffness = rounding(scene.valueOf(lia.stiffness));
+    const double of_damping = rounding(units.damping(scene.valueOf(lia.damping)));
+    lia.stiffness.factor *= of_stiffness;
+    lia.damping.factor *= of_damping;
+  }
+  return scene;
 }
 
 void setParameters(scene::Scene& scene, double scene::Parameter::*end) {
@@ -98,6 +122,9 @@ std::vector<scene::Scene> Island::cases() const {
   std::vector<scene::Scene> result{isolated(false)};
   if (std::any_of(result[0].lias.begin(), result[0].lias.end(), switches)) {
     result.push_back(isolated(true));
+  }
+  if (std::any_of(result[0].lias.begin(), result[0].lias.end(), isOfBend)) {
+    result.push_back(withBendsInFloat(result[0], networks_.rates()));
   }
   if (followsParameters()) {
     const std::vector<scene::Scene> present = result;

@@ -10,6 +10,7 @@
 #include "at.hpp"
 #include "physics/disjoint_sets.hpp"
 #include "physics/laws/matched_cell.hpp"
+#include "physics/state/bend_parts.hpp"
 #include "physics/step_units.hpp"
 #include "scene/laws/law.hpp"
 
@@ -249,6 +250,11 @@ void RatedNetwork::addLink(Builder& to, int l, bool hold_a, bool hold_b) const {
   }
 }
 
+/// As single precision may round it.
+Range roundedBend(const Range& range) {
+  return {range.lowest * (1.0 - kRoundingOfBends), range.highest * (1.0 + kRoundingOfBends)};
+}
+
 /// Links of many ends, all of one section.
 void RatedNetwork::addBends(Builder& to) const {
   for (const Network::Bend& bend : network_.bends) {
@@ -260,7 +266,8 @@ void RatedNetwork::addBends(Builder& to) const {
     for (Share& end : ends) {
       end.node = to.nodeOf(end.node, nodeOf(end.node).mass.range.lowest);
     }
-    to.network.addLink(ends, bend.stiffness, bend.damping, bend.first_link);
+    to.network.addLink(ends, roundedBend(bend.stiffness), roundedBend(bend.damping),
+                       bend.first_link);
   }
 }
 

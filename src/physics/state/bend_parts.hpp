@@ -9,13 +9,15 @@
 
 namespace ergotic::physics {
 
+constexpr int kDigitsOfBends = 12;                                // binary
+constexpr double kRoundingOfBends = 1.0 / (1 << kDigitsOfBends);  // of K and Z, at most
+
 /// A stiffness or damping of a link in the precision of an instrument. Springs that make up a bend
 /// must add up to one load: what rounding takes from each of them by itself would drive a body that
 /// nothing holds, as K u u' gives way to its motion. So in single precision K counts with so few
 /// digits that all whole multiples -u_i u_j K, and their sums in a net, are exact.
 template <class Real>
 Real inPrecision(const scene::Scene& scene, const scene::Lia& lia, double value) {
-  constexpr int kDigits = 12;  // binary: 1.2e-4 of K, 0.1 cents
   if (std::is_same_v<Real, double> || lia.bend < 0 || value == 0.0) {
     return static_cast<Real>(value);
   }
@@ -25,8 +27,8 @@ Real inPrecision(const scene::Scene& scene, const scene::Lia& lia, double value)
       std::rint(whole != 0.0 ? lia.stiffness.factor / whole : lia.damping.factor / damping);
   int exponent = 0;
   const double digits = std::frexp(value / multiple, &exponent);
-  return static_cast<Real>(multiple *
-                           std::ldexp(std::rint(std::ldexp(digits, kDigits)), exponent - kDigits));
+  return static_cast<Real>(multiple * std::ldexp(std::rint(std::ldexp(digits, kDigitsOfBends)),
+                                                 exponent - kDigitsOfBends));
 }
 
 }  // namespace ergotic::physics

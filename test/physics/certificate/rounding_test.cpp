@@ -181,6 +181,28 @@ TEST(RoundingTest, ACellAtHalfTheRateIsNone) {
   EXPECT_TRUE(cell(22000.0).isVouchedFor());
 }
 
+/// It has 12 binary digits of the stiffness of a bend, here 2048.51, half a digit less than it
+/// plays.
+TEST(RoundingTest, ABendAtTheLimitIsNoneEither) {
+  const auto bar = [](double limit) {
+    const double stiffness = 2048.51 * 4096.0;
+    const double mass = 1.5 * stiffness / (kRate * kRate * limit);
+    char text[400];
+    std::snprintf(text, sizeof text,
+                  "  a: {type: mass, mass: %.17g, v: 0.1}\n  b: {type: mass, mass: %.17g}\n"
+                  "  c: {type: mass, mass: %.17g}\nlias:\n  l: {type: bend, between: [a, b, c], "
+                  "weights: [1, -2, 1], stiffness: %.17g}\n"
+                  "outputs: {o: {at: b, quantity: velocity, channel: 1}}\n",
+                  mass, mass, mass, stiffness);
+    return Vouched(kOfAudio + text);
+  };
+  EXPECT_GT(bar(0.9999).fastestOf(1.0, Precision::kFloat), 1e3);
+  EXPECT_LT(bar(0.9999).fastestOf(1.0, Precision::kDouble), 10.0);
+  EXPECT_FALSE(bar(0.9999).isVouchedFor());
+  EXPECT_TRUE(bar(0.9997).isVouchedFor());
+  EXPECT_LT(bar(0.9997).fastestOf(1.0, Precision::kFloat), 10.0);
+}
+
 TEST(RoundingTest, NumbersThatSinglePrecisionDoesNotHoldAreRefused) {
   const auto contact = [](const char* stiffness, const char* mass) {
     return kOfAudio + "  m: {type: mass, mass: " + mass + ", x: 0.001, v: -1}\nlias:\n" +

@@ -15,6 +15,7 @@ namespace {
 constexpr double kHand = 1.0;     // m
 constexpr double kLeast = 1e-30;  // m
 constexpr int kDoublings = 250;
+constexpr double kFall = 1.0;  // s, in which weight and inputs give energy
 
 /// How far hands, agents and inputs move modules, m.
 double farthestMoved(const scene::Scene& scene) {
@@ -50,10 +51,20 @@ LargestNumbers::LargestNumbers(const RatedNetwork& networks)
       const double mass = node.mass.range.highest;
       energy_ += 0.5 * mass * mat.push->velocity.squaredNorm() +
                  0.5 * node.stiffness.range.highest * mat.position.squaredNorm();
-      weight_ += mass * scene.sectionOf(mat).gravity.norm() + mat.push->force.norm();
+      const double pull = mass * scene.sectionOf(mat).gravity.norm() + mat.push->force.norm();
+      mass_ += mass;
+      weight_ += pull;
+      fall_ = std::max(fall_, pull / node.mass.range.lowest);
     }
     if (const double inverse = networks.inverseMass(static_cast<int>(m)); inverse > 0.0) {
       lightest_ = std::min(lightest_, 1.0 / inverse);
+    }
+  }
+  for (const scene::Input& input : scene.inputs) {
+    if (input.quantity == scene::Quantity::kForce) {
+      const double push = scene::largest(scene, input.gain);
+      weight_ += push;
+      fall_ = std::max(fall_, push * networks.inverseMass(input.mat));
     }
   }
   for (const scene::Tap& tap : scene.taps) {
@@ -73,24 +84,31 @@ double LargestNumbers::stiffnessOf(const scene::Lia& lia, double elongation) con
   return std::max(k.highest, -k.lowest);
 }
 
+double LargestNumbers::energy() const {
+  const double speed = fall_ * kFall / networks_.scene().time_unit_s;
+  return energy_ + 0.5 * mass_ * speed * speed;
+}
+
 /// Where the link alone holds all energy.
 double LargestNumbers::forceOf(const scene::Lia& lia) const {
+  const double energy = this->energy();
   double apart = 2.0 * farthest_ + std::abs(lia.rest_length);
   double stiffness = stiffnessOf(lia, apart);
   apart = apart > 0.0 ? apart : kLeast;
-  for (int i = 0; i < kDoublings && stiffness > 0.0 && stiffness * apart * apart < 2.0 * energy_;
+  for (int i = 0; i < kDoublings && stiffness > 0.0 && stiffness * apart * apart < 2.0 * energy;
        ++i) {
     apart *= 2.0;
     stiffness = stiffnessOf(lia, apart);
   }
   const double damping = scene::largest(networks_.scene(), lia.damping);
   const double give = networks_.inverseMass(lia.a) + networks_.inverseMass(lia.b);
-  return leverage_ * (stiffness * apart + damping * std::sqrt(2.0 * energy_ * give) + weight_);
+  return leverage_ * (stiffness * apart + damping * std::sqrt(2.0 * energy * give) + weight_);
 }
 
 double LargestNumbers::reach(double seconds) const {
   const double time = seconds / networks_.scene().time_unit_s;
-  return farthest_ + (energy_ > 0.0 ? time * std::sqrt(2.0 * energy_ / lightest_) : 0.0);
+  const double flown = energy_ > 0.0 ? time * std::sqrt(2.0 * energy_ / lightest_) : 0.0;
+  return farthest_ + flown + 0.5 * fall_ * time * time;
 }
 
 }  // namespace ergotic::physics

@@ -17,7 +17,7 @@ class LargestNumbers {
   /// Of a link, kg m/time_unit^2.
   double forceOf(const scene::Lia& lia) const;
   /// Of what guarded links hold, kg m^2/time_unit^2.
-  double energy() const { return energy_; }
+  double energy() const;
   /// From the origin, m.
   double reach(double seconds) const;
 
@@ -26,8 +26,10 @@ class LargestNumbers {
 
   const RatedNetwork& networks_;
   double farthest_ = 0.0;  // from the origin at the start, or where a hand goes, m
-  double energy_ = 0.0;
-  double weight_ = 0.0;    // of all modules
+  double energy_ = 0.0;    // at the start
+  double mass_ = 0.0;      // of all modules
+  double weight_ = 0.0;    // of all modules, with what inputs push
+  double fall_ = 0.0;      // the most that weight or an input speeds a module up, m/time_unit^2
   double leverage_ = 1.0;  // of taps, the largest either way
   double lightest_;        // kg
 };

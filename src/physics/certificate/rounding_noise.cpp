@@ -17,6 +17,7 @@ constexpr double kRounding =
     1.0 / (1 << 24);              // rms, of a distance, with what is worked out from it
 constexpr double kMinute = 60.0;  // s
 constexpr double kTold = 0.05;    // m/s
+constexpr double kApart = 1e-9;   // of weights
 
 /// Modules that hang together.
 struct Part {
@@ -24,7 +25,18 @@ struct Part {
   double power = 0.0;  // W that rounding gives
   double loss = 0.0;   // kg/s, of motion that is alike everywhere
   double farthest = 0.0;
-  int first = -1;  // module
+  int first = -1;                                      // module
+  bool is_held = false;                                // by what does not move
+  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();  // kg m/s
+  Eigen::Vector3d weight = Eigen::Vector3d::Zero();    // N
+  double displaced = 0.0;                              // at the start, m
+
+  /// How far it flies and falls in a minute, rms, m.
+  double way() const {
+    return is_held ? 0.0
+                   : displaced + (momentum / mass).norm() * kMinute / std::sqrt(3.0) +
+                         0.5 * (weight / mass).norm() * kMinute * kMinute / std::sqrt(5.0);
+  }
 
   /// Speed after a minute, rms, m/s.
   double speed() const {
@@ -34,8 +46,9 @@ struct Part {
   }
 };
 
-/// What a spring adds up before it takes a difference: in Euclidean sections how far its ends lie
-/// apart, in scalar ones only by how much it is stretched there, m.
+/// What a spring adds up before it takes a difference, where what it joins goes nowhere: in
+/// Euclidean sections how far its ends lie apart, in scalar ones only by how much it is stretched
+/// there, m.
 double distanceOf(const scene::Scene& scene, const scene::Lia& lia) {
   const scene::Mat& a = scene.mats[at(lia.a)];
   const scene::Mat& b = scene.mats[at(lia.b)];
@@ -59,6 +72,9 @@ class RoundingNoise {
     for (std::size_t m = 0; m < network_.nodes.size(); ++m) {
       addModule(static_cast<int>(m));
     }
+    for (const Network::Link& link : network_.links) {
+      hold(link);
+    }
     for (std::size_t l = 0; l < network_.links.size(); ++l) {
       addLink(network_.links[l], scene.lias[l]);
     }
@@ -80,10 +96,30 @@ class RoundingNoise {
   void addModule(int m) {
     const Network::Node& node = network_.nodes[at(m)];
     if (node.is_free) {
+      const double unit = network_.scene.time_unit_s;
+      const scene::Mat& mat = network_.scene.mats[at(m)];
+      const scene::Section& section = network_.scene.sectionOf(mat);
       Part& part = partOf(m);
       part.first = part.first < 0 ? m : part.first;
       part.mass += node.mass.now;
-      part.loss += node.damping.now / network_.scene.time_unit_s;
+      part.loss += node.damping.now / unit;
+      part.is_held = part.is_held || node.stiffness.now > 0.0;
+      part.momentum += node.mass.now / unit * movingPart(mat.push->velocity, section.geometry);
+      part.weight += (node.mass.now * section.gravity + mat.push->force) / (unit * unit);
+      part.displaced =
+          std::max(part.displaced, movingPart(mat.position - mat.rest, section.geometry).norm());
+    }
+  }
+
+  /// What a link joins to something that no force moves goes nowhere.
+  void hold(const Network::Link& link) {
+    const Shares ends = endsOf(link);
+    double sum = 0.0;
+    for (const Share& share : ends) {
+      sum += share.weight;
+    }
+    if (!ends.empty() && std::abs(sum) > kApart) {
+      partOf(ends[0].node).is_held = true;
     }
   }
 
@@ -97,9 +133,9 @@ class RoundingNoise {
     const scene::Section& section =
         network_.scene.sections[at(network_.nodes[at(ends[0].node)].section)];
     const double step_hz = rates_.audio_hz / divisorOf(section, rates_);
-    const double distance = distanceOf(network_.scene, lia);
-    const double force = link.at_rest / (unit * unit) * kRounding * distance;
     Part& part = partOf(ends[0].node);
+    const double distance = distanceOf(network_.scene, lia) + part.way();
+    const double force = link.at_rest / (unit * unit) * kRounding * distance;
     for (const Share& share : ends) {
       const double mass = network_.nodes[at(share.node)].mass.now;
       part.power += 0.5 * share.weight * share.weight * force * force / (mass * step_hz);

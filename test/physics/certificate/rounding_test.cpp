@@ -259,6 +259,28 @@ TEST(RoundingTest, NorIsWhatMovesTooFast) {
   EXPECT_TRUE(moving("scalar", "1, v: 1e6", contact + "1e4").isVouchedFor());
 }
 
+TEST(RoundingTest, NorIsWhatFallsTooFarOrIsPushedTooHard) {
+  const auto pulled = [](const std::string& section, const std::string& link,
+                         const std::string& gain) {
+    return Vouched("ergotic: 1\nsections: {a: {" + section +
+                   "}}\nmats:\n  g: {type: ground}\n  m: {type: mass, mass: 0.01}\nlias:\n"
+                   "  k: {between: [g, m], " +
+                   link + "}\ninputs: {i: {mat: m, quantity: force, channel: 1, gain: " + gain +
+                   "}}\noutputs: {o: {at: m, quantity: position, channel: 1}}\n");
+  };
+  const std::string cubic = "type: cubic, stiffness: 1000, nonlinearity: 1e6";
+  const Vouched falling = pulled("gravity: -1e29", cubic, "1");
+  Player player(compile(falling.scene, falling.rates, Precision::kFloat));
+  player.ticks(2);
+  EXPECT_FALSE(std::isfinite(player.heard.at(0).back()));
+  EXPECT_FALSE(falling.isVouchedFor());
+  EXPECT_FALSE(pulled("gravity: 0", cubic, "1e28").isVouchedFor());
+  EXPECT_TRUE(pulled("gravity: -9.81", cubic, "1000").isVouchedFor());
+  const std::string held = "type: contact, stiffness: 1000";
+  EXPECT_FALSE(pulled("geometry: line, gravity: -1e20", held, "1").isVouchedFor());
+  EXPECT_TRUE(pulled("geometry: line, gravity: -9.81", held, "1000").isVouchedFor());
+}
+
 /// Two masses in a plane on prestressed springs of 7 MN/m.
 std::string prestressed(double between, double damping) {
   char text[900];
@@ -297,6 +319,28 @@ TEST(RoundingTest, TellsHowFarNoiseHeatsWhatLosesNothing) {
   EXPECT_LT(told, 2.0 * played);
   EXPECT_LT(lossless.fastestOf(10.0, Precision::kDouble), 3e-4);
   EXPECT_LT(toldOf(Vouched(prestressed(0.1, 0.0))), 0.11 * told + 0.05);
+}
+
+/// Three masses that are thrown, or fall: positions grow, and with them what they are rounded by.
+TEST(RoundingTest, TellsOfWhatNothingHolds) {
+  const auto thrown = [](double gravity, double v) {
+    char text[500];
+    std::snprintf(text, sizeof text,
+                  "ergotic: 1\nsections: {s: {gravity: %g}}\nmats:\n"
+                  "  a: {type: mass, mass: 0.011, v: %g}\n  b: {type: mass, mass: 0.0087, v: %g}\n"
+                  "  c: {type: mass, mass: 0.0137, v: %.4f}\nlias:\n"
+                  "  ab: {type: spring, between: [a, b], stiffness: 5e6}\n"
+                  "  bc: {type: spring, between: [b, c], stiffness: 6e6}\n"
+                  "outputs: {o: {at: a, quantity: velocity, channel: 1}}\n",
+                  gravity, v, v, v + 0.001);
+    return Vouched(text);
+  };
+  const Vouched falling = thrown(-9.81, 0.0);
+  EXPECT_LT(falling.fastestOf(10.0, Precision::kDouble), 98.2);
+  EXPECT_GT(falling.fastestOf(10.0, Precision::kFloat), 110.0);
+  EXPECT_GT(toldOf(falling), 100.0);
+  EXPECT_GT(toldOf(thrown(0.0, 3.0)), 1.0);
+  EXPECT_EQ(toldOf(thrown(0.0, 0.0)), 0.0);
 }
 
 TEST(RoundingTest, TellsNoneWhereALossOrShortDistancesKeepItSmall) {

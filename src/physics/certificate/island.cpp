@@ -6,8 +6,8 @@
 #include <set>
 
 #include "at.hpp"
-#include "physics/state/bend_parts.hpp"
 #include "physics/step_units.hpp"
+#include "scene/laws/bend_parts.hpp"
 #include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
@@ -34,7 +34,7 @@ scene::Scene withBendsInFloat(scene::Scene scene, const Rates& rates) {
     }
     const StepUnits units(scene, rates, divisorOf(scene.sectionOf(scene.mats[at(lia.a)]), rates));
     const auto rounding = [&](double number) {
-      return number == 0.0 ? 1.0 : double{inPrecision<float>(scene, lia, number)} / number;
+      return number == 0.0 ? 1.0 : double{scene::inPrecision<float>(scene, lia, number)} / number;
     };
     const double of_stiffness = rounding(scene.valueOf(lia.stiffness));
     const double of_damping = rounding(units.damping(scene.valueOf(lia.damping)));

@@ -10,8 +10,8 @@
 #include "at.hpp"
 #include "physics/disjoint_sets.hpp"
 #include "physics/laws/matched_cell.hpp"
-#include "physics/state/bend_parts.hpp"
 #include "physics/step_units.hpp"
+#include "scene/laws/bend_parts.hpp"
 #include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
@@ -252,7 +252,8 @@ void RatedNetwork::addLink(Builder& to, int l, bool hold_a, bool hold_b) const {
 
 /// As single precision may round it.
 Range roundedBend(const Range& range) {
-  return {range.lowest * (1.0 - kRoundingOfBends), range.highest * (1.0 + kRoundingOfBends)};
+  return {range.lowest * (1.0 - scene::kRoundingOfBends),
+          range.highest * (1.0 + scene::kRoundingOfBends)};
 }
 
 /// Links of many ends, all of one section.

@@ -5,8 +5,8 @@
 #include "at.hpp"
 #include "physics/layout/blocks/lanes.hpp"
 #include "physics/layout/blocks/sparse_program.hpp"
-#include "physics/state/bend_parts.hpp"
 #include "physics/state/coefficients.hpp"
+#include "scene/laws/bend_parts.hpp"
 #include "scene/laws/explicit_form.hpp"
 
 namespace ergotic::physics {
@@ -42,8 +42,8 @@ void CoefficientsOf<Real>::fillBlocks(const scene::Scene& scene,
       Real z(0);
       for (const int l : links) {
         const scene::Lia& lia = scene.lias[at(l)];
-        k += inPrecision<Real>(scene, lia, scene.valueOf(lia.stiffness));
-        z += inPrecision<Real>(scene, lia, units.damping(scene.valueOf(lia.damping)));
+        k += scene::inPrecision<Real>(scene, lia, scene.valueOf(lia.stiffness));
+        z += scene::inPrecision<Real>(scene, lia, units.damping(scene.valueOf(lia.damping)));
       }
       to.uniform_k.push_back(k);
       to.uniform_z.push_back(z);
@@ -88,8 +88,8 @@ void CoefficientsOf<Real>::fillBlock(const scene::Scene& scene,
     const scene::Lia& lia = scene.lias[at(run.lias[l])];
     const scene::LinkInSteps link{scene, lia, units,
                                   scene.mats[at(lia.a)].rest.x() - scene.mats[at(lia.b)].rest.x()};
-    const Real k = inPrecision<Real>(scene, lia, scene::number::stiffness(link));
-    const Real z = inPrecision<Real>(scene, lia, scene::number::damping(link));
+    const Real k = scene::inPrecision<Real>(scene, lia, scene::number::stiffness(link));
+    const Real z = scene::inPrecision<Real>(scene, lia, scene::number::damping(link));
     const Real offset = static_cast<Real>(scene::number::offset(link));
     const int a = run.ends[l].a - block.first;
     const int b = run.ends[l].b - block.first;

@@ -9,7 +9,7 @@
 #include "ergotic/scene/table.hpp"
 #include "physics/laws/oscillator.hpp"
 #include "physics/layout/guarded_groups.hpp"
-#include "physics/state/bend_parts.hpp"
+#include "scene/laws/bend_parts.hpp"
 #include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
@@ -155,7 +155,7 @@ void CoefficientsOf<Real>::setLink(
   for (std::size_t i = 0; i < form.numbers; ++i) {
     const bool is_load = i < 2;  // of what a bend is made of: K, Z, where it rests
     runs[r].fields[i * run.lias.size() + at(l)] =
-        is_load ? inPrecision<Real>(scene, lia, numbers[i]) : static_cast<Real>(numbers[i]);
+        is_load ? scene::inPrecision<Real>(scene, lia, numbers[i]) : static_cast<Real>(numbers[i]);
   }
 }
 

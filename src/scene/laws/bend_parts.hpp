@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <type_traits>
 
-#include "at.hpp"
 #include "ergotic/scene/scene.hpp"
 
-namespace ergotic::physics {
+namespace ergotic::scene {
 
 constexpr int kDigitsOfBends = 12;                                // binary
 constexpr double kRoundingOfBends = 1.0 / (1 << kDigitsOfBends);  // of K and Z, at most
@@ -17,12 +17,12 @@ constexpr double kRoundingOfBends = 1.0 / (1 << kDigitsOfBends);  // of K and Z,
 /// nothing holds, as K u u' gives way to its motion. So in single precision K counts with so few
 /// digits that all whole multiples -u_i u_j K, and their sums in a net, are exact.
 template <class Real>
-Real inPrecision(const scene::Scene& scene, const scene::Lia& lia, double value) {
+Real inPrecision(const Scene& scene, const Lia& lia, double value) {
   if (std::is_same_v<Real, double> || lia.bend < 0 || value == 0.0) {
     return static_cast<Real>(value);
   }
-  const double whole = scene.bends[at(lia.bend)].stiffness.factor;
-  const double damping = scene.bends[at(lia.bend)].damping.factor;
+  const double whole = scene.bends[static_cast<std::size_t>(lia.bend)].stiffness.factor;
+  const double damping = scene.bends[static_cast<std::size_t>(lia.bend)].damping.factor;
   const double multiple =
       std::rint(whole != 0.0 ? lia.stiffness.factor / whole : lia.damping.factor / damping);
   int exponent = 0;
@@ -31,4 +31,4 @@ Real inPrecision(const scene::Scene& scene, const scene::Lia& lia, double value)
                                                  exponent - kDigitsOfBends));
 }
 
-}  // namespace ergotic::physics
+}  // namespace ergotic::scene

@@ -36,7 +36,8 @@ def tried(line):
     if launch:
         return line.replace(launch.group(1), "roslaunch --nodes ergotic station.launch")
     if line == "rosbag record -a":
-        return "timeout --signal=INT 5 rosbag record -a; mv *.bag performance.bag"
+        return ("set -m; rosbag record -a & until ls *.active; do sleep 0.1; done; sleep 2; kill -INT %1; wait; "
+                "while ls *.active; do sleep 0.1; done; mv *.bag performance.bag")
     return line
 
 

@@ -14,6 +14,7 @@
 #include "ergotic/scene/lia_type.hpp"
 #include "ergotic/scene/name.hpp"
 #include "ergotic/scene/rare.hpp"
+#include "ergotic/scene/value.hpp"
 
 /// A scene: what the instrument is made of, before any rate or precision is chosen.
 ///
@@ -27,40 +28,6 @@
 /// geometries modules move along x, in the x-y plane or in space, and links act along the line that
 /// joins their ends.
 namespace ergotic::scene {
-
-/// Where in a text something was said, for messages; line and column count from 1.
-struct Place {
-  int line = 0;
-  int column = 0;
-};
-
-/// A number of the scene: `factor`, or `factor` times a parameter or the sample of an audio input.
-struct Value {
-  double factor = 0.0;
-  int parameter = -1;  ///< index in Scene::parameters, -1: none
-  int audio = -1;      ///< index in Scene::audio_parameters, -1: none
-};
-inline Value operator*(double k, const Value& v) {
-  return {k * v.factor, v.parameter, v.audio};
-}
-
-/// A number that may change while playing. Only these can.
-struct Parameter {
-  std::string name;
-  double value = 0.0;
-  double minimum = 0.0;
-  double maximum = 0.0;
-  Place place;
-};
-
-/// A number that follows an audio input from sample to sample (`.mdl` audioParam). It has no range,
-/// so nothing is proven of what it moves. Only stiffness, damping and nonlinearity may follow one.
-struct AudioParameter {
-  std::string name;
-  int channel = 0;     ///< audio channel, from 0
-  double value = 0.0;  ///< the present sample
-  Place place;
-};
 
 /// How modules of a section move and what a link's elongation is.
 enum class Geometry : std::uint8_t {

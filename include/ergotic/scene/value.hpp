@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+/// Numbers of a scene, what may change them, and where they stand in its text.
+namespace ergotic::scene {
+
+/// Where in a text something was said, for messages; line and column count from 1.
+struct Place {
+  int line = 0;
+  int column = 0;
+};
+
+/// A number of the scene: `factor`, or `factor` times a parameter or the sample of an audio input.
+struct Value {
+  double factor = 0.0;
+  int parameter = -1;  ///< index in Scene::parameters, -1: none
+  int audio = -1;      ///< index in Scene::audio_parameters, -1: none
+};
+inline Value operator*(double k, const Value& v) {
+  return {k * v.factor, v.parameter, v.audio};
+}
+
+/// A number that may change while playing. Only these can.
+struct Parameter {
+  std::string name;
+  double value = 0.0;
+  double minimum = 0.0;
+  double maximum = 0.0;
+  Place place;
+};
+
+/// A number that follows an audio input from sample to sample (`.mdl` audioParam). It has no range,
+/// so nothing is proven of what it moves. Only stiffness, damping and nonlinearity may follow one.
+struct AudioParameter {
+  std::string name;
+  int channel = 0;     ///< audio channel, from 0
+  double value = 0.0;  ///< the present sample
+  Place place;
+};
+
+}  // namespace ergotic::scene

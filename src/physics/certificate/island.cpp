@@ -34,7 +34,9 @@ scene::Scene withBendsInFloat(scene::Scene scene, const Rates& rates) {
     }
     const StepUnits units(scene, rates, divisorOf(scene.sectionOf(scene.mats[at(lia.a)]), rates));
     const auto rounding = [&](double number) {
-      return number == 0.0 ? 1.0 : double{scene::inPrecision<float>(scene, lia, number)} / number;
+      return number == 0.0
+                 ? 1.0
+                 : static_cast<double>(scene::inPrecision<float>(scene, lia, number)) / number;
     };
     const double of_stiffness = rounding(scene.valueOf(lia.stiffness));
     const double of_damping = rounding(units.damping(scene.valueOf(lia.damping)));

@@ -47,6 +47,7 @@ constexpr Limits kPointSpeedLimits{"1/s", 0.0, kInfinity, true};
 constexpr Limits kPointPowerLimits{"W", 0.0, kInfinity, true};
 constexpr Limits kWeightLimits{"", -1e6, 1e6};  ///< of a tap
 constexpr Limits kSpacingLimits{"m", 0.0, kInfinity, true};
+constexpr Limits kHardeningLimits{"", 0.0, 1e6};  ///< of a stretch
 constexpr Limits kInnerFractionLimits{"", 0.001, 0.999};
 constexpr Limits kFrequencyLimits{"Hz", 0.0, 24000.0, true};
 constexpr Limits kExponentLimits{"", 1.0, 5.0};

@@ -55,6 +55,8 @@ lias:
   right: {type: spring, between: [three, g], stiffness: $k}
   press: {type: contact, between: [two, stick], stiffness: 400}
   rub: {type: friction, between: [two, hair], normal: press, steady: 0.3, parts: [[0.5, 0.05]]}
+  tension: {type: stretch, of: skin, spacing: 0.02, hardening: 30}
+  hard: {type: cubic, between: [one, two], stiffness: 0, nonlinearity: 1e8, tank: net}
   touch:
     with: {type: contact, stiffness: 100, threshold: -0.001, scheme: guarded}
     columns: [name, between]

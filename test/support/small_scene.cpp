@@ -17,9 +17,9 @@ class Maker : SmallSceneDice {
 
   SmallScene make(unsigned family) {
     static constexpr void (Maker::*kFamilies[])() = {
-        &Maker::linear,     &Maker::twoRates, &Maker::contacts, &Maker::space,
-        &Maker::tables,     &Maker::snaps,    &Maker::box,      &Maker::hammer,
-        &Maker::stiffening, &Maker::friction, &Maker::bends,    &Maker::relaxing};
+        &Maker::linear, &Maker::twoRates, &Maker::contacts, &Maker::space,      &Maker::tables,
+        &Maker::snaps,  &Maker::box,      &Maker::hammer,   &Maker::stiffening, &Maker::friction,
+        &Maker::bends,  &Maker::relaxing, &Maker::tanks};
     is_lossless_ = chance(0.5);
     (this->*kFamilies[family % std::size(kFamilies)])();
     return made_;
@@ -140,24 +140,6 @@ class Maker : SmallSceneDice {
       }
     }
     inTimeWithTheSteps();
-  }
-
-  std::string table(double reach, double slope) {
-    std::vector<double> x(static_cast<std::size_t>(any(2, 6)));
-    for (double& each : x) {
-      each = within(-reach, reach);
-    }
-    std::sort(x.begin(), x.end());
-    const bool rises = chance(0.5);
-    std::string points = "[";
-    double last = x.front() * slope;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      const double y = rises ? last : within(-1.0, 1.0) * reach * slope;
-      points += (i == 0 ? "[" : ", [") + number(x[i] + 1e-9 * static_cast<double>(i)) + ", " +
-                number(y) + "]";
-      last += i + 1 < x.size() ? within(0.0, 1.0) * slope * (x[i + 1] - x[i]) : 0.0;
-    }
-    return "{points: " + points + "]" + (chance(0.5) ? ", interpolation: monotone" : "") + "}";
   }
 
   void tables() {
@@ -291,6 +273,26 @@ class Maker : SmallSceneDice {
       contact(anyMass(), decades(1e-3, 1.0), scheme({"explicit", "guarded", "auto"}));
     }
     springs(any(0, 2), 1.0);
+    inTimeWithTheSteps();
+  }
+
+  void tanks() {
+    begin("one tank");
+    section("all", kRate);
+    scalarMasses(any(1, 5));
+    springs(any(1, 5), 1.0);
+    if (chance(0.5)) {
+      stretchAll();
+    } else {
+      hardenTogether(any(1, 5));
+    }
+    if (chance(0.3)) {
+      contact(anyMass(), decades(1e-3, 1.0), scheme({"guarded", "auto"}));
+    }
+    if (chance(0.3)) {
+      const Mass& m = anyMass();
+      rub(m.name, otherThan(m, 0.5), number(decades(1e-3, 10.0) * m.kg * m.rate));
+    }
     inTimeWithTheSteps();
   }
 

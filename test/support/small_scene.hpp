@@ -27,6 +27,9 @@ SmallScene smallScene(unsigned seed);
 /// The same, with most ends of links on taps of the masses and grounds around.
 SmallScene withTaps(SmallScene scene, unsigned seed);
 
+/// Whether a link is a spring of a stretch.
+bool isStretched(const SmallScene& scene, const std::string& link);
+
 /// The same, with every scheme left to the station.
 SmallScene leftOpen(SmallScene scene);
 

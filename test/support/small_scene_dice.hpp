@@ -109,6 +109,43 @@ class SmallSceneDice {
     }
   }
 
+  /// A table of up to `reach` either way, of about that slope.
+  std::string table(double reach, double slope) {
+    std::vector<double> x(static_cast<std::size_t>(any(2, 6)));
+    for (double& each : x) {
+      each = within(-reach, reach);
+    }
+    std::sort(x.begin(), x.end());
+    const bool rises = chance(0.5);
+    std::string points = "[";
+    double last = x.front() * slope;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double y = rises ? last : within(-1.0, 1.0) * reach * slope;
+      points += (i == 0 ? "[" : ", [") + number(x[i] + 1e-9 * static_cast<double>(i)) + ", " +
+                number(y) + "]";
+      last += i + 1 < x.size() ? within(0.0, 1.0) * slope * (x[i + 1] - x[i]) : 0.0;
+    }
+    return "{points: " + points + "]" + (chance(0.5) ? ", interpolation: monotone" : "") + "}";
+  }
+
+  /// Cubic links with one tank.
+  void hardenTogether(int count) {
+    for (int i = 0; i < count; ++i) {
+      const Mass& m = anyMass();
+      link("cubic", m.name, otherThan(m, 0.5),
+           ", stiffness: 0, nonlinearity: " + full(m, decades(1e3, 1e7)) + ", tank: net");
+    }
+  }
+  /// \pre all links so far are springs
+  void stretchAll() {
+    std::string of;
+    for (const std::string& lia : made_.lias) {
+      of += (of.empty() ? "" : ", ") + nameOf(lia);
+    }
+    made_.lias.push_back("l" + std::to_string(made_.lias.size()) + ": {type: stretch, of: [" + of +
+                         "], spacing: 0.001, hardening: " + number(decades(1e-3, 1e3)) + "}");
+  }
+
   /// A mass that swings in two, three, four or six steps a period, or nearly so: it meets whatever
   /// the step does wrong at the same phase again and again.
   void inTimeWithTheSteps() {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <random>
 #include <sstream>
 #include <utility>
@@ -20,8 +21,8 @@ class Tapper {
 
   SmallScene run() {
     for (std::string& lia : scene_.lias) {
-      if (valueOf(lia, "type") == "bend") {
-        continue;  // it lies on modules only
+      if (liesOnModules(lia)) {
+        continue;
       }
       const std::size_t from = lia.find('[') + 1;
       const std::size_t comma = lia.find(", ", from);
@@ -34,6 +35,13 @@ class Tapper {
   }
 
  private:
+  /// Bends, what shares a tank, and springs that are stretched.
+  bool liesOnModules(const std::string& lia) const {
+    const std::string name = lia.substr(0, lia.find(':'));
+    const std::string type = valueOf(lia, "type");
+    return type == "bend" || type == "stretch" || lia.find(", tank: ") != std::string::npos ||
+           isStretched(scene_, name);
+  }
   bool chance(double share) { return std::uniform_real_distribution<double>()(random_) < share; }
   double weight() { return std::uniform_real_distribution<double>(-1.5, 1.5)(random_); }
 
@@ -69,6 +77,18 @@ class Tapper {
 };
 
 }  // namespace
+
+bool isStretched(const SmallScene& scene, const std::string& link) {
+  return std::any_of(scene.lias.begin(), scene.lias.end(), [&](const std::string& lia) {
+    const std::size_t from = lia.find(", of: [");
+    const std::string of = from == std::string::npos ? "" : lia.substr(from, lia.find(']') - from);
+    return of.find("[" + link + ",") != std::string::npos ||
+           of.find(" " + link + ",") != std::string::npos ||
+           (of.size() > link.size() &&
+            of.compare(of.size() - link.size() - 1, std::string::npos, " " + link) == 0) ||
+           of == ", of: [" + link;
+  });
+}
 
 SmallScene withTaps(SmallScene scene, unsigned seed) {
   return Tapper(std::move(scene), seed).run();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proofs of what bends and of what remembers.
+#include "ergotic/exception.hpp"
 #include "tools/proofs.hpp"
 
 namespace ergotic {
@@ -45,6 +46,20 @@ TEST(ProofTest, CountsWhatIsRememberedAndKnowsItsNumbers) {
         std::tuple("[[1e7*$k", "[[1e6*$k", "n: branches is"),
         std::tuple("0.02", "0.01", "o: branches is")}) {
     EXPECT_THAT(refusalUnderTheNameOf(kFelt, withInstead(kFelt, said, instead)), HasSubstr(reason));
+  }
+}
+
+const std::string kStretch =
+    "ergotic: 1\nsections: {s: {}}\nmats:\n  m: {type: mass, mass: 1}\n  g: {type: ground}\nlias:\n"
+    "  k: {type: spring, between: [m, g], stiffness: 1e6}\n"
+    "  t: {type: stretch, of: [k], spacing: 1, hardening: 1}\n";
+
+TEST(ProofTest, IsNotWrittenOfATankForWhichItHasNoRule) {
+  try {
+    refusalUnderTheNameOf(kStretch, kStretch);
+    ADD_FAILURE() << "a proof was written";
+  } catch (const Exception& refusal) {
+    EXPECT_THAT(refusal.what(), HasSubstr("not written: link 't' is one tank of many links"));
   }
 }
 

@@ -171,6 +171,7 @@ struct Lia {
   Scheme scheme = Scheme::kExplicit;
   bool filtered = false;  ///< `settle` puts a chaplet between the slower end and this link
   int bend = -1;          ///< index in Scene::bends of what it is a part of, -1: none
+  int tank = -1;          ///< index in Scene::tanks of the one that it shares, -1: none
 };
 
 /// A link of three to five ends, with e = sum u x - rest_length and -u (K e + Z v) on each; the
@@ -187,6 +188,18 @@ struct Bend {
   Value damping{};           ///< Z >= 0, kg/time_unit; 0 in a plane and in space
   double rest_length = 0.0;  ///< m; scalar sections only
   int first_lia = 0;         ///< of its springs
+  Place place;
+};
+
+/// One energy tank for many hardening links: cubic, without K and Z, guarded together. Either each
+/// of them hardens by itself, or all by the mean of what they are stretched (`addStretch`).
+struct Tank {
+  Name name;
+  bool is_mean = false;      ///< (sum Q e^2)^2 / (4 sum Q) is stored, not sum Q e^4 / 4
+  std::vector<int> springs;  ///< mean: indices in Scene::lias of what is stretched
+  int first_lia = 0;         ///< mean: of its own links, one beside each spring
+  Value hardening{};         ///< mean: c >= 0; every spring gets K (1 + c S)
+  double spacing = 1.0;      ///< mean: a, m, of the springs at rest; S is the mean of (e/a)^2/2
   Place place;
 };
 
@@ -327,6 +340,7 @@ struct Scene {
   std::vector<Mat> mats;
   std::vector<Lia> lias;
   std::vector<Bend> bends;
+  std::vector<Tank> tanks;
   std::vector<Agent> agents;
   std::vector<Port> ports;
   std::vector<Input> inputs;

@@ -20,6 +20,7 @@ GuardedRuns<Real>::GuardedRuns(const scene::Scene& scene,
       reach_(scene, layout, members_),
       pressures_(layout, members_),
       modules_(members_.empty() ? 0 : at(layout.slots())),
+      tanks_(layout, members_, state),
       forces_(members_.empty() ? 0 : at(layout.slots()), Real(0)) {
   for (const GuardedGroup& members : members_) {
     addLinks(scene, members, state);
@@ -269,10 +270,11 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::step(const Group& group,
       links_[g].links.start(view, c.guarded[g].data(), states(g, state));
       closeBooks(g, true, state);
     }
-    if ((last + 1) % members_[g].divisor != 0) {
+    if (!endsStep(g, last)) {
       continue;
     }
     any = true;
+    tanks_.exert(g, last < members_[g].divisor, c, state);
     followPlaces(g, state);
     lookAhead(g, c, state);
     links_[g].near.find(state.x(), state.d(), clearances(g, state));
@@ -291,6 +293,11 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::step(const Group& group,
     for (const int slot : reached_[group.guarded.front()]) {
       state.f()[slot] += forces_[at(slot)];
       forces_[at(slot)] = Real(0);
+    }
+    for (const std::size_t g : group.guarded) {
+      if (endsStep(g, last)) {
+        tanks_.answer(g, c, state);
+      }
     }
   }
 }
@@ -312,15 +319,18 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::retune(const CoefficientsOf<Real>& from
     std::fill_n(clearances(g, state), links_[g].near.waiting(), Real(0));
     book(1.0);
   }
+  tanks_.retune(from, to, state);
 }
 
 template <class Real>
 ERGOTIC_REALTIME bool GuardedRuns<Real>::isFinite(const State<Real>& state) const noexcept {
-  return std::all_of(links_.begin(), links_.end(), [&state](const Links& group) {
-    const auto* all = state.arena().template at<GuardedState<Real>>(group.states_at);
-    return std::all_of(all, all + group.links.size(),
-                       [](const GuardedState<Real>& link) { return std::isfinite(link.tank); });
-  });
+  return tanks_.areFinite(state) &&
+         std::all_of(links_.begin(), links_.end(), [&state](const Links& group) {
+           const auto* all = state.arena().template at<GuardedState<Real>>(group.states_at);
+           return std::all_of(all, all + group.links.size(), [](const GuardedState<Real>& link) {
+             return std::isfinite(link.tank);
+           });
+         });
 }
 
 template <class Real>
@@ -331,16 +341,13 @@ std::vector<GuardReport> GuardedRuns<Real>::makeReports() const {
       reports.push_back({layout_.runs[ref.run].lias[ref.link], 0, 0});
     }
   }
+  tanks_.addReports(reports);
   return reports;
 }
 
 template <class Real>
 ERGOTIC_REALTIME void GuardedRuns<Real>::read(const State<Real>& state,
                                               std::vector<GuardReport>& to) const noexcept {
-  // A state that was loaded may say anything.
-  const auto wholeOf = [](double steps) noexcept {
-    return steps >= 0.0 && steps <= 1e18 ? static_cast<std::int64_t>(steps) : 0;
-  };
   std::size_t next = 0;
   for (const Links& group : links_) {
     const auto* all = state.arena().template at<GuardedState<Real>>(group.states_at);
@@ -350,6 +357,7 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::read(const State<Real>& state,
       ++next;
     }
   }
+  tanks_.read(state, to.data() + next);
 }
 
 template class GuardedRuns<float>;

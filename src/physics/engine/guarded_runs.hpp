@@ -11,6 +11,7 @@
 #include "physics/engine/points.hpp"
 #include "physics/engine/pressures.hpp"
 #include "physics/engine/stepper.hpp"
+#include "physics/engine/tanks.hpp"
 #include "physics/layout/groups.hpp"
 #include "physics/layout/guarded_groups.hpp"
 #include "physics/state/coefficients.hpp"
@@ -69,6 +70,10 @@ class GuardedRuns {
 
   void addLinks(const scene::Scene& scene, const GuardedGroup& members, State<Real>& state);
   bool mayWait(const scene::Scene& scene, const GuardedRef& ref) const;
+  /// True if the step of these links ends with that frame.
+  bool endsStep(std::size_t g, std::int64_t frame) const noexcept {
+    return (frame + 1) % members_[g].divisor == 0;
+  }
   void lookAhead(std::size_t g, const CoefficientsOf<Real>& c, const State<Real>& state) noexcept;
   std::vector<int> reachedBy(const Group& group) const;
   GuardedView<Real> viewOf(const Links& links,
@@ -99,8 +104,9 @@ class GuardedRuns {
   Pressures<Real> pressures_;
   std::vector<GuardedModule<Real>> modules_;  // [slots]
   std::vector<Links> links_;                  // [members_]
-  std::vector<Real> forces_;                  // [slots], of guarded links; zero between steps
-  std::vector<std::vector<int>> reached_;     // [members_] slots that those of its group can be on
+  Tanks<Real> tanks_;
+  std::vector<Real> forces_;               // [slots], of guarded links; zero between steps
+  std::vector<std::vector<int>> reached_;  // [members_] slots that those of its group can be on
 };
 
 extern template class GuardedRuns<float>;

@@ -18,7 +18,8 @@ struct GuardedRef {
 struct GuardedGroup {
   int divisor = 1;                  ///< audio frames per step
   int group = LinkRun::kHeldGroup;  ///< LinkRun::group
-  std::vector<GuardedRef> links;
+  std::vector<GuardedRef> links;    // but those that share a tank
+  std::vector<std::size_t> tanks;   // runs of these
 };
 
 /// All guarded links of a layout, by group and rate. Realtime: no.
@@ -34,7 +35,11 @@ inline std::vector<GuardedGroup> guardedGroupsOf(const Layout& layout) {
       return g.divisor == divisor && g.group == run.group;
     });
     if (group == groups.end()) {
-      group = groups.insert(groups.end(), {divisor, run.group, {}});
+      group = groups.insert(groups.end(), {divisor, run.group, {}, {}});
+    }
+    if (run.tank >= 0) {
+      group->tanks.push_back(r);
+      continue;
     }
     for (std::size_t l = 0; l < run.ends.size(); ++l) {
       group->links.push_back({r, l});

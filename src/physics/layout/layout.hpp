@@ -52,6 +52,8 @@ struct LinkRun {
   bool slow_is_a = false;
   double share = 1.0;
   bool presses = false;  ///< what its forces are is asked for by frictions
+  int tank = -1;         ///< index in Scene::tanks: its links are guarded by this one
+  bool is_mean = false;  ///< Tank::is_mean
   static constexpr int kHeldGroup = -1;
   int group = kHeldGroup;  ///< that steps it, as of Layout::group_of_section
   int block = -1;          ///< index in Layout::blocks: its sweep works these links out
@@ -60,7 +62,7 @@ struct LinkRun {
   std::vector<int> lias;               ///< [links] index in Scene::lias
   std::vector<LinkEnds> ends;          ///< [links]
   std::vector<Eigen::Vector3d> rests;  ///< [links] rest of a less rest of b
-  std::vector<LinkSpan> spans;  ///< all links, as spatial kernels take them; empty: one by one
+  std::vector<LinkSpan> spans;  ///< all links, as kernels take them side by side; empty: one by one
 };
 
 /// A friction, and the contact whose force is its normal force. As indices of Layout::runs and of

@@ -118,6 +118,8 @@ void placeLink(const scene::Scene& scene, int l, Ends& ends, LinkRun& run, End& 
   b = frame.projects_b ? ends.projected(lia.b, frame.section) : ends.of(lia.b);
   run.law = lia.type;
   run.guarded = lia.scheme == scene::Scheme::kGuarded;
+  run.tank = run.guarded && lia.type == scene::LiaType::kCubic ? lia.tank : -1;
+  run.is_mean = run.tank >= 0 && scene.tanks[at(run.tank)].is_mean;
   run.dimensions = geometry == Geometry::kScalar ? 0 : dimensionsOf(geometry);
   run.section_a = a.section;
   run.section_b = b.section;
@@ -244,7 +246,7 @@ void placeConnections(const scene::Scene& scene, Layout& layout) {
 }
 
 void placeLinks(const scene::Scene& scene, Layout& layout) {
-  using Key = std::tuple<scene::LiaType, bool, bool, int, int, int, int, int, int, int, int>;
+  using Key = std::tuple<scene::LiaType, bool, bool, int, int, int, int, int, int, int, int, int>;
   const std::vector<int> pressers = scene::pressersOf(scene);
   const std::set<int> pressing(pressers.begin(), pressers.end());
   std::map<Key, std::size_t> known;
@@ -265,7 +267,7 @@ void placeLinks(const scene::Scene& scene, Layout& layout) {
     run.presses = pressing.count(l) > 0;
     const Key key{run.law,      run.guarded,      run.presses,   run.dimensions,
                   run.section,  run.section_a,    run.section_b, run.stride_a,
-                  run.stride_b, run.slow_section, run.block};
+                  run.stride_b, run.slow_section, run.block,     run.tank};
     const auto [found, is_new] = known.emplace(key, layout.runs.size());
     if (is_new) {
       layout.runs.push_back(std::move(run));

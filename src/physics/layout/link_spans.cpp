@@ -12,10 +12,11 @@ using scene::LiaType;
 
 constexpr std::size_t kShortest = 8;  // below it ends are sooner gathered one by one
 
-bool isForSpatialKernels(const LinkRun& run) {
-  return (run.law == LiaType::kSpringDamper || run.law == LiaType::kContact) && !run.guarded &&
-         run.dimensions > 0 && run.section_a == run.section_b && run.slow_section < 0 &&
-         run.stride_a == run.stride_b;
+bool isForSpans(const LinkRun& run) {
+  const bool is_spatial = (run.law == LiaType::kSpringDamper || run.law == LiaType::kContact) &&
+                          !run.guarded && run.dimensions > 0 && run.section_a == run.section_b &&
+                          run.slow_section < 0 && run.stride_a == run.stride_b;
+  return is_spatial || run.tank >= 0;
 }
 
 /// \return one past the last link from `first` on whose ends follow those of the one before
@@ -43,7 +44,7 @@ void permute(std::vector<Item>& items, const std::vector<std::size_t>& order) {
 }  // namespace
 
 void arrangeInSpans(LinkRun& run) {
-  if (!isForSpatialKernels(run)) {
+  if (!isForSpans(run)) {
     return;
   }
   const std::vector<LinkEnds>& ends = run.ends;

@@ -13,6 +13,7 @@
 #include "physics/settling/split_springs.hpp"
 #include "physics/settling/split_tables.hpp"
 #include "physics/settling/string_tuning.hpp"
+#include "scene/generate/stretch.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -21,6 +22,7 @@ namespace {
 /// on the masses that a link ends on.
 scene::Scene complete(scene::Scene scene, const Rates& rates, std::vector<std::string>& notes) {
   tuneStrings(scene, rates, notes);
+  scene::settleStretches(scene);
   insertFilters(scene, rates, notes);
   splitTables(scene, rates);
   chooseSchemes(scene, rates, notes);

@@ -121,7 +121,7 @@ class State {
     RunEntries at;
     const std::string name = "run" + std::to_string(runs_.size());
     const bool is_inside = run.section_a == run.section_b && run.slow_section < 0;
-    if (remembers(run) && (metered_ || !is_inside || run.presses)) {
+    if (remembers(run) && run.tank < 0 && (metered_ || !is_inside || run.presses)) {
       at.links =
           run.ends.size() * static_cast<std::size_t>(run.dimensions == 0 ? 1 : run.dimensions);
       at.across = run.slow_section >= 0;

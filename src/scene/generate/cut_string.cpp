@@ -130,6 +130,9 @@ class Cutter {
     return mat >= string_.first + string_.count - 1 ? mat + more_mats_ : mat;
   }
 
+  /// Index of a link that is not one of the string's.
+  int movedLia(int lia) const { return lia > string_.first_lia ? lia + more_lias_ : lia; }
+
   void moveOthers(int string) {
     for (Port& port : to_.ports) {
       port.mat = moved(port.mat);
@@ -146,6 +149,12 @@ class Cutter {
         share.mat = moved(share.mat);
       }
     }
+    for (Tank& tank : to_.tanks) {
+      tank.first_lia = movedLia(tank.first_lia);
+      for (int& spring : tank.springs) {
+        spring = movedLia(spring);
+      }
+    }
     for (Grid& grid : to_.grids) {
       grid.first = moved(grid.first);
     }
@@ -154,7 +163,7 @@ class Cutter {
       StringInfo& other = to_.strings[at(s)];
       other.first = moved(other.first);
       if (s != string && other.first_lia > string_.first_lia) {
-        other.first_lia += more_lias_;
+        other.first_lia = movedLia(other.first_lia);
       }
     }
   }
@@ -271,6 +280,11 @@ std::string reasonAgainstCutting(const Scene& scene, int string) {
       if (isInner(info, share.mat)) {
         return "tap '" + scene.mats[at(tap.mat)].name + "' lies on one of its masses";
       }
+    }
+  }
+  for (const Lia& lia : scene.lias) {
+    if (lia.tank >= 0 && (isInner(info, lia.a) || isInner(info, lia.b))) {
+      return "link '" + lia.name + "' hardens it from mass to mass";
     }
   }
   return {};

@@ -14,6 +14,7 @@
 #include "scene/rules/bend_rules.hpp"
 #include "scene/rules/lia_rules.hpp"
 #include "scene/rules/point_rules.hpp"
+#include "scene/rules/tank_rules.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -42,9 +43,8 @@ class Validator {
     each(scene_.outputs, "output", &Validator::output);
     each(scene_.agents, "agent", &Validator::agent);
     each(scene_.ports, "port", &Validator::port);
-    for (const std::optional<Fault>& fault :
-         {misplacedPoint(scene_), movedTwice(scene_), wrongBend(scene_), unpressed(scene_)}) {
-      if (fault) {
+    for (const auto faultOf : {misplacedPoint, movedTwice, wrongBend, unpressed, wrongTank}) {
+      if (const std::optional<Fault> fault = faultOf(scene_)) {
         fail(fault->place, fault->text);
       }
     }

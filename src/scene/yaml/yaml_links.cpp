@@ -12,13 +12,15 @@
 #include "scene/yaml/yaml_elements.hpp"
 #include "scene/yaml/yaml_friction.hpp"
 #include "scene/yaml/yaml_tables.hpp"
+#include "scene/yaml/yaml_tanks.hpp"
 
 namespace ergotic::scene {
 namespace {
 
 using Keys = std::vector<std::string>;
 
-constexpr const char* kBend = "bend";  // of many ends
+constexpr const char* kBend = "bend";        // of many ends
+constexpr const char* kStretch = "stretch";  // of many springs
 
 /// A word of a scene for a law.
 struct LiaKind {
@@ -166,10 +168,10 @@ void readTreatment(const Scene& scene, const YamlMap& map, Lia& lia) {
   }
 }
 
-/// One of the words for laws, or for a link of many ends.
+/// One of the words for laws, or for a link of many ends or springs.
 const std::string& wordOf(const YamlMap& map) {
   static const Keys kWords = [] {
-    Keys words{kBend};
+    Keys words{kBend, kStretch};
     for (const LiaKind& each : liaKinds()) {
       if (!contains(words, each.word)) {
         words.push_back(each.word);
@@ -202,6 +204,9 @@ Lia readLia(SceneBuilder& builder,
   for (const Keys& more : {kind.required, kind.optional}) {
     keys.insert(keys.end(), more.begin(), more.end());
   }
+  if (kind.type == LiaType::kCubic) {
+    keys.emplace_back("tank");
+  }
   map.allow(keys);
 
   Lia lia;
@@ -213,6 +218,9 @@ Lia readLia(SceneBuilder& builder,
   readTables(builder, tables, map, lia);
   readCoefficients(builder, map, kind.required, lia);
   readTreatment(builder.scene(), map, lia);
+  if (map.has("tank")) {
+    readTank(builder, map, lia);
+  }
   return lia;
 }
 
@@ -220,10 +228,15 @@ Lia readLia(SceneBuilder& builder,
 
 void readLias(SceneBuilder& builder, const YamlMap& top, YamlTables& tables) {
   Pressed pressed;
+  std::vector<StretchKeys> stretches;
   forEachElement(builder, top, "lias", "link", [&](const std::string& name, const YamlMap& map) {
     const std::string& word = wordOf(map);
     if (word == kBend) {
       readBend(builder, name, map);
+      return;
+    }
+    if (word == kStretch) {
+      stretches.push_back(readStretch(builder, name, map));
       return;
     }
     Lia lia = readLia(builder, tables, name, word, map);
@@ -233,6 +246,9 @@ void readLias(SceneBuilder& builder, const YamlMap& top, YamlTables& tables) {
     builder.add(std::move(lia));
   });
   checkPressers(builder, pressed);
+  for (StretchKeys& stretch : stretches) {
+    addStretch(builder, std::move(stretch));
+  }
 }
 
 }  // namespace ergotic::scene

@@ -47,7 +47,9 @@ Json linksOf(const Scene& scene) {
       ++parts;
       continue;
     }
-    ++by_type[scene::lawOf(lia.type).name];
+    const bool is_stretch =
+        lia.tank >= 0 && scene.tanks[static_cast<std::size_t>(lia.tank)].is_mean;
+    ++by_type[is_stretch ? "stretch" : scene::lawOf(lia.type).name];
     ++by_scheme[lia.scheme == scene::Scheme::kGuarded ? "guarded" : "explicit"];
     const bool across = matAt(scene, lia.a).section != matAt(scene, lia.b).section;
     between_sections += across ? 1 : 0;

@@ -320,6 +320,10 @@ void writeProof(const std::string& file,
     throw Exception(file + ": not written: the scene is " + toString(verdict) +
                     ", of which there is no proof");
   }
+  if (!scene.tanks.empty()) {
+    throw Exception(file + ": not written: link '" + scene.tanks.front().name +
+                    "' is one tank of many links, which proofs have no rule for");
+  }
   for (const physics::PeriodProof& period : proof.periods) {
     if (period.form.size() == 0) {
       throw Exception(

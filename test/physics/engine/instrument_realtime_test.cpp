@@ -115,7 +115,7 @@ TEST(InstrumentRealtimeTest, EveryLawInEveryScheme) {
     }
     expectRealtimeTicks(scene, rates, 100);
   };
-  for (unsigned seed = 1; seed <= 40; ++seed) {
+  for (unsigned seed = 1; seed <= 52; ++seed) {
     SCOPED_TRACE(seed);
     const ergotic::test::SmallScene small = ergotic::test::smallScene(seed);
     play(small.text(), small.rates);

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/yaml/yaml_tanks.hpp"
+
+#include <algorithm>
+
+#include "scene/generate/stretch.hpp"
+#include "scene/limits.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+void readSprings(const SceneBuilder& builder, const YamlMap& map, StretchKeys& to) {
+  const YAML::Node& of = map.at("of");
+  to.is_of_links = of.IsSequence();
+  if (!to.is_of_links) {
+    to.names.emplace_back(map.word("of"), map.placeAt("of"));
+    return;
+  }
+  for (const YAML::Node& spring : of) {
+    const Place place = placeOf(spring, map.placeAt("of"));
+    to.names.emplace_back(wordOf(builder, spring, "a spring of " + map.what(), place), place);
+  }
+}
+
+/// Those that a generator has made.
+std::vector<int> springsOf(const SceneBuilder& builder, const std::string& grid, Place place) {
+  builder.grid(grid, place);
+  const std::string stem = grid + ".link.";
+  std::vector<int> springs;
+  const std::vector<Lia>& lias = builder.scene().lias;
+  for (std::size_t l = 0; l < lias.size(); ++l) {
+    if (lias[l].name.str().compare(0, stem.size(), stem) == 0) {
+      springs.push_back(static_cast<int>(l));
+    }
+  }
+  return springs;
+}
+
+}  // namespace
+
+StretchKeys readStretch(const SceneBuilder& builder, const std::string& name, const YamlMap& map) {
+  map.allow({"type", "of", "spacing", "hardening"});
+  StretchKeys stretch;
+  stretch.tank.name = name;
+  stretch.tank.is_mean = true;
+  stretch.tank.place = map.place();
+  readSprings(builder, map, stretch);
+  stretch.tank.spacing = map.number("spacing", kSpacingLimits);
+  stretch.tank.hardening = map.value("hardening", kHardeningLimits);
+  return stretch;
+}
+
+void addStretch(SceneBuilder& builder, StretchKeys stretch) {
+  if (!stretch.is_of_links) {
+    const auto& [grid, place] = stretch.names.front();
+    stretch.tank.springs = springsOf(builder, grid, place);
+  } else {
+    for (const auto& [name, place] : stretch.names) {
+      stretch.tank.springs.push_back(builder.lia(name, place));
+    }
+  }
+  addStretch(builder, std::move(stretch.tank));
+}
+
+void readTank(SceneBuilder& builder, const YamlMap& map, Lia& lia) {
+  const std::string name = map.word("tank");
+  checkName(builder, name, map.placeAt("tank"));
+  if (lia.scheme == Scheme::kExplicit) {
+    map.fail("scheme", map.what() + " is explicit and has a tank, allowed with one: guarded, auto");
+  }
+  std::vector<Tank>& tanks = builder.scene().tanks;
+  const auto found =
+      std::find_if(tanks.begin(), tanks.end(), [&](const Tank& tank) { return tank.name == name; });
+  lia.tank = static_cast<int>(found - tanks.begin());
+  lia.scheme = Scheme::kGuarded;
+  if (found == tanks.end()) {
+    tanks.emplace_back();
+    tanks.back().name = name;
+    tanks.back().place = map.placeAt("tank");
+  }
+}
+
+}  // namespace ergotic::scene

@@ -169,6 +169,20 @@ TEST(SmallScenesTest, SomeOfEveryFamilyAreVouchedFor) {
   }
 }
 
+/// Springs above their limit, which what hardens with them keeps from growing: as noise.
+bool isHeldByHardening(SmallScene small, unsigned seed) {
+  const auto hardens = [](const std::string& lia) {
+    return lia.find("type: stretch") != std::string::npos ||
+           lia.find(", tank: ") != std::string::npos;
+  };
+  const auto from = std::remove_if(small.lias.begin(), small.lias.end(), hardens);
+  if (from == small.lias.end()) {
+    return false;
+  }
+  small.lias.erase(from, small.lias.end());
+  return judge(small, seed, Plays::kOthers).grows;
+}
+
 /// Where schemes are left to the station. Of tables fewer are: many drive, for ever or up to a
 /// speed, and nothing around them brakes as much. What is vouched for counts as
 /// holding: that is the search above.
@@ -183,7 +197,7 @@ TEST(SmallScenesTest, NearlyAllThatHoldsIsVouchedFor) {
     const SmallScene small = test::leftOpen(test::smallScene(seed));
     const Judged judged = judge(small, seed, Plays::kOthers);
     Share& share = shares[small.family];
-    share.holding += judged.grows ? 0 : 1;
+    share.holding += judged.grows || isHeldByHardening(small, seed) ? 0 : 1;
     share.vouched += judged.is_vouched ? 1 : 0;
   }
   for (const auto& [family, share] : shares) {

@@ -115,12 +115,12 @@ TEST(InstrumentRealtimeTest, EveryLawInEveryScheme) {
     }
     expectRealtimeTicks(scene, rates, 100);
   };
-  for (unsigned seed = 1; seed <= 52; ++seed) {
+  play(kTables, kRates);
+  for (unsigned seed = 1; seed <= 52 || (seed <= 520 && seen.size() < scene::kLiaTypes); ++seed) {
     SCOPED_TRACE(seed);
     const ergotic::test::SmallScene small = ergotic::test::smallScene(seed);
     play(small.text(), small.rates);
   }
-  play(kTables, kRates);
   EXPECT_EQ(seen.size(), scene::kLiaTypes);
 }
 

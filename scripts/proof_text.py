@@ -121,7 +121,7 @@ class Comparison:
         return has
 
     def differences(self):
-        for link in [name for name, keys in self.said.lias.items() if keys.get("filter") == "auto"]:
+        for link in [name for name, keys in self.said.lias.items() if self.is_filtered(name, keys)]:
             yield from self.filter_of(link)
         for name, keys in self.said.tuned.items():
             self.tune(name, keys)
@@ -218,6 +218,12 @@ class Comparison:
         is_slack = link["rest_length"] == times(link["stiffness"]) == 0
         return split["rest_length"] == 0 == times((link if is_straight else split)["damping"]) and (
             is_slack or math.isclose(link["rest_length"], self.length_of(link), rel_tol=1e-9))
+
+    def is_filtered(self, link, keys):
+        """By its own word, or by that of a slice, which may mean a filter or none."""
+        couplings = {self.said.mats.get(end, {}).get("coupling") for end in keys["between"]}
+        return keys.get("filter") == "auto" or (
+            bool(couplings & {"chaplet", "auto"}) and f"{link}.filter.1" in self.mats)
 
     def filter_of(self, link):
         """Two masses before its slower end, in the section of the faster one or in their own."""

@@ -8,6 +8,7 @@
 
 #include "ergotic/scene/coarse_string.hpp"
 #include "ergotic/scene/generate/pitch.hpp"
+#include "physics/glide.hpp"
 #include "physics/settling/coarse_string.hpp"
 
 namespace ergotic::physics {
@@ -15,8 +16,6 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-constexpr double kChapletStop = 0.025;  // of the steps, at least 32 dB less
 
 /// Measured: (steps, error), both ascending in the first.
 using Measured = std::vector<std::pair<double, double>>;
@@ -112,10 +111,8 @@ double heldContactError(bool filtered, double slow_steps) {
   return std::min(valueAt(filtered ? kHeldFiltered : kHeldBare, slow_steps), 1.0);
 }
 
-double heldHandError(bool filtered, double slow_steps) {
-  // The slope times a time that is anything within half a step: w T / sqrt(12).
-  const double steps = std::min(2.0 * kPi / std::sqrt(12.0) / slow_steps, 1.0);
-  return filtered ? steps * kChapletStop : steps;
+double handError(scene::Coupling coupling, double slow_steps) {
+  return std::min(heardSteps(coupling, 1.0 / slow_steps), 1.0);
 }
 
 double bowError(scene::Scheme scheme, double steps) {

@@ -9,6 +9,7 @@
 
 #include "at.hpp"
 #include "physics/certificate/port_links.hpp"
+#include "physics/glide.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -20,6 +21,7 @@ struct Hanging {
   double mass = 0.0;
   double step = 0.0;  // of the mass
   int steps = 1;      // in a tick
+  bool glides = false;
 };
 
 /// Of white positions of rms 1.
@@ -28,29 +30,57 @@ struct Response {
   double behind = std::numeric_limits<double>::infinity();  // of the mass, rms
 };
 
-/// One tick is linear in the mass's position, step and force, the last position and the present
-/// one; the covariance of these is what it makes of itself (a Lyapunov equation, by doubling).
+/// How the mass sees the slice in a step, and what the slice gets of the force.
+struct Sight {
+  GlideStep seen;
+  double now = 0.0;  // of its force, in this tick
+};
+
+std::vector<Sight> sightsOf(const Hanging& hanging) {
+  std::vector<Sight> sights;
+  if (hanging.glides) {
+    for (const GlideStep& step : glideSteps(hanging.steps)) {
+      sights.push_back({step, step.share_last});
+    }
+    return sights;
+  }
+  for (int k = 0; k < hanging.steps; ++k) {
+    sights.push_back({{0.0, 0.0, k == 0 ? 1.0 : 0.0, 0.0}, 1.0 / hanging.steps});
+  }
+  return sights;
+}
+
+/// One tick is linear in the mass's position, step and force, the last two positions, the last
+/// force of the link and what of it the slice has yet to get, and the present position; the
+/// covariance of these is what it makes of itself (a Lyapunov equation, by doubling).
 Response responseOf(const Hanging& hanging) {
-  using Row = Eigen::Matrix<double, 1, 5>;
+  using Row = Eigen::Matrix<double, 1, 8>;
   constexpr int kDoublings = 60;
   Row y = Row::Unit(0);
   Row d = Row::Unit(1);
   Row f = Row::Unit(2);
-  const Row jump = Row::Unit(4) - Row::Unit(3);
-  Row force = Row::Zero();
-  for (int k = 0; k < hanging.steps; ++k) {
+  Row last = Row::Unit(5);
+  const Row change = Row::Unit(7) - Row::Unit(3);
+  const Row change_last = Row::Unit(3) - Row::Unit(4);
+  Row force = Row::Unit(6);
+  Row next = Row::Zero();
+  for (const auto& [seen, now] : sightsOf(hanging)) {
     d += hanging.step * hanging.step / hanging.mass * f;
     y += d;
-    const Row moved = (k == 0 ? jump : Row(Row::Zero())) - d;
+    const Row slice = Row::Unit(7) - seen.behind * change - seen.behind_last * change_last;
+    const Row moved = seen.share * change + seen.share_last * change_last - d;
     const Row pull =
-        hanging.link.stiffness * (Row::Unit(4) - y) + hanging.link.damping / hanging.step * moved;
+        hanging.link.stiffness * (slice - y) + hanging.link.damping / hanging.step * moved;
     f = pull - hanging.behind.stiffness * y - hanging.behind.damping / hanging.step * d;
-    force -= pull / hanging.steps;
+    const Row mean = hanging.glides ? Row(0.5 * (last + pull)) : pull;
+    force -= now * mean;
+    next -= (hanging.glides ? seen.share : 0.0) * mean;
+    last = pull;
   }
-  Eigen::Matrix<double, 4, 5> tick;
-  tick << y, d, f, Row::Unit(4);
-  Eigen::Matrix4d map = tick.leftCols<4>();
-  Eigen::Matrix4d covariance = tick.col(4) * tick.col(4).transpose();
+  Eigen::Matrix<double, 7, 8> tick;
+  tick << y, d, f, Row::Unit(7), Row::Unit(3), last, next;
+  Eigen::Matrix<double, 7, 7> map = tick.leftCols<7>();
+  Eigen::Matrix<double, 7, 7> covariance = tick.col(7) * tick.col(7).transpose();
   for (int n = 0; n < kDoublings && map.allFinite(); ++n) {
     covariance += (map * covariance * map.transpose()).eval();
     map = (map * map).eval();
@@ -58,14 +88,25 @@ Response responseOf(const Hanging& hanging) {
   if (!map.isZero(1e-9)) {
     return {};
   }
-  const Eigen::Matrix<double, 1, 4> by_state = force.leftCols<4>();
-  return {std::sqrt(by_state * covariance * by_state.transpose() + force[4] * force[4]),
+  const Eigen::Matrix<double, 1, 7> by_state = force.leftCols<7>();
+  return {std::sqrt(by_state * covariance * by_state.transpose() + force[7] * force[7]),
           std::sqrt(covariance(0, 0))};
 }
 
-/// Without a filter: F[n] = (K + Z/T) x[n] - Z/T x[n-1].
-double forceOf(const PortLinks::Resistance& link, double tick) {
-  return std::hypot(link.stiffness + link.damping / tick, link.damping / tick);
+/// Without a filter: F[n] = (K + Z/T) x[n] - Z/T x[n-1], where it does not glide.
+double forceOf(const PortLinks::Resistance& held,
+               const PortLinks::Resistance& gliding,
+               int steps,
+               double tick) {
+  const GlideAnswer answer = glideAnswer(steps);
+  double square = 0.0;
+  for (std::size_t i = 0; i < answer.spring.size(); ++i) {
+    double response =
+        gliding.stiffness * answer.spring[i] + gliding.damping / tick * answer.damper[i];
+    response += i == 0 ? held.stiffness + held.damping / tick : i == 1 ? -held.damping / tick : 0.0;
+    square += response * response;
+  }
+  return std::sqrt(square);
 }
 
 }  // namespace
@@ -80,7 +121,7 @@ std::vector<NoiseFloor> noiseFloors(const scene::Scene& scene,
   const double tick = 1.0 / (rates.gesturalHz() * scene.time_unit_s);
   const double newton = 1.0 / (scene.time_unit_s * scene.time_unit_s);
   const Network network(scene);
-  const PortLinks links(network);
+  const PortLinks links(network, rates);
   std::vector<NoiseFloor> floors;
   for (int p = 0; p < static_cast<int>(scene.ports.size()); ++p) {
     const scene::Port& port = scene.ports[at(p)];
@@ -91,16 +132,20 @@ std::vector<NoiseFloor> noiseFloors(const scene::Scene& scene,
     NoiseFloor floor;
     floor.port = p;
     floor.position = floor.behind = noise.total();
-    floor.force = floor.unfiltered = at_device * forceOf(links.atSlice(port), tick);
+    const int frames = std::max(2, rates.ratio);
+    floor.force = floor.unfiltered =
+        at_device * forceOf(links.heldAtSlice(port), links.glidingAtSlice(port), frames, tick);
     if (port.filter >= 0) {
       const scene::Mat& mass = scene.mats[at(port.filter)];
       Hanging hanging{links.atSlice(port), links.behindFilter(port), scene.valueOf(mass.mass)};
       hanging.steps = std::max(1, rates.ratio / divisorOf(scene.sectionOf(mass), rates));
       hanging.step = tick / hanging.steps;
+      hanging.glides = glides(scene, rates, port.mat, mass.section);
       const Response response = responseOf(hanging);
       floor.force = at_device * response.force;
       floor.behind = noise.total() * response.behind;
-      floor.unfiltered = at_device * forceOf(hanging.behind, tick);
+      floor.unfiltered = at_device * (hanging.glides ? forceOf({}, hanging.behind, frames, tick)
+                                                     : forceOf(hanging.behind, {}, frames, tick));
     }
     floors.push_back(floor);
   }

@@ -214,11 +214,11 @@ class Search {
   }
 
   bool bearsTheWalls(const Rates& rates) const {
-    const HandLoop loop({}, 1.0 / rates.gesturalHz());
+    const HandLoop loop({}, 1.0 / rates.gesturalHz(), std::max(2, rates.ratio));
     return rates.gesturalHz() >= rates_.gesturalHz() * (1.0 - 1e-9) ||
            std::all_of(certificate_.ports.begin(), certificate_.ports.end(),
                        [&](const PortCertificate& port) {
-                         return loop.judge(port.stiffness, port.damping) == HandLevel::kSilent;
+                         return loop.judge(loadOf(port)) == HandLevel::kSilent;
                        });
   }
 

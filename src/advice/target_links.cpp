@@ -216,19 +216,19 @@ class BowPart final : public SchemePart {
 /// A hand at a faster structure: what is heard of its steps.
 class HandPart final : public TargetPart {
  public:
-  HandPart(Touch touch, bool filtered, bool can_be_filtered)
-      : touch_(std::move(touch)), filtered_(filtered), can_be_filtered_(can_be_filtered) {}
+  HandPart(Touch touch, scene::Coupling coupling, bool can_be_filtered)
+      : touch_(std::move(touch)), coupling_(coupling), can_be_filtered_(can_be_filtered) {}
 
   std::string name() const override { return "hand at link '" + touch_.name + "'"; }
   std::string figure() const override { return "steps of a hand that moves at 20 Hz"; }
-  PartOption asItIs(const Rates& rates) const override { return option(filtered_, rates); }
+  PartOption asItIs(const Rates& rates) const override { return option(coupling_, rates); }
   PartOption choose(const Rates& rates, double allowed) const override {
     const PartOption present = asItIs(rates);
     const double ratio = touch_.fastHz(rates) / touch_.slowHz(rates);
     if (present.error <= allowed || !can_be_filtered_ || ratio < scene::kChapletC2LowestRatio) {
       return present;
     }
-    PartOption filtered = option(true, rates);
+    PartOption filtered = option(scene::Coupling::kChaplet, rates);
     filtered.change = "with a chaplet (filter: auto)";
     return filtered;
   }
@@ -237,17 +237,17 @@ class HandPart final : public TargetPart {
   }
 
  private:
-  PartOption option(bool filtered, const Rates& rates) const {
+  PartOption option(scene::Coupling coupling, const Rates& rates) const {
     PartOption result;
-    result.filtered = filtered;
+    result.filtered = coupling == scene::Coupling::kChaplet;
     result.error =
-        touch_.crosses(rates) ? heldHandError(filtered, touch_.slowHz(rates) / kHandHz) : 0.0;
-    result.cost = filtered ? kChapletCost * touch_.fastHz(rates) : 0.0;
+        touch_.crosses(rates) ? handError(coupling, touch_.slowHz(rates) / kHandHz) : 0.0;
+    result.cost = result.filtered ? kChapletCost * touch_.fastHz(rates) : 0.0;
     return result;
   }
 
   Touch touch_;
-  bool filtered_;
+  scene::Coupling coupling_;
   bool can_be_filtered_;
 };
 
@@ -339,10 +339,14 @@ class Finder {
     }
     const int other = from_a ? lia.b : lia.a;
     const scene::Geometry geometry = scene_.sectionOf(from_a ? a : b).geometry;
+    const scene::Coupling said = (from_a ? a : b).coupling;
+    const bool is_filtered = lia.filtered || isOfChaplet(other);
     const bool can_be_filtered = scene::dimensionsOf(geometry) == 1 &&
-                                 networks_.around(other).moves(other) && !isOfChaplet(other);
-    parts_.push_back(std::make_unique<HandPart>(
-        touchOf(scene_, networks_, index), lia.filtered || isOfChaplet(other), can_be_filtered));
+                                 networks_.around(other).moves(other) && !isOfChaplet(other) &&
+                                 said == scene::Coupling::kHold;
+    parts_.push_back(std::make_unique<HandPart>(touchOf(scene_, networks_, index),
+                                                is_filtered ? scene::Coupling::kChaplet : said,
+                                                can_be_filtered));
   }
 
   bool isOfChaplet(int mat) const {

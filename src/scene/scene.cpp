@@ -70,6 +70,10 @@ bool isSettled(const Scene& scene) {
   };
   return none(scene.sections, [](const Section& s) { return s.automatic_rate; }) &&
          none(scene.strings, [](const StringInfo& s) { return s.frequency_hz > 0.0; }) &&
+         none(scene.mats,
+              [](const Mat& m) {
+                return m.coupling == Coupling::kChaplet || m.coupling == Coupling::kAuto;
+              }) &&
          none(scene.lias,
               [](const Lia& lia) { return lia.filtered || lia.scheme == Scheme::kAuto; });
 }

@@ -3,6 +3,11 @@
 
 #include "ergotic/station/judge_hands.hpp"
 
+#include <algorithm>
+#include <functional>
+#include <memory>
+
+#include "physics/glide.hpp"
 #include "support/scene_builder.hpp"
 #include "support/test.hpp"
 #include "tgr/rig_scenes.hpp"
@@ -116,7 +121,29 @@ struct Loop {
   double stiffness = 0.0;
   double damping = 0.0;
   int extra = 0;
+  bool glides = false;  // coupling: smooth
 };
+
+/// What answers the positions of a slice, tick by tick.
+std::function<double(double, double)> answerOf(const Loop& loop) {
+  if (!loop.glides) {
+    return [loop](double x, double v) { return -loop.stiffness * x - loop.damping * v; };
+  }
+  const physics::GlideAnswer answer = physics::glideAnswer(kRates.ratio);
+  const auto last = std::make_shared<std::vector<double>>(answer.spring.size());  // of all copies
+  return [loop, answer, last](double x, double) {
+    std::vector<double>& late = *last;
+    std::rotate(late.begin(), late.end() - 1, late.end());
+    late.front() = x;
+    double force = 0.0;
+    for (std::size_t i = 0; i < late.size(); ++i) {
+      force -= (loop.stiffness * answer.spring[i] +
+                loop.damping * kRates.gesturalHz() * answer.damper[i]) *
+               late[i];
+    }
+    return force;
+  };
+}
 
 /// Whether the virtual device comes to rest when its hand has been knocked a little, or is let go.
 bool isStable(const Loop& loop, double hand_stiffness) {
@@ -124,7 +151,7 @@ bool isStable(const Loop& loop, double hand_stiffness) {
   device.extra_delay_ticks = loop.extra;
   device.slice.hand_stiffness = hand_stiffness;
   test::WallLoop played(device, test::openChain(), 3000.0);
-  const auto answer = [&](double x, double v) { return -loop.stiffness * x - loop.damping * v; };
+  const auto answer = answerOf(loop);
   played.engage();
   played.run(0.3, [](double, double) { return 0.0; });
   played.aimAt(1e-4);
@@ -143,7 +170,7 @@ physics::HandLoop loopOf(int extra) {
   device.damping = 7.0;
   device.mass = 0.4;
   device.delay_ticks = 1.0 + extra;
-  return {device, 1.0 / 3000.0};
+  return {device, 1.0 / 3000.0, kRates.ratio};
 }
 
 TEST(PlayedLoopTest, OfAVirtualDeviceIsStableBelowTheLimitOfSpringsAndDampersTogether) {
@@ -161,6 +188,18 @@ TEST(PlayedLoopTest, OfAVirtualDeviceIsStableBelowTheLimitOfSpringsAndDampersTog
         }
       }
     }
+  }
+}
+
+TEST(PlayedLoopTest, OfAVirtualDeviceThatIsSeenToGlideIsQuietBelowTheLimitAndTremblesAbove) {
+  for (const int extra : {0, 1, 2}) {
+    const physics::HandLoop loop = loopOf(extra);
+    const double spring = loop.stiffnessLimit(1.0);
+    const double damper = loop.dampingLimit(1.0);
+    EXPECT_TRUE(isStable({0.9 * spring, 0.0, extra, true}, 10.0)) << extra << ": " << spring;
+    EXPECT_FALSE(isStable({1.1 * spring, 0.0, extra, true}, 10.0)) << extra << ": " << spring;
+    EXPECT_TRUE(isStable({0.0, 0.9 * damper, extra, true}, 500.0)) << extra << ": " << damper;
+    EXPECT_FALSE(isStable({0.0, 1.2 * damper, extra, true}, 500.0)) << extra << ": " << damper;
   }
 }
 

@@ -41,9 +41,9 @@ double contactError(ContactFigure figure, scene::Scheme scheme, double exponent,
 /// \param slow_steps  in the duration of the contact
 double heldContactError(bool filtered, double slow_steps);
 
-/// A hand that moves at this frequency, held between its steps: what is heard of the steps.
+/// A hand that moves at this frequency: what is heard of its steps.
 /// \param slow_steps  in a period
-double heldHandError(bool filtered, double slow_steps);
+double handError(scene::Coupling coupling, double slow_steps);
 
 /// Pitch of stick and slip.
 /// \param steps  in a period

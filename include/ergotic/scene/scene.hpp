@@ -71,6 +71,14 @@ enum class MatType : std::uint8_t {
   kPoint,   ///< massless: lies between the modules of a grid, or on any; see Connection and Tap
 };
 
+/// How faster sections see a slice. `settle` turns the last two into the others.
+enum class Coupling : std::uint8_t {
+  kHold,     ///< where it was at the start of the tick, all of it
+  kSmooth,   ///< gliding: its positions interpolated, two ticks late
+  kChaplet,  ///< held, with a chaplet before each of its links to them
+  kAuto,     ///< whatever is predicted to err least of what the hand bears
+};
+
 /// What drives a module beside its links. Of the coordinates that move; the others are ignored.
 struct Push {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();     ///< m/time_unit, at the start
@@ -93,6 +101,7 @@ struct Mat {
   Place place;
   int section = 0;
   MatType type = MatType::kMass;
+  Coupling coupling = Coupling::kHold;  ///< slices only
   /// Cells: coefficients whose pole is that of the continuous oscillator, not its first order.
   bool matched = false;
 };

@@ -6,6 +6,7 @@
 #include "physics/certificate/certify_parts.hpp"
 #include "physics/certificate/free_slices.hpp"
 #include "physics/certificate/port_links.hpp"
+#include "physics/glide.hpp"
 #include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
@@ -26,10 +27,9 @@ class PortJudge {
       : networks_(networks),
         scene_(networks.scene()),
         device_(device),
-        links_(networks.network()),
+        links_(networks.network(), networks.rates()),
         rate_hz_(networks.rates().gesturalHz()),
-        loop_(device, 1.0 / rate_hz_),
-        damping_limit_(loop_.dampingLimit()),
+        loop_(device, 1.0 / rate_hz_, std::max(2, networks.rates().ratio)),
         free_slices_(networks),
         free_levels_(levelsOfFreeSlices()) {}
 
@@ -39,10 +39,12 @@ class PortJudge {
     PortCertificate met;
     met.port = p;
     met.stiffness = links_.stiffness(port) * at_device / scene_.time_unit_s;
-    met.stiffness_limit = loop_.stiffnessLimit();
+    met.glided_stiffness = links_.glidedStiffness(port) * at_device / scene_.time_unit_s;
     met.damping = std::max(links_.damping(port), 0.0) * at_device;
-    met.damping_limit = damping_limit_;
-    met.level = std::max(loop_.judge(met.stiffness, met.damping), free_levels_[at(port.mat)]);
+    met.glided_damping = std::max(links_.glidedDamping(port), 0.0) * at_device;
+    met.stiffness_limit = loop_.stiffnessLimit(partOf(met.glided_stiffness, met.stiffness));
+    met.damping_limit = loop_.dampingLimit(partOf(met.glided_damping, met.damping));
+    met.level = std::max(loop_.judge(loadOf(met)), free_levels_[at(port.mat)]);
     if (free_slices_.leftOut(port.mat) != nullptr) {
       met.level = std::max(met.level, HandLevel::kWarned);
     }
@@ -62,7 +64,7 @@ class PortJudge {
 
   std::string describe(const PortCertificate& met) const {
     const scene::Port& port = scene_.ports[at(met.port)];
-    const HandLevel of_links = loop_.judge(met.stiffness, met.damping);
+    const HandLevel of_links = loop_.judge(loadOf(met));
     const HandLevel of_free = free_levels_[at(port.mat)];
     std::string text = "port '" + port.name + "': ";
     if (of_links < of_free) {
@@ -155,6 +157,10 @@ class PortJudge {
         physics::describe(is_damper ? met.damping_limit : met.stiffness_limit) +
         (is_damper ? " N s/m at " : " N/m at ") + wholeHz(rate_hz_) + " Hz";
     text += level == HandLevel::kRefused ? ": it will buzz or jump" : " (silent below half of it)";
+    text += met.glided_stiffness + met.glided_damping > 0.0
+                ? ". As it is seen to glide it is answered " + physics::describe(kGlideDelay) +
+                      " ticks later (coupling: hold is not)"
+                : "";
     return text + (is_damper ? ". Lower the damping" : ". Soften the link") +
            ", scale the force down, or raise the gestural rate";
   }
@@ -165,7 +171,6 @@ class PortJudge {
   PortLinks links_;
   double rate_hz_;
   HandLoop loop_;
-  double damping_limit_;
   FreeSlices free_slices_;
   std::vector<HandLevel> free_levels_;  // [mats]
 };

@@ -9,6 +9,7 @@
 #include "physics/certificate/hand_slopes.hpp"
 #include "physics/certificate/hanging_cases.hpp"
 #include "physics/certificate/linear_stepper.hpp"
+#include "physics/glide.hpp"
 #include "physics/step_units.hpp"
 #include "scene/laws/law.hpp"
 #include "scene/laws/range.hpp"
@@ -91,7 +92,8 @@ void makeLinear(scene::Lia& lia,
   const double stiffness = law.has_linear_part ? now.valueOf(lia.stiffness) : 0.0;
   const double damping = law.has_linear_part ? now.valueOf(lia.damping) : 0.0;
   const double k = stiffness + part * (steepest.stiffness.highest - stiffness);
-  const bool is_unforeseen = !networks.isExplicit(lia) && networks.crossesRates(lia);
+  const bool is_unforeseen = !networks.isExplicit(lia) && networks.crossesRates(lia) &&
+                             !glides(now, networks.rates(), lia);
   const double z = (is_unforeseen ? 0.5 : 1.0) *  // of the steps of an end that seems to stay
                    (damping + part * (steepest.damping.highest - damping));
   const double load = networks.inverseMassStep2(lia) * k + 2.0 * networks.inverseMassStep(lia) * z;
@@ -148,7 +150,13 @@ std::vector<Number> numbersOf(const LinearStepper& stepper,
       numbers.push_back({2 * slots + slot, units.inverseMass(linear.valueOf(mat.mass))});
     } else if (mat.type == MatType::kSlice) {
       numbers.push_back({slot});  // where it was last
+      if (mat.coupling == scene::Coupling::kSmooth) {
+        numbers.push_back({slots + slot});  // and how far it had gone to there
+      }
     }
+  }
+  for (int number = 3 * slots; number < stepper.numbers(); ++number) {
+    numbers.push_back({number, 1.0 / (rates.gesturalHz() * rates.gesturalHz())});  // of 1 kg
   }
   return numbers;
 }
@@ -280,7 +288,7 @@ FreeSlices::Case FreeSlices::caseOf(const scene::Scene& linear) const {
   const auto slices = static_cast<Eigen::Index>(linear.ports.size());
   Case one{{}, Eigen::MatrixXd(size, size + slices), Eigen::MatrixXd(slices, size + slices)};
   for (Eigen::Index j = 0; j < size + slices; ++j) {
-    Eigen::VectorXd from = Eigen::VectorXd::Zero(3 * stepper.slots());
+    Eigen::VectorXd from = Eigen::VectorXd::Zero(stepper.numbers());
     if (j < size) {
       from[numbers[static_cast<std::size_t>(j)].index] =
           1.0 / numbers[static_cast<std::size_t>(j)].length;

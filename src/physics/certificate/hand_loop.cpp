@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "physics/glide.hpp"
+
 namespace ergotic::physics {
 namespace {
 
@@ -109,42 +111,63 @@ class HandLoop::Mobilities {
   std::vector<Image> images_;
 };
 
-HandLoop::HandLoop(const DeviceTraits& device, double tick_s)
-    : damping_(device.damping), delay_(device.delay_ticks), mass_(device.mass), tick_s_(tick_s) {}
-
-double HandLoop::stiffnessLimit() const {
-  return 2.0 * damping_ / ((1.0 + 2.0 * delay_) * tick_s_);
+HandLoop::HandLoop(const DeviceTraits& device, double tick_s, int steps)
+    : damping_(device.damping),
+      delay_(device.delay_ticks),
+      mass_(device.mass),
+      tick_s_(tick_s),
+      steps_(steps) {
+  GlideAnswer answer = glideAnswer(steps);
+  of_spring_ = std::move(answer.spring);
+  of_damper_ = std::move(answer.damper);
 }
 
-double HandLoop::dampingLimit() const {
-  return 1.0 / worstShare(0.0, 1.0);
+double HandLoop::stiffnessLimit(double glided) const {
+  return 2.0 * damping_ / ((1.0 + 2.0 * (delay_ + glided * kGlideDelay)) * tick_s_);
 }
 
-double HandLoop::share(double stiffness, double damping) const {
-  const double of_spring = stiffness / stiffnessLimit();
-  return damping > 0.0 ? std::max(of_spring, worstShare(stiffness, damping)) : of_spring;
+double HandLoop::dampingLimit(double glided) const {
+  return 1.0 / worstShare({0.0, 1.0, 0.0, glided});
 }
 
-HandLevel HandLoop::judge(double stiffness, double damping) const {
+double HandLoop::share(const HandLoad& load) const {
+  const double of_spring =
+      load.stiffness / stiffnessLimit(partOf(load.glided_stiffness, load.stiffness));
+  return load.damping > 0.0 ? std::max(of_spring, worstShare(load)) : of_spring;
+}
+
+HandLevel HandLoop::judge(const HandLoad& load) const {
   DeviceTraits twice;
   twice.damping = 2.0 * damping_;
   twice.delay_ticks = delay_;
   twice.mass = mass_;
-  if (share(stiffness, damping) <= kSilent) {
+  if (share(load) <= kSilent) {
     return HandLevel::kSilent;
   }
-  const bool is_borne = HandLoop(twice, tick_s_).share(stiffness, damping) <= 1.0;
+  const bool is_borne = HandLoop(twice, tick_s_, steps_).share(load) <= 1.0;
   return is_borne ? HandLevel::kWarned : HandLevel::kRefused;
+}
+
+/// Force per displacement of the slice at this angle of samples, before the delay of the device.
+Complex HandLoop::answerAt(double angle, const HandLoad& load) const {
+  const Complex change = (1.0 - std::polar(1.0, -angle)) / tick_s_;
+  Complex spring;
+  Complex damper;
+  for (std::size_t i = 0; i < of_spring_.size(); ++i) {
+    const Complex late = std::polar(1.0, -angle * static_cast<double>(i));
+    spring += of_spring_[i] * late;
+    damper += of_damper_[i] * late;
+  }
+  return load.stiffness - load.glided_stiffness + load.glided_stiffness * spring +
+         (load.damping - load.glided_damping) * change + load.glided_damping / tick_s_ * damper;
 }
 
 /// The slice swings by S when the answer pushes it by A, and nothing more happens as long as A S
 /// does not reach 1: t/A is the furthest place on its ray that is still an S. Of the lines beyond
 /// which there is no S, those that cut the ray off before a place are neighbours.
-double HandLoop::shareAt(double angle, double stiffness, double damping) const {
-  const Complex back = std::polar(1.0, -angle);  // 1/z
-  const Complex change = (1.0 - back) / tick_s_;
-  const Complex answer = (stiffness + damping * change) * std::polar(1.0, -angle * delay_) * change;
-  const Complex ray = 1.0 / answer;
+double HandLoop::shareAt(double angle, const HandLoad& load) const {
+  const Complex change = (1.0 - std::polar(1.0, -angle)) / tick_s_;
+  const Complex ray = 1.0 / (answerAt(angle, load) * std::polar(1.0, -angle * delay_) * change);
   const Mobilities mobilities(*this, angle);
   const auto cut = [&](double turn) {
     const Complex direction = std::polar(1.0, std::arg(ray) + turn);
@@ -153,18 +176,18 @@ double HandLoop::shareAt(double angle, double stiffness, double damping) const {
   return leastBetween(-0.5 * kPi, 0.5 * kPi, cut);
 }
 
-double HandLoop::worstShare(double stiffness, double damping) const {
+double HandLoop::worstShare(const HandLoad& load) const {
   const double step = kPi / kAngles;
   double worst = 0.0;
   double at = step;
   for (int i = 1; i <= kAngles; ++i) {
-    const double share = shareAt(i * step, stiffness, damping);
+    const double share = shareAt(i * step, load);
     at = share > worst ? i * step : at;
     worst = std::max(worst, share);
   }
   for (int i = -kFine; i <= kFine; ++i) {
     const double angle = std::min(at + step * i / kFine, kPi);
-    worst = std::max(worst, angle > 0.0 ? shareAt(angle, stiffness, damping) : 0.0);
+    worst = std::max(worst, angle > 0.0 ? shareAt(angle, load) : 0.0);
   }
   return worst;
 }

@@ -114,11 +114,12 @@ LinearStepper::LinearStepper(const scene::Scene& linear, const Rates& rates)
     instrument_->tick({positions_.data(), forces_.data(), inputs_.data(), outputs_.data()});
   }
   instrument_->saveState(rest_.data());
-  const char* names[3] = {"x", "d", "f"};
+  const char* names[4] = {"x", "d", "f", "glide_forces"};
   for (const StateEntry& entry : instrument_->stateEntries()) {
-    for (int which = 0; which < 3; ++which) {
+    for (int which = 0; which < 4; ++which) {
       if (entry.name == names[which]) {
         offsets_[which] = entry.offset;
+        glide_forces_ += which == 3 ? entry.size / sizeof(double) : 0;
       }
     }
   }
@@ -136,6 +137,9 @@ void LinearStepper::visitNumbers(const Visit& visit) {
       visit(i++, number(which, moving.slot));
     }
   }
+  for (std::size_t k = 0; k < glide_forces_; ++k) {
+    visit(i++, number(3, k));
+  }
 }
 
 Eigen::VectorXd LinearStepper::step(const Eigen::VectorXd& state, int moved) {
@@ -149,7 +153,7 @@ Eigen::VectorXd LinearStepper::step(const Eigen::VectorXd& state, int moved) {
     instrument_->tick({positions_.data(), forces_.data(), inputs_.data(), outputs_.data()});
   }
   instrument_->saveState(state_.data());
-  Eigen::VectorXd result(3 * slots());
+  Eigen::VectorXd result(numbers());
   visitNumbers([&](int i, double& number) { result[i] = number; });
   return result;
 }
@@ -161,7 +165,7 @@ GrowthSeen watchGrowth(const scene::Scene& linear, const Rates& rates) {
   seen.periods = static_cast<int>(std::clamp(kMostSteps / steps, 200.0, double{kPeriods}));
   std::minstd_rand random(1);
   std::uniform_real_distribution<double> number(-1.0, 1.0);
-  Eigen::VectorXd state = Eigen::VectorXd::Zero(3 * stepper.slots());
+  Eigen::VectorXd state = Eigen::VectorXd::Zero(stepper.numbers());
   for (int i = 0; i < stepper.slots(); ++i) {
     state[i] = number(random);
   }

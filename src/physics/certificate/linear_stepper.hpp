@@ -32,12 +32,15 @@ class LinearStepper {
 
   /// Numbers of each of the three parts of a state: positions, differences, forces.
   int slots() const { return static_cast<int>(slots_.size()); }
+  /// Numbers of a state: behind these three parts, the forces that slices have yet to get which
+  /// are seen to glide.
+  int numbers() const { return 3 * slots() + static_cast<int>(glide_forces_); }
   /// The module that a slot is of, -1: none.
   int moduleOf(int slot) const { return slots_[static_cast<std::size_t>(slot)].module; }
   double periodSeconds() const { return period_s_; }
   int ticks() const { return ticks_; }  ///< per period
 
-  /// \param state  positions, differences, forces, shape (3 slots), at the start of a period
+  /// \param state  shape (numbers), at the start of a period
   /// \param moved  port whose position is 1 from the start of the period on, 0 of the others; -1:
   ///               of all
   /// \return       the same one period later
@@ -56,7 +59,8 @@ class LinearStepper {
   std::unique_ptr<Instrument> instrument_;
   std::vector<std::byte> rest_;  // the state at time 0
   std::vector<std::byte> state_;
-  std::size_t offsets_[3] = {0, 0, 0};
+  std::size_t offsets_[4] = {0, 0, 0, 0};
+  std::size_t glide_forces_ = 0;
   int ticks_;
   double period_s_;
   std::vector<double> positions_;

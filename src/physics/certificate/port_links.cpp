@@ -7,6 +7,7 @@
 
 #include "at.hpp"
 #include "physics/certificate/hand_slopes.hpp"
+#include "physics/glide.hpp"
 #include "scene/laws/law.hpp"
 #include "scene/laws/range.hpp"
 
@@ -25,9 +26,10 @@ int largest(const std::vector<int>& links, const Value& value) {
 
 }  // namespace
 
-PortLinks::PortLinks(const Network& network)
+PortLinks::PortLinks(const Network& network, const Rates& rates)
     : network_(network),
       scene_(network.scene),
+      rates_(rates),
       links_of_(linksOfNodes(network)),
       is_in_hand_(scene_.mats.size(), 0),
       is_under_tap_(scene_.mats.size(), 0) {
@@ -55,6 +57,20 @@ double PortLinks::stiffness(const scene::Port& port) const {
   return 1.0 / (1.0 / sum + 1.0 / atSlice(port).stiffness);
 }
 
+/// What is behind a filter reaches the slice by the filter's link alone.
+double PortLinks::glidedStiffness(const scene::Port& port) const {
+  const std::vector<int>& own = links_of_[at(port.mat)];
+  if (port.filter >= 0) {
+    return std::any_of(own.begin(), own.end(), [&](int l) { return glides(l); }) ? stiffness(port)
+                                                                                 : 0.0;
+  }
+  double sum = 0.0;
+  for (const int l : own) {
+    sum += glides(l) ? along(port, l) : 0.0;
+  }
+  return sum;
+}
+
 int PortLinks::stiffest(const scene::Port& port) const {
   return largest(linksOf(port), [&](int l) { return along(port, l); });
 }
@@ -69,6 +85,18 @@ double PortLinks::damping(const scene::Port& port) const {
     sum += dampingAt(port, l);
   }
   return sum;
+}
+
+double PortLinks::glidedDamping(const scene::Port& port) const {
+  double sum = 0.0;
+  for (const int l : links_of_[at(port.mat)]) {
+    sum += glides(l) ? dampingAt(port, l) : 0.0;
+  }
+  return sum;
+}
+
+bool PortLinks::glides(int l) const {
+  return physics::glides(scene_, rates_, scene_.lias[at(l)]);
 }
 
 int PortLinks::driving(const scene::Port& port) const {
@@ -94,6 +122,22 @@ bool PortLinks::isHeldBack(int l) const {
 
 PortLinks::Resistance PortLinks::atSlice(const scene::Port& port) const {
   return sum(port, port.mat, links_of_[at(port.mat)]);
+}
+
+PortLinks::Resistance PortLinks::heldAtSlice(const scene::Port& port) const {
+  return sum(port, port.mat, ownLinks(port, false));
+}
+
+PortLinks::Resistance PortLinks::glidingAtSlice(const scene::Port& port) const {
+  return sum(port, port.mat, ownLinks(port, true));
+}
+
+std::vector<int> PortLinks::ownLinks(const scene::Port& port, bool gliding) const {
+  std::vector<int> links;
+  const std::vector<int>& all = links_of_[at(port.mat)];
+  std::copy_if(all.begin(), all.end(), std::back_inserter(links),
+               [&](int l) { return glides(l) == gliding; });
+  return links;
 }
 
 PortLinks::Resistance PortLinks::behindFilter(const scene::Port& port) const {

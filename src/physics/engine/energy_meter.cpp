@@ -67,6 +67,7 @@ EnergyMeter<Real>::EnergyMeter(const scene::Scene& scene, const Layout& layout, 
   forced_at_ = arena.add<Feeding>("slice_forces", forced_.size());
   feeds_at_ = arena.add<Feeding>("input_forces", layout.feeds.size());
   places_at_ = arena.add<Feeding>("place_forces", coordinatesOf(layout.places));
+  glides_at_ = arena.add<double>("glide_work", coordinatesOf(layout.glides));
   totals_at_ = arena.add<Totals>("energy_totals", 1);
 }
 
@@ -132,6 +133,26 @@ void EnergyMeter<Real>::endFrame(const Group& group,
                   book += 0.5 * static_cast<double>(moved * force + moved_last * feeding.last);
                   feeding = {Real(0), force};
                 });
+  bookGlides(group, now, state);
+}
+
+/// A slice that is seen to glide works as it is seen to.
+template <class Real>
+void EnergyMeter<Real>::bookGlides(const Group& group,
+                                   std::int64_t now,
+                                   State<Real>& state) const noexcept {
+  for (const std::size_t g : group.glides) {
+    const Glide& glide = layout_.glides[g];
+    if (!endsStep(glide.section, now)) {
+      continue;
+    }
+    auto* work = state.arena().template at<double>(glides_at_) + glide.coordinate;
+    const GlideForce<Real>* force = state.glideForces() + glide.coordinate;
+    for (int k = 0; k < glide.dimensions; ++k) {
+      const int slot = glide.slot + k;
+      work[k] -= 0.5 * static_cast<double>(state.d()[slot] * (force[k].last + state.f()[slot]));
+    }
+  }
 }
 
 /// Points give their forces away in every frame: their means are collected here.
@@ -206,6 +227,12 @@ void EnergyMeter<Real>::addSections(const CoefficientsOf<Real>& c,
                       books.from_device,
                       books.from_inputs,
                       0.0};
+  }
+  for (const Glide& glide : layout_.glides) {
+    for (int k = 0; k < glide.dimensions && state.isMetered(); ++k) {
+      to.sections[at(glide.of.section)].from_device +=
+          state.arena().template at<double>(glides_at_)[glide.coordinate + k];
+    }
   }
 }
 

@@ -92,6 +92,7 @@ class EnergyMeter {
   /// last, feeding, force of this step)` for all that moves modules of a group.
   template <class StateType, class Book>
   void forEachSource(const Group& group, StateType& state, const Book& book) const noexcept;
+  void bookGlides(const Group& group, std::int64_t now, State<Real>& state) const noexcept;
   void collectPointForces(const Group& group, State<Real>& state) const noexcept;
 
   double storedIn(std::size_t run,
@@ -122,6 +123,7 @@ class EnergyMeter {
   std::size_t forced_at_ = 0;  // Feeding [forced]
   std::size_t feeds_at_ = 0;   // Feeding [feeds]
   std::size_t places_at_ = 0;  // Feeding [coordinates of places]
+  std::size_t glides_at_ = 0;  // work of their slices, double [coordinates of glides]
   std::size_t totals_at_ = 0;
 };
 

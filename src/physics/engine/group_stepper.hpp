@@ -98,6 +98,8 @@ class GroupStepper {
     mechanism_.guarded.step(group, frames.first, last, *mechanism_.coefficients, mechanism_.stepper,
                             state);
     mechanism_.meter.endFrame(group, last, state);
+    mechanism_.glides.collect(group, last, state);
+    mechanism_.glides.answer(group, last, state);
     mechanism_.points.endFrame(group, *mechanism_.coefficients, last, state);
     for (int k = 0; k < frames.count; ++k) {
       mechanism_.pickups.takeForces(group, *mechanism_.coefficients, frames.first + k, state,
@@ -199,6 +201,7 @@ class GroupStepper {
         }
       }
     }
+    mechanism_.glides.gather(group, now, state);
     mechanism_.points.gather(group, *mechanism_.coefficients, now, state);
     mechanism_.points.clearForces(group, state.f());
   }

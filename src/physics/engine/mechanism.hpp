@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "physics/engine/energy_meter.hpp"
+#include "physics/engine/glides.hpp"
 #include "physics/engine/guarded_runs.hpp"
 #include "physics/engine/pickups.hpp"
 #include "physics/engine/points.hpp"
@@ -33,6 +34,7 @@ struct Mechanism {
         state(std::move(made_state)),
         meter(*scene, layout, state),
         stepper(layout, options),
+        glides(layout),
         points(*scene, layout, options.isa),
         guarded(*scene, layout, groups, points, state),
         pickups(layout),
@@ -49,6 +51,7 @@ struct Mechanism {
   State<Real> state;
   EnergyMeter<Real> meter;
   Stepper<Real> stepper;
+  Glides<Real> glides;
   Points<Real> points;
   GuardedRuns<Real> guarded;
   Pickups<Real> pickups;

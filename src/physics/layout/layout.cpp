@@ -182,8 +182,8 @@ Layout makeLayout(const scene::Scene& scene, const Rates& rates) {
   Layout layout;
   MatPlacer(scene, rates, layout).place();
   placeTaps(scene, layout);
-  placeConnections(scene, layout);
-  placeLinks(scene, layout);
+  placeConnections(scene, rates, layout);
+  placeLinks(scene, rates, layout);
   for (const scene::Port& port : scene.ports) {
     layout.port_slots.push_back(layout.slot_of_mat[at(port.mat)] +
                                 port.axis * layout.strideOf(scene, port.mat));

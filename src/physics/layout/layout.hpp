@@ -10,6 +10,7 @@
 
 #include "ergotic/physics/rates.hpp"
 #include "ergotic/scene/scene.hpp"
+#include "physics/glide.hpp"
 #include "physics/layout/blocks/blocks.hpp"
 #include "physics/layout/blocks/link_ends.hpp"
 
@@ -51,6 +52,7 @@ struct LinkRun {
   int slow_section = -1;
   bool slow_is_a = false;
   double share = 1.0;
+  bool glides = false;   ///< one end is a slice that is seen to glide: then none is slow
   bool presses = false;  ///< what its forces are is asked for by frictions
   int tank = -1;         ///< index in Scene::tanks: its links are guarded by this one
   bool is_mean = false;  ///< Tank::is_mean
@@ -123,8 +125,19 @@ struct ProjectedPoint {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 };
 
-/// Coordinates of all of these places.
-inline std::size_t coordinatesOf(const std::vector<PlacePoint>& points) {
+/// A slice as a faster section sees it glide: its slots follow one another.
+struct Glide {
+  int slot = 0;
+  int dimensions = 1;
+  int coordinate = 0;            ///< first of its own among those of all glides
+  int section = 0;               ///< whose steps it follows
+  End of;                        ///< the slice
+  std::vector<GlideStep> steps;  ///< of a tick
+};
+
+/// Coordinates of all of these points.
+template <class Point>
+std::size_t coordinatesOf(const std::vector<Point>& points) {
   return points.empty()
              ? 0
              : static_cast<std::size_t>(points.back().coordinate + points.back().dimensions);
@@ -175,6 +188,7 @@ struct Layout {
   std::vector<TapPoint> taps;       ///< those that anything acts on or hears
   std::vector<TapPoint> seen_taps;  ///< the others, by module: they have no slots
   std::vector<PlacePoint> places;
+  std::vector<Glide> glides;
   std::vector<ProjectedPoint> projections;
   std::vector<LinkRun> runs;
   std::vector<Pressing> pressings;

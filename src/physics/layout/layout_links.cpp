@@ -27,46 +27,83 @@ int addSlots(Layout& layout, int dimensions, int mat) {
   return first;
 }
 
+/// Index of the glide of a slice as a section sees it, which is made where there is none.
+std::size_t glideOf(
+    const scene::Scene& scene, const Rates& rates, int mat, int section, Layout& layout) {
+  const int slot = layout.slot_of_mat[at(mat)];
+  const auto known = std::find_if(
+      layout.glides.begin(), layout.glides.end(),
+      [&](const Glide& glide) { return glide.of.slot == slot && glide.section == section; });
+  if (known != layout.glides.end()) {
+    return static_cast<std::size_t>(known - layout.glides.begin());
+  }
+  const scene::Mat& slice = scene.mats[at(mat)];
+  Glide glide;
+  glide.dimensions = layout.sections[at(slice.section)].dimensions;
+  glide.coordinate = static_cast<int>(coordinatesOf(layout.glides));
+  glide.slot = addSlots(layout, glide.dimensions, -1);
+  glide.section = section;
+  glide.of = {slot, layout.strideOf(scene, mat), slice.section, slice.rest};
+  glide.steps = glideSteps(rates.ratio / layout.sections[at(section)].divisor);
+  layout.glides.push_back(std::move(glide));
+  return layout.glides.size() - 1;
+}
+
 /// Where a link's end moves, and in which frame.
 class Ends {
  public:
-  Ends(const scene::Scene& scene, Layout& layout) : scene_(scene), layout_(layout) {}
+  Ends(const scene::Scene& scene, const Rates& rates, Layout& layout)
+      : scene_(scene), rates_(rates), layout_(layout) {}
 
   End of(int mat) const {
     const scene::Mat& m = scene_.mats[at(mat)];
     return {layout_.slot_of_mat[at(mat)], layout_.strideOf(scene_, mat), m.section, m.rest};
   }
 
-  /// The module as it is seen in another section's frame.
-  End projected(int mat, int section) {
-    const auto [known, is_new] = projections_.try_emplace({mat, section});
+  /// The module as another one sees it, in the frame of this section.
+  End seen(int mat, int by, bool projects, int frame) {
+    const int section = scene_.mats[at(by)].section;
+    const bool glides = physics::glides(scene_, rates_, mat, section);
+    const End end =
+        glides ? endOf(layout_.glides[glideOf(scene_, rates_, mat, section, layout_)]) : of(mat);
+    if (!projects) {
+      return end;
+    }
+    const auto [known, is_new] = projections_.try_emplace({end.slot, frame});
     if (is_new) {
-      known->second = project(mat, section);
+      known->second = project(mat, end, glides ? section : end.section, frame);
     }
     return known->second;
   }
+  bool glides(const scene::Lia& lia) const { return physics::glides(scene_, rates_, lia); }
 
   const std::string& file() const { return scene_.file; }
   int divisor(int section) const { return layout_.sections[at(section)].divisor; }
 
  private:
-  End project(int mat, int section) {
-    const scene::Section& to = scene_.sections[at(section)];
+  /// It belongs to the section of what it is an end of, whoever steps it.
+  static End endOf(const Glide& glide) { return {glide.slot, 1, glide.of.section, glide.of.rest}; }
+
+  /// \param steps  the section whose steps it follows
+  End project(int mat, const End& end, int steps, int frame) {
+    const scene::Section& to = scene_.sections[at(frame)];
     const scene::Section& from = scene_.sectionOf(scene_.mats[at(mat)]);
     const Eigen::Isometry3d map = to.pose.inverse() * from.pose;
     ProjectedPoint point;
     point.dimensions = dimensionsOf(to.geometry);
-    point.of = of(mat);
+    point.of = end;
+    point.of.section = steps;
     point.source_dimensions = dimensionsOf(from.geometry);
     point.axes = map.linear();
     point.slot = addSlots(layout_, point.dimensions, -1);
     layout_.projections.push_back(point);
-    return {point.slot, 1, point.of.section, map * point.of.rest};
+    return {point.slot, 1, end.section, map * end.rest};
   }
 
   const scene::Scene& scene_;
+  const Rates& rates_;
   Layout& layout_;
-  std::map<std::pair<int, int>, End> projections_;
+  std::map<std::pair<int, int>, End> projections_;  // of a slot in the frame of a section
 };
 
 /// The frame in which two modules meet: that of the one with fewer coordinates.
@@ -103,7 +140,8 @@ void setRates(const scene::Lia& lia, const End& a, const End& b, const Ends& end
                         " audio frames: one must be a multiple of the other");
   }
   run.section = da <= db ? a.section : b.section;
-  if (da != db) {
+  run.glides = ends.glides(lia);
+  if (da != db && !run.glides) {
     run.slow_is_a = da > db;
     run.slow_section = run.slow_is_a ? a.section : b.section;
     run.share = static_cast<double>(fast) / slow;
@@ -114,8 +152,8 @@ void placeLink(const scene::Scene& scene, int l, Ends& ends, LinkRun& run, End& 
   const scene::Lia& lia = scene.lias[at(l)];
   const LinkFrame frame = frameOf(scene, lia);
   const Geometry geometry = scene.sections[at(frame.section)].geometry;
-  a = frame.projects_a ? ends.projected(lia.a, frame.section) : ends.of(lia.a);
-  b = frame.projects_b ? ends.projected(lia.b, frame.section) : ends.of(lia.b);
+  a = ends.seen(lia.a, lia.b, frame.projects_a, frame.section);
+  b = ends.seen(lia.b, lia.a, frame.projects_b, frame.section);
   run.law = lia.type;
   run.guarded = lia.scheme == scene::Scheme::kGuarded;
   run.tank = run.guarded && lia.type == scene::LiaType::kCubic ? lia.tank : -1;
@@ -218,16 +256,22 @@ void placeTaps(const scene::Scene& scene, Layout& layout) {
             [](const TapPoint& a, const TapPoint& b) { return a.mat < b.mat; });
 }
 
-/// The slot of the coordinate that leads.
-int guideOf(const scene::Scene& scene, const Layout& layout, const scene::Connection::Way& way) {
+/// The slot of the coordinate that leads, as a section sees it.
+int guideOf(const scene::Scene& scene,
+            const Rates& rates,
+            const scene::Connection::Way& way,
+            int section,
+            Layout& layout) {
   if (way.guide < 0) {
     return -1;
   }
-  const int section = scene.mats[at(way.guide)].section;
-  return layout.slot_of_mat[at(way.guide)] + way.axis * layout.sections[at(section)].stride;
+  if (glides(scene, rates, way.guide, section)) {
+    return layout.glides[glideOf(scene, rates, way.guide, section, layout)].slot + way.axis;
+  }
+  return layout.slot_of_mat[at(way.guide)] + way.axis * layout.strideOf(scene, way.guide);
 }
 
-void placeConnections(const scene::Scene& scene, Layout& layout) {
+void placeConnections(const scene::Scene& scene, const Rates& rates, Layout& layout) {
   for (int k = 0; k < static_cast<int>(scene.connections.size()); ++k) {
     const scene::Connection& connection = scene.connections[at(k)];
     PlacePoint point;
@@ -238,19 +282,19 @@ void placeConnections(const scene::Scene& scene, Layout& layout) {
     point.coordinate = static_cast<int>(coordinatesOf(layout.places));
     point.slot = addSlots(layout, point.dimensions, connection.mat);
     point.connection = k;
-    point.guides = {guideOf(scene, layout, connection.along),
-                    guideOf(scene, layout, connection.across)};
+    point.guides = {guideOf(scene, rates, connection.along, point.section, layout),
+                    guideOf(scene, rates, connection.across, point.section, layout)};
     layout.slot_of_mat[at(connection.mat)] = point.slot;
     layout.places.push_back(point);
   }
 }
 
-void placeLinks(const scene::Scene& scene, Layout& layout) {
+void placeLinks(const scene::Scene& scene, const Rates& rates, Layout& layout) {
   using Key = std::tuple<scene::LiaType, bool, bool, int, int, int, int, int, int, int, int, int>;
   const std::vector<int> pressers = scene::pressersOf(scene);
   const std::set<int> pressing(pressers.begin(), pressers.end());
   std::map<Key, std::size_t> known;
-  Ends ends(scene, layout);
+  Ends ends(scene, rates, layout);
   std::vector<int> block_of_lia(scene.lias.size(), -1);
   for (int b = 0; b < static_cast<int>(layout.blocks.size()); ++b) {
     for (const int l : layout.blocks[at(b)].lias) {

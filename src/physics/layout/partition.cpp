@@ -58,7 +58,7 @@ class Split {
       }
     }
     for (const LinkRun& run : layout_.runs) {
-      if (!run.guarded || isHeld(run.section_a) == isHeld(run.section_b)) {
+      if (!run.guarded || run.glides || isHeld(run.section_a) == isHeld(run.section_b)) {
         continue;
       }
       // A guarded link foresees the step of both of its ends, but that of a slower one.
@@ -202,7 +202,7 @@ void placeProxies(Layout& layout) {
     const int a = layout.group_of_section[at(run.section_a)];
     const int b = layout.group_of_section[at(run.section_b)];
     run.group = std::max(a, b);  // running before held
-    if (a != b) {
+    if (a != b && !run.glides) {
       to_held[at(run.group)].push_back(&run);
     }
   }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "physics/settling/automatic_rate.hpp"
+#include "physics/settling/coupling_choice.hpp"
 #include "physics/settling/filters.hpp"
 #include "physics/settling/pitch_pull.hpp"
 #include "physics/settling/raise_rates.hpp"
@@ -23,6 +24,7 @@ namespace {
 scene::Scene complete(scene::Scene scene, const Rates& rates, std::vector<std::string>& notes) {
   tuneStrings(scene, rates, notes);
   scene::settleStretches(scene);
+  askForChaplets(scene, rates);
   insertFilters(scene, rates, notes);
   splitTables(scene, rates);
   chooseSchemes(scene, rates, notes);
@@ -39,6 +41,7 @@ Settled settle(scene::Scene scene, const Rates& rates) {
     return complete(std::move(candidate), rates, notes);
   };
   chooseAutomaticRates(scene, rates, unsaid, settled.notes);
+  chooseCouplings(scene, rates, unsaid, settled.notes);
   raiseRates(scene, rates, unsaid, settled.notes);
   settled.scene = complete(std::move(scene), rates, settled.notes);
   noteSleep(settled.scene, settled.notes);

@@ -17,12 +17,18 @@ namespace {
 
 constexpr double kCreditSeconds = 0.1;  // of what a place may bring, in advance
 
-/// What guides a place moves it in its own step, parameters between two ticks.
+/// What guides a place moves it in its own step, or as it is seen to glide, parameters between two
+/// ticks.
 PlaceCoefficients::Way wayOf(const scene::Scene& scene,
                              const Rates& rates,
-                             const scene::Connection::Way& way) {
-  const int glide =
-      way.guide < 0 ? rates.ratio : divisorOf(scene.sectionOf(scene.mats[at(way.guide)]), rates);
+                             const scene::Connection::Way& way,
+                             int section) {
+  int glide = rates.ratio;
+  if (way.guide >= 0) {
+    const bool is_seen = glides(scene, rates, way.guide, section);
+    const int steps = is_seen ? section : scene.mats[at(way.guide)].section;
+    glide = divisorOf(scene.sections[at(steps)], rates);
+  }
   return {scene.valueOf(way.at), way.scale, way.minimum, way.maximum, glide};
 }
 
@@ -133,7 +139,8 @@ void CoefficientsOf<Real>::fillPlaces(const scene::Scene& scene,
     const SectionRange& range = layout.sections[at(point.section)];
     const StepUnits units(scene, rates, range.divisor);
     PlaceCoefficients to;
-    to.ways = {wayOf(scene, rates, from.along), wayOf(scene, rates, from.across)};
+    to.ways = {wayOf(scene, rates, from.along, point.section),
+               wayOf(scene, rates, from.across, point.section)};
     to.speed = units.velocity(from.speed);
     const double energy = from.power * std::pow(scene.time_unit_s, 3.0);  // per time unit
     to.allowance = energy * units.step;

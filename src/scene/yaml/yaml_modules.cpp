@@ -23,7 +23,7 @@ const std::vector<MatKind>& matKinds() {
       {"ground", MatType::kGround, {"at"}, {"x"}},
       {"cell", MatType::kCell, {"at", "mass", "stiffness", "damping", "matched", "x", "v"}, {}},
       {"driven", MatType::kDriven, {"at", "x"}, {"rest"}},
-      {"slice", MatType::kSlice, {"at"}, {"rest"}},
+      {"slice", MatType::kSlice, {"at", "coupling"}, {"rest"}},
       {"point", MatType::kPoint, {"at", "along", "guide", "range", "speed", "power"}, {}},
       {"tap", MatType::kPoint, {"of", "weights"}, {}},
   };
@@ -83,6 +83,10 @@ Mat readMat(const SceneBuilder& builder, const std::string& name, const YamlMap&
   }
   mat.stiffness = map.value("stiffness", kStiffnessLimits, {});
   mat.damping = map.value("damping", kDampingLimits, {});
+  if (map.has("coupling")) {
+    const std::vector<std::string> words = {"hold", "smooth", "chaplet", "auto"};
+    mat.coupling = static_cast<Coupling>(map.choice("coupling", words));
+  }
   mat.matched = map.flag("matched", kind.type == MatType::kCell);
   readPlaces(builder, map, kind, mat);
   const Section& section = builder.scene().sectionOf(mat);

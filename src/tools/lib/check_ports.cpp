@@ -59,6 +59,9 @@ Json portsReport(const Scene& scene,
     if (port.slice >= 0) {
       entry["slice"] = port.slice;
     }
+    if (matAt(scene, port.mat).coupling == scene::Coupling::kSmooth) {
+      entry["coupling"] = "smooth";
+    }
     entry["offset_m"] = port.offset;
     entry["position_scale"] = port.position_scale;
     entry["force_scale"] = port.force_scale;

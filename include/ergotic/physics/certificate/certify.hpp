@@ -41,10 +41,16 @@ struct PortCertificate {
   double stiffness_limit = 0;            ///< no hand sets off less by itself, N/m
   double damping = 0.0;                  ///< the largest, N s/m
   double damping_limit = 0.0;            ///< no hand sets off less by itself, N s/m
+  double glided_stiffness = 0.0;         ///< of the largest, of what sees the slice glide, N/m
+  double glided_damping = 0.0;           ///< the same, N s/m
   bool is_judged = false;                ///< the verdict and the findings count it
   HandLevel level = HandLevel::kSilent;  ///< of a slice that moves it, judged or not
   std::string finding;  ///< in words, `file:line:col: error|warning: ...`; empty: nothing to say
 };
+
+inline HandLoad loadOf(const PortCertificate& met) {
+  return {met.stiffness, met.damping, met.glided_stiffness, met.glided_damping};
+}
 
 struct Certificate {
   Verdict verdict = Verdict::kPassive;

@@ -25,8 +25,22 @@ enum class HandLevel {
   kRefused,  ///< more than a slice of twice the damping bears: it will buzz or jump
 };
 
+/// What a slice meets, at the device.
+struct HandLoad {
+  double stiffness = 0.0;         ///< N/m, >= 0
+  double damping = 0.0;           ///< N s/m, >= 0
+  double glided_stiffness = 0.0;  ///< of these, of what sees the slice glide (coupling: smooth)
+  double glided_damping = 0.0;
+};
+
+/// The share of a part, 0 of nothing.
+inline double partOf(double part, double all) {
+  return all > 0.0 ? part / all : 0.0;
+}
+
 /// A slice with a mass m and a damping b in a hand, and a spring K and a damper B that answer its
-/// sampled position d ticks late, with a force that is held for a tick.
+/// sampled position d ticks late, with a force that is held for a tick. What sees the slice glide
+/// answers with the response of the interpolation and its adjoint.
 ///
 /// The hand is anything passive, of any mass, that is not stiffer than kStiffestHand. Without m
 /// that is the condition of Colgate and Schenkel (1997), exact by Fardad and Bamieh (2009):
@@ -34,33 +48,39 @@ enum class HandLevel {
 /// Realtime: no. Source: docs/physics.md, "At the device".
 class HandLoop {
  public:
-  HandLoop(const DeviceTraits& device, double tick_s);
+  /// \param steps  of the faster section in a tick, where slices are seen to glide
+  HandLoop(const DeviceTraits& device, double tick_s, int steps = 2);
 
-  /// The stiffest spring that by itself no hand sets off, 2 b/((1 + 2 d) T), N/m.
-  double stiffnessLimit() const;
+  /// The stiffest spring that by itself no hand sets off, N/m: 2 b/((1 + 2 d) T), d by 3/2 more
+  /// for the part that sees the slice glide.
+  double stiffnessLimit(double glided = 0.0) const;
   /// The strongest damper that by itself no hand sets off, N s/m, to 1 %. Cost: 1 ms, as of what
   /// follows
-  double dampingLimit() const;
+  double dampingLimit(double glided = 0.0) const;
 
-  /// By what both must be divided that no hand sets them off; 1: at the limit. The worse of
+  /// By what all of it must be divided that no hand sets it off; 1: at the limit. The worse of
   /// the spring with the damper and without, for a damper does not brake wherever the spring acts.
-  /// \param stiffness  N/m, >= 0
-  /// \param damping    N s/m, >= 0
-  double share(double stiffness, double damping) const;
+  double share(const HandLoad& load) const;
+  double share(double stiffness, double damping) const { return share({stiffness, damping}); }
 
-  HandLevel judge(double stiffness, double damping) const;
+  HandLevel judge(const HandLoad& load) const;
+  HandLevel judge(double stiffness, double damping) const { return judge({stiffness, damping}); }
 
  private:
   /// All that the slice and its hand may do to a force at one frequency of the samples.
   class Mobilities;
 
-  double shareAt(double angle, double stiffness, double damping) const;
-  double worstShare(double stiffness, double damping) const;
+  std::complex<double> answerAt(double angle, const HandLoad& load) const;
+  double shareAt(double angle, const HandLoad& load) const;
+  double worstShare(const HandLoad& load) const;
 
   double damping_;
   double delay_;
   double mass_;
   double tick_s_;
+  int steps_;
+  std::vector<double> of_spring_;  // [ticks] what sees the slice glide answers, see glideAnswer
+  std::vector<double> of_damper_;  // [ticks]
 };
 
 }  // namespace ergotic::physics

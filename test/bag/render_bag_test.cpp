@@ -38,7 +38,7 @@ sections: {a: {medium: 1e-3}, keys: {rate: gestural}}
 generators:
   - {type: mesh, name: skin, section: a, rows: 9, columns: 9, spacing: 0.02, mass: 1e-3, stiffness: $k}
 mats:
-  key: {type: slice, section: keys}
+  key: {type: slice, section: keys, coupling: smooth}
   g: {type: ground, section: a}
   stick: {type: mass, section: a, mass: 0.01, x: 0.002}
   one: {type: mass, section: a, mass: 1e-3}

@@ -133,7 +133,7 @@ TEST(PortToolsTest, CheckIsForTheDeviceThatIsAskedFor) {
       run("check", kDuet +
                        " --device-damping 6 --device-delay 0 --sensor-noise 3e-6 "
                        "--sensor-quantum 0");
-  EXPECT_THAT(outcome.text, AllOf(HasSubstr("passive_up_to_n_per_m: 37800\n"),
+  EXPECT_THAT(outcome.text, AllOf(HasSubstr("passive_up_to_n_per_m: 9450\n"),
                                   HasSubstr("noise: {position_m: 3e-06, ")));
   EXPECT_EQ(run("check", kDuet + " --device-damping 0").code, 2);
   EXPECT_EQ(run("check", kDuet + " --device-delay -1").code, 2);

@@ -133,6 +133,31 @@ void net3d(SceneBuilder& builder, int modules) {
   addMesh(builder, spec);
 }
 
+/// A plate whose rows and columns harden from place to place, all of them in one tank.
+void gong(SceneBuilder& builder, int modules) {
+  const Size size = sizeFor(modules, 4, [](int rows, int columns) {
+    const int inner = (rows - 2) * (columns - 2);
+    return 2 * fixedPlateModules(rows, columns, false) - inner;
+  });
+  addMesh(builder, plateSpec("plate", size, false));
+  Scene& scene = builder.scene();
+  constexpr double kThickness = 1e-4;  // m: drawn so far, a link is twice as stiff
+  const std::size_t springs = scene.lias.size();
+  for (std::size_t l = 0; l < springs; ++l) {
+    scene::Lia lia = scene.lias[l];
+    lia.name = scene::Name("hard." + std::to_string(l));
+    lia.type = scene::LiaType::kCubic;
+    lia.scheme = scene::Scheme::kGuarded;
+    lia.law.edit().nonlinearity = (1.0 / (kThickness * kThickness)) * lia.stiffness;
+    lia.stiffness = lia.damping = {};
+    lia.tank = 0;
+    builder.add(std::move(lia));
+  }
+  scene::Tank tank;
+  tank.name = scene::Name("gong");
+  scene.tanks.push_back(std::move(tank));
+}
+
 /// A plate over stops that every tenth of its masses lies on.
 void contacts(SceneBuilder& builder, int modules) {
   const Size size = sizeFor(modules, 4, [](int rows, int columns) {
@@ -279,6 +304,7 @@ const std::vector<BenchKind>& benchKinds() {
       {"net3d", "a net that moves in space", 7000, true, net3d, false, scene::Geometry::kSpace},
       {"scalar3d", "a cubic lattice", 7000, true, addCube},
       {"contacts", "a plate, every tenth mass on a stop", 7000, true, contacts},
+      {"gong", "a plate, 4 neighbours, that hardens: one tank", 7000, false, gong},
       {"station7k", "a plate with 12 slices at 6 moving places, 24 outputs", 7000, false,
        station7k},
       {"mixed200k", "strings, plates, slow hammers, 24 outputs", 200'000, true, mixed200k},

@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
       {"barrier", tools::measureBarriers},
       {"bow", tools::measureBows},
       {"hammer", tools::measureHammers},
+      {"hand", tools::measureHands},
       {"wall", tools::measureWalls}};
   CLI::App app(
       "Measures how wrong problems with a known answer are played and what that costs, setting by "

@@ -2,6 +2,8 @@
 // What is foretold against what is measured, in every setting of the chart.
 #include "tools/lib/accuracy.hpp"
 
+#include <map>
+
 #include "ergotic/advice/accuracy.hpp"
 #include "support/test.hpp"
 
@@ -89,6 +91,14 @@ TEST(AccuracyTest, HeldHammersAreAsWrongAsForetold) {
     ++settings;
   });
   EXPECT_GT(settings, 5);
+}
+
+TEST(AccuracyTest, HandsThatGlideSoundAsIfTheyMovedInEveryFrame) {
+  std::map<std::string, double> worst;  // by coupling
+  measureHands([&](const Measurement& m) { worst[m.family] = std::max(worst[m.family], m.error); });
+  EXPECT_LT(worst["smooth"], 0.1);
+  EXPECT_GT(worst["hold"], 1.0);
+  EXPECT_GT(worst["chaplet"], 1.0);
 }
 
 TEST(AccuracyTest, WallsAreAsStiffAsTheCertificateSays) {

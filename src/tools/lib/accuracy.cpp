@@ -7,6 +7,7 @@
 #include <ctime>
 #include <utility>
 
+#include "ergotic/advice/accuracy.hpp"
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/physics/settling/settle.hpp"
 #include "ergotic/rt/thread.hpp"
@@ -65,12 +66,17 @@ Experiment::Experiment(const std::string& yaml,
   instrument_->saveState(start_.data());
 }
 
-std::vector<std::vector<double>> Experiment::play(double seconds) {
+std::vector<std::vector<double>> Experiment::play(double seconds,
+                                                  const std::function<double(double)>& hand) {
   const rt::FlushDenormals as_when_played;
   instrument_->loadState(start_.data());
   const auto channels = static_cast<std::size_t>(instrument_->outputChannels());
   std::vector<std::vector<double>> heard(channels);
-  for (std::size_t n = ticksIn(seconds, instrument_->rates()); n > 0; --n) {
+  const double tick_s = 1.0 / instrument_->rates().gesturalHz();
+  const std::size_t ticks = ticksIn(seconds, instrument_->rates());
+  for (std::size_t n = 0; n < ticks; ++n) {
+    const double place = hand ? hand(static_cast<double>(n) * tick_s) : 0.0;
+    std::fill(positions_.begin(), positions_.end(), place);
     instrument_->tick({positions_.data(), forces_.data(), inputs_.data(), outputs_.data()});
     for (std::size_t i = 0; i < outputs_.size(); ++i) {
       heard[i % channels].push_back(outputs_[i]);
@@ -102,6 +108,14 @@ PlayCost Experiment::cost(double seconds) {
 
 bool isPlayable(const std::string& yaml, const physics::Rates& rates) {
   return physics::certify(settled(yaml, rates).scene, rates).verdict != physics::Verdict::kUnstable;
+}
+
+std::vector<double> stringPartials(int masses, double pitch_hz, double rate_hz) {
+  std::vector<double> partials = physics::partialsOf({masses, false}, pitch_hz / rate_hz, true);
+  for (double& partial : partials) {
+    partial *= rate_hz;
+  }
+  return partials;
 }
 
 const std::vector<double>& measuredRates() {

@@ -8,7 +8,7 @@
 
 #include "ergotic/physics/engine/instrument.hpp"
 
-/// How wrong an instrument plays and what it costs, setting by setting: five problems whose right
+/// How wrong an instrument plays and what it costs, setting by setting: six problems whose right
 /// answer is known (docs/physics.md, "Speed against accuracy").
 namespace ergotic::tools {
 
@@ -20,7 +20,7 @@ struct PlayCost {
 
 /// One setting of a problem and one figure of what became of it.
 struct Measurement {
-  std::string problem;  ///< string, barrier, bow, hammer, wall
+  std::string problem;  ///< string, barrier, bow, hammer, hand, wall
   std::string measure;  ///< what the error is one of
   std::string family;   ///< of settings that differ in rates and sizes only
   physics::Precision precision = physics::Precision::kDouble;
@@ -50,6 +50,10 @@ void measureBows(const Sink& sink);
 /// sound and its worst partial, dB.
 void measureHammers(const Sink& sink);
 
+/// A stiff plectrum in a hand that moves the same way at every gestural rate, as the string sees it
+/// with each coupling of a slice: the worst partial against R = 1, dB.
+void measureHands(const Sink& sink);
+
 /// The stiffest wall that a hand does not set off, as compliance, mm/N: found by playing, and what
 /// the certificate says.
 void measureWalls(const Sink& sink);
@@ -61,7 +65,9 @@ class Experiment {
   Experiment(const std::string& yaml, const physics::Rates& rates, physics::Precision precision);
 
   /// Plays from the start on. \return [output channels][frames], whole ticks
-  std::vector<std::vector<double>> play(double seconds);
+  /// \param hand  where all slices are at a time, m of s; none: at 0
+  std::vector<std::vector<double>> play(double seconds,
+                                        const std::function<double(double)>& hand = {});
 
   /// Plays so much from the start on, again and again. Quiet machines give the best figures.
   PlayCost cost(double seconds);
@@ -76,6 +82,9 @@ class Experiment {
 
 /// True if the certificate does not foresee that this blows up.
 bool isPlayable(const std::string& yaml, const physics::Rates& rates);
+
+/// The first ten partials of a string cut into so many masses and tuned, as it sounds, Hz.
+std::vector<double> stringPartials(int masses, double pitch_hz, double rate_hz);
 
 /// Rates at which everything is measured that depends on the audio rate, Hz.
 const std::vector<double>& measuredRates();

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <utility>
 #include <vector>
 
 #include "ergotic/physics/settling/chaplet.hpp"
@@ -14,15 +13,14 @@ namespace {
 
 constexpr double kRateHz = 44100.0;
 constexpr double kPitchHz = 110.0;
-constexpr int kPartials = 10;
 constexpr double kSeconds = 0.6;
+constexpr std::size_t kBegin = 2205;  // after the blow
 
 constexpr double kHammerKg = 0.005;
 constexpr int kMasses = 40;
 constexpr double kChapletShare = 0.1;  // of the hammer
 constexpr double kSpeed = 1.0;
-constexpr double kWay = 0.004;      // before it touches
-constexpr double kFaintest = 0.03;  // amplitude of a partial that counts, of the strongest
+constexpr double kWay = 0.004;  // before it touches
 
 /// A felt hammer that is thrown at a string of 0.55 kg/s, 11 ms of contact. Bare or with a chaplet
 /// it weighs the same, and it arrives at the same time: its first step is (R - 1) h longer than
@@ -78,26 +76,6 @@ double difference(const std::vector<double>& sound, const std::vector<double>& r
   return rms(missing) / rms(right);
 }
 
-double worstPartialDb(const std::vector<double>& sound, const std::vector<double>& right) {
-  constexpr std::size_t kBegin = 2205;  // after the blow
-  std::vector<std::pair<double, double>> levels;
-  double strongest = 0.0;
-  for (int partial = 1; partial <= kPartials; ++partial) {
-    const auto level = [&](const std::vector<double>& of) {
-      return partialAt(of, partial * kPitchHz, kRateHz, kBegin).amplitude;
-    };
-    levels.emplace_back(level(sound), level(right));
-    strongest = std::max(strongest, levels.back().second);
-  }
-  double worst = 0.0;
-  for (const auto& [is, should] : levels) {
-    if (should > kFaintest * strongest) {
-      worst = std::max(worst, std::abs(physics::decibels(is / should)));
-    }
-  }
-  return worst;
-}
-
 }  // namespace
 
 void measureHammers(const Sink& sink) {
@@ -122,7 +100,10 @@ void measureHammers(const Sink& sink) {
                 error, unit, cost});
         };
         say("whole sound", 100.0 * difference(sound, right), "%");
-        say("worst of ten partials", worstPartialDb(sound, right), "dB");
+        say("worst of ten partials",
+            worstPartialDb(sound, right, stringPartials(kMasses, kPitchHz, kRateHz), kRateHz,
+                           kBegin),
+            "dB");
       }
     }
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <cstddef>
@@ -40,6 +41,33 @@ inline Partial partialAt(const std::vector<double>& sound,
   const double expected = omega * static_cast<double>(kLater);
   const double beyond = std::arg(later / first * std::polar(1.0, -expected));
   return {guess_hz * (1.0 + beyond / expected), 2.0 * std::abs(first) / weights};
+}
+
+/// The level of the partial that differs most, dB. Of those that count: at least 3 % of the
+/// strongest. \param right     what should sound \param partials  Hz. \pre as of partialAt()
+inline double worstPartialDb(const std::vector<double>& sound,
+                             const std::vector<double>& right,
+                             const std::vector<double>& partials,
+                             double rate_hz,
+                             std::size_t begin) {
+  constexpr double kFaintest = 0.03;
+  const auto levelsOf = [&](const std::vector<double>& of) {
+    std::vector<double> levels;
+    for (const double hz : partials) {
+      levels.push_back(partialAt(of, hz, rate_hz, begin).amplitude);
+    }
+    return levels;
+  };
+  const std::vector<double> is = levelsOf(sound);
+  const std::vector<double> should = levelsOf(right);
+  const double strongest = *std::max_element(should.begin(), should.end());
+  double worst = 0.0;
+  for (std::size_t k = 0; k < partials.size(); ++k) {
+    if (should[k] > kFaintest * strongest) {
+      worst = std::max(worst, std::abs(20.0 * std::log10(is[k] / should[k])));
+    }
+  }
+  return worst;
 }
 
 /// How far a is above b.

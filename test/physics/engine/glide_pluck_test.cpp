@@ -19,6 +19,7 @@ constexpr double kMassKg = 1e-3;
 constexpr double kStiffness = 3e4;  // N/m, of the plectrum
 constexpr double kWidth = 1e-3;     // m, that it bends by
 constexpr double kSpeed = 0.05;     // m/s: 20 ms for the width
+constexpr double kApart = 1.1e-3;   // m, of hand and string at the start
 
 constexpr double kKappa = 0.2;
 
@@ -29,14 +30,16 @@ double turnOf(int partial) {
 
 using Levels = std::array<double, kPartials>;
 
-/// Of a hand that starts over 20 ms and goes on evenly.
+/// Of a hand that comes from below, starts over 20 ms, and goes on evenly.
 double placeAt(double time) {
   constexpr double kStart = 0.02;  // s
   if (time <= 0.0) {
-    return 0.0;
+    return -kApart;
   }
-  return time < kStart ? 0.5 * kSpeed * (time - std::sin(kPi * time / kStart) * kStart / kPi)
-                       : kSpeed * (time - 0.5 * kStart);
+  const double way = time < kStart
+                         ? 0.5 * kSpeed * (time - std::sin(kPi * time / kStart) * kStart / kPi)
+                         : kSpeed * (time - 0.5 * kStart);
+  return way - kApart;
 }
 
 /// Of the partials that ring after the plectrum has let go, dB. \param late  of the hand, in ticks

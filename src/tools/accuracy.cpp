@@ -28,12 +28,9 @@ void printLine(const Measurement& m) {
 int main(int argc, char** argv) {
   namespace tools = ergotic::tools;
   const std::map<std::string, void (*)(const tools::Sink&)> problems{
-      {"string", tools::measureStrings},
-      {"barrier", tools::measureBarriers},
-      {"bow", tools::measureBows},
-      {"hammer", tools::measureHammers},
-      {"hand", tools::measureHands},
-      {"wall", tools::measureWalls}};
+      {"string", tools::measureStrings}, {"barrier", tools::measureBarriers},
+      {"bow", tools::measureBows},       {"hammer", tools::measureHammers},
+      {"hand", tools::measureHands},     {"wall", tools::measureWalls}};
   CLI::App app(
       "Measures how wrong problems with a known answer are played and what that costs, setting by "
       "setting, as CSV.",

@@ -51,6 +51,17 @@ TEST(VouchedTest, SoftCouplingsOfLowModesGrowAllTheSame) {
                 1e6);
 }
 
+/// Nothing holds them, and their fast mode makes nearly a whole turn in a tick: it meets the motion of
+/// both together.
+TEST(VouchedTest, AFreePairThatNearlyTurnsRoundInATickGrows) {
+  SceneBuilder b;
+  const int light = b.mass(0.0182940937, 0.0, 2.77576185);
+  const int heavy = b.mass(0.0842841903, 0.0, -1.94045476, SceneBuilder::kGestural);
+  b.spring(heavy, light, 4902066.90839164, 0.020725701);
+  b.spring(light, heavy, 11298.1592719748, 0.273010857);
+  expectRefused(b, 14, 60.0, 1e4);
+}
+
 /// A damper takes nearly all that the coupling gives: 1e-7 of each period is left, or less than
 /// nothing, by more than rounding or not.
 TEST(VouchedTest, SlowGrowthOfTwoRatesIsGrowth) {

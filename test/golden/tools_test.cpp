@@ -369,6 +369,18 @@ TEST_F(CheckTest, WritesJsonThatAProgramReads) {
   EXPECT_EQ(outcome.text, "2 0 [1.0, 0.0, 0.0] 1\n");
 }
 
+TEST_F(CheckTest, LeavesOutRangesThatTakeLong) {
+  std::string text = "ergotic: 1\nsections: {a: {rate: audio}}\ngenerators:\n";
+  text += "  - {type: mesh, name: s, rows: 60, columns: 60, spacing: 1, mass: 1, stiffness: 1}\n";
+  text += "parameters:\n";
+  for (int p = 0; p < 90; ++p) {
+    text += "  p" + std::to_string(p) + ": {value: 1, range: [1, 2]}\n";
+  }
+  const Outcome outcome = run("check", write("large.yaml", text));
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_THAT(outcome.text, AllOf(HasSubstr("ranges: not judged: "), HasSubstr("--ranges")));
+}
+
 TEST_F(CheckTest, RefusesWhatIsUnstable) {
   const Outcome outcome = run("check", write("unstable.mdl", kUnstable));
   EXPECT_EQ(outcome.code, 3);

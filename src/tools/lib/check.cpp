@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/lib/check.hpp"
 
+#include <ctime>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -14,6 +15,7 @@
 #include "ergotic/physics/settling/settle.hpp"
 #include "ergotic/scene/generate/pitch.hpp"
 #include "physics/certificate/rounding_noise.hpp"
+#include "physics/note.hpp"
 #include "scene/laws/law.hpp"
 #include "tools/lib/check_filters.hpp"
 #include "tools/lib/check_names.hpp"
@@ -31,7 +33,7 @@ namespace {
 
 using scene::Scene;
 
-constexpr std::size_t kQuicklyJudged = 3000;  // modules and links, times parameters
+constexpr double kQuicklyJudgedS = 0.3;  // CPU time of one verdict, times parameters
 
 const scene::Mat& matAt(const Scene& scene, int index) {
   return scene.mats[static_cast<std::size_t>(index)];
@@ -339,7 +341,7 @@ void addOptions(CLI::App& app, CheckOptions& options) {
   addEndEffectorsOption(app, options.end_effectors);
   addOptions(app, options.device);
   app.add_flag("--ranges", options.ranges,
-               "judge the ranges of the parameters of a large scene, too, which takes long");
+               "judge the ranges of the parameters of a scene that is not quickly judged, too");
   app.add_flag("--json", options.json, "for a program to read");
   app.add_option("--filter-response", options.filter_response,
                  "write what the chaplets of the scene let through to this table")
@@ -355,6 +357,7 @@ int check(const CheckOptions& options) {
   const Scene scene = readScene(options.scene);
   const physics::Rates rates = chosenRates(scene, options.scene);
   load.begin("settle_s", "settle " + sizeText(scene));
+  const std::clock_t begun = std::clock();
   const physics::Settled settled = physics::settle(scene, rates);
   load.begin("certify_s", "certify " + sizeText(settled.scene));
   physics::DeviceTraits device = options.device.traits;
@@ -362,12 +365,15 @@ int check(const CheckOptions& options) {
   physics::Proof proof;
   const physics::Certificate certificate =
       physics::certify(settled.scene, rates, device, options.proof.empty() ? nullptr : &proof);
+  const double cpu_s = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
   const physics::CompileOptions compile = chosenOptions(options.compile);
   Json report = reportOn(settled, rates, certificate, compile, options.device,
                          loadOf(settled.scene, rates, compile, load));
-  if (options.ranges ||
-      scene.parameters.size() * (scene.mats.size() + scene.lias.size()) <= kQuicklyJudged) {
+  if (options.ranges || static_cast<double>(scene.parameters.size()) * cpu_s <= kQuicklyJudgedS) {
     addRanges(scene, rates, device, report);
+  } else {
+    report["ranges"] = "not judged: some hundred verdicts for each parameter, of " +
+                       physics::shortly(cpu_s) + " s each; ask with --ranges";
   }
   if (!options.target.empty()) {
     report["target"] = targetReport(readScene(options.scene), rates, compile, options.target,

@@ -51,8 +51,8 @@ TEST(VouchedTest, SoftCouplingsOfLowModesGrowAllTheSame) {
                 1e6);
 }
 
-/// Nothing holds them, and their fast mode makes nearly a whole turn in a tick: it meets the motion of
-/// both together.
+/// Nothing holds them, and their fast mode makes nearly a whole turn in a tick: it meets the motion
+/// of both together.
 TEST(VouchedTest, AFreePairThatNearlyTurnsRoundInATickGrows) {
   SceneBuilder b;
   const int light = b.mass(0.0182940937, 0.0, 2.77576185);

@@ -19,7 +19,7 @@ using Eigen::MatrixXd;
 
 constexpr double kFixed = 1e-12;    // of the largest pivot: what a period leaves as it is
 constexpr double kFading = 0.99;    // per period
-constexpr double kMeeting = 30.0;  // of |G| |G^-1|: 1/how near modes are to meeting
+constexpr double kMeeting = 30.0;   // of |G| |G^-1|: 1/how near modes are to meeting
 constexpr double kMostOff = 5e-10;  // of what G s becomes
 constexpr int kDoublings = 40;
 constexpr double kAlike = 1e-6;     // of places of bodies

@@ -4,6 +4,9 @@ import math
 
 import numpy as np
 from scipy import interpolate
+from scipy.sparse import csgraph
+
+NEAR, BREATHES, FADES = 30.0, 10.0, 10.0  # 1/how near modes meet; of roots of energy; more of many that fade
 
 
 def slopes_of(table):
@@ -45,3 +48,22 @@ def matched(slow, fast, square):
     fade = slow if square > 0 and math.cos(root) < 0 else fast
     return -math.expm1(-2 * fast), math.expm1(-fade) ** 2 + math.copysign(
         4 * math.exp(-fade) * swing(root / 2) ** 2, square) + math.exp(-2 * fast) - math.exp(-2 * fade)
+
+
+def meet(form, turn, back, stays, members, links, proof):
+    """Whether a motion may become too many times as large: coordinate by coordinate, or by energy, E of displacements
+    and of what modules are about to move by: |rows of G E^-1/2| |columns of E^1/2 G^-1| of what a period mixes."""
+    of = [proof.modules[m] for m in members]
+    energy = np.diag([m["K"][0] for m in of] + [m["M"][0] / proof.step(m["divisor"]) ** 2 for m in of])
+    for link in links:
+        u = np.zeros(2 * len(members))
+        for sign, places in zip((1, -1), link["at"]):
+            for module, weight in places[0]:
+                u[members.index(module)] += sign * weight
+        energy += link["K"][0] * np.outer(u, u)
+    root, most = np.linalg.cholesky(energy[stays][:, stays]), 0.0
+    count, block = csgraph.connected_components(turn, directed=False)
+    for mixed in (block == i for i in range(count)):
+        most = max(most, np.linalg.norm(np.linalg.solve(root, form[mixed].T), 2) * np.linalg.norm(
+            root.T @ back[:, mixed], 2) / (FADES if sum(mixed) > 2 else 1.0))
+    return not ((abs(form) @ abs(back)).diagonal().max() < NEAR and most < BREATHES)

@@ -15,10 +15,16 @@ namespace ergotic::physics {
 
 EnergyLoss::EnergyLoss(const RatedNetwork& networks)
     : networks_(networks), joined_(networks.scene().mats.size()) {
+  std::vector<int> of_tank(networks.scene().tanks.size(), -1);
   for (const scene::Lia& lia : networks.scene().lias) {
     const std::set<int> islands = networks.islandsAt(lia);
     for (const int island : islands) {
       joined_.join(island, *islands.begin());
+    }
+    if (lia.tank >= 0 && !islands.empty()) {
+      int& first = of_tank[at(lia.tank)];
+      first = first < 0 ? *islands.begin() : first;
+      joined_.join(*islands.begin(), first);
     }
   }
   for (int m = 0; m < static_cast<int>(networks.scene().mats.size()); ++m) {

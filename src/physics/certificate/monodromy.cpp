@@ -13,6 +13,7 @@
 
 #include "at.hpp"
 #include "physics/certificate/linear_stepper.hpp"
+#include "physics/network/network.hpp"
 #include "physics/step_units.hpp"
 
 namespace ergotic::physics {
@@ -97,14 +98,37 @@ Eigen::MatrixXd withoutFixedStates(const Eigen::MatrixXd& matrix) {
   return others.transpose() * matrix * others;
 }
 
+/// [modules][modules] of all springs, at the present values of the parameters.
+Eigen::MatrixXd stiffnessOf(const scene::Scene& linear, const std::vector<int>& modules) {
+  const Network network(linear);
+  std::vector<int> row_of(linear.mats.size(), -1);
+  const auto n = static_cast<Eigen::Index>(modules.size());
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const int module = modules[static_cast<std::size_t>(i)];
+    row_of[at(module)] = static_cast<int>(i);
+    stiffness(i, i) = network.nodes[at(module)].stiffness.now;
+  }
+  for (std::size_t l = 0; l < linear.lias.size(); ++l) {
+    const Shares ends = endsAmong(network, row_of, network.links[l]);
+    for (const Share& a : ends) {
+      for (const Share& b : ends) {
+        stiffness(a.node, b.node) += a.weight * b.weight * linear.valueOf(linear.lias[l].stiffness);
+      }
+    }
+  }
+  return stiffness;
+}
+
 }  // namespace
 
 Period periodOf(const scene::Scene& scene, const Rates& rates) {
-  LinearStepper stepper(linearPart(scene), rates);
+  const scene::Scene linear = linearPart(scene);
+  LinearStepper stepper(linear, rates);
   const int slots = stepper.slots();
   const std::vector<Column> columns = columnsOf(stepper);
   const auto n = static_cast<Eigen::Index>(columns.size());
-  Period period{Eigen::MatrixXd(2 * n, 2 * n), {}, Eigen::VectorXd(n)};
+  Period period{Eigen::MatrixXd(2 * n, 2 * n), {}, Eigen::VectorXd(n), {}, Eigen::VectorXd(n)};
   // A force waits in the state to move its module together with the difference. Both act alike, so
   // they are one number, here a force, scaled to move as much as a unit of position: eigenvalues
   // of badly scaled matrices are inexact.
@@ -123,8 +147,11 @@ Period periodOf(const scene::Scene& scene, const Rates& rates) {
     reduce(column.of_force, n + j, 1.0 / column.reach);
     const int module = stepper.moduleOf(column.slot);
     period.modules.push_back(module);
-    period.units[j] = moveOfForce(scene, rates, module) / column.reach;
+    const double moved = moveOfForce(scene, rates, module);  // h^2/M
+    period.units[j] = moved / column.reach;
+    period.inertia[j] = period.units[j] * period.units[j] / moved;
   }
+  period.stiffness = stiffnessOf(linear, period.modules);
   return period;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -17,10 +18,12 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double kFixed = 1e-12;    // of the largest pivot: what a period leaves as it is
-constexpr double kFading = 0.99;    // per period
-constexpr double kMeeting = 30.0;   // of |G| |G^-1|: 1/how near modes are to meeting
-constexpr double kMostOff = 5e-10;  // of what G s becomes
+constexpr double kFixed = 1e-12;           // of the largest pivot: what a period leaves as it is
+constexpr double kFading = 0.99;           // per period
+constexpr double kMeeting = 30.0;          // of |G| |G^-1|: 1/how near modes are to meeting
+constexpr double kBreathing = 10.0;        // the same of roots of the energy
+constexpr double kFadingBreathes = 100.0;  // of many rows at once, which fade: a bound from far
+constexpr double kMostOff = 5e-10;         // of what G s becomes
 constexpr int kDoublings = 40;
 constexpr double kAlike = 1e-6;     // of places of bodies
 constexpr double kStaying = 1e-10;  // of a body, whatever rounds
@@ -163,6 +166,75 @@ double conditionOf(const MatrixXd& form, const std::vector<Index>& bodies) {
   return (seen.cwiseAbs() * back.cwiseAbs()).diagonal().maxCoeff();
 }
 
+/// Rows that a period mixes with one another alone, from `first` on: one past the last of them.
+Index endOfBlock(const MatrixXd& turn, Index first) {
+  Index end = first + 1;
+  for (Index row = first; row < end; ++row) {
+    for (Index other = turn.rows(); other-- > end;) {
+      if (turn(row, other) != 0.0 || turn(other, row) != 0.0) {
+        end = other + 1;
+      }
+    }
+  }
+  return end;
+}
+
+double normOf(const MatrixXd& matrix) {
+  return std::sqrt(Eigen::SelfAdjointEigenSolver<MatrixXd>(
+                       matrix.rows() < matrix.cols() ? MatrixXd(matrix * matrix.transpose())
+                                                     : MatrixXd(matrix.transpose() * matrix))
+                       .eigenvalues()
+                       .maxCoeff());
+}
+
+/// How many times the root of the energy that a motion begins with may become that of a part of it
+/// that goes by itself: with E of displacements and of what modules are about to move by, and the
+/// rows of G and columns of G^-1 that a period mixes, |G E^-1/2| |E^1/2 G^-1|. What coordinates are
+/// measured in does not matter, nor that light modules go far. Over what is allowed, times
+/// kBreathing. Infinity where E is not positive.
+double energyConditionOf(const MatrixXd& form,
+                         const MatrixXd& turn,
+                         const std::vector<Index>& bodies,
+                         const Period& period) {
+  const Index modules = period.units.size();
+  std::vector<Index> kept;
+  for (Index column = 0; column < modules; ++column) {
+    if (std::count(bodies.begin(), bodies.end(), column) == 0) {
+      kept.push_back(column);
+    }
+  }
+  const auto places = static_cast<Index>(kept.size());
+  MatrixXd stiffness(places, places);
+  MatrixXd seen(form.rows(), form.rows());
+  for (Index i = 0; i < places; ++i) {
+    seen.col(i) = form.col(kept[static_cast<std::size_t>(i)]);
+    for (Index j = 0; j < places; ++j) {
+      stiffness(i, j) =
+          period.stiffness(kept[static_cast<std::size_t>(i)], kept[static_cast<std::size_t>(j)]);
+    }
+  }
+  seen.rightCols(modules) = form.rightCols(modules);
+  const Eigen::LLT<MatrixXd> root(stiffness);
+  if (root.info() != Eigen::Success) {
+    return std::numeric_limits<double>::infinity();
+  }
+  MatrixXd upper = MatrixXd::Zero(form.rows(), form.rows());
+  upper.topLeftCorner(places, places) = root.matrixU();
+  upper.bottomRightCorner(modules, modules) = period.inertia.cwiseSqrt().asDiagonal();
+  const MatrixXd back = upper * seen.inverse();
+  const MatrixXd rows =
+      upper.transpose().triangularView<Eigen::Lower>().solve(seen.transpose()).transpose();
+  double most = 0.0;
+  for (Index first = 0, end = 0; first < turn.rows(); first = end) {
+    end = endOfBlock(turn, first);
+    const double fading = end - first > 2 ? kFadingBreathes / kBreathing : 1.0;
+    const double much =
+        normOf(rows.middleRows(first, end - first)) * normOf(back.middleCols(first, end - first));
+    most = std::max(most, much / fading);
+  }
+  return most;
+}
+
 /// What rounding does to the modes of a period: in their eigenvectors, one matrix for each case.
 class RoundedModes {
  public:
@@ -257,6 +329,7 @@ std::optional<PeriodProof> proofOf(const Period& period, const std::vector<Matri
   }
   PeriodProof proof{{}, 0, period.modules, form.rows * kept.transpose(), form.turn};
   if (!(conditionOf(proof.form, staying->bodies) < kMeeting) ||
+      !(energyConditionOf(proof.form, proof.turn, staying->bodies, period) < kBreathing) ||
       RoundedModes(matrix, roundings).mayGrow()) {
     return std::nullopt;
   }

@@ -269,12 +269,13 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::step(const Group& group,
       followPlaces(g, state);
       links_[g].links.start(view, c.guarded[g].data(), states(g, state));
       closeBooks(g, true, state);
+      tanks_.start(g, c, state);
     }
     if (!endsStep(g, last)) {
       continue;
     }
     any = true;
-    tanks_.exert(g, last < members_[g].divisor, c, state);
+    tanks_.exert(g, c, state);
     followPlaces(g, state);
     lookAhead(g, c, state);
     links_[g].near.find(state.x(), state.d(), clearances(g, state));

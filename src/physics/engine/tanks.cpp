@@ -75,11 +75,31 @@ void Tanks<Real>::addForce(Body& body, double psi, State<Real>& state) const noe
                      state.arena().template at<Real>(body.force_at));
 }
 
+template <class Real>
+ERGOTIC_REALTIME void Tanks<Real>::start(std::size_t group,
+                                         const CoefficientsOf<Real>& c,
+                                         State<Real>& state) noexcept {
+  for (Body& body : bodies_[group]) {
+    double psi = 0.0;
+    measure(body, c.runs[body.run], state.x(), psi);
+    double now = 0.0;
+    for (int i = 0; i < body.count; ++i) {
+      now +=
+          static_cast<double>(body.slope[at(i)]) * static_cast<double>(state.d()[body.first + i]);
+    }
+    const double asked = psi - 0.5 * body.per_slope * now;
+    TankState& tank = stateOf(body, state);
+    tank.stored = 0.5 * asked * asked;
+    if (state.isMetered()) {
+      state.work()[body.run].stored = tank.stored;
+    }
+  }
+}
+
 /// With psi_ = psi - grad psi d/2 half a step ago and psi+ half a step ahead, the force is
 /// -(psi_ + psi+)/2 grad psi, and by it the tank changes by (psi+^2 - psi_^2)/2, exactly.
 template <class Real>
 ERGOTIC_REALTIME void Tanks<Real>::exert(std::size_t group,
-                                         bool starts,
                                          const CoefficientsOf<Real>& c,
                                          State<Real>& state) noexcept {
   for (Body& body : bodies_[group]) {
@@ -98,8 +118,7 @@ ERGOTIC_REALTIME void Tanks<Real>::exert(std::size_t group,
     const kernels::TankSteps steps = kernels::measureSteps(modules, body.slope.data(), last_force);
     body.half = 0.5 * body.per_slope * steps.now;
     const double asked = psi - body.half;
-    const double held =
-        starts ? 0.5 * asked * asked : std::max(0.0, tank.stored + 0.5 * steps.worked);
+    const double held = std::max(0.0, tank.stored + 0.5 * steps.worked);
     const double most = std::sqrt(2.0 * held);
     const double before = std::clamp(asked, -most, most);
     body.give = 0.25 * body.per_slope * body.per_slope * steps.give;

@@ -36,13 +36,12 @@ class Tanks {
   /// Adds its entries to the arena. \pre the arena is not allocated
   Tanks(const Layout& layout, const std::vector<GuardedGroup>& groups, State<Real>& state);
 
+  /// Fills the tanks of a group, in the first frame. Realtime: yes
+  void start(std::size_t group, const CoefficientsOf<Real>& c, State<Real>& state) noexcept;
+
   /// Adds the forces of those of a group (of `groups`) to the modules.
-  /// \param starts  before the first step: tanks are filled
   /// \pre all forces but those of guarded links are there. Realtime: yes. Cost: O(links + modules)
-  void exert(std::size_t group,
-             bool starts,
-             const CoefficientsOf<Real>& c,
-             State<Real>& state) noexcept;
+  void exert(std::size_t group, const CoefficientsOf<Real>& c, State<Real>& state) noexcept;
 
   /// Answers what guarded links have added to the modules since. Realtime: yes
   void answer(std::size_t group, const CoefficientsOf<Real>& c, State<Real>& state) noexcept;

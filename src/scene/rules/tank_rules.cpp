@@ -2,6 +2,7 @@
 #include "scene/rules/tank_rules.hpp"
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,10 +38,11 @@ std::string springFault(const Scene& scene, const Tank& tank, int index) {
         return string.coarse && index >= string.first_lia &&
                index < string.first_lia + coarseLinks(string.count - 2);
       });
-  if (spring.type != LiaType::kSpringDamper || spring.bend >= 0 || k.lowest < 0.0 || is_coarse ||
-      spring.stiffness.audio >= 0) {
+  if (spring.type != LiaType::kSpringDamper || spring.bend >= 0 || k.lowest < 0.0 ||
+      k.highest == 0.0 || is_coarse || spring.stiffness.audio >= 0) {
     return "is of link " + quoted(spring.name) +
-           ", allowed: springs with stiffness >= 0, not those of coarse strings or bends";
+           ", allowed: springs of stiffness >= 0, not always 0, not those of coarse strings or "
+           "bends";
   }
   if (tank.hardening.parameter >= 0 &&
       (spring.stiffness.parameter >= 0 || isTunedByParameter(scene, index))) {
@@ -60,9 +62,14 @@ std::string stretchFault(const Scene& scene, const Tank& tank) {
   if (!kSpacingLimits.hold(tank.spacing)) {
     return outOfRange("has a spacing", tank.spacing, kSpacingLimits);
   }
+  std::set<int> springs;
   for (const int spring : tank.springs) {
     if (std::string fault = springFault(scene, tank, spring); !fault.empty()) {
       return fault;
+    }
+    if (!springs.insert(spring).second) {
+      return "is of link " + quoted(scene.lias[static_cast<std::size_t>(spring)].name) +
+             " twice, allowed: once";
     }
   }
   return tank.springs.empty() ? "is of no spring, allowed: at least 1" : "";

@@ -29,7 +29,10 @@ std::vector<int> springsOf(const SceneBuilder& builder, const std::string& grid,
   std::vector<int> springs;
   const std::vector<Lia>& lias = builder.scene().lias;
   for (std::size_t l = 0; l < lias.size(); ++l) {
-    if (lias[l].name.str().compare(0, stem.size(), stem) == 0) {
+    const std::string name = lias[l].name.str();
+    // Another generator may be called `s.link`.
+    if (name.compare(0, stem.size(), stem) == 0 &&
+        name.find('.', stem.size()) == std::string::npos) {
       springs.push_back(static_cast<int>(l));
     }
   }

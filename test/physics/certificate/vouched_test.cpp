@@ -62,6 +62,22 @@ TEST(VouchedTest, AFreePairThatNearlyTurnsRoundInATickGrows) {
   expectRefused(b, 14, 60.0, 1e4);
 }
 
+/// Modes of which neither grows, and which hide in what heavy masses hardly do: what light ones
+/// begin becomes a million times as much energy before it comes back.
+TEST(VouchedTest, WhatBeatsBetweenHeavyAndLightMassesGrows) {
+  SceneBuilder b;
+  for (const int divisor : {28, 56}) {
+    scene::Section section = b.scene.sections[0];
+    section.name = "d" + std::to_string(divisor);
+    section.divisor = divisor;
+    b.scene.sections.push_back(section);
+  }
+  const int light = b.mass(0.0116494483921898, 0.0, 0.065);
+  b.spring(b.mass(216.074776709087, 0.0, 0.065, 2), light, 522259.432871975);
+  b.spring(b.mass(17.697480567237, 0.0, 0.065, 3), light, 613674.464088179);
+  expectRefused(b, 28, 6.0, 1e5);
+}
+
 /// A damper takes nearly all that the coupling gives: 1e-7 of each period is left, or less than
 /// nothing, by more than rounding or not.
 TEST(VouchedTest, SlowGrowthOfTwoRatesIsGrowth) {

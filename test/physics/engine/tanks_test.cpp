@@ -253,6 +253,33 @@ TEST(TanksTest, ArePassiveOverAPassiveNetwork) {
 }
 
 /// Beside a mass that is coupled to a faster section, as all that is not linear.
+TEST(TanksTest, AStretchIsOfItsOwnSpringsWhateverOthersAreCalled) {
+  const std::string string = "{type: string, masses: 4, mass: 1e-3, stiffness: 1e4, to: [1, 0]";
+  const scene::Scene scene = scene::readYaml(
+      "ergotic: 1\nsections: {a: {}}\ngenerators: [" + string + ", name: s}, " + string +
+          ", name: s.link}]\nlias: {h: {type: stretch, of: s, spacing: 0.2, hardening: 9}}\n",
+      "names.yaml");
+  EXPECT_EQ(scene.tanks.at(0).springs, (std::vector<int>{0, 1, 2, 3, 4}));
+}
+
+/// In a section that makes its first step later than the first tick, too.
+TEST(TanksTest, AreFilledBeforeTheFirstStep) {
+  for (const char* const hard :
+       {"{type: stretch, of: [s], spacing: 0.01, hardening: 300}",
+        "{type: cubic, between: [m, g], stiffness: 0, nonlinearity: 1e11, tank: t}"}) {
+    const scene::Scene scene = scene::readYaml(
+        "ergotic: 1\nsections: {a: {rate: {divisor: 28}}}\n"
+        "mats: {g: {type: ground}, m: {type: mass, mass: 1, x: 1e-3, v: 0.5}}\nlias:\n"
+        "  s: {type: spring, between: [m, g], stiffness: 1e5}\n  h: " +
+            std::string(hard) + "\n",
+        "slow.yaml");
+    Player player(scene, {kRate, 14});
+    const double start = energiesOf(player).stored;
+    player.ticks(2000);
+    EXPECT_LT(std::abs(energiesOf(player).residual), 1e-10 * start) << hard;
+  }
+}
+
 TEST(TanksTest, AreUnprovenWhereTwoRatesMeet) {
   EXPECT_EQ(verdictOf(sceneOf(R"(
 sections: {a: {}, s: {rate: {divisor: 7}}}

@@ -23,8 +23,10 @@ namespace ergotic::physics {
 /// units of their own; shape (2n, 2n). Eigenvalues do not depend on these units.
 struct Period {
   Eigen::MatrixXd matrix;
-  std::vector<int> modules;  ///< the n, indices in Scene::mats
-  Eigen::VectorXd units;     ///< m, of what they are about to move by
+  std::vector<int> modules;   ///< the n, indices in Scene::mats
+  Eigen::VectorXd units;      ///< m, of what they are about to move by
+  Eigen::MatrixXd stiffness;  ///< (n, n), N/m, of displacements
+  Eigen::VectorXd inertia;    ///< M/h^2 in these units, of what they are about to move by
 };
 /// Realtime: no. Cost: 3n periods.
 /// \throws Exception if the scene cannot be compiled at these rates

@@ -53,15 +53,20 @@ def matched(slow, fast, square):
 def meet(form, turn, back, stays, members, links, proof):
     """Whether a motion may become too many times as large: coordinate by coordinate, or by energy, E of displacements
     and of what modules are about to move by: |rows of G E^-1/2| |columns of E^1/2 G^-1| of what a period mixes."""
-    of = [proof.modules[m] for m in members]
-    energy = np.diag([m["K"][0] for m in of] + [m["M"][0] / proof.step(m["divisor"]) ** 2 for m in of])
+    of, n = [proof.modules[m] for m in members], len(members)
+    springs = np.diag([m["K"][0] for m in of])
     for link in links:
-        u = np.zeros(2 * len(members))
+        u = np.zeros(n)
         for sign, places in zip((1, -1), link["at"]):
             for module, weight in places[0]:
                 u[members.index(module)] += sign * weight
-        energy += link["K"][0] * np.outer(u, u)
-    root, most = np.linalg.cholesky(energy[stays][:, stays]), 0.0
+        springs += link["K"][0] * np.outer(u, u)
+    moves, most = np.diag([m["M"][0] / proof.step(m["divisor"]) ** 2 for m in of]), 0.0
+    for cross in (springs / 2, 0 * springs):  # as the scheme keeps it at one rate; between rates that need not be one
+        energy = np.block([[springs, cross], [cross, moves]])[stays][:, stays]
+        if np.linalg.eigvalsh(energy).min() > 0:
+            break
+    root = np.linalg.cholesky(energy)
     count, block = csgraph.connected_components(turn, directed=False)
     for mixed in (block == i for i in range(count)):
         most = max(most, np.linalg.norm(np.linalg.solve(root, form[mixed].T), 2) * np.linalg.norm(

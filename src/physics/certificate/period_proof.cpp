@@ -188,10 +188,11 @@ double normOf(const MatrixXd& matrix) {
 }
 
 /// How many times the root of the energy that a motion begins with may become that of a part of it
-/// that goes by itself: with E of displacements and of what modules are about to move by, and the
-/// rows of G and columns of G^-1 that a period mixes, |G E^-1/2| |E^1/2 G^-1|. What coordinates are
-/// measured in does not matter, nor that light modules go far. Over what is allowed, times
-/// kBreathing. Infinity where E is not positive.
+/// that goes by itself: with E of the displacements x and of what modules are about to move by, u,
+/// as the scheme keeps it at one rate, x'Kx + x'Ku + u'Mu/h^2, and the rows of G and columns of
+/// G^-1 that a period mixes, |G E^-1/2| |E^1/2 G^-1|. What coordinates are measured in does not
+/// matter, nor that light modules go far. Over what is allowed, times kBreathing. Infinity where E
+/// is not positive.
 double energyConditionOf(const MatrixXd& form,
                          const MatrixXd& turn,
                          const std::vector<Index>& bodies,
@@ -204,23 +205,31 @@ double energyConditionOf(const MatrixXd& form,
     }
   }
   const auto places = static_cast<Index>(kept.size());
-  MatrixXd stiffness(places, places);
-  MatrixXd seen(form.rows(), form.rows());
+  const Index size = places + modules;
+  MatrixXd energy = MatrixXd::Zero(size, size);
+  MatrixXd seen(form.rows(), size);
   for (Index i = 0; i < places; ++i) {
-    seen.col(i) = form.col(kept[static_cast<std::size_t>(i)]);
+    const Index from = kept[static_cast<std::size_t>(i)];
+    seen.col(i) = form.col(from);
     for (Index j = 0; j < places; ++j) {
-      stiffness(i, j) =
-          period.stiffness(kept[static_cast<std::size_t>(i)], kept[static_cast<std::size_t>(j)]);
+      energy(i, j) = period.stiffness(from, kept[static_cast<std::size_t>(j)]);
     }
+    energy.row(i).tail(modules) =
+        0.5 * period.stiffness.row(from).cwiseProduct(period.units.transpose());
+    energy.col(i).tail(modules) = energy.row(i).tail(modules).transpose();
   }
+  energy.bottomRightCorner(modules, modules).diagonal() = period.inertia;
   seen.rightCols(modules) = form.rightCols(modules);
-  const Eigen::LLT<MatrixXd> root(stiffness);
+  Eigen::LLT<MatrixXd> root(energy);
+  if (root.info() != Eigen::Success) {  // between rates that need not be one
+    energy.topRightCorner(places, modules).setZero();
+    energy.bottomLeftCorner(modules, places).setZero();
+    root.compute(energy);
+  }
   if (root.info() != Eigen::Success) {
     return std::numeric_limits<double>::infinity();
   }
-  MatrixXd upper = MatrixXd::Zero(form.rows(), form.rows());
-  upper.topLeftCorner(places, places) = root.matrixU();
-  upper.bottomRightCorner(modules, modules) = period.inertia.cwiseSqrt().asDiagonal();
+  const MatrixXd upper = root.matrixU();
   const MatrixXd back = upper * seen.inverse();
   const MatrixXd rows =
       upper.transpose().triangularView<Eigen::Lower>().solve(seen.transpose()).transpose();

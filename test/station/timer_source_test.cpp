@@ -44,7 +44,7 @@ StationConfig longRecord() {
 /// Two seconds of force under the timer, and the time of every exchange.
 class LiveForce {
  public:
-  LiveForce() {
+  explicit LiveForce(const test::ReferenceThreads& reference) {
     exchanges_.reserve(1U << 16U);
     bench_.driver->watch = [this](std::int64_t, const double* forces) {
       exchanges_.push_back({forces[0], rt::monotonicNs()});
@@ -53,6 +53,11 @@ class LiveForce {
     bench_.command(Command::Type::kEngage);
     TimerOptions options = ordinary();
     options.priority = test::ReferenceThreads::kPriority - 1;
+    // Next to one reference thread, which sees what it sees. Left to move, it is sent from one to
+    // the other, and each processor stands still for less than is an excuse; and a thread that
+    // waits for a page stands still alone.
+    options.cpu = reference.firstCpu();
+    options.lock_memory = true;
     timer.start(options);
     std::this_thread::sleep_for(std::chrono::seconds(2));
     timer.stop();
@@ -138,7 +143,7 @@ class LiveForce {
 TEST(TimerSourceTest, LiveForceOfATickGoesOutWithTheExchangeThatReadsTheNextPosition) {
   const test::ReferenceThreads reference;
   test::Trials trials(reference);
-  LiveForce live;
+  LiveForce live(reference);
   live.expectInStep(trials);
   trials.expectNineOfTen();
 }

@@ -27,6 +27,9 @@ class ReferenceThreads {
   /// CLOCK_MONOTONIC, ns. What is shorter than kLeastNs is not seen.
   std::int64_t longestStallNs(std::int64_t from_ns, std::int64_t to_ns) const;
 
+  /// Of the processors that the process may run on.
+  int firstCpu() const { return processors_.front()->number; }
+
   static constexpr std::int64_t kLeastNs = 400'000;
   /// Of threads above all; what they judge stands next to them, so that other tests come after it.
   static constexpr int kPriority = 90;

@@ -6,7 +6,8 @@ import numpy as np
 from scipy import interpolate
 from scipy.sparse import csgraph
 
-NEAR, BREATHES, FADES = 30.0, 10.0, 10.0  # 1/how near modes meet; of roots of energy; more of many that fade
+NEAR, BREATHES = 30.0, 10.0  # 1/how near modes meet; of roots of energy
+FADES, FADING = 10.0, 0.99 * (1 + 1e-9)  # more of what fades; what a period leaves of that
 
 
 def slopes_of(table):
@@ -69,6 +70,7 @@ def meet(form, turn, back, stays, members, links, proof):
     root = np.linalg.cholesky(energy)
     count, block = csgraph.connected_components(turn, directed=False)
     for mixed in (block == i for i in range(count)):
+        fades = abs(np.linalg.eigvals(turn[np.ix_(mixed, mixed)])).max() < FADING
         most = max(most, np.linalg.norm(np.linalg.solve(root, form[mixed].T), 2) * np.linalg.norm(
-            root.T @ back[:, mixed], 2) / (FADES if sum(mixed) > 2 else 1.0))
+            root.T @ back[:, mixed], 2) / (FADES if fades else 1.0))
     return not ((abs(form) @ abs(back)).diagonal().max() < NEAR and most < BREATHES)

@@ -22,7 +22,7 @@ constexpr double kFixed = 1e-12;           // of the largest pivot: what a perio
 constexpr double kFading = 0.99;           // per period
 constexpr double kMeeting = 30.0;          // of |G| |G^-1|: 1/how near modes are to meeting
 constexpr double kBreathing = 10.0;        // the same of roots of the energy
-constexpr double kFadingBreathes = 100.0;  // of many rows at once, which fade: a bound from far
+constexpr double kFadingBreathes = 100.0;  // of what fades, all at once: a bound from far
 constexpr double kMostOff = 5e-10;         // of what G s becomes
 constexpr int kDoublings = 40;
 constexpr double kAlike = 1e-6;     // of places of bodies
@@ -193,8 +193,10 @@ double normOf(const MatrixXd& matrix) {
 /// G^-1 that a period mixes, |G E^-1/2| |E^1/2 G^-1|. What coordinates are measured in does not
 /// matter, nor that light modules go far. Over what is allowed, times kBreathing. Infinity where E
 /// is not positive.
+/// \param lasting  rows that hardly fade, the first ones
 double energyConditionOf(const MatrixXd& form,
                          const MatrixXd& turn,
+                         Index lasting,
                          const std::vector<Index>& bodies,
                          const Period& period) {
   const Index modules = period.units.size();
@@ -236,7 +238,7 @@ double energyConditionOf(const MatrixXd& form,
   double most = 0.0;
   for (Index first = 0, end = 0; first < turn.rows(); first = end) {
     end = endOfBlock(turn, first);
-    const double fading = end - first > 2 ? kFadingBreathes / kBreathing : 1.0;
+    const double fading = first >= lasting ? kFadingBreathes / kBreathing : 1.0;
     const double much =
         normOf(rows.middleRows(first, end - first)) * normOf(back.middleCols(first, end - first));
     most = std::max(most, much / fading);
@@ -338,7 +340,8 @@ std::optional<PeriodProof> proofOf(const Period& period, const std::vector<Matri
   }
   PeriodProof proof{{}, 0, period.modules, form.rows * kept.transpose(), form.turn};
   if (!(conditionOf(proof.form, staying->bodies) < kMeeting) ||
-      !(energyConditionOf(proof.form, proof.turn, staying->bodies, period) < kBreathing) ||
+      !(energyConditionOf(proof.form, proof.turn, lasting.rows.rows(), staying->bodies, period) <
+        kBreathing) ||
       RoundedModes(matrix, roundings).mayGrow()) {
     return std::nullopt;
   }

@@ -115,6 +115,7 @@ TEST(PeriodProofTest, ModesThatNearlyMeetAreNoProof) {
     return proofOf(periodOf(matrix), {}).has_value();
   };
   EXPECT_FALSE(isProven(1e-6));
+  EXPECT_FALSE(isProven(1e-3));
   EXPECT_TRUE(isProven(1e-2));
 }
 

@@ -184,8 +184,8 @@ bool isHeldByHardening(SmallScene small, unsigned seed) {
 }
 
 /// Where schemes are left to the station. Of tables fewer are: many drive, for ever or up to a
-/// speed, and nothing around them brakes as much. What is vouched for counts as holding: that is the
-/// search above.
+/// speed, and nothing around them brakes as much. What is vouched for counts as holding: that is
+/// the search above.
 TEST(SmallScenesTest, NearlyAllThatHoldsIsVouchedFor) {
   struct Share {
     int holding = 0;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "ergotic/rt/clock.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::test {
@@ -55,16 +56,6 @@ class DeviceLog {
   std::vector<ForceRecord> records_;
 };
 
-/// Whether a force was felt for the last 100 ms, to a twentieth of it.
-inline bool isSteady(const std::vector<ForceRecord>& forces, double force_n) {
-  constexpr std::int64_t kSteadyNs = 100'000'000;
-  const std::int64_t from_ns = forces.empty() ? 0 : forces.back().time_ns - kSteadyNs;
-  return !forces.empty() && forces.front().time_ns < from_ns &&
-         std::all_of(forces.begin(), forces.end(), [=](const ForceRecord& at) {
-           return at.time_ns < from_ns || std::abs(at.force_n - force_n) < 0.05 * std::abs(force_n);
-         });
-}
-
 /// 0 before the first record.
 inline double forceAt(const std::vector<ForceRecord>& forces, std::int64_t time_ns) {
   double force = 0.0;
@@ -74,6 +65,20 @@ inline double forceAt(const std::vector<ForceRecord>& forces, std::int64_t time_
     }
   }
   return force;
+}
+
+/// Whether a force has been felt for the last 100 ms, to a twentieth of it. One that rests is not
+/// noted again.
+inline bool isSteady(const std::vector<ForceRecord>& forces, double force_n) {
+  constexpr std::int64_t kSteadyNs = 100'000'000;
+  const std::int64_t from_ns = rt::monotonicNs() - kSteadyNs;
+  const auto is_near = [=](double felt) {
+    return std::abs(felt - force_n) < 0.05 * std::abs(force_n);
+  };
+  return is_near(forceAt(forces, from_ns)) &&
+         std::all_of(forces.begin(), forces.end(), [&](const ForceRecord& at) {
+           return at.time_ns < from_ns || is_near(at.force_n);
+         });
 }
 
 }  // namespace ergotic::test

@@ -201,7 +201,7 @@ class StationProcess {
 };
 
 // The board falls out of its slot after so many ticks, in which the station has to have played.
-constexpr int kPluggedInS = 10;
+constexpr int kPluggedInS = 6;
 constexpr int kUnpluggedS = 2;
 constexpr double kBoardWall = 1000.0;  // N/m
 

@@ -41,10 +41,15 @@ class PushedStation {
     node_.setParam("/station/frozen", 0.0);
     node_.setParam("/station/autoengage", true);
     std::filesystem::create_directories(folder_);
-    std::ofstream(folder_ / "gesture.csv") << "time_s,slice,target_m\n0,0,0\n0.2,0,0.046\n";
+    // A hand that is no deeper in the wall when force comes than the wall can push it back.
+    std::ofstream(folder_ / "gesture.csv") << "time_s,slice,target_m\n0,0,0\n0.2,0,0.02\n";
+    std::ofstream(folder_ / "hand.yaml")
+        << "devices:\n  - driver: virtual\n    settings: {mechanics: "
+           "{hand_stiffness: 3000, hand_damping: 30}}\n";
     device_ = std::make_unique<ChildProcess>(std::vector<std::string>{
-        toolPath("virtual_tgr"), "--shm", segment_, "--gesture", (folder_ / "gesture.csv").string(),
-        "--log", log_.string(), "--priority", "70", "--watchdog-ms", std::to_string(watchdog_ms)});
+        toolPath("virtual_tgr"), "--shm", segment_, "--device", (folder_ / "hand.yaml").string(),
+        "--gesture", (folder_ / "gesture.csv").string(), "--log", log_.string(), "--priority", "70",
+        "--watchdog-ms", std::to_string(watchdog_ms)});
     station_ = startStation(environment);
   }
   ~PushedStation() {
@@ -75,6 +80,15 @@ class PushedStation {
     const auto& forces = device_log_.read();
     const bool is_free = !forces.empty() && forces.back().force_n == 0.0;
     return is_free ? std::optional(forces.back().time_ns) : std::nullopt;
+  }
+  /// Whether the device felt none for a moment at least.
+  bool wasFreeSince(std::int64_t time_ns) {
+    return eventually([=] {
+      const auto& forces = device_log_.read();
+      return std::any_of(forces.begin(), forces.end(), [=](const ForceRecord& at) {
+        return at.time_ns >= time_ns && at.force_n == 0.0;
+      });
+    });
   }
   /// For a moment at least: where ticks stall all the time, force is never steady.
   bool wasPushed() {

@@ -75,7 +75,8 @@ add_dependencies(drivers_rostest
 # Who reaches a station from another host, with masters of its own.
 add_test(NAME integration.remote
   COMMAND ${in_devel_space} ${PROJECT_SOURCE_DIR}/test/integration/remote_test.py)
-set_tests_properties(integration.remote PROPERTIES TIMEOUT 300 LABELS integration)
+set_tests_properties(integration.remote PROPERTIES
+  TIMEOUT 300 LABELS integration FIXTURES_REQUIRED trials)
 
 # roslaunch reads the file, finds every package and every substitution, and names the nodes.
 file(GLOB launch_files CONFIGURE_DEPENDS launch/*.launch)

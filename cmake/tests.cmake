@@ -104,12 +104,15 @@ add_test(NAME scripts.documents
 add_test(NAME scripts.compare_builds
   COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/compare_builds_test.py
           $<TARGET_FILE_DIR:render>)
-# Those that take longest begin first, or a processor is idle at the end.
-set_tests_properties(scripts.build scripts.compare_builds PROPERTIES COST 50)
+# Those that take longest begin first, or a processor is idle at the end. They say that they need
+# what all others need, for those that need nothing come last whatever they cost.
+set_tests_properties(scripts.build scripts.compare_builds PROPERTIES
+  COST 50 FIXTURES_REQUIRED trials)
 if(ERGOTIC_ROS)
   add_test(NAME integration.spaces
     COMMAND ${PROJECT_SOURCE_DIR}/test/integration/spaces.sh
             ${PROJECT_BINARY_DIR} ${CATKIN_DEVEL_PREFIX})
-  set_tests_properties(integration.spaces PROPERTIES TIMEOUT 300 LABELS integration COST 30)
+  set_tests_properties(integration.spaces PROPERTIES
+    TIMEOUT 300 LABELS integration COST 30 FIXTURES_REQUIRED trials)
   set_tests_properties(integration.typed integration.remote PROPERTIES COST 40)
 endif()

@@ -33,7 +33,7 @@ function(ergotic_add_gtests room)
   # JACK has one registry for all servers of a user, and may refuse two clients that come at once.
   set(lock "")
   if(room MATCHES "^(audio|tgr_jack)$")
-    set(lock RESOURCE_LOCK jack)
+    set(lock RESOURCE_LOCK jack COST 20)  # one after the other, and so from the beginning
   endif()
   gtest_discover_tests(ergotic_${room}_test
     TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 60

@@ -6,7 +6,7 @@ import numpy as np
 from scipy import interpolate
 from scipy.sparse import csgraph
 
-NEAR, BREATHES = 30.0, 10.0  # 1/how near modes meet; of roots of energy
+NEAR, BREATHES, LENDS = 30.0, 10.0, 1000.0  # 1/how near modes meet; of roots of energy that is kept, and that is lent
 FADES, FADING = 10.0, 0.99 * (1 + 1e-9)  # more of what fades; what a period leaves of that
 
 
@@ -51,9 +51,22 @@ def matched(slow, fast, square):
         4 * math.exp(-fade) * swing(root / 2) ** 2, square) + math.exp(-2 * fast) - math.exp(-2 * fade)
 
 
+def breathes(energy, form, turn, back):
+    """|rows of G E^-1/2| |columns of E^1/2 G^-1| of what a period mixes, at most."""
+    if np.linalg.eigvalsh(energy).min() <= 0:
+        return math.inf
+    root, most = np.linalg.cholesky(energy), 0.0
+    count, block = csgraph.connected_components(turn, directed=False)
+    for mixed in (block == i for i in range(count)):
+        fades = abs(np.linalg.eigvals(turn[np.ix_(mixed, mixed)])).max() < FADING
+        most = max(most, np.linalg.norm(np.linalg.solve(root, form[mixed].T), 2) * np.linalg.norm(
+            root.T @ back[:, mixed], 2) / (FADES if fades else 1.0))
+    return most
+
+
 def meet(form, turn, back, stays, members, links, proof):
-    """Whether a motion may become too many times as large: coordinate by coordinate, or by energy, E of displacements
-    and of what modules are about to move by: |rows of G E^-1/2| |columns of E^1/2 G^-1| of what a period mixes."""
+    """Whether a motion may become too many times as large: coordinate by coordinate, or by energy, of displacements and
+    of what modules are about to move by, as the scheme keeps it at one rate (if positive), and without its cross."""
     of, n = [proof.modules[m] for m in members], len(members)
     springs = np.diag([m["K"][0] for m in of])
     for link in links:
@@ -62,15 +75,8 @@ def meet(form, turn, back, stays, members, links, proof):
             for module, weight in places[0]:
                 u[members.index(module)] += sign * weight
         springs += link["K"][0] * np.outer(u, u)
-    moves, most = np.diag([m["M"][0] / proof.step(m["divisor"]) ** 2 for m in of]), 0.0
-    for cross in (springs / 2, 0 * springs):  # as the scheme keeps it at one rate; between rates that need not be one
-        energy = np.block([[springs, cross], [cross, moves]])[stays][:, stays]
-        if np.linalg.eigvalsh(energy).min() > 0:
-            break
-    root = np.linalg.cholesky(energy)
-    count, block = csgraph.connected_components(turn, directed=False)
-    for mixed in (block == i for i in range(count)):
-        fades = abs(np.linalg.eigvals(turn[np.ix_(mixed, mixed)])).max() < FADING
-        most = max(most, np.linalg.norm(np.linalg.solve(root, form[mixed].T), 2) * np.linalg.norm(
-            root.T @ back[:, mixed], 2) / (FADES if fades else 1.0))
-    return not ((abs(form) @ abs(back)).diagonal().max() < NEAR and most < BREATHES)
+    moves = np.diag([m["M"][0] / proof.step(m["divisor"]) ** 2 for m in of])
+    kept, plain = (breathes(np.block([[springs, cross], [cross, moves]])[stays][:, stays], form, turn, back)
+                   for cross in (springs / 2, 0 * springs))
+    is_calm = plain < BREATHES if math.isinf(kept) else kept < BREATHES and plain < LENDS
+    return not ((abs(form) @ abs(back)).diagonal().max() < NEAR and is_calm)

@@ -21,7 +21,8 @@ using Eigen::MatrixXd;
 constexpr double kFixed = 1e-12;           // of the largest pivot: what a period leaves as it is
 constexpr double kFading = 0.99;           // per period
 constexpr double kMeeting = 30.0;          // of |G| |G^-1|: 1/how near modes are to meeting
-constexpr double kBreathing = 10.0;        // the same of roots of the energy
+constexpr double kBreathing = 10.0;        // the same of roots of the energy that is kept
+constexpr double kLending = 1000.0;        // and of that which steps near their limit lend
 constexpr double kFadingBreathes = 100.0;  // of what fades, all at once: a bound from far
 constexpr double kMostOff = 5e-10;         // of what G s becomes
 constexpr int kDoublings = 40;
@@ -187,47 +188,16 @@ double normOf(const MatrixXd& matrix) {
                        .maxCoeff());
 }
 
-/// How many times the root of the energy that a motion begins with may become that of a part of it
-/// that goes by itself: with E of the displacements x and of what modules are about to move by, u,
-/// as the scheme keeps it at one rate, x'Kx + x'Ku + u'Mu/h^2, and the rows of G and columns of
-/// G^-1 that a period mixes, |G E^-1/2| |E^1/2 G^-1|. What coordinates are measured in does not
-/// matter, nor that light modules go far. Over what is allowed, times kBreathing. Infinity where E
-/// is not positive.
+/// |G E^-1/2| |E^1/2 G^-1| of the rows of G and columns of G^-1 that a period mixes, at most: how
+/// many times the root of the energy E that a motion begins with may become that of a part of it
+/// that goes by itself. Infinity where E is not positive.
+/// \param seen     G without a place of each body
 /// \param lasting  rows that hardly fade, the first ones
-double energyConditionOf(const MatrixXd& form,
-                         const MatrixXd& turn,
-                         Index lasting,
-                         const std::vector<Index>& bodies,
-                         const Period& period) {
-  const Index modules = period.units.size();
-  std::vector<Index> kept;
-  for (Index column = 0; column < modules; ++column) {
-    if (std::count(bodies.begin(), bodies.end(), column) == 0) {
-      kept.push_back(column);
-    }
-  }
-  const auto places = static_cast<Index>(kept.size());
-  const Index size = places + modules;
-  MatrixXd energy = MatrixXd::Zero(size, size);
-  MatrixXd seen(form.rows(), size);
-  for (Index i = 0; i < places; ++i) {
-    const Index from = kept[static_cast<std::size_t>(i)];
-    seen.col(i) = form.col(from);
-    for (Index j = 0; j < places; ++j) {
-      energy(i, j) = period.stiffness(from, kept[static_cast<std::size_t>(j)]);
-    }
-    energy.row(i).tail(modules) =
-        0.5 * period.stiffness.row(from).cwiseProduct(period.units.transpose());
-    energy.col(i).tail(modules) = energy.row(i).tail(modules).transpose();
-  }
-  energy.bottomRightCorner(modules, modules).diagonal() = period.inertia;
-  seen.rightCols(modules) = form.rightCols(modules);
-  Eigen::LLT<MatrixXd> root(energy);
-  if (root.info() != Eigen::Success) {  // between rates that need not be one
-    energy.topRightCorner(places, modules).setZero();
-    energy.bottomLeftCorner(modules, places).setZero();
-    root.compute(energy);
-  }
+double conditionIn(const MatrixXd& energy,
+                   const MatrixXd& seen,
+                   const MatrixXd& turn,
+                   Index lasting) {
+  const Eigen::LLT<MatrixXd> root(energy);
   if (root.info() != Eigen::Success) {
     return std::numeric_limits<double>::infinity();
   }
@@ -244,6 +214,47 @@ double energyConditionOf(const MatrixXd& form,
     most = std::max(most, much / fading);
   }
   return most;
+}
+
+/// How far motions may breathe, over what is allowed: in the energy of the displacements x and of
+/// what modules are about to move by, u, as the scheme keeps it at one rate, x'Kx + x'Ku +
+/// u'Mu/h^2, where that is positive (between rates it need not be), and in x'Kx + u'Mu/h^2. What
+/// coordinates are measured in does not matter, nor that light modules go far.
+double breathingOf(const MatrixXd& form,
+                   const MatrixXd& turn,
+                   Index lasting,
+                   const std::vector<Index>& bodies,
+                   const Period& period) {
+  const Index modules = period.units.size();
+  std::vector<Index> kept;
+  for (Index column = 0; column < modules; ++column) {
+    if (std::count(bodies.begin(), bodies.end(), column) == 0) {
+      kept.push_back(column);
+    }
+  }
+  const auto places = static_cast<Index>(kept.size());
+  const Index size = places + modules;
+  MatrixXd plain = MatrixXd::Zero(size, size);
+  MatrixXd seen(form.rows(), size);
+  MatrixXd cross(places, modules);
+  for (Index i = 0; i < places; ++i) {
+    const Index from = kept[static_cast<std::size_t>(i)];
+    seen.col(i) = form.col(from);
+    for (Index j = 0; j < places; ++j) {
+      plain(i, j) = period.stiffness(from, kept[static_cast<std::size_t>(j)]);
+    }
+    cross.row(i) = 0.5 * period.stiffness.row(from).cwiseProduct(period.units.transpose());
+  }
+  plain.bottomRightCorner(modules, modules).diagonal() = period.inertia;
+  seen.rightCols(modules) = form.rightCols(modules);
+  MatrixXd as_kept = plain;
+  as_kept.topRightCorner(places, modules) = cross;
+  as_kept.bottomLeftCorner(modules, places) = cross.transpose();
+
+  const double in_plain = conditionIn(plain, seen, turn, lasting);
+  const double in_kept = conditionIn(as_kept, seen, turn, lasting);
+  return std::isinf(in_kept) ? in_plain / kBreathing
+                             : std::max(in_kept / kBreathing, in_plain / kLending);
 }
 
 /// What rounding does to the modes of a period: in their eigenvectors, one matrix for each case.
@@ -340,8 +351,7 @@ std::optional<PeriodProof> proofOf(const Period& period, const std::vector<Matri
   }
   PeriodProof proof{{}, 0, period.modules, form.rows * kept.transpose(), form.turn};
   if (!(conditionOf(proof.form, staying->bodies) < kMeeting) ||
-      !(energyConditionOf(proof.form, proof.turn, lasting.rows.rows(), staying->bodies, period) <
-        kBreathing) ||
+      !(breathingOf(proof.form, proof.turn, lasting.rows.rows(), staying->bodies, period) < 1.0) ||
       RoundedModes(matrix, roundings).mayGrow()) {
     return std::nullopt;
   }

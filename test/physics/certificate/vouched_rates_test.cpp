@@ -85,6 +85,17 @@ TEST(VouchedRatesTest, SlowGrowthOfTwoRatesIsGrowth) {
   EXPECT_EQ(certified(53.9054, -3.856e-6).verdict, Verdict::kPassive);
 }
 
+// Its steps are within 2e-5 of the limit, and 2 J come to a million. One rate lends a million, too,
+// at the limit that is vouched for.
+TEST(VouchedRatesTest, WhatLendsMoreThanOneRateMayIsNotVouchedFor) {
+  SceneBuilder b;
+  const int light =
+      b.mass(0.0102795860132335, 0.000553507186320735, 6.97434537201312, SceneBuilder::kGestural);
+  const int heavy = b.mass(416.448027383063, -0.000553507186320735, -1.23687904751738e-05);
+  b.spring(light, heavy, 407991.306543147, 0.000287518714261453);
+  expectRefused(b, 14, 2.0, 1e5);
+}
+
 TEST(VouchedRatesTest, DampersThatComeAndGoDrive) {
   SceneBuilder b;
   const int mass = b.mass(1.0, 1e-4, 1.0);

@@ -21,12 +21,17 @@ def slopes_of(table):
     return min(slopes), max(slopes)
 
 
+def value_of(table, at):
+    """Held beyond its ends."""
+    x, y = np.array(table["points"] if table else [[0, 0], [1, 0]], dtype=float).T
+    is_smooth = table and table["interpolation"] == "monotone"
+    return float(interpolate.PchipInterpolator(x, y)(np.clip(at, x[0], x[-1])) if is_smooth else np.interp(at, x, y))
+
+
 def brakes(table):
     """Whether its force, but for what is there at rest, is against all that moves."""
     x, y = np.array(table["points"], dtype=float).T
-    rest = np.clip(0.0, x[0], x[-1])
-    is_smooth = table["interpolation"] == "monotone"
-    work = (y - (interpolate.PchipInterpolator(x, y)(rest) if is_smooth else np.interp(rest, x, y))) * x
+    work = (y - value_of(table, 0.0)) * x
     return (np.diff(y) >= 0).all() or (work >= -1e-12 * abs(x * y).max()).all()
 
 
@@ -34,6 +39,20 @@ def push_out(tables):
     """Whether elastic and viscous force together, held beyond the ends, push outwards or drive."""
     lows, highs = [table[0][1] for table in tables], [table[-1][1] for table in tables]
     return any(low > high for low, high in zip(lows, highs)) or sum(lows) > 0 or sum(highs) < 0
+
+
+def is_push(link, k, z, e0, still):
+    """Whether -k (e - e0) - z v is what may be taken from a table, of which the rest then neither pushes outwards
+    nor drives; still: its elongation while nothing moves."""
+    elastic, viscous = link.get("elastic"), link.get("viscous")
+    rest, near = value_of(viscous, 0.0), lambda a, b, most=0.0: math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-9 * most)
+    low, high = (y + rest for y in (elastic["points"][0][1], elastic["points"][-1][1])) if elastic else (rest, rest)
+    if not near(z, 0.0 if viscous is None or brakes(viscous) else -slopes_of(viscous)[0]):
+        return False
+    if low <= high:
+        return k >= 0 and near(k * e0, np.clip(0.0, low, high)) and (k > 0) == (low > 0 or high < 0)
+    most = max(abs(y) for _, y in elastic["points"])
+    return near(k, -slopes_of(elastic)[0]) and near(k * (e0 - still), value_of(elastic, still) + rest, most)
 
 
 def relaxed(link, stiffness, span_of, step):

@@ -10,7 +10,7 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse import csgraph
 
-from proof_laws import brakes, slopes_of
+from proof_laws import brakes, is_push, slopes_of
 from proof_scene import AXES, CHAPLET, DEFAULTS, PARTS, Said, axes_of, scaled
 
 MOST_RAISED = 100  # modules of a section
@@ -53,6 +53,14 @@ def ends_of(link, places, modules):
     if "weights" in link:
         return [[[[m, w] for m, w in zip(link["between"], link["weights"]) if modules[m]["free"]]], [[]]]
     return [places.get(m, [[[m, 1.0]] if modules[m]["free"] else []]) for m in link["between"]]
+
+
+def apart(a, b):
+    """A place less another, each module once."""
+    sums = {}
+    for m, w in [*a, *((m, -w) for m, w in b)]:
+        sums[m] = sums.get(m, 0.0) + w
+    return [(m, w) for m, w in sums.items() if w]
 
 
 def need_all_keys(proof):
@@ -191,9 +199,8 @@ class Comparison:
                 if part == "tension":
                     is_part = is_part and self.is_stretched(link, split)
                     known[stem] = whole(link, split)
-                elif not (link["type"] == "table" and max(gives := (times(split["stiffness"]), times(split["damping"])))
-                          <= 0 > min(gives)):
-                    is_part = False
+                else:
+                    is_part = is_part and link["type"] == "table" and self.is_pushed(link, split)
                 if not is_part:
                     yield f"{name}: it is no part of {stem}"
         for name, link in known.items():
@@ -218,6 +225,11 @@ class Comparison:
         is_slack = link["rest_length"] == times(link["stiffness"]) == 0
         return split["rest_length"] == 0 == times((link if is_straight else split)["damping"]) and (
             is_slack or math.isclose(link["rest_length"], self.length_of(link), rel_tol=1e-9))
+
+    def is_pushed(self, link, split):
+        still = np.subtract(*(self.said.mats[end].get("lies", [math.nan])[0] for end in link["between"]))
+        return is_push(link, -times(split["stiffness"]), -times(split["damping"]),
+                       split["rest_length"] - link["rest_length"], still - link["rest_length"])
 
     def is_filtered(self, link, keys):
         """By its own word, or by that of a slice, which may mean a filter or none."""

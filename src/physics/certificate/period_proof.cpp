@@ -30,6 +30,7 @@ constexpr double kAlike = 1e-6;     // of places of bodies
 constexpr double kStaying = 1e-10;  // of a body, whatever rounds
 constexpr double kNear = 0.1;       // of eigenvalues that rounding might bring together
 constexpr double kSlow = 1e-8;      // per period, of growth that is none
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Rows that a period makes B times themselves.
 struct Form {
@@ -199,7 +200,7 @@ double conditionIn(const MatrixXd& energy,
                    Index lasting) {
   const Eigen::LLT<MatrixXd> root(energy);
   if (root.info() != Eigen::Success) {
-    return std::numeric_limits<double>::infinity();
+    return kInfinity;
   }
   const MatrixXd upper = root.matrixU();
   const MatrixXd back = upper * seen.inverse();
@@ -211,6 +212,9 @@ double conditionIn(const MatrixXd& energy,
     const double fading = first >= lasting ? kFadingBreathes / kBreathing : 1.0;
     const double much =
         normOf(rows.middleRows(first, end - first)) * normOf(back.middleCols(first, end - first));
+    if (!std::isfinite(much)) {
+      return kInfinity;
+    }
     most = std::max(most, much / fading);
   }
   return most;

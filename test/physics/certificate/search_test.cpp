@@ -26,10 +26,12 @@ constexpr double kGrown = 3.0;    // over eight times as long
 // the square of the time at most, until its losses are as large.
 constexpr double kRunAway = 100.0;
 
-/// The largest kinetic energy in the quarters of a performance.
+/// The largest kinetic energy in the quarters of a performance, and what is kept in all.
 struct Quarters {
   double most[4] = {0.0, 0.0, 0.0, 0.0};
   double start = 0.0;
+  double kept_first = 0.0;
+  double kept_last = 0.0;
   bool is_blown_up = false;
   double growth() const { return is_blown_up ? kBlownUp : most[3] / std::max(most[0], start); }
 };
@@ -48,7 +50,9 @@ Quarters play(const scene::Scene& scene, const Rates& rates, int frames, Precisi
     }
     if (n == 0) {
       quarters.start = kinetic + std::abs(energies.stored);
+      quarters.kept_first = energies.stored;
     }
+    quarters.kept_last = energies.stored;
     double& most = quarters.most[4 * n / ticks];
     most = std::max(most, kinetic);
     if (!(kinetic <= kBlownUp * quarters.start)) {
@@ -61,10 +65,11 @@ Quarters play(const scene::Scene& scene, const Rates& rates, int frames, Precisi
 
 /// Steps near their limit lend kinetic energy, up to 1/margin times what is kept, and a contact may
 /// take long until it has brought it there. That is no growth where it ends: over eight times as
-/// long there has to be no more than that, and no more than before by what would be growth.
+/// long there has to be no more than that, no more than before by what would be growth, and of what
+/// is kept nothing more than at the start.
 bool isLent(const Quarters& before, const Quarters& later, double margin) {
   return !later.is_blown_up && later.most[3] <= later.start / margin &&
-         later.most[3] <= kGrown * before.most[3];
+         later.most[3] <= kGrown * before.most[3] && later.kept_last <= later.kept_first;
 }
 
 bool grows(const scene::Scene& scene,

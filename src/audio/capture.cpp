@@ -18,6 +18,7 @@ namespace ergotic::audio {
 namespace {
 
 constexpr std::int64_t kLookNs = 200'000'000;  // at servers and ports that are not there yet
+constexpr int kLooksAlike = 5;
 constexpr std::int64_t kDrainNs = 20'000'000;
 constexpr double kRingSeconds = 4.0;
 
@@ -68,11 +69,12 @@ class Search {
     if (!config_.match.empty()) {
       const std::vector<std::string> matching = session_->findSources(config_.match);
       found.insert(found.end(), matching.begin(), matching.end());
-      // A client may be at registering its ports: believe what two looks agree on.
+      // A client may be at registering its ports, on a busy machine for long: believe what all
+      // looks of a second agree on.
       missing_ = "no stable set of ports matching `" + config_.match + "`";
-      if (matching.empty() || found != std::exchange(sources_, found)) {
-        return false;
-      }
+      alike_ = found == sources_ ? alike_ + 1 : 1;
+      sources_ = found;
+      return !matching.empty() && alike_ >= kLooksAlike;
     }
     sources_ = found;
     return true;
@@ -82,6 +84,7 @@ class Search {
   std::shared_ptr<Semaphore> wake_;
   std::unique_ptr<JackSession> session_;
   std::vector<std::string> sources_;
+  int alike_ = 0;  // looks that found these
   std::string missing_;
 };
 

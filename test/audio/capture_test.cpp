@@ -92,6 +92,7 @@ TEST_F(CaptureTest, WaitsForPortsThatMatchAndRecordsThemInOrder) {
   JackHost sender(sender_config_, probe_);
   const CaptureReport report = recording.get();
   EXPECT_EQ(names, (std::vector<std::string>{"sender:out_1", "sender:out_2", "sender:out_3"}));
+  EXPECT_EQ(report.message, "");
   EXPECT_EQ(report.frames, 22050);
   EXPECT_EQ(WavReader(config_.path).channels(), 3);
 }

@@ -28,13 +28,13 @@ void checkCalibration(const SliceCalibration& calibration, const std::string& of
 
 /// Reads one slice. \param what  for messages. \throws TextError
 SliceCalibration readSliceCalibration(const Settings& settings,
-                                      const YAML::Node& node,
+                                      const scene::Node& node,
                                       const std::string& what,
                                       scene::Place fallback);
 
 /// Reads a list of slices. \throws TextError
 std::vector<SliceCalibration> readSliceCalibrations(const Settings& settings,
-                                                    const YAML::Node& list,
+                                                    const scene::Node& list,
                                                     scene::Place place);
 
 /// The list alone, on one line.

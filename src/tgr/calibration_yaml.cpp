@@ -52,11 +52,11 @@ std::string sliceText(const SliceCalibration& calibration) {
 }  // namespace
 
 SliceCalibration readSliceCalibration(const Settings& settings,
-                                      const YAML::Node& node,
+                                      const scene::Node& node,
                                       const std::string& what,
                                       Place fallback) {
   SliceCalibration calibration;
-  if (node.IsNull()) {
+  if (node.isNull()) {
     return calibration;
   }
   const Place place = scene::placeOf(node, fallback);
@@ -77,16 +77,16 @@ SliceCalibration readSliceCalibration(const Settings& settings,
 }
 
 std::vector<SliceCalibration> readSliceCalibrations(const Settings& settings,
-                                                    const YAML::Node& list,
+                                                    const scene::Node& list,
                                                     Place place) {
-  if (!list.IsSequence() || list.size() > kMaxSlices) {
+  if (!list.isList() || list.size() > kMaxSlices) {
     settings.builder().fail(place, "calibration of the slices is " + scene::kindOf(list) +
                                        ", allowed: a list of at most " +
                                        std::to_string(kMaxSlices) +
                                        " maps, one for each slice from 0 on");
   }
   std::vector<SliceCalibration> slices;
-  for (const YAML::Node& node : list) {
+  for (const scene::Node& node : list) {
     slices.push_back(readSliceCalibration(
         settings, node, "calibration of slice " + std::to_string(slices.size()), place));
   }

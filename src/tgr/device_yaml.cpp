@@ -27,15 +27,17 @@ std::string driverName(const YamlMap& map) {
   return name;
 }
 
-DeviceConfig readDevice(const Settings& file, const YAML::Node& node, Place fallback) {
+/// \param index  in the list of devices
+DeviceConfig readDevice(const Settings& file, std::size_t index, Place fallback) {
+  const scene::Node& node = file.top().at("devices")[index];
   const YamlMap map(file.builder(), node, "a device", scene::placeOf(node, fallback));
   map.allow({"driver", "settings", "calibration"});
   DeviceConfig device;
   device.driver = driverName(map);
   device.driver_at = map.placeAt("driver");
   device.place = file.builder().scene().file;
-  if (map.has("settings") && !map.at("settings").IsNull()) {
-    device.settings = std::make_shared<const YAML::Node>(map.at("settings"));
+  if (map.has("settings") && !map.at("settings").isNull()) {
+    device.settings = std::make_shared<const YAML::Node>(file.node()["devices"][index]["settings"]);
   }
   if (map.has("calibration")) {
     device.calibration_at = map.placeAt("calibration");
@@ -64,15 +66,15 @@ StationDevices readDevices(const std::string& text, const std::string& name) {
   top.allow({"devices", "end_effectors"});
   StationDevices result;
   result.file = name;
-  const YAML::Node& list = top.at("devices");
+  const scene::Node& list = top.at("devices");
   result.devices_at = top.placeAt("devices");
-  if (!list.IsSequence() || list.size() == 0 || list.size() > kMaxSlices) {
+  if (!list.isList() || list.size() == 0 || list.size() > kMaxSlices) {
     top.fail("devices", "'devices' is " + scene::kindOf(list) + ", allowed: a list of 1 to " +
                             std::to_string(kMaxSlices) +
                             " maps {driver: ..., settings: {...}, calibration: [...]}");
   }
-  for (const YAML::Node& node : list) {
-    result.devices.push_back(readDevice(file, node, result.devices_at));
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    result.devices.push_back(readDevice(file, i, result.devices_at));
   }
   result.end_effectors = readEndEffectors(text, name);
   return result;

@@ -25,16 +25,16 @@ std::vector<std::string> keysOf(const TypeTraits& traits, EndEffectorType type) 
 }
 
 std::vector<Eigen::Vector3d> readPoints(const SceneBuilder& builder, const YamlMap& map) {
-  const YAML::Node& list = map.at("points");
-  if (!list.IsSequence() || list.size() < kFewestPoints || list.size() > kMostPoints) {
+  const scene::Node& list = map.at("points");
+  if (!list.isList() || list.size() < kFewestPoints || list.size() > kMostPoints) {
     map.fail("points", "'points' of " + map.what() + " is " + scene::kindOf(list) +
                            ", allowed: a list of " + std::to_string(kFewestPoints) + " to " +
                            std::to_string(kMostPoints) + " points [x, y, z]");
   }
   std::vector<Eigen::Vector3d> points;
-  for (const YAML::Node& node : list) {
+  for (const scene::Node& node : list) {
     const Place place = scene::placeOf(node, map.placeAt("points"));
-    if (!node.IsSequence() || node.size() != 3) {
+    if (!node.isList() || node.size() != 3) {
       builder.fail(place, "a point of " + map.what() + " is " + scene::kindOf(node) +
                               ", allowed: [x, y, z]");
     }
@@ -51,17 +51,17 @@ std::vector<Eigen::Vector3d> readPoints(const SceneBuilder& builder, const YamlM
 std::vector<std::string> readPorts(const SceneBuilder& builder,
                                    const YamlMap& map,
                                    std::size_t coordinates) {
-  const YAML::Node& node = map.at("ports");
-  if (coordinates == 1 && node.IsScalar()) {
+  const scene::Node& node = map.at("ports");
+  if (coordinates == 1 && node.isScalar()) {
     return {map.word("ports")};
   }
-  if (!node.IsSequence() || node.size() != coordinates) {
+  if (!node.isList() || node.size() != coordinates) {
     map.fail("ports", "'ports' of " + map.what() + " is " + scene::kindOf(node) +
                           ", allowed: a list of " + std::to_string(coordinates) +
                           ", one for each coordinate ('': none)");
   }
   std::vector<std::string> ports;
-  for (const YAML::Node& port : node) {
+  for (const scene::Node& port : node) {
     ports.push_back(scene::wordOf(builder, port, "a port of " + map.what(), map.placeAt("ports")));
   }
   return ports;
@@ -70,7 +70,7 @@ std::vector<std::string> readPorts(const SceneBuilder& builder,
 EndEffectorConfig readOne(const SceneBuilder& builder,
                           const std::string& name,
                           Place place,
-                          const YAML::Node& node) {
+                          const scene::Node& node) {
   scene::checkName(builder, name, place);
   const YamlMap map(builder, node, "end-effector '" + name + "'", place);
   EndEffectorConfig config;
@@ -141,11 +141,11 @@ EndEffectors readEndEffectors(const std::string& text, const std::string& name) 
   settings.top().allow({"devices", "end_effectors"});
   EndEffectors end_effectors;
   end_effectors.file = name;
-  if (settings.top().has("end_effectors") && !settings.top().at("end_effectors").IsNull()) {
+  if (settings.top().has("end_effectors") && !settings.top().at("end_effectors").isNull()) {
     scene::forEachEntry(
         settings.builder(), settings.top().at("end_effectors"), "'end_effectors'",
         settings.top().keyPlaceAt("end_effectors"),
-        [&](const std::string& key, Place place, const YAML::Node& node) {
+        [&](const std::string& key, Place place, const scene::Node& node) {
           end_effectors.list.push_back(readOne(settings.builder(), key, place, node));
         });
   }

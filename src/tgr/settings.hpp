@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <yaml-cpp/yaml.h>
+
 #include <string>
 
 #include "scene/yaml/yaml_map.hpp"
@@ -32,6 +34,7 @@ class Settings {
  private:
   scene::SceneBuilder builder_;
   YAML::Node node_;
+  scene::Node tree_;  // of it
   scene::YamlMap top_;
 };
 

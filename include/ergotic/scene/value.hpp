@@ -28,6 +28,7 @@ struct Parameter {
   double value = 0.0;
   double minimum = 0.0;
   double maximum = 0.0;
+  std::string unit;  ///< SI, for readers; empty: not said
   Place place;
 };
 

@@ -24,11 +24,12 @@ bool isPart(const std::string& key) {
 }
 
 /// A map of parts, of one at least.
-bool isDocument(const YAML::Node& node) {
-  return node.IsMap() && node.size() > 0 &&
-         std::all_of(node.begin(), node.end(), [](const auto& entry) {
-           return entry.first.IsScalar() && isPart(entry.first.Scalar());
-         });
+bool isDocument(const Node& node) {
+  bool is_document = node.isMap() && node.size() > 0;
+  for (std::size_t i = 0; is_document && i < node.parts().size(); i += 2) {
+    is_document = node[i].isScalar() && isPart(node[i].text());
+  }
+  return is_document;
 }
 
 bool isFileName(const std::string& name) {
@@ -56,7 +57,7 @@ void appendPoints(std::string& text, const std::string& name, const PointList& p
 
 }  // namespace
 
-PointFiles::PointFiles(SceneBuilder& builder, const YAML::Node* document) : builder_(builder) {
+PointFiles::PointFiles(SceneBuilder& builder, const Node* document) : builder_(builder) {
   if (document == nullptr) {
     return;
   }
@@ -68,11 +69,11 @@ PointFiles::PointFiles(SceneBuilder& builder, const YAML::Node* document) : buil
                   "begins with 'tables:' or 'gestures:'");
   }
   forEachEntry(builder_, *document, "the second document", place,
-               [&](const std::string& key, Place, const YAML::Node& entries) {
+               [&](const std::string& key, Place, const Node& entries) {
                  const Part part = key == keyOf(Part::kTables) ? Part::kTables : Part::kGestures;
                  forEachEntry(builder_, entries, quoted(key) + " of the second document", place,
-                              [&](const std::string& name, Place at, const YAML::Node& points) {
-                                appended_[{part, name}] = {points, at};
+                              [&](const std::string& name, Place at, const Node& points) {
+                                appended_[{part, name}] = {&points, at};
                               });
                });
 }

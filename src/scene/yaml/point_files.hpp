@@ -25,13 +25,13 @@ class PointFiles {
 
   /// \param document  the second one, nullptr if there is none
   /// \throws TextError if it has another form
-  PointFiles(SceneBuilder& builder, const YAML::Node* document);
+  PointFiles(SceneBuilder& builder, const Node* document);
 
   /// True if no file is opened.
   bool isSelfContained() const { return self_contained_; }
 
   struct Appended {
-    YAML::Node points;
+    const Node* points = nullptr;
     Place place;
     bool used = false;
   };

@@ -5,6 +5,7 @@
 #include "ergotic/exception.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
 #include "scene/text/overrides.hpp"
+#include "scene/text/quantity.hpp"
 #include "scene/text/source_text.hpp"
 #include "scene/yaml/yaml_documents.hpp"
 #include "scene/yaml/yaml_elements.hpp"
@@ -18,9 +19,9 @@ constexpr int kFormatVersion = 1;
 constexpr std::size_t kMaxTitleBytes = 200;
 
 /// The scene, and after it the tables of its files if the text has them.
-std::vector<YAML::Node> parse(const SceneBuilder& builder, const std::string& text) {
-  std::vector<YAML::Node> documents = readDocuments(builder, text, 2, "a scene needs");
-  if (documents.empty() || documents.front().IsNull()) {
+std::vector<Node> parse(const SceneBuilder& builder, const std::string& text) {
+  std::vector<Node> documents = readDocuments(builder, text, 2, "a scene needs");
+  if (documents.empty() || documents.front().isNull()) {
     builder.fail({1, 1}, "the scene is empty, allowed: a map that begins with 'ergotic: 1'");
   }
   return documents;
@@ -52,19 +53,25 @@ void readHead(SceneBuilder& builder, const YamlMap& top, const Overrides& overri
 void readParameters(SceneBuilder& builder, const YamlMap& top) {
   forEachElement(
       builder, top, "parameters", "parameter", [&](const std::string& name, const YamlMap& map) {
-        map.allow({"value", "range"});
+        map.allow({"value", "range", "unit"});
         if (name == kGesturalRateName) {
           builder.fail(map.place(), "parameter name 'gestural_rate' is reserved");
         }
         map.at("range");
-        const std::vector<double> range = map.vector("range", 2, {});
+        const std::string unit = map.has("unit") ? map.word("unit") : "";
+        if (!unit.empty() && !isSiUnit(unit)) {
+          map.fail("unit", "unit " + quoted(unit) + " of " + map.what() +
+                               " is none, allowed: SI units without prefix, as N/m, kg, Hz");
+        }
+        const std::vector<double> range = map.vector("range", 2, {unit.c_str()});
         if (range[0] > range[1]) {
           map.fail("range", "range of " + map.what() + " is [" + numberText(range[0]) + ", " +
                                 numberText(range[1]) + "], allowed: [lowest, highest]");
         }
         Parameter parameter;
         parameter.name = name;
-        parameter.value = map.number("value", {"", range[0], range[1]});
+        parameter.unit = unit;
+        parameter.value = map.number("value", {unit.c_str(), range[0], range[1]});
         parameter.minimum = range[0];
         parameter.maximum = range[1];
         parameter.place = map.place();
@@ -125,7 +132,7 @@ void forEachElement(const SceneBuilder& builder,
     return;
   }
   forEachEntry(builder, top.at(part), "'" + part + "'", top.keyPlaceAt(part),
-               [&](const std::string& name, Place place, const YAML::Node& node) {
+               [&](const std::string& name, Place place, const Node& node) {
                  checkName(builder, name, place);
                  if (isTableOfElements(node)) {
                    const YamlMap table(builder, node, "table " + quoted(name), place);
@@ -139,7 +146,7 @@ void forEachElement(const SceneBuilder& builder,
 Scene readYaml(const std::string& text, const std::string& name, const Overrides& overrides) {
   checkBytes(text, name, Bytes::kUtf8);
   SceneBuilder builder(name, text);
-  const std::vector<YAML::Node> documents = parse(builder, text);
+  const std::vector<Node> documents = parse(builder, text);
   const YamlMap top(builder, documents.front(), "the scene", {1, 1});
   PointFiles files(builder, documents.size() > 1 ? &documents.back() : nullptr);
   YamlTables tables(builder, files);

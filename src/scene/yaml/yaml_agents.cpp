@@ -89,18 +89,18 @@ Lia handOf(const Scene& scene, const YamlMap& map, const std::string& name, int 
 }
 
 PointList knotsIn(const SceneBuilder& builder,
-                  const YAML::Node& points,
+                  const Node& points,
                   const std::string& what,
                   Place place) {
-  if (!points.IsSequence() || points.size() == 0 || points.size() > kMaxSceneTablePoints) {
+  if (!points.isList() || points.size() == 0 || points.size() > kMaxSceneTablePoints) {
     builder.fail(place, what + " is not a list of points, allowed: 1..." +
                             std::to_string(kMaxSceneTablePoints) + " pairs [s, m]");
   }
   PointList knots;
   Limits times{"s", 0.0};
-  for (const YAML::Node& point : points) {
+  for (const Node& point : points) {
     const Place at = placeOf(point, place);
-    if (!point.IsSequence() || point.size() != 2) {
+    if (!point.isList() || point.size() != 2) {
       builder.fail(at, "a point of " + what + " is not a pair of numbers");
     }
     const double time = numberOf(builder, point[0], "time of a point of " + what, times, at);
@@ -126,7 +126,7 @@ PointList knotsOfFile(const SceneBuilder& builder,
       spec.fail("file", "the gesture of agent " + quoted(name) +
                             " is not among those of the second document");
     }
-    return knotsIn(builder, appended->points, "gesture " + quoted(name), appended->place);
+    return knotsIn(builder, *appended->points, "gesture " + quoted(name), appended->place);
   }
   const PointFiles::File file = files.open(spec);
   GestureOfSlice gesture = readGestureCsv(file.text, file.path, slice);

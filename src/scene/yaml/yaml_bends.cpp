@@ -16,12 +16,12 @@ void refuse(const YamlMap& map, const std::string& key, const std::string& fault
 }
 
 void readEnds(const SceneBuilder& builder, const YamlMap& map, Bend& bend) {
-  const YAML::Node& ends = map.at("between");
-  if (!ends.IsSequence()) {
+  const Node& ends = map.at("between");
+  if (!ends.isList()) {
     map.fail("between", "'between' of " + map.what() + " is " + kindOf(ends) +
                             ", allowed: a list of 3...5 modules");
   }
-  for (const YAML::Node& end : ends) {
+  for (const Node& end : ends) {
     const Place place = placeOf(end, map.placeAt("between"));
     const std::string name = wordOf(builder, end, "an end of " + map.what(), place);
     bend.ends.push_back({builder.mat(name, place), 0.0});

@@ -16,11 +16,11 @@ bool isName(const std::string& text) {
 }
 
 LiaLaw::Fall readFall(const SceneBuilder& builder,
-                      const YAML::Node& part,
+                      const Node& part,
                       const std::string& what,
                       Place place) {
   const Place at = placeOf(part, place);
-  if (!part.IsSequence() || part.size() != 2) {
+  if (!part.isList() || part.size() != 2) {
     builder.fail(at, "a part of " + what + " is not a pair, allowed: [share, m/s]");
   }
   return {numberOf(builder, part[0], "share of a part of " + what, kFallShareLimits, at),
@@ -33,8 +33,8 @@ void readParts(const SceneBuilder& builder, const YamlMap& map, LiaLaw& law) {
   if (!map.has("parts")) {
     return;
   }
-  const YAML::Node& parts = map.at("parts");
-  if (!parts.IsSequence() || parts.size() < 1 || parts.size() > law.falls.size()) {
+  const Node& parts = map.at("parts");
+  if (!parts.isList() || parts.size() < 1 || parts.size() > law.falls.size()) {
     map.fail("parts", "'parts' of " + map.what() + " is not a list of 1 or 2 pairs");
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {

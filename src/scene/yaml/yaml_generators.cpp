@@ -25,15 +25,15 @@ void readGenerators(SceneBuilder& builder, const YamlMap& top) {
   if (!top.has("generators")) {
     return;
   }
-  const YAML::Node& list = top.at("generators");
-  if (!list.IsSequence()) {
+  const Node& list = top.at("generators");
+  if (!list.isList()) {
     top.fail("generators", "'generators' is not a list, allowed: a list of maps");
   }
   std::vector<std::string> kinds;
   for (const Generator& generator : kGenerators) {
     kinds.emplace_back(generator.type);
   }
-  for (const YAML::Node& node : list) {
+  for (const Node& node : list) {
     const YamlMap map(builder, node, "generator", placeOf(node, top.placeAt("generators")));
     const std::size_t type = map.choice("type", kinds);
     const std::string name = map.word("name");

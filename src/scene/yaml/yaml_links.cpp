@@ -54,21 +54,21 @@ bool contains(const Keys& list, const std::string& word) {
 }
 
 void readEnds(SceneBuilder& builder, const YamlMap& map, Lia& lia) {
-  const YAML::Node& ends = map.at("between");
-  if (!ends.IsSequence() || ends.size() != 2) {
+  const Node& ends = map.at("between");
+  if (!ends.isList() || ends.size() != 2) {
     map.fail("between",
              "'between' of " + map.what() + " is not a list of 2, allowed: [lower, upper]");
   }
   int indices[2];
   for (std::size_t i = 0; i < 2; ++i) {
-    const YAML::Node& end = ends[i];
+    const Node& end = ends[i];
     const Place place = placeOf(end, map.placeAt("between"));
     indices[i] = pointAt(builder, wordOf(builder, end, "an end of " + map.what(), place), place);
   }
   lia.a = indices[0];
   lia.b = indices[1];
   if (lia.a == lia.b) {
-    map.fail("between", map.what() + " joins module " + quoted(ends[0].Scalar()) + " to itself");
+    map.fail("between", map.what() + " joins module " + quoted(ends[0].text()) + " to itself");
   }
 }
 

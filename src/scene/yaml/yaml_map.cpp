@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "scene/text/number.hpp"
+#include "scene/text/quantity.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -21,37 +22,38 @@ bool isNameCharacter(char c) {
 
 }  // namespace
 
-std::string kindOf(const YAML::Node& node) {
-  switch (node.Type()) {
-    case YAML::NodeType::Scalar:
+std::string kindOf(const Node& node) {
+  switch (node.kind()) {
+    case Node::Kind::kScalar:
       return "a single value";
-    case YAML::NodeType::Sequence:
+    case Node::Kind::kList:
       return "a list of " + std::to_string(node.size());
-    case YAML::NodeType::Map:
+    case Node::Kind::kMap:
       return "a map";
-    default:
-      return "empty";
+    case Node::Kind::kNull:
+      break;
   }
+  return "empty";
 }
 
-Place placeOf(const YAML::Node& node, Place fallback) {
-  const YAML::Mark mark = node.Mark();  // of a missing value: wherever the next token is
-  return mark.is_null() || node.IsNull() ? fallback : Place{mark.line + 1, mark.column + 1};
+Place placeOf(const Node& node, Place fallback) {
+  // Of a missing value it is wherever the next token is.
+  return node.isNull() || node.place().line == 0 ? fallback : node.place();
 }
 
 std::string wordOf(const SceneBuilder& builder,
-                   const YAML::Node& node,
+                   const Node& node,
                    const std::string& what,
                    Place fallback) {
-  if (!node.IsScalar()) {
+  if (!node.isScalar()) {
     builder.fail(placeOf(node, fallback),
                  what + " is " + kindOf(node) + ", allowed: a single value");
   }
-  return node.Scalar();
+  return node.text();
 }
 
 double numberOf(const SceneBuilder& builder,
-                const YAML::Node& node,
+                const Node& node,
                 const std::string& what,
                 const Limits& limits,
                 Place fallback) {
@@ -68,19 +70,19 @@ double numberIn(const SceneBuilder& builder,
     builder.fail(place, what + " = " + quoted(text) +
                             " cannot follow a parameter, allowed: a constant, " + limits.text());
   }
-  const std::optional<double> number = parseNumber(text);
-  if (!number) {
-    builder.fail(
-        place, what + " = " + quoted(text) + " is not a finite number, allowed: " + limits.text());
+  const auto quantity = parseQuantity(text, limits.unit);
+  if (const auto* const none = std::get_if<NoQuantity>(&quantity)) {
+    builder.fail(place, what + " = " + quoted(text) + none->reason + ", allowed: " + limits.text());
   }
-  if (!limits.hold(*number)) {
-    builder.fail(place, outOfRange(what, *number, limits));
+  const double number = std::get<double>(quantity);
+  if (!limits.hold(number)) {
+    builder.fail(place, outOfRange(what, number, limits));
   }
-  return *number;
+  return number;
 }
 
 Value valueOf(const SceneBuilder& builder,
-              const YAML::Node& node,
+              const Node& node,
               const std::string& what,
               const Limits& limits,
               Place fallback) {
@@ -105,6 +107,10 @@ Value valueOf(const SceneBuilder& builder,
   }
   const int index = builder.parameter(trimmed(text.substr(dollar + 1)), place);
   const Parameter& parameter = builder.scene().parameters[static_cast<std::size_t>(index)];
+  if (dollar == 0 && !areOfOneKind(parameter.unit, limits.unit)) {
+    builder.fail(place, what + " follows parameter " + quoted(parameter.name) + ", which is in " +
+                            parameter.unit + ", allowed: " + limits.text());
+  }
   for (const double end : {parameter.minimum, parameter.maximum}) {
     if (!limits.hold(factor * end)) {
       builder.fail(place,
@@ -116,21 +122,21 @@ Value valueOf(const SceneBuilder& builder,
 }
 
 void forEachEntry(const SceneBuilder& builder,
-                  const YAML::Node& node,
+                  const Node& node,
                   const std::string& what,
                   Place fallback,
                   const MapEntry& entry) {
-  if (!node.IsMap()) {
+  if (!node.isMap()) {
     builder.fail(placeOf(node, fallback), what + " is " + kindOf(node) + ", allowed: a map");
   }
   std::unordered_set<std::string> seen;
-  for (const auto& pair : node) {
-    const Place place = placeOf(pair.first, fallback);
-    const std::string key = wordOf(builder, pair.first, "a key of " + what, fallback);
+  for (std::size_t i = 0; i + 1 < node.parts().size(); i += 2) {
+    const Place place = placeOf(node[i], fallback);
+    const std::string key = wordOf(builder, node[i], "a key of " + what, fallback);
     if (!seen.insert(key).second) {
       builder.fail(place, "key " + quoted(key) + " of " + what + " comes twice");
     }
-    entry(key, place, pair.second);
+    entry(key, place, node[i + 1]);
   }
 }
 
@@ -143,11 +149,11 @@ void checkName(const SceneBuilder& builder, const std::string& name, Place place
   }
 }
 
-YamlMap::YamlMap(const SceneBuilder& builder, const YAML::Node& node, std::string what, Place place)
+YamlMap::YamlMap(const SceneBuilder& builder, const Node& node, std::string what, Place place)
     : builder_(builder), what_(std::move(what)), place_(place) {
   forEachEntry(builder, node, what_, place,
-               [this](const std::string& key, Place key_place, const YAML::Node& value) {
-                 entries_.push_back({key, key_place, value});
+               [this](const std::string& key, Place key_place, const Node& value) {
+                 entries_.push_back({key, key_place, &value});
                });
 }
 
@@ -183,18 +189,18 @@ std::string YamlMap::named(const std::string& key) const {
   return quoted(key) + " of " + what_;
 }
 
-const YAML::Node& YamlMap::at(const std::string& key) const {
-  return require(key).value;
+const Node& YamlMap::at(const std::string& key) const {
+  return *require(key).value;
 }
 
 Place YamlMap::placeAt(const std::string& key) const {
   const Entry& entry = require(key);
-  return placeOf(entry.value, entry.place);
+  return placeOf(*entry.value, entry.place);
 }
 
 Place YamlMap::placeAt(const std::string& key, std::size_t index) const {
-  const YAML::Node& value = at(key);
-  return placeOf(value.IsSequence() ? value[index] : value, placeAt(key));
+  const Node& value = at(key);
+  return placeOf(value.isList() ? value[index] : value, placeAt(key));
 }
 
 Place YamlMap::keyPlaceAt(const std::string& key) const {
@@ -207,7 +213,7 @@ void YamlMap::fail(const std::string& key, const std::string& message) const {
 
 std::string YamlMap::word(const std::string& key) const {
   const Entry& entry = require(key);
-  return wordOf(builder_, entry.value, named(key), entry.place);
+  return wordOf(builder_, *entry.value, named(key), entry.place);
 }
 
 std::size_t YamlMap::choice(const std::string& key, const std::vector<std::string>& words) const {
@@ -221,7 +227,7 @@ std::size_t YamlMap::choice(const std::string& key, const std::vector<std::strin
 
 double YamlMap::number(const std::string& key, const Limits& limits) const {
   const Entry& entry = require(key);
-  return numberOf(builder_, entry.value, named(key), limits, entry.place);
+  return numberOf(builder_, *entry.value, named(key), limits, entry.place);
 }
 
 double YamlMap::number(const std::string& key, const Limits& limits, double otherwise) const {
@@ -252,7 +258,7 @@ std::vector<double> YamlMap::numbers(const std::string& key,
                                      std::size_t fewest,
                                      std::size_t most,
                                      const Limits& limits) const {
-  if (fewest == 1 && at(key).IsScalar()) {
+  if (fewest == 1 && at(key).isScalar()) {
     return {number(key, limits)};
   }
   return list(key, fewest, most, limits);
@@ -278,8 +284,8 @@ std::vector<double> YamlMap::list(const std::string& key,
                                   std::size_t fewest,
                                   std::size_t most,
                                   const Limits& limits) const {
-  const YAML::Node& node = at(key);
-  if (!node.IsSequence() || node.size() < fewest || node.size() > most) {
+  const Node& node = at(key);
+  if (!node.isList() || node.size() < fewest || node.size() > most) {
     const std::string count =
         std::to_string(fewest) + (most > fewest ? " to " + std::to_string(most) : std::string());
     fail(key, named(key) + " is " + kindOf(node) +
@@ -287,7 +293,7 @@ std::vector<double> YamlMap::list(const std::string& key,
                   (most == 1 ? " number" : " numbers"));
   }
   std::vector<double> result;
-  for (const YAML::Node& item : node) {
+  for (const Node& item : node) {
     result.push_back(numberOf(builder_, item, named(key), limits, placeAt(key)));
   }
   return result;
@@ -299,7 +305,7 @@ bool YamlMap::flag(const std::string& key, bool otherwise) const {
 
 Value YamlMap::value(const std::string& key, const Limits& limits) const {
   const Entry& entry = require(key);
-  return valueOf(builder_, entry.value, named(key), limits, entry.place);
+  return valueOf(builder_, *entry.value, named(key), limits, entry.place);
 }
 
 Value YamlMap::value(const std::string& key, const Limits& limits, const Value& otherwise) const {
@@ -308,7 +314,7 @@ Value YamlMap::value(const std::string& key, const Limits& limits, const Value& 
 
 YamlMap YamlMap::map(const std::string& key) const {
   const Entry& entry = require(key);
-  return YamlMap(builder_, entry.value, named(key), entry.place);
+  return YamlMap(builder_, *entry.value, named(key), entry.place);
 }
 
 Eigen::Isometry3d poseOf(const YamlMap& pose) {

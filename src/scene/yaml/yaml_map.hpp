@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <yaml-cpp/yaml.h>
-
 #include <functional>
 #include <initializer_list>
 #include <optional>
@@ -13,22 +11,24 @@
 
 #include "scene/generate/scene_builder.hpp"
 #include "scene/limits.hpp"
+#include "scene/yaml/node.hpp"
 
 namespace ergotic::scene {
 
-/// Where a node begins; `fallback` if it is empty or yaml-cpp does not know.
-Place placeOf(const YAML::Node& node, Place fallback);
+/// Where a node begins; `fallback` if it is empty or that is not known.
+Place placeOf(const Node& node, Place fallback);
 
 /// What a node is, for messages, as in `a list of 3`.
-std::string kindOf(const YAML::Node& node);
+std::string kindOf(const Node& node);
 
 /// Text of a scalar. \throws TextError if it is not one
 std::string wordOf(const SceneBuilder& builder,
-                   const YAML::Node& node,
+                   const Node& node,
                    const std::string& what,
                    Place fallback);
 
-/// A constant. \throws TextError at `place` if it is no finite number within the limits
+/// A constant, with a unit of the kind of the limits or without: \see parseQuantity().
+/// \throws TextError at `place` if it is no finite number within the limits
 double numberIn(const SceneBuilder& builder,
                 const std::string& text,
                 const std::string& what,
@@ -37,7 +37,7 @@ double numberIn(const SceneBuilder& builder,
 
 /// The constant in a scalar. \throws TextError as `wordOf` and `numberIn`
 double numberOf(const SceneBuilder& builder,
-                const YAML::Node& node,
+                const Node& node,
                 const std::string& what,
                 const Limits& limits,
                 Place fallback);
@@ -45,16 +45,16 @@ double numberOf(const SceneBuilder& builder,
 /// A number, `$name` or `number*$name`, legal over the parameter's whole range.
 /// \throws TextError as `numberOf`, or if there is no such parameter
 Value valueOf(const SceneBuilder& builder,
-              const YAML::Node& node,
+              const Node& node,
               const std::string& what,
               const Limits& limits,
               Place fallback);
 
 /// Calls `entry` for every pair of a map in the order of the text.
 /// \throws TextError if it is not a map, or a key is not a scalar or comes twice
-using MapEntry = std::function<void(const std::string& key, Place place, const YAML::Node& value)>;
+using MapEntry = std::function<void(const std::string& key, Place place, const Node& value)>;
 void forEachEntry(const SceneBuilder& builder,
-                  const YAML::Node& node,
+                  const Node& node,
                   const std::string& what,
                   Place fallback,
                   const MapEntry& entry);
@@ -70,11 +70,12 @@ class YamlMap {
   struct Entry {
     std::string key;
     Place place;
-    YAML::Node value;
+    const Node* value = nullptr;
   };
+  /// \param node   must outlive it
   /// \param what   for messages, as in `module 'm'`
   /// \param place  of the element
-  YamlMap(const SceneBuilder& builder, const YAML::Node& node, std::string what, Place place);
+  YamlMap(const SceneBuilder& builder, const Node& node, std::string what, Place place);
 
   /// Of entries that were read elsewhere. \pre no key comes twice
   YamlMap(const SceneBuilder& builder, std::vector<Entry> entries, std::string what, Place place);
@@ -82,7 +83,7 @@ class YamlMap {
   /// \throws TextError at the first key that is not among these
   void allow(const std::vector<std::string>& keys) const;
   bool has(const std::string& key) const { return find(key) != nullptr; }
-  const YAML::Node& at(const std::string& key) const;
+  const Node& at(const std::string& key) const;
   Place placeAt(const std::string& key) const;  ///< of the value
   /// Of an item of a list, or of the number that stands in place of a list.
   Place placeAt(const std::string& key, std::size_t index) const;

@@ -100,13 +100,13 @@ Mat readMat(const SceneBuilder& builder, const std::string& name, const YamlMap&
 
 /// `of: key` or `of: [a, b]`.
 std::vector<Tap::Share> readModules(const SceneBuilder& builder, const YamlMap& map) {
-  const YAML::Node& of = map.at("of");
-  if (of.IsSequence() && of.size() == 0) {
+  const Node& of = map.at("of");
+  if (of.isList() && of.size() == 0) {
     map.fail("of", "'of' of " + map.what() + " is empty, allowed: one module at least");
   }
   std::vector<Tap::Share> shares;
-  for (std::size_t i = 0; i < (of.IsSequence() ? of.size() : 1); ++i) {
-    const YAML::Node& node = of.IsSequence() ? of[i] : of;
+  for (std::size_t i = 0; i < (of.isList() ? of.size() : 1); ++i) {
+    const Node& node = of.isList() ? of[i] : of;
     const Place place = placeOf(node, map.placeAt("of"));
     const int mat = builder.mat(wordOf(builder, node, "a module of " + map.what(), place), place);
     shares.push_back({mat, 1.0});

@@ -28,15 +28,15 @@ std::optional<YamlMap> saidOf(const SceneBuilder& builder,
   if (!is_list) {
     return way == 0 ? std::optional<YamlMap>(map) : std::nullopt;
   }
-  const YAML::Node& both = map.at(key);
+  const Node& both = map.at(key);
   if (both.size() != 2) {
     map.fail(key, quoted(key) + " of " + map.what() + " is a list of " +
                       std::to_string(both.size()) + ", allowed: [along, across]");
   }
-  if (both[way].IsNull()) {
+  if (both[way].isNull()) {
     return std::nullopt;
   }
-  return YamlMap(builder, {{key, map.placeAt(key, way), both[way]}}, map.what(), map.place());
+  return YamlMap(builder, {{key, map.placeAt(key, way), &both[way]}}, map.what(), map.place());
 }
 
 void refuseListOnString(const YamlMap& map, const std::string& key, const Grid& grid) {
@@ -53,8 +53,8 @@ void readRange(const SceneBuilder& builder,
                const Grid& grid,
                std::size_t index,
                Way& way) {
-  const bool is_list = map.has("range") && map.at("range").IsSequence() &&
-                       map.at("range").size() > 0 && !map.at("range")[0].IsScalar();
+  const bool is_list = map.has("range") && map.at("range").isList() && map.at("range").size() > 0 &&
+                       !map.at("range")[0].isScalar();
   if (is_list) {
     refuseListOnString(map, "range", grid);
   }
@@ -77,7 +77,7 @@ void readGuide(const SceneBuilder& builder,
                const Grid& grid,
                std::size_t index,
                Way& way) {
-  const bool is_list = map.has("guide") && map.at("guide").IsSequence();
+  const bool is_list = map.has("guide") && map.at("guide").isList();
   if (is_list) {
     refuseListOnString(map, "guide", grid);
   }
@@ -116,8 +116,8 @@ void readStart(const SceneBuilder& builder,
     connection.along.at = map.value("at", limitsOf(connection.along));
     return;
   }
-  const YAML::Node& pair = map.at("at");
-  if (!pair.IsSequence() || pair.size() != 2) {
+  const Node& pair = map.at("at");
+  if (!pair.isList() || pair.size() != 2) {
     map.fail("at", "'at' of " + map.what() + " is no place on mesh " + quoted(grid.name) +
                        ", allowed: [along, across]");
   }

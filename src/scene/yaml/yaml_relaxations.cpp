@@ -12,15 +12,15 @@ namespace {
 constexpr const char* kKeys[] = {"branches", "loss_factor", "material"};
 
 void readBranches(const SceneBuilder& builder, const YamlMap& map, Lia& lia) {
-  const YAML::Node& list = map.at("branches");
+  const Node& list = map.at("branches");
   const std::string what = "'branches' of " + map.what();
-  if (!list.IsSequence() || list.size() < 1 || list.size() > kMostRelaxations) {
+  if (!list.isList() || list.size() < 1 || list.size() > kMostRelaxations) {
     map.fail("branches",
              what + " is " + kindOf(list) + ", allowed: [[N/m, s], ...], 1...3 of them");
   }
-  for (const YAML::Node& branch : list) {
+  for (const Node& branch : list) {
     const Place place = placeOf(branch, map.placeAt("branches"));
-    if (!branch.IsSequence() || branch.size() != 2) {
+    if (!branch.isList() || branch.size() != 2) {
       builder.fail(place, "a branch of " + map.what() + " is " + kindOf(branch) +
                               ", allowed: [stiffness, time]");
     }

@@ -24,11 +24,11 @@ class RowReader {
     }
   }
 
-  void read(const YAML::Node& row, const std::string& kind, const ElementReader& element) const {
+  void read(const Node& row, const std::string& kind, const ElementReader& element) const {
     const Place place = placeOf(row, table_.placeAt(kRows));
-    if (!row.IsSequence() || row.size() != columns_.size()) {
+    if (!row.isList() || row.size() != columns_.size()) {
       builder_.fail(place, "a row of " + table_.what() + " has " +
-                               (row.IsSequence() ? std::to_string(row.size()) : "no list of") +
+                               (row.isList() ? std::to_string(row.size()) : "no list of") +
                                " cells, allowed: one for each of the " +
                                std::to_string(columns_.size()) + " columns");
     }
@@ -36,13 +36,13 @@ class RowReader {
     Place name_place = place;
     std::vector<YamlMap::Entry> entries = common_;
     auto column = columns_.begin();
-    for (const YAML::Node& cell : row) {
+    for (const Node& cell : row) {
       const Place at = placeOf(cell, place);
       if (*column == kName) {
         name = wordOf(builder_, cell, "the name in a row of " + table_.what(), place);
         name_place = at;
-      } else if (!cell.IsNull()) {
-        entries.push_back({*column, at, cell});
+      } else if (!cell.isNull()) {
+        entries.push_back({*column, at, &cell});
       }
       ++column;
     }
@@ -52,12 +52,12 @@ class RowReader {
 
  private:
   void readColumns() {
-    const YAML::Node& list = table_.at(kColumns);
-    if (!list.IsSequence()) {
+    const Node& list = table_.at(kColumns);
+    if (!list.isList()) {
       table_.fail(kColumns, "'columns' of " + table_.what() + " is not a list, allowed: " +
                                 "[name, ...], the keys that the cells of a row are for");
     }
-    for (const YAML::Node& node : list) {
+    for (const Node& node : list) {
       const Place place = placeOf(node, table_.placeAt(kColumns));
       const std::string column = wordOf(builder_, node, "a column of " + table_.what(), place);
       if (isColumn(column)) {
@@ -71,14 +71,14 @@ class RowReader {
     }
   }
 
-  void readCommon(const YAML::Node& common) {
+  void readCommon(const Node& common) {
     forEachEntry(builder_, common, "'with' of " + table_.what(), table_.keyPlaceAt(kCommon),
-                 [this](const std::string& key, Place place, const YAML::Node& value) {
+                 [this](const std::string& key, Place place, const Node& value) {
                    if (isColumn(key)) {
                      builder_.fail(place, "key " + quoted(key) + " of 'with' of " + table_.what() +
                                               " is a column, too, allowed: other keys");
                    }
-                   common_.push_back({key, place, value});
+                   common_.push_back({key, place, &value});
                  });
   }
 
@@ -94,8 +94,8 @@ class RowReader {
 
 }  // namespace
 
-bool isTableOfElements(const YAML::Node& node) {
-  return node.IsMap() && node[kRows].IsDefined();
+bool isTableOfElements(const Node& node) {
+  return node.find(kRows) != nullptr;
 }
 
 void forEachRow(const SceneBuilder& builder,
@@ -103,11 +103,11 @@ void forEachRow(const SceneBuilder& builder,
                 const std::string& kind,
                 const ElementReader& element) {
   const RowReader reader(builder, table);
-  const YAML::Node& rows = table.at(kRows);
-  if (!rows.IsSequence()) {
+  const Node& rows = table.at(kRows);
+  if (!rows.isList()) {
     table.fail(kRows, "'rows' of " + table.what() + " is not a list, allowed: [[...], [...], ...]");
   }
-  for (const YAML::Node& row : rows) {
+  for (const Node& row : rows) {
     reader.read(row, kind, element);
   }
 }

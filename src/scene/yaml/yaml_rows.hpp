@@ -8,7 +8,7 @@
 namespace ergotic::scene {
 
 /// True if what stands under a name is a table of many elements rather than one.
-bool isTableOfElements(const YAML::Node& node);
+bool isTableOfElements(const Node& node);
 
 /// Many elements of a part of the scene, written as
 /// `{columns: [name, mass, at], with: {type: mass}, rows: [[m0, 1e-4, [0, 0]], ...]}`: every row is

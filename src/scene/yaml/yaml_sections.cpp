@@ -18,7 +18,7 @@ void readRate(const YamlMap& map, Section& section) {
   if (!map.has("rate")) {
     return;
   }
-  if (map.at("rate").IsMap()) {
+  if (map.at("rate").isMap()) {
     const YamlMap rate = map.map("rate");
     rate.allow({"divisor"});
     section.divisor = rate.integer("divisor", kDivisorLimits);

@@ -13,10 +13,10 @@ std::string countText() {
 }  // namespace
 
 Table YamlTables::read(const YamlMap& map, const std::string& key) {
-  const YAML::Node& node = map.at(key);
+  const Node& node = map.at(key);
   const std::string what = quoted(key) + " of " + map.what();
   Table table;
-  if (node.IsMap()) {
+  if (node.isMap()) {
     table = readNamed(map.map(key));
   } else {
     table = readPoints(node, what, map.placeAt(key));
@@ -45,14 +45,14 @@ Table YamlTables::readNamed(const YamlMap& spec) {
   return table;
 }
 
-Table YamlTables::readPoints(const YAML::Node& points, const std::string& what, Place place) const {
-  if (!points.IsSequence() || points.size() < 2 || points.size() > kMaxTablePoints) {
+Table YamlTables::readPoints(const Node& points, const std::string& what, Place place) const {
+  if (!points.isList() || points.size() < 2 || points.size() > kMaxTablePoints) {
     builder_.fail(place, what + " is not a list of points, allowed: " + countText() + " pairs");
   }
   Table table;
-  for (const YAML::Node& point : points) {
+  for (const Node& point : points) {
     const Place at = placeOf(point, place);
-    if (!point.IsSequence() || point.size() != 2) {
+    if (!point.isList() || point.size() != 2) {
       builder_.fail(at, "a point of " + what + " is not a pair of numbers");
     }
     const std::string first = "first number of a point of " + what;
@@ -76,7 +76,7 @@ Table YamlTables::readFile(const YamlMap& spec) {
       spec.fail("file", "file " + quoted(name) + " of " + spec.what() +
                             " is not among the tables of the second document");
     }
-    return readPoints(appended->points, "table " + quoted(name), appended->place);
+    return readPoints(*appended->points, "table " + quoted(name), appended->place);
   }
   const auto known = known_.find(name);
   if (known != known_.end()) {

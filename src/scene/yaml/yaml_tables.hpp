@@ -21,7 +21,7 @@ class YamlTables {
   Table read(const YamlMap& map, const std::string& key);
 
  private:
-  Table readPoints(const YAML::Node& points, const std::string& what, Place place) const;
+  Table readPoints(const Node& points, const std::string& what, Place place) const;
   Table readNamed(const YamlMap& spec);
   Table readFile(const YamlMap& spec);
 

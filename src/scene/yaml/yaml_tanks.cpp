@@ -10,13 +10,13 @@ namespace ergotic::scene {
 namespace {
 
 void readSprings(const SceneBuilder& builder, const YamlMap& map, StretchKeys& to) {
-  const YAML::Node& of = map.at("of");
-  to.is_of_links = of.IsSequence();
+  const Node& of = map.at("of");
+  to.is_of_links = of.isList();
   if (!to.is_of_links) {
     to.names.emplace_back(map.word("of"), map.placeAt("of"));
     return;
   }
-  for (const YAML::Node& spring : of) {
+  for (const Node& spring : of) {
     const Place place = placeOf(spring, map.placeAt("of"));
     to.names.emplace_back(wordOf(builder, spring, "a spring of " + map.what(), place), place);
   }

@@ -143,6 +143,7 @@ Json parametersOf(const Scene& scene) {
   for (const scene::Parameter& parameter : scene.parameters) {
     report.push_back({{"name", parameter.name},
                       {"value", parameter.value},
+                      {"unit", parameter.unit.empty() ? "not said" : parameter.unit},
                       {"minimum", parameter.minimum},
                       {"maximum", parameter.maximum}});
   }

@@ -3,6 +3,7 @@
 
 #include "scene/bad_text.hpp"
 #include "support/alloc_count.hpp"
+#include "support/scratch_file.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::scene {
@@ -65,32 +66,39 @@ TEST(YamlErrorsTest, TitlesThatEveryStatusCarriesAreShort) {
                 "bad.yaml");
 }
 
-TEST(YamlErrorsTest, TablesSharedByAliasesAreLimitedInAll) {
-  std::string text = TWO_MASSES "lias:\n  l: {type: bow, between: [m, n], table: &t [";
+TEST(YamlErrorsTest, AliasesAreRefused) {
+  expectRefused({HEAD "mats: {m: &m {type: mass, mass: 1}, n: <!>*m}\n",
+                 "an alias, allowed: what it stands for, written out"},
+                "bad.yaml");
+}
+
+TEST(YamlErrorsTest, TablesThatManyLinksShareAreLimitedInAll) {
+  std::string text = TWO_MASSES "lias:\n";
+  for (int i = 0; i < 257; ++i) {
+    text += "  l" + std::to_string(i) + ": {type: bow, between: [m, n], table: {file: t}}\n";
+  }
+  text += "---\ntables: {t: [";
   for (int i = 0; i < 4096; ++i) {
     text += "[" + std::to_string(i) + ", 0],";
   }
-  text += "]}\n";
-  for (int i = 0; i < 256; ++i) {
-    text += "  l" + std::to_string(i) + ": {type: bow, between: [m, n], table: *t}\n";
-  }
-  EXPECT_THAT(complaintOf<TextError>([&] { readYaml(text, "tables.yaml"); }),
+  EXPECT_THAT(complaintOf<TextError>([&] { readYaml(text + "]}\n", "tables.yaml"); }),
               AllOf(StartsWith("tables.yaml:261:"), HasSubstr("more than 1048576 points")));
 }
 
-TEST(YamlErrorsTest, PointsOfAgentsSharedByAliasesAreLimitedInAll) {
-  std::string text =
-      "ergotic: 1\nsections: {h: {rate: gestural}}\nmats: {m: {type: mass, mass: 1}}\n"
-      "agents:\n  a: {mat: m, stiffness: 1, points: &p [";
+TEST(YamlErrorsTest, PointsOfAgentsOfOneFileAreLimitedInAll) {
+  std::string points = "time_s,slice,target_m\n";
   for (int i = 0; i < 65536; ++i) {
-    text += "[" + std::to_string(i) + ", 0],";
+    points += std::to_string(i) + ",0,0\n";
   }
-  text += "]}\n";
+  const test::ScratchFile file(points);
+  std::string text =
+      "ergotic: 1\nsections: {h: {rate: gestural}}\nmats: {m: {type: mass, mass: 1}}\nagents:\n";
   for (int i = 0; i < 17; ++i) {
-    text += "  a" + std::to_string(i) + ": {mat: m, stiffness: 1, points: *p}\n";
+    text += "  a" + std::to_string(i) +
+            ": {mat: m, stiffness: 1, gesture: {file: " + file.path().substr(5) + ", slice: 0}}\n";
   }
-  EXPECT_THAT(complaintOf<TextError>([&] { readYaml(text, "agents.yaml"); }),
-              AllOf(StartsWith("agents.yaml:21:"), HasSubstr("more than 1048576 points")));
+  EXPECT_THAT(complaintOf<TextError>([&] { readYaml(text, "/tmp/agents.yaml"); }),
+              AllOf(StartsWith("/tmp/agents.yaml:21:"), HasSubstr("more than 1048576 points")));
 }
 
 TEST(YamlErrorsTest, EveryTruncationOfASceneIsReadOrRefusedWithItsPlace) {

@@ -48,7 +48,7 @@ ComediRange range(const YamlMap& map, const std::string& key) {
   if (!map.has(key)) {
     return range;
   }
-  if (map.at(key).IsScalar()) {
+  if (map.at(key).isScalar()) {
     range.index = map.integer(key, kIndexLimits);
     return range;
   }
@@ -66,7 +66,7 @@ std::vector<double> safeVolts(const YamlMap& map, std::size_t slices) {
   if (!map.has("safe_volts")) {
     return std::vector<double>(slices, 0.0);
   }
-  if (map.at("safe_volts").IsScalar()) {
+  if (map.at("safe_volts").isScalar()) {
     return std::vector<double>(slices, map.number("safe_volts", kSafeVoltsLimits));
   }
   return map.vector("safe_volts", slices, kSafeVoltsLimits);

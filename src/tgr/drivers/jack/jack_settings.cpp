@@ -22,7 +22,7 @@ std::string physical(int index) {
 }
 
 /// A port as it is written: its full name, or its number among the physical ones.
-std::string portOf(const Settings& settings, const YAML::Node& node, const std::string& key) {
+std::string portOf(const Settings& settings, const scene::Node& node, const std::string& key) {
   const scene::Place place = scene::placeOf(node, settings.top().placeAt(key));
   const std::string what = "port of " + key;
   const std::string word = scene::wordOf(settings.builder(), node, what, place);
@@ -44,7 +44,7 @@ std::string portOf(const Settings& settings, const YAML::Node& node, const std::
 std::vector<std::string> portsOf(const Settings& settings, const std::string& key, int slices) {
   std::vector<std::string> ports;
   const scene::YamlMap& top = settings.top();
-  if (!top.has(key) || top.at(key).IsMap()) {
+  if (!top.has(key) || top.at(key).isMap()) {
     int first = 1;
     if (top.has(key)) {
       const scene::YamlMap map = top.map(key);
@@ -56,13 +56,13 @@ std::vector<std::string> portsOf(const Settings& settings, const std::string& ke
     }
     return ports;
   }
-  const YAML::Node& list = top.at(key);
-  if (!list.IsSequence() || list.size() != static_cast<std::size_t>(slices)) {
+  const scene::Node& list = top.at(key);
+  if (!list.isList() || list.size() != static_cast<std::size_t>(slices)) {
     top.fail(key, key + " is " + scene::kindOf(list) +
                       ", allowed: a list of one port for each of the " + std::to_string(slices) +
                       " slices, or {physical: N}");
   }
-  for (const YAML::Node& node : list) {
+  for (const scene::Node& node : list) {
     ports.push_back(portOf(settings, node, key));
     if (std::count(ports.begin(), ports.end(), ports.back()) > 1) {
       settings.builder().fail(

@@ -60,7 +60,7 @@ void readOthers(const Settings& settings, VirtualDriverConfig& config) {
   }
   scene::forEachEntry(settings.builder(), top.at("others"), "'others' of " + top.what(),
                       top.placeAt("others"),
-                      [&](const std::string& key, Place place, const YAML::Node& node) {
+                      [&](const std::string& key, Place place, const scene::Node& node) {
                         const YamlMap map(settings.builder(), node, "slice " + key, place);
                         std::vector<std::string> keys = mechanicsKeys();
                         keys.emplace_back("volts");

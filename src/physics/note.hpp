@@ -4,14 +4,14 @@
 #include <sstream>
 #include <string>
 
+#include "ergotic/scene/origin.hpp"
 #include "ergotic/scene/scene.hpp"
 
 namespace ergotic::physics {
 
 /// `file:line:col: note: `, the start of what `settle` says about a choice.
 inline std::string noteAt(const scene::Scene& scene, const scene::Place& place) {
-  return scene.file + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) +
-         ": note: ";
+  return scene::textOf(scene, place) + ": note: ";
 }
 
 /// A number as a player reads it.

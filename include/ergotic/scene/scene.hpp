@@ -358,6 +358,7 @@ struct Scene {
   std::vector<Grid> grids;
   std::vector<Connection> connections;
   std::vector<Tap> taps;
+  std::vector<Origin> origins;        ///< of places, see Place::origin
   std::vector<std::string> warnings;  ///< from reading, `file:line:col: warning: ...`
 
   double valueOf(const Value& v) const {

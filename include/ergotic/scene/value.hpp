@@ -10,6 +10,13 @@ namespace ergotic::scene {
 struct Place {
   int line = 0;
   int column = 0;
+  int origin = 0;  ///< 0: the scene's own text; else what Scene::origins[origin - 1] says
+};
+
+/// Another text that parts of a scene were written out from.
+struct Origin {
+  std::string file;
+  std::string chain;  ///< lines for messages: the instance that it is in, and where that is used
 };
 
 /// A number of the scene: `factor`, or `factor` times a parameter or the sample of an audio input.

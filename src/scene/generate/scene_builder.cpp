@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "ergotic/exception.hpp"
+#include "ergotic/scene/origin.hpp"
 #include "scene/limits.hpp"
 
 namespace ergotic::scene {
@@ -151,8 +152,13 @@ int SceneBuilder::find(const NameTable& table,
   return index;
 }
 
+int SceneBuilder::addOrigin(Origin origin) {
+  scene_.origins.push_back(std::move(origin));
+  return static_cast<int>(scene_.origins.size());
+}
+
 void SceneBuilder::fail(Place place, const std::string& what) const {
-  throw TextError(scene_.file, place.line, place.column, what);
+  throw errorAt(scene_, place, what);
 }
 
 void SceneBuilder::warn(Place place, const std::string& what) {
@@ -162,8 +168,7 @@ void SceneBuilder::warn(Place place, const std::string& what) {
     scene_.warnings.back() = scene_.file + ": warning: there are more of them";
     return;
   }
-  scene_.warnings.push_back(scene_.file + ":" + std::to_string(place.line) + ":" +
-                            std::to_string(place.column) + ": warning: " + what);
+  scene_.warnings.push_back(textOf(scene_, place) + ": warning: " + what);
 }
 
 }  // namespace ergotic::scene

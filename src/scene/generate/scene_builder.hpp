@@ -43,6 +43,8 @@ class SceneBuilder {
   /// \return -1 if there is no such module
   int findMat(const std::string& name) const { return mats_.find(name); }
 
+  /// \return Place::origin of what comes from there
+  int addOrigin(Origin origin);
   [[noreturn]] void fail(Place place, const std::string& what) const;
   void warn(Place place, const std::string& what);
 

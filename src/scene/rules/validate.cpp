@@ -6,6 +6,7 @@
 
 #include "ergotic/exception.hpp"
 #include "ergotic/scene/coarse_string.hpp"
+#include "ergotic/scene/origin.hpp"
 #include "ergotic/scene/scene.hpp"
 #include "ergotic/scene/table.hpp"
 #include "scene/laws/law.hpp"
@@ -54,7 +55,7 @@ class Validator {
 
  private:
   [[noreturn]] void fail(Place place, const std::string& what) const {
-    throw TextError(scene_.file, place.line, place.column, what);
+    throw errorAt(scene_, place, what);
   }
 
   void number(Place place, const std::string& what, double value, const Limits& limits) const {

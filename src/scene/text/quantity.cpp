@@ -148,16 +148,17 @@ std::string inQuotes(std::string_view text) {
   return "'" + std::string(text) + "'";
 }
 
+/// \param unit  nothing: any
 std::variant<double, NoQuantity> withUnit(double number,
                                           std::string_view given,
-                                          std::string_view unit) {
+                                          std::optional<std::string_view> unit) {
   const std::optional<double> ratio = parseRatio(number, given);
   const std::optional<Unit> known = parseUnit(given);
   if (!ratio && !known) {
     return NoQuantity{" has the unit " + inQuotes(given) + ", which is not known"};
   }
-  const std::optional<Unit> wanted = parseUnit(unit);
-  const bool fits = ratio ? unit.empty() : wanted && wanted->powers == known->powers;
+  const std::optional<Unit> wanted = unit ? parseUnit(*unit) : known;
+  const bool fits = ratio ? !unit || unit->empty() : wanted && wanted->powers == known->powers;
   if (!fits) {
     return NoQuantity{" is of another kind"};
   }
@@ -166,15 +167,10 @@ std::variant<double, NoQuantity> withUnit(double number,
                               : NoQuantity{" is not a finite number"};
 }
 
-}  // namespace
-
-std::variant<double, NoQuantity> parseQuantity(std::string_view text, std::string_view unit) {
+std::variant<double, NoQuantity> parse(std::string_view text,
+                                       std::optional<std::string_view> unit) {
   if (const std::optional<double> bare = parseNumber(text)) {
     return *bare;
-  }
-  if (const std::optional<double> note = parseNote(text)) {
-    return unit == "Hz" ? std::variant<double, NoQuantity>(*note)
-                        : NoQuantity{" is a note, which is of another kind"};
   }
   const std::size_t end = std::min(text.find_first_not_of("+-.0123456789eE"), text.size());
   // An exponent ends with a digit: what follows may be a unit with a small e.
@@ -183,6 +179,22 @@ std::variant<double, NoQuantity> parseQuantity(std::string_view text, std::strin
     return NoQuantity{" is not a finite number"};
   }
   return withUnit(*number, trimmed(text.substr(end)), unit);
+}
+
+}  // namespace
+
+std::variant<double, NoQuantity> parseQuantity(std::string_view text, std::string_view unit) {
+  if (const std::optional<double> note = parseNote(text)) {
+    return unit == "Hz" ? std::variant<double, NoQuantity>(*note)
+                        : NoQuantity{" is a note, which is of another kind"};
+  }
+  return parse(text, unit);
+}
+
+std::optional<double> parseAnyQuantity(std::string_view text) {
+  const auto quantity = parse(text, std::nullopt);
+  const auto* const number = std::get_if<double>(&quantity);
+  return number == nullptr ? std::nullopt : std::optional(*number);
 }
 
 bool isSiUnit(std::string_view unit) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -19,6 +20,9 @@ struct NoQuantity {
 /// `%`, `dB` (of amplitudes) and `cents` (a ratio of pitches).
 /// \param unit  of what is asked for, as in Limits
 std::variant<double, NoQuantity> parseQuantity(std::string_view text, std::string_view unit);
+
+/// The same of whatever kind; of notes nothing.
+std::optional<double> parseAnyQuantity(std::string_view text);
 
 /// As `N/m`, `kg`, `Hz`: a unit whose numbers are written as they are.
 bool isSiUnit(std::string_view unit);

@@ -32,6 +32,7 @@ class Node {
   std::size_t size() const noexcept { return isMap() ? parts_.size() / 2 : parts_.size(); }
   /// Items of a list; of a map its keys and values in turn.
   const std::vector<Node>& parts() const noexcept { return parts_; }
+  std::vector<Node>& parts() noexcept { return parts_; }
   auto begin() const noexcept { return parts_.begin(); }
   auto end() const noexcept { return parts_.end(); }
   /// \pre there are so many parts
@@ -45,6 +46,7 @@ class Node {
     }
     return nullptr;
   }
+  void setOrigin(int origin) noexcept { place_.origin = origin; }
   void add(Node part) { parts_.push_back(std::move(part)); }
 
  private:

@@ -4,6 +4,8 @@
 
 #include "ergotic/exception.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
+#include "scene/language/emit.hpp"
+#include "scene/language/expand.hpp"
 #include "scene/text/overrides.hpp"
 #include "scene/text/quantity.hpp"
 #include "scene/text/source_text.hpp"
@@ -25,6 +27,24 @@ std::vector<Node> parse(const SceneBuilder& builder, const std::string& text) {
     builder.fail({1, 1}, "the scene is empty, allowed: a map that begins with 'ergotic: 1'");
   }
   return documents;
+}
+
+/// What is kept of a scene that uses the language is its plain text.
+void writeOut(SceneBuilder& builder, std::vector<Node>& documents) {
+  if (!usesLanguage(documents.front())) {
+    return;
+  }
+  const YamlMap top(builder, documents.front(), "the scene", {1, 1});
+  documents.front() = expand(builder, documents.front());
+  std::string& text = builder.scene().text;
+  text = emit(documents.front());
+  if (documents.size() > 1) {
+    text += "---\n" + emit(documents.back());
+  }
+  if (text.size() > kMaxTextBytes) {
+    builder.fail({1, 1}, "written out the text has " + std::to_string(text.size()) +
+                             " bytes, allowed: at most " + std::to_string(kMaxTextBytes));
+  }
 }
 
 /// It goes into every status.
@@ -146,7 +166,8 @@ void forEachElement(const SceneBuilder& builder,
 Scene readYaml(const std::string& text, const std::string& name, const Overrides& overrides) {
   checkBytes(text, name, Bytes::kUtf8);
   SceneBuilder builder(name, text);
-  const std::vector<Node> documents = parse(builder, text);
+  std::vector<Node> documents = parse(builder, text);
+  writeOut(builder, documents);
   const YamlMap top(builder, documents.front(), "the scene", {1, 1});
   PointFiles files(builder, documents.size() > 1 ? &documents.back() : nullptr);
   YamlTables tables(builder, files);

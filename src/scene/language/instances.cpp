@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Instances of definitions: their names, parameters and sections.
+#include <algorithm>
+#include <optional>
+
+#include "ergotic/scene/origin.hpp"
+#include "scene/language/expander.hpp"
+#include "scene/language/expression.hpp"
+#include "scene/limits.hpp"
+#include "scene/names.hpp"
+#include "scene/text/quantity.hpp"
+#include "scene/yaml/yaml_map.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+constexpr int kDeepest = 16;
+
+const std::vector<std::string> kDefinitionKeys{"doc",   "params", "needs",      "gives", "let",
+                                               "use",   "mats",   "generators", "lias",  "agents",
+                                               "ports", "inputs", "outputs"};
+
+/// Whose number it is, as in `[30, 5000]`, `[1 mm, 1 m]`.
+Limits limitsOf(const SceneBuilder& builder, const YamlMap& spec, const std::string& unit) {
+  Limits limits{unit.c_str()};
+  if (spec.has("range")) {
+    const Node& range = spec.at("range");
+    if (!range.isList() || range.size() != 2) {
+      spec.fail("range", "'range' of " + spec.what() + " is " + kindOf(range) +
+                             ", allowed: [lowest, highest]");
+    }
+    limits.minimum = numberOf(builder, range[0], "'range' of " + spec.what(), {unit.c_str()},
+                              spec.placeAt("range"));
+    limits.maximum = numberOf(builder, range[1], "'range' of " + spec.what(), {unit.c_str()},
+                              spec.placeAt("range"));
+  }
+  return limits;
+}
+
+}  // namespace
+
+void Expander::writeInstances(const Node& body, const Frame& frame) {
+  const Node* const uses = body.find("use");
+  if (uses == nullptr) {
+    return;
+  }
+  if (!uses->isList()) {
+    writer_.fail(*uses, frame, "'use' is " + kindOf(*uses) + ", allowed: a list of maps {is, as}");
+  }
+  for (const Node& use : *uses) {
+    writer_.forEach(use, frame, frame.scope,
+                    [&](const Scope& scope) { writeInstance(use, frame, scope); });
+  }
+}
+
+void Expander::writeInstance(const Node& use, const Frame& frame, const Scope& scope) {
+  const YamlMap map(builder_, use, "an instance", writer_.placeIn(use, frame));
+  map.allow({"is", "as", "with", "in", "for", "when"});
+  const std::string is = writer_.word(map.at("is"), frame, scope);
+  const std::string as = writer_.word(map.at("as"), frame, scope);
+  const Definition& definition = library_.definition(map.at("is"), is, frame);
+  if (frame.depth == kDeepest) {
+    writer_.fail(use, frame,
+                 "definitions use one another more than " + std::to_string(kDeepest) + " deep");
+  }
+  Frame inner;
+  inner.scope = Scope(&library_.constants());
+  inner.prefix = frame.prefix + as + ".";
+  checkName(builder_, frame.prefix + as, writer_.placeIn(map.at("as"), frame));
+  inner.definitions = definition.above;
+  inner.depth = frame.depth + 1;
+  inner.origin = builder_.addOrigin({fileOf(builder_.scene(), {0, 0, definition.origin}),
+                                     "\n  in " + frame.prefix + as + " (" + is + "), used at " +
+                                         textOf(builder_.scene(), writer_.placeIn(use, frame))});
+  const YamlMap body(builder_, *definition.body, "definition " + quoted(is),
+                     definition.body->place());
+  body.allow(kDefinitionKeys);
+  setParameters(definition, use, frame, scope, inner);
+  setSections(definition, use, frame, scope, inner);
+  library_.let(*definition.body, inner);
+  findHeads(*definition.body, inner);
+  writeParts(*definition.body, inner);
+  writeInstances(*definition.body, inner);
+  publish(definition, inner);
+}
+
+void Expander::setParameters(const Definition& definition,
+                             const Node& use,
+                             const Frame& outer,
+                             const Scope& scope,
+                             Frame& inner) {
+  const Node* const params = definition.body->find("params");
+  const Node* const with = use.find("with");
+  std::vector<std::string> names;
+  if (params != nullptr) {
+    forEachEntry(builder_, *params, "'params' of " + quoted(definition.name), params->place(),
+                 [&](const std::string& name, Place, const Node& spec) {
+                   const Node* const given = with == nullptr ? nullptr : with->find(name);
+                   if (given == nullptr && spec.find("default") == nullptr) {
+                     writer_.fail(use, outer,
+                                  quoted(name) + " of " + quoted(definition.name) +
+                                      " is missing under 'with'");
+                   }
+                   inner.scope.set(name, parameter(name, spec, given, outer, scope));
+                   names.push_back(name);
+                 });
+  }
+  if (with == nullptr) {
+    return;
+  }
+  forEachEntry(builder_, *with, "'with'", writer_.placeIn(*with, outer),
+               [&](const std::string& name, Place place, const Node&) {
+                 if (std::find(names.begin(), names.end(), name) == names.end()) {
+                   place.origin = outer.origin > 0 ? outer.origin : place.origin;
+                   builder_.fail(place, quoted(definition.name) + " has no parameter " +
+                                            quoted(name) + suggestion(name, names));
+                 }
+               });
+}
+
+/// `{default, range, unit, kind, doc}`: a number with a unit or a range, a `place`, or anything.
+Constant Expander::parameter(const std::string& name,
+                             const Node& spec,
+                             const Node* given,
+                             const Frame& outer,
+                             const Scope& scope) {
+  const YamlMap map(builder_, spec, "parameter " + quoted(name), spec.place());
+  map.allow({"doc", "unit", "default", "range", "kind"});
+  const std::string unit = map.has("unit") ? map.word("unit") : "";
+  const bool is_place = map.has("kind") && map.choice("kind", {"place"}) == 0;
+  const Node& node = given != nullptr ? *given : map.at("default");
+  Frame own;
+  const Frame& frame = given != nullptr ? outer : own;
+  if (is_place) {
+    return writer_.write(node, frame, scope, true).text();
+  }
+  const Node value = writer_.write(node, frame, scope);
+  const bool is_number = map.has("unit") || map.has("range");
+  if (!is_number || !value.isScalar() || value.text().find('$') != std::string::npos) {
+    return value.isScalar() ? constantOf(value) : Constant(value);
+  }
+  return numberOf(builder_, value, quoted(name), limitsOf(builder_, map, unit), value.place());
+}
+
+void Expander::setSections(const Definition& definition,
+                           const Node& use,
+                           const Frame& outer,
+                           const Scope& scope,
+                           Frame& inner) {
+  const Node* const needs = definition.body->find("needs");
+  const Node* const in = use.find("in");
+  if (needs == nullptr) {
+    return;
+  }
+  forEachEntry(builder_, *needs, "'needs' of " + quoted(definition.name), needs->place(),
+               [&](const std::string& role, Place, const Node&) {
+                 const Node* const given = in == nullptr ? nullptr : in->find(role);
+                 if (given == nullptr) {
+                   writer_.fail(use, outer,
+                                "section " + quoted(role) + " of " + quoted(definition.name) +
+                                    " is missing under 'in'");
+                 }
+                 const std::string section = writer_.word(*given, outer, scope);
+                 const auto mapped = outer.sections.find(section);
+                 inner.sections[role] = mapped == outer.sections.end() ? section : mapped->second;
+               });
+}
+
+void Expander::publish(const Definition& definition, const Frame& frame) {
+  const Node* const gives = definition.body->find("gives");
+  if (gives == nullptr) {
+    return;
+  }
+  forEachEntry(builder_, *gives, "'gives' of " + quoted(definition.name), gives->place(),
+               [&](const std::string& name, Place, const Node& what) {
+                 std::string means = Writer::renamed(writer_.word(what, frame, frame.scope), frame);
+                 const auto deeper = public_.find(means);
+                 means = deeper == public_.end() ? means : deeper->second;
+                 if (means != frame.prefix + name) {
+                   public_[frame.prefix + name] = means;
+                 }
+               });
+}
+
+}  // namespace ergotic::scene

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/language/library.hpp"
+
+#include <algorithm>
+
+#include "ergotic/exception.hpp"
+#include "files/read_file.hpp"
+#include "scene/limits.hpp"
+#include "scene/names.hpp"
+#include "scene/text/source_text.hpp"
+#include "scene/yaml/yaml_documents.hpp"
+#include "scene/yaml/yaml_map.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+constexpr int kDeepest = 16;
+
+/// The same tree, of another text.
+void setOrigin(Node& node, int origin) {
+  node.setOrigin(origin);
+  for (Node& part : node.parts()) {
+    setOrigin(part, origin);
+  }
+}
+
+}  // namespace
+
+void Library::read(const Node& scene, Frame& frame) {
+  if (const Node* const files = scene.find("include")) {
+    include(*files, frame);
+  }
+  let(scene, frame);
+  constants_ = frame.scope;
+  if (const Node* const defaults = scene.find("defaults")) {
+    forEachEntry(builder_, *defaults, "'defaults'", writer_.placeIn(*defaults, frame),
+                 [&](const std::string& type, Place place, const Node& keys) {
+                   if (!keys.isMap()) {
+                     builder_.fail(place, "defaults of " + quoted(type) + " are " + kindOf(keys) +
+                                              ", allowed: a map");
+                   }
+                   defaults_[type] = &keys;
+                 });
+  }
+  if (const Node* const definitions = scene.find("define")) {
+    forEachEntry(builder_, *definitions, "'define'", writer_.placeIn(*definitions, frame),
+                 [&](const std::string& name, Place place, const Node& body) {
+                   checkName(builder_, name, place);
+                   if (!body.isMap()) {
+                     builder_.fail(place, "definition " + quoted(name) + " is " + kindOf(body) +
+                                              ", allowed: a map");
+                   }
+                   definitions_.push_back({name, &body, place.origin, definitions_.size()});
+                 });
+  }
+}
+
+void Library::include(const Node& files, Frame& frame) {
+  if (!files.isList()) {
+    writer_.fail(files, frame, "'include' is " + kindOf(files) + ", allowed: a list of files");
+  }
+  for (const Node& file : files) {
+    readFile(file, frame);
+  }
+}
+
+/// Each file once, from below the folder of the scene.
+void Library::readFile(const Node& name, Frame& frame) {
+  const Place place = writer_.placeIn(name, frame);
+  const std::string& scene_file = builder_.scene().file;
+  const std::string path =
+      besideFile(wordOf(builder_, name, "a file to include", place), scene_file);
+  if (name.text().empty() || name.text()[0] == '/' ||
+      !files::isBelow(path, besideFile(".", scene_file))) {
+    builder_.fail(
+        place, "file " + quoted(name.text()) + " is elsewhere, allowed: below the scene's folder");
+  }
+  if (std::count(included_.begin(), included_.end(), path) > 0) {
+    return;
+  }
+  included_.push_back(path);
+  if (++depth_ > kDeepest) {
+    builder_.fail(place,
+                  "files include one another more than " + std::to_string(kDeepest) + " deep");
+  }
+  std::string text;
+  try {
+    text = files::readFile(path, kMaxTextBytes);
+  } catch (const Exception& refusal) {
+    builder_.fail(place, refusal.what());
+  }
+  checkBytes(text, path, Bytes::kUtf8);
+  const SceneBuilder its(path, text);
+  std::vector<Node> documents = readDocuments(its, text, 1, "definitions need");
+  if (documents.empty() || !documents.front().isMap()) {
+    its.fail({1, 1}, "nothing is defined, allowed: a map of 'about', 'include', 'let', " +
+                         std::string("'defaults' and 'define'"));
+  }
+  setOrigin(documents.front(), builder_.addOrigin({path, ""}));
+  files_.push_back(std::move(documents.front()));
+  const YamlMap top(builder_, files_.back(), path, files_.back().place());
+  top.allow({"about", "include", "let", "defaults", "define"});
+  read(files_.back(), frame);
+  --depth_;
+}
+
+void Library::let(const Node& body, Frame& frame) {
+  const Node* const constants = body.find("let");
+  if (constants == nullptr) {
+    return;
+  }
+  forEachEntry(builder_, *constants, "'let'", writer_.placeIn(*constants, frame),
+               [&](const std::string& name, Place place, const Node& value) {
+                 checkName(builder_, name, place);
+                 frame.scope.set(name, writer_.constant(value, frame, frame.scope));
+               });
+}
+
+const Definition& Library::definition(const Node& name,
+                                      const std::string& word,
+                                      const Frame& frame) const {
+  std::vector<std::string> names;
+  // Of one name the last counts, as that of a scene does beside those it includes.
+  const Definition* found = nullptr;
+  for (std::size_t i = 0; i < frame.definitions; ++i) {
+    names.push_back(definitions_[i].name);
+    found = definitions_[i].name == word ? &definitions_[i] : found;
+  }
+  if (found == nullptr) {
+    writer_.fail(name, frame,
+                 "no definition above has the name " + quoted(word) + suggestion(word, names));
+  }
+  return *found;
+}
+
+const Node* Library::defaultsOf(const std::string& type,
+                                const Node* kind,
+                                const Frame& frame) const {
+  const std::string key = type + (kind == nullptr ? "" : "." + kind->text());
+  const auto found = defaults_.find(key);
+  if (found == defaults_.end() && kind != nullptr) {
+    writer_.fail(*kind, frame, "there are no defaults of " + quoted(key));
+  }
+  return found == defaults_.end() ? nullptr : found->second;
+}
+
+}  // namespace ergotic::scene

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <list>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scene/generate/scene_builder.hpp"
+#include "scene/language/writer.hpp"
+
+namespace ergotic::scene {
+
+struct Definition {
+  std::string name;
+  const Node* body = nullptr;
+  int origin = 0;
+  std::size_t above = 0;  ///< so many definitions stand above it
+};
+
+/// What a scene and the files that it includes define: constants, keys by default, definitions.
+class Library {
+ public:
+  Library(SceneBuilder& builder, Writer& writer) : builder_(builder), writer_(writer) {}
+
+  /// Reads `include`, `let`, `defaults` and `define` of a scene, in this order.
+  void read(const Node& scene, Frame& frame);
+
+  /// \throws TextError if there is none, or none above the frame
+  const Definition& definition(const Node& name, const std::string& word, const Frame& frame) const;
+  std::size_t size() const noexcept { return definitions_.size(); }
+  /// Constants of the scene and of what it includes.
+  const Scope& constants() const noexcept { return constants_; }
+  /// Reads `let` of a scene or of a definition.
+  void let(const Node& body, Frame& frame);
+
+  /// Of elements of this type and class; nullptr: none. \throws TextError if there is no such class
+  const Node* defaultsOf(const std::string& type, const Node* kind, const Frame& frame) const;
+
+ private:
+  void include(const Node& files, Frame& frame);
+  void readFile(const Node& name, Frame& frame);
+
+  SceneBuilder& builder_;
+  Writer& writer_;
+  std::list<Node> files_;                        // what definitions point into
+  std::vector<std::string> included_;            // paths
+  std::vector<Definition> definitions_;          // in the order of the texts
+  std::map<std::string, const Node*> defaults_;  // by type, or type.class
+  Scope constants_;
+  int depth_ = 0;
+};
+
+}  // namespace ergotic::scene

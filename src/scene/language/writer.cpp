@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/language/writer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "scene/language/expression.hpp"
+#include "scene/names.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+constexpr std::size_t kMostWritten = 2'000'000;  // scalars, lists and maps
+constexpr double kMostTurns = 1e6;               // of a loop
+constexpr const char* kReferences[] = {"between", "at",     "mat",  "of",
+                                       "along",   "normal", "from", "guide"};
+
+bool isExpression(const Node& node) {
+  return node.isScalar() && !node.text().empty() && node.text()[0] == '=';
+}
+
+}  // namespace
+
+bool Writer::isReference(const std::string& key) {
+  return std::find(std::begin(kReferences), std::end(kReferences), key) != std::end(kReferences);
+}
+
+Place Writer::placeIn(const Node& node, const Frame& frame) const {
+  Place place = node.place();
+  place.origin = frame.origin > 0 ? frame.origin : place.origin;
+  return place;
+}
+
+void Writer::fail(const Node& node, const Frame& frame, const std::string& what) const {
+  builder_.fail(placeIn(node, frame), what);
+}
+
+void Writer::count(const Node& node, const Frame& frame) {
+  if (++written_ > kMostWritten) {
+    fail(node, frame,
+         "written out the scene has more than " + std::to_string(kMostWritten) +
+             " scalars, lists and maps");
+  }
+}
+
+std::string Writer::renamed(const std::string& name, const Frame& frame) {
+  if (frame.prefix.empty()) {
+    return name;
+  }
+  const std::string head = name.substr(0, name.find_first_of(".@/"));
+  return frame.heads.count(head) > 0 ? frame.prefix + name : name;
+}
+
+Constant Writer::evaluated(const Node& node,
+                           std::size_t from,
+                           std::string_view expression,
+                           const Frame& frame,
+                           const Scope& scope) const {
+  try {
+    return evaluate(expression, scope);
+  } catch (const ExpressionError& error) {
+    Place place = placeIn(node, frame);
+    place.column += static_cast<int>(from + error.at());
+    builder_.fail(place, "in " + quoted(node.text()) + ": " + error.what());
+  }
+}
+
+std::string Writer::word(const Node& node, const Frame& frame, const Scope& scope) const {
+  if (!node.isScalar()) {
+    fail(node, frame, "a name is no single word");
+  }
+  const std::string& text = node.text();
+  std::string result;
+  std::size_t at = 0;
+  while (true) {
+    const std::size_t open = text.find('{', at);
+    result += text.substr(at, open - at);
+    if (open == std::string::npos) {
+      return result;
+    }
+    const std::size_t close = text.find('}', open);
+    if (close == std::string::npos) {
+      fail(node, frame, quoted(text) + " has a '{' without '}'");
+    }
+    const Constant value =
+        evaluated(node, open + 1, text.substr(open + 1, close - open - 1), frame, scope);
+    if (std::holds_alternative<Node>(value)) {
+      fail(node, frame, quoted(text) + " has a list in braces, allowed: numbers and words");
+    }
+    result += textOf(value);
+    at = close + 1;
+  }
+}
+
+Constant Writer::constant(const Node& node, const Frame& frame, const Scope& scope) {
+  if (isExpression(node)) {
+    return evaluated(node, 1, std::string_view(node.text()).substr(1), frame, scope);
+  }
+  return constantOf(write(node, frame, scope));
+}
+
+Node Writer::placed(const Node& value, Place place) {
+  Node copy(value.kind(), place, value.text());
+  for (const Node& part : value.parts()) {
+    copy.add(placed(part, place));
+  }
+  return copy;
+}
+
+Node Writer::writeScalar(const Node& node,
+                         const Frame& frame,
+                         const Scope& scope,
+                         bool is_reference) {
+  const Place place = placeIn(node, frame);
+  if (isExpression(node)) {
+    const Constant value = constant(node, frame, scope);
+    const Node* const list = std::get_if<Node>(&value);
+    return list != nullptr ? placed(*list, place) : Node(Node::Kind::kScalar, place, textOf(value));
+  }
+  const std::string text = word(node, frame, scope);
+  return {Node::Kind::kScalar, place, is_reference ? renamed(text, frame) : text};
+}
+
+/// What plays the role of a section.
+Node Writer::sectionOf(Node role, const Frame& frame) {
+  const auto found = frame.sections.find(role.text());
+  return found == frame.sections.end() ? std::move(role)
+                                       : Node(Node::Kind::kScalar, role.place(), found->second);
+}
+
+Node Writer::write(const Node& node, const Frame& frame, const Scope& scope, bool is_reference) {
+  count(node, frame);
+  if (node.isScalar()) {
+    return writeScalar(node, frame, scope, is_reference);
+  }
+  Node result(node.kind(), placeIn(node, frame));
+  for (std::size_t i = 0; i < node.parts().size(); ++i) {
+    const bool is_key = node.isMap() && i % 2 == 0;
+    const bool names = node.isMap() && !is_key ? isReference(node[i - 1].text()) : is_reference;
+    Node part = write(node[i], frame, scope, !is_key && names);
+    const bool is_section = node.isMap() && !is_key && node[i - 1].text() == "section";
+    result.add(is_section ? sectionOf(std::move(part), frame) : std::move(part));
+  }
+  return result;
+}
+
+/// `0..11`, `0..n-1`, or a list.
+std::vector<Constant> Writer::itemsOf(const Node& values, const Frame& frame, const Scope& scope) {
+  std::vector<Constant> items;
+  const std::size_t dots = values.isScalar() ? values.text().find("..") : std::string::npos;
+  if (dots == std::string::npos) {
+    const Constant list = constant(values, frame, scope);
+    const Node* const node = std::get_if<Node>(&list);
+    if (node == nullptr || !node->isList()) {
+      fail(values, frame, "a loop goes over a range as 0..11 or over a list");
+    }
+    std::transform(node->begin(), node->end(), std::back_inserter(items), &constantOf);
+    return items;
+  }
+  const std::string_view text = values.text();
+  double ends[2];
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::size_t from = i == 0 ? 0 : dots + 2;
+    const Constant end =
+        evaluated(values, from, i == 0 ? text.substr(0, dots) : text.substr(from), frame, scope);
+    const double* const number = std::get_if<double>(&end);
+    if (number == nullptr || *number != std::floor(*number)) {
+      fail(values, frame, "an end of " + quoted(values.text()) + " is no whole number");
+    }
+    ends[i] = *number;
+  }
+  if (ends[1] - ends[0] > kMostTurns) {
+    fail(values, frame, "a loop of more than " + std::to_string(static_cast<int>(kMostTurns)));
+  }
+  for (double i = ends[0]; i <= ends[1]; ++i) {
+    items.emplace_back(i);
+  }
+  return items;
+}
+
+void Writer::loop(const Node& loops,
+                  std::size_t variable,
+                  const Frame& frame,
+                  const Scope& scope,
+                  const Each& each) {
+  if (2 * variable == loops.parts().size()) {
+    each(scope);
+    return;
+  }
+  const std::string name = loops[2 * variable].text();
+  const std::vector<Constant> items = itemsOf(loops[2 * variable + 1], frame, scope);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    count(loops, frame);
+    Scope inner(&scope);
+    inner.set(name, items[i]);
+    inner.set(name + "#", static_cast<double>(i));
+    loop(loops, variable + 1, frame, inner, each);
+  }
+}
+
+void Writer::forEach(const Node& element,
+                     const Frame& frame,
+                     const Scope& scope,
+                     const Each& each) {
+  const Node* const when = element.find("when");
+  const auto ifTrue = [&](const Scope& inner) {
+    if (when == nullptr) {
+      each(inner);
+      return;
+    }
+    const Constant value = constant(*when, frame, inner);
+    const double* const number = std::get_if<double>(&value);
+    if (number == nullptr) {
+      fail(*when, frame, "'when' is no number, allowed: an expression, 0 is false");
+    }
+    if (*number != 0.0) {
+      each(inner);
+    }
+  };
+  const Node* const loops = element.find("for");
+  if (loops == nullptr) {
+    ifTrue(scope);
+    return;
+  }
+  if (!loops->isMap()) {
+    fail(*loops, frame, "'for' is no map, allowed: {i: 0..11}");
+  }
+  loop(*loops, 0, frame, scope, ifTrue);
+}
+
+}  // namespace ergotic::scene

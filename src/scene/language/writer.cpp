@@ -12,8 +12,8 @@
 namespace ergotic::scene {
 namespace {
 
-constexpr std::size_t kMostWritten = 2'000'000;  // scalars, lists and maps
-constexpr double kMostTurns = 1e6;               // of a loop
+constexpr std::size_t kMostWritten = 500'000;  // scalars, lists and maps
+constexpr double kMostTurns = 1e6;             // of a loop
 constexpr const char* kReferences[] = {"between", "at",     "mat",  "of",
                                        "along",   "normal", "from", "guide"};
 

@@ -105,10 +105,13 @@ std::optional<Unit> parseUnit(std::string_view text) {
   }
 }
 
-/// Of whole powers of ten the nearest number to what is meant: one rounding.
-double scaled(double number, const Unit& unit) {
-  const double power = std::pow(10.0, std::abs(unit.decimals));
-  return unit.factor * (unit.decimals < 0 ? number / power : number * power);
+/// Powers of ten go into the text of the number: one rounding. \pre it is a number
+std::optional<double> scaled(std::string_view number, const Unit& unit) {
+  const std::size_t end = std::min(number.find_first_of("eE"), number.size());
+  const int exponent = end == number.size() ? 0 : parseInteger(number.substr(end + 1)).value_or(0);
+  const std::optional<double> value = parseNumber(std::string(number.substr(0, end)) + "e" +
+                                                  std::to_string(exponent + unit.decimals));
+  return value ? std::optional(*value * unit.factor) : std::nullopt;
 }
 
 /// As in `A4`, `C#3`, `Eb-1`, Hz.
@@ -148,11 +151,12 @@ std::string inQuotes(std::string_view text) {
   return "'" + std::string(text) + "'";
 }
 
-/// \param unit  nothing: any
-std::variant<double, NoQuantity> withUnit(double number,
+/// \param number  text of one
+/// \param unit    nothing: any
+std::variant<double, NoQuantity> withUnit(std::string_view number,
                                           std::string_view given,
                                           std::optional<std::string_view> unit) {
-  const std::optional<double> ratio = parseRatio(number, given);
+  const std::optional<double> ratio = parseRatio(parseNumber(number).value_or(0.0), given);
   const std::optional<Unit> known = parseUnit(given);
   if (!ratio && !known) {
     return NoQuantity{" has the unit " + inQuotes(given) + ", which is not known"};
@@ -162,9 +166,9 @@ std::variant<double, NoQuantity> withUnit(double number,
   if (!fits) {
     return NoQuantity{" is of another kind"};
   }
-  const double value = ratio ? *ratio : scaled(number, *known);
-  return std::isfinite(value) ? std::variant<double, NoQuantity>(value)
-                              : NoQuantity{" is not a finite number"};
+  const std::optional<double> value = ratio ? ratio : scaled(number, *known);
+  return value && std::isfinite(*value) ? std::variant<double, NoQuantity>(*value)
+                                        : NoQuantity{" is not a finite number"};
 }
 
 std::variant<double, NoQuantity> parse(std::string_view text,
@@ -174,11 +178,11 @@ std::variant<double, NoQuantity> parse(std::string_view text,
   }
   const std::size_t end = std::min(text.find_first_not_of("+-.0123456789eE"), text.size());
   // An exponent ends with a digit: what follows may be a unit with a small e.
-  const std::optional<double> number = parseNumber(trimmed(text.substr(0, end)));
-  if (!number || end == text.size()) {
+  const std::string number = trimmed(text.substr(0, end));
+  if (!parseNumber(number) || end == text.size()) {
     return NoQuantity{" is not a finite number"};
   }
-  return withUnit(*number, trimmed(text.substr(end)), unit);
+  return withUnit(number, trimmed(text.substr(end)), unit);
 }
 
 }  // namespace

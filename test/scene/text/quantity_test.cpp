@@ -55,8 +55,7 @@ TEST(QuantityTest, WhatIsNoneIsToldWhy) {
        {"", " ", "x", "kg", "mm", "1e999", "1e999 N", "--3 N", "1e300 Gm", "H4"}) {
     EXPECT_EQ(reasonOf(text, "m"), " is not a finite number") << text;
   }
-  for (const char* text :
-       {"3 furlongs", "3 m m^", "3 m^-1", "3 m^9", "3 /s", "3 N//m", "3 $m", "1 1 1"}) {
+  for (const char* text : {"3 furlongs", "3 m m^", "3 m^-1", "3 m^9", "3 /s", "3 N//m", "3 $m"}) {
     EXPECT_THAT(reasonOf(text, "m"), HasSubstr("which is not known")) << text;
   }
   for (const char* text : {"3 kg", "3 m^2", "3 m/s", "20 %", "5 cents", "3 1"}) {
@@ -82,8 +81,8 @@ TEST(QuantityTest, ParametersSayWhatTheyAre) {
   EXPECT_THAT(
       complaintOf<TextError>(
           [&] { read("range: [1, 9000], unit: N/m", "type: damper, damping: $k"); }),
-      HasSubstr("k.yaml:5:49: error: 'damping' of link 'l' follows parameter 'k', which is in "
-                "N/m, allowed: >= 0 N s/m"));
+      HasSubstr("k.yaml:5:52: error: 'damping' of link 'l' follows parameter 'k', which is in "
+                "N/m, allowed: any finite number of N s/m"));
   EXPECT_NO_THROW(read("range: [1, 9000], unit: N/m", "type: damper, damping: 1e-3*$k"));
   EXPECT_THAT(
       complaintOf<TextError>([&] { read("range: [1, 9000]", "type: spring, stiffness: $k"); }),

@@ -120,11 +120,15 @@ Node Expander::written(const Node& element, const Frame& frame, const Scope& sco
     }
   }
   const Node* const type = element.find("type");
-  const Node* const defaults =
-      type == nullptr ? nullptr : library_.defaultsOf(type->text(), element.find("class"), frame);
-  for (std::size_t i = 0; defaults != nullptr && i < defaults->parts().size(); i += 2) {
-    if (element.find((*defaults)[i].text()) == nullptr) {
-      add((*defaults)[i], (*defaults)[i + 1]);
+  if (type == nullptr) {
+    return result;
+  }
+  for (const Node* const defaults :
+       library_.defaultsOf(type->text(), element.find("class"), frame)) {
+    for (std::size_t i = 0; i < defaults->parts().size(); i += 2) {
+      if (result.find((*defaults)[i].text()) == nullptr) {
+        add((*defaults)[i], (*defaults)[i + 1]);
+      }
     }
   }
   return result;

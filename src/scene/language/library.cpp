@@ -133,15 +133,22 @@ const Definition& Library::definition(const Node& name,
   return *found;
 }
 
-const Node* Library::defaultsOf(const std::string& type,
-                                const Node* kind,
-                                const Frame& frame) const {
-  const std::string key = type + (kind == nullptr ? "" : "." + kind->text());
-  const auto found = defaults_.find(key);
-  if (found == defaults_.end() && kind != nullptr) {
-    writer_.fail(*kind, frame, "there are no defaults of " + quoted(key));
+std::vector<const Node*> Library::defaultsOf(const std::string& type,
+                                             const Node* kind,
+                                             const Frame& frame) const {
+  std::vector<const Node*> sets;
+  const auto add = [&](const std::string& key) {
+    const auto found = defaults_.find(key);
+    if (found != defaults_.end()) {
+      sets.push_back(found->second);
+    }
+    return found != defaults_.end();
+  };
+  if (kind != nullptr && !add(type + "." + kind->text())) {
+    writer_.fail(*kind, frame, "there are no defaults of " + quoted(type + "." + kind->text()));
   }
-  return found == defaults_.end() ? nullptr : found->second;
+  add(type);
+  return sets;
 }
 
 }  // namespace ergotic::scene

@@ -34,8 +34,11 @@ class Library {
   /// Reads `let` of a scene or of a definition.
   void let(const Node& body, Frame& frame);
 
-  /// Of elements of this type and class; nullptr: none. \throws TextError if there is no such class
-  const Node* defaultsOf(const std::string& type, const Node* kind, const Frame& frame) const;
+  /// Keys of elements of this class, if one is said, and then of this type.
+  /// \throws TextError if there is no such class
+  std::vector<const Node*> defaultsOf(const std::string& type,
+                                      const Node* kind,
+                                      const Frame& frame) const;
 
  private:
   void include(const Node& files, Frame& frame);

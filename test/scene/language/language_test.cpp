@@ -52,11 +52,12 @@ TEST(LanguageTest, DefaultsAreByTypeAndClass) {
       "lias:\n"
       "  a: {type: spring_damper, between: [m, g], stiffness: 1}\n"
       "  b: {type: spring_damper, between: [m, g], stiffness: 1, damping: 2}\n"
-      "  c: {type: spring_damper, class: hard, between: [m, g], damping: 3}\n",
+      "  c: {type: spring_damper, class: hard, between: [m, g]}\n",
       "s.yaml");
   EXPECT_EQ(scene.lias[0].damping.factor, 0.1);
   EXPECT_EQ(scene.lias[1].damping.factor, 2.0);
   EXPECT_EQ(scene.lias[2].stiffness.factor, 5000.0);
+  EXPECT_EQ(scene.lias[2].damping.factor, 0.1);
 }
 
 const char* const kPairs = R"(ergotic: 1

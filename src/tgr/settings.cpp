@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "scene/text/source_text.hpp"
-#include "scene/yaml/yaml_documents.hpp"
+#include "scene/tree/yaml_documents.hpp"
 
 namespace ergotic::tgr {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "scene/yaml/yaml_map.hpp"
+#include "scene/tree/yaml_map.hpp"
 
 namespace ergotic::tgr {
 

@@ -13,7 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 FORBIDDEN = [
     ("rt", "include/ergotic/rt/clock.hpp", '"ergotic/scene/scene.hpp"'),
     ("scene", "include/ergotic/scene/scene.hpp", '"ergotic/scene/generate/pitch.hpp"'),
-    ("scene/generate", "src/scene/generate/pitch.cpp", '"scene/yaml/yaml_map.hpp"'),
+    ("scene/generate", "src/scene/generate/pitch.cpp", '"scene/tree/yaml_map.hpp"'),
     ("physics", "include/ergotic/physics/rates.hpp", '"physics/laws/oscillator.hpp"'),
     ("physics/laws", "src/physics/laws/oscillator.cpp", '"physics/layout/layout.hpp"'),
     ("scene/laws", "src/scene/laws/bow.cpp", '"physics/step_units.hpp"'),

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "scene/yaml/node.hpp"
+#include "scene/tree/node.hpp"
 
 namespace ergotic::scene {
 

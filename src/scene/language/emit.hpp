@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scene/yaml/node.hpp"
+#include "scene/tree/node.hpp"
 
 namespace ergotic::scene {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scene/generate/scene_builder.hpp"
-#include "scene/yaml/node.hpp"
+#include "scene/tree/node.hpp"
 
 namespace ergotic::scene {
 

@@ -9,7 +9,7 @@
 #include "scene/limits.hpp"
 #include "scene/names.hpp"
 #include "scene/text/quantity.hpp"
-#include "scene/yaml/yaml_map.hpp"
+#include "scene/tree/yaml_map.hpp"
 
 namespace ergotic::scene {
 namespace {

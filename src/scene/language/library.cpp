@@ -8,8 +8,8 @@
 #include "scene/limits.hpp"
 #include "scene/names.hpp"
 #include "scene/text/source_text.hpp"
-#include "scene/yaml/yaml_documents.hpp"
-#include "scene/yaml/yaml_map.hpp"
+#include "scene/tree/yaml_documents.hpp"
+#include "scene/tree/yaml_map.hpp"
 
 namespace ergotic::scene {
 namespace {

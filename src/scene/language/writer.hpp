@@ -6,7 +6,7 @@
 
 #include "scene/generate/scene_builder.hpp"
 #include "scene/language/frame.hpp"
-#include "scene/yaml/node.hpp"
+#include "scene/tree/node.hpp"
 
 namespace ergotic::scene {
 

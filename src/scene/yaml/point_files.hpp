@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scene/generate/scene_builder.hpp"
-#include "scene/yaml/yaml_map.hpp"
+#include "scene/tree/yaml_map.hpp"
 
 namespace ergotic::scene {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "scene/generate/scene_builder.hpp"
-#include "scene/yaml/yaml_map.hpp"
+#include "scene/tree/yaml_map.hpp"
 
 /// Connection points: massless modules on strings and meshes.
 namespace ergotic::scene {

@@ -9,7 +9,7 @@
 #include "scene/text/overrides.hpp"
 #include "scene/text/quantity.hpp"
 #include "scene/text/source_text.hpp"
-#include "scene/yaml/yaml_documents.hpp"
+#include "scene/tree/yaml_documents.hpp"
 #include "scene/yaml/yaml_elements.hpp"
 #include "scene/yaml/yaml_rows.hpp"
 #include "scene/yaml/yaml_tables.hpp"

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "scene/generate/scene_builder.hpp"
-#include "scene/yaml/yaml_map.hpp"
+#include "scene/tree/yaml_map.hpp"
 
 /// The parts of a YAML scene. Each is given the whole top-level map and reads its own key, in this
 /// order, because later parts name what earlier ones define. All throw TextError.

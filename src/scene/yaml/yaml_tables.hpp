@@ -6,7 +6,7 @@
 
 #include "scene/generate/scene_builder.hpp"
 #include "scene/yaml/point_files.hpp"
-#include "scene/yaml/yaml_map.hpp"
+#include "scene/tree/yaml_map.hpp"
 
 namespace ergotic::scene {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scene/generate/scene_builder.hpp"
-#include "scene/yaml/yaml_map.hpp"
+#include "scene/tree/yaml_map.hpp"
 
 /// Links that share an energy tank: `tank: NAME` of cubic ones, and `type: stretch`.
 namespace ergotic::scene {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scene/generate/scene_builder.hpp"
-#include "scene/yaml/node.hpp"
+#include "scene/tree/node.hpp"
 
 namespace ergotic::scene {
 

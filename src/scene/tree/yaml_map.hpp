@@ -11,7 +11,7 @@
 
 #include "scene/generate/scene_builder.hpp"
 #include "scene/limits.hpp"
-#include "scene/yaml/node.hpp"
+#include "scene/tree/node.hpp"
 
 namespace ergotic::scene {
 

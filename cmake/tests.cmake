@@ -77,7 +77,7 @@ set_source_files_properties(test/comedi/comedi_preload_test.cpp PROPERTIES COMPI
 ergotic_add_gtests(tgr_jack ergotic_jack_driver)
 # They run the tools as programs.
 add_dependencies(ergotic_golden_test render check)
-add_dependencies(ergotic_tools_test bench check latency)
+add_dependencies(ergotic_tools_test bench check expand latency render)
 add_dependencies(ergotic_tgr_jack_test jack_tgr)
 if(ERGOTIC_ROS)
   include(cmake/ros_tests.cmake)

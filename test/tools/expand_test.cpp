@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/scratch_file.hpp"
+#include "support/tool_process.hpp"
+
+namespace ergotic {
+namespace {
+
+using test::run;
+using test::ScratchFile;
+
+const char kBrief[] = R"(ergotic: 1
+let: {masses: [1 g, 2 g, 3 g]}
+sections: {a: {rate: audio}}
+defaults: {spring_damper: {stiffness: 2 kN/m, damping: 1e-3}}
+mats:
+  g: {type: ground, section: a}
+  'm_{i}': {for: {i: 0..2}, type: mass, section: a, mass: '=masses[i]', v: 1}
+lias:
+  's_{i}': {for: {i: 0..2}, type: spring_damper, between: [g, 'm_{i}']}
+outputs:
+  'o_{i}': {for: {i: 0..2}, at: 'm_{i}', quantity: velocity, channel: '=i + 1'}
+)";
+
+class ExpandTest : public ::testing::Test {
+ protected:
+  static std::string soundOf(const ScratchFile& scene) {
+    const ScratchFile wav;
+    const test::Outcome played =
+        run("render", scene.path() + " --seconds 0.05 --out " + wav.path());
+    EXPECT_EQ(played.code, 0) << played.text;
+    return wav.text();
+  }
+};
+
+TEST_F(ExpandTest, WritesWhatIsPlayed) {
+  const ScratchFile brief(kBrief);
+  const test::Outcome plain = run("expand", brief.path());
+  ASSERT_EQ(plain.code, 0) << plain.text;
+  EXPECT_THAT(plain.text, HasSubstr("m_2: {type: mass, section: a, mass: 0.003"));
+  EXPECT_THAT(plain.text, HasSubstr("stiffness: 2000"));
+  EXPECT_THAT(plain.text, Not(HasSubstr("for:")));
+
+  const ScratchFile written(plain.text);
+  EXPECT_EQ(run("expand", written.path()).text, plain.text) << "what is plain stays as it is";
+  EXPECT_GT(soundOf(brief).size(), 1000U);
+  EXPECT_EQ(soundOf(brief), soundOf(written));
+}
+
+TEST_F(ExpandTest, SaysWhereWhatIsWrongStands) {
+  const ScratchFile broken("ergotic: 1\nlet: {a: =1/0}\n");
+  const test::Outcome refused = run("expand", broken.path());
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.text, HasSubstr(broken.path() + ":2:"));
+}
+
+}  // namespace
+}  // namespace ergotic

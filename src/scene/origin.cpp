@@ -22,10 +22,13 @@ std::string textOf(const Scene& scene, Place place) {
          std::to_string(place.column);
 }
 
-TextError errorAt(const Scene& scene, Place place, const std::string& what) {
+std::string chainOf(const Scene& scene, Place place) {
   const Origin* const origin = originOf(scene, place);
-  return {fileOf(scene, place), place.line, place.column,
-          what + (origin == nullptr ? "" : origin->chain)};
+  return origin == nullptr ? "" : origin->chain;
+}
+
+TextError errorAt(const Scene& scene, Place place, const std::string& what) {
+  return {fileOf(scene, place), place.line, place.column, what + chainOf(scene, place)};
 }
 
 }  // namespace ergotic::scene

@@ -46,6 +46,30 @@ TEST_F(ExpandTest, WritesWhatIsPlayed) {
   EXPECT_EQ(soundOf(brief), soundOf(written));
 }
 
+TEST_F(ExpandTest, CheckExplainsWhereAPartComesFrom) {
+  const ScratchFile scene(R"(ergotic: 1
+sections: {a: {rate: audio}}
+define:
+  pair:
+    needs: {s: audio}
+    generators:
+      - {type: string, name: body, section: s, masses: 4, mass: 1 g, frequency: 300}
+    mats: {m: {type: mass, section: s, mass: 5 g}}
+use:
+  - {for: {i: 0..1}, is: pair, as: 'p_{i}', in: {s: a}}
+)");
+  const test::Outcome mass = run("check", scene.path() + " --explain p_1.m");
+  EXPECT_EQ(mass.code, 0);
+  EXPECT_THAT(mass.text, StartsWith(scene.path() + ":8:"));
+  EXPECT_THAT(mass.text, HasSubstr("in p_1 (pair), used at " + scene.path() + ":10:"));
+  EXPECT_THAT(mass.text, HasSubstr("p_1.m: {type: mass, section: a, mass: 0.005}"));
+  EXPECT_THAT(run("check", scene.path() + " --explain p_0.body.2").text,
+              HasSubstr("type: string, name: p_0.body"));
+  const test::Outcome unknown = run("check", scene.path() + " --explain p_1.k");
+  EXPECT_EQ(unknown.code, 1);
+  EXPECT_THAT(unknown.text, HasSubstr("nothing is called 'p_1.k'"));
+}
+
 TEST_F(ExpandTest, SaysWhereWhatIsWrongStands) {
   const ScratchFile broken("ergotic: 1\nlet: {a: =1/0}\n");
   const test::Outcome refused = run("expand", broken.path());

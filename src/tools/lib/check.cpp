@@ -19,10 +19,12 @@
 #include "scene/laws/law.hpp"
 #include "tools/lib/check_filters.hpp"
 #include "tools/lib/check_names.hpp"
+#include "tools/lib/check_points.hpp"
 #include "tools/lib/check_ports.hpp"
 #include "tools/lib/check_sections.hpp"
 #include "tools/lib/cost.hpp"
 #include "tools/lib/end_effectors.hpp"
+#include "tools/lib/explain.hpp"
 #include "tools/lib/load_figures.hpp"
 #include "tools/lib/proof_file.hpp"
 #include "tools/lib/report.hpp"
@@ -64,52 +66,6 @@ Json linksOf(const Scene& scene) {
           {"types", by_type},
           {"schemes", by_scheme},
           {"between_sections", between_sections}};
-}
-
-/// What moves a point along, or across.
-void tellWay(const Scene& scene,
-             const scene::Connection::Way& way,
-             const std::string& suffix,
-             Json& entry) {
-  if (way.at.parameter >= 0) {
-    const auto moved_by = static_cast<std::size_t>(way.at.parameter);
-    entry["parameter" + suffix] = scene.parameters[moved_by].name;
-  }
-  if (way.guide >= 0) {
-    entry["guide" + suffix] = matAt(scene, way.guide).name;
-  }
-}
-
-Json pointsOf(const Scene& scene) {
-  Json report = Json::array();
-  for (const scene::Connection& point : scene.connections) {
-    const scene::Grid& grid = scene.grids[static_cast<std::size_t>(point.grid)];
-    Json entry = {{"name", matAt(scene, point.mat).name},
-                  {"on", grid.name},
-                  {"along", scene.valueOf(point.along.at)}};
-    if (grid.rows > 1) {
-      entry["across"] = scene.valueOf(point.across.at);
-    }
-    tellWay(scene, point.along, "", entry);
-    tellWay(scene, point.across, "_across", entry);
-    report.push_back(std::move(entry));
-  }
-  for (const scene::Tap& tap : scene.taps) {
-    Json entry = {{"name", matAt(scene, tap.mat).name}};
-    double mobility = 0.0;
-    for (const scene::Tap::Share& share : tap.shares) {
-      const scene::Mat& mat = matAt(scene, share.mat);
-      const bool is_ground = mat.type == scene::MatType::kGround;
-      mobility += is_ground ? 0.0 : share.weight * share.weight / scene.valueOf(mat.mass);
-      entry["of"].push_back(mat.name);
-      entry["weights"].push_back(share.weight);
-    }
-    if (mobility > 0.0) {
-      entry["mass"] = 1.0 / mobility;
-    }
-    report.push_back(std::move(entry));
-  }
-  return report;
 }
 
 /// Inputs or outputs.
@@ -349,6 +305,9 @@ void addOptions(CLI::App& app, CheckOptions& options) {
       ->type_name("FILE.csv");
   app.add_option("--proof", options.proof, "write what proves the verdict, for check_proof")
       ->type_name("FILE.json");
+  app.add_option("--explain", options.explain,
+                 "say where this module, link or other part comes from, and nothing else")
+      ->type_name("NAME");
 }
 
 int check(const CheckOptions& options) {
@@ -356,6 +315,10 @@ int check(const CheckOptions& options) {
   LoadFigures load;
   load.begin("read_s", "read " + options.scene.scene);
   const Scene scene = readScene(options.scene);
+  if (!options.explain.empty()) {
+    std::cout << explain(scene, options.explain);
+    return kSuccess;
+  }
   const physics::Rates rates = chosenRates(scene, options.scene);
   load.begin("settle_s", "settle " + sizeText(scene));
   const std::clock_t begun = std::clock();

@@ -19,6 +19,7 @@ struct CheckOptions {
   std::string target;           ///< empty: nothing is proposed
   std::string filter_response;  ///< empty: not written
   std::string proof;            ///< empty: not written
+  std::string explain;          ///< a name; empty: all of the scene is checked
 };
 
 void addOptions(CLI::App& app, CheckOptions& options);

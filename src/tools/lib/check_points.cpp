@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/lib/check_points.hpp"
+
+#include <utility>
+
+namespace ergotic::tools {
+namespace {
+
+using scene::Scene;
+
+const scene::Mat& matAt(const Scene& scene, int index) {
+  return scene.mats[static_cast<std::size_t>(index)];
+}
+
+/// What moves a point along, or across.
+void tellWay(const Scene& scene,
+             const scene::Connection::Way& way,
+             const std::string& suffix,
+             Json& entry) {
+  if (way.at.parameter >= 0) {
+    const auto moved_by = static_cast<std::size_t>(way.at.parameter);
+    entry["parameter" + suffix] = scene.parameters[moved_by].name;
+  }
+  if (way.guide >= 0) {
+    entry["guide" + suffix] = matAt(scene, way.guide).name;
+  }
+}
+
+}  // namespace
+
+Json pointsOf(const Scene& scene) {
+  Json report = Json::array();
+  for (const scene::Connection& point : scene.connections) {
+    const scene::Grid& grid = scene.grids[static_cast<std::size_t>(point.grid)];
+    Json entry = {{"name", matAt(scene, point.mat).name},
+                  {"on", grid.name},
+                  {"along", scene.valueOf(point.along.at)}};
+    if (grid.rows > 1) {
+      entry["across"] = scene.valueOf(point.across.at);
+    }
+    tellWay(scene, point.along, "", entry);
+    tellWay(scene, point.across, "_across", entry);
+    report.push_back(std::move(entry));
+  }
+  for (const scene::Tap& tap : scene.taps) {
+    Json entry = {{"name", matAt(scene, tap.mat).name}};
+    double mobility = 0.0;
+    for (const scene::Tap::Share& share : tap.shares) {
+      const scene::Mat& mat = matAt(scene, share.mat);
+      const bool is_ground = mat.type == scene::MatType::kGround;
+      mobility += is_ground ? 0.0 : share.weight * share.weight / scene.valueOf(mat.mass);
+      entry["of"].push_back(mat.name);
+      entry["weights"].push_back(share.weight);
+    }
+    if (mobility > 0.0) {
+      entry["mass"] = 1.0 / mobility;
+    }
+    report.push_back(std::move(entry));
+  }
+  return report;
+}
+
+}  // namespace ergotic::tools

@@ -17,7 +17,7 @@ scene::Scene sceneOf(const SpringInstrument::Setting& setting) {
   scene.mats[0].type = scene::MatType::kSlice;
   scene.ports.push_back(setting.port);
   scene.ports[0].name = "hand";
-  scene.parameters.push_back({"stiffness", setting.stiffness, 0.0, 1e6, {}});
+  scene.parameters.push_back({"stiffness", setting.stiffness, 0.0, 1e6, {}, {}});
   for (int c = 0; c < setting.outputs; ++c) {
     scene.outputs.emplace_back();
     scene.outputs.back().channel = c;

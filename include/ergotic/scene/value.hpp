@@ -36,7 +36,7 @@ struct Parameter {
   double minimum = 0.0;
   double maximum = 0.0;
   std::string unit;  ///< SI, for readers; empty: not said
-  Place place;
+  Place place{};
 };
 
 /// A number that follows an audio input from sample to sample (`.mdl` audioParam). It has no range,

@@ -218,6 +218,7 @@ struct Grid {
   int first = 0;    ///< index of the first mat; the others follow, row by row
   int columns = 2;  ///< mats of a row
   int rows = 1;
+  Place place{};
 };
 
 /// Where a kPoint on a grid lies. Its position is the weighted mean of the modules around it, and

@@ -88,7 +88,7 @@ void addMesh(SceneBuilder& builder, const MeshSpec& spec) {
       }
     }
   }
-  builder.add(Grid{spec.name, first, spec.columns, spec.rows});
+  builder.add(Grid{spec.name, first, spec.columns, spec.rows, spec.place});
 }
 
 }  // namespace ergotic::scene

@@ -77,7 +77,7 @@ void addString(SceneBuilder& builder, const StringSpec& spec) {
     }
     builder.add(std::move(lia));
   }
-  builder.add(Grid{spec.name, info.first, count, 1});
+  builder.add(Grid{spec.name, info.first, count, 1, spec.place});
   builder.add(std::move(info));
 }
 

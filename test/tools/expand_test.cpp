@@ -37,7 +37,7 @@ TEST_F(ExpandTest, WritesWhatIsPlayed) {
   const test::Outcome plain = run("expand", brief.path());
   ASSERT_EQ(plain.code, 0) << plain.text;
   EXPECT_THAT(plain.text, HasSubstr("m_2: {type: mass, section: a, mass: 0.003"));
-  EXPECT_THAT(plain.text, HasSubstr("stiffness: 2000"));
+  EXPECT_THAT(plain.text, HasSubstr("stiffness: 2 kN/m"));
   EXPECT_THAT(plain.text, Not(HasSubstr("for:")));
 
   const ScratchFile written(plain.text);
@@ -53,16 +53,17 @@ define:
   pair:
     needs: {s: audio}
     generators:
-      - {type: string, name: body, section: s, masses: 4, mass: 1 g, frequency: 300}
+      - {type: string, name: body, section: s, masses: 4, mass: 1 g, frequency: 300,
+         to: [0.3, 0]}
     mats: {m: {type: mass, section: s, mass: 5 g}}
 use:
   - {for: {i: 0..1}, is: pair, as: 'p_{i}', in: {s: a}}
 )");
   const test::Outcome mass = run("check", scene.path() + " --explain p_1.m");
   EXPECT_EQ(mass.code, 0);
-  EXPECT_THAT(mass.text, StartsWith(scene.path() + ":8:"));
-  EXPECT_THAT(mass.text, HasSubstr("in p_1 (pair), used at " + scene.path() + ":10:"));
-  EXPECT_THAT(mass.text, HasSubstr("p_1.m: {type: mass, section: a, mass: 0.005}"));
+  EXPECT_THAT(mass.text, StartsWith(scene.path() + ":9:"));
+  EXPECT_THAT(mass.text, HasSubstr("in p_1 (pair), used at " + scene.path() + ":11:"));
+  EXPECT_THAT(mass.text, HasSubstr("p_1.m: {type: mass, section: a, mass: 5 g}"));
   EXPECT_THAT(run("check", scene.path() + " --explain p_0.body.2").text,
               HasSubstr("type: string, name: p_0.body"));
   const test::Outcome unknown = run("check", scene.path() + " --explain p_1.k");

@@ -24,8 +24,9 @@ Place placeOfMark(const YAML::Mark& mark) {
 /// stand for more than any memory.
 class Grower final : public YAML::EventHandler {
  public:
-  Grower(const SceneBuilder& builder, int most_documents)
-      : builder_(builder), most_documents_(most_documents) {}
+  /// \param keeps  false: only counts
+  Grower(const SceneBuilder& builder, int most_documents, bool keeps)
+      : builder_(builder), most_documents_(most_documents), keeps_(keeps) {}
 
   std::vector<Node> documents() { return std::move(documents_); }
 
@@ -73,9 +74,14 @@ class Grower final : public YAML::EventHandler {
                                            " scalars, lists and maps; generators make " +
                                            "more modules of less text");
     }
-    open_.emplace_back(kind, placeOfMark(mark), text);
+    if (keeps_) {
+      open_.emplace_back(kind, placeOfMark(mark), text);
+    }
   }
   void end() {
+    if (!keeps_) {
+      return;
+    }
     Node node = std::move(open_.back());
     open_.pop_back();
     if (open_.empty()) {
@@ -87,11 +93,24 @@ class Grower final : public YAML::EventHandler {
 
   const SceneBuilder& builder_;
   const int most_documents_;
+  const bool keeps_;
   int begun_ = 0;
   std::size_t nodes_ = 0;
   std::vector<Node> open_;  // from the outermost on
   std::vector<Node> documents_;
 };
+
+std::vector<Node> documentsOf(const SceneBuilder& builder,
+                              const std::string& text,
+                              int most,
+                              bool keeps) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  Grower grower(builder, most, keeps);
+  while (parser.HandleNextDocument(grower)) {
+  }
+  return grower.documents();
+}
 
 }  // namespace
 
@@ -100,12 +119,10 @@ std::vector<Node> readDocuments(const SceneBuilder& builder,
                                 int most,
                                 const std::string& needs) {
   try {
-    std::istringstream stream(text);
-    YAML::Parser parser(stream);
-    Grower grower(builder, most);
-    while (parser.HandleNextDocument(grower)) {
+    if (text.size() > kMaxNodes) {  // too many are refused before they take room
+      documentsOf(builder, text, most, false);
     }
-    return grower.documents();
+    return documentsOf(builder, text, most, true);
   } catch (const YAML::DeepRecursion& e) {
     builder.fail(placeOfMark(e.mark), "nested too deeply, allowed: as deep as " + needs);
   } catch (const YAML::Exception& e) {

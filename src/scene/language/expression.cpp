@@ -261,7 +261,10 @@ class Parser {
       at_ = first;
       fail("unknown name " + quoted(name) + suggestion(name, scope_.names()));
     }
-    Constant value = *known;
+    if (!takes("[")) {
+      return *known;
+    }
+    Constant value = item(*known);
     while (takes("[")) {
       value = item(value);
     }

@@ -13,7 +13,9 @@ namespace ergotic::scene {
 namespace {
 
 constexpr std::size_t kMostWritten = 500'000;  // scalars, lists and maps
-constexpr double kMostTurns = 1e6;             // of a loop
+constexpr std::size_t kMostText = 8U << 20U;   // bytes in them and in what is evaluated
+constexpr std::size_t kLongestWord = 4096;     // bytes, of what is put together
+constexpr double kMostTurns = 1e5;             // of a loop
 constexpr const char* kReferences[] = {"between", "at",     "mat",  "of",
                                        "along",   "normal", "from", "guide"};
 
@@ -45,6 +47,23 @@ void Writer::count(const Node& node, const Frame& frame) {
   }
 }
 
+void Writer::countText(std::size_t bytes, const Node& node, const Frame& frame) {
+  if ((text_ += bytes) > kMostText) {
+    fail(node, frame,
+         "written out the scene has more than " + std::to_string(kMostText) +
+             " bytes of words and expressions");
+  }
+}
+
+/// Of a list that stands in the place of its name, before it takes room.
+void Writer::countAll(const Node& list, const Node& asked, const Frame& frame) {
+  count(asked, frame);
+  countText(list.text().size(), asked, frame);
+  for (const Node& part : list) {
+    countAll(part, asked, frame);
+  }
+}
+
 std::string Writer::renamed(const std::string& name, const Frame& frame) {
   if (frame.prefix.empty()) {
     return name;
@@ -57,7 +76,8 @@ Constant Writer::evaluated(const Node& node,
                            std::size_t from,
                            std::string_view expression,
                            const Frame& frame,
-                           const Scope& scope) const {
+                           const Scope& scope) {
+  countText(expression.size(), node, frame);
   try {
     return evaluate(expression, scope);
   } catch (const ExpressionError& error) {
@@ -67,7 +87,7 @@ Constant Writer::evaluated(const Node& node,
   }
 }
 
-std::string Writer::word(const Node& node, const Frame& frame, const Scope& scope) const {
+std::string Writer::word(const Node& node, const Frame& frame, const Scope& scope) {
   if (!node.isScalar()) {
     fail(node, frame, "a name is no single word");
   }
@@ -77,7 +97,12 @@ std::string Writer::word(const Node& node, const Frame& frame, const Scope& scop
   while (true) {
     const std::size_t open = text.find('{', at);
     result += text.substr(at, open - at);
+    if (at > 0 && result.size() > kLongestWord) {
+      fail(node, frame,
+           quoted(text) + " becomes more than " + std::to_string(kLongestWord) + " bytes");
+    }
     if (open == std::string::npos) {
+      countText(frame.prefix.size() + result.size(), node, frame);
       return result;
     }
     const std::size_t close = text.find('}', open);
@@ -96,7 +121,11 @@ std::string Writer::word(const Node& node, const Frame& frame, const Scope& scop
 
 Constant Writer::constant(const Node& node, const Frame& frame, const Scope& scope) {
   if (isExpression(node)) {
-    return evaluated(node, 1, std::string_view(node.text()).substr(1), frame, scope);
+    Constant value = evaluated(node, 1, std::string_view(node.text()).substr(1), frame, scope);
+    if (const auto* const list = std::get_if<Node>(&value)) {
+      countAll(*list, node, frame);
+    }
+    return value;
   }
   return constantOf(write(node, frame, scope));
 }

@@ -19,7 +19,7 @@ class Writer {
   /// \param is_reference  whether its words name elements
   Node write(const Node& node, const Frame& frame, const Scope& scope, bool is_reference = false);
   /// A name or a word with `{...}` in it.
-  std::string word(const Node& node, const Frame& frame, const Scope& scope) const;
+  std::string word(const Node& node, const Frame& frame, const Scope& scope);
   /// What `= ...`, a quantity or words stand for.
   Constant constant(const Node& node, const Frame& frame, const Scope& scope);
 
@@ -41,7 +41,7 @@ class Writer {
                      std::size_t from,
                      std::string_view expression,
                      const Frame& frame,
-                     const Scope& scope) const;
+                     const Scope& scope);
   Node writeScalar(const Node& node, const Frame& frame, const Scope& scope, bool is_reference);
   Node placed(const Node& value, Place place);
   void loop(const Node& loops,
@@ -51,9 +51,12 @@ class Writer {
             const Each& each);
   std::vector<Constant> itemsOf(const Node& values, const Frame& frame, const Scope& scope);
   void count(const Node& node, const Frame& frame);
+  void countText(std::size_t bytes, const Node& node, const Frame& frame);
+  void countAll(const Node& list, const Node& asked, const Frame& frame);
 
   const SceneBuilder& builder_;
   std::size_t written_ = 0;
+  std::size_t text_ = 0;  // bytes
 };
 
 }  // namespace ergotic::scene

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "scene/generate/scene_builder.hpp"
-#include "scene/yaml/point_files.hpp"
 #include "scene/tree/yaml_map.hpp"
+#include "scene/yaml/point_files.hpp"
 
 namespace ergotic::scene {
 

@@ -330,15 +330,16 @@ TEST_F(CheckTest, SaysWhatASceneIsMadeOf) {
   const std::string scene = write("drum.yaml", kDrum);
   const Outcome outcome = run("check", scene + " --set tone=2500");
   EXPECT_EQ(outcome.code, 0) << outcome.text;
-  EXPECT_THAT(outcome.text,
-              AllOf(HasSubstr("modules: 2\n"), HasSubstr("gestural_rate_hz: 3150\n"),
-                    HasSubstr("modules: {slice: 1}\n"),
-                    HasSubstr("types: {contact: 1}, schemes: {guarded: 1}"),
-                    HasSubstr("value: 2500\n    minimum: 1000\n    maximum: 8000\n"),
-                    HasSubstr("verdict: passive\n"), HasSubstr("passive_up_to_n_per_m: 4200\n"),
-                    HasSubstr("whatever the hands do, as long as its parameters stand still\n"),
-                    HasSubstr("lowest_stable_audio_rate_hz: "), HasSubstr("state_bytes: "),
-                    HasSubstr("real_time_factor: ")));
+  EXPECT_THAT(
+      outcome.text,
+      AllOf(HasSubstr("modules: 2\n"), HasSubstr("gestural_rate_hz: 3150\n"),
+            HasSubstr("modules: {slice: 1}\n"),
+            HasSubstr("types: {contact: 1}, schemes: {guarded: 1}"),
+            HasSubstr("value: 2500\n    unit: not said\n    minimum: 1000\n    maximum: 8000\n"),
+            HasSubstr("verdict: passive\n"), HasSubstr("passive_up_to_n_per_m: 4200\n"),
+            HasSubstr("whatever the hands do, as long as its parameters stand still\n"),
+            HasSubstr("lowest_stable_audio_rate_hz: "), HasSubstr("state_bytes: "),
+            HasSubstr("real_time_factor: ")));
 }
 
 TEST_F(CheckTest, GivesTheClosedFormPitchOfEachString) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <iostream>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <thread>
 
@@ -70,6 +71,7 @@ class SafetyTest : public ::testing::Test {
   std::int64_t energyTick(std::int64_t from) const;
   std::int64_t startNs(const FaultCase& fault, const Mark& mark) const;
   bool release(const FaultCase& fault, Trials& trials, Outcome& outcome) const;
+  std::string wayTo(std::int64_t tick) const;
   void waitUntilOver(const FaultCase& fault) const;
   static void measure(const FaultCase& fault,
                       const Mark& mark,
@@ -140,6 +142,18 @@ std::int64_t SafetyTest::startNs(const FaultCase& fault, const Mark& mark) const
   return mark.request_ns;
 }
 
+/// Of the pushed slice in the last ticks, for a reason that is not understood.
+std::string SafetyTest::wayTo(std::int64_t tick) const {
+  constexpr std::int64_t kTicks = 12;
+  std::ostringstream way;
+  for (const GestureRecord::Tick& each : record_->from(tick - kTicks)) {
+    if (each.tick <= tick) {
+      way << ' ' << each.positions[0];
+    }
+  }
+  return way.str();
+}
+
 /// \pre 15 N are applied. \return false if another fault came before, of a stall
 bool SafetyTest::release(const FaultCase& fault, Trials& trials, Outcome& outcome) const {
   Mark mark{rt::monotonicNs(), the_world->events.count(), record_->newest(), 0};
@@ -159,7 +173,8 @@ bool SafetyTest::release(const FaultCase& fault, Trials& trials, Outcome& outcom
       mark.pushed_ns, std::max(told_ns, mark.request_ns) + kToldNs,
       fault.start == Start::kEnergy ? ReferenceThreads::kLeastNs : kNoticedNs};
   if (trials.judgeThat(outcome.reason == fault.reason, until_told,
-                       "the reason, but `" + outcome.says + "`,") != Trials::Verdict::kOnTime) {
+                       "the reason, but `" + outcome.says + "` after" + wayTo(fault_tick) +
+                           " m,") != Trials::Verdict::kOnTime) {
     EXPECT_TRUE(isOfStall(fault, outcome.reason)) << outcome.says;
     return false;
   }

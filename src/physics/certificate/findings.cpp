@@ -5,9 +5,24 @@
 #include <cmath>
 #include <iomanip>
 #include <sstream>
-#include <utility>
 
 namespace ergotic::physics {
+namespace {
+
+/// Without the names in it: what many links of a net have in common.
+std::string unnamed(const std::string& text) {
+  std::string rest;
+  bool is_name = false;
+  for (const char c : text) {
+    is_name = is_name != (c == '\'');
+    if (!is_name) {
+      rest += c;
+    }
+  }
+  return rest;
+}
+
+}  // namespace
 
 void Findings::worsen(Verdict verdict) {
   worst_ = std::max(worst_, verdict);
@@ -16,7 +31,12 @@ void Findings::worsen(Verdict verdict) {
 void Findings::add(Verdict verdict, const scene::Place& place, const std::string& text) {
   worsen(verdict);
   const char* kind = verdict == Verdict::kUnstable ? "error" : "warning";
-  findings_.push_back({verdict, locate(place, kind, text)});
+  const auto [known, is_new] = alike_.emplace(kind + unnamed(text), findings_.size());
+  if (is_new) {
+    findings_.push_back({verdict, locate(place, kind, text)});
+  } else {
+    ++findings_[known->second].more;
+  }
 }
 
 std::string Findings::locate(const scene::Place& place,
@@ -27,11 +47,14 @@ std::string Findings::locate(const scene::Place& place,
 }
 
 void Findings::giveTo(Certificate& certificate) {
+  alike_.clear();
   std::stable_sort(findings_.begin(), findings_.end(),
                    [](const Finding& a, const Finding& b) { return a.verdict > b.verdict; });
   certificate.verdict = worst_;
-  for (Finding& finding : findings_) {
-    certificate.findings.push_back(std::move(finding.text));
+  for (const Finding& finding : findings_) {
+    const std::string more =
+        finding.more > 0 ? " (" + std::to_string(finding.more) + " more like it)" : "";
+    certificate.findings.push_back(finding.text + more);
   }
   findings_.clear();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,8 @@ class Findings {
 
   /// Worsens the verdict, without words.
   void worsen(Verdict verdict);
-  /// `file:line:col: error|warning: text`; only what is unstable is an error.
+  /// `file:line:col: error|warning: text`; only what is unstable is an error. What differs from one
+  /// before in place and names alone is counted there: nets say the same of a thousand links.
   void add(Verdict verdict, const scene::Place& place, const std::string& text);
 
   /// `file:line:col: kind: text`
@@ -35,11 +37,13 @@ class Findings {
   struct Finding {
     Verdict verdict;
     std::string text;
+    int more = 0;
   };
   std::string file_;
   Proof* proof_;
   Verdict worst_ = Verdict::kPassive;
   std::vector<Finding> findings_;
+  std::map<std::string, std::size_t> alike_;  // by their words
 };
 
 /// A number to four digits.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/lib/check.hpp"
 
+#include <algorithm>
 #include <ctime>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <utility>
@@ -200,6 +202,9 @@ Json reportOn(const physics::Settled& settled,
               Json load) {
   const Scene& scene = settled.scene;
   std::vector<std::string> warnings = scene.warnings;
+  std::copy_if(
+      certificate.findings.begin(), certificate.findings.end(), std::back_inserter(warnings),
+      [](const std::string& finding) { return finding.find(": warning: ") != std::string::npos; });
   const std::string note = conversionNote(scene, rates);
   if (!note.empty()) {
     warnings.push_back(note);

@@ -177,6 +177,19 @@ TEST(CertifyLinksTest, GuardedTablesBesideAHandGiveAsTheExplicitOnes) {
   }
 }
 
+TEST(CertifyLinksTest, WhatIsSaidOfManyLinksIsSaidOnce) {
+  SceneBuilder b;
+  for (int i = 0; i < 30; ++i) {
+    const int link = b.link(LiaType::kCubic, b.mass(1.0), b.ground(), 1e3);
+    b.scene.lias[at(link)].law.edit().nonlinearity = {i < 20 ? 1e9 : 1e8};
+    b.scene.lias[at(link)].scheme = scene::Scheme::kExplicit;
+  }
+  const std::vector<std::string> findings = certify(b.scene, {kRate, 14}).findings;
+  ASSERT_EQ(findings.size(), 2U);
+  EXPECT_THAT(findings[0], AllOf(HasSubstr("'l0'"), HasSubstr(" (19 more like it)")));
+  EXPECT_THAT(findings[1], AllOf(HasSubstr("'l20'"), HasSubstr(" (9 more like it)")));
+}
+
 TEST(CertifyLinksTest, PowerContactSaysHowDeepItWouldHold) {
   SceneBuilder b;
   const int mass = b.mass(1.0);

@@ -39,8 +39,8 @@ std::vector<Eigen::Vector3d> readPoints(const SceneBuilder& builder, const YamlM
                               ", allowed: [x, y, z]");
     }
     Eigen::Vector3d point;
-    for (int axis = 0; axis < 3; ++axis) {
-      point[axis] =
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      point[static_cast<Eigen::Index>(axis)] =
           scene::numberOf(builder, node[axis], "a point of " + map.what(), kPointLimits, place);
     }
     points.push_back(point);

@@ -54,7 +54,7 @@ ROOMS = {
 
 # Headers of others that a room may know beside those of the C++ library and the system: by the
 # beginnings of their names. The core knows neither ROS nor JACK.
-CORE = "Eigen/ yaml-cpp/ boost/lockfree/"
+CORE = "Eigen/ Spectra/ yaml-cpp/ boost/lockfree/"
 ROS = CORE + " ros/ rosbag/ nodelet/ pluginlib/ class_loader/ xmlrpcpp/ diagnostic_updater/ tf2_ros/" \
              " console_bridge/ ergotic/ diagnostic_msgs/ geometry_msgs/ sensor_msgs/ std_msgs/ std_srvs/ visualization_msgs/"
 FOREIGN = {

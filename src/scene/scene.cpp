@@ -68,7 +68,8 @@ bool isSettled(const Scene& scene) {
   const auto none = [](const auto& all, auto&& is_open) {
     return std::none_of(all.begin(), all.end(), is_open);
   };
-  return none(scene.sections, [](const Section& s) { return s.automatic_rate; }) &&
+  return scene.tunings.empty() &&
+         none(scene.sections, [](const Section& s) { return s.automatic_rate; }) &&
          none(scene.strings, [](const StringInfo& s) { return s.frequency_hz > 0.0; }) &&
          none(scene.mats,
               [](const Mat& m) {

@@ -14,6 +14,7 @@
 #include "ergotic/scene/lia_type.hpp"
 #include "ergotic/scene/name.hpp"
 #include "ergotic/scene/rare.hpp"
+#include "ergotic/scene/tuning.hpp"
 #include "ergotic/scene/value.hpp"
 
 /// A scene: what the instrument is made of, before any rate or precision is chosen.
@@ -356,6 +357,7 @@ struct Scene {
   std::vector<Input> inputs;
   std::vector<Output> outputs;
   std::vector<StringInfo> strings;
+  std::vector<Tuning> tunings;
   std::vector<Grid> grids;
   std::vector<Connection> connections;
   std::vector<Tap> taps;
@@ -383,7 +385,7 @@ struct Scene {
 /// its line may turn. \pre the ends of the link exist
 bool isGuardable(const Scene& scene, const Lia& lia);
 
-/// True if the scene leaves nothing open: no rate, scheme, chaplet or pitch of a string is still to
+/// True if the scene leaves nothing open: no rate, scheme, chaplet or pitch is still to
 /// be chosen (physics::settle does); `compile` and `certify` need that.
 bool isSettled(const Scene& scene);
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "physics/settling/automatic_rate.hpp"
+#include "physics/settling/body_tuning.hpp"
 #include "physics/settling/coupling_choice.hpp"
 #include "physics/settling/filters.hpp"
 #include "physics/settling/pitch_pull.hpp"
@@ -23,6 +24,7 @@ namespace {
 /// on the masses that a link ends on.
 scene::Scene complete(scene::Scene scene, const Rates& rates, std::vector<std::string>& notes) {
   tuneStrings(scene, rates, notes);
+  tuneBodies(scene, rates, notes);
   scene::settleStretches(scene);
   askForChaplets(scene, rates);
   insertFilters(scene, rates, notes);

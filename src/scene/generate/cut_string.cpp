@@ -155,6 +155,10 @@ class Cutter {
         spring = movedLia(spring);
       }
     }
+    for (Tuning& tuning : to_.tunings) {
+      tuning.first_mat = moved(tuning.first_mat);
+      tuning.first_lia = movedLia(tuning.first_lia);
+    }
     for (Grid& grid : to_.grids) {
       grid.first = moved(grid.first);
     }

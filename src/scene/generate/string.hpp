@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "scene/generate/scene_builder.hpp"
+#include "scene/generate/body.hpp"
 
 namespace ergotic::scene {
 
@@ -29,6 +29,9 @@ struct StringSpec {
   Eigen::Vector3d to = Eigen::Vector3d::Zero();    ///< rest of the last ground, m
   /// Where (0...1) and how high (m) it is held at start: along x, in a plane or in space along y.
   std::optional<Eigen::Vector2d> pluck;
+  /// A body of a pitch, decay and inharmonicity, the stiffness and damping of which do not count; a
+  /// scalar one. Its bends, around each mass, are `name.bend.0` ...
+  std::optional<BodyWish> wish;
   Place place;
 };
 
@@ -36,7 +39,8 @@ struct StringSpec {
 /// fundamental at `frequency_hz`, in continuous time: K = M (pi f / sin(pi / (2 (N+1))))^2.
 Value stringStiffness(int masses, const Value& mass, double frequency_hz);
 
-/// Appends the string, its modules and links. \throws TextError if a name is taken
+/// Appends the string, its modules and links.
+/// \throws TextError if a name is taken, or as `finishBody`
 void addString(SceneBuilder& builder, const StringSpec& spec);
 
 }  // namespace ergotic::scene

@@ -14,9 +14,8 @@ struct Generator {
   void (*read)(SceneBuilder& builder, const std::string& name, const YamlMap& map);
 };
 constexpr Generator kGenerators[] = {
-    {"string", readString},
-    {"mesh", readMesh},
-    {"chaplet", readChaplet},
+    {"string", readString},     {"mesh", readMesh},   {"bar", readBar},
+    {"membrane", readMembrane}, {"plate", readPlate}, {"chaplet", readChaplet},
 };
 
 }  // namespace

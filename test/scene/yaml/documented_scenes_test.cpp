@@ -54,7 +54,7 @@ TEST(DocumentedScenesTest, AreWholeScenesOrPiecesOfOne) {
       ++pieces;
     }
   }
-  EXPECT_EQ(pieces, 7);
+  EXPECT_EQ(pieces, 8);
 }
 
 TEST(DocumentedScenesTest, ShowEachWayToWriteATable) {

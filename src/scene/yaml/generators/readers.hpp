@@ -11,5 +11,8 @@ namespace ergotic::scene {
 void readString(SceneBuilder& builder, const std::string& name, const YamlMap& map);
 void readMesh(SceneBuilder& builder, const std::string& name, const YamlMap& map);
 void readChaplet(SceneBuilder& builder, const std::string& name, const YamlMap& map);
+void readBar(SceneBuilder& builder, const std::string& name, const YamlMap& map);
+void readMembrane(SceneBuilder& builder, const std::string& name, const YamlMap& map);
+void readPlate(SceneBuilder& builder, const std::string& name, const YamlMap& map);
 
 }  // namespace ergotic::scene

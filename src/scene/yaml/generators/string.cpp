@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/generate/string.hpp"
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "ergotic/scene/coarse_string.hpp"
+#include "scene/yaml/generators/body_keys.hpp"
 #include "scene/yaml/generators/generator_keys.hpp"
 #include "scene/yaml/generators/readers.hpp"
 
 namespace ergotic::scene {
 namespace {
+
+constexpr double kMostBodyMasses = 2000.0;
+constexpr Limits kImpedanceLimits{"N s/m", 0.0, kInfinity, true};
+constexpr Limits kTensionLimits{"N", 0.0, kInfinity, true};
+constexpr Limits kInharmonicityLimits{"", 0.0, 0.1};
 
 /// What a string's own tension leaves of a link's stiffness across the string.
 double transverseShare(const SceneBuilder& builder, const YamlMap& map, const StringSpec& spec) {
@@ -66,9 +76,69 @@ void readStringPlaces(const SceneBuilder& builder, const YamlMap& map, StringSpe
   }
 }
 
+void readPluck(const YamlMap& map, StringSpec& spec) {
+  if (map.has("pluck")) {
+    const YamlMap pluck = map.map("pluck");
+    pluck.allow({"at", "height"});
+    spec.pluck = Eigen::Vector2d(pluck.number("at", kInnerFractionLimits),
+                                 pluck.number("height", kMetreLimits));
+  }
+}
+
+/// Of each moving mass: said, or what the impedance or the tension of the whole comes to. A string
+/// of mass m per metre and length L has Z = T/c = m c and f = c/(2 L): m L = Z/(2 f) = T/(4 L f^2).
+double readStringMass(const SceneBuilder& builder,
+                      const YamlMap& map,
+                      double pitch_hz,
+                      int masses) {
+  const std::vector<std::string> ways{"mass", "impedance", "tension"};
+  const auto given =
+      std::count_if(ways.begin(), ways.end(), [&](const std::string& key) { return map.has(key); });
+  if (given != 1) {
+    builder.fail(map.place(), map.what() + " has " + (given > 1 ? "more than one" : "none") +
+                                  " of 'mass', 'impedance', 'tension', allowed: exactly one");
+  }
+  if (map.has("length") && !map.has("tension")) {
+    builder.fail(map.keyPlaceAt("length"),
+                 "'length' of " + map.what() + " without 'tension', allowed: with it");
+  }
+  if (map.has("mass")) {
+    return map.number("mass", kMassLimits);
+  }
+  const double whole = map.has("impedance")
+                           ? map.number("impedance", kImpedanceLimits) / (2.0 * pitch_hz)
+                           : map.number("tension", kTensionLimits) /
+                                 (4.0 * map.number("length", kSpacingLimits) * pitch_hz * pitch_hz);
+  return whole / (masses + 1);
+}
+
+/// One that is tuned with its bending and its losses.
+void readStringBody(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
+  map.allow(withBodyKeys({"masses", "mass", "impedance", "tension", "length", "inharmonicity",
+                          "from", "to", "pluck"}));
+  StringSpec spec;
+  spec.name = name;
+  spec.place = map.placeAt("name");
+  spec.section = bodySection(builder, map);
+  spec.masses = map.integer("masses", {"", 1.0, kMostBodyMasses});
+  spec.wish = readBodyWish(builder, map);
+  if (map.has("inharmonicity")) {
+    spec.wish->inharmonicity = map.number("inharmonicity", kInharmonicityLimits);
+  }
+  const double fundamental_hz = spec.wish->pitch_hz / spec.wish->pitch_of;
+  spec.mass.factor = readStringMass(builder, map, fundamental_hz, spec.masses);
+  readStringPlaces(builder, map, spec);
+  readPluck(map, spec);
+  addString(builder, spec);
+}
+
 }  // namespace
 
 void readString(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
+  if (map.has("pitch")) {
+    readStringBody(builder, name, map);
+    return;
+  }
   map.allow({"type", "name", "section", "masses", "mass", "stiffness", "frequency", "coarse",
              "damping", "loss", "rest_length_ratio", "scheme", "from", "to", "pluck"});
   StringSpec spec;
@@ -88,12 +158,7 @@ void readString(SceneBuilder& builder, const std::string& name, const YamlMap& m
     spec.loss = map.value("loss", kDampingLimits);
   }
   readStringPlaces(builder, map, spec);
-  if (map.has("pluck")) {
-    const YamlMap pluck = map.map("pluck");
-    pluck.allow({"at", "height"});
-    spec.pluck = Eigen::Vector2d(pluck.number("at", kInnerFractionLimits),
-                                 pluck.number("height", kMetreLimits));
-  }
+  readPluck(map, spec);
   addString(builder, spec);
 }
 

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include "scene/generate/body.hpp"
+
+namespace ergotic::scene {
+
+enum class PlateEdges { kSupported, kClamped, kFree };
+
+/// A plate: modules `name.<row>.<column>` of a square grid, unless it is free the outermost
+/// grounds, and bends `name.bend.0` ... with `name.link.0` ... beside them: what holds a clamped
+/// edge, and dampers between neighbours where two decays are asked for. A grid.
+struct PlateSpec {
+  std::string name;
+  int section = 0;
+  int rows = 3;  ///< with the grounds
+  int columns = 3;
+  PlateEdges edges = PlateEdges::kFree;
+  double poisson = 0.3;                          ///< of free ones
+  double mass = 1.0;                             ///< of the whole, kg
+  double spacing = 0.01;                         ///< m
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< rest of the first module, m
+  BodyWish wish;
+  Place place;
+};
+
+/// Appends the plate. \throws TextError if a name is taken, or as `finishBody`
+void addPlate(SceneBuilder& builder, const PlateSpec& spec);
+
+}  // namespace ergotic::scene

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/generate/skin.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "at.hpp"
+#include "scene/generate/generated.hpp"
+#include "scene/generate/sheet.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+struct Step {
+  int row;
+  int column;
+};
+constexpr Step kSteps[] = {{0, 1}, {1, 0}, {1, 1}, {1, -1}};
+constexpr double kShortestAtRim = 0.5;  // of a link; shorter ones would be stiffer than all others
+constexpr double kDiagonal = 0.25;      // of the stiffness along rows and columns
+
+class Membrane {
+ public:
+  Membrane(SceneBuilder& builder, const MembraneSpec& spec) : builder_(builder), spec_(spec) {}
+
+  void add() {
+    Tuning body = beginBody(builder_, spec_.name, spec_.place);
+    first_ = body.first_mat;
+    addMats();
+    addLinks();
+    finishBody(builder_, std::move(body), spec_.wish);
+  }
+
+ private:
+  double middleRow() const { return 0.5 * (spec_.rows - 1); }
+  double middleColumn() const { return 0.5 * (spec_.columns - 1); }
+  double radius() const { return middleColumn(); }
+
+  /// From the middle, in cells.
+  double distance(int row, int column) const {
+    return std::hypot(row - middleRow(), column - middleColumn());
+  }
+  bool isInside(int row, int column) const {
+    return row > 0 && column > 0 && row < spec_.rows - 1 && column < spec_.columns - 1 &&
+           (!spec_.is_round || distance(row, column) < radius() - 1e-9);
+  }
+
+  void addMats() {
+    int inside = 0;
+    for (int row = 0; row < spec_.rows; ++row) {
+      for (int column = 0; column < spec_.columns; ++column) {
+        inside += isInside(row, column) ? 1 : 0;
+      }
+    }
+    const Sheet sheet{spec_.name,    spec_.section, spec_.rows, spec_.columns,
+                      spec_.spacing, spec_.at,      spec_.place};
+    addSheet(builder_, sheet, spec_.wish, [&](int row, int column) {
+      const double r = distance(row, column) / radius();
+      return isInside(row, column) ? spec_.mass / inside * spec_.load.at(r, radius()) : 0.0;
+    });
+  }
+
+  /// The part of a step from inside to outside that is inside.
+  double partInside(int row, int column, const Step& step) const {
+    if (!spec_.is_round) {
+      return 1.0;
+    }
+    // |p + t d| = R, with p inside: the positive root.
+    const Eigen::Vector2d p(row - middleRow(), column - middleColumn());
+    const Eigen::Vector2d d(step.row, step.column);
+    const double half = p.dot(d) / d.squaredNorm();
+    const double left = (radius() * radius() - p.squaredNorm()) / d.squaredNorm();
+    return std::clamp(-half + std::sqrt(half * half + left), kShortestAtRim, 1.0);
+  }
+
+  void addLinks() {
+    const Name stem = linkStem(spec_.name);
+    for (int row = 0; row < spec_.rows; ++row) {
+      for (int column = 0; column < spec_.columns; ++column) {
+        for (const Step& step : kSteps) {
+          addLink(stem, row, column, step);
+        }
+      }
+    }
+  }
+
+  void addLink(const Name& stem, int row, int column, const Step& step) {
+    const int to_row = row + step.row;
+    const int to_column = column + step.column;
+    const bool is_diagonal = step.row != 0 && step.column != 0;
+    if (to_row >= spec_.rows || to_column < 0 || to_column >= spec_.columns ||
+        (is_diagonal && !spec_.has_diagonals)) {
+      return;
+    }
+    const bool from_inside = isInside(row, column);
+    const bool to_inside = isInside(to_row, to_column);
+    if (!from_inside && !to_inside) {
+      return;
+    }
+    double part = 1.0;
+    if (from_inside != to_inside) {
+      part = from_inside ? partInside(row, column, step)
+                         : partInside(to_row, to_column, {-step.row, -step.column});
+    }
+    Lia lia = generatedLink(stem, next_++, first_ + row * spec_.columns + column,
+                            first_ + to_row * spec_.columns + to_column, spec_.place);
+    lia.stiffness.factor = (is_diagonal ? kDiagonal : 1.0) / part * spec_.mass;
+    lia.damping.factor = spec_.wish.t60.size() > 1 ? lia.stiffness.factor : 0.0;
+    builder_.add(std::move(lia));
+  }
+
+  SceneBuilder& builder_;
+  const MembraneSpec& spec_;
+  int first_ = 0;
+  int next_ = 0;  // number of the next link
+};
+
+}  // namespace
+
+double SkinLoad::at(double r, double cells) const {
+  const double share = radius ? std::clamp((*radius - r) * cells + 0.5, 0.0, 1.0)
+                              : std::pow(std::max(0.0, 1.0 - r * r), power);
+  return 1.0 + (ratio - 1.0) * share;
+}
+
+void addMembrane(SceneBuilder& builder, const MembraneSpec& spec) {
+  Membrane(builder, spec).add();
+}
+
+}  // namespace ergotic::scene

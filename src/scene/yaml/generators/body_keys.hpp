@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/generate/body.hpp"
+#include "scene/yaml/yaml_elements.hpp"
+
+/// Keys that all bodies with a pitch have.
+namespace ergotic::scene {
+
+/// `keys`, and those of every body.
+std::vector<std::string> withBodyKeys(std::vector<std::string> keys);
+
+/// `pitch`, `pitch_of`, `t60`. \throws TextError
+BodyWish readBodyWish(const SceneBuilder& builder, const YamlMap& map);
+
+/// A scalar section, in which what a body loses is what it asks for. \throws TextError
+int bodySection(const SceneBuilder& builder, const YamlMap& map);
+
+}  // namespace ergotic::scene

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vector>
+
+#include "scene/generate/plate.hpp"
+#include "scene/generate/skin.hpp"
+#include "scene/yaml/generators/body_keys.hpp"
+#include "scene/yaml/generators/readers.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+constexpr Limits kCellLimits{"", 2.0, 100.0};
+constexpr Limits kRadiusLimits{"", 2.0, 50.0};
+constexpr Limits kPoissonLimits{"", 0.0, 0.5};
+constexpr Limits kLoadRatio{"", 0.01, 100.0};
+constexpr Limits kLoadPower{"", 0.1, 100.0};
+
+/// What all flat bodies are: `[columns, rows]` of masses, or one number for both.
+template <class Spec>
+void readSheet(SceneBuilder& builder, const std::string& name, const YamlMap& map, Spec& spec) {
+  spec.name = name;
+  spec.place = map.placeAt("name");
+  spec.section = bodySection(builder, map);
+  spec.mass = map.number("mass", kMassLimits);
+  spec.wish = readBodyWish(builder, map);
+  spec.spacing = map.number("spacing", kSpacingLimits, spec.spacing);
+  spec.at = readRest(builder.scene().sections[static_cast<std::size_t>(spec.section)], map, "at");
+}
+
+template <class Spec>
+void readCells(const YamlMap& map, Spec& spec, int grounds) {
+  const std::vector<int> cells = map.integers("cells", 1, 2, kCellLimits);
+  spec.columns = cells.front() + grounds;
+  spec.rows = cells.back() + grounds;
+}
+
+SkinLoad readLoad(const YamlMap& map) {
+  map.allow({"ratio", "radius", "power"});
+  SkinLoad load;
+  load.ratio = map.number("ratio", kLoadRatio);
+  if (map.has("radius") == map.has("power")) {
+    map.fail("ratio", map.what() + " has " + (map.has("radius") ? "both" : "neither") +
+                          " 'radius' and 'power', allowed: exactly one of them");
+  }
+  if (map.has("radius")) {
+    load.radius = map.number("radius", kInnerFractionLimits);
+  } else {
+    load.power = map.number("power", kLoadPower);
+  }
+  return load;
+}
+
+}  // namespace
+
+void readMembrane(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
+  map.allow(withBodyKeys({"shape", "cells", "mass", "neighbours", "load", "spacing", "at"}));
+  MembraneSpec spec;
+  readSheet(builder, name, map, spec);
+  spec.is_round = map.has("shape") && map.choice("shape", {"rectangular", "round"}) == 1;
+  spec.has_diagonals = !map.has("neighbours") || map.choice("neighbours", {"4", "8"}) == 1;
+  if (spec.is_round) {
+    spec.rows = spec.columns = 2 * map.integer("cells", kRadiusLimits) + 1;
+    if (map.has("load")) {
+      spec.load = readLoad(map.map("load"));
+    }
+  } else {
+    readCells(map, spec, 2);
+    if (map.has("load")) {
+      builder.fail(map.keyPlaceAt("load"),
+                   "'load' of " + map.what() + ", allowed with shape: round");
+    }
+  }
+  addMembrane(builder, spec);
+}
+
+void readPlate(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
+  map.allow(withBodyKeys({"edges", "cells", "mass", "poisson", "spacing", "at"}));
+  PlateSpec spec;
+  readSheet(builder, name, map, spec);
+  if (map.has("edges")) {
+    spec.edges = static_cast<PlateEdges>(map.choice("edges", {"supported", "clamped", "free"}));
+  }
+  const bool is_free = spec.edges == PlateEdges::kFree;
+  if (map.has("poisson") && !is_free) {
+    builder.fail(map.keyPlaceAt("poisson"), "'poisson' of " + map.what() +
+                                                ", whose edges are held: it changes nothing, "
+                                                "allowed with edges: free");
+  }
+  spec.poisson = map.number("poisson", kPoissonLimits, spec.poisson);
+  readCells(map, spec, is_free ? 0 : 2);
+  if (is_free && (spec.rows < 3 || spec.columns < 3)) {
+    map.fail("cells", "'cells' of " + map.what() + " is too few for free edges, allowed: 3...100");
+  }
+  addPlate(builder, spec);
+}
+
+}  // namespace ergotic::scene

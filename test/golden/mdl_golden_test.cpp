@@ -122,6 +122,8 @@ const std::vector<Case>& cases() {
       {"inputs", mixed, {}},
       {"params", pushes, {}},
       {"audio_params", swinging, {}},
+      {"macros", pushes, {}},
+      {"audio_macros", swinging, {}},
       {"contact",
        strokes,
        {overlap("apart", 0, 1, -9.0, 0.0), overlap("pressed", 0, 1, 0.0, 9.0),

@@ -62,6 +62,31 @@ struct DrivenPoint : Material {
   double target;
 };
 
+/// A point of a macro: where its modules take it, and its force goes to them.
+struct MacroPoint : Material {
+  using Shares = std::vector<std::pair<Material*, double>>;
+  explicit MacroPoint(const Shares& of) : Material(0.0, 0.0), shares(of) {
+    for (const auto& [material, share] : shares) {
+      x += share * material->x;
+      x_last += share * material->x_last;
+    }
+  }
+  void move() override {
+    x_last = x;
+    x = 0.0;
+    for (const auto& [material, share] : shares) {
+      x += share * material->x;
+    }
+    force = 0.0;
+  }
+  void give() const {
+    for (const auto& [material, share] : shares) {
+      material->force += share * force;
+    }
+  }
+  Shares shares;
+};
+
 inline double sign(double value) {
   return value > 0.0 ? 1.0 : (value < 0.0 ? -1.0 : 0.0);
 }

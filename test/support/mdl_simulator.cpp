@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "support/mdl_elements.hpp"
+#include "support/mdl_lines.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::test {
@@ -107,44 +108,6 @@ class Expression {
   std::size_t at_ = 0;
 };
 
-/// One line: `@name keyword arguments...`; brackets are taken off their arguments.
-struct Line {
-  std::string name;
-  std::string keyword;
-  std::vector<std::string> arguments;
-};
-
-std::vector<std::string> tokens(const std::string& line) {
-  std::vector<std::string> result;
-  std::size_t i = 0;
-  while (i < line.size() && line[i] != '#') {
-    if (line[i] == '[') {
-      const std::size_t end = line.find(']', i);
-      result.push_back(line.substr(i + 1, end - i - 1));
-      i = end + 1;
-    } else if (std::isspace(static_cast<unsigned char>(line[i])) != 0) {
-      ++i;
-    } else {
-      const std::size_t end = std::min(line.find_first_of(" \t\r[#", i), line.size());
-      result.push_back(line.substr(i, end - i));
-      i = end;
-    }
-  }
-  return result;
-}
-
-std::vector<Line> readLines(const std::string& text) {
-  std::vector<Line> lines;
-  std::istringstream stream(text);
-  for (std::string raw; std::getline(stream, raw);) {
-    const std::vector<std::string> words = tokens(raw);
-    if (words.size() >= 2 && words[0][0] == '@') {
-      lines.push_back({words[0].substr(1), words[1], {words.begin() + 2, words.end()}});
-    }
-  }
-  return lines;
-}
-
 /// `3` is 3, `1 2 3` is 3: only z moves.
 double lastNumber(const std::string& vector) {
   std::istringstream stream(vector);
@@ -161,17 +124,17 @@ std::size_t channelOf(const std::string& name) {
 
 class Model {
  public:
-  Model(const std::vector<Line>& lines, const std::map<std::string, double>& params)
-      : lines_(lines), given_(params) {
-    for (const Line& line : lines_) {
+  Model(const MdlElements& elements, const std::map<std::string, double>& params)
+      : lines_(elements.lines), nets_(elements.nets), given_(params) {
+    for (const MdlElement& line : lines_) {
       if (line.keyword == "audioParam") {
         audio_[line.name] = {channelOf(line.arguments.at(0)), 0.0};
       }
     }
-    for (const Line& line : lines_) {
+    for (const MdlElement& line : lines_) {
       addMaterial(line);
     }
-    for (const Line& line : lines_) {
+    for (const MdlElement& line : lines_) {
       addLink(line);
       addTap(line);
     }
@@ -214,11 +177,17 @@ class Model {
     for (const auto& material : materials_) {
       material.second->move();
     }
+    for (const auto& point : points_) {
+      point.second->move();
+    }
     for (const Link& link : links_) {
       link.apply();
     }
     for (const Tap& tap : forces_) {
       tap.material->force += at(inputs, tap.channel, n);
+    }
+    for (const auto& point : points_) {
+      point.second->give();
     }
     for (const Tap& tap : outputs_) {
       outputs[tap.channel][n] = tap.force ? tap.material->force : tap.material->x;
@@ -234,7 +203,7 @@ class Model {
       audio.value = at(inputs, audio.channel, n);
     }
     links_.clear();
-    for (const Line& line : lines_) {
+    for (const MdlElement& line : lines_) {
       if (line.keyword == "osc") {
         dynamic_cast<Inertia&>(*materials_.at(line.name))
             .set(number(line.arguments.at(1)), number(line.arguments.at(2)));
@@ -256,18 +225,54 @@ class Model {
     if (given != given_.end()) {
       return given->second;
     }
-    for (const Line& line : lines_) {
+    for (const MdlElement& line : lines_) {
       if (line.keyword == "param" && line.name == name) {
         return number(line.arguments.at(0));
       }
     }
     throw std::runtime_error("no param '" + name + "'");
   }
-  Material& material(const std::string& reference) const {
-    return *materials_.at(reference.substr(1));
+  /// `@name`, or a point of a macro: `@name a`, `@name a b`.
+  Material& material(const std::string& reference) {
+    const std::size_t blank = reference.find(' ');
+    if (blank == std::string::npos) {
+      return *materials_.at(reference.substr(1));
+    }
+    std::unique_ptr<MacroPoint>& point = points_[reference];
+    if (!point) {
+      point = std::make_unique<MacroPoint>(sharesOf(reference));
+    }
+    return *point;
   }
 
-  void addMaterial(const Line& line) {
+  /// What a place on a macro has of each module around it: bilinear.
+  MacroPoint::Shares sharesOf(const std::string& reference) {
+    std::istringstream words(reference.substr(1));
+    std::string name;
+    std::string first;
+    std::string second = "0";
+    words >> name >> first >> second;
+    const auto net =
+        std::find_if(nets_.begin(), nets_.end(), [&](const MdlNet& n) { return n.name == name; });
+    if (net == nets_.end()) {
+      throw std::runtime_error("no macro '" + name + "'");
+    }
+    const double row = net->rows > 1 ? number(first) * (net->rows - 1) : 0.0;
+    const double column = number(net->rows > 1 ? second : first) * (net->columns - 1);
+    MacroPoint::Shares shares;
+    for (int i = 0; i < net->rows; ++i) {
+      for (int j = 0; j < net->columns; ++j) {
+        const double share =
+            std::max(0.0, 1.0 - std::abs(row - i)) * std::max(0.0, 1.0 - std::abs(column - j));
+        if (share > 0.0) {
+          shares.emplace_back(materials_.at(net->module(i, j)).get(), share);
+        }
+      }
+    }
+    return shares;
+  }
+
+  void addMaterial(const MdlElement& line) {
     const auto& a = line.arguments;
     const std::size_t n = a.size();
     std::unique_ptr<Material>& made = materials_[line.name];
@@ -289,7 +294,7 @@ class Model {
     }
   }
 
-  void addLink(const Line& line) {
+  void addLink(const MdlElement& line) {
     if (line.arguments.size() < 3 || line.arguments[0][0] != '@') {
       return;
     }
@@ -301,7 +306,7 @@ class Model {
     links_.push_back(link);
   }
 
-  void addTap(const Line& line) {
+  void addTap(const MdlElement& line) {
     if (line.keyword == "frcInput") {
       forces_.push_back({channelOf(line.name), &material(line.arguments.at(0)), true});
     } else if (line.keyword == "posOutput" || line.keyword == "frcOutput") {
@@ -315,9 +320,11 @@ class Model {
     double value;
   };
   std::map<std::string, Audio> audio_;
-  const std::vector<Line>& lines_;
+  const std::vector<MdlElement>& lines_;
+  const std::vector<MdlNet>& nets_;
   const std::map<std::string, double>& given_;
   std::map<std::string, std::unique_ptr<Material>> materials_;
+  std::map<std::string, std::unique_ptr<MacroPoint>> points_;
   std::vector<Link> links_;
   std::vector<Drive> drives_;
   std::vector<Tap> forces_;
@@ -330,8 +337,8 @@ Channels simulateMdl(const std::string& text,
                      const std::map<std::string, double>& params,
                      const Channels& inputs,
                      std::size_t frames) {
-  const std::vector<Line> lines = readLines(text);
-  return Model(lines, params).play(inputs, frames);
+  const MdlElements elements = readMdlElements(text);
+  return Model(elements, params).play(inputs, frames);
 }
 
 }  // namespace ergotic::test

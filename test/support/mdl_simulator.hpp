@@ -12,7 +12,7 @@ constexpr double kMdlSampleRate = 44100.0;  ///< Hz, of every `.mdl` model
 /// Samples of some audio channels, [channels][frames].
 using Channels = std::vector<std::vector<double>>;
 
-/// Plays a MIMS `.mdl` text (dialect D2, no macros) in double precision at 44.1 kHz, one object per
+/// Plays a MIMS `.mdl` text (the newer language) in double precision at 44.1 kHz, one object per
 /// element and none of the product's code: what the product's reader, compiler and kernels are
 /// measured against.
 ///

@@ -108,15 +108,19 @@ int SceneBuilder::add(Grid grid) {
   return append(scene_.grids, grids_, "string or mesh", std::move(grid));
 }
 
-void SceneBuilder::reserve(std::size_t mats, std::size_t lias, Place place) {
+void SceneBuilder::expectRoom(std::size_t mats, Place place) const {
   const std::size_t total = scene_.mats.size() + mats;
   if (total > kMostMats) {
     fail(place, "the scene would have " + std::to_string(total) + " modules, allowed: at most " +
                     std::to_string(kMostMats));
   }
+}
+
+void SceneBuilder::reserve(std::size_t mats, std::size_t lias, Place place) {
+  expectRoom(mats, place);
   makeRoom(scene_.mats, mats);
   makeRoom(scene_.lias, lias);
-  mats_.reserve(total);
+  mats_.reserve(scene_.mats.size() + mats);
   lias_.reserve(scene_.lias.size() + lias);
 }
 

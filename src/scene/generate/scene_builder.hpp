@@ -29,8 +29,10 @@ class SceneBuilder {
   int add(Bend bend);
   int add(StringInfo string);
   int add(Grid grid);
+  /// \throws TextError if that many modules more would be more than kMaxMats
+  void expectRoom(std::size_t mats, Place place) const;
   /// Makes room for that many modules and links more.
-  /// \throws TextError if that would be more than kMaxMats modules
+  /// \throws TextError as `expectRoom` does
   void reserve(std::size_t mats, std::size_t lias, Place place);
 
   /// \return index of what was defined under that name

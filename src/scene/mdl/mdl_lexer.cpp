@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "scene/text/number.hpp"
 #include "scene/text/source_text.hpp"
 
 namespace ergotic::scene {
@@ -63,7 +64,32 @@ class LineCutter {
       builder_.fail(place(), "brackets in brackets, allowed: one level");
     }
     at_ = end + 1;
+    if (kind == MdlToken::Kind::kBracket) {
+      cutPoint(token);
+    }
     return token;
+  }
+
+  /// `@macro a b`: its name and its coordinates.
+  static void cutPoint(MdlToken& token) {
+    const std::string text = token.text;
+    std::size_t begin = std::min(text.find_first_not_of(kBlanks), text.size());
+    if (begin == text.size() || text[begin] != '@') {
+      return;
+    }
+    const Place origin = token.place;
+    for (bool is_name = true; begin < text.size(); is_name = false) {
+      const std::size_t end = std::min(text.find_first_of(kBlanks, begin), text.size());
+      const Place place{origin.line, origin.column + static_cast<int>(begin)};
+      const MdlToken part{MdlToken::Kind::kBare, text.substr(begin, end - begin), place};
+      if (is_name) {
+        token.text = part.text;
+        token.place = part.place;
+      } else {
+        token.at.push_back(part);
+      }
+      begin = std::min(text.find_first_not_of(kBlanks, end), text.size());
+    }
   }
 
   const SceneBuilder& builder_;
@@ -72,15 +98,19 @@ class LineCutter {
   std::size_t at_;
 };
 
-MdlLine cutElement(const SceneBuilder& builder,
-                   const std::string& line,
-                   int number,
-                   std::size_t start) {
+void expectUtf8(const SceneBuilder& builder, const std::string& line, int number) {
   const std::size_t bad = findNonUtf8(line);
   if (bad != std::string::npos) {
     builder.fail({number, static_cast<int>(bad) + 1},
                  "a byte that is not UTF-8, allowed: in comments only");
   }
+}
+
+MdlLine cutElement(const SceneBuilder& builder,
+                   const std::string& line,
+                   int number,
+                   std::size_t start) {
+  expectUtf8(builder, line, number);
   LineCutter cutter(builder, line, number, start);
   MdlLine element;
   element.place = cutter.place();
@@ -97,6 +127,27 @@ MdlLine cutElement(const SceneBuilder& builder,
     element.arguments.push_back(cutter.next());
   }
   return element;
+}
+
+/// `~begin NAME`, `~end NAME`; another line that begins with `~` is prose.
+bool cutGroup(const SceneBuilder& builder,
+              const std::string& line,
+              int number,
+              std::size_t start,
+              std::vector<MdlLine>& lines) {
+  const std::size_t end = std::min(line.find_first_of(kBlanks, start), line.size());
+  const std::string keyword = line.substr(start, end - start);
+  if (keyword != kBeginGroup && keyword != kEndGroup) {
+    return false;
+  }
+  expectUtf8(builder, line, number);
+  const Place place{number, static_cast<int>(start) + 1};
+  const std::string name = trimmed(line.substr(end));
+  if (name.empty()) {
+    builder.fail(place, quoted(keyword) + " without a name, allowed: " + keyword + " NAME");
+  }
+  lines.push_back({name, {MdlToken::Kind::kBare, keyword, place}, {}, place});
+  return true;
 }
 
 /// `m mass 1 0 0` is most likely an element that lost its `@`: any word, a keyword, a value.
@@ -120,8 +171,12 @@ const std::vector<std::string>& mdlKeywords() {
       "springDamper", "contact", "nlContact", "nlSpring2",   "nlSpring3", "nlSpringDamper",
       "nlPluck",      "nlBow",   "frcInput",  "posOutput",   "frcOutput", "param",
       "audioParam",   "string",  "chain",     "stiffString", "mesh",      "cornerMesh",
-      "closedMesh"};
+      "closedMesh",   "massG",   "nlSpring"};
   return kKeywords;
+}
+
+std::string ofElement(const std::string& what, const MdlLine& line) {
+  return what + " of " + quoted("@" + line.name);
 }
 
 std::vector<MdlLine> cutMdl(SceneBuilder& builder, const std::string& text) {
@@ -142,7 +197,7 @@ std::vector<MdlLine> cutMdl(SceneBuilder& builder, const std::string& text) {
     }
     if (line[start] == '@') {
       elements.push_back(cutElement(builder, line, number, start));
-    } else if (looksLikeElement(line, start)) {
+    } else if (!cutGroup(builder, line, number, start, elements) && looksLikeElement(line, start)) {
       builder.warn({number, static_cast<int>(start) + 1},
                    "this line is skipped: an element begins with '@'");
     }

@@ -12,6 +12,8 @@
 
 namespace ergotic::scene {
 
+constexpr double kMdlRateHz = 44100.0;  ///< that the plain coefficients are meant for
+
 /// The numbers of an `.mdl` text: its `param`s, which may use one another in any order, and the
 /// expressions and vectors of its arguments. The `audioParam`s are those of the builder's scene.
 /// Every function throws TextError at the argument.

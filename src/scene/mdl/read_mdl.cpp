@@ -8,7 +8,9 @@
 #include "ergotic/scene/text/read_scene.hpp"
 #include "scene/laws/clipped_cubic.hpp"
 #include "scene/limits.hpp"
+#include "scene/mdl/mdl_dialect.hpp"
 #include "scene/mdl/mdl_lexer.hpp"
+#include "scene/mdl/mdl_macros.hpp"
 #include "scene/mdl/mdl_numbers.hpp"
 #include "scene/text/number.hpp"
 #include "scene/text/overrides.hpp"
@@ -16,8 +18,6 @@
 
 namespace ergotic::scene {
 namespace {
-
-constexpr double kMdlRateHz = 44100.0;  // the rate that the plain coefficients are meant for
 
 /// A link: its type and where its arguments go; those past `required` are optional.
 struct MdlLink {
@@ -41,6 +41,7 @@ const std::map<std::string, MdlLink>& mdlLinks() {
       {"nlContact",
        {LiaType::kCubicContact, {k, q, limit, z, width}, 4, "@m1 @m2 K Q Klim Z [thresh]"}},
       {"nlSpring2", {LiaType::kQuadratic, {k, q, z}, 3, "@m1 @m2 K P Z"}},
+      {"nlSpring", {LiaType::kQuadratic, {k, q, z}, 3, "@m1 @m2 K P Z"}},
       {"nlSpring3", {LiaType::kCubic, {k, q, z}, 3, "@m1 @m2 K Q Z"}},
       {"nlSpringDamper", {LiaType::kClippedCubic, {k, q, limit, z}, 4, "@m1 @m2 K Q Klim Z"}},
       {"nlPluck", {LiaType::kPluck, {k, width, z}, 2, "@m1 @m2 K scale [Z]"}},
@@ -51,8 +52,11 @@ const std::map<std::string, MdlLink>& mdlLinks() {
 
 class MdlReader {
  public:
-  MdlReader(SceneBuilder& builder, const std::vector<MdlLine>& lines, MdlNumbers& numbers)
-      : builder_(builder), lines_(lines), numbers_(numbers) {}
+  MdlReader(SceneBuilder& builder,
+            const std::vector<MdlLine>& lines,
+            MdlNumbers& numbers,
+            const MdlDialect& dialect)
+      : builder_(builder), lines_(lines), numbers_(numbers), dialect_(dialect) {}
 
   void read() {
     Section section;
@@ -61,7 +65,14 @@ class MdlReader {
     builder_.add(std::move(section));
     for (const MdlLine& line : lines_) {
       checkKeyword(line);
+      noteMacro(line);
       readAudioParameter(line);
+    }
+    checkGroups(builder_, lines_);
+    std::size_t expanded = 0;  // all is counted before any macro takes room
+    for (const MdlLine& line : lines_) {
+      expanded += macroModules(builder_, numbers_, line, dialect_);
+      builder_.expectRoom(expanded, line.place);
     }
     for (const MdlLine& line : lines_) {
       readMat(line);
@@ -74,12 +85,9 @@ class MdlReader {
 
  private:
   void checkKeyword(const MdlLine& line) const {
-    static const std::set<std::string> kMacros = {"string", "chain",      "stiffString",
-                                                  "mesh",   "cornerMesh", "closedMesh"};
     const std::string& keyword = line.keyword.text;
-    if (kMacros.count(keyword) > 0) {
-      builder_.fail(line.keyword.place,
-                    "macro " + quoted(keyword) + " is not supported yet, allowed: single modules");
+    if (keyword == kBeginGroup || keyword == kEndGroup) {
+      return;
     }
     const auto& known = mdlKeywords();
     if (line.keyword.kind != MdlToken::Kind::kBare ||
@@ -87,60 +95,93 @@ class MdlReader {
       builder_.fail(line.keyword.place,
                     "unknown keyword " + quoted(keyword) + suggestion(keyword, known));
     }
-  }
-
-  void expect(const MdlLine& line, std::size_t least, std::size_t most, const char* usage) const {
-    const std::size_t count = line.arguments.size();
-    if (count < least || count > most) {
-      builder_.fail(count > most ? line.arguments[most].place : line.keyword.place,
-                    quoted(line.keyword.text) + " has " + std::to_string(count) +
-                        " arguments, allowed: " + line.keyword.text + " " + usage);
+    if (!dialect_.isOld() && (keyword == "massG" || keyword == "nlSpring")) {
+      builder_.fail(line.keyword.place, "keyword " + quoted(keyword) + " is not allowed here" +
+                                            olderNote(line, dialect_));
     }
   }
 
-  std::string named(const char* what, const MdlLine& line) const {
-    return std::string(what) + " of " + quoted("@" + line.name);
+  void noteMacro(const MdlLine& line) {
+    if (findMacro(line.keyword.text) != nullptr) {
+      const auto [first, is_new] = macros_.emplace(line.name, line.place.line);
+      if (!is_new) {
+        builder_.fail(line.place, "macro " + quoted("@" + line.name) +
+                                      " is defined twice, first in line " +
+                                      std::to_string(first->second));
+      }
+    }
+  }
+
+  void expect(const MdlLine& line, std::size_t least, std::size_t most, const char* usage) const {
+    expectArguments(builder_, line, dialect_, least, most, usage);
   }
 
   void readMat(const MdlLine& line) {
     const std::string& keyword = line.keyword.text;
-    if (keyword == "mass" || keyword == "osc") {
+    if (keyword == "mass" || keyword == "massG" || keyword == "osc") {
+      checkName(line);
       readInertia(line);
     } else if (keyword == "ground" || keyword == "posInput") {
+      checkName(line);
       readFixed(line);
+    } else if (findMacro(keyword) != nullptr) {
+      addMacro(builder_, numbers_, line, dialect_);
     }
   }
 
-  /// `mass M [g] pos vel`, `osc M K Z [g] pos vel`
+  void checkName(const MdlLine& line) const {
+    const auto macro = macros_.find(line.name);
+    if (macro != macros_.end()) {
+      builder_.fail(line.place, "module " + quoted("@" + line.name) +
+                                    " has the name of the macro in line " +
+                                    std::to_string(macro->second));
+    }
+  }
+
+  /// `mass M [g] pos vel`, `massG M g pos last`, `osc M K Z [g] pos vel`
   void readInertia(const MdlLine& line) {
-    const bool osc = line.keyword.text == "osc";
-    const std::size_t least = osc ? 5 : 3;
-    expect(line, least, least + 1, osc ? "M K Z [g] pos vel" : "M [g] pos vel");
+    const std::string& keyword = line.keyword.text;
+    const bool osc = keyword == "osc";
+    const std::size_t least = keyword == "massG" ? 4 : osc ? 5 : 3;
+    const bool old = dialect_.isOld();
+    expect(line, least, least + (old ? 0 : 1),
+           keyword == "massG" ? "M g x0 xR"
+           : osc              ? (old ? "M K Z x0 xR" : "M K Z [g] pos vel")
+                              : (old ? "M x0 xR" : "M [g] pos vel"));
     const std::vector<MdlToken>& arguments = line.arguments;
     Mat mat;
     mat.name = line.name;
     mat.place = line.place;
-    mat.mass = {numbers_.number(arguments[0], named("mass", line), kMassLimits)};
+    mat.mass = {numbers_.number(arguments[0], ofElement("mass", line), kMassLimits)};
     if (osc) {
       mat.type = MatType::kCell;
-      mat.stiffness = numbers_.value(arguments[1], named("stiffness", line), kStiffnessLimits);
-      mat.damping = numbers_.value(arguments[2], named("damping", line), kDampingLimits);
+      mat.stiffness = numbers_.value(arguments[1], ofElement("stiffness", line), kStiffnessLimits);
+      mat.damping = numbers_.value(arguments[2], ofElement("damping", line), kDampingLimits);
     }
-    if (arguments.size() > least) {
-      // A force for each step, whatever the mass.
-      mat.push.edit().force.x() = -numbers_.number(arguments[least - 2]) / kMdlRateHz;
+    if (arguments.size() > least || keyword == "massG") {
+      // A force for each step, whatever the mass; only the newer language divides it by its rate.
+      const double gravity = numbers_.number(arguments[arguments.size() - 3]);
+      mat.push.edit().force.x() = -gravity / (old ? 1.0 : kMdlRateHz);
     }
     setPlace(mat, numbers_.vector(arguments[arguments.size() - 2]));
-    const double velocity = numbers_.vector(arguments.back()).z / kMdlRateHz;
-    if (velocity != 0.0) {
-      mat.push.edit().velocity.x() = velocity;
-    }
-    if (velocity != 0.0 && builder_.scene().text.find('[') == std::string::npos) {
-      builder_.warn(arguments.back().place,
-                    "the last number of " + quoted("@" + line.name) +
-                        " is taken as a velocity per second; older files mean a position");
-    }
+    setVelocity(mat, {velocity(line, mat.position.x()), 0.0, 0.0});
     builder_.add(std::move(mat));
+  }
+
+  /// In m/sample, of a module that starts at `position`.
+  double velocity(const MdlLine& line, double position) {
+    const MdlToken& last = line.arguments.back();
+    const double value = numbers_.vector(last).z;
+    if (dialect_.isOld()) {
+      return position - value;
+    }
+    if (value != 0.0 && dialect_.age == MdlDialect::Age::kUnknown) {
+      builder_.warn(last.place, "the last number of " + quoted("@" + line.name) +
+                                    " is taken as a velocity per second; older files mean a "
+                                    "position, which here is [0 0 " +
+                                    numberText((position - value) * kMdlRateHz) + "]");
+    }
+    return value / kMdlRateHz;
   }
 
   /// `ground pos`, `posInput pos`
@@ -202,7 +243,7 @@ class MdlReader {
   /// Widths and the shape of a clipped law are worked out once, so they cannot follow audio.
   Value linkNumber(const MdlLine& line, const LiaField& field, std::size_t argument) const {
     const MdlToken& token = line.arguments[argument];
-    const std::string what = named(field.key, line);
+    const std::string what = ofElement(field.key, line);
     const auto is = [&](LiaMember member) { return field.member == member; };
     const bool follows =
         !field.is_fixed && (is(&Lia::damping) || is(&Lia::stiffness) || is(&LiaLaw::nonlinearity));
@@ -281,19 +322,23 @@ class MdlReader {
                                ": " + prefix + "1 ... " + prefix + "64");
     }
     if (!kChannelLimits.hold(*channel)) {
-      builder_.fail(place, outOfRange(named("channel", line), *channel, kChannelLimits));
+      builder_.fail(place, outOfRange(ofElement("channel", line), *channel, kChannelLimits));
     }
     return *channel;
   }
 
+  /// A module, or a point of a macro.
   int matOf(const MdlToken& token) const {
-    const std::string name = trimmed(token.text);
-    const bool marked = !name.empty() && name.front() == '@';
-    if (token.kind == MdlToken::Kind::kBracket && marked) {
-      builder_.fail(token.place, "a point of a macro is not supported yet, allowed: @module");
+    if (!token.at.empty()) {
+      return macroPoint(builder_, numbers_, token);
     }
-    if (token.kind != MdlToken::Kind::kBare || !marked) {
+    const std::string name = trimmed(token.text);
+    if (token.kind == MdlToken::Kind::kQuoted || name.empty() || name.front() != '@') {
       builder_.fail(token.place, quoted(token.text) + " is not a module, allowed: @name");
+    }
+    if (macros_.count(name.substr(1)) > 0) {
+      builder_.fail(token.place, quoted(name) + " is a macro, allowed: a point of it, as in [" +
+                                     name + " 0.3], of a mesh [" + name + " 0.3 0.7]");
     }
     return builder_.mat(name.substr(1), token.place);
   }
@@ -301,6 +346,8 @@ class MdlReader {
   SceneBuilder& builder_;
   const std::vector<MdlLine>& lines_;
   MdlNumbers& numbers_;
+  const MdlDialect& dialect_;
+  std::map<std::string, int> macros_;  // the line of each
   std::map<int, int> inputs_of_channel_;
 };
 
@@ -313,10 +360,14 @@ Scene readMdl(const std::string& text, const std::string& name, const Overrides&
   scene.name = stemOf(name);
   scene.time_unit_s = 1.0 / kMdlRateHz;
   scene.gestural_rate_hz = overrideGesturalRate(overrides, scene.gestural_rate_hz, name);
-  const std::vector<MdlLine> lines = cutMdl(builder, text);
+  std::vector<MdlLine> lines = cutMdl(builder, text);
+  const MdlDialect dialect = dialectOf(lines);
+  if (dialect.isOld()) {
+    renew(builder, lines);
+  }
   MdlNumbers numbers(builder, lines, overrides);
   numbers.check();
-  MdlReader(builder, lines, numbers).read();
+  MdlReader(builder, lines, numbers, dialect).read();
   return builder.finish();
 }
 

@@ -32,15 +32,4 @@ int moduleOn(const Grid& grid, const NamedPlace& at);
 ///         outside 0...1
 int pointAt(SceneBuilder& builder, const std::string& text, Place place);
 
-/// Adds a connection and its kPoint, which starts where the modules around it are.
-/// \param connection  all but `mat`
-/// \return            index of the point
-/// \throws TextError  if the name is taken
-int addPoint(SceneBuilder& builder, const std::string& name, Connection connection);
-
-/// Adds a tap and its kPoint, which starts where its modules take it.
-/// \param tap  all but `mat`; one share at least
-/// \throws TextError  if the name is taken
-void addTap(SceneBuilder& builder, const std::string& name, Tap tap);
-
 }  // namespace ergotic::scene

@@ -2,6 +2,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/generate/points.hpp"
 #include "scene/rules/point_rules.hpp"
 #include "scene/yaml/points.hpp"
 #include "scene/yaml/yaml_elements.hpp"

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "scene/generate/points.hpp"
 #include "scene/names.hpp"
 #include "scene/text/number.hpp"
 #include "scene/yaml/points.hpp"

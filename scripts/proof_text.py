@@ -368,12 +368,13 @@ class Comparison:
 
 
 def need_scene(proof, name, gestural_hz):
-    """It is of that text, and says what is written there; of `.mdl`, that nothing is turned, slower or moves."""
+    """It is of that text, and says what is written there; of `.mdl`, that nothing is turned, slower or led."""
     text = open(name, "rb").read()
     need(hashlib.sha256(text).hexdigest() == proof["scene"]["sha256"], "it is of another scene")
     if name.endswith(".mdl"):
         has = [(s["name"], s["divisor"], s["geometry"], s["medium"], len(s)) for s in proof["sections"]]
-        need(has == [("model", 1, "scalar", 0.0, 5)] and not proof["points"], "its section")
+        led = any(len(at["places"]) > 1 for at in proof["points"])
+        need(has == [("model", 1, "scalar", 0.0, 5)] and not led, "its section")
     else:
         others = list(Comparison(proof, Said(name, proof["frame"], gestural_hz)).differences())
         need(not others, "; ".join(others))

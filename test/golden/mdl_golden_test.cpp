@@ -124,6 +124,7 @@ const std::vector<Case>& cases() {
       {"audio_params", swinging, {}},
       {"macros", pushes, {}},
       {"audio_macros", swinging, {}},
+      {"plucked_skin", pushes, {}},
       {"contact",
        strokes,
        {overlap("apart", 0, 1, -9.0, 0.0), overlap("pressed", 0, 1, 0.0, 9.0),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,7 @@ class Expander {
   Writer writer_;
   Library library_;
   std::map<std::string, Node> parts_;          // maps; generators: a list
+  std::set<std::string> prefixes_;             // of instances
   std::map<std::string, std::string> public_;  // names of instances, and what they stand for
 };
 

@@ -223,25 +223,40 @@ class Parser {
     return *bare;
   }
 
-  /// One unit with its prefix, or `%`; others are products of these.
+  /// As far as it is one: `mm`, `%`, `mm^2`, `kN/m`, without blanks in it, as beside a plain
+  /// number.
   std::optional<double> withUnit(std::string_view number) {
     std::size_t from = at_;
     while (from < text_.size() && text_[from] == ' ') {
       ++from;
     }
+    std::optional<double> value;
     std::size_t end = from;
-    while (end < text_.size() && (isLetter(text_[end]) || text_[end] == '%' ||
-                                  static_cast<unsigned char>(text_[end]) >= 0x80U)) {
-      ++end;
-    }
-    const std::string_view unit = text_.substr(from, end - from);
-    const std::optional<double> value =
-        unit.empty() ? std::nullopt
-                     : parseAnyQuantity(std::string(number) + " " + std::string(unit));
-    if (value) {
+    for (std::size_t next = endOfUnit(from); next > end; next = endOfUnit(end)) {
+      end = next;
+      const std::string unit(text_.substr(from, end - from));
+      const std::optional<double> more = parseAnyQuantity(std::string(number) + " " + unit);
+      if (!more) {
+        break;
+      }
+      value = more;
       at_ = end;
     }
     return value;
+  }
+  /// Beyond a word of letters, or of a power or a divisor.
+  std::size_t endOfUnit(std::size_t from) const {
+    const char sign = from < text_.size() ? text_[from] : ' ';
+    const std::size_t first = from + (sign == '^' || sign == '/' ? 1 : 0);
+    std::size_t end = first;
+    const auto belongs = [&](char c) {
+      return sign == '^' ? isDigit(c)
+                         : isLetter(c) || c == '%' || static_cast<unsigned char>(c) >= 0x80U;
+    };
+    while (end < text_.size() && belongs(text_[end])) {
+      ++end;
+    }
+    return end > first ? end : from;
   }
 
   Constant named() {
@@ -262,7 +277,9 @@ class Parser {
       fail("unknown name " + quoted(name) + suggestion(name, scope_.names()));
     }
     if (!takes("[")) {
-      return *known;
+      // A list that nobody looks at need not be copied.
+      const bool is_list = std::holds_alternative<Node>(*known);
+      return unused_ > 0 && is_list ? Constant(0.0) : *known;
     }
     Constant value = item(*known);
     while (takes("[")) {
@@ -273,7 +290,7 @@ class Parser {
 
   Constant item(const Constant& list) {
     const auto* const node = std::get_if<Node>(&list);
-    if (node == nullptr || !node->isList()) {
+    if ((node == nullptr || !node->isList()) && unused_ == 0) {
       fail("what is no list has no items");
     }
     const double index = number(choice());
@@ -283,7 +300,8 @@ class Parser {
     }
     if (index != std::floor(index) || index < 0.0 || index >= static_cast<double>(node->size())) {
       fail("item " + shortest(index) + " of a list of " + std::to_string(node->size()) +
-           ", allowed: 0..." + std::to_string(static_cast<int>(node->size()) - 1));
+           (node->size() > 0 ? ", allowed: 0..." + std::to_string(node->size() - 1)
+                             : ", which has none"));
     }
     return constantOf((*node)[static_cast<std::size_t>(index)]);
   }

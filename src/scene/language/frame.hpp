@@ -15,7 +15,8 @@ struct Frame {
   std::string prefix;                           ///< of its names, as `left.`; the scene: nothing
   std::set<std::string> heads;                  ///< what its own names begin with, up to a dot
   std::map<std::string, std::string> sections;  ///< by their roles
-  int origin = 0;                               ///< Place::origin of all in it
+  int text = 0;                                 ///< Place::origin of the text it is written in
+  int origin = 0;                               ///< and of what is written out of that, if not 0
   std::size_t definitions = 0;                  ///< so many may be used in it
   int depth = 0;                                ///< of instances in instances
 };

@@ -16,10 +16,6 @@ namespace {
 
 constexpr int kDeepest = 16;
 
-const std::vector<std::string> kDefinitionKeys{"doc",   "params", "needs",      "gives", "let",
-                                               "use",   "mats",   "generators", "lias",  "agents",
-                                               "ports", "inputs", "outputs"};
-
 /// Whose number it is, as in `[30, 5000]`, `[1 mm, 1 m]`.
 Limits limitsOf(const SceneBuilder& builder, const YamlMap& spec, const std::string& unit) {
   Limits limits{unit.c_str()};
@@ -66,15 +62,21 @@ void Expander::writeInstance(const Node& use, const Frame& frame, const Scope& s
   Frame inner;
   inner.scope = Scope(&library_.constants());
   inner.prefix = frame.prefix + as + ".";
-  checkName(builder_, frame.prefix + as, writer_.placeIn(map.at("as"), frame));
+  const Place named = writer_.placeIn(map.at("as"), frame);
+  checkName(builder_, frame.prefix + as, named);
+  if (as.back() == '.' || !prefixes_.insert(inner.prefix).second) {
+    builder_.fail(
+        named, "instance " + quoted(frame.prefix + as) +
+                   (as.back() == '.' ? " ends with a dot, allowed: a name" : " is there already"));
+  }
   inner.definitions = definition.above;
   inner.depth = frame.depth + 1;
-  inner.origin = builder_.addOrigin({fileOf(builder_.scene(), {0, 0, definition.origin}),
-                                     "\n  in " + frame.prefix + as + " (" + is + "), used at " +
-                                         textOf(builder_.scene(), writer_.placeIn(use, frame))});
-  const YamlMap body(builder_, *definition.body, "definition " + quoted(is),
-                     definition.body->place());
-  body.allow(kDefinitionKeys);
+  const Place used = writer_.placeIn(use, frame);
+  inner.text = definition.origin;
+  inner.origin =
+      builder_.addOrigin({fileOf(builder_.scene(), {0, 0, definition.origin}),
+                          "\n  in " + frame.prefix + as + " (" + is + "), used at " +
+                              textOf(builder_.scene(), used) + chainOf(builder_.scene(), used)});
   setParameters(definition, use, frame, scope, inner);
   setSections(definition, use, frame, scope, inner);
   library_.let(*definition.body, inner);
@@ -101,7 +103,8 @@ void Expander::setParameters(const Definition& definition,
                                   quoted(name) + " of " + quoted(definition.name) +
                                       " is missing under 'with'");
                    }
-                   inner.scope.set(name, parameter(name, spec, given, outer, scope));
+                   inner.scope.set(name, parameter(name, spec, given, outer,
+                                                   given == nullptr ? inner.scope : scope));
                    names.push_back(name);
                  });
   }
@@ -131,8 +134,17 @@ Constant Expander::parameter(const std::string& name,
   const Node& node = given != nullptr ? *given : map.at("default");
   Frame own;
   const Frame& frame = given != nullptr ? outer : own;
+  if (map.has("unit") && !isSiUnit(unit)) {
+    map.fail("unit", "'unit' of " + map.what() + " is " + quoted(unit) +
+                         ", allowed: an SI unit such as m, N/m, Hz");
+  }
   if (is_place) {
-    return writer_.write(node, frame, scope, true).text();
+    const Node written = writer_.write(node, frame, scope, true);
+    if (!written.isScalar()) {
+      builder_.fail(written.place(),
+                    quoted(name) + " is " + kindOf(written) + ", allowed: the name of a place");
+    }
+    return written.text();
   }
   const Node value = writer_.write(node, frame, scope);
   const bool is_number = map.has("unit") || map.has("range");
@@ -149,11 +161,25 @@ void Expander::setSections(const Definition& definition,
                            Frame& inner) {
   const Node* const needs = definition.body->find("needs");
   const Node* const in = use.find("in");
+  if (in != nullptr) {
+    forEachEntry(builder_, *in, "'in'", writer_.placeIn(*in, outer),
+                 [&](const std::string& role, Place, const Node& given) {
+                   if (needs == nullptr || needs->find(role) == nullptr) {
+                     writer_.fail(given, outer,
+                                  quoted(definition.name) + " needs no section " + quoted(role));
+                   }
+                 });
+  }
   if (needs == nullptr) {
     return;
   }
   forEachEntry(builder_, *needs, "'needs' of " + quoted(definition.name), needs->place(),
-               [&](const std::string& role, Place, const Node&) {
+               [&](const std::string& role, Place place, const Node& rate) {
+                 if (!rate.isScalar() || (rate.text() != "audio" && rate.text() != "gestural")) {
+                   builder_.fail(place, "section " + quoted(role) + " of " +
+                                            quoted(definition.name) +
+                                            " is meant for no rate, allowed: audio, gestural");
+                 }
                  const Node* const given = in == nullptr ? nullptr : in->find(role);
                  if (given == nullptr) {
                    writer_.fail(use, outer,
@@ -173,7 +199,20 @@ void Expander::publish(const Definition& definition, const Frame& frame) {
   }
   forEachEntry(builder_, *gives, "'gives' of " + quoted(definition.name), gives->place(),
                [&](const std::string& name, Place, const Node& what) {
-                 std::string means = Writer::renamed(writer_.word(what, frame, frame.scope), frame);
+                 const std::string word = writer_.word(what, frame, frame.scope);
+                 std::string means = Writer::renamed(word, frame);
+                 const auto isOwn = [&](const std::string& one) {
+                   return frame.heads.count(one.substr(0, one.find_first_of(".@/"))) > 0;
+                 };
+                 if (!isOwn(word)) {
+                   writer_.fail(what, frame,
+                                quoted(definition.name) + " has no " + quoted(word) + " to give");
+                 }
+                 if (word != name && isOwn(name)) {
+                   writer_.fail(what, frame,
+                                quoted(name) + " of 'gives' is a part of " +
+                                    quoted(definition.name) + " itself, allowed: another name");
+                 }
                  const auto deeper = public_.find(means);
                  means = deeper == public_.end() ? means : deeper->second;
                  if (means != frame.prefix + name) {

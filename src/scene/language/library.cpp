@@ -2,6 +2,8 @@
 #include "scene/language/library.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 
 #include "ergotic/exception.hpp"
 #include "files/read_file.hpp"
@@ -15,6 +17,10 @@ namespace ergotic::scene {
 namespace {
 
 constexpr int kDeepest = 16;
+
+const std::vector<std::string> kDefinitionKeys{"doc",   "params", "needs",      "gives", "let",
+                                               "use",   "mats",   "generators", "lias",  "agents",
+                                               "ports", "inputs", "outputs"};
 
 /// The same tree, of another text.
 void setOrigin(Node& node, int origin) {
@@ -50,6 +56,8 @@ void Library::read(const Node& scene, Frame& frame) {
                      builder_.fail(place, "definition " + quoted(name) + " is " + kindOf(body) +
                                               ", allowed: a map");
                    }
+                   const YamlMap parts(builder_, body, "definition " + quoted(name), body.place());
+                   parts.allow(kDefinitionKeys);
                    definitions_.push_back({name, &body, place.origin, definitions_.size()});
                  });
   }
@@ -75,10 +83,12 @@ void Library::readFile(const Node& name, Frame& frame) {
     builder_.fail(
         place, "file " + quoted(name.text()) + " is elsewhere, allowed: below the scene's folder");
   }
-  if (std::count(included_.begin(), included_.end(), path) > 0) {
+  std::error_code unknown;  // reading says what is wrong with it
+  const std::string real = std::filesystem::weakly_canonical(path, unknown).string();
+  if (std::count(included_.begin(), included_.end(), real) > 0) {
     return;
   }
-  included_.push_back(path);
+  included_.push_back(real);
   if (++depth_ > kDeepest) {
     builder_.fail(place,
                   "files include one another more than " + std::to_string(kDeepest) + " deep");
@@ -119,18 +129,18 @@ void Library::let(const Node& body, Frame& frame) {
 const Definition& Library::definition(const Node& name,
                                       const std::string& word,
                                       const Frame& frame) const {
-  std::vector<std::string> names;
   // Of one name the last counts, as that of a scene does beside those it includes.
-  const Definition* found = nullptr;
+  for (std::size_t i = frame.definitions; i-- > 0;) {
+    if (definitions_[i].name == word) {
+      return definitions_[i];
+    }
+  }
+  std::vector<std::string> names;
   for (std::size_t i = 0; i < frame.definitions; ++i) {
     names.push_back(definitions_[i].name);
-    found = definitions_[i].name == word ? &definitions_[i] : found;
   }
-  if (found == nullptr) {
-    writer_.fail(name, frame,
-                 "no definition above has the name " + quoted(word) + suggestion(word, names));
-  }
-  return *found;
+  writer_.fail(name, frame,
+               "no definition above has the name " + quoted(word) + suggestion(word, names));
 }
 
 std::vector<const Node*> Library::defaultsOf(const std::string& type,

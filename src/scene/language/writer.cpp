@@ -16,6 +16,7 @@ constexpr std::size_t kMostWritten = 500'000;  // scalars, lists and maps
 constexpr std::size_t kMostText = 8U << 20U;   // bytes in them and in what is evaluated
 constexpr std::size_t kLongestWord = 4096;     // bytes, of what is put together
 constexpr double kMostTurns = 1e5;             // of a loop
+constexpr double kLargestTurn = 1e15;          // whole numbers beyond have no next one
 constexpr const char* kReferences[] = {"between", "at",     "mat",  "of",
                                        "along",   "normal", "from", "guide"};
 
@@ -31,7 +32,7 @@ bool Writer::isReference(const std::string& key) {
 
 Place Writer::placeIn(const Node& node, const Frame& frame) const {
   Place place = node.place();
-  place.origin = frame.origin > 0 ? frame.origin : place.origin;
+  place.origin = frame.origin > 0 && place.origin == frame.text ? frame.origin : place.origin;
   return place;
 }
 
@@ -195,8 +196,9 @@ std::vector<Constant> Writer::itemsOf(const Node& values, const Frame& frame, co
     const Constant end =
         evaluated(values, from, i == 0 ? text.substr(0, dots) : text.substr(from), frame, scope);
     const double* const number = std::get_if<double>(&end);
-    if (number == nullptr || *number != std::floor(*number)) {
-      fail(values, frame, "an end of " + quoted(values.text()) + " is no whole number");
+    if (number == nullptr || *number != std::floor(*number) || std::abs(*number) > kLargestTurn) {
+      fail(values, frame,
+           "an end of " + quoted(values.text()) + " is no whole number from -1e15 to 1e15");
     }
     ends[i] = *number;
   }

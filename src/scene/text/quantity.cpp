@@ -108,7 +108,11 @@ std::optional<Unit> parseUnit(std::string_view text) {
 /// Powers of ten go into the text of the number: one rounding. \pre it is a number
 std::optional<double> scaled(std::string_view number, const Unit& unit) {
   const std::size_t end = std::min(number.find_first_of("eE"), number.size());
-  const int exponent = end == number.size() ? 0 : parseInteger(number.substr(end + 1)).value_or(0);
+  constexpr int kLargestExponent = 100'000;  // beyond it is 0 or no finite number anyway
+  const int exponent = end == number.size()
+                           ? 0
+                           : std::clamp(parseInteger(number.substr(end + 1)).value_or(0),
+                                        -kLargestExponent, kLargestExponent);
   const std::optional<double> value = parseNumber(std::string(number.substr(0, end)) + "e" +
                                                   std::to_string(exponent + unit.decimals));
   return value ? std::optional(*value * unit.factor) : std::nullopt;

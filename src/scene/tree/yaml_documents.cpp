@@ -9,6 +9,8 @@
 #include <sstream>
 #include <utility>
 
+#include "scene/text/source_text.hpp"
+
 namespace ergotic::scene {
 namespace {
 
@@ -49,6 +51,16 @@ class Grower final : public YAML::EventHandler {
                 const std::string&,
                 YAML::anchor_t,
                 const std::string& text) override {
+    // The text itself is UTF-8 without control characters: what is written as "\x01" need not be.
+    const auto isControl = [](char c) {
+      return (static_cast<unsigned char>(c) < 0x20U && c != '\n' && c != '\t' && c != '\r') ||
+             c == '\x7f';
+    };
+    if (std::any_of(text.begin(), text.end(), isControl) ||
+        findNonUtf8(text) != std::string::npos) {
+      builder_.fail(placeOfMark(mark),
+                    "a word with a control character, allowed: tab and line ends only");
+    }
     begin(mark, Node::Kind::kScalar, text);
     end();
   }

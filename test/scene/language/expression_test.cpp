@@ -58,6 +58,11 @@ TEST_F(ExpressionTest, ComparesAndChooses) {
 TEST_F(ExpressionTest, KnowsUnitsNotesAndLists) {
   EXPECT_EQ(valueOf("4 mm"), 0.004);
   EXPECT_EQ(valueOf("650 mm/4 mm"), 162.5);
+  EXPECT_EQ(valueOf("20 mm^2"), 2e-5) << "as the plain number";
+  EXPECT_EQ(valueOf("(20 mm)^2"), 0.02 * 0.02);
+  EXPECT_EQ(valueOf("3 kN/m"), 3000.0);
+  EXPECT_EQ(valueOf("9.81 m/s^2*2"), 19.62);
+  EXPECT_EQ(valueOf("4 mm/n"), 0.004 / 3.0) << "no unit";
   EXPECT_EQ(valueOf("2 kHz + 1"), 2001.0);
   EXPECT_EQ(valueOf("50 %"), 0.5);
   EXPECT_EQ(valueOf("note(A4)"), 440.0);

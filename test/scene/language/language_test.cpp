@@ -124,7 +124,8 @@ TEST(LanguageTest, ErrorsTellPlaceAndInstances) {
   text.replace(text.find("stiffness: 100"), 14, "stiffness: -10");
   EXPECT_EQ(complaint(text),
             "s.yaml:10:67: error: 'stiffness' of link 'p0.key.touch' = -10 N/m is out of range, "
-            "allowed: >= 0 N/m\n  in p0.key (key), used at s.yaml:19:11");
+            "allowed: >= 0 N/m\n  in p0.key (key), used at s.yaml:19:11\n"
+            "  in p0 (pair), used at s.yaml:23:5");
   text = kPairs;
   text.replace(text.find("slice: =i"), 9, "mass: 2 t");
   EXPECT_THAT(complaint(text), StartsWith("s.yaml:23:85: error: 'mass' = '2 t' has the unit 't'"));
@@ -170,10 +171,58 @@ TEST(LanguageTest, WhatIsWrongIsToldWithItsPlace) {
       {HEAD "include: [/etc/passwd]\n", "is elsewhere"},
       {HEAD "include: x.yaml\n", "'include' is a single value, allowed: a list of files"},
       {HEAD "include: [nothing_there.yaml]\n", "nothing_there.yaml"},
+      {HEAD "mats: {'m{i}': {for: {i: 1e17..1e17}, type: ground, section: a}}\n",
+       "no whole number from -1e15 to 1e15"},
+      {HEAD "define: {d: {gives: {a: b}, mats: {a: {type: ground}, b: {type: ground}}}}\n"
+            "use: [{is: d, as: y}]\n",
+       "'a' of 'gives' is a part of 'd' itself"},
+      {HEAD "define: {d: {gives: {a: c}, mats: {b: {type: ground}}}}\nuse: [{is: d, as: y}]\n",
+       "'d' has no 'c' to give"},
+      {HEAD "define: {d: {needs: {s: audio}}}\nuse: [{is: d, as: y, in: {s: a, t: a}}]\n",
+       "'d' needs no section 't'"},
+      {HEAD "define: {d: {needs: {s: fast}}}\nuse: [{is: d, as: y, in: {s: a}}]\n",
+       "allowed: audio, gestural"},
+      {HEAD "define: {d: {}}\nuse: [{is: d, as: y}, {is: d, as: y}]\n",
+       "s.yaml:4:35: error: instance 'y' is there already"},
+      {HEAD "define: {d: {}}\nuse: [{is: d, as: y.}]\n", "ends with a dot"},
+      {HEAD "define: {d: {typo: {}}}\n", "unknown key 'typo' of definition 'd'"},
+      {HEAD "define: {d: {params: {x: {unit: bananas}}}}\nuse: [{is: d, as: y, with: {x: 1}}]\n",
+       "is 'bananas', allowed: an SI unit"},
+      {HEAD "define: {d: {params: {x: {kind: place}}}}\nuse: [{is: d, as: y, with: {x: [1]}}]\n",
+       "'x' is a list of 1, allowed: the name of a place"},
+      {HEAD "name: \"a\\x01b\"\n", "s.yaml:3:7: error: a word with a control character"},
+      {HEAD "name: \"a\\Nb\"\n", "s.yaml:3:7: error: a word with a control character"},
   };
   for (const Bad& bad : cases) {
     EXPECT_THAT(complaint(bad.text), HasSubstr(bad.says)) << bad.text;
   }
+}
+
+TEST(LanguageTest, DefaultsOfParametersKnowTheConstantsOfTheirFileAndNoOthers) {
+  const Scene scene = readYaml(HEAD
+                               "let: {n: 1}\ndefine:\n"
+                               "  c: {params: {y: {default: =2*n}, x: {default: =y}},\n"
+                               "      mats: {m: {type: mass, section: a, mass: =x}}}\n"
+                               "  d: {let: {n: 5}, use: [{is: c, as: k}]}\n"
+                               "use: [{is: d, as: i}, {is: c, as: j}]\n",
+                               "s.yaml");
+  ASSERT_EQ(scene.mats.size(), 2U);
+  EXPECT_EQ(scene.mats[0].mass.factor, 2.0);
+  EXPECT_EQ(scene.mats[1].mass.factor, 2.0);
+}
+
+TEST(LanguageTest, DefaultsAreBlamedWhereTheyStand) {
+  const std::string folder = "/tmp/ergotic_defaults_" + std::to_string(::getpid());
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder + "/d.yaml")
+      << "define: {d: {needs: {s: audio}, mats: {m: {type: mass, section: s}}}}\n";
+  const std::string text = HEAD
+      "include: [d.yaml]\n"
+      "defaults: {mass: {mass: -1}}\n"
+      "use: [{is: d, as: i, in: {s: a}}]\n";
+  EXPECT_THAT(complaintOf<TextError>([&] { readYaml(text, folder + "/s.yaml"); }),
+              StartsWith(folder + "/s.yaml:4:25: error: 'mass' of module 'i.m' = -1 kg"));
+  std::filesystem::remove_all(folder);
 }
 
 TEST(LanguageTest, FilesBringDefinitionsOnce) {

@@ -73,7 +73,7 @@ class Said:
         self.only = next(iter(self.sections)) if len(self.sections) == 1 else None
         self.grids, self.tuned = {}, {}  # of grids the section, columns and rows; strings with a frequency
         for keys in scene.get("generators") or []:
-            if "pitch" in keys:
+            if "pitch" in keys or keys["type"] == "resonator":
                 raise ValueError(f"{keys['name']}: what a body with a pitch is made of is not worked out here")
             getattr(self, "add_" + keys["type"])(keys["name"], {"section": self.only, **keys})
         for keys in self.sections.values():

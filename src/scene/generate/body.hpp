@@ -13,6 +13,7 @@ struct BodyWish {
   double pitch_hz = 0.0;
   int pitch_of = 1;             ///< the partial that sounds at it, from 1
   double inharmonicity = -1.0;  ///< of strings with bends, see Tuning
+  bool is_string = false;       ///< whose modes have f_j = j f_1 sqrt((1 + B j^2)/(1 + B))
   /// (partial from 1, s): none, one, or two of different partials.
   std::vector<std::pair<int, double>> t60;
 };

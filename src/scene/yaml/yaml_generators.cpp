@@ -15,7 +15,8 @@ struct Generator {
 };
 constexpr Generator kGenerators[] = {
     {"string", readString},     {"mesh", readMesh},   {"bar", readBar},
-    {"membrane", readMembrane}, {"plate", readPlate}, {"chaplet", readChaplet},
+    {"membrane", readMembrane}, {"plate", readPlate}, {"resonator", readResonator},
+    {"chaplet", readChaplet},
 };
 
 }  // namespace

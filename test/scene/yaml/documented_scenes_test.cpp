@@ -54,7 +54,7 @@ TEST(DocumentedScenesTest, AreWholeScenesOrPiecesOfOne) {
       ++pieces;
     }
   }
-  EXPECT_EQ(pieces, 8);
+  EXPECT_EQ(pieces, 9);
 }
 
 TEST(DocumentedScenesTest, ShowEachWayToWriteATable) {

@@ -13,6 +13,7 @@ namespace {
 constexpr Limits kBarMasses{"", 4.0, 2000.0};
 constexpr Limits kTunedMasses{"", 8.0, 200.0};
 constexpr Limits kRatioLimits{"", 1.5, 15.0};
+constexpr int kMassesOfModes = 150;
 const std::vector<std::string> kEnds{"free", "hinged", "clamped"};
 
 /// One word for both ends, or one for each.
@@ -46,7 +47,9 @@ void readRatios(const SceneBuilder& builder, const YamlMap& map, BarSpec& spec) 
     builder.fail(map.keyPlaceAt("ratios"),
                  "'ratios' of " + map.what() + " with ends that are held, allowed: ends: free");
   }
-  map.integer("masses", kTunedMasses);
+  if (map.has("masses")) {
+    map.integer("masses", kTunedMasses);
+  }
   if (map.has("pitch_of")) {
     builder.fail(map.keyPlaceAt("pitch_of"),
                  "'pitch_of' of " + map.what() + " beside 'ratios', which are to partial 1");
@@ -61,7 +64,8 @@ void readBar(SceneBuilder& builder, const std::string& name, const YamlMap& map)
   spec.name = name;
   spec.place = map.placeAt("name");
   spec.section = bodySection(builder, map);
-  spec.masses = map.integer("masses", kBarMasses);
+  const BodyForm form = readBodyForm(builder, map, false);
+  spec.masses = readCount(map, "masses", kBarMasses, form, kMassesOfModes);
   spec.mass = map.number("mass", kMassLimits);
   if (map.has("ends")) {
     spec.ends = readEnds(builder, map);
@@ -73,7 +77,13 @@ void readBar(SceneBuilder& builder, const std::string& name, const YamlMap& map)
   spec.from = readRest(section, map, "from");
   spec.to = readRest(section, map, "to");
   spec.wish = readBodyWish(builder, map);
-  addBar(builder, spec);
+  addBody(builder, name, spec.section, spec.wish, form, spec.place,
+          [&](SceneBuilder& to, int in, const BodyWish& wish) {
+            BarSpec network = spec;
+            network.section = in;
+            network.wish = wish;
+            addBar(to, network);
+          });
 }
 
 }  // namespace ergotic::scene

@@ -49,7 +49,8 @@ void readT60(const SceneBuilder& builder, const YamlMap& map, BodyWish& wish) {
 }  // namespace
 
 std::vector<std::string> withBodyKeys(std::vector<std::string> keys) {
-  for (const char* key : {"type", "name", "section", "pitch", "pitch_of", "t60"}) {
+  for (const char* key :
+       {"type", "name", "section", "pitch", "pitch_of", "t60", "as", "partials", "places"}) {
     keys.emplace_back(key);
   }
   return keys;
@@ -65,16 +66,53 @@ BodyWish readBodyWish(const SceneBuilder& builder, const YamlMap& map) {
   return wish;
 }
 
+BodyForm readBodyForm(const SceneBuilder& builder, const YamlMap& map, bool is_flat) {
+  BodyForm form;
+  form.is_modal = map.has("as") && map.choice("as", {"network", "modes"}) == 1;
+  if (map.has("partials")) {
+    form.partials = map.integer("partials", kPartialLimits);
+    if (!form.is_modal) {
+      builder.fail(map.keyPlaceAt("partials"),
+                   "'partials' of " + map.what() + " as a network, allowed with as: modes");
+    }
+  }
+  if (!map.has("places")) {
+    return form;
+  }
+  const auto read = [&](const std::string& key, Place key_place, const Node& node) {
+    checkName(builder, key, key_place);
+    const std::string what = "place " + quoted(key) + " of " + map.what();
+    const Place place = placeOf(node, key_place);
+    if (is_flat && (!node.isList() || node.size() != 2)) {
+      builder.fail(place, what + " is " + kindOf(node) + ", allowed: [along, across], each 0...1");
+    }
+    BodyPlace wanted{key, 0.0, 0.0, place};
+    wanted.along = numberOf(builder, is_flat ? node[0] : node, what, kFractionLimits, place);
+    wanted.across = is_flat ? numberOf(builder, node[1], what, kFractionLimits, place) : 0.0;
+    form.places.push_back(std::move(wanted));
+  };
+  forEachEntry(builder, map.at("places"), "'places' of " + map.what(), map.placeAt("places"), read);
+  return form;
+}
+
+int readCount(const YamlMap& map,
+              const std::string& key,
+              const Limits& limits,
+              const BodyForm& form,
+              int of_modes) {
+  return form.is_modal && !map.has(key) ? of_modes : map.integer(key, limits);
+}
+
 int bodySection(const SceneBuilder& builder, const YamlMap& map) {
   const int index = sectionOf(builder, map);
   const Section& section = sectionAt(builder, index);
   const Place place = map.has("section") ? map.placeAt("section") : map.place();
   if (section.geometry != Geometry::kScalar) {
-    builder.fail(place, map.what() + " has a 'pitch' in section " + quoted(section.name) +
+    builder.fail(place, map.what() + " is in section " + quoted(section.name) +
                             ", allowed: scalar sections");
   }
   if (section.medium.factor != 0.0) {
-    builder.fail(place, map.what() + " has a 'pitch' in section " + quoted(section.name) +
+    builder.fail(place, map.what() + " is in section " + quoted(section.name) +
                             ", whose 'medium' would change what it loses, allowed: a section "
                             "without one, and 't60'");
   }

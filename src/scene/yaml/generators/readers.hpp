@@ -14,5 +14,6 @@ void readChaplet(SceneBuilder& builder, const std::string& name, const YamlMap& 
 void readBar(SceneBuilder& builder, const std::string& name, const YamlMap& map);
 void readMembrane(SceneBuilder& builder, const std::string& name, const YamlMap& map);
 void readPlate(SceneBuilder& builder, const std::string& name, const YamlMap& map);
+void readResonator(SceneBuilder& builder, const std::string& name, const YamlMap& map);
 
 }  // namespace ergotic::scene

@@ -11,6 +11,7 @@ namespace {
 
 constexpr Limits kCellLimits{"", 2.0, 100.0};
 constexpr Limits kRadiusLimits{"", 2.0, 50.0};
+constexpr int kCellsOfModes = 24;
 constexpr Limits kPoissonLimits{"", 0.0, 0.5};
 constexpr Limits kLoadRatio{"", 0.01, 100.0};
 constexpr Limits kLoadPower{"", 0.1, 100.0};
@@ -28,10 +29,27 @@ void readSheet(SceneBuilder& builder, const std::string& name, const YamlMap& ma
 }
 
 template <class Spec>
-void readCells(const YamlMap& map, Spec& spec, int grounds) {
-  const std::vector<int> cells = map.integers("cells", 1, 2, kCellLimits);
+void readCells(const YamlMap& map, const BodyForm& form, Spec& spec, int grounds) {
+  const std::vector<int> cells = form.is_modal && !map.has("cells")
+                                     ? std::vector<int>{kCellsOfModes}
+                                     : map.integers("cells", 1, 2, kCellLimits);
   spec.columns = cells.front() + grounds;
   spec.rows = cells.back() + grounds;
+}
+
+/// As a network, or as its modes.
+template <class Spec>
+void addSheetBody(SceneBuilder& builder,
+                  const Spec& spec,
+                  const BodyForm& form,
+                  void (*add)(SceneBuilder& builder, const Spec& spec)) {
+  addBody(builder, spec.name, spec.section, spec.wish, form, spec.place,
+          [&](SceneBuilder& to, int in, const BodyWish& wish) {
+            Spec network = spec;
+            network.section = in;
+            network.wish = wish;
+            add(to, network);
+          });
 }
 
 SkinLoad readLoad(const YamlMap& map) {
@@ -56,27 +74,29 @@ void readMembrane(SceneBuilder& builder, const std::string& name, const YamlMap&
   map.allow(withBodyKeys({"shape", "cells", "mass", "neighbours", "load", "spacing", "at"}));
   MembraneSpec spec;
   readSheet(builder, name, map, spec);
+  const BodyForm form = readBodyForm(builder, map, true);
   spec.is_round = map.has("shape") && map.choice("shape", {"rectangular", "round"}) == 1;
   spec.has_diagonals = !map.has("neighbours") || map.choice("neighbours", {"4", "8"}) == 1;
   if (spec.is_round) {
-    spec.rows = spec.columns = 2 * map.integer("cells", kRadiusLimits) + 1;
+    spec.rows = spec.columns = 2 * readCount(map, "cells", kRadiusLimits, form, kCellsOfModes) + 1;
     if (map.has("load")) {
       spec.load = readLoad(map.map("load"));
     }
   } else {
-    readCells(map, spec, 2);
+    readCells(map, form, spec, 2);
     if (map.has("load")) {
       builder.fail(map.keyPlaceAt("load"),
                    "'load' of " + map.what() + ", allowed with shape: round");
     }
   }
-  addMembrane(builder, spec);
+  addSheetBody(builder, spec, form, addMembrane);
 }
 
 void readPlate(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
   map.allow(withBodyKeys({"edges", "cells", "mass", "poisson", "spacing", "at"}));
   PlateSpec spec;
   readSheet(builder, name, map, spec);
+  const BodyForm form = readBodyForm(builder, map, true);
   if (map.has("edges")) {
     spec.edges = static_cast<PlateEdges>(map.choice("edges", {"supported", "clamped", "free"}));
   }
@@ -87,11 +107,11 @@ void readPlate(SceneBuilder& builder, const std::string& name, const YamlMap& ma
                                                 "allowed with edges: free");
   }
   spec.poisson = map.number("poisson", kPoissonLimits, spec.poisson);
-  readCells(map, spec, is_free ? 0 : 2);
+  readCells(map, form, spec, is_free ? 0 : 2);
   if (is_free && (spec.rows < 3 || spec.columns < 3)) {
     map.fail("cells", "'cells' of " + map.what() + " is too few for free edges, allowed: 3...100");
   }
-  addPlate(builder, spec);
+  addSheetBody(builder, spec, form, addPlate);
 }
 
 }  // namespace ergotic::scene

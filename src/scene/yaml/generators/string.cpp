@@ -14,6 +14,7 @@ namespace ergotic::scene {
 namespace {
 
 constexpr double kMostBodyMasses = 2000.0;
+constexpr int kMassesOfModes = 150;
 constexpr Limits kImpedanceLimits{"N s/m", 0.0, kInfinity, true};
 constexpr Limits kTensionLimits{"N", 0.0, kInfinity, true};
 constexpr Limits kInharmonicityLimits{"", 0.0, 0.1};
@@ -120,7 +121,8 @@ void readStringBody(SceneBuilder& builder, const std::string& name, const YamlMa
   spec.name = name;
   spec.place = map.placeAt("name");
   spec.section = bodySection(builder, map);
-  spec.masses = map.integer("masses", {"", 1.0, kMostBodyMasses});
+  const BodyForm form = readBodyForm(builder, map, false);
+  spec.masses = readCount(map, "masses", {"", 1.0, kMostBodyMasses}, form, kMassesOfModes);
   spec.wish = readBodyWish(builder, map);
   if (map.has("inharmonicity")) {
     spec.wish->inharmonicity = map.number("inharmonicity", kInharmonicityLimits);
@@ -128,8 +130,19 @@ void readStringBody(SceneBuilder& builder, const std::string& name, const YamlMa
   const double fundamental_hz = spec.wish->pitch_hz / spec.wish->pitch_of;
   spec.mass.factor = readStringMass(builder, map, fundamental_hz, spec.masses);
   readStringPlaces(builder, map, spec);
+  spec.wish->is_string = true;
+  if (form.is_modal && map.has("pluck")) {
+    builder.fail(map.keyPlaceAt("pluck"),
+                 "'pluck' of " + map.what() + " of modes, allowed as: network");
+  }
   readPluck(map, spec);
-  addString(builder, spec);
+  addBody(builder, name, spec.section, *spec.wish, form, spec.place,
+          [&](SceneBuilder& to, int in, const BodyWish& wish) {
+            StringSpec network = spec;
+            network.section = in;
+            network.wish = wish;
+            addString(to, network);
+          });
 }
 
 }  // namespace

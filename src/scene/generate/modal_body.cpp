@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/generate/modal_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "at.hpp"
+#include "ergotic/scene/grid.hpp"
+#include "scene/generate/body_modes.hpp"
+#include "scene/generate/generated.hpp"
+#include "scene/generate/points.hpp"
+#include "scene/limits.hpp"
+
+namespace ergotic::scene {
+namespace {
+
+constexpr double kHighestByItselfHz = 18'000.0;
+constexpr double kCellSpacing = 0.01;  // m, of the picture
+
+/// The taps of a network, between the modules around each place.
+void addPlaces(SceneBuilder& builder, const std::string& name, const BodyForm& form, Place place) {
+  if (form.places.empty()) {
+    return;
+  }
+  const Grid grid = builder.scene().grids[at(builder.grid(name, place))];
+  for (const BodyPlace& wanted : form.places) {
+    const GridPlace there = placeOn(grid, wanted.along, wanted.across);
+    Tap tap;
+    tap.place = wanted.place;
+    for (std::size_t i = 0; i < at(there.count); ++i) {
+      if (there.weights[i] != 0.0) {
+        tap.shares.push_back({there.mats[i], there.weights[i]});
+      }
+    }
+    addTap(builder, name + "." + wanted.name, std::move(tap));
+  }
+}
+
+/// T60 of a partial between those that are asked for: sigma straight over the frequency.
+double t60At(const std::vector<double>& hz, const BodyWish& wish, double frequency_hz) {
+  if (wish.t60.empty()) {
+    return 0.0;
+  }
+  const auto& [low, low_s] = wish.t60.front();
+  const auto& [high, high_s] = wish.t60.back();
+  if (low == high) {
+    return low_s;
+  }
+  const double from = hz[at(low - 1)];
+  const double share = (frequency_hz - from) / (hz[at(high - 1)] - from);
+  return 1.0 / ((1.0 - share) / low_s + share / high_s);
+}
+
+class Modes {
+ public:
+  Modes(const SceneBuilder& builder,
+        const std::string& name,
+        int section,
+        const BodyWish& wish,
+        const BodyForm& form,
+        Place place,
+        const AddNetwork& network)
+      : builder_(builder),
+        wish_(wish),
+        form_(form),
+        place_(place),
+        network_(builder.scene().file, "") {
+    spec_.name = name;
+    spec_.section = section;
+    spec_.place = place;
+    // A scene of its own, which is thrown away.
+    network_.scene().origins = builder.scene().origins;
+    network_.scene().sections = {builder.scene().sections[at(section)]};
+    BodyWish lossless = wish;
+    lossless.t60.clear();
+    network(network_, 0, lossless);
+  }
+
+  ModalSpec found() {
+    const Tuning& body = network_.scene().tunings.back();
+    const int wanted = form_.partials > 0 ? form_.partials : kMostPartials;
+    const BodyModes modes = lowestModes(network_.scene(), body, std::max(wanted, highest()));
+    setFrequencies(modes.modes);
+    spec_.at = network_.scene().mats[at(body.first_mat)].rest;
+    double whole = 0.0;
+    for (int m = body.first_mat; m < body.first_mat + body.mats; ++m) {
+      const Mat& mat = network_.scene().mats[at(m)];
+      whole += mat.type == MatType::kGround ? 0.0 : mat.mass.factor;
+    }
+    for (const BodyPlace& each : form_.places) {
+      spec_.places.push_back(each.name);
+    }
+    for (int j = 0; j < std::min(wanted, static_cast<int>(hz_.size())); ++j) {
+      if (!addPartial(modes, j, whole)) {
+        break;
+      }
+    }
+    return std::move(spec_);
+  }
+
+ private:
+  int highest() const { return wish_.t60.empty() ? 1 : wish_.t60.back().first; }
+
+  void setFrequencies(const std::vector<Tuning::Mode>& modes) {
+    if (static_cast<int>(modes.size()) < std::max({highest(), wish_.pitch_of, form_.partials})) {
+      builder_.fail(place_, "the network of body " + quoted(spec_.name) + " has " +
+                                std::to_string(modes.size()) +
+                                " partials, allowed: no more. Give it more masses");
+    }
+    const auto lambda = [&](std::size_t j) { return modes[j].springs + modes[j].bends; };
+    const double unit = lambda(at(wish_.pitch_of - 1));
+    for (std::size_t j = 0; j < modes.size(); ++j) {
+      hz_.push_back(wish_.pitch_hz * std::sqrt(lambda(j) / unit));
+    }
+    if (wish_.is_string) {
+      for (std::size_t j = 0; j < hz_.size(); ++j) {
+        hz_[j] = wish_.pitch_hz * stretched(static_cast<int>(j) + 1) / stretched(wish_.pitch_of);
+      }
+    }
+  }
+  double stretched(int partial) const {
+    return partial * std::sqrt(1.0 + std::max(0.0, wish_.inharmonicity) * partial * partial);
+  }
+
+  /// \return false if it and those above are too high, and nobody counted them
+  bool addPartial(const BodyModes& modes, int j, double whole) {
+    const double hz = hz_[at(j)];
+    if (form_.partials == 0 && j > 0 && hz > kHighestByItselfHz) {
+      return false;
+    }
+    if (hz > kHighestPartialHz) {
+      builder_.fail(place_, "partial " + std::to_string(j + 1) + " of body " + quoted(spec_.name) +
+                                " would be at " + numberText(hz) + " Hz, allowed: at most " +
+                                numberText(kHighestPartialHz) + " Hz. Ask for fewer 'partials'");
+    }
+    Partial partial;
+    partial.frequency_hz = hz;
+    partial.t60_s = t60At(hz_, wish_, hz);
+    partial.mass = whole;
+    const Grid& grid = network_.scene().grids.back();
+    for (const BodyPlace& wanted : form_.places) {
+      const GridPlace there = placeOn(grid, wanted.along, wanted.across);
+      double weight = 0.0;
+      for (std::size_t i = 0; i < at(there.count); ++i) {
+        weight += there.weights[i] * modes.shapes(there.mats[i] - grid.first, j);
+      }
+      partial.weights.push_back(weight * std::sqrt(whole));
+    }
+    spec_.partials.push_back(std::move(partial));
+    return true;
+  }
+
+  const SceneBuilder& builder_;
+  const BodyWish& wish_;
+  const BodyForm& form_;
+  Place place_;
+  SceneBuilder network_;
+  ModalSpec spec_;
+  std::vector<double> hz_;
+};
+
+}  // namespace
+
+void addModalBody(SceneBuilder& builder, const ModalSpec& spec) {
+  constexpr double kNothing = 1e-12;  // of a weight: a node
+  builder.reserve(spec.partials.size() + spec.places.size(), 0, spec.place);
+  const auto first = static_cast<int>(builder.scene().mats.size());
+  const Name stem(spec.name + ".");
+  for (std::size_t j = 0; j < spec.partials.size(); ++j) {
+    const Partial& partial = spec.partials[j];
+    const double omega = 2.0 * M_PI * partial.frequency_hz;
+    const double sigma = partial.t60_s > 0.0 ? std::log(1000.0) / partial.t60_s : 0.0;
+    const Eigen::Vector3d rest =
+        spec.at + Eigen::Vector3d(0.0, kCellSpacing * static_cast<double>(j), 0.0);
+    Mat cell =
+        generatedMat(builder, spec.section, stem.numbered(static_cast<int>(j)), rest, spec.place);
+    cell.type = MatType::kCell;
+    cell.matched = true;
+    cell.mass.factor = partial.mass;
+    cell.stiffness.factor = partial.mass * (omega * omega + sigma * sigma);
+    cell.damping.factor = 2.0 * partial.mass * sigma;
+    builder.add(std::move(cell));
+  }
+  for (std::size_t p = 0; p < spec.places.size(); ++p) {
+    Tap tap;
+    tap.place = spec.place;
+    for (std::size_t j = 0; j < spec.partials.size(); ++j) {
+      const double weight = spec.partials[j].weights[p];
+      if (std::abs(weight) > kNothing) {
+        tap.shares.push_back({first + static_cast<int>(j), weight});
+      }
+    }
+    if (tap.shares.empty()) {
+      builder.fail(spec.place, "place " + quoted(spec.places[p]) + " of body " + quoted(spec.name) +
+                                   " does not move in any of its partials, allowed: one that does");
+    }
+    addTap(builder, spec.name + "." + spec.places[p], std::move(tap));
+  }
+}
+
+void addBody(SceneBuilder& builder,
+             const std::string& name,
+             int section,
+             const BodyWish& wish,
+             const BodyForm& form,
+             Place place,
+             const AddNetwork& network) {
+  if (form.is_modal) {
+    addModalBody(builder, Modes(builder, name, section, wish, form, place, network).found());
+  } else {
+    network(builder, section, wish);
+    addPlaces(builder, name, form, place);
+  }
+}
+
+}  // namespace ergotic::scene

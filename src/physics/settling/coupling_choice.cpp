@@ -27,7 +27,8 @@ struct Option {
   double stiffness = 0.0;  // at the device, N/m
   double limit = 0.0;
   double steps = 0.0;  // that are heard, rms of the movement of a hand
-  double error = 0.0;  // these, and what is softer than the links say
+  bool damps = false;  // what hangs there for good
+  double error = 0.0;  // steps, what is softer than the links say, and what is lost
 
   /// What is quiet in the hand goes before what is not; of that the most quiet is best.
   std::pair<HandLevel, double> rank() const {
@@ -57,6 +58,15 @@ bool isSeen(const Scene& scene, const Rates& rates, int slice) {
          std::any_of(scene.connections.begin(), scene.connections.end(), guides);
 }
 
+/// True of links that never let go. What rings on one of them rings into the chaplet, too, which
+/// swallows it: a string by some ten dB in a second.
+bool holdsForGood(const scene::Lia& lia) {
+  using scene::LiaType;
+  return lia.type == LiaType::kSpringDamper || lia.type == LiaType::kQuadratic ||
+         lia.type == LiaType::kCubic || lia.type == LiaType::kClippedCubic ||
+         lia.type == LiaType::kRelaxing;
+}
+
 class Chooser {
  public:
   Chooser(const Scene& scene, const Rates& rates, const Complete& complete)
@@ -74,12 +84,19 @@ class Chooser {
     const double stiffness = options.front().stiffness;
     for (Option& option : options) {
       const double softer = stiffness > 0.0 ? 1.0 - option.stiffness / stiffness : 0.0;
-      option.error = option.steps + std::max(0.0, softer);
+      option.damps = option.coupling == Coupling::kChaplet && isHeld(slice);
+      option.error = option.steps + std::max(0.0, softer) + (option.damps ? 1.0 : 0.0);
     }
     return options;
   }
 
  private:
+  bool isHeld(int slice) const {
+    return std::any_of(scene_.lias.begin(), scene_.lias.end(), [&](const scene::Lia& lia) {
+      return holdsForGood(lia) && fasterEnd(scene_, rates_, lia, slice) >= 0;
+    });
+  }
+
   Option optionOf(int slice, Coupling coupling) const {
     Scene candidate = scene_;
     candidate.mats[at(slice)].coupling = coupling;
@@ -110,12 +127,13 @@ std::string describe(const Option& option, double stiffness) {
   static constexpr const char* kWords[] = {"hold", "smooth", "chaplet"};
   std::string text = std::string(kWords[at(static_cast<int>(option.coupling))]) + ": steps of " +
                      shortly(100.0 * option.steps) + " %";
-  if (option.error > option.steps) {
+  if (option.error > option.steps + (option.damps ? 1.0 : 0.0)) {
     text += ", " + shortly(option.stiffness) + " of " + shortly(stiffness) + " N/m";
   } else if (stiffness > 0.0) {
     text += ", " + shortly(option.stiffness) + " N/m";
   }
   text += option.limit > 0.0 ? ", passive up to " + shortly(option.limit) + " N/m" : "";
+  text += option.damps ? ", it damps what hangs there" : "";
   return text + (option.level == HandLevel::kRefused  ? ", it will buzz"
                  : option.level == HandLevel::kWarned ? ", it may buzz"
                                                       : "");

@@ -62,6 +62,17 @@ TEST(CouplingChoiceTest, WhatItBearsOnlyHeldIsHeld) {
                                            HasSubstr("it may buzz"))));
 }
 
+TEST(CouplingChoiceTest, WhatHangsOnAHandForGoodIsNotDampedByAChaplet) {
+  const Chosen chosen = chosenFor(touched(300.0, Coupling::kAuto));
+  EXPECT_EQ(chosen.chaplets, 0U);
+  EXPECT_THAT(chosen.notes,
+              Contains(AllOf(HasSubstr("gets coupling "), HasSubstr("; chaplet: steps of 0.0288 %"),
+                             HasSubstr("it damps what hangs there"))));
+  SceneBuilder b = touched(300.0, Coupling::kAuto);
+  b.scene.lias.back().type = scene::LiaType::kContact;
+  EXPECT_THAT(chosenFor(b).notes, Not(Contains(HasSubstr("it damps"))));
+}
+
 TEST(CouplingChoiceTest, BehindAChapletAHandBearsWhatIsStiff) {
   const Chosen chosen = chosenFor(touched(50000.0, Coupling::kAuto));
   EXPECT_EQ(chosen.coupling, Coupling::kHold);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "at.hpp"
 #include "ergotic/exception.hpp"
@@ -22,6 +23,14 @@ using Mode = scene::Tuning::Mode;
 /// Of the 8th the dispersion of the springs shows, and it is low enough to be heard.
 constexpr int kSecondPartial = 8;
 constexpr double kHighestCycles = 0.4;  // of a partial in a step, to be tuned to
+
+/// As a musician reads it: 1046.5 rather than 1.05e+03.
+std::string digits(double value) {
+  std::ostringstream text;
+  text.precision(5);
+  text << value;
+  return text.str();
+}
 
 double decayRate(double t60_s) {
   return std::log(1000.0) / t60_s;
@@ -164,8 +173,8 @@ class BodyTuning {
       if (!std::isfinite(sounding)) {
         break;
       }
-      hz += (hz.empty() ? "" : ", ") + shortly(sounding);
-      ratios += (ratios.empty() ? "" : " : ") + shortly(sounding / one);
+      hz += (hz.empty() ? "" : ", ") + digits(sounding);
+      ratios += (ratios.empty() ? "" : " : ") + digits(sounding / one);
     }
     return "has its partials at " + hz + " Hz, " + ratios;
   }

@@ -162,8 +162,15 @@ class Parser {
     while (takes("-")) {
       ++minuses;
     }
+    skip();
+    const std::size_t operand = at_;
+    const bool is_negative = minuses % 2 != 0;
+    negative_at_ = is_negative ? operand : std::string_view::npos;
     Constant value = power();
-    return minuses == 0 ? value : Constant(minuses % 2 == 0 ? number(value) : -number(value));
+    if (minuses == 0) {
+      return value;
+    }
+    return is_negative && taken_at_ != operand ? -number(value) : number(value);
   }
 
   /// Binds to the right, and more than a sign before it.
@@ -213,7 +220,13 @@ class Parser {
       }
     }
     const std::string_view number = text_.substr(first, at_ - first);
+    const std::size_t after = at_;
     if (const std::optional<double> value = withUnit(number)) {
+      const std::string unit = trimmed(text_.substr(after, at_ - after));
+      if (first == negative_at_ && (unit == "dB" || unit == "cents")) {
+        taken_at_ = first;  // -6 dB is a half, not minus two
+        return parseAnyQuantity("-" + std::string(number) + " " + unit).value_or(0.0);
+      }
       return *value;
     }
     const std::optional<double> bare = parseNumber(number);
@@ -349,6 +362,8 @@ class Parser {
   std::string_view text_;
   const Scope& scope_;
   std::size_t at_ = 0;
+  std::size_t negative_at_ = std::string_view::npos;  // where what a minus stands before begins
+  std::size_t taken_at_ = std::string_view::npos;     // that is a number that took the minus
   int depth_ = 0;
   int unused_ = 0;  // branches around
 };

@@ -17,8 +17,7 @@ endforeach()
 target_link_libraries(fuzz_bag PRIVATE ergotic_bag)
 target_sources(fuzz_devices PRIVATE
   src/tgr/drivers/comedi/comedi_settings.cpp src/tgr/drivers/jack/jack_settings.cpp)
-# What takes long to compile: what ASan sees by itself, and the kernels, which the other sanitizers
-# watch (scripts/check_sanitizers). Of these clang forgets that they load unaligned.
-target_compile_options(ergotic_flags INTERFACE -fno-sanitize=null,alignment,object-size,vptr)
+# The kernels take long to compile, and scripts/check_sanitizers watches them. Of these clang forgets
+# that they load unaligned.
 set_source_files_properties(${kernel_sources} PROPERTIES
   COMPILE_OPTIONS "-fno-sanitize=all;-fmax-type-align=4")

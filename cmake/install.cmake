@@ -2,13 +2,14 @@
 # The layout of a catkin install space, with or without ROS: rosrun and roslaunch find their way.
 set(ergotic_libraries ergotic_core ergotic_audio)
 foreach(library ergotic_bag ergotic_ros ergotic_comedi_driver ergotic_jack_driver
-    ergotic_comedi_plugin ergotic_jack_plugin)
+    ergotic_comedi_plugin ergotic_jack_plugin ergotic_priority_inheritance)
   if(TARGET ${library})
     list(APPEND ergotic_libraries ${library})
   endif()
 endforeach()
 set_target_properties(${ergotic_libraries} PROPERTIES INSTALL_RPATH "$ORIGIN")
 install(TARGETS ${ergotic_libraries} LIBRARY DESTINATION lib)
+install(PROGRAMS scripts/plot_modes scripts/plot_feel DESTINATION lib/ergotic)  # for --plot
 if(ergotic_tools)
   set_target_properties(${ergotic_tools} PROPERTIES INSTALL_RPATH "$ORIGIN/..")
   install(TARGETS ${ergotic_tools} RUNTIME DESTINATION lib/ergotic)

@@ -74,3 +74,7 @@ foreach(driver comedi jack)
               ergotic_flags)
   endif()
 endforeach()
+
+# Preloaded by station.launch (docs/safety.md).
+add_library(ergotic_priority_inheritance SHARED src/preload/priority_inheritance.cpp)
+target_link_libraries(ergotic_priority_inheritance PRIVATE ergotic_flags ${CMAKE_DL_LIBS})

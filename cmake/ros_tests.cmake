@@ -36,7 +36,7 @@ foreach(rostest ${rostests})
   endif()
   add_test(NAME integration.${name} COMMAND ${in_devel_space} /usr/bin/rostest ${rostest})
   set_tests_properties(integration.${name} PROPERTIES
-    RUN_SERIAL ${meets_the_clock} TIMEOUT 300 LABELS integration FIXTURES_REQUIRED trials ${lock})
+    RUN_SERIAL ${meets_the_clock} TIMEOUT 900 LABELS integration FIXTURES_REQUIRED trials ${lock})
 endforeach()
 
 foreach(rostest safety_rostest pairs_rostest)

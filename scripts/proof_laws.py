@@ -63,11 +63,11 @@ def relaxed(link, stiffness, span_of, step):
 
 def matched(slow, fast, square):
     """What a matched module loses and how it is pulled, at most; square: (w h)^2 of its swing."""
-    root, swing = math.sqrt(abs(square)), math.sinh if square < 0 else math.sin
-    root = root if square < 0 else min(root, math.pi)
+    root = math.sqrt(-square) if square < 0 else min(math.sqrt(square), math.pi)
     fade = slow if square > 0 and math.cos(root) < 0 else fast
-    return -math.expm1(-2 * fast), math.expm1(-fade) ** 2 + math.copysign(
-        4 * math.exp(-fade) * swing(root / 2) ** 2, square) + math.exp(-2 * fast) - math.exp(-2 * fade)
+    swing = (-math.exp(root - fade) * math.expm1(-root) ** 2 if square < 0 else  # 4 e^-fade sinh^2(root/2)
+             4 * math.exp(-fade) * math.sin(root / 2) ** 2)
+    return -math.expm1(-2 * fast), math.expm1(-fade) ** 2 + swing + math.exp(-2 * fast) - math.exp(-2 * fade)
 
 
 def breathes(energy, form, turn, back):

@@ -4,6 +4,7 @@ from docs/scene.md alone."""
 import itertools
 import math
 import os
+import re
 
 import numpy as np
 import yaml
@@ -20,7 +21,51 @@ MATERIALS = {"felt": 0.3, "nylon": 0.03, "gut": 0.02, "wood": 0.01}
 CONSTANT_LOSS = (((0.4964, 0.6296, -0.3916), (4.715, 0.8373, -0.2502)),
                  ((0.2132, 2.305, -0.8829), (6.796, 0.6413, -0.128)),
                  ((0.4939, 4.001, -0.8781), (8.876, 0.8478, 0.006458)))  # powers of the loss factor
+UNITS = {**dict.fromkeys("m s Hz N J W V rad deg 1".split(), 0), "g": -3}  # powers of ten
+PREFIXES = {"": 0, "n": -9, "u": -6, "\u00b5": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9}
+QUANTITY = re.compile(r"([+-]?[0-9.]+(?:[eE][+-]?[0-9]+)?) *(?![eE][-+]?[0-9])((?:[a-zA-Z%\u00b5]|1/).*)")
+NUMBER = re.compile(r"[+-]?[0-9.]+(?:[eE][+-]?[0-9]+)?")
+NOTE = re.compile(r"([A-G])([#b]?)(-?[0-9]+)")
+BRIEF = {"let", "defaults", "define", "use", "include", "variants", "for", "when", "class"}
 NEAREST = ((0, 1), (1, 0), (1, 1), (1, -1))  # of a mesh: rows and columns to the modules it is linked to
+
+
+def power_of(factor):
+    """\return how many powers of ten, and of pi/180, `kN` or `mm^2` is of what has no prefix"""
+    name, _, power = factor.partition("^")
+    known = next((PREFIXES[p] + UNITS[name[len(p):]], name[len(p):] == "deg") for p in PREFIXES
+                 if name.startswith(p) and name[len(p):] in UNITS)  # another is no unit: StopIteration
+    return [int(power or 1) * each for each in known]
+
+
+def plain(said, key=""):
+    """A scene without units: each number is that of SI units."""
+    if isinstance(said, dict):
+        return {name: plain(each, name) for name, each in said.items()}
+    if isinstance(said, list):
+        return [plain(each, key) for each in said]
+    if note := key == "frequency" and NOTE.fullmatch(said):
+        semitones = dict(zip("CDEFGAB", (0, 2, 4, 5, 7, 9, 11)))[note[1]] + {"#": 1, "b": -1, "": 0}[note[2]]
+        return repr(440.0 * 2 ** ((12 * int(note[3]) + semitones - 57) / 12))
+    if NUMBER.fullmatch(said) or not (quantity := QUANTITY.fullmatch(said)):
+        return said
+    number, unit = quantity[1], quantity[2].strip()
+    if unit in ("%", "dB", "cents"):
+        value = float(number)
+        return repr({"%": value / 100, "dB": 10 ** (value / 20), "cents": 2 ** (value / 1200)}[unit])
+    factors, ten, turn = re.split("([ /*])", "*" + unit)[1:], 0, 0
+    for sign, factor in zip(factors[::2], factors[1::2]):
+        powers = power_of(factor)
+        ten, turn = (sum_ + (-each if sign == "/" else each) for sum_, each in zip((ten, turn), powers))
+    mantissa, _, exponent = number.lower().partition("e")
+    return repr(float(f"{mantissa}e{int(exponent or 0) + ten}") * (math.pi / 180) ** turn)
+
+
+def is_brief(node):
+    """Whether something in it stands for what `expand` would write."""
+    if isinstance(node, dict):
+        return not BRIEF.isdisjoint(node) or any(map(is_brief, [*node, *node.values()]))
+    return any(map(is_brief, node)) if isinstance(node, list) else node[:1] == "=" or "{" in node
 
 
 def rows_of(part):
@@ -61,7 +106,9 @@ class Said:
     that is None is worked out elsewhere and is not compared."""
 
     def __init__(self, name, frame, gestural_hz):
-        scene, *appended = yaml.load_all(open(name, "rb").read(), yaml.BaseLoader)
+        scene, *appended = plain(list(yaml.load_all(open(name, "rb").read(), yaml.BaseLoader)))
+        if is_brief({key: each for key, each in scene.items() if key not in ("name", "about")}):
+            raise ValueError("this scene is in brief: prove the one that `expand` writes of it")
         self.folder, self.tables = os.path.dirname(name), appended[0]["tables"] if appended else {}
         self.parts = {part: dict(rows_of(scene.get(part))) for part in PARTS}
         self.sections, self.mats, self.lias = (self.parts[part] for part in ("sections", "mats", "lias"))
@@ -73,8 +120,9 @@ class Said:
         self.only = next(iter(self.sections)) if len(self.sections) == 1 else None
         self.grids, self.tuned = {}, {}  # of grids the section, columns and rows; strings with a frequency
         for keys in scene.get("generators") or []:
-            if "pitch" in keys or keys["type"] == "resonator":
-                raise ValueError(f"{keys['name']}: what a body with a pitch is made of is not worked out here")
+            if "pitch" in keys or keys["type"] in ("resonator", "frets", "barrier", "bridge"):
+                raise ValueError(f"{keys['name']}: what a body with a pitch, or what stops or carries a string, "
+                                 "is made of is not worked out here")
             getattr(self, "add_" + keys["type"])(keys["name"], {"section": self.only, **keys})
         for keys in self.sections.values():
             keys["modes"] = "no" if keys.get("modes", "all") == "all" else "some"
@@ -143,7 +191,7 @@ class Said:
         lies = {at: (start + spacing * np.array([*at[::-1], 0]))[:self.size_of(section)] for at in mats}
         for (row, column), kind in mats.items():
             self.add_mat(f"{name}.{row}.{column}", kind, section, mass=keys["mass"], lies=lies[row, column])
-        diagonal, number = keys.get("diagonal_stiffness", scaled(keys["stiffness"], 0.5)), itertools.count()
+        diagonal, number = keys.get("diagonal_stiffness", scaled(keys["stiffness"], 0.25)), itertools.count()
         for at, (down, right) in itertools.product(mats, NEAREST):
             other, is_diagonal = (at[0] + down, at[1] + right), down != 0 != right
             if other in mats and "mass" in (mats[at], mats[other]) and (

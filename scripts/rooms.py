@@ -15,17 +15,17 @@ ROOMS = {
     "scene/rules": "exception scene scene/laws",
     "scene/generate": "exception scene",
     "scene/text": "exception files scene",
-    "scene/tree": "scene scene/generate scene/text",
-    "scene/language": "exception files scene scene/generate scene/text scene/tree",
-    "scene/yaml": "exception files scene scene/laws scene/rules scene/generate scene/text scene/tree"
+    "scene/tree": "exception files scene scene/generate scene/text",
+    "scene/language": "exception scene scene/generate scene/text scene/tree",
+    "scene/yaml": "exception scene scene/laws scene/rules scene/generate scene/text scene/tree"
                   " scene/language",
     "scene/mdl": "scene scene/laws scene/generate scene/text",
     "physics": "exception rt scene scene/laws",
     "physics/laws": "scene scene/laws physics",
     "physics/network": "exception scene scene/laws physics physics/laws",
-    "physics/layout/blocks": "exception scene physics",
-    "physics/layout": "exception scene physics physics/layout/blocks",
-    "physics/modes": "exception scene physics physics/laws physics/network",
+    "physics/layout/blocks": "exception scene scene/laws physics",
+    "physics/layout": "exception scene scene/laws physics physics/layout/blocks",
+    "physics/modes": "exception scene scene/laws physics physics/laws physics/network",
     "physics/state": "exception scene scene/laws physics physics/laws physics/layout physics/layout/blocks",
     "physics/kernels": "rt scene/laws physics/layout physics/layout/blocks physics/state",
     "physics/engine": "exception rt scene physics physics/laws physics/modes physics/layout"
@@ -33,7 +33,7 @@ ROOMS = {
     "physics/certificate": "exception scene scene/laws physics physics/layout physics/network physics/engine",
     "physics/settling": "exception scene scene/laws scene/generate physics physics/network"
                         " physics/certificate",
-    "advice": "exception scene scene/laws scene/generate physics physics/network physics/certificate"
+    "advice": "exception scene scene/laws scene/generate physics physics/laws physics/network physics/certificate"
               " physics/settling",
     "tgr": "exception files rt scene scene/text scene/tree",
     "station": "exception rt scene physics physics/engine physics/certificate physics/settling tgr",
@@ -41,10 +41,11 @@ ROOMS = {
     "tgr/drivers/comedi": "exception rt tgr",
     "tgr/drivers/jack": "exception rt tgr audio",
     "guardian": "exception rt tgr",
+    "preload": "",
     "bag": "exception files physics/engine tgr station",
     "ros/device": "exception files rt scene physics/engine physics/certificate tgr station bag",
     "ros/display": "scene tgr station ros/device",
-    "ros/conversation": "exception rt scene scene/laws scene/text physics/engine tgr station audio ros/device"
+    "ros/conversation": "exception files rt scene scene/laws scene/text physics/engine tgr station audio ros/device"
                         " ros/display",
     "ros": "ros/device ros/conversation",
     "tools/lib": "exception files rt scene scene/laws scene/generate scene/text physics physics/engine"

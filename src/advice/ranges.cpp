@@ -115,8 +115,11 @@ class RangeJudge {
 std::vector<JudgedRange> judgeRanges(const scene::Scene& scene,
                                      const Rates& rates,
                                      const DeviceTraits& device) {
-  const RangeJudge judge(scene, rates, device);
   std::vector<JudgedRange> judged;
+  if (scene.parameters.empty()) {
+    return judged;
+  }
+  const RangeJudge judge(scene, rates, device);
   for (std::size_t p = 0; p < scene.parameters.size(); ++p) {
     judged.push_back(judge.judge(p));
   }

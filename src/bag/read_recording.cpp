@@ -179,8 +179,9 @@ void requireNoLongGap(const std::vector<Stretch>& stretches, const std::string& 
 }
 
 RecordedMessage bytesOf(const rosbag::MessageInstance& message) {
-  std::vector<std::uint8_t> data(message.size());
-  ros::serialization::OStream out(data.data(), message.size());
+  const std::uint32_t size = message.size();  // read from the file each time
+  std::vector<std::uint8_t> data(size);
+  ros::serialization::OStream out(data.data(), size);
   message.write(out);
   return {message.getDataType(), message.getMD5Sum(), std::move(data)};
 }
@@ -189,11 +190,22 @@ RecordedMessage bytesOf(const rosbag::MessageInstance& message) {
 struct Blocks {
   explicit Blocks(const std::string& path) : bag(path, rosbag::bagmode::Read) {}
 
+  /// Nothing is taken of a file that was changed since it was read, or overwritten.
   void load(Stretch& stretch, const std::string& path) const {
-    RecordedMessage message = bytesOf(messages[stretch.block]);
-    Stretch whole = fromMessage(as<GestureBlock>(message, path).value(), path);
-    stretch.positions = std::move(whole.positions);
-    stretch.ports_at = std::move(whole.ports_at);
+    try {
+      RecordedMessage message = bytesOf(messages[stretch.block]);
+      std::optional<GestureBlock> block = as<GestureBlock>(message, path);
+      Stretch whole = block ? fromMessage(*block, path) : Stretch();
+      if (whole.first_tick != stretch.first_tick || whole.flags.size() != stretch.flags.size() ||
+          whole.slices != stretch.slices || whole.ports != stretch.ports) {
+        throw Exception(named(path, "gesture block", stretch.first_tick) +
+                        " was changed while it is played");
+      }
+      stretch.positions = std::move(whole.positions);
+      stretch.ports_at = std::move(whole.ports_at);
+    } catch (const rosbag::BagException& error) {
+      throw Exception(path + ": " + error.what());
+    }
   }
 
   rosbag::Bag bag;

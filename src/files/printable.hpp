@@ -11,4 +11,7 @@ namespace ergotic::files {
 /// `most` bytes as `...`.
 std::string printable(const std::string& text, std::size_t most);
 
+/// Of a message of several lines.
+std::string printableLines(const std::string& text);
+
 }  // namespace ergotic::files

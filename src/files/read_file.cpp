@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "files/read_file.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <array>
 #include <cerrno>
 #include <climits>
 #include <filesystem>
 #include <system_error>
 
+#include <linux/magic.h>
 #include <sys/stat.h>
+#include <sys/vfs.h>
 
 #include "ergotic/exception.hpp"
 #include "files/printable.hpp"
@@ -23,24 +28,71 @@ namespace {
   refuse(path, std::generic_category().message(error));
 }
 
-/// Before it is opened: to open a pipe is to wait for whoever writes it.
-/// \return its bytes
-std::size_t requireRegular(const std::string& path) {
-  struct stat info {};
-  if (path.find('\0') != std::string::npos) {
-    refuse(path, ENOENT);  // the system would look for what is before it
+/// A place in the file system that stays the same whatever another puts there, and that nobody has
+/// opened yet: to open a pipe is to wait for whoever writes it, and some devices begin to act.
+class Place {
+ public:
+  explicit Place(const std::string& path) : path_(path) {
+    if (path.find('\0') != std::string::npos) {
+      refuse(path, ENOENT);  // the system would look for what is before it
+    }
+    number_ = open(path.c_str(), O_PATH | O_CLOEXEC);
+    if (number_ < 0) {
+      refuse(path, errno);
+    }
   }
-  if (stat(path.c_str(), &info) != 0) {
-    refuse(path, errno);
+  ~Place() { close(number_); }
+  Place(const Place&) = delete;
+  Place& operator=(const Place&) = delete;
+
+  /// \return bytes of the regular file that it is
+  std::size_t require() const {
+    struct stat info {};
+    if (fstat(number_, &info) != 0) {
+      refuse(path_, errno);
+    }
+    if (S_ISDIR(info.st_mode)) {
+      refuse(path_, EISDIR);
+    }
+    if (!S_ISREG(info.st_mode)) {
+      refuse(path_, "it is a pipe, a device or a socket, allowed: files");
+    }
+    if (isOfKernel()) {
+      refuse(path_, "it is a window into the kernel (/proc, /sys), allowed: files of a disk");
+    }
+    return static_cast<std::size_t>(info.st_size);
   }
-  if (S_ISDIR(info.st_mode)) {
-    refuse(path, EISDIR);
+
+  std::ifstream read() const {
+    std::ifstream file("/proc/self/fd/" + std::to_string(number_), std::ios::binary);
+    if (!file.is_open()) {
+      refuse(path_, errno);
+    }
+    return file;
   }
-  if (!S_ISREG(info.st_mode)) {
-    refuse(path, "it is a pipe, a device or a socket, allowed: files");
+
+ private:
+  /// Whether the kernel makes up what is read: some of it never ends, some (/proc/kmsg) waits for
+  /// ever, and some tells secrets of this process.
+  bool isOfKernel() const {
+    struct statfs system {};
+    if (fstatfs(number_, &system) != 0) {
+      return false;  // reading says why
+    }
+    switch (system.f_type) {
+      case PROC_SUPER_MAGIC:
+      case SYSFS_MAGIC:
+      case DEBUGFS_MAGIC:
+      case TRACEFS_MAGIC:
+        return true;
+      default:
+        return false;
+    }
   }
-  return static_cast<std::size_t>(info.st_size);
-}
+
+  const std::string& path_;
+  int number_ = -1;
+};
 
 }  // namespace
 
@@ -52,26 +104,23 @@ bool isBelow(const std::string& path, const std::string& folder) {
 }
 
 void requireFile(const std::string& path) {
-  requireRegular(path);
+  Place(path).require();
 }
 
 std::ifstream openFile(const std::string& path, std::size_t most) {
-  if (const std::size_t size = requireRegular(path); size > most) {
+  const Place place(path);
+  if (const std::size_t size = place.require(); size > most) {
     refuse(path,
            "it has " + std::to_string(size) + " bytes, allowed: at most " + std::to_string(most));
   }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    refuse(path, errno);
-  }
-  return file;
+  return place.read();
 }
 
 std::string readFile(const std::string& path, std::size_t most) {
   std::ifstream file = openFile(path, most);
   std::string text;
   std::array<char, 1U << 16U> chunk;
-  while (file.good() && text.size() <= most) {  // it may grow, and some of /proc tell no size
+  while (file.good() && text.size() <= most) {  // it may grow, and some tell no size
     file.read(chunk.data(), chunk.size());
     text.append(chunk.data(), static_cast<std::size_t>(file.gcount()));
   }

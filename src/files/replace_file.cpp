@@ -31,9 +31,17 @@ bool writeAll(int file, const std::string& text) {
 }
 
 /// Whole and on the disk before it gets its name, or power that fails leaves an empty file.
-bool writeThrough(const fs::path& path, const std::string& text) {
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0644);
+/// \param path  becomes a name beside it that no file has
+bool writeThrough(std::string& path, const std::string& text) {
+  constexpr int kTries = 100;
+  const std::string name = path;
+  int file = -1;
+  for (int i = 0; i < kTries && file < 0 && (i == 0 || errno == EEXIST); ++i) {
+    path = name + ".new" + std::to_string(i);
+    file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644);
+  }
   if (file < 0) {
+    path = "";
     return false;
   }
   const bool is_whole = writeAll(file, text) && fsync(file) == 0;
@@ -65,7 +73,7 @@ std::string replaceFile(const std::string& folder,
   if (error || (fs::exists(path, error) && !fs::is_regular_file(path, error))) {
     refuse("a file");
   }
-  const fs::path draft = path.string() + ".new";
+  std::string draft = path.string();
   fs::create_directories(path.parent_path(), error);
   if (!writeThrough(draft, text) || std::rename(draft.c_str(), path.c_str()) != 0 ||
       !syncFolder(path.parent_path())) {

@@ -3,6 +3,7 @@
 // tgr::Guardian alone, with: PAGE SILENCE_MS PRIORITY {COUNT FILE KIND WORD...}...
 #include <dirent.h>
 #include <pthread.h>
+#include <setjmp.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -80,9 +81,32 @@ void read(const Words& words, int page, Settings& settings) {
   }
 }
 
+sigjmp_buf* way_out = nullptr;  // of a device whose memory is gone
+
+/// Shared memory that somebody has cut off is no reason to leave the other devices as they are.
+void onBus(int number) {
+  if (way_out != nullptr) {
+    ::siglongjmp(*way_out, 1);
+  }
+  ::signal(number, SIG_DFL);
+  ::raise(number);
+}
+
+/// A function of its own: nothing that it changes is used after a leap.
+void makeSafe(Hold& hold) {
+  sigjmp_buf here;
+  if (sigsetjmp(here, 1) == 0) {
+    way_out = &here;
+    hold.makeSafe();
+  }
+}
+
+/// In one thread, which `onAct` may interrupt.
 void makeSafe(const Settings& settings) {
+  sigjmp_buf* const outer = way_out;
   for (const auto& hold : settings.holds) {
-    hold->makeSafe();
+    makeSafe(*hold);
+    way_out = outer;
   }
 }
 
@@ -133,6 +157,7 @@ bool watch(const Settings& settings) {
   Heard heard = Heard::kNothing;
   do {
     heard = listen(page, std::max(1, settings.silence_ms / kLooks));
+    ++page.looks;
     const std::int64_t now = page.beats;
     missed = now != beats || now == 0 ? 0 : missed + 1;  // from the first one on
     beats = now;
@@ -169,6 +194,7 @@ int run(const Words& words) {
     answer(*settings.page, problem.what());
     return EXIT_FAILURE;
   }
+  ::signal(SIGBUS, onBus);
   told = &settings;
   ::signal(tgr::kGuardianAct, onAct);
   answer(*settings.page, "");

@@ -16,7 +16,8 @@ class Hold {
 };
 
 // \param words  after the kind, as in Driver::guards. \throws DeviceError, std::exception
-/// A device process: NAME of its shared memory. Its latch is set, as Driver::makeSafe would.
+/// A device process: NAME of its shared memory, and BORN_NS of it. Its latch is set, as
+/// Driver::makeSafe would.
 std::unique_ptr<Hold> holdSharedMemory(const std::vector<std::string>& words);
 /// A board: SUBDEVICE CHANNEL COUNT of every output. The counts of no force are written.
 /// \param file  the board as the station has opened it: locks of its outputs do not keep us out

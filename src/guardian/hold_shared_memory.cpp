@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "ergotic/exception.hpp"
 #include "guardian/hold.hpp"
 #include "tgr/drivers/virtual/shared_device.hpp"
 
@@ -7,8 +8,12 @@ namespace {
 
 class SharedMemoryHold final : public Hold {
  public:
-  explicit SharedMemoryHold(const std::string& name)
-      : segment_(tgr::SharedSegment::attach(name)), session_(segment_->session) {}
+  SharedMemoryHold(const std::string& name, std::int64_t born_ns)
+      : segment_(tgr::SharedSegment::attach(name)), session_(segment_->session) {
+    if (segment_->born_ns != born_ns) {
+      throw DeviceError("virtual device " + name + ": it is another one by now");
+    }
+  }
 
   void makeSafe() noexcept override {
     if (segment_->session == session_) {  // else it is another driver's by now
@@ -24,7 +29,7 @@ class SharedMemoryHold final : public Hold {
 }  // namespace
 
 std::unique_ptr<Hold> holdSharedMemory(const std::vector<std::string>& words) {
-  return std::make_unique<SharedMemoryHold>(words.at(0));
+  return std::make_unique<SharedMemoryHold>(words.at(0), std::stoll(words.at(1)));
 }
 
 }  // namespace ergotic::guardian

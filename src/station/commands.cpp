@@ -51,20 +51,18 @@ bool Station::submit(const Command& command) {
   }
   Command stamped = command;
   stamped.asked = command.asked == kAskedNow ? interlock_->ticket() : command.asked;
-  if (command.type == Command::Type::kRecover) {
-    rearm(stamped.asked);
-  }
   commands_.push(stamped);
   owed_ += owes ? 1U : 0U;
   keyframe_asked_ = keyframe_asked_ || command.type == Command::Type::kKeyframe;
   return true;
 }
 
-/// Whoever makes safe tells the interlock before the driver: one of the two sees the other.
+/// Only now, for while no tick runs a device may have the last force still. Whoever makes safe
+/// tells the interlock before the driver: one of the two sees the other.
 void Station::rearm(Ticket asked) noexcept {
   driver_->rearm();
   if (interlock_->ticket() != asked) {
-    driver_->makeSafe();
+    driver_->makeSafeInTick();
   }
 }
 
@@ -119,6 +117,7 @@ void Station::obey(const Command& command) noexcept {
 }
 
 void Station::engage(const Command& command) noexcept {
+  followInterlock();  // of a stop that came just now: what it takes must not be taken later
   const Interlock::Reading now = interlock_->read();
   if (now.isLatched()) {
     return refuse(command, Refusal::kFault);
@@ -135,8 +134,11 @@ void Station::engage(const Command& command) noexcept {
   if (!interlock_->engage(command.asked)) {
     return refuse(command, Refusal::kOutdated);
   }
-  chain_.disengage();  // from zero in any case
-  chain_.engage();
+  if (!now.isOpen()) {   // who has force keeps it: to begin again would be a kick
+    chain_.disengage();  // from zero in any case
+    chain_.engage();
+  }
+  engager_ = command.caller;
   Event engaged = event(Event::Type::kEngaged);
   engaged.id = command.id;
   engaged.value = config_.safety.ramp_s;
@@ -155,6 +157,7 @@ void Station::recover(const Command& command) noexcept {
   if (!interlock_->recover(command.asked)) {
     return refuse(command, Refusal::kOutdated);
   }
+  rearm(command.asked);
   if (anew) {
     performer_->restart();
     blown_up_ = false;
@@ -175,7 +178,15 @@ void Station::takeSwap(const Command& command) noexcept {
     handBack(superseded);
   }
   incoming_.reset(command.performer);
-  incoming_takes_force_ = command.index != 0;
+  incoming_force_ = static_cast<SwapForce>(command.index);
+  incoming_caller_ = command.caller;
+}
+
+/// A swap takes the force away for the length of a ramp, which is a kick as a stall is.
+bool Station::keepsForce() noexcept {
+  const bool may = incoming_force_ == SwapForce::kAlways ||
+                   (incoming_force_ == SwapForce::kCaller && incoming_caller_ == engager_);
+  return may && !isKickedTooOften();
 }
 
 /// A swap waits for the fade-out of the old performer, which itself waits for the end of the
@@ -196,11 +207,12 @@ void Station::advanceSwap() noexcept {
   gliding_ = 0;
   fade_.startIn();
   chain_.resume();
-  if (incoming_takes_force_) {
+  Event swapped = event(Event::Type::kSwapped);
+  if (hasForce() && !keepsForce()) {
     stop();
     followInterlock();
+    swapped.value = 1.0;
   }
-  Event swapped = event(Event::Type::kSwapped);
   swapped.performer = incoming_.release();
   swapped.index = 1;
   handBack(swapped);

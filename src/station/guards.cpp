@@ -63,15 +63,16 @@ bool Station::hasForce() const noexcept {
 }
 
 /// Force that was there is gone, and comes back in a ramp. Often, that is a hand that is shaken.
-void Station::kick() noexcept {
-  if (!hasForce()) {
-    return;
-  }
+bool Station::isKickedTooOften() noexcept {
   const double passed_s = 1e-9 * tick_ns_ * static_cast<double>(tick_ - kick_tick_);
   kicks_ = std::max(0.0, kicks_ - config_.max_stalls * passed_s) + 1.0;
   kick_tick_ = tick_;
-  if (kicks_ > config_.max_stalls) {
-    fault(FaultReason::kStall, -1);
+  return kicks_ > config_.max_stalls;
+}
+
+void Station::kick(FaultReason reason, int slice) noexcept {
+  if (hasForce() && isKickedTooOften()) {
+    fault(reason, slice);
   }
 }
 

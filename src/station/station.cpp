@@ -358,6 +358,9 @@ void Station::updateForces(bool muted) noexcept {
   if (chain_.fault() != FaultReason::kNone) {
     fault(chain_.fault(), chain_.faultSlice());
   }
+  if (chain_.mutedSlice() >= 0) {
+    kick(FaultReason::kFrozen, chain_.mutedSlice());
+  }
   for (std::size_t s = 0; s < static_cast<std::size_t>(slices_); ++s) {
     counters_.peak_force_n = std::max(counters_.peak_force_n, std::abs(force_[s]));
   }

@@ -163,9 +163,11 @@ ERGOTIC_REALTIME void SafetyChain::limit(double* forces, double fade) noexcept {
   }
   const bool open = gate_.isOpen();
   const double gain = open ? fade * gate_.next() : 0.0;
+  muted_slice_ = -1;
   for (std::size_t i = 0; i < slices_.size(); ++i) {
     if (open && isInUse(i)) {
       forces[i] = slices_[i].limited(forces[i], gain);
+      muted_slice_ = slices_[i].justMuted() ? static_cast<int>(i) : muted_slice_;
     } else {
       slices_[i].release();
       forces[i] = 0.0;

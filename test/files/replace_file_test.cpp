@@ -2,6 +2,7 @@
 #include "files/replace_file.hpp"
 
 #include <filesystem>
+#include <iterator>
 
 #include "files/read_file.hpp"
 #include "support/scratch_file.hpp"
@@ -30,7 +31,13 @@ TEST_F(ReplaceFileTest, WritesAllOfItBelowItsFolder) {
   EXPECT_EQ(path, folder_ + "/a/devices.yaml");
   EXPECT_EQ(replaceFile(folder_, path, "new and longer"), path);
   EXPECT_EQ(textOf(path), "new and longer");
-  EXPECT_FALSE(fs::exists(path + ".new"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ + "/a"), {}), 1) << "no draft is left";
+}
+
+TEST_F(ReplaceFileTest, TakesNoFileForItsDraft) {
+  const std::string other = replaceFile(folder_, "devices.yaml.new", "of somebody");
+  replaceFile(folder_, "devices.yaml", "ours");
+  EXPECT_EQ(textOf(other), "of somebody");
 }
 
 TEST_F(ReplaceFileTest, ReplacesNothingElsewhere) {

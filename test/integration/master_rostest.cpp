@@ -112,6 +112,40 @@ TEST_F(MasterTest, IsNotMissedWhereNobodyRequiresIt) {
   the_master->goOn();
 }
 
+bool pretend(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
+  response.success = 1U;
+  return true;
+}
+
+// Callers would then be told of a success by somebody who ends no force.
+TEST_F(MasterTest, IsMissedWhenItLeadsToAnotherNodeThatTookAName) {
+  for (const std::string name : {"stop", "emergency_stop"}) {
+    play(true);
+    auto recover = connectTo("recover");
+    ASSERT_TRUE(recover.isValid());
+    const ::ros::ServiceServer other = node_.advertiseService("/station/" + name, &pretend);
+    expectMasterIsMissed();
+    EXPECT_FALSE(call(recover)) << name;
+    station_.reset();
+  }
+}
+
+// Nobody's message would arrive.
+TEST_F(MasterTest, IsMissedWhenItWasToldThatTheStationHearsNoEmergencyStop) {
+  play(true);
+  XmlRpc::XmlRpcValue request;
+  request[0] = ::ros::this_node::getName();
+  request[1] = "/station";
+  XmlRpc::XmlRpcValue answer;
+  XmlRpc::XmlRpcValue address;
+  ASSERT_TRUE(::ros::master::execute("lookupNode", request, answer, address, false));
+  request[0] = "/station";
+  request[1] = "/station/emergency_stop";
+  request[2] = address;
+  ASSERT_TRUE(::ros::master::execute("unregisterSubscriber", request, answer, address, false));
+  expectMasterIsMissed();
+}
+
 // The last: the new master does not know this test either.
 TEST_F(MasterTest, IsMissedWhenItDiesAndNoNewOneTakesItsPlace) {
   play(true);

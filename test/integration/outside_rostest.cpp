@@ -19,6 +19,7 @@
 #include <ergotic/ModelState.h>
 #include <ergotic/Status.h>
 #include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
 #include <sensor_msgs/JointState.h>
 #include <std_msgs/Bool.h>
 #include <sys/mman.h>
@@ -229,6 +230,24 @@ TEST(DiskTest, IsNothingToAStationWhenItIsFull) {
   const Outcome rendered = run("render", "--gesture " + take + ".bag --out " + take + ".wav");
   EXPECT_EQ(rendered.code, 0) << rendered.text;
   EXPECT_GT(framesIn(take + ".wav"), 44100) << "a second at the least";
+}
+
+/// A clock of a recording that is played, and begins anew.
+TEST(SimulatedTimeTest, IsNothingToTheTicks) {
+  ::ros::NodeHandle node;
+  node.setParam("/use_sim_time", true);
+  PushedStation station;
+  ASSERT_TRUE(station.isPushed()) << station.status().state_text;
+  node.deleteParam("/use_sim_time");  // it was read
+  ::ros::Publisher clock = node.advertise<rosgraph_msgs::Clock>("/clock", 1);
+  ASSERT_TRUE(eventually([&] { return clock.getNumSubscribers() > 0; }));
+  for (const double now_s : {1e5, 0.001, 1e5, 0.0}) {
+    rosgraph_msgs::Clock message;
+    message.clock.fromSec(now_s);
+    clock.publish(message);
+    EXPECT_TRUE(station.ticksOn()) << "at " << now_s << " s";
+  }
+  EXPECT_TRUE(station.isPushed()) << station.status().state_text;
 }
 
 class ProcessFaultTest : public ::testing::Test {

@@ -27,15 +27,15 @@ class PushedStation {
  public:
   /// \param environment  of the station
   /// \param watchdog_ms  of the device
+  /// \param model        kWall, or more
   explicit PushedStation(const std::map<std::string, std::string>& environment = {},
-                         double watchdog_ms = 2000.0) {
-    node_.setParam("/station/model", kWall);
+                         double watchdog_ms = 2000.0,
+                         const std::string& model = kWall) {
+    node_.setParam("/station/model", model);
     node_.setParam("/station/virtual_shared_memory", segment_);
     node_.setParam("/station/jack", "none");
     node_.setParam("/station/ramp", 0.1);
-    node_.setParam("/station/max_stall", 1.0);
-    node_.setParam("/station/max_stalls", 1'000'000);
-    node_.setParam("/station/watchdog", 1.0);
+    allowStalls(node_);
     node_.setParam("/station/max_missing", 1000);
     node_.setParam("/station/max_speed", 100.0);
     node_.setParam("/station/frozen", 0.0);
@@ -61,6 +61,8 @@ class PushedStation {
   PushedStation& operator=(const PushedStation&) = delete;
 
   const std::filesystem::path& folder() const { return folder_; }
+  /// The file of the shared memory through which the station reaches its device.
+  std::filesystem::path sharedMemory() const { return "/dev/shm" + segment_; }
   ChildProcess& process() { return *station_; }
   Status status() const { return statuses_.latest(); }
   std::size_t statuses() const { return statuses_.count(); }

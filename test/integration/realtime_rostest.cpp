@@ -66,10 +66,8 @@ class RealtimeTest : public ::testing::Test {
     node_.setParam("/station/jack_connect", false);
     node_.setParam("/station/ramp", 0.1);
     node_.setParam("/station/allow_fault_injection", true);
-    node_.setParam("/station/max_stall", 1.0);
-    node_.setParam("/station/max_stalls", 1'000'000);  // of a busy machine
-    node_.setParam("/station/max_missing", 1000);      // of the same
-    node_.setParam("/station/watchdog", 1.0);
+    allowStalls(node_);
+    node_.setParam("/station/max_missing", 1000);  // of a busy machine
     node_.setParam("/station/max_load", 100.0);
   }
   void start(std::map<std::string, std::string> environment = {}) {

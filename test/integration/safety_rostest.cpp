@@ -231,7 +231,14 @@ void SafetyTest::recover(const FaultCase& fault, Trials& trials, Outcome& outcom
   outcome.recovered_s = 1e-9 * static_cast<double>(answered_ns - asked_ns);
   EXPECT_TRUE(answer.success) << answer.message;
   trials.judge({asked_ns, asked_ns + kRecoveryNs, kRecoveryNs / 2}, answered_ns, "the recovery");
-  EXPECT_TRUE(stateBecomes(Status::READY));
+  // A stall of the machine soon after may be a fault of its own.
+  const bool is_ready = stateBecomes(Status::READY);
+  if (trials.judgeThat(is_ready, {asked_ns, asked_ns + kRecoveryNs, kNoticedNs},
+                       "READY, " + the_world->status.latest().state_text + ',') ==
+      Trials::Verdict::kExcused) {
+    EXPECT_TRUE(call("recover").success);
+    EXPECT_TRUE(stateBecomes(Status::READY));
+  }
   EXPECT_TRUE(eventually([] { return the_world->effort() == 0.0; })) << "force came back by itself";
 }
 
@@ -312,6 +319,26 @@ TEST_F(SafetyTest, RefusesToEngageBeforeItRecovered) {
   EXPECT_FALSE(call("recover").success);
   std::this_thread::sleep_for(kAsOld);
   EXPECT_TRUE(call("recover").success);
+}
+
+// The watchdog of the station has taken the force; that of the device waits for longer.
+TEST_F(SafetyTest, RecoverLetsNothingOutWhileNoTickRuns) {
+  the_world->setDeviceWatchdog(10'000.0);
+  ASSERT_TRUE(the_world->push());
+  InjectFault slow;
+  slow.request.kind = "slow";
+  slow.request.amount = 3.0;  // s, longer than `recover` waits for its tick
+  ASSERT_TRUE(::ros::service::call("/station/inject_fault", slow));
+  ASSERT_TRUE(slow.response.success) << slow.response.message;
+  ASSERT_TRUE(stateBecomes(Status::FAULT));
+  ASSERT_TRUE(eventually([] { return the_world->log->read().back().force_n == 0.0; }));
+  const std::int64_t asked_ns = rt::monotonicNs();
+  EXPECT_FALSE(call("recover").success);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  for (const ForceRecord& felt : the_world->log->read()) {
+    ASSERT_TRUE(felt.time_ns < asked_ns || felt.force_n == 0.0) << felt.force_n << " N";
+  }
+  EXPECT_TRUE(eventually([] { return call("recover").success != 0U; }));
 }
 
 TEST_F(SafetyTest, RefusesFaultsThatDoNotExist) {

@@ -33,16 +33,20 @@ try_space() { # NAME SETUP
   start_private_master || die "$name: no ROS master"
   spawn "$name-bag" rosbag record --all --output-name="$logs/$name.bag"
   recorder=$spawned
-  spawn "$name-station" roslaunch ergotic station.launch rviz:=false jack:=none
+  spawn "$name-station" roslaunch ergotic station.launch rviz:=false jack:=none \
+    record:="$logs/$name's \"a\" take"
   station=$spawned
   plays() { timeout 10 rostopic echo -n 1 /station/gesture/first_tick; }
   wait_until 40 plays || die "$name: the station does not tick"
+  grep -q libergotic_priority_inheritance "/proc/$(rosnode info /station | sed -n 's/^Pid: *//p')/maps" ||
+    die "$name: the locks of the station do not inherit priority"
   sleep 2
   stop_group "$recorder" 20
   stop_group "$station" 25
   stop_all
   [[ $(rosbag info "$logs/$name.bag") == *ergotic/GestureBlock* ]] ||
     die "$name: the bag holds no gesture"
+  compgen -G "$logs/$name*take_*.bag" >/dev/null || die "$name: record:= wrote no bag of its name"
   rosrun ergotic render --gesture "$logs/$name.bag" --out "$logs/$name-replay.wav" ||
     die "$name: the bag cannot be played again"
   say "$name: works"

@@ -27,6 +27,15 @@ inline std::unique_ptr<ChildProcess> startStation(
       environment);
 }
 
+/// To a test of something else a stall of the machine, of whatever length, is no fault of the
+/// station; of the tests of stalls and watchdogs are `deployed`, `safety`, `pairs` and `force`.
+/// \pre the station is not yet started
+inline void allowStalls(const ::ros::NodeHandle& node) {
+  node.setParam("/station/max_stall", 1.0);
+  node.setParam("/station/max_stalls", 1'000'000);
+  node.setParam("/station/watchdog", 1.0);
+}
+
 /// Of a service without parameters. Over a connection that we end: of one that the server ends
 /// roscpp may see the end before the answer (ros_comm issue 1976; one call of 5,000 on a busy
 /// machine).

@@ -8,6 +8,7 @@ import tempfile
 import unittest
 import xml.etree.ElementTree
 
+import roslaunch
 import rospy
 import rostest
 
@@ -39,6 +40,12 @@ def tried(line):
         return ("set -m; rosbag record -a & until ls *.active; do sleep 0.1; done; sleep 2; kill -INT %1; wait; "
                 "while ls *.active; do sleep 0.1; done; mv *.bag performance.bag")
     return line
+
+
+def loaded(*arguments):
+    """What roslaunch reads from the launch file."""
+    path = os.path.join(ROOT, "launch", "station.launch")
+    return roslaunch.config.load_config_default([(path, list(arguments))], None, assign_machines=False)
 
 
 class TypedTest(unittest.TestCase):
@@ -82,11 +89,26 @@ class TypedTest(unittest.TestCase):
         self.assertGreaterEqual(len(self.type_all("docs/ros.md")), 12)
 
     def test_arguments_of_the_launch_file_are_its_own(self):
-        launch = xml.etree.ElementTree.fromstring(text_of("launch", "station.launch"))
-        known = {argument.get("name") for argument in launch.iter("arg")}
+        known = {argument.get("name") for argument in self.launch().iter("arg")}
         used = {name for document in ("README.md", "docs/ros.md", "docs/safety.md", "docs/tgr.md")
                 for name in re.findall(r"(?<![\w:])([a-z_]+):=", text_of(document))}
         self.assertEqual(used - known, set())
+
+    def test_parameters_win_over_the_arguments_of_the_launch_file(self):
+        names = {param.get("name") for node in self.launch().iter("node") if node.get("name") == "station"
+                 for param in node.iter("param")}
+        self.assertGreaterEqual(len(names), 25)
+        given = ", ".join(f"{name}: of_the_map" for name in sorted(names))
+        config = loaded("force_limit:=3", f"parameters:={{{given}}}")
+        told = {name: config.params["/station/" + name].value for name in names}
+        self.assertEqual(told, dict.fromkeys(names, "of_the_map"))
+
+    def test_no_parameter_outlives_the_launch_that_set_it(self):
+        self.assertIn("/station/", loaded().clear_params)
+
+    @staticmethod
+    def launch():
+        return xml.etree.ElementTree.fromstring(text_of("launch", "station.launch"))
 
 
 if __name__ == "__main__":

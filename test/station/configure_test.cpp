@@ -288,7 +288,8 @@ class LiveTicks {
 /// hypervisor takes away may count as time on the processor.)
 TEST(ConfigureTest, AThousandChangesLiveMakeNoTickLate) {
   Bench bench({}, swaying, asShipped(), RandomHands::kSlices);
-  const test::ReferenceThreads reference;
+  const test::ReferenceThreads reference(test::ReferenceThreads::Rank::kAboveAll,
+                                         test::ReferenceThreads::kFinePauseNs);
   RandomHands hands(bench);
   LiveTicks live(bench);
   std::vector<std::int64_t> configured;

@@ -140,18 +140,37 @@ TEST(InterlockTest, AnAnswerSaysWhichRequestItAnswers) {
 TEST(InterlockTest, AModelThatTakesForceWithItLeavesNoneBehind) {
   Bench bench;
   bench.engage();
-  Command swap;
-  swap.type = Command::Type::kSwap;
-  swap.performer = test::makeSpring().release();
-  swap.index = 1;
-  ASSERT_TRUE(bench.station->submit(swap));
+  ASSERT_TRUE(bench.swap(test::makeSpring(), SwapForce::kNever));
   bench.run(1000);
   EXPECT_EQ(bench.log.forces[0], 0.0);
   EXPECT_EQ(bench.interlock->read().state, ForceState::kReady);
-  bench.events();
+  EXPECT_EQ(test::firstOf(bench.events(), Event::Type::kSwapped).value, 1.0);
   ASSERT_TRUE(bench.swap(test::makeSpring()));
   bench.engage();
   EXPECT_EQ(bench.log.forces[0], -1.0) << "the next one does not";
+}
+
+// What counts is who let force out when the new model plays, not when it was handed over.
+TEST(InterlockTest, AModelOfAnotherTakesForceHoweverItMeetsAnEngage) {
+  constexpr Caller kPlayer = 1;
+  constexpr Caller kOther = 2;
+  for (int between = 0; between < 40; ++between) {
+    for (const Caller loader : {kPlayer, kOther}) {
+      Bench bench;
+      bench.engage(kOther);
+      bench.station->stop();
+      bench.run(10);
+      ASSERT_TRUE(bench.swap(test::makeSpring(), SwapForce::kCaller, loader));
+      bench.run(between);
+      bench.engage(kPlayer);
+      bench.run(1000);
+      const Event swapped = test::firstOf(bench.events(), Event::Type::kSwapped);
+      const bool was_before = between >= bench.station->swapDelayTicks();
+      const bool keeps = was_before || loader == kPlayer;
+      EXPECT_EQ(swapped.value, keeps ? 0.0 : 1.0) << between << " ticks before, by " << loader;
+      EXPECT_EQ(bench.log.forces[0], keeps ? -1.0 : 0.0) << between;
+    }
+  }
 }
 
 }  // namespace

@@ -81,6 +81,59 @@ TEST_F(KicksTest, AreAsManyAsTheSettingSays) {
             static_cast<int>(FaultReason::kStall));
 }
 
+TEST_F(KicksTest, AreWhatModelsAreThatKeepForceUntilTheNextOneMayNot) {
+  bench_.engage();
+  for (int n = 0; n < 3; ++n) {
+    ASSERT_TRUE(bench_.swap(test::makeSpring()));
+    bench_.run(200);
+  }
+  EXPECT_EQ(bench_.interlock->read().state, ForceState::kPlaying);
+  ASSERT_TRUE(bench_.swap(test::makeSpring()));
+  bench_.run(200);
+  EXPECT_EQ(bench_.interlock->read().state, ForceState::kReady) << "no fault: it waits";
+  const auto events = bench_.events();
+  EXPECT_EQ(test::count(events, Event::Type::kFault), 0);
+  EXPECT_EQ(test::count(events, Event::Type::kStopped), 1);
+  for (int n = 0; n < 20; ++n) {
+    ASSERT_TRUE(bench_.swap(test::makeSpring()));
+    bench_.run(200);
+  }
+  bench_.engage();
+  EXPECT_TRUE(hasForce()) << "without force nobody is kicked";
+}
+
+TEST_F(KicksTest, AreWhatASensorMakesThatStandsStillAgainAndAgain) {
+  std::int64_t still = 0;
+  const auto hand = [&still](std::int64_t tick, int) {
+    const double to_and_fro = tick % 2 == 0 ? 1e-6 : -1e-6;
+    return 0.03 + (tick % 300 < still ? 0.0 : to_and_fro);
+  };
+  StationConfig config = Bench::quickConfig();
+  config.safety.frozen_s = 0.1;
+  Bench bench({}, hand, config);
+  bench.engage();
+  const double whole = bench.log.forces[0];
+  ASSERT_GT(std::abs(whole), 0.05 * config.safety.force_limit_n);
+  still = 60;  // of 300 ticks: ten times a second for 20 ms
+  bench.run(900);
+  EXPECT_EQ(test::count(bench.events(), Event::Type::kFault), 0) << "three are none";
+  bench.run(900);
+  const Event fault = test::firstOf(bench.events(), Event::Type::kFault);
+  EXPECT_EQ(fault.index, static_cast<int>(FaultReason::kFrozen));
+  EXPECT_EQ(fault.value, 0.0) << "of slice 0";
+}
+
+TEST_F(KicksTest, AreForgottenByWhoLoadsAModelOnceASecond) {
+  bench_.engage();
+  const auto second = static_cast<std::int64_t>(bench_.station->config().rates.gesturalHz());
+  for (int n = 0; n < 20; ++n) {
+    ASSERT_TRUE(bench_.swap(test::makeSpring()));
+    bench_.run(second);
+    bench_.events();
+  }
+  EXPECT_TRUE(hasForce());
+}
+
 TEST_F(KicksTest, AreWhatAThreadMakesThatDoesNotFinishItsShare) {
   bench_.engage();
   const double whole = bench_.log.forces[0];

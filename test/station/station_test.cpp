@@ -201,17 +201,31 @@ TEST(StationTest, TellsTheReasonGivenWithMakeSafe) {
             static_cast<int>(FaultReason::kEmergencyStop));
 }
 
-TEST(StationTest, EngagingAndRecoveringAgainStillRampsFromZero) {
+/// As long as no tick runs a device may have the last force still.
+TEST(StationTest, RecoverSetsTheDriverFreeInItsTick) {
   Bench bench;
   bench.engage();
-  bench.log.safe.store(true);  // the device's own watchdog, within the same tick as the commands
+  bench.station->makeSafe();
+  bench.command(Command::Type::kRecover);
+  EXPECT_TRUE(bench.log.safe.load());
+  bench.run(1);
+  EXPECT_FALSE(bench.log.safe.load());
+}
+
+TEST(StationTest, RecoveringRampsFromZeroAndEngagingAgainIsNoKick) {
+  Bench bench;
+  bench.engage();
   bench.command(Command::Type::kRecover);
   bench.command(Command::Type::kEngage);
   bench.run(2);
   EXPECT_LE(std::abs(bench.log.forces[0]), 0.01);
-  bench.command(Command::Type::kEngage);
-  bench.run(2);
-  EXPECT_LE(std::abs(bench.log.forces[0]), 0.01);
+  bench.run(kRampTicks);
+  EXPECT_EQ(bench.log.forces[0], -1.0);
+  for (int i = 0; i < 10; ++i) {
+    bench.command(Command::Type::kEngage);
+    bench.run(1);
+    EXPECT_EQ(bench.log.forces[0], -1.0);
+  }
 }
 
 TEST(StationTest, FaultsOnAPositionThatIsNotANumberAndPlaysTheLastGoodOne) {

@@ -141,7 +141,8 @@ class LiveForce {
 };
 
 TEST(TimerSourceTest, LiveForceOfATickGoesOutWithTheExchangeThatReadsTheNextPosition) {
-  const test::ReferenceThreads reference;
+  const test::ReferenceThreads reference(test::ReferenceThreads::Rank::kAboveAll,
+                                         test::ReferenceThreads::kFinePauseNs);
   test::Trials trials(reference);
   LiveForce live(reference);
   live.expectInStep(trials);

@@ -25,15 +25,20 @@ def numbers(tree, path=()):
     for key, child in tree.items() if isinstance(tree, dict) else enumerate(tree):
         if isinstance(child, (dict, list)):
             yield from numbers(child, path + (key,))
-        elif not isinstance(child, str):
+        elif not (isinstance(child, str) or is_nowhere(tree, path, key)):
             yield path + (key,)
 
 
-def changed(value):
+def is_nowhere(entry, path, key):
+    """The place of an entry of a factor that is 0: it says the same elsewhere."""
+    return "below" in path and key in (0, 1) and entry[2] == 0.0
+
+
+def changed(value, dice):
     if isinstance(value, bool):
         return not value
     if isinstance(value, int):
-        return value + 1
+        return value + dice.choice((1, -1))  # 0 to -1, too: of Python's lists the last
     return value * 1.1 if abs(value) > 1e-6 else value + 1.0
 
 
@@ -43,7 +48,7 @@ def falsified(proof, dice):
     part = false
     for key in path:
         part = part[key]
-    part[last] = changed(part[last])
+    part[last] = changed(part[last], dice)
     return false, f"{'/'.join(map(str, path))}/{last} changed"
 
 

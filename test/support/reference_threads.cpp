@@ -12,8 +12,6 @@
 namespace ergotic::test {
 namespace {
 
-constexpr std::int64_t kPauseNs = 200'000;
-
 bool isOurs(int cpu) {
   cpu_set_t allowed;
   return sched_getaffinity(0, sizeof(allowed), &allowed) == 0 && CPU_ISSET(cpu, &allowed);
@@ -36,7 +34,8 @@ void rise() {
 
 }  // namespace
 
-ReferenceThreads::ReferenceThreads(Rank rank) : rank_(rank) {
+ReferenceThreads::ReferenceThreads(Rank rank, std::int64_t pause_ns)
+    : rank_(rank), pause_ns_(pause_ns) {
   for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
     if (isOurs(cpu)) {
       Processor& added = *processors_.emplace_back(std::make_unique<Processor>());
@@ -62,7 +61,7 @@ std::int64_t ReferenceThreads::longestStallNs(std::int64_t from_ns, std::int64_t
   }
   std::int64_t longest_ns = 0;
   for (const Stall& stall : all) {
-    if (stall.to_ns - stall.from_ns >= kLeastNs) {
+    if (stall.to_ns - stall.from_ns >= pause_ns_ + kShortestNs) {
       longest_ns =
           std::max(longest_ns, std::min(stall.to_ns, to_ns) - std::max(stall.from_ns, from_ns));
     }
@@ -78,9 +77,9 @@ void ReferenceThreads::run(Processor& processor) {
   processor.ran_ns = rt::monotonicNs();
   while (!stop_) {
     const std::int64_t last_ns = processor.ran_ns;
-    rt::sleepUntilNs(last_ns + kPauseNs);
+    rt::sleepUntilNs(last_ns + pause_ns_);
     const std::int64_t now_ns = rt::monotonicNs();
-    if (now_ns - last_ns >= kLeastNs) {
+    if (now_ns - last_ns >= pause_ns_ + kShortestNs) {
       const std::lock_guard lock(mutex_);
       stalls_.push_back({last_ns, now_ns});
     }

@@ -164,9 +164,13 @@ bool Bench::command(station::Command::Type type, double value, int index) {
   return station->submit(made);
 }
 
-bool Bench::swap(std::unique_ptr<station::Performer> performer) {
+bool Bench::swap(std::unique_ptr<station::Performer> performer,
+                 station::SwapForce force,
+                 station::Caller caller) {
   station::Command made;
   made.type = station::Command::Type::kSwap;
+  made.index = static_cast<int>(force);
+  made.caller = caller;
   made.performer = performer.get();
   const bool taken = station->submit(made);
   if (taken) {
@@ -175,8 +179,11 @@ bool Bench::swap(std::unique_ptr<station::Performer> performer) {
   return taken;
 }
 
-void Bench::engage() {
-  command(station::Command::Type::kEngage);
+void Bench::engage(station::Caller caller) {
+  station::Command made;
+  made.type = station::Command::Type::kEngage;
+  made.caller = caller;
+  station->submit(made);
   run(kRampTicks);
 }
 

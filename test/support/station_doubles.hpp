@@ -124,10 +124,12 @@ struct Bench {
 
   bool command(station::Command::Type type);
   bool command(station::Command::Type type, double value, int index = 0);
-  bool swap(std::unique_ptr<station::Performer> performer);
+  bool swap(std::unique_ptr<station::Performer> performer,
+            station::SwapForce force = station::SwapForce::kAlways,
+            station::Caller caller = 0);
   void run(std::int64_t ticks);
   /// Until force has come whole.
-  void engage();
+  void engage(station::Caller caller = 0);
   /// All events up to now; what they hand back is kept.
   std::vector<station::Event> events();
   /// All ticks since the last call.

@@ -25,13 +25,14 @@ double msOf(std::int64_t ns) {
 
 }  // namespace
 
-Trials::Trials(const ReferenceThreads& reference)
+Trials::Trials(const ReferenceThreads& reference, int wanted)
     : Trials([&reference](std::int64_t from_ns,
                           std::int64_t to_ns) { return reference.longestStallNs(from_ns, to_ns); },
-             trialNotes()) {}
+             trialNotes(),
+             wanted) {}
 
-Trials::Trials(Watch watch, std::string notes)
-    : watch_(std::move(watch)), notes_(std::move(notes)) {}
+Trials::Trials(Watch watch, std::string notes, int wanted)
+    : watch_(std::move(watch)), notes_(std::move(notes)), wanted_(wanted) {}
 
 Trials::~Trials() {
   close();
@@ -60,10 +61,10 @@ void Trials::next() {
 
 bool Trials::goOn() {
   close();
-  if (late_ > 0 || onTime() >= kWanted) {
+  if (late_ > 0 || onTime() >= wanted_) {
     return false;
   }
-  if (tries_ == kMost) {
+  if (tries_ == kMost * wanted_) {
     ADD_FAILURE() << "the machine stands still too often to be tested on: " << excused_ << " of "
                   << tries_ << " tries excused";
     return false;

@@ -6,8 +6,11 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <filesystem>
+#include <iterator>
 #include <thread>
 
+#include <sys/mman.h>
 #include <sys/wait.h>
 
 #include "ergotic/rt/clock.hpp"
@@ -112,10 +115,11 @@ TEST_P(Ended, TakesTheForceOffWhateverEndsItsProcess) {
 std::string nameOf(const ::testing::TestParamInfo<int>& tested) {
   return std::string("Sig") + sigabbrev_np(tested.param);
 }
-INSTANTIATE_TEST_SUITE_P(GuardianTest,
-                         Ended,
-                         ::testing::Values(SIGKILL, SIGSEGV, SIGABRT, SIGBUS, SIGTERM),
-                         &nameOf);
+INSTANTIATE_TEST_SUITE_P(
+    GuardianTest,
+    Ended,
+    ::testing::Values(SIGKILL, SIGSEGV, SIGABRT, SIGBUS, SIGTERM, SIGQUIT, SIGXCPU),
+    &nameOf);
 
 TEST_F(GuardianTest, TakesTheForceOffAtOnceThoughItsProcessTakesLongToDie) {
   slow_to_die_ = true;
@@ -153,7 +157,7 @@ TEST_F(GuardianTest, HoldsADeviceThroughWhateverStandsInFrontOfIt) {
   driver->open(1000.0);
   const std::vector<Guard> guards = driver->guards();
   ASSERT_EQ(guards.size(), 1U);
-  EXPECT_THAT(guards[0].words, ElementsAre("shared_memory", name_));
+  EXPECT_THAT(guards[0].words, ElementsAre("shared_memory", name_, testing::_));
   driver->close();
   driver->open(1000.0);
   EXPECT_FALSE(driver->guards() == guards) << "it was opened anew";
@@ -167,6 +171,72 @@ TEST_F(GuardianTest, IsSeenToBeGone) {
   guardian.beat();  // no signal of a broken pipe
 }
 
+TEST_F(GuardianTest, IsEndedIfItDoesNotLook) {
+  Guardian guardian({}, {kSilenceS, 0});
+  for (int n = 0; n < 30; ++n) {
+    EXPECT_TRUE(guardian.isThere());
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  ::kill(guardian.pid(), SIGSTOP);
+  EXPECT_TRUE(eventually([&] { return !guardian.isThere(); }));
+}
+
+TEST_F(GuardianTest, HoldsTheOtherDevicesThoughTheMemoryOfOneIsCutOff) {
+  VirtualDeviceConfig second = device_;
+  second.shared_memory += "_second";
+  made_.emplace(device_);
+  VirtualDevice other(second);
+  VirtualDriverConfig of_second = driver_;
+  of_second.shared_memory = second.shared_memory;
+  std::vector<std::unique_ptr<Driver>> drivers;
+  drivers.push_back(makeVirtualDriver(driver_));
+  drivers.push_back(makeVirtualDriver(of_second));
+  drivers[0]->open(1000.0);
+  drivers[1]->open(1000.0);
+  const std::vector<Guard> guards = {drivers[0]->guards().at(0), drivers[1]->guards().at(0)};
+  double position = 0.0;
+  {
+    Guardian guardian(guards, {kSilenceS, 0});
+    const pid_t child = ::fork();  // for ours must not touch what is cut off
+    if (child == 0) {
+      ::_exit(::truncate(("/dev/shm" + name_).c_str(), 0));
+    }
+    ::waitpid(child, nullptr, 0);
+    ::kill(guardian.pid(), SIGUSR1);
+    EXPECT_TRUE(
+        eventually([&] { return (drivers[1]->exchange(&kForceN, &position) & kMadeSafe) != 0U; }));
+    EXPECT_TRUE(guardian.isThere());
+  }
+  ASSERT_EQ(::truncate(("/dev/shm" + name_).c_str(), 65536), 0);  // to be given back
+}
+
+TEST_F(GuardianTest, TellsADeviceFromTheOneBeforeItThatWasOpenedAsOften) {
+  made_.emplace(device_);
+  auto driver = makeVirtualDriver(driver_);
+  driver->open(1000.0);
+  const std::vector<Guard> first = driver->guards();
+  driver.reset();
+  made_.reset();
+  made_.emplace(device_);
+  driver = makeVirtualDriver(driver_);
+  driver->open(1000.0);
+  EXPECT_FALSE(driver->guards() == first);
+}
+
+TEST_F(GuardianTest, HoldsNoOtherDeviceThatTookTheName) {
+  made_.emplace(device_);
+  const auto driver = makeVirtualDriver(driver_);
+  driver->open(1000.0);
+  const std::vector<Guard> guards = driver->guards();
+  EXPECT_NO_THROW(Guardian(guards, {kSilenceS, 0}));
+  ::shm_unlink(name_.c_str());
+  const VirtualDevice other(device_);
+  EXPECT_THAT(complaintOf<DeviceError>([&] {
+                Guardian(guards, {kSilenceS, 0});
+              }),
+              HasSubstr("it is another one by now"));
+}
+
 TEST_F(GuardianTest, HearsNoTerminal) {
   Guardian guardian({}, {kSilenceS, 0});
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
@@ -178,11 +248,24 @@ TEST_F(GuardianTest, HearsNoTerminal) {
 }
 
 TEST_F(GuardianTest, SaysWhatItCannotHold) {
-  const std::vector<Guard> nowhere = {{{"shared_memory", "/no_such_device"}}};
+  const std::vector<Guard> nowhere = {{{"shared_memory", "/no_such_device", "1"}}};
   EXPECT_THAT(complaintOf<DeviceError>([&] { Guardian(nowhere, {}); }),
               HasSubstr("/no_such_device"));
   const std::vector<Guard> unknown = {{{"teapot", "x"}}};
   EXPECT_THAT(complaintOf<DeviceError>([&] { Guardian(unknown, {}); }), HasSubstr("teapot"));
+}
+
+/// A station tries again every two seconds.
+TEST_F(GuardianTest, LeavesNothingOpenThatCouldNotBegin) {
+  const auto files = [] {
+    return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {});
+  };
+  const std::vector<Guard> too_many(100'000, {{std::string(100, 'x')}});  // for a command line
+  const auto before = files();
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NE(complaintOf<DeviceError>([&] { Guardian(too_many, {}); }), "");
+  }
+  EXPECT_EQ(files(), before);
 }
 
 }  // namespace

@@ -19,6 +19,8 @@ namespace fs = std::filesystem;
 using test::SmallScene;
 
 constexpr unsigned kScenes = 100;
+// What the script does not know: it refuses to verify bodies in tune, and says so.
+constexpr const char* kOfBodies = "lib_truths";
 constexpr int kGolden = 8;  // of those models are vouched for
 
 /// ERGOTIC_PROOFS asks for more.
@@ -47,13 +49,15 @@ bool write(const SmallScene& small, const std::string& stem) {
   return true;
 }
 
-/// \return how many of a folder's scenes are vouched for; of those the proof must be verified
+/// \return how many of a folder's scenes, written out, are vouched for; of those the proof must be
+///         verified
 int verified(const std::string& folder, const std::string& ending) {
   int models = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator(repository(folder))) {
     const ScratchFile proof;
-    const std::string model = entry.path().string();
-    if (entry.path().extension() == ending &&
+    const ScratchFile written;
+    const std::string model = writtenOut(entry.path().string(), written.path());
+    if (entry.path().extension() == ending && entry.path().stem() != kOfBodies &&
         test::run("check", model + " --proof " + proof.path()).code == 0) {
       EXPECT_EQ(python("scripts/check_proof " + proof.path() + " " + model), 0) << model;
       ++models;
@@ -345,7 +349,8 @@ TEST(ProofTest, IsRefusedUnderTheNameOfAnotherScene) {
 
 TEST(ProofTest, MustBeToldAGesturalRateThatTheSceneDoesNotWish) {
   const ScratchFile proof;
-  const std::string model = repository("models/fretted_string.yaml");
+  const ScratchFile written;
+  const std::string model = writtenOut(repository("models/fretted_string.yaml"), written.path());
   EXPECT_EQ(test::run("check", model + " --gestural-rate 2000 --proof " + proof.path()).code, 0);
   const std::string command = "scripts/check_proof " + proof.path() + " " + model;
   EXPECT_EQ(python(command + " 2>/dev/null"), 1);

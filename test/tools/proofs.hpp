@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdlib>
+#include <fstream>
 #include <string>
 
 #include <sys/wait.h>
@@ -13,6 +14,7 @@
 #include "support/places.hpp"
 #include "support/scratch_file.hpp"
 #include "support/test.hpp"
+#include "support/tool_process.hpp"
 #include "tools/lib/proof_file.hpp"
 
 namespace ergotic {
@@ -23,6 +25,19 @@ using test::ScratchFile;
 inline int python(const std::string& command) {
   const int status = std::system(("/usr/bin/python3 " + repository("") + command).c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/// A scene of the brief language as it is played, written to `path`. \return its file
+inline std::string writtenOut(const std::string& model, const std::string& path) {
+  const std::string ending = ".yaml";
+  if (model.size() < ending.size() ||
+      model.compare(model.size() - ending.size(), ending.size(), ending) != 0) {
+    return model;
+  }
+  const test::Outcome written = test::run("expand", model, "/dev/null");
+  EXPECT_EQ(written.code, 0) << model;
+  std::ofstream(path) << written.text;
+  return path;
 }
 
 /// What scripts/check_proof says of the proof of `other`, whole, under the name of `text`.

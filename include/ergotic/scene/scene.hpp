@@ -11,6 +11,7 @@
 
 #include <Eigen/Geometry>
 
+#include "ergotic/scene/about.hpp"
 #include "ergotic/scene/lia_type.hpp"
 #include "ergotic/scene/name.hpp"
 #include "ergotic/scene/rare.hpp"
@@ -337,6 +338,13 @@ struct StringInfo {
   int first_lia = 0;               ///< index of its first link
 };
 
+/// How many modules a text such as `plate/rim` has meant.
+struct Selected {
+  std::string text;
+  std::size_t count = 0;
+  Place place;
+};
+
 /// A whole scene.
 /// \invariant after `validate`: every index is legal, names are unique, masses are positive.
 struct Scene {
@@ -361,6 +369,9 @@ struct Scene {
   std::vector<Grid> grids;
   std::vector<Connection> connections;
   std::vector<Tap> taps;
+  std::vector<Selected> selections;  ///< each once, in the order of the text
+  About about;
+  std::vector<std::string> variants;  ///< names of all that the text has
   std::vector<Origin> origins;        ///< of places, see Place::origin
   std::vector<std::string> warnings;  ///< from reading, `file:line:col: warning: ...`
 

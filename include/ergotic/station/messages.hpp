@@ -27,6 +27,17 @@ const char* toString(ForceState state);
 using Ticket = std::uint64_t;
 constexpr Ticket kAskedNow = ~Ticket{0};  ///< it is asked for when it is submitted
 
+/// Who asks, as the operator tells them apart. Of a swap it is compared with that of the last
+/// kEngage when the new model plays, for force may have been let out by another in between.
+using Caller = std::uint64_t;
+
+/// For whose swap the force that is there comes back, in a ramp.
+enum class SwapForce : std::uint8_t {
+  kAlways,
+  kNever,   ///< it goes to zero and waits for kEngage
+  kCaller,  ///< of who let it out; otherwise as kNever
+};
+
 /// An instrument ready to play and what its ports need, made outside, owned by whoever holds it.
 struct Performer;
 
@@ -34,8 +45,7 @@ struct Performer;
 struct Command {
   enum class Type : std::uint8_t {
     kEngage,     ///< ramp force in
-    kSwap,       ///< take `performer`, hand the old one back; index: 1 force goes to zero with it
-                 ///< and waits for kEngage, 0 it comes back by itself
+    kSwap,       ///< take `performer`, hand the old one back; index: SwapForce
     kParameter,  ///< take `coefficients`, prepared by the performer submitted last; index and value
                  ///< say which parameter got which value, for the record
     kConfigure,  ///< force to zero, state Ready; take `rig`, made for the performer submitted last
@@ -49,6 +59,7 @@ struct Command {
   double value = 0.0;
   std::uint64_t id = 0;      ///< of kEngage and kRecover: their answer carries it
   Ticket asked = kAskedNow;  ///< of kEngage and kRecover: no effect if force was taken away since
+  Caller caller = 0;         ///< of kEngage and kSwap
   Performer* performer = nullptr;
   physics::Coefficients* coefficients = nullptr;
   tgr::Rig* rig = nullptr;
@@ -69,7 +80,8 @@ struct Event {
     kPlaying,  ///< the ramp is over
     kStopped,
     kSwapped,    ///< performer: to be freed by the receiver; index: 1 it was replaced at this tick,
-                 ///< 0 it never played, because a newer one was submitted in time
+                 ///< 0 it never played, because a newer one was submitted in time; value: 1
+                 ///< force went to zero with it and waits for kEngage
     kParameter,  ///< index, value; coefficients: the old ones, to be freed
     kKeyframe,   ///< index: 1 the state is in Station::keyframe() until the next request, 0 it is
                  ///< larger than the configuration allows

@@ -186,6 +186,7 @@ class Station {
   void engage(const Command& command) noexcept;
   void takeSwap(const Command& command) noexcept;
   void advanceSwap() noexcept;
+  bool keepsForce() noexcept;
   void takeCoefficients(const Command& command) noexcept;
   void takeRig(tgr::Rig* next) noexcept;
   void recover(const Command& command) noexcept;
@@ -195,7 +196,8 @@ class Station {
   void takeKeyframe() noexcept;
 
   bool hasForce() const noexcept;
-  void kick() noexcept;
+  bool isKickedTooOften() noexcept;
+  void kick(FaultReason reason = FaultReason::kStall, int slice = -1) noexcept;
   void followInterlock() noexcept;
   void takeForceAway() noexcept;
   void fault(FaultReason reason, int slice) noexcept;
@@ -222,7 +224,9 @@ class Station {
   SwapFade fade_;
   std::unique_ptr<Performer> performer_;
   std::unique_ptr<Performer> incoming_;  // waits for the fade-out
-  bool incoming_takes_force_ = false;    // force waits for kEngage when it plays
+  SwapForce incoming_force_{};           // when it plays
+  Caller incoming_caller_ = 0;           // who submitted it
+  Caller engager_ = 0;                   // who let force out last
   std::uint64_t uncalibrated_;           // slices, as of the last tick
   std::int64_t tick_;
   Ticket seen_ = 0;          // of the interlock

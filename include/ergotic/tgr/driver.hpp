@@ -79,7 +79,7 @@ class Driver {
   /// that. Realtime: yes. Thread: tick
   virtual void makeSafeInTick() noexcept { makeSafe(); }
 
-  /// Allows force again after makeSafe; the caller's chain ramps it in. Thread: setup
+  /// Allows force again after makeSafe; the caller's chain ramps it in. Realtime: yes. Thread: tick
   virtual void rearm() noexcept = 0;
 
   /// Ticks of delay the driver adds to the loop's one (0 for a synchronous device). Constant after

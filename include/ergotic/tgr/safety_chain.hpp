@@ -58,6 +58,8 @@ class SafetyChain {
   double gain() const noexcept { return gate_.ramp(); }  ///< 0...1, of the ramp after engage
   FaultReason fault() const noexcept { return fault_; }
   int faultSlice() const noexcept { return fault_slice_; }  ///< -1: all of them, or none
+  /// Of which the last `limit` took away a force because its sensor stands still; -1: none.
+  int mutedSlice() const noexcept { return muted_slice_; }
   /// \pre 0 <= slice < slices
   SliceReading reading(int slice) const noexcept {
     return slices_[static_cast<std::size_t>(slice)].reading();
@@ -76,6 +78,7 @@ class SafetyChain {
   bool has_limited_ = true;  // since the last validate
   FaultReason fault_ = FaultReason::kNone;
   int fault_slice_ = -1;
+  int muted_slice_ = -1;
 };
 
 }  // namespace ergotic::tgr

@@ -20,7 +20,9 @@ using scene::Lia;
 constexpr double kMostPower = 100.0;  // W, of a hand that moves a point
 // With products and some hundred times more, what single precision holds:
 constexpr double kMostLoad = 1e30;
+constexpr double kMostCurved = 1e15;  // whose square is worked out
 constexpr double kMostForce = 1e36;   // kg m/time_unit^2
+constexpr double kMostCubic = 1e30;   // kg/(m^2 time_unit^2)
 constexpr double kMostLength = 1e18;  // m, whose square is worked out
 constexpr double kSecond = 1.0;       // s, more than guards look ahead
 constexpr double kDay = 1e5;
@@ -133,6 +135,16 @@ class LinkJudge {
       findings_.add(Verdict::kUnproven, lia.place,
                     "guarded link '" + lia.name + "': h^2 K (1/Ma + 1/Mb) = " + describe(load) +
                         " is more than single precision can count with, up to 1e30");
+    } else if (const double curved = slopes.is_unbounded ? largestLoad(lia) : 0.0;
+               !(curved < kMostCurved)) {
+      findings_.add(
+          Verdict::kUnproven, lia.place,
+          "guarded link '" + lia.name +
+              "' may come to h^2 K (1/Ma + 1/Mb) or h Z (1/Ma + "
+              "1/Mb) of " +
+              describe(curved) +
+              ", more than single precision can count with where a law is curved, up to " +
+              describe(kMostCurved));
     }
     if (!(give > 0.0)) {
       judgeGift(lia, law);  // a guard holds back what forces move
@@ -145,6 +157,14 @@ class LinkJudge {
                         "' acts on a slower module, which its guard cannot follow. Move that "
                         "module to the faster section, or put a module of that section between");
     }
+  }
+
+  /// Where it holds all energy.
+  double largestLoad(const Lia& lia) const {
+    const LargestNumbers::Steepest most = largest_.steepestOf(lia);
+    const double give = networks_.inverseMass(lia.a) + networks_.inverseMass(lia.b);
+    const double step = give > 0.0 ? std::sqrt(networks_.inverseMassStep2(lia) / give) : 0.0;
+    return step * give * std::max(step * most.stiffness, most.damping);
   }
 
   void judgeGift(const Lia& lia, const scene::Law& law) {
@@ -168,6 +188,25 @@ class LinkJudge {
     return !isScalar(lia.a) && !isScalar(lia.b);
   }
 
+  /// e^exponent where it alone holds all energy.
+  double powerOf(const Lia& lia) const {
+    const double exponent = scene::largest(networks_.scene(), lia.law->exponent);
+    return exponent > 1.0 ? std::pow(largest_.steepestOf(lia).apart, exponent) : 0.0;
+  }
+
+  /// Coefficients of curves between the points of tables.
+  static double steepestCubic(const Lia& lia) {
+    double most = 0.0;
+    for (const scene::Table* const table : {&lia.law->table, &lia.law->viscous_table}) {
+      for (std::size_t i = 1; i < table->points.size(); ++i) {
+        const auto& [x0, f0] = table->points[i - 1];
+        const auto& [x1, f1] = table->points[i];
+        most = std::max(most, std::abs(f1 - f0) / std::pow(x1 - x0, table->smooth ? 3.0 : 1.0));
+      }
+    }
+    return most;
+  }
+
   /// Whether single precision can count with what the link does.
   void judgeSize(const Lia& lia) {
     const auto tell = [&](const char* of, double what, double most) {
@@ -179,6 +218,10 @@ class LinkJudge {
     const double length = largest_.reach(isAlongALine(lia) ? kDay : is_guarded ? kSecond : 0.0);
     if (const double force = largest_.forceOf(lia); !(force < kMostForce)) {
       tell("a force", force, kMostForce);
+    } else if (const double power = powerOf(lia); !(power < kMostForce)) {
+      tell("a power of its elongation", power, kMostForce);
+    } else if (const double bend = steepestCubic(lia); !(bend < kMostCubic)) {
+      tell("a change of force over the cube of a distance in its table", bend, kMostCubic);
     } else if (is_guarded && !(largest_.energy() < kMostForce)) {
       tell("an energy", largest_.energy(), kMostForce);
     } else if (!(length < kMostLength)) {

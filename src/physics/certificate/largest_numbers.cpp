@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kHand = 1.0;     // m
 constexpr double kLeast = 1e-30;  // m
+constexpr double kFar = 1e6;      // m, where no law is flat that holds anything
 constexpr int kDoublings = 250;
 constexpr double kFall = 1.0;  // s, in which weight and inputs give energy
 
@@ -36,6 +37,12 @@ double farthestMoved(const scene::Scene& scene) {
   return farthest;
 }
 
+/// Of what holds its ends up to a width alone, m.
+double lengthOfHill(const scene::Scene& scene, const scene::Lia& lia) {
+  const bool is_hill = scene::lawOf(lia.type).kind == scene::Law::Kind::kElastic;
+  return is_hill ? std::max(scene::largest(scene, lia.law->width), lia.law->release) : 0.0;
+}
+
 }  // namespace
 
 LargestNumbers::LargestNumbers(const RatedNetwork& networks)
@@ -43,10 +50,16 @@ LargestNumbers::LargestNumbers(const RatedNetwork& networks)
       farthest_(farthestMoved(networks.scene())),
       lightest_(std::numeric_limits<double>::infinity()) {
   const scene::Scene& scene = networks.scene();
+  for (const scene::Section& section : scene.sections) {
+    const bool is_somewhere = section.geometry != scene::Geometry::kScalar;
+    const double place = section.pose.translation().cwiseAbs().maxCoeff();
+    farthest_ = std::max(farthest_, is_somewhere ? place : 0.0);
+  }
   for (std::size_t m = 0; m < scene.mats.size(); ++m) {
     const scene::Mat& mat = scene.mats[m];
     const Network::Node& node = networks.network().nodes[m];
     farthest_ = std::max(farthest_, mat.position.cwiseAbs().maxCoeff());
+    fastest_ = std::max(fastest_, mat.push->velocity.norm());
     if (node.is_free) {
       const double mass = node.mass.range.highest;
       energy_ += 0.5 * mass * mat.push->velocity.squaredNorm() +
@@ -74,9 +87,20 @@ LargestNumbers::LargestNumbers(const RatedNetwork& networks)
     }
   }
   for (const scene::Lia& lia : scene.lias) {
-    const double apart = 2.0 * farthest_ + std::abs(lia.rest_length);
-    energy_ += 0.5 * stiffnessOf(lia, apart) * apart * apart;
+    const double apart = apartAtFirst(lia);
+    const double hill = lengthOfHill(scene, lia);
+    energy_ += 0.5 * stiffnessOf(lia, apart) * apart * apart +
+               0.5 * scene::largest(scene, lia.stiffness) * hill * hill;
   }
+}
+
+/// How far its law is from where its ends meet, too. The first step is made without it.
+double LargestNumbers::apartAtFirst(const scene::Lia& lia) const {
+  const bool has_gap = scene::lawOf(lia.type).kind == scene::Law::Kind::kGap;
+  const double gap = has_gap ? scene::largest(networks_.scene(), lia.law->width) : 0.0;
+  const double give = networks_.inverseMass(lia.a) + networks_.inverseMass(lia.b);
+  const double step = give > 0.0 ? std::sqrt(networks_.inverseMassStep2(lia) / give) : 0.0;
+  return 2.0 * (farthest_ + fastest_ * step) + std::abs(lia.rest_length) + gap;
 }
 
 double LargestNumbers::stiffnessOf(const scene::Lia& lia, double elongation) const {
@@ -89,20 +113,24 @@ double LargestNumbers::energy() const {
   return energy_ + 0.5 * mass_ * speed * speed;
 }
 
-/// Where the link alone holds all energy.
-double LargestNumbers::forceOf(const scene::Lia& lia) const {
+LargestNumbers::Steepest LargestNumbers::steepestOf(const scene::Lia& lia) const {
   const double energy = this->energy();
-  double apart = 2.0 * farthest_ + std::abs(lia.rest_length);
-  double stiffness = stiffnessOf(lia, apart);
-  apart = apart > 0.0 ? apart : kLeast;
-  for (int i = 0; i < kDoublings && stiffness > 0.0 && stiffness * apart * apart < 2.0 * energy;
-       ++i) {
+  double apart = std::max(apartAtFirst(lia), kLeast);
+  double stiffness = stiffnessOf(lia, apart);  // of a curve that begins flat it may be 0
+  const bool holds = stiffness > 0.0 || stiffnessOf(lia, std::max(apart, kFar)) > 0.0;
+  for (int i = 0; holds && i < kDoublings && stiffness * apart * apart < 2.0 * energy; ++i) {
     apart *= 2.0;
     stiffness = stiffnessOf(lia, apart);
   }
-  const double damping = scene::largest(networks_.scene(), lia.damping);
+  const scene::Range damping = scene::slopesAt(networks_.scene(), lia, apart).damping;
+  return {apart, stiffness, std::max(damping.highest, -damping.lowest)};
+}
+
+double LargestNumbers::forceOf(const scene::Lia& lia) const {
+  const Steepest most = steepestOf(lia);
   const double give = networks_.inverseMass(lia.a) + networks_.inverseMass(lia.b);
-  return leverage_ * (stiffness * apart + damping * std::sqrt(2.0 * energy * give) + weight_);
+  return leverage_ *
+         (most.stiffness * most.apart + most.damping * std::sqrt(2.0 * energy() * give) + weight_);
 }
 
 double LargestNumbers::reach(double seconds) const {

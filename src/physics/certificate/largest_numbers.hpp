@@ -14,6 +14,13 @@ class LargestNumbers {
   /// \param networks  must outlive this
   explicit LargestNumbers(const RatedNetwork& networks);
 
+  /// Of a link where it alone holds all energy.
+  struct Steepest {
+    double apart = 0.0;      ///< its ends, m
+    double stiffness = 0.0;  ///< kg/time_unit^2
+    double damping = 0.0;    ///< kg/time_unit
+  };
+  Steepest steepestOf(const scene::Lia& lia) const;
   /// Of a link, kg m/time_unit^2.
   double forceOf(const scene::Lia& lia) const;
   /// Of what guarded links hold, kg m^2/time_unit^2.
@@ -23,9 +30,11 @@ class LargestNumbers {
 
  private:
   double stiffnessOf(const scene::Lia& lia, double elongation) const;
+  double apartAtFirst(const scene::Lia& lia) const;
 
   const RatedNetwork& networks_;
   double farthest_ = 0.0;  // from the origin at the start, or where a hand goes, m
+  double fastest_ = 0.0;   // at the start, m/time_unit
   double energy_ = 0.0;    // at the start
   double mass_ = 0.0;      // of all modules
   double weight_ = 0.0;    // of all modules, with what inputs push

@@ -90,13 +90,15 @@ std::optional<Staying> besideWhatStays(const MatrixXd& matrix,
   return stay && are_bodies ? std::optional<Staying>(std::move(staying)) : std::nullopt;
 }
 
+using Modes = Eigen::EigenSolver<MatrixXd>;
+
 /// Real and imaginary parts of the eigenvectors of what hardly fades, as columns, and what becomes
 /// of their transpose.
-Form lastingOf(const MatrixXd& matrix) {
-  const Eigen::EigenSolver<MatrixXd> solver(matrix);
-  Form form{MatrixXd(matrix.rows(), matrix.rows()), MatrixXd::Zero(matrix.rows(), matrix.rows())};
+Form lastingOf(const Modes& solver) {
+  const Index size = solver.eigenvalues().size();
+  Form form{MatrixXd(size, size), MatrixXd::Zero(size, size)};
   Index count = 0;
-  for (Index i = 0; i < matrix.rows(); ++i) {
+  for (Index i = 0; i < size; ++i) {
     const std::complex<double> value = solver.eigenvalues()[i];
     if (!(std::abs(value) > kFading) || value.imag() < 0.0) {
       continue;
@@ -264,27 +266,27 @@ double breathingOf(const MatrixXd& form,
 /// What rounding does to the modes of a period: in their eigenvectors, one matrix for each case.
 class RoundedModes {
  public:
-  RoundedModes(const MatrixXd& matrix, const std::vector<MatrixXd>& roundings) {
-    const Eigen::EigenSolver<MatrixXd> solver(matrix);
-    values_ = solver.eigenvalues();
+  RoundedModes(const Modes& solver, const std::vector<MatrixXd>& roundings) {
     const Eigen::MatrixXcd right = solver.eigenvectors();
     const Eigen::MatrixXcd left = right.inverse();
+    const std::vector<Index> judged = judgedOf(solver.eigenvalues());
+    values_ = solver.eigenvalues()(judged);
+    const Eigen::MatrixXcd columns = right(Eigen::all, judged);
+    const Eigen::MatrixXcd rows = left(judged, Eigen::all);
     for (const MatrixXd& rounding : roundings) {
-      shifts_.push_back(left * rounding * right);
+      shifts_.push_back(rows * (rounding * columns));
     }
   }
 
   /// True if one of them, or two that feed one another, grow by more than nothing.
   bool mayGrow() const {
     for (Index i = 0; i < values_.size(); ++i) {
-      if (!(std::abs(values_[i]) > kFading)) {
-        continue;
-      }
-      if (!(std::log(std::abs(values_[i])) + changeOf(i) <= kSlow)) {
+      if (lasts(values_[i]) && !(std::log(std::abs(values_[i])) + changeOf(i) <= kSlow)) {
         return true;
       }
       for (Index j = 0; j < i; ++j) {
-        if (std::abs(values_[i] - values_[j]) <= kNear && !(growthOf(i, j) <= kSlow)) {
+        if ((lasts(values_[i]) || lasts(values_[j])) && areNear(values_[i], values_[j]) &&
+            !(growthOf(i, j) <= kSlow)) {
           return true;
         }
       }
@@ -293,6 +295,26 @@ class RoundedModes {
   }
 
  private:
+  static bool lasts(std::complex<double> value) { return std::abs(value) > kFading; }
+  static bool areNear(std::complex<double> a, std::complex<double> b) {
+    return std::abs(a - b) <= kNear;
+  }
+
+  /// Those that hardly fade, and those that rounding might bring to them.
+  static std::vector<Index> judgedOf(const Eigen::VectorXcd& values) {
+    std::vector<Index> judged;
+    for (Index i = 0; i < values.size(); ++i) {
+      bool is_judged = false;
+      for (Index j = 0; j < values.size() && !is_judged; ++j) {
+        is_judged = lasts(values[j]) && areNear(values[i], values[j]);
+      }
+      if (is_judged) {
+        judged.push_back(i);
+      }
+    }
+    return judged;
+  }
+
   /// By how much more or less one grows. Exact in what only turns it.
   double changeOf(Index i) const {
     return largest([&](const Eigen::MatrixXcd& shift) {
@@ -343,9 +365,10 @@ std::optional<PeriodProof> proofOf(const Period& period, const std::vector<Matri
   }
   const MatrixXd& kept = staying->beside;
   const MatrixXd matrix = kept.transpose() * period.matrix * kept;
-  Form lasting = lastingOf(matrix.transpose());
+  const Modes modes(matrix);
+  Form lasting = lastingOf(Modes(matrix.transpose()));
   lasting.rows.transposeInPlace();
-  const Form form = joined(lasting, fadingOf(matrix, lastingOf(matrix).rows), matrix.cols());
+  const Form form = joined(lasting, fadingOf(matrix, lastingOf(modes).rows), matrix.cols());
   if (form.rows.rows() != form.rows.cols() || !(errorOf(form, matrix) <= kMostOff)) {
     return std::nullopt;
   }
@@ -356,7 +379,7 @@ std::optional<PeriodProof> proofOf(const Period& period, const std::vector<Matri
   PeriodProof proof{{}, 0, period.modules, form.rows * kept.transpose(), form.turn};
   if (!(conditionOf(proof.form, staying->bodies) < kMeeting) ||
       !(breathingOf(proof.form, proof.turn, lasting.rows.rows(), staying->bodies, period) < 1.0) ||
-      RoundedModes(matrix, roundings).mayGrow()) {
+      RoundedModes(modes, roundings).mayGrow()) {
     return std::nullopt;
   }
   const Index modules = period.units.size();

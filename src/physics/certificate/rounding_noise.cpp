@@ -9,6 +9,7 @@
 #include "physics/network/network.hpp"
 #include "physics/network/section_stiffness.hpp"
 #include "physics/note.hpp"
+#include "scene/laws/bend_parts.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -50,11 +51,10 @@ struct Part {
 /// Euclidean sections how far its ends lie apart, in scalar ones only by how much it is stretched
 /// there, m.
 double distanceOf(const scene::Scene& scene, const scene::Lia& lia) {
-  const scene::Mat& a = scene.mats[at(lia.a)];
-  const scene::Mat& b = scene.mats[at(lia.b)];
-  const scene::Geometry geometry = scene.sectionOf(a).geometry;
-  return geometry == scene::Geometry::kScalar ? std::abs(a.rest.x() - b.rest.x() - lia.rest_length)
-                                              : movingPart(a.rest - b.rest, geometry).norm();
+  const Eigen::Vector3d apart = scene::restApart(scene, lia);
+  const scene::Geometry geometry = scene.sectionOf(scene.mats[at(lia.a)]).geometry;
+  return geometry == scene::Geometry::kScalar ? std::abs(apart.x() - lia.rest_length)
+                                              : movingPart(apart, geometry).norm();
 }
 
 class RoundingNoise {
@@ -136,11 +136,13 @@ class RoundingNoise {
     Part& part = partOf(ends[0].node);
     const double distance = distanceOf(network_.scene, lia) + part.way();
     const double force = link.at_rest / (unit * unit) * kRounding * distance;
+    double whole = 0.0;  // of what moves all of it alike
     for (const Share& share : ends) {
       const double mass = network_.nodes[at(share.node)].mass.now;
       part.power += 0.5 * share.weight * share.weight * force * force / (mass * step_hz);
-      part.loss += share.weight * share.weight * network_.scene.valueOf(lia.damping) / unit;
+      whole += share.weight;
     }
+    part.loss += whole * whole * network_.scene.valueOf(lia.damping) / unit;
     part.farthest = link.at_rest > 0.0 ? std::max(part.farthest, distance) : part.farthest;
   }
 

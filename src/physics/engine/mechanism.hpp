@@ -38,7 +38,7 @@ struct Mechanism {
         points(*scene, layout, options.isa),
         guarded(*scene, layout, groups, points, state),
         pickups(layout),
-        sleeper(*scene, layout, *coefficients) {
+        sleeper(*scene, layout, points, *coefficients) {
     state.allocate();
   }
   Mechanism(const Mechanism&) = delete;  // its parts refer to each other

@@ -130,12 +130,15 @@ class Points {
       }
     }
     for (const std::size_t p : group.places) {
-      const PlacePoint& point = layout_.places[p];
-      const scene::GridPlace here = around(p, places);
-      for (int i = 0; i < here.count; ++i) {
-        for (int k = 0; k < point.dimensions; ++k) {
-          f[slotOf(here, i) + k * point.stride] += weight(here, i) * f[point.slot + k];
-        }
+      scatterPlace(p, f, places);
+    }
+  }
+  void scatterPlace(std::size_t p, Real* f, const double* places) const noexcept {
+    const PlacePoint& point = layout_.places[p];
+    const scene::GridPlace here = around(p, places);
+    for (int i = 0; i < here.count; ++i) {
+      for (int k = 0; k < point.dimensions; ++k) {
+        f[slotOf(here, i) + k * point.stride] += weight(here, i) * f[point.slot + k];
       }
     }
   }

@@ -91,26 +91,26 @@ double springsOf(const LinkRun& run,
   return 0.5 * energy;
 }
 
-/// The same of the links of a block. \param run those links
-template <class Real>
-double springsOf(const Block& block,
+/// Where the coefficients of a link of a block are.
+struct BlockLink {
+  std::size_t place = 0;     ///< sparse: the link; else as k lies, element by element
+  std::size_t diagonal = 0;  ///< not sparse
+  int element = 0;           ///< not sparse
+};
+
+/// Calls `visit(link, slot of a, slot of b)` for the links of a block. \param run those links
+template <class Real, class Visit>
+void forEachLink(const Block& block,
                  const LinkRun& run,
-                 const BlockCoefficients<Real>& c,
                  const MassCoefficients<Real>& masses,
-                 const State<Real>& state) noexcept {
-  const Real* x = state.x() + block.first;
-  const Real* inverse_mass = masses.inverse_mass.data() + block.first;
-  double energy = 0.0;
-  const auto add = [&](Real k, Real apart, std::size_t place) {
-    const auto e = static_cast<double>(c.rest.empty() ? apart : apart + c.rest[place]);
-    energy += static_cast<double>(k) * e * e;
-  };
+                 const Visit& visit) {
   if (block.kind == Block::Kind::kSparse) {
     for (std::size_t l = 0; l < run.ends.size(); ++l) {
-      add(c.k[block.program->sides[l].a], state.x()[run.ends[l].a] - state.x()[run.ends[l].b], l);
+      visit(BlockLink{l, 0, 0}, run.ends[l].a, run.ends[l].b);
     }
-    return 0.5 * energy;
+    return;
   }
+  const Real* inverse_mass = masses.inverse_mass.data() + block.first;
   std::size_t place = 0;  // as k lies: after the guard, element by element
   for (std::size_t i = 0; i < block.offsets.size(); ++i) {
     place += static_cast<std::size_t>(block.guard);
@@ -118,13 +118,35 @@ double springsOf(const Block& block,
       const int next = e + block.offsets[i];
       // Among what never moves there are no links, even where all have the same coefficients.
       if (next < block.elements && (inverse_mass[e] != Real(0) || inverse_mass[next] != Real(0))) {
-        const Real k = block.per_lane ? c.k[static_cast<std::size_t>(e % kLanes)]
-                       : c.k.empty()  ? c.uniform_k[i]
-                                      : c.k[place];
-        add(k, x[e] - x[next], place);
+        visit(BlockLink{place, i, e}, block.first + e, block.first + next);
       }
     }
   }
+}
+
+template <class Real>
+Real stiffnessOf(const Block& block,
+                 const BlockCoefficients<Real>& c,
+                 const BlockLink& link) noexcept {
+  return block.kind == Block::Kind::kSparse ? c.k[block.program->sides[link.place].a]
+         : block.per_lane                   ? c.k[static_cast<std::size_t>(link.element % kLanes)]
+         : c.k.empty()                      ? c.uniform_k[link.diagonal]
+                                            : c.k[link.place];
+}
+
+/// The same of the links of a block. \param run those links
+template <class Real>
+double springsOf(const Block& block,
+                 const LinkRun& run,
+                 const BlockCoefficients<Real>& c,
+                 const MassCoefficients<Real>& masses,
+                 const State<Real>& state) noexcept {
+  double energy = 0.0;
+  forEachLink(block, run, masses, [&](const BlockLink& link, int a, int b) {
+    const Real apart = state.x()[a] - state.x()[b];
+    const auto e = static_cast<double>(c.rest.empty() ? apart : apart + c.rest[link.place]);
+    energy += static_cast<double>(stiffnessOf(block, c, link)) * e * e;
+  });
   return 0.5 * energy;
 }
 

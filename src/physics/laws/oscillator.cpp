@@ -4,6 +4,23 @@
 #include <cmath>
 
 namespace ergotic::physics {
+namespace {
+
+/// 2 - lose - 2 once cos = (1 - once)^2 + 2 once (1 - cos), without the cancellation.
+double swinging(double decay, double turn) noexcept {
+  const double half = std::sin(std::sqrt(turn) / 2.0);
+  const double lost = -std::expm1(-decay);
+  return lost * lost + 2.0 * std::exp(-decay) * (2.0 * half * half);
+}
+
+/// (1 - p)(1 - q) of the real poles p = e^(-kappa/fast), q = e^(-fast): of a cell so damped that it
+/// fades within a step a cosh would be beyond all numbers.
+double creeping(double decay, double kappa) noexcept {
+  const double fast = decay + std::sqrt(decay * decay - kappa);
+  return std::expm1(-kappa / fast) * std::expm1(-fast);
+}
+
+}  // namespace
 
 OscillatorCoefficients oscillatorOf(
     double stiffness, double damping, double mass, double step, bool matched) noexcept {
@@ -12,14 +29,11 @@ OscillatorCoefficients oscillatorOf(
     return {damping / step * inverse, stiffness * inverse};
   }
   const double decay = 0.5 * damping / mass * step;  // s h
-  const double turn = stiffness / mass * step * step - decay * decay;
-  const double once = std::exp(-decay);
-  // 2 - lose - 2 once cos = (1 - once)^2 + 2 once (1 - cos), without the cancellation.
-  const double half = std::sqrt(std::abs(turn)) / 2.0;
-  const double rest = turn >= 0.0 ? 2.0 * std::sin(half) * std::sin(half)
-                                  : -2.0 * std::sinh(half) * std::sinh(half);
-  const double lost = -std::expm1(-decay);
-  return {-std::expm1(-2.0 * decay), stiffness == 0.0 ? 0.0 : lost * lost + 2.0 * once * rest};
+  const double kappa = stiffness / mass * step * step;
+  const double turn = kappa - decay * decay;
+  return {-std::expm1(-2.0 * decay), stiffness == 0.0 ? 0.0
+                                     : turn >= 0.0    ? swinging(decay, turn)
+                                                      : creeping(decay, kappa)};
 }
 
 OscillatorCoefficients oscillatorOf(const scene::Scene& scene,

@@ -10,6 +10,7 @@
 #include "at.hpp"
 #include "ergotic/exception.hpp"
 #include "physics/layout/link_spans.hpp"
+#include "scene/laws/bend_parts.hpp"
 #include "scene/pressers.hpp"
 
 namespace ergotic::physics {
@@ -320,7 +321,8 @@ void placeLinks(const scene::Scene& scene, const Rates& rates, Layout& layout) {
     target.lias.push_back(l);
     target.ends.push_back({a.slot, b.slot});
     if (run.block < 0) {
-      target.rests.push_back(a.rest - b.rest);
+      const scene::Lia& lia = scene.lias[at(l)];
+      target.rests.push_back(lia.bend < 0 ? a.rest - b.rest : scene::restApart(scene, lia));
     }
   }
   for (LinkRun& run : layout.runs) {

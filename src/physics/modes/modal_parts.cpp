@@ -12,6 +12,7 @@
 #include "physics/network/load_matrix.hpp"
 #include "physics/note.hpp"
 #include "physics/step_units.hpp"
+#include "scene/laws/bend_parts.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -358,8 +359,6 @@ PartStart startOf(const Network& network,
   for (const int l : part.lias) {
     const Network::Link& link = network.links[at(l)];
     const scene::Lia& lia = scene.lias[at(l)];
-    const scene::Mat& a = scene.mats[at(lia.a)];
-    const scene::Mat& b = scene.mats[at(lia.b)];
     // Grounds stay where they are: what their displacement does is constant.
     const auto held = [&](int m) {
       return row_of[at(m)] >= 0 ? 0.0 : displacementOf(scene.mats[at(m)]);
@@ -368,10 +367,11 @@ PartStart startOf(const Network& network,
       return row_of[at(m)] >= 0 ? scene.mats[at(m)].push->velocity.x() : 0.0;
     };
     const double k = link.at_rest;
-    const double rest = a.rest.x() - b.rest.x() - lia.rest_length;
+    const double rest = scene::restApart(scene, lia).x() - lia.rest_length;
     const double constant = k * (held(lia.a) - held(lia.b) + rest);
-    const double now = k * (displacementOf(a) - displacementOf(b) + rest) +
-                       dampingOf(link) * (speed(lia.a) - speed(lia.b));
+    const double now =
+        k * (displacementOf(scene.mats[at(lia.a)]) - displacementOf(scene.mats[at(lia.b)]) + rest) +
+        dampingOf(link) * (speed(lia.a) - speed(lia.b));
     for (const auto& [row, sign] : endsAmong(network, row_of, link)) {
       start.constant[row] -= sign * constant;
       start.of_springs[row] -= sign * now;

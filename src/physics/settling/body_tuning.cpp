@@ -219,10 +219,14 @@ class BodyTuning {
 }  // namespace
 
 void tuneBodies(scene::Scene& scene, const Rates& rates, std::vector<std::string>& notes) {
+  const auto is_body = [](const scene::Tuning& tuning) { return !tuning.modes.empty(); };
   for (scene::Tuning& body : scene.tunings) {
-    BodyTuning(scene, body, rates).run(notes);
+    if (is_body(body)) {
+      BodyTuning(scene, body, rates).run(notes);
+    }
   }
-  scene.tunings.clear();
+  scene.tunings.erase(std::remove_if(scene.tunings.begin(), scene.tunings.end(), is_body),
+                      scene.tunings.end());
 }
 
 }  // namespace ergotic::physics

@@ -13,7 +13,7 @@ namespace ergotic::physics {
 /// sounds there and decays as asked at the rate of its section, exactly: a mode of the eigenvalue
 /// lambda and the damping D of its links has kappa = h^2 lambda and, with the loss Y to the ground,
 /// zeta = 1 - e^(-Y h/M) + h D, and rings with e^(-sigma t) where zeta = 1 - e^(-2 sigma h). Says
-/// which partials it has then. None is left open.
+/// which partials it has then. None is left open; what has no modes is no body, but stops.
 /// \throws TextError if a body cannot sound or decay so, with what would help
 void tuneBodies(scene::Scene& scene, const Rates& rates, std::vector<std::string>& notes);
 

@@ -14,6 +14,7 @@
 #include "physics/settling/sleep_bound.hpp"
 #include "physics/settling/split_springs.hpp"
 #include "physics/settling/split_tables.hpp"
+#include "physics/settling/stops.hpp"
 #include "physics/settling/string_tuning.hpp"
 #include "scene/generate/stretch.hpp"
 
@@ -26,6 +27,7 @@ scene::Scene complete(scene::Scene scene, const Rates& rates, std::vector<std::s
   tuneStrings(scene, rates, notes);
   tuneBodies(scene, rates, notes);
   scene::settleStretches(scene);
+  settleStops(scene, rates, notes);
   askForChaplets(scene, rates);
   insertFilters(scene, rates, notes);
   splitTables(scene, rates);

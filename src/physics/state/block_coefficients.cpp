@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "at.hpp"
 #include "physics/layout/blocks/lanes.hpp"
@@ -26,6 +28,31 @@ std::size_t placeOf(const Block& block, int a, int b) {
   return static_cast<std::size_t>(diagonal - block.offsets.begin()) *
              at(block.guard + block.elements) +
          at(block.guard + std::min(a, b));
+}
+
+scene::LinkInSteps inSteps(const scene::Scene& scene,
+                           const scene::Lia& lia,
+                           const StepUnits& units) {
+  return {scene, lia, units, scene::restApart(scene, lia).x()};
+}
+
+/// A unit of force in whole multiples of which all sums of what links do at rest are exact: else
+/// what is rounded would push a body that nothing holds, always the same way. 1 if there are none.
+template <class Real>
+double grainOf(const scene::Scene& scene,
+               const StepUnits& units,
+               const Block& block,
+               const LinkRun& run) {
+  std::vector<double> sums(at(block.elements), 0.0);
+  for (std::size_t l = 0; l < run.ends.size(); ++l) {
+    const scene::LinkInSteps link = inSteps(scene, scene.lias[at(run.lias[l])], units);
+    const double force = std::abs(scene::number::stiffness(link) * scene::number::offset(link));
+    sums[at(run.ends[l].a - block.first)] += force;
+    sums[at(run.ends[l].b - block.first)] += force;
+  }
+  const double most = *std::max_element(sums.begin(), sums.end());
+  return most > 0.0 ? std::ldexp(1.0, std::ilogb(most) + 2 - std::numeric_limits<Real>::digits)
+                    : 1.0;
 }
 
 }  // namespace
@@ -84,10 +111,11 @@ void CoefficientsOf<Real>::fillBlock(const scene::Scene& scene,
                                      const Block& block,
                                      const LinkRun& run) {
   BlockCoefficients<Real>& to = blocks[at(run.block)];
+  const Real grain =
+      block.has_bias ? static_cast<Real>(grainOf<Real>(scene, units, block, run)) : Real(0);
   for (std::size_t l = 0; l < run.ends.size(); ++l) {
     const scene::Lia& lia = scene.lias[at(run.lias[l])];
-    const scene::LinkInSteps link{scene, lia, units,
-                                  scene.mats[at(lia.a)].rest.x() - scene.mats[at(lia.b)].rest.x()};
+    const scene::LinkInSteps link = inSteps(scene, lia, units);
     const Real k = scene::inPrecision<Real>(scene, lia, scene::number::stiffness(link));
     const Real z = scene::inPrecision<Real>(scene, lia, scene::number::damping(link));
     const Real offset = static_cast<Real>(scene::number::offset(link));
@@ -111,8 +139,9 @@ void CoefficientsOf<Real>::fillBlock(const scene::Scene& scene,
       }
     }
     if (block.has_bias) {
-      to.bias[at(a)] -= k * offset;
-      to.bias[at(b)] += k * offset;
+      const Real force = grain * std::rint(k * offset / grain);
+      to.bias[at(a)] -= force;
+      to.bias[at(b)] += force;
     }
     if (block.has_bias && block.kind == Block::Kind::kSparse) {
       to.rest[l] = offset;

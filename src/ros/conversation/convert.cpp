@@ -79,7 +79,8 @@ std::string textOf(const station::Event& event, const scene::Scene* scene) {
       text << "force is zero";
       break;
     case EventType::kSwapped:
-      text << (event.index != 0 ? "another model plays" : "a model was overtaken by a newer one");
+      text << (event.index != 0 ? "another model plays" : "a model was overtaken by a newer one")
+           << (event.value != 0.0 ? ", force is zero until engage" : "");
       break;
     case EventType::kParameter: {
       const auto index = static_cast<std::size_t>(event.index);

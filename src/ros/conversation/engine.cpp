@@ -18,6 +18,7 @@ constexpr double kPresenceS = 0.2;
 constexpr int kMaxPriority = 99;
 constexpr double kPeriodsOfSilence = 3.0;
 constexpr double kMaxWatchdogS = 1.0;
+constexpr std::int64_t kGuardianRetryNs = 2'000'000'000;
 constexpr double kPeriodsOfHang = 2.0;  // of the watchdog, which beats for the guardian
 constexpr int kWatchdogAboveTick = 5;   // it must not wait for a tick that never ends
 
@@ -156,10 +157,19 @@ void Engine::startWatchdog() {
   watchdog_->arm();
 }
 
-/// In place of one that there is. Without a guardian it plays all the same, and says so.
+/// In place of one that there is. Without a guardian it plays all the same, says so, and tries
+/// again.
 void Engine::startGuardian() {
   guards_ = station_->driver().guards();
+  if (const std::string problem = tryToStartGuardian(); !problem.empty()) {
+    warnings_.push_back(problem + ": if this process dies the devices may keep their force");
+  }
+}
+
+/// \return what keeps it from starting
+std::string Engine::tryToStartGuardian() {
   std::unique_ptr<tgr::Guardian> next;
+  std::string problem;
   try {
     if (!guards_.empty()) {
       tgr::GuardianOptions options;
@@ -167,12 +177,13 @@ void Engine::startGuardian() {
       options.priority = watchdogPriority(parameters_);
       next = std::make_unique<tgr::Guardian>(guards_, options);
     }
-  } catch (const DeviceError& problem) {
-    warnings_.push_back(std::string(problem.what()) +
-                        ": if this process dies the devices may keep their force");
+  } catch (const DeviceError& refusal) {
+    problem = refusal.what();
+    guardian_retry_ns_ = rt::monotonicNs() + kGuardianRetryNs;
   }
   const std::lock_guard lock(guardian_mutex_);
   guardian_.swap(next);
+  return problem;
 }
 
 void Engine::keepGuardian() {
@@ -180,11 +191,16 @@ void Engine::keepGuardian() {
     warnings_.emplace_back("the guardian of the devices died: another takes its place");
     startGuardian();
   }
+  if (!guardian_ && !guards_.empty() && rt::monotonicNs() >= guardian_retry_ns_ &&
+      tryToStartGuardian().empty()) {
+    warnings_.emplace_back("there is a guardian of the devices again");
+  }
 }
 
-void Engine::watchMaster(const std::string& service) {
+void Engine::watchMaster(const std::vector<std::string>& services,
+                         const std::vector<std::string>& topics) {
   master_watch_ = std::make_unique<MasterWatch>(
-      service, [this] { station_->makeSafe(tgr::FaultReason::kMasterLost); });
+      services, topics, [this] { station_->makeSafe(tgr::FaultReason::kMasterLost); });
 }
 
 void Engine::recover() {
@@ -194,8 +210,9 @@ void Engine::recover() {
   }
   if (master_watch_ && master_watch_->isMissing()) {
     throw Exception(
-        "the ROS master does not answer, or does not know this station: nobody could find "
-        "emergency_stop. If it does not come back, start the station again under a new one");
+        "the ROS master does not answer, or does not know this station, or leads to another node "
+        "that took its services' names: nobody could find stop and emergency_stop. If it does not "
+        "come back, start the station again under a new one");
   }
   watchdog_->arm();
 }

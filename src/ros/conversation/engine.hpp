@@ -40,9 +40,10 @@ class Engine {
   const Parameters& parameters() const { return parameters_; }
   Hands& hands() { return *hands_; }
 
-  /// Forces to zero as soon as the ROS master does not know this service any more, and as long.
-  /// Thread: setup
-  void watchMaster(const std::string& service);
+  /// Forces to zero as soon as the ROS master does not lead to these services and topics of this
+  /// process any more, and as long. Thread: setup
+  void watchMaster(const std::vector<std::string>& services,
+                   const std::vector<std::string>& topics);
 
   /// Gets lost devices back and watches the ticks again. Thread: operator
   /// \throws DeviceError if a device is still lost, Exception if the ROS master is
@@ -65,6 +66,7 @@ class Engine {
  private:
   void startWatchdog();
   void startGuardian();
+  std::string tryToStartGuardian();
   void keepGuardian();
 
   Parameters parameters_;
@@ -76,6 +78,7 @@ class Engine {
   std::vector<tgr::Guard> guards_;  // what the guardian holds
   std::mutex guardian_mutex_;       // of the pointer, between the operator and the watchdog's beats
   std::unique_ptr<tgr::Guardian> guardian_;
+  std::int64_t guardian_retry_ns_ = 0;  // where there should be one and is none
   std::unique_ptr<tgr::Watchdog> watchdog_;
   std::unique_ptr<MasterWatch> master_watch_;
   double watchdog_s_ = 0.0;

@@ -100,7 +100,9 @@ void Feed::show(const station::GestureTick* ticks, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     if (auto block = blocks_->add(ticks[i])) {
       const auto age = static_cast<double>(newest - block->first_tick);
-      block->header.stamp = now - ::ros::Duration(age / block->tick_rate_hz);
+      const ::ros::Duration ago(age / block->tick_rate_hz);
+      // A clock that is simulated may stand at its beginning.
+      block->header.stamp = now.toSec() > ago.toSec() ? now - ago : ::ros::Time();
       gesture_.publish(*block);
     }
   }

@@ -159,7 +159,12 @@ Answer Loader::start(scene::Scene scene, bool allow_unproven, std::string& verdi
   auto engine = std::make_unique<Engine>(parameters, std::move(hands), std::move(performer),
                                          operator_.interlock());
   if (parameters.require_master) {
-    engine->watchMaster(node_.resolveName("emergency_stop"));
+    const std::string emergency_stop = node_.resolveName("emergency_stop");
+    engine->watchMaster({emergency_stop, node_.resolveName("stop")}, {emergency_stop});
+  }
+  // Those of an earlier launch live on with the ROS master.
+  if (const std::string list = unusual(parameters); !list.empty()) {
+    ROS_INFO_STREAM("parameters that are not the default: " << list);
   }
   Answer answer = operator_.begin(std::move(engine), first, picture);
   setDescription(node_, operator_);

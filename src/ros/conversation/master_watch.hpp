@@ -8,6 +8,9 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
+
+#include <xmlrpcpp/XmlRpcValue.h>
 
 namespace ergotic::node {
 
@@ -25,15 +28,29 @@ class RepeatedFailure {
   int failures_ = 0;
 };
 
-/// Asks the ROS master twice a second, in a thread of its own, where a service is that ends force:
-/// when the master is gone, hangs for two seconds, or is a new one that never heard of us, nobody
-/// can call the service any more.
+/// Whether the master's answer to `lookupService` (code, text, address) says that the service is at
+/// this address. Another node may have taken its name since. Realtime: no. Thread: any
+bool tellsOf(const XmlRpc::XmlRpcValue& answer, const std::string& address);
+
+/// Whether the master's answer to `getSystemState` (code, text, [publishers, subscribers,
+/// services]) says that the node listens to the topic. Anybody may have told it otherwise.
+/// Realtime: no. Thread: any
+bool tellsOfListener(const XmlRpc::XmlRpcValue& answer,
+                     const std::string& topic,
+                     const std::string& node);
+
+/// Asks the ROS master twice a second, in a thread of its own, where the services are that end
+/// force, and who hears the topics that do: when the master is gone, hangs for two seconds, is a
+/// new one that never heard of us, or leads callers to another node, nobody can call them any more.
 class MasterWatch {
  public:
-  /// \param service  full name, advertised
-  /// \param on_lost  called from the watch's own thread when the master failed twice in a row, and
-  ///                 again each time that it does
-  MasterWatch(std::string service, std::function<void()> on_lost);
+  /// \param services  full names, advertised by this process
+  /// \param topics    full names, which this process listens to
+  /// \param on_lost   called from the watch's own thread when the master failed twice in a row, and
+  ///                  again each time that it does
+  MasterWatch(std::vector<std::string> services,
+              std::vector<std::string> topics,
+              std::function<void()> on_lost);
   ~MasterWatch();  ///< does not wait for an answer
   MasterWatch(const MasterWatch&) = delete;
   MasterWatch& operator=(const MasterWatch&) = delete;
@@ -43,12 +60,15 @@ class MasterWatch {
 
  private:
   void run();
-  bool masterKnows();
+  bool masterKnowsAll();
+  bool ask(const std::string& method, const std::string& argument, XmlRpc::XmlRpcValue& answer);
   bool stopped();
 
-  std::string service_;
+  std::vector<std::string> services_;
+  std::vector<std::string> topics_;
   std::function<void()> on_lost_;
-  std::mutex mutex_;  // of stop_
+  const std::string address_;  // roscpp has none any more while it shuts down
+  std::mutex mutex_;           // of stop_
   std::condition_variable woken_;
   bool stop_ = false;
   std::atomic<bool> missing_{false};

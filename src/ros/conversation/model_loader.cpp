@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <sstream>
+#include <system_error>
 
 #include "ergotic/exception.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
@@ -17,6 +19,19 @@ void addLine(std::string& text, const std::string& line) {
   text += (text.empty() ? "" : "\n") + line;
 }
 
+/// `path`, or `path#variant`, unless there is a file of that name.
+scene::Scene readFile(const std::string& model) {
+  const std::size_t hash = model.rfind('#');
+  std::error_code unknown;  // reading says what is wrong with it
+  if (hash == std::string::npos || std::filesystem::exists(model, unknown)) {
+    return scene::readSceneFile(model);
+  }
+  return scene::readSceneFile(model.substr(0, hash), {}, {model.substr(hash + 1)});
+}
+
+/// Nobody would look in the folder of this process for what it names.
+const scene::Choice kTextAlone = {"", false};
+
 }  // namespace
 
 scene::Scene readModel(const std::string& model) {
@@ -24,8 +39,8 @@ scene::Scene readModel(const std::string& model) {
     throw Exception("no model is named, allowed: a path, or YAML of more than one line");
   }
   scene::Scene scene = model.find('\n') == std::string::npos
-                           ? scene::readSceneFile(model)
-                           : scene::readYaml(model, "inline.yaml");
+                           ? readFile(model)
+                           : scene::readYaml(model, "inline.yaml", {}, kTextAlone);
   scene::validate(scene);
   return scene;
 }

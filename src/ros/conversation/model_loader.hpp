@@ -8,7 +8,8 @@
 
 namespace ergotic::node {
 
-/// Reads and validates a model; text of more than one line is YAML, anything else a path.
+/// Reads and validates a model; text of more than one line is YAML, anything else a path, with
+/// `#variant` behind it if a variant of the scene is meant.
 /// \throws TextError with file:line:col; Exception if the file cannot be read
 scene::Scene readModel(const std::string& model);
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/conversation/operator.hpp"
 
+#include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
 #include <ros/console.h>
+#include <ros/init.h>
 
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/clock.hpp"
@@ -20,10 +23,21 @@ constexpr std::int64_t kAnswerTimeoutNs = 5'000'000'000;
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 constexpr auto kCloseTimeout = 900ms;
 constexpr std::size_t kMaxTasks = 1024;
-constexpr std::size_t kMaxParameters = 1024;    // names that wait
+constexpr std::size_t kMaxParameters = 1024;  // names that wait
+constexpr std::int64_t kParametersNs = 2'000'000;
 constexpr std::size_t kParametersPerPoll = 64;  // fewer than the tick takes meanwhile
 constexpr double kLogPeriodS = 1.0;
-const char kTooLate[] = "no answer within 5 s: the request is withdrawn";
+const char kWasWithdrawn[] = "no answer within 5 s: the request is withdrawn";
+const char kWasBegun[] =
+    "no answer within 5 s: the request was begun, and what it asks for may still come";
+
+/// Whether a request is carried out is settled once, by who comes first.
+enum class Claim : std::uint8_t { kWaits, kBegun, kWithdrawn };
+
+bool settle(std::atomic<Claim>& claim, Claim to) {
+  Claim waits = Claim::kWaits;
+  return claim.compare_exchange_strong(waits, to);
+}
 
 }  // namespace
 
@@ -61,13 +75,19 @@ Answer Operator::ask(const Request& request) {
 Answer Operator::ask(const Request& request, std::int64_t deadline_ns) {
   auto promise = std::make_shared<std::promise<Answer>>();
   std::future<Answer> future = promise->get_future();
-  if (!post({[request, promise] { request(promise); }, deadline_ns})) {
+  const auto claim = std::make_shared<std::atomic<Claim>>(Claim::kWaits);
+  if (!post({[request, promise, claim] {
+               if (settle(*claim, Claim::kBegun)) {
+                 request(promise);
+               }
+             },
+             deadline_ns})) {
     return {false, "the station is closing, or too busy to take a request"};
   }
   promise.reset();  // whoever drops the request breaks the promise
   const std::chrono::nanoseconds left(deadline_ns - rt::monotonicNs());
   if (future.wait_for(left) != std::future_status::ready) {
-    return {false, kTooLate};
+    return {false, settle(*claim, Claim::kWithdrawn) ? kWasWithdrawn : kWasBegun};
   }
   try {
     return future.get();
@@ -79,7 +99,7 @@ Answer Operator::ask(const Request& request, std::int64_t deadline_ns) {
 /// Whoever got no answer must not meet force later.
 Answer Operator::askForForce(const ForceRequest& request, const Request& ask_for) {
   Answer answer = ask(ask_for, request.arrival.time_ns + kAnswerTimeoutNs);
-  if (answer.message == kTooLate) {
+  if (answer.message == kWasWithdrawn || answer.message == kWasBegun) {
     interlock_->stop();
   }
   return answer;
@@ -207,15 +227,33 @@ void Operator::run() {
         break;
       }
     }
-    runTasks();
-    setParameters();
-    performance_.poll();
-    feed_.refresh();
-    diagnostics_.refresh(feed_.status(), performance_.engine());
+    try {
+      runTasks();
+      setParameters();
+      performance_.poll();
+      feed_.refresh();
+      diagnose();
+    } catch (const std::exception& surprise) {  // it must not end the process with force on
+      performance_.makeSafe(tgr::FaultReason::kMadeSafe);
+      ROS_ERROR_STREAM_THROTTLE(kLogPeriodS,
+                                "force is latched at zero, for the station could not "
+                                "go on as usual: "
+                                    << surprise.what());
+    }
   }
   performance_.close();
   const std::lock_guard lock(mutex_);
   tasks_.clear();
+}
+
+/// What watches may fail by itself, as where the time of ROS cannot be: no reason to take force
+/// away.
+void Operator::diagnose() {
+  try {
+    diagnostics_.refresh(feed_.status(), performance_.engine());
+  } catch (const std::exception& surprise) {
+    ROS_ERROR_STREAM_THROTTLE(kLogPeriodS, "diagnostics: " << surprise.what());
+  }
 }
 
 void Operator::runTasks() {
@@ -232,22 +270,28 @@ void Operator::runTasks() {
   }
 }
 
+/// Round and round, some at a time: what one costs is a matter of the model, and others wait.
 void Operator::setParameters() {
-  std::map<std::string, double> some;
-  {
-    const std::lock_guard lock(mutex_);
-    while (!parameters_.empty() && some.size() < kParametersPerPoll) {
-      some.insert(parameters_.extract(parameters_.begin()));
+  const std::int64_t end_ns = rt::monotonicNs() + kParametersNs;
+  std::size_t count = 0;
+  do {
+    decltype(parameters_)::node_type next;
+    {
+      const std::lock_guard lock(mutex_);
+      if (parameters_.empty()) {
+        return;
+      }
+      const auto after = parameters_.upper_bound(last_parameter_);
+      next = parameters_.extract(after != parameters_.end() ? after : parameters_.begin());
     }
-  }
-  for (const auto& [name, value] : some) {
+    last_parameter_ = next.key();
     const auto promise = std::make_shared<std::promise<Answer>>();
     std::future<Answer> refusal = promise->get_future();
-    performance_.setParameter(name, value, promise);
+    performance_.setParameter(next.key(), next.mapped(), promise);
     if (refusal.wait_for(0s) == std::future_status::ready) {
       ROS_WARN_STREAM_THROTTLE(kLogPeriodS, "parameters: " << refusal.get().message);
     }
-  }
+  } while (++count < kParametersPerPoll && rt::monotonicNs() < end_ns);
 }
 
 }  // namespace ergotic::node

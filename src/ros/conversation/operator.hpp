@@ -31,7 +31,7 @@ class Operator {
   Operator& operator=(const Operator&) = delete;
 
   // Thread: any, but never this operator's own. All wait for their answer, 5 s at most; what was
-  // not begun by then never is.
+  // not begun by then never is, and they say so.
 
   // A picture is of the performer beside it, and not null.
 
@@ -104,6 +104,7 @@ class Operator {
   Answer askForForce(const ForceRequest& request, const Request& ask_for);
   void run();
   void runTasks();
+  void diagnose();
   void setParameters();
 
   Feed& feed_;
@@ -115,6 +116,7 @@ class Operator {
   std::condition_variable woken_;
   std::deque<Task> tasks_;
   std::map<std::string, double> parameters_;  // that shall be set soon
+  std::string last_parameter_;                // that was taken out of them
   bool quit_ = false;
   bool closed_ = false;
 

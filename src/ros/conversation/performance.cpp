@@ -2,6 +2,7 @@
 #include "ros/conversation/performance.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <sstream>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/clock.hpp"
 #include "ergotic/station/judge_hands.hpp"
+#include "files/printable.hpp"
 #include "ros/conversation/model_loader.hpp"
 
 namespace ergotic::node {
@@ -24,6 +26,7 @@ constexpr std::int64_t kObeyTimeoutNs = 1'000'000'000;
 constexpr std::int64_t kOnItsWayNs = 500'000'000;
 constexpr std::size_t kGestureBatch = 256;
 constexpr double kLogPeriodS = 5.0;
+constexpr std::size_t kShownName = 64;  // of what a stranger says, bytes
 const char kNothingPlays[] = "nothing plays: load a model first";
 const char kWasOnItsWay[] =
     "it was on its way when somebody asked for an emergency stop: ask again";
@@ -32,6 +35,11 @@ const char kTooMany[] = "too many requests wait for the real-time thread";
 
 void answer(const Promise& promise, bool ok, std::string message) {
   promise->set_value({ok, std::move(message)});
+}
+
+/// Of nodes of two names: the same with a probability of 2^-64.
+station::Caller numberOf(const std::string& node) {
+  return std::hash<std::string>{}(node);
 }
 
 void log(const Event& event) {
@@ -82,8 +90,8 @@ void Performance::swap(std::unique_ptr<station::Performer> performer,
   station::Command swap;
   swap.type = CommandType::kSwap;
   swap.performer = performer.get();
-  const bool takes_force = takesForce(loader);
-  swap.index = takes_force ? 1 : 0;
+  swap.index = static_cast<int>(engine_->parameters().force_after_swap);
+  swap.caller = numberOf(loader);
   const std::vector<double> parameters = performer->parameters;  // the tick's from now on
   try {
     // End-effectors may have changed while the model was made.
@@ -97,21 +105,7 @@ void Performance::swap(std::unique_ptr<station::Performer> performer,
   }
   submitted_ = performer.release();
   parameters_ = parameters;
-  incoming_.push_back(
-      {submitted_, std::move(picture), takes_force && interlock_->read().isOpen(), promise});
-}
-
-/// Whether a model of this loader leaves force at zero.
-bool Performance::takesForce(const std::string& loader) const {
-  switch (engine_->parameters().force_after_swap) {
-    case ForceAfterSwap::kAlways:
-      return false;
-    case ForceAfterSwap::kNever:
-      return true;
-    case ForceAfterSwap::kLoader:
-      return loader != engaged_by_;
-  }
-  return true;
+  incoming_.push_back({submitted_, std::move(picture), promise});
 }
 
 void Performance::engage(const ForceRequest& request, const Promise& promise) {
@@ -153,7 +147,8 @@ void Performance::setParameter(const std::string& name, double value, const Prom
     return parameter.name == name;
   });
   if (found == known.end()) {
-    return answer(promise, false, "the model has no parameter " + name);
+    return answer(promise, false,
+                  "the model has no parameter " + files::printable(name, kShownName));
   }
   const auto index = found - known.begin();
   std::vector<double> values = parameters_;
@@ -211,6 +206,7 @@ void Performance::request(CommandType type, const ForceRequest& request, const P
   command.type = type;
   command.id = ++last_request_;
   command.asked = request.arrival.ticket;
+  command.caller = numberOf(request.caller);
   if (!submit(command)) {
     return answer(promise, false, kTooMany);
   }
@@ -277,8 +273,7 @@ void Performance::takeObeyed(const station::Event& event, const std::string& tex
     return;
   }
   if (event.type == EventType::kEngaged) {
-    engaged_by_ = waiter->second.caller;
-    ROS_INFO_STREAM("force was let out by " << engaged_by_);
+    ROS_INFO_STREAM("force was let out by " << waiter->second.caller);
   }
   answer(waiter->second.promise, event.type != EventType::kRefused, text);
   requests_.erase(waiter);
@@ -296,7 +291,7 @@ void Performance::takeSwapped(const station::Event& event) {
   Incoming next = std::move(incoming_.front());
   incoming_.pop_front();
   play(next.performer, std::move(next.picture));
-  answer(next.promise, true, feed_.status().message + (next.takes_force ? kForceWaits : ""));
+  answer(next.promise, true, feed_.status().message + (event.value != 0.0 ? kForceWaits : ""));
 }
 
 void Performance::takeKeyframe(const station::Event& event) {

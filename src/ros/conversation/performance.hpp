@@ -92,7 +92,6 @@ class Performance {
   struct Incoming {
     station::Performer* performer = nullptr;
     std::shared_ptr<Picture> picture;
-    bool takes_force = false;  ///< which was there, and waits for `engage` then
     Promise promise;
   };
   /// Somebody waits for a parameter to take effect.
@@ -123,7 +122,6 @@ class Performance {
   bool command(station::Command::Type type, int index = 0, double value = 0.0);
   bool submit(const station::Command& command);
   void request(station::Command::Type type, const ForceRequest& request, const Promise& promise);
-  bool takesForce(const std::string& loader) const;
   const tgr::EndEffectors& endEffectors() const;
   void show(const tgr::EndEffectors& end_effectors);
   void begin(int slice);
@@ -158,7 +156,6 @@ class Performance {
   std::deque<Configuration> configurations_;
   std::map<std::uint64_t, Waiter> requests_;  // engage and recover, by their numbers
   std::uint64_t last_request_ = 0;
-  std::string engaged_by_;  // who let force out last
   CalibrationGuide guide_;
   std::shared_ptr<Calibrate::Response> measured_;  // of the sample under way
   Promise sampled_;

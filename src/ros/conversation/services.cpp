@@ -4,6 +4,8 @@
 #include <ros/console.h>
 
 #include "ergotic/exception.hpp"
+#include "ergotic/rt/clock.hpp"
+#include "files/printable.hpp"
 #include "ros/conversation/description.hpp"
 #include "ros/device/end_effectors.hpp"
 
@@ -31,7 +33,7 @@ class Counted {
 template <class Response>
 bool fill(Response& response, const Answer& answer) {
   response.success = answer.ok ? 1U : 0U;
-  response.message = answer.message;
+  response.message = files::printableLines(answer.message);
   return true;  // the call itself went well, whatever came of it
 }
 
@@ -60,7 +62,7 @@ Services::Services(::ros::NodeHandle node, Operator& operator_thread)
       loading_node_(node),
       loading_spinner_(1, &loading_queue_),
       safety_node_(node),
-      safety_spinner_(safety_queue_, urgencyOf(node)) {
+      safety_spinner_(safety_queue_, urgencyOf(node), [this] { followShutdown(); }) {
   node_.setCallbackQueue(&queue_);
   loading_node_.setCallbackQueue(&loading_queue_);
   safety_node_.setCallbackQueue(&safety_queue_);
@@ -134,7 +136,7 @@ void Services::onHandTarget(const SliceTarget& target) {
 bool Services::onRecover(Call<Trigger>& call) {
   const Answer answer = operator_.recover({ArrivalQueue::ofThisCall(), call.getCallerName()});
   if (answer.ok) {
-    presence_owner_.acceptAnother();
+    presence_owner_.acceptAnother(rt::monotonicNs());
   }
   return fill(call.getResponse(), answer);
 }
@@ -184,15 +186,24 @@ void Services::onEmergencyTopic(const std_msgs::Empty& /*stop*/) {
   operator_.makeSafe(tgr::FaultReason::kEmergencyStop);
 }
 
+/// Of ROS (`rosnode kill`, a second node of this name): the nodelet hears of it much later, by its
+/// end, when nobody has found the station for half a second.
+void Services::followShutdown() {
+  if (::ros::isShuttingDown() && !std::exchange(is_shut_down_, true)) {
+    operator_.makeSafe(tgr::FaultReason::kMadeSafe);
+  }
+}
+
 void Services::onPresence(const ::ros::MessageEvent<const std_msgs::Bool>& present) {
-  if (presence_owner_.hears(present.getPublisherName())) {
+  if (presence_owner_.hears(present.getPublisherName(), rt::monotonicNs())) {
     operator_.tellPresence(present.getMessage()->data != 0U);
     return;
   }
   ROS_WARN_STREAM_THROTTLE(kLogPeriodS,
                            "presence: " << present.getPublisherName() << " is not heard, for "
                                         << presence_owner_.name()
-                                        << " holds the switch; recover accepts another");
+                                        << " holds the switch; when that is silent, recover "
+                                           "accepts another");
 }
 
 }  // namespace ergotic::node

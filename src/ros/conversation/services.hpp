@@ -60,6 +60,7 @@ class Services {
   bool onEmergencyStop(Trigger::Request& request, Trigger::Response& response);
   void onEmergencyTopic(const std_msgs::Empty& stop);
   void onPresence(const ::ros::MessageEvent<const std_msgs::Bool>& present);
+  void followShutdown();
 
   Operator& operator_;
   PresenceOwner presence_owner_;
@@ -75,6 +76,7 @@ class Services {
   ::ros::WallTimer first_load_;
   std::vector<::ros::ServiceServer> servers_;
   std::vector<::ros::Subscriber> subscribers_;
+  bool is_shut_down_ = false;     // ROS is, and force is gone for it; of the spinner's thread
   UrgentSpinner safety_spinner_;  // ends first
 };
 

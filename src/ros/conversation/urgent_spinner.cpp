@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <utility>
 
 #include "ergotic/rt/clock.hpp"
 #include "ergotic/rt/thread.hpp"
@@ -12,7 +13,7 @@ namespace ergotic::node {
 
 namespace {
 
-const ::ros::WallDuration kLook(0.1);  // whether it ends
+const ::ros::WallDuration kLook(0.005);
 
 /// Of one thread, which asks for it again and again. Others may do so for the same one.
 class Priority {
@@ -56,7 +57,8 @@ constexpr std::chrono::milliseconds kLastLook{300};  // of a thread that looks e
 
 }  // namespace
 
-UrgentSpinner::UrgentSpinner(::ros::CallbackQueue& queue, int priority) : queue_(queue) {
+UrgentSpinner::UrgentSpinner(::ros::CallbackQueue& queue, int priority, std::function<void()> look)
+    : queue_(queue), look_(std::move(look)) {
   if (priority > 0) {
     // Called each time that thread has looked at its sockets, ten times a second at least.
     reader_ = std::make_shared<Reader>();
@@ -91,6 +93,7 @@ void UrgentSpinner::run(int priority) {
   Priority own(priority);
   while (!ends_) {
     own.follow();
+    look_();
     queue_.callAvailable(kLook);
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <future>
 #include <memory>
 #include <thread>
@@ -19,7 +20,8 @@ class UrgentSpinner {
  public:
   /// \param priority  SCHED_FIFO, 1...99, below that of the ticks; 0: ordinary threads. Where the
   ///   system refuses it both stay ordinary: the tick thread, which asks for more, warns of it
-  UrgentSpinner(::ros::CallbackQueue& queue, int priority);
+  /// \param look      called 200 times a second at least, by the thread that serves the queue
+  UrgentSpinner(::ros::CallbackQueue& queue, int priority, std::function<void()> look);
   ~UrgentSpinner();
   UrgentSpinner(const UrgentSpinner&) = delete;
   UrgentSpinner& operator=(const UrgentSpinner&) = delete;
@@ -35,6 +37,7 @@ class UrgentSpinner {
   void run(int priority);
 
   ::ros::CallbackQueue& queue_;
+  std::function<void()> look_;
   std::atomic<bool> ends_{false};
   std::shared_ptr<Reader> reader_;  // none where nothing is urgent
   boost::signals2::connection sockets_;

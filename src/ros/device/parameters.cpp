@@ -31,9 +31,10 @@ const std::map<std::string, physics::Precision> kPrecisions = {
 const std::map<std::string, bool> kJack = {{"auto", true}, {"none", false}};
 const std::map<std::string, Realtime> kRealtime = {
     {"try", Realtime::kTry}, {"require", Realtime::kRequire}, {"off", Realtime::kOff}};
-const std::map<std::string, ForceAfterSwap> kForceAfterSwap = {{"loader", ForceAfterSwap::kLoader},
-                                                               {"always", ForceAfterSwap::kAlways},
-                                                               {"never", ForceAfterSwap::kNever}};
+const std::map<std::string, station::SwapForce> kForceAfterSwap = {
+    {"loader", station::SwapForce::kCaller},
+    {"always", station::SwapForce::kAlways},
+    {"never", station::SwapForce::kNever}};
 const std::map<std::string, bool> kPresence = {{"topic", true}, {"none", false}};
 
 std::map<std::string, rt::Isa> isas() {
@@ -81,9 +82,10 @@ class Reader {
 
   template <class T>
   void choice(const std::string& name, T& value, const std::map<std::string, T>& choices) {
+    const bool is_given = unread_.count(name) > 0;
     std::string word;
     text(name, word);
-    if (word.empty()) {
+    if (!is_given) {
       return;
     }
     const auto found = choices.find(word);
@@ -92,7 +94,7 @@ class Reader {
       for (const auto& [key, unused] : choices) {
         words.push_back(key);
       }
-      refuse(name, word, listed(words));
+      refuse(name, word.empty() ? "empty" : word, listed(words));
     }
     value = found->second;
   }
@@ -311,6 +313,9 @@ Parameters readParameters(const ::ros::NodeHandle& node) {
 }
 
 Parameters readParameters(const Value& values, const std::string& node) {
+  if (values.valid() && values.getType() != Value::TypeStruct) {  // it took the place of all others
+    throw Exception("parameter " + node + " is no map, allowed: a map of parameters");
+  }
   Parameters p;
   Reader read(values, node);
   read.text("model", p.model);
@@ -346,6 +351,25 @@ std::string toYaml(const Parameters& p, const tgr::StationDevices& devices) {
   Writer write(devices);
   visitParameters(write, p);
   return write.finish();
+}
+
+std::string unusual(const Parameters& p) {
+  const YAML::Node usual = YAML::Load(toYaml(readParameters(Value(), ""), {}));
+  std::ostringstream list;
+  for (const auto& entry : YAML::Load(toYaml(p, {}))) {
+    const auto& name = entry.first.Scalar();
+    const YAML::Node& value = entry.second;
+    if (!value.IsScalar() || value.Scalar() == usual[name].Scalar()) {
+      continue;
+    }
+    list << (list.tellp() > 0 ? ", " : "") << name << ": ";
+    if (double number = 0.0; YAML::convert<double>::decode(value, number)) {
+      list << number;  // in as many digits as people write
+    } else {
+      list << value.Scalar();
+    }
+  }
+  return list.str();
 }
 
 }  // namespace ergotic::node

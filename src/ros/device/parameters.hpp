@@ -7,6 +7,7 @@
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include "ergotic/physics/engine/instrument.hpp"
+#include "ergotic/station/messages.hpp"
 #include "ergotic/tgr/device.hpp"
 #include "ergotic/tgr/safety_chain.hpp"
 
@@ -18,13 +19,6 @@ enum class Realtime {
   kTry,      ///< warn where it is not permitted
   kRequire,  ///< refuse to play where it is not permitted
   kOff,
-};
-
-/// For whom another model keeps the force that was there.
-enum class ForceAfterSwap {
-  kLoader,  ///< who let force out and now loads the model
-  kAlways,
-  kNever,  ///< it waits for `engage`
 };
 
 /// Private parameters of the nodelet, read once; docs/ros.md says the same with more words.
@@ -58,7 +52,7 @@ struct Parameters {
   bool allow_unproven = false;  ///< play what the certificate cannot prove to be stable
   double max_load = 0.8;        ///< share of a tick's time that the model may need at best
   bool autoengage = false;      ///< engage once the first model plays
-  ForceAfterSwap force_after_swap = ForceAfterSwap::kLoader;
+  station::SwapForce force_after_swap = station::SwapForce::kCaller;
   bool allow_remote = false;   ///< other hosts may call; heard when the node starts
   double display_rate = 30.0;  ///< Hz, of model_state and markers
   double display_zoom = 5.0;   ///< of x in markers, about x = 0
@@ -78,5 +72,9 @@ tgr::StationDevices readDevices(const Parameters& parameters);
 
 /// The same as YAML, for recordings; `device` is the text of `devices`, whatever it came from.
 std::string toYaml(const Parameters& parameters, const tgr::StationDevices& devices);
+
+/// Those that are not what they are by default, `name: value` each, with commas between; "" if
+/// none. Without the model and what makes the devices.
+std::string unusual(const Parameters& parameters);
 
 }  // namespace ergotic::node

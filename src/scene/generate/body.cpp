@@ -93,6 +93,9 @@ void scaleBody(Scene& scene, Tuning& body, const BodyScale& scale) {
     Lia& lia = scene.lias[at(l)];
     lia.stiffness = (lia.bend < 0 ? scale.springs : scale.bends) * lia.stiffness;
     lia.damping = scale.dampers * lia.damping;
+    if (lia.tank >= 0) {
+      lia.law.edit().nonlinearity = scale.springs * lia.law->nonlinearity;
+    }
   }
   for (int b = body.first_bend; b < body.first_bend + body.bends; ++b) {
     Bend& bend = scene.bends[at(b)];

@@ -268,6 +268,12 @@ std::string reasonAgainstCutting(const Scene& scene, int string) {
   if (scene.valueOf(section.medium) > 0.0) {
     return "the medium of section '" + section.name + "' brakes each of its masses";
   }
+  const bool is_bridged =
+      scene.lias[at(info.first_lia)].a != info.first ||
+      scene.lias[at(info.first_lia + info.count - 2)].b != info.first + info.count - 1;
+  if (is_bridged) {
+    return "it ends on a bridge";
+  }
   for (const Output& output : scene.outputs) {
     if (output.quantity == Quantity::kForce &&
         (isInner(info, output.point.mat) || isInner(info, output.point.next))) {

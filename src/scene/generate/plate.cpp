@@ -30,6 +30,7 @@ class Plate {
       addCrosses();
     }
     addLinks();
+    addHardLinks();
     finishBody(builder_, std::move(body), spec_.wish);
   }
 
@@ -118,32 +119,60 @@ class Plate {
     }
   }
 
+  /// Calls `each` with row and column of every module and of the next in each direction, unless
+  /// both are grounds.
+  template <class Each>
+  void forEachPair(const Each& each) const {
+    for (int row = 0; row < spec_.rows; ++row) {
+      for (int column = 0; column < spec_.columns; ++column) {
+        for (const auto& [to_row, to_column] :
+             {std::pair{row, column + 1}, std::pair{row + 1, column}}) {
+          if (to_row < spec_.rows && to_column < spec_.columns &&
+              (moves(row, column) || moves(to_row, to_column))) {
+            each(row, column, to_row, to_column);
+          }
+        }
+      }
+    }
+  }
+
+  /// What stretches beside what bends, with D = K a^2 = E t^3/(12 (1 - nu^2)): a link that is drawn
+  /// by e across a is longer by e^2/2a, which stores 6 K/t^2 e^4/4. By the mean over all places
+  /// (Berger 1955) it is (3 K/(2 n t^2)) (sum e^2)^2, n the number of cells.
+  void addHardLinks() {
+    HardLinks links(builder_, spec_.name, spec_.hardening, spec_.place);
+    if (spec_.hardening == Hardening::kNone) {
+      return;
+    }
+    int pairs = 0;
+    forEachPair([&](int, int, int, int) { ++pairs; });
+    const int cells =
+        isFree() ? spec_.rows * spec_.columns : (spec_.rows - 1) * (spec_.columns - 1);
+    const double share =
+        spec_.hardening == Hardening::kLocal ? 1.0 : static_cast<double>(pairs) / cells;
+    const double nonlinearity = 6.0 * share * spec_.mass / (spec_.thickness * spec_.thickness);
+    forEachPair([&](int row, int column, int to_row, int to_column) {
+      links.add(matAt(row, column), matAt(to_row, to_column), nonlinearity);
+    });
+  }
+
   /// To the next column and row: dampers, and at a clamped edge, beyond which the plate is its own
   /// mirror image, a spring of twice the stiffness of a bend.
   void addLinks() {
     const bool is_damped = spec_.wish.t60.size() > 1;
     const Name stem = linkStem(spec_.name);
-    for (int row = 0; row < spec_.rows; ++row) {
-      for (int column = 0; column < spec_.columns; ++column) {
-        for (const auto& [to_row, to_column] :
-             {std::pair{row, column + 1}, std::pair{row + 1, column}}) {
-          if (to_row == spec_.rows || to_column == spec_.columns ||
-              (!moves(row, column) && !moves(to_row, to_column))) {
-            continue;
-          }
-          const bool at_ground = !moves(row, column) || !moves(to_row, to_column);
-          const bool is_held = at_ground && spec_.edges == PlateEdges::kClamped;
-          if (!is_damped && !is_held) {
-            continue;
-          }
-          Lia lia = generatedLink(stem, links_++, matAt(row, column), matAt(to_row, to_column),
-                                  spec_.place);
-          lia.stiffness.factor = is_held ? 2.0 * spec_.mass : 0.0;
-          lia.damping.factor = is_damped ? spec_.mass : 0.0;
-          builder_.add(std::move(lia));
-        }
+    forEachPair([&](int row, int column, int to_row, int to_column) {
+      const bool at_ground = !moves(row, column) || !moves(to_row, to_column);
+      const bool is_held = at_ground && spec_.edges == PlateEdges::kClamped;
+      if (!is_damped && !is_held) {
+        return;
       }
-    }
+      Lia lia =
+          generatedLink(stem, links_++, matAt(row, column), matAt(to_row, to_column), spec_.place);
+      lia.stiffness.factor = is_held ? 2.0 * spec_.mass : 0.0;
+      lia.damping.factor = is_damped ? spec_.mass : 0.0;
+      builder_.add(std::move(lia));
+    });
   }
 
   SceneBuilder& builder_;

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "scene/generate/body.hpp"
+#include "scene/generate/hard_links.hpp"
 
 namespace ergotic::scene {
 
@@ -13,7 +14,8 @@ enum class PlateEdges { kSupported, kClamped, kFree };
 
 /// A plate: modules `name.<row>.<column>` of a square grid, unless it is free the outermost
 /// grounds, and bends `name.bend.0` ... with `name.link.0` ... beside them: what holds a clamped
-/// edge, and dampers between neighbours where two decays are asked for. A grid.
+/// edge, and dampers between neighbours where two decays are asked for. A grid. One that hardens
+/// has `name.hard.0` ... along rows and columns.
 struct PlateSpec {
   std::string name;
   int section = 0;
@@ -25,6 +27,8 @@ struct PlateSpec {
   double spacing = 0.01;                         ///< m
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< rest of the first module, m
   BodyWish wish;
+  Hardening hardening = Hardening::kNone;
+  double thickness = 1e-3;  ///< m: how far it must be drawn to be twice as stiff, about
   Place place;
 };
 

@@ -156,6 +156,24 @@ int SceneBuilder::find(const NameTable& table,
   return index;
 }
 
+void SceneBuilder::expectToLookAt(std::size_t mats, Place place) {
+  constexpr std::size_t kMost = 50'000'000;  // some tenths of a second
+  if ((looked_at_ += mats) > kMost) {
+    fail(place,
+         "the selections of the scene look at more than " + std::to_string(kMost) + " modules");
+  }
+}
+
+void SceneBuilder::addSelected(const std::string& text, std::size_t count, Place place) {
+  constexpr std::size_t kMost = 2'000'000;
+  if ((selected_ += count) > kMost) {
+    fail(place, "the selections of the scene mean more than " + std::to_string(kMost) + " modules");
+  }
+  if (selections_.insert(text).second) {
+    scene_.selections.push_back({text, count, place});
+  }
+}
+
 int SceneBuilder::addOrigin(Origin origin) {
   scene_.origins.push_back(std::move(origin));
   return static_cast<int>(scene_.origins.size());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "ergotic/scene/scene.hpp"
@@ -13,6 +14,10 @@ namespace ergotic::scene {
 class SceneBuilder {
  public:
   SceneBuilder(const std::string& file, const std::string& text);
+
+  /// The text has no folder in which to look for files.
+  void forbidFiles() noexcept { may_read_files_ = false; }
+  bool mayReadFiles() const noexcept { return may_read_files_; }
 
   Scene& scene() noexcept { return scene_; }
   const Scene& scene() const noexcept { return scene_; }
@@ -45,6 +50,10 @@ class SceneBuilder {
   /// \return -1 if there is no such module
   int findMat(const std::string& name) const { return mats_.find(name); }
 
+  /// Counts what selections look at, and what they mean. \throws TextError if that is too much
+  void expectToLookAt(std::size_t mats, Place place);
+  void addSelected(const std::string& text, std::size_t count, Place place);
+
   /// \return Place::origin of what comes from there
   int addOrigin(Origin origin);
   [[noreturn]] void fail(Place place, const std::string& what) const;
@@ -59,6 +68,10 @@ class SceneBuilder {
   int append(std::vector<T>& list, NameTable& table, const char* kind, T item);
 
   Scene scene_;
+  bool may_read_files_ = true;
+  std::size_t looked_at_ = 0;
+  std::size_t selected_ = 0;
+  std::unordered_set<std::string> selections_;
   NameTable parameters_;
   NameTable sections_;
   NameTable mats_;

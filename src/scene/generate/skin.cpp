@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "at.hpp"
 #include "scene/generate/generated.hpp"
@@ -29,6 +30,7 @@ class Membrane {
     first_ = body.first_mat;
     addMats();
     addLinks();
+    addHardLinks(body.first_lia);
     finishBody(builder_, std::move(body), spec_.wish);
   }
 
@@ -107,13 +109,41 @@ class Membrane {
                             first_ + to_row * spec_.columns + to_column, spec_.place);
     lia.stiffness.factor = (is_diagonal ? kDiagonal : 1.0) / part * spec_.mass;
     lia.damping.factor = spec_.wish.t60.size() > 1 ? lia.stiffness.factor : 0.0;
+    lengths_.push_back(part * std::hypot(step.row, step.column) * spec_.spacing);
     builder_.add(std::move(lia));
+  }
+
+  /// Each spring K of the length l as a wire that its tension has drawn out by that strain:
+  /// Q = K/(2 strain l^2). By the mean over its area, K times sum K/(2 strain sum K l^2).
+  void addHardLinks(int first) {
+    HardLinks links(builder_, spec_.name, spec_.hardening, spec_.place);
+    if (spec_.hardening == Hardening::kNone) {
+      return;
+    }
+    double stiffness = 0.0;
+    for (int l = 0; l < next_; ++l) {
+      stiffness += builder_.scene().lias[at(first + l)].stiffness.factor;
+    }
+    // In each cell two springs along it and, of a length of sqrt 2, two across.
+    const double cells = spec_.is_round
+                             ? M_PI * radius() * radius()
+                             : static_cast<double>((spec_.rows - 1) * (spec_.columns - 1));
+    const double per_cell = 2.0 * (1.0 + (spec_.has_diagonals ? 2.0 * kDiagonal : 0.0));
+    const double stretched = cells * per_cell * spec_.mass * spec_.spacing * spec_.spacing;
+    for (int l = 0; l < next_; ++l) {
+      const Lia& spring = builder_.scene().lias[at(first + l)];
+      const double per_area = spec_.hardening == Hardening::kGlobal
+                                  ? stiffness / stretched
+                                  : 1.0 / (lengths_[at(l)] * lengths_[at(l)]);
+      links.add(spring.a, spring.b, 0.5 / spec_.strain * per_area * spring.stiffness.factor);
+    }
   }
 
   SceneBuilder& builder_;
   const MembraneSpec& spec_;
   int first_ = 0;
-  int next_ = 0;  // number of the next link
+  int next_ = 0;                 // number of the next link
+  std::vector<double> lengths_;  // of the links, m
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "scene/generate/body.hpp"
+#include "scene/generate/hard_links.hpp"
 
 namespace ergotic::scene {
 
@@ -25,7 +26,7 @@ struct SkinLoad {
 /// grounds, and links `name.link.0` ... to the next ones and the diagonals, which have a quarter of
 /// the stiffness: so waves travel alike in all directions. Of a round one what lies outside the
 /// circle is ground, too, and a link that crosses the rim ends there: K over the part of it that is
-/// inside, half of it at least. A grid.
+/// inside, half of it at least. A grid. One that hardens has `name.hard.0` ... beside these links.
 struct MembraneSpec {
   std::string name;
   int section = 0;
@@ -38,6 +39,8 @@ struct MembraneSpec {
   double spacing = 0.01;                         ///< m
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< rest of the first module, m
   BodyWish wish;
+  Hardening hardening = Hardening::kNone;
+  double strain = 1e-3;  ///< by which its tension has drawn it out
   Place place;
 };
 

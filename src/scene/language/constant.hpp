@@ -2,20 +2,28 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
+#include "scene/text/quantity.hpp"
 #include "scene/tree/node.hpp"
 
 namespace ergotic::scene {
 
-/// What a name of the language stands for: a number in SI units, words (a note, a name, `$name` of
-/// a parameter) or a part of the text, as a list.
-using Constant = std::variant<double, std::string, Node>;
+/// A part of a text, or of what was made of it, which nobody changes: taking an item copies
+/// nothing.
+using Part = std::shared_ptr<const Node>;
 
-/// What a value of a text stands for: a quantity of any kind is a number.
-Constant constantOf(const Node& node);
+/// What a name of the language stands for: a number in SI units of a kind, words (a note, a name,
+/// `$name` of a parameter) or a part of the text, as a list.
+using Constant = std::variant<Amount, std::string, Part>;
+
+/// What a value of a text stands for. \param node  of `owner`
+Constant constantOf(const Node& node, const Part& owner);
+Constant constantOf(Node node);
 
 /// Names that may be used in expressions, those of the innermost definition last.
 class Scope {

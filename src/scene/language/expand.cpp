@@ -6,16 +6,20 @@
 #include <utility>
 
 #include "scene/language/expander.hpp"
+#include "scene/language/language_keys.hpp"
 
 namespace ergotic::scene {
 namespace {
 
-constexpr const char* kOfTheLanguage[] = {"about", "include", "let", "defaults", "define", "use"};
-constexpr const char* kOfElements[] = {"for", "when", "class"};
+constexpr const char* kOfReaders[] = {"name", "about"};  // their words are their own
 
 template <class List>
 bool contains(const List& list, const std::string& word) {
   return std::find(std::begin(list), std::end(list), word) != std::end(list);
+}
+
+bool isFileOfSpeakers(const Node& key, const Node& value) {
+  return key.text() == "speakers" && value.isMap();
 }
 
 bool isOfTheLanguage(const Node& node) {
@@ -25,7 +29,10 @@ bool isOfTheLanguage(const Node& node) {
   }
   for (std::size_t i = 0; i < node.parts().size(); ++i) {
     const bool is_key = node.isMap() && i % 2 == 0;
-    if (is_key ? contains(kOfElements, node[i].text()) || isOfTheLanguage(node[i])
+    if (is_key && isFileOfSpeakers(node[i], node[i + 1])) {
+      return true;
+    }
+    if (is_key ? contains(elementKeys(), node[i].text()) || isOfTheLanguage(node[i])
                : isOfTheLanguage(node[i])) {
       return true;
     }
@@ -37,17 +44,16 @@ bool isOfTheLanguage(const Node& node) {
 
 bool usesLanguage(const Node& scene) {
   for (std::size_t i = 0; scene.isMap() && i < scene.parts().size(); i += 2) {
-    // What a title says is its own.
-    if (contains(kOfTheLanguage, scene[i].text()) ||
-        (scene[i].text() != "name" && isOfTheLanguage(scene[i + 1]))) {
+    if (contains(languageKeys(), scene[i].text()) || isFileOfSpeakers(scene[i], scene[i + 1]) ||
+        (!contains(kOfReaders, scene[i].text()) && isOfTheLanguage(scene[i + 1]))) {
       return true;
     }
   }
   return false;
 }
 
-Node expand(SceneBuilder& builder, const Node& scene) {
-  return Expander(builder).run(scene);
+Node expand(SceneBuilder& builder, const Node& scene, const std::string& variant) {
+  return Expander(builder).run(scene, variant);
 }
 
 }  // namespace ergotic::scene

@@ -3,16 +3,18 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
+#include "scene/language/language_keys.hpp"
 #include "scene/names.hpp"
 
 namespace ergotic::scene {
 namespace {
 
 constexpr const char* kGenerators = "generators";
-constexpr const char* kParts[] = {"sections", "mats",  "generators", "lias",
-                                  "agents",   "ports", "inputs",     "outputs"};
-constexpr const char* kSpoken[] = {"about", "include", "let", "defaults", "define", "use"};
+constexpr const char* kTruths = "truths";
+constexpr const char* kParts[] = {"sections", "mats",   "generators", "lias",  "agents",
+                                  "ports",    "inputs", "outputs",    "truths"};
 
 template <class List>
 bool contains(const List& list, const std::string& word) {
@@ -30,22 +32,34 @@ Node scalar(std::string text, Place place) {
 }  // namespace
 
 Expander::Expander(SceneBuilder& builder)
-    : builder_(builder), writer_(builder), library_(builder, writer_) {}
+    : builder_(builder),
+      writer_(builder),
+      variant_(builder),
+      library_(builder, writer_, variant_) {}
 
-Node Expander::run(const Node& scene) {
-  Frame frame;
-  library_.read(scene, frame);
-  frame.definitions = library_.size();
-  writeParts(scene, frame);
-  writeInstances(scene, frame);
+Node Expander::run(const Node& scene, const std::string& variant) {
+  variant_.read(scene, variant);
+  builder_.scene().variants = variant_.known();
+  library_.read(scene, frame_);
+  frame_.definitions = library_.size();
+  writeParts(scene, frame_);
+  writeInstances(scene, frame_);
   Node result(Node::Kind::kMap, scene.place());
   for (std::size_t i = 0; i < scene.parts().size(); i += 2) {
     const std::string& key = scene[i].text();
-    if (!contains(kSpoken, key) && !contains(kParts, key)) {
-      result.add(scene[i]);
-      result.add(key == "name" ? scene[i + 1] : writer_.write(scene[i + 1], frame, frame.scope));
+    if (!contains(languageKeys(), key) && !contains(kParts, key)) {
+      if (key == "name" || key == "about") {
+        result.add(scene[i]);
+        result.add(scene[i + 1]);
+      } else {
+        addKey(scene[i], scene[i + 1], frame_, frame_.scope, result);
+      }
+      if (key == "parameters") {
+        setParameters(result.parts().back());
+      }
     }
   }
+  variant_.expectUsed();
   for (const char* const part : kParts) {
     const auto found = parts_.find(part);
     if (found != parts_.end()) {
@@ -57,6 +71,19 @@ Node Expander::run(const Node& scene) {
   return result;
 }
 
+/// What a variant gives them.
+void Expander::setParameters(Node& parameters) {
+  for (std::size_t i = 0; parameters.isMap() && i < parameters.parts().size(); i += 2) {
+    Node& parameter = parameters.parts()[i + 1];
+    const Node* const given = variant_.parameter(parameters[i].text());
+    for (std::size_t k = 0; given != nullptr && k < parameter.parts().size(); k += 2) {
+      if (parameter[k].text() == "value") {
+        parameter.parts()[k + 1] = writer_.write(*given, frame_, frame_.scope);
+      }
+    }
+  }
+}
+
 void Expander::writeParts(const Node& body, const Frame& frame) {
   for (std::size_t i = 0; i < body.parts().size(); i += 2) {
     if (contains(kParts, body[i].text())) {
@@ -66,7 +93,7 @@ void Expander::writeParts(const Node& body, const Frame& frame) {
 }
 
 void Expander::writeElements(const std::string& part, const Node& elements, const Frame& frame) {
-  const bool are_listed = part == kGenerators;
+  const bool are_listed = part == kGenerators || part == kTruths;
   const Node::Kind kind = are_listed ? Node::Kind::kList : Node::Kind::kMap;
   if (elements.isNull() && frame.prefix.empty()) {
     parts_.emplace(part, elements);  // its reader says what it thinks of that
@@ -84,54 +111,6 @@ void Expander::writeElements(const std::string& part, const Node& elements, cons
       writeElement(part, are_listed ? nullptr : &elements[i], element, frame, scope);
     });
   }
-}
-
-void Expander::writeElement(const std::string& part,
-                            const Node* name,
-                            const Node& element,
-                            const Frame& frame,
-                            const Scope& scope) {
-  Node& to = parts_.at(part);
-  if (name != nullptr) {
-    to.add(scalar(frame.prefix + writer_.word(*name, frame, scope), writer_.placeIn(*name, frame)));
-  }
-  to.add(written(element, frame, scope));
-}
-
-/// Without what is for the language alone, and with its defaults.
-Node Expander::written(const Node& element, const Frame& frame, const Scope& scope) {
-  if (!element.isMap()) {
-    return writer_.write(element, frame, scope);
-  }
-  Node result(Node::Kind::kMap, writer_.placeIn(element, frame));
-  const auto add = [&](const Node& key, const Node& value) {
-    const bool names_itself = key.text() == "name" && !frame.prefix.empty();
-    result.add(writer_.write(key, frame, scope));
-    Node given = writer_.write(value, frame, scope, Writer::isReference(key.text()));
-    given = key.text() == "section" ? Writer::sectionOf(std::move(given), frame) : given;
-    const bool is_own = names_itself || (key.text() == "tank" && !frame.prefix.empty());
-    result.add(is_own && given.isScalar() ? scalar(frame.prefix + given.text(), given.place())
-                                          : std::move(given));
-  };
-  for (std::size_t i = 0; i < element.parts().size(); i += 2) {
-    const std::string& key = element[i].text();
-    if (key != "for" && key != "when" && key != "class") {
-      add(element[i], element[i + 1]);
-    }
-  }
-  const Node* const type = element.find("type");
-  if (type == nullptr) {
-    return result;
-  }
-  for (const Node* const defaults :
-       library_.defaultsOf(type->text(), element.find("class"), frame)) {
-    for (std::size_t i = 0; i < defaults->parts().size(); i += 2) {
-      if (result.find((*defaults)[i].text()) == nullptr) {
-        add((*defaults)[i], (*defaults)[i + 1]);
-      }
-    }
-  }
-  return result;
 }
 
 /// What the names begin with that a definition gives, so that words that mean these are known.
@@ -154,24 +133,6 @@ void Expander::findHeads(const Node& body, Frame& frame) {
         add(elements[k + 1], &elements[k]);
       }
     }
-  }
-}
-
-/// Public names of instances become what they stand for.
-void Expander::resolve(Node& node, bool is_reference) const {
-  if (node.isScalar() && is_reference) {
-    const std::size_t end = std::min(node.text().find_first_of("@/"), node.text().size());
-    auto found = public_.find(node.text().substr(0, end));
-    if (found != public_.end()) {
-      node = scalar(found->second + node.text().substr(end), node.place());
-    }
-    return;
-  }
-  for (std::size_t i = 0; i < node.parts().size(); ++i) {
-    const bool is_key = node.isMap() && i % 2 == 0;
-    const bool names =
-        node.isMap() && !is_key ? Writer::isReference(node[i - 1].text()) : is_reference;
-    resolve(node.parts()[i], !is_key && names);
   }
 }
 

@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "scene/language/functions.hpp"
+#include "scene/language/kinds.hpp"
+#include "scene/language/measured.hpp"
 #include "scene/names.hpp"
 #include "scene/text/number.hpp"
 #include "scene/text/quantity.hpp"
@@ -16,13 +18,6 @@ namespace {
 
 constexpr int kDeepest = 100;
 constexpr std::size_t kLongest = 4096;
-
-bool isLetter(char c) {
-  return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
-}
-bool isDigit(char c) {
-  return c >= '0' && c <= '9';
-}
 
 constexpr const char* kNote = "note";
 
@@ -62,17 +57,38 @@ class Parser {
     }
   }
 
-  double number(const Constant& value) const {
-    const auto* const number = std::get_if<double>(&value);
+  Amount number(const Constant& value) const {
+    const auto* const number = std::get_if<Amount>(&value);
     if (number == nullptr) {
       if (unused_ > 0) {
-        return 0.0;
+        return {};
       }
-      fail((std::holds_alternative<Node>(value) ? std::string("a list")
+      fail((std::holds_alternative<Part>(value) ? std::string("a list")
                                                 : quoted(std::get<std::string>(value))) +
            " is no number");
     }
     return *number;
+  }
+  /// Without a unit.
+  double bare(const Constant& value, const char* what) const {
+    const Amount given = number(value);
+    if (unused_ == 0 && !isPlainNumber(given.kind)) {
+      fail(std::string(what) + " is in " + nameOf(given.kind) + ", allowed: a number");
+    }
+    return given.value;
+  }
+  Kind common(const Amount& a, const Amount& b) const {
+    const std::optional<Kind> kind = commonKind(a.kind, b.kind);
+    if (!kind && unused_ == 0) {
+      fail(nameOf(a.kind) + " and " + nameOf(b.kind) + " are of different kinds");
+    }
+    return kind.value_or(Kind{});
+  }
+  Kind known(const std::optional<Kind>& kind) const {
+    if (!kind && unused_ == 0) {
+      fail("no unit has such a power");
+    }
+    return kind.value_or(Kind{});
   }
   double finite(double value) const {
     if (std::isfinite(value)) {
@@ -90,7 +106,7 @@ class Parser {
     }
     Constant value = comparison();
     if (takes("?")) {
-      const bool holds = number(value) != 0.0;
+      const bool holds = number(value).value != 0.0;
       Constant first = branch(holds);
       expect(":");
       Constant second = branch(!holds);
@@ -112,48 +128,53 @@ class Parser {
     Constant value = sum();
     for (const char* const sign : {"==", "!=", "<=", ">=", "<", ">"}) {
       if (takes(sign)) {
-        return compared(value, sign, sum()) ? 1.0 : 0.0;
+        return Amount{compared(value, sign, sum()) ? 1.0 : 0.0};
       }
     }
     return value;
   }
   bool compared(const Constant& a, const std::string& sign, const Constant& b) const {
-    if (sign == "==" || sign == "!=") {
-      const bool are_words =
-          std::holds_alternative<std::string>(a) && std::holds_alternative<std::string>(b);
-      const bool are_equal =
-          are_words ? std::get<std::string>(a) == std::get<std::string>(b) : number(a) == number(b);
-      return are_equal == (sign == "==");
+    const bool are_words =
+        std::holds_alternative<std::string>(a) && std::holds_alternative<std::string>(b);
+    if (are_words && (sign == "==" || sign == "!=")) {
+      return (std::get<std::string>(a) == std::get<std::string>(b)) == (sign == "==");
     }
-    return sign == "<"    ? number(a) < number(b)
-           : sign == ">"  ? number(a) > number(b)
-           : sign == "<=" ? number(a) <= number(b)
-                          : number(a) >= number(b);
+    const Amount first = number(a);
+    const Amount second = number(b);
+    common(first, second);
+    const double difference = first.value - second.value;
+    return sign == "=="   ? first.value == second.value
+           : sign == "!=" ? first.value != second.value
+           : sign == "<"  ? difference < 0.0
+           : sign == ">"  ? difference > 0.0
+           : sign == "<=" ? difference <= 0.0
+                          : difference >= 0.0;
   }
 
   Constant sum() {
     Constant value = product();
     while (true) {
-      if (takes("+")) {
-        value = finite(number(value) + number(product()));
-      } else if (takes("-")) {
-        value = finite(number(value) - number(product()));
-      } else {
+      const bool adds = takes("+");
+      if (!adds && !takes("-")) {
         return value;
       }
+      const Amount a = number(value);
+      const Amount b = number(product());
+      value = Amount{finite(adds ? a.value + b.value : a.value - b.value), common(a, b)};
     }
   }
 
   Constant product() {
     Constant value = sign();
     while (true) {
-      if (takes("*")) {
-        value = finite(number(value) * number(sign()));
-      } else if (takes("/")) {
-        value = finite(number(value) / number(sign()));
-      } else {
+      const bool multiplies = takes("*");
+      if (!multiplies && !takes("/")) {
         return value;
       }
+      const Amount a = number(value);
+      const Amount b = number(sign());
+      value = Amount{finite(multiplies ? a.value * b.value : a.value / b.value),
+                     known(productKind(a.kind, b.kind, multiplies ? 1 : -1))};
     }
   }
 
@@ -170,7 +191,8 @@ class Parser {
     if (minuses == 0) {
       return value;
     }
-    return is_negative && taken_at_ != operand ? -number(value) : number(value);
+    const Amount result = number(value);
+    return is_negative && taken_at_ != operand ? Amount{-result.value, result.kind} : result;
   }
 
   /// Binds to the right, and more than a sign before it.
@@ -182,9 +204,10 @@ class Parser {
     if (++depth_ > kDeepest) {
       fail("it is nested too deeply");
     }
-    const double exponent = number(sign());
+    const double exponent = bare(sign(), "an exponent");
     --depth_;
-    return finite(std::pow(number(base), exponent));
+    const Amount of = number(base);
+    return Amount{finite(std::pow(of.value, exponent)), known(powerKind(of.kind, exponent))};
   }
 
   Constant primary() {
@@ -205,7 +228,7 @@ class Parser {
   }
 
   /// A number, and its unit if one follows.
-  double quantity() {
+  Amount quantity() {
     const std::size_t first = at_;
     while (at_ < text_.size() && (isDigit(text_[at_]) || text_[at_] == '.')) {
       ++at_;
@@ -220,56 +243,19 @@ class Parser {
       }
     }
     const std::string_view number = text_.substr(first, at_ - first);
-    const std::size_t after = at_;
-    if (const std::optional<double> value = withUnit(number)) {
-      const std::string unit = trimmed(text_.substr(after, at_ - after));
-      if (first == negative_at_ && (unit == "dB" || unit == "cents")) {
+    if (const std::optional<Measured> found = measuredAt(text_, at_, number)) {
+      at_ = found->end;
+      if (first == negative_at_ && (found->unit == "dB" || found->unit == "cents")) {
         taken_at_ = first;  // -6 dB is a half, not minus two
-        return parseAnyQuantity("-" + std::string(number) + " " + unit).value_or(0.0);
+        return parseAnyQuantity("-" + std::string(number) + " " + found->unit).value_or(Amount{});
       }
-      return *value;
+      return found->value;
     }
     const std::optional<double> bare = parseNumber(number);
     if (!bare) {
       fail("'" + std::string(number) + "' is not a finite number");
     }
-    return *bare;
-  }
-
-  /// As far as it is one: `mm`, `%`, `mm^2`, `kN/m`, without blanks in it, as beside a plain
-  /// number.
-  std::optional<double> withUnit(std::string_view number) {
-    std::size_t from = at_;
-    while (from < text_.size() && text_[from] == ' ') {
-      ++from;
-    }
-    std::optional<double> value;
-    std::size_t end = from;
-    for (std::size_t next = endOfUnit(from); next > end; next = endOfUnit(end)) {
-      end = next;
-      const std::string unit(text_.substr(from, end - from));
-      const std::optional<double> more = parseAnyQuantity(std::string(number) + " " + unit);
-      if (!more) {
-        break;
-      }
-      value = more;
-      at_ = end;
-    }
-    return value;
-  }
-  /// Beyond a word of letters, or of a power or a divisor.
-  std::size_t endOfUnit(std::size_t from) const {
-    const char sign = from < text_.size() ? text_[from] : ' ';
-    const std::size_t first = from + (sign == '^' || sign == '/' ? 1 : 0);
-    std::size_t end = first;
-    const auto belongs = [&](char c) {
-      return sign == '^' ? isDigit(c)
-                         : isLetter(c) || c == '%' || static_cast<unsigned char>(c) >= 0x80U;
-    };
-    while (end < text_.size() && belongs(text_[end])) {
-      ++end;
-    }
-    return end > first ? end : from;
+    return {*bare};
   }
 
   Constant named() {
@@ -289,12 +275,7 @@ class Parser {
       at_ = first;
       fail("unknown name " + quoted(name) + suggestion(name, scope_.names()));
     }
-    if (!takes("[")) {
-      // A list that nobody looks at need not be copied.
-      const bool is_list = std::holds_alternative<Node>(*known);
-      return unused_ > 0 && is_list ? Constant(0.0) : *known;
-    }
-    Constant value = item(*known);
+    Constant value = *known;
     while (takes("[")) {
       value = item(value);
     }
@@ -302,21 +283,22 @@ class Parser {
   }
 
   Constant item(const Constant& list) {
-    const auto* const node = std::get_if<Node>(&list);
-    if ((node == nullptr || !node->isList()) && unused_ == 0) {
+    const auto* const part = std::get_if<Part>(&list);
+    if ((part == nullptr || !(*part)->isList()) && unused_ == 0) {
       fail("what is no list has no items");
     }
-    const double index = number(choice());
+    const double index = bare(choice(), "an index");
     expect("]");
     if (unused_ > 0) {
-      return 0.0;
+      return Amount{};
     }
-    if (index != std::floor(index) || index < 0.0 || index >= static_cast<double>(node->size())) {
-      fail("item " + shortest(index) + " of a list of " + std::to_string(node->size()) +
-           (node->size() > 0 ? ", allowed: 0..." + std::to_string(node->size() - 1)
+    const Node& items = **part;
+    if (index != std::floor(index) || index < 0.0 || index >= static_cast<double>(items.size())) {
+      fail("item " + shortest(index) + " of a list of " + std::to_string(items.size()) +
+           (items.size() > 0 ? ", allowed: 0..." + std::to_string(items.size() - 1)
                              : ", which has none"));
     }
-    return constantOf((*node)[static_cast<std::size_t>(index)]);
+    return constantOf(items[static_cast<std::size_t>(index)], *part);
   }
 
   Constant called(const std::string& name) {
@@ -329,15 +311,37 @@ class Parser {
       names.emplace_back(kNote);
       fail("unknown function " + quoted(name) + suggestion(name, names));
     }
-    double arguments[2] = {};
+    Amount arguments[2] = {};
     for (std::size_t i = 0; i < function->arguments; ++i) {
       if (i > 0) {
         expect(",");
       }
-      arguments[i] = number(choice());
+      const Constant value = choice();
+      const bool is_bare = function->kinds == Function::Kinds::kBare ||
+                           (function->kinds == Function::Kinds::kPower && i > 0);
+      arguments[i] =
+          is_bare ? Amount{bare(value, ("what " + name + " takes").c_str())} : number(value);
     }
     expect(")");
-    return finite(function->value(arguments));
+    return applied(*function, arguments);
+  }
+  Amount applied(const Function& function, const Amount* arguments) const {
+    const double values[] = {arguments[0].value, arguments[1].value};
+    Kind kind;
+    switch (function.kinds) {
+      case Function::Kinds::kBare:
+        break;
+      case Function::Kinds::kSame:
+        kind = common(arguments[0], arguments[1]);
+        break;
+      case Function::Kinds::kRoot:
+        kind = known(powerKind(arguments[0].kind, 0.5));
+        break;
+      case Function::Kinds::kPower:
+        kind = known(powerKind(arguments[0].kind, values[1]));
+        break;
+    }
+    return {finite(function.value(values)), kind};
   }
 
   /// `note(A4)`, or of a name that stands for one.
@@ -356,7 +360,7 @@ class Parser {
     }
     at_ = end;
     expect(")");
-    return std::get<double>(hz);
+    return Amount{std::get<double>(hz), kindOfUnit("Hz")};
   }
 
   std::string_view text_;
@@ -377,19 +381,6 @@ Constant evaluate(std::string_view expression, const Scope& scope) {
                           0);
   }
   return Parser(expression, scope).run();
-}
-
-Constant constantOf(const Node& node) {
-  if (!node.isScalar()) {
-    return node;
-  }
-  const std::optional<double> number = parseAnyQuantity(node.text());
-  return number ? Constant(*number) : Constant(node.text());
-}
-
-std::string textOf(const Constant& constant) {
-  const auto* const number = std::get_if<double>(&constant);
-  return number != nullptr ? shortest(*number) : std::get<std::string>(constant);
 }
 
 }  // namespace ergotic::scene

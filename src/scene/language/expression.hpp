@@ -21,10 +21,13 @@ class ExpressionError : public Exception {
 /// Numbers (with units too, as in `4 mm`), names, `a[i]`, `+ - * / ^`, comparisons, `a ? b : c`,
 /// `sin cos tan exp log sqrt abs min max floor round pow mod`, `note(A4)` in Hz, `cents(5)` as a
 /// ratio, `rand(seed, i)`: from 0 to 1, the same everywhere. Every expression ends, and is finite.
+/// What is added, compared or taken the least of is of one kind; a number without a unit is of any.
 /// \throws ExpressionError
 Constant evaluate(std::string_view expression, const Scope& scope);
 
-/// As a scalar of a text says it: the shortest number, or the words. \pre no list
+/// As a scalar of a text says it: the shortest number, with its unit, or the words. \pre no list
 std::string textOf(const Constant& constant);
+/// The same without the unit, for names.
+std::string bareTextOf(const Constant& constant);
 
 }  // namespace ergotic::scene

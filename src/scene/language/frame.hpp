@@ -6,6 +6,7 @@
 #include <string>
 
 #include "scene/language/constant.hpp"
+#include "scene/language/pose.hpp"
 
 namespace ergotic::scene {
 
@@ -18,6 +19,7 @@ struct Frame {
   int text = 0;                                 ///< Place::origin of the text it is written in
   int origin = 0;                               ///< and of what is written out of that, if not 0
   std::size_t definitions = 0;                  ///< so many may be used in it
+  Pose pose{};                                  ///< of what it makes
   int depth = 0;                                ///< of instances in instances
 };
 

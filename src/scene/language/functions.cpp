@@ -20,21 +20,22 @@ double randomOf(double seed, double index) {
 }
 
 constexpr Function kFunctions[] = {
-    {"sin", 1, [](const double* a) { return std::sin(a[0]); }},
-    {"cos", 1, [](const double* a) { return std::cos(a[0]); }},
-    {"tan", 1, [](const double* a) { return std::tan(a[0]); }},
-    {"exp", 1, [](const double* a) { return std::exp(a[0]); }},
-    {"log", 1, [](const double* a) { return std::log(a[0]); }},
-    {"sqrt", 1, [](const double* a) { return std::sqrt(a[0]); }},
-    {"abs", 1, [](const double* a) { return std::abs(a[0]); }},
-    {"floor", 1, [](const double* a) { return std::floor(a[0]); }},
-    {"round", 1, [](const double* a) { return std::round(a[0]); }},
-    {"cents", 1, [](const double* a) { return std::exp2(a[0] / 1200.0); }},
-    {"min", 2, [](const double* a) { return std::min(a[0], a[1]); }},
-    {"max", 2, [](const double* a) { return std::max(a[0], a[1]); }},
-    {"pow", 2, [](const double* a) { return std::pow(a[0], a[1]); }},
-    {"mod", 2, [](const double* a) { return a[0] - a[1] * std::floor(a[0] / a[1]); }},
-    {"rand", 2, [](const double* a) { return randomOf(a[0], a[1]); }},
+    {"sin", 1, Function::Kinds::kBare, [](const double* a) { return std::sin(a[0]); }},
+    {"cos", 1, Function::Kinds::kBare, [](const double* a) { return std::cos(a[0]); }},
+    {"tan", 1, Function::Kinds::kBare, [](const double* a) { return std::tan(a[0]); }},
+    {"exp", 1, Function::Kinds::kBare, [](const double* a) { return std::exp(a[0]); }},
+    {"log", 1, Function::Kinds::kBare, [](const double* a) { return std::log(a[0]); }},
+    {"sqrt", 1, Function::Kinds::kRoot, [](const double* a) { return std::sqrt(a[0]); }},
+    {"abs", 1, Function::Kinds::kSame, [](const double* a) { return std::abs(a[0]); }},
+    {"floor", 1, Function::Kinds::kSame, [](const double* a) { return std::floor(a[0]); }},
+    {"round", 1, Function::Kinds::kSame, [](const double* a) { return std::round(a[0]); }},
+    {"cents", 1, Function::Kinds::kBare, [](const double* a) { return std::exp2(a[0] / 1200.0); }},
+    {"min", 2, Function::Kinds::kSame, [](const double* a) { return std::min(a[0], a[1]); }},
+    {"max", 2, Function::Kinds::kSame, [](const double* a) { return std::max(a[0], a[1]); }},
+    {"pow", 2, Function::Kinds::kPower, [](const double* a) { return std::pow(a[0], a[1]); }},
+    {"mod", 2, Function::Kinds::kSame,
+     [](const double* a) { return a[0] - a[1] * std::floor(a[0] / a[1]); }},
+    {"rand", 2, Function::Kinds::kBare, [](const double* a) { return randomOf(a[0], a[1]); }},
 };
 
 }  // namespace

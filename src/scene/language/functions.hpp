@@ -8,8 +8,16 @@ namespace ergotic::scene {
 
 /// A function of expressions, of one or two numbers.
 struct Function {
+  /// What it takes, and of what kind its result is.
+  enum class Kinds {
+    kBare,   ///< numbers without units (angles too), and gives one
+    kSame,   ///< all of one kind, and gives that
+    kRoot,   ///< any, and gives its root
+    kPower,  ///< any and a number
+  };
   const char* name;
   std::size_t arguments;
+  Kinds kinds;
   double (*value)(const double* arguments);
 };
 

@@ -6,6 +6,7 @@
 #include "ergotic/scene/origin.hpp"
 #include "scene/language/expander.hpp"
 #include "scene/language/expression.hpp"
+#include "scene/language/language_keys.hpp"
 #include "scene/limits.hpp"
 #include "scene/names.hpp"
 #include "scene/text/quantity.hpp"
@@ -15,6 +16,7 @@ namespace ergotic::scene {
 namespace {
 
 constexpr int kDeepest = 16;
+constexpr std::size_t kNodesOfInstance = 8;  // that take as long
 
 /// Whose number it is, as in `[30, 5000]`, `[1 mm, 1 m]`.
 Limits limitsOf(const SceneBuilder& builder, const YamlMap& spec, const std::string& unit) {
@@ -51,7 +53,7 @@ void Expander::writeInstances(const Node& body, const Frame& frame) {
 
 void Expander::writeInstance(const Node& use, const Frame& frame, const Scope& scope) {
   const YamlMap map(builder_, use, "an instance", writer_.placeIn(use, frame));
-  map.allow({"is", "as", "with", "in", "for", "when"});
+  map.allow(instanceKeys());
   const std::string is = writer_.word(map.at("is"), frame, scope);
   const std::string as = writer_.word(map.at("as"), frame, scope);
   const Definition& definition = library_.definition(map.at("is"), is, frame);
@@ -59,6 +61,7 @@ void Expander::writeInstance(const Node& use, const Frame& frame, const Scope& s
     writer_.fail(use, frame,
                  "definitions use one another more than " + std::to_string(kDeepest) + " deep");
   }
+  writer_.count(use, frame, kNodesOfInstance);
   Frame inner;
   inner.scope = Scope(&library_.constants());
   inner.prefix = frame.prefix + as + ".";
@@ -71,13 +74,14 @@ void Expander::writeInstance(const Node& use, const Frame& frame, const Scope& s
   }
   inner.definitions = definition.above;
   inner.depth = frame.depth + 1;
+  inner.pose = frame.pose * poseOf(use, frame, scope);
   const Place used = writer_.placeIn(use, frame);
   inner.text = definition.origin;
   inner.origin =
       builder_.addOrigin({fileOf(builder_.scene(), {0, 0, definition.origin}),
                           "\n  in " + frame.prefix + as + " (" + is + "), used at " +
                               textOf(builder_.scene(), used) + chainOf(builder_.scene(), used)});
-  setParameters(definition, use, frame, scope, inner);
+  setParameters(definition, use, frame, scope, frame.prefix + as, inner);
   setSections(definition, use, frame, scope, inner);
   library_.let(*definition.body, inner);
   findHeads(*definition.body, inner);
@@ -86,39 +90,72 @@ void Expander::writeInstance(const Node& use, const Frame& frame, const Scope& s
   publish(definition, inner);
 }
 
+Pose Expander::poseOf(const Node& use, const Frame& frame, const Scope& scope) {
+  std::optional<Node> parts[2];
+  const char* const keys[] = {"at", "rotate"};
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (const Node* const said = use.find(keys[i])) {
+      parts[i] = writer_.write(*said, frame, scope);
+    }
+  }
+  return scene::poseOf(builder_, parts[0] ? &*parts[0] : nullptr, parts[1] ? &*parts[1] : nullptr);
+}
+
 void Expander::setParameters(const Definition& definition,
                              const Node& use,
                              const Frame& outer,
                              const Scope& scope,
+                             const std::string& instance,
                              Frame& inner) {
   const Node* const params = definition.body->find("params");
-  const Node* const with = use.find("with");
-  std::vector<std::string> names;
-  if (params != nullptr) {
-    forEachEntry(builder_, *params, "'params' of " + quoted(definition.name), params->place(),
-                 [&](const std::string& name, Place, const Node& spec) {
-                   const Node* const given = with == nullptr ? nullptr : with->find(name);
-                   if (given == nullptr && spec.find("default") == nullptr) {
-                     writer_.fail(use, outer,
-                                  quoted(name) + " of " + quoted(definition.name) +
-                                      " is missing under 'with'");
-                   }
-                   inner.scope.set(name, parameter(name, spec, given, outer,
-                                                   given == nullptr ? inner.scope : scope));
-                   names.push_back(name);
+  Given given;  // by name
+  if (const Node* const with = use.find("with")) {
+    forEachEntry(builder_, *with, "'with'", writer_.placeIn(*with, outer),
+                 [&](const std::string& name, Place place, const Node& value) {
+                   given[name] = {Writer::placeIn(place, outer), &value, &outer, &scope};
                  });
   }
-  if (with == nullptr) {
-    return;
+  for (const auto& [name, value] : variant_.settingsOf(instance)) {
+    given[name] = {value->place(), value, &frame_, &frame_.scope};
   }
-  forEachEntry(builder_, *with, "'with'", writer_.placeIn(*with, outer),
-               [&](const std::string& name, Place place, const Node&) {
-                 if (std::find(names.begin(), names.end(), name) == names.end()) {
-                   place.origin = outer.origin > 0 ? outer.origin : place.origin;
-                   builder_.fail(place, quoted(definition.name) + " has no parameter " +
-                                            quoted(name) + suggestion(name, names));
-                 }
-               });
+  if (params != nullptr) {
+    forEachEntry(
+        builder_, *params, "'params' of " + quoted(definition.name), params->place(),
+        [&](const std::string& name, Place, const Node& spec) {
+          const auto found = given.find(name);
+          if (found == given.end() && spec.find("default") == nullptr) {
+            writer_.fail(
+                use, outer,
+                quoted(name) + " of " + quoted(definition.name) + " is missing under 'with'");
+          }
+          const bool is_given = found != given.end();
+          inner.scope.set(name, parameter(name, spec, is_given ? found->second.value : nullptr,
+                                          is_given ? *found->second.frame : outer,
+                                          is_given ? *found->second.scope : inner.scope));
+          if (is_given) {
+            given.erase(found);
+          }
+        });
+  }
+  if (!given.empty()) {
+    refuseParameter(definition, given);
+  }
+}
+
+/// The first in the text that the definition does not have.
+void Expander::refuseParameter(const Definition& definition, const Given& given) const {
+  const auto first = std::min_element(
+      given.begin(), given.end(), [](const Given::value_type& a, const Given::value_type& b) {
+        const auto order = [](Place place) { return std::pair(place.line, place.column); };
+        return order(a.second.place) < order(b.second.place);
+      });
+  std::vector<std::string> names;
+  const Node* const params = definition.body->find("params");
+  for (std::size_t i = 0; params != nullptr && i < params->parts().size(); i += 2) {
+    names.push_back((*params)[i].text());
+  }
+  builder_.fail(first->second.place, quoted(definition.name) + " has no parameter " +
+                                         quoted(first->first) + suggestion(first->first, names));
 }
 
 /// `{default, range, unit, kind, doc}`: a number with a unit or a range, a `place`, or anything.
@@ -128,7 +165,7 @@ Constant Expander::parameter(const std::string& name,
                              const Frame& outer,
                              const Scope& scope) {
   const YamlMap map(builder_, spec, "parameter " + quoted(name), spec.place());
-  map.allow({"doc", "unit", "default", "range", "kind"});
+  map.allow(parameterSpecKeys());
   const std::string unit = map.has("unit") ? map.word("unit") : "";
   const bool is_place = map.has("kind") && map.choice("kind", {"place"}) == 0;
   const Node& node = given != nullptr ? *given : map.at("default");
@@ -149,9 +186,11 @@ Constant Expander::parameter(const std::string& name,
   const Node value = writer_.write(node, frame, scope);
   const bool is_number = map.has("unit") || map.has("range");
   if (!is_number || !value.isScalar() || value.text().find('$') != std::string::npos) {
-    return value.isScalar() ? constantOf(value) : Constant(value);
+    return constantOf(value);
   }
-  return numberOf(builder_, value, quoted(name), limitsOf(builder_, map, unit), value.place());
+  return Amount{
+      numberOf(builder_, value, quoted(name), limitsOf(builder_, map, unit), value.place()),
+      kindOfUnit(unit)};
 }
 
 void Expander::setSections(const Definition& definition,

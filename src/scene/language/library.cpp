@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <system_error>
 
-#include "ergotic/exception.hpp"
-#include "files/read_file.hpp"
+#include "scene/language/language_keys.hpp"
 #include "scene/limits.hpp"
 #include "scene/names.hpp"
 #include "scene/text/source_text.hpp"
+#include "scene/tree/near_file.hpp"
 #include "scene/tree/yaml_documents.hpp"
 #include "scene/tree/yaml_map.hpp"
 
@@ -17,10 +17,6 @@ namespace ergotic::scene {
 namespace {
 
 constexpr int kDeepest = 16;
-
-const std::vector<std::string> kDefinitionKeys{"doc",   "params", "needs",      "gives", "let",
-                                               "use",   "mats",   "generators", "lias",  "agents",
-                                               "ports", "inputs", "outputs"};
 
 /// The same tree, of another text.
 void setOrigin(Node& node, int origin) {
@@ -57,7 +53,8 @@ void Library::read(const Node& scene, Frame& frame) {
                                               ", allowed: a map");
                    }
                    const YamlMap parts(builder_, body, "definition " + quoted(name), body.place());
-                   parts.allow(kDefinitionKeys);
+                   parts.allow(definitionKeys());
+                   by_name_[name].push_back(definitions_.size());
                    definitions_.push_back({name, &body, place.origin, definitions_.size()});
                  });
   }
@@ -75,14 +72,8 @@ void Library::include(const Node& files, Frame& frame) {
 /// Each file once, from below the folder of the scene.
 void Library::readFile(const Node& name, Frame& frame) {
   const Place place = writer_.placeIn(name, frame);
-  const std::string& scene_file = builder_.scene().file;
   const std::string path =
-      besideFile(wordOf(builder_, name, "a file to include", place), scene_file);
-  if (name.text().empty() || name.text()[0] == '/' ||
-      !files::isBelow(path, besideFile(".", scene_file))) {
-    builder_.fail(
-        place, "file " + quoted(name.text()) + " is elsewhere, allowed: below the scene's folder");
-  }
+      pathOfNear(builder_, wordOf(builder_, name, "a file to include", place), "", place);
   std::error_code unknown;  // reading says what is wrong with it
   const std::string real = std::filesystem::weakly_canonical(path, unknown).string();
   if (std::count(included_.begin(), included_.end(), real) > 0) {
@@ -93,12 +84,7 @@ void Library::readFile(const Node& name, Frame& frame) {
     builder_.fail(place,
                   "files include one another more than " + std::to_string(kDeepest) + " deep");
   }
-  std::string text;
-  try {
-    text = files::readFile(path, kMaxTextBytes);
-  } catch (const Exception& refusal) {
-    builder_.fail(place, refusal.what());
-  }
+  const std::string text = readNear(builder_, path, kMaxTextBytes, "", place);
   checkBytes(text, path, Bytes::kUtf8);
   const SceneBuilder its(path, text);
   std::vector<Node> documents = readDocuments(its, text, 1, "definitions need");
@@ -122,7 +108,10 @@ void Library::let(const Node& body, Frame& frame) {
   forEachEntry(builder_, *constants, "'let'", writer_.placeIn(*constants, frame),
                [&](const std::string& name, Place place, const Node& value) {
                  checkName(builder_, name, place);
-                 frame.scope.set(name, writer_.constant(value, frame, frame.scope));
+                 const bool is_of_scene = frame.prefix.empty();
+                 frame.scope.set(
+                     name, writer_.constant(is_of_scene ? variant_.constant(name, value) : value,
+                                            frame, frame.scope));
                });
 }
 
@@ -130,9 +119,12 @@ const Definition& Library::definition(const Node& name,
                                       const std::string& word,
                                       const Frame& frame) const {
   // Of one name the last counts, as that of a scene does beside those it includes.
-  for (std::size_t i = frame.definitions; i-- > 0;) {
-    if (definitions_[i].name == word) {
-      return definitions_[i];
+  const auto found = by_name_.find(word);
+  if (found != by_name_.end()) {
+    const std::vector<std::size_t>& all = found->second;
+    const auto above = std::lower_bound(all.begin(), all.end(), frame.definitions);
+    if (above != all.begin()) {
+      return definitions_[*(above - 1)];
     }
   }
   std::vector<std::string> names;
@@ -145,6 +137,7 @@ const Definition& Library::definition(const Node& name,
 
 std::vector<const Node*> Library::defaultsOf(const std::string& type,
                                              const Node* kind,
+                                             const std::string& word,
                                              const Frame& frame) const {
   std::vector<const Node*> sets;
   const auto add = [&](const std::string& key) {
@@ -154,8 +147,8 @@ std::vector<const Node*> Library::defaultsOf(const std::string& type,
     }
     return found != defaults_.end();
   };
-  if (kind != nullptr && !add(type + "." + kind->text())) {
-    writer_.fail(*kind, frame, "there are no defaults of " + quoted(type + "." + kind->text()));
+  if (kind != nullptr && !add(type + "." + word)) {
+    writer_.fail(*kind, frame, "there are no defaults of " + quoted(type + "." + word));
   }
   add(type);
   return sets;

@@ -31,7 +31,10 @@ bool Writer::isReference(const std::string& key) {
 }
 
 Place Writer::placeIn(const Node& node, const Frame& frame) const {
-  Place place = node.place();
+  return placeIn(node.place(), frame);
+}
+
+Place Writer::placeIn(Place place, const Frame& frame) {
   place.origin = frame.origin > 0 && place.origin == frame.text ? frame.origin : place.origin;
   return place;
 }
@@ -40,8 +43,8 @@ void Writer::fail(const Node& node, const Frame& frame, const std::string& what)
   builder_.fail(placeIn(node, frame), what);
 }
 
-void Writer::count(const Node& node, const Frame& frame) {
-  if (++written_ > kMostWritten) {
+void Writer::count(const Node& node, const Frame& frame, std::size_t nodes) {
+  if ((written_ += nodes) > kMostWritten) {
     fail(node, frame,
          "written out the scene has more than " + std::to_string(kMostWritten) +
              " scalars, lists and maps");
@@ -82,9 +85,8 @@ Constant Writer::evaluated(const Node& node,
   try {
     return evaluate(expression, scope);
   } catch (const ExpressionError& error) {
-    Place place = placeIn(node, frame);
-    place.column += static_cast<int>(from + error.at());
-    builder_.fail(place, "in " + quoted(node.text()) + ": " + error.what());
+    builder_.fail(placeIn(node.placeOf(from + error.at()), frame),
+                  "in " + quoted(node.text()) + ": " + error.what());
   }
 }
 
@@ -112,10 +114,10 @@ std::string Writer::word(const Node& node, const Frame& frame, const Scope& scop
     }
     const Constant value =
         evaluated(node, open + 1, text.substr(open + 1, close - open - 1), frame, scope);
-    if (std::holds_alternative<Node>(value)) {
+    if (std::holds_alternative<Part>(value)) {
       fail(node, frame, quoted(text) + " has a list in braces, allowed: numbers and words");
     }
-    result += textOf(value);
+    result += bareTextOf(value);
     at = close + 1;
   }
 }
@@ -123,8 +125,8 @@ std::string Writer::word(const Node& node, const Frame& frame, const Scope& scop
 Constant Writer::constant(const Node& node, const Frame& frame, const Scope& scope) {
   if (isExpression(node)) {
     Constant value = evaluated(node, 1, std::string_view(node.text()).substr(1), frame, scope);
-    if (const auto* const list = std::get_if<Node>(&value)) {
-      countAll(*list, node, frame);
+    if (const auto* const list = std::get_if<Part>(&value)) {
+      countAll(**list, node, frame);
     }
     return value;
   }
@@ -144,10 +146,18 @@ Node Writer::writeScalar(const Node& node,
                          const Scope& scope,
                          bool is_reference) {
   const Place place = placeIn(node, frame);
+  const std::string& said = node.text();
   if (isExpression(node)) {
     const Constant value = constant(node, frame, scope);
-    const Node* const list = std::get_if<Node>(&value);
-    return list != nullptr ? placed(*list, place) : Node(Node::Kind::kScalar, place, textOf(value));
+    const Part* const list = std::get_if<Part>(&value);
+    if (list != nullptr) {
+      return placed(**list, place);
+    }
+    const Amount* const number = std::get_if<Amount>(&value);
+    if (number != nullptr && !number->kind.isBare() && number->kind.unit().empty()) {
+      fail(node, frame, quoted(said) + " is in a power of units that no key has");
+    }
+    return {Node::Kind::kScalar, place, textOf(value)};
   }
   const std::string text = word(node, frame, scope);
   return {Node::Kind::kScalar, place, is_reference ? renamed(text, frame) : text};
@@ -182,11 +192,12 @@ std::vector<Constant> Writer::itemsOf(const Node& values, const Frame& frame, co
   const std::size_t dots = values.isScalar() ? values.text().find("..") : std::string::npos;
   if (dots == std::string::npos) {
     const Constant list = constant(values, frame, scope);
-    const Node* const node = std::get_if<Node>(&list);
-    if (node == nullptr || !node->isList()) {
+    const Part* const part = std::get_if<Part>(&list);
+    if (part == nullptr || !(*part)->isList()) {
       fail(values, frame, "a loop goes over a range as 0..11 or over a list");
     }
-    std::transform(node->begin(), node->end(), std::back_inserter(items), &constantOf);
+    std::transform((*part)->begin(), (*part)->end(), std::back_inserter(items),
+                   [&](const Node& item) { return constantOf(item, *part); });
     return items;
   }
   const std::string_view text = values.text();
@@ -195,18 +206,19 @@ std::vector<Constant> Writer::itemsOf(const Node& values, const Frame& frame, co
     const std::size_t from = i == 0 ? 0 : dots + 2;
     const Constant end =
         evaluated(values, from, i == 0 ? text.substr(0, dots) : text.substr(from), frame, scope);
-    const double* const number = std::get_if<double>(&end);
-    if (number == nullptr || *number != std::floor(*number) || std::abs(*number) > kLargestTurn) {
+    const Amount* const number = std::get_if<Amount>(&end);
+    if (number == nullptr || !number->kind.isBare() || number->value != std::floor(number->value) ||
+        std::abs(number->value) > kLargestTurn) {
       fail(values, frame,
            "an end of " + quoted(values.text()) + " is no whole number from -1e15 to 1e15");
     }
-    ends[i] = *number;
+    ends[i] = number->value;
   }
   if (ends[1] - ends[0] > kMostTurns) {
     fail(values, frame, "a loop of more than " + std::to_string(static_cast<int>(kMostTurns)));
   }
   for (double i = ends[0]; i <= ends[1]; ++i) {
-    items.emplace_back(i);
+    items.emplace_back(Amount{i});
   }
   return items;
 }
@@ -226,7 +238,7 @@ void Writer::loop(const Node& loops,
     count(loops, frame);
     Scope inner(&scope);
     inner.set(name, items[i]);
-    inner.set(name + "#", static_cast<double>(i));
+    inner.set(name + "#", Amount{static_cast<double>(i)});
     loop(loops, variable + 1, frame, inner, each);
   }
 }
@@ -242,11 +254,11 @@ void Writer::forEach(const Node& element,
       return;
     }
     const Constant value = constant(*when, frame, inner);
-    const double* const number = std::get_if<double>(&value);
+    const Amount* const number = std::get_if<Amount>(&value);
     if (number == nullptr) {
       fail(*when, frame, "'when' is no number, allowed: an expression, 0 is false");
     }
-    if (*number != 0.0) {
+    if (number->value != 0.0) {
       each(inner);
     }
   };

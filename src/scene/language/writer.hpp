@@ -33,8 +33,14 @@ class Writer {
   static std::string renamed(const std::string& name, const Frame& frame);
   static bool isReference(const std::string& key);
 
+  /// Counts what is written, or takes as much room. \throws TextError if it is too much
+  void count(const Node& node, const Frame& frame, std::size_t nodes = 1);
+  void countText(std::size_t bytes, const Node& node, const Frame& frame);
+  void countAll(const Node& list, const Node& asked, const Frame& frame);
+
   [[noreturn]] void fail(const Node& node, const Frame& frame, const std::string& what) const;
   Place placeIn(const Node& node, const Frame& frame) const;
+  static Place placeIn(Place place, const Frame& frame);
 
  private:
   Constant evaluated(const Node& node,
@@ -50,10 +56,6 @@ class Writer {
             const Scope& scope,
             const Each& each);
   std::vector<Constant> itemsOf(const Node& values, const Frame& frame, const Scope& scope);
-  void count(const Node& node, const Frame& frame);
-  void countText(std::size_t bytes, const Node& node, const Frame& frame);
-  void countAll(const Node& list, const Node& asked, const Frame& frame);
-
   const SceneBuilder& builder_;
   std::size_t written_ = 0;
   std::size_t text_ = 0;  // bytes

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 
 #include "scene/laws/families.hpp"
@@ -25,7 +26,8 @@ struct SmoothBow {
 template <class Real>
 struct SmoothBowCurve {
   ERGOTIC_REALTIME static GuardedForce<Real> slip(const GuardedLaw<Real>& n, Real v) noexcept {
-    const Real r = v / n.width;
+    constexpr Real kFar = 64;  // e^-(4 64^2) is 0: nor must it be 0 times infinity
+    const Real r = std::min(std::abs(v / n.width), kFar);
     const Real chord = Real(0.63) * n.damping * std::exp(Real(-4) * r * r + Real(0.5));
     return {chord * v, chord * (Real(1) - Real(8) * r * r)};
   }

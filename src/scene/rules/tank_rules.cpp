@@ -72,7 +72,7 @@ std::string stretchFault(const Scene& scene, const Tank& tank) {
              " twice, allowed: once";
     }
   }
-  return tank.springs.empty() ? "is of no spring, allowed: at least 1" : "";
+  return {};  // that of a body, of its own hard links, is of no spring
 }
 
 /// Links of one tank are one body: what acts on one of its modules answers on all.

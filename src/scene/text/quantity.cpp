@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kMostPower = 4;
+constexpr int kTwelve = 12;
 
 /// A product of units: 10^decimals times `factor` of m^a kg^b s^c V^d rad^e.
 struct Unit {
@@ -199,10 +200,43 @@ std::variant<double, NoQuantity> parseQuantity(std::string_view text, std::strin
   return parse(text, unit);
 }
 
-std::optional<double> parseAnyQuantity(std::string_view text) {
+std::optional<Amount> parseAnyQuantity(std::string_view text) {
   const auto quantity = parse(text, std::nullopt);
   const auto* const number = std::get_if<double>(&quantity);
-  return number == nullptr ? std::nullopt : std::optional(*number);
+  if (number == nullptr) {
+    return std::nullopt;
+  }
+  const std::size_t end = std::min(text.find_first_not_of("+-.0123456789eE"), text.size());
+  return Amount{*number, kindOfUnit(trimmed(text.substr(end)))};
+}
+
+Kind kindOfUnit(std::string_view unit) {
+  Kind kind;
+  if (const std::optional<Unit> known = parseUnit(unit)) {
+    std::transform(known->powers.begin(), known->powers.end(), kind.twelfths.begin(),
+                   [](int power) { return kTwelve * power; });
+  }
+  return kind;
+}
+
+std::string Kind::unit() const {
+  constexpr std::array<const char*, 5> kNames = {"m", "kg", "s", "V", "rad"};
+  std::string above;
+  std::string below;
+  for (std::size_t i = 0; i < twelfths.size(); ++i) {
+    if (twelfths[i] % kTwelve != 0) {
+      return "";
+    }
+    int left = std::abs(twelfths[i] / kTwelve);
+    std::string& text = twelfths[i] > 0 ? above : below;
+    while (left > 0) {
+      const int power = std::min(left, kMostPower);
+      text += twelfths[i] > 0 ? (text.empty() ? "" : " ") : "/";
+      text += kNames[i] + (power > 1 ? "^" + std::to_string(power) : std::string());
+      left -= power;
+    }
+  }
+  return (above.empty() && !below.empty() ? "1" : above) + below;
 }
 
 bool isSiUnit(std::string_view unit) {

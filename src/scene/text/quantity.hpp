@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,8 +22,29 @@ struct NoQuantity {
 /// \param unit  of what is asked for, as in Limits
 std::variant<double, NoQuantity> parseQuantity(std::string_view text, std::string_view unit);
 
-/// The same of whatever kind; of notes nothing.
-std::optional<double> parseAnyQuantity(std::string_view text);
+/// Of what kind a number is: powers of m, kg, s, V and rad, each in twelfths, so that a root has
+/// one too. All 0: bare, or a ratio.
+struct Kind {
+  std::array<int, 5> twelfths{};
+
+  bool isBare() const { return twelfths == Kind{}.twelfths; }
+  bool operator==(const Kind& other) const { return twelfths == other.twelfths; }
+  bool operator!=(const Kind& other) const { return !(*this == other); }
+  /// Its unit, as `kg m/s^2`; empty if it is bare, or no product of whole units.
+  std::string unit() const;
+};
+
+/// A number in SI units.
+struct Amount {
+  double value = 0.0;
+  Kind kind{};
+};
+
+/// As parseQuantity(), of whatever kind; of notes nothing.
+std::optional<Amount> parseAnyQuantity(std::string_view text);
+
+/// Of a unit as in Limits; bare if it is none.
+Kind kindOfUnit(std::string_view unit);
 
 /// As `N/m`, `kg`, `Hz`: a unit whose numbers are written as they are.
 bool isSiUnit(std::string_view unit);

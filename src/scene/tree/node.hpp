@@ -26,6 +26,14 @@ class Node {
   bool isMap() const noexcept { return kind_ == Kind::kMap; }
 
   Place place() const noexcept { return place_; }  ///< line 0: not known
+  /// Of a byte of the text of a scalar, if it stands there as it is; else of the scalar.
+  Place placeOf(std::size_t byte) const noexcept {
+    Place place = place_;
+    place.column += lead_ < 0 ? 0 : lead_ + static_cast<int>(byte);
+    return place;
+  }
+  /// \param lead  columns before the text, a quote; < 0: the source says it in other words
+  void setLead(int lead) noexcept { lead_ = static_cast<signed char>(lead); }
   /// Of a scalar; of others empty.
   const std::string& text() const noexcept { return text_; }
   /// Items of a list, entries of a map.
@@ -51,6 +59,7 @@ class Node {
 
  private:
   Kind kind_ = Kind::kNull;
+  signed char lead_ = -1;
   Place place_{0, 0};
   std::string text_;
   std::vector<Node> parts_;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "scene/text/source_text.hpp"
@@ -27,8 +28,8 @@ Place placeOfMark(const YAML::Mark& mark) {
 class Grower final : public YAML::EventHandler {
  public:
   /// \param keeps  false: only counts
-  Grower(const SceneBuilder& builder, int most_documents, bool keeps)
-      : builder_(builder), most_documents_(most_documents), keeps_(keeps) {}
+  Grower(const SceneBuilder& builder, std::string_view source, int most_documents, bool keeps)
+      : builder_(builder), source_(source), most_documents_(most_documents), keeps_(keeps) {}
 
   std::vector<Node> documents() { return std::move(documents_); }
 
@@ -62,6 +63,9 @@ class Grower final : public YAML::EventHandler {
                     "a word with a control character, allowed: tab and line ends only");
     }
     begin(mark, Node::Kind::kScalar, text);
+    if (keeps_) {
+      open_.back().setLead(leadOf(mark, text));
+    }
     end();
   }
   void OnSequenceStart(const YAML::Mark& mark,
@@ -80,6 +84,15 @@ class Grower final : public YAML::EventHandler {
   void OnMapEnd() override { end(); }
 
  private:
+  /// 1 behind a quote, 0 without; -1 where the source is not the same byte for byte, as where it is
+  /// folded or has escapes.
+  int leadOf(const YAML::Mark& mark, const std::string& text) const {
+    const auto at = static_cast<std::size_t>(std::max(mark.pos, 0));
+    const bool is_quoted = at < source_.size() && (source_[at] == '"' || source_[at] == '\'');
+    const bool is_same = at < source_.size() && text.find('\n') == std::string::npos &&
+                         source_.compare(at + (is_quoted ? 1 : 0), text.size(), text) == 0;
+    return !is_same ? -1 : is_quoted ? 1 : 0;
+  }
   void begin(const YAML::Mark& mark, Node::Kind kind, const std::string& text = {}) {
     if (++nodes_ > kMaxNodes) {
       builder_.fail(placeOfMark(mark), "the text has more than " + std::to_string(kMaxNodes) +
@@ -104,6 +117,7 @@ class Grower final : public YAML::EventHandler {
   }
 
   const SceneBuilder& builder_;
+  const std::string_view source_;  // without a byte order mark, as yaml-cpp counts
   const int most_documents_;
   const bool keeps_;
   int begun_ = 0;
@@ -118,7 +132,10 @@ std::vector<Node> documentsOf(const SceneBuilder& builder,
                               bool keeps) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);
-  Grower grower(builder, most, keeps);
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  std::string_view source = text;
+  source.remove_prefix(source.substr(0, 3) == kByteOrderMark ? 3 : 0);
+  Grower grower(builder, source, most, keeps);
   while (parser.HandleNextDocument(grower)) {
   }
   return grower.documents();

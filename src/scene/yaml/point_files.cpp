@@ -2,11 +2,11 @@
 #include "scene/yaml/point_files.hpp"
 
 #include <algorithm>
+#include <iterator>
 
-#include "ergotic/exception.hpp"
-#include "files/read_file.hpp"
 #include "scene/text/number.hpp"
 #include "scene/text/source_text.hpp"
+#include "scene/tree/near_file.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -15,19 +15,31 @@ using Part = PointFiles::Part;
 
 constexpr std::size_t kMaxFileNameBytes = 255;
 
-const char* keyOf(Part part) {
-  return part == Part::kTables ? "tables" : "gestures";
+/// In the order of Part.
+struct PartWords {
+  const char* key;
+  const char* one;
+  const char* user;
+};
+constexpr PartWords kParts[] = {{"tables", "table", "link"},
+                                {"gestures", "gesture", "agent"},
+                                {"partials", "list", "resonator"}};
+
+const PartWords& wordsOf(Part part) {
+  return kParts[static_cast<std::size_t>(part)];
 }
 
-bool isPart(const std::string& key) {
-  return key == keyOf(Part::kTables) || key == keyOf(Part::kGestures);
+const PartWords* findPart(const std::string& key) {
+  const auto* const found = std::find_if(std::begin(kParts), std::end(kParts),
+                                         [&](const PartWords& part) { return key == part.key; });
+  return found == std::end(kParts) ? nullptr : found;
 }
 
 /// A map of parts, of one at least.
 bool isDocument(const Node& node) {
   bool is_document = node.isMap() && node.size() > 0;
   for (std::size_t i = 0; is_document && i < node.parts().size(); i += 2) {
-    is_document = node[i].isScalar() && isPart(node[i].text());
+    is_document = node[i].isScalar() && findPart(node[i].text()) != nullptr;
   }
   return is_document;
 }
@@ -40,19 +52,26 @@ bool isFileName(const std::string& name) {
          std::none_of(name.begin(), name.end(), is_control);
 }
 
-/// `"name": [[x, y], ...]`
-void appendPoints(std::string& text, const std::string& name, const PointList& points) {
-  text += '"';
+std::string quotedKey(const std::string& name) {
+  std::string text = "\"";
   for (const char c : name) {
     text += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
   }
-  text += "\": [";
-  const char* comma = "";
-  for (const auto& [x, y] : points) {
-    text += std::string(comma) + "[" + shortest(x) + ", " + shortest(y) + "]";
-    comma = ", ";
+  return text + '"';
+}
+
+std::string listOf(const RowList& rows) {
+  std::string text = "[";
+  const char* between_rows = "[";
+  for (const std::vector<double>& row : rows) {
+    text += between_rows;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      text += (i > 0 ? ", " : "") + shortest(row[i]);
+    }
+    text += ']';
+    between_rows = ", [";
   }
-  text += ']';
+  return text + ']';
 }
 
 }  // namespace
@@ -66,11 +85,11 @@ PointFiles::PointFiles(SceneBuilder& builder, const Node* document) : builder_(b
   if (!isDocument(*document)) {
     builder_.fail(place,
                   "a second document, allowed: one in each file, and one after it that "
-                  "begins with 'tables:' or 'gestures:'");
+                  "begins with 'tables:', 'gestures:' or 'partials:'");
   }
   forEachEntry(builder_, *document, "the second document", place,
                [&](const std::string& key, Place, const Node& entries) {
-                 const Part part = key == keyOf(Part::kTables) ? Part::kTables : Part::kGestures;
+                 const auto part = static_cast<Part>(findPart(key) - std::begin(kParts));
                  forEachEntry(builder_, entries, quoted(key) + " of the second document", place,
                               [&](const std::string& name, Place at, const Node& points) {
                                 appended_[{part, name}] = {&points, at};
@@ -98,29 +117,30 @@ std::string PointFiles::nameOf(const YamlMap& spec) {
 }
 
 PointFiles::File PointFiles::open(const YamlMap& spec) const {
-  const std::string path = besideFile(nameOf(spec), builder_.scene().file);
-  // Errors in a file tell what it says, and a scene may be a stranger's.
-  if (!files::isBelow(path, besideFile(".", builder_.scene().file))) {
-    spec.fail("file", "file " + quoted(path) + " of " + spec.what() +
-                          " is elsewhere, allowed: below the scene's folder");
-  }
-  try {
-    return {files::readFile(path, kMaxTextBytes), path};
-  } catch (const Exception& refusal) {
-    spec.fail("file", spec.what() + ": " + refusal.what());
-  }
+  const Place place = spec.placeAt("file");
+  const std::string path = pathOfNear(builder_, nameOf(spec), spec.what(), place);
+  return {readNear(builder_, path, kMaxTextBytes, spec.what(), place), path};
 }
 
-void PointFiles::keep(Part part, const std::string& key, PointList points) {
-  kept_[{part, key}] = std::move(points);
+void PointFiles::keep(Part part, const std::string& key, const PointList& points) {
+  RowList rows;
+  rows.reserve(points.size());
+  for (const auto& [x, y] : points) {
+    rows.push_back({x, y});
+  }
+  keep(part, key, rows);
+}
+
+void PointFiles::keep(Part part, const std::string& key, const RowList& rows) {
+  kept_[{part, key}] = listOf(rows);
 }
 
 void PointFiles::finish() {
   for (const auto& [id, appended] : appended_) {
     if (!appended.used) {
-      const bool is_table = id.first == Part::kTables;
-      builder_.fail(appended.place, (is_table ? "table " : "gesture ") + quoted(id.second) +
-                                        " is used by no " + (is_table ? "link" : "agent"));
+      const PartWords& words = wordsOf(id.first);
+      builder_.fail(appended.place, std::string(words.one) + " " + quoted(id.second) +
+                                        " is used by no " + words.user);
     }
   }
   if (!kept_.empty()) {
@@ -132,15 +152,15 @@ void PointFiles::append() {
   std::string& text = builder_.scene().text;
   const std::size_t written = text.size();
   text += text.empty() || text.back() == '\n' ? "---\n" : "\n---\n";
-  const std::pair<const std::pair<Part, std::string>, PointList>* last = nullptr;
+  const std::pair<const std::pair<Part, std::string>, std::string>* last = nullptr;
   for (const auto& entry : kept_) {
     const Part part = entry.first.first;
     if (last != nullptr && last->first.first == part) {
       text += ",\n  ";
     } else {
-      text += std::string(last != nullptr ? "}\n" : "") + keyOf(part) + ": {";
+      text += std::string(last != nullptr ? "}\n" : "") + wordsOf(part).key + ": {";
     }
-    appendPoints(text, entry.first.second, entry.second);
+    text += quotedKey(entry.first.second) + ": " + entry.second;
     last = &entry;
   }
   text += "}\n";

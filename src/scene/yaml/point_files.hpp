@@ -12,16 +12,17 @@
 namespace ergotic::scene {
 
 using PointList = std::vector<std::pair<double, double>>;
+using RowList = std::vector<std::vector<double>>;
 
 /// Files of points beside a scene.
 ///
 /// A text must mean the same wherever it is read. So the points of files are appended to
-/// Scene::text as a second document, `tables: {"name.csv": [[x, y], ...], ...}` and
-/// `gestures: {agent: [[t, x], ...], ...}`; where a text has one, all points come from there and no
-/// file is opened.
+/// Scene::text as a second document, `tables: {"name.csv": [[x, y], ...], ...}`,
+/// `gestures: {agent: [[t, x], ...], ...}` and `partials: {"name.csv": [[f, t60, mass, ...],
+/// ...]}`; where a text has one, all points come from there and no file is opened.
 class PointFiles {
  public:
-  enum class Part { kTables, kGestures };
+  enum class Part { kTables, kGestures, kPartials };
 
   /// \param document  the second one, nullptr if there is none
   /// \throws TextError if it has another form
@@ -49,7 +50,8 @@ class PointFiles {
   File open(const YamlMap& spec) const;
 
   /// What `finish` has to append.
-  void keep(Part part, const std::string& key, PointList points);
+  void keep(Part part, const std::string& key, const PointList& points);
+  void keep(Part part, const std::string& key, const RowList& rows);
 
   /// Appends what was kept to Scene::text.
   /// \throws TextError if the second document has points that nothing uses, or if the text gets
@@ -62,7 +64,7 @@ class PointFiles {
   SceneBuilder& builder_;
   bool self_contained_ = false;
   std::map<std::pair<Part, std::string>, Appended> appended_;
-  std::map<std::pair<Part, std::string>, PointList> kept_;
+  std::map<std::pair<Part, std::string>, std::string> kept_;  ///< as they are written
 };
 
 }  // namespace ergotic::scene

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "scene/generate/points.hpp"
+#include "scene/yaml/selections.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -44,6 +45,9 @@ int moduleOn(const Grid& grid, const NamedPlace& at) {
 }
 
 int pointAt(SceneBuilder& builder, const std::string& text, Place place) {
+  if (isSelection(text)) {
+    return selectedModule(builder, text, place);
+  }
   if (text.find('@') == std::string::npos) {
     return builder.mat(text, place);
   }

@@ -27,7 +27,8 @@ int moduleOn(const Grid& grid, const NamedPlace& at);
 /// at 0.3 of the way along its columns and 0.7 across its rows.
 ///
 /// A point that falls onto a module (within 1e-9 of the spacing) is that module. Any other becomes
-/// a massless module the first time it is named, and is found again after that.
+/// a massless module the first time it is named, and is found again after that. So does
+/// `mean(p/rim)`; `p/near(0.1, 0.2)` and `p/middle` are modules (selections.hpp).
 /// \throws TextError at `place` if there is no such module, string or mesh, or a fraction is
 ///         outside 0...1
 int pointAt(SceneBuilder& builder, const std::string& text, Place place);

@@ -4,6 +4,7 @@
 
 #include "ergotic/exception.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
+#include "ergotic/scene/text/read_truths.hpp"
 #include "scene/language/emit.hpp"
 #include "scene/language/expand.hpp"
 #include "scene/text/overrides.hpp"
@@ -11,8 +12,10 @@
 #include "scene/text/source_text.hpp"
 #include "scene/tree/yaml_documents.hpp"
 #include "scene/yaml/yaml_elements.hpp"
+#include "scene/yaml/yaml_keys.hpp"
 #include "scene/yaml/yaml_rows.hpp"
 #include "scene/yaml/yaml_tables.hpp"
+#include "scene/yaml/yaml_truths.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -30,12 +33,12 @@ std::vector<Node> parse(const SceneBuilder& builder, const std::string& text) {
 }
 
 /// What is kept of a scene that uses the language is its plain text.
-void writeOut(SceneBuilder& builder, std::vector<Node>& documents) {
-  if (!usesLanguage(documents.front())) {
+void writeOut(SceneBuilder& builder, std::vector<Node>& documents, const Choice& choice) {
+  if (!usesLanguage(documents.front()) && choice.variant.empty()) {
     return;
   }
   const YamlMap top(builder, documents.front(), "the scene", {1, 1});
-  documents.front() = expand(builder, documents.front());
+  documents.front() = expand(builder, documents.front(), choice.variant);
   std::string& text = builder.scene().text;
   text = emit(documents.front());
   if (documents.size() > 1) {
@@ -64,7 +67,10 @@ void readHead(SceneBuilder& builder, const YamlMap& top, const Overrides& overri
                             " is not known, allowed: " + std::to_string(kFormatVersion));
   }
   Scene& scene = builder.scene();
-  scene.name = top.has("name") ? readTitle(top) : stemOf(scene.file);
+  scene.about = readAbout(builder, top);
+  scene.name = top.has("name")             ? readTitle(top)
+               : scene.about.title.empty() ? stemOf(scene.file)
+                                           : scene.about.title;
   scene.gestural_rate_hz = overrideGesturalRate(
       overrides, top.number("gestural_rate", kGesturalRateLimits, scene.gestural_rate_hz),
       scene.file);
@@ -73,7 +79,7 @@ void readHead(SceneBuilder& builder, const YamlMap& top, const Overrides& overri
 void readParameters(SceneBuilder& builder, const YamlMap& top) {
   forEachElement(
       builder, top, "parameters", "parameter", [&](const std::string& name, const YamlMap& map) {
-        map.allow({"value", "range", "unit"});
+        map.allow(parameterKeys());
         if (name == kGesturalRateName) {
           builder.fail(map.place(), "parameter name 'gestural_rate' is reserved");
         }
@@ -163,22 +169,27 @@ void forEachElement(const SceneBuilder& builder,
                });
 }
 
-Scene readYaml(const std::string& text, const std::string& name, const Overrides& overrides) {
+ClaimingScene readTruths(const std::string& text,
+                         const std::string& name,
+                         const Overrides& overrides,
+                         const Choice& choice) {
   checkBytes(text, name, Bytes::kUtf8);
   SceneBuilder builder(name, text);
+  if (!choice.has_folder) {
+    builder.forbidFiles();
+  }
   std::vector<Node> documents = parse(builder, text);
-  writeOut(builder, documents);
+  writeOut(builder, documents, choice);
   const YamlMap top(builder, documents.front(), "the scene", {1, 1});
   PointFiles files(builder, documents.size() > 1 ? &documents.back() : nullptr);
   YamlTables tables(builder, files);
-  top.allow({"ergotic", "name", "gestural_rate", "parameters", "sections", "mats", "generators",
-             "lias", "agents", "ports", "inputs", "outputs"});
+  top.allow(sceneKeys());
   readHead(builder, top, overrides);
   readParameters(builder, top);
   overrideParameters(builder, overrides);
   readSections(builder, top);
   readMats(builder, top);
-  readGenerators(builder, top);
+  readGenerators(builder, top, tables, files);
   readPoints(builder, top);
   readLias(builder, top, tables);
   readPorts(builder, top);
@@ -187,8 +198,16 @@ Scene readYaml(const std::string& text, const std::string& name, const Overrides
   readPortFilters(builder, top);
   readInputs(builder, top);
   readOutputs(builder, top);
+  std::vector<Truth> truths = truthsOf(builder, top);
   warnOfLooseEnds(builder);
-  return builder.finish();
+  return {builder.finish(), std::move(truths)};
+}
+
+Scene readYaml(const std::string& text,
+               const std::string& name,
+               const Overrides& overrides,
+               const Choice& choice) {
+  return readTruths(text, name, overrides, choice).scene;
 }
 
 }  // namespace ergotic::scene

@@ -9,6 +9,7 @@
 #include "scene/yaml/point_files.hpp"
 #include "scene/yaml/points.hpp"
 #include "scene/yaml/yaml_elements.hpp"
+#include "scene/yaml/yaml_keys.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -116,7 +117,7 @@ PointList knotsOfFile(const SceneBuilder& builder,
                       PointFiles& files,
                       const std::string& name,
                       const YamlMap& spec) {
-  spec.allow({"file", "slice", "tick_rate"});
+  spec.allow(gestureKeys());
   const int slice = spec.integer("slice", kSliceLimits);
   const std::string file_name = PointFiles::nameOf(spec);
   const double rate_hz = spec.number("tick_rate", kGesturalRateLimits, 0.0);
@@ -159,8 +160,7 @@ void readAgent(SceneBuilder& builder,
                PointFiles& files,
                const std::string& name,
                const YamlMap& map) {
-  map.allow({"mat", "stiffness", "damping", "axis", "section", "filter", "points", "gesture",
-             "loop", "period"});
+  map.allow(agentKeys());
   if (map.has("points") == map.has("gesture")) {
     builder.fail(map.place(), map.what() + " has " + (map.has("points") ? "both" : "neither") +
                                   " 'points' " + (map.has("points") ? "and" : "nor") +

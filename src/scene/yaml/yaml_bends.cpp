@@ -5,6 +5,7 @@
 #include "scene/generate/bend.hpp"
 #include "scene/rules/bend_rules.hpp"
 #include "scene/yaml/yaml_elements.hpp"
+#include "scene/yaml/yaml_keys.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -32,7 +33,7 @@ void readEnds(const SceneBuilder& builder, const YamlMap& map, Bend& bend) {
 }  // namespace
 
 void readBend(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
-  map.allow({"type", "between", "weights", "stiffness", "damping", "rest_length"});
+  map.allow(bendKeys());
   Bend bend;
   bend.name = name;
   bend.place = map.place();

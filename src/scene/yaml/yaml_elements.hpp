@@ -16,9 +16,14 @@ namespace ergotic::scene {
 class PointFiles;
 class YamlTables;
 
+/// `about`: title, author, licence, ... \throws TextError
+About readAbout(const SceneBuilder& builder, const YamlMap& top);
 void readSections(SceneBuilder& builder, const YamlMap& top);
 void readMats(SceneBuilder& builder, const YamlMap& top);  ///< all but the points
-void readGenerators(SceneBuilder& builder, const YamlMap& top);
+void readGenerators(SceneBuilder& builder,
+                    const YamlMap& top,
+                    YamlTables& tables,
+                    PointFiles& files);
 void readPoints(SceneBuilder& builder, const YamlMap& top);  ///< of `mats`: they lie on grids
 void readLias(SceneBuilder& builder, const YamlMap& top, YamlTables& tables);
 /// A module that lies on a grid, `type: point`.
@@ -32,6 +37,9 @@ void readAgents(SceneBuilder& builder, const YamlMap& top, PointFiles& files);
 void readPortFilters(SceneBuilder& builder, const YamlMap& top);  ///< when all links are there
 void readInputs(SceneBuilder& builder, const YamlMap& top);
 void readOutputs(SceneBuilder& builder, const YamlMap& top);
+
+/// One of these words, of position, force, velocity, in this order.
+Quantity readQuantity(const YamlMap& map, const std::vector<std::string>& words);
 
 /// Calls `element` with the map under every name of a part, or with every row of the table there;
 /// nothing if the part is missing.

@@ -61,7 +61,7 @@ void readFriction(const SceneBuilder& builder, YamlTables& tables, const YamlMap
                                             ", allowed: a table, or 'steady' and 'parts'");
     }
   }
-  law.table = tables.read(map, "table");
+  law.table = tables.read(map, "table", {"m/s", ""});
   if (const std::string fault = coefficientFault(law.table); !fault.empty()) {
     map.fail("table", "'table' of " + map.what() + " " + fault);
   }

@@ -1,27 +1,87 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "scene/yaml/generators/readers.hpp"
 #include "scene/yaml/yaml_elements.hpp"
+#include "scene/yaml/yaml_keys.hpp"
+#include "scene/yaml/yaml_tables.hpp"
 
 namespace ergotic::scene {
 namespace {
 
+KeyNames joined(KeyNames keys, const KeyNames& others) {
+  for (const std::string& key : others) {
+    if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+      keys.push_back(key);
+    }
+  }
+  return keys;
+}
+
+/// What generators may read from beside the scene.
+struct Beside {
+  YamlTables& tables;
+  PointFiles& files;
+};
+
+using Reader = void (*)(SceneBuilder& builder,
+                        const std::string& name,
+                        const YamlMap& map,
+                        Beside& beside);
+
+/// Of one that reads nothing else.
+template <void (*read)(SceneBuilder& builder, const std::string& name, const YamlMap& map)>
+void alone(SceneBuilder& builder, const std::string& name, const YamlMap& map, Beside& /*beside*/) {
+  read(builder, name, map);
+}
+
+void withTables(SceneBuilder& builder,
+                const std::string& name,
+                const YamlMap& map,
+                Beside& beside) {
+  readBarrier(builder, name, map, beside.tables);
+}
+
+void withFiles(SceneBuilder& builder, const std::string& name, const YamlMap& map, Beside& beside) {
+  readResonator(builder, name, map, beside.files);
+}
+
 /// All generators, a row each.
 struct Generator {
   const char* type;
-  void (*read)(SceneBuilder& builder, const std::string& name, const YamlMap& map);
+  Reader read;
+  KeyNames (*keys)();    ///< for the schema
+  bool is_late = false;  ///< read when all bodies are there, those of instances, too
 };
 constexpr Generator kGenerators[] = {
-    {"string", readString},     {"mesh", readMesh},   {"bar", readBar},
-    {"membrane", readMembrane}, {"plate", readPlate}, {"resonator", readResonator},
-    {"chaplet", readChaplet},
+    {"string", alone<readString>, [] { return joined(limpStringKeys(), tunedStringKeys()); }},
+    {"mesh", alone<readMesh>, [] { return meshKeys(); }},
+    {"bar", alone<readBar>, barKeys},
+    {"membrane", alone<readMembrane>, membraneKeys},
+    {"plate", alone<readPlate>, plateKeys},
+    {"resonator", withFiles, [] { return resonatorKeys(); }},
+    {"chaplet", alone<readChaplet>, [] { return chapletKeys(); }},
+    {"frets", alone<readFrets>, [] { return fretsKeys(); }, true},
+    {"barrier", withTables, [] { return barrierKeys(); }, true},
+    {"bridge", alone<readBridge>, [] { return bridgeKeys(); }, true},
 };
 
 }  // namespace
 
-void readGenerators(SceneBuilder& builder, const YamlMap& top) {
+KeysOfTypes keysOfGenerators() {
+  KeysOfTypes all;
+  for (const Generator& generator : kGenerators) {
+    all.emplace_back(generator.type, generator.keys());
+  }
+  return all;
+}
+
+void readGenerators(SceneBuilder& builder,
+                    const YamlMap& top,
+                    YamlTables& tables,
+                    PointFiles& files) {
   if (!top.has("generators")) {
     return;
   }
@@ -33,12 +93,17 @@ void readGenerators(SceneBuilder& builder, const YamlMap& top) {
   for (const Generator& generator : kGenerators) {
     kinds.emplace_back(generator.type);
   }
-  for (const Node& node : list) {
-    const YamlMap map(builder, node, "generator", placeOf(node, top.placeAt("generators")));
-    const std::size_t type = map.choice("type", kinds);
-    const std::string name = map.word("name");
-    checkName(builder, name, map.placeAt("name"));
-    kGenerators[type].read(builder, name, map);
+  Beside beside{tables, files};
+  for (const bool is_late : {false, true}) {
+    for (const Node& node : list) {
+      const YamlMap map(builder, node, "generator", placeOf(node, top.placeAt("generators")));
+      const Generator& generator = kGenerators[map.choice("type", kinds)];
+      if (generator.is_late == is_late) {
+        const std::string name = map.word("name");
+        checkName(builder, name, map.placeAt("name"));
+        generator.read(builder, name, map, beside);
+      }
+    }
   }
 }
 

@@ -8,9 +8,10 @@
 
 #include "scene/laws/clipped_cubic.hpp"
 #include "scene/rules/lia_rules.hpp"
-#include "scene/yaml/points.hpp"
+#include "scene/yaml/selections.hpp"
 #include "scene/yaml/yaml_elements.hpp"
 #include "scene/yaml/yaml_friction.hpp"
+#include "scene/yaml/yaml_keys.hpp"
 #include "scene/yaml/yaml_tables.hpp"
 #include "scene/yaml/yaml_tanks.hpp"
 
@@ -53,23 +54,41 @@ bool contains(const Keys& list, const std::string& word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-void readEnds(SceneBuilder& builder, const YamlMap& map, Lia& lia) {
+/// One link for each pair: from one to each of a set, or from each to its like in another set.
+struct Ends {
+  std::vector<std::pair<int, int>> pairs;
+  bool are_many = false;
+};
+
+Ends readEnds(SceneBuilder& builder, const YamlMap& map) {
   const Node& ends = map.at("between");
   if (!ends.isList() || ends.size() != 2) {
     map.fail("between",
-             "'between' of " + map.what() + " is not a list of 2, allowed: [lower, upper]");
+             "'between' of " + map.what() +
+                 " is not a list of 2, allowed: [lower, upper], what has a comma in quotes");
   }
-  int indices[2];
+  Selection sides[2];
   for (std::size_t i = 0; i < 2; ++i) {
-    const Node& end = ends[i];
-    const Place place = placeOf(end, map.placeAt("between"));
-    indices[i] = pointAt(builder, wordOf(builder, end, "an end of " + map.what(), place), place);
+    sides[i] = selectionOf(builder, ends[i], "an end of " + map.what(), map.placeAt("between"));
   }
-  lia.a = indices[0];
-  lia.b = indices[1];
-  if (lia.a == lia.b) {
-    map.fail("between", map.what() + " joins module " + quoted(ends[0].text()) + " to itself");
+  const std::size_t counts[2] = {sides[0].mats.size(), sides[1].mats.size()};
+  if (counts[0] != counts[1] && counts[0] > 1 && counts[1] > 1) {
+    map.fail("between", map.what() + " is between " + std::to_string(counts[0]) + " and " +
+                            std::to_string(counts[1]) +
+                            " modules, allowed: as many, or one of one side");
   }
+  Ends result;
+  result.are_many = sides[0].is_set || sides[1].is_set;
+  for (std::size_t k = 0; k < std::max(counts[0], counts[1]); ++k) {
+    const int a = sides[0].mats[counts[0] > 1 ? k : 0];
+    const int b = sides[1].mats[counts[1] > 1 ? k : 0];
+    if (a == b) {
+      const std::string name = builder.scene().mats[static_cast<std::size_t>(a)].name;
+      map.fail("between", map.what() + " joins module " + quoted(name) + " to itself");
+    }
+    result.pairs.emplace_back(a, b);
+  }
+  return result;
 }
 
 /// What is computed once from such numbers would not follow.
@@ -89,10 +108,10 @@ void readLaws(const SceneBuilder& builder, YamlTables& tables, const YamlMap& ma
                  map.what() + " has neither 'elastic' nor 'viscous', allowed: one or both");
   }
   if (map.has("elastic")) {
-    lia.law.edit().table = tables.read(map, "elastic");
+    lia.law.edit().table = tables.read(map, "elastic", {"m"});
   }
   if (map.has("viscous")) {
-    lia.law.edit().viscous_table = tables.read(map, "viscous");
+    lia.law.edit().viscous_table = tables.read(map, "viscous", {"m/s"});
   }
 }
 
@@ -134,7 +153,8 @@ void readTables(const SceneBuilder& builder, YamlTables& tables, const YamlMap& 
     case Law::Tables::kNone:
       return;
     case Law::Tables::kOne:
-      lia.law.edit().table = tables.read(map, "table");
+      lia.law.edit().table =
+          tables.read(map, "table", {lawOf(lia.type).friction != nullptr ? "m/s" : "m"});
       return;
     case Law::Tables::kCoefficient:
       readFriction(builder, tables, map, lia);
@@ -194,12 +214,7 @@ const LiaKind& kindOf(const YamlMap& map, const std::string& word) {
   return *found;
 }
 
-Lia readLia(SceneBuilder& builder,
-            YamlTables& tables,
-            const std::string& name,
-            const std::string& word,
-            const YamlMap& map) {
-  const LiaKind& kind = kindOf(map, word);
+Keys keysOf(const LiaKind& kind) {
   Keys keys = {"type", "between", "scheme", "filter"};
   for (const Keys& more : {kind.required, kind.optional}) {
     keys.insert(keys.end(), more.begin(), more.end());
@@ -207,13 +222,21 @@ Lia readLia(SceneBuilder& builder,
   if (kind.type == LiaType::kCubic) {
     keys.emplace_back("tank");
   }
-  map.allow(keys);
+  return keys;
+}
 
+Lia readLia(SceneBuilder& builder,
+            YamlTables& tables,
+            const std::string& name,
+            const LiaKind& kind,
+            const std::pair<int, int>& ends,
+            const YamlMap& map) {
   Lia lia;
   lia.name = name;
   lia.type = kind.type;
   lia.place = map.place();
-  readEnds(builder, map, lia);
+  lia.a = ends.first;
+  lia.b = ends.second;
   lia.rest_length = map.number("rest_length", restLengthLimits(builder.scene(), lia), 0.0);
   readTables(builder, tables, map, lia);
   readCoefficients(builder, map, kind.required, lia);
@@ -225,6 +248,14 @@ Lia readLia(SceneBuilder& builder,
 }
 
 }  // namespace
+
+KeysOfTypes keysOfLias() {
+  KeysOfTypes all = {{kBend, bendKeys()}, {kStretch, stretchKeys()}};
+  for (const LiaKind& kind : liaKinds()) {
+    all.emplace_back(kind.word, keysOf(kind));
+  }
+  return all;
+}
 
 void readLias(SceneBuilder& builder, const YamlMap& top, YamlTables& tables) {
   Pressed pressed;
@@ -239,11 +270,17 @@ void readLias(SceneBuilder& builder, const YamlMap& top, YamlTables& tables) {
       stretches.push_back(readStretch(builder, name, map));
       return;
     }
-    Lia lia = readLia(builder, tables, name, word, map);
-    if (!lia.law->pressed_by.empty()) {
-      pressed.emplace_back(lia.law->pressed_by, map.placeAt("normal"));
+    const LiaKind& kind = kindOf(map, word);
+    map.allow(keysOf(kind));
+    const Ends ends = readEnds(builder, map);
+    for (std::size_t k = 0; k < ends.pairs.size(); ++k) {
+      Lia lia = readLia(builder, tables, ends.are_many ? name + "." + std::to_string(k) : name,
+                        kind, ends.pairs[k], map);
+      if (!lia.law->pressed_by.empty()) {
+        pressed.emplace_back(lia.law->pressed_by, map.placeAt("normal"));
+      }
+      builder.add(std::move(lia));
     }
-    builder.add(std::move(lia));
   });
   checkPressers(builder, pressed);
   for (StretchKeys& stretch : stretches) {

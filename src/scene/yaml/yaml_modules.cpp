@@ -6,6 +6,7 @@
 #include "scene/rules/point_rules.hpp"
 #include "scene/yaml/points.hpp"
 #include "scene/yaml/yaml_elements.hpp"
+#include "scene/yaml/yaml_keys.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -42,11 +43,11 @@ const MatKind& kindOf(const YamlMap& map) {
   return matKinds()[map.choice("type", kWords)];
 }
 
-void allowKeys(const YamlMap& map, const MatKind& kind) {
-  std::vector<std::string> keys = {"type", "section"};
+KeyNames keysOf(const MatKind& kind) {
+  KeyNames keys = {"type", "section"};
   keys.insert(keys.end(), kind.keys.begin(), kind.keys.end());
   keys.insert(keys.end(), kind.scalar_keys.begin(), kind.scalar_keys.end());
-  map.allow(keys);
+  return keys;
 }
 
 /// Rest, position and velocity.
@@ -73,7 +74,7 @@ void readPlaces(const SceneBuilder& builder, const YamlMap& map, const MatKind& 
 
 Mat readMat(const SceneBuilder& builder, const std::string& name, const YamlMap& map) {
   const MatKind& kind = kindOf(map);
-  allowKeys(map, kind);
+  map.allow(keysOf(kind));
   Mat mat;
   mat.name = name;
   mat.type = kind.type;
@@ -144,6 +145,14 @@ void refuseSection(const SceneBuilder& builder, const YamlMap& map) {
 
 }  // namespace
 
+KeysOfTypes keysOfMats() {
+  KeysOfTypes all;
+  for (const MatKind& kind : matKinds()) {
+    all.emplace_back(kind.name, keysOf(kind));
+  }
+  return all;
+}
+
 void readMats(SceneBuilder& builder, const YamlMap& top) {
   forEachElement(builder, top, "mats", "module", [&](const std::string& name, const YamlMap& map) {
     if (kindOf(map).type != MatType::kPoint) {
@@ -156,7 +165,7 @@ void readPoints(SceneBuilder& builder, const YamlMap& top) {
   forEachElement(builder, top, "mats", "module", [&](const std::string& name, const YamlMap& map) {
     const MatKind& kind = kindOf(map);
     if (kind.type == MatType::kPoint) {
-      allowKeys(map, kind);
+      map.allow(keysOf(kind));
       refuseSection(builder, map);
       (map.word("type") == "tap" ? readTap : readPoint)(builder, name, map);
     }

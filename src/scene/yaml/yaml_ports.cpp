@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scene/yaml/yaml_elements.hpp"
+#include "scene/yaml/yaml_keys.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 
 Port readPort(const SceneBuilder& builder, const std::string& name, const YamlMap& map) {
-  map.allow({"mat", "axis", "slice", "offset", "position_scale", "force_scale", "filter"});
+  map.allow(portKeys());
   Port port;
   port.name = name;
   port.place = map.place();
@@ -42,7 +43,7 @@ struct NoiseFilter {
 
 /// Stable by itself at the wanted gestural rate: (wh)^2 + 4 z wh < 4.
 NoiseFilter readFilter(const SceneBuilder& builder, const YamlMap& map, const Mat& slice) {
-  map.allow({"mass", "frequency", "damping_ratio", "section"});
+  map.allow(filterKeys());
   NoiseFilter filter;
   filter.section = map.has("section") ? sectionOf(builder, map) : slice.section;
   const Section& from = builder.scene().sectionOf(slice);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/yaml/yaml_rows.hpp"
 
-#include <algorithm>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -64,6 +64,7 @@ class RowReader {
         builder_.fail(place, "column " + quoted(column) + " of " + table_.what() + " comes twice");
       }
       columns_.push_back(column);
+      known_.insert(column);
     }
     if (!isColumn(kName)) {
       table_.fail(kColumns, "'columns' of " + table_.what() +
@@ -82,13 +83,12 @@ class RowReader {
                  });
   }
 
-  bool isColumn(const std::string& key) const {
-    return std::find(columns_.begin(), columns_.end(), key) != columns_.end();
-  }
+  bool isColumn(const std::string& key) const { return known_.count(key) > 0; }
 
   const SceneBuilder& builder_;
   const YamlMap& table_;
   std::vector<std::string> columns_;
+  std::unordered_set<std::string> known_;  // the same
   std::vector<YamlMap::Entry> common_;
 };
 

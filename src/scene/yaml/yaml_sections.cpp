@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scene/yaml/yaml_elements.hpp"
+#include "scene/yaml/yaml_keys.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -46,7 +47,7 @@ int readModes(const YamlMap& map) {
 }
 
 Section readSection(const std::string& name, const YamlMap& map) {
-  map.allow({"rate", "geometry", "pose", "gravity", "medium", "sleep", "modes"});
+  map.allow(sectionKeys());
   Section section;
   section.name = name;
   section.place = map.place();

@@ -12,14 +12,14 @@ std::string countText() {
 
 }  // namespace
 
-Table YamlTables::read(const YamlMap& map, const std::string& key) {
+Table YamlTables::read(const YamlMap& map, const std::string& key, const TableUnits& units) {
   const Node& node = map.at(key);
   const std::string what = quoted(key) + " of " + map.what();
   Table table;
   if (node.isMap()) {
-    table = readNamed(map.map(key));
+    table = readNamed(map.map(key), units);
   } else {
-    table = readPoints(node, what, map.placeAt(key));
+    table = readPoints(node, what, units, map.placeAt(key));
   }
   points_ += table.points.size();
   if (points_ > kMaxSceneTablePoints) {
@@ -30,7 +30,7 @@ Table YamlTables::read(const YamlMap& map, const std::string& key) {
 }
 
 /// `{points or file, interpolation}`
-Table YamlTables::readNamed(const YamlMap& spec) {
+Table YamlTables::readNamed(const YamlMap& spec, const TableUnits& units) {
   spec.allow({"points", "file", "interpolation"});
   if (spec.has("points") == spec.has("file")) {
     builder_.fail(spec.place(), spec.what() + " has " + (spec.has("file") ? "both" : "neither") +
@@ -38,14 +38,17 @@ Table YamlTables::readNamed(const YamlMap& spec) {
                                     " 'file', allowed: one of them");
   }
   Table table = spec.has("points")
-                    ? readPoints(spec.at("points"), spec.what(), spec.placeAt("points"))
-                    : readFile(spec);
+                    ? readPoints(spec.at("points"), spec.what(), units, spec.placeAt("points"))
+                    : readFile(spec, units);
   table.smooth =
       spec.has("interpolation") && spec.choice("interpolation", {"linear", "monotone"}) == 1;
   return table;
 }
 
-Table YamlTables::readPoints(const Node& points, const std::string& what, Place place) const {
+Table YamlTables::readPoints(const Node& points,
+                             const std::string& what,
+                             const TableUnits& units,
+                             Place place) const {
   if (!points.isList() || points.size() < 2 || points.size() > kMaxTablePoints) {
     builder_.fail(place, what + " is not a list of points, allowed: " + countText() + " pairs");
   }
@@ -56,19 +59,19 @@ Table YamlTables::readPoints(const Node& points, const std::string& what, Place 
       builder_.fail(at, "a point of " + what + " is not a pair of numbers");
     }
     const std::string first = "first number of a point of " + what;
-    const double x = numberOf(builder_, point[0], first, {}, at);
+    const double x = numberOf(builder_, point[0], first, {units.first}, at);
     const Limits increasing{"", table.empty() ? -kInfinity : table.points.back().first, kInfinity,
                             true};
     if (!increasing.hold(x)) {
       builder_.fail(at, outOfRange(first, x, increasing));
     }
     table.points.emplace_back(
-        x, numberOf(builder_, point[1], "force of a point of " + what, kForceLimits, at));
+        x, numberOf(builder_, point[1], "force of a point of " + what, {units.second}, at));
   }
   return table;
 }
 
-Table YamlTables::readFile(const YamlMap& spec) {
+Table YamlTables::readFile(const YamlMap& spec, const TableUnits& units) {
   const std::string name = PointFiles::nameOf(spec);
   if (files_.isSelfContained()) {
     const PointFiles::Appended* appended = files_.find(PointFiles::Part::kTables, name);
@@ -76,7 +79,7 @@ Table YamlTables::readFile(const YamlMap& spec) {
       spec.fail("file", "file " + quoted(name) + " of " + spec.what() +
                             " is not among the tables of the second document");
     }
-    return readPoints(*appended->points, "table " + quoted(name), appended->place);
+    return readPoints(*appended->points, "table " + quoted(name), units, appended->place);
   }
   const auto known = known_.find(name);
   if (known != known_.end()) {

@@ -10,6 +10,12 @@
 
 namespace ergotic::scene {
 
+/// Of the numbers of a point.
+struct TableUnits {
+  const char* first = "";
+  const char* second = "N";
+};
+
 /// The tables of a scene, wherever their points are: `[[x, y], ...]`, or
 /// `{points: [[x, y], ...], interpolation: ...}`, or `{file: name.csv, interpolation: ...}`.
 class YamlTables {
@@ -18,12 +24,15 @@ class YamlTables {
 
   /// The table under a key.
   /// \throws TextError with the place in the scene, or in the file of points
-  Table read(const YamlMap& map, const std::string& key);
+  Table read(const YamlMap& map, const std::string& key, const TableUnits& units);
 
  private:
-  Table readPoints(const Node& points, const std::string& what, Place place) const;
-  Table readNamed(const YamlMap& spec);
-  Table readFile(const YamlMap& spec);
+  Table readPoints(const Node& points,
+                   const std::string& what,
+                   const TableUnits& units,
+                   Place place) const;
+  Table readNamed(const YamlMap& spec, const TableUnits& units);
+  Table readFile(const YamlMap& spec, const TableUnits& units);
 
   SceneBuilder& builder_;
   PointFiles& files_;

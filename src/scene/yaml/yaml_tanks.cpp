@@ -5,6 +5,7 @@
 
 #include "scene/generate/stretch.hpp"
 #include "scene/limits.hpp"
+#include "scene/yaml/yaml_keys.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -42,7 +43,7 @@ std::vector<int> springsOf(const SceneBuilder& builder, const std::string& grid,
 }  // namespace
 
 StretchKeys readStretch(const SceneBuilder& builder, const std::string& name, const YamlMap& map) {
-  map.allow({"type", "of", "spacing", "hardening"});
+  map.allow(stretchKeys());
   StretchKeys stretch;
   stretch.tank.name = name;
   stretch.tank.is_mean = true;
@@ -61,6 +62,10 @@ void addStretch(SceneBuilder& builder, StretchKeys stretch) {
     for (const auto& [name, place] : stretch.names) {
       stretch.tank.springs.push_back(builder.lia(name, place));
     }
+  }
+  if (stretch.tank.springs.empty()) {
+    builder.fail(stretch.tank.place,
+                 "link " + quoted(stretch.tank.name) + " is of no spring, allowed: at least 1");
   }
   addStretch(builder, std::move(stretch.tank));
 }

@@ -88,8 +88,8 @@ pid_t spawn(std::vector<std::string> words, const std::vector<int>& files) {
   return pid;
 }
 
-/// The guardians of this process, told when a thread of it commits a fault: the kernel would do so
-/// only when it has stopped all threads, and written a core file.
+/// The guardians of this process, told when a signal ends it that may leave a core file: the kernel
+/// would do so only when it has stopped all threads, and written the file.
 class FaultTeller {
  public:
   static void add(pid_t guardian) {
@@ -99,6 +99,9 @@ class FaultTeller {
       ours.sa_handler = &FaultTeller::onFault;
       for (std::size_t i = 0; i < kFaults.size(); ++i) {
         ::sigaction(kFaults[i], &ours, &earlier[i]);
+        if (earlier[i].sa_handler != SIG_DFL && i >= kOfThreads) {  // it may live on
+          ::sigaction(kFaults[i], &earlier[i], nullptr);
+        }
       }
     }
     replace(0, guardian);
@@ -112,8 +115,10 @@ class FaultTeller {
   }
 
  private:
-  static constexpr std::array<int, 5> kFaults = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
-  static constexpr std::size_t kMost = 16;  // more are told by the kernel
+  static constexpr std::array<int, 10> kFaults = {SIGSEGV, SIGBUS,  SIGILL, SIGFPE,  SIGABRT,
+                                                  SIGQUIT, SIGTRAP, SIGSYS, SIGXCPU, SIGXFSZ};
+  static constexpr std::size_t kOfThreads = 5;  // which nobody survives
+  static constexpr std::size_t kMost = 16;      // more are told by the kernel
 
   /// Then it goes its usual way.
   static void onFault(int signal) {
@@ -147,14 +152,35 @@ class FaultTeller {
   static inline std::array<std::atomic<pid_t>, kMost> guardians{};
 };
 
-/// A page of memory without a name. \return its file
-int makePage() {
-  const int file = ::memfd_create("ergotic_guardian", MFD_CLOEXEC);
-  if (file < 0 || ::ftruncate(file, sizeof(GuardianPage)) != 0) {
-    refuse(std::generic_category().message(errno));
+/// A page of memory without a name, and its file, which is open as long as this is.
+class PageFile {
+ public:
+  PageFile() : number_(::memfd_create("ergotic_guardian", MFD_CLOEXEC)) {
+    if (number_ >= 0 && ::ftruncate(number_, sizeof(GuardianPage)) == 0) {
+      page_ = mapGuardianPage(number_);
+    }
+    if (page_ == nullptr) {
+      const std::string why = std::generic_category().message(errno);
+      close();
+      refuse(why);
+    }
   }
-  return file;
-}
+  ~PageFile() { close(); }
+  PageFile(const PageFile&) = delete;
+  PageFile& operator=(const PageFile&) = delete;
+  int number() const { return number_; }
+  void* page() const { return page_; }  ///< outlives this
+
+ private:
+  void close() const {
+    if (number_ >= 0) {
+      ::close(number_);
+    }
+  }
+
+  int number_;
+  void* page_ = nullptr;
+};
 
 void makeRobust(pthread_mutex_t& mutex) {
   pthread_mutexattr_t attributes;
@@ -176,27 +202,29 @@ bool hasEnded(pid_t pid) noexcept {
 Guardian::Guardian(const std::vector<Guard>& guards, const GuardianOptions& options) {
   requireWithin("silence", options.silence_s, 0.008, 2.0, "s");
   requireWithin("guardian priority", options.priority, 0, 99, "");
-  const int file = makePage();
-  page_ = new (mapGuardianPage(file)) GuardianPage;
+  const PageFile file;
+  page_ = new (file.page()) GuardianPage;
   makeRobust(page_->life);
-  hold(options.priority);
-  std::vector<int> files = {file};
+  std::vector<int> files = {file.number()};
   for (const Guard& guard : guards) {
     if (guard.file >= 0) {
       files.push_back(guard.file);
     }
   }
   try {
-    std::vector<std::string> words = wordsFor(guards, options, file);
+    hold(options.priority);
+    std::vector<std::string> words = wordsFor(guards, options, file.number());
     const std::string program = words.front();
     pid_ = spawn(std::move(words), files);
-    ::close(file);
     waitForAnswer(program);
     FaultTeller::add(pid_);
     is_told_ = true;
-  } catch (const DeviceError&) {
+  } catch (const std::exception& error) {
     end();
-    throw;
+    if (dynamic_cast<const DeviceError*>(&error) != nullptr) {
+      throw;
+    }
+    refuse(error.what());  // no thread, no memory
   }
 }
 
@@ -237,7 +265,9 @@ void Guardian::end() noexcept {
   }
   page_->quit = true;
   done_.set_value();
-  holder_.join();
+  if (holder_.joinable()) {
+    holder_.join();
+  }
   for (int i = 0; pid_ > 0 && ::waitpid(pid_, nullptr, WNOHANG) == 0; ++i) {
     if (i == kPatienceMs) {
       ::kill(pid_, SIGKILL);
@@ -251,7 +281,21 @@ ERGOTIC_REALTIME void Guardian::beat() noexcept {
   page_->beats.fetch_add(1, std::memory_order_relaxed);
 }
 
-bool Guardian::isThere() const noexcept {
+/// Where the machine stands still nobody asks.
+bool Guardian::isThere() noexcept {
+  constexpr std::int64_t kSilenceNs = 2'000'000'000;
+  constexpr int kLeastAsked = 20;
+  const std::int64_t looks = page_->looks;
+  const std::int64_t now_ns = rt::monotonicNs();
+  if (looks != looks_) {
+    looks_ = looks;
+    looked_ns_ = now_ns;
+    asked_ = 0;
+  }
+  if (++asked_ > kLeastAsked && now_ns - looked_ns_ > kSilenceNs) {
+    ::kill(pid_, SIGKILL);
+    return false;
+  }
   return !hasEnded(pid_);
 }
 

@@ -20,6 +20,7 @@ struct GuardianPage {
   /// that thread is dead, before it gives back memory and files of the process, which takes long.
   pthread_mutex_t life;
   std::atomic<std::int64_t> beats{0};  ///< by the station
+  std::atomic<std::int64_t> looks{0};  ///< by the guardian, four in the silence that it waits for
   std::atomic<bool> quit{false};       ///< by the station: the devices were given back
   std::atomic<bool> answered{false};   ///< by the guardian: `refusal` is what it cannot hold
   char refusal[512] = "";

@@ -11,6 +11,7 @@ namespace ergotic::tgr {
 namespace {
 
 constexpr double kStillS = 0.009;
+constexpr double kWorth = 0.05;           // of the limit: what comes back from less is no kick
 constexpr std::int64_t kLeastStill = 20;  // samples: fewer may be the same by chance
 
 std::int64_t ticksOf(double seconds, double tick_s) {
@@ -50,7 +51,8 @@ SliceChain::SliceChain(const SafetyConfig& config, double tick_s, int delay_tick
       force_limit_(config.force_limit_n),
       port_(
           {config.energy_cap_j, config.energy_supply_w, config.slice_damping, tick_s, delay_ticks}),
-      trust_step_(tick_s / config.resume_ramp_s) {
+      trust_step_(tick_s / config.resume_ramp_s),
+      least_kick_(kWorth * config.force_limit_n) {
   port_.loseTrack();
 }
 
@@ -94,7 +96,9 @@ ERGOTIC_REALTIME FaultReason SliceChain::inspect(double raw, bool open) noexcept
 
 /// A sensor that may be frozen gives no force until it moves; then force comes back by a ramp.
 ERGOTIC_REALTIME double SliceChain::trust() noexcept {
+  just_muted_ = false;
   if (position_.isStill()) {
+    just_muted_ = trust_ > 0.0 && std::abs(port_.issued()) > least_kick_;
     trust_ = 0.0;
     ++muted_ticks_;
     return trust_;

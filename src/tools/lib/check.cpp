@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include "ergotic/advice/ranges.hpp"
+#include "ergotic/exception.hpp"
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/physics/engine/instrument.hpp"
 #include "ergotic/physics/settling/settle.hpp"
@@ -19,6 +20,7 @@
 #include "physics/certificate/rounding_noise.hpp"
 #include "physics/note.hpp"
 #include "scene/laws/law.hpp"
+#include "tools/lib/check_about.hpp"
 #include "tools/lib/check_filters.hpp"
 #include "tools/lib/check_names.hpp"
 #include "tools/lib/check_points.hpp"
@@ -31,6 +33,7 @@
 #include "tools/lib/proof_file.hpp"
 #include "tools/lib/report.hpp"
 #include "tools/lib/target.hpp"
+#include "tools/lib/truths.hpp"
 
 namespace ergotic::tools {
 namespace {
@@ -68,32 +71,6 @@ Json linksOf(const Scene& scene) {
           {"types", by_type},
           {"schemes", by_scheme},
           {"between_sections", between_sections}};
-}
-
-/// Inputs or outputs.
-template <class Channel>
-Json channelOf(const Scene& scene, const Channel& channel, const scene::Mat& mat) {
-  return {{"name", channel.name},
-          {"quantity", channel.quantity},
-          {"module", mat.name},
-          {"channel", channel.channel + 1},
-          {"gain", scene.valueOf(channel.gain)}};
-}
-
-Json inputsOf(const Scene& scene) {
-  Json report = Json::array();
-  for (const scene::Input& input : scene.inputs) {
-    report.push_back(channelOf(scene, input, matAt(scene, input.mat)));
-  }
-  return report;
-}
-
-Json outputsOf(const Scene& scene) {
-  Json report = Json::array();
-  for (const scene::Output& output : scene.outputs) {
-    report.push_back(channelOf(scene, output, matAt(scene, output.point.mat)));
-  }
-  return report;
 }
 
 Json parametersOf(const Scene& scene) {
@@ -210,6 +187,7 @@ Json reportOn(const physics::Settled& settled,
     warnings.push_back(note);
   }
   Json report = {{"scene", scene.name},
+                 {"about", aboutReport(scene.about)},
                  {"modules", scene.mats.size()},
                  {"audio_rate_hz", rates.audio_hz},
                  {"gestural_rate_hz", rates.gesturalHz()},
@@ -218,10 +196,11 @@ Json reportOn(const physics::Settled& settled,
                  {"sections", sectionsReport(scene, rates, certificate)},
                  {"links", linksOf(scene)},
                  {"points", pointsOf(scene)},
+                 {"selections", selectionsReport(scene)},
                  {"ports", portsReport(scene, rates, certificate, device.noise)},
                  {"agents", agentsReport(scene)},
-                 {"inputs", inputsOf(scene)},
-                 {"outputs", outputsOf(scene)},
+                 {"inputs", inputsReport(scene)},
+                 {"outputs", outputsReport(scene)},
                  {"parameters", parametersOf(scene)},
                  {"strings", stringsOf(scene, rates)},
                  {"filters", filtersReport(scene, rates)},
@@ -258,13 +237,9 @@ int finish(const Json& report,
            bool json,
            const std::string& file,
            physics::Verdict verdict,
-           const std::vector<std::string>& refusals) {
-  if (json) {
-    printJson(report, std::cout);
-    std::cout << '\n';
-  } else {
-    printText(report, std::cout);
-  }
+           const std::vector<std::string>& refusals,
+           const std::vector<std::string>& unstable_variants) {
+  tell(report, json);
   for (const std::string& line : refusals) {
     std::cerr << line << '\n';
   }
@@ -272,7 +247,26 @@ int finish(const Json& report,
     std::cerr << file << ": unstable at these rates\n";
     return kRefused;
   }
+  for (const std::string& variant : unstable_variants) {
+    std::cerr << file << ": variant " << variant << " is unstable at these rates\n";
+  }
+  if (!unstable_variants.empty()) {
+    return kRefused;
+  }
   return refusals.empty() ? kSuccess : kFailure;
+}
+
+/// \return kFailure if one of them does not hold, or cannot be measured
+int checkTruths(const CheckOptions& options) {
+  const scene::ClaimingScene claims =
+      scene::readTruthsFile(options.scene.scene, overridesOf(options.scene.set));
+  if (claims.truths.empty()) {
+    throw Exception(options.scene.scene + ": the scene has no 'truths'");
+  }
+  const physics::Rates rates = chosenRates(claims.scene, options.scene);
+  const std::vector<JudgedTruth> judged =
+      judgeTruths(claims, rates, chosenOptions(options.compile));
+  return tellTruths(claims, judged, options.json) ? kSuccess : kFailure;
 }
 
 void addOptions(CLI::App& app, DeviceChoice& choice) {
@@ -313,9 +307,16 @@ void addOptions(CLI::App& app, CheckOptions& options) {
   app.add_option("--explain", options.explain,
                  "say where this module, link or other part comes from, and nothing else")
       ->type_name("NAME");
+  addOptions(app, options.modes);
+  addOptions(app, options.advice);
+  app.add_flag("--truths", options.truths,
+               "play and measure what the scene claims of itself, and nothing else");
 }
 
 int check(const CheckOptions& options) {
+  if (options.truths) {
+    return checkTruths(options);
+  }
   const tgr::EndEffectors end_effectors = readEndEffectors(options.end_effectors);
   LoadFigures load;
   load.begin("read_s", "read " + options.scene.scene);
@@ -325,9 +326,17 @@ int check(const CheckOptions& options) {
     return kSuccess;
   }
   const physics::Rates rates = chosenRates(scene, options.scene);
+  if (options.advice.is_wanted) {
+    checkAdvice(scene, rates, options.device.traits, options.advice, options.json);
+    return kSuccess;
+  }
   load.begin("settle_s", "settle " + sizeText(scene));
   const std::clock_t begun = std::clock();
   const physics::Settled settled = physics::settle(scene, rates);
+  if (options.modes.are_wanted) {
+    checkModes(scene, settled.scene, rates, options.modes, options.json);
+    return kSuccess;
+  }
   load.begin("certify_s", "certify " + sizeText(settled.scene));
   physics::DeviceTraits device = options.device.traits;
   device.taken_ports = tgr::takenPorts(settled.scene, end_effectors);
@@ -360,7 +369,11 @@ int check(const CheckOptions& options) {
   if (!options.proof.empty()) {
     writeProof(options.proof, settled.scene, rates, certificate.verdict, proof);
   }
-  return finish(report, options.json, settled.scene.file, certificate.verdict, refusals);
+  std::vector<std::string> unstable;
+  if (options.scene.variant.empty() && !scene.variants.empty()) {
+    report["variants"] = variantsReport(scene.variants, options.scene, device, unstable);
+  }
+  return finish(report, options.json, settled.scene.file, certificate.verdict, refusals, unstable);
 }
 
 }  // namespace ergotic::tools

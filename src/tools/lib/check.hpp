@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "tools/lib/check_advice.hpp"
+#include "tools/lib/check_modes.hpp"
 #include "tools/lib/check_ports.hpp"
 #include "tools/lib/options.hpp"
 
@@ -20,6 +22,9 @@ struct CheckOptions {
   std::string filter_response;  ///< empty: not written
   std::string proof;            ///< empty: not written
   std::string explain;          ///< a name; empty: all of the scene is checked
+  ModesChoice modes;
+  AdviceChoice advice;
+  bool truths = false;  ///< measure what the scene claims, and nothing else
 };
 
 void addOptions(CLI::App& app, CheckOptions& options);

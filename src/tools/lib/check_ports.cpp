@@ -17,6 +17,16 @@ const scene::Mat& matAt(const Scene& scene, int index) {
   return scene.mats[static_cast<std::size_t>(index)];
 }
 
+/// Inputs or outputs.
+template <class Channel>
+Json channelOf(const Scene& scene, const Channel& channel, const scene::Mat& mat) {
+  return {{"name", channel.name},
+          {"quantity", channel.quantity},
+          {"module", mat.name},
+          {"channel", channel.channel + 1},
+          {"gain", scene.valueOf(channel.gain)}};
+}
+
 std::string axisOf(const scene::Port& port) {
   constexpr char kAxes[] = {'x', 'y', 'z'};
   return {kAxes[port.axis]};
@@ -102,6 +112,22 @@ std::vector<std::string> refusedPorts(const physics::Certificate& certificate) {
     }
   }
   return refused;
+}
+
+Json inputsReport(const Scene& scene) {
+  Json report = Json::array();
+  for (const scene::Input& input : scene.inputs) {
+    report.push_back(channelOf(scene, input, matAt(scene, input.mat)));
+  }
+  return report;
+}
+
+Json outputsReport(const Scene& scene) {
+  Json report = Json::array();
+  for (const scene::Output& output : scene.outputs) {
+    report.push_back(channelOf(scene, output, matAt(scene, output.point.mat)));
+  }
+  return report;
 }
 
 }  // namespace ergotic::tools

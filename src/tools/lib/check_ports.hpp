@@ -23,6 +23,9 @@ Json portsReport(const scene::Scene& scene,
                  const physics::Certificate& certificate,
                  const physics::SensorNoise& noise);
 Json agentsReport(const scene::Scene& scene);
+/// What audio channels move or push, and what is heard on them.
+Json inputsReport(const scene::Scene& scene);
+Json outputsReport(const scene::Scene& scene);
 
 /// Why the ports that the certificate refuses cannot be played, as the station says, too:
 /// `file:line:col: error: ...`.

@@ -10,11 +10,14 @@ namespace ergotic::tools {
 /// What `expand` is asked for.
 struct ExpandOptions {
   std::string scene;
+  std::string variant;
+  bool schema = false;
 };
 
 void addOptions(CLI::App& app, ExpandOptions& options);
 
-/// Writes the plain text of a scene to stdout, as recordings keep it.
+/// Writes the plain text of a scene to stdout, as recordings keep it, and as remarks how many
+/// modules its selections mean; or the schema of scene files.
 /// \return kSuccess
 /// \throws TextError, Exception
 int expand(const ExpandOptions& options);

@@ -45,6 +45,8 @@ void addOptions(CLI::App& app, SceneOptions& options) {
   app.add_option("--set", options.set, "value of a parameter of the scene, NAME=VALUE")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
+  app.add_option("--variant", options.variant, "of the scene, one of its 'variants'")
+      ->type_name("NAME");
   app.add_option("--rate", options.rate_hz, "audio rate, Hz (default: 44100)")
       ->check(CLI::PositiveNumber);
   app.add_option("--gestural-rate", options.gestural_rate_hz,
@@ -101,7 +103,7 @@ scene::Overrides overridesOf(const std::vector<std::string>& set) {
 }
 
 scene::Scene readScene(const SceneOptions& options) {
-  return scene::readSceneFile(options.scene, overridesOf(options.set));
+  return scene::readSceneFile(options.scene, overridesOf(options.set), {options.variant});
 }
 
 physics::Rates chosenRates(const scene::Scene& scene, const SceneOptions& options) {

@@ -27,6 +27,7 @@ enum ExitCode {
 struct SceneOptions {
   std::string scene;              ///< path; may be empty where a recording tells
   std::vector<std::string> set;   ///< NAME=VALUE
+  std::string variant;            ///< of the scene; empty: none
   double rate_hz = 0.0;           ///< 0: 44100
   double gestural_rate_hz = 0.0;  ///< 0: as the scene wishes
 };

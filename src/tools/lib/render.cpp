@@ -25,6 +25,7 @@
 #include "tools/lib/progress.hpp"
 #include "tools/lib/render_energies.hpp"
 #include "tools/lib/replay.hpp"
+#include "tools/lib/report.hpp"
 #include "tools/lib/target.hpp"
 
 namespace ergotic::tools {
@@ -104,6 +105,26 @@ std::unique_ptr<Player> playScene(const RenderOptions& options) {
   return options.gesture.empty()
              ? makeFreePlayer(std::move(performer), std::move(inputs))
              : makeHandPlayer(std::move(performer), std::move(inputs), options.gesture);
+}
+
+/// Nothing is heard, and nobody else plays.
+int feelScene(const RenderOptions& options) {
+  if (options.scene.scene.empty() || !options.gesture.empty() || !options.out.empty() ||
+      !options.inputs.empty() || !options.target.empty()) {
+    throw CLI::ValidationError(
+        "--feel", "takes a scene, and no --gesture, --out, --input or --target beside it");
+  }
+  scene::Scene scene = readScene(options.scene);
+  const physics::Rates rates = chosenRates(scene, options.scene);
+  station::PerformerPolicy policy = policyOf(options);
+  policy.end_effectors = readEndEffectors(options.end_effectors);
+  const auto performer =
+      station::makePerformer(std::move(scene), rates, chosenOptions(options.compile), policy);
+  for (const std::string& warning : performer->warnings) {
+    say(warning);
+  }
+  printText(feelReport(*performer, policy.device, policy.end_effectors, options.feel), std::cout);
+  return kSuccess;
 }
 
 #ifdef ERGOTIC_HAVE_BAG
@@ -243,10 +264,14 @@ void addOptions(CLI::App& app, RenderOptions& options) {
                   "--gestural-rate and --precision if they are given");
   app.add_flag("--energies", options.energies, "say where the energy went");
   app.add_flag("--allow-unstable", options.allow_unstable, "play what is known to blow up, too");
+  addOptions(app, options.feel);
   app.add_flag("--allow-gaps", options.allow_gaps, "accept a recording that cannot be exact");
 }
 
 int render(const RenderOptions& options) {
+  if (!options.feel.slice.empty()) {
+    return feelScene(options);
+  }
   std::unique_ptr<Player> player;
   const Replay* replay = nullptr;
   if (endsWith(options.gesture, ".bag")) {

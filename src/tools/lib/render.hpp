@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/lib/feel.hpp"
 #include "tools/lib/options.hpp"
 
 namespace ergotic::tools {
@@ -20,6 +21,7 @@ struct RenderOptions {
   std::string station;              ///< whose recording of a bag; empty: of the only one
   std::string end_effectors;        ///< file; empty: ports move with their own slices
   std::string target;               ///< empty: the scene is played as it is
+  FeelChoice feel;                  ///< in place of a sound
   bool energies = false;
   bool allow_unstable = false;
   bool allow_gaps = false;
@@ -27,9 +29,9 @@ struct RenderOptions {
 
 void addOptions(CLI::App& app, RenderOptions& options);
 
-/// Plays a scene offline into a file; a line of figures to stderr.
-/// \return kSuccess, or kRefused if a recording has gaps
-/// \throws TextError, Exception
+/// Plays a scene offline into a file; a line of figures to stderr. Or says on stdout what a hand
+/// feels at a slice. \return kSuccess, or kRefused if a recording has gaps \throws TextError,
+/// Exception
 int render(const RenderOptions& options);
 
 }  // namespace ergotic::tools

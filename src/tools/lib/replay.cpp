@@ -18,7 +18,7 @@ scene::Scene sceneOf(const bag::Keyframe& keyframe) {
   const std::string& name = keyframe.scene_name;
   const bool mdl = name.size() > 4 && name.compare(name.size() - 4, 4, ".mdl") == 0;
   return mdl ? scene::readMdl(keyframe.scene_text, name)
-             : scene::readYaml(keyframe.scene_text, name);
+             : scene::readYaml(keyframe.scene_text, name, {}, {"", false});
 }
 
 /// As it was recorded, with the best kernels of this processor where it lacks the recorded ones.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <sstream>
 #include <string>
 
@@ -81,6 +82,15 @@ void printText(const Json& report, std::ostream& out) {
 
 void printJson(const Json& report, std::ostream& out) {
   out << written(report, 2);
+}
+
+void tell(const Json& report, bool for_program) {
+  if (for_program) {
+    printJson(report, std::cout);
+    std::cout << '\n';
+  } else {
+    printText(report, std::cout);
+  }
 }
 
 void printJsonLine(const Json& report, std::ostream& out) {

@@ -15,7 +15,9 @@ void printText(const Json& report, std::ostream& out);
 /// For a program: every number with as many digits as give its bits again; what is not finite is
 /// null, and bytes that are no UTF-8 are replaced.
 void printJson(const Json& report, std::ostream& out);
-/// The same on one line.
+/// On stdout, for one or the other.
+void tell(const Json& report, bool for_program);
+/// As `printJson`, on one line.
 void printJsonLine(const Json& report, std::ostream& out);
 
 }  // namespace ergotic::tools

@@ -318,7 +318,7 @@ TEST(CertifyTest, ALargeMeshWithDiagonalsIsJudgedByItsCells) {
         "ergotic: 1\nsections: {s: {}}\ngenerators:\n"
         "  - {type: mesh, name: p, rows: 160, columns: 160, spacing: 0.01, neighbours: 8,\n"
         "     mass: 1e-3, stiffness: " +
-            std::to_string(k) + "}\n",
+            std::to_string(k) + ", diagonal_stiffness: " + std::to_string(0.5 * k) + "}\n",
         "mesh.yaml");
     const Certificate c = certify(mesh, {kRate, 1});
     EXPECT_GT(c.sections[0].link_bound, 1.3 * lambda);

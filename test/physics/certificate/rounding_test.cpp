@@ -1,36 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What single precision makes of scenes whose numbers, as they are written, do not grow.
 #include <string>
+#include <vector>
 
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
 #include "physics/certificate/rounding_noise.hpp"
+#include "physics/certificate/vouched_scene.hpp"
 #include "support/physics.hpp"
 
 namespace ergotic::physics {
 namespace {
 
 const std::string kOfAudio = "ergotic: 1\nsections: {a: {}}\nmats:\n  g: {type: ground}\n";
-
-struct Vouched {
-  scene::Scene scene;
-  Rates rates;
-  explicit Vouched(const std::string& text)
-      : scene(scene::readYaml(text, "rounding.yaml")), rates(chooseRates(scene, kRate)) {
-    scene = settle(scene, rates).scene;
-  }
-  bool isVouchedFor() const { return certify(scene, rates).verdict <= Verdict::kBounded; }
-  /// m/s
-  double fastestOf(double seconds, Precision precision) const {
-    Player player(compile(scene, rates, precision));
-    double most = 0.0;
-    for (int n = 0; n < seconds * rates.gesturalHz(); ++n) {
-      player.tick();
-      most = std::max(most, std::abs(player.heard.at(0).back()));
-    }
-    return most;
-  }
-};
 
 /// A slow mass of 1 kg and a fast one, each on a spring, and one between them.
 struct TwoRates {
@@ -201,84 +183,6 @@ TEST(RoundingTest, ABendAtTheLimitIsNoneEither) {
   EXPECT_FALSE(bar(0.9999).isVouchedFor());
   EXPECT_TRUE(bar(0.9997).isVouchedFor());
   EXPECT_LT(bar(0.9997).fastestOf(1.0, Precision::kFloat), 10.0);
-}
-
-TEST(RoundingTest, NumbersThatSinglePrecisionDoesNotHoldAreRefused) {
-  const auto contact = [](const char* stiffness, const char* mass) {
-    return kOfAudio + "  m: {type: mass, mass: " + mass + ", x: 0.001, v: -1}\nlias:\n" +
-           "  c: {type: contact, between: [g, m], stiffness: " + stiffness + "}\n" +
-           "  s: {type: spring, between: [g, m], stiffness: 1e-20}\n" +
-           "outputs: {o: {at: m, quantity: velocity, channel: 1}}\n";
-  };
-  EXPECT_THAT(
-      complaintOf([&] { const Vouched none(contact("1e39", "0.01")); }),
-      HasSubstr("'stiffness' of link 'c' = 1e+39 N/m is out of range, allowed: >= 0 N/m, up "
-                "to 1e30 in size"));
-  EXPECT_FALSE(Vouched(contact("1e30", "1e-12")).isVouchedFor());
-  EXPECT_THAT(
-      complaintOf([&] { const Vouched none(contact("1", "1e-48")); }),
-      HasSubstr(
-          "'mass' of module 'm' = 1e-48 kg is out of range, allowed: > 0 kg, at least 1e-30"));
-  const Vouched largest(contact("1e30", "0.01"));
-  EXPECT_TRUE(largest.isVouchedFor());
-  EXPECT_LT(largest.fastestOf(1.0, Precision::kFloat), 10.0);
-}
-
-TEST(RoundingTest, ForcesThatSinglePrecisionDoesNotHoldAreNotVouchedFor) {
-  const auto far = [](const char* x) {
-    return Vouched(kOfAudio + "  m: {type: mass, mass: 1e29, x: " + x +
-                   "}\nlias:\n  k: {type: spring, between: [g, m], stiffness: 1e30}\n"
-                   "outputs: {o: {at: m, quantity: position, channel: 1}}\n");
-  };
-  EXPECT_FALSE(far("1e10").isVouchedFor());
-  EXPECT_TRUE(far("1e5").isVouchedFor());
-  EXPECT_LT(far("1e5").fastestOf(2.0, Precision::kFloat), 1.1e5);
-}
-
-TEST(RoundingTest, NorIsWhatMovesTooFast) {
-  const auto moving = [](const std::string& geometry, const std::string& mass,
-                         const std::string& link) {
-    return Vouched("ergotic: 1\nsections: {a: {geometry: " + geometry +
-                   "}}\nmats:\n  g: {type: ground}\n  m: {type: mass, mass: " + mass +
-                   "}\nlias:\n  k: {between: [g, m], " + link +
-                   "}\noutputs: {o: {at: m, quantity: position, channel: 1}}\n");
-  };
-  const std::string spring = "type: spring, stiffness: 1e30";
-  const Vouched fast = moving("scalar", "1e24, v: 1e17", spring);
-  Player player(compile(fast.scene, fast.rates, Precision::kFloat));
-  player.tick();
-  EXPECT_FALSE(std::isfinite(player.heard.at(0).back()));
-  EXPECT_FALSE(fast.isVouchedFor());
-  EXPECT_TRUE(moving("scalar", "1e24, v: 1e7", spring).isVouchedFor());
-  EXPECT_FALSE(moving("scalar", "1e22, v: 1e20", "type: damper, damping: 1e20").isVouchedFor());
-  EXPECT_FALSE(moving("line", "1, v: 1e24", "type: spring, stiffness: 1e4").isVouchedFor());
-  EXPECT_TRUE(moving("line", "1, v: 1e6", "type: spring, stiffness: 1e4").isVouchedFor());
-  const std::string contact = "type: contact, stiffness: ";
-  EXPECT_FALSE(moving("scalar", "1, v: 1e24", contact + "1e4").isVouchedFor());
-  EXPECT_FALSE(moving("scalar", "1e20, x: 1e9", contact + "1e30").isVouchedFor());
-  EXPECT_TRUE(moving("scalar", "1, v: 1e6", contact + "1e4").isVouchedFor());
-}
-
-TEST(RoundingTest, NorIsWhatFallsTooFarOrIsPushedTooHard) {
-  const auto pulled = [](const std::string& section, const std::string& link,
-                         const std::string& gain) {
-    return Vouched("ergotic: 1\nsections: {a: {" + section +
-                   "}}\nmats:\n  g: {type: ground}\n  m: {type: mass, mass: 0.01}\nlias:\n"
-                   "  k: {between: [g, m], " +
-                   link + "}\ninputs: {i: {mat: m, quantity: force, channel: 1, gain: " + gain +
-                   "}}\noutputs: {o: {at: m, quantity: position, channel: 1}}\n");
-  };
-  const std::string cubic = "type: cubic, stiffness: 1000, nonlinearity: 1e6";
-  const Vouched falling = pulled("gravity: -1e29", cubic, "1");
-  Player player(compile(falling.scene, falling.rates, Precision::kFloat));
-  player.ticks(2);
-  EXPECT_FALSE(std::isfinite(player.heard.at(0).back()));
-  EXPECT_FALSE(falling.isVouchedFor());
-  EXPECT_FALSE(pulled("gravity: 0", cubic, "1e28").isVouchedFor());
-  EXPECT_TRUE(pulled("gravity: -9.81", cubic, "1000").isVouchedFor());
-  const std::string held = "type: contact, stiffness: 1000";
-  EXPECT_FALSE(pulled("geometry: line, gravity: -1e20", held, "1").isVouchedFor());
-  EXPECT_TRUE(pulled("geometry: line, gravity: -9.81", held, "1000").isVouchedFor());
 }
 
 /// Two masses in a plane on prestressed springs of 7 MN/m.

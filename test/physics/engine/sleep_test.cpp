@@ -108,6 +108,34 @@ TEST(SleeperTest, StopsWhereItKeepsNoMoreThanItHad) {
   EXPECT_TRUE(slept);
 }
 
+/// A hammer that comes back in time with the looks for quiet: what stopped bent woke without the
+/// forces of its springs, and each step that was made without them gave up to half as much again.
+TEST(SleeperTest, WakesWithTheForcesOfItsSprings) {
+  const scene::Scene scene = scene::readYaml(
+      "ergotic: 1\nsections: {a: {sleep: 1}, b: {}}\nmats:\n"
+      "  ga: {type: ground, section: a}\n  gb: {type: ground, section: b}\n"
+      "  m: {type: mass, section: a, mass: 1, x: 3.217270881e-05}\n"
+      "  q: {type: mass, section: b, mass: 4.193950009, x: -0.0001590333231, v: 0.32555376}\n"
+      "lias:\n"
+      "  s: {type: spring_damper, between: [m, ga], stiffness: 1384536483, damping: 6.543973107}\n"
+      "  t: {type: spring, between: [q, gb], stiffness: 4528944.578}\n"
+      "  c: {type: contact, between: [q, m], stiffness: 1.903386234e+10}\n",
+      "sleep.yaml");
+  const Rates rates{kRate, 1};
+  Player player(compile(settle(scene, rates).scene, rates, Precision::kDouble));
+  const double start = energiesOf(player).stored;
+  double most = 0.0;
+  double slept = 0.0;
+  for (int n = 0; n < 400000; ++n) {
+    player.tick();
+    const Energies now = energiesOf(player);
+    most = std::max(most, now.stored);
+    slept = now.sections[0].dissipated;
+  }
+  EXPECT_GT(slept, 0.1 * start);
+  EXPECT_LE(most, start * (1.0 + 1e-9));
+}
+
 /// A fret that went on along a string that rests bent would be stretched by what nobody paid.
 TEST(SleeperTest, PlacesWaitUntilWhatTheyLieOnWakes) {
   const scene::Scene scene = scene::readYaml(
@@ -131,6 +159,109 @@ TEST(SleeperTest, PlacesWaitUntilWhatTheyLieOnWakes) {
     ASSERT_LE(energiesOf(player).stored, 1.1 * start) << n;
   }
   EXPECT_GT(energiesOf(player).sections[0].dissipated, 0.5 * start);
+}
+
+// Its spring ends at a tap, which has handed on what it got in the step before.
+TEST(SleeperTest, KeepsTheForcesOfSpringsAtTapsToo) {
+  const scene::Scene scene = scene::readYaml(
+      "ergotic: 1\nsections: {a: {rate: audio, sleep: 7.69182}, b: {rate: audio}}\nmats:\n"
+      "  ga: {type: ground, section: a}\n  gb: {type: ground, section: b}\n"
+      "  m: {type: mass, section: a, mass: 1, x: 2.62939e-05}\n"
+      "  q: {type: mass, section: b, mass: 7.34179, x: -0.000370773, v: 0.178438}\n"
+      "  t: {type: tap, of: m, weights: 1}\nlias:\n"
+      "  s: {type: spring_damper, between: [t, ga], stiffness: 1.4950061e+09, damping: 0}\n"
+      "  k: {type: spring, between: [q, gb], stiffness: 11138063}\n"
+      "  c: {type: contact, between: [q, m], stiffness: 4.65432e+09}\n",
+      "tap.yaml");
+  for (const Precision precision : {Precision::kDouble, Precision::kFloat}) {
+    constexpr double kStartJ = 1.8;
+    Player player(compile(settle(scene, {44100.0, 14}).scene, {44100.0, 14}, precision));
+    for (int n = 0; n < 10000; ++n) {
+      player.tick();
+      ASSERT_LE(kineticEnergy(player), kStartJ) << n;
+    }
+  }
+}
+
+/// As found by an attack: what is hit again and again sleeps in between.
+std::string hitAgain(const std::string& more, const std::string& lower = "m") {
+  return "ergotic: 1\nsections: {a: {rate: audio, sleep: 0.678382}, b: {rate: audio}}\nmats:\n"
+         "  ga: {type: ground, section: a}\n  gb: {type: ground, section: b}\n"
+         "  m: {type: mass, section: a, mass: 1, x: 7.27409e-05}\n"
+         "  q: {type: mass, section: b, mass: 6.53988, x: -0.000161748, v: 1.04781}\n"
+         "  t: {type: tap, of: m, weights: 1}\n"
+         "lias:\n  s: {type: spring_damper, between: [" +
+         lower +
+         ", ga], stiffness: 1.1342883e+09, damping: 0}\n"
+         "  k: {type: spring, between: [q, gb], stiffness: 6407260.7}\n"
+         "  c: {type: contact, between: [q, m], stiffness: 3.55381e+10}\n" +
+         more;
+}
+const std::string kFedIn = "inputs: {i: {mat: m, quantity: force, channel: 1}}\n";
+
+TEST(SleeperTest, KeepsTheForcesOfSpringsWhereForceIsFedIn) {
+  constexpr double kStartJ = 8.2;
+  const scene::Scene scene =
+      settle(scene::readYaml(hitAgain(kFedIn), "fed.yaml"), {kRate, 14}).scene;
+  for (const Precision precision : {Precision::kDouble, Precision::kFloat}) {
+    Player silent(compile(scene, {kRate, 14}, precision));
+    for (int n = 0; n < 10000; ++n) {
+      silent.tick();
+      ASSERT_LE(kineticEnergy(silent), kStartJ) << n;
+    }
+  }
+}
+
+/// The same with so many strings of one mass that they are stepped as a block.
+std::string hitAgainInABlock(const std::string& more, bool sleeps) {
+  std::string text = std::string("ergotic: 1\nsections: {a: {rate: audio") +
+                     (sleeps ? ", sleep: 0.678382" : "") + "}, b: {rate: audio}}\ngenerators:\n";
+  for (int i = 0; i < 8; ++i) {
+    text += "  - {type: string, name: s" + std::to_string(i) +
+            ", section: a, masses: 1, mass: 1, stiffness: 567144150, to: [0.1, 0]" +
+            (i == 0 ? ", pluck: {at: 0.5, height: 7.27409e-05}}\n" : "}\n");
+  }
+  return text +
+         "mats:\n  gb: {type: ground, section: b}\n"
+         "  q: {type: mass, section: b, mass: 6.53988, x: -0.000161748, v: 1.04781}\n"
+         "lias:\n  k: {type: spring, between: [q, gb], stiffness: 6407260.7}\n"
+         "  c: {type: contact, between: [q, s0.1], stiffness: 3.55381e+10}\n" +
+         more;
+}
+
+TEST(SleeperTest, KeepsTheForcesOfSpringsInABlock) {
+  const Rates rates{kRate, 15};
+  for (const char* const more : {"", "inputs: {i: {mat: s0.1, quantity: force, channel: 1}}\n"}) {
+    Player sleepy(
+        compile(settle(scene::readYaml(hitAgainInABlock(more, true), "a.yaml"), rates).scene, rates,
+                Precision::kDouble));
+    Player awake(
+        compile(settle(scene::readYaml(hitAgainInABlock(more, false), "a.yaml"), rates).scene,
+                rates, Precision::kDouble));
+    sleepy.tick();
+    awake.tick();
+    const double start = energiesOf(awake).stored;
+    double most = 0.0;
+    double slept = 0.0;
+    for (int n = 0; n < 4000; ++n) {
+      sleepy.tick();
+      const Energies now = energiesOf(sleepy);
+      most = std::max(most, now.stored);
+      slept = now.sections[0].dissipated;
+      ASSERT_NEAR(now.residual, 0.0, 1e-6 * start) << n;
+    }
+    EXPECT_GT(slept, 0.0) << "it never slept";
+    EXPECT_LE(most, start * (1.0 + 1e-9));
+  }
+}
+
+TEST(SleeperTest, RefusesForceBesideSpringsAtTaps) {
+  const scene::Scene scene =
+      settle(scene::readYaml(hitAgain(kFedIn, "t"), "fed.yaml"), {kRate, 14}).scene;
+  EXPECT_THAT(complaintOf([&] {
+                compile(scene, {kRate, 14}, Precision::kDouble);
+              }),
+              HasSubstr("not both"));
 }
 
 TEST(SleeperTest, RefusesASectionThatDoesNotRestAtZero) {

@@ -114,6 +114,28 @@ TEST(CellTest, MatchedOnesKeepThePitchThatPlainOnesMiss) {
   }
 }
 
+/// What fades within a thousandth of a step and hardly moves: e^(-sh) is 0, cosh(sh) infinite.
+TEST(CellTest, CreepsHoweverMuchItIsDamped) {
+  constexpr double kTiny = 1e-6;
+  constexpr double kStiffness = 0.0375;
+  constexpr double kX = 1e-3;
+  for (const double damping : {30.0, 70.0, 1e4, 1e8}) {
+    const double decay = damping / (2.0 * kTiny);
+    const double fast = decay + std::sqrt(decay * decay - kStiffness / kTiny);
+    for (const Precision precision : {Precision::kDouble, Precision::kFloat}) {
+      SceneBuilder b;
+      const int cell = b.cell(kTiny, kStiffness, damping);
+      b.scene.mats[at(cell)].matched = true;
+      b.scene.mats[at(cell)].position.x() = kX;
+      b.hear(cell);
+      Player player(compile(b.scene, {kRate, 10}, precision));
+      player.ticks(1000);
+      const double far = kX * std::exp(-kStiffness / kTiny / fast * 10000.0 * kStep);
+      EXPECT_NEAR(player.heard[0].back(), far, kX * (precision == Precision::kFloat ? 1e-3 : 1e-9));
+    }
+  }
+}
+
 TEST(CellTest, RestsAtItsRestInAPlane) {
   SceneBuilder b;
   b.scene.sections[0].geometry = scene::Geometry::kPlane;

@@ -69,9 +69,9 @@ TEST(UrgentSpinnerTest, TheReaderOfSocketsIsUrgentAsLongAsSomebodyWantsIt) {
   ::ros::CallbackQueue queue;
   EXPECT_EQ(priorityOfReader(), 0);
   {
-    const UrgentSpinner stays(queue, kPriority);
+    const UrgentSpinner stays(queue, kPriority, [] {});
     {
-      const UrgentSpinner goes(queue, kPriority);
+      const UrgentSpinner goes(queue, kPriority, [] {});
       EXPECT_EQ(priorityOfReader(), kPriority);
     }
     EXPECT_EQ(priorityOfReader(), kPriority);
@@ -84,7 +84,7 @@ TEST(UrgentSpinnerTest, LeavesTheProcessorToWhoeverHoldsAConnection) {
   const auto polls = ::ros::PollManager::instance();
   polls->start();
   ::ros::CallbackQueue queue;
-  const UrgentSpinner spinner(queue, kPriority);
+  const UrgentSpinner spinner(queue, kPriority, [] {});
   std::atomic<int> looks{0};
   std::promise<void> looked;
   const boost::signals2::connection counted = polls->addPollThreadListener([&] {

@@ -36,6 +36,13 @@ TEST(ParametersTest, LetNoTickWaitLongerThanATickForAThread) {
   EXPECT_EQ(physics::liveOptions().wait_limit_ns, physics::kOneTick);
 }
 
+TEST(ParametersTest, WhatTookThePlaceOfAllIsRefused) {
+  for (const XmlRpcValue& value : {XmlRpcValue(3), XmlRpcValue("frozen=0"), XmlRpcValue(true)}) {
+    EXPECT_THAT(complaintOf([&] { readParameters(value, "/station"); }),
+                HasSubstr("parameter /station is no map"));
+  }
+}
+
 TEST(ParametersTest, AreWhatIsSaid) {
   XmlRpcValue values;
   values["force_limit"] = 5;  // YAML does not tell 5 from 5.0
@@ -51,6 +58,17 @@ TEST(ParametersTest, AreWhatIsSaid) {
   EXPECT_EQ(p.driver, "jack");
   EXPECT_FALSE(p.jack);
   EXPECT_TRUE(p.autoengage);
+}
+
+TEST(ParametersTest, AreToldWhereTheyAreUnusual) {
+  EXPECT_EQ(unusual(readParameters(XmlRpcValue(), "/station")), "");
+  XmlRpcValue values;
+  values["force_limit"] = 5;
+  values["ramp"] = 0.3;
+  values["presence"] = "topic";
+  values["max_stalls"] = 3;  // the default
+  EXPECT_EQ(unusual(readParameters(values, "/station")),
+            "force_limit: 5, ramp: 0.3, presence: topic");
 }
 
 TEST(ParametersTest, SetWhatThePortMayGiveAndAreWrittenDown) {
@@ -106,6 +124,16 @@ TEST(ParametersTest, AreRefusedOutsideTheirRange) {
             "parameter /station/ramp is nan, allowed: 0.1...10");
   EXPECT_EQ(refusalOf("jack", "perhaps"),
             "parameter /station/jack is perhaps, allowed: auto, none");
+}
+
+/// `presence:=$UNSET` of a shell must not mean that there is no switch.
+TEST(ParametersTest, AreRefusedWhereAChoiceIsEmpty) {
+  EXPECT_EQ(refusalOf("presence", ""),
+            "parameter /station/presence is empty, allowed: none, topic");
+  for (const char* const name : {"realtime", "force_after_swap", "precision", "isa", "jack"}) {
+    EXPECT_THAT(refusalOf(name, ""), HasSubstr(" is empty, allowed: ")) << name;
+  }
+  EXPECT_EQ(refusalOf("end_effectors", ""), "") << "a text may be empty";
 }
 
 TEST(ParametersTest, AreRefusedWithAFractionWhereOnlyWholeNumbersAreMeant) {

@@ -206,7 +206,7 @@ TEST(MeshGeneratorTest, JoinsNeighboursOnceInOrder) {
   }
 }
 
-TEST(MeshGeneratorTest, EightNeighboursAddBothDiagonalsWithHalfTheStiffness) {
+TEST(MeshGeneratorTest, EightNeighboursAddBothDiagonalsWithAQuarterOfTheStiffness) {
   const std::string fields =
       "type: mesh, rows: 2, columns: 2, spacing: 1, edges: free, neighbours: 8";
   const Scene s = generate("scalar", fields);
@@ -215,7 +215,7 @@ TEST(MeshGeneratorTest, EightNeighboursAddBothDiagonalsWithHalfTheStiffness) {
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_EQ(s.lias[i].a, 1 + pairs[i][0]);
     EXPECT_EQ(s.lias[i].b, 1 + pairs[i][1]);
-    EXPECT_EQ(s.lias[i].stiffness.factor, i == 2 || i == 4 ? 2.5 : 5.0);
+    EXPECT_EQ(s.lias[i].stiffness.factor, i == 2 || i == 4 ? 1.25 : 5.0);
   }
   const Scene stiff = generate("scalar", fields + ", diagonal_stiffness: 7");
   EXPECT_EQ(stiff.lias[2].stiffness.factor, 7.0);

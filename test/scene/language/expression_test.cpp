@@ -12,16 +12,18 @@ namespace {
 class ExpressionTest : public testing::Test {
  protected:
   ExpressionTest() {
-    scope_.set("n", 3.0);
+    scope_.set("n", Amount{3.0});
     scope_.set("pitch", std::string("A3"));
     scope_.set("peg", std::string("$peg"));
     Node list(Node::Kind::kList, {1, 1});
     for (const char* const text : {"10", "2 mm", "C4"}) {
       list.add({Node::Kind::kScalar, {1, 1}, text});
     }
-    scope_.set("list", list);
+    scope_.set("list", constantOf(list));
   }
-  double valueOf(const std::string& text) const { return std::get<double>(evaluate(text, scope_)); }
+  double valueOf(const std::string& text) const {
+    return std::get<Amount>(evaluate(text, scope_)).value;
+  }
   std::string refusal(const std::string& text) const {
     return complaintOf<ExpressionError>([&] { evaluate(text, scope_); });
   }
@@ -128,8 +130,8 @@ TEST_F(ExpressionTest, AnyTextIsAValueOrRefused) {
     }
     try {
       const Constant value = evaluate(text, scope_);
-      const auto* const number = std::get_if<double>(&value);
-      EXPECT_TRUE(number == nullptr || std::isfinite(*number)) << text;
+      const auto* const number = std::get_if<Amount>(&value);
+      EXPECT_TRUE(number == nullptr || std::isfinite(number->value)) << text;
     } catch (const ExpressionError& error) {
       EXPECT_LE(error.at(), text.size()) << text;
     }

@@ -22,7 +22,7 @@ TEST(LanguageTest, ConstantsStandForNumbersWordsAndLists) {
       readYaml(HEAD
                "let: {L: 650 mm, n: =round(L/10 cm), kind: spring, to: [=L, 0]}\n"
                "mats: {m: {type: mass, section: a, mass: =n/1000}, g: {type: ground, section: a}}\n"
-               "lias: {l: {type: =kind, between: [m, g], stiffness: =2*n*1 kN}}\n",
+               "lias: {l: {type: =kind, between: [m, g], stiffness: =2*n*1 kN/m}}\n",
                "s.yaml");
   EXPECT_EQ(scene.mats[0].mass.factor, 0.007);
   EXPECT_EQ(scene.lias[0].stiffness.factor, 14000.0);

@@ -196,6 +196,28 @@ TEST_F(YamlTablesTest, FilesElsewhereAreNotOpened) {
   expectRefused({BOW "{file: <!>link.csv}}}\n", elsewhere}, name);
 }
 
+TEST_F(YamlTablesTest, OfATextThatIsNoFileAreNotLookedForWhereTheProcessIs) {
+  write("t.csv", "0 0\n1 1\n");
+  write("lib.yaml", "let: {x: 1}\n");
+  const auto here = std::filesystem::current_path();
+  std::filesystem::current_path(folder_);
+  const std::string bow = std::string(BOW "{file: t.csv}}}\n");
+  const std::string head = "ergotic: 1\nsections: {a: {rate: audio}}\n";
+  for (const std::string& text :
+       {bow, head + "include: [lib.yaml]\n",
+        std::string(HEAD "outputs: {o: {at: m, quantity: velocity, pan: 0, "
+                         "speakers: {file: t.csv}}}\n")}) {
+    const Choice alone = {"", false};
+    EXPECT_THAT(complaintOf([&] { readYaml(text, "inline.yaml", {}, alone); }),
+                HasSubstr("is nowhere, for this text is no file and has no folder"))
+        << text;
+  }
+  EXPECT_NO_THROW(readYaml(bow, "scene.yaml"));
+  const std::string kept = readYaml(bow, "scene.yaml").text;
+  EXPECT_NO_THROW(readYaml(kept, "inline.yaml", {}, {"", false})) << "it has all that it needs";
+  std::filesystem::current_path(here);
+}
+
 TEST_F(YamlTablesTest, TextAndTablesTogetherAreNoLongerThanATextMayBe) {
   write("t.csv", "0 0\n1 1\n");
   std::string text = BOW "{file: t.csv}}}\n";

@@ -38,8 +38,9 @@ class Guardian {
   /// This process lives: at least four times in `silence_s`, from the first one on.
   /// Realtime: yes. Thread: any
   void beat() noexcept;
-  /// False once the guardian has died. Realtime: no. Thread: any
-  bool isThere() const noexcept;
+  /// False once the guardian has died, or has not looked at us for two seconds in which we asked
+  /// again and again: one that was stopped, which is ended then. Realtime: no. Thread: one
+  bool isThere() noexcept;
   pid_t pid() const noexcept { return pid_; }
 
  private:
@@ -51,7 +52,10 @@ class Guardian {
   std::promise<void> done_;
   std::thread holder_;  // of the page's lock
   pid_t pid_ = -1;
-  bool is_told_ = false;  // of faults
+  bool is_told_ = false;        // of faults
+  std::int64_t looks_ = -1;     // of the guardian, as of the last call of isThere
+  std::int64_t looked_ns_ = 0;  // when they were others
+  int asked_ = 0;               // since then
 };
 
 }  // namespace ergotic::tgr

@@ -53,6 +53,8 @@ class SliceChain {
   void recover() noexcept;
   void forget() noexcept;
 
+  /// The last `limited` took away a force worth the name because the sensor stands still.
+  bool justMuted() const noexcept { return just_muted_; }
   SliceReading reading() const noexcept;
 
  private:
@@ -75,6 +77,8 @@ class SliceChain {
   double gain_ = 0.0;   // of the last force
   double trust_ = 1.0;  // in the sensor, a gain as well
   double trust_step_;
+  double least_kick_;  // N
+  bool just_muted_ = false;
   std::int64_t clamped_ticks_ = 0;
   std::int64_t muted_ticks_ = 0;
   double peak_raw_ = 0.0;

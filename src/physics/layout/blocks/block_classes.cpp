@@ -7,6 +7,7 @@
 #include "at.hpp"
 #include "physics/layout/blocks/block_parts.hpp"
 #include "physics/layout/blocks/lanes.hpp"
+#include "scene/laws/bend_parts.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -242,7 +243,7 @@ void lookAtModules(const scene::Scene& scene, Block& block) {
   }
   block.has_bias = std::any_of(block.lias.begin(), block.lias.end(), [&](int l) {
     const scene::Lia& lia = scene.lias[at(l)];
-    return scene.mats[at(lia.a)].rest.x() - scene.mats[at(lia.b)].rest.x() != lia.rest_length;
+    return scene::restApart(scene, lia).x() != lia.rest_length;
   });
 }
 

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <map>
+#include <utility>
 
 #include "at.hpp"
 #include "physics/disjoint_sets.hpp"
 #include "physics/layout/blocks/block_parts.hpp"
+#include "scene/laws/bend_parts.hpp"
+#include "scene/laws/range.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -29,6 +34,60 @@ bool isFree(const Mat& mat) {
 bool isOffsetPart(const scene::Lia& lia) {
   return lia.bend >= 0 && lia.rest_length != 0.0;
 }
+
+/// Parts of bends of unlike stiffness between the same two modules, which add up to more digits
+/// than single precision has: side by side in a block they would be another spring, no part of a
+/// bend, and drive what nothing holds.
+class InexactSums {
+ public:
+  explicit InexactSums(const scene::Scene& scene) : scene_(scene) {
+    for (const scene::Lia& lia : scene.lias) {
+      if (lia.bend >= 0) {
+        Sum& sum = sums_[std::minmax(lia.a, lia.b)];
+        add(lia, lia.stiffness, sum.stiffness);
+        add(lia, 2.0 * lia.damping, sum.damping);  // in steps its first digit may be another
+      }
+    }
+  }
+  bool has(const scene::Lia& lia) const {
+    if (lia.bend < 0) {
+      return false;
+    }
+    const Sum& sum = sums_.at(std::minmax(lia.a, lia.b));
+    return isInexact(sum.stiffness) || isInexact(sum.damping);
+  }
+
+ private:
+  struct Parts {
+    int count = 0;
+    double most = 0.0;                                      // of all together
+    double unit = std::numeric_limits<double>::infinity();  // all are whole multiples of it
+  };
+  struct Sum {
+    Parts stiffness;
+    Parts damping;
+  };
+
+  void add(const scene::Lia& lia, const scene::Value& value, Parts& parts) const {
+    const scene::Range range = scene::rangeOf(scene_, value);
+    const double most = std::max(std::abs(range.lowest), std::abs(range.highest));
+    if (most > 0.0) {
+      const double least = std::min(std::abs(range.lowest), std::abs(range.highest));
+      ++parts.count;
+      parts.most += most;
+      parts.unit = std::min(
+          parts.unit,
+          least > 0.0 ? scene::unitOf(least / std::abs(scene::multipleOf(scene_, lia))) : 0.0);
+    }
+  }
+  static bool isInexact(const Parts& parts) {
+    return parts.count > 1 &&
+           !(parts.most < std::ldexp(parts.unit, std::numeric_limits<float>::digits));
+  }
+
+  const scene::Scene& scene_;
+  std::map<std::pair<int, int>, Sum> sums_;
+};
 
 bool isLinear(const scene::Scene& scene, const scene::Lia& lia) {
   const Mat& a = scene.mats[at(lia.a)];
@@ -72,10 +131,11 @@ class Grounds {
 
 std::vector<Component> findComponents(const scene::Scene& scene) {
   std::vector<int> linear;
+  const InexactSums inexact(scene);
   DisjointSets sets(scene.mats.size());
   for (int l = 0; l < static_cast<int>(scene.lias.size()); ++l) {
     const scene::Lia& lia = scene.lias[at(l)];
-    if (isLinear(scene, lia)) {
+    if (isLinear(scene, lia) && !inexact.has(lia)) {
       linear.push_back(l);
       if (isFree(scene.mats[at(lia.a)]) && isFree(scene.mats[at(lia.b)])) {
         sets.join(lia.a, lia.b);

@@ -6,6 +6,7 @@
 
 #include "scene/yaml/generators/body_keys.hpp"
 #include "scene/yaml/generators/readers.hpp"
+#include "scene/yaml/yaml_keys.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -59,7 +60,7 @@ void readRatios(const SceneBuilder& builder, const YamlMap& map, BarSpec& spec) 
 }  // namespace
 
 void readBar(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
-  map.allow(withBodyKeys({"masses", "mass", "ends", "ratios", "from", "to"}));
+  map.allow(barKeys());
   BarSpec spec;
   spec.name = name;
   spec.place = map.placeAt("name");

@@ -3,11 +3,12 @@
 
 #include "scene/yaml/generators/generator_keys.hpp"
 #include "scene/yaml/generators/readers.hpp"
+#include "scene/yaml/yaml_keys.hpp"
 
 namespace ergotic::scene {
 
 void readChaplet(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
-  map.allow({"type", "name", "section", "from", "mass", "at"});
+  map.allow(chapletKeys());
   ChapletSpec spec;
   spec.name = name;
   spec.place = map.placeAt("name");

@@ -3,12 +3,17 @@
 
 #include "scene/yaml/generators/generator_keys.hpp"
 #include "scene/yaml/generators/readers.hpp"
+#include "scene/yaml/yaml_keys.hpp"
 
 namespace ergotic::scene {
+namespace {
+
+constexpr double kIsotropic = 0.25;  // of the stiffness: waves travel alike in all directions
+
+}  // namespace
 
 void readMesh(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
-  map.allow({"type", "name", "section", "rows", "columns", "spacing", "at", "neighbours", "mass",
-             "stiffness", "diagonal_stiffness", "damping", "rest_length_ratio", "scheme", "edges"});
+  map.allow(meshKeys());
   MeshSpec spec;
   spec.name = name;
   spec.place = map.placeAt("name");
@@ -29,7 +34,7 @@ void readMesh(SceneBuilder& builder, const std::string& name, const YamlMap& map
       readScheme(map, sectionAt(builder, spec.section), spec.damping, spec.rest_length_ratio);
   if (map.has("neighbours") && map.choice("neighbours", {"4", "8"}) == 1) {
     spec.diagonal_stiffness =
-        map.value("diagonal_stiffness", kStiffnessLimits, 0.5 * spec.stiffness);
+        map.value("diagonal_stiffness", kStiffnessLimits, kIsotropic * spec.stiffness);
   } else if (map.has("diagonal_stiffness")) {
     builder.fail(map.keyPlaceAt("diagonal_stiffness"), "'diagonal_stiffness' of " + map.what() +
                                                            " without diagonals, allowed with "

@@ -7,6 +7,9 @@
 
 namespace ergotic::scene {
 
+class PointFiles;
+class YamlTables;
+
 /// Reads one generator and adds what it makes. \throws TextError with the place of what is wrong
 void readString(SceneBuilder& builder, const std::string& name, const YamlMap& map);
 void readMesh(SceneBuilder& builder, const std::string& name, const YamlMap& map);
@@ -14,6 +17,15 @@ void readChaplet(SceneBuilder& builder, const std::string& name, const YamlMap& 
 void readBar(SceneBuilder& builder, const std::string& name, const YamlMap& map);
 void readMembrane(SceneBuilder& builder, const std::string& name, const YamlMap& map);
 void readPlate(SceneBuilder& builder, const std::string& name, const YamlMap& map);
-void readResonator(SceneBuilder& builder, const std::string& name, const YamlMap& map);
+void readResonator(SceneBuilder& builder,
+                   const std::string& name,
+                   const YamlMap& map,
+                   PointFiles& files);
+void readFrets(SceneBuilder& builder, const std::string& name, const YamlMap& map);
+void readBarrier(SceneBuilder& builder,
+                 const std::string& name,
+                 const YamlMap& map,
+                 YamlTables& tables);
+void readBridge(SceneBuilder& builder, const std::string& name, const YamlMap& map);
 
 }  // namespace ergotic::scene

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <vector>
 
+#include "ergotic/exception.hpp"
+#include "scene/text/csv_line.hpp"
 #include "scene/yaml/generators/body_keys.hpp"
 #include "scene/yaml/generators/generator_keys.hpp"
 #include "scene/yaml/generators/readers.hpp"
+#include "scene/yaml/point_files.hpp"
+#include "scene/yaml/yaml_keys.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -32,6 +37,20 @@ std::vector<std::string> readPlaceNames(const SceneBuilder& builder, const YamlM
   return names;
 }
 
+Limits limitsOfFrequency(double pitch_hz) {
+  return pitch_hz > 0.0 ? kRatioLimits : Limits{"Hz", 0.0, kHighestPartialHz, true};
+}
+
+/// \param row  frequency or ratio, t60, mass, weights
+Partial partialOf(const std::vector<double>& row, double pitch_hz) {
+  Partial partial;
+  partial.frequency_hz = (pitch_hz > 0.0 ? pitch_hz : 1.0) * row[0];
+  partial.t60_s = row[1];
+  partial.mass = row[2];
+  partial.weights.assign(row.begin() + kColumns, row.end());
+  return partial;
+}
+
 Partial readPartial(const SceneBuilder& builder,
                     const YamlMap& map,
                     const Node& row,
@@ -45,27 +64,110 @@ Partial readPartial(const SceneBuilder& builder,
             (places > 0 ? ", a weight for each of " + std::to_string(places) + " places]" : "]"));
   }
   const std::string of = " of a partial of " + map.what();
-  Partial partial;
-  const Limits heard{"Hz", 0.0, kHighestPartialHz, true};
-  partial.frequency_hz =
-      pitch_hz > 0.0 ? pitch_hz * numberOf(builder, row[0], "ratio" + of, kRatioLimits, place)
-                     : numberOf(builder, row[0], "frequency" + of, heard, place);
+  std::vector<double> numbers{
+      numberOf(builder, row[0], (pitch_hz > 0.0 ? "ratio" : "frequency") + of,
+               limitsOfFrequency(pitch_hz), place),
+      numberOf(builder, row[1], "t60" + of, kT60Limits, place),
+      numberOf(builder, row[2], "mass" + of, kMassLimits, place)};
+  for (std::size_t p = 0; p < places; ++p) {
+    numbers.push_back(numberOf(builder, row[kColumns + p], "a weight" + of, kWeightLimits, place));
+  }
+  Partial partial = partialOf(numbers, pitch_hz);
+  const Limits heard = limitsOfFrequency(0.0);
   if (!heard.hold(partial.frequency_hz)) {
     builder.fail(placeOf(row[0], place), outOfRange("frequency" + of, partial.frequency_hz, heard));
-  }
-  partial.t60_s = numberOf(builder, row[1], "t60" + of, kT60Limits, place);
-  partial.mass = numberOf(builder, row[2], "mass" + of, kMassLimits, place);
-  for (std::size_t p = 0; p < places; ++p) {
-    partial.weights.push_back(
-        numberOf(builder, row[kColumns + p], "a weight" + of, kWeightLimits, place));
   }
   return partial;
 }
 
+/// As many numbers in each line as a row has.
+RowList readRows(const PointFiles::File& file, double pitch_hz, std::size_t places) {
+  const std::string columns =
+      "frequency, t60, mass" +
+      (places > 0 ? " and " + std::to_string(places) + " weights" : std::string()) + " in a line";
+  RowList rows;
+  const int lines = forEachCsvLine(file.text, file.path, [&](CsvLine& csv) {
+    if (rows.size() == kMostRows) {
+      csv.fail("too many partials, allowed: 1..." + std::to_string(kMostRows));
+    }
+    std::vector<double> row;
+    const auto read = [&](const char* what, const Limits& limits) {
+      row.push_back(csv.number(what, limits, columns));
+      csv.skipSeparator();
+    };
+    read(pitch_hz > 0.0 ? "ratio" : "frequency", limitsOfFrequency(pitch_hz));
+    if (pitch_hz > 0.0 && !limitsOfFrequency(0.0).hold(pitch_hz * row[0])) {
+      csv.fail(outOfRange("frequency", pitch_hz * row[0], limitsOfFrequency(0.0)));
+    }
+    read("t60", kT60Limits);
+    read("mass", kMassLimits);
+    for (std::size_t p = 0; p < places; ++p) {
+      read("a weight", kWeightLimits);
+    }
+    csv.expectEnd("more than " + std::to_string(kColumns + places) +
+                  " numbers in a line, allowed: " + columns);
+    rows.push_back(std::move(row));
+  });
+  if (rows.empty()) {
+    throw TextError(file.path, std::max(lines, 1), 1,
+                    "the list has no partials, allowed: 1..." + std::to_string(kMostRows));
+  }
+  return rows;
+}
+
+/// Of the rows of a list, in the scene or in its second document.
+std::vector<Partial> readList(const SceneBuilder& builder,
+                              const YamlMap& map,
+                              const Node& rows,
+                              double pitch_hz,
+                              std::size_t places) {
+  if (!rows.isList() || rows.size() < 1 || rows.size() > kMostRows) {
+    map.fail("partials", "'partials' of " + map.what() + " is " + kindOf(rows) +
+                             ", allowed: a list of 1...400 rows [frequency, t60, mass, ...], or "
+                             "{file: name.csv}");
+  }
+  std::vector<Partial> partials;
+  for (const Node& row : rows) {
+    partials.push_back(readPartial(builder, map, row, pitch_hz, places));
+  }
+  return partials;
+}
+
+std::vector<Partial> readPartials(const SceneBuilder& builder,
+                                  const YamlMap& map,
+                                  double pitch_hz,
+                                  std::size_t places,
+                                  PointFiles& files) {
+  if (!map.at("partials").isMap()) {
+    return readList(builder, map, map.at("partials"), pitch_hz, places);
+  }
+  const YamlMap spec = map.map("partials");
+  spec.allow({"file"});
+  const std::string name = PointFiles::nameOf(spec);
+  if (files.isSelfContained()) {
+    const PointFiles::Appended* appended = files.find(PointFiles::Part::kPartials, name);
+    if (appended == nullptr) {
+      spec.fail("file", "file " + quoted(name) + " of " + map.what() +
+                            " is not among the partials of the second document");
+    }
+    return readList(builder, map, *appended->points, pitch_hz, places);
+  }
+  const RowList rows = readRows(files.open(spec), pitch_hz, places);
+  files.keep(PointFiles::Part::kPartials, name, rows);
+  std::vector<Partial> partials;
+  for (const std::vector<double>& row : rows) {
+    partials.push_back(partialOf(row, pitch_hz));
+  }
+  return partials;
+}
+
 }  // namespace
 
-void readResonator(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
-  map.allow({"type", "name", "section", "pitch", "partials", "places", "at"});
+void readResonator(SceneBuilder& builder,
+                   const std::string& name,
+                   const YamlMap& map,
+                   PointFiles& files) {
+  map.allow(resonatorKeys());
   ModalSpec spec;
   spec.name = name;
   spec.place = map.placeAt("name");
@@ -73,14 +175,7 @@ void readResonator(SceneBuilder& builder, const std::string& name, const YamlMap
   spec.at = readRest(sectionAt(builder, spec.section), map, "at");
   spec.places = readPlaceNames(builder, map);
   const double pitch_hz = map.number("pitch", kFrequencyLimits, 0.0);
-  const Node& rows = map.at("partials");
-  if (!rows.isList() || rows.size() < 1 || rows.size() > kMostRows) {
-    map.fail("partials", "'partials' of " + map.what() + " is " + kindOf(rows) +
-                             ", allowed: a list of 1...400 rows [frequency, t60, mass, ...]");
-  }
-  for (const Node& row : rows) {
-    spec.partials.push_back(readPartial(builder, map, row, pitch_hz, spec.places.size()));
-  }
+  spec.partials = readPartials(builder, map, pitch_hz, spec.places.size(), files);
   addModalBody(builder, spec);
 }
 

@@ -5,6 +5,7 @@
 #include "scene/generate/skin.hpp"
 #include "scene/yaml/generators/body_keys.hpp"
 #include "scene/yaml/generators/readers.hpp"
+#include "scene/yaml/yaml_keys.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -15,6 +16,8 @@ constexpr int kCellsOfModes = 24;
 constexpr Limits kPoissonLimits{"", 0.0, 0.5};
 constexpr Limits kLoadRatio{"", 0.01, 100.0};
 constexpr Limits kLoadPower{"", 0.1, 100.0};
+constexpr Limits kThicknessLimits{"m", 1e-6, 1.0};
+constexpr Limits kStrainLimits{"", 1e-6, 1.0};
 
 /// What all flat bodies are: `[columns, rows]` of masses, or one number for both.
 template <class Spec>
@@ -52,6 +55,30 @@ void addSheetBody(SceneBuilder& builder,
           });
 }
 
+/// Both or neither of `hardening` and what says how much.
+template <class Spec>
+void readHardening(const SceneBuilder& builder,
+                   const YamlMap& map,
+                   const BodyForm& form,
+                   const char* measure,
+                   Spec& spec) {
+  if (map.has("hardening") != map.has(measure)) {
+    const std::string given = map.has("hardening") ? "hardening" : measure;
+    builder.fail(map.keyPlaceAt(given), quoted(given) + " of " + map.what() + " without " +
+                                            quoted(map.has("hardening") ? measure : "hardening") +
+                                            ", allowed: both");
+  }
+  if (!map.has("hardening")) {
+    return;
+  }
+  spec.hardening =
+      map.choice("hardening", {"local", "global"}) == 0 ? Hardening::kLocal : Hardening::kGlobal;
+  if (form.is_modal) {
+    builder.fail(map.keyPlaceAt("hardening"),
+                 "'hardening' of " + map.what() + " of modes, allowed as: network");
+  }
+}
+
 SkinLoad readLoad(const YamlMap& map) {
   map.allow({"ratio", "radius", "power"});
   SkinLoad load;
@@ -71,7 +98,7 @@ SkinLoad readLoad(const YamlMap& map) {
 }  // namespace
 
 void readMembrane(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
-  map.allow(withBodyKeys({"shape", "cells", "mass", "neighbours", "load", "spacing", "at"}));
+  map.allow(membraneKeys());
   MembraneSpec spec;
   readSheet(builder, name, map, spec);
   const BodyForm form = readBodyForm(builder, map, true);
@@ -89,11 +116,18 @@ void readMembrane(SceneBuilder& builder, const std::string& name, const YamlMap&
                    "'load' of " + map.what() + ", allowed with shape: round");
     }
   }
+  readHardening(builder, map, form, "strain", spec);
+  if (map.has("strain") && !map.has("spacing")) {
+    builder.fail(map.keyPlaceAt("strain"), "'strain' of " + map.what() +
+                                               " without 'spacing', allowed: both, as lengths "
+                                               "count here");
+  }
+  spec.strain = map.number("strain", kStrainLimits, spec.strain);
   addSheetBody(builder, spec, form, addMembrane);
 }
 
 void readPlate(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
-  map.allow(withBodyKeys({"edges", "cells", "mass", "poisson", "spacing", "at"}));
+  map.allow(plateKeys());
   PlateSpec spec;
   readSheet(builder, name, map, spec);
   const BodyForm form = readBodyForm(builder, map, true);
@@ -111,6 +145,8 @@ void readPlate(SceneBuilder& builder, const std::string& name, const YamlMap& ma
   if (is_free && (spec.rows < 3 || spec.columns < 3)) {
     map.fail("cells", "'cells' of " + map.what() + " is too few for free edges, allowed: 3...100");
   }
+  readHardening(builder, map, form, "thickness", spec);
+  spec.thickness = map.number("thickness", kThicknessLimits, spec.thickness);
   addSheetBody(builder, spec, form, addPlate);
 }
 

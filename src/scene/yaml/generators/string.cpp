@@ -9,6 +9,7 @@
 #include "scene/yaml/generators/body_keys.hpp"
 #include "scene/yaml/generators/generator_keys.hpp"
 #include "scene/yaml/generators/readers.hpp"
+#include "scene/yaml/yaml_keys.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -115,8 +116,7 @@ double readStringMass(const SceneBuilder& builder,
 
 /// One that is tuned with its bending and its losses.
 void readStringBody(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
-  map.allow(withBodyKeys({"masses", "mass", "impedance", "tension", "length", "inharmonicity",
-                          "from", "to", "pluck"}));
+  map.allow(tunedStringKeys());
   StringSpec spec;
   spec.name = name;
   spec.place = map.placeAt("name");
@@ -152,8 +152,7 @@ void readString(SceneBuilder& builder, const std::string& name, const YamlMap& m
     readStringBody(builder, name, map);
     return;
   }
-  map.allow({"type", "name", "section", "masses", "mass", "stiffness", "frequency", "coarse",
-             "damping", "loss", "rest_length_ratio", "scheme", "from", "to", "pluck"});
+  map.allow(limpStringKeys());
   StringSpec spec;
   spec.name = name;
   spec.place = map.placeAt("name");

@@ -182,8 +182,11 @@ void SharedMemoryDriver::rearm() noexcept {
   }
 }
 
+/// Sessions are counted anew in each device: a later one of the same number was born later.
 std::vector<Guard> SharedMemoryDriver::guards() const {
-  return {{{"shared_memory", name_}, -1, device_.load()->session}};
+  const SharedDevice& device = *device_.load();
+  const std::string born = std::to_string(device.born_ns);  // another may have taken its name
+  return {{{"shared_memory", name_, born}, -1, device.born_ns + device.session}};
 }
 
 bool SharedMemoryDriver::setTarget(int slice, double target_m) noexcept {

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+/// The keys of every part of a scene: what its reader allows, and what the schema tells editors.
+namespace ergotic::scene {
+
+using KeyNames = std::vector<std::string>;
+/// Of each word for a type, the keys of such an element.
+using KeysOfTypes = std::vector<std::pair<std::string, KeyNames>>;
+
+const KeyNames& sceneKeys();
+const KeyNames& aboutKeys();
+const KeyNames& cameraKeys();  ///< `picture` of `about`
+const KeyNames& parameterKeys();
+const KeyNames& sectionKeys();
+const KeyNames& portKeys();
+const KeyNames& filterKeys();  ///< of a port
+const KeyNames& agentKeys();
+const KeyNames& gestureKeys();  ///< of an agent
+const KeyNames& inputKeys();
+const KeyNames& outputKeys();
+const KeyNames& bendKeys();
+const KeyNames& stretchKeys();
+const KeyNames& meshKeys();
+const KeyNames& chapletKeys();
+const KeyNames& resonatorKeys();
+const KeyNames& limpStringKeys();  ///< by masses and springs
+const KeyNames& fretsKeys();
+const KeyNames& barrierKeys();
+const KeyNames& bridgeKeys();
+KeyNames tunedStringKeys();
+KeyNames barKeys();
+KeyNames membraneKeys();
+KeyNames plateKeys();
+
+KeysOfTypes keysOfMats();
+KeysOfTypes keysOfLias();
+/// Of a generator whose keys only its reader knows: none.
+KeysOfTypes keysOfGenerators();
+
+}  // namespace ergotic::scene

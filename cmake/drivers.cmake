@@ -5,6 +5,7 @@ function(ergotic_add_driver name)
   file(GLOB sources CONFIGURE_DEPENDS src/tgr/drivers/${name}/*.cpp)
   list(FILTER sources EXCLUDE REGEX "_plugin\\.cpp$")
   if(sources)
+    ergotic_batch(sources ${name}_driver ${sources})
     add_library(ergotic_${name}_driver SHARED ${sources})
     target_include_directories(ergotic_${name}_driver PUBLIC src)
     target_link_libraries(ergotic_${name}_driver

@@ -57,6 +57,7 @@ if(bag_sources)
 endif()
 
 file(GLOB_RECURSE ros_sources CONFIGURE_DEPENDS src/ros/*.cpp)
+ergotic_batch(ros_sources ros ${ros_sources})
 add_library(ergotic_ros SHARED ${ros_sources})
 target_include_directories(ergotic_ros PUBLIC src)
 target_compile_definitions(ergotic_ros PRIVATE ERGOTIC_VERSION="${ergotic_VERSION}")

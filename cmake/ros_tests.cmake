@@ -1,42 +1,40 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Tests that need ROS: messages and conversions as gtests, the station as rostests, launch files.
 # All of them run under plain ctest, in the devel space.
-ergotic_add_gtests(ros ergotic_ros yaml-cpp)
+ergotic_add_gtests(ros 1 ergotic_ros yaml-cpp)
 # A device of somebody else, which no list of ours knows of.
 add_library(third_party_device SHARED test/third_party_device/still_device.cpp)
 set_target_properties(third_party_device PROPERTIES
   LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/third_party/lib)
 target_link_libraries(third_party_device
   PRIVATE ergotic_core ergotic_messages ergotic_flags yaml-cpp ${class_loader_LIBRARIES})
-add_dependencies(ergotic_ros_test third_party_device)
-ergotic_add_gtests(bag ergotic_bag)
-add_dependencies(ergotic_bag_test render)
+ergotic_tests_need(ros third_party_device)
+ergotic_add_gtests(bag 1 ergotic_bag)
+ergotic_tests_need(bag render)
 
 set(in_devel_space ${CATKIN_DEVEL_PREFIX}/env.sh ${CMAKE_COMMAND} -E env ROS_IP=127.0.0.1
   ROS_LOG_DIR=${PROJECT_BINARY_DIR}/ros_log)
+file(GLOB rostest_sources CONFIGURE_DEPENDS test/integration/*_rostest.cpp)
+foreach(source ${rostest_sources})
+  get_filename_component(name ${source} NAME_WE)
+  add_executable(${name}
+    ${source} test/integration/child_process.cpp
+    $<$<NOT:$<STREQUAL:${name},master_rostest>>:test/integration/rostest_main.cpp>)
+  set_target_properties(${name} PROPERTIES
+    RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/ergotic)
+  target_link_libraries(${name}
+    PRIVATE ergotic_audio ergotic_messages ${catkin_LIBRARIES} ergotic_test_support ergotic_flags)
+  ergotic_compile_soon(${name})
+endforeach()
+# Stations of real nodes: NAME.test is live, NAME_long.test for scripts/test --long.
 file(GLOB rostests CONFIGURE_DEPENDS test/integration/*.test)
 foreach(rostest ${rostests})
   get_filename_component(name ${rostest} NAME_WE)
-  set(meets_the_clock FALSE)  # and so runs alone
-  set(lock "")
-  if(EXISTS ${PROJECT_SOURCE_DIR}/test/integration/${name}_rostest.cpp)
-    add_executable(${name}_rostest
-      test/integration/${name}_rostest.cpp test/integration/child_process.cpp
-      $<$<NOT:$<STREQUAL:${name},master>>:test/integration/rostest_main.cpp>)
-    set_target_properties(${name}_rostest PROPERTIES
-      RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/ergotic)
-    target_link_libraries(${name}_rostest
-      PRIVATE ergotic_audio ergotic_messages ${catkin_LIBRARIES} ergotic_test_support ergotic_flags)
-    ergotic_compile_soon(${name}_rostest)
-    if(name STREQUAL "realtime")  # asks what the tick does, not when, and is a JACK server
-      set(lock RESOURCE_LOCK jack COST 20)
-    else()
-      set(meets_the_clock TRUE)
-    endif()
-  endif()
   add_test(NAME integration.${name} COMMAND ${in_devel_space} /usr/bin/rostest ${rostest})
-  set_tests_properties(integration.${name} PROPERTIES
-    RUN_SERIAL ${meets_the_clock} TIMEOUT 900 LABELS integration FIXTURES_REQUIRED trials ${lock})
+  set_tests_properties(integration.${name} PROPERTIES RUN_SERIAL ON TIMEOUT 300 LABELS live)
+  if(name MATCHES "_long$")
+    set_tests_properties(integration.${name} PROPERTIES TIMEOUT 3600 LABELS long)
+  endif()
 endforeach()
 
 foreach(rostest safety_rostest pairs_rostest)
@@ -80,8 +78,7 @@ add_dependencies(drivers_rostest
 # Who reaches a station from another host, with masters of its own.
 add_test(NAME integration.remote
   COMMAND ${in_devel_space} ${PROJECT_SOURCE_DIR}/test/integration/remote_test.py)
-set_tests_properties(integration.remote PROPERTIES
-  TIMEOUT 300 LABELS integration FIXTURES_REQUIRED trials)
+set_tests_properties(integration.remote PROPERTIES RUN_SERIAL ON TIMEOUT 300 LABELS long)
 
 # roslaunch reads the file, finds every package and every substitution, and names the nodes.
 file(GLOB launch_files CONFIGURE_DEPENDS launch/*.launch)

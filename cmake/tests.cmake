@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # One gtest program per room; `test/support` is shared by all.
 file(GLOB support_sources CONFIGURE_DEPENDS test/support/*.cpp)
-add_library(ergotic_test_support STATIC ${support_sources})
+list(FILTER support_sources EXCLUDE REGEX "/places\\.cpp$")  # compiled alone: it has paths as definitions
+ergotic_batch(support_sources test_support ${support_sources})
+add_library(ergotic_test_support STATIC ${support_sources} test/support/places.cpp)
 target_include_directories(ergotic_test_support PUBLIC test src)
 set_source_files_properties(test/support/places.cpp PROPERTIES COMPILE_DEFINITIONS
   "ERGOTIC_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\";ERGOTIC_BINARY_DIR=\"${PROJECT_BINARY_DIR}\";\
@@ -12,6 +14,11 @@ target_link_libraries(ergotic_test_support
   PRIVATE PkgConfig::SECCOMP ergotic_flags)
 
 include(GoogleTest)
+# In a batch a local variable may have the name of a constant of another test. Linked after ergotic_flags.
+add_library(ergotic_test_flags INTERFACE)
+if(ERGOTIC_BATCHES)
+  target_compile_options(ergotic_test_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-shadow;-Wshadow=local>)
+endif()
 # Tests are compiled sooner than optimized, all with the headers that the first of them has read.
 function(ergotic_compile_soon target)
   target_compile_options(${target} PRIVATE
@@ -23,8 +30,15 @@ function(ergotic_compile_soon target)
     target_precompile_headers(${target} REUSE_FROM ergotic_rt_test)
   endif()
 endfunction()
-# The tests of one folder as one program: ergotic_add_gtests(ROOM LIBRARIES...)
-function(ergotic_add_gtests room)
+
+# The tests of one folder, as three programs by the ends of their names:
+#   *_test.cpp       deterministic: no clock, fixed seeds. Run in parallel, each program in shards, as one
+#                    process for each test would spend more time on starting than on testing.
+#   *_live_test.cpp  label live: what depends on the clock, on JACK, on the timing of threads or of other
+#                    processes. Run one by one, with three tries (scripts/test).
+#   *_long_test.cpp  label long: what takes more than ten seconds. Not run by the gate (scripts/test --long).
+# ergotic_add_gtests(ROOM SHARDS LIBRARIES...)
+function(ergotic_add_gtests room shards)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS test/${room}/*_test.cpp)
   if(room STREQUAL "physics" AND ERGOTIC_SANITIZE STREQUAL "thread")  # the others have one thread
     foreach(source ${sources})
@@ -34,36 +48,59 @@ function(ergotic_add_gtests room)
       endif()
     endforeach()
   endif()
-  add_executable(ergotic_${room}_test ${sources})
-  target_link_libraries(ergotic_${room}_test
-    PRIVATE ergotic_test_support GTest::gtest_main ergotic_flags ${ARGN})
-  ergotic_compile_soon(ergotic_${room}_test)
-  # JACK has one registry for all servers of a user, and may refuse two clients that come at once.
-  set(lock "")
-  if(room MATCHES "^(audio|tgr_jack)$")
-    set(lock RESOURCE_LOCK jack COST 20)  # one after the other, and so from the beginning
+  set(live_sources ${sources})
+  list(FILTER live_sources INCLUDE REGEX "_live_test\\.cpp$")
+  set(long_sources ${sources})
+  list(FILTER long_sources INCLUDE REGEX "_long_test\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "_(live|long)_test\\.cpp$")
+  if(sources)
+    ergotic_add_gtest_program(ergotic_${room}_test "${sources}" ${ARGN})
+    math(EXPR last "${shards} - 1")
+    foreach(shard RANGE ${last})
+      set(name ${room}.${shard})
+      add_test(NAME ${name} COMMAND ergotic_${room}_test --gtest_brief=1
+        --gtest_output=json:${PROJECT_BINARY_DIR}/test_results/${name}.json)
+      set_tests_properties(${name} PROPERTIES TIMEOUT 900 LABELS ${room} COST 40
+        ENVIRONMENT "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${shard}")
+    endforeach()
   endif()
-  gtest_discover_tests(ergotic_${room}_test
-    TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT 300 LABELS ${room} FIXTURES_REQUIRED trials ${lock})
+  if(live_sources)
+    ergotic_add_gtest_program(ergotic_${room}_live_test "${live_sources}" ${ARGN})
+    gtest_discover_tests(ergotic_${room}_live_test TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 60
+      PROPERTIES TIMEOUT 120 RUN_SERIAL ON LABELS live)
+  endif()
+  if(long_sources)
+    ergotic_add_gtest_program(ergotic_${room}_long_test "${long_sources}" ${ARGN})
+    gtest_discover_tests(ergotic_${room}_long_test TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 60
+      PROPERTIES TIMEOUT 3600 LABELS long)
+  endif()
 endfunction()
-# What a run is excused for, over all of its tests: see test/support/trials.hpp.
-add_test(NAME trials.begin COMMAND ${CMAKE_COMMAND} -E rm -f ${PROJECT_BINARY_DIR}/trials.txt)
-set_tests_properties(trials.begin PROPERTIES FIXTURES_SETUP trials)
-add_test(NAME trials.sum
-  COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/support/sum_trials.py
-          ${PROJECT_BINARY_DIR}/trials.txt)
-set_tests_properties(trials.sum PROPERTIES FIXTURES_CLEANUP trials)
+function(ergotic_add_gtest_program program sources)
+  ergotic_batch(compiled ${program} ${sources})
+  add_executable(${program} ${compiled})
+  target_link_libraries(${program}
+    PRIVATE ergotic_test_support GTest::gtest_main ergotic_flags ergotic_test_flags ${ARGN})
+  ergotic_compile_soon(${program})
+endfunction()
+# What the tests of a room run as programs: ergotic_tests_need(ROOM TARGETS...)
+function(ergotic_tests_need room)
+  foreach(kind test live_test long_test)
+    if(TARGET ergotic_${room}_${kind})
+      add_dependencies(ergotic_${room}_${kind} ${ARGN})
+    endif()
+  endforeach()
+endfunction()
 
-foreach(room rt files station audio golden)
-  ergotic_add_gtests(${room})
+foreach(room rt files station audio)
+  ergotic_add_gtests(${room} 1)
 endforeach()
-ergotic_add_gtests(scene yaml-cpp)  # broken scenes are listed in it
+ergotic_add_gtests(golden 3)
+ergotic_add_gtests(scene 3 yaml-cpp)  # broken scenes are listed in it
 pkg_check_modules(URDFDOM REQUIRED IMPORTED_TARGET urdfdom)  # reads what pictures are made of
-ergotic_add_gtests(tgr yaml-cpp PkgConfig::URDFDOM)  # places of settings are seen in their nodes
-foreach(room physics advice tools)  # physics is compared with the tools' plain implementation
-  ergotic_add_gtests(${room} ergotic_measuring)
-endforeach()
+ergotic_add_gtests(tgr 2 yaml-cpp PkgConfig::URDFDOM)  # places of settings are seen in their nodes
+ergotic_add_gtests(physics 8 ergotic_measuring)  # is compared with the tools' plain implementation
+ergotic_add_gtests(advice 2 ergotic_measuring)
+ergotic_add_gtests(tools 4 ergotic_measuring)
 # The comedi driver before a stand-in for libcomedi, which takes its place when it is linked first, or
 # preloaded. The mechanics are its own copy, so that what preloads it meets no symbols of the core.
 file(GLOB standin_sources CONFIGURE_DEPENDS test/comedi/standin/*.cpp)
@@ -76,17 +113,16 @@ add_library(comedi_standin SHARED ${standin_sources}
 set_target_properties(comedi_standin PROPERTIES CXX_VISIBILITY_PRESET hidden)
 target_include_directories(comedi_standin PUBLIC test PRIVATE include src)
 target_link_libraries(comedi_standin PRIVATE ergotic_flags Eigen3::Eigen)
-ergotic_add_gtests(comedi comedi_standin ergotic_comedi_driver)
+ergotic_add_gtests(comedi 1 comedi_standin ergotic_comedi_driver)
 add_executable(comedi_probe test/comedi/probe/comedi_probe.cpp)
 target_link_libraries(comedi_probe PRIVATE ergotic_comedi_driver ergotic_flags)
-add_dependencies(ergotic_comedi_test comedi_probe)
-set_source_files_properties(test/comedi/comedi_preload_test.cpp PROPERTIES COMPILE_DEFINITIONS
-  "COMEDI_PROBE=\"$<TARGET_FILE:comedi_probe>\";COMEDI_STANDIN=\"$<TARGET_FILE:comedi_standin>\"")
-ergotic_add_gtests(tgr_jack ergotic_jack_driver)
-# They run the tools as programs.
-add_dependencies(ergotic_golden_test render check)
-add_dependencies(ergotic_tools_test bench check expand latency render)
-add_dependencies(ergotic_tgr_jack_test jack_tgr)
+ergotic_tests_need(comedi comedi_probe)
+target_compile_definitions(ergotic_comedi_live_test PRIVATE
+  COMEDI_PROBE="$<TARGET_FILE:comedi_probe>" COMEDI_STANDIN="$<TARGET_FILE:comedi_standin>")
+ergotic_add_gtests(tgr_jack 1 ergotic_jack_driver)
+ergotic_tests_need(golden render check)
+ergotic_tests_need(tools bench check expand latency render)
+ergotic_tests_need(tgr_jack jack_tgr)
 if(ERGOTIC_ROS)
   include(cmake/ros_tests.cmake)
 endif()
@@ -100,7 +136,7 @@ add_test(NAME scripts.bound_at_load
   COMMAND ${PROJECT_SOURCE_DIR}/test/integration/bound_at_load.sh ${bound_at_load})
 # The scripts: what is built; what rooms may include, and how they are drawn; what measures a demo, a soak,
 # a peer and another build; what users do in the devel and in an install space.
-foreach(script build check_includes demo_report soak_report bench_faust latency play_gesture sum_trials)
+foreach(script build check_includes demo_report soak_report bench_faust latency play_gesture test_report)
   add_test(NAME scripts.${script}
     COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/${script}_test.py)
 endforeach()
@@ -115,18 +151,14 @@ add_test(NAME scripts.recipes
 add_test(NAME scripts.compare_builds
   COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/compare_builds_test.py
           $<TARGET_FILE_DIR:render>)
-# Those that take longest begin first, or a processor is idle at the end. They say that they need
-# what all others need, for those that need nothing come last whatever they cost.
-set_tests_properties(scripts.build scripts.compare_builds PROPERTIES
-  COST 50 FIXTURES_REQUIRED trials)
+set_tests_properties(scripts.build PROPERTIES COST 50)
+set_tests_properties(scripts.compare_builds PROPERTIES LABELS long)
 if(ERGOTIC_ROS)
   add_test(NAME integration.spaces
     COMMAND ${PROJECT_SOURCE_DIR}/test/integration/spaces.sh
             ${PROJECT_BINARY_DIR} ${CATKIN_DEVEL_PREFIX})
-  set_tests_properties(integration.spaces PROPERTIES
-    TIMEOUT 300 LABELS integration COST 30 FIXTURES_REQUIRED trials)
-  set_tests_properties(integration.typed integration.remote PROPERTIES COST 40)
+  set_tests_properties(integration.spaces PROPERTIES TIMEOUT 300 LABELS integration COST 60)
 endif()
 # As it is preloaded into a station.
-target_sources(ergotic_rt_test PRIVATE src/preload/priority_inheritance.cpp)
-target_link_libraries(ergotic_rt_test PRIVATE ${CMAKE_DL_LIBS})
+target_sources(ergotic_rt_live_test PRIVATE src/preload/priority_inheritance.cpp)
+target_link_libraries(ergotic_rt_live_test PRIVATE ${CMAKE_DL_LIBS})

@@ -8,12 +8,13 @@ from pathlib import Path
 # include/ergotic/; folders that are not named here belong to the room around them.
 ROOMS = {
     "exception": "",
+    "algebra": "",
     "files": "exception",
     "rt": "exception",
     "scene": "exception files",
-    "scene/laws": "rt scene",
+    "scene/laws": "exception rt scene",
     "scene/rules": "exception scene scene/laws",
-    "scene/generate": "exception scene",
+    "scene/generate": "exception algebra scene",
     "scene/text": "exception files scene",
     "scene/tree": "exception files scene scene/generate scene/text",
     "scene/language": "exception scene scene/generate scene/text scene/tree",
@@ -21,21 +22,21 @@ ROOMS = {
                   " scene/language",
     "scene/mdl": "scene scene/laws scene/generate scene/text",
     "physics": "exception rt scene scene/laws",
-    "physics/laws": "scene scene/laws physics",
-    "physics/network": "exception scene scene/laws physics physics/laws",
+    "physics/laws": "exception scene scene/laws physics",
+    "physics/network": "exception algebra scene scene/laws physics physics/laws",
     "physics/layout/blocks": "exception scene scene/laws physics",
     "physics/layout": "exception scene scene/laws physics physics/layout/blocks",
-    "physics/modes": "exception scene scene/laws physics physics/laws physics/network",
+    "physics/modes": "exception algebra scene scene/laws physics physics/laws physics/network",
     "physics/state": "exception scene scene/laws physics physics/laws physics/layout physics/layout/blocks",
     "physics/kernels": "rt scene/laws physics/layout physics/layout/blocks physics/state",
     "physics/engine": "exception rt scene physics physics/laws physics/modes physics/layout"
                       " physics/layout/blocks physics/state physics/kernels",
-    "physics/certificate": "exception scene scene/laws physics physics/layout physics/network physics/engine",
+    "physics/certificate": "exception algebra scene scene/laws physics physics/layout physics/network physics/engine",
     "physics/settling": "exception scene scene/laws scene/generate physics physics/network"
                         " physics/certificate",
-    "advice": "exception scene scene/laws scene/generate physics physics/laws physics/network physics/certificate"
+    "advice": "exception algebra scene scene/laws scene/generate physics physics/laws physics/network physics/certificate"
               " physics/settling",
-    "tgr": "exception files rt scene scene/text scene/tree",
+    "tgr": "exception algebra files rt scene scene/text scene/tree",
     "station": "exception rt scene physics physics/engine physics/certificate physics/settling tgr",
     "audio": "exception rt",
     "tgr/drivers/comedi": "exception rt tgr",
@@ -85,7 +86,7 @@ _TOKENS = re.compile(r'R"([^(\s]*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|//[^\n]*|/\*.*?
 def room_of(path):
     """The room of a file, by its path below the root; None if there is none."""
     parts = re.sub(r"^(src|include/ergotic)/", "", path)
-    folder = "exception" if re.fullmatch(r"(exception|at)\.[ch]pp", parts) else str(Path(parts).parent)
+    folder = "exception" if re.fullmatch(r"(exception|at|constants)\.[ch]pp", parts) else str(Path(parts).parent)
     while folder not in ROOMS and folder != ".":
         folder = str(Path(folder).parent)
     return folder if folder in ROOMS else None

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "constants.hpp"
 #include "ergotic/scene/coarse_string.hpp"
 #include "ergotic/scene/generate/pitch.hpp"
 #include "physics/glide.hpp"
@@ -13,9 +14,6 @@
 
 namespace ergotic::physics {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Measured: (steps, error), both ascending in the first.
 using Measured = std::vector<std::pair<double, double>>;

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "advice/mode_targets.hpp"
 #include "at.hpp"
+#include "constants.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/physics/settling/settle.hpp"
 #include "scene/names.hpp"
@@ -18,8 +18,8 @@ using scene::Scene;
 
 constexpr int kMostHeard = 400;  // modes
 constexpr double kSemitone = 1.0595;
-constexpr double kFar = 4.0;     // times a pitch, how high a parameter may lift it
-constexpr double kAtHome = 0.3;  // of its kinetic energy a mode has in the body that sounds
+constexpr double kHighestRatio = 4.0;  // times a pitch, how high a parameter may lift it
+constexpr double kAtHome = 0.3;        // of its kinetic energy a mode has in the body that sounds
 constexpr double kHeardCents = 0.5;
 constexpr double kHeardLoss = 0.1;
 constexpr int kSteps = 8;            // in which a range is searched
@@ -118,7 +118,8 @@ class Figure {
     }
     const AskedPitch& asked = pitches[at(body_.asked)];
     body_.rank = asked.partial;
-    highest_hz_ = kFar * std::max(asked.hz, wish_.kind == Wish::Kind::kPitch ? wish_.value : 0.0);
+    highest_hz_ =
+        kHighestRatio * std::max(asked.hz, wish_.kind == Wish::Kind::kPitch ? wish_.value : 0.0);
     const SceneModes found = modesIn(scene);
     for (std::size_t i = 0; i < found.modes.size(); ++i) {
       if (found.modes[i].asked == body_.asked) {
@@ -153,9 +154,9 @@ class Figure {
 };
 
 /// Of one parameter, which is moved alone.
-class Search {
+class ParameterSearch {
  public:
-  Search(const Figure& figure, const Scene& scene, std::size_t index, double wanted)
+  ParameterSearch(const Figure& figure, const Scene& scene, std::size_t index, double wanted)
       : figure_(figure), scene_(scene), index_(index), wanted_(wanted) {}
 
   /// \return none if the parameter does not change the figure
@@ -191,7 +192,6 @@ class Search {
     double value = 0.0;
     double figure = 0.0;
   };
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
   /// Over the range, evenly in what its sign allows.
   double valueAt(double share) const {
@@ -269,7 +269,7 @@ std::vector<Move> movesFor(const Wish& wish,
   const Figure figure(wish, scene, rates, device);
   std::vector<Move> moves;
   for (std::size_t p = 0; p < scene.parameters.size(); ++p) {
-    if (const std::optional<Move> move = Search(figure, scene, p, wish.value).run()) {
+    if (const std::optional<Move> move = ParameterSearch(figure, scene, p, wish.value).run()) {
       moves.push_back(*move);
     }
   }

@@ -6,9 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseLU>
 
+#include "algebra/decompositions.hpp"
 #include "at.hpp"
 
 namespace ergotic::physics {
@@ -78,9 +78,8 @@ class Damping {
       }
       if (next > first + 1) {
         const Eigen::MatrixXd same = vectors_.middleCols(first, next - first);
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(same.transpose() *
-                                                                    (loss_ * same));
-        vectors_.middleCols(first, next - first) = same * solver.eigenvectors();
+        vectors_.middleCols(first, next - first) =
+            same * algebra::symmetricModes(same.transpose() * (loss_ * same)).vectors;
       }
       first = next;
     }
@@ -121,8 +120,11 @@ class Damping {
     step.bottomLeftCorner(size, size) = -Eigen::MatrixXd(root.asDiagonal());
     step.bottomRightCorner(size, size) = -(basis.transpose() * lost.leftCols(size));
     step.bottomRightCorner(size, size).diagonal() -= kappa_.head(size);
-    const Eigen::EigenSolver<Eigen::MatrixXd> solver(step);
-    const Eigen::VectorXcd& values = solver.eigenvalues();
+    const algebra::GeneralModes modes = algebra::generalModes(step);
+    if (!modes.converged) {
+      return;
+    }
+    const Eigen::VectorXcd& values = modes.values;
     std::vector<Eigen::Index> order;
     for (Eigen::Index i = 0; i < values.size(); ++i) {
       if (values[i].imag() >= 0.0) {
@@ -136,7 +138,7 @@ class Damping {
       return swings_a != swings_b ? swings_a : std::abs(values[a]) < std::abs(values[b]);
     });
     std::vector<unsigned char> is_given(static_cast<std::size_t>(size), 0);
-    const Eigen::MatrixXcd eigenvectors = solver.eigenvectors();
+    const Eigen::MatrixXcd& eigenvectors = modes.vectors;
     for (const Eigen::Index i : order) {
       const Eigen::VectorXcd shares = eigenvectors.col(i).tail(size);
       Eigen::Index best = -1;

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <Spectra/SymEigsSolver.h>
 
+#include "algebra/decompositions.hpp"
 #include "at.hpp"
 #include "ergotic/exception.hpp"
 
@@ -61,9 +61,9 @@ struct Inertia {
   double doubt = 0.0;  // eigenvalues that are nearer may be on the other side
 };
 
-class Finder {
+class ModeFinder {
  public:
-  Finder(const ModePart& part, const EigenWindow& window)
+  ModeFinder(const ModePart& part, const EigenWindow& window)
       : part_(part), window_(window), size_(static_cast<int>(part.rows.size())) {
     scale_ = part.pull.diagonal().cwiseAbs().maxCoeff();
     unit_.resize(size_, size_);
@@ -100,11 +100,11 @@ class Finder {
   }
 
   void dense() {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(part_.pull)};
-    if (solver.info() != Eigen::Success) {
+    const algebra::SymmetricModes modes = algebra::symmetricModes(Eigen::MatrixXd(part_.pull));
+    if (!modes.converged) {
       throw Exception("the modes of " + std::to_string(size_) + " coordinates are not found");
     }
-    const Eigen::VectorXd& all = solver.eigenvalues();
+    const Eigen::VectorXd& all = modes.values;
     const double* const end = all.data() + size_;
     const auto countTo = [&](double value) {
       return static_cast<int>(std::upper_bound(all.data(), end, value) - all.data());
@@ -116,7 +116,7 @@ class Finder {
     in_window_ = std::max(0, countTo(window_.to) - skipped);
     const int taken = std::min(size_ - skipped, window_.most + (takesSoft() ? soft_ : 0) + kBeyond);
     found_.values = all.segment(skipped, taken);
-    found_.vectors = solver.eigenvectors().middleCols(skipped, taken);
+    found_.vectors = modes.vectors.middleCols(skipped, taken);
   }
 
   Matrix shifted(double shift) const { return part_.pull - shift * unit_; }
@@ -346,10 +346,10 @@ class Finder {
   /// The first vectors become those of a matrix in their coordinates.
   void turn(Eigen::Index count, const Eigen::MatrixXd& matrix) {
     if (count > 0) {
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
-      const Eigen::MatrixXd turned = found_.vectors.leftCols(count) * solver.eigenvectors();
+      const algebra::SymmetricModes modes = algebra::symmetricModes(matrix);
+      const Eigen::MatrixXd turned = found_.vectors.leftCols(count) * modes.vectors;
       found_.vectors.leftCols(count) = turned;
-      found_.values.head(count) = solver.eigenvalues();
+      found_.values.head(count) = modes.values;
     }
   }
 
@@ -366,7 +366,7 @@ class Finder {
 }  // namespace
 
 EigenPairs eigenPairsIn(const ModePart& part, const EigenWindow& window) {
-  return Finder(part, window).run();
+  return ModeFinder(part, window).run();
 }
 
 }  // namespace ergotic::physics

@@ -12,6 +12,7 @@
 #include "advice/mode_solver.hpp"
 #include "advice/mode_targets.hpp"
 #include "at.hpp"
+#include "constants.hpp"
 #include "physics/note.hpp"
 #include "scene/names.hpp"
 
@@ -19,8 +20,6 @@ namespace ergotic::physics {
 namespace {
 
 using scene::Scene;
-
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kLeastShare = 1e-3;  // of a link that is told
 
 /// h^2 w^2 of what swings at a frequency without losses.

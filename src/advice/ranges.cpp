@@ -3,19 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "at.hpp"
+#include "constants.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/physics/settling/settle.hpp"
 
 namespace ergotic::physics {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kPrecision = 1e-3;
-constexpr int kMostHalvings = 60;
-constexpr double kFar = 1e9;  // times the size of a range: nothing ends it
+constexpr double kRangePrecision = 1e-3;
+constexpr int kMostRangeHalvings = 60;
+constexpr double kUnbounded = 1e9;  // times the size of a range: nothing ends it
 
 struct Judged {
   Verdict verdict = Verdict::kUnstable;
@@ -90,14 +88,14 @@ class RangeJudge {
   static double farthest(double from, double size, const Holds& holds) {
     double good = 0.0;
     double bad = 1.0;
-    while (bad < kFar && holds(from + bad * size)) {
+    while (bad < kUnbounded && holds(from + bad * size)) {
       good = bad;
       bad *= 4.0;
     }
-    if (!(bad < kFar)) {
+    if (!(bad < kUnbounded)) {
       return std::copysign(kInfinity, size);
     }
-    for (int i = 0; i < kMostHalvings && bad - good > kPrecision * bad; ++i) {
+    for (int i = 0; i < kMostRangeHalvings && bad - good > kRangePrecision * bad; ++i) {
       const double middle = 0.5 * (good + bad);
       (holds(from + middle * size) ? good : bad) = middle;
     }

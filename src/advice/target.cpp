@@ -106,13 +106,13 @@ double floatError(Unit unit) {
   return unit == Unit::kCents ? kFloatPitchError : kFloatSoundError;
 }
 
-class Search {
+class SettingSearch {
  public:
-  Search(const scene::Scene& scene,
-         const Rates& rates,
-         Precision precision,
-         const Target& target,
-         const Freedom& freedom)
+  SettingSearch(const scene::Scene& scene,
+                const Rates& rates,
+                Precision precision,
+                const Target& target,
+                const Freedom& freedom)
       : scene_(scene),
         rates_(rates),
         precision_(precision),
@@ -353,7 +353,7 @@ Proposal propose(const scene::Scene& scene,
                  Precision precision,
                  const Target& target,
                  const Freedom& freedom) {
-  return Search(scene, rates, precision, target, freedom).run();
+  return SettingSearch(scene, rates, precision, target, freedom).run();
 }
 
 }  // namespace ergotic::physics

@@ -284,12 +284,12 @@ double bowedPitchHz(const scene::Scene& scene, Networks& networks, const scene::
 }
 
 /// Adds what a link has at stake.
-class Finder {
+class LinkFinder {
  public:
-  Finder(const scene::Scene& scene,
-         const std::vector<std::string>& chaplets,
-         Target::Unit unit,
-         Parts& parts)
+  LinkFinder(const scene::Scene& scene,
+             const std::vector<std::string>& chaplets,
+             Target::Unit unit,
+             Parts& parts)
       : scene_(scene), networks_(scene), chaplets_(chaplets), unit_(unit), parts_(parts) {}
 
   void add(int index) {
@@ -368,7 +368,7 @@ void addLinkParts(const scene::Scene& scene,
                   const std::vector<std::string>& chaplets,
                   Target::Unit unit,
                   Parts& parts) {
-  Finder finder(scene, chaplets, unit, parts);
+  LinkFinder finder(scene, chaplets, unit, parts);
   for (int l = 0; l < static_cast<int>(scene.lias.size()); ++l) {
     finder.add(l);
   }

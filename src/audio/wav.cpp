@@ -18,7 +18,7 @@ namespace {
 constexpr double kFullScale24 = 8388608.0;  // 2^23
 constexpr int kMaxRate = 1'000'000;
 
-[[noreturn]] void fail(const std::string& path, const std::string& what) {
+[[noreturn]] void failOn(const std::string& path, const std::string& what) {
   throw Exception(path + ": " + what);
 }
 
@@ -75,7 +75,7 @@ WavReader::WavReader(const std::string& path) : file_(new File{path, {}, nullptr
   errno = 0;
   file_->handle = sf_open(path.c_str(), SFM_READ, &file_->info);
   if (file_->handle == nullptr) {
-    fail(path, "cannot read: " + reason(nullptr, errno));
+    failOn(path, "cannot read: " + reason(nullptr, errno));
   }
 }
 
@@ -96,7 +96,7 @@ std::int64_t WavReader::frames() const noexcept {
 std::int64_t WavReader::read(double* to, std::int64_t nframes) {
   const sf_count_t got = sf_readf_double(file_->handle, to, nframes);
   if (sf_error(file_->handle) != SF_ERR_NO_ERROR) {
-    fail(file_->path, "cannot read: " + reason(file_->handle, 0));
+    failOn(file_->path, "cannot read: " + reason(file_->handle, 0));
   }
   return got;
 }
@@ -140,7 +140,7 @@ void WavWriter::File::requireFinite(const Sample* samples, std::int64_t count) c
     message << "sample " << frames + (bad - samples) / channels << " of channel "
             << (bad - samples) % channels + 1 << " is " << *bad
             << "; only finite samples can be written";
-    fail(path, message.str());
+    failOn(path, message.str());
   }
 }
 
@@ -161,7 +161,7 @@ sf_count_t WavWriter::File::put24(const Sample* samples, std::int64_t nframes) {
 template <class Sample>
 void WavWriter::File::write(const Sample* samples, std::int64_t nframes) {
   if (handle == nullptr) {
-    fail(path, "is finished already");
+    failOn(path, "is finished already");
   }
   requireFinite(samples, nframes * channels);
   errno = 0;
@@ -169,8 +169,8 @@ void WavWriter::File::write(const Sample* samples, std::int64_t nframes) {
       format == WavFormat::k24 ? put24(samples, nframes) : put(handle, samples, nframes);
   frames += written;
   if (written != nframes) {
-    fail(path,
-         "only " + std::to_string(frames) + " frames could be written: " + reason(handle, errno));
+    failOn(path,
+           "only " + std::to_string(frames) + " frames could be written: " + reason(handle, errno));
   }
 }
 
@@ -179,7 +179,7 @@ WavWriter::WavWriter(const std::string& path, double sample_rate, int channels, 
   if (!(sample_rate >= 1.0 && sample_rate <= kMaxRate) || sample_rate != std::floor(sample_rate)) {
     std::ostringstream message;
     message << "sample rate " << sample_rate << " Hz, allowed: whole numbers in 1..." << kMaxRate;
-    fail(path, message.str());
+    failOn(path, message.str());
   }
   SF_INFO info{};
   info.samplerate = static_cast<int>(sample_rate);
@@ -188,7 +188,7 @@ WavWriter::WavWriter(const std::string& path, double sample_rate, int channels, 
   errno = 0;
   file_->handle = sf_open(path.c_str(), SFM_WRITE, &info);
   if (file_->handle == nullptr) {
-    fail(path, "cannot write: " + reason(nullptr, errno));
+    failOn(path, "cannot write: " + reason(nullptr, errno));
   }
   sf_command(file_->handle, SFC_RF64_AUTO_DOWNGRADE, nullptr, SF_TRUE);
 }
@@ -217,7 +217,7 @@ void WavWriter::finish() {
   const int close_error = sf_close(file_->handle);
   file_->handle = nullptr;
   if (error != SF_ERR_NO_ERROR || close_error != SF_ERR_NO_ERROR) {
-    fail(file_->path, "cannot complete: " + (error != 0 ? why : sf_error_number(close_error)));
+    failOn(file_->path, "cannot complete: " + (error != 0 ? why : sf_error_number(close_error)));
   }
 }
 

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <limits>
 #include <string>
 
+#include "constants.hpp"
 #include "ergotic/scene/scene.hpp"
 
 /// Ranges of every number of a scene, said once for the readers and for `validate`.
 namespace ergotic::scene {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Single precision holds a hundred million times as much: room for steps and products.
 constexpr double kLargestNumber = 1e30;

@@ -15,7 +15,7 @@ constexpr int kReadingsToConnect = 8;  // the first periods of a host are the le
 constexpr std::size_t kFifoFrames = 2U * AudioBridge::kMaxLatencyFrames;
 constexpr std::size_t kLosses = 1U << 10U;
 
-const AudioBridgeConfig& checked(const AudioBridgeConfig& config) {
+const AudioBridgeConfig& checkedBridge(const AudioBridgeConfig& config) {
   if (config.latency_frames < 1 || config.latency_frames > AudioBridge::kMaxLatencyFrames) {
     throw Exception("ring depth is " + std::to_string(config.latency_frames) +
                     " frames, allowed 1..." + std::to_string(AudioBridge::kMaxLatencyFrames));
@@ -31,7 +31,7 @@ const AudioBridgeConfig& checked(const AudioBridgeConfig& config) {
 }  // namespace
 
 AudioBridge::AudioBridge(const AudioBridgeConfig& config)
-    : config_(checked(config)),
+    : config_(checkedBridge(config)),
       latency_(config.latency_frames),
       to_host_(kFifoFrames, config.output_channels),
       from_host_(kFifoFrames, config.input_channels),

@@ -22,7 +22,7 @@ MotionFrame emptyMotion(const physics::Instrument& instrument) {
   return frame;
 }
 
-std::size_t samples(const physics::Instrument& instrument, int channels) {
+std::size_t samplesOf(const physics::Instrument& instrument, int channels) {
   return static_cast<std::size_t>(instrument.rates().ratio) * static_cast<std::size_t>(channels);
 }
 
@@ -70,8 +70,8 @@ Performer::Performer(std::unique_ptr<physics::Instrument> made, std::unique_ptr<
       rig(std::move(between)),
       positions(instrument->scene().ports.size()),
       forces(instrument->scene().ports.size()),
-      inputs(samples(*instrument, instrument->inputChannels())),
-      outputs(samples(*instrument, instrument->outputChannels())),
+      inputs(samplesOf(*instrument, instrument->inputChannels())),
+      outputs(samplesOf(*instrument, instrument->outputChannels())),
       motion(emptyMotion(*instrument)),
       initial(instrument->stateSize()) {
   instrument->saveState(initial.data());

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "constants.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/clock.hpp"
 #include "ergotic/rt/mailbox.hpp"
@@ -51,7 +52,6 @@ void requireInjectable(const FaultOrder& order, int slices) {
 /// What a device does whose processor is busy: short times are exact, long ones leave the
 /// processor to others.
 ERGOTIC_REALTIME void linger(double seconds) noexcept {
-  constexpr double kNsPerS = 1e9;
   constexpr std::int64_t kAwakeNs = 1'000'000;
   const std::int64_t start = rt::monotonicNs();
   const std::int64_t end = start + static_cast<std::int64_t>(seconds * kNsPerS);

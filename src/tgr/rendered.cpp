@@ -2,8 +2,9 @@
 #include <algorithm>
 #include <array>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
+#include "algebra/decompositions.hpp"
 #include "ergotic/tgr/driver.hpp"
 #include "ergotic/tgr/rig.hpp"
 
@@ -71,9 +72,7 @@ double largestEigenvalue(const Eigen::MatrixXd& matrix, const std::vector<int>& 
           matrix(slices[static_cast<std::size_t>(i)], slices[static_cast<std::size_t>(j)]);
     }
   }
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(block, Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .maxCoeff();
+  return algebra::symmetricEigenvalues(block).maxCoeff();
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "constants.hpp"
 #include "scene/text/number.hpp"
 #include "tgr/end_effectors/fields.hpp"
 #include "tgr/settings.hpp"
@@ -12,8 +13,6 @@ namespace ergotic::tgr {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kPitch = 0.01375;  // m between slices: twelve of them make an octave of 165 mm
 constexpr int kOctave = 12;
 constexpr double kWhitePitch = kOctave * kPitch / 7.0;

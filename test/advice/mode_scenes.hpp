@@ -16,8 +16,6 @@ namespace ergotic::physics {
 using test::Bars;
 using test::Nets;
 
-inline const Rates kRates{kRate, 14};
-
 inline SceneModes modesOf(const scene::Scene& scene, const ModeWindow& window = {}) {
   return physics::modesOf(settle(scene, kRates).scene, kRates, window, scene);
 }

@@ -12,9 +12,9 @@
 namespace ergotic::physics {
 namespace {
 
+using test::kRates;
 using test::Player;
 
-constexpr Rates kRates{44100.0, 14};
 constexpr double kWithin = 0.03;  // of the predicted rms
 
 /// A key on a wall, at the gestural or the audio rate.

@@ -7,8 +7,6 @@
 namespace ergotic::physics {
 namespace {
 
-const Rates kRates{44100.0, 14};
-
 /// A mass on a spring: lambda = h^2 K/M.
 std::vector<JudgedRange> judged(const char* parameters, const char* spring = "stiffness: $k") {
   return judgeRanges(

@@ -14,6 +14,7 @@ namespace ergotic {
 namespace {
 
 using test::Channels;
+using test::peakOf;
 
 constexpr std::size_t kFrames = 44100;
 constexpr double kTwoPi = 6.283185307179586;
@@ -188,14 +189,6 @@ Channels play(const scene::Scene& scene,
     }
   }
   return result;
-}
-
-double peakOf(const std::vector<double>& channel) {
-  double peak = 0.0;
-  for (const double x : channel) {
-    peak = std::max(peak, std::abs(x));
-  }
-  return peak;
 }
 
 double largestDifference(const std::vector<double>& a, const std::vector<double>& b) {

@@ -23,7 +23,7 @@ using testing::ContainsRegex;
 const std::string kString = repository("models/string.yaml");
 const std::string kPluck = repository("models/string_demo.csv");
 
-std::vector<double> play(const std::string& options) {
+std::vector<double> playString(const std::string& options) {
   const test::ScratchFile sound;
   const Outcome outcome = run("render", kString + " --gesture " + kPluck + " --seconds 2.5 --out " +
                                             sound.path() + " " + options);
@@ -32,14 +32,14 @@ std::vector<double> play(const std::string& options) {
 }
 
 TEST(ToolOptionsTest, AScenePlaysTheSameSamplesWithAnyKernelsThreadsAndBooks) {
-  const std::vector<double> wanted = play("");
+  const std::vector<double> wanted = playString("");
   EXPECT_TRUE(std::any_of(wanted.begin(), wanted.end(), [](double s) { return s > 0.01; }));
   for (const rt::Isa isa : rt::isas()) {
-    EXPECT_EQ(play(std::string("--isa ") + nameOf(isa)), wanted) << nameOf(isa);
+    EXPECT_EQ(playString(std::string("--isa ") + nameOf(isa)), wanted) << nameOf(isa);
   }
-  EXPECT_EQ(play("--threads 2"), wanted);
-  EXPECT_EQ(play("--energies"), wanted);
-  EXPECT_NE(play("--precision double"), wanted);
+  EXPECT_EQ(playString("--threads 2"), wanted);
+  EXPECT_EQ(playString("--energies"), wanted);
+  EXPECT_NE(playString("--precision double"), wanted);
 }
 
 TEST(ToolOptionsTest, RenderSaysWhatPlayed) {

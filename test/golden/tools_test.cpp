@@ -18,18 +18,11 @@ namespace {
 
 using test::exists;
 using test::Outcome;
+using test::peakOf;
 using test::run;
 
 std::vector<double> soundOf(const std::string& path) {
   return audio::WavReader(path).readAll();
-}
-
-double peakOf(const std::vector<double>& sound) {
-  double peak = 0.0;
-  for (const double sample : sound) {
-    peak = std::max(peak, std::abs(sample));
-  }
-  return peak;
 }
 
 const char* const kSpring = R"(# one mass, thrown

@@ -150,7 +150,7 @@ TEST_F(PairsTest, TakeTheForceAsSoonAsTheFirstOfThemWould) {
   std::mt19937 random(20);
   std::uniform_real_distribution<double> between_s(0.0, kBetweenS);
   while (trials.goOn()) {
-    const Pair& pair = all[static_cast<std::size_t>(trials.onTime())];
+    const Pair& pair = all[static_cast<std::size_t>(trials.tries())];
     world_.setDeviceWatchdog(std::min(pair.first.watchdog_ms, pair.second.watchdog_ms));
     const std::int64_t from_ns = rt::monotonicNs();
     const bool pushed = world_.push();

@@ -4,6 +4,7 @@
 import os
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree
@@ -85,6 +86,7 @@ class TypedTest(unittest.TestCase):
                 self.assertIn("success: True", answer, line)
         self.assertGreaterEqual(len(said), 12)
 
+    @unittest.skipIf("--without-docs" in sys.argv, "takes long")
     def test_lines_of_the_docs_are_understood(self):
         self.assertGreaterEqual(len(self.type_all("docs/ros.md")), 12)
 

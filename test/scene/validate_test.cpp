@@ -6,6 +6,8 @@
 namespace ergotic::scene {
 namespace {
 
+using test::kNan;
+
 /// One element of every kind, legal.
 Scene legal() {
   return readYaml(
@@ -28,8 +30,6 @@ struct Damage {
   const char* message;
   std::function<void(Scene&)> apply;
 };
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 const Damage kDamages[] = {
     {"time unit", [](Scene& s) { s.time_unit_s = 0.0; }},

@@ -7,6 +7,7 @@ namespace ergotic::station {
 namespace {
 
 using test::Bench;
+using test::kRampTicks;
 using test::SpringInstrument;
 
 constexpr int kFadeTicks = 16;  // 5 ms at 3150 Hz, rounded up
@@ -258,7 +259,7 @@ TEST(HeldUpTest, AParameterIsToldAsSetWhenItIs) {
   bench.instrument->held_up = false;
   bench.run(1);
   EXPECT_EQ(test::count(bench.events(), Event::Type::kParameter), 1);
-  bench.run(Bench::kRampTicks);
+  bench.run(kRampTicks);
   EXPECT_DOUBLE_EQ(bench.log.forces[0], 2.0 * before);
 }
 

@@ -9,8 +9,8 @@ namespace ergotic::station {
 namespace {
 
 using test::Bench;
+using test::kRampTicks;
 
-constexpr std::int64_t kRampTicks = Bench::kRampTicks;
 constexpr double kHandM = 0.01;
 
 StationConfig withPresence(double seconds) {

@@ -44,7 +44,7 @@ TEST(HealthTest, MeasuresTheResidualAgainstAllTheEnergyThatThereWas) {
   EXPECT_DOUBLE_EQ(relativeResidual(energies), -0.25e-9);
 }
 
-constexpr physics::Rates kRates{44100.0, 12};
+constexpr physics::Rates kLoadRates{44100.0, 12};
 
 /// Two plates at two rates, half as many modules and links in strings.
 std::string scene(int strings, int side) {
@@ -74,7 +74,7 @@ TEST(LoadTest, AModuleOrLinkTakesAtMostTwoHundredBytes) {
   const auto bytesOf = [](const std::string& what, std::size_t& parts) {
     const test::AllocationScope scope;
     const auto performer =
-        makePerformer(scene::readYaml(what, "load.yaml"), kRates, physics::Precision::kFloat);
+        makePerformer(scene::readYaml(what, "load.yaml"), kLoadRates, physics::Precision::kFloat);
     parts = partsOf(*performer->instrument);
     return scope.bytes();
   };
@@ -87,7 +87,7 @@ TEST(LoadTest, AModuleOrLinkTakesAtMostTwoHundredBytes) {
 }
 
 TEST(LoadTest, TwoHundredThousandModulesAndLinksLoad) {
-  const auto performer = makePerformer(scene::readYaml(scene(500, 100), "load.yaml"), kRates,
+  const auto performer = makePerformer(scene::readYaml(scene(500, 100), "load.yaml"), kLoadRates,
                                        physics::Precision::kFloat);
   EXPECT_GE(partsOf(*performer->instrument), 190000U);
   EXPECT_EQ(performer->certificate.verdict, physics::Verdict::kPassive);
@@ -102,7 +102,7 @@ TEST(LoadTest, TheListenerHearsEveryStage) {
   std::vector<std::string> stages;
   PerformerPolicy policy;
   policy.on_stage = [&](const std::string& stage) { stages.push_back(stage); };
-  makePerformer(scene::readYaml(scene(1, 3), "load.yaml"), kRates, physics::Precision::kFloat,
+  makePerformer(scene::readYaml(scene(1, 3), "load.yaml"), kLoadRates, physics::Precision::kFloat,
                 policy);
   ASSERT_EQ(stages.size(), 3U);
   EXPECT_EQ(stages[0].substr(0, 9), "validate ");
@@ -115,7 +115,7 @@ TEST(LoadTest, ARefusalCarriesItsVerdict) {
       "ergotic: 1\nsections: {a: {}}\ngenerators:\n"
       "  - {type: string, name: s, masses: 9, mass: 1, stiffness: 1e12, to: [1, 0]}\n";
   try {
-    makePerformer(scene::readYaml(stiff, "stiff.yaml"), kRates, physics::Precision::kFloat);
+    makePerformer(scene::readYaml(stiff, "stiff.yaml"), kLoadRates, physics::Precision::kFloat);
     FAIL() << "was not refused";
   } catch (const RefusedScene& refusal) {
     EXPECT_EQ(refusal.verdict(), physics::Verdict::kUnstable);

@@ -9,6 +9,7 @@ namespace ergotic::station {
 namespace {
 
 using test::Bench;
+using test::kRampTicks;
 
 TEST(InterlockTest, LetsForceBackOnlyForWhoAskedAfterTheLastStop) {
   Interlock interlock;
@@ -63,7 +64,7 @@ TEST(InterlockTest, AnEmergencyStopDuringARecoveryHolds) {
   bench.command(Command::Type::kRecover);
   bench.command(Command::Type::kEngage);
   bench.station->makeSafe(FaultReason::kEmergencyStop);
-  bench.run(Bench::kRampTicks);
+  bench.run(kRampTicks);
   EXPECT_EQ(bench.log.forces[0], 0.0);
   EXPECT_TRUE(bench.log.safe.load()) << "the driver's latch, too";
   const auto events = bench.events();
@@ -100,7 +101,7 @@ TEST(InterlockTest, AnEmergencyStopBeforeTheFirstStationHolds) {
   engage.type = Command::Type::kEngage;
   engage.asked = autoengage;
   ASSERT_TRUE(bench.station->submit(engage));
-  bench.run(Bench::kRampTicks);
+  bench.run(kRampTicks);
   EXPECT_EQ(bench.log.forces[0], 0.0);
   EXPECT_EQ(test::firstOf(bench.events(), Event::Type::kFault).index,
             static_cast<int>(FaultReason::kEmergencyStop));
@@ -110,7 +111,7 @@ TEST(InterlockTest, AnEngageThatWasAskedForBeforeAStopBringsNoForce) {
   Bench bench;
   bench.command(Command::Type::kEngage);
   bench.station->stop();
-  bench.run(Bench::kRampTicks);
+  bench.run(kRampTicks);
   EXPECT_EQ(bench.log.forces[0], 0.0);
   EXPECT_EQ(test::firstOf(bench.events(), Event::Type::kRefused).index,
             static_cast<int>(Refusal::kOutdated));

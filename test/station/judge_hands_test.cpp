@@ -21,8 +21,8 @@ using test::endEffector;
 using test::endEffectors;
 using tgr::EndEffectorType;
 
-constexpr physics::Rates kRates{48000.0, 16};  // 3000 Hz
-constexpr double kLimit = 4000.0;              // 2 * 2 / (3 / 3000), N/m
+constexpr physics::Rates kHandRates{48000.0, 16};  // 3000 Hz
+constexpr double kLimit = 4000.0;                  // 2 * 2 / (3 / 3000), N/m
 
 /// A port in front of a wall, N/m and N s/m, on slice 0.
 scene::Scene wall(double stiffness, double damping = 0.0) {
@@ -39,20 +39,21 @@ tgr::EndEffectors key(double force_scale) {
   return endEffectors({config});
 }
 
-std::unique_ptr<Performer> make(const scene::Scene& scene,
-                                const tgr::EndEffectors& end_effectors = {},
-                                bool allow_unproven = false) {
+std::unique_ptr<Performer> performerOf(const scene::Scene& scene,
+                                       const tgr::EndEffectors& end_effectors = {},
+                                       bool allow_unproven = false) {
   PerformerPolicy policy;
   policy.end_effectors = end_effectors;
   policy.allow_unproven = allow_unproven;
-  return makePerformer(scene, kRates, physics::Precision::kDouble, policy);
+  return makePerformer(scene, kHandRates, physics::Precision::kDouble, policy);
 }
 
 HandFindings judged(const scene::Scene& scene, const tgr::EndEffectors& end_effectors) {
-  return judgeHands(scene, kRates, make(scene, end_effectors)->certificate, {}, end_effectors);
+  return judgeHands(scene, kHandRates, performerOf(scene, end_effectors)->certificate, {},
+                    end_effectors);
 }
 
-std::string refusalOf(const Performer& performer, const tgr::EndEffectors& end_effectors) {
+std::string refusalOfHands(const Performer& performer, const tgr::EndEffectors& end_effectors) {
   return complaintOf([&] { fitHands(performer, end_effectors, 2, {}); });
 }
 
@@ -82,15 +83,15 @@ TEST(JudgeHandsTest, DampersCountThroughEndEffectorsToo) {
 }
 
 TEST(FitHandsTest, JudgesTheModelThatPlaysWithNewEndEffectors) {
-  const auto performer = make(wall(1000.0));
+  const auto performer = performerOf(wall(1000.0));
   EXPECT_NE(fitHands(*performer, key(1.0), 2, {}).rig, nullptr);
   EXPECT_THAT(fitHands(*performer, key(3.0), 2, {}).warnings,
               ElementsAre(HasSubstr("renders up to 3000 N/m")));
-  EXPECT_THAT(refusalOf(*performer, key(100.0)), HasSubstr("renders up to 100000 N/m"));
+  EXPECT_THAT(refusalOfHands(*performer, key(100.0)), HasSubstr("renders up to 100000 N/m"));
 }
 
 TEST(FitHandsTest, JudgesANewModelWithEndEffectorsThatCameWhileItWasMade) {
-  const auto performer = make(wall(1000.0), key(1.0));
+  const auto performer = performerOf(wall(1000.0), key(1.0));
   const tgr::Rig* const before = performer->rig.get();
   EXPECT_THAT(complaintOf([&] { giveHands(*performer, key(100.0), 2, {}); }),
               HasSubstr("renders up to 100000 N/m"));
@@ -101,16 +102,17 @@ TEST(FitHandsTest, JudgesANewModelWithEndEffectorsThatCameWhileItWasMade) {
 }
 
 TEST(FitHandsTest, JudgesAPortThatAnEndEffectorLeavesToItsSlice) {
-  const auto performer = make(wall(20000.0, 3.0), key(0.01));
+  const auto performer = performerOf(wall(20000.0, 3.0), key(0.01));
   EXPECT_EQ(performer->certificate.verdict, physics::Verdict::kPassive);
-  EXPECT_THAT(refusalOf(*performer, {}),
+  EXPECT_THAT(refusalOfHands(*performer, {}),
               AllOf(HasSubstr("error: port 'port0': the hand may meet 2e+04 N/m"),
                     HasSubstr("it will buzz or jump")));
-  EXPECT_THAT(refusalOf(*make(wall(0.0, 5000.0), key(0.01)), {}), HasSubstr("meet 5000 N s/m"));
+  EXPECT_THAT(refusalOfHands(*performerOf(wall(0.0, 5000.0), key(0.01)), {}),
+              HasSubstr("meet 5000 N s/m"));
 }
 
 TEST(FitHandsTest, WhoeverAllowsWhatIsUnprovenIsWarned) {
-  const auto performer = make(wall(20000.0), {}, true);
+  const auto performer = performerOf(wall(20000.0), {}, true);
   EXPECT_THAT(fitHands(*performer, {}, 2, {}).warnings, IsEmpty()) << "it was said at load";
   EXPECT_THAT(fitHands(*performer, key(1.0), 2, {}).warnings,
               ElementsAre(HasSubstr("it will buzz or jump")));
@@ -129,7 +131,7 @@ std::function<double(double, double)> answerOf(const Loop& loop) {
   if (!loop.glides) {
     return [loop](double x, double v) { return -loop.stiffness * x - loop.damping * v; };
   }
-  const physics::GlideAnswer answer = physics::glideAnswer(kRates.ratio);
+  const physics::GlideAnswer answer = physics::glideAnswer(kHandRates.ratio);
   const auto last = std::make_shared<std::vector<double>>(answer.spring.size());  // of all copies
   return [loop, answer, last](double x, double) {
     std::vector<double>& late = *last;
@@ -138,7 +140,7 @@ std::function<double(double, double)> answerOf(const Loop& loop) {
     double force = 0.0;
     for (std::size_t i = 0; i < late.size(); ++i) {
       force -= (loop.stiffness * answer.spring[i] +
-                loop.damping * kRates.gesturalHz() * answer.damper[i]) *
+                loop.damping * kHandRates.gesturalHz() * answer.damper[i]) *
                late[i];
     }
     return force;
@@ -170,7 +172,7 @@ physics::HandLoop loopOf(int extra) {
   device.damping = 7.0;
   device.mass = 0.4;
   device.delay_ticks = 1.0 + extra;
-  return {device, 1.0 / 3000.0, kRates.ratio};
+  return {device, 1.0 / 3000.0, kHandRates.ratio};
 }
 
 TEST(PlayedLoopTest, OfAVirtualDeviceIsStableBelowTheLimitOfSpringsAndDampersTogether) {

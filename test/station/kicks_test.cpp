@@ -8,6 +8,7 @@ namespace ergotic::station {
 namespace {
 
 using test::Bench;
+using test::kRampTicks;
 
 class KicksTest : public ::testing::Test {
  protected:
@@ -27,7 +28,7 @@ class KicksTest : public ::testing::Test {
     return most;
   }
   bool hasForce() {
-    bench_.run(Bench::kRampTicks);
+    bench_.run(kRampTicks);
     return bench_.log.forces[0] != 0.0;
   }
 
@@ -144,7 +145,7 @@ TEST_F(KicksTest, AreWhatAThreadMakesThatDoesNotFinishItsShare) {
   bench_.instrument->held_up = false;
   bench_.run(3);
   EXPECT_LT(std::abs(bench_.log.forces[0]), 0.2 * std::abs(whole)) << "it comes back in a ramp";
-  bench_.run(Bench::kRampTicks);
+  bench_.run(kRampTicks);
   EXPECT_EQ(bench_.log.forces[0], whole);
   for (int n = 0; n < 3; ++n) {
     bench_.instrument->held_up = true;

@@ -19,21 +19,21 @@ scene::Scene plate(int rows) {
       "plate.yaml");
 }
 
-std::unique_ptr<Performer> make(int rows, double max_load = 0.0) {
+std::unique_ptr<Performer> performerOfPlate(int rows, double max_load = 0.0) {
   PerformerPolicy policy;
   policy.max_load = max_load;
   return makePerformer(plate(rows), {44100.0, 14}, {}, policy);
 }
 
 TEST(MeasureLoadTest, GrowsWithTheModel) {
-  const double small = measureLoad(*make(20));
-  const double large = measureLoad(*make(100));
+  const double small = measureLoad(*performerOfPlate(20));
+  const double large = measureLoad(*performerOfPlate(100));
   EXPECT_GT(small, 0.0);
   EXPECT_GT(large, 4.0 * small);
 }
 
 TEST(MeasureLoadTest, LeavesThePerformerAsItWasMade) {
-  const auto performer = make(20);
+  const auto performer = performerOfPlate(20);
   measureLoad(*performer);
   std::vector<unsigned char> state(performer->instrument->stateSize());
   performer->instrument->saveState(state.data());
@@ -42,9 +42,9 @@ TEST(MeasureLoadTest, LeavesThePerformerAsItWasMade) {
 }
 
 TEST(MeasureLoadTest, RefusesWhatIsTooHeavyAndSaysByHowMuchAndWhatWouldHelp) {
-  EXPECT_NO_THROW(make(20, 100.0));
+  EXPECT_NO_THROW(performerOfPlate(20, 100.0));
   try {
-    make(100, 1e-4);
+    performerOfPlate(100, 1e-4);
     FAIL() << "it is too heavy";
   } catch (const Exception& refusal) {
     EXPECT_THAT(refusal.what(),

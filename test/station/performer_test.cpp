@@ -10,6 +10,8 @@
 namespace ergotic::station {
 namespace {
 
+using test::kRates;
+
 /// The default instrument on a `virtual_tgr` that is a process of its own, with all defaults.
 TEST(PerformerTest, DefaultInstrumentGreetsWithoutAWarning) {
   const double rate_hz = tgr::VirtualDeviceConfig().rate_hz;
@@ -25,8 +27,6 @@ TEST(PerformerTest, DefaultInstrumentGreetsWithoutAWarning) {
     }
   }
 }
-
-constexpr physics::Rates kRates{44100.0, 14};
 
 std::unique_ptr<Performer> make(const scene::Scene& scene, const PerformerPolicy& policy = {}) {
   return makePerformer(scene, kRates, physics::Precision::kDouble, policy);

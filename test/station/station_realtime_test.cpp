@@ -11,7 +11,7 @@
 namespace ergotic::station {
 namespace {
 
-constexpr physics::Rates kRates{44100.0, 14};
+using test::kRates;
 
 /// A string under a slice that plucks it, tuned by a parameter.
 scene::Scene pluckedString() {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/station/station.hpp"
 
-#include <thread>
-
 #include "ergotic/station/timer_source.hpp"
 #include "support/station_doubles.hpp"
 #include "support/test.hpp"
@@ -11,6 +9,7 @@ namespace ergotic::station {
 namespace {
 
 using test::Bench;
+using test::kRampTicks;
 using test::SpringInstrument;
 
 constexpr double kStiffness = 100.0;
@@ -19,8 +18,6 @@ constexpr double kStiffness = 100.0;
 double stampOf(std::int64_t n, int /*slice*/) {
   return 1e-6 * static_cast<double>(n % 20001 - 10000);
 }
-
-constexpr std::int64_t kRampTicks = Bench::kRampTicks;
 
 /// Counts exchanges whose force is not exactly the answer to the position before.
 class OneTickProof {
@@ -311,17 +308,11 @@ INSTANTIATE_TEST_SUITE_P(ForceSampleDisplacement,
                                            &SpringInstrument::Setting::bad_sample_at,
                                            &SpringInstrument::Setting::bad_displacement_at));
 
-std::int64_t lateEvents(const std::vector<Event>& events, LateCause cause) {
-  return std::count_if(events.begin(), events.end(), [cause](const Event& e) {
-    return e.type == Event::Type::kLateTick && e.index == static_cast<std::int64_t>(cause);
-  });
-}
-
 TEST(StationTest, CountsALateWakeUpByItsCause) {
   Bench bench;
   bench.station->cycle({1'000'000, false});  // a tick is 317 us
   const auto events = bench.events();
-  EXPECT_EQ(lateEvents(events, LateCause::kWakeUp), 1);
+  EXPECT_EQ(test::lateEvents(events, LateCause::kWakeUp), 1);
   EXPECT_EQ(test::firstOf(events, Event::Type::kLateTick).tick, 0);
   EXPECT_DOUBLE_EQ(test::firstOf(events, Event::Type::kLateTick).value, 1e-3);
 }
@@ -330,29 +321,7 @@ TEST(StationTest, CountsAsLateWhatComesMoreThanATickAfterItsTime) {
   Bench bench;
   bench.station->cycle({317'460, false});
   bench.station->cycle({317'461, false});
-  EXPECT_EQ(lateEvents(bench.events(), LateCause::kWakeUp), 1);
-}
-
-TEST(StationTest, CountsASlowDeviceByItsCause) {
-  Bench bench;
-  bench.driver->flags_of = [](std::int64_t) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    return 0U;
-  };
-  bench.station->cycle({0, false});
-  const auto events = bench.events();
-  EXPECT_EQ(lateEvents(events, LateCause::kDevice), 1);
-  EXPECT_EQ(lateEvents(events, LateCause::kWakeUp), 0);
-}
-
-TEST(StationTest, CountsNoTickAsLateInFreewheel) {
-  Bench bench;
-  bench.driver->flags_of = [](std::int64_t) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    return 0U;
-  };
-  bench.run(3);
-  EXPECT_EQ(test::count(bench.events(), Event::Type::kLateTick), 0);
+  EXPECT_EQ(test::lateEvents(bench.events(), LateCause::kWakeUp), 1);
 }
 
 TEST(StationTest, SendsZeroForceWhenItRests) {

@@ -46,33 +46,33 @@ void* __libc_realloc(void* old, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
 void __libc_free(void* block);
 
-void* malloc(std::size_t size) {
+void* malloc(std::size_t size) noexcept {
   count("malloc");
   return taken(__libc_malloc(size));
 }
-void* calloc(std::size_t items, std::size_t size) {
+void* calloc(std::size_t items, std::size_t size) noexcept {
   count("calloc");
   return taken(__libc_calloc(items, size));
 }
-void* realloc(void* old, std::size_t size) {
+void* realloc(void* old, std::size_t size) noexcept {
   count("realloc");
   givenBack(old);
   return taken(__libc_realloc(old, size));
 }
-void* memalign(std::size_t alignment, std::size_t size) {
+void* memalign(std::size_t alignment, std::size_t size) noexcept {
   count("memalign");
   return taken(__libc_memalign(alignment, size));
 }
-void* aligned_alloc(std::size_t alignment, std::size_t size) {
+void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
   count("aligned_alloc");
   return taken(__libc_memalign(alignment, size));
 }
-int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
+int posix_memalign(void** block, std::size_t alignment, std::size_t size) noexcept {
   count("posix_memalign");
   *block = taken(__libc_memalign(alignment, size));
   return *block == nullptr ? ENOMEM : 0;
 }
-void free(void* block) {
+void free(void* block) noexcept {
   count("free");
   givenBack(block);
   __libc_free(block);

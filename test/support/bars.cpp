@@ -16,7 +16,7 @@ std::string numberText(double value) {
   return text.str();
 }
 
-std::string at(int row, int column) {
+std::string moduleAt(int row, int column) {
   return "m" + std::to_string(row) + "_" + std::to_string(column);
 }
 
@@ -64,13 +64,13 @@ std::string Bars::bar(int count, Edge left, Edge right) {
 std::string Bars::supportedPlate(int side) {
   for (int row = 0; row <= side + 1; ++row) {
     for (int column = 0; column <= side + 1; ++column) {
-      mat(at(row, column), row >= 1 && row <= side && column >= 1 && column <= side);
+      mat(moduleAt(row, column), row >= 1 && row <= side && column >= 1 && column <= side);
     }
   }
   for (int row = 1; row <= side; ++row) {
     for (int column = 1; column <= side; ++column) {
-      bend({at(row, column - 1), at(row - 1, column), at(row, column), at(row + 1, column),
-            at(row, column + 1)},
+      bend({moduleAt(row, column - 1), moduleAt(row - 1, column), moduleAt(row, column),
+            moduleAt(row + 1, column), moduleAt(row, column + 1)},
            "1, 1, -4, 1, 1", 1.0);
     }
   }
@@ -81,7 +81,7 @@ std::string Bars::freePlate(int side, double poisson) {
   const auto isEdge = [&](int i) { return i == 0 || i == side - 1; };
   for (int row = 0; row < side; ++row) {
     for (int column = 0; column < side; ++column) {
-      mat(at(row, column), true);
+      mat(moduleAt(row, column), true);
     }
   }
   const auto share = [&](bool at_edge) {
@@ -89,11 +89,12 @@ std::string Bars::freePlate(int side, double poisson) {
   };
   for (int i = 0; i < side; ++i) {
     for (int j = 1; j + 1 < side; ++j) {
-      bend({at(i, j - 1), at(i, j), at(i, j + 1)}, "1, -2, 1", share(isEdge(i)));
-      bend({at(j - 1, i), at(j, i), at(j + 1, i)}, "1, -2, 1", share(isEdge(i)));
+      bend({moduleAt(i, j - 1), moduleAt(i, j), moduleAt(i, j + 1)}, "1, -2, 1", share(isEdge(i)));
+      bend({moduleAt(j - 1, i), moduleAt(j, i), moduleAt(j + 1, i)}, "1, -2, 1", share(isEdge(i)));
       if (!isEdge(i) && poisson > 0.0) {
-        bend({at(i, j - 1), at(i - 1, j), at(i, j), at(i + 1, j), at(i, j + 1)}, "1, 1, -4, 1, 1",
-             poisson);
+        bend({moduleAt(i, j - 1), moduleAt(i - 1, j), moduleAt(i, j), moduleAt(i + 1, j),
+              moduleAt(i, j + 1)},
+             "1, 1, -4, 1, 1", poisson);
       }
     }
   }
@@ -101,7 +102,8 @@ std::string Bars::freePlate(int side, double poisson) {
     for (int column = 0; column + 1 < side; ++column) {
       const double area = (row == 0 || row == side - 2 ? 1.5 : 1.0) *
                           (column == 0 || column == side - 2 ? 1.5 : 1.0);
-      bend({at(row, column), at(row, column + 1), at(row + 1, column), at(row + 1, column + 1)},
+      bend({moduleAt(row, column), moduleAt(row, column + 1), moduleAt(row + 1, column),
+            moduleAt(row + 1, column + 1)},
            "1, -1, -1, 1", 2.0 * (1.0 - poisson) * area);
     }
   }

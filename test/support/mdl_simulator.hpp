@@ -12,6 +12,14 @@ constexpr double kMdlSampleRate = 44100.0;  ///< Hz, of every `.mdl` model
 /// Samples of some audio channels, [channels][frames].
 using Channels = std::vector<std::vector<double>>;
 
+inline double peakOf(const std::vector<double>& channel) {
+  double peak = 0.0;
+  for (const double x : channel) {
+    peak = std::max(peak, std::abs(x));
+  }
+  return peak;
+}
+
 /// Plays a MIMS `.mdl` text (the newer language) in double precision at 44.1 kHz, one object per
 /// element and none of the product's code: what the product's reader, compiler and kernels are
 /// measured against.

@@ -8,7 +8,7 @@
 namespace ergotic::test {
 namespace {
 
-constexpr double kMass = 1e-3;       // kg
+constexpr double kNetMass = 1e-3;    // kg
 constexpr double kAmplitude = 1e-3;  // m
 
 }  // namespace
@@ -17,7 +17,7 @@ int Nets::module(bool moves) {
   if (!moves) {
     return to.ground(ground_position, section);
   }
-  const double kg = kMass * (1.0 + any(-scatter, scatter));
+  const double kg = kNetMass * (1.0 + any(-scatter, scatter));
   const double x = any(-kAmplitude, kAmplitude);
   if (has_cells && to.scene.mats.size() % 3 == 0) {
     return to.cell(kg, 0.02 * kg * rate_hz * rate_hz, 1e-3 * kg * rate_hz, x, 0.0, section);
@@ -28,7 +28,8 @@ int Nets::module(bool moves) {
 void Nets::join(int a, int b) {
   const double k = 1.0 + any(-scatter, scatter);
   const double z = has_one_ratio ? k : 1.0 + any(-scatter, scatter);
-  const int l = to.spring(a, b, k * kappa * kMass * rate_hz * rate_hz, z * zeta * kMass * rate_hz);
+  const int l =
+      to.spring(a, b, k * kappa * kNetMass * rate_hz * rate_hz, z * zeta * kNetMass * rate_hz);
   to.scene.lias[static_cast<std::size_t>(l)].rest_length = any(-rest_length, rest_length);
 }
 
@@ -104,7 +105,7 @@ int Nets::triangles(int side) {
 }
 
 int Nets::star(int rays) {
-  const int hub = to.mass(kMass * rays, 0.0, 0.0, section);
+  const int hub = to.mass(kNetMass * rays, 0.0, 0.0, section);
   for (int i = 0; i < rays; ++i) {
     join(hub, module(true));
   }

@@ -17,10 +17,6 @@ std::string toolPath(const std::string& name) {
   return ERGOTIC_TOOLS_DIR "/" + name;
 }
 
-std::string trialNotes() {
-  return ERGOTIC_BINARY_DIR "/trials.txt";
-}
-
 std::string textOf(const std::string& path) {
   std::ifstream file(path);
   return {std::istreambuf_iterator<char>(file), {}};

@@ -11,8 +11,6 @@ namespace test {
 std::string repository(const std::string& path);
 /// A built command-line tool.
 std::string toolPath(const std::string& name);
-/// Where tests of a run note what they were excused for (support/trials.hpp).
-std::string trialNotes();
 /// What is in a file, "" if there is none.
 std::string textOf(const std::string& path);
 

@@ -15,29 +15,29 @@ using scene::Geometry;
 using scene::Lia;
 using scene::LiaType;
 
-constexpr double kRate = 44100.0;
-constexpr double kMass = 1e-3;
-constexpr double kUnit = kMass * kRate * kRate;  // stiffness of kappa = 1
-constexpr double kSpeed = 1.0;                   // m/s
-constexpr double kSoftest = 0.02;                // kappa of slow springs
+constexpr double kAudioHz = 44100.0;
+constexpr double kParticleKg = 1e-3;
+constexpr double kUnit = kParticleKg * kAudioHz * kAudioHz;  // stiffness of kappa = 1
+constexpr double kSpeed = 1.0;                               // m/s
+constexpr double kSoftest = 0.02;                            // kappa of slow springs
 constexpr int kAudio = SceneBuilder::kAudio;
 constexpr int kGestural = SceneBuilder::kGestural;
 
-class Maker {
+class RandomMaker {
  public:
-  explicit Maker(unsigned seed) : random_(seed) {}
+  explicit RandomMaker(unsigned seed) : random_(seed) {}
 
   RandomScene make() {
     made_.has_two_rates = chance(0.75);
     made_.is_nonlinear = chance(0.5);
     made_.is_near_limit = chance(1.0 / 3.0);
     made_.is_lossless = chance(0.4);
-    made_.rates = {kRate, made_.has_two_rates ? pick({2, 4, 8, 14, 44}) : 1};
+    made_.rates = {kAudioHz, made_.has_two_rates ? pick({2, 4, 8, 14, 44}) : 1};
     // A soft string has no modes above half the slower rate.
     const int ratio = made_.rates.ratio;
     is_soft_ = made_.has_two_rates && chance(0.5);
     kappa_ = is_soft_ ? 0.4 / (ratio * ratio) : within(0.05, 0.6);
-    reach_ = kSpeed / (kRate * std::sqrt(kappa_));
+    reach_ = kSpeed / (kAudioHz * std::sqrt(kappa_));
     // Of slow masses too: Euclidean links must not collapse, which turns their force about.
     mesh_ = 20.0 * std::max(reach_, kSpeed / (made_.rates.gesturalHz() * std::sqrt(kSoftest)));
     chooseGeometry();
@@ -112,7 +112,7 @@ class Maker {
   void addString(int masses) {
     first_ = place(b_.ground(), 0.0, 0.0);
     for (int i = 1; i <= masses; ++i) {
-      moving_.push_back(place(b_.mass(kMass * within(0.5, 2.0)), i, 0.0));
+      moving_.push_back(place(b_.mass(kParticleKg * within(0.5, 2.0)), i, 0.0));
     }
     place(b_.ground(), masses + 1, 0.0);
     const double tension = kappa_ * kUnit * within(0.0, 0.5) * mesh_;
@@ -129,7 +129,7 @@ class Maker {
   /// Cells and loose masses, each tied to two or three others.
   void addOthers(int count) {
     for (int i = 0; i < count; ++i) {
-      const double kg = kMass * within(0.5, 2.0);
+      const double kg = kParticleKg * within(0.5, 2.0);
       int m = 0;
       if (chance(0.4)) {
         m = b_.cell(kg, kappa_ * kUnit * within(0.1, 1.0), 0.0);
@@ -148,7 +148,7 @@ class Maker {
 
   void addSlowChain(int masses) {
     const double slow_rate = made_.rates.gesturalHz();
-    const double kg = kMass * within(2.0, 50.0);
+    const double kg = kParticleKg * within(2.0, 50.0);
     const double k = within(kSoftest, 0.6) * kg * slow_rate * slow_rate;
     int last = place(b_.ground(0.0, kGestural), -1.0, -2.0);
     for (int i = 0; i < masses; ++i) {
@@ -161,7 +161,7 @@ class Maker {
   }
 
   void addCouplings(int count) {
-    const double softest = kMass * std::pow(made_.rates.gesturalHz(), 2);
+    const double softest = kParticleKg * std::pow(made_.rates.gesturalHz(), 2);
     for (int i = 0; i < count; ++i) {
       const bool is_soft = chance(0.1) || is_soft_;
       const double k = is_soft ? softest * within(0.05, 0.5) : kappa_ * kUnit * within(0.02, 0.5);
@@ -217,7 +217,7 @@ class Maker {
       const int on = from[at(throwTo(static_cast<int>(from.size())))];
       const int a = !slow && chance(0.3) ? anyTap() : on;
       const int b = chance(0.3) ? otherGround(a) : otherMoving(a, from);
-      const double rate = slow ? made_.rates.gesturalHz() : kRate;
+      const double rate = slow ? made_.rates.gesturalHz() : kAudioHz;
       addLaw(a, b, std::pow(10.0, within(-2.0, 1.0)) * mat(on).mass.factor * rate * rate, rate);
     }
   }
@@ -247,7 +247,7 @@ class Maker {
               LiaType::kTable, LiaType::kFriction});
     Lia& lia = b_.scene.lias[at(b_.link(type, x, y, k))];
     lia.scheme = scene::Scheme::kAuto;
-    const double reach = reach_ * kRate / rate;
+    const double reach = reach_ * kAudioHz / rate;
     const bool is_gap = type == LiaType::kContact || type == LiaType::kPowerContact ||
                         type == LiaType::kCubicContact;
     const double gap = within(-reach, reach);
@@ -314,14 +314,14 @@ class Maker {
       return;
     }
     if (chance(0.5)) {
-      b_.scene.sections[kAudio].medium = {kMass * kRate * within(1e-4, 1e-2)};
-      b_.scene.sections[kGestural].medium = {kMass * kRate * within(1e-4, 1e-2)};
+      b_.scene.sections[kAudio].medium = {kParticleKg * kAudioHz * within(1e-4, 1e-2)};
+      b_.scene.sections[kGestural].medium = {kParticleKg * kAudioHz * within(1e-4, 1e-2)};
     }
     for (Lia& lia : b_.scene.lias) {
       if (lia.type == LiaType::kSpringDamper && chance(0.7)) {
         const double rate = mat(lia.a).section == kGestural && mat(lia.b).section == kGestural
                                 ? made_.rates.gesturalHz()
-                                : kRate;
+                                : kAudioHz;
         lia.damping = {lia.stiffness.factor / rate * within(0.0, 0.2)};
       }
     }
@@ -373,7 +373,7 @@ class Maker {
 }  // namespace
 
 RandomScene randomScene(unsigned seed) {
-  return Maker(seed).make();
+  return RandomMaker(seed).make();
 }
 
 }  // namespace ergotic::test

@@ -7,6 +7,9 @@
 
 namespace ergotic::test {
 
+/// What most tests play at.
+constexpr physics::Rates kRates{44100.0, 14};
+
 /// Scenes made in code, in SI units: sections "audio" (0) and "gestural" (1).
 class SceneBuilder {
  public:

@@ -221,6 +221,13 @@ int count(const std::vector<station::Event>& events, station::Event::Type type) 
       events.begin(), events.end(), [type](const station::Event& e) { return e.type == type; }));
 }
 
+std::int64_t lateEvents(const std::vector<station::Event>& events, station::LateCause cause) {
+  return std::count_if(events.begin(), events.end(), [cause](const station::Event& event) {
+    return event.type == station::Event::Type::kLateTick &&
+           event.index == static_cast<std::int64_t>(cause);
+  });
+}
+
 station::Event firstOf(const std::vector<station::Event>& events, station::Event::Type type) {
   for (const station::Event& event : events) {
     if (event.type == type) {

@@ -109,6 +109,9 @@ class SpringInstrument : public physics::Instrument {
 
 std::unique_ptr<station::Performer> makeSpring(const SpringInstrument::Setting& setting = {});
 
+/// Ticks of the shortest ramp, and some.
+constexpr std::int64_t kRampTicks = 400;
+
 /// A station over doubles, and what is needed to look at it.
 struct Bench {
   explicit Bench(
@@ -118,9 +121,6 @@ struct Bench {
       int slices = 2);
   /// Short ramp, small rings.
   static station::StationConfig quickConfig();
-
-  /// Ticks of the shortest ramp, and some.
-  static constexpr std::int64_t kRampTicks = 400;
 
   bool command(station::Command::Type type);
   bool command(station::Command::Type type, double value, int index = 0);
@@ -147,6 +147,8 @@ struct Bench {
 
 /// Number of events of a type.
 int count(const std::vector<station::Event>& events, station::Event::Type type);
+/// Number of ticks that were late because of this.
+std::int64_t lateEvents(const std::vector<station::Event>& events, station::LateCause cause);
 /// The first event of a type, or one with tick -1.
 station::Event firstOf(const std::vector<station::Event>& events, station::Event::Type type);
 

@@ -36,6 +36,8 @@ using testing::StartsWith;
 
 namespace test {
 
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
 /// What `act` complains of in an `Error`; "" if it does not.
 template <class Error = Exception, class Act>
 std::string complaintOf(const Act& act) {

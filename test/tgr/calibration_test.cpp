@@ -151,7 +151,7 @@ class CalibratedDriverTest : public ::testing::Test {
   CalibratedDriverTest() { script_.is_raw = true; }
 
   CalibratedDriver& open(Calibration calibration) {
-    driver_ = makeCalibratedDriver(std::make_unique<test::ScriptedDriver>(script_),
+    driver_ = makeCalibratedDriver(std::make_unique<test::ScriptedDevice>(script_),
                                    std::move(calibration));
     driver_->open(1000.0);
     return *driver_;

@@ -15,7 +15,7 @@ class CombinedDriverTest : public ::testing::Test {
   std::unique_ptr<Driver> combined() {
     std::vector<std::unique_ptr<Driver>> drivers;
     for (Script& script : scripts_) {
-      drivers.push_back(std::make_unique<test::ScriptedDriver>(script));
+      drivers.push_back(std::make_unique<test::ScriptedDevice>(script));
     }
     return combine(std::move(drivers));
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "constants.hpp"
 #include "ergotic/tgr/safety/blow_up_detector.hpp"
 #include "ergotic/tgr/safety/energy_detector.hpp"
 #include "support/test.hpp"
@@ -7,9 +8,11 @@
 namespace ergotic::tgr {
 namespace {
 
+using test::kNan;
+
 constexpr double kTick = 1e-3;
 
-EnergyDetector::Rules rules() {
+EnergyDetector::Rules energyRules() {
   return {20.0, 0.1, 0.3, 0.02, 0.0};
 }
 
@@ -30,7 +33,7 @@ int ticksUntilTooMuch(EnergyDetector detector, int ticks, Force force) {
 }
 
 TEST(EnergyDetectorTest, CountsTheWorkOfTheForceBeforeEachMove) {
-  EnergyDetector detector(rules(), kTick);
+  EnergyDetector detector(energyRules(), kTick);
   detector.look(2.0, 0.5);
   EXPECT_EQ(detector.energy(), 0.0) << "no force acted on the first way";
   detector.look(-3.0, -0.25);
@@ -41,7 +44,7 @@ TEST(EnergyDetectorTest, CountsTheWorkOfTheForceBeforeEachMove) {
 
 TEST(EnergyDetectorTest, LetsPassiveModelsBeForHours) {
   const int hour = 3600 * 1000;
-  const EnergyDetector detector(rules(), kTick);
+  const EnergyDetector detector(energyRules(), kTick);
   EXPECT_EQ(ticksUntilTooMuch(detector, hour, [](double x, double) { return -1000.0 * x; }), -1);
   EXPECT_EQ(ticksUntilTooMuch(detector, hour, [](double x, double) { return -1e5 * x; }), -1)
       << "a spring beyond the force limit";
@@ -49,7 +52,7 @@ TEST(EnergyDetectorTest, LetsPassiveModelsBeForHours) {
 }
 
 TEST(EnergyDetectorTest, FindsAModelThatPushesTheHandAlong) {
-  const EnergyDetector detector(rules(), kTick);
+  const EnergyDetector detector(energyRules(), kTick);
   const int tick = ticksUntilTooMuch(detector, 5000, [](double, double v) { return 40.0 * v; });
   // 0.3 J of the 40 N s/m (2 pi 20 mm/s)^2 / 2 = 0.316 W: after a second or so, less what is
   // forgotten meanwhile.
@@ -58,7 +61,7 @@ TEST(EnergyDetectorTest, FindsAModelThatPushesTheHandAlong) {
 }
 
 TEST(EnergyDetectorTest, FindsANegativeSpringOnItsFirstWayOut) {
-  EnergyDetector detector(rules(), kTick);
+  EnergyDetector detector(energyRules(), kTick);
   double x = 0.0;
   while (detector.look(5000.0 * x, 1e-4)) {
     x += 1e-4;
@@ -79,7 +82,7 @@ int ticksOfPushing(EnergyDetector& detector) {
 }
 
 TEST(EnergyDetectorTest, RemembersNoMoreThanASpringCanStore) {
-  EnergyDetector detector(rules(), kTick);
+  EnergyDetector detector(energyRules(), kTick);
   for (int n = 0; n < 100000; ++n) {
     detector.look(-20.0, 1e-3);  // takes 2 kJ
   }
@@ -88,7 +91,7 @@ TEST(EnergyDetectorTest, RemembersNoMoreThanASpringCanStore) {
 }
 
 TEST(EnergyDetectorTest, ForgetsWhatWasDissipatedLongAgo) {
-  EnergyDetector detector(rules(), kTick);
+  EnergyDetector detector(energyRules(), kTick);
   for (int n = 0; n < 1000; ++n) {
     detector.look(-20.0, 1e-3);
   }
@@ -100,7 +103,7 @@ TEST(EnergyDetectorTest, ForgetsWhatWasDissipatedLongAgo) {
 }
 
 TEST(EnergyDetectorTest, RemembersASpringThatIsHeldForAnHour) {
-  EnergyDetector detector(rules(), kTick);
+  EnergyDetector detector(energyRules(), kTick);
   double x = 0.0;
   const auto spring = [&] { return -500.0 * x; };
   for (; x > -0.03; x -= 1e-5) {
@@ -115,14 +118,14 @@ TEST(EnergyDetectorTest, RemembersASpringThatIsHeldForAnHour) {
 }
 
 TEST(EnergyDetectorTest, GivesASupplyWhereOneIsAllowed) {
-  EnergyDetector::Rules generous = rules();
+  EnergyDetector::Rules generous = energyRules();
   generous.supply_w = 10.0;
   const EnergyDetector detector(generous, kTick);
   EXPECT_EQ(ticksUntilTooMuch(detector, 10000, [](double, double v) { return 40.0 * v; }), -1);
 }
 
 TEST(EnergyDetectorTest, ForgetsOnRequest) {
-  EnergyDetector detector(rules(), kTick);
+  EnergyDetector detector(energyRules(), kTick);
   detector.look(-20.0, 0.0);
   detector.look(-20.0, 0.01);
   ASSERT_GT(detector.energy(), 0.0);
@@ -132,7 +135,7 @@ TEST(EnergyDetectorTest, ForgetsOnRequest) {
 }
 
 TEST(EnergyDetectorTest, StartsAgainFromWhatAnySpringCanHaveStored) {
-  EnergyDetector detector(rules(), kTick);
+  EnergyDetector detector(energyRules(), kTick);
   detector.look(20.0, 0.0);
   detector.restart();
   EXPECT_TRUE(detector.look(20.0, -0.03));
@@ -147,8 +150,6 @@ TEST(EnergyDetectorTest, StartsAgainFromWhatAnySpringCanHaveStored) {
 
 constexpr double kLimit = 20.0;
 constexpr double kRawLimit = 5000.0;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// How often a sequence F(0), F(1)... was beyond the limit before it was told to be mad.
 struct Found {

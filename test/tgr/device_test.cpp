@@ -149,7 +149,7 @@ TEST(MakeDriversTest, PutsCalibrationsInFrontOfRawDevicesAndFaultsInFrontOfAll) 
     EXPECT_TRUE(settings.IsMap());
     EXPECT_EQ(settings.size(), 0U);
     EXPECT_EQ(place, "tgr.yaml");
-    return std::make_unique<test::ScriptedDriver>(scripts[name == "raw" ? 1 : 0]);
+    return std::make_unique<test::ScriptedDevice>(scripts[name == "raw" ? 1 : 0]);
   };
   const DriverStack stack = makeDrivers(devices, make, true);
   ASSERT_EQ(stack.raw_parts.size(), 1U);

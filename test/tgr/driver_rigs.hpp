@@ -15,6 +15,8 @@
 /// Drivers with their devices, as the contract test wants them.
 namespace ergotic::test {
 
+using ThreeSlices = std::array<double, 3>;
+
 /// A slice that moves by force alone and is seen as it is.
 inline tgr::VirtualSliceConfig plainSlice() {
   tgr::VirtualSliceConfig slice;
@@ -22,6 +24,13 @@ inline tgr::VirtualSliceConfig plainSlice() {
   slice.quantum = 0.0;
   slice.noise_rms = 0.0;
   slice.bandwidth = std::numeric_limits<double>::infinity();
+  return slice;
+}
+
+/// Such a slice between stops that are not in the way.
+inline tgr::VirtualSliceConfig idealSlice() {
+  tgr::VirtualSliceConfig slice = plainSlice();
+  slice.stop = 0.1;
   return slice;
 }
 

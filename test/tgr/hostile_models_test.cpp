@@ -2,6 +2,7 @@
 // Whatever a model does and whatever comes from the device: what leaves the chain is within the
 // limit and grows no faster than it may. With ERGOTIC_LONG in the environment over 10^7 ticks.
 
+#include "constants.hpp"
 #include "ergotic/tgr/safety_chain.hpp"
 #include "support/test.hpp"
 #include "tgr/sensor_noise.hpp"
@@ -10,8 +11,8 @@
 namespace ergotic::tgr {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using test::kNan;
+
 constexpr double kRateHz = 3000.0;
 constexpr int kSlices = 3;
 

@@ -3,6 +3,7 @@
 
 #include "support/scratch_file.hpp"
 #include "support/test.hpp"
+#include "tgr/driver_rigs.hpp"
 
 namespace ergotic::tgr {
 namespace {
@@ -10,11 +11,7 @@ namespace {
 VirtualDriverConfig idealConfig() {
   VirtualDriverConfig config;
   config.slices = 1;
-  config.slice.dry_friction = 0.0;
-  config.slice.stop = 0.1;
-  config.slice.quantum = 0.0;
-  config.slice.noise_rms = 0.0;
-  config.slice.bandwidth = std::numeric_limits<double>::infinity();
+  config.slice = test::idealSlice();
   return config;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Eigen/Dense>
 
+#include "constants.hpp"
 #include "support/test.hpp"
 #include "tgr/kinematics_cases.hpp"
 
@@ -14,8 +15,6 @@ using test::endEffector;
 using test::JacobianRows;
 using test::KinematicsCase;
 using test::RandomPoses;
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 KinematicsCase caseOf(const std::string& name) {
   for (KinematicsCase& c : test::kinematicsCases()) {
@@ -39,7 +38,7 @@ Moved move(const EndEffectorConfig& config, const std::vector<double>& q) {
   return moved;
 }
 
-std::string messageOf(const EndEffectorConfig& config) {
+std::string messageOfLinkage(const EndEffectorConfig& config) {
   return complaintOf<TextError>([&] { makeKinematics(config, "hands.yaml"); });
 }
 
@@ -143,12 +142,13 @@ TEST(BallTest, EndsBeforeARodLiesFlatOrThePlatformIsLoose) {
 TEST(BallTest, RefusesRodsThatDoNotFit) {
   EndEffectorConfig ball = endEffector(EndEffectorType::kBall, {0, 1, 2}, {});
   ball.rod = 0.05;
-  EXPECT_THAT(messageOf(ball), HasSubstr("hands.yaml:4:2: error: end-effector 'ball': rod = 0.05 m "
-                                         "is too short for these radii, allowed: >= 0.0524"));
+  EXPECT_THAT(messageOfLinkage(ball),
+              HasSubstr("hands.yaml:4:2: error: end-effector 'ball': rod = 0.05 m "
+                        "is too short for these radii, allowed: >= 0.0524"));
   ball.rod = 0.15;
   ball.platform_radius = 0.095;
-  EXPECT_THAT(messageOf(ball), HasSubstr("base_radius - platform_radius = 0.005 m holds no "
-                                         "platform sideways, allowed: beyond +-0.0075 m"));
+  EXPECT_THAT(messageOfLinkage(ball), HasSubstr("base_radius - platform_radius = 0.005 m holds no "
+                                                "platform sideways, allowed: beyond +-0.0075 m"));
 }
 
 /// From the pose alone: slices in pairs 20 degrees wide about 0, 120, 240 degrees, the platform's
@@ -227,19 +227,21 @@ TEST(HandleTest, IsWellConditionedAtRest) {
 
 TEST(HandleTest, RefusesPointsThatDoNotFeelEveryMotion) {
   EndEffectorConfig handle = endEffector(EndEffectorType::kHandle, {0, 1, 2, 3, 4, 5}, {});
-  EXPECT_THAT(messageOf(handle), HasSubstr("'handle': 0 points, allowed: 3 to 8"));
+  EXPECT_THAT(messageOfLinkage(handle), HasSubstr("'handle': 0 points, allowed: 3 to 8"));
   handle.points = {{0, 0, 0}, {0.1, 0, 0}, {0.05, 0.001, 0}};
-  EXPECT_THAT(messageOf(handle), HasSubstr("its points lie within 0.000471"));
+  EXPECT_THAT(messageOfLinkage(handle), HasSubstr("its points lie within 0.000471"));
   handle.points = {{0, 0, 0}, {0.1, 0, 0}, {0.05, std::nan(""), 0}};
-  EXPECT_THAT(messageOf(handle), HasSubstr("points = nan m is out of range, allowed: -1...1 m"));
+  EXPECT_THAT(messageOfLinkage(handle),
+              HasSubstr("points = nan m is out of range, allowed: -1...1 m"));
 }
 
 TEST(HandleTest, RefusesRodsThatDoNotFit) {
   EndEffectorConfig handle = caseOf("Handle").config;
   handle.rod = 0.05;
-  EXPECT_THAT(messageOf(handle), HasSubstr("rod = 0.05 m is too short for these radii"));
+  EXPECT_THAT(messageOfLinkage(handle), HasSubstr("rod = 0.05 m is too short for these radii"));
   handle.rod = 2.0;
-  EXPECT_THAT(messageOf(handle), HasSubstr("rod = 2 m on these radii holds no platform sideways"));
+  EXPECT_THAT(messageOfLinkage(handle),
+              HasSubstr("rod = 2 m on these radii holds no platform sideways"));
 }
 
 }  // namespace

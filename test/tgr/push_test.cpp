@@ -21,7 +21,7 @@ class PushTest : public ::testing::Test {
  protected:
   PushTest() {
     script_.is_raw = true;
-    driver_ = makeCalibratedDriver(std::make_unique<test::ScriptedDriver>(script_),
+    driver_ = makeCalibratedDriver(std::make_unique<test::ScriptedDevice>(script_),
                                    {{pushedCalibration(), {}}});
     driver_->open(1000.0);
   }

@@ -27,7 +27,7 @@ std::vector<double> toDevice(const Rig& rig, std::vector<double> ports, std::siz
   return device;
 }
 
-std::string messageOf(const scene::Scene& scene, const EndEffectors& end_effectors, int slices) {
+std::string messageOfRig(const scene::Scene& scene, const EndEffectors& end_effectors, int slices) {
   return complaintOf<TextError>([&] { makeRig(scene, end_effectors, slices); });
 }
 
@@ -175,10 +175,10 @@ TEST(RigTest, MapsInRealTime) {
 TEST(RigTest, RefusesASliceThatTheDeviceDoesNotHave) {
   test::PortScene ports;
   ports.port("key", 3);
-  EXPECT_EQ(messageOf(ports.scene, {}, 3),
+  EXPECT_EQ(messageOfRig(ports.scene, {}, 3),
             "ports.yaml:10:3: error: port 'key' needs slice 3, the device has 0...2");
   const auto key = endEffector(EndEffectorType::kKey, {-1}, {""});
-  EXPECT_EQ(messageOf(ports.scene, endEffectors({key}), 4),
+  EXPECT_EQ(messageOfRig(ports.scene, endEffectors({key}), 4),
             "hands.yaml:4:2: error: end-effector 'key': slice -1 does not exist, the device has "
             "0...3");
 }
@@ -189,11 +189,11 @@ TEST(RigTest, RefusesWhatIsTakenTwice) {
   EndEffectorConfig a = endEffector(EndEffectorType::kKey, {0}, {"x"});
   EndEffectorConfig b = endEffector(EndEffectorType::kKey, {1}, {"x"});
   b.name = "b";
-  EXPECT_EQ(messageOf(ports.scene, endEffectors({a, b}), 2),
+  EXPECT_EQ(messageOfRig(ports.scene, endEffectors({a, b}), 2),
             "hands.yaml:4:2: error: end-effector 'b': port 'x' is taken by end-effector 'key'");
   b.ports = {""};
   b.slices = {0};
-  EXPECT_EQ(messageOf(ports.scene, endEffectors({a, b}), 2),
+  EXPECT_EQ(messageOfRig(ports.scene, endEffectors({a, b}), 2),
             "hands.yaml:4:2: error: end-effector 'b': slice 0 is taken by end-effector 'key'");
 }
 
@@ -201,11 +201,11 @@ TEST(RigTest, RefusesNamesThatOtherFramesHave) {
   const test::PortScene ports;
   EndEffectorConfig a = endEffector(EndEffectorType::kKey, {0}, {""});
   EndEffectorConfig b = endEffector(EndEffectorType::kKey, {1}, {""});
-  EXPECT_EQ(messageOf(ports.scene, endEffectors({a, b}), 2),
+  EXPECT_EQ(messageOfRig(ports.scene, endEffectors({a, b}), 2),
             "hands.yaml:4:2: error: end-effector 'key': the name comes twice");
   for (const char* name : {"", "model", "tgr_base"}) {
     b.name = name;
-    EXPECT_THAT(messageOf(ports.scene, endEffectors({a, b}), 2),
+    EXPECT_THAT(messageOfRig(ports.scene, endEffectors({a, b}), 2),
                 HasSubstr("not a name for one, allowed: all but '', 'model' and 'tgr_...'"));
   }
 }
@@ -215,10 +215,10 @@ TEST(RigTest, RefusesPortsThatTheSceneDoesNotHaveOrAnAgentMoves) {
   ports.scene.agents.push_back({"partner", {{0.0, 0.0}}, 0.0, {}});
   ports.port("x").agent = 0;
   EXPECT_THAT(
-      messageOf(ports.scene, endEffectors({endEffector(EndEffectorType::kKey, {0}, {"y"})}), 1),
+      messageOfRig(ports.scene, endEffectors({endEffector(EndEffectorType::kKey, {0}, {"y"})}), 1),
       HasSubstr("hands.yaml:4:2: error: end-effector 'key': the scene has no port 'y'"));
   EXPECT_EQ(
-      messageOf(ports.scene, endEffectors({endEffector(EndEffectorType::kKey, {0}, {"x"})}), 1),
+      messageOfRig(ports.scene, endEffectors({endEffector(EndEffectorType::kKey, {0}, {"x"})}), 1),
       "hands.yaml:4:2: error: end-effector 'key': port 'x' is moved by agent 'partner'");
 }
 
@@ -227,7 +227,7 @@ TEST(RigTest, RefusesNumbersOutOfRange) {
   const auto refused = [&](auto change) {
     EndEffectorConfig key = endEffector(EndEffectorType::kKey, {0}, {""});
     change(key);
-    return messageOf(ports.scene, endEffectors({key}), 4);
+    return messageOfRig(ports.scene, endEffectors({key}), 4);
   };
   EXPECT_EQ(refused([](auto& key) { key.position_scale = 0.0; }),
             "hands.yaml:4:2: error: end-effector 'key': position_scale = 0 is out of range, "
@@ -248,10 +248,10 @@ TEST(RigTest, RefusesMorePortsThanATickHasRoomFor) {
   for (int p = 0; p <= kMaxPorts; ++p) {
     ports.port("p" + std::to_string(p));
   }
-  EXPECT_EQ(messageOf(ports.scene, {}, 1),
+  EXPECT_EQ(messageOfRig(ports.scene, {}, 1),
             "ports.yaml:138:3: error: port 'p128' is one of 129, allowed: at most 128");
   ports.scene.ports.pop_back();
-  EXPECT_EQ(messageOf(ports.scene, {}, 1), "");
+  EXPECT_EQ(messageOfRig(ports.scene, {}, 1), "");
 }
 
 }  // namespace

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/tgr/safety_chain.hpp"
 
+#include "constants.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::tgr {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kTick = 1.0 / 1024.0;  // a power of two: ramps add up exactly
+using test::kNan;
+
+constexpr double kExactTick = 1.0 / 1024.0;  // a power of two: ramps add up exactly
 
 SafetyConfig quickConfig() {
   SafetyConfig config;
@@ -37,7 +38,7 @@ class SafetyChainTest : public ::testing::Test {
     }
   }
 
-  SafetyChain chain_{quickConfig(), 2, kTick};
+  SafetyChain chain_{quickConfig(), 2, kExactTick};
   std::array<double, 2> positions_{};
 };
 
@@ -191,7 +192,7 @@ TEST_F(SafetyChainTest, TellsTheFirstFaultUntilRecovery) {
 }
 
 TEST_F(SafetyChainTest, NamesEverySliceOfAFullBank) {
-  SafetyChain chain(quickConfig(), kMaxSlices, kTick);
+  SafetyChain chain(quickConfig(), kMaxSlices, kExactTick);
   std::array<double, kMaxSlices> positions{};
   EXPECT_EQ(chain.validate(positions.data(), kMissingSample, 0), ~std::uint64_t{0});
   positions.fill(1.0);
@@ -226,7 +227,7 @@ TEST_F(SafetyChainTest, HoldsAJumpAndFaultsUnlessTheHostMissedTheTicksBetween) {
 }
 
 TEST_F(SafetyChainTest, AllowsMoreWayAfterSamplesThatDidNotCome) {
-  const double step = SafetyConfig{}.max_speed_m_per_s * kTick;
+  const double step = SafetyConfig{}.max_speed_m_per_s * kExactTick;
   validated(0.0, 0.0);
   validated(0.09, 0.09, kMissingSample);
   validated(0.09, 0.09, kMissingSample);
@@ -237,8 +238,8 @@ TEST_F(SafetyChainTest, AllowsMoreWayAfterSamplesThatDidNotCome) {
 
 TEST_F(SafetyChainTest, FaultsWhenASensorIsFrozenIfAskedTo) {
   SafetyConfig config = quickConfig();
-  config.frozen_s = 10.0 * kTick;
-  SafetyChain chain(config, 1, kTick);
+  config.frozen_s = 10.0 * kExactTick;
+  SafetyChain chain(config, 1, kExactTick);
   double x = 0.01;
   for (int n = 0; n < 20; ++n) {  // ten samples, and as many that do not count as they did not come
     chain.validate(&x, n % 2 == 0 ? kExchangeOk : kMissingSample, 0);
@@ -273,7 +274,7 @@ TEST_F(SafetyChainTest, MeetsASliceAfreshThatComesIntoUse) {
 TEST_F(SafetyChainTest, LimitsTheGrowthOfForceButNotItsFall) {
   SafetyConfig config = quickConfig();
   config.slew_n_per_s = 1024.0;  // 1 N per tick
-  SafetyChain chain(config, 1, kTick);
+  SafetyChain chain(config, 1, kExactTick);
   const auto limited = [&](double force) {
     chain.limit(&force);
     return force;

@@ -43,9 +43,9 @@ inline tgr::SliceCalibration someCalibration() {
   return c;
 }
 
-class ScriptedDriver final : public tgr::Driver, private tgr::DeviceClock {
+class ScriptedDevice final : public tgr::Driver, private tgr::DeviceClock {
  public:
-  explicit ScriptedDriver(Script& script) : script_(script) {}
+  explicit ScriptedDevice(Script& script) : script_(script) {}
 
   void open(double) override {
     if (!script_.opens) {

@@ -14,7 +14,7 @@
 namespace ergotic::tgr {
 namespace {
 
-using Slices = std::array<double, 3>;
+using test::ThreeSlices;
 
 SharedTraits traits(int slices) {
   SharedTraits result;
@@ -26,9 +26,10 @@ SharedTraits traits(int slices) {
 TEST(VirtualDeviceTest, RecordsEveryChangeOfForceWithItsTime) {
   test::SharedMemoryRig rig;
   rig.driver().open(1000.0);
-  Slices x{};
+  ThreeSlices x{};
   const std::int64_t start = rig.now();
-  for (const Slices& forces : {Slices{1.0, 0.0, 0.0}, Slices{1.0, 0.0, -0.1}, Slices{}}) {
+  for (const ThreeSlices& forces :
+       {ThreeSlices{1.0, 0.0, 0.0}, ThreeSlices{1.0, 0.0, -0.1}, ThreeSlices{}}) {
     rig.driver().exchange(forces.data(), x.data());
     rig.elapse();
     rig.elapse();
@@ -48,8 +49,8 @@ TEST(VirtualDeviceTest, StartsTheGestureWhenADriverOpens) {
     rig.elapse();  // nobody is there: this gesture is lost
   }
   rig.driver().open(1000.0);
-  const Slices forces{};
-  Slices x{};
+  const ThreeSlices forces{};
+  ThreeSlices x{};
   for (int n = 0; n < 1001; ++n) {
     rig.driver().exchange(forces.data(), x.data());
     rig.elapse();

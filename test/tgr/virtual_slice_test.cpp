@@ -2,23 +2,15 @@
 #include "tgr/drivers/virtual/virtual_slice.hpp"
 
 #include "support/test.hpp"
+#include "tgr/driver_rigs.hpp"
 
 namespace ergotic::tgr {
 namespace {
 
+using test::idealSlice;
+
 constexpr double kStep = 1.0 / 3000.0;
 constexpr HandTarget kRest{};
-
-/// No friction, no stops in the way, a perfect sensor.
-VirtualSliceConfig idealConfig() {
-  VirtualSliceConfig config;
-  config.dry_friction = 0.0;
-  config.stop = 0.1;
-  config.quantum = 0.0;
-  config.noise_rms = 0.0;
-  config.bandwidth = std::numeric_limits<double>::infinity();
-  return config;
-}
 
 VirtualSlice makeSlice(const VirtualSliceConfig& config) {
   return {config, kStep, 1};
@@ -31,7 +23,7 @@ double energy(const VirtualSlice& slice, const VirtualSliceConfig& config, doubl
 }
 
 TEST(VirtualSliceTest, AnswersAStepOfTheHandAsTheDampedOscillator) {
-  const VirtualSliceConfig config = idealConfig();
+  const VirtualSliceConfig config = idealSlice();
   VirtualSlice slice = makeSlice(config);
   const double target = 0.02;
   const double mass = config.mass + config.hand_mass;
@@ -48,7 +40,7 @@ TEST(VirtualSliceTest, AnswersAStepOfTheHandAsTheDampedOscillator) {
 }
 
 TEST(VirtualSliceTest, SlidesAtTheSpeedThatFrictionAllows) {
-  VirtualSliceConfig config = idealConfig();
+  VirtualSliceConfig config = idealSlice();
   config.hand_stiffness = 0.0;
   config.hand_damping = 0.0;
   config.dry_friction = 0.5;
@@ -60,7 +52,7 @@ TEST(VirtualSliceTest, SlidesAtTheSpeedThatFrictionAllows) {
 }
 
 TEST(VirtualSliceTest, KeepsItsEnergyWithoutFriction) {
-  VirtualSliceConfig config = idealConfig();
+  VirtualSliceConfig config = idealSlice();
   config.damping = 0.0;
   config.hand_damping = 0.0;
   VirtualSlice slice = makeSlice(config);
@@ -74,7 +66,7 @@ TEST(VirtualSliceTest, KeepsItsEnergyWithoutFriction) {
 TEST(VirtualSliceTest, NeverGainsEnergyWithoutADrive) {
   for (const double dry : {0.0, 0.02, 0.3, 5.0}) {
     for (const double stop : {0.1, 0.03}) {
-      VirtualSliceConfig config = idealConfig();
+      VirtualSliceConfig config = idealSlice();
       config.dry_friction = dry;
       config.stop = stop;
       VirtualSlice slice = makeSlice(config);
@@ -93,7 +85,7 @@ TEST(VirtualSliceTest, NeverGainsEnergyWithoutADrive) {
 }
 
 TEST(VirtualSliceTest, SticksBelowDryFrictionAndSlipsAboveIt) {
-  VirtualSliceConfig config = idealConfig();
+  VirtualSliceConfig config = idealSlice();
   config.dry_friction = 0.1;
   VirtualSlice slice = makeSlice(config);
   for (int n = 0; n < 3000; ++n) {
@@ -106,7 +98,7 @@ TEST(VirtualSliceTest, SticksBelowDryFrictionAndSlipsAboveIt) {
 }
 
 TEST(VirtualSliceTest, ComesToAFullStopWhereFrictionHolds) {
-  VirtualSliceConfig config = idealConfig();
+  VirtualSliceConfig config = idealSlice();
   config.dry_friction = 0.3;
   VirtualSlice slice = makeSlice(config);
   for (int n = 0; n < 6000; ++n) {
@@ -120,7 +112,7 @@ TEST(VirtualSliceTest, ComesToAFullStopWhereFrictionHolds) {
 }
 
 TEST(VirtualSliceTest, StopsDeadAtItsEndsAndLeavesWhenPulled) {
-  VirtualSliceConfig config = idealConfig();
+  VirtualSliceConfig config = idealSlice();
   config.stop = 0.01;
   VirtualSlice slice = makeSlice(config);
   for (const double side : {1.0, -1.0}) {
@@ -137,7 +129,7 @@ TEST(VirtualSliceTest, StopsDeadAtItsEndsAndLeavesWhenPulled) {
 
 TEST(VirtualSliceTest, SaturatesTheActuatorBeforeItLags) {
   for (const double bandwidth : {300.0, std::numeric_limits<double>::infinity()}) {
-    VirtualSliceConfig config = idealConfig();
+    VirtualSliceConfig config = idealSlice();
     config.force_limit = 20.0;
     config.bandwidth = bandwidth;
     VirtualSlice asked = makeSlice(config);
@@ -152,13 +144,13 @@ TEST(VirtualSliceTest, SaturatesTheActuatorBeforeItLags) {
 }
 
 TEST(VirtualSliceTest, FeelsNoForceThatIsNotANumber) {
-  VirtualSlice slice = makeSlice(idealConfig());
+  VirtualSlice slice = makeSlice(idealSlice());
   slice.step(std::numeric_limits<double>::quiet_NaN(), kRest);
   EXPECT_EQ(slice.position(), 0.0);
 }
 
 TEST(VirtualSliceTest, ReadsInWholeQuanta) {
-  VirtualSliceConfig config = idealConfig();
+  VirtualSliceConfig config = idealSlice();
   config.quantum = 1e-4;
   VirtualSlice slice = makeSlice(config);
   for (int n = 0; n < 300; ++n) {
@@ -170,7 +162,7 @@ TEST(VirtualSliceTest, ReadsInWholeQuanta) {
 }
 
 TEST(VirtualSliceTest, AddsNoiseOfTheGivenMoments) {
-  VirtualSliceConfig config = idealConfig();
+  VirtualSliceConfig config = idealSlice();
   config.noise_rms = 0.5e-6;
   VirtualSlice slice = makeSlice(config);
   const int count = 200000;
@@ -192,7 +184,7 @@ TEST(VirtualSliceTest, AddsNoiseOfTheGivenMoments) {
 }
 
 TEST(VirtualSliceTest, AddsTheVarianceOfItsQuantaToTheNoise) {
-  VirtualSliceConfig config = idealConfig();
+  VirtualSliceConfig config = idealSlice();
   config.quantum = 1e-6;
   config.noise_rms = 1e-6;  // as large as the quantum: rounding is then nearly independent
   VirtualSlice slice = makeSlice(config);
@@ -227,7 +219,7 @@ constexpr double kTwoPi = 6.283185307179586;
 
 /// Its velocity is the impulse of its actuator.
 VirtualSliceConfig freeMass() {
-  VirtualSliceConfig config = idealConfig();
+  VirtualSliceConfig config = idealSlice();
   config.mass = 0.5;
   config.hand_mass = 0.0;
   config.hand_stiffness = 0.0;
@@ -267,7 +259,7 @@ TEST(ActuatorTest, DelaysAndLags) {
 /// It lags by the drag of its own damping.
 TEST(ActuatorTest, FollowsAMovingHandThroughTheDelayedPartOfAStep) {
   for (const double delay : {0.0, 3.3e-4}) {  // the latter cuts every step in two
-    VirtualSliceConfig config = idealConfig();
+    VirtualSliceConfig config = idealSlice();
     config.delay = delay;
     VirtualSlice slice(config, 1e-3, 1);
     const double speed = 0.01;

@@ -7,7 +7,7 @@
 namespace ergotic::tgr {
 namespace {
 
-constexpr double kRateHz = 1000.0;
+constexpr double kVoltsRateHz = 1000.0;
 
 SliceCalibration truth(double metres_per_volt) {
   SliceCalibration c;
@@ -47,7 +47,7 @@ TEST(VirtualVoltsTest, GivesAndTakesVolts) {
   config.others.clear();
   const auto driver = makeVirtualDriver(config);
   EXPECT_TRUE(driver->isRaw());
-  driver->open(kRateHz);
+  driver->open(kVoltsRateHz);
   Exchange e;
   e.forces = {0.002, 0.002 - 0.05 * 5.0};  // 0 N, 5 N
   run(*driver, e, 1);
@@ -68,7 +68,7 @@ TEST(VirtualVoltsTest, StaysAtTheRailOfItsSensor) {
   VirtualDriverConfig config = rawConfig();
   config.slice.volts->high_volts = 2.0;
   const auto driver = makeVirtualDriver(config);
-  driver->open(kRateHz);
+  driver->open(kVoltsRateHz);
   ASSERT_TRUE(driver->setTarget(0, 0.02));
   Exchange e;
   run(*driver, e, 3000);
@@ -92,7 +92,7 @@ TEST(VirtualVoltsTest, IsCalibratedFromOneEndToTheOther) {
     slice.max_volts = 5.0;
   }
   const auto driver = makeCalibratedDriver(makeVirtualDriver(config), unknown);
-  driver->open(kRateHz);
+  driver->open(kVoltsRateHz);
   EXPECT_EQ(driver->uncalibrated(), 3U);
   std::array<std::vector<CalibrationPoint>, 2> points;
   Exchange e;

@@ -17,6 +17,8 @@
 namespace ergotic::test {
 
 constexpr int kJackSlices = 3;
+constexpr int kJackRate = 48000;           // Hz
+constexpr std::uint32_t kJackPeriod = 64;  // frames
 
 /// A slice that moves by force alone and is seen as it is.
 inline tgr::VirtualSliceConfig bareSlice() {

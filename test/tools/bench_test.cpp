@@ -139,17 +139,17 @@ TEST(BenchTest, NamesWhatIsAllowedInsteadOfWhatWasAskedFor) {
               HasSubstr("/nowhere/a.json: cannot be written"));
 }
 
-const physics::Rates kRates{44100.0, 8};
+const physics::Rates kPlainRates{44100.0, 8};
 
 double differenceFromInstrument(const scene::Scene& scene, int ticks) {
-  return test::differenceFromPlain(scene, Precision::kDouble, kRates, ticks);
+  return test::differenceFromPlain(scene, Precision::kDouble, kPlainRates, ticks);
 }
 
 TEST(PlainNetworkTest, MovesAFallingMassByHand) {
   SceneBuilder builder;
   builder.scene.sections[0].gravity.x() = -9.81;
   builder.mass(0.1);
-  const auto plain = makePlainNetwork(builder.scene, kRates, Precision::kDouble);
+  const auto plain = makePlainNetwork(builder.scene, kPlainRates, Precision::kDouble);
   plain->step(100);
   double moved = 0.0;
   plain->readDisplacements(&moved);
@@ -217,7 +217,7 @@ TEST(PlainNetworkTest, HitsWithASlowHammerAsTheInstrumentDoes) {
 
 TEST(PlainNetworkTest, SaysWhatItCannotDo) {
   const auto complaint = [](const scene::Scene& scene) -> std::string {
-    return complaintOf([&] { makePlainNetwork(scene, kRates, Precision::kFloat); });
+    return complaintOf([&] { makePlainNetwork(scene, kPlainRates, Precision::kFloat); });
   };
   SceneBuilder cells;
   cells.cell(0.001, 10.0, 0.0);

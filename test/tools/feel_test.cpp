@@ -3,13 +3,14 @@
 
 #include "ergotic/exception.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
+#include "support/scene_builder.hpp"
 #include "support/scratch_file.hpp"
 #include "support/tool_process.hpp"
 
 namespace ergotic::tools {
 namespace {
 
-const physics::Rates kRates{44100.0, 14};
+using test::kRates;
 
 /// One slice and a ground, with a link between them and a port.
 std::string sceneOf(const std::string& link, const std::string& port = "") {

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "constants.hpp"
 #include "ergotic/exception.hpp"
 #include "support/measure.hpp"
 #include "support/test.hpp"
@@ -12,7 +13,6 @@ namespace ergotic::tools {
 namespace {
 
 constexpr double kRate = 44100.0;
-constexpr double kPi = 3.14159265358979323846;
 
 /// Adds A e^(-6.91 t/T60) cos(2 pi f t + phase).
 void add(Sound& sound, double hz, double amplitude, double t60_s, double phase = 0.3) {

@@ -12,10 +12,10 @@ namespace {
 
 using test::LiveRun;
 
-const std::string kScene = test::struckBar("{quantity: velocity, at: bar, channel: 1}");
+const std::string kStruckScene = test::struckBar("{quantity: velocity, at: bar, channel: 1}");
 
 std::string otherScene() {
-  std::string text = kScene;
+  std::string text = kStruckScene;
   text.replace(text.find("mass: 0.001"), 11, "mass: 0.003");
   return text;
 }
@@ -59,7 +59,7 @@ void expectSame(const Replayed& got, const std::vector<float>& live) {
 }
 
 TEST(ReplayTest, IsThePerformanceBitForBitFromAKeyframeInItsMiddle) {
-  LiveRun live(kScene);
+  LiveRun live(kStruckScene);
   live.play(700);
   live.takeKeyframe();
   live.play(3000);
@@ -69,7 +69,7 @@ TEST(ReplayTest, IsThePerformanceBitForBitFromAKeyframeInItsMiddle) {
 }
 
 TEST(ReplayTest, TakesParametersAtTheirTicks) {
-  LiveRun live(kScene);
+  LiveRun live(kStruckScene);
   live.setParameter(0, 3000.0);
   live.play(500);
   live.takeKeyframe();
@@ -80,7 +80,7 @@ TEST(ReplayTest, TakesParametersAtTheirTicks) {
 }
 
 TEST(ReplayTest, FollowsOtherEndEffectorsAndTheirGlide) {
-  LiveRun live(kScene);
+  LiveRun live(kStruckScene);
   live.takeKeyframe();
   live.play(1003);
   live.configure(1.5);
@@ -93,7 +93,7 @@ TEST(ReplayTest, FollowsOtherEndEffectorsAndTheirGlide) {
 }
 
 TEST(ReplayTest, SaysWhenTheModelHasOtherPorts) {
-  LiveRun live(kScene);
+  LiveRun live(kStruckScene);
   live.takeKeyframe();
   live.play(100);
   bag::Recording recording = live.recording();
@@ -105,7 +105,7 @@ TEST(ReplayTest, SaysWhenTheModelHasOtherPorts) {
 }
 
 TEST(ReplayTest, FollowsStallsAndLeavesLostTicksSilent) {
-  LiveRun live(kScene);
+  LiveRun live(kStruckScene);
   live.takeKeyframe();
   live.play(1210);
   live.stall(20);
@@ -118,7 +118,7 @@ TEST(ReplayTest, FollowsStallsAndLeavesLostTicksSilent) {
 }
 
 TEST(ReplayTest, SwapsModelsWithTheSameFade) {
-  LiveRun live(kScene);
+  LiveRun live(kStruckScene);
   live.takeKeyframe();
   live.play(1300);
   live.swap(otherScene());
@@ -131,7 +131,7 @@ TEST(ReplayTest, SwapsModelsWithTheSameFade) {
 }
 
 TEST(ReplayTest, BlowsUpAndBeginsAnewAsThePerformanceDid) {
-  std::string unstable = kScene;
+  std::string unstable = kStruckScene;
   unstable.replace(unstable.find("[1000, 8000]"), 12, "[1000, 9e6]");
   unstable.replace(unstable.find("type: cell,"), 11, "type: cell, matched: false,");
   station::PerformerPolicy policy;
@@ -172,7 +172,7 @@ TEST(ReplayTest, BlowsUpAndBeginsAnewAsThePerformanceDid) {
 }
 
 TEST(ReplayTest, FindsWhatBlowsUpUnheardAtTheTickOfThePerformance) {
-  std::string unstable = kScene;
+  std::string unstable = kStruckScene;
   unstable.insert(unstable.find("sections:"), "  inside: {value: 1000, range: [1000, 9e6]}\n");
   unstable.insert(unstable.find("lias:"),
                   "  unheard: {type: cell, section: sound, matched: false, mass: 0.001, "
@@ -208,7 +208,7 @@ TEST(ReplayTest, TakesPrecisionKernelsThreadsAndBooksFromTheRecording) {
   options.isa = rt::Isa::kBaseline;
   options.threads = 2;
   options.metered = false;
-  LiveRun live(kScene, options);
+  LiveRun live(kStruckScene, options);
   const Replayed again = replay(recordingOf(live));
   EXPECT_EQ(again.options.precision, physics::Precision::kDouble);
   EXPECT_EQ(again.options.isa, rt::Isa::kBaseline);
@@ -218,7 +218,7 @@ TEST(ReplayTest, TakesPrecisionKernelsThreadsAndBooksFromTheRecording) {
 }
 
 TEST(ReplayTest, PlaysTheSameStatesAndSamplesWithAnyKernelsAndThreads) {
-  LiveRun live(kScene);
+  LiveRun live(kStruckScene);
   const bag::Recording recording = recordingOf(live);
   for (const rt::Isa isa : rt::isas()) {
     for (const int threads : {1, 2}) {
@@ -231,7 +231,7 @@ TEST(ReplayTest, PlaysTheSameStatesAndSamplesWithAnyKernelsAndThreads) {
 }
 
 TEST(ReplayTest, TakesTheBestKernelsWhereThisProcessorLacksTheRecordedOnes) {
-  LiveRun live(kScene);
+  LiveRun live(kStruckScene);
   bag::Recording recording = recordingOf(live);
   for (bag::Keyframe& keyframe : recording.keyframes) {
     keyframe.isa = "avx4096";
@@ -242,7 +242,7 @@ TEST(ReplayTest, TakesTheBestKernelsWhereThisProcessorLacksTheRecordedOnes) {
 }
 
 TEST(ReplayTest, SaysWhereTicksAreMissing) {
-  LiveRun live(kScene);
+  LiveRun live(kStruckScene);
   live.takeKeyframe();
   live.play(1280);
   bag::Recording recording = live.recording();
@@ -253,7 +253,7 @@ TEST(ReplayTest, SaysWhereTicksAreMissing) {
 }
 
 TEST(ReplayTest, ChecksItselfAgainstLaterKeyframes) {
-  LiveRun live(kScene);
+  LiveRun live(kStruckScene);
   live.takeKeyframe();
   live.play(900);
   live.takeKeyframe();
@@ -266,7 +266,7 @@ TEST(ReplayTest, ChecksItselfAgainstLaterKeyframes) {
 }
 
 TEST(ReplayTest, SaysWhenLiveSoundWasHeard) {
-  LiveRun live(kScene);
+  LiveRun live(kStruckScene);
   live.takeKeyframe();
   live.play(100);
   bag::Recording recording = live.recording();
@@ -276,7 +276,7 @@ TEST(ReplayTest, SaysWhenLiveSoundWasHeard) {
 }
 
 TEST(ReplayTest, RefusesTheStateOfAnotherBuild) {
-  LiveRun live(kScene);
+  LiveRun live(kStruckScene);
   live.takeKeyframe();
   live.play(100);
   bag::Recording recording = live.recording();
@@ -287,7 +287,7 @@ TEST(ReplayTest, RefusesTheStateOfAnotherBuild) {
 }
 
 bag::Recording shortRecording() {
-  LiveRun live(kScene);
+  LiveRun live(kStruckScene);
   live.play(20);
   live.takeKeyframe();
   live.play(20);

@@ -14,8 +14,7 @@ namespace {
 
 using scene::readYaml;
 using scene::Scene;
-
-const Rates kRates{44100.0, 14};
+using test::kRates;
 
 Scene stringOf(int masses, const std::string& more = "") {
   return readYaml(

@@ -3,13 +3,14 @@
 #include "tools/lib/truths.hpp"
 
 #include "support/places.hpp"
+#include "support/scene_builder.hpp"
 #include "support/scratch_file.hpp"
 #include "support/tool_process.hpp"
 
 namespace ergotic::tools {
 namespace {
 
-const physics::Rates kRates{44100.0, 14};
+using test::kRates;
 
 const std::string kScene = R"(ergotic: 1
 sections: {a: {rate: audio}, k: {rate: gestural}}

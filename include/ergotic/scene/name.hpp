@@ -38,6 +38,15 @@ class Name {
 
   bool isText(std::string_view text) const noexcept;
   friend bool operator==(const Name& a, const Name& b) noexcept;
+  friend bool operator!=(const Name& a, const Name& b) noexcept { return !(a == b); }
+  friend bool operator==(const Name& a, const std::string& b) noexcept { return a.isText(b); }
+  friend bool operator!=(const Name& a, const std::string& b) noexcept { return !a.isText(b); }
+  friend bool operator==(const Name& a, const char* b) noexcept { return a.isText(b); }
+  friend bool operator!=(const Name& a, const char* b) noexcept { return !a.isText(b); }
+  friend std::string operator+(const std::string& a, const Name& b) { return a + b.str(); }
+  friend std::string operator+(const char* a, const Name& b) { return a + b.str(); }
+  friend std::string operator+(const Name& a, const std::string& b) { return a.str() + b; }
+  friend std::string operator+(const Name& a, const char* b) { return a.str() + b; }
 
  private:
   struct Stem;
@@ -50,33 +59,6 @@ class Name {
   std::int32_t second_ = -1;
 };
 
-inline bool operator!=(const Name& a, const Name& b) noexcept {
-  return !(a == b);
-}
-inline bool operator==(const Name& a, const std::string& b) noexcept {
-  return a.isText(b);
-}
-inline bool operator!=(const Name& a, const std::string& b) noexcept {
-  return !a.isText(b);
-}
-inline bool operator==(const Name& a, const char* b) noexcept {
-  return a.isText(b);
-}
-inline bool operator!=(const Name& a, const char* b) noexcept {
-  return !a.isText(b);
-}
-inline std::string operator+(const std::string& a, const Name& b) {
-  return a + b.str();
-}
-inline std::string operator+(const char* a, const Name& b) {
-  return a + b.str();
-}
-inline std::string operator+(const Name& a, const std::string& b) {
-  return a.str() + b;
-}
-inline std::string operator+(const Name& a, const char* b) {
-  return a.str() + b;
-}
 inline std::ostream& operator<<(std::ostream& to, const Name& name) {
   return to << name.str();
 }

@@ -10,7 +10,7 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr double kRounding = 1e-12;  // of a cosine
+constexpr double kCosineRounding = 1e-12;  // of a cosine
 
 /// Scalar modules that links join have one axis in common whatever their sections' poses, but meet
 /// what is Euclidean along the axis of their own section. Where these differ no displacements in
@@ -70,7 +70,7 @@ class AxesJudge {
     bool is_told = false;
     visitModules(scalar, [&](int module) {
       const auto [known, is_new] = axes_.try_emplace(bodies_.setOf(module), axis);
-      if (!is_told && known->second.dot(axis) < 1.0 - kRounding) {
+      if (!is_told && known->second.dot(axis) < 1.0 - kCosineRounding) {
         is_told = true;
         findings_.add(Verdict::kUnproven, lia.place,
                       "link '" + lia.name +

@@ -18,9 +18,9 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr int kMostMasses = 300;         // whose eigenvalues are worked out
-constexpr double kRounding = 1e-9;       // of a radius of 1
-constexpr double kCertainGrowth = 1e-2;  // per period
+constexpr int kMostMasses = 300;          // whose eigenvalues are worked out
+constexpr double kRadiusRounding = 1e-9;  // of a radius of 1
+constexpr double kCertainGrowth = 1e-2;   // per period
 constexpr double kRoundingOfFloat = 2.5e-7;
 
 /// What the linear model does over one period of its slowest section.
@@ -174,7 +174,7 @@ class CouplingJudge {
       worst = trial.radius >= worst.radius ? trial : worst;
       is_proven = prove(scene, stepper.ticks() * networks_.rates().ratio, period) && is_proven;
     }
-    if (worst.radius > 1.0 + kRounding) {
+    if (worst.radius > 1.0 + kRadiusRounding) {
       const bool is_certain = worst.radius > 1.0 + kCertainGrowth;
       say(coupling, is_certain ? Verdict::kUnstable : Verdict::kUnproven,
           what + ", and grows by a factor of exp(" + describe(worst.growthPerSecond()) +

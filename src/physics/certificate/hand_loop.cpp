@@ -5,14 +5,13 @@
 #include <cmath>
 #include <utility>
 
+#include "constants.hpp"
 #include "physics/glide.hpp"
 
 namespace ergotic::physics {
 namespace {
 
 using Complex = std::complex<double>;
-
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kAngles = 64;    // of samples, up to half the rate
 constexpr int kFine = 32;      // around the worst of them, to each side
 constexpr int kImages = 3;     // to each side of 0

@@ -13,7 +13,7 @@ namespace {
 
 using scene::Geometry;
 
-constexpr double kRigid = 1e30;  // N s/m, of what sticks together
+constexpr double kRigidDamping = 1e30;  // N s/m, of what sticks together
 
 /// In its section.
 Eigen::Vector3d startOf(const scene::Scene& scene, int mat) {
@@ -76,7 +76,7 @@ double scaleAt(const scene::Scene& scene, const scene::Lia& lia) {
 
 scene::Slopes slopesInHand(const scene::Scene& scene, const scene::Lia& lia) {
   if (scene::sticks(lia.type)) {
-    return scene::slopesUpTo(0.0, kRigid);
+    return scene::slopesUpTo(0.0, kRigidDamping);
   }
   return scene::slopesAt(scene, lia,
                          elongationAtStart(scene, lia) + scaleAt(scene, lia) * kHandDepth);

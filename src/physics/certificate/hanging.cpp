@@ -16,14 +16,14 @@ using scene::MatType;
 constexpr double kSway = 0.01;     // m
 constexpr double kMostLead = 0.1;  // of what a link itself answers
 constexpr int kNearest = 16;       // of more than can be worked out
-constexpr double kRounding = 1e-9;
+constexpr double kAxisRounding = 1e-9;
 
 /// True if what moves along the axes of one section is not all seen in another.
 bool isHidden(const scene::Section& axes, const scene::Section& from) {
   const Eigen::Matrix3d turn = from.pose.linear().transpose() * axes.pose.linear();
   const Eigen::Index seen = scene::dimensionsOf(from.geometry);
   for (Eigen::Index axis = 0; axis < scene::dimensionsOf(axes.geometry); ++axis) {
-    if (turn.col(axis).head(seen).norm() < 1.0 - kRounding) {
+    if (turn.col(axis).head(seen).norm() < 1.0 - kAxisRounding) {
       return true;
     }
   }

@@ -16,7 +16,7 @@ namespace {
 using scene::LiaType;
 using scene::MatType;
 
-constexpr double kRounding = 1e-12;  // of a cosine
+constexpr double kFlatnessRounding = 1e-12;  // of a cosine
 
 bool switches(const scene::Lia& lia) {
   return scene::lawOf(lia.type).switches;
@@ -56,14 +56,14 @@ using Sections = std::vector<const scene::Section*>;
 
 bool areAlike(const Sections& flats) {
   return std::all_of(flats.begin(), flats.end(), [&](const scene::Section* section) {
-    return section->pose.linear().isApprox(flats.front()->pose.linear(), kRounding);
+    return section->pose.linear().isApprox(flats.front()->pose.linear(), kFlatnessRounding);
   });
 }
 
 bool haveOneAxis(const Sections& scalars) {
   return std::all_of(scalars.begin(), scalars.end(), [&](const scene::Section* section) {
     const double cosine = scalars.front()->pose.linear().col(0).dot(section->pose.linear().col(0));
-    return std::abs(cosine) >= 1.0 - kRounding;
+    return std::abs(cosine) >= 1.0 - kFlatnessRounding;
   });
 }
 
@@ -77,7 +77,7 @@ bool liesIn(const Sections& flats, const Sections& scalars) {
              const double cosine = section->pose.linear().col(k).dot(axis);
              seen += cosine * cosine;
            }
-           return seen >= 1.0 - kRounding;
+           return seen >= 1.0 - kFlatnessRounding;
          });
 }
 

@@ -7,10 +7,9 @@
 #include <limits>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/QR>
+#include <Eigen/Core>
 
+#include "algebra/decompositions.hpp"
 #include "at.hpp"
 #include "physics/certificate/linear_stepper.hpp"
 #include "physics/network/network.hpp"
@@ -67,12 +66,12 @@ double largestEigenvalue(const Eigen::MatrixXd& matrix, bool* is_near_one) {
   if (!matrix.allFinite()) {
     return kNone;
   }
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix, false);
-  if (solver.info() != Eigen::Success || !solver.eigenvalues().allFinite()) {
+  const std::optional<Eigen::VectorXcd> values = algebra::generalEigenvalues(matrix);
+  if (!values || !values->allFinite()) {
     return kNone;
   }
   double radius = 0.0;
-  for (const std::complex<double>& value : solver.eigenvalues()) {
+  for (const std::complex<double>& value : *values) {
     if (std::abs(value) > radius) {
       radius = std::abs(value);
       *is_near_one = std::abs(value - 1.0) < kNearOne;
@@ -86,15 +85,12 @@ double largestEigenvalue(const Eigen::MatrixXd& matrix, bool* is_near_one) {
 /// as 1 + sqrt(rounding).
 Eigen::MatrixXd withoutFixedStates(const Eigen::MatrixXd& matrix) {
   const Eigen::Index size = matrix.rows();
-  Eigen::FullPivLU<Eigen::MatrixXd> change(matrix - Eigen::MatrixXd::Identity(size, size));
-  change.setThreshold(kFixed);
-  const Eigen::Index rank = change.rank();
-  if (rank == size) {
+  const algebra::Kernel fixed =
+      algebra::kernelOf(matrix - Eigen::MatrixXd::Identity(size, size), kFixed);
+  if (fixed.rank == size) {
     return matrix;
   }
-  const Eigen::HouseholderQR<Eigen::MatrixXd> fixed(change.kernel());
-  const Eigen::MatrixXd others =
-      (fixed.householderQ() * Eigen::MatrixXd::Identity(size, size)).rightCols(rank);
+  const Eigen::MatrixXd others = algebra::orthogonalComplement(fixed.basis);
   return others.transpose() * matrix * others;
 }
 

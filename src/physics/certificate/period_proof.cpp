@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <vector>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/QR>
+
+#include "algebra/decompositions.hpp"
+#include "constants.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -18,35 +17,24 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double kFixed = 1e-12;           // of the largest pivot: what a period leaves as it is
+constexpr double kUnchanged = 1e-12;       // of the largest pivot: what a period leaves as it is
 constexpr double kFading = 0.99;           // per period
 constexpr double kMeeting = 30.0;          // of |G| |G^-1|: 1/how near modes are to meeting
 constexpr double kBreathing = 10.0;        // the same of roots of the energy that is kept
 constexpr double kLending = 1000.0;        // and of that which steps near their limit lend
 constexpr double kFadingBreathes = 100.0;  // of what fades, all at once: a bound from far
 constexpr double kMostOff = 5e-10;         // of what G s becomes
-constexpr int kDoublings = 40;
+constexpr int kPeriodDoublings = 40;
 constexpr double kAlike = 1e-6;     // of places of bodies
 constexpr double kStaying = 1e-10;  // of a body, whatever rounds
 constexpr double kNear = 0.1;       // of eigenvalues that rounding might bring together
 constexpr double kSlow = 1e-8;      // per period, of growth that is none
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Rows that a period makes B times themselves.
 struct Form {
   MatrixXd rows;
   MatrixXd turn;
 };
-
-/// An orthonormal basis of what is at right angles to some columns.
-MatrixXd beside(const MatrixXd& columns) {
-  const Index size = columns.rows();
-  if (columns.cols() == 0) {
-    return MatrixXd::Identity(size, size);
-  }
-  const Eigen::HouseholderQR<MatrixXd> solver(columns);
-  return (solver.householderQ() * MatrixXd::Identity(size, size)).rightCols(size - columns.cols());
-}
 
 /// What a period does not change, and the first module of each body.
 struct Staying {
@@ -75,35 +63,32 @@ std::vector<Index> bodiesOf(const MatrixXd& stays) {
 std::optional<Staying> besideWhatStays(const MatrixXd& matrix,
                                        const std::vector<MatrixXd>& rounded) {
   const MatrixXd unit = MatrixXd::Identity(matrix.rows(), matrix.cols());
-  Eigen::FullPivLU<MatrixXd> change(matrix - unit);
-  change.setThreshold(kFixed);
-  if (change.rank() == matrix.rows()) {
+  const algebra::Kernel unchanged = algebra::kernelOf(matrix - unit, kUnchanged);
+  if (unchanged.rank == matrix.rows()) {
     return Staying{unit, {}};
   }
-  const MatrixXd stays = change.kernel();
+  const MatrixXd& stays = unchanged.basis;
   const bool stay = std::all_of(rounded.begin(), rounded.end(), [&](const MatrixXd& other) {
     return (other * stays - stays).norm() <= kStaying * stays.norm();
   });
-  Staying staying{beside(stays), bodiesOf(stays)};
+  Staying staying{algebra::orthogonalComplement(stays), bodiesOf(stays)};
   const bool are_bodies = stays.bottomRows(matrix.rows() / 2).norm() < kAlike &&
                           static_cast<Index>(staying.bodies.size()) == stays.cols();
   return stay && are_bodies ? std::optional<Staying>(std::move(staying)) : std::nullopt;
 }
 
-using Modes = Eigen::EigenSolver<MatrixXd>;
-
 /// Real and imaginary parts of the eigenvectors of what hardly fades, as columns, and what becomes
 /// of their transpose.
-Form lastingOf(const Modes& solver) {
-  const Index size = solver.eigenvalues().size();
+Form lastingOf(const algebra::GeneralModes& modes) {
+  const Index size = modes.values.size();
   Form form{MatrixXd(size, size), MatrixXd::Zero(size, size)};
   Index count = 0;
   for (Index i = 0; i < size; ++i) {
-    const std::complex<double> value = solver.eigenvalues()[i];
+    const std::complex<double> value = modes.values[i];
     if (!(std::abs(value) > kFading) || value.imag() < 0.0) {
       continue;
     }
-    const Eigen::VectorXcd vector = solver.eigenvectors().col(i).normalized();
+    const Eigen::VectorXcd vector = modes.vectors.col(i).normalized();
     form.rows.col(count) = vector.real();
     form.turn(count, count) = value.real();
     if (value.imag() > 0.0) {
@@ -120,7 +105,7 @@ Form lastingOf(const Modes& solver) {
 /// P = sum over k of (B^k)' B^k, so that P - B' P B = I.
 MatrixXd lyapunov(MatrixXd power) {
   MatrixXd sum = MatrixXd::Identity(power.rows(), power.cols());
-  for (int k = 0; k < kDoublings && power.squaredNorm() > 0.0; ++k) {
+  for (int k = 0; k < kPeriodDoublings && power.squaredNorm() > 0.0; ++k) {
     sum += power.transpose() * sum * power;
     power = power * power;
   }
@@ -128,7 +113,7 @@ MatrixXd lyapunov(MatrixXd power) {
 }
 
 Form fadingOf(const MatrixXd& matrix, const MatrixXd& lasting) {
-  const MatrixXd others = beside(lasting);
+  const MatrixXd others = algebra::orthogonalComplement(lasting);
   if (others.cols() == 0) {
     return {};
   }
@@ -151,8 +136,8 @@ Form joined(const Form& a, const Form& b, Index columns) {
 
 /// How far the form is from becoming B times itself.
 double errorOf(const Form& form, const MatrixXd& matrix) {
-  const Eigen::PartialPivLU<MatrixXd> solver(form.rows.transpose());
-  const MatrixXd becomes = solver.solve((form.rows * matrix).transpose()).transpose();
+  const MatrixXd becomes =
+      algebra::solve(form.rows.transpose(), (form.rows * matrix).transpose()).transpose();
   return (becomes - form.turn).norm();
 }
 
@@ -166,7 +151,7 @@ double conditionOf(const MatrixXd& form, const std::vector<Index>& bodies) {
       seen.col(to++) = form.col(column);
     }
   }
-  const MatrixXd back = seen.inverse();
+  const MatrixXd back = algebra::inverse(seen);
   return (seen.cwiseAbs() * back.cwiseAbs()).diagonal().maxCoeff();
 }
 
@@ -184,11 +169,9 @@ Index endOfBlock(const MatrixXd& turn, Index first) {
 }
 
 double normOf(const MatrixXd& matrix) {
-  return std::sqrt(Eigen::SelfAdjointEigenSolver<MatrixXd>(
-                       matrix.rows() < matrix.cols() ? MatrixXd(matrix * matrix.transpose())
-                                                     : MatrixXd(matrix.transpose() * matrix))
-                       .eigenvalues()
-                       .maxCoeff());
+  const MatrixXd square = matrix.rows() < matrix.cols() ? MatrixXd(matrix * matrix.transpose())
+                                                        : MatrixXd(matrix.transpose() * matrix);
+  return std::sqrt(algebra::symmetricEigenvalues(square).maxCoeff());
 }
 
 /// |G E^-1/2| |E^1/2 G^-1| of the rows of G and columns of G^-1 that a period mixes, at most: how
@@ -205,7 +188,7 @@ double conditionIn(const MatrixXd& energy,
     return kInfinity;
   }
   const MatrixXd upper = root.matrixU();
-  const MatrixXd back = upper * seen.inverse();
+  const MatrixXd back = upper * algebra::inverse(seen);
   const MatrixXd rows =
       upper.transpose().triangularView<Eigen::Lower>().solve(seen.transpose()).transpose();
   double most = 0.0;
@@ -266,11 +249,11 @@ double breathingOf(const MatrixXd& form,
 /// What rounding does to the modes of a period: in their eigenvectors, one matrix for each case.
 class RoundedModes {
  public:
-  RoundedModes(const Modes& solver, const std::vector<MatrixXd>& roundings) {
-    const Eigen::MatrixXcd right = solver.eigenvectors();
-    const Eigen::MatrixXcd left = right.inverse();
-    const std::vector<Index> judged = judgedOf(solver.eigenvalues());
-    values_ = solver.eigenvalues()(judged);
+  RoundedModes(const algebra::GeneralModes& modes, const std::vector<MatrixXd>& roundings) {
+    const Eigen::MatrixXcd& right = modes.vectors;
+    const Eigen::MatrixXcd left = algebra::inverse(right);
+    const std::vector<Index> judged = judgedOf(modes.values);
+    values_ = modes.values(judged);
     const Eigen::MatrixXcd columns = right(Eigen::all, judged);
     const Eigen::MatrixXcd rows = left(judged, Eigen::all);
     for (const MatrixXd& rounding : roundings) {
@@ -365,8 +348,12 @@ std::optional<PeriodProof> proofOf(const Period& period, const std::vector<Matri
   }
   const MatrixXd& kept = staying->beside;
   const MatrixXd matrix = kept.transpose() * period.matrix * kept;
-  const Modes modes(matrix);
-  Form lasting = lastingOf(Modes(matrix.transpose()));
+  const algebra::GeneralModes modes = algebra::generalModes(matrix);
+  const algebra::GeneralModes transposed = algebra::generalModes(matrix.transpose());
+  if (!modes.converged || !transposed.converged) {
+    return std::nullopt;
+  }
+  Form lasting = lastingOf(transposed);
   lasting.rows.transposeInPlace();
   const Form form = joined(lasting, fadingOf(matrix, lastingOf(modes).rows), matrix.cols());
   if (form.rows.rows() != form.rows.cols() || !(errorOf(form, matrix) <= kMostOff)) {

@@ -14,8 +14,8 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr double kRigid = 1e30;         // N/m, of what sticks together
-constexpr int kLongestSeries = 100000;  // links in a row
+constexpr double kRigidStiffness = 1e30;  // N/m, of what sticks together
+constexpr int kLongestSeries = 100000;    // links in a row
 
 template <class Value>
 int largest(const std::vector<int>& links, const Value& value) {
@@ -206,7 +206,7 @@ double PortLinks::dampingAt(const scene::Port& port, int l) const {
 
 double PortLinks::slope(int l) const {
   if (scene::sticks(scene_.lias[at(l)].type)) {
-    return kRigid;
+    return kRigidStiffness;
   }
   return std::abs(slopesInHand(scene_, scene_.lias[at(l)]).stiffness.highest);
 }

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constants.hpp"
+
 namespace ergotic::physics {
 
 double matchedLoad(Range stiffness, Range damping, Range mass, double step) {
-  constexpr double kPi = 3.14159265358979323846;
   const double slowest_decay = damping.lowest / (2.0 * mass.highest) * step;
   const double fastest_decay = damping.highest / (2.0 * mass.lowest) * step;
   const double zeta = -std::expm1(-2.0 * fastest_decay);

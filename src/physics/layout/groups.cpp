@@ -11,8 +11,6 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr int kHeld = LinkRun::kHeldGroup;
-
 /// Deals everything out to the groups of its sections.
 class Dealer {
  public:
@@ -78,7 +76,7 @@ class Dealer {
            group.followers.empty() && group.pickups.empty() && group.proxies.empty();
   }
 
-  Group& byIndex(int g) { return g == kHeld ? groups_.held : groups_.running[at(g)]; }
+  Group& byIndex(int g) { return g == LinkRun::kHeldGroup ? groups_.held : groups_.running[at(g)]; }
   Group& groupOf(int section) { return byIndex(layout_.group_of_section[at(section)]); }
 
   template <class Item, class SectionOf>

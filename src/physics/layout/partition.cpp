@@ -11,7 +11,6 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr int kHeld = LinkRun::kHeldGroup;
 constexpr int kSlotsPerLine = 16;  // groups must not share a cache line
 
 /// Sections that need each other at the same instant.
@@ -122,7 +121,7 @@ class ProxyPlacer {
     pad();
     std::map<std::pair<int, int>, int> known;  // slot and coordinates of a held end: its proxy
     for (LinkRun* run : runs) {
-      const bool held_is_a = layout_.group_of_section[at(run->section_a)] == kHeld;
+      const bool held_is_a = layout_.group_of_section[at(run->section_a)] == LinkRun::kHeldGroup;
       int& stride = held_is_a ? run->stride_a : run->stride_b;
       const int dimensions = std::max(1, run->dimensions);
       for (LinkEnds& ends : run->ends) {
@@ -183,7 +182,7 @@ std::vector<int> partitionSections(const scene::Scene& scene,
   }
   std::stable_sort(running.begin(), running.end(),
                    [](const Members& a, const Members& b) { return a.cost > b.cost; });
-  std::vector<int> group_of_section(layout.sections.size(), kHeld);
+  std::vector<int> group_of_section(layout.sections.size(), LinkRun::kHeldGroup);
   for (std::size_t g = 0; g < running.size(); ++g) {
     for (const int s : running[g].sections) {
       group_of_section[at(s)] = static_cast<int>(g);
@@ -256,7 +255,8 @@ void findLoneBlocks(const scene::Scene& scene, const Rates& rates, Layout& layou
   }
   for (std::size_t b = 0; b < touched.size(); ++b) {
     Block& block = layout.blocks[b];
-    block.is_alone = !touched[b] && layout.group_of_section[at(block.section)] != kHeld &&
+    block.is_alone = !touched[b] &&
+                     layout.group_of_section[at(block.section)] != LinkRun::kHeldGroup &&
                      rates.ratio % layout.sections[at(block.section)].divisor == 0 &&
                      scene.sections[at(block.section)].sleep_energy == 0.0;
   }

@@ -12,8 +12,9 @@
 #include <sstream>
 #include <system_error>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
+#include "algebra/decompositions.hpp"
 #include "ergotic/exception.hpp"
 
 namespace ergotic::physics {
@@ -143,13 +144,13 @@ std::shared_ptr<const Modes> solve(const ModalMatrix& matrix) {
   for (const ModalMatrix::Entry& entry : matrix.entries) {
     lower(entry.row, entry.column) = entry.value;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(lower);
-  if (solver.info() != Eigen::Success) {
+  const algebra::SymmetricModes found = algebra::symmetricModes(lower);
+  if (!found.converged) {
     throw Exception("the modes of " + std::to_string(matrix.size) + " modules do not converge");
   }
   auto modes = std::make_shared<Modes>();
-  modes->values = solver.eigenvalues();
-  modes->vectors = solver.eigenvectors();
+  modes->values = found.values;
+  modes->vectors = found.vectors;
   return modes;
 }
 

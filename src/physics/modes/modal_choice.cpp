@@ -5,10 +5,10 @@
 #include <cmath>
 #include <complex>
 #include <cstdlib>
-#include <limits>
 #include <map>
 
 #include "at.hpp"
+#include "constants.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -24,8 +24,6 @@ constexpr double kPlace = 25.0;
 constexpr std::size_t kOffsets = 12;   // of a lattice with bending, at most
 constexpr double kRegularShare = 0.9;  // of the links, along these offsets
 constexpr double kEqualShare = 1e-9;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// True if most links join modules that lie equally far apart in the list.
 bool isRegular(const Network& network, const LinearPart& part) {

@@ -3,19 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <vector>
 
 #include <Eigen/Dense>
 
 #include "at.hpp"
+#include "constants.hpp"
 
 namespace ergotic::physics {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRounding = 1e-12;
+constexpr double kCellRounding = 1e-12;
 
 class CellBound {
  public:
@@ -49,7 +47,7 @@ class CellBound {
       bound = std::max(bound, total);
       is_finite_ = is_finite_ && std::isfinite(total);
     }
-    return is_finite_ ? bound * (1.0 + kRounding) : kInfinity;
+    return is_finite_ ? bound * (1.0 + kCellRounding) : kInfinity;
   }
 
  private:

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 
+#include "algebra/decompositions.hpp"
 #include "at.hpp"
 #include "physics/network/load_matrix.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 
 using scene::MatType;
 
-constexpr int kIterations = 50;  // of Collatz-Wielandt
+constexpr int kBoundIterations = 50;  // of Collatz-Wielandt
 
 }  // namespace
 
@@ -200,9 +200,7 @@ std::vector<double> LinearNetwork::modes(int most) const {
              std::sqrt(mass_[at(a.node)] * mass_[at(b.node)]);
     });
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(Eigen::MatrixXd(pencil.sum()),
-                                                              Eigen::EigenvaluesOnly);
-  const Eigen::VectorXd& values = solver.eigenvalues();
+  const Eigen::VectorXd values = algebra::symmetricEigenvalues(Eigen::MatrixXd(pencil.sum()));
   return {values.data(), values.data() + size};
 }
 
@@ -211,7 +209,7 @@ double LinearNetwork::highestModeAt(int mat) const {
   const Eigen::SparseMatrix<double> stiffness = part.stiffness.cwiseAbs();
   Eigen::VectorXd x = Eigen::VectorXd::Ones(part.mass.size());
   double bound = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kIterations; ++i) {
+  for (int i = 0; i < kBoundIterations; ++i) {
     const Eigen::VectorXd next = (stiffness * x).cwiseQuotient(part.mass);
     if (next.maxCoeff() == 0.0) {
       return 0.0;

@@ -3,16 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "at.hpp"
+#include "constants.hpp"
 #include "physics/disjoint_sets.hpp"
 
 namespace ergotic::physics {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double positive(const Range& span) {
   return std::max(span.highest, 0.0);

@@ -2,11 +2,11 @@
 // What a network is at its softest: whether it is definite, and how far it gives way.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <set>
 
 #include "at.hpp"
+#include "constants.hpp"
 #include "physics/disjoint_sets.hpp"
 #include "physics/network/network_matrix.hpp"
 #include "physics/network/network_spectrum.hpp"
@@ -18,7 +18,6 @@ namespace {
 // that grow.
 constexpr double kSignMargin = 1e-6;
 constexpr double kHeld = 2e-5;  // of the norm: a tenth of it is definite all the same
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double stiffnessOf(const NetworkBound::Link& link) {
   return link.stiffness.lowest;

@@ -3,21 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "at.hpp"
+#include "constants.hpp"
 #include "physics/network/network_analysis.hpp"
 #include "physics/network/network_matrix.hpp"
 
 namespace ergotic::physics {
 namespace {
 
-constexpr double kPrecision = 2e-7;  // of a step; lambda goes with its square
-constexpr int kIterations = 20;      // of Collatz-Wielandt
+constexpr double kPrecision = 2e-7;      // of a step; lambda goes with its square
+constexpr int kSpectrumIterations = 20;  // of Collatz-Wielandt
 constexpr int kRounds = 100;
 constexpr int kInverseIterations = 4;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double quadratic(const Matrix& lower, const Eigen::VectorXd& x) {
   return x.dot(lower.selfadjointView<Eigen::Lower>() * x);
@@ -48,7 +47,7 @@ NetworkSpectrum::NetworkSpectrum(const NetworkBound& network)
     pencil_.moving_damping.push_back(link.damping);
   }
   const NetworkBound everywhere = network.withMovingEverywhere();
-  bound_ = std::min(everywhere.linkBound(), everywhere.collatzWielandtBound(kIterations));
+  bound_ = std::min(everywhere.linkBound(), everywhere.collatzWielandtBound(kSpectrumIterations));
   finite_ = physics::isFinite(pencil_.stiffness) && physics::isFinite(pencil_.damping) &&
             std::isfinite(bound_);
   if (finite_) {

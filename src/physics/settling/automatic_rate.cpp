@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "at.hpp"
+#include "constants.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/physics/certificate/certify.hpp"
 #include "physics/network/network_analysis.hpp"
@@ -18,8 +19,6 @@ namespace ergotic::physics {
 namespace {
 
 using scene::MatType;
-
-constexpr double kPi = 3.14159265358979323846;
 
 bool hasSlice(const scene::Scene& scene, int section) {
   return std::any_of(scene.mats.begin(), scene.mats.end(), [&](const scene::Mat& mat) {
@@ -51,9 +50,9 @@ double lambdaOf(const scene::Scene& scene, const Rates& rates, int section) {
   return analyse(alone.atOwnRate(divisorOf(scene.sections[at(section)], rates))).lambda;
 }
 
-class Chooser {
+class RateChooser {
  public:
-  Chooser(scene::Scene& scene, const Rates& rates, const Complete& complete)
+  RateChooser(scene::Scene& scene, const Rates& rates, const Complete& complete)
       : scene_(scene), rates_(rates), complete_(complete) {}
 
   std::string choose(int s) {
@@ -151,7 +150,7 @@ void chooseAutomaticRates(scene::Scene& scene,
                           const Rates& rates,
                           const Complete& complete,
                           std::vector<std::string>& notes) {
-  Chooser chooser(scene, rates, complete);
+  RateChooser chooser(scene, rates, complete);
   for (std::size_t s = 0; s < scene.sections.size(); ++s) {
     if (scene.sections[s].automatic_rate) {
       notes.push_back(chooser.choose(static_cast<int>(s)));

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "constants.hpp"
+
 namespace ergotic::physics {
-namespace {
-constexpr double kPi = 3.14159265358979323846;
-}
+namespace {}
 
 Chaplet::Chaplet(std::vector<scene::ChapletStage> stages, double step_s, int ratio)
     : stages_(std::move(stages)), step_s_(step_s), ratio_(ratio) {}

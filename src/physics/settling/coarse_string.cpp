@@ -7,11 +7,10 @@
 #include <Eigen/Dense>
 
 #include "at.hpp"
+#include "constants.hpp"
 
 namespace ergotic::physics {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kSprings = 3;
 
 /// What the spring to the k-th neighbour does to mode j of N masses.

@@ -67,9 +67,9 @@ bool holdsForGood(const scene::Lia& lia) {
          lia.type == LiaType::kRelaxing;
 }
 
-class Chooser {
+class CouplingChooser {
  public:
-  Chooser(const Scene& scene, const Rates& rates, const Complete& complete)
+  CouplingChooser(const Scene& scene, const Rates& rates, const Complete& complete)
       : scene_(scene), rates_(rates), complete_(complete) {}
 
   /// All that can be played, hold first.
@@ -139,10 +139,10 @@ std::string describe(const Option& option, double stiffness) {
                                                       : "");
 }
 
-std::string noteOn(const Scene& scene,
-                   int slice,
-                   const Option& best,
-                   const std::vector<Option>& all) {
+std::string noteOnCoupling(const Scene& scene,
+                           int slice,
+                           const Option& best,
+                           const std::vector<Option>& all) {
   const scene::Mat& mat = scene.mats[at(slice)];
   std::string text = noteAt(scene, mat.place) + "slice '" + mat.name + "' gets coupling " +
                      describe(best, all.front().stiffness) +
@@ -168,11 +168,11 @@ void chooseCouplings(Scene& scene,
     if (!isSeen(scene, rates, m)) {
       continue;
     }
-    const std::vector<Option> options = Chooser(scene, rates, complete).optionsOf(m);
+    const std::vector<Option> options = CouplingChooser(scene, rates, complete).optionsOf(m);
     const Option& best =
         *std::min_element(options.begin(), options.end(),
                           [](const Option& a, const Option& b) { return a.rank() < b.rank(); });
-    notes.push_back(noteOn(scene, m, best, options));
+    notes.push_back(noteOnCoupling(scene, m, best, options));
     mat.coupling = best.coupling;
   }
 }

@@ -247,7 +247,7 @@ std::string responseNote(const Plan& plan) {
   return text;
 }
 
-std::string noteOn(const Scene& scene, const Plan& plan) {
+std::string noteOnFilter(const Scene& scene, const Plan& plan) {
   const scene::Lia& lia = scene.lias[at(plan.lia)];
   const Chaplet& chaplet = plan.chaplet;
   const double low = kLowFrequency * chaplet.nyquistHz();
@@ -285,7 +285,7 @@ void insertFilters(Scene& scene, const Rates& rates, std::vector<std::string>& n
     }
   }
   for (const Plan& plan : plans) {
-    notes.push_back(noteOn(scene, plan));
+    notes.push_back(noteOnFilter(scene, plan));
     Inserter(scene, plan).insert();
   }
 }

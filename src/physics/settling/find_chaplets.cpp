@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "at.hpp"
+#include "constants.hpp"
 #include "ergotic/physics/settling/chaplet.hpp"
 #include "physics/settling/chaplet_load.hpp"
 
@@ -16,7 +17,6 @@ using scene::MatType;
 using scene::Scene;
 
 constexpr double kRounding = 1e-6;
-constexpr double kPi = 3.14159265358979323846;
 
 bool areClose(double a, double b) {
   return std::abs(a - b) <= kRounding * std::abs(b);

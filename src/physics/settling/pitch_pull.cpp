@@ -23,7 +23,7 @@ double pluckOf(const scene::Scene& scene, const scene::StringInfo& string, doubl
   return height / length;
 }
 
-std::string noteOn(const scene::Scene& scene, const scene::StringInfo& string) {
+std::string noteOnPitch(const scene::Scene& scene, const scene::StringInfo& string) {
   const scene::Mat& first = scene.mats[at(string.first)];
   const scene::Mat& last = scene.mats[at(string.first + string.count - 1)];
   const double length = (last.rest - first.rest).norm();
@@ -62,7 +62,7 @@ void notePitchPull(const scene::Scene& scene, std::vector<std::string>& notes) {
   for (const scene::StringInfo& string : scene.strings) {
     const scene::Geometry geometry = scene.sectionOf(scene.mats[at(string.first)]).geometry;
     if (geometry == scene::Geometry::kPlane || geometry == scene::Geometry::kSpace) {
-      notes.push_back(noteOn(scene, string));
+      notes.push_back(noteOnPitch(scene, string));
     }
   }
 }

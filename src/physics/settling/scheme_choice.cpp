@@ -23,9 +23,9 @@ struct Reason {
   double allowed = 0.0;
 };
 
-class Chooser {
+class SchemeChooser {
  public:
-  Chooser(scene::Scene& scene, const Rates& rates, std::vector<std::string>& notes)
+  SchemeChooser(scene::Scene& scene, const Rates& rates, std::vector<std::string>& notes)
       : scene_(scene),
         network_(scene),
         networks_(network_, rates),
@@ -140,7 +140,7 @@ class Chooser {
 }  // namespace
 
 void chooseSchemes(scene::Scene& scene, const Rates& rates, std::vector<std::string>& notes) {
-  Chooser(scene, rates, notes).run();
+  SchemeChooser(scene, rates, notes).run();
 }
 
 }  // namespace ergotic::physics

@@ -119,7 +119,7 @@ bool isHeard(const scene::Scene& scene, int section) {
   });
 }
 
-std::string noteOn(const Network& network, int index) {
+std::string noteOnSleep(const Network& network, int index) {
   const scene::Scene& scene = network.scene;
   const scene::Section& section = scene.sections[at(index)];
   std::string text = noteAt(scene, section.place) + "section '" + section.name + "' sleeps below " +
@@ -172,7 +172,7 @@ void noteSleep(const scene::Scene& scene, std::vector<std::string>& notes) {
   const Network network(scene);
   for (std::size_t s = 0; s < scene.sections.size(); ++s) {
     if (maySleep(scene.sections[s])) {
-      notes.push_back(noteOn(network, static_cast<int>(s)));
+      notes.push_back(noteOnSleep(network, static_cast<int>(s)));
     }
   }
 }

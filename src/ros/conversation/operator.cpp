@@ -26,7 +26,7 @@ constexpr std::size_t kMaxTasks = 1024;
 constexpr std::size_t kMaxParameters = 1024;  // names that wait
 constexpr std::int64_t kParametersNs = 2'000'000;
 constexpr std::size_t kParametersPerPoll = 64;  // fewer than the tick takes meanwhile
-constexpr double kLogPeriodS = 1.0;
+constexpr double kErrorPeriodS = 1.0;
 const char kWasWithdrawn[] = "no answer within 5 s: the request is withdrawn";
 const char kWasBegun[] =
     "no answer within 5 s: the request was begun, and what it asks for may still come";
@@ -235,7 +235,7 @@ void Operator::run() {
       diagnose();
     } catch (const std::exception& surprise) {  // it must not end the process with force on
       performance_.makeSafe(tgr::FaultReason::kMadeSafe);
-      ROS_ERROR_STREAM_THROTTLE(kLogPeriodS,
+      ROS_ERROR_STREAM_THROTTLE(kErrorPeriodS,
                                 "force is latched at zero, for the station could not "
                                 "go on as usual: "
                                     << surprise.what());
@@ -252,7 +252,7 @@ void Operator::diagnose() {
   try {
     diagnostics_.refresh(feed_.status(), performance_.engine());
   } catch (const std::exception& surprise) {
-    ROS_ERROR_STREAM_THROTTLE(kLogPeriodS, "diagnostics: " << surprise.what());
+    ROS_ERROR_STREAM_THROTTLE(kErrorPeriodS, "diagnostics: " << surprise.what());
   }
 }
 
@@ -289,7 +289,7 @@ void Operator::setParameters() {
     std::future<Answer> refusal = promise->get_future();
     performance_.setParameter(next.key(), next.mapped(), promise);
     if (refusal.wait_for(0s) == std::future_status::ready) {
-      ROS_WARN_STREAM_THROTTLE(kLogPeriodS, "parameters: " << refusal.get().message);
+      ROS_WARN_STREAM_THROTTLE(kErrorPeriodS, "parameters: " << refusal.get().message);
     }
   } while (++count < kParametersPerPoll && rt::monotonicNs() < end_ns);
 }

@@ -27,15 +27,10 @@ constexpr std::int64_t kOnItsWayNs = 500'000'000;
 constexpr std::size_t kGestureBatch = 256;
 constexpr double kLogPeriodS = 5.0;
 constexpr std::size_t kShownName = 64;  // of what a stranger says, bytes
-const char kNothingPlays[] = "nothing plays: load a model first";
 const char kWasOnItsWay[] =
     "it was on its way when somebody asked for an emergency stop: ask again";
 const char kForceWaits[] = "\nforce is zero until engage";
 const char kTooMany[] = "too many requests wait for the real-time thread";
-
-void answer(const Promise& promise, bool ok, std::string message) {
-  promise->set_value({ok, std::move(message)});
-}
 
 /// Of nodes of two names: the same with a probability of 2^-64.
 station::Caller numberOf(const std::string& node) {
@@ -60,6 +55,10 @@ void log(const Event& event) {
 }
 
 }  // namespace
+
+void answer(const Promise& promise, bool ok, std::string message) {
+  promise->set_value({ok, std::move(message)});
+}
 
 void Performance::begin(std::unique_ptr<Engine> engine,
                         station::Performer* performer,

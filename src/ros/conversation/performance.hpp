@@ -31,6 +31,8 @@ struct Answer {
   std::string message;
 };
 using Promise = std::shared_ptr<std::promise<Answer>>;
+void answer(const Promise& promise, bool ok, std::string message);
+constexpr const char* kNothingPlays = "nothing plays: load a model first";
 
 /// Somebody wants force, or the end of a fault.
 struct ForceRequest {

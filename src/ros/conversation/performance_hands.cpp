@@ -22,7 +22,6 @@ namespace {
 using CommandType = station::Command::Type;
 using station::InjectedModelFault;
 
-const char kNothingPlays[] = "nothing plays: load a model first";
 const char kNotAllowed[] = "faults can be injected only with the parameter allow_fault_injection";
 constexpr std::int64_t kMostTicks = 1'000'000;
 constexpr double kPushOfLimit = 0.1;  // a push is at most that part of the force limit
@@ -57,10 +56,6 @@ tgr::InjectedFault deviceFaultNamed(const std::string& name) {
     others.push_back(other);
   }
   return tgr::faultNamed(name, others);
-}
-
-void answer(const Promise& promise, bool ok, std::string message) {
-  promise->set_value({ok, std::move(message)});
 }
 
 }  // namespace

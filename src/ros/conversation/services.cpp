@@ -12,9 +12,9 @@
 namespace ergotic::node {
 namespace {
 
-constexpr std::uint32_t kQueue = 100;
+constexpr std::uint32_t kRequestQueue = 100;
 constexpr std::uint32_t kParameterQueue = 10'000;  // taken at once: the newest of each name counts
-constexpr double kLogPeriodS = 1.0;
+constexpr double kRefusalPeriodS = 1.0;
 
 /// How many are in here.
 class Counted {
@@ -39,7 +39,7 @@ bool fill(Response& response, const Answer& answer) {
 
 void complain(const std::string& topic, const Answer& answer) {
   if (!answer.ok) {
-    ROS_WARN_STREAM_THROTTLE(kLogPeriodS, topic << ": " << answer.message);
+    ROS_WARN_STREAM_THROTTLE(kRefusalPeriodS, topic << ": " << answer.message);
   }
 }
 
@@ -80,10 +80,10 @@ Services::Services(::ros::NodeHandle node, Operator& operator_thread)
   subscribers_ = {
       loading_node_.subscribe("model", 1, &Services::onModel, this),
       node_.subscribe("parameters", kParameterQueue, &Services::onParameter, this),
-      node_.subscribe("hand_target", kQueue, &Services::onHandTarget, this),
+      node_.subscribe("hand_target", kRequestQueue, &Services::onHandTarget, this),
       node_.subscribe("end_effectors", 1, &Services::onEndEffectors, this),
       safety_node_.subscribe("emergency_stop", 1, &Services::onEmergencyTopic, this),
-      safety_node_.subscribe("presence", kQueue, &Services::onPresence, this),
+      safety_node_.subscribe("presence", kRequestQueue, &Services::onPresence, this),
   };
   constexpr bool kOnce = true;
   first_load_ = loading_node_.createWallTimer(
@@ -199,7 +199,7 @@ void Services::onPresence(const ::ros::MessageEvent<const std_msgs::Bool>& prese
     operator_.tellPresence(present.getMessage()->data != 0U);
     return;
   }
-  ROS_WARN_STREAM_THROTTLE(kLogPeriodS,
+  ROS_WARN_STREAM_THROTTLE(kRefusalPeriodS,
                            "presence: " << present.getPublisherName() << " is not heard, for "
                                         << presence_owner_.name()
                                         << " holds the switch; when that is silent, recover "

@@ -19,9 +19,9 @@ constexpr Size kKeySize{0.10, 0.012, 0.012};
 constexpr Size kBowSize{0.60, 0.010, 0.010};
 constexpr double kStickWidthM = 0.012;
 constexpr double kBallWidthM = 0.04;
-constexpr double kPointWidthM = 0.012;
+constexpr double kContactWidthM = 0.012;
 
-Marker markerOf(const std::string& frame, int id, int type, const Size& size) {
+Marker shapeMarker(const std::string& frame, int id, int type, const Size& size) {
   Marker marker;
   marker.header.frame_id = frame;
   marker.frame_locked = 1U;  // between two messages it moves with its frame
@@ -41,7 +41,7 @@ Marker markerOf(const std::string& frame, int id, int type, const Size& size) {
 }
 
 Marker sphereAt(const std::string& frame, int id, const Eigen::Vector3d& centre, double width) {
-  Marker sphere = markerOf(frame, id, Marker::SPHERE, {width, width, width});
+  Marker sphere = shapeMarker(frame, id, Marker::SPHERE, {width, width, width});
   sphere.pose.position.x = centre.x();
   sphere.pose.position.y = centre.y();
   sphere.pose.position.z = centre.z();
@@ -51,14 +51,14 @@ Marker sphereAt(const std::string& frame, int id, const Eigen::Vector3d& centre,
 void addShape(const tgr::EndEffectorConfig& config, std::vector<Marker>& markers) {
   switch (config.type) {
     case tgr::EndEffectorType::kKey:
-      markers.push_back(markerOf(config.name, 0, Marker::CUBE, kKeySize));
+      markers.push_back(shapeMarker(config.name, 0, Marker::CUBE, kKeySize));
       break;
     case tgr::EndEffectorType::kBow:
-      markers.push_back(markerOf(config.name, 0, Marker::CUBE, kBowSize));
+      markers.push_back(shapeMarker(config.name, 0, Marker::CUBE, kBowSize));
       break;
     case tgr::EndEffectorType::kStick:  // from its pivot to its tip
-      markers.push_back(
-          markerOf(config.name, 0, Marker::CYLINDER, {kStickWidthM, kStickWidthM, config.length}));
+      markers.push_back(shapeMarker(config.name, 0, Marker::CYLINDER,
+                                    {kStickWidthM, kStickWidthM, config.length}));
       markers.back().pose.position.z = 0.5 * config.length;
       break;
     case tgr::EndEffectorType::kBall:
@@ -66,10 +66,11 @@ void addShape(const tgr::EndEffectorConfig& config, std::vector<Marker>& markers
       break;
     case tgr::EndEffectorType::kHandle: {
       const double width = 2.0 * config.platform_radius;
-      markers.push_back(markerOf(config.name, 0, Marker::CYLINDER, {width, width, kPointWidthM}));
+      markers.push_back(
+          shapeMarker(config.name, 0, Marker::CYLINDER, {width, width, kContactWidthM}));
       for (const Eigen::Vector3d& point : config.points) {
         const int id = static_cast<int>(markers.size());
-        markers.push_back(sphereAt(config.name, id, point, kPointWidthM));
+        markers.push_back(sphereAt(config.name, id, point, kContactWidthM));
       }
       break;
     }

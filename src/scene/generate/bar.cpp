@@ -5,8 +5,9 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
+#include "algebra/decompositions.hpp"
 #include "at.hpp"
 #include "scene/generate/bend.hpp"
 #include "scene/generate/generated.hpp"
@@ -47,9 +48,7 @@ Eigen::VectorXd logRatios(int masses, const BarProfile& profile, Eigen::Index co
       bends(i - 1, i + k) = weights[k + 1] / roots(i + k);
     }
   }
-  const Eigen::MatrixXd matrix = bends.transpose() * bends;
-  const Eigen::VectorXd values =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd values = algebra::symmetricEigenvalues(bends.transpose() * bends);
   return 0.5 * (values.segment(3, count).array() / values(2)).log();
 }
 
@@ -132,7 +131,7 @@ BarProfile tunedProfile(int masses, const std::vector<double>& ratios) {
       slopes.col(k) = (error(x + step) - error(x - step)) / (2.0 * kStep);
     }
     Eigen::Vector2d step = Eigen::Vector2d::Zero();
-    step.head(count) = -slopes.partialPivLu().solve(now);
+    step.head(count) = -algebra::solve(slopes, now);
     double share = std::min(1.0, 0.2 / step.norm());
     const auto fits = [&](double part) {
       const Eigen::Vector2d there = x + part * step;

@@ -7,13 +7,13 @@
 #include <numeric>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCore>
 #include <Spectra/MatOp/SparseSymMatProd.h>
 #include <Spectra/MatOp/SparseSymShiftSolve.h>
 #include <Spectra/SymEigsShiftSolver.h>
 #include <Spectra/SymEigsSolver.h>
 
+#include "algebra/decompositions.hpp"
 #include "at.hpp"
 
 namespace ergotic::scene {
@@ -73,8 +73,8 @@ struct Vectors {
 };
 
 Vectors denseVectors(const Eigen::SparseMatrix<double>& matrix, int count) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(matrix)};
-  return {solver.eigenvectors().leftCols(count), solver.eigenvectors().rightCols(1)};
+  const Eigen::MatrixXd vectors = algebra::symmetricModes(Eigen::MatrixXd(matrix)).vectors;
+  return {vectors.leftCols(count), vectors.rightCols(1)};
 }
 
 Vectors sparseVectors(const Eigen::SparseMatrix<double>& matrix, int count) {

@@ -13,10 +13,6 @@ namespace {
 
 constexpr std::size_t kFew = 16;  // keys that are looked through
 
-Node scalar(std::string text, Place place) {
-  return {Node::Kind::kScalar, place, std::move(text)};
-}
-
 /// The keys of a map, however many.
 class Keys {
  public:
@@ -45,7 +41,7 @@ void Expander::writeElement(const std::string& part,
   std::string own;
   if (name != nullptr) {
     own = frame.prefix + writer_.word(*name, frame, scope);
-    to.add(scalar(own, writer_.placeIn(*name, frame)));
+    to.add(Node::scalar(own, writer_.placeIn(*name, frame)));
   }
   Node result = written(element, frame, scope);
   const Node* const said = name == nullptr ? result.find("name") : nullptr;
@@ -68,7 +64,7 @@ void Expander::set(const std::string& name, Node& element) {
       }
     }
     if (!is_there && element.isMap()) {
-      element.add(scalar(key, value->place()));
+      element.add(Node::scalar(key, value->place()));
       element.add(std::move(given));
     }
   }
@@ -95,7 +91,7 @@ void Expander::addKey(
                        : writer_.write(value, frame, scope, Writer::isReference(word));
   given = word == "section" ? Writer::sectionOf(std::move(given), frame) : given;
   const bool is_own = !frame.prefix.empty() && (word == "name" || word == "tank");
-  to.add(is_own && given.isScalar() ? scalar(frame.prefix + given.text(), given.place())
+  to.add(is_own && given.isScalar() ? Node::scalar(frame.prefix + given.text(), given.place())
                                     : std::move(given));
 }
 
@@ -147,7 +143,7 @@ void Expander::resolve(Node& node, bool is_reference) {
     }
     const auto found = public_.find(node.text().substr(0, end));
     if (found != public_.end()) {
-      node = scalar(found->second + node.text().substr(end), node.place());
+      node = Node::scalar(found->second + node.text().substr(end), node.place());
     }
     return;
   }
@@ -179,9 +175,9 @@ void Expander::resolvePattern(Node& node) {
             [](const auto* a, const auto* b) { return isBefore(a->first, b->first); });
   Node list(Node::Kind::kList, node.place());
   for (const auto* const entry : meant) {
-    list.add(scalar(entry->second + rest, node.place()));
+    list.add(Node::scalar(entry->second + rest, node.place()));
   }
-  list.add(scalar(node.text(), node.place()));
+  list.add(Node::scalar(node.text(), node.place()));
   writer_.countAll(list, node, frame_);
   node = std::move(list);
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/language/expand.hpp"
 
-#include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "scene/language/expander.hpp"
@@ -12,11 +10,6 @@ namespace ergotic::scene {
 namespace {
 
 constexpr const char* kOfReaders[] = {"name", "about"};  // their words are their own
-
-template <class List>
-bool contains(const List& list, const std::string& word) {
-  return std::find(std::begin(list), std::end(list), word) != std::end(list);
-}
 
 bool isFileOfSpeakers(const Node& key, const Node& value) {
   return key.text() == "speakers" && value.isMap();

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/language/expander.hpp"
 
-#include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "scene/language/language_keys.hpp"
@@ -16,17 +14,8 @@ constexpr const char* kTruths = "truths";
 constexpr const char* kParts[] = {"sections", "mats",   "generators", "lias",  "agents",
                                   "ports",    "inputs", "outputs",    "truths"};
 
-template <class List>
-bool contains(const List& list, const std::string& word) {
-  return std::find(std::begin(list), std::end(list), word) != std::end(list);
-}
-
 std::string headOf(const std::string& name) {
   return name.substr(0, name.find('.'));
-}
-
-Node scalar(std::string text, Place place) {
-  return {Node::Kind::kScalar, place, std::move(text)};
 }
 
 }  // namespace
@@ -64,7 +53,7 @@ Node Expander::run(const Node& scene, const std::string& variant) {
     const auto found = parts_.find(part);
     if (found != parts_.end()) {
       resolve(found->second, false);
-      result.add(scalar(part, found->second.place()));
+      result.add(Node::scalar(part, found->second.place()));
       result.add(std::move(found->second));
     }
   }

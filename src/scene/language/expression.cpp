@@ -16,7 +16,7 @@
 namespace ergotic::scene {
 namespace {
 
-constexpr int kDeepest = 100;
+constexpr int kDeepestExpression = 100;
 constexpr std::size_t kLongest = 4096;
 
 constexpr const char* kNote = "note";
@@ -101,7 +101,7 @@ class Parser {
   }
 
   Constant choice() {
-    if (++depth_ > kDeepest) {
+    if (++depth_ > kDeepestExpression) {
       fail("it is nested too deeply");
     }
     Constant value = comparison();
@@ -201,7 +201,7 @@ class Parser {
     if (!takes("^")) {
       return base;
     }
-    if (++depth_ > kDeepest) {
+    if (++depth_ > kDeepestExpression) {
       fail("it is nested too deeply");
     }
     const double exponent = bare(sign(), "an exponent");

@@ -15,7 +15,7 @@
 namespace ergotic::scene {
 namespace {
 
-constexpr int kDeepest = 16;
+constexpr int kDeepestInstance = 16;
 constexpr std::size_t kNodesOfInstance = 8;  // that take as long
 
 /// Whose number it is, as in `[30, 5000]`, `[1 mm, 1 m]`.
@@ -57,9 +57,10 @@ void Expander::writeInstance(const Node& use, const Frame& frame, const Scope& s
   const std::string is = writer_.word(map.at("is"), frame, scope);
   const std::string as = writer_.word(map.at("as"), frame, scope);
   const Definition& definition = library_.definition(map.at("is"), is, frame);
-  if (frame.depth == kDeepest) {
-    writer_.fail(use, frame,
-                 "definitions use one another more than " + std::to_string(kDeepest) + " deep");
+  if (frame.depth == kDeepestInstance) {
+    writer_.fail(
+        use, frame,
+        "definitions use one another more than " + std::to_string(kDeepestInstance) + " deep");
   }
   writer_.count(use, frame, kNodesOfInstance);
   Frame inner;

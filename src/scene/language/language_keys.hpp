@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -16,5 +18,11 @@ const std::vector<std::string>& instanceKeys();
 /// Of what a definition takes.
 const std::vector<std::string>& parameterSpecKeys();
 const std::vector<std::string>& variantKeys();
+
+/// Whether a word is one of a list.
+template <class List>
+bool contains(const List& list, const std::string& word) {
+  return std::find(std::begin(list), std::end(list), word) != std::end(list);
+}
 
 }  // namespace ergotic::scene

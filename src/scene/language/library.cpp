@@ -16,7 +16,7 @@
 namespace ergotic::scene {
 namespace {
 
-constexpr int kDeepest = 16;
+constexpr int kDeepestInclude = 16;
 
 /// The same tree, of another text.
 void setOrigin(Node& node, int origin) {
@@ -80,9 +80,9 @@ void Library::readFile(const Node& name, Frame& frame) {
     return;
   }
   included_.push_back(real);
-  if (++depth_ > kDeepest) {
-    builder_.fail(place,
-                  "files include one another more than " + std::to_string(kDeepest) + " deep");
+  if (++depth_ > kDeepestInclude) {
+    builder_.fail(
+        place, "files include one another more than " + std::to_string(kDeepestInclude) + " deep");
   }
   const std::string text = readNear(builder_, path, kMaxTextBytes, "", place);
   checkBytes(text, path, Bytes::kUtf8);

@@ -2,10 +2,10 @@
 #include "scene/language/pose.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <optional>
 #include <vector>
 
+#include "scene/language/language_keys.hpp"
 #include "scene/limits.hpp"
 #include "scene/text/number.hpp"
 #include "scene/text/quantity.hpp"
@@ -17,11 +17,6 @@ namespace {
 constexpr const char* kSheets[] = {"mesh", "membrane", "plate"};  // along the axes of their section
 constexpr const char* kSpot[] = {"mesh", "membrane", "plate",
                                  "resonator"};  // have one place, 0 if none
-
-template <class List>
-bool contains(const List& list, const std::string& word) {
-  return std::find(std::begin(list), std::end(list), word) != std::end(list);
-}
 
 std::vector<double> numbersOf(const SceneBuilder& builder,
                               const Node& node,

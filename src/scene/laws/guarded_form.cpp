@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constants.hpp"
 #include "scene/laws/law.hpp"
 #include "scene/laws/table_ends.hpp"
 
@@ -213,7 +214,6 @@ ERGOTIC_REALTIME Real GuardedLaw<Real>::meanPush(Real p, Real w) const noexcept 
 template <class Real>
 ERGOTIC_REALTIME Real
 damperRestitution(const GuardedLaw<Real>&, Real z, Real slope, Real give, Real) noexcept {
-  constexpr double kPi = 3.14159265358979323846;
   const Real r = z * std::sqrt(give / slope) / Real(2);
   return r < Real(1) ? std::exp(-static_cast<Real>(kPi) * r / std::sqrt(Real(1) - r * r)) : Real(0);
 }

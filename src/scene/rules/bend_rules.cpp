@@ -13,16 +13,12 @@ namespace {
 
 constexpr double kMostWeight = 8.0;
 
-const Mat& matAt(const Scene& scene, const Bend::End& end) {
+const Mat& endMat(const Scene& scene, const Bend::End& end) {
   return scene.mats[static_cast<std::size_t>(end.mat)];
 }
 
 Geometry geometryOf(const Scene& scene, const Bend& bend) {
-  return scene.sectionOf(matAt(scene, bend.ends.front())).geometry;
-}
-
-bool isModule(const Mat& mat) {
-  return mat.type == MatType::kMass || mat.type == MatType::kCell || mat.type == MatType::kGround;
+  return scene.sectionOf(endMat(scene, bend.ends.front())).geometry;
 }
 
 std::string numberFault(const Scene& scene, const Bend& bend) {
@@ -75,8 +71,8 @@ std::string endsFault(const Scene& scene, const Bend& bend) {
     return link + " has " + std::to_string(bend.ends.size()) + " ends, allowed: 3...5";
   }
   for (auto end = bend.ends.begin(); end != bend.ends.end(); ++end) {
-    const Mat& mat = matAt(scene, *end);
-    if (!isModule(mat) || mat.section != matAt(scene, bend.ends.front()).section) {
+    const Mat& mat = endMat(scene, *end);
+    if (!isModule(mat) || mat.section != endMat(scene, bend.ends.front()).section) {
       return link + " ends on module " + quoted(mat.name) +
              ", allowed: masses, cells and grounds of one section";
     }

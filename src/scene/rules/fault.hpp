@@ -13,4 +13,9 @@ struct Fault {
   std::string text;
 };
 
+/// Whether it is a body of the model, and not a tap or another point without mass.
+inline bool isModule(const Mat& mat) {
+  return mat.type == MatType::kMass || mat.type == MatType::kCell || mat.type == MatType::kGround;
+}
+
 }  // namespace ergotic::scene

@@ -5,38 +5,35 @@
 #include <unordered_set>
 #include <vector>
 
+#include "at.hpp"
 #include "scene/limits.hpp"
 #include "scene/names.hpp"
 
 namespace ergotic::scene {
 namespace {
 
-const Mat& matAt(const Scene& scene, int mat) {
-  return scene.mats[static_cast<std::size_t>(mat)];
-}
-
-bool isModule(const Scene& scene, int mat) {
+bool exists(const Scene& scene, int mat) {
   return mat >= 0 && static_cast<std::size_t>(mat) < scene.mats.size();
 }
 
-std::optional<Fault> faultOf(const Scene& scene, const Tap& tap) {
-  if (!isModule(scene, tap.mat) || matAt(scene, tap.mat).type != MatType::kPoint) {
+std::optional<Fault> faultOfTap(const Scene& scene, const Tap& tap) {
+  if (!exists(scene, tap.mat) || scene.mats[at(tap.mat)].type != MatType::kPoint) {
     return Fault{tap.place, "a tap is no point"};
   }
-  const std::string who = "tap " + quoted(matAt(scene, tap.mat).name) + " ";
+  const std::string who = "tap " + quoted(scene.mats[at(tap.mat)].name) + " ";
   std::unordered_set<int> known;
   bool counts = false;
   for (const Tap::Share& share : tap.shares) {
-    if (!isModule(scene, share.mat)) {
+    if (!exists(scene, share.mat)) {
       return Fault{tap.place, who + "lies on module " + std::to_string(share.mat) + ", there are " +
                                   std::to_string(scene.mats.size())};
     }
-    const std::string reason = reasonAgainstTap(scene, matAt(scene, tap.mat).section, share.mat);
+    const std::string reason = reasonAgainstTap(scene, scene.mats[at(tap.mat)].section, share.mat);
     if (!reason.empty()) {
       return Fault{tap.place, who + reason};
     }
     if (!known.insert(share.mat).second) {
-      return Fault{tap.place, who + "lies on module " + quoted(matAt(scene, share.mat).name) +
+      return Fault{tap.place, who + "lies on module " + quoted(scene.mats[at(share.mat)].name) +
                                   " twice, allowed: once"};
     }
     if (!kWeightLimits.hold(share.weight)) {
@@ -53,7 +50,7 @@ std::optional<Fault> faultOf(const Scene& scene, const Tap& tap) {
 }  // namespace
 
 std::string reasonAgainstTap(const Scene& scene, int section, int mat) {
-  const Mat& m = matAt(scene, mat);
+  const Mat& m = scene.mats[at(mat)];
   if (m.type != MatType::kMass && m.type != MatType::kCell && m.type != MatType::kGround) {
     return "lies on " + quoted(m.name) + ", allowed: masses, cells and grounds";
   }
@@ -71,7 +68,7 @@ std::optional<Fault> misplacedPoint(const Scene& scene) {
     ++found[static_cast<std::size_t>(connection.mat)];
   }
   for (const Tap& tap : scene.taps) {
-    if (const std::optional<Fault> fault = faultOf(scene, tap)) {
+    if (const std::optional<Fault> fault = faultOfTap(scene, tap)) {
       return fault;
     }
     ++found[static_cast<std::size_t>(tap.mat)];

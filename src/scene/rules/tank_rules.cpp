@@ -14,10 +14,6 @@
 namespace ergotic::scene {
 namespace {
 
-bool isModule(const Mat& mat) {
-  return mat.type == MatType::kMass || mat.type == MatType::kCell || mat.type == MatType::kGround;
-}
-
 /// Whether what it is tuned to follows a parameter.
 bool isTunedByParameter(const Scene& scene, int spring) {
   return std::any_of(scene.strings.begin(), scene.strings.end(), [&](const StringInfo& string) {

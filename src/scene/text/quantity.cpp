@@ -7,12 +7,11 @@
 #include <iterator>
 #include <optional>
 
+#include "constants.hpp"
 #include "scene/text/number.hpp"
 
 namespace ergotic::scene {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kMostPower = 4;
 constexpr int kTwelve = 12;
 

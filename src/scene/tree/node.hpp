@@ -19,6 +19,10 @@ class Node {
   Node(Kind kind, Place place, std::string text = {})
       : kind_(kind), place_(place), text_(std::move(text)) {}
 
+  static Node scalar(std::string text, Place place) {
+    return {Kind::kScalar, place, std::move(text)};
+  }
+
   Kind kind() const noexcept { return kind_; }
   bool isNull() const noexcept { return kind_ == Kind::kNull; }
   bool isScalar() const noexcept { return kind_ == Kind::kScalar; }

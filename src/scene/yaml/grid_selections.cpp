@@ -6,6 +6,7 @@
 #include <functional>
 #include <set>
 
+#include "constants.hpp"
 #include "scene/limits.hpp"
 #include "scene/text/number.hpp"
 #include "scene/text/quantity.hpp"
@@ -13,8 +14,6 @@
 
 namespace ergotic::scene {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 constexpr Limits kRingLimits{"", 1.0, 1000.0};
 constexpr double kRounding = 1e-9;  ///< of a spacing: what lies on an edge is within
 

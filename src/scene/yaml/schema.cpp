@@ -191,7 +191,7 @@ KeyNames withElementKeys(KeyNames keys) {
 }
 
 /// Elements of a part, by name; each may be a table of many.
-std::string named(const std::string& element) {
+std::string namedElements(const std::string& element) {
   return R"({"type": "object", "additionalProperties": {"anyOf": [)" + reference("table") + ", " +
          reference(element) + "]}}";
 }
@@ -202,10 +202,10 @@ std::string listed(const std::string& element) {
 
 /// Parts that scenes and definitions have.
 std::map<std::string, std::string> parts() {
-  return {{"mats", named("mat")},       {"generators", listed("generator")},
-          {"lias", named("lia")},       {"agents", named("agent")},
-          {"ports", named("port")},     {"inputs", named("input")},
-          {"outputs", named("output")}, {"use", listed("instance")}};
+  return {{"mats", namedElements("mat")},       {"generators", listed("generator")},
+          {"lias", namedElements("lia")},       {"agents", namedElements("agent")},
+          {"ports", namedElements("port")},     {"inputs", namedElements("input")},
+          {"outputs", namedElements("output")}, {"use", listed("instance")}};
 }
 
 /// An element whose type decides which keys it has. One whose type is an expression may have any.

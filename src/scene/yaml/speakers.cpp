@@ -6,12 +6,11 @@
 #include <iterator>
 #include <utility>
 
+#include "constants.hpp"
 #include "scene/limits.hpp"
 
 namespace ergotic::scene {
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr std::size_t kMostSpeakers = 64;
 constexpr double kSame = 1e-6;  // between unit vectors
 constexpr Limits kElevationLimits{"rad", -90.0 * kDegree, 90.0 * kDegree};

@@ -10,13 +10,13 @@
 namespace ergotic::scene {
 namespace {
 
-void refuse(const YamlMap& map, const std::string& key, const std::string& fault) {
+void refuseBend(const YamlMap& map, const std::string& key, const std::string& fault) {
   if (!fault.empty()) {
     map.fail(key, fault);
   }
 }
 
-void readEnds(const SceneBuilder& builder, const YamlMap& map, Bend& bend) {
+void readBendEnds(const SceneBuilder& builder, const YamlMap& map, Bend& bend) {
   const Node& ends = map.at("between");
   if (!ends.isList()) {
     map.fail("between", "'between' of " + map.what() + " is " + kindOf(ends) +
@@ -27,7 +27,7 @@ void readEnds(const SceneBuilder& builder, const YamlMap& map, Bend& bend) {
     const std::string name = wordOf(builder, end, "an end of " + map.what(), place);
     bend.ends.push_back({builder.mat(name, place), 0.0});
   }
-  refuse(map, "between", endsFault(builder.scene(), bend));
+  refuseBend(map, "between", endsFault(builder.scene(), bend));
 }
 
 }  // namespace
@@ -37,18 +37,18 @@ void readBend(SceneBuilder& builder, const std::string& name, const YamlMap& map
   Bend bend;
   bend.name = name;
   bend.place = map.place();
-  readEnds(builder, map, bend);
+  readBendEnds(builder, map, bend);
   const std::vector<double> weights =
       map.numbers("weights", bend.ends.size(), bend.ends.size(), {});
   for (std::size_t i = 0; i < weights.size(); ++i) {
     bend.ends[i].weight = weights[i];
   }
-  refuse(map, "weights", weightsFault(bend));
+  refuseBend(map, "weights", weightsFault(bend));
   bend.stiffness = map.value("stiffness", kStiffnessLimits);
   bend.damping = map.value("damping", kDampingLimits, {});
-  refuse(map, "damping", dampingFault(builder.scene(), bend));
+  refuseBend(map, "damping", dampingFault(builder.scene(), bend));
   bend.rest_length = map.number("rest_length", kMetreLimits, 0.0);
-  refuse(map, "rest_length", restFault(builder.scene(), bend));
+  refuseBend(map, "rest_length", restFault(builder.scene(), bend));
   addBend(builder, std::move(bend));
 }
 

@@ -26,10 +26,10 @@ struct Beside {
   PointFiles& files;
 };
 
-using Reader = void (*)(SceneBuilder& builder,
-                        const std::string& name,
-                        const YamlMap& map,
-                        Beside& beside);
+using GeneratorReader = void (*)(SceneBuilder& builder,
+                                 const std::string& name,
+                                 const YamlMap& map,
+                                 Beside& beside);
 
 /// Of one that reads nothing else.
 template <void (*read)(SceneBuilder& builder, const std::string& name, const YamlMap& map)>
@@ -51,7 +51,7 @@ void withFiles(SceneBuilder& builder, const std::string& name, const YamlMap& ma
 /// All generators, a row each.
 struct Generator {
   const char* type;
-  Reader read;
+  GeneratorReader read;
   KeyNames (*keys)();    ///< for the schema
   bool is_late = false;  ///< read when all bodies are there, those of instances, too
 };

@@ -32,7 +32,7 @@ const std::vector<MatKind>& matKinds() {
   return kKinds;
 }
 
-const MatKind& kindOf(const YamlMap& map) {
+const MatKind& moduleKind(const YamlMap& map) {
   static const auto kWords = [] {
     std::vector<std::string> words;
     for (const MatKind& each : matKinds()) {
@@ -43,7 +43,7 @@ const MatKind& kindOf(const YamlMap& map) {
   return matKinds()[map.choice("type", kWords)];
 }
 
-KeyNames keysOf(const MatKind& kind) {
+KeyNames moduleKeys(const MatKind& kind) {
   KeyNames keys = {"type", "section"};
   keys.insert(keys.end(), kind.keys.begin(), kind.keys.end());
   keys.insert(keys.end(), kind.scalar_keys.begin(), kind.scalar_keys.end());
@@ -73,8 +73,8 @@ void readPlaces(const SceneBuilder& builder, const YamlMap& map, const MatKind& 
 }
 
 Mat readMat(const SceneBuilder& builder, const std::string& name, const YamlMap& map) {
-  const MatKind& kind = kindOf(map);
-  map.allow(keysOf(kind));
+  const MatKind& kind = moduleKind(map);
+  map.allow(moduleKeys(kind));
   Mat mat;
   mat.name = name;
   mat.type = kind.type;
@@ -148,14 +148,14 @@ void refuseSection(const SceneBuilder& builder, const YamlMap& map) {
 KeysOfTypes keysOfMats() {
   KeysOfTypes all;
   for (const MatKind& kind : matKinds()) {
-    all.emplace_back(kind.name, keysOf(kind));
+    all.emplace_back(kind.name, moduleKeys(kind));
   }
   return all;
 }
 
 void readMats(SceneBuilder& builder, const YamlMap& top) {
   forEachElement(builder, top, "mats", "module", [&](const std::string& name, const YamlMap& map) {
-    if (kindOf(map).type != MatType::kPoint) {
+    if (moduleKind(map).type != MatType::kPoint) {
       builder.add(readMat(builder, name, map));
     }
   });
@@ -163,9 +163,9 @@ void readMats(SceneBuilder& builder, const YamlMap& top) {
 
 void readPoints(SceneBuilder& builder, const YamlMap& top) {
   forEachElement(builder, top, "mats", "module", [&](const std::string& name, const YamlMap& map) {
-    const MatKind& kind = kindOf(map);
+    const MatKind& kind = moduleKind(map);
     if (kind.type == MatType::kPoint) {
-      map.allow(keysOf(kind));
+      map.allow(moduleKeys(kind));
       refuseSection(builder, map);
       (map.word("type") == "tap" ? readTap : readPoint)(builder, name, map);
     }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "constants.hpp"
 #include "ergotic/scene/grid.hpp"
 #include "scene/text/number.hpp"
 #include "scene/yaml/points.hpp"
@@ -16,8 +17,6 @@
 namespace ergotic::scene {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
-
 /// A place, and whether the output is of many.
 struct Heard {
   std::vector<Point> points;
@@ -25,7 +24,7 @@ struct Heard {
 };
 
 /// A module; a place on a string, between two of its modules; a point on a mesh; or many of these.
-Heard readPlaces(SceneBuilder& builder, const YamlMap& map) {
+Heard readHeardPlaces(SceneBuilder& builder, const YamlMap& map) {
   const Place place = map.placeAt("at");
   const Node& node = map.at("at");
   if (node.isScalar() && !isSelection(node.text()) && node.text().find('@') != std::string::npos) {
@@ -167,7 +166,7 @@ class OutputReader {
       builder_.fail(map.place(), map.what() + (ways == 0 ? " goes nowhere" : " goes two ways") +
                                      ", allowed: 'channel', 'channels', or 'speakers' and 'pan'");
     }
-    const Heard heard = readPlaces(builder_, map);
+    const Heard heard = readHeardPlaces(builder_, map);
     Output output;
     output.place = map.place();
     output.quantity = readQuantity(map, {"position", "force", "velocity"});

@@ -4,13 +4,12 @@
 #include <utility>
 #include <vector>
 
+#include "constants.hpp"
 #include "scene/yaml/yaml_elements.hpp"
 #include "scene/yaml/yaml_keys.hpp"
 
 namespace ergotic::scene {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 Port readPort(const SceneBuilder& builder, const std::string& name, const YamlMap& map) {
   map.allow(portKeys());

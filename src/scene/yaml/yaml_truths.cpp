@@ -70,9 +70,9 @@ int named(const YamlMap& map, const std::vector<Item>& list, const std::string& 
   map.fail("of", "no " + kind + " has the name " + quoted(name) + suggestion(name, names));
 }
 
-class Reader {
+class TruthReader {
  public:
-  Reader(const SceneBuilder& builder, const YamlMap& map) : builder_(builder), map_(map) {}
+  TruthReader(const SceneBuilder& builder, const YamlMap& map) : builder_(builder), map_(map) {}
 
   Truth run() {
     std::vector<std::string> words;
@@ -329,7 +329,7 @@ std::vector<Truth> truthsOf(const SceneBuilder& builder, const YamlMap& top) {
   }
   for (std::size_t i = 0; i < list.size(); ++i) {
     const YamlMap map(builder, list[i], "truth " + std::to_string(i + 1), top.placeAt("truths", i));
-    truths.push_back(Reader(builder, map).run());
+    truths.push_back(TruthReader(builder, map).run());
   }
   return truths;
 }

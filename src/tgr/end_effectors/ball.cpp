@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 
+#include "constants.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/realtime.hpp"
 #include "scene/limits.hpp"
@@ -14,9 +15,8 @@
 namespace ergotic::tgr {
 namespace {
 
-constexpr int kRods = 3;
+constexpr int kBallRods = 3;
 constexpr double kMostSlender = 20.0;  // rod over its horizontal part, at rest
-constexpr double kPi = 3.14159265358979323846;
 
 /// Unit vectors from the axis to the slices: 90, 210, 330 degrees.
 Eigen::Vector2d directionOf(int rod) {
@@ -31,11 +31,14 @@ Eigen::Vector2d directionOf(int rod) {
 class Ball final : public Kinematics {
  public:
   Ball(double rod, double offset)
-      : Kinematics(kRods, 3), rod_(rod), offset_(offset), rest_(restHeight(rod, std::abs(offset))) {
-    for (int i = 0; i < kRods; ++i) {
+      : Kinematics(kBallRods, 3),
+        rod_(rod),
+        offset_(offset),
+        rest_(restHeight(rod, std::abs(offset))) {
+    for (int i = 0; i < kBallRods; ++i) {
       directions_.col(i) = directionOf(i);
     }
-    const std::array<double, kRods> rest{};
+    const std::array<double, kBallRods> rest{};
     most_gain_ = kMostGain * jacobianAt(rest.data(), {0.0, 0.0, rest_}).norm();
   }
 
@@ -70,9 +73,9 @@ class Ball final : public Kinematics {
     const Eigen::Map<const Eigen::Vector3d> slices(q);
     const double mean = slices.mean();
     const Eigen::Vector3d s = slices.array() - mean;
-    const double mean_square = s.squaredNorm() / kRods;
-    const Eigen::Vector2d a = directions_ * s.cwiseAbs2() / (kRods * offset_);
-    const Eigen::Vector2d b = directions_ * s * (-2.0 / (kRods * offset_));
+    const double mean_square = s.squaredNorm() / kBallRods;
+    const Eigen::Vector2d a = directions_ * s.cwiseAbs2() / (kBallRods * offset_);
+    const Eigen::Vector2d b = directions_ * s * (-2.0 / (kBallRods * offset_));
     const double curvature = 1.0 + b.squaredNorm();
     const double slope = a.dot(b);
     const double constant = a.squaredNorm() + offset_ * offset_ + mean_square - rod_ * rod_;
@@ -84,7 +87,7 @@ class Ball final : public Kinematics {
   /// The rods keep their lengths: l_i (dp - e_z dq_i) = 0.
   Eigen::Matrix3d jacobianAt(const double* q, const Eigen::Vector3d& platform) const noexcept {
     Eigen::Matrix3d rods;
-    for (int i = 0; i < kRods; ++i) {
+    for (int i = 0; i < kBallRods; ++i) {
       rods.row(i) << (platform.head<2>() - offset_ * directions_.col(i)).transpose(),
           platform.z() - q[i];
     }
@@ -95,7 +98,7 @@ class Ball final : public Kinematics {
   double offset_;  ///< d
   double rest_;    ///< height of the platform over slices at rest
   double most_gain_ = 0.0;
-  Eigen::Matrix<double, 2, kRods> directions_;
+  Eigen::Matrix<double, 2, kBallRods> directions_;
 };
 
 }  // namespace

@@ -6,6 +6,8 @@
 
 #include <Eigen/Dense>
 
+#include "algebra/decompositions.hpp"
+#include "constants.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/realtime.hpp"
 #include "scene/limits.hpp"
@@ -25,12 +27,11 @@ using Solver = Eigen::PartialPivLU<Square>;
 using Circle = Eigen::Matrix<double, 3, 6>;
 
 constexpr int kRods = 6;
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kHalfPair =
     kPi / 18.0;  // slices, and ends of rods, stand in pairs 20 degrees wide
 constexpr int kMostIterations = 12;
 constexpr double kConverged = 1e-9;  // last step over rod; the error left is about its square
-constexpr double kCosineOfMostTilt = 0.5;
+constexpr double kCosineOfHandleTilt = 0.5;
 constexpr double kWorstCondition = 30.0;  // at rest; turns count times platform_radius
 constexpr double kThinnest = 0.005;       // m, rms of the points about the line they are nearest to
 
@@ -53,9 +54,7 @@ Circle onCircle(double radius, double (*angle)(int)) {
 
 /// Squares of the singular values, ascending.
 Eigen::VectorXd squaredGains(const Eigen::MatrixXd& matrix) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix.transpose() * matrix,
-                                                        Eigen::EigenvaluesOnly)
-      .eigenvalues();
+  return algebra::symmetricEigenvalues(matrix.transpose() * matrix);
 }
 
 /// A platform, and its rods as they stand.
@@ -175,7 +174,7 @@ class Handle final : public Kinematics {
       if (size <= kConverged * rod_) {
         place(q, stance);
         return stance.rods.row(2).minCoeff() >= kFlattestRod * rod_ &&
-               stance.rotation(2, 2) >= kCosineOfMostTilt;
+               stance.rotation(2, 2) >= kCosineOfHandleTilt;
       }
     }
     return false;

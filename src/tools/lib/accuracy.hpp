@@ -12,6 +12,10 @@
 /// answer is known (docs/physics.md, "Speed against accuracy").
 namespace ergotic::tools {
 
+constexpr double kRateHz = 44100.0;  // of what is played
+constexpr double kPitchHz = 110.0;   // of the strings
+constexpr int kStringMasses = 40;    // of a string that is struck or plucked
+
 /// What playing costs.
 struct PlayCost {
   double cpu_s = 0.0;  ///< thread CPU time per second of sound, median of five runs

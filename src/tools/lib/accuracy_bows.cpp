@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kReferenceHz = 16.0 * 88200.0;
 constexpr double kBowSpeed = 0.2;
-constexpr int kMasses = 60;
+constexpr int kBowedMasses = 60;
 constexpr double kSettled = 1.5;  // s, until the motion repeats itself
 
 /// A bow that nothing brakes, F = N sqrt(2 a) v exp(-a v^2 + 1/2): `a` s^2/m^2, `force` N.
@@ -47,7 +47,8 @@ std::string bowedString() {
   std::ostringstream yaml;
   yaml << "mats:\n"
        << kBow << "generators:\n"
-       << "  - {type: string, name: s, masses: " << kMasses << ", mass: " << 8e-4 / kMasses
+       << "  - {type: string, name: s, masses: " << kBowedMasses
+       << ", mass: " << 8e-4 / kBowedMasses
        << ", frequency: 196, loss: 4.0e-5, damping: 2.0e-3, to: [0.33, 0], "
           "pluck: {at: 0.13, height: "
        << kBowSpeed * (1.0 - 0.13) / (2.0 * 196.0) << "}}\n";
@@ -72,7 +73,7 @@ struct Bowed {
   double guess_hz;
 };
 
-double play(const Bowed& bowed, Experiment& experiment, double rate_hz) {
+double playBow(const Bowed& bowed, Experiment& experiment, double rate_hz) {
   const std::vector<double> sound = experiment.play(kSettled + 0.52)[0];
   return pitchOf(sound, bowed.guess_hz, rate_hz);
 }
@@ -85,7 +86,7 @@ void measureBows(const Sink& sink) {
     const physics::Rates fine{kReferenceHz, 1};
     Experiment reference(bowScene("guarded", bowed.steepness, bowed.force, bowed.scene), fine,
                          physics::Precision::kDouble);
-    const double right_hz = play(bowed, reference, kReferenceHz);
+    const double right_hz = playBow(bowed, reference, kReferenceHz);
     for (const char* scheme : {"explicit", "guarded"}) {
       const std::string yaml = bowScene(scheme, bowed.steepness, bowed.force, bowed.scene);
       for (const double rate_hz : {44100.0, 88200.0, 176400.0}) {
@@ -95,7 +96,7 @@ void measureBows(const Sink& sink) {
         }
         for (const auto precision : {physics::Precision::kFloat, physics::Precision::kDouble}) {
           Experiment experiment(yaml, rates, precision);
-          const double error = cents(play(bowed, experiment, rate_hz), right_hz);
+          const double error = cents(playBow(bowed, experiment, rate_hz), right_hz);
           sink({"bow", "pitch", std::string(bowed.name) + ", " + scheme, precision, rates, 0, 0.0,
                 std::abs(error), "cents", experiment.cost(0.1)});
         }

@@ -11,15 +11,12 @@
 namespace ergotic::tools {
 namespace {
 
-constexpr double kRateHz = 44100.0;
-constexpr double kPitchHz = 110.0;
-constexpr double kSeconds = 0.6;
-constexpr std::size_t kBegin = 2205;  // after the blow
+constexpr double kHammerSeconds = 0.6;
+constexpr std::size_t kAfterBlow = 2205;  // after the blow
 
 constexpr double kHammerKg = 0.005;
-constexpr int kMasses = 40;
 constexpr double kChapletShare = 0.1;  // of the hammer
-constexpr double kSpeed = 1.0;
+constexpr double kHammerSpeed = 1.0;
 constexpr double kWay = 0.004;  // before it touches
 
 /// A felt hammer that is thrown at a string of 0.55 kg/s, 11 ms of contact. Bare or with a chaplet
@@ -28,7 +25,7 @@ constexpr double kWay = 0.004;  // before it touches
 /// rate.
 std::string hammerScene(bool filtered, int ratio) {
   const double early = (ratio - 1) / (2.0 * kRateHz);
-  const double x = -kWay - kSpeed * early;
+  const double x = -kWay - kHammerSpeed * early;
   std::ostringstream yaml;
   yaml.precision(12);
   yaml << "ergotic: 1\n"
@@ -39,11 +36,11 @@ std::string hammerScene(bool filtered, int ratio) {
           "mats:\n"
           "  hammer: {type: mass, section: hand, mass: "
        << kHammerKg * (filtered ? 1.0 - kChapletShare : 1.0) << ", x: " << x << ", rest: " << x
-       << ", v: " << kSpeed
+       << ", v: " << kHammerSpeed
        << "}\n"
           "generators:\n"
           "  - {type: string, name: s, section: string, masses: "
-       << kMasses << ", mass: " << 0.0025 / kMasses << ", frequency: " << kPitchHz
+       << kStringMasses << ", mass: " << 0.0025 / kStringMasses << ", frequency: " << kPitchHz
        << ", loss: 4.0e-5, damping: 0.005, to: [0.65, 0]}\n"
           "  - {type: mesh, name: action, section: hand, rows: 16, columns: 16, spacing: 0.01, "
           "mass: 0.001, stiffness: 100}\n";
@@ -80,8 +77,8 @@ double difference(const std::vector<double>& sound, const std::vector<double>& r
 
 void measureHammers(const Sink& sink) {
   Experiment reference(hammerScene(false, 1), {kRateHz, 1}, physics::Precision::kDouble);
-  std::vector<double> right = reference.play(kSeconds)[0];
-  right.resize(static_cast<std::size_t>(kSeconds * kRateHz));
+  std::vector<double> right = reference.play(kHammerSeconds)[0];
+  right.resize(static_cast<std::size_t>(kHammerSeconds * kRateHz));
   for (const bool filtered : {false, true}) {
     for (const int ratio : {1, 2, 4, 7, 14, 28, 44}) {
       if (filtered && ratio < scene::kChapletC2LowestRatio) {
@@ -93,16 +90,16 @@ void measureHammers(const Sink& sink) {
         }
         const physics::Rates rates{kRateHz, ratio};
         Experiment experiment(hammerScene(filtered, ratio), rates, precision);
-        const std::vector<double> sound = experiment.play(kSeconds)[0];
+        const std::vector<double> sound = experiment.play(kHammerSeconds)[0];
         const PlayCost cost = experiment.cost(0.1);
         const auto say = [&](const char* what, double error, const char* unit) {
-          sink({"hammer", what, filtered ? "chaplet" : "bare", precision, rates, kMasses, 2.3,
+          sink({"hammer", what, filtered ? "chaplet" : "bare", precision, rates, kStringMasses, 2.3,
                 error, unit, cost});
         };
         say("whole sound", 100.0 * difference(sound, right), "%");
         say("worst of ten partials",
-            worstPartialDb(sound, right, stringPartials(kMasses, kPitchHz, kRateHz), kRateHz,
-                           kBegin),
+            worstPartialDb(sound, right, stringPartials(kStringMasses, kPitchHz, kRateHz), kRateHz,
+                           kAfterBlow),
             "dB");
       }
     }

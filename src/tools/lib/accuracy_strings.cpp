@@ -10,8 +10,6 @@
 namespace ergotic::tools {
 namespace {
 
-constexpr double kPitchHz = 110.0;
-
 struct Kind {
   const char* family;
   const char* more;  // keys of the generator

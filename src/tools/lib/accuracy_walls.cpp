@@ -12,8 +12,7 @@
 namespace ergotic::tools {
 namespace {
 
-constexpr double kRateHz = 44100.0;
-constexpr double kSeconds = 2.0;
+constexpr double kWallSeconds = 2.0;
 
 /// A slice on a wall that is the edge of a gestural net, beside a string that is heard.
 std::string wallScene(double stiffness) {
@@ -62,7 +61,7 @@ bool calmsDown(double stiffness, const physics::Rates& rates) {
   double x = 0.0;
   double v = 1.0;
   double force = 0.0;
-  const auto ticks = static_cast<int>(kSeconds / t);
+  const auto ticks = static_cast<int>(kWallSeconds / t);
   double energy[2] = {0.0, 0.0};  // of both halves
   for (int n = 0; n < ticks; ++n) {
     const double late = force;

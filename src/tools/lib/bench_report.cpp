@@ -58,7 +58,7 @@ Json buildReport() {
   return {{"compiler", kCompiler}, {"flags", ERGOTIC_FLAGS}, {"build_id", rt::buildId()}};
 }
 
-Json settingsReport(const BenchSettings& settings) {
+Json benchSettings(const BenchSettings& settings) {
   return {{"precision", physics::nameOf(settings.compile.precision)},
           {"isa", rt::nameOf(settings.compile.isa)},
           {"threads", settings.compile.threads},
@@ -140,7 +140,7 @@ Json reportOf(const BenchSettings& settings,
   }
   return {{"machine", machineReport(limits)},
           {"build", buildReport()},
-          {"settings", settingsReport(settings)},
+          {"settings", benchSettings(settings)},
           {"results", std::move(list)}};
 }
 

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <set>
 
+#include "at.hpp"
+
 namespace ergotic::tools {
 namespace {
 
@@ -28,12 +30,9 @@ bool areMany(const Items& items, std::size_t few, const Of& of) {
   return false;
 }
 
-const scene::Mat& matAt(const Scene& scene, int index) {
-  return scene.mats[static_cast<std::size_t>(index)];
-}
-
 bool joinsMasses(const Scene& scene, const scene::Lia& lia) {
-  return matAt(scene, lia.a).type == MatType::kMass && matAt(scene, lia.b).type == MatType::kMass;
+  return scene.mats[at(lia.a)].type == MatType::kMass &&
+         scene.mats[at(lia.b)].type == MatType::kMass;
 }
 
 /// Numbers that belong to one mass or one link alone.
@@ -90,8 +89,8 @@ BenchWork workOf(const Scene& scene, const physics::Rates& rates, physics::Preci
     resident += real * (2 * dimensions + own.of_mass);
   }
   for (const scene::Lia& lia : scene.lias) {
-    const scene::Section& a = scene.sectionOf(matAt(scene, lia.a));
-    const scene::Section& b = scene.sectionOf(matAt(scene, lia.b));
+    const scene::Section& a = scene.sectionOf(scene.mats[at(lia.a)]);
+    const scene::Section& b = scene.sectionOf(scene.mats[at(lia.b)]);
     const double share = 1.0 / std::min(physics::divisorOf(a, rates), physics::divisorOf(b, rates));
     const bool scalar = a.geometry == scene::Geometry::kScalar;
     const bool reaches = own.index && joinsMasses(scene, lia);

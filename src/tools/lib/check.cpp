@@ -11,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "at.hpp"
 #include "ergotic/advice/ranges.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/physics/certificate/certify.hpp"
@@ -42,10 +43,6 @@ using scene::Scene;
 
 constexpr double kQuicklyJudgedS = 0.3;  // CPU time of one verdict, times parameters
 
-const scene::Mat& matAt(const Scene& scene, int index) {
-  return scene.mats[static_cast<std::size_t>(index)];
-}
-
 Json linksOf(const Scene& scene) {
   std::map<std::string, std::size_t> by_type;
   std::map<std::string, std::size_t> by_scheme;
@@ -60,7 +57,7 @@ Json linksOf(const Scene& scene) {
         lia.tank >= 0 && scene.tanks[static_cast<std::size_t>(lia.tank)].is_mean;
     ++by_type[is_stretch ? "stretch" : scene::lawOf(lia.type).name];
     ++by_scheme[lia.scheme == scene::Scheme::kGuarded ? "guarded" : "explicit"];
-    const bool across = matAt(scene, lia.a).section != matAt(scene, lia.b).section;
+    const bool across = scene.mats[at(lia.a)].section != scene.mats[at(lia.b)].section;
     between_sections += across ? 1 : 0;
   }
   if (!scene.bends.empty()) {
@@ -88,7 +85,7 @@ Json parametersOf(const Scene& scene) {
 Json stringsOf(const Scene& scene, const physics::Rates& rates) {
   Json report = Json::array();
   for (const scene::StringInfo& string : scene.strings) {
-    const int index = matAt(scene, string.first).section;
+    const int index = scene.mats[at(string.first)].section;
     const scene::Section& section = scene.sections[static_cast<std::size_t>(index)];
     const double rate_hz = rates.audio_hz / physics::divisorOf(section, rates);
     report.push_back({{"name", string.name},
@@ -107,7 +104,7 @@ std::string sizeText(const Scene& scene) {
   return std::to_string(scene.mats.size() + scene.lias.size()) + " modules and links";
 }
 
-const char* toString(physics::JudgedRange::End end) {
+const char* endName(physics::JudgedRange::End end) {
   return end == physics::JudgedRange::End::kNone      ? "neither end"
          : end == physics::JudgedRange::End::kMinimum ? "minimum"
                                                       : "maximum";
@@ -121,7 +118,7 @@ void addRanges(const Scene& scene,
   const auto judged = physics::judgeRanges(scene, rates, device);
   for (std::size_t p = 0; p < judged.size(); ++p) {
     Json& entry = report["parameters"][p];
-    entry["decides"] = toString(judged[p].decides);
+    entry["decides"] = endName(judged[p].decides);
     if (judged[p].holds) {
       entry["largest_range"] = {judged[p].lowest, judged[p].highest};
     } else {

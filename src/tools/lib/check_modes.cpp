@@ -15,7 +15,7 @@ namespace {
 using physics::SceneMode;
 using physics::SceneModes;
 
-const char* toString(SceneMode::Kind kind) {
+const char* kindName(SceneMode::Kind kind) {
   return kind == SceneMode::Kind::kRings    ? "rings"
          : kind == SceneMode::Kind::kCreeps ? "creeps"
                                             : "grows";
@@ -51,7 +51,7 @@ Json modeReport(const SceneModes& found, std::size_t i, const std::vector<std::s
     entry["t60_s"] = mode.t60_s;
   }
   if (mode.kind != SceneMode::Kind::kRings) {
-    entry["kind"] = toString(mode.kind);
+    entry["kind"] = kindName(mode.kind);
   }
   if (mode.error > 0.0) {
     entry["error"] = mode.error;
@@ -66,10 +66,10 @@ Json modeReport(const SceneModes& found, std::size_t i, const std::vector<std::s
   return entry;
 }
 
-Json reportOn(const SceneModes& found,
-              const scene::Scene& scene,
-              const physics::Rates& rates,
-              const ModesChoice& choice) {
+Json modesReport(const SceneModes& found,
+                 const scene::Scene& scene,
+                 const physics::Rates& rates,
+                 const ModesChoice& choice) {
   Json report = {{"scene", scene.name}, {"audio_rate_hz", rates.audio_hz}};
   Json window = Json::object();
   window["from_hz"] = choice.window.from_hz;
@@ -117,7 +117,7 @@ void writeCsv(const SceneModes& found, const scene::Scene& scene, std::ostream& 
   out << '\n';
   for (std::size_t i = 0; i < found.modes.size(); ++i) {
     const SceneMode& mode = found.modes[i];
-    out << i + 1 << ',' << toString(mode.kind) << ',' << mode.frequency_hz << ',';
+    out << i + 1 << ',' << kindName(mode.kind) << ',' << mode.frequency_hz << ',';
     if (mode.asked >= 0) {
       const physics::AskedPitch& asked = found.asked[static_cast<std::size_t>(mode.asked)];
       out << mode.cents << ',' << asked.body << ' ' << asked.partial;
@@ -167,7 +167,7 @@ void checkModes(const scene::Scene& asked,
   if (!choice.plot.empty()) {
     plot("plot_modes", choice.plot, write);
   }
-  const Json report = reportOn(found, settled, rates, choice);
+  const Json report = modesReport(found, settled, rates, choice);
   tell(report, json);
 }
 

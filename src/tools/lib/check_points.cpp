@@ -3,14 +3,12 @@
 
 #include <utility>
 
+#include "at.hpp"
+
 namespace ergotic::tools {
 namespace {
 
 using scene::Scene;
-
-const scene::Mat& matAt(const Scene& scene, int index) {
-  return scene.mats[static_cast<std::size_t>(index)];
-}
 
 /// What moves a point along, or across.
 void tellWay(const Scene& scene,
@@ -22,7 +20,7 @@ void tellWay(const Scene& scene,
     entry["parameter" + suffix] = scene.parameters[moved_by].name;
   }
   if (way.guide >= 0) {
-    entry["guide" + suffix] = matAt(scene, way.guide).name;
+    entry["guide" + suffix] = scene.mats[at(way.guide)].name;
   }
 }
 
@@ -32,7 +30,7 @@ Json pointsOf(const Scene& scene) {
   Json report = Json::array();
   for (const scene::Connection& point : scene.connections) {
     const scene::Grid& grid = scene.grids[static_cast<std::size_t>(point.grid)];
-    Json entry = {{"name", matAt(scene, point.mat).name},
+    Json entry = {{"name", scene.mats[at(point.mat)].name},
                   {"on", grid.name},
                   {"along", scene.valueOf(point.along.at)}};
     if (grid.rows > 1) {
@@ -43,10 +41,10 @@ Json pointsOf(const Scene& scene) {
     report.push_back(std::move(entry));
   }
   for (const scene::Tap& tap : scene.taps) {
-    Json entry = {{"name", matAt(scene, tap.mat).name}};
+    Json entry = {{"name", scene.mats[at(tap.mat)].name}};
     double mobility = 0.0;
     for (const scene::Tap::Share& share : tap.shares) {
-      const scene::Mat& mat = matAt(scene, share.mat);
+      const scene::Mat& mat = scene.mats[at(share.mat)];
       const bool is_ground = mat.type == scene::MatType::kGround;
       mobility += is_ground ? 0.0 : share.weight * share.weight / scene.valueOf(mat.mass);
       entry["of"].push_back(mat.name);

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "at.hpp"
 #include "scene/limits.hpp"
 #include "scene/names.hpp"
 
@@ -12,10 +13,6 @@ namespace ergotic::tools {
 namespace {
 
 using scene::Scene;
-
-const scene::Mat& matAt(const Scene& scene, int index) {
-  return scene.mats[static_cast<std::size_t>(index)];
-}
 
 /// Inputs or outputs.
 template <class Channel>
@@ -47,7 +44,7 @@ void addHand(const Scene& scene, const scene::Port& port, Json& entry) {
     return lia.a == port.mat || lia.b == port.mat;
   });
   if (hand != scene.lias.end()) {
-    entry["module"] = matAt(scene, hand->a == port.mat ? hand->b : hand->a).name;
+    entry["module"] = scene.mats[at(hand->a == port.mat ? hand->b : hand->a)].name;
     entry["stiffness_n_per_m"] = scene.valueOf(hand->stiffness);
     entry["damping_n_s_per_m"] = scene.valueOf(hand->damping);
   }
@@ -65,11 +62,11 @@ Json portsReport(const Scene& scene,
     const physics::PortCertificate& met = certificate.ports[i];
     const scene::Port& port = scene.ports[static_cast<std::size_t>(met.port)];
     Json entry = {
-        {"name", port.name}, {"module", matAt(scene, port.mat).name}, {"axis", axisOf(port)}};
+        {"name", port.name}, {"module", scene.mats[at(port.mat)].name}, {"axis", axisOf(port)}};
     if (port.slice >= 0) {
       entry["slice"] = port.slice;
     }
-    if (matAt(scene, port.mat).coupling == scene::Coupling::kSmooth) {
+    if (scene.mats[at(port.mat)].coupling == scene::Coupling::kSmooth) {
       entry["coupling"] = "smooth";
     }
     entry["offset_m"] = port.offset;
@@ -117,7 +114,7 @@ std::vector<std::string> refusedPorts(const physics::Certificate& certificate) {
 Json inputsReport(const Scene& scene) {
   Json report = Json::array();
   for (const scene::Input& input : scene.inputs) {
-    report.push_back(channelOf(scene, input, matAt(scene, input.mat)));
+    report.push_back(channelOf(scene, input, scene.mats[at(input.mat)]));
   }
   return report;
 }
@@ -125,7 +122,7 @@ Json inputsReport(const Scene& scene) {
 Json outputsReport(const Scene& scene) {
   Json report = Json::array();
   for (const scene::Output& output : scene.outputs) {
-    report.push_back(channelOf(scene, output, matAt(scene, output.point.mat)));
+    report.push_back(channelOf(scene, output, scene.mats[at(output.point.mat)]));
   }
   return report;
 }

@@ -71,7 +71,7 @@ std::string whileStill(const Scene& scene) {
   return scene.parameters.empty() ? "" : ", as long as its parameters stand still";
 }
 
-std::string adviceOn(const Scene& scene, Verdict verdict, double lowest_rate_hz) {
+std::string adviceOnSection(const Scene& scene, Verdict verdict, double lowest_rate_hz) {
   const auto whole = std::to_string(std::llround(std::ceil(lowest_rate_hz)));
   switch (verdict) {
     case Verdict::kPassive:
@@ -119,7 +119,7 @@ Json stabilityReport(const Scene& scene,
                      const physics::Certificate& certificate) {
   const double lowest_rate_hz = lowestStableAudioRate(scene, rates, certificate);
   return {{"verdict", physics::toString(certificate.verdict)},
-          {"advice", adviceOn(scene, certificate.verdict, lowest_rate_hz)},
+          {"advice", adviceOnSection(scene, certificate.verdict, lowest_rate_hz)},
           {"margin", certificate.margin()},
           {"lowest_stable_audio_rate_hz", lowest_rate_hz},
           {"findings", certificate.findings}};

@@ -10,7 +10,7 @@
 namespace ergotic::tools {
 namespace {
 
-constexpr int kRuns = 20;
+constexpr int kTimedRuns = 20;
 constexpr double kRunNs = 5e6;
 
 double cpuNs() {
@@ -43,7 +43,7 @@ Cost measureCost(physics::Instrument& instrument) {
 
   Cost cost;
   cost.tick_ns = timeTicks(instrument, io, 10);  // warms up
-  for (int run = 0; run < kRuns; ++run) {
+  for (int run = 0; run < kTimedRuns; ++run) {
     const int ticks = static_cast<int>(std::clamp(kRunNs / cost.tick_ns, 1.0, 1e6));
     cost.tick_ns = std::min(cost.tick_ns, timeTicks(instrument, io, ticks));
   }

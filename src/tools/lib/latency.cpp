@@ -34,7 +34,7 @@ scene::Scene plateOfAtLeast(int modules) {
   }
 }
 
-scene::Scene sceneOf(const LatencyOptions& options) {
+scene::Scene latencyScene(const LatencyOptions& options) {
   if (options.scene.empty()) {
     return plateOfAtLeast(options.modules);
   }
@@ -44,7 +44,7 @@ scene::Scene sceneOf(const LatencyOptions& options) {
 }
 
 std::unique_ptr<station::Performer> performerOf(const LatencyOptions& options) {
-  scene::Scene scene = sceneOf(options);
+  scene::Scene scene = latencyScene(options);
   const physics::Rates rates =
       physics::chooseRates(scene, options.rate_hz, options.rate_hz / options.ratio);
   station::PerformerPolicy policy;

@@ -3,21 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <string>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
+#include "constants.hpp"
 #include "ergotic/exception.hpp"
 
 namespace ergotic::tools {
 namespace {
 
 using Complex = std::complex<double>;
-
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kLobe = 4.0;            // half width of the main lobe of the window, of 1/length
 constexpr double kBand = 1.0 / 9.0;      // of a frequency: two semitones
 constexpr std::size_t kMostPoles = 360;  // samples of a band from which poles are taken

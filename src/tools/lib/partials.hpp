@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "constants.hpp"
+
 namespace ergotic::tools {
 
 /// A partial of a sound.
@@ -22,7 +24,6 @@ inline Partial partialAt(const std::vector<double>& sound,
                          double guess_hz,
                          double rate_hz,
                          std::size_t begin = 0) {
-  constexpr double kPi = 3.14159265358979323846;
   constexpr std::size_t kLater = 100;
   const auto length = static_cast<std::size_t>(rate_hz / 2.0);
   const double omega = 2.0 * kPi * guess_hz / rate_hz;

@@ -30,7 +30,7 @@ Json valueOf(const Scene& scene, const scene::Value& value) {
   return {{"parameter", scene.parameters[at(value.parameter)].name}, {"times", value.factor}};
 }
 
-Json parametersOf(const Scene& scene) {
+Json provenParameters(const Scene& scene) {
   Json all = Json::array();
   for (const scene::Parameter& parameter : scene.parameters) {
     all.push_back({{"name", parameter.name}, {"range", {parameter.minimum, parameter.maximum}}});
@@ -51,7 +51,7 @@ Json axesOf(const scene::Section& section) {
 }
 
 /// \param frame  one of audio, in time units
-Json sectionsOf(const Scene& scene, const physics::Rates& rates, double frame) {
+Json provenSections(const Scene& scene, const physics::Rates& rates, double frame) {
   Json all = Json::array();
   const bool is_turned = std::any_of(
       scene.sections.begin(), scene.sections.end(),
@@ -87,7 +87,7 @@ Json moduleOf(const Scene& scene, const scene::Mat& mat) {
   return module;
 }
 
-Json modulesOf(const Scene& scene) {
+Json provenModules(const Scene& scene) {
   Json all = Json::array();
   for (const scene::Mat& mat : scene.mats) {
     all.push_back(moduleOf(scene, mat));
@@ -183,7 +183,7 @@ Json linkOf(const Scene& scene, const scene::Bend& bend) {
 }
 
 /// Parts of bends are left out; the bends come last.
-Json linksOf(const Scene& scene) {
+Json provenLinks(const Scene& scene) {
   Json all = Json::array();
   for (const scene::Lia& lia : scene.lias) {
     if (lia.bend < 0) {
@@ -339,11 +339,11 @@ void writeProof(const std::string& file,
                   {"sha256", digestOf(files::readFile(scene.file, scene::kMaxTextBytes))}}},
                 {"verdict", toString(verdict)},
                 {"frame", frame},
-                {"parameters", parametersOf(scene)},
-                {"sections", sectionsOf(scene, rates, frame)},
-                {"modules", modulesOf(scene)},
+                {"parameters", provenParameters(scene)},
+                {"sections", provenSections(scene, rates, frame)},
+                {"modules", provenModules(scene)},
                 {"points", pointsOf(scene, proof)},
-                {"links", linksOf(scene)},
+                {"links", provenLinks(scene)},
                 {"rates", ratesOf(proof)},
                 {"periods", periodsOf(proof)},
                 {"losses", lossesOf(proof)},

@@ -196,7 +196,7 @@ std::int64_t framesOf(const RenderOptions& options, const Player& player) {
 }
 
 /// Plays `frames` frames, or as many as there are. \return seconds of work
-double play(Player& player, std::int64_t frames, FrameWriter& writer) {
+double playFrames(Player& player, std::int64_t frames, FrameWriter& writer) {
   const rt::FlushDenormals fast;
   const int ratio = player.rates().ratio;
   std::vector<double> tick(static_cast<std::size_t>(ratio * player.outputChannels()));
@@ -283,7 +283,7 @@ int render(const RenderOptions& options) {
   }
   FrameWriter writer(options.out, player->rates().audio_hz, player->outputChannels(),
                      audio::wavFormatOf(options.out_format));
-  const double work_s = play(*player, framesOf(options, *player), writer);
+  const double work_s = playFrames(*player, framesOf(options, *player), writer);
   if (replay != nullptr && !replay->flaws().empty()) {
     for (const std::string& flaw : replay->flaws()) {
       say(flaw);

@@ -11,7 +11,7 @@ namespace ergotic::tools {
 namespace {
 
 constexpr int kReadableDigits = 6;
-constexpr std::size_t kWidth = 100;  // characters of a line that holds a map or a list
+constexpr std::size_t kLineWidth = 100;  // characters of a line that holds a map or a list
 
 std::string indent(int depth) {
   return std::string(static_cast<std::size_t>(depth) * 2, ' ');
@@ -63,7 +63,7 @@ void printText(const Json& json, std::ostream& out, int depth, bool after_dash) 
     out << head;
     const std::string line = fitsInFlow(child) ? flow(child) : "";
     const std::size_t width = indent(depth).size() + head.size() + 1 + line.size();
-    if (child.is_primitive() || (!line.empty() && width <= kWidth)) {
+    if (child.is_primitive() || (!line.empty() && width <= kLineWidth)) {
       out << ' ' << line << '\n';
     } else if (child.empty()) {
       out << " none\n";

@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "constants.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/thread.hpp"
 #include "files/read_file.hpp"
@@ -17,8 +18,6 @@ namespace ergotic::tools {
 namespace {
 
 using scene::Truth;
-
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kBookTicks = 64;  // between looks at the books
 
 /// Of its file, and only below its folder: a scene may be a stranger's.
@@ -43,9 +42,9 @@ double forceAt(const Truth& truth, double time_s) {
          (1.0 - std::cos((truth.play == Truth::Play::kTap ? 2.0 : 1.0) * kPi * share));
 }
 
-std::unique_ptr<station::Performer> performerOf(scene::Scene scene,
-                                                const physics::Rates& rates,
-                                                const physics::CompileOptions& options) {
+std::unique_ptr<station::Performer> truthPerformer(scene::Scene scene,
+                                                   const physics::Rates& rates,
+                                                   const physics::CompileOptions& options) {
   station::PerformerPolicy policy;
   policy.allow_unproven = true;
   return station::makePerformer(std::move(scene), rates, options, policy);
@@ -68,7 +67,7 @@ class FreePlay {
       input.gain.factor = weight;
       scene.inputs.push_back(std::move(input));
     }
-    performer_ = performerOf(std::move(scene), rates, options);
+    performer_ = truthPerformer(std::move(scene), rates, options);
     energies_ = performer_->instrument->makeEnergies();
   }
 
@@ -124,7 +123,7 @@ void playGesture(scene::Scene scene,
   const std::string csv = gestureOf(scene, truth);
   SoundInputs inputs({}, scene, rates.audio_hz);
   const auto player =
-      makeHandPlayer(performerOf(std::move(scene), rates, options), std::move(inputs), csv);
+      makeHandPlayer(truthPerformer(std::move(scene), rates, options), std::move(inputs), csv);
   const auto outputs = static_cast<std::size_t>(player->outputChannels());
   std::vector<double> tick(outputs * static_cast<std::size_t>(rates.ratio));
   for (std::int64_t frame = 0; frame < frames && player->next(tick.data()); frame += rates.ratio) {

@@ -56,7 +56,7 @@ std::string claim(const Truth& truth) {
   return text;
 }
 
-std::string nameOf(const scene::ClaimingScene& claims, const Truth& truth) {
+std::string nameOfTruth(const scene::ClaimingScene& claims, const Truth& truth) {
   constexpr const char* kFigures[] = {"duration", "peak", "release", "stiffness", "work"};
   const scene::Scene& scene = claims.scene;
   std::string name = wordOf(truth.what);
@@ -87,7 +87,7 @@ bool tellTruths(const scene::ClaimingScene& claims,
     const std::string place = scene::textOf(claims.scene, truth.place);
     if (json) {
       Json entry = {{"place", place},
-                    {"what", nameOf(claims, truth)},
+                    {"what", nameOfTruth(claims, truth)},
                     {"claim", claim(truth)},
                     {"expected", expectedOf(truth)},
                     {"measured", result.measured},
@@ -104,12 +104,12 @@ bool tellTruths(const scene::ClaimingScene& claims,
       }
       report.push_back(std::move(entry));
     } else if (!result.trouble.empty()) {
-      std::cerr << place << ": error: " << nameOf(claims, truth)
+      std::cerr << place << ": error: " << nameOfTruth(claims, truth)
                 << " cannot be measured: " << result.trouble << '\n';
     } else {
       std::cout << (result.holds ? "holds: " : "DOES NOT HOLD: ") << place << ": "
-                << nameOf(claims, truth) << ": " << numbers(result.measured, truth) << ", expected "
-                << claim(truth);
+                << nameOfTruth(claims, truth) << ": " << numbers(result.measured, truth)
+                << ", expected " << claim(truth);
       if (!expectedOf(truth).empty()) {
         std::cout << ", off by " << tolerance(result.off, truth);
       }

@@ -9,11 +9,8 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr Rates kRates{44100.0, 14};
-const double kTick = 14.0 / 44100.0;
-
 /// A slice, a link, a mass, and what damps that to the ground.
-struct Hanging {
+struct HangingMass {
   double stiffness = 2000.0;
   double damping = 0.0;
   double mass = 0.1;
@@ -73,10 +70,10 @@ double playedGrowth(const scene::Scene& scene, const DeviceTraits& device, int s
 
 TEST(FreeSlicesTest, GrowsAsItIsForetold) {
   for (const bool is_fast : {false, true}) {
-    for (const Hanging& hanging :
-         {Hanging{2000.0, 0.0, 0.1, 0.0}, Hanging{3000.0, 0.0, 0.02, 0.0},
-          Hanging{3000.0, 0.2, 0.1, 0.05}, Hanging{1500.0, 0.0, 0.05, 0.0}}) {
-      Hanging one = hanging;
+    for (const HangingMass& hanging :
+         {HangingMass{2000.0, 0.0, 0.1, 0.0}, HangingMass{3000.0, 0.0, 0.02, 0.0},
+          HangingMass{3000.0, 0.2, 0.1, 0.05}, HangingMass{1500.0, 0.0, 0.05, 0.0}}) {
+      HangingMass one = hanging;
       one.is_fast = is_fast;
       EXPECT_NEAR(radiusOf(one.scene()), playedGrowth(one.scene(), {}), 2e-5)
           << one.stiffness << ", " << one.mass;
@@ -87,22 +84,22 @@ TEST(FreeSlicesTest, GrowsAsItIsForetold) {
 TEST(FreeSlicesTest, APartOfATickOfDelayIsAWholeOne) {
   DeviceTraits late;
   late.delay_ticks = 1.0;
-  const double whole = radiusOf(Hanging{}.scene(), late);
+  const double whole = radiusOf(HangingMass{}.scene(), late);
   late.delay_ticks = 0.5;
-  EXPECT_EQ(radiusOf(Hanging{}.scene(), late), whole);
+  EXPECT_EQ(radiusOf(HangingMass{}.scene(), late), whole);
   late.delay_ticks = 0.0;
-  EXPECT_LT(radiusOf(Hanging{}.scene(), late), whole);
+  EXPECT_LT(radiusOf(HangingMass{}.scene(), late), whole);
 }
 
 TEST(FreeSlicesTest, EndsOfTheRangesOfParametersCount) {
-  scene::Scene scene = Hanging{}.scene();
+  scene::Scene scene = HangingMass{}.scene();
   scene.parameters.push_back({"k", 500.0, 500.0, 2000.0, {}});
   scene.lias[0].stiffness = {1.0, 0};
-  EXPECT_EQ(radiusOf(scene), radiusOf(Hanging{}.scene()));
+  EXPECT_EQ(radiusOf(scene), radiusOf(HangingMass{}.scene()));
 }
 
 TEST(FreeSlicesTest, ALosslessMassOnASpringSetsOffASliceAtLessThanTheSpringAlone) {
-  const scene::Scene scene = Hanging{}.scene();
+  const scene::Scene scene = HangingMass{}.scene();
   EXPECT_GT(playedGrowth(scene, {}), 1.0 + 1e-5);
   const Certificate certificate = certify(scene, kRates);
   EXPECT_LT(certificate.ports.at(0).stiffness, 0.5 * certificate.ports[0].stiffness_limit);
@@ -111,12 +108,12 @@ TEST(FreeSlicesTest, ALosslessMassOnASpringSetsOffASliceAtLessThanTheSpringAlone
 }
 
 TEST(FreeSlicesTest, ALossKeepsItSilent) {
-  EXPECT_TRUE(certify(Hanging{2000.0, 0.0, 0.1, 0.5}.scene(), kRates).findings.empty());
-  EXPECT_TRUE(certify(Hanging{500.0, 0.0, 0.1, 0.0}.scene(), kRates).findings.empty());
+  EXPECT_TRUE(certify(HangingMass{2000.0, 0.0, 0.1, 0.5}.scene(), kRates).findings.empty());
+  EXPECT_TRUE(certify(HangingMass{500.0, 0.0, 0.1, 0.0}.scene(), kRates).findings.empty());
 }
 
 TEST(FreeSlicesTest, IsRefusedWhereItGrowsFastWithTwiceTheDamping) {
-  const Hanging hanging{3500.0, 0.0, 0.05, 0.0};
+  const HangingMass hanging{3500.0, 0.0, 0.05, 0.0};
   DeviceTraits twice;
   twice.damping *= 2.0;
   ASSERT_GT(playedGrowth(hanging.scene(), twice), 1.0 + kTick);
@@ -162,21 +159,21 @@ TEST(FreeSlicesTest, NothingIsWorkedOutWhereNothingHangs) {
 }
 
 TEST(FreeSlicesTest, ScalesOfThePortCount) {
-  scene::Scene scene = Hanging{500.0, 0.0, 0.025, 0.0}.scene();
+  scene::Scene scene = HangingMass{500.0, 0.0, 0.025, 0.0}.scene();
   scene.ports[0].force_scale = 2.0;
   scene.ports[0].position_scale = 0.5;  // felt as four times the mass and the stiffness
-  EXPECT_NEAR(radiusOf(scene), radiusOf(Hanging{}.scene()), 1e-9);
+  EXPECT_NEAR(radiusOf(scene), radiusOf(HangingMass{}.scene()), 1e-9);
 }
 
 TEST(FreeSlicesTest, UnitsOfTimeCount) {
   scene::Scene in_samples =
-      Hanging{2000.0 / (kRate * kRate), 0.2 / kRate, 0.1, 0.1 / kRate}.scene();
+      HangingMass{2000.0 / (kRate * kRate), 0.2 / kRate, 0.1, 0.1 / kRate}.scene();
   in_samples.time_unit_s = 1.0 / kRate;
-  EXPECT_NEAR(radiusOf(in_samples), radiusOf(Hanging{2000.0, 0.2, 0.1, 0.1}.scene()), 1e-9);
+  EXPECT_NEAR(radiusOf(in_samples), radiusOf(HangingMass{2000.0, 0.2, 0.1, 0.1}.scene()), 1e-9);
 }
 
 /// The same mass on another link.
-scene::Scene withLaw(const Hanging& hanging, LiaType type, Scheme scheme) {
+scene::Scene withLaw(const HangingMass& hanging, LiaType type, Scheme scheme) {
   scene::Scene scene = hanging.scene();
   scene::Lia& lia = scene.lias.front();
   lia.type = type;
@@ -192,7 +189,7 @@ scene::Scene withLaw(const Hanging& hanging, LiaType type, Scheme scheme) {
 
 TEST(FreeSlicesTest, AGuardedSpringGrowsAsItIsForetold) {
   for (const bool is_fast : {false, true}) {
-    Hanging hanging;
+    HangingMass hanging;
     hanging.is_fast = is_fast;
     const scene::Scene scene = withLaw(hanging, LiaType::kCubic, Scheme::kGuarded);
     EXPECT_GT(playedGrowth(scene, {}), 1.0 + 1e-5);
@@ -202,7 +199,7 @@ TEST(FreeSlicesTest, AGuardedSpringGrowsAsItIsForetold) {
 
 /// Nearly linear and soft for a step, it does not look ahead.
 TEST(FreeSlicesTest, ASoftGuardedSpringIsTheExplicitOne) {
-  const Hanging hanging{2090.0, 0.0, 0.00330378479, 0.0103722453};
+  const HangingMass hanging{2090.0, 0.0, 0.00330378479, 0.0103722453};
   scene::Scene scene = withLaw(hanging, LiaType::kCubic, Scheme::kGuarded);
   scene.lias.at(0).law.edit().nonlinearity = {1e-6};
   const double growth = playedGrowth(scene, {}, 20000);
@@ -212,7 +209,7 @@ TEST(FreeSlicesTest, ASoftGuardedSpringIsTheExplicitOne) {
 
 /// Its damper sees half of the steps of a slice whose next place it does not know.
 TEST(FreeSlicesTest, AGuardedDamperBrakesASliceLess) {
-  const Hanging hanging{6500.0, 1.6, 0.7, 0.05, true};
+  const HangingMass hanging{6500.0, 1.6, 0.7, 0.05, true};
   const scene::Scene scene = withLaw(hanging, LiaType::kCubic, Scheme::kGuarded);
   EXPECT_EQ(radiusOf(hanging.scene()), 1.0);
   EXPECT_GT(playedGrowth(scene, {}, 20000), 1.0 + 1e-5);
@@ -227,7 +224,7 @@ TEST(FreeSlicesTest, LinksThatAreNotLinearAreSeenAsTheSpringsThatTheyMayBe) {
               {LiaType::kTable, Scheme::kGuarded},  {LiaType::kContact, Scheme::kGuarded},
               {LiaType::kPluck, Scheme::kExplicit}, {LiaType::kConditional, Scheme::kExplicit}};
   for (const auto& law : laws) {
-    const auto level = [&](const Hanging& hanging) {
+    const auto level = [&](const HangingMass& hanging) {
       return certify(withLaw(hanging, law.type, law.scheme), kRates).ports.at(0).level;
     };
     const int type = static_cast<int>(law.type);
@@ -239,20 +236,20 @@ TEST(FreeSlicesTest, LinksThatAreNotLinearAreSeenAsTheSpringsThatTheyMayBe) {
 
 /// Where they grow without an end, at a millimetre from the start.
 TEST(FreeSlicesTest, ALawThatGrowsIsSeenAsItIsAtAMillimetre) {
-  Hanging hanging;
+  HangingMass hanging;
   for (const double pressed : {0.0, 3e-3}) {
     hanging.stiffness = 2000.0 / (1.5 * std::sqrt(pressed + 1e-3));
     scene::Scene scene = withLaw(hanging, LiaType::kPowerContact, Scheme::kGuarded);
     scene.lias.at(0).law.edit().width = {0.01 + pressed};
     scene.mats.at(0).position.x() = -0.01;
-    EXPECT_NEAR(radiusOf(scene), radiusOf(Hanging{}.scene()), 1e-6);
+    EXPECT_NEAR(radiusOf(scene), radiusOf(HangingMass{}.scene()), 1e-6);
     scene.mats[0].position.x() = -0.02;  // open
-    EXPECT_LE(radiusOf(scene), radiusOf(Hanging{}.scene()));
+    EXPECT_LE(radiusOf(scene), radiusOf(HangingMass{}.scene()));
   }
 }
 
 TEST(FreeSlicesTest, ASpringThatIsStretchedIsSeenAsItIsThere) {
-  scene::Scene scene = withLaw(Hanging{45.0, 0.0, 8.0}, LiaType::kCubic, Scheme::kGuarded);
+  scene::Scene scene = withLaw(HangingMass{45.0, 0.0, 8.0}, LiaType::kCubic, Scheme::kGuarded);
   scene.lias.at(0).law.edit().nonlinearity = {6e6};
   scene.lias.pop_back();
   EXPECT_LT(certify(scene, kRates).ports.at(0).stiffness, 100.0);
@@ -264,7 +261,7 @@ TEST(FreeSlicesTest, ASpringThatIsStretchedIsSeenAsItIsThere) {
 
 /// A millimetre of the hand is ten of the model.
 TEST(FreeSlicesTest, ALawThatGrowsIsSeenAsFarAsHandsMove) {
-  scene::Scene scene = withLaw(Hanging{0.0, 0.0, 100.0}, LiaType::kCubic, Scheme::kGuarded);
+  scene::Scene scene = withLaw(HangingMass{0.0, 0.0, 100.0}, LiaType::kCubic, Scheme::kGuarded);
   scene.lias.at(0).law.edit().nonlinearity = {1e6};
   scene.lias.pop_back();
   scene.ports.at(0).position_scale = 0.1;
@@ -274,7 +271,7 @@ TEST(FreeSlicesTest, ALawThatGrowsIsSeenAsFarAsHandsMove) {
 
 /// Those that close would hold what the table lets swing.
 TEST(FreeSlicesTest, ContactsBehindAMassHideNothing) {
-  Hanging hanging{1900.0, 0.0, 1e-4, 0.02, true};
+  HangingMass hanging{1900.0, 0.0, 1e-4, 0.02, true};
   SceneBuilder b;
   b.scene = hanging.scene();
   const int far = b.mass(0.1, 0.0);
@@ -306,8 +303,8 @@ TEST(FreeSlicesTest, LinksBehindAMassAreSeenOpenAndClosed) {
 
 /// The worst is not where it is steepest: there the mass answers too late to be driven.
 TEST(FreeSlicesTest, AStiffContactIsSeenAsTheSoftOneThatItIsOnTheWay) {
-  Hanging steep{4000.0, 0.0, 1e-4, 0.0, true};
-  Hanging soft = steep;
+  HangingMass steep{4000.0, 0.0, 1e-4, 0.0, true};
+  HangingMass soft = steep;
   soft.stiffness *= 0.25;
   ASSERT_GT(radiusOf(soft.scene()), radiusOf(steep.scene()) + 1e-6);
   EXPECT_NEAR(radiusOf(withLaw(steep, LiaType::kContact, Scheme::kGuarded)), radiusOf(soft.scene()),
@@ -369,7 +366,7 @@ TEST(FreeSlicesTest, SlicesOnOneMassSetItOffTogether) {
 }
 
 TEST(FreeSlicesTest, ASliceIsToldOfAMassThatHangsOnAnother) {
-  scene::Scene scene = Hanging{}.scene();
+  scene::Scene scene = HangingMass{}.scene();
   SceneBuilder b;
   b.scene = scene;
   const int far = b.slice(1);
@@ -381,7 +378,7 @@ TEST(FreeSlicesTest, ASliceIsToldOfAMassThatHangsOnAnother) {
 
 /// In space a damper does nothing to what swings across its line, so it makes no hand safe.
 TEST(FreeSlicesTest, DampersInSpaceMayTakeNothing) {
-  Hanging light{975.0, 12.5, 1.75e-3, 0.0, true};
+  HangingMass light{975.0, 12.5, 1.75e-3, 0.0, true};
   scene::Scene scene = light.scene();
   EXPECT_LT(radiusOf(scene), 1.0 + 1e-9);
   for (scene::Section& section : scene.sections) {

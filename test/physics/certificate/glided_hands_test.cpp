@@ -26,7 +26,7 @@ scene::Scene glided(double stiffness, double damping, double kg = 0.0, double lo
 }
 
 /// What is held of a slice, and the delay of its device.
-struct Held {
+struct GlidedSlice {
   double mass = 0.3;
   double damping = 2.0;
   int delay = 1;
@@ -34,7 +34,7 @@ struct Held {
 
 /// By which factor its speed has grown after so many ticks, from those before them; it is knocked
 /// at the start and moved exactly between two ticks.
-double growthOf(const scene::Scene& scene, const Rates& rates, const Held& held, int ticks) {
+double growthOf(const scene::Scene& scene, const Rates& rates, const GlidedSlice& held, int ticks) {
   const double tick = 1.0 / rates.gesturalHz();
   const double decay = std::exp(-held.damping / held.mass * tick);
   const double glide = held.mass / held.damping * (1.0 - decay);
@@ -86,7 +86,7 @@ TEST(GlidedHandsTest, ASliceIsQuietBelowTheStiffnessThatIsNamedAndTremblesAbove)
       DeviceTraits device;
       device.delay_ticks = delay;
       const double named = certify(glided(1000.0, 0.0), rates, device).ports.at(0).stiffness_limit;
-      const Held held{0.3, 2.0, delay};
+      const GlidedSlice held{0.3, 2.0, delay};
       EXPECT_LT(growthOf(glided(0.9 * named, 0.0), rates, held, 4000), 0.9) << ratio << delay;
       EXPECT_GT(growthOf(glided(1.1 * named, 0.0), rates, held, 4000), 1.1) << ratio << delay;
     }
@@ -100,7 +100,7 @@ TEST(GlidedHandsTest, ADamperIsQuietBelowWhatIsNamedAndSetsASliceOffShortlyAbove
       DeviceTraits device;
       device.delay_ticks = delay;
       const double named = certify(glided(0.0, 1.0), rates, device).ports.at(0).damping_limit;
-      const Held held{0.3, 2.0, delay};
+      const GlidedSlice held{0.3, 2.0, delay};
       EXPECT_LT(growthOf(glided(0.0, 0.98 * named), rates, held, 4000), 1.0) << ratio << delay;
       // At 1 kHz a stiff hand takes away so much of the mass that others bear more.
       const double above = ratio == 44 ? 1.8 : 1.2;
@@ -127,8 +127,8 @@ TEST(GlidedHandsTest, NoHandSetsOffSpringsAndDampersTogetherBelowTheLimit) {
     const double k = i % 4 == 0 ? 1e-3 : scattered(10.0, 1e5);
     const double z = scattered(0.1, 5000.0);
     const double share = loop.share({k, z, k, z}) / 0.98;
-    const Held held{slice.mass + (i % 3 == 0 ? 0.0 : scattered(1e-3, 1.0)),
-                    slice.damping + (i % 2 == 0 ? 0.0 : scattered(1e-2, 20.0)), delay};
+    const GlidedSlice held{slice.mass + (i % 3 == 0 ? 0.0 : scattered(1e-3, 1.0)),
+                           slice.damping + (i % 2 == 0 ? 0.0 : scattered(1e-2, 20.0)), delay};
     EXPECT_LT(growthOf(glided(k / share, z / share), rates, held, 3000), 1.0 + 1e-6)
         << i << ": " << k / share << ", " << z / share;
   }

@@ -6,7 +6,7 @@
 #include "ergotic/physics/certificate/certify.hpp"
 #include "support/physics.hpp"
 
-namespace ergotic::physics::test {
+namespace ergotic::physics {
 
 struct Grown {
   double times = 0.0;  ///< kinetic energy in all, of what there was at the start
@@ -33,4 +33,4 @@ inline void expectRefused(const SceneBuilder& b, int ratio, double seconds, doub
   }
 }
 
-}  // namespace ergotic::physics::test
+}  // namespace ergotic::physics

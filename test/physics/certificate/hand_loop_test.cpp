@@ -4,15 +4,13 @@
 
 #include <random>
 
+#include "constants.hpp"
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/physics/certificate/monodromy.hpp"
 #include "support/physics.hpp"
 
 namespace ergotic::physics {
 namespace {
-
-constexpr double kTick = 14.0 / 44100.0;
-constexpr double kPi = 3.14159265358979323846;
 
 DeviceTraits device(double damping, double delay_ticks, double mass) {
   DeviceTraits traits;
@@ -53,7 +51,7 @@ Eigen::Matrix3d exponential(const Eigen::Matrix3d& rate) {
 
 /// Largest eigenvalue of one tick of (x, v, last x, forces on their way): moved exactly between
 /// ticks, answered `delay` ticks late.
-double radiusOf(const Held& held, double stiffness, double damping, int delay) {
+double heldRadiusOf(const Held& held, double stiffness, double damping, int delay) {
   Eigen::Matrix3d rate;
   rate << 0.0, 1.0, 0.0,                                                        //
       -held.stiffness / held.mass, -held.damping / held.mass, 1.0 / held.mass,  //
@@ -113,7 +111,8 @@ TEST(HandLoopTest, HandsSetNothingOffBelowTheLimit) {
     const double stiffness = i % 4 == 0 ? 0.0 : scattered(10.0, 1e5);
     const double damping = scattered(0.1, 5000.0);
     const double share = HandLoop(slice, kTick).share(stiffness, damping);
-    EXPECT_LT(radiusOf(held, stiffness / share * 0.98, damping / share * 0.98, delay), 1.0 + 1e-9)
+    EXPECT_LT(heldRadiusOf(held, stiffness / share * 0.98, damping / share * 0.98, delay),
+              1.0 + 1e-9)
         << i << ": " << stiffness << ", " << damping << ", " << share;
   }
 }
@@ -122,13 +121,11 @@ TEST(HandLoopTest, OfDampersASliceByItselfIsSetOffShortlyAboveTheLimit) {
   for (const int delay : {0, 1, 2, 3}) {
     for (const Held& held : {Held{}, Held{0.4, 7.0, 500.0}}) {
       const HandLoop loop(device(held.damping, delay, held.mass), kTick);
-      EXPECT_LT(radiusOf(held, 0.0, loop.dampingLimit(), delay), 1.0 + 1e-9);
-      EXPECT_GT(radiusOf(held, 0.0, 1.1 * loop.dampingLimit(), delay), 1.0);
+      EXPECT_LT(heldRadiusOf(held, 0.0, loop.dampingLimit(), delay), 1.0 + 1e-9);
+      EXPECT_GT(heldRadiusOf(held, 0.0, 1.1 * loop.dampingLimit(), delay), 1.0);
     }
   }
 }
-
-constexpr Rates kRates{44100.0, 14};
 
 Certificate certified(double stiffness, double damping, const DeviceTraits& traits = {}) {
   SceneBuilder b;

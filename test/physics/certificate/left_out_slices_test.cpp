@@ -7,8 +7,6 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr Rates kRates{44100.0, 14};
-
 Certificate judged(const scene::Scene& scene) {
   return certify(settle(scene, kRates).scene, kRates);
 }
@@ -53,21 +51,21 @@ TEST(LeftOutSlicesTest, ManyMassesBehindAContactAreNoAlarm) {
               ElementsAre(HasSubstr("begins to swing with")));
 }
 
-scene::Scene massOn(int section, double stiffness) {
+scene::Scene massOfSection(int section, double stiffness) {
   SceneBuilder b;
   b.spring(b.mass(0.1, 0.0, 0.0, section), b.slice(0), stiffness);
   return b.scene;
 }
 
 TEST(LeftOutSlicesTest, SectionsThatAreSlower) {
-  scene::Scene scene = massOn(SceneBuilder::kAudio, 2000.0);
+  scene::Scene scene = massOfSection(SceneBuilder::kAudio, 2000.0);
   scene.sections.at(SceneBuilder::kAudio).divisor = 28;
   EXPECT_THAT(judged(scene).findings, ElementsAre(HasSubstr("slower than the slice")));
 }
 
 /// A mass on a line that is turned by 60 degrees moves against a slice like four times its weight.
 TEST(LeftOutSlicesTest, LinesThatAreTurned) {
-  scene::Scene scene = massOn(SceneBuilder::kAudio, 500.0);
+  scene::Scene scene = massOfSection(SceneBuilder::kAudio, 500.0);
   scene::Section& section = scene.sections.at(SceneBuilder::kAudio);
   section.geometry = Geometry::kLine;
   EXPECT_TRUE(judged(scene).findings.empty());

@@ -7,8 +7,6 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr Rates kRates{44100.0, 14};
-
 scene::Scene massOn(double mass, double stiffness, double loss) {
   SceneBuilder b;
   const int hung = b.mass(mass, 0.0);

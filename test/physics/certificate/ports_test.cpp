@@ -13,12 +13,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr Rates kRates{44100.0, 14};
-const double kTick = 14.0 / 44100.0;
-
 /// A hand in a gestural section of this geometry, moved along these axes.
-struct Held : SceneBuilder {
-  explicit Held(Geometry geometry, const std::vector<int>& axes) : hand(slice(0)) {
+struct HandInSection : SceneBuilder {
+  explicit HandInSection(Geometry geometry, const std::vector<int>& axes) : hand(slice(0)) {
     scene.sections[kGestural].geometry = geometry;
     scene.ports.front().axis = axes.front();
     for (std::size_t i = 1; i < axes.size(); ++i) {
@@ -55,7 +52,7 @@ class PortsTest : public testing::TestWithParam<Precision> {
 TEST_P(PortsTest, SpringDragsAMassInSpaceAlongEveryAxisByItself) {
   constexpr double kStiffness = 300.0;
   constexpr double kMass = 0.05;
-  Held b(Geometry::kSpace, {2, 0, 1});
+  HandInSection b(Geometry::kSpace, {2, 0, 1});
   const int mass = b.massAt(Vector3d::Zero(), kMass);
   b.spring(mass, b.hand, kStiffness);
   Player player(b.scene, kRates, GetParam());
@@ -72,7 +69,7 @@ TEST_P(PortsTest, SpringDragsAMassInSpaceAlongEveryAxisByItself) {
 }
 
 TEST_P(PortsTest, SliceStaysAtRestAlongAxesWithoutAPort) {
-  Held b(Geometry::kSpace, {1});
+  HandInSection b(Geometry::kSpace, {1});
   const Vector3d anchor(0.03, 0.04, 0.12);
   b.spring(b.groundAt(anchor), b.hand, 200.0);
   Player player(b.scene, kRates, GetParam());
@@ -85,7 +82,7 @@ TEST_P(PortsTest, SliceStaysAtRestAlongAxesWithoutAPort) {
 }
 
 TEST_P(PortsTest, PositionIsCountedFromRestAlongEveryAxis) {
-  Held b(Geometry::kPlane, {0, 1});
+  HandInSection b(Geometry::kPlane, {0, 1});
   b.placed(b.hand, {0.5, -0.25, 0.0});
   b.spring(b.groundAt({0.5, -0.25, 0.0}), b.hand, 100.0);
   Player player(b.scene, kRates, GetParam());
@@ -100,7 +97,7 @@ TEST_P(PortsTest, PositionIsCountedFromRestAlongEveryAxis) {
 }
 
 TEST_P(PortsTest, HandThatIsElsewhereAtTheStartDidNotJumpAlongAnyAxis) {
-  Held b(Geometry::kSpace, {0, 1, 2});
+  HandInSection b(Geometry::kSpace, {0, 1, 2});
   b.spring(b.groundAt({0.0, 0.0, 0.4}), b.hand, 0.0, 10.0);
   Player player(b.scene, kRates, GetParam());
   player.positions = {0.01, 0.02, 0.03};
@@ -116,7 +113,7 @@ TEST_P(PortsTest, HandThatIsElsewhereAtTheStartDidNotJumpAlongAnyAxis) {
 }
 
 TEST_P(PortsTest, WorkOfTheHandIsThatOfAllItsAxes) {
-  Held b(Geometry::kSpace, {0, 1, 2});
+  HandInSection b(Geometry::kSpace, {0, 1, 2});
   const int mass = b.massAt({0.0, 0.0, 0.1}, 0.05);
   b.spring(mass, b.hand, 300.0, 0.5);
   b.spring(mass, b.groundAt({0.1, 0.2, 0.2}), 200.0, 0.1);
@@ -143,7 +140,7 @@ TEST_P(PortsTest, WorkOfTheHandIsThatOfAllItsAxes) {
 
 TEST_P(PortsTest, SpaceMovedAlongXAloneIsALine) {
   const auto play = [](Geometry geometry, const std::vector<int>& axes) {
-    Held b(geometry, axes);
+    HandInSection b(geometry, axes);
     const int near = b.massAt({0.1, 0.0, 0.0}, 0.05);
     const int far = b.massAt({0.25, 0.0, 0.0}, 0.02);
     b.spring(near, b.hand, 400.0, 0.3);

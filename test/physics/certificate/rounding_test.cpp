@@ -12,8 +12,6 @@
 namespace ergotic::physics {
 namespace {
 
-const std::string kOfAudio = "ergotic: 1\nsections: {a: {}}\nmats:\n  g: {type: ground}\n";
-
 /// A slow mass of 1 kg and a fast one, each on a spring, and one between them.
 struct TwoRates {
   double rate_hz;

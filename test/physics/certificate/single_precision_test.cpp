@@ -10,8 +10,6 @@
 namespace ergotic::physics {
 namespace {
 
-const std::string kOfAudio = "ergotic: 1\nsections: {a: {}}\nmats:\n  g: {type: ground}\n";
-
 TEST(SinglePrecisionTest, NumbersThatSinglePrecisionDoesNotHoldAreRefused) {
   const auto contact = [](const char* stiffness, const char* mass) {
     return kOfAudio + "  m: {type: mass, mass: " + mass + ", x: 0.001, v: -1}\nlias:\n" +

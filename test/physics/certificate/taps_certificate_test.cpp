@@ -7,10 +7,10 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr Rates kRates{kRate, 10};
+constexpr Rates kTapRates{kRate, 10};
 
 Certificate certificateOf(const SceneBuilder& b) {
-  return certify(settle(b.scene, kRates).scene, kRates);
+  return certify(settle(b.scene, kTapRates).scene, kTapRates);
 }
 
 /// Two masses, and a spring to the ground from where they are worth 2 and -1.5.
@@ -29,7 +29,7 @@ TEST(TapCertificateTest, SpringIsTheLoadOfItsWeights) {
   EXPECT_EQ(certificateOf(onTwo(3.99)).verdict, Verdict::kPassive);
   EXPECT_EQ(certificateOf(onTwo(4.01)).verdict, Verdict::kUnstable);
   for (const double kappa : {3.99, 4.01}) {
-    Player player(settle(onTwo(kappa).scene, kRates).scene, kRates);
+    Player player(settle(onTwo(kappa).scene, kTapRates).scene, kTapRates);
     player.ticks(3000);
     EXPECT_EQ(std::abs(player.heard[0].back()) < 1.0, kappa < 4.0) << kappa;
   }
@@ -66,7 +66,7 @@ TEST(TapCertificateTest, FrictionRubsTheMassOfTheTap) {
     b.link(LiaType::kSmoothBow, b.tap({{m, lever}}), b.ground(), 0.0, 0.1 * 1e-3 * kRate);
     b.scene.lias.back().law.edit().width = {0.1};
     b.scene.lias.back().scheme = Scheme::kAuto;
-    return settle(b.scene, kRates).scene.lias.back().scheme == Scheme::kGuarded;
+    return settle(b.scene, kTapRates).scene.lias.back().scheme == Scheme::kGuarded;
   };
   EXPECT_FALSE(isGuarded(1.0));
   EXPECT_TRUE(isGuarded(10.0));

@@ -8,8 +8,6 @@
 namespace ergotic::physics {
 namespace {
 
-using test::expectRefused;
-
 /// A slow mass and a fast one, each with a spring to the ground, and what joins them.
 SceneBuilder twoMasses(double slow, double coupling, double z, double fast, double fast_mass) {
   SceneBuilder b;

@@ -11,6 +11,9 @@
 
 namespace ergotic::physics {
 
+/// One section and the ground, to which more modules are added.
+inline const std::string kOfAudio = "ergotic: 1\nsections: {a: {}}\nmats:\n  g: {type: ground}\n";
+
 /// A scene that is judged and played; output 1 is heard.
 struct Vouched {
   scene::Scene scene;

@@ -10,10 +10,6 @@
 namespace ergotic::physics {
 namespace {
 
-using test::expectRefused;
-using test::Grown;
-using test::grown;
-
 TEST(VouchedTest, ContactsOnOneMassAddUp) {
   SceneBuilder b;
   const int mass = b.mass(1.0, 0.0, 0.44);
@@ -234,7 +230,7 @@ TEST(VouchedTest, NegativeStiffnessIsNotHiddenByWhatIsStiffElsewhere) {
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kPassive) << "it is held by 1 N/m";
 }
 
-double growthOf(const scene::Scene& scene, double seconds) {
+double energyGrowthOf(const scene::Scene& scene, double seconds) {
   Player player(compile(scene, {kRate, 14}, Precision::kDouble));
   const double start = kineticEnergy(player);
   player.ticks(static_cast<int>(seconds * kRate / 14));
@@ -253,7 +249,7 @@ TEST(VouchedTest, OneAxisDoesNotMakeUpForAnother) {
             "  k: {type: spring, between: [m, g], stiffness: 3000}\n",
         "axes.yaml");
     const bool is_plane = geometry[0] == 'p';
-    EXPECT_EQ(growthOf(scene, 0.5) > 1e10, is_plane);
+    EXPECT_EQ(energyGrowthOf(scene, 0.5) > 1e10, is_plane);
     EXPECT_EQ(certify(scene, {kRate, 14}).verdict,
               is_plane ? Verdict::kUnproven : Verdict::kPassive);
   }
@@ -275,7 +271,7 @@ TEST(VouchedTest, DampersAcrossTakeNothing) {
             "scheme: explicit}\n",
         "across.yaml");
     const bool is_across = angle[0] == '1';
-    EXPECT_EQ(growthOf(scene, 1.0) > 1e4, is_across);
+    EXPECT_EQ(energyGrowthOf(scene, 1.0) > 1e4, is_across);
     EXPECT_EQ(certify(scene, {kRate, 14}).verdict, Verdict::kUnproven);
     scene.mats[3].type = scene::MatType::kCell;
     scene.mats[3].damping = {441.0};

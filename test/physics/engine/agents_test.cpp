@@ -8,9 +8,6 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr Rates kRates{44100.0, 14};
-constexpr double kTick = 14.0 / 44100.0;
-
 /// Moves the ports of agents as time goes on.
 void moveAgents(Player& player, int tick) {
   const scene::Scene& scene = player.instrument->scene();
@@ -38,7 +35,7 @@ double leftAfter(int k, double mass, double stiffness, double damping) {
   return std::pow(radius, k) * (std::cos(k * angle) + sine * std::sin(k * angle));
 }
 
-const std::string kStep =
+const std::string kStepAgent =
     "agents: {a: {mat: m, stiffness: 200, damping: 1.5,\n"
     "             points: [[0, 0], [0.01, 0], [0.010001, 0.02]]}}\n";
 constexpr int kBefore = 31;  // ticks up to the step
@@ -48,7 +45,7 @@ TEST(AgentsTest, AStepPullsAMassAsThePolesOfTheSchemeSay) {
   for (const char axis : {'x', 'y'}) {
     const std::string space = axis == 'x' ? "" : ", geometry: space";
     const std::string place = axis == 'x' ? "" : ", at: [1, 2, 3]";
-    std::string step = kStep;
+    std::string step = kStepAgent;
     step.insert(step.find("stiffness"), std::string("axis: ") + axis + ", ");
     Player player(
         scene::readYaml("ergotic: 1\nsections: {h: {rate: gestural" + space +
@@ -88,7 +85,7 @@ TEST(AgentsTest, APlayerAtAnotherPortFeelsNothingButTheModel) {
     }
     return felt;
   };
-  EXPECT_EQ(feel(kStep), feel(""));
+  EXPECT_EQ(feel(kStepAgent), feel(""));
   EXPECT_NE(feel("agents: {a: {mat: n, stiffness: 20, points: [[0, 0], [1, 1]]}}\n"), feel(""));
 }
 

@@ -20,14 +20,12 @@ using test::Bars;
 using test::cents;
 using Edge = Bars::Edge;
 
-constexpr Rates kRates{kRate, 14};
-
-scene::Scene sceneOf(const std::string& text) {
+scene::Scene settledSceneOf(const std::string& text) {
   return settle(scene::readYaml(text, "bars.yaml"), kRates).scene;
 }
 
 /// h^2 w^2 / kappa of all modes, ascending.
-std::vector<double> modesOf(const scene::Scene& scene, double kappa) {
+std::vector<double> scaledModesOf(const scene::Scene& scene, double kappa) {
   std::vector<double> modes = LinearNetwork(Network(scene), 0).modes(400);
   for (double& mode : modes) {
     mode /= kRate * kRate * kappa;
@@ -68,7 +66,7 @@ TEST(BendTest, BarsHaveTheModesOfTheClosedFormHoweverTheirEndsAreHeld) {
   for (const int count : {12, 24, 48}) {
     for (const auto& [left, right] : kEnds) {
       const std::vector<double> modes =
-          modesOf(sceneOf(Bars(kKappa).bar(count, left, right)), kKappa);
+          scaledModesOf(settledSceneOf(Bars(kKappa).bar(count, left, right)), kKappa);
       const int rigid =
           (left == Edge::kFree ? 1 : 0) + (right == Edge::kFree && left != Edge::kClamped ? 1 : 0);
       ASSERT_EQ(static_cast<int>(modes.size()), count);
@@ -100,7 +98,8 @@ TEST(BendTest, WhatHasHingedEdgesHasTheModesOfSines) {
     }
   }
   std::sort(expected.begin(), expected.end());
-  const std::vector<double> modes = modesOf(sceneOf(Bars(0.05).supportedPlate(kSide)), 0.05);
+  const std::vector<double> modes =
+      scaledModesOf(settledSceneOf(Bars(0.05).supportedPlate(kSide)), 0.05);
   ASSERT_EQ(modes.size(), expected.size());
   for (std::size_t i = 0; i < modes.size(); ++i) {
     EXPECT_NEAR(modes[i] / expected[i], 1.0, 1e-9) << i;
@@ -111,9 +110,10 @@ TEST(BendTest, WhatHasHingedEdgesHasTheModesOfSines) {
 /// own.
 TEST(BendTest, AFreePlateThatDoesNotNarrowHasTheModesOfFreeBars) {
   constexpr int kSide = 12;
-  const std::vector<double> plate = modesOf(sceneOf(Bars(0.02).freePlate(kSide, 0.0)), 0.02);
+  const std::vector<double> plate =
+      scaledModesOf(settledSceneOf(Bars(0.02).freePlate(kSide, 0.0)), 0.02);
   const std::vector<double> bar =
-      modesOf(sceneOf(Bars(0.02).bar(kSide, Edge::kFree, Edge::kFree)), 0.02);
+      scaledModesOf(settledSceneOf(Bars(0.02).bar(kSide, Edge::kFree, Edge::kFree)), 0.02);
   for (int i = 2; i < kSide; ++i) {
     const auto found = std::lower_bound(plate.begin(), plate.end(), bar[at(i)] * (1.0 - 1e-9));
     ASSERT_NE(found, plate.end());
@@ -129,7 +129,8 @@ TEST(BendTest, AFreePlateIsInTuneWithThatOfTheLiterature) {
     double cents[6];
   } kRows[] = {{12, {5.5, 9.7, -1.0, 1.6, 1.6, -21.6}}, {18, {1.6, 4.3, -0.5, -0.4, -0.4, -9.2}}};
   for (const auto& row : kRows) {
-    const std::vector<double> modes = modesOf(sceneOf(Bars(0.01).freePlate(row.side, 0.3)), 0.01);
+    const std::vector<double> modes =
+        scaledModesOf(settledSceneOf(Bars(0.01).freePlate(row.side, 0.3)), 0.01);
     for (int i = 0; i < 3; ++i) {
       EXPECT_LT(std::abs(modes[at(i)]), 1e-11) << "rigid";
     }
@@ -160,7 +161,7 @@ TEST(BendTest, BarsSoundAtTheFrequenciesOfTheClosedForm) {
     bars.displacements = bentAt(kCount);
     const std::string text = bars.bar(kCount, left, Edge::kFree) +
                              "outputs: {o: {at: m24, quantity: velocity, channel: 1}}\n";
-    const std::vector<double> modes = modesOf(sceneOf(text), kKappa);
+    const std::vector<double> modes = scaledModesOf(settledSceneOf(text), kKappa);
     for (const Precision precision : {Precision::kDouble, Precision::kFloat}) {
       Player player(scene::readYaml(text, "bars.yaml"), kRates, precision);
       player.ticks(8000);
@@ -175,7 +176,7 @@ TEST(BendTest, BarsSoundAtTheFrequenciesOfTheClosedForm) {
 
 TEST(BendTest, TheCertificateSeesOnePositiveLoadAndIsExact) {
   const auto verdict = [](const std::string& text) {
-    return certify(sceneOf(text), kRates).verdict;
+    return certify(settledSceneOf(text), kRates).verdict;
   };
   // The largest eigenvalues of long bars and large plates are 16 and 64 kappa.
   EXPECT_EQ(verdict(Bars(0.2499).bar(60, Edge::kFree, Edge::kFree)), Verdict::kPassive);
@@ -226,7 +227,7 @@ TEST(BendTest, ItIsSteppedInABlockAsOneByOne) {
   for (const char* keys : {"", ", damping: 1e-3", ", damping: 2e-3*$p"}) {
     Bars bars(0.05, keys);
     bars.displacements = {0.0, 1e-3, -2e-3, 5e-4};
-    const scene::Scene plate = sceneOf(bars.freePlate(12, 0.3));
+    const scene::Scene plate = settledSceneOf(bars.freePlate(12, 0.3));
     EXPECT_LT(test::differenceOneByOne(plate, Precision::kDouble, kRates, 100), 1e-11) << keys;
     const auto blocks = findBlocks(plate);
     ASSERT_EQ(blocks.size(), 1U);
@@ -236,7 +237,7 @@ TEST(BendTest, ItIsSteppedInABlockAsOneByOne) {
 
 /// Springs that lie side by side are one, so the inside of a plate has constant coefficients.
 TEST(BendTest, ALargePlateHasConstantCoefficientsInside) {
-  const auto blocks = findBlocks(sceneOf(Bars(0.05).freePlate(60, 0.3)));
+  const auto blocks = findBlocks(settledSceneOf(Bars(0.05).freePlate(60, 0.3)));
   ASSERT_EQ(blocks.size(), 1U);
   EXPECT_THAT(describeBlock(blocks[0]), testing::HasSubstr("6 diagonals"));
 }
@@ -245,7 +246,7 @@ TEST(BendTest, TheBooksBalanceAndLossesAreTold) {
   for (const char* keys : {"", ", damping: 0.02", ", damping: 0.02*$p, rest_length: 1e-3"}) {
     Bars bars(0.1, keys);
     bars.displacements = bentAt(20);
-    Player player(sceneOf(bars.bar(20, Edge::kClamped, Edge::kFree)), kRates);
+    Player player(settledSceneOf(bars.bar(20, Edge::kClamped, Edge::kFree)), kRates);
     EXPECT_LT(imbalanceOf(player, 8000, 97), 1e-10) << keys;
     const Energies books = energiesOf(player);
     EXPECT_EQ(books.sections[0].dissipated > 0.0, *keys != '\0') << keys;

@@ -12,7 +12,7 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr int kPartials = 10;
+constexpr int kComparedPartials = 10;
 constexpr double kFaint = 40.0;  // dB below the strongest: near a node of what excites or is heard
 constexpr double kSeconds = 1.6;
 constexpr std::size_t kWindow = 40000;
@@ -45,7 +45,7 @@ const Gesture kGestures[] = {
     {"models/fretted_string.yaml", "finger", 116.5, 0.3, {{0.1, 0.14, 1, -0.0115}}},
 };
 
-using Levels = std::array<double, kPartials>;
+using ComparedLevels = std::array<double, kComparedPartials>;
 
 double handAt(const Gesture& gesture, int port, double time) {
   double place = 0.0;
@@ -58,10 +58,10 @@ double handAt(const Gesture& gesture, int port, double time) {
 }
 
 /// Of bands of a quarter tone around the partials, dB.
-Levels levelsOf(const std::vector<double>& heard, const Gesture& gesture) {
+ComparedLevels levelsOf(const std::vector<double>& heard, const Gesture& gesture) {
   const auto from = static_cast<std::size_t>(gesture.heard_from_s * kRate);
-  Levels levels{};
-  for (int k = 1; k <= kPartials; ++k) {
+  ComparedLevels levels{};
+  for (int k = 1; k <= kComparedPartials; ++k) {
     double power = 0.0;
     const double reach = 0.015 * k * gesture.pitch;
     const double step = kRate / kWindow;
@@ -81,7 +81,7 @@ Levels levelsOf(const std::vector<double>& heard, const Gesture& gesture) {
   return levels;
 }
 
-Levels played(const Gesture& gesture, int ratio) {
+ComparedLevels played(const Gesture& gesture, int ratio) {
   const scene::Scene scene = scene::readSceneFile(repository(gesture.model));
   Player player(scene, {kRate, ratio});  // with a chaplet as soft as this ratio needs it
   const double tick = ratio / kRate;
@@ -97,8 +97,8 @@ Levels played(const Gesture& gesture, int ratio) {
 TEST(DefaultHandsTest, SoundAsIfTheyWereKnownInEveryFrame) {
   for (const Gesture& gesture : kGestures) {
     SCOPED_TRACE(testing::Message() << gesture.model << ", " << gesture.what);
-    const Levels wanted = played(gesture, 1);
-    const Levels found = played(gesture, 14);
+    const ComparedLevels wanted = played(gesture, 1);
+    const ComparedLevels found = played(gesture, 14);
     const double most = *std::max_element(wanted.begin(), wanted.end());
     EXPECT_GT(most, 0.0) << "nothing is heard";
     for (std::size_t k = 0; k < wanted.size(); ++k) {

@@ -6,7 +6,6 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr double kUnbalanced = 1e-10;  // of the stored energy
 constexpr LiaType kAllTypes[] = {
     LiaType::kSpringDamper, LiaType::kContact,      LiaType::kQuadratic, LiaType::kCubic,
     LiaType::kClippedCubic, LiaType::kCubicContact, LiaType::kPluck,     LiaType::kBow,

@@ -18,7 +18,7 @@ Lia& felt(SceneBuilder& b, int from, int to, double k, double exponent, double c
 }
 
 /// A ball that hits a wall of felt. Without losses it would stay for `duration`.
-struct Impact {
+struct FeltImpact {
   double exponent;
   double loss;  ///< c times the speed of the impact
   double duration;
@@ -40,7 +40,7 @@ struct Rebound {
 };
 
 /// Runge-Kutta of fourth order in steps of 1e-5 of the contact.
-Rebound integrate(const Impact& impact) {
+Rebound integrate(const FeltImpact& impact) {
   const double k = impact.stiffness() / impact.mass;
   const auto acceleration = [&](double p, double v) {
     return p > 0.0 ? -k * std::pow(p, impact.exponent) * std::max(0.0, 1.0 + impact.damping() * v)
@@ -67,7 +67,7 @@ Rebound integrate(const Impact& impact) {
 }
 
 /// In touch: between the straight lines before and after.
-Rebound play(const Impact& impact, double phase, Scheme scheme) {
+Rebound bounce(const FeltImpact& impact, double phase, Scheme scheme) {
   const double d = impact.speed / kRate;
   const double start = -(5.0 + phase) * d;
   SceneBuilder b;
@@ -88,11 +88,11 @@ TEST(FeltTest, GuardedImpactsLastAndReboundAsTheyShould) {
   for (const double exponent : {1.0, 1.5, 2.3, 3.0}) {
     for (const auto& [loss, duration] :
          {std::pair(0.0, 1e-3), {0.1, 1e-3}, {0.3, 1e-3}, {0.8, 2e-3}, {3.0, 5e-3}}) {
-      const Impact impact{exponent, loss, duration};
+      const FeltImpact impact{exponent, loss, duration};
       const Rebound law = integrate(impact);
       EXPECT_NEAR(law.speed, impact.speed * scene::feltRestitution(loss), 1e-8);
       for (int k = 0; k < 8; ++k) {
-        const Rebound played = play(impact, k / 8.0, Scheme::kGuarded);
+        const Rebound played = bounce(impact, k / 8.0, Scheme::kGuarded);
         EXPECT_NEAR(played.time, law.time, 1e-5 * law.time) << exponent << " " << loss;
         EXPECT_NEAR(played.speed, law.speed, 1e-5 * law.speed) << exponent << " " << loss;
       }
@@ -101,9 +101,9 @@ TEST(FeltTest, GuardedImpactsLastAndReboundAsTheyShould) {
 }
 
 TEST(FeltTest, ExplicitImpactsAreNearTheLaw) {
-  const Impact impact{2.3, 0.3, 5e-3};
+  const FeltImpact impact{2.3, 0.3, 5e-3};
   const Rebound law = integrate(impact);
-  const Rebound played = play(impact, 0.3, Scheme::kExplicit);
+  const Rebound played = bounce(impact, 0.3, Scheme::kExplicit);
   EXPECT_NEAR(played.time, law.time, 1e-3 * law.time);
   EXPECT_NEAR(played.speed, law.speed, 3e-3 * law.speed);
 }
@@ -112,8 +112,8 @@ TEST(FeltTest, ExplicitImpactsAreNearTheLaw) {
 TEST(FeltTest, ShortGuardedImpactsReboundByTheirRestitution) {
   for (const double loss : {0.1, 1.0, 5.0}) {
     for (int k = 0; k < 8; ++k) {
-      const Impact impact{1.5, loss, 5e-6};
-      const double ratio = play(impact, k / 8.0, Scheme::kGuarded).speed / impact.speed;
+      const FeltImpact impact{1.5, loss, 5e-6};
+      const double ratio = bounce(impact, k / 8.0, Scheme::kGuarded).speed / impact.speed;
       EXPECT_GE(ratio, scene::feltRestitution(loss) - 0.01) << loss << " " << k;
       EXPECT_LE(ratio, 1.0 + 1e-12) << loss << " " << k;
     }

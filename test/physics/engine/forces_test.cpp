@@ -6,8 +6,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kStep = 1.0 / kRate;
-
 struct InSpace : SceneBuilder {
   InSpace() { scene.sections[0].geometry = Geometry::kSpace; }
 };

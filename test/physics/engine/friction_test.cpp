@@ -7,9 +7,7 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr Rates kRates{44100.0, 14};
-
-scene::Scene sceneOf(const std::string& text) {
+scene::Scene rubbedScene(const std::string& text) {
   return scene::readYaml("ergotic: 1\n" + text, "friction.yaml");
 }
 
@@ -37,7 +35,7 @@ outputs:
 
 TEST(FrictionTest, SticksUntilItIsPulledHarderThanItHolds) {
   for (const char* normal : {"1", "$press"}) {
-    Player player(sceneOf(pulledBlock(normal)), kRates);
+    Player player(rubbedScene(pulledBlock(normal)), kRates);
     player.ticks(500);
     const std::vector<double>& v = player.heard[0];
     const auto moves = std::find_if(v.begin(), v.end(), [](double each) { return each > 1e-9; });
@@ -49,7 +47,7 @@ TEST(FrictionTest, SticksUntilItIsPulledHarderThanItHolds) {
 }
 
 TEST(FrictionTest, WhatIsThrownSlowsDownEvenlyAndThenStays) {
-  const scene::Scene scene = sceneOf(R"(
+  const scene::Scene scene = rubbedScene(R"(
 sections: {a: {}}
 mats: {floor: {type: ground}, block: {type: mass, mass: 0.01, v: 0.5}}
 lias: {rub: {type: friction, between: [floor, block], normal: 0.2, steady: 0.3}}
@@ -68,7 +66,7 @@ outputs:
 
 /// Line and curve of one step: what is asked of a law of mu from 1 at rest to 0 at 1.
 double forceAfter(double free, bool slipped) {
-  scene::Scene scene = sceneOf(R"(
+  scene::Scene scene = rubbedScene(R"(
 sections: {a: {}}
 mats: {floor: {type: ground}, block: {type: mass, mass: 1}}
 lias: {rub: {type: friction, between: [block, floor], normal: 1, table: [[0, 1], [1, 0], [2, 0]]}}
@@ -89,7 +87,7 @@ TEST(FrictionTest, StaysInTheBranchInWhichItIs) {
 
 TEST(FrictionTest, IsPressedByAContact) {
   // In a bowl of 1 m, which presses a weight of 0.1 N against its bottom.
-  const scene::Scene scene = sceneOf(R"(
+  const scene::Scene scene = rubbedScene(R"(
 sections: {a: {geometry: plane, gravity: [0, -10]}}
 mats:
   bowl: {type: ground, at: [0, 1]}
@@ -110,7 +108,7 @@ outputs:
 }
 
 TEST(FrictionTest, LetsGoWhereNothingPresses) {
-  const scene::Scene scene = sceneOf(R"(
+  const scene::Scene scene = rubbedScene(R"(
 sections: {a: {}}
 mats: {floor: {type: ground}, block: {type: mass, mass: 0.01, v: 0.1}, lid: {type: ground, x: 1}}
 lias:
@@ -124,7 +122,7 @@ outputs: {v: {at: block, quantity: velocity, channel: 1}}
 }
 
 TEST(FrictionTest, TwoAtOneMassHoldItTogether) {
-  const scene::Scene scene = sceneOf(R"(
+  const scene::Scene scene = rubbedScene(R"(
 sections: {a: {}}
 mats:
   floor: {type: ground}
@@ -146,9 +144,9 @@ outputs: {v: {at: block, quantity: velocity, channel: 1}}
 /// Pressed in a section of its own, at the rate of the hand or another one, which shares no module
 /// with those that rub.
 scene::Scene pressedFromAfar(const std::string& rate) {
-  return sceneOf(R"(
+  return rubbedScene(R"(
 sections: {a: {}, b: {}, c: {}, far: {rate: )" +
-                 rate + R"(}}
+                     rate + R"(}}
 mats:
   floor: {type: ground, section: a}
   block: {type: mass, section: b, mass: 0.01, v: 0.5}
@@ -183,7 +181,7 @@ TEST(FrictionTest, IsPressedByWhatIsSteppedElsewhere) {
 /// The same string as a network and as its modes.
 TEST(FrictionTest, RubsModesAsItDoesModules) {
   const auto bowed = [](const std::string& modes) {
-    return sceneOf("sections: {a: {" + modes + R"(}, b: {}}
+    return rubbedScene("sections: {a: {" + modes + R"(}, b: {}}
 mats: {hair: {type: mass, section: b, mass: 1e9, v: 0.2}}
 generators:
   - {type: string, name: s, section: a, masses: 40, mass: 2e-5, frequency: 300, damping: 1e-4, to: [1, 0]}
@@ -241,17 +239,17 @@ scene::Scene rubbedNet(const std::string& geometry) {
       text.replace(place, word.size(), by);
     }
   }
-  return sceneOf(text);
+  return rubbedScene(text);
 }
 
-std::string verdictOf(const scene::Scene& scene) {
+std::string verdictNameOf(const scene::Scene& scene) {
   return toString(certify(settle(scene, kRates).scene, kRates).verdict);
 }
 
 TEST(FrictionTest, IsBoundedButOnSlowerMasses) {
-  EXPECT_EQ(verdictOf(sceneOf(pulledBlock("$press"))), "bounded");
-  EXPECT_EQ(verdictOf(pressedFromAfar("gestural")), "bounded");
-  EXPECT_EQ(verdictOf(rubbedNet("scalar")), "unproven");
+  EXPECT_EQ(verdictNameOf(rubbedScene(pulledBlock("$press"))), "bounded");
+  EXPECT_EQ(verdictNameOf(pressedFromAfar("gestural")), "bounded");
+  EXPECT_EQ(verdictNameOf(rubbedNet("scalar")), "unproven");
 }
 
 TEST(FrictionTest, BalancesInEveryGeometryAndAcrossRates) {

@@ -9,8 +9,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kStep = 1.0 / kRate;
-
 /// Scenes whose audio section has this geometry.
 struct Built : SceneBuilder {
   explicit Built(Geometry geometry) { scene.sections[0].geometry = geometry; }

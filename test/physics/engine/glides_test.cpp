@@ -12,8 +12,6 @@
 namespace ergotic::physics {
 namespace {
 
-using physics::test::Orchestra;
-
 scene::Scene smooth(scene::Scene scene) {
   for (scene::Mat& mat : scene.mats) {
     if (mat.type == scene::MatType::kSlice) {

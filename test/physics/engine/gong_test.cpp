@@ -13,32 +13,24 @@ namespace {
 constexpr int kSide = 20;
 constexpr double kFundamental = 60.0;  // Hz
 constexpr double kThickness = 1e-3;    // m
-constexpr double kMass = 1e-3;         // kg, of each module
+constexpr double kModuleKg = 1e-3;     // kg, of each module
 constexpr double kBlow = 0.002;        // s
-constexpr Rates kRates{kRate, 14};
-
-std::string number(double value) {
-  std::ostringstream text;
-  text.precision(17);
-  text << value;
-  return text.str();
-}
 
 std::string at2(int row, int column) {
   return "m" + std::to_string(row) + "_" + std::to_string(column);
 }
 
 /// h^2 K/M of its bends.
-double kappaOf() {
+double plateKappa() {
   const double s = 2.0 - 2.0 * std::cos(kPi / (kSide + 1));
   return std::pow(std::sin(kPi * kFundamental / kRate) / s, 2.0);
 }
 
 /// Masses of 1 g between hinges, with losses that grow with the pitch.
 scene::Scene plate() {
-  const double k = kappaOf() * kMass * kRate * kRate;
+  const double k = plateKappa() * kModuleKg * kRate * kRate;
   std::string text =
-      test::Bars(kappaOf(), ", damping: " + number(0.002 * k / kRate)).supportedPlate(kSide);
+      test::Bars(plateKappa(), ", damping: " + number(0.002 * k / kRate)).supportedPlate(kSide);
   for (int i = 1; i <= kSide; ++i) {
     for (int j = 0; j <= kSide; ++j) {
       for (const auto& [a, b] :

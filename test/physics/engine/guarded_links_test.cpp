@@ -7,8 +7,6 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr Rates kRates{44100.0, 14};
-
 scene::Lia& guard(SceneBuilder& b, LiaType type, int from, int to, double k, double z = 0.0) {
   scene::Lia& lia = b.scene.lias[at(b.link(type, from, to, k, z))];
   lia.scheme = scene::Scheme::kGuarded;

@@ -44,7 +44,7 @@ struct Closed {
   double moving = 0.0;  ///< mean share of the energy that unit masses have whose speeds are heard
 };
 
-Lia& guard(SceneBuilder& b, LiaType type, int from, int to, double kappa, double z = 0.0) {
+Lia& guardScaled(SceneBuilder& b, LiaType type, int from, int to, double kappa, double z = 0.0) {
   Lia& lia = b.scene.lias[at(b.link(type, from, to, kappa * kRate * kRate, z * kRate))];
   lia.scheme = Scheme::kGuarded;
   return lia;
@@ -59,8 +59,8 @@ SceneBuilder stringOnBarrier(double closed_kappa, double exponent) {
   const int barrier = b.ground();
   for (int m = 1; m <= kMasses; ++m) {
     b.scene.mats[at(first + m)].position.x() = -kAmplitude * std::sin(kPi * m / (kMasses + 1.0));
-    Lia& lia = guard(b, LiaType::kPowerContact, first + m, barrier,
-                     closed_kappa * std::pow(kAmplitude, 1.0 - exponent));
+    Lia& lia = guardScaled(b, LiaType::kPowerContact, first + m, barrier,
+                           closed_kappa * std::pow(kAmplitude, 1.0 - exponent));
     lia.law.edit().exponent = {exponent};
     lia.law.edit().width = {-0.3 * kAmplitude};
   }
@@ -84,7 +84,8 @@ SceneBuilder cubicChain(double amplitude) {
   int last = b.ground();
   for (int m = 1; m <= 65; ++m) {
     const int next = m < 65 ? b.mass(1.0, amplitude * anywhere(random)) : b.ground();
-    guard(b, LiaType::kCubic, last, next, 0.2).law.edit().nonlinearity = {0.05 * kRate * kRate};
+    guardScaled(b, LiaType::kCubic, last, next, 0.2).law.edit().nonlinearity = {0.05 * kRate *
+                                                                                kRate};
     if (m < 65) {
       b.hear(next, m - 1, Quantity::kVelocity);
     }
@@ -118,9 +119,10 @@ TEST(GuardedNetworkTest, PointsThatShareMassesKeepTheEnergy) {
     const double place = l % (kMasses - 1) + 0.5 + 0.5 * anywhere(random);
     const int point = b.point(grid, place / (kMasses - 1));
     if (l % 2 == 0) {
-      guard(b, LiaType::kContact, point, ground, 3.0).law.edit().width = {-0.2};
+      guardScaled(b, LiaType::kContact, point, ground, 3.0).law.edit().width = {-0.2};
     } else {
-      guard(b, LiaType::kCubic, point, ground, 0.5).law.edit().nonlinearity = {4.0 * kRate * kRate};
+      guardScaled(b, LiaType::kCubic, point, ground, 0.5).law.edit().nonlinearity = {4.0 * kRate *
+                                                                                     kRate};
     }
   }
   Closed(b).expectKept(20000, "");
@@ -129,7 +131,7 @@ TEST(GuardedNetworkTest, PointsThatShareMassesKeepTheEnergy) {
 TEST(GuardedNetworkTest, NegativeDampersGiveNothing) {
   SceneBuilder b;
   const int mass = b.mass(1.0, 0.01);
-  guard(b, LiaType::kSpringDamper, mass, b.ground(), 0.1, -0.05).rest_length = 0.005;
+  guardScaled(b, LiaType::kSpringDamper, mass, b.ground(), 0.1, -0.05).rest_length = 0.005;
   Closed(b).expectKept(2000, "");
 }
 
@@ -139,8 +141,9 @@ TEST(GuardedNetworkTest, DampersOnSharedMassesOnlyDissipate) {
   for (int m = 1; m <= 20; ++m) {
     b.mass(1.0, std::sin((m - 1) * 1.3));
     b.hear(m, 3 * m, Quantity::kVelocity);
-    guard(b, LiaType::kContact, m, wall, 0.8, 0.1).law.edit().width = {-0.1};
-    guard(b, LiaType::kCubic, m - 1, m, 0.3, 0.2).law.edit().nonlinearity = {0.2 * kRate * kRate};
+    guardScaled(b, LiaType::kContact, m, wall, 0.8, 0.1).law.edit().width = {-0.1};
+    guardScaled(b, LiaType::kCubic, m - 1, m, 0.3, 0.2).law.edit().nonlinearity = {0.2 * kRate *
+                                                                                   kRate};
   }
   Player player(b.scene, {kRate, 1});
   player.tick();

@@ -7,14 +7,13 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr Rates kRates{44100.0, 1};
 constexpr double kEngage = 0.01;  // m
 
 /// A link to the ground that engages within 1 cm, with h^2 K/M = kappa. What moves is heard on the
 /// channels that energyBetweenSteps() reads.
 scene::Lia& snap(SceneBuilder& b, int mass, double kappa, double release, Scheme scheme) {
-  scene::Lia& lia = b.scene.lias[at(
-      b.link(LiaType::kConditional, mass, b.ground(), kappa * kRates.audio_hz * kRates.audio_hz))];
+  scene::Lia& lia = b.scene.lias[at(b.link(LiaType::kConditional, mass, b.ground(),
+                                           kappa * kEveryFrame.audio_hz * kEveryFrame.audio_hz))];
   lia.law.edit().width = {kEngage};
   lia.law.edit().release = release;
   lia.scheme = scheme;
@@ -26,7 +25,7 @@ double speedAfter(double kappa, double release, double v, double damping, Scheme
   const int mass = b.mass(1.0, -1.5 * kEngage, v);
   snap(b, mass, kappa, release, scheme).damping = {damping};
   b.hear(mass, 0, Quantity::kVelocity);
-  Player player(compile(b.scene, kRates, Precision::kDouble));
+  Player player(compile(b.scene, kEveryFrame, Precision::kDouble));
   player.ticks(70000);
   return player.heard[0].back();
 }
@@ -56,7 +55,7 @@ TEST(GuardedSnapsTest, WhatIsCaughtSwingsAsOnASpring) {
   const int mass = b.mass(1.0, 0.0, 0.9 * kEngage * w * kRate);
   snap(b, mass, 4.0 * std::pow(std::sin(w / 2.0), 2), kEngage, Scheme::kGuarded);
   b.hear(mass);
-  Player player(compile(b.scene, kRates, Precision::kDouble));
+  Player player(compile(b.scene, kEveryFrame, Precision::kDouble));
   player.ticks(7000);
   const double amplitude = 0.9 * kEngage * w / std::sin(w);  // through 0 and one step before
   for (std::size_t n = 0; n < player.heard[0].size(); ++n) {
@@ -79,7 +78,7 @@ SceneBuilder swinging(double kappa, double release) {
 
 TEST(GuardedSnapsTest, EnergyIsKeptWhereItLetsGoWhereItEngages) {
   for (const double kappa : {1e-6, 1e-3, 3.0}) {
-    Player player(compile(swinging(kappa, kEngage).scene, kRates, Precision::kDouble));
+    Player player(compile(swinging(kappa, kEngage).scene, kEveryFrame, Precision::kDouble));
     player.tick();
     auto guards = test::guardsOf(player);
     player.tick();
@@ -99,7 +98,7 @@ TEST(GuardedSnapsTest, EnergyIsKeptWhereItLetsGoWhereItEngages) {
 
 TEST(GuardedSnapsTest, EnergyOnlyFallsWhereItLetsGoLater) {
   for (const double kappa : {1e-7, 1e-6, 1e-5}) {
-    Player player(compile(swinging(kappa, 1.5 * kEngage).scene, kRates, Precision::kDouble));
+    Player player(compile(swinging(kappa, 1.5 * kEngage).scene, kEveryFrame, Precision::kDouble));
     player.ticks(2);
     double last = std::numeric_limits<double>::infinity();
     for (int n = 0; n < 20000; ++n) {
@@ -125,7 +124,7 @@ TEST(GuardedSnapsTest, RestsAnywhere) {
         lia.stiffness = {engage > 1.0 ? 1e-300 : 1e6};
         lia.damping = {1.0};
         b.hear(mass);
-        Player player(compile(b.scene, kRates, precision));
+        Player player(compile(b.scene, kEveryFrame, precision));
         player.ticks(100);
         EXPECT_TRUE(player.instrument->isFinite()) << x;
         EXPECT_LE(std::abs(player.heard[0].back()), engage * (1.0 + 1e-6)) << x;

@@ -168,7 +168,7 @@ TEST(GuardedTest, StiffDampedContactLosesSpeedByRestitution) {
 TEST(GuardedTest, PressedContactComesToRest) {
   constexpr double kForce = 2.0;
   constexpr double kMass = 5e-3;
-  constexpr double kStep = kForce / kMass / (kRate * kRate);
+  constexpr double kPressedStep = kForce / kMass / (kRate * kRate);
   for (const double kt : {0.1, 0.3, 0.5, 1.0, 3.0, 6.0, 10.0, 30.0, 100.0, 300.0}) {
     for (const double restitution : {0.37, 0.8}) {
       const double log_e = std::log(restitution);
@@ -183,7 +183,7 @@ TEST(GuardedTest, PressedContactComesToRest) {
         const auto [low, high] = std::minmax_element(x.end() - 1000, x.end());
         EXPECT_LT(*high - *low, 1e-19) << kt << " " << restitution << " " << speed;
         // In units of what the wall yields in one step.
-        EXPECT_LT(std::abs(x.back() - kStep / kt) / kStep, kt > 1.0 ? 2.5 : 1e-12)
+        EXPECT_LT(std::abs(x.back() - kPressedStep / kt) / kPressedStep, kt > 1.0 ? 2.5 : 1e-12)
             << kt << " " << restitution << " " << speed;
       }
     }

@@ -7,9 +7,8 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr Rates kEveryFrame{kRate, 1};
 constexpr int kCells = 11;
-constexpr double kPitch = 200.0;
+constexpr double kSheetPitch = 200.0;
 
 scene::Scene sheet(const std::string& keys) {
   return scene::readYaml(
@@ -59,13 +58,13 @@ TEST(HardSheetsTest, ModesGlideByTheFormula) {
   for (const Precision precision : {Precision::kDouble, Precision::kFloat}) {
     for (const double share : {0.1, 0.2}) {
       const double by_plate = 0.375 * 1.5 * share * share;
-      EXPECT_NEAR((pitchAt(plate, share * kThickness, precision) / kPitch - 1.0) / by_plate, 1.0,
-                  0.04)
+      EXPECT_NEAR((pitchAt(plate, share * kThickness, precision) / kSheetPitch - 1.0) / by_plate,
+                  1.0, 0.04)
           << share;
       const double amplitude = 0.05 * share * length;
       const double by_skin =
           0.375 * kPi * kPi / 8.0 / kStrain * coarse * std::pow(amplitude / length, 2);
-      EXPECT_NEAR((pitchAt(skin, amplitude, precision) / kPitch - 1.0) / by_skin, 1.0, 0.04)
+      EXPECT_NEAR((pitchAt(skin, amplitude, precision) / kSheetPitch - 1.0) / by_skin, 1.0, 0.04)
           << share;
     }
   }

@@ -5,6 +5,7 @@
 #include "ergotic/physics/settling/settle.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
 #include "physics/engine/orchestra.hpp"
+#include "support/physics.hpp"
 #include "support/places.hpp"
 #include "support/realtime_scope.hpp"
 #include "support/small_scene.hpp"
@@ -12,8 +13,6 @@
 
 namespace ergotic::physics {
 namespace {
-
-constexpr Rates kRates{44100.0, 14};
 
 /// All that a tick may ask of an instrument, with room for the answers.
 class Playing {
@@ -125,7 +124,7 @@ TEST(InstrumentRealtimeTest, EveryLawInEveryScheme) {
 }
 
 TEST(InstrumentRealtimeTest, GroupsPointsInputsAndSleepers) {
-  test::Orchestra orchestra(4);
+  Orchestra orchestra(4);
   orchestra.addFollower();
   expectRealtimeTicks(orchestra.scene(), kRates, 500);
 }

@@ -11,13 +11,6 @@ namespace {
 
 using test::cents;
 
-std::string number(double value) {
-  std::ostringstream text;
-  text.precision(17);
-  text << value;
-  return text.str();
-}
-
 scene::Scene read(const std::string& generators, const std::string& rest = "") {
   return scene::readYaml(
       "ergotic: 1\nsections: {a: {}}\ngenerators:\n  - {name: b, " + generators + "}\n" + rest,

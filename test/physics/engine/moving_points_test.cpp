@@ -3,14 +3,12 @@
 #include <cmath>
 
 #include "ergotic/physics/certificate/certify.hpp"
+#include "physics/engine/moved_places.hpp"
 #include "support/measure.hpp"
 #include "support/physics.hpp"
 
 namespace ergotic::physics {
 namespace {
-
-constexpr double kCreditSeconds = 0.1;
-constexpr double kBeyond = 2.0;  // what the forces of one step may bring beyond what was foreseen
 
 /// A string of 110 Hz, plucked at one third.
 struct Plucked : SceneBuilder {

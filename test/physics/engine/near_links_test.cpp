@@ -10,19 +10,13 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr Rates kRates{44100.0, 14};
-
-double uniform(std::mt19937& random, double a, double b) {
-  return std::uniform_real_distribution<double>(a, b)(random);
-}
-
 /// What touches, and what it may touch: balls on springs, in a row. As many as are looked at each
 /// by itself; with others at a distance that nothing comes to, they are passed over in tiles.
-class Row : public SceneBuilder {
+class BallRow : public SceneBuilder {
  public:
   static constexpr int kBalls = 60;
 
-  Row(unsigned seed, Geometry geometry, bool is_hand, int far) : random_(seed) {
+  BallRow(unsigned seed, Geometry geometry, bool is_hand, int far) : random_(seed) {
     scene.sections[0].geometry = geometry;
     const bool is_scalar = geometry == Geometry::kScalar;
     const int toucher = is_hand ? slice(0) : mass(2e-3);
@@ -63,19 +57,19 @@ class Row : public SceneBuilder {
   std::mt19937 random_;
 };
 
-struct Played {
+struct BallsPlayed {
   std::vector<std::vector<double>> heard;
   std::vector<double> forces;
   std::int64_t active = 0;
   int touched = 0;
 };
 
-Played play(const Row& row, unsigned seed, Precision precision, bool metered) {
+BallsPlayed playBalls(const BallRow& row, unsigned seed, Precision precision, bool metered) {
   std::mt19937 random(seed);
   CompileOptions options(precision);
   options.metered = metered;
   Player player(compile(settle(row.scene, kRates).scene, kRates, options));
-  Played played;
+  BallsPlayed played;
   for (int n = 0; n < 600; ++n) {
     if (!player.positions.empty()) {
       player.positions[0] = n % 100 < 50 ? 1e-3 * n * uniform(random, 0.9, 1.0) : -0.01;
@@ -101,8 +95,10 @@ TEST(NearLinksTest, WhatIsPassedOverChangesNoBit) {
     for (unsigned seed = 0; seed < 12; ++seed) {
       const Precision precision = seed % 2 == 0 ? Precision::kDouble : Precision::kFloat;
       const bool metered = seed % 3 == 0;
-      const Played all = play(Row(seed, geometry, is_hand, 0), seed, precision, metered);
-      const Played near = play(Row(seed, geometry, is_hand, 100), seed, precision, metered);
+      const BallsPlayed all =
+          playBalls(BallRow(seed, geometry, is_hand, 0), seed, precision, metered);
+      const BallsPlayed near =
+          playBalls(BallRow(seed, geometry, is_hand, 100), seed, precision, metered);
       EXPECT_EQ(all.heard, near.heard) << seed;
       EXPECT_EQ(all.forces, near.forces) << seed;
       EXPECT_EQ(all.active, near.active) << seed;

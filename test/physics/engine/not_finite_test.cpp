@@ -3,14 +3,13 @@
 // seen, and from a sound state it plays on as if nothing had been.
 #include <cstring>
 
+#include "constants.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
 #include "support/physics.hpp"
 #include "support/places.hpp"
 
 namespace ergotic::physics {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kValues[] = {std::nan(""), kInfinity, -1e300, 1e30, 1e-310};
 constexpr std::size_t kTank = 4;  // number of a guarded link: the energy that it may spend
 constexpr int kTicksToSee = 3;
@@ -166,7 +165,7 @@ std::string sceneText(const std::string& geometry, const std::string& rest) {
 }
 
 /// A law between all kinds of modules and rates, with this scheme.
-scene::Scene sceneOf(const std::string& law, const std::string& scheme, const char* geometry) {
+scene::Scene sceneOfLink(const std::string& law, const std::string& scheme, const char* geometry) {
   const std::string link = ", " + law + ", scheme: " + scheme + "}\n";
   const std::string z = std::string(geometry) == "space" ? ", 0" : "";
   const std::string text = sceneText(
@@ -214,10 +213,10 @@ constexpr LawCase kLaws[] = {
 class NotFiniteLawTest : public testing::TestWithParam<LawCase> {};
 TEST_P(NotFiniteLawTest, IsSeenInEveryLaw) {
   for (const char* geometry : {"scalar", "space"}) {
-    expectSafe(sceneOf(GetParam().fields, "explicit", geometry),
+    expectSafe(sceneOfLink(GetParam().fields, "explicit", geometry),
                std::string(geometry) + " explicit");
     if (GetParam().guardable) {
-      expectSafe(sceneOf(GetParam().fields, "guarded", geometry),
+      expectSafe(sceneOfLink(GetParam().fields, "guarded", geometry),
                  std::string(geometry) + " guarded");
     }
   }

@@ -3,7 +3,7 @@
 
 #include "support/physics.hpp"
 
-namespace ergotic::physics::test {
+namespace ergotic::physics {
 
 /// An orchestra: strings in sections of their own, with what two hands, slow masses, inputs and
 /// each other do to them.
@@ -58,8 +58,8 @@ class Orchestra {
   }
 
   int addBridge() {
-    const int mass = b_.mass(0.05, 0.0, 0.1, ergotic::test::SceneBuilder::kGestural);
-    b_.spring(mass, b_.ground(0.0, ergotic::test::SceneBuilder::kGestural), 1000.0, 0.1);
+    const int mass = b_.mass(0.05, 0.0, 0.1, SceneBuilder::kGestural);
+    b_.spring(mass, b_.ground(0.0, SceneBuilder::kGestural), 1000.0, 0.1);
     return mass;
   }
 
@@ -106,8 +106,8 @@ class Orchestra {
     b_.scene.lias[at(friction)].scheme = scene::Scheme::kGuarded;
   }
 
-  ergotic::test::SceneBuilder b_;
+  SceneBuilder b_;
   std::vector<int> strings_;
 };
 
-}  // namespace ergotic::physics::test
+}  // namespace ergotic::physics

@@ -5,7 +5,7 @@
 namespace ergotic::physics {
 namespace {
 
-struct Built : SceneBuilder {
+struct PointScene : SceneBuilder {
   /// Fixed modules in a row at x = 0, 1, 2...: a point among them is heard where it lies.
   int ruler(int count) {
     const int first = ground(0.0);
@@ -20,7 +20,7 @@ struct Built : SceneBuilder {
 };
 
 TEST(PointTest, ForceIsHandedOnWithTheWeightsOfThePosition) {
-  Built b;
+  PointScene b;
   const int on = b.ruler(11);
   const int point = b.point(on, 0.34);
   b.spring(b.driven(0), point, 100.0);
@@ -44,7 +44,7 @@ TEST(PointTest, ForceIsHandedOnWithTheWeightsOfThePosition) {
 }
 
 TEST(PointTest, MeshSharesTheForceOutOverFourModules) {
-  Built b;
+  PointScene b;
   const int columns = 4;
   const int rows = 3;
   for (int i = 0; i < columns * rows; ++i) {
@@ -75,7 +75,7 @@ TEST(PointTest, MeshSharesTheForceOutOverFourModules) {
 
 TEST(PointTest, OnAModuleIsThatModule) {
   const auto play = [](bool by_point) {
-    Built b;
+    PointScene b;
     const int first = b.chain(15, 1e-3, 2e3, 0.01);
     const int hammer = b.mass(2e-3, -1e-3, 2.0);
     const int there = by_point ? b.point(b.grid(first, 17), 0.25) : first + 4;
@@ -96,7 +96,7 @@ TEST(PointTest, OnAModuleIsThatModule) {
 
 TEST(PointTest, PlaceThatFollowsAParameterMovesAtItsSpeed) {
   for (const auto& [from, to] : {std::pair(0.2, 0.8), {0.8, 0.2}}) {
-    Built b;
+    PointScene b;
     const int on = b.ruler(11);
     const int point = b.point(on, 1.0);
     b.parameter(from, 0.0, 1.0);
@@ -122,7 +122,7 @@ TEST(PointTest, PlaceThatFollowsAParameterMovesAtItsSpeed) {
 }
 
 TEST(PointTest, PlaceWithoutASpeedIsThereWithinATick) {
-  Built b;
+  PointScene b;
   const int point = b.point(b.ruler(11), 1.0);
   b.parameter(0.2, 0.0, 1.0);
   b.scene.connections[0].along.at = {1.0, 0};
@@ -135,7 +135,7 @@ TEST(PointTest, PlaceWithoutASpeedIsThereWithinATick) {
 }
 
 TEST(PointTest, SpeedIsPerSecondInSlowerSectionsToo) {
-  Built b;
+  PointScene b;
   b.scene.sections[0].divisor = 5;
   const int point = b.point(b.ruler(11), 1.0);
   b.parameter(0.2, 0.0, 1.0);
@@ -153,7 +153,7 @@ TEST(PointTest, SpeedIsPerSecondInSlowerSectionsToo) {
 }
 
 TEST(PointTest, GuideLeadsAlongTheStringWithinItsRange) {
-  Built b;
+  PointScene b;
   const int point = b.point(b.ruler(11), 0.4);
   scene::Connection& connection = b.scene.connections[0];
   connection.along.guide = b.slice(0);
@@ -170,7 +170,7 @@ TEST(PointTest, GuideLeadsAlongTheStringWithinItsRange) {
 }
 
 TEST(PointTest, LinkBetweenTwoMovingPlacesKeepsMomentumAndEnergyBalances) {
-  Built b;
+  PointScene b;
   std::vector<int> points;
   for (int s = 0; s < 2; ++s) {
     const int first = b.mass(1e-3, 0.0, s == 0 ? 1.0 : -1.0);
@@ -207,7 +207,7 @@ TEST(PointTest, LinkBetweenTwoMovingPlacesKeepsMomentumAndEnergyBalances) {
 
 TEST(PointTest, GlidingUpASlopeTakesTheWorkThatTheSpringStores) {
   for (const double cubic : {0.0, 3.0}) {
-    Built b;
+    PointScene b;
     const int point = b.point(b.ruler(11), 1.0);  // a slope of fixed modules: 0...10 m
     b.parameter(0.2, 0.0, 1.0);
     b.scene.connections[0].along.at = {1.0, 0};
@@ -231,7 +231,7 @@ TEST(PointTest, StringFrettedInTheMiddleSoundsAnOctaveHigher) {
   const double kappa = 0.05;
   const double m = 1e-4;
   const auto play = [&](double fret) {
-    Built b;
+    PointScene b;
     const int first = b.chain(79, m, kappa * m * kRate * kRate);
     for (int i = 1; i < 40; ++i) {
       b.scene.mats[at(first + i)].position.x() = 1e-3 * (i < 11 ? i / 11.0 : (40 - i) / 29.0);

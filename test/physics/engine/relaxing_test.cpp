@@ -20,9 +20,6 @@ namespace {
 
 using scene::Relaxation;
 
-constexpr Rates kEveryFrame{kRate, 1};
-constexpr double kStep = 1.0 / kRate;
-
 /// (K + sum K_r q_r/e)/K of an elongation that goes round by so much in a step.
 std::complex<double> answerOf(const std::vector<Relaxation>& branches, double angle) {
   const std::complex<double> z = std::polar(1.0, angle);

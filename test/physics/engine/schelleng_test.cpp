@@ -13,12 +13,12 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr double kPitch = 196.0;  // Hz
-constexpr int kMasses = 110;
+constexpr double kBowedPitch = 196.0;  // Hz
+constexpr int kBowedMasses = 110;
 constexpr double kResistance = 0.36;   // kg/s, of waves on the string
 constexpr double kLoss = 3.0;          // 1/s, of its first mode
 constexpr double kLossOfTenth = 15.0;  // 1/s
-constexpr double kSeconds = 0.5;
+constexpr double kBowedSeconds = 0.5;
 constexpr int kJudged = 40;                              // last periods
 constexpr double kSpeeds[] = {0.15, 0.3, 0.6};           // m/s
 constexpr double kPlaces[] = {0.04, 0.06, 0.09, 0.135};  // of the length, from the bridge
@@ -32,7 +32,7 @@ double frictionAt(double v) {
 struct Limits {
   Limits(double speed, double place) {
     const double fall = frictionAt(0.0) - frictionAt(speed / place - speed);
-    const double at_bridge = 2.0 * kPitch * kResistance / kLoss;
+    const double at_bridge = 2.0 * kBowedPitch * kResistance / kLoss;
     least = kResistance * kResistance * speed / (2.0 * at_bridge * place * place * fall);
     most = 2.0 * kResistance * speed / (place * fall);
   }
@@ -42,8 +42,8 @@ struct Limits {
 
 /// A bowed string that already moves as Helmholtz has it, its corner half way.
 scene::Scene bowedString(double speed, double place, double force) {
-  const double length = kMasses + 1;
-  const double step = std::sin(kPi * kPitch / kRate) / std::sin(kPi / (2.0 * length));
+  const double length = kBowedMasses + 1;
+  const double step = std::sin(kPi * kBowedPitch / kRate) / std::sin(kPi / (2.0 * length));
   const double mass = kResistance / (kRate * step);
   const double by_square =
       (kLossOfTenth - kLoss) / 99.0;  // losses grow with the square of the mode
@@ -51,8 +51,8 @@ scene::Scene bowedString(double speed, double place, double force) {
   text.precision(17);
   text << "ergotic: 1\nsections: {all: {rate: audio}}\n"
        << "mats:\n  hair: {type: mass, mass: 1e9, v: " << speed << "}\n"
-       << "generators: [{type: string, name: s, masses: " << kMasses << ", mass: " << mass
-       << ", frequency: " << kPitch << ", loss: " << 2.0 * mass * (kLoss - by_square)
+       << "generators: [{type: string, name: s, masses: " << kBowedMasses << ", mass: " << mass
+       << ", frequency: " << kBowedPitch << ", loss: " << 2.0 * mass * (kLoss - by_square)
        << ", damping: " << 2.0 * mass * by_square * std::pow(length / kPi, 2.0)
        << ", to: [0.325, 0]}]\n"
        << "lias:\n  bow: {type: friction, between: [s@" << place << ", hair], normal: " << force
@@ -60,11 +60,11 @@ scene::Scene bowedString(double speed, double place, double force) {
        << "outputs:\n  string: {at: s@" << place << ", quantity: velocity, channel: 1}\n"
        << "  hair: {at: hair, quantity: velocity, channel: 2}\n";
   scene::Scene scene = scene::readYaml(text.str(), "bowed.yaml");
-  for (int i = 1; i <= kMasses; ++i) {
+  for (int i = 1; i <= kBowedMasses; ++i) {
     scene::Mat& mat = scene.mats[at(scene.strings[0].first + i)];
     const double x = i / length;
     const double slope = speed / place;
-    mat.position.x() = -slope / kPitch / 4.0 * (x < 0.5 ? x : 1.0 - x);
+    mat.position.x() = -slope / kBowedPitch / 4.0 * (x < 0.5 ? x : 1.0 - x);
     const double v = x < 0.5 ? slope * x : -slope * (1.0 - x);
     scene::setVelocity(mat, v * Eigen::Vector3d::UnitX());
   }
@@ -82,16 +82,16 @@ struct Sound {
   }
 };
 
-Sound play(double speed, double place, double force) {
-  constexpr Rates kRates{kRate, 45};
+Sound playBowed(double speed, double place, double force) {
+  constexpr Rates kBowedRates{kRate, 45};
   CompileOptions options(Precision::kDouble);
   options.metered = false;
-  const scene::Scene scene = settle(bowedString(speed, place, force), kRates).scene;
-  Player player(compile(scene, kRates, options));
-  player.ticks(static_cast<int>(kSeconds * kRate / kRates.ratio));
+  const scene::Scene scene = settle(bowedString(speed, place, force), kBowedRates).scene;
+  Player player(compile(scene, kBowedRates, options));
+  player.ticks(static_cast<int>(kBowedSeconds * kRate / kBowedRates.ratio));
   const std::vector<double>& string = player.heard[0];
   const std::vector<double>& hair = player.heard[1];
-  const double period = kRate / kPitch;
+  const double period = kRate / kBowedPitch;
   const std::size_t first = string.size() - static_cast<std::size_t>(kJudged * period);
   constexpr double kStuck = 1e-6;  // m/s: what slips is far above that, what sticks far below
   Sound sound;
@@ -152,7 +152,7 @@ std::vector<Cell> playMap() {
       const double ratio = std::pow(3.0 * cell.limits.most / from, 1.0 / (kForces - 1));
       for (int i = 0; i < kForces; ++i) {
         const double force = from * std::pow(ratio, i);
-        cell.played.emplace_back(force, play(speed, place, force));
+        cell.played.emplace_back(force, playBowed(speed, place, force));
       }
       map.push_back(std::move(cell));
     }

@@ -71,16 +71,16 @@ struct Stretched {
   double ratio = 0.0;      ///< rest length over length of a link
   double amplitude = 0.0;  ///< over the length of the string
 };
-constexpr int kMasses = 39;
-constexpr double kKappa = 0.5;
+constexpr int kStretchedMasses = 39;
+constexpr double kStretchedKappa = 0.5;
 
 /// A string of 1 m along x in the shape of its first mode across, heard in its middle.
-std::vector<double> play(const Stretched& string, int ticks) {
+std::vector<double> playStretched(const Stretched& string, int ticks) {
   SceneBuilder b;
   const bool scalar = string.geometry == Geometry::kScalar;
   b.scene.sections[0].geometry = string.geometry;
-  constexpr int kLinks = kMasses + 1;
-  const int first = b.chain(kMasses, kMass, kKappa * kMass * kRate * kRate);
+  constexpr int kLinks = kStretchedMasses + 1;
+  const int first = b.chain(kStretchedMasses, kMass, kStretchedKappa * kMass * kRate * kRate);
   const int across = scalar ? 0 : 2;
   for (int i = 0; i <= kLinks; ++i) {
     scene::Mat& mat = b.scene.mats[at(first + i)];
@@ -99,8 +99,8 @@ std::vector<double> play(const Stretched& string, int ticks) {
 }
 
 TEST(StringTest, WithoutRestLengthInSpaceIsTheScalarOneAtAnyAmplitude) {
-  const auto space = play({Geometry::kSpace, 0.0, 0.5}, 300);
-  const auto scalar = play({Geometry::kScalar, 0.0, 0.5}, 300);
+  const auto space = playStretched({Geometry::kSpace, 0.0, 0.5}, 300);
+  const auto scalar = playStretched({Geometry::kScalar, 0.0, 0.5}, 300);
   for (std::size_t n = 0; n < scalar.size(); ++n) {
     ASSERT_NEAR(space[n], scalar[n], 1e-13) << n;
   }
@@ -108,15 +108,16 @@ TEST(StringTest, WithoutRestLengthInSpaceIsTheScalarOneAtAnyAmplitude) {
 
 /// Small motion across is held by the tension alone: kappa (1 - r).
 TEST(StringTest, OfRestLengthSwingsAcrossAsAScalarOneOfItsTension) {
-  const double angle = std::arg(test::poleOf(play({Geometry::kSpace, 0.9, 1e-7}, 300)));
-  const double expected = closedFormHz(kMasses, 0.1 * kKappa);
+  const double angle = std::arg(test::poleOf(playStretched({Geometry::kSpace, 0.9, 1e-7}, 300)));
+  const double expected = closedFormHz(kStretchedMasses, 0.1 * kStretchedKappa);
   EXPECT_NEAR(angle / (2.0 * kPi) * kRate / expected, 1.0, 1e-7);
 }
 
 TEST(StringTest, PitchRisesWithTheAmplitudeAsThePullFormulaSays) {
   const auto pull = [](double r) {
-    const double still = closedFormHz(kMasses, (1.0 - r) * kKappa);
-    return cents(partialNear(play({Geometry::kSpace, r, 0.01}, 1600), still, kRate), still);
+    const double still = closedFormHz(kStretchedMasses, (1.0 - r) * kStretchedKappa);
+    return cents(partialNear(playStretched({Geometry::kSpace, r, 0.01}, 1600), still, kRate),
+                 still);
   };
   for (const double r : {0.9, 0.99}) {
     EXPECT_NEAR(pull(r) / (1602.0 * r / (1.0 - r) * 1e-4), 1.0, 0.05) << r;

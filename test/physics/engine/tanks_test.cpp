@@ -7,19 +7,10 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr Rates kEveryFrame{kRate, 1};
-constexpr Rates kRates{kRate, 14};
 constexpr double kLength = 0.65;
 
 scene::Scene sceneOf(const std::string& text) {
   return scene::readYaml("ergotic: 1\n" + text, "tanks.yaml");
-}
-
-std::string number(double value) {
-  std::ostringstream text;
-  text.precision(17);
-  text << value;
-  return text.str();
 }
 
 /// A string whose tension rises, in its first mode.

@@ -13,10 +13,9 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr Rates kRates{kRate, 14};
 constexpr double kGravity = 9.81;
 
-scene::Scene sceneOf(const std::string& files, const std::string& text) {
+scene::Scene sceneIncluding(const std::string& files, const std::string& text) {
   return scene::readYaml("ergotic: 1\ninclude: [" + files +
                              "]\nsections: {a: {}, k: {rate: gestural}, air: {gravity: -9.81}}\n" +
                              text,
@@ -44,7 +43,7 @@ TEST(TechniquesTest, AHammerIsInContactAsLongAsItsFeltSays) {
     for (const double p : {1.5, 2.5, 3.0}) {
       const double mass = 0.003;
       const double stiffness = 1e4 * std::pow(1e3, p - 1.0);
-      const scene::Scene scene = sceneOf(
+      const scene::Scene scene = sceneIncluding(
           "lib/mallets.yaml", std::string(kWall) + kPush +
                                   "use: [{is: hammer, as: h, in: {s: a}, with: {on: wall, rest: -1 "
                                   "mm, return: 0, hysteresis: 0, speed: " +
@@ -86,7 +85,7 @@ std::vector<double> feltOver(const scene::Scene& scene, double way, int ticks) {
 
 TEST(TechniquesTest, APlectrumLetsGoAtItsForce) {
   for (const double force : {0.5, 1.5, 4.0}) {
-    const scene::Scene scene = sceneOf(
+    const scene::Scene scene = sceneIncluding(
         "lib/plectra.yaml", std::string(kWall) +
                                 "use: [{is: plectrum, as: p, in: {keys: k}, with: {on: wall, rest: "
                                 "-5 mm, force: " +
@@ -111,7 +110,7 @@ TEST(TechniquesTest, ADamperTakesEachPartialAsItsPlaceSays) {
   for (const Case& one : {Case{"at: 0.1", 0.1, 1, 0.0}, Case{"at: 0.3, partial: 2", 0.3, 1, 0.0},
                           Case{"at: 0.2, width: 0.1, points: 3", 0.2, 3, 0.05}}) {
     const double mass = 0.3 / 400.0;
-    const scene::Scene open = sceneOf(
+    const scene::Scene open = sceneIncluding(
         "lib/plectra.yaml",
         "generators: [{type: string, name: s, section: a, masses: 59, to: [1, 0], pitch: 200, "
         "impedance: 0.3}]\nuse: [{is: damper, as: d, in: {s: a}, with: {string: s, t60: 1 s, "
@@ -137,7 +136,7 @@ TEST(TechniquesTest, ADamperTakesEachPartialAsItsPlaceSays) {
 
 TEST(TechniquesTest, AClockPlucksOnTheRootsOfItsSwing) {
   const double period = 0.3;
-  const scene::Scene scene = sceneOf(
+  const scene::Scene scene = sceneIncluding(
       "lib/clocks.yaml", std::string(kWall) + kPush +
                              "use: [{is: clock, as: c, in: {s: a}, with: {on: wall, period: "
                              "0.3 s}}]\n");
@@ -160,8 +159,9 @@ TEST(TechniquesTest, AClockPlucksOnTheRootsOfItsSwing) {
 }
 
 TEST(TechniquesTest, AKeyWeighsWhatItSays) {
-  const scene::Scene scene = sceneOf("lib/keys.yaml, lib/mallets.yaml",
-                                     "use: [{is: weighted_key, as: key, in: {s: a, keys: k}}]\n");
+  const scene::Scene scene =
+      sceneIncluding("lib/keys.yaml, lib/mallets.yaml",
+                     "use: [{is: weighted_key, as: key, in: {s: a, keys: k}}]\n");
   EXPECT_TRUE(isVouchedFor(scene));
   constexpr double kWay = 0.0115;
   constexpr int kTicks = 30000;
@@ -177,10 +177,10 @@ TEST(TechniquesTest, AKeyWeighsWhatItSays) {
 }
 
 TEST(TechniquesTest, AKeyThrowsItsHammerWhichComesBack) {
-  const scene::Scene scene =
-      sceneOf("lib/mallets.yaml, lib/keys.yaml",
-              std::string(kWall) + kPush +
-                  "use: [{is: hammer_key, as: key, in: {s: a, keys: k}, with: {on: wall}}]\n");
+  const scene::Scene scene = sceneIncluding(
+      "lib/mallets.yaml, lib/keys.yaml",
+      std::string(kWall) + kPush +
+          "use: [{is: hammer_key, as: key, in: {s: a, keys: k}, with: {on: wall}}]\n");
   EXPECT_TRUE(isVouchedFor(scene));
   Player player(scene, kRates);
   const auto blows = [&](double ticks_down) {
@@ -201,7 +201,7 @@ TEST(TechniquesTest, AKeyThrowsItsHammerWhichComesBack) {
 }
 
 TEST(TechniquesTest, RainFallsFromItsHeights) {
-  const scene::Scene scene = sceneOf(
+  const scene::Scene scene = sceneIncluding(
       "lib/mallets.yaml",
       "generators: [{type: membrane, name: skin, section: a, cells: 8, mass: 0.05, pitch: 100}]\n"
       "outputs: {o: {at: 'skin@0.5:0.5', quantity: velocity, channel: 1}}\n"
@@ -235,7 +235,7 @@ TEST(TechniquesTest, BowsBringAStringToItsPitch) {
         Case{"{is: pressed_bow, as: b, in: {s: a, keys: k}, with: {string: s, at: 0.12, hairs: 3, "
              "width: 0.02}}",
              0.0033}}) {
-    const scene::Scene scene = sceneOf("lib/bows.yaml", string + "use: [" + one.use + "]\n");
+    const scene::Scene scene = sceneIncluding("lib/bows.yaml", string + "use: [" + one.use + "]\n");
     EXPECT_TRUE(isVouchedFor(scene)) << one.use;
     Player player(scene, kRates);
     for (int n = 0; n < 6000; ++n) {
@@ -259,8 +259,8 @@ TEST(TechniquesTest, TheRestCanBePlayedToo) {
                                 "{is: touch_key, as: b, in: {keys: k}, with: {on: s@0.3}}",
                                 "{is: finger, as: b, in: {s: a, keys: k}, with: {on: s@0.3}}",
                                 "{is: mallet, as: b, in: {s: a, keys: k}}"}) {
-    EXPECT_TRUE(isVouchedFor(sceneOf("lib/mallets.yaml, lib/plectra.yaml, lib/keys.yaml",
-                                     string + "use: [" + use + "]\n")))
+    EXPECT_TRUE(isVouchedFor(sceneIncluding("lib/mallets.yaml, lib/plectra.yaml, lib/keys.yaml",
+                                            string + "use: [" + use + "]\n")))
         << use;
   }
 }

@@ -8,7 +8,7 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr unsigned kScenes = 60;
+constexpr unsigned kComparedScenes = 60;
 
 Player playerOf(const scene::Scene& scene,
                 const Rates& rates,
@@ -86,7 +86,7 @@ SceneBuilder hangingNet(Geometry geometry) {
 class UnmeteredTest : public testing::TestWithParam<Precision> {};
 
 TEST_P(UnmeteredTest, RandomScenesMoveBitForBitAsWithBooks) {
-  for (unsigned seed = 0; seed < kScenes; ++seed) {
+  for (unsigned seed = 0; seed < kComparedScenes; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const test::RandomScene random = test::randomScene(seed);
     Player with = playerOf(random.scene, random.rates, true, GetParam());
@@ -143,7 +143,7 @@ TEST(UnmeteredEnergyTest, PositionsTellKineticEnergyGravityAndSprings) {
 }
 
 TEST(UnmeteredEnergyTest, NothingElseIsKnown) {
-  for (unsigned seed = 0; seed < kScenes; ++seed) {
+  for (unsigned seed = 0; seed < kComparedScenes; ++seed) {
     const test::RandomScene random = test::randomScene(seed);
     Player player = playerOf(random.scene, random.rates, false, Precision::kDouble);
     player.ticks(30);

@@ -5,8 +5,6 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr double kStep = 1.0 / kRate;
-
 /// M x'' + Z x' + K x = 0 through x(0) = x0 and x(-h) = x0 - v0 h: a module starts from its
 /// position, and its velocity is how far it came in the step before.
 class Oscillator {

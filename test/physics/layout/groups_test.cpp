@@ -6,8 +6,6 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr Rates kRates{44100.0, 14};
-
 /// One mass in each of several sections of some divisors; 0: gestural. Those of the builder are
 /// empty.
 class Sections {

@@ -23,7 +23,7 @@ class ModalChoiceTest : public ::testing::Test {
 ModalPlan planOf(const scene::Scene& scene) {
   ModalPlan plan;
   std::vector<std::string> notes;
-  EXPECT_TRUE(planModes(Network(scene), kRates, 0, plan, notes));
+  EXPECT_TRUE(planModes(Network(scene), kModalRates, 0, plan, notes));
   return plan;
 }
 
@@ -73,8 +73,8 @@ TEST_F(ModalChoiceTest, ErrorAfterImpulsesStaysBelowTheBoundThatIsPrinted) {
   for (const int modes : {20, 60, 110}) {
     const scene::Scene reduced = withModes(scene, modes);
     const double bound = planOf(reduced).error.per_impulse;
-    Player network(scene, kRates);
-    Player modal(reduced, kRates);
+    Player network(scene, kModalRates);
+    Player modal(reduced, kModalRates);
     double impulse = 0.0;
     for (int n = 0; n < 300; ++n) {
       for (std::size_t i = 0; i < network.inputs.size(); ++i) {
@@ -94,8 +94,8 @@ TEST_F(ModalChoiceTest, ErrorAfterImpulsesStaysBelowTheBoundThatIsPrinted) {
 TEST_F(ModalChoiceTest, GiveUnderAConstantForceIsShortByTheShareThatIsPrinted) {
   const scene::Scene scene = pushedPlate().scene;
   const scene::Scene reduced = withModes(scene, 40);
-  Player network(scene, kRates);
-  Player modal(reduced, kRates);
+  Player network(scene, kModalRates);
+  Player modal(reduced, kModalRates);
   for (std::size_t i = 0; i < network.inputs.size(); i += 2) {
     network.inputs[i] = modal.inputs[i] = 1.0;
   }
@@ -115,8 +115,8 @@ TEST_F(ModalChoiceTest, MotionAtTheStartIsOffByNoMoreThanTheBound) {
     b.scene.mats[at(i)].push.edit().force.x() = 0.2 * std::cos(1.3 * i);
   }
   const scene::Scene reduced = withModes(b.scene, 50);
-  Player network(b.scene, kRates);
-  Player modal(reduced, kRates);
+  Player network(b.scene, kModalRates);
+  Player modal(reduced, kModalRates);
   network.ticks(500);
   modal.ticks(500);
   const double bound = planOf(reduced).error.at_start;

@@ -5,7 +5,7 @@
 
 namespace ergotic::physics {
 
-constexpr Rates kRates{kRate, 10};
+constexpr Rates kModalRates{kRate, 10};
 
 /// 30 masses of different weight, damped in proportion, that start displaced and moving under
 /// gravity between springs with rest lengths.
@@ -89,10 +89,10 @@ inline scene::Scene withModes(scene::Scene scene, int modes) {
 }
 
 inline std::string errorOf(const scene::Scene& scene) {
-  return complaintOf<TextError>([&] { const test::Player player(scene, kRates); });
+  return complaintOf<TextError>([&] { const test::Player player(scene, kModalRates); });
 }
 
-inline std::string described(const scene::Scene& scene, const Rates& rates = kRates) {
+inline std::string described(const scene::Scene& scene, const Rates& rates = kModalRates) {
   const test::Player player(scene, rates);
   std::string all;
   for (const std::string& line : player.instrument->describe()) {

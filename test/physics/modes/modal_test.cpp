@@ -27,7 +27,7 @@ double largestResidual(const Player& player) {
 void play(Player& network, Player& modal, int frames) {
   std::mt19937 random(7);
   std::normal_distribution<double> noise;
-  for (int n = 0; n * kRates.ratio < frames; ++n) {
+  for (int n = 0; n * kModalRates.ratio < frames; ++n) {
     for (std::size_t i = 0; i < network.inputs.size(); ++i) {
       network.inputs[i] = modal.inputs[i] = 0.1 * noise(random);
     }
@@ -67,8 +67,8 @@ void expectSameGuards(const Player& network, const Player& modal) {
 }
 
 void expectExact(const scene::Scene& scene) {
-  Player network(scene, kRates);
-  Player modal(withModes(scene, scene::kAllModes), kRates);
+  Player network(scene, kModalRates);
+  Player modal(withModes(scene, scene::kAllModes), kModalRates);
   play(network, modal, 10000);
   expectSameSound(network, modal, 1e-10);
   EXPECT_LT(largestResidual(modal), 1e-11);
@@ -84,14 +84,15 @@ TEST_F(ModalTest, PlateWithAllModesMovesAsItsNetworkUnderContactsAndASlice) {
 }
 
 TEST_F(ModalTest, EveryInstructionSetGivesTheSameBits) {
-  const scene::Scene scene = settle(withModes(playedPlate().scene, scene::kAllModes), kRates).scene;
+  const scene::Scene scene =
+      settle(withModes(playedPlate().scene, scene::kAllModes), kModalRates).scene;
   for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
     for (const rt::Isa isa : rt::isas()) {
       CompileOptions options(precision);
       options.isa = rt::Isa::kBaseline;
-      Player plain(compile(scene, kRates, options));
+      Player plain(compile(scene, kModalRates, options));
       options.isa = isa;
-      Player fast(compile(scene, kRates, options));
+      Player fast(compile(scene, kModalRates, options));
       play(plain, fast, 2000);
       EXPECT_EQ(plain.heard, fast.heard) << rt::nameOf(isa);
     }
@@ -163,8 +164,8 @@ TEST_F(ModalTest, SectionsFallAsleepAndWakeAsTheirNetwork) {
   b.scene.sections[0].sleep_energy = 1e-9;
   b.hear(first + 7);
   b.push(first + 4);
-  Player network(b.scene, kRates);
-  Player modal(withModes(b.scene, scene::kAllModes), kRates);
+  Player network(b.scene, kModalRates);
+  Player modal(withModes(b.scene, scene::kAllModes), kModalRates);
   for (int tick = 0; tick < 1000; ++tick) {
     const double force = tick % 400 == 0 ? 1.0 : 0.0;
     std::fill(network.inputs.begin(), network.inputs.end(), force);
@@ -188,8 +189,8 @@ TEST_F(ModalTest, SectionsFallAsleepWhereTheyAre) {
   b.hear(first + 7);
   const int l = b.link(LiaType::kContact, first + 7, b.ground(0.0, SceneBuilder::kGestural), 1.0);
   b.scene.lias[at(l)].law.edit().width = {-1.0};  // is never reached
-  Player network(b.scene, kRates);
-  Player modal(withModes(b.scene, scene::kAllModes), kRates);
+  Player network(b.scene, kModalRates);
+  Player modal(withModes(b.scene, scene::kAllModes), kModalRates);
   play(network, modal, 3000);
   expectSameSound(network, modal, 1e-10);
   EXPECT_GT(std::abs(network.heard[0].back()), 1e-7);
@@ -199,8 +200,8 @@ TEST_F(ModalTest, SectionsFallAsleepWhereTheyAre) {
 
 TEST_F(ModalTest, PictureShowsModulesThatNothingTouches) {
   const Plate b = playedPlate();
-  Player network(b.scene, kRates);
-  Player modal(withModes(b.scene, scene::kAllModes), kRates);
+  Player network(b.scene, kModalRates);
+  Player modal(withModes(b.scene, scene::kAllModes), kModalRates);
   play(network, modal, 3000);
   std::vector<float> exact(at(b.scene.coordinates()));
   std::vector<float> seen(exact.size());
@@ -262,8 +263,8 @@ TEST_F(ModalTest, EigenvaluesAcrossRatesProveNothingOfFewerModes) {
   const int slow = b.mass(0.05, 0.0, 0.0, SceneBuilder::kGestural);
   b.spring(slow, b.ground(0.0, SceneBuilder::kGestural), 1e3, 0.1);
   b.spring(slow, first + 5, 1e3, 0.1);
-  const Certificate all = certify(withModes(b.scene, scene::kAllModes), kRates);
-  const Certificate some = certify(withModes(b.scene, 10), kRates);
+  const Certificate all = certify(withModes(b.scene, scene::kAllModes), kModalRates);
+  const Certificate some = certify(withModes(b.scene, 10), kModalRates);
   EXPECT_EQ(all.verdict, Verdict::kPassive);
   EXPECT_EQ(some.verdict, Verdict::kUnproven);
   ASSERT_EQ(some.findings.size(), 1U);
@@ -281,7 +282,7 @@ TEST_F(ModalTest, GuardedLinksOnPlacesThatMoveEachOtherMakeNothing) {
   }
   b.hear(b.of(2, 3));
   for (const int modes : {6, 40}) {
-    Player player(withModes(b.scene, modes), kRates);
+    Player player(withModes(b.scene, modes), kModalRates);
     player.tick();
     Energies energies = energiesOf(player);
     const double start = energies.stored;
@@ -325,8 +326,8 @@ TEST_F(ModalTest, TapsOnAStringAreTapsOnItsModes) {
 
 TEST_F(ModalTest, CertificateIsThatOfTheNetwork) {
   const Plate b = playedPlate();
-  const Certificate network = certify(b.scene, kRates);
-  const Certificate modal = certify(withModes(b.scene, scene::kAllModes), kRates);
+  const Certificate network = certify(b.scene, kModalRates);
+  const Certificate modal = certify(withModes(b.scene, scene::kAllModes), kModalRates);
   EXPECT_EQ(modal.verdict, network.verdict);
   EXPECT_EQ(modal.margin(), network.margin());
 }

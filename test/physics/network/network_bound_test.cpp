@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 
+#include "constants.hpp"
 #include "ergotic/physics/certificate/monodromy.hpp"
 #include "physics/network/cell_bound.hpp"
 #include "physics/network/network_analysis.hpp"
@@ -13,8 +14,6 @@
 
 namespace ergotic::physics {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 const std::vector<Share> kNothing;
 
 std::vector<Share> between(int a, int b) {

@@ -21,29 +21,23 @@ using test::cents;
 using test::frequencyOf;
 using test::t60Of;
 
-std::string number(double value) {
-  std::ostringstream text;
-  text.precision(17);
-  text << value;
-  return text.str();
-}
-
 /// A scene of one generator `b`. \param keys  of it, after its name
-scene::Scene settled(const std::string& keys, double rate_hz = kRate) {
+scene::Scene settledBody(const std::string& keys, double rate_hz = kRate) {
   const std::string yaml =
       "ergotic: 1\nsections: {a: {}}\ngenerators:\n  - {name: b, to: [1, 0], " + keys +
       "}\noutputs: {o: {at: b@0.37, quantity: position, channel: 1}}\n";
   return settle(scene::readYaml(yaml, "body.yaml"), {rate_hz, 14}).scene;
 }
 
-double s(double t) {
+/// Of masses and springs of 1 in a row, from one to the next of which the phase grows by t.
+double chainEigenvalue(double t) {
   return 2.0 - 2.0 * std::cos(t);
 }
 
 TEST(BodyTuningTest, AStiffStringHasTheEigenvaluesOfItsClosedForm) {
   constexpr int kMasses = 24;
   const scene::Scene scene =
-      settled("type: string, masses: 24, pitch: 261.6 Hz, inharmonicity: 3.5e-4, mass: 1e-4");
+      settledBody("type: string, masses: 24, pitch: 261.6 Hz, inharmonicity: 3.5e-4, mass: 1e-4");
   const double unit = 1.0 / (1e-4 * kRate * kRate);
   const double kappa = scene.lias[0].stiffness.factor * unit;
   const double bending = scene.bends[0].stiffness.factor * unit;
@@ -52,7 +46,7 @@ TEST(BodyTuningTest, AStiffStringHasTheEigenvaluesOfItsClosedForm) {
   const std::vector<double> found = BodyPoles(scene, kRate).eigenvalues();
   ASSERT_EQ(found.size(), std::size_t{kMasses});
   for (int j = 1; j <= kMasses; ++j) {
-    const double one = s(j * kPi / (kMasses + 1));
+    const double one = chainEigenvalue(j * kPi / (kMasses + 1));
     const double expected = kappa * one + bending * one * one;
     EXPECT_NEAR(found[at(j - 1)] / expected, 1.0, 1e-9) << j;
   }
@@ -71,9 +65,9 @@ TEST(BodyTuningTest, PartialsOfStiffStringsLieWhereTheirInharmonicityPutsThem) {
         StiffString{65.406, 1.4e-4, 80, {{2, 0.05}, {7, 0.05}, {10, 0.18}, {12, 0.55}}},
         StiffString{261.626, 3.5e-4, 60, {{2, 0.09}, {7, 0.09}, {10, 0.32}, {12, 0.98}}}}) {
     const scene::Scene scene =
-        settled("type: string, masses: " + std::to_string(string.masses) +
-                ", mass: 1e-4, pitch: " + number(string.hz) +
-                ", inharmonicity: " + number(string.inharmonicity) + ", t60: [[1, 8], [20, 1.5]]");
+        settledBody("type: string, masses: " + std::to_string(string.masses) +
+                    ", mass: 1e-4, pitch: " + number(string.hz) + ", inharmonicity: " +
+                    number(string.inharmonicity) + ", t60: [[1, 8], [20, 1.5]]");
     const auto poles = BodyPoles(scene, kRate).poles();
     const auto off = [&](int j) {
       const double b = string.inharmonicity;
@@ -90,8 +84,8 @@ TEST(BodyTuningTest, PartialsOfStiffStringsLieWhereTheirInharmonicityPutsThem) {
   }
 }
 
-/// The places where a bar of equal masses swings, lambda = kappa s(t)^2: roots of the equations of
-/// docs/physics.md, Bars and plates, with its lengths a and b.
+/// The places where a bar of equal masses swings, lambda = kappa chainEigenvalue(t)^2: roots of the
+/// equations of docs/physics.md, Bars and plates, with its lengths a and b.
 std::vector<double> rootsOfBar(double a, double b, int count) {
   std::vector<double> roots;
   for (int j = 0; j < count; ++j) {
@@ -116,14 +110,16 @@ TEST(BodyTuningTest, BarsHaveThePartialsOfTheirClosedForms) {
   for (const bool is_free : {true, false}) {
     for (const int masses : {12, 24, 48}) {
       const scene::Scene scene =
-          settled("type: bar, ends: " + std::string(is_free ? "free" : "clamped") +
-                  ", masses: " + std::to_string(masses) + ", mass: 0.3, pitch: 20");
+          settledBody("type: bar, ends: " + std::string(is_free ? "free" : "clamped") +
+                      ", masses: " + std::to_string(masses) + ", mass: 0.3, pitch: 20");
       std::vector<double> found = BodyPoles(scene, kRate).eigenvalues();
       found.erase(found.begin(), found.begin() + (is_free ? 2 : 0));
       const double a = 0.5 * (masses + (is_free ? -1 : 1));
       const std::vector<double> roots = rootsOfBar(a, a + 1.0, 4);
       for (std::size_t j = 1; j < roots.size(); ++j) {
-        EXPECT_NEAR(std::sqrt(found[j] / found[0]) / (s(roots[j]) / s(roots[0])), 1.0, 1e-9)
+        EXPECT_NEAR(std::sqrt(found[j] / found[0]) /
+                        (chainEigenvalue(roots[j]) / chainEigenvalue(roots[0])),
+                    1.0, 1e-9)
             << (is_free ? "free " : "clamped ") << masses << ", " << j;
       }
     }
@@ -134,8 +130,8 @@ TEST(BodyTuningTest, TunedBarsHaveTheRatiosThatWereAskedFor) {
   for (const auto& [ratios, masses, next] :
        {std::tuple{"[4, 10]", 12, 17.4}, std::tuple{"[4, 10]", 48, 18.13},
         std::tuple{"[3, 6]", 12, 9.68}, std::tuple{"[3, 6]", 48, 9.94}}) {
-    const scene::Scene scene = settled("type: bar, masses: " + std::to_string(masses) +
-                                       ", mass: 0.3, pitch: 12, t60: 60, ratios: " + ratios);
+    const scene::Scene scene = settledBody("type: bar, masses: " + std::to_string(masses) +
+                                           ", mass: 0.3, pitch: 12, t60: 60, ratios: " + ratios);
     const auto poles = BodyPoles(scene, kRate).poles();
     const double one = frequencyOf(poles[0], kRate);
     EXPECT_NEAR(cents(one, 12.0), 0.0, 1e-3) << ratios << masses;
@@ -199,7 +195,7 @@ TEST(BodyTuningTest, StringsAndBarsSoundAndDecayAsAskedFromA0ToC8) {
         if (hinged < 4 && body.keys.find("hinged") != std::string::npos) {
           continue;
         }
-        const scene::Scene scene = settled(body.keys + ", t60: " + number(high), rate_hz);
+        const scene::Scene scene = settledBody(body.keys + ", t60: " + number(high), rate_hz);
         EXPECT_NE(certify(scene, {rate_hz, 14}).verdict, Verdict::kUnstable)
             << body.keys << " at " << rate_hz;
         for (const Precision precision : {Precision::kDouble, Precision::kFloat}) {
@@ -215,7 +211,7 @@ TEST(BodyTuningTest, StringsAndBarsSoundAndDecayAsAskedFromA0ToC8) {
 
 TEST(BodyTuningTest, ABarDecaysAsAskedAtTwoPartials) {
   const scene::Scene scene =
-      settled("type: bar, masses: 20, mass: 0.2, pitch: 110, t60: [[1, 3], [3, 1]]");
+      settledBody("type: bar, masses: 20, mass: 0.2, pitch: 110, t60: [[1, 3], [3, 1]]");
   const auto poles = BodyPoles(scene, kRate).poles();
   // A drag on its turning, which is below what swings, comes with the dampers between neighbours.
   const auto near = [&](double hz) {
@@ -230,7 +226,7 @@ TEST(BodyTuningTest, ABarDecaysAsAskedAtTwoPartials) {
 
 std::string refusal(const std::string& keys) {
   try {
-    settled(keys);
+    settledBody(keys);
   } catch (const std::exception& error) {
     return error.what();
   }

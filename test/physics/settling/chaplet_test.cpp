@@ -11,13 +11,13 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr double kMass = 0.0012;
+constexpr double kChapletMass = 0.0012;
 
 Chaplet c2(int ratio) {
-  return tunedChaplet(scene::kChapletC2, kMass, 1.0 / kRate, ratio);
+  return tunedChaplet(scene::kChapletC2, kChapletMass, 1.0 / kRate, ratio);
 }
 Chaplet c3(int ratio) {
-  return tunedChaplet(scene::kChapletC3, kMass, 1.0 / kRate, ratio);
+  return tunedChaplet(scene::kChapletC3, kChapletMass, 1.0 / kRate, ratio);
 }
 
 /// Z = 0.05 m wN, the heaviest load a chaplet is made for.
@@ -101,7 +101,7 @@ TEST(ChapletTest, StopbandsAreThoseOfTheDesigns) {
     EXPECT_NEAR(-levelAt(d.chaplet, 1.0), d.at_nyquist, kTolerance + kPrinted) << d.name;
     EXPECT_NEAR(-levelAt(d.chaplet, 1.5), d.at_image, kTolerance + kPrinted) << d.name;
     const double nyquist = 2.0 * kPi * d.chaplet.nyquistHz();
-    EXPECT_NEAR(d.chaplet.seriesStiffness() / (kMass * nyquist * nyquist), d.series, 5e-5)
+    EXPECT_NEAR(d.chaplet.seriesStiffness() / (kChapletMass * nyquist * nyquist), d.series, 5e-5)
         << d.name;
   }
 }
@@ -145,10 +145,10 @@ TEST(ChapletTest, ReachesWhatItIsUsedForFromItsLowestRatioOn) {
 TEST(ChapletTest, IsFeltAsItsMassAtLowFrequencies) {
   const Chaplet chaplet = c2(14);
   const double nyquist = chaplet.nyquistHz();
-  EXPECT_NEAR(chaplet.apparentMass(0.02 * nyquist, {}) / kMass, 1.04, 0.01);
-  EXPECT_NEAR(chaplet.apparentMass(0.05 * nyquist, {}) / kMass, 1.11, 0.01);
-  EXPECT_NEAR(chaplet.apparentDamping(0.02 * nyquist, {}) / (kMass * 2.0 * kPi * nyquist), 4e-4,
-              1e-4);
+  EXPECT_NEAR(chaplet.apparentMass(0.02 * nyquist, {}) / kChapletMass, 1.04, 0.01);
+  EXPECT_NEAR(chaplet.apparentMass(0.05 * nyquist, {}) / kChapletMass, 1.11, 0.01);
+  EXPECT_NEAR(chaplet.apparentDamping(0.02 * nyquist, {}) / (kChapletMass * 2.0 * kPi * nyquist),
+              4e-4, 1e-4);
   EXPECT_NEAR(chaplet.apparentDamping(1e-4 * nyquist, {}), 0.0, 1e-6);
 }
 
@@ -255,7 +255,7 @@ TEST(ChapletTest, GeneratedChapletsAreFoundWithTheirLoads) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].name, "pick");
   EXPECT_EQ(found[0].chaplet.ratio(), 14);
-  EXPECT_DOUBLE_EQ(found[0].chaplet.mass(), kMass);
+  EXPECT_DOUBLE_EQ(found[0].chaplet.mass(), kChapletMass);
   EXPECT_NEAR(found[0].load.damping, 2.0 * std::sqrt(2000.0 * 1e-4), 1e-12);
   EXPECT_NEAR(found[0].load.stiffness, 2000.0 / 10.0 + 2000.0 / 11.0, 1e-9);
   builder.scene.mats[1].mass.factor *= 1.01;

@@ -13,7 +13,7 @@ namespace ergotic::physics {
 namespace {
 
 constexpr double kHz = 110.0;
-constexpr double kMass = 1e-4;
+constexpr double kStringMass = 1e-4;
 
 /// A coarse string as the reader leaves it: its links without stiffness.
 SceneBuilder coarse(int masses, double hz, int section = SceneBuilder::kAudio) {
@@ -22,11 +22,11 @@ SceneBuilder coarse(int masses, double hz, int section = SceneBuilder::kAudio) {
   info.name = "string";
   info.first = b.ground(0.0, section);
   info.count = masses + 2;
-  info.mass = {kMass};
+  info.mass = {kStringMass};
   info.frequency_hz = hz;
   info.coarse = true;
   for (int i = 0; i < masses; ++i) {
-    b.mass(kMass, 0.0, 0.0, section);
+    b.mass(kStringMass, 0.0, 0.0, section);
   }
   b.ground(0.0, section);
   for (int i = 0; i < scene::coarseLinks(masses); ++i) {
@@ -97,7 +97,7 @@ TEST(CoarseStringTest, LinksHaveTheModesOfTheFit) {
   const Settled settled = settle(coarse(masses, kHz).scene, {kRate, 14});
   Eigen::MatrixXd k = Eigen::MatrixXd::Zero(masses + 2, masses + 2);
   for (const scene::Lia& lia : settled.scene.lias) {
-    const double kappa = lia.stiffness.factor / (kMass * kRate * kRate);
+    const double kappa = lia.stiffness.factor / (kStringMass * kRate * kRate);
     k(lia.a, lia.a) += kappa;
     k(lia.b, lia.b) += kappa;
     k(lia.a, lia.b) -= kappa;

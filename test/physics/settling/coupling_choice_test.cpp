@@ -8,8 +8,6 @@ namespace {
 
 using scene::Coupling;
 
-constexpr Rates kRates{44100.0, 14};
-
 /// A slice on a spring to a string, or to a mass beside it.
 SceneBuilder touched(double stiffness, Coupling coupling, int section = SceneBuilder::kAudio) {
   SceneBuilder b;

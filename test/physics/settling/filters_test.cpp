@@ -8,7 +8,6 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr Rates kRates{kRate, 14};
 const double kNyquist = kPi * kRate / 14;  // wN, rad/s
 
 /// A string whose middle a slice touches through a filter.

@@ -8,8 +8,6 @@
 namespace ergotic::physics {
 namespace {
 
-const Rates kRates{kRate, 14};
-
 /// A hammer of the gestural section, on a soft spring, that hits a string.
 SceneBuilder hammered(Scheme scheme = Scheme::kAuto) {
   SceneBuilder b;

@@ -10,7 +10,6 @@ namespace {
 constexpr double kLight = 0.002;
 constexpr double kHeavy = 0.008;
 constexpr double kInverse = 1.0 / kLight + 1.0 / kHeavy;
-const Rates kRates{kRate, 14};
 
 /// One `auto` link between two masses in a medium.
 struct Pair {

@@ -10,8 +10,6 @@
 namespace ergotic::physics {
 namespace {
 
-const Rates kRates{44100.0, 14};
-
 /// A string of ten links in space, 1 m long, plucked to a height.
 SceneBuilder spatialString(double rest_length, double height) {
   SceneBuilder b;

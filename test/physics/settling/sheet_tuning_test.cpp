@@ -13,7 +13,7 @@ namespace {
 using test::BodyPoles;
 using test::cents;
 
-scene::Scene settled(const std::string& keys) {
+scene::Scene settledSheet(const std::string& keys) {
   const std::string yaml =
       "ergotic: 1\nsections: {a: {}}\ngenerators:\n  - {name: b, mass: 0.5, " + keys + "}\n";
   return settle(scene::readYaml(yaml, "sheet.yaml"), {kRate, 14}).scene;
@@ -22,14 +22,15 @@ scene::Scene settled(const std::string& keys) {
 /// w h of the modes, by frequency, without the rigid motions.
 std::vector<double> frequencies(const std::string& keys, int rigid = 0) {
   std::vector<double> all;
-  for (const double lambda : BodyPoles(settled(keys), kRate).eigenvalues()) {
+  for (const double lambda : BodyPoles(settledSheet(keys), kRate).eigenvalues()) {
     all.push_back(std::sqrt(std::max(0.0, lambda)));
   }
   all.erase(all.begin(), all.begin() + rigid);
   return all;
 }
 
-double s(int j, int masses) {
+/// 2 - 2 cos of the j-th of `masses` between hinges.
+double hinged(int j, int masses) {
   return 2.0 - 2.0 * std::cos(j * kPi / (masses + 1));
 }
 
@@ -39,7 +40,7 @@ std::vector<double> formOver(int columns, int rows, const Form& form) {
   std::vector<double> all;
   for (int j = 1; j <= columns; ++j) {
     for (int k = 1; k <= rows; ++k) {
-      all.push_back(std::sqrt(form(s(j, columns), s(k, rows))));
+      all.push_back(std::sqrt(form(hinged(j, columns), hinged(k, rows))));
     }
   }
   std::sort(all.begin(), all.end());
@@ -131,7 +132,7 @@ TEST(SheetTuningTest, SheetsDecayAsAskedAndAreVouchedFor) {
         "type: membrane, shape: round, cells: 5, pitch: 200, t60: [[1, 2], [6, 1.2]]",
         "type: plate, edges: clamped, cells: 7, pitch: 150, t60: [[1, 2], [6, 1.2]]",
         "type: plate, cells: 8, pitch: 150, t60: [[1, 2], [6, 1.2]]"}) {
-    const scene::Scene scene = settled(keys);
+    const scene::Scene scene = settledSheet(keys);
     EXPECT_EQ(certify(scene, {kRate, 14}).verdict, Verdict::kPassive) << keys;
     const BodyPoles body(scene, kRate);
     const std::vector<double> lambda = body.eigenvalues();

@@ -10,8 +10,7 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr Rates kRates{kRate, 1};
-constexpr double kStiffness = 1e6;  // N/m, of the spring that holds
+constexpr double kHoldingStiffness = 1e6;  // N/m, of the spring that holds
 
 using Points = std::vector<std::pair<double, double>>;
 
@@ -29,7 +28,7 @@ SceneBuilder held(const Points& elastic,
                   double damping = 0.0) {
   SceneBuilder b;
   const int mass = b.mass(1.0, x, v);
-  b.spring(mass, b.ground(), kStiffness, damping);
+  b.spring(mass, b.ground(), kHoldingStiffness, damping);
   scene::Lia& table = b.scene.lias[at(b.link(LiaType::kTable, mass, b.ground(), 0.0))];
   table.law.edit().table.points = elastic;
   table.law.edit().viscous_table.points = viscous;
@@ -42,28 +41,28 @@ TEST(SplitTablesTest, WhatTheSpringsHoldIsSplit) {
   for (const auto& [elastic, viscous, force] : {std::tuple(kSlanted, Points{}, 50.0),
                                                 {Points{}, kConstant, 5.0},
                                                 {kSlanted, kConstant, 55.0}}) {
-    const scene::Scene scene = settle(held(elastic, viscous).scene, kRates).scene;
+    const scene::Scene scene = settle(held(elastic, viscous).scene, kEveryFrame).scene;
     ASSERT_EQ(scene.lias.size(), 3U);
     const scene::Lia& rest = scene.lias[1];
     const scene::Lia& push = scene.lias[2];
     EXPECT_EQ(push.name, "l1.push");
     EXPECT_EQ(push.scheme, Scheme::kExplicit);
-    EXPECT_NEAR(push.stiffness.factor, -1e-3 * kStiffness, 3e-5 * kStiffness * 1e-3);
+    EXPECT_NEAR(push.stiffness.factor, -1e-3 * kHoldingStiffness, 3e-5 * kHoldingStiffness * 1e-3);
     EXPECT_NEAR(push.stiffness.factor * -push.rest_length, force, 1e-6);
     EXPECT_EQ(rest.scheme, Scheme::kGuarded);
     EXPECT_EQ(rest.stiffness.factor, -push.stiffness.factor);
     EXPECT_EQ(rest.law->width.factor, push.rest_length);
-    EXPECT_LE(certify(scene, kRates).verdict, Verdict::kBounded);
+    EXPECT_LE(certify(scene, kEveryFrame).verdict, Verdict::kBounded);
   }
 }
 
 TEST(SplitTablesTest, WhatHasAFloorStaysWhole) {
   const Points well = {{-1e-3, -10.0}, {1e-3, 10.0}};
   for (const auto& [elastic, viscous] : {std::pair(well, Points{}), {well, kConstant}}) {
-    const scene::Scene scene = settle(held(elastic, viscous).scene, kRates).scene;
+    const scene::Scene scene = settle(held(elastic, viscous).scene, kEveryFrame).scene;
     EXPECT_EQ(scene.lias.size(), 2U);
     EXPECT_EQ(scene.lias[1].scheme, Scheme::kGuarded);
-    EXPECT_EQ(certify(scene, kRates).verdict, Verdict::kPassive);
+    EXPECT_EQ(certify(scene, kEveryFrame).verdict, Verdict::kPassive);
   }
 }
 
@@ -73,10 +72,10 @@ TEST(SplitTablesTest, WhatNothingHoldsIsNotVouchedFor) {
     SceneBuilder b = held({}, kConstant);
     b.scene.lias[0].b = b.mass(1.0);
     b.scene.lias[0].stiffness = {stiffness};
-    const scene::Scene scene = settle(b.scene, kRates).scene;
+    const scene::Scene scene = settle(b.scene, kEveryFrame).scene;
     EXPECT_EQ(scene.lias.size(), 2U);
     EXPECT_EQ(scene.lias[1].scheme, Scheme::kExplicit);
-    EXPECT_EQ(certify(scene, kRates).verdict, Verdict::kUnproven);
+    EXPECT_EQ(certify(scene, kEveryFrame).verdict, Verdict::kUnproven);
   }
 }
 
@@ -104,7 +103,7 @@ SceneBuilder atALimit(const Limit& limit, double of_stiffness, double of_damping
 
 TEST(SplitTablesTest, WhatIsLeftNowhereFalls) {
   for (const Limit& limit : kAtTheLimit) {
-    const scene::Scene scene = settle(atALimit(limit, 1.01, 1.01).scene, kRates).scene;
+    const scene::Scene scene = settle(atALimit(limit, 1.01, 1.01).scene, kEveryFrame).scene;
     ASSERT_EQ(scene.lias.size(), 3U);
     const scene::Lia& rest = scene.lias[1];
     const scene::Lia& push = scene.lias[2];
@@ -114,7 +113,7 @@ TEST(SplitTablesTest, WhatIsLeftNowhereFalls) {
     EXPECT_EQ(rest.scheme, Scheme::kGuarded);
     EXPECT_EQ(rest.stiffness.factor, -push.stiffness.factor);
     EXPECT_EQ(rest.damping.factor, -push.damping.factor);
-    EXPECT_LE(certify(scene, kRates).verdict, Verdict::kBounded);
+    EXPECT_LE(certify(scene, kEveryFrame).verdict, Verdict::kBounded);
   }
 }
 
@@ -124,11 +123,12 @@ TEST(SplitTablesTest, WhatIsHeldAndBrakedTooLittleStaysWhole) {
       if ((stiffness < 1.0 && limit.stiffness < 1e5) || (damping < 1.0 && limit.damping == 0.0)) {
         continue;
       }
-      const scene::Scene scene = settle(atALimit(limit, stiffness, damping).scene, kRates).scene;
+      const scene::Scene scene =
+          settle(atALimit(limit, stiffness, damping).scene, kEveryFrame).scene;
       EXPECT_EQ(scene.lias.size(), 2U);
       if (!limit.viscous.empty()) {
         EXPECT_EQ(scene.lias[1].scheme, Scheme::kExplicit);
-        EXPECT_EQ(certify(scene, kRates).verdict, Verdict::kUnproven);
+        EXPECT_EQ(certify(scene, kEveryFrame).verdict, Verdict::kUnproven);
       }
     }
   }
@@ -138,7 +138,7 @@ TEST(SplitTablesTest, WhatIsHeldAndBrakedTooLittleStaysWhole) {
 TEST(SplitTablesTest, WhatDrivesGrowsUnlessItIsBraked) {
   const Points drive = {{-1e3, 5e4}, {1e3, -5e4}};
   const auto speedWith = [&](double damping) {
-    Player player(held({}, drive, 0.0, 1.0, damping).scene, kRates);
+    Player player(held({}, drive, 0.0, 1.0, damping).scene, kEveryFrame);
     player.ticks(static_cast<int>(2.0 * kRate));
     return std::sqrt(2.0 * energiesOf(player).sections[0].kinetic);
   };
@@ -149,11 +149,11 @@ TEST(SplitTablesTest, WhatDrivesGrowsUnlessItIsBraked) {
 /// Not all that hangs together is braked.
 TEST(SplitTablesTest, DamperOfANeighbourBrakesNothing) {
   SceneBuilder b = held({}, kDrive, 0.0, 0.0);
-  b.spring(b.mass(1.0), 0, kStiffness);
+  b.spring(b.mass(1.0), 0, kHoldingStiffness);
   b.spring(2, 1, 0.0, 1e3);
-  const scene::Scene scene = settle(b.scene, kRates).scene;
+  const scene::Scene scene = settle(b.scene, kEveryFrame).scene;
   EXPECT_EQ(scene.lias.size(), 4U);
-  EXPECT_EQ(certify(scene, kRates).verdict, Verdict::kUnproven);
+  EXPECT_EQ(certify(scene, kEveryFrame).verdict, Verdict::kUnproven);
 }
 
 /// Through a damper to a slice the table would drive whoever holds that, and lets go.
@@ -161,8 +161,8 @@ TEST(SplitTablesTest, HandHoldsNothing) {
   for (const bool is_hand : {false, true}) {
     SceneBuilder b = held(kSlanted, kDrive);
     b.scene.lias[0].stiffness = {0.0};
-    b.spring(0, is_hand ? b.slice(0) : b.ground(), kStiffness, 1e3);
-    EXPECT_EQ(settle(b.scene, kRates).scene.lias.size(), is_hand ? 3U : 4U);
+    b.spring(0, is_hand ? b.slice(0) : b.ground(), kHoldingStiffness, 1e3);
+    EXPECT_EQ(settle(b.scene, kEveryFrame).scene.lias.size(), is_hand ? 3U : 4U);
   }
 }
 
@@ -172,23 +172,23 @@ TEST(SplitTablesTest, ManyTakeNoMoreThanThereIs) {
   for (int n = 0; n < 6; ++n) {
     b.scene.lias.push_back(b.scene.lias[1]);
   }
-  const scene::Scene scene = settle(b.scene, kRates).scene;
+  const scene::Scene scene = settle(b.scene, kEveryFrame).scene;
   EXPECT_EQ(scene.lias.size(), 1U + 2U * 7U);
-  EXPECT_EQ(certify(scene, kRates).verdict, Verdict::kPassive);
+  EXPECT_EQ(certify(scene, kEveryFrame).verdict, Verdict::kPassive);
 }
 
 TEST(SplitTablesTest, ConstantForceMovesTheRest) {
-  Player player(held({}, kConstant).scene, kRates);
+  Player player(held({}, kConstant).scene, kEveryFrame);
   player.ticks(3000);
   const auto [low, high] = std::minmax_element(player.heard[0].begin(), player.heard[0].end());
-  EXPECT_NEAR(*low, -2.0 * 5.0 / kStiffness, 1e-9);
+  EXPECT_NEAR(*low, -2.0 * 5.0 / kHoldingStiffness, 1e-9);
   EXPECT_NEAR(*high, 0.0, 1e-9);
 }
 
 TEST(SplitTablesTest, EnergyIsKeptWhereNothingIsLost) {
   for (const auto& [elastic, viscous] :
        {std::pair(kSlanted, Points{}), {kSlanted, kConstant}, {kOutward, kConstant}}) {
-    Player player(held(elastic, viscous, 3e-3, 1.0).scene, kRates);
+    Player player(held(elastic, viscous, 3e-3, 1.0).scene, kEveryFrame);
     EXPECT_LT(imbalanceOf(player, 5000), 1e-12);
     EXPECT_NEAR(energiesOf(player).sections[0].dissipated, 0.0, 1e-9);
   }

@@ -12,17 +12,8 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr Rates kRates{kRate, 14};
-
 scene::Scene sceneOf(const std::string& text) {
   return scene::readYaml("ergotic: 1\nsections: {a: {}}\n" + text, "stops.yaml");
-}
-
-std::string number(double value) {
-  std::ostringstream text;
-  text.precision(17);
-  text << value;
-  return text.str();
 }
 
 /// A string of 98 Hz that something presses down behind fret k: what it sounds like.

@@ -134,7 +134,7 @@ TEST(StringTuningTest, MassThatIsAParameterKeepsThePitch) {
   }
 }
 
-std::string refusalOf(const Wish& wish) {
+std::string wishRefusal(const Wish& wish) {
   try {
     settle(open(wish), wish.rates);
   } catch (const TextError& error) {
@@ -151,11 +151,11 @@ Wish cutInto(int masses, Wish wish) {
 /// What is advised works, and no more than that.
 void expectMost(const Wish& wish, int most) {
   const std::string advice = "at most " + std::to_string(most) + " masses";
-  EXPECT_THAT(refusalOf(wish), HasSubstr(advice)) << wish;
+  EXPECT_THAT(wishRefusal(wish), HasSubstr(advice)) << wish;
   for (int masses = 3; masses <= most; ++masses) {
-    EXPECT_EQ(refusalOf(cutInto(masses, wish)), "") << wish;
+    EXPECT_EQ(wishRefusal(cutInto(masses, wish)), "") << wish;
   }
-  EXPECT_NE(refusalOf(cutInto(most + 1, wish)), "") << wish;
+  EXPECT_NE(wishRefusal(cutInto(most + 1, wish)), "") << wish;
 }
 
 TEST(StringTuningTest, RefusalsAdviseHowManyMassesWouldDo) {
@@ -163,11 +163,11 @@ TEST(StringTuningTest, RefusalsAdviseHowManyMassesWouldDo) {
   expectMost({1500.0, 20, "coarse: true, mass: 1e-4", ""}, 13);
   expectMost({1760.0, 20, "mass: 1e-4, rest_length_ratio: 0.9, scheme: guarded", "geometry: line"},
              5);
-  EXPECT_THAT(refusalOf({9000.0, 20, "coarse: true, mass: 1e-4", ""}),
+  EXPECT_THAT(wishRefusal({9000.0, 20, "coarse: true, mass: 1e-4", ""}),
               HasSubstr("Use a higher rate or a lower frequency"));
-  EXPECT_THAT(refusalOf({23000.0, 1, "mass: 1e-4", ""}),
+  EXPECT_THAT(wishRefusal({23000.0, 1, "mass: 1e-4", ""}),
               HasSubstr("below half its rate, 22050 Hz"));
-  EXPECT_THAT(refusalOf({440.0, 1, "mass: 1e-6, damping: 1", ""}),
+  EXPECT_THAT(wishRefusal({440.0, 1, "mass: 1e-6, damping: 1", ""}),
               HasSubstr("less damping or loss"));
 }
 

@@ -122,7 +122,7 @@ EndEffector handle() {
   return message;
 }
 
-std::string refusalOf(const EndEffector& message) {
+std::string refusalOfHand(const EndEffector& message) {
   return complaintOf<TextError>([&] { fromMessages({message}); });
 }
 
@@ -163,16 +163,16 @@ TEST(EndEffectorsTest, AreNoneWhenThereAreNone) {
 TEST(EndEffectorsTest, AreRefusedWithTheirNameForWhatNoYamlMaySay) {
   EndEffector message = handle();
   message.type = 5;
-  EXPECT_THAT(refusalOf(message), HasSubstr("'handle': type is 5, allowed: 0...4"));
+  EXPECT_THAT(refusalOfHand(message), HasSubstr("'handle': type is 5, allowed: 0...4"));
   message = handle();
   message.slices[2] = 64;
-  EXPECT_THAT(refusalOf(message), HasSubstr("'handle': slice is 64, allowed: 0...63"));
+  EXPECT_THAT(refusalOfHand(message), HasSubstr("'handle': slice is 64, allowed: 0...63"));
   message = handle();
   message.rod = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(refusalOf(message), HasSubstr("rod"));
+  EXPECT_THAT(refusalOfHand(message), HasSubstr("rod"));
   message = handle();
   message.points.pop_back();
-  EXPECT_NE(refusalOf(message), "");
+  EXPECT_NE(refusalOfHand(message), "");
 }
 
 TEST(EndEffectorsTest, AreRefusedWithNumbersThatAreNone) {
@@ -191,12 +191,12 @@ TEST(EndEffectorsTest, AreRefusedWithNumbersThatAreNone) {
     for (const double value : {std::nan(""), std::numeric_limits<double>::infinity()}) {
       EndEffector message = handle();
       damage(message, value);
-      EXPECT_THAT(refusalOf(message), HasSubstr("allowed: ")) << value;
+      EXPECT_THAT(refusalOfHand(message), HasSubstr("allowed: ")) << value;
     }
   }
   EndEffector huge = handle();
   huge.pose.orientation.w = 1e300;
-  EXPECT_THAT(refusalOf(huge),
+  EXPECT_THAT(refusalOfHand(huge),
               HasSubstr("'handle': the norm of its orientation is inf, allowed: "));
 }
 

@@ -4,12 +4,11 @@
 #include <cmath>
 #include <random>
 
+#include "constants.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::scene {
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 std::vector<Eigen::Vector3d> ring(int count, double elevation) {
   std::vector<Eigen::Vector3d> speakers;

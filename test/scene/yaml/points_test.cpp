@@ -10,7 +10,7 @@
 namespace ergotic::scene {
 namespace {
 
-const std::string kHead =
+const std::string kPointsHead =
     "ergotic: 1\nparameters: {finger: {value: 0.3, range: [0.1, 0.9]}}\n"
     "sections: {a: {}, p: {geometry: plane}, h: {rate: gestural}}\n"
     "generators:\n"
@@ -20,8 +20,8 @@ const std::string kHead =
     "     stiffness: 1, at: [1, 2]}\n";
 
 Scene pointScene(const std::string& fields) {
-  return readYaml(kHead + "mats:\n  k: {type: slice, section: h}\n  q: {type: point, " + fields +
-                      "}\nports: {k: {mat: k, slice: 0}}\n",
+  return readYaml(kPointsHead + "mats:\n  k: {type: slice, section: h}\n  q: {type: point, " +
+                      fields + "}\nports: {k: {mat: k, slice: 0}}\n",
                   "point.yaml");
 }
 
@@ -151,7 +151,7 @@ TEST(PointTest, OnAMeshMayBeLedAcrossAlone) {
 }
 
 TEST(PointTest, CanBeNamedByLinksAndOutputs) {
-  const Scene s = readYaml(kHead +
+  const Scene s = readYaml(kPointsHead +
                                "mats: {q: {type: point, along: s, at: 0.35},\n"
                                "  g: {type: ground, section: a}}\n"
                                "lias: {l: {type: spring, between: [g, q], stiffness: 1}}\n"
@@ -162,7 +162,7 @@ TEST(PointTest, CanBeNamedByLinksAndOutputs) {
 }
 
 TEST(PointTest, OfALinkEndIsMadeOnceForAllLinks) {
-  const Scene s = readYaml(kHead +
+  const Scene s = readYaml(kPointsHead +
                                "mats: {g: {type: ground, section: p}}\n"
                                "lias:\n"
                                "  l: {type: spring, between: [g, net@0.3:0.7], stiffness: 1}\n"

@@ -6,7 +6,7 @@
 namespace ergotic::scene {
 namespace {
 
-#define HEAD                                                                                    \
+#define LINK_HEAD                                                                               \
   "ergotic: 1\n"                                                                                \
   "parameters: {p: {value: 2, range: [1, 4]}, n: {value: 0, range: [-1, 1]}}\n"                 \
   "sections: {a: {}, b: {}, c: {rate: {divisor: 4}}, h: {rate: gestural},\n"                    \
@@ -22,7 +22,7 @@ namespace {
   "  w: {type: mass, section: w, mass: 1}\n"                                                    \
   "generators: [{type: string, name: s, section: a, masses: 3, mass: 1, stiffness: 1, to: [1, " \
   "0]}]\n"
-#define LINK HEAD "lias: {x: {"
+#define LINK LINK_HEAD "lias: {x: {"
 
 Lia last(const std::string& text) {
   return readYaml(text, "links.yaml").lias.back();

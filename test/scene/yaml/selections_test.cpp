@@ -10,7 +10,7 @@
 namespace ergotic::scene {
 namespace {
 
-const std::string kHead =
+const std::string kSelectionsHead =
     "ergotic: 1\n"
     "sections: {a: {}, h: {rate: gestural}, p: {geometry: plane}}\n"
     "generators:\n"
@@ -26,9 +26,9 @@ const std::string kHead =
     "  q: {type: mass, section: p, mass: 1, at: [0.21, 0.08]}}\n";
 
 Scene linked(const std::string& a, const std::string& b) {
-  return readYaml(
-      kHead + "lias: {l: {type: spring, between: [" + a + ", " + b + "], stiffness: 1}}\n",
-      "s.yaml");
+  return readYaml(kSelectionsHead + "lias: {l: {type: spring, between: [" + a + ", " + b +
+                      "], stiffness: 1}}\n",
+                  "s.yaml");
 }
 
 std::string nameAt(const Scene& scene, int mat) {
@@ -110,7 +110,7 @@ TEST(SelectionsTest, SetsOfOneSizeAreLinkedInPairs) {
 
 TEST(SelectionsTest, TheMeanIsOneTap) {
   const Scene scene =
-      readYaml(kHead +
+      readYaml(kSelectionsHead +
                    "lias: {l: {type: spring, between: ['mean(net/row( 1 ))', m], stiffness: 1},\n"
                    "  k: {type: spring, between: ['mean(net/row(1))', m], stiffness: 1}}\n",
                "s.yaml");
@@ -123,7 +123,7 @@ TEST(SelectionsTest, TheMeanIsOneTap) {
 
 TEST(SelectionsTest, TapsAndOutputsTakeThem) {
   const Scene scene =
-      readYaml(kHead +
+      readYaml(kSelectionsHead +
                    "outputs:\n"
                    "  all: {at: net/ring(4), quantity: velocity, channels: 1..2, gain: -6 dB}\n"
                    "  one: {at: 'net/near(0.1, 0.1)', quantity: velocity, channel: 3}\n"
@@ -146,7 +146,7 @@ TEST(SelectionsTest, TapsAndOutputsTakeThem) {
 
 TEST(SelectionsTest, MeanTheSameInThePlainText) {
   const std::string brief =
-      kHead +
+      kSelectionsHead +
       "let: {n: 4}\n"
       "lias: {l: {type: spring, between: ['net/ring({n})', m], stiffness: 1}}\n"
       "outputs: {o: {at: 'net/ring({n})', quantity: force, channels: '1..{n}'}}\n";

@@ -9,12 +9,12 @@
 namespace ergotic::scene {
 namespace {
 
-#define HEAD "ergotic: 1\nsections: {a: {}}\n"
-#define TWO_MASSES HEAD "mats: {m: {type: mass, mass: 1}, n: {type: mass, mass: 1}}\n"
+#define SECTION_HEAD "ergotic: 1\nsections: {a: {}}\n"
+#define TWO_MASSES SECTION_HEAD "mats: {m: {type: mass, mass: 1}, n: {type: mass, mass: 1}}\n"
 
 TEST(YamlErrorsTest, BytesThatNoTextHasAreRefusedAtTheirPlace) {
-  expectRefused({HEAD "name: caf<!>\xE9\n", "byte 0xE9 is not UTF-8"}, "bad.yaml");
-  expectRefused({HEAD "name: a<!>\x04z\n", "control character 0x04"}, "bad.yaml");
+  expectRefused({SECTION_HEAD "name: caf<!>\xE9\n", "byte 0xE9 is not UTF-8"}, "bad.yaml");
+  expectRefused({SECTION_HEAD "name: a<!>\x04z\n", "control character 0x04"}, "bad.yaml");
 }
 
 TEST(YamlErrorsTest, NulByteIsRefusedAtItsPlace) {
@@ -61,13 +61,14 @@ TEST(YamlErrorsTest, TooManyNodesAreRefusedBeforeTheyTakeRoom) {
 
 TEST(YamlErrorsTest, TitlesThatEveryStatusCarriesAreShort) {
   const std::string most(200, 't');
-  EXPECT_EQ(readYaml(HEAD "name: " + most + "\n", "title.yaml").name, most);
-  expectRefused({(HEAD "name: <!>" + most + "t\n").c_str(), "has 201 bytes, allowed: at most 200"},
-                "bad.yaml");
+  EXPECT_EQ(readYaml(SECTION_HEAD "name: " + most + "\n", "title.yaml").name, most);
+  expectRefused(
+      {(SECTION_HEAD "name: <!>" + most + "t\n").c_str(), "has 201 bytes, allowed: at most 200"},
+      "bad.yaml");
 }
 
 TEST(YamlErrorsTest, AliasesAreRefused) {
-  expectRefused({HEAD "mats: {m: &m {type: mass, mass: 1}, n: <!>*m}\n",
+  expectRefused({SECTION_HEAD "mats: {m: &m {type: mass, mass: 1}, n: <!>*m}\n",
                  "an alias, allowed: what it stands for, written out"},
                 "bad.yaml");
 }

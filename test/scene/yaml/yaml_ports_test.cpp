@@ -11,14 +11,14 @@ namespace {
 
 using Knots = std::vector<std::pair<double, double>>;
 
-const std::string kHead =
+const std::string kPortsHead =
     "ergotic: 1\n"
     "parameters: {grip: {value: 2, range: [0, 4]}}\n"
     "sections: {sound: {}, hands: {rate: gestural}}\n"
     "mats: {m: {type: mass, section: sound, mass: 1, at: [0.1, 0.2], rest: 0.05}}\n";
 
 TEST(YamlAgentsTest, AnAgentIsAPortATargetAndAHand) {
-  const Scene s = readYaml(kHead +
+  const Scene s = readYaml(kPortsHead +
                                "agents:\n"
                                "  a: {mat: m, stiffness: 10*$grip, damping: 0.5,\n"
                                "      points: [[0, 0.01], [0.5, -0.02], [2, 0]], period: 3}\n",
@@ -49,7 +49,8 @@ TEST(YamlAgentsTest, AnAgentIsAPortATargetAndAHand) {
 
 TEST(YamlAgentsTest, BetweenPointsItMovesStraightAndOutsideItHolds) {
   const Scene s = readYaml(
-      kHead + "agents: {a: {mat: m, stiffness: 1, points: [[1, 2], [3, 6], [4, 0]]}}\n", "a.yaml");
+      kPortsHead + "agents: {a: {mat: m, stiffness: 1, points: [[1, 2], [3, 6], [4, 0]]}}\n",
+      "a.yaml");
   const Agent& agent = s.agents[0];
   EXPECT_EQ(agent.at(0.0), 2.0);
   EXPECT_EQ(agent.at(1.0), 2.0);
@@ -61,7 +62,7 @@ TEST(YamlAgentsTest, BetweenPointsItMovesStraightAndOutsideItHolds) {
 
 TEST(YamlAgentsTest, ALoopBeginsAnewAfterItsLastPoint) {
   const Scene s = readYaml(
-      kHead + "agents: {a: {mat: m, stiffness: 1, points: [[0, 0], [2, 4]], loop: true}}\n",
+      kPortsHead + "agents: {a: {mat: m, stiffness: 1, points: [[0, 0], [2, 4]], loop: true}}\n",
       "a.yaml");
   EXPECT_EQ(s.agents[0].period_s, 2.0);
   for (const double t : {0.25, 1.0, 1.75}) {
@@ -121,7 +122,7 @@ class GestureFileTest : public testing::Test {
   Scene read(const std::string& csv, const std::string& spec) const {
     std::ofstream(folder_ + "g.csv") << csv;
     return readYaml(
-        kHead + "agents: {a: {mat: m, stiffness: 1, gesture: {file: g.csv, " + spec + "}}}\n",
+        kPortsHead + "agents: {a: {mat: m, stiffness: 1, gesture: {file: g.csv, " + spec + "}}}\n",
         folder_ + "scene.yaml");
   }
   void expectRefused(const std::string& csv, const std::string& spec, const std::string& message) {
@@ -156,7 +157,7 @@ TEST_F(GestureFileTest, TextHoldsTablesAndGesturesSideBySide) {
   std::ofstream(folder_ + "t.csv") << "0 1\n1 2\n";
   std::ofstream(folder_ + "g.csv") << "0,0,0.1\n";
   const Scene first =
-      readYaml(kHead +
+      readYaml(kPortsHead +
                    "lias: {l: {type: bow, between: [m, s.1], table: {file: t.csv}}}\n"
                    "generators: [{type: string, name: s, section: sound, masses: 2, mass: 1, "
                    "stiffness: 1, to: [1, 0]}]\n"

@@ -5,7 +5,7 @@
 namespace ergotic::scene {
 namespace {
 
-#define HEAD                                     \
+#define ROWS_HEAD                                \
   "ergotic: 1\n"                                 \
   "parameters: {k: {value: 2, range: [1, 3]}}\n" \
   "sections: {s: {}, t: {geometry: plane}}\n"
@@ -48,7 +48,7 @@ void expectSameScene(const Scene& a, const Scene& b) {
 }
 
 TEST(YamlRowsTest, ATableMeansWhatItsRowsWouldWrittenOut) {
-  const Scene table = readYaml(HEAD
+  const Scene table = readYaml(ROWS_HEAD
                                "mats:\n"
                                "  ends: {columns: [name], with: {type: ground, section: s},\n"
                                "    rows: [[g], [h]]}\n"
@@ -71,7 +71,7 @@ TEST(YamlRowsTest, ATableMeansWhatItsRowsWouldWrittenOut) {
                                "  with: {quantity: position}, rows: [[x, a, 1], [y, b, 2]]}}\n",
                                "table.yaml");
   const Scene written =
-      readYaml(HEAD
+      readYaml(ROWS_HEAD
                "mats:\n"
                "  g: {type: ground, section: s}\n"
                "  h: {type: ground, section: s}\n"
@@ -90,7 +90,7 @@ TEST(YamlRowsTest, ATableMeansWhatItsRowsWouldWrittenOut) {
 }
 
 TEST(YamlRowsTest, EveryElementHasThePlaceOfItsName) {
-  const Scene s = readYaml(HEAD
+  const Scene s = readYaml(ROWS_HEAD
                            "mats:\n"
                            "  t: {columns: [mass, name], with: {type: mass, section: s}, rows: [\n"
                            "    [1, a],\n"
@@ -102,7 +102,8 @@ TEST(YamlRowsTest, EveryElementHasThePlaceOfItsName) {
 }
 
 TEST(YamlRowsTest, ATableMayHaveNoRows) {
-  EXPECT_TRUE(readYaml(HEAD "mats: {t: {columns: [name], rows: []}}\n", "a.yaml").mats.empty());
+  EXPECT_TRUE(
+      readYaml(ROWS_HEAD "mats: {t: {columns: [name], rows: []}}\n", "a.yaml").mats.empty());
 }
 
 }  // namespace

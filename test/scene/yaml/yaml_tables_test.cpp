@@ -12,10 +12,10 @@
 namespace ergotic::scene {
 namespace {
 
-#define HEAD                        \
+#define TABLE_HEAD                  \
   "ergotic: 1\nsections: {a: {}}\n" \
   "mats: {m: {type: mass, mass: 1}, n: {type: mass, mass: 1}}\n"
-#define BOW HEAD "lias: {x: {type: bow, between: [m, n], table: "
+#define BOW TABLE_HEAD "lias: {x: {type: bow, between: [m, n], table: "
 
 std::string exactly(double value) {
   char text[40];
@@ -107,7 +107,7 @@ TEST_F(YamlTablesTest, KeptTextGivesTheSameSceneInAnyFolder) {
   }
   write("t.csv", csv);
   write("odd \"na\\me.csv", "0 -0.0\n1 4.9e-324\n2 1e30\n");
-  const std::string text = HEAD
+  const std::string text = TABLE_HEAD
       "lias:\n"
       "  x: {type: bow, between: [m, n], table: {file: t.csv, interpolation: monotone}}\n"
       "  y: {type: table, between: [m, n], elastic: {file: t.csv},\n"
@@ -205,8 +205,8 @@ TEST_F(YamlTablesTest, OfATextThatIsNoFileAreNotLookedForWhereTheProcessIs) {
   const std::string head = "ergotic: 1\nsections: {a: {rate: audio}}\n";
   for (const std::string& text :
        {bow, head + "include: [lib.yaml]\n",
-        std::string(HEAD "outputs: {o: {at: m, quantity: velocity, pan: 0, "
-                         "speakers: {file: t.csv}}}\n")}) {
+        std::string(TABLE_HEAD "outputs: {o: {at: m, quantity: velocity, pan: 0, "
+                               "speakers: {file: t.csv}}}\n")}) {
     const Choice alone = {"", false};
     EXPECT_THAT(complaintOf([&] { readYaml(text, "inline.yaml", {}, alone); }),
                 HasSubstr("is nowhere, for this text is no file and has no folder"))

@@ -14,7 +14,6 @@ namespace {
 constexpr Limits kBarMasses{"", 4.0, 2000.0};
 constexpr Limits kTunedMasses{"", 8.0, 200.0};
 constexpr Limits kRatioLimits{"", 1.5, 15.0};
-constexpr int kMassesOfModes = 150;
 const std::vector<std::string> kEnds{"free", "hinged", "clamped"};
 
 /// One word for both ends, or one for each.

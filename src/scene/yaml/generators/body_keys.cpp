@@ -7,7 +7,6 @@ namespace ergotic::scene {
 namespace {
 
 constexpr Limits kPartialLimits{"", 1.0, kMostPartials};
-constexpr Limits kT60Limits{"s", 1e-4, 1e4};
 
 int partialOf(const SceneBuilder& builder, const Node& node, const std::string& what, Place place) {
   const double partial = numberOf(builder, node, what, kPartialLimits, place);

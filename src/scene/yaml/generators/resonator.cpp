@@ -16,8 +16,7 @@ namespace {
 constexpr std::size_t kMostRows = 400;
 constexpr std::size_t kMostPlaces = 64;
 constexpr std::size_t kColumns = 3;  // before the weights
-constexpr Limits kRatioLimits{"", 0.0, 1000.0, true};
-constexpr Limits kT60Limits{"s", 1e-4, 1e4};
+constexpr Limits kPartialRatioLimits{"", 0.0, 1000.0, true};
 
 std::vector<std::string> readPlaceNames(const SceneBuilder& builder, const YamlMap& map) {
   std::vector<std::string> names;
@@ -38,11 +37,11 @@ std::vector<std::string> readPlaceNames(const SceneBuilder& builder, const YamlM
 }
 
 Limits limitsOfFrequency(double pitch_hz) {
-  return pitch_hz > 0.0 ? kRatioLimits : Limits{"Hz", 0.0, kHighestPartialHz, true};
+  return pitch_hz > 0.0 ? kPartialRatioLimits : Limits{"Hz", 0.0, kHighestPartialHz, true};
 }
 
 /// \param row  frequency or ratio, t60, mass, weights
-Partial partialOf(const std::vector<double>& row, double pitch_hz) {
+Partial partialOfRow(const std::vector<double>& row, double pitch_hz) {
   Partial partial;
   partial.frequency_hz = (pitch_hz > 0.0 ? pitch_hz : 1.0) * row[0];
   partial.t60_s = row[1];
@@ -72,7 +71,7 @@ Partial readPartial(const SceneBuilder& builder,
   for (std::size_t p = 0; p < places; ++p) {
     numbers.push_back(numberOf(builder, row[kColumns + p], "a weight" + of, kWeightLimits, place));
   }
-  Partial partial = partialOf(numbers, pitch_hz);
+  Partial partial = partialOfRow(numbers, pitch_hz);
   const Limits heard = limitsOfFrequency(0.0);
   if (!heard.hold(partial.frequency_hz)) {
     builder.fail(placeOf(row[0], place), outOfRange("frequency" + of, partial.frequency_hz, heard));
@@ -156,7 +155,7 @@ std::vector<Partial> readPartials(const SceneBuilder& builder,
   files.keep(PointFiles::Part::kPartials, name, rows);
   std::vector<Partial> partials;
   for (const std::vector<double>& row : rows) {
-    partials.push_back(partialOf(row, pitch_hz));
+    partials.push_back(partialOfRow(row, pitch_hz));
   }
   return partials;
 }

@@ -15,7 +15,6 @@ namespace ergotic::scene {
 namespace {
 
 constexpr double kMostBodyMasses = 2000.0;
-constexpr int kMassesOfModes = 150;
 constexpr Limits kImpedanceLimits{"N s/m", 0.0, kInfinity, true};
 constexpr Limits kTensionLimits{"N", 0.0, kInfinity, true};
 constexpr Limits kInharmonicityLimits{"", 0.0, 0.1};

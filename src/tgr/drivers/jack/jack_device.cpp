@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constants.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/tgr/gesture.hpp"
 #include "tgr/require.hpp"
 
 namespace ergotic::tgr {
 namespace {
-
-constexpr double kNsPerS = 1e9;
 
 const JackDeviceConfig& checked(const JackDeviceConfig& config) {
   const VirtualDriverConfig& bank = config.bank;

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <sstream>
 
+#include "constants.hpp"
 #include "ergotic/exception.hpp"
 
 namespace ergotic::tgr {
 namespace {
 
-constexpr double kNsPerS = 1e9;
 constexpr int kMaxRatio = 48;  ///< frames per tick, see docs/tgr.md
 
 /// `1, 2, 4`: the frames per tick that cut a period evenly.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tgr/drivers/virtual/virtual_device.hpp"
 
+#include "constants.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/clock.hpp"
 #include "ergotic/rt/realtime.hpp"
@@ -9,8 +10,6 @@
 
 namespace ergotic::tgr {
 namespace {
-
-constexpr double kNsPerS = 1e9;
 
 const VirtualDeviceConfig& checked(const VirtualDeviceConfig& config) {
   if (!config.bank.shared_memory.empty() || config.bank.extra_delay_ticks != 0) {

@@ -23,7 +23,7 @@ inline constexpr std::array<VirtualSliceField, 12> kVirtualSliceFields{
      {"quantum", &VirtualSliceConfig::quantum, {"m", 0.0, 1e-3}},
      {"noise_rms", &VirtualSliceConfig::noise_rms, {"m", 0.0, 1e-3}},
      {"force_limit", &VirtualSliceConfig::force_limit, {"N", 0.0, kAbsoluteForceLimitN}},
-     {"bandwidth", &VirtualSliceConfig::bandwidth, {"Hz", 10.0, scene::kInfinity}},
+     {"bandwidth", &VirtualSliceConfig::bandwidth, {"Hz", 10.0, kInfinity}},
      {"delay", &VirtualSliceConfig::delay, {"s", 0.0, 0.005}},
      {"hand_mass", &VirtualSliceConfig::hand_mass, {"kg", 0.0, 100.0}},
      {"hand_stiffness", &VirtualSliceConfig::hand_stiffness, {"N/m", 0.0, 1e6}},

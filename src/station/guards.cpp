@@ -70,6 +70,15 @@ bool Station::isKickedTooOften() noexcept {
   return kicks_ > config_.max_stalls;
 }
 
+/// \param stall_s  of the thread; 0: a tick was not whole in time
+void Station::kick(double stall_s) noexcept {
+  if (hasForce() && isKickedTooOften()) {
+    stall_s_ = stall_s;
+    stalls_borne_ = static_cast<std::uint64_t>(config_.max_stalls);
+    fault(FaultReason::kStall, -1);
+  }
+}
+
 void Station::kick(FaultReason reason, int slice) noexcept {
   if (hasForce() && isKickedTooOften()) {
     fault(reason, slice);
@@ -90,7 +99,9 @@ void Station::followInterlock() noexcept {
     is_latched_ = true;
     Event told = event(Event::Type::kFault);
     told.index = static_cast<std::int64_t>(now.reason);
-    told.value = fault_slice_;
+    const bool is_stall = now.reason == FaultReason::kStall;
+    told.value = is_stall ? stall_s_ : fault_slice_;
+    told.id = is_stall ? stalls_borne_ : 0;
     tell(told);
   }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/station/messages.hpp"
 
+#include <sstream>
+
 namespace ergotic::station {
 
 const char* toString(ForceState state) {
@@ -35,6 +37,23 @@ const char* toString(Refusal refusal) {
       return "force was taken away after this was asked for: ask again";
   }
   return "?";
+}
+
+std::string explainStall(double stall_s, std::uint64_t stalls_borne) {
+  std::ostringstream text;
+  text.precision(3);
+  if (stalls_borne == 0) {
+    text << "the real-time thread stood still for " << 1e3 * stall_s
+         << " ms, longer than max_stall allows";
+  } else if (stall_s > 0.0) {
+    text << "the real-time thread stood still more often than max_stalls allows (" << stalls_borne
+         << " in a second), the last time for " << 1e3 * stall_s << " ms";
+  } else {
+    text << "a tick was not done in time more often than max_stalls allows (" << stalls_borne
+         << " in a second)";
+  }
+  text << ": close what keeps the processors busy, use a real-time kernel, or raise that limit";
+  return text.str();
 }
 
 }  // namespace ergotic::station

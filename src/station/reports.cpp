@@ -26,6 +26,8 @@ void Station::publish() noexcept {
   Snapshot& s = snapshots_.draft();
   const AudioStatus audio = frame_port_ != nullptr ? frame_port_->status() : AudioStatus{};
   s.tick = tick_;
+  s.stall_s = stall_s_;
+  s.stalls_borne = stalls_borne_;
   const Interlock::Reading force = interlock_->read();
   s.state = force.state;
   s.fault = force.reason;

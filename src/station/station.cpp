@@ -180,9 +180,13 @@ void Station::catchUp(std::int64_t ticks, std::int64_t stall_ns) noexcept {
     tell(lost);
     counters_.lost_ticks += ticks - run;
     skip(ticks - run);
+    if (!interlock_->read().isLatched()) {
+      stall_s_ = stalled.value;
+      stalls_borne_ = 0;
+    }
     fault(FaultReason::kStall, -1);
   }
-  kick();
+  kick(stalled.value);
   chain_.resume();
   const Slices origin = position_;
   for (std::int64_t i = 1; i < run; ++i) {
@@ -309,7 +313,7 @@ void Station::tickInstrument() noexcept {
   Performer& p = *performer_;
   p.instrument->tick({p.positions.data(), p.forces.data(), p.inputs.data(), p.outputs.data()});
   if (p.instrument->isUnderWay() && !std::exchange(is_held_up_, true)) {
-    kick();
+    kick(0.0);
   }
   const bool look_inside = tick_ % kLookInsideTicks == 0;
   if (!std::all_of(p.forces.begin(), p.forces.end(), isOfThisWorld) ||

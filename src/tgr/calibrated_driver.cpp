@@ -78,6 +78,7 @@ class CalibratedDriverOverRaw final : public CalibratedDriver {
   void rearm() noexcept override { raw_->rearm(); }
   int extraDelayTicks() const noexcept override { return raw_->extraDelayTicks(); }
   std::uint64_t uncalibrated() const noexcept override { return uncalibrated_; }
+  bool canHurt() const noexcept override { return raw_->canHurt(); }
   double damping() const noexcept override { return raw_->damping(); }
   double declaredDamping() const noexcept override { return raw_->declaredDamping(); }
   DeviceClock* clock() noexcept override { return raw_->clock(); }

@@ -97,6 +97,11 @@ class CombinedDriver final : public Driver {
     }
   }
 
+  bool canHurt() const noexcept override {
+    return std::any_of(drivers_.begin(), drivers_.end(),
+                       [](const std::unique_ptr<Driver>& driver) { return driver->canHurt(); });
+  }
+
   int extraDelayTicks() const noexcept override {
     int ticks = 0;
     for (const auto& driver : drivers_) {

@@ -16,7 +16,7 @@ const char* toString(FaultReason reason) noexcept {
     case FaultReason::kModelBlowUp:
       return "the model blew up: a force, a displacement or a sample is not finite";
     case FaultReason::kStall:
-      return "the real-time thread stood still for longer than max_stall, or too often";
+      return "the real-time thread stood still for too long (max_stall) or too often (max_stalls)";
     case FaultReason::kMadeSafe:
       return "made safe by a signal or a watchdog";
     case FaultReason::kJump:

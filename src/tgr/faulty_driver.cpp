@@ -85,6 +85,7 @@ class FaultyDriverOverAnother final : public FaultyDriver {
   bool isRaw() const noexcept override { return inside_->isRaw(); }
   std::uint64_t uncalibrated() const noexcept override { return inside_->uncalibrated(); }
   std::vector<Guard> guards() const override { return inside_->guards(); }
+  bool canHurt() const noexcept override { return inside_->canHurt(); }
   double damping() const noexcept override { return inside_->damping(); }
   double declaredDamping() const noexcept override { return inside_->declaredDamping(); }
   DeviceClock* clock() noexcept override { return inside_->clock(); }

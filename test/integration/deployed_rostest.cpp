@@ -139,6 +139,25 @@ TEST_F(DeployedTest, TheDiagnosticsOfAStationWithoutAModelAreAnErrorAndOfOneThat
   })) << level();
 }
 
+TEST_F(DeployedTest, AStallIsCountedAndTakesNoForceWhereTheDeviceIsOnlySimulated) {
+  node_.deleteParam("/station/max_stall");  // nothing is said of stalls
+  startToPlay();
+  ASSERT_TRUE(eventually([] { return call("engage").success != 0U; }));
+  ASSERT_TRUE(eventually([this] { return status_.latest().state == Status::PLAYING; }));
+  const std::int64_t stalls = status_.latest().stalls;
+  InjectFault slow;
+  slow.request.kind = "slow";
+  slow.request.amount = 0.1;  // s, of one tick
+  constexpr int kStalls = 5;
+  for (int n = 0; n < kStalls; ++n) {
+    ASSERT_TRUE(::ros::service::call("/station/inject_fault", slow));
+    ASSERT_TRUE(slow.response.success) << slow.response.message;
+    std::this_thread::sleep_for(150ms);
+  }
+  EXPECT_TRUE(eventually([&] { return status_.latest().stalls >= stalls + kStalls; }));
+  EXPECT_EQ(status_.latest().state, Status::PLAYING) << status_.latest().state_text;
+}
+
 TEST_F(DeployedTest, MoreStallsInASecondThanAreAllowedAreAFault) {
   node_.setParam("/station/max_stalls", 1);
   startToPlay();

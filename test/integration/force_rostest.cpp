@@ -76,6 +76,7 @@ class ForceTest : public ::testing::Test {
     node_.setParam("/station/jack", "none");
     node_.setParam("/station/ramp", 0.1);
     node_.setParam("/station/allow_fault_injection", true);
+    limitStalls(node_);
     node_.setParam("/station/max_stalls", 1'000'000);  // of a busy machine
   }
   void start() {

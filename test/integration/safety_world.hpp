@@ -103,6 +103,7 @@ class SafetyWorld {
     node.setParam("/station/jack", "none");
     node.setParam("/station/ramp", 0.1);
     node.setParam("/station/presence", "topic");
+    limitStalls(node);
     node.setParam("/station/max_stalls", 1'000'000);
     node.setParam("/station/allow_fault_injection", true);
     node.setParam("/station/force_limit", kForceLimitN);

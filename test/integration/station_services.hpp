@@ -36,6 +36,14 @@ inline void allowStalls(const ::ros::NodeHandle& node) {
   node.setParam("/station/watchdog", 1.0);
 }
 
+/// As at a device with a hand, though it is only simulated.
+/// \pre the station is not yet started
+inline void limitStalls(const ::ros::NodeHandle& node) {
+  node.setParam("/station/max_stall", 0.05);
+  node.setParam("/station/max_stalls", 3);
+  node.setParam("/station/watchdog", 0.02);
+}
+
 /// Of a service without parameters. Over a connection that we end: of one that the server ends
 /// roscpp may see the end before the answer (ros_comm issue 1976; one call of 5,000 on a busy
 /// machine).

@@ -78,8 +78,10 @@ TEST_F(KicksTest, AreAsManyAsTheSettingSays) {
   }
   EXPECT_EQ(test::count(patient.events(), Event::Type::kFault), 0);
   patient.station->catchUp(4, 1'200'000);
-  EXPECT_EQ(test::firstOf(patient.events(), Event::Type::kFault).index,
-            static_cast<int>(FaultReason::kStall));
+  const Event fault = test::firstOf(patient.events(), Event::Type::kFault);
+  EXPECT_EQ(fault.index, static_cast<int>(FaultReason::kStall));
+  EXPECT_EQ(fault.value, 1.2e-3);
+  EXPECT_EQ(fault.id, 20U) << "one more than that";
 }
 
 TEST_F(KicksTest, AreWhatModelsAreThatKeepForceUntilTheNextOneMayNot) {

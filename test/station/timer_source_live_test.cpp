@@ -319,8 +319,10 @@ TEST(CatchUpTest, BoundsItsWorkByMaxStallAndKeepsFrameAndTickInStep) {
   const Event lost = test::firstOf(events, Event::Type::kTicksLost);
   EXPECT_EQ(lost.tick, kRampTicks);
   EXPECT_EQ(lost.index, 1000 - kMostCaughtUp);
-  EXPECT_EQ(test::firstOf(events, Event::Type::kFault).index,
-            static_cast<int>(FaultReason::kStall));
+  const Event fault = test::firstOf(events, Event::Type::kFault);
+  EXPECT_EQ(fault.index, static_cast<int>(FaultReason::kStall));
+  EXPECT_DOUBLE_EQ(fault.value, 0.317);
+  EXPECT_EQ(fault.id, 0U) << "too long, not too often";
 
   // The oldest frames are the lost ones; the model made no samples meanwhile.
   const std::size_t before = kRampTicks * 14;

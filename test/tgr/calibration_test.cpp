@@ -291,6 +291,9 @@ TEST_F(CalibratedDriverTest, PassesTheRestOn) {
   EXPECT_FALSE(script_.is_safe);
   driver_->close();
   EXPECT_FALSE(script_.is_open);
+  EXPECT_TRUE(driver_->canHurt());
+  script_.can_hurt = false;
+  EXPECT_FALSE(driver_->canHurt());
 }
 
 TEST_F(CalibratedDriverTest, RefusesWhatDoesNotFit) {

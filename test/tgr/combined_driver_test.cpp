@@ -52,6 +52,17 @@ TEST_F(CombinedDriverTest, PutsTheSlicesOfEachDeviceBehindThoseOfTheOneBefore) {
   EXPECT_FALSE(driver->setTarget(6, 0.0));
 }
 
+TEST_F(CombinedDriverTest, CanHurtIfAnyOfThemCan) {
+  const auto driver = combined();
+  EXPECT_TRUE(driver->canHurt());
+  for (Script& script : scripts_) {
+    EXPECT_TRUE(driver->canHurt());
+    script.can_hurt = false;
+  }
+  EXPECT_FALSE(driver->canHurt());
+  EXPECT_FALSE(makeVirtualDriver({})->canHurt()) << "it is simulated";
+}
+
 TEST_F(CombinedDriverTest, MeetsWhatAnyOfThemMeets) {
   const auto driver = combined();
   driver->open(1000.0);

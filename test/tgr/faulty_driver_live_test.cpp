@@ -50,6 +50,9 @@ TEST_F(FaultyDriverTest, IsTheDeviceInsideWithoutOrders) {
   EXPECT_EQ(driver_->extraDelayTicks(), 4);
   EXPECT_EQ(driver_->damping(), 0.7);
   EXPECT_DOUBLE_EQ(driver_->declaredDamping(), 0.07);
+  EXPECT_TRUE(driver_->canHurt());
+  script_.can_hurt = false;
+  EXPECT_FALSE(driver_->canHurt());
   EXPECT_EQ(driver_->uncalibrated(), 5U);
   EXPECT_NE(driver_->clock(), nullptr);
   EXPECT_TRUE(driver_->setTarget(2, 0.01));

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 
 #include "ergotic/physics/engine/instrument.hpp"
 #include "ergotic/tgr/driver.hpp"
@@ -85,11 +86,13 @@ struct Event {
     kParameter,  ///< index, value; coefficients: the old ones, to be freed
     kKeyframe,   ///< index: 1 the state is in Station::keyframe() until the next request, 0 it is
                  ///< larger than the configuration allows
-    kFault,      ///< index: FaultReason; value: slice
-    kLateTick,   ///< index: LateCause; value: lateness, s
-    kStall,      ///< index: ticks caught up; value: length, s
-    kTicksLost,  ///< index: ticks that never ran, beyond max_stall, from `tick` on
-    kUnderrun,   ///< frame: first missing station frame; index: frames; value: JACK frame time
+    kFault,     ///< index: FaultReason; value: slice; of kStall the length of the stall, s (0: none
+                ///< of the thread, force went and came back), and id: how many a second of force
+                ///< may bring, if it was one too many, else 0
+    kLateTick,  ///< index: LateCause; value: lateness, s
+    kStall,     ///< index: ticks caught up; value: length, s
+    kTicksLost,     ///< index: ticks that never ran, beyond max_stall, from `tick` on
+    kUnderrun,      ///< frame: first missing station frame; index: frames; value: JACK frame time
     kAudioSkipped,  ///< as kUnderrun, but the host itself left these frames out: nothing sounded
     kAudioStarted,  ///< frame: station frame; value: JACK frame time at which it sounds
     kAudioStopped,
@@ -118,6 +121,9 @@ enum class Refusal : std::uint8_t {
   kOutdated,      ///< force was taken away since this was asked for
 };
 const char* toString(Refusal refusal);
+
+/// What a fault kStall means, which limit it was, and what helps: Event::value and Event::id of it.
+std::string explainStall(double stall_s, std::uint64_t stalls_borne);
 
 enum class LateCause : std::uint8_t { kWakeUp, kDevice, kCompute };
 
@@ -169,6 +175,8 @@ struct Snapshot {
   std::int64_t tick = 0;
   ForceState state = ForceState::kDisconnected;
   FaultReason fault = FaultReason::kNone;
+  double stall_s = 0.0;            ///< of a fault kStall, as Event::value
+  std::uint64_t stalls_borne = 0;  ///< of a fault kStall, as Event::id
   bool audio_running = false;
   bool clock_locked = false;
   Counters counters;

@@ -197,7 +197,8 @@ class Station {
 
   bool hasForce() const noexcept;
   bool isKickedTooOften() noexcept;
-  void kick(FaultReason reason = FaultReason::kStall, int slice = -1) noexcept;
+  void kick(double stall_s) noexcept;
+  void kick(FaultReason reason, int slice) noexcept;
   void followInterlock() noexcept;
   void takeForceAway() noexcept;
   void fault(FaultReason reason, int slice) noexcept;
@@ -229,9 +230,11 @@ class Station {
   Caller engager_ = 0;                   // who let force out last
   std::uint64_t uncalibrated_;           // slices, as of the last tick
   std::int64_t tick_;
-  Ticket seen_ = 0;          // of the interlock
-  bool is_latched_ = false;  // and the fault was told
-  int fault_slice_ = -1;     // of the fault that is about to be told
+  Ticket seen_ = 0;                 // of the interlock
+  bool is_latched_ = false;         // and the fault was told
+  int fault_slice_ = -1;            // of the fault that is about to be told
+  double stall_s_ = 0.0;            // Snapshot::stall_s
+  std::uint64_t stalls_borne_ = 0;  // Snapshot::stalls_borne
   bool blown_up_ = false;
   bool is_held_up_ = false;     // another thread has not finished the last tick
   double kicks_ = 0.0;          // not yet forgotten

@@ -97,6 +97,10 @@ class Driver {
   /// on. Realtime: yes. Thread: any
   virtual std::uint64_t uncalibrated() const noexcept { return 0; }
 
+  /// Whether a hand may be at the device, which a stall of the ticks would kick: false for devices
+  /// that are only simulated. Constant. Realtime: yes. Thread: any
+  virtual bool canHurt() const noexcept { return true; }
+
   /// Damping of a slice by itself, N s/m, known or supposed: what scenes may ask for rests on it.
   virtual double damping() const noexcept { return kSupposedDamping; }
   /// As much of it as somebody has declared, N s/m; 0: nobody did. What may be given out to a hand

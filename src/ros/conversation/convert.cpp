@@ -92,7 +92,12 @@ std::string textOf(const station::Event& event, const scene::Scene* scene) {
       text << (event.index != 0 ? "keyframe" : "the state is too large for a keyframe");
       break;
     case EventType::kFault:
-      text << "force latched at zero: " << toString(static_cast<station::FaultReason>(event.index));
+      text << "force latched at zero: ";
+      if (static_cast<station::FaultReason>(event.index) == station::FaultReason::kStall) {
+        text << station::explainStall(event.value, event.id);
+        break;
+      }
+      text << toString(static_cast<station::FaultReason>(event.index));
       if (event.value >= 0.0) {
         text << ", slice " << event.value;
       }
@@ -212,6 +217,10 @@ void fillStatus(station::ForceState state, tgr::FaultReason fault, Status& statu
 void fillStatus(const station::Snapshot& snapshot, Status& status) {
   const station::Counters& counters = snapshot.counters;
   fillStatus(snapshot.state, snapshot.fault, status);
+  if (snapshot.fault == tgr::FaultReason::kStall) {
+    status.state_text = station::toString(snapshot.state) + std::string(": ") +
+                        station::explainStall(snapshot.stall_s, snapshot.stalls_borne);
+  }
   status.slices = static_cast<std::uint32_t>(snapshot.slices);
   status.audio_running = snapshot.audio_running;
   status.clock_locked = snapshot.clock_locked;

@@ -26,8 +26,8 @@ station::StationConfig stationConfig(const Parameters& parameters, const physics
   station::StationConfig config;
   config.rates = rates;
   config.safety = parameters.safety;
-  config.max_stall_s = parameters.max_stall;
-  config.max_stalls = parameters.max_stalls;
+  config.max_stall_s = parameters.max_stall.value();
+  config.max_stalls = parameters.max_stalls.value();
   config.presence_s = parameters.presence ? kPresenceS : 0.0;
   config.allow_fault_injection = parameters.allow_fault_injection;
   return config;
@@ -108,10 +108,10 @@ Engine::Engine(const Parameters& parameters,
     source_->stop();
     throw DeviceError("realtime:=require, but " + warnings_.front());
   }
-  if (watchdog_s_ > parameters.watchdog) {
+  if (watchdog_s_ > parameters.watchdog.value()) {
     std::ostringstream raised;
-    raised << "watchdog is " << parameters.watchdog << " s, which is raised to " << watchdog_s_
-           << " s, three periods of the device, whose ticks come in bursts";
+    raised << "watchdog is " << parameters.watchdog.value() << " s, which is raised to "
+           << watchdog_s_ << " s, three periods of the device, whose ticks come in bursts";
     warnings_.push_back(raised.str());
   }
   if (parameters.jack) {
@@ -140,7 +140,7 @@ void Engine::startWatchdog() {
     station_->makeSafe(tgr::FaultReason::kWatchdog);
     silent_at_ = station_->heartbeat().load();
   });
-  watchdog_s_ = watchdogPeriod(parameters_.watchdog, station_->driver());
+  watchdog_s_ = watchdogPeriod(parameters_.watchdog.value(), station_->driver());
   tgr::WatchdogOptions options;
   options.period_s = watchdog_s_;
   options.priority = watchdogPriority(parameters_);
@@ -173,7 +173,8 @@ std::string Engine::tryToStartGuardian() {
   try {
     if (!guards_.empty()) {
       tgr::GuardianOptions options;
-      options.silence_s = kPeriodsOfHang * watchdogPeriod(parameters_.watchdog, station_->driver());
+      options.silence_s =
+          kPeriodsOfHang * watchdogPeriod(parameters_.watchdog.value(), station_->driver());
       options.priority = watchdogPriority(parameters_);
       next = std::make_unique<tgr::Guardian>(guards_, options);
     }

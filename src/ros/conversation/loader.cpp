@@ -140,11 +140,12 @@ Answer Loader::play(scene::Scene scene,
 }
 
 Answer Loader::start(scene::Scene scene, bool allow_unproven, std::string& verdict) {
-  const Parameters parameters = readParameters(node_);
-  auto hands = std::make_unique<Hands>(readDevices(parameters), parameters.allow_fault_injection);
+  const Parameters given = readParameters(node_);
+  auto hands = std::make_unique<Hands>(readDevices(given), given.allow_fault_injection);
   const physics::Rates rates =
-      physics::chooseRates(scene, audioRateFor(parameters), parameters.gestural_rate);
-  hands->probe(rates.gesturalHz(), parameters.safety.slice_mass_kg);
+      physics::chooseRates(scene, audioRateFor(given), given.gestural_rate);
+  hands->probe(rates.gesturalHz(), given.safety.slice_mass_kg);
+  const Parameters parameters = withStallLimits(given, hands->canHurt());
   station::PerformerPolicy policy;
   policy.on_stage = logStage;
   policy.allow_unproven = allow_unproven && parameters.allow_unproven;
@@ -163,7 +164,7 @@ Answer Loader::start(scene::Scene scene, bool allow_unproven, std::string& verdi
     engine->watchMaster({emergency_stop, node_.resolveName("stop")}, {emergency_stop});
   }
   // Those of an earlier launch live on with the ROS master.
-  if (const std::string list = unusual(parameters); !list.empty()) {
+  if (const std::string list = unusual(given); !list.empty()) {
     ROS_INFO_STREAM("parameters that are not the default: " << list);
   }
   Answer answer = operator_.begin(std::move(engine), first, picture);

@@ -40,6 +40,7 @@ void Hands::probe(double tick_rate_hz, double slice_mass_kg) {
   tgr::Driver& driver = *drivers_.driver;
   driver.open(tick_rate_hz);
   slices_ = driver.slices();
+  can_hurt_ = driver.canHurt();
   traits_.damping = driver.damping();
   traits_.mass = slice_mass_kg;
   traits_.delay_ticks = 1.0 + driver.extraDelayTicks();

@@ -30,6 +30,7 @@ class Hands {
   // After `probe`.
   int slices() const { return slices_; }
   const physics::DeviceTraits& traits() const { return traits_; }
+  bool canHurt() const { return can_hurt_; }  ///< tgr::Driver::canHurt of any of them
 
   /// The drivers, for the station that is about to be made. Once
   std::unique_ptr<tgr::Driver> takeDriver() { return std::move(drivers_.driver); }
@@ -54,6 +55,7 @@ class Hands {
   tgr::StationDevices config_;
   tgr::DriverStack drivers_;  // of which the station has the driver, once it is taken
   int slices_ = 0;
+  bool can_hurt_ = true;
   physics::DeviceTraits traits_;
 };
 

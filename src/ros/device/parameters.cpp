@@ -24,6 +24,9 @@ namespace {
 
 using Value = XmlRpc::XmlRpcValue;
 
+constexpr double kLongestStallS = 1.0;
+constexpr int kMostStalls = 1'000'000;
+constexpr double kLongestWatchdogS = 1.0;
 constexpr double kFrozenS = 0.1;  // the sensors of a TGR are noisier than their quantum
 
 const std::map<std::string, physics::Precision> kPrecisions = {
@@ -78,6 +81,22 @@ class Reader {
       refuse(name, shown(number), allowed);
     }
     value = static_cast<int>(number);
+  }
+
+  void number(const std::string& name,
+              std::optional<double>& value,
+              double minimum,
+              double maximum) {
+    const bool is_given = unread_.count(name) > 0;
+    double number = 0.0;
+    this->number(name, number, minimum, maximum);
+    value = is_given ? std::optional(number) : value;
+  }
+  void integer(const std::string& name, std::optional<int>& value, int minimum, int maximum) {
+    const bool is_given = unread_.count(name) > 0;
+    int number = 0;
+    integer(name, number, minimum, maximum);
+    value = is_given ? std::optional(number) : value;
   }
 
   template <class T>
@@ -191,6 +210,16 @@ class Writer {
   void integer(const char* name, int value, int /*minimum*/, int /*maximum*/) {
     entry(name, value);
   }
+  void number(const char* name, std::optional<double> value, double /*minimum*/, double /*max*/) {
+    if (value) {
+      entry(name, *value);
+    }
+  }
+  void integer(const char* name, std::optional<int> value, int /*minimum*/, int /*maximum*/) {
+    if (value) {
+      entry(name, *value);
+    }
+  }
   template <class T>
   void choice(const char* name, const T& value, const std::map<std::string, T>& choices) {
     const auto found = std::find_if(choices.begin(), choices.end(),
@@ -249,9 +278,9 @@ void visitParameters(Visitor& on, P& p) {
   on.flag("jack_connect", p.jack_connect);
   on.integer("ring_depth", p.ring_depth, 1, station::AudioBridge::kMaxLatencyFrames);
   visitSafety(on, p.safety);
-  on.number("max_stall", p.max_stall, 0.001, 1.0);
-  on.integer("max_stalls", p.max_stalls, 1, 1'000'000);
-  on.number("watchdog", p.watchdog, 0.004, 1.0);
+  on.number("max_stall", p.max_stall, 0.001, kLongestStallS);
+  on.integer("max_stalls", p.max_stalls, 1, kMostStalls);
+  on.number("watchdog", p.watchdog, 0.004, kLongestWatchdogS);
   on.choice("presence", p.presence, kPresence);
   on.flag("require_master", p.require_master);
   on.flag("allow_fault_injection", p.allow_fault_injection);
@@ -332,6 +361,13 @@ Parameters readParameters(const Value& values, const std::string& node) {
   return p;
 }
 
+Parameters withStallLimits(Parameters p, bool can_hurt) {
+  p.max_stall = p.max_stall.value_or(can_hurt ? 0.05 : kLongestStallS);
+  p.max_stalls = p.max_stalls.value_or(can_hurt ? 3 : kMostStalls);
+  p.watchdog = p.watchdog.value_or(can_hurt ? 0.02 : kLongestWatchdogS);
+  return p;
+}
+
 tgr::StationDevices readDevices(const Parameters& p) {
   tgr::StationDevices devices;
   if (p.device.empty()) {
@@ -359,7 +395,8 @@ std::string unusual(const Parameters& p) {
   for (const auto& entry : YAML::Load(toYaml(p, {}))) {
     const auto& name = entry.first.Scalar();
     const YAML::Node& value = entry.second;
-    if (!value.IsScalar() || value.Scalar() == usual[name].Scalar()) {
+    const YAML::Node known = usual[name];
+    if (!value.IsScalar() || (known && value.Scalar() == known.Scalar())) {
       continue;
     }
     list << (list.tellp() > 0 ? ", " : "") << name << ": ";

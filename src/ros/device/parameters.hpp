@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <ros/node_handle.h>
@@ -40,11 +41,11 @@ struct Parameters {
   bool jack_connect = true;           ///< out_i to the i-th physical playback port
   int ring_depth = 768;               ///< audio frames from a tick's due time to its sound
   tgr::SafetyConfig safety;
-  double max_stall = 0.05;     ///< s, longer stalls are a fault
-  int max_stalls = 3;          ///< in a second of force, more are a fault
-  double watchdog = 0.02;      ///< s without a tick after which the device is made safe
-  bool presence = false;       ///< force needs messages of the presence switch
-  bool require_master = true;  ///< force needs a ROS master that knows the station
+  std::optional<double> max_stall;  ///< s, longer stalls are a fault; none: see withStallLimits
+  std::optional<int> max_stalls;    ///< in a second of force, more are a fault; none: the same
+  std::optional<double> watchdog;   ///< s without a tick after which the device is made safe
+  bool presence = false;            ///< force needs messages of the presence switch
+  bool require_master = true;       ///< force needs a ROS master that knows the station
   bool allow_fault_injection = false;
   int priority = 75;  ///< SCHED_FIFO priority of the tick
   int cpu = -1;       ///< processor of the tick, -1: any
@@ -65,6 +66,12 @@ Parameters readParameters(const ::ros::NodeHandle& node);
 /// \param values  a map of them; invalid: there are none
 /// \param node    its name, for messages
 Parameters readParameters(const XmlRpc::XmlRpcValue& values, const std::string& node);
+
+/// With limits for stalls where none were given. A hand is kicked when force goes and comes back:
+/// 50 ms, 3 in a second, a watchdog of 20 ms. At a device that is only simulated stalls are counted
+/// and shown, and force stays: 1 s, 1,000,000 in a second, 1 s.
+/// \param can_hurt  see tgr::Driver::canHurt
+Parameters withStallLimits(Parameters parameters, bool can_hurt);
 
 /// What the hands hold, as `device`, `end_effectors` and the rest say.
 /// \throws TextError with file:line:col, Exception if a file cannot be read

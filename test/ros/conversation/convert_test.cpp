@@ -117,6 +117,7 @@ TEST(ConvertTest, StatusSaysWhyForceIsGone) {
   station::Snapshot snapshot;
   snapshot.state = station::ForceState::kFault;
   snapshot.fault = station::FaultReason::kStall;
+  snapshot.stall_s = 0.0631;
   snapshot.counters.underruns = 7;
   snapshot.counters.bad_input_samples = 3;
   snapshot.counters.peak_force_n = 20.0;
@@ -130,7 +131,14 @@ TEST(ConvertTest, StatusSaysWhyForceIsGone) {
   EXPECT_EQ(status.bad_input_samples, 3);
   EXPECT_EQ(status.peak_force, 20.0);
   EXPECT_EQ(status.peak_raw_force, 60.0);
-  EXPECT_THAT(status.state_text, HasSubstr(toString(station::FaultReason::kStall)));
+  EXPECT_THAT(
+      status.state_text,
+      HasSubstr("the real-time thread stood still for 63.1 ms, longer than max_stall allows"));
+  snapshot.stalls_borne = 3;
+  fillStatus(snapshot, status);
+  EXPECT_THAT(
+      status.state_text,
+      HasSubstr("more often than max_stalls allows (3 in a second), the last time for 63.1 ms"));
 }
 
 TEST(ConvertTest, StatusListsSlicesWithoutCalibration) {

@@ -66,9 +66,31 @@ TEST(ParametersTest, AreToldWhereTheyAreUnusual) {
   values["force_limit"] = 5;
   values["ramp"] = 0.3;
   values["presence"] = "topic";
-  values["max_stalls"] = 3;  // the default
+  values["max_missing"] = 20;  // the default
   EXPECT_EQ(unusual(readParameters(values, "/station")),
             "force_limit: 5, ramp: 0.3, presence: topic");
+}
+
+TEST(ParametersTest, LimitStallsAsTheDeviceNeedsUnlessTheySayOtherwise) {
+  const Parameters real = withStallLimits(readParameters(XmlRpcValue(), "/station"), true);
+  EXPECT_EQ(real.max_stall, 0.05);
+  EXPECT_EQ(real.max_stalls, 3);
+  EXPECT_EQ(real.watchdog, 0.02);
+  const Parameters simulated = withStallLimits(readParameters(XmlRpcValue(), "/station"), false);
+  EXPECT_EQ(simulated.max_stall, 1.0);
+  EXPECT_EQ(simulated.max_stalls, 1'000'000);
+  EXPECT_EQ(simulated.watchdog, 1.0);
+  XmlRpcValue values;
+  values["max_stall"] = 0.02;
+  values["max_stalls"] = 5;
+  values["watchdog"] = 0.1;
+  for (const bool can_hurt : {true, false}) {
+    const Parameters given = withStallLimits(readParameters(values, "/station"), can_hurt);
+    EXPECT_EQ(given.max_stall, 0.02);
+    EXPECT_EQ(given.max_stalls, 5);
+    EXPECT_EQ(given.watchdog, 0.1);
+    EXPECT_THAT(toYaml(given, {}), HasSubstr("max_stall: 0.02"));
+  }
 }
 
 TEST(ParametersTest, SetWhatThePortMayGiveAndAreWrittenDown) {

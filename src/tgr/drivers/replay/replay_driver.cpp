@@ -21,6 +21,7 @@ class ReplayDriver final : public Driver {
 
   void open(double) override { open_ = true; }
   void close() noexcept override { open_ = false; }
+  bool canHurt() const noexcept override { return false; }
   int slices() const noexcept override { return slices_; }
 
   ERGOTIC_REALTIME std::uint32_t exchange(const double*, double* positions) noexcept override {

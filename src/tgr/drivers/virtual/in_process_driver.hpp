@@ -28,6 +28,7 @@ class InProcessDriver final : public Driver {
   void rearm() noexcept override { safe_ = false; }
   int extraDelayTicks() const noexcept override { return queue_ticks_ + actuator_ticks_; }
   bool isRaw() const noexcept override { return bank_.isRaw(); }
+  bool canHurt() const noexcept override { return false; }
   double damping() const noexcept override { return bank_.damping(); }
   double declaredDamping() const noexcept override { return damping(); }
   bool setTarget(int slice, double target_m) noexcept override;

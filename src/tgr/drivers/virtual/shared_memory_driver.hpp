@@ -34,6 +34,7 @@ class SharedMemoryDriver final : public Driver {
   /// Worst case: a force waits for the device's next step, and the position is one step old.
   int extraDelayTicks() const noexcept override { return extra_delay_ticks_; }
   bool isRaw() const noexcept override { return is_raw_; }
+  bool canHurt() const noexcept override { return false; }
   double damping() const noexcept override { return traits_.damping; }
   double declaredDamping() const noexcept override { return damping(); }
   std::vector<Guard> guards() const override;

@@ -222,6 +222,7 @@ TEST_F(StationTest, RecordsEveryTickOnceAndBeginsWithAKeyframe) {
   const Keyframe keyframe = world_->keyframes.latest();
   EXPECT_LE(blocks.front().first_tick, keyframe.tick);
   EXPECT_LT(keyframe.tick, next);
+  EXPECT_EQ(keyframe.slices, blocks.front().slices);
   EXPECT_FALSE(keyframe.state.empty());
   EXPECT_THAT(keyframe.scene, HasSubstr("plucked string"));
   EXPECT_EQ(keyframe.scene_hash, world_->structure.latest().scene_hash);
@@ -248,6 +249,7 @@ TEST_F(StationTest, SwapsModelsAndTellsWhichOnePlays) {
       "  a: {type: cell, section: s, mass: 0.01, stiffness: 100}\n");
   ASSERT_TRUE(answer.success) << answer.message;
   EXPECT_EQ(answer.verdict, "passive");
+  EXPECT_THAT(answer.message, StartsWith("plays 'one mass'"));
   EXPECT_TRUE(eventually([] { return world_->structure.latest().name == "one mass"; }));
   EXPECT_TRUE(eventually([] { return world_->model_state.latest().displacement.size() == 1; }));
   ASSERT_TRUE(load(kModel).success);
@@ -264,6 +266,10 @@ TEST_F(StationTest, SetsParametersWithinTheirRange) {
   ASSERT_TRUE(::ros::service::call("/station/set_parameter", set));
   EXPECT_FALSE(set.response.success);
   EXPECT_THAT(set.response.message, HasSubstr("loss"));
+  set.request.name = "los";
+  ASSERT_TRUE(::ros::service::call("/station/set_parameter", set));
+  EXPECT_FALSE(set.response.success);
+  EXPECT_THAT(set.response.message, HasSubstr("has no parameter 'los', it has: loss = "));
   const auto events = world_->events.messages();
   EXPECT_TRUE(eventually([] {
     const auto seen = world_->events.messages();

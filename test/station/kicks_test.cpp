@@ -80,7 +80,7 @@ TEST_F(KicksTest, AreAsManyAsTheSettingSays) {
   patient.station->catchUp(4, 1'200'000);
   const Event fault = test::firstOf(patient.events(), Event::Type::kFault);
   EXPECT_EQ(fault.index, static_cast<int>(FaultReason::kStall));
-  EXPECT_EQ(fault.value, 1.2e-3);
+  EXPECT_DOUBLE_EQ(fault.value, 1.2e-3);
   EXPECT_EQ(fault.id, 20U) << "one more than that";
 }
 

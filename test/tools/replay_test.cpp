@@ -68,6 +68,16 @@ TEST(ReplayTest, IsThePerformanceBitForBitFromAKeyframeInItsMiddle) {
   expectSame(again, live.sound());
 }
 
+TEST(ReplayTest, KnowsTheSlicesFromTheGestureWhereAnOldKeyframeDoesNot) {
+  LiveRun live(kStruckScene);
+  live.takeKeyframe();
+  live.play(1000);
+  bag::Recording recording = live.recording();
+  ASSERT_GT(recording.keyframes.front().slices, 0);
+  recording.keyframes.front().slices = 0;
+  expectSame(replay(recording), live.sound());
+}
+
 TEST(ReplayTest, TakesParametersAtTheirTicks) {
   LiveRun live(kStruckScene);
   live.setParameter(0, 3000.0);

@@ -38,6 +38,7 @@ void Feed::configure(const Parameters& parameters, const Hands& hands) {
   for (const tgr::DeviceConfig& device : hands.config().devices) {
     status_.devices.push_back(device.driver);
   }
+  status_.slices = static_cast<std::uint32_t>(hands.slices());
   status_.delay_ticks = hands.traits().delay_ticks;
   if (parameters.compile.metered) {
     model_energy_ = node_.advertise<ModelEnergy>("model_energy", kQueue);

@@ -75,8 +75,7 @@ LoadModel::Response Loader::load(const std::string& model,
     answer = {false, refusal.what()};
   }
   if (answer.ok) {
-    ROS_INFO_STREAM("plays (" << response.verdict << ")"
-                              << (answer.message.empty() ? "" : ": " + answer.message));
+    ROS_INFO_STREAM(answer.message);
   } else {
     ROS_ERROR_STREAM(answer.message);
     operator_.tell(answer.message);

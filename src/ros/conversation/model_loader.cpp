@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/conversation/model_loader.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -9,6 +10,9 @@
 
 #include "ergotic/exception.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
+#include "files/printable.hpp"
+#include "scene/limits.hpp"
+#include "scene/names.hpp"
 
 namespace ergotic::node {
 namespace {
@@ -60,6 +64,35 @@ std::string noteOn(const station::Performer& performer) {
     addLine(note, text.str());
   }
   return note;
+}
+
+std::string answerOn(const std::string& model, const std::string& note, bool force_waits) {
+  std::string answer = "plays " + scene::quoted(model);
+  if (force_waits) {
+    answer += "; call engage for force";
+  }
+  std::istringstream lines(note);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find(": note: ") == std::string::npos) {
+      addLine(answer, line);
+    }
+  }
+  return answer;
+}
+
+std::string unknownParameter(const std::string& name, const scene::Scene& scene) {
+  constexpr std::size_t kShownName = 64;  // of what a stranger says, bytes
+  constexpr std::size_t kListed = 20;
+  std::string text =
+      "the model has no parameter " + scene::quoted(files::printable(name, kShownName));
+  const auto& known = scene.parameters;
+  text += known.empty() ? ", and no other" : ", it has: ";
+  for (std::size_t i = 0; i < std::min(known.size(), kListed); ++i) {
+    text += (i == 0 ? "" : ", ") + known[i].name + " = " + scene::numberText(known[i].minimum) +
+            "..." + scene::numberText(known[i].maximum) +
+            (known[i].unit.empty() ? "" : " " + known[i].unit);
+  }
+  return text + (known.size() > kListed ? ", ..." : "");
 }
 
 std::string textHash(const std::string& text) {

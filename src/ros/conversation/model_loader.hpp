@@ -17,6 +17,14 @@ scene::Scene readModel(const std::string& model);
 /// certificate, changed rates. Empty if there is nothing, else one thing a line.
 std::string noteOn(const station::Performer& performer);
 
+/// What who loads a model is answered: what plays, what is needed for force, and the warnings of
+/// `note`, a line each. Notes on how the model is stepped stay in `status.message`.
+/// \param force_waits  until `engage`
+std::string answerOn(const std::string& model, const std::string& note, bool force_waits);
+
+/// "the model has no parameter 'x', it has: loss = 0...1 N s/m, ...".
+std::string unknownParameter(const std::string& name, const scene::Scene& scene);
+
 /// FNV-1a, 64 bit, 16 hexadecimal digits: names a scene text in recordings.
 std::string textHash(const std::string& text);
 

@@ -111,7 +111,8 @@ Answer Operator::begin(std::unique_ptr<Engine> engine,
   const auto shared = std::make_shared<std::unique_ptr<Engine>>(std::move(engine));
   return ask([=](const Promise& promise) {
     performance_.begin(std::move(*shared), performer, picture);
-    promise->set_value({true, feed_.status().message});
+    promise->set_value(
+        {true, performance_.whatPlays(!performance_.engine()->parameters().autoengage)});
   });
 }
 

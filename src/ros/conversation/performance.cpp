@@ -25,33 +25,13 @@ constexpr std::int64_t kObeyTimeoutNs = 1'000'000'000;
 // From a call to its arrival, where the caller has to find the service first, on a busy machine.
 constexpr std::int64_t kOnItsWayNs = 500'000'000;
 constexpr std::size_t kGestureBatch = 256;
-constexpr double kLogPeriodS = 5.0;
-constexpr std::size_t kShownName = 64;  // of what a stranger says, bytes
 const char kWasOnItsWay[] =
     "it was on its way when somebody asked for an emergency stop: ask again";
-const char kForceWaits[] = "\nforce is zero until engage";
 const char kTooMany[] = "too many requests wait for the real-time thread";
 
 /// Of nodes of two names: the same with a probability of 2^-64.
 station::Caller numberOf(const std::string& node) {
   return std::hash<std::string>{}(node);
-}
-
-void log(const Event& event) {
-  switch (event.type) {
-    case Event::FAULT:
-    case Event::TICKS_LOST:
-      ROS_ERROR_STREAM("tick " << event.tick << ": " << event.text);
-      break;
-    case Event::LATE_TICK:
-    case Event::STALL:
-    case Event::UNDERRUN:
-    case Event::AUDIO_SKIPPED:
-      ROS_WARN_STREAM_THROTTLE(kLogPeriodS, "tick " << event.tick << ": " << event.text);
-      break;
-    default:
-      ROS_DEBUG_STREAM("tick " << event.tick << ": " << event.text);
-  }
 }
 
 }  // namespace
@@ -146,8 +126,7 @@ void Performance::setParameter(const std::string& name, double value, const Prom
     return parameter.name == name;
   });
   if (found == known.end()) {
-    return answer(promise, false,
-                  "the model has no parameter " + files::printable(name, kShownName));
+    return answer(promise, false, unknownParameter(name, submitted_->instrument->scene()));
   }
   const auto index = found - known.begin();
   std::vector<double> values = parameters_;
@@ -236,6 +215,9 @@ void Performance::poll() {
   pollCalibration();
   giveUp();
   reportWarnings();
+  if (const std::string counted = disturbances_.ofLastMinute(rt::monotonicNs()); !counted.empty()) {
+    ROS_WARN_STREAM(counted);
+  }
 }
 
 void Performance::pollGestures() {
@@ -266,6 +248,21 @@ void Performance::take(const station::Event& event) {
   }
 }
 
+void Performance::log(const Event& event) {
+  const std::string text = "tick " + std::to_string(event.tick) + ": " + event.text;
+  if (event.type == Event::FAULT || event.type == Event::TICKS_LOST) {
+    ROS_ERROR_STREAM(text);
+  } else if (!Disturbances::isOne(event)) {
+    ROS_DEBUG_STREAM(text);
+  } else if (disturbances_.isFirst(event)) {
+    ROS_WARN_STREAM(text << " (further ones are counted once a minute)");
+  }
+}
+
+std::string Performance::whatPlays(bool force_waits) const {
+  return answerOn(playing_->instrument->scene().name, feed_.status().message, force_waits);
+}
+
 void Performance::takeObeyed(const station::Event& event, const std::string& text) {
   const auto waiter = requests_.find(event.id);
   if (waiter == requests_.end()) {
@@ -290,7 +287,7 @@ void Performance::takeSwapped(const station::Event& event) {
   Incoming next = std::move(incoming_.front());
   incoming_.pop_front();
   play(next.performer, std::move(next.picture));
-  answer(next.promise, true, feed_.status().message + (event.value != 0.0 ? kForceWaits : ""));
+  answer(next.promise, true, whatPlays(!interlock_->read().isOpen()));
 }
 
 void Performance::takeKeyframe(const station::Event& event) {

@@ -18,6 +18,7 @@
 #include <ergotic/InjectFault.h>
 
 #include "ros/conversation/arrivals.hpp"
+#include "ros/conversation/disturbances.hpp"
 #include "ros/conversation/engine.hpp"
 #include "ros/conversation/feed.hpp"
 #include "ros/device/calibration_guide.hpp"
@@ -77,6 +78,9 @@ class Performance {
                  const Promise& promise);
   void inject(const InjectFault::Request& request, const Promise& promise);
 
+  /// In words, for who loaded it. \pre something plays
+  std::string whatPlays(bool force_waits) const;
+
   /// Brings the news of the station to ROS and to those who wait for them.
   void poll();
 
@@ -121,6 +125,7 @@ class Performance {
     Promise promise;
   };
 
+  void log(const Event& event);
   bool command(station::Command::Type type, int index = 0, double value = 0.0);
   bool submit(const station::Command& command);
   void request(station::Command::Type type, const ForceRequest& request, const Promise& promise);
@@ -154,6 +159,7 @@ class Performance {
   station::Performer* submitted_ = nullptr;  // the newest, owned by the station
   std::vector<double> parameters_;           // of submitted_, as submitted
   std::deque<Incoming> incoming_;
+  Disturbances disturbances_;
   std::deque<Change> changes_;
   std::deque<Configuration> configurations_;
   std::map<std::uint64_t, Waiter> requests_;  // engage and recover, by their numbers

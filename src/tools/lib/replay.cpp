@@ -42,6 +42,13 @@ bool beginsAnew(const station::Event& event) {
   return event.type == EventType::kRecovered && event.index == 1;
 }
 
+/// Of the device. Keyframes of recordings from before November 2026 may say 0: they were written
+/// before the station had read its device for the first time.
+std::size_t slicesAt(const bag::Keyframe& start, const bag::Recording& recording) {
+  return start.slices > 0 ? static_cast<std::size_t>(start.slices)
+                          : recording.stretches.front().slices;
+}
+
 }  // namespace
 
 /// The positions of the tick that the replay is at.
@@ -76,9 +83,9 @@ Replay::Replay(bag::Recording recording,
       choice_(std::move(choice)),
       start_(findStart()),
       tick_(start().tick),
-      position_(static_cast<std::size_t>(start().slices)),
+      position_(slicesAt(start(), recording_)),
       keyframe_(start_ + 1) {
-  policy_.slices = start().slices;
+  policy_.slices = static_cast<int>(position_.size());
   // Swaps that happened before the start, and changes that its parameters hold already.
   const auto is_past = [&](const station::Event& event) { return event.tick < tick_; };
   const auto first = std::find_if_not(recording_.events.begin(), recording_.events.end(), is_past);

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include <ergotic/Event.h>
+
+namespace ergotic::node {
+
+/// Late ticks, stalls and missing sound: the first of each kind is told, the others are counted,
+/// once a minute, so that a log in which they are frequent still shows everything else. Thread: one
+class Disturbances {
+ public:
+  static bool isOne(const Event& event);
+
+  /// Counts it. \return whether it is the first of its kind. \pre isOne
+  bool isFirst(const Event& event);
+
+  /// "in the last minute: 12 late ticks, 3 stalls"; empty before a minute is over, and if there was
+  /// nothing but what was told. \param now_ns  of CLOCK_MONOTONIC
+  std::string ofLastMinute(std::int64_t now_ns);
+
+ private:
+  struct Count {
+    std::int64_t all = 0;
+    std::int64_t told = 0;
+  };
+  static constexpr std::size_t kKinds = 4;
+
+  std::array<Count, kKinds> counts_;
+  std::int64_t minute_ns_ = 0;  // when the present one began; 0: none yet
+};
+
+}  // namespace ergotic::node

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "ergotic/exception.hpp"
 
@@ -37,6 +38,7 @@ AudioBridge::AudioBridge(const AudioBridgeConfig& config)
       from_host_(kFifoFrames, config.input_channels),
       losses_(kLosses),
       capture_frame_(static_cast<std::size_t>(config.input_channels)),
+      limiter_(config.rates.audio_hz),
       clock_(config.rates.audio_hz, kClockBandwidthHz) {}
 
 void AudioBridge::audioStarted(double sample_rate_hz, std::uint32_t period_frames) {
@@ -76,6 +78,15 @@ void AudioBridge::xrun() noexcept {
 
 std::vector<std::string> AudioBridge::takeWarnings() {
   const std::lock_guard<std::mutex> lock(warnings_mutex_);
+  if (const Loudness now = loudness(); now.limited_frames > 0 && !loudness_is_told_) {
+    loudness_is_told_ = true;
+    std::ostringstream text;
+    text.precision(3);
+    text << "the sound went beyond full scale (" << now.peak
+         << " times so far) and is turned down by the limiter: play softer, or lower the gain of "
+            "the outputs";
+    warnings_.push_back(text.str());
+  }
   std::vector<std::string> taken;
   taken.swap(warnings_);
   return taken;
@@ -133,8 +144,9 @@ void AudioBridge::play(const rt::Period& period, const Relation& relation) noexc
   for (std::uint32_t i = 0; i < period.nframes; ++i) {
     const std::int64_t station_frame = start + i;
     const float* from = to_host_.take(station_frame);
+    const float gain = from != nullptr ? gainOf(from, shared) : 0.0F;
     for (int c = 0; c < shared; ++c) {
-      period.outputs[c][i] = from != nullptr ? from[c] : 0.0F;
+      period.outputs[c][i] = from != nullptr ? gain * from[c] : 0.0F;
     }
     const bool lost = from == nullptr && station_frame >= relation.first;
     if (lost && !missing) {
@@ -148,6 +160,22 @@ void AudioBridge::play(const rt::Period& period, const Relation& relation) noexc
   if (missing) {
     noteUnderrun(relation, missing_from, start + period.nframes);
   }
+}
+
+/// 1 if nothing limits it.
+float AudioBridge::gainOf(const float* frame, int channels) noexcept {
+  float peak = 0.0F;
+  for (int c = 0; c < channels; ++c) {
+    peak = std::max(peak, std::abs(frame[c]));
+  }
+  if (peak > peak_.load(std::memory_order_relaxed)) {
+    peak_.store(peak, std::memory_order_relaxed);
+  }
+  const float gain = config_.limited ? limiter_.gainFor(peak) : 1.0F;
+  if (gain < 1.0F) {
+    limited_frames_.fetch_add(1, std::memory_order_relaxed);
+  }
+  return gain;
 }
 
 /// After an xrun the host's frame count goes on without having called: those frames are lost.

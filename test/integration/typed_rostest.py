@@ -90,6 +90,12 @@ class TypedTest(unittest.TestCase):
     def test_lines_of_the_docs_are_understood(self):
         self.assertGreaterEqual(len(self.type_all("docs/ros.md")), 12)
 
+    def test_misspelt_arguments_are_answered_with_what_to_write(self):
+        said = subprocess.run([os.path.join(ROOT, "scripts/station"), "force_limt:=5"], timeout=60, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+        self.assertNotEqual(said.returncode, 0)
+        self.assertIn("did you mean force_limit?", said.stdout)
+
     def test_arguments_of_the_launch_file_are_its_own(self):
         known = {argument.get("name") for argument in self.launch().iter("arg")}
         used = {name for document in ("README.md", "docs/ros.md", "docs/safety.md", "docs/tgr.md")

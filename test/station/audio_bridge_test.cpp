@@ -372,5 +372,25 @@ TEST(AudioBridgeTest, RefusesARingDepthOutsideItsRange) {
   EXPECT_THROW(AudioBridge{config}, Exception);
 }
 
+TEST(AudioBridgeTest, KeepsTheSoundBelowFullScaleIfItShallAndSaysSoOnce) {
+  AudioBridgeConfig config = smallConfig();
+  config.limited = true;
+  Rig rig(config);  // whose samples are the numbers of their frames
+  rig.host.start(kPeriod, 5000, 7'000'000);
+  for (int n = 0; n < 100; ++n) {
+    rig.step();
+  }
+  float loudest = 0.0F;
+  for (const auto& [frame, sample] : rig.sounded) {
+    loudest = std::max(loudest, sample);
+  }
+  EXPECT_GT(loudest, 0.9F);
+  EXPECT_LE(static_cast<double>(loudest), Limiter::kCeiling * 1.000001);
+  EXPECT_GT(rig.bridge.loudness().peak, 1000.0F);
+  EXPECT_GT(rig.bridge.loudness().limited_frames, 1000);
+  EXPECT_THAT(rig.bridge.takeWarnings(), Contains(HasSubstr("turned down by the limiter")));
+  EXPECT_THAT(rig.bridge.takeWarnings(), IsEmpty());
+}
+
 }  // namespace
 }  // namespace ergotic::station

@@ -15,6 +15,7 @@
 #include "ergotic/rt/ring.hpp"
 #include "ergotic/station/frame_fifo.hpp"
 #include "ergotic/station/frame_port.hpp"
+#include "ergotic/station/limiter.hpp"
 
 namespace ergotic::station {
 
@@ -25,6 +26,13 @@ struct AudioBridgeConfig {
   /// Ring depth: host frames from the due time of a tick to the sound of its first frame,
   /// 1...kMaxLatencyFrames. Raised when a host starts whose period needs more.
   int latency_frames = 3 * 256;
+  bool limited = false;  ///< a Limiter stands before the host
+};
+
+/// How loud it was at the host's door.
+struct Loudness {
+  float peak = 0.0F;                ///< of full scale, before the limiter
+  std::int64_t limited_frames = 0;  ///< that the limiter turned down
 };
 
 /// The only place where ticks and audio periods meet: index arithmetic, nothing else.
@@ -88,9 +96,14 @@ class AudioBridge : public rt::AudioProcessor, public FramePort {
   /// Realtime: yes. Thread: tick
   void disconnect() noexcept;
 
+  /// Since the bridge was made. Realtime: yes. Thread: any
+  Loudness loudness() const noexcept {
+    return {peak_.load(std::memory_order_relaxed), limited_frames_.load(std::memory_order_relaxed)};
+  }
   /// Ring depth of the present connection. Realtime: yes. Thread: any
   int latencyFrames() const noexcept { return latency_.load(std::memory_order_relaxed); }
-  /// What operators should know (a raised latency); each is given once. Realtime: no. Thread: any
+  /// What operators should know (a raised latency, sound beyond full scale); each is given once.
+  /// Realtime: no. Thread: any
   std::vector<std::string> takeWarnings();
 
  private:
@@ -114,6 +127,7 @@ class AudioBridge : public rt::AudioProcessor, public FramePort {
 
   void capture(const rt::Period& period) noexcept;
   void play(const rt::Period& period, const Relation& relation) noexcept;
+  float gainOf(const float* frame, int channels) noexcept;
   void noteSkipped(const rt::Period& period, const Relation& relation) noexcept;
   void tellLoss(const Loss& loss) noexcept;
   void noteUnderrun(const Relation& relation, std::int64_t first, std::int64_t end) noexcept;
@@ -134,6 +148,8 @@ class AudioBridge : public rt::AudioProcessor, public FramePort {
   std::atomic<std::int64_t> xruns_{0};
   std::atomic<std::int64_t> dropped_records_{0};
   std::atomic<bool> clock_locked_{false};
+  std::atomic<float> peak_{0.0F};
+  std::atomic<std::int64_t> limited_frames_{0};
   FrameFifo to_host_;
   FrameFifo from_host_;
   rt::Mailbox<Reading> readings_;    // host RT -> tick
@@ -141,9 +157,11 @@ class AudioBridge : public rt::AudioProcessor, public FramePort {
   rt::Ring<Loss> losses_;            // host RT -> tick
   std::mutex warnings_mutex_;        // set-up threads only
   std::vector<std::string> warnings_;
+  bool loudness_is_told_ = false;  // with warnings_mutex_
 
   // The host's real-time thread.
   std::vector<float> capture_frame_;
+  Limiter limiter_;
   std::int64_t expected_ = 0;      // host frame after the last block
   std::int64_t underrun_end_ = 0;  // station frame after the last missing one
   std::uint32_t played_ = 0;       // connection of the last block played

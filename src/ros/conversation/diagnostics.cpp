@@ -44,6 +44,8 @@ void Diagnostics::refresh(const Status& status, const Engine* engine) {
   last_ = status_;
   status_ = status;
   jack_ = engine != nullptr ? engine->jackStatus() : std::nullopt;
+  limited_before_ = loudness_.limited_frames;
+  loudness_ = engine != nullptr ? engine->loudness() : station::Loudness{};
   watchdog_ = engine != nullptr ? engine->watchdogReading() : tgr::WatchdogReading{};
   updater_.force_update();
 }
@@ -116,6 +118,8 @@ void Diagnostics::reportSound(Report& report) {
     report.summary(Level::WARN, "no JACK server");
   } else if (status_.underruns > last_.underruns || status_.xruns > last_.xruns) {
     report.summary(Level::WARN, "sound was interrupted in the last second");
+  } else if (loudness_.limited_frames > limited_before_) {
+    report.summary(Level::WARN, "the sound is beyond full scale, and the limiter turns it down");
   } else if (status_.bad_input_samples > last_.bad_input_samples) {
     report.summary(Level::WARN, "an audio input gave samples that are no finite numbers");
   } else {
@@ -127,6 +131,8 @@ void Diagnostics::reportSound(Report& report) {
   report.add("frames of silence", status_.underrun_frames);
   report.add("xruns of JACK", status_.xruns);
   report.add("samples of inputs that were not finite", status_.bad_input_samples);
+  report.add("largest sample (of full scale)", loudness_.peak);
+  report.add("frames that the limiter turned down", loudness_.limited_frames);
   if (jack_) {
     report.add("JACK client", jack_->client);
     report.add("period (frames)", jack_->period_frames);

@@ -38,6 +38,8 @@ class Diagnostics {
   Status status_;
   Status last_;  // a second ago
   std::optional<audio::JackStatus> jack_;
+  station::Loudness loudness_;
+  std::int64_t limited_before_ = 0;  // frames, a second ago
   tgr::WatchdogReading watchdog_;
   std::int64_t due_ns_ = 0;
 };

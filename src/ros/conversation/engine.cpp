@@ -97,6 +97,7 @@ Engine::Engine(const Parameters& parameters,
     bridge.output_channels = config.output_channels;
     bridge.input_channels = config.input_channels;
     bridge.latency_frames = parameters.ring_depth;
+    bridge.limited = parameters.limiter;
     bridge_ = std::make_unique<station::AudioBridge>(bridge);
     station_->setFramePort(bridge_.get());
   }

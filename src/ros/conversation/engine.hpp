@@ -52,6 +52,8 @@ class Engine {
   /// The watchdog acted and no tick came since: the station cannot say so itself. Thread: any
   bool standsStill() const { return silent_at_ == station_->heartbeat(); }
 
+  /// Thread: any
+  station::Loudness loudness() const { return bridge_ ? bridge_->loudness() : station::Loudness(); }
   tgr::WatchdogReading watchdogReading() const { return watchdog_->reading(); }  ///< Thread: any
   /// \return nothing if it plays without JACK. Thread: any
   std::optional<audio::JackStatus> jackStatus() const;

@@ -277,6 +277,7 @@ void visitParameters(Visitor& on, P& p) {
   on.number("jack_wait", p.jack_wait, 0.0, 60.0);
   on.flag("jack_connect", p.jack_connect);
   on.integer("ring_depth", p.ring_depth, 1, station::AudioBridge::kMaxLatencyFrames);
+  on.flag("limiter", p.limiter);
   visitSafety(on, p.safety);
   on.number("max_stall", p.max_stall, 0.001, kLongestStallS);
   on.integer("max_stalls", p.max_stalls, 1, kMostStalls);

@@ -40,6 +40,7 @@ struct Parameters {
   double jack_wait = 2.0;             ///< s, for a server to appear before the first model plays
   bool jack_connect = true;           ///< out_i to the i-th physical playback port
   int ring_depth = 768;               ///< audio frames from a tick's due time to its sound
+  bool limiter = true;                ///< keeps the sound below full scale
   tgr::SafetyConfig safety;
   std::optional<double> max_stall;  ///< s, longer stalls are a fault; none: see withStallLimits
   std::optional<int> max_stalls;    ///< in a second of force, more are a fault; none: the same

@@ -173,7 +173,7 @@ TEST_F(GuardianTest, IsSeenToBeGone) {
 
 TEST_F(GuardianTest, IsEndedIfItDoesNotLook) {
   Guardian guardian({}, {kSilenceS, 0});
-  for (int n = 0; n < 15; ++n) {
+  for (int n = 0; n < 8; ++n) {
     EXPECT_TRUE(guardian.isThere());
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }

@@ -66,21 +66,36 @@ TEST(TrialsTest, AStallAfterTheLimitOrBeforeTheStartOrOneThatIsTooShortDoesNot) 
   EXPECT_NONFATAL_FAILURE(judged({4 * kMs, 6 * kMs - 1}, 12 * kMs), "no more than 1.99");
 }
 
-/// \return on time, of four tries of which the first so many are excused
-int onTimeOfFour(int excused) {
-  Trials trials(Stall{0, kLimit}, 4);
+/// \return on time, of five tries of which the first so many are excused
+int onTimeOfFive(int excused) {
+  Trials trials(Stall{0, kLimit}, 5);
   for (int n = 0; trials.goOn(); ++n) {
     trials.judge({0, kLimit}, n < excused ? 2 * kLimit : kLimit);
   }
-  EXPECT_EQ(trials.tries(), 4);
+  EXPECT_EQ(trials.tries(), 5);
   return trials.onTime();
 }
 
-TEST(TrialsTest, HalfOfThemHaveToBeOnTime) {
-  EXPECT_EQ(onTimeOfFour(0), 4);
-  EXPECT_EQ(onTimeOfFour(2), 2);
-  EXPECT_NONFATAL_FAILURE(EXPECT_EQ(onTimeOfFour(3), 1), "too often");
-  EXPECT_NONFATAL_FAILURE(EXPECT_EQ(onTimeOfFour(4), 0), "too often");
+TEST(TrialsTest, ThreeOfFiveHaveToBeOnTime) {
+  EXPECT_EQ(onTimeOfFive(0), 5);
+  EXPECT_EQ(onTimeOfFive(2), 3);
+  EXPECT_NONFATAL_FAILURE(EXPECT_EQ(onTimeOfFive(3), 2), "too often");
+  EXPECT_NONFATAL_FAILURE(EXPECT_EQ(onTimeOfFive(5), 0), "too often");
+}
+
+/// Of twenty tries so many are excused.
+void expectNineOfTen(int excused) {
+  Trials trials(Stall{0, kLimit});
+  for (int n = 0; n < 20; ++n) {
+    trials.next();
+    trials.judgeThat(n >= excused, {0, kLimit});
+  }
+  trials.expectNineOfTen();
+}
+
+TEST(TrialsTest, NoMoreThanATenthOfManyIsExcused) {
+  expectNineOfTen(2);
+  EXPECT_NONFATAL_FAILURE(expectNineOfTen(3), "too often");
 }
 
 TEST(TrialsTest, TheWorstThatIsJudgedInATryCounts) {

@@ -325,7 +325,7 @@ TEST(ConfigureTest, ManyChangesLiveMakeNoTickLate) {
                      found == slow.end() ? test::Trials::Window() : found->second,
                      "tick " + std::to_string(tick));
   }
-  trials.expectHalfOnTime();
+  trials.expectNineOfTen();
 #endif
 }
 

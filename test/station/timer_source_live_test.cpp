@@ -146,7 +146,7 @@ TEST(TimerSourceTest, LiveForceOfATickGoesOutWithTheExchangeThatReadsTheNextPosi
   test::Trials trials(reference);
   LiveForce live(reference);
   live.expectInStep(trials);
-  trials.expectHalfOnTime();
+  trials.expectNineOfTen();
 }
 
 TEST(TimerSourceTest, TickIndexKeepsUpWithTheClockThroughStalls) {

@@ -51,7 +51,7 @@ bool Trials::goOn() {
     return false;
   }
   if (tries_ == wanted_) {
-    expectHalfOnTime();
+    expectOnTime(0.6);
     return false;
   }
   trying_ = true;
@@ -83,9 +83,13 @@ Trials::Verdict Trials::judgeThat(bool holds, const Window& window, const std::s
   return judge(window, holds ? window.limit_ns : kNever, what);
 }
 
-void Trials::expectHalfOnTime() {
+void Trials::expectNineOfTen() {
   close();
-  EXPECT_GE(2 * onTime(), tries_) << "the machine stands still too often to be tested on";
+  expectOnTime(0.9);
+}
+
+void Trials::expectOnTime(double share) {
+  EXPECT_GE(onTime(), share * tries_) << "the machine stands still too often to be tested on";
 }
 
 }  // namespace ergotic::test

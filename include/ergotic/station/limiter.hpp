@@ -9,8 +9,8 @@
 namespace ergotic::station {
 
 /// Keeps sound below full scale, for people wear headphones: a peak limiter with one gain for all
-/// channels, which falls at once and comes back over `kReleaseS`. Sound that stays below the
-/// ceiling passes bit for bit. Thread: one
+/// channels, which falls at once and comes back over `kReleaseS`. While the gain is whole, sound
+/// below the ceiling passes bit for bit. Thread: one
 class Limiter {
  public:
   static constexpr double kCeiling = 0.98;  ///< of full scale, -0.2 dBFS

@@ -23,6 +23,16 @@ source_space() { # SETUP_FILE
   set -eu
 }
 
+# Installs and builds what plays, and lets ROS find it. ERGOTIC_SPACE is the setup.bash of a space that is
+# to be taken as it is.
+prepare_space() {
+  if [ -z "${ERGOTIC_SPACE:-}" ]; then
+    "$root/scripts/install_deps"
+    "$root/scripts/build" --target play
+  fi
+  source_space "${ERGOTIC_SPACE:-$root/devel/setup.bash}"
+}
+
 # Waits until a command succeeds. Each try has to be short; returns 1 when the time is over.
 wait_until() { # SECONDS COMMAND...
   local end=$((SECONDS + $1))

@@ -83,6 +83,7 @@ on_exit() { # STATUS
   exit "$1"
 }
 
+warned_of_realtime=''
 may_be_realtime() { chrt --fifo 70 true 2>/dev/null; }
 
 # The first sound card that can play, as ALSA numbers them; nothing if there is none.
@@ -104,7 +105,9 @@ jack_runs() { [[ $(timeout 10 jack_wait --check 2>/dev/null) == running* ]]; }
 start_jack() { # BACKEND OPTIONS...
   local options=(--realtime --realtime-priority 70)
   if ! may_be_realtime; then
-    warn "real-time scheduling is not permitted (README, \"Real time\"): sound may crackle"
+    [ -n "$warned_of_realtime" ] ||
+      warn "real-time scheduling is not permitted (README, \"Real time\"): sound may crackle"
+    warned_of_realtime=yes
     options=(--no-realtime)
   fi
   [ "$1" != dummy ] || options+=(--sync)
@@ -113,8 +116,8 @@ start_jack() { # BACKEND OPTIONS...
   jack_or_death() { jack_runs || has_ended "$jackd"; }
   wait_until 10 jack_or_death && jack_runs
 }
-start_dummy_jack() {
-  start_jack dummy --rate 44100 --period 256 --capture 12 --playback 24
+start_dummy_jack() { # [PERIOD [RATE]]
+  start_jack dummy --rate "${2:-44100}" --period "${1:-256}" --capture 12 --playback 24
 }
 
 # A ROS master of our own, for this machine only, that leaves nothing in the home folder.

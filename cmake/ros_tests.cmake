@@ -80,6 +80,12 @@ add_test(NAME integration.remote
   COMMAND ${in_devel_space} ${PROJECT_SOURCE_DIR}/test/integration/remote_test.py)
 set_tests_properties(integration.remote PROPERTIES RUN_SERIAL ON TIMEOUT 300 LABELS long)
 
+# scripts/station, with a master and a JACK server of its own.
+add_test(NAME integration.front_door
+  COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/front_door_live_test.py
+          ${CATKIN_DEVEL_PREFIX}/setup.bash)
+set_tests_properties(integration.front_door PROPERTIES RUN_SERIAL ON TIMEOUT 240 LABELS live)
+
 # roslaunch reads the file, finds every package and every substitution, and names the nodes.
 file(GLOB launch_files CONFIGURE_DEPENDS launch/*.launch)
 foreach(launch ${launch_files})

@@ -186,6 +186,8 @@ def split_words(words, known):
                 raise Refusal(f"station.launch has no argument {name}, "
                               + did_you_mean(name, known, "it has: " + ", ".join(known)))
             given[name] = value
+        elif word in OPTIONS:
+            raise Refusal(f"{word} stands first, and no instrument beside it")
         elif word.startswith("-"):
             raise Refusal(f"there is no option {word}, "
                           + did_you_mean(word, OPTIONS, "there are: " + ", ".join(OPTIONS)))

@@ -3,12 +3,12 @@
 """Which period of JACK and which ring_depth a machine keeps: what `scripts/station --tune` tries, how
 it chooses, and the file that it writes.
 
-  sound_setting.py steps [PERIOD...]          "PERIOD RING_DEPTH" of each step, one a line
-  sound_setting.py heading                    of the table
-  sound_setting.py row RESULT                 a row of the table
-  sound_setting.py ended FILE                 exit code 0: more steps would tell nothing more
-  sound_setting.py choose FILE SOUND          chooses, writes the setting, says what it is
-  sound_setting.py read SOUND                 "PERIOD RING_DEPTH RATE LATENCY_MS" of the setting for SOUND; else nothing
+  sound_setting.py steps [PERIOD[:RING_DEPTH]...]   "PERIOD RING_DEPTH" of each step, one a line
+  sound_setting.py heading                          of the table
+  sound_setting.py row RESULT                       a row of the table
+  sound_setting.py ended FILE                       exit code 0: more steps would tell nothing more
+  sound_setting.py choose FILE SOUND                chooses, writes the setting, says what it is
+  sound_setting.py read SOUND                       "PERIOD RING_DEPTH RATE LATENCY_MS" of the setting for SOUND, if there is one
 
 A RESULT is a line of FILE: period, ring depth and the buffer of JACK in frames, the rate in Hz, then
 underruns, xruns and late ticks; or period and ring depth alone, where the card refuses the period.
@@ -18,6 +18,7 @@ import dataclasses
 import datetime
 import os
 import pathlib
+import re
 import signal
 import sys
 import tempfile
@@ -57,14 +58,24 @@ class Result:
         return 1e3 * (self.ring_depth + self.buffer) / self.rate
 
 
-def steps(periods=PERIODS):
-    """[(period, ring depth)] in frames, with less and less latency"""
-    found = []
-    for period in sorted(set(periods), reverse=True):
-        for ring_depth in (max(n * period, period + LEAST_ABOVE_PERIOD) for n in RING_OF_PERIODS):
-            if (period, ring_depth) not in found:
-                found.append((period, ring_depth))
-    return found
+def steps(words=PERIODS):
+    """[(period, ring depth)] in frames, with less and less latency: several rings for each period, or the
+    one of `period:ring_depth`"""
+    found = set()
+    for word in words:
+        period, _, ring_depth = str(word).partition(":")
+        period = frames(period, 16)
+        rings = [frames(ring_depth, 1)] if ring_depth else [max(n * period, period + LEAST_ABOVE_PERIOD)
+                                                            for n in RING_OF_PERIODS]
+        found.update((period, ring) for ring in rings)
+    return sorted(found, reverse=True)
+
+
+def frames(text, least):
+    if not re.fullmatch("[0-9]{1,6}", text) or not least <= int(text) <= MOST_FRAMES:
+        raise SystemExit(f"error: {text} frames, allowed: {least}...{MOST_FRAMES}; steps are written PERIOD or "
+                         "PERIOD:RING_DEPTH")
+    return int(text)
 
 
 def result_of(line):
@@ -192,7 +203,7 @@ def content(path):
 
 def main(action="", *rest):
     if action == "steps":
-        print(*(f"{period} {ring}" for period, ring in steps(map(int, rest) if rest else PERIODS)), sep="\n")
+        print(*(f"{period} {ring}" for period, ring in steps(rest or PERIODS)), sep="\n")
     elif action == "heading":
         print(HEADING)
     elif action == "row":

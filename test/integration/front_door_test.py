@@ -132,7 +132,8 @@ class ArgumentsTest(WithFolder):
     def test_misspelt_arguments_are_answered_with_what_to_write(self):
         for words, told in ((["force_limt:=5"], "did you mean force_limit?"),
                             (["force_limit=5"], "force_limit:=5"), (["gestur:x.csv"], "gesture:=x.csv"),
-                            (["--lst"], "did you mean --list?"), (["drum", "string"], "two instruments, drum and string"),
+                            (["--lst"], "did you mean --list?"), (["drum", "--tune"], "--tune stands first"),
+                            (["drum", "string"], "two instruments, drum and string"),
                             (["drum", "model:=string"], "allowed: one of them"),
                             (["xyzzyxyzzy:=1"], "it has: model, device")):
             self.assertIn(told, self.refusal(*words))
@@ -140,8 +141,9 @@ class ArgumentsTest(WithFolder):
     def test_a_shell_reads_them_as_they_are(self):
         for text in ("it's \"a\" take", "$(false) `false` \\ * #", "two\nlines", "ends with a blank "):
             line = front_door.in_shell({"record": text, "jack": "none"}, True)
-            read = subprocess.run(["bash", "-c", 'eval "$1"; printf "%s\\0" "${arguments[@]}" "$is_simulated"', "-", line],
-                                  stdout=subprocess.PIPE, text=True, check=True).stdout.split("\0")[:-1]
+            script = 'eval "$1"; printf "%s\\0" "${arguments[@]}" "$is_simulated"'
+            read = subprocess.run(["bash", "-c", script, "-", line], stdout=subprocess.PIPE, text=True,
+                                  check=True).stdout.split("\0")[:-1]
             self.assertEqual(read, [f"record:={text}", "jack:=none", "true"])
 
     def test_force_comes_by_itself_only_where_no_hand_is(self):
@@ -180,11 +182,14 @@ class SoundSettingTest(WithFolder):
                 for (period, ring), underruns in zip(sound_setting.steps(), lost)]
 
     def test_each_step_has_less_latency_than_the_one_before(self):
-        for buffers in (0, 2, 3):  # periods that JACK keeps
+        for buffers in (0, 1, 2, 3):  # periods that JACK keeps
             latencies = [Result(period, ring, buffers * period, 48000).latency_ms
                          for period, ring in sound_setting.steps()]
             self.assertEqual(latencies, sorted(set(latencies), reverse=True))
-        self.assertEqual(sound_setting.steps([64, 128]), [(128, 384), (128, 256), (64, 192), (64, 144)])
+        self.assertEqual(sound_setting.steps(["64", "128"]), [(128, 384), (128, 256), (64, 192), (64, 144)])
+        self.assertEqual(sound_setting.steps(["128:300", "128:500"]), [(128, 500), (128, 300)])
+        for word in ("8", "wide", "64:0", "64:99999", "64:wide", "-64"):
+            self.assertRaises(SystemExit, sound_setting.steps, [word])
 
     def test_latency_is_of_the_ring_and_the_card(self):
         self.assertAlmostEqual(Result(256, 768, 768, 48000).latency_ms, 32.0)
@@ -270,9 +275,10 @@ say "ring_depth $ring_depth, clients: ${through[*]}"
         if tuned:
             text = sound_setting.text_of(Result(128, 256, 384, 48000), tuned, datetime.datetime(2026, 1, 2))
             sound_setting.write(self.folder / "ergotic/sound.yaml", text)
-        return subprocess.run(["bash", "-c", self.PLAYED, "-", ROOT], text=True, check=True, stdout=subprocess.PIPE, env={
-            **os.environ, "CARD": card, "TAKEN": taken, "PIPEWIRE": pipewire, "XDG_CONFIG_HOME": str(self.folder),
-            "PATH": f"{folder}:{os.environ['PATH']}"}).stdout
+        environment = {**os.environ, "CARD": card, "TAKEN": taken, "PIPEWIRE": pipewire,
+                       "XDG_CONFIG_HOME": str(self.folder), "PATH": f"{folder}:{os.environ['PATH']}"}
+        return subprocess.run(["bash", "-c", self.PLAYED, "-", ROOT], text=True, check=True, stdout=subprocess.PIPE,
+                              env=environment).stdout
 
     def test_without_a_card_jack_runs_and_nothing_is_heard(self):
         said = self.start()

@@ -65,6 +65,11 @@ void silence() {
   jack_set_info_function(onInfo);
 }
 
+bool isOfPipeWire() {
+  const char* version = jack_get_version_string();
+  return version != nullptr && std::string(version).find("PipeWire") != std::string::npos;
+}
+
 std::string takeMessage() {
   return last_message.take();
 }

@@ -21,6 +21,10 @@ bool callPatiently(std::function<void()> call);
 /// A call above has not come back: libjack holds its lock, no client can be opened. Thread: any
 bool isStuck();
 
+/// The library is PipeWire's, which calls the latency callback while other calls are under way and
+/// may then be torn down by jack_port_set_latency_range (seen with 0.3.65). Thread: any
+bool isOfPipeWire();
+
 /// JACK's clock minus CLOCK_MONOTONIC, ns; 0 if they agree as far as can be told. Thread: any
 std::int64_t clockOffsetNs();
 

@@ -227,11 +227,12 @@ struct JackSession::Core {
   }
 
   void setCallbacks(bool follows_wires) {
-    const bool ok = jack_set_process_callback(client, onProcess, this) == 0 &&
-                    jack_set_xrun_callback(client, onXrun, this) == 0 &&
-                    jack_set_buffer_size_callback(client, onBufferSize, this) == 0 &&
-                    jack_set_freewheel_callback(client, onFreewheel, this) == 0 &&
-                    jack_set_latency_callback(client, onLatency, this) == 0;
+    const bool ok =
+        jack_set_process_callback(client, onProcess, this) == 0 &&
+        jack_set_xrun_callback(client, onXrun, this) == 0 &&
+        jack_set_buffer_size_callback(client, onBufferSize, this) == 0 &&
+        jack_set_freewheel_callback(client, onFreewheel, this) == 0 &&
+        (jack_library::isOfPipeWire() || jack_set_latency_callback(client, onLatency, this) == 0);
     if (!ok || (follows_wires && jack_set_port_connect_callback(client, onConnect, this) != 0)) {
       fail("callbacks are refused");
     }

@@ -182,6 +182,19 @@ ModelStructure toModelStructure(const scene::Scene& scene, const physics::Rates&
   return message;
 }
 
+ParametersMessage toParameters(const scene::Scene& scene, const std::vector<double>& values) {
+  ParametersMessage message;
+  for (const scene::Parameter& parameter : scene.parameters) {
+    message.names.push_back(parameter.name);
+    message.lows.push_back(parameter.minimum);
+    message.highs.push_back(parameter.maximum);
+    message.defaults.push_back(parameter.value);
+    message.units.push_back(parameter.unit);
+  }
+  message.values = values;
+  return message;
+}
+
 Event toEvent(const station::Event& event, const scene::Scene* scene) {
   Event message;
   message.tick = event.tick;

@@ -5,6 +5,7 @@
 #include <ergotic/Keyframe.h>
 #include <ergotic/ModelEnergy.h>
 #include <ergotic/ModelStructure.h>
+#include <ergotic/Parameters.h>
 #include <ergotic/Status.h>
 #include <sensor_msgs/JointState.h>
 
@@ -15,7 +16,14 @@
 /// From our plain structs to messages. Stamps are the caller's.
 namespace ergotic::node {
 
+/// The message; `Parameters` are those of the node.
+using ParametersMessage = ::ergotic::Parameters;
+
 ModelStructure toModelStructure(const scene::Scene& scene, const physics::Rates& rates);
+
+/// Names, ranges and units of what can be changed while it plays.
+/// \param values  now in force, one for each
+ParametersMessage toParameters(const scene::Scene& scene, const std::vector<double>& values);
 
 /// \param scene  the one that plays, for names of parameters; null: none
 Event toEvent(const station::Event& event, const scene::Scene* scene);

@@ -25,6 +25,7 @@ Feed::Feed(const ::ros::NodeHandle& node) : node_(node), display_(node) {
   keyframe_ = node_.advertise<Keyframe>("keyframe", kQueue, kLatched);
   events_ = node_.advertise<Event>("events", kEventQueue);
   status_topic_ = node_.advertise<Status>("status", 1, kLatched);
+  model_parameters_ = node_.advertise<ParametersMessage>("model_parameters", 1, kLatched);
   gesture_ = node_.advertise<GestureBlock>(
       "gesture", kGestureQueue,
       [this](const ::ros::SingleSubscriberPublisher& /*peer*/) { new_listener_ = true; });
@@ -55,7 +56,8 @@ void Feed::show(const tgr::EndEffectors& end_effectors) {
 
 void Feed::showModel(const station::Performer& performer,
                      std::shared_ptr<Picture> picture,
-                     const std::string& note) {
+                     const std::string& note,
+                     const std::vector<double>& parameters) {
   const physics::Instrument& instrument = *performer.instrument;
   fillStatus(instrument, status_);
   status_.verdict = physics::toString(performer.certificate.verdict);
@@ -63,6 +65,8 @@ void Feed::showModel(const station::Performer& performer,
   status_.guard_warning.clear();
   note_ = note;
   sendStatus();
+  parameters_ = toParameters(instrument.scene(), parameters);
+  sendParameters();
 
   display_.show(std::move(picture));
   if (!blocks_) {  // rates hold until the next `configure`
@@ -78,6 +82,8 @@ void Feed::showSilence(const std::string& message) {
   note_ = message;
   display_.show(std::shared_ptr<Picture>());
   sendStatus();
+  parameters_ = {};
+  sendParameters();
 }
 
 void Feed::addMessage(const std::string& line) {
@@ -167,10 +173,29 @@ void Feed::show(const station::Keyframe& keyframe, const physics::Instrument& in
   keyframe_.publish(message);
 }
 
+void Feed::showParameter(std::int64_t index, double value) {
+  const auto at = static_cast<std::size_t>(index);
+  if (at < parameters_.values.size()) {
+    parameters_.values[at] = value;
+    parameters_changed_ = true;
+  }
+}
+
 void Feed::refresh() {
-  if (rt::monotonicNs() >= status_due_ns_) {
+  const std::int64_t now_ns = rt::monotonicNs();
+  if (now_ns >= status_due_ns_) {
     sendStatus();
   }
+  if (parameters_changed_ && now_ns >= parameters_due_ns_) {
+    sendParameters();
+  }
+}
+
+void Feed::sendParameters() {
+  parameters_changed_ = false;
+  parameters_due_ns_ = rt::monotonicNs() + motion_period_ns_;
+  parameters_.header.stamp = ::ros::Time::now();
+  model_parameters_.publish(parameters_);
 }
 
 void Feed::sendStatus() {

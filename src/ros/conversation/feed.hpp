@@ -32,10 +32,15 @@ class Feed {
   void configure(const Parameters& parameters, const Hands& hands);
   /// These end-effectors stand on the slices from now on.
   void show(const tgr::EndEffectors& end_effectors);
-  /// Another model plays from now on. \param picture  of it, not null
+  /// Another model plays from now on.
+  /// \param picture     of it, not null
+  /// \param parameters  its values, one for each
   void showModel(const station::Performer& performer,
                  std::shared_ptr<Picture> picture,
-                 const std::string& note);
+                 const std::string& note,
+                 const std::vector<double>& parameters);
+  /// A parameter of the model that plays has another value.
+  void showParameter(std::int64_t index, double value);
   /// Nothing plays any more, or nothing yet; `message` says why.
   void showSilence(const std::string& message);
 
@@ -55,13 +60,14 @@ class Feed {
   /// True once for everybody who starts to listen to `gesture`, most likely to record it.
   bool takeNewListener() { return new_listener_.exchange(false); }
 
-  /// Sends the status if it is a second old.
+  /// Sends the status if it is a second old, and parameters that have changed.
   void refresh();
 
   const Status& status() const { return status_; }
 
  private:
   void sendStatus();
+  void sendParameters();
   void watch(const station::MotionFrame& motion, const scene::Scene& scene);
 
   ::ros::NodeHandle node_;
@@ -74,10 +80,14 @@ class Feed {
   ::ros::Publisher keyframe_;
   ::ros::Publisher events_;
   ::ros::Publisher status_topic_;
+  ::ros::Publisher model_parameters_;
 
   tf2_ros::TransformBroadcaster transforms_;
 
   Status status_;
+  ParametersMessage parameters_;
+  bool parameters_changed_ = false;  // since they were sent
+  std::int64_t parameters_due_ns_ = 0;
   std::string note_;  // of the model that plays; status_.message adds the latest news
   std::optional<GestureBlocks> blocks_;
   EndEffectorFrames frames_;

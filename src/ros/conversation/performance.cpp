@@ -236,6 +236,9 @@ void Performance::take(const station::Event& event) {
       return takeSwapped(event);
     case EventType::kParameter: {
       const std::unique_ptr<physics::Coefficients> old(event.coefficients);
+      if (incoming_.empty()) {  // else it is of one that does not play yet
+        feed_.showParameter(event.index, event.value);
+      }
       answer(changes_.front().promise, true, changes_.front().name + " is set");
       return changes_.pop_front();
     }
@@ -313,7 +316,14 @@ void Performance::giveUp() {
 
 void Performance::play(station::Performer* performer, std::shared_ptr<Picture> picture) {
   playing_ = performer;
-  feed_.showModel(*performer, std::move(picture), noteOn(*performer));
+  std::vector<double> values = parameters_;
+  if (performer != submitted_) {  // nobody could change it before it is replaced
+    values.clear();
+    for (const scene::Parameter& parameter : performer->instrument->scene().parameters) {
+      values.push_back(parameter.value);
+    }
+  }
+  feed_.showModel(*performer, std::move(picture), noteOn(*performer), values);
   command(CommandType::kKeyframe);
 }
 

@@ -76,6 +76,27 @@ generators:
   EXPECT_EQ(coordinates, scene.coordinates());
 }
 
+TEST(ConvertTest, ParametersHaveRangesUnitsAndTheirPresentValues) {
+  const scene::Scene scene = scene::readYaml(R"(ergotic: 1
+name: two
+parameters:
+  pull: {value: 2, range: [1, 30], unit: N}
+  volume: {value: 0.5, range: [0, 1]}
+sections:
+  s: {rate: audio}
+mats:
+  a: {type: mass, section: s, mass: 0.01}
+)",
+                                             "two.yaml");
+  const ParametersMessage parameters = sentAndReceived(toParameters(scene, {3.0, 0.25}));
+  EXPECT_EQ(parameters.names, (std::vector<std::string>{"pull", "volume"}));
+  EXPECT_EQ(parameters.values, (std::vector<double>{3.0, 0.25}));
+  EXPECT_EQ(parameters.lows, (std::vector<double>{1.0, 0.0}));
+  EXPECT_EQ(parameters.highs, (std::vector<double>{30.0, 1.0}));
+  EXPECT_EQ(parameters.defaults, (std::vector<double>{2.0, 0.5}));
+  EXPECT_EQ(parameters.units, (std::vector<std::string>{"N", ""}));
+}
+
 TEST(ConvertTest, JointsAreNamedAfterTheirSlices) {
   station::Snapshot snapshot;
   snapshot.slices = 2;

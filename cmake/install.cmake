@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The layout of a catkin install space, with or without ROS: rosrun and roslaunch find their way.
 set(ergotic_libraries ergotic_core ergotic_audio)
-foreach(library ergotic_bag ergotic_ros ergotic_comedi_driver ergotic_jack_driver
+foreach(library ergotic_bag ergotic_ros ergotic_rviz ergotic_comedi_driver ergotic_jack_driver
     ergotic_comedi_plugin ergotic_jack_plugin ergotic_priority_inheritance)
   if(TARGET ${library})
     list(APPEND ergotic_libraries ${library})
@@ -19,6 +19,6 @@ install(DIRECTORY include/ergotic DESTINATION include FILES_MATCHING PATTERN "*.
 install(DIRECTORY models config DESTINATION share/ergotic)
 if(ERGOTIC_ROS)
   install(DIRECTORY launch rviz urdf DESTINATION share/ergotic)
-  install(FILES nodelet_plugins.xml tgr_driver_plugins.xml DESTINATION share/ergotic)
+  install(FILES nodelet_plugins.xml rviz_plugins.xml tgr_driver_plugins.xml DESTINATION share/ergotic)
   install(PROGRAMS scripts/play_gesture DESTINATION lib/ergotic)
 endif()

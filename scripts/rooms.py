@@ -49,6 +49,7 @@ ROOMS = {
     "ros/conversation": "exception files rt scene scene/laws scene/text physics/engine tgr station audio ros/device"
                         " ros/display",
     "ros": "ros/device ros/conversation",
+    "rviz": "",
     "tools/lib": "exception files rt scene scene/laws scene/generate scene/text physics physics/engine"
                  " physics/certificate physics/settling advice tgr station audio bag",
     "tools": "exception files rt scene tgr audio tgr/drivers/jack tools/lib",
@@ -69,6 +70,7 @@ FOREIGN = {
     "ros/device": ROS,
     "ros/display": ROS,
     "ros/conversation": ROS,
+    "rviz": ROS + " rviz/ Q Ogre",
     "tools/lib": CORE + " CLI/ nlohmann/ sndfile",
     "tools": CORE + " CLI/ nlohmann/",
 }

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <std_srvs/Trigger.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <ergotic/LoadModel.h>
+#include <ros/node_handle.h>
+#include <ros/service_client.h>
+
+namespace ergotic::panel {
+
+/// What a service said, in words.
+struct Answer {
+  bool ok = false;
+  std::string text;
+};
+
+/// \return what the station said, for a reader
+std::string wordsOf(const std_srvs::Trigger::Response& response);
+std::string wordsOf(const LoadModel::Response& response);
+
+/// Asks services in a thread of its own, one after the other: a window never waits for a station.
+/// Each gets a connection of its own, which stays until the answer is there: roscpp loses answers
+/// over others (ros_comm issue 1976).
+/// Thread: any; but `tell` is called by the own one.
+class Caller {
+ public:
+  /// \param tell  gets every answer
+  explicit Caller(std::function<void(const Answer&)> tell);
+  /// Gives up what is asked; waits for its thread, a second at most: a ROS master that hangs must
+  /// not hang the window.
+  ~Caller();
+  Caller(const Caller&) = delete;
+  Caller& operator=(const Caller&) = delete;
+
+  /// \param what        is asked for, begins the answer: "Engage"
+  /// \param service     its full name
+  /// \param patience_s  after which no answer is waited for, s
+  template <class Service>
+  void ask(const std::string& what,
+           const std::string& service,
+           const typename Service::Request& request,
+           double patience_s) {
+    Job job;
+    job.what = what;
+    job.service = service;
+    job.patience_s = patience_s;
+    job.find = [service] {
+      constexpr bool kPersistent = true;
+      return ::ros::NodeHandle().serviceClient<Service>(service, kPersistent);
+    };
+    job.call = [request](::ros::ServiceClient& client, Answer& answer) {
+      Service call;
+      call.request = request;
+      const bool answered = client.call(call);
+      answer = {answered && call.response.success != 0U, wordsOf(call.response)};
+      return answered;
+    };
+    add(std::move(job));
+  }
+
+  /// What waits is forgotten: something newer takes its place.
+  void forgetWaiting();
+  /// Ends what has waited too long for its answer. To be called now and then.
+  void giveUpLate();
+
+ private:
+  struct Job {
+    std::string what;
+    std::string service;
+    double patience_s = 0.0;
+    std::function<::ros::ServiceClient()> find;
+    std::function<bool(::ros::ServiceClient&, Answer&)> call;
+  };
+  struct Shared;
+
+  void add(Job job);
+  static void run(const std::shared_ptr<Shared>& shared);
+  static Answer answerTo(const Job& job, Shared& shared);
+
+  std::shared_ptr<Shared> shared_;  // with the thread, which may be the last to leave
+};
+
+}  // namespace ergotic::panel

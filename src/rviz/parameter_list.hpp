@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QLabel>
+#include <QScrollArea>
+#include <QSlider>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <ergotic/Parameters.h>
+
+#include "rviz/slider_scale.hpp"
+
+namespace ergotic::panel {
+
+/// Name, value, unit, range and slider of one parameter.
+class ParameterRow : public QWidget {
+ public:
+  ParameterRow(const Parameters& parameters, std::size_t index, QWidget* parent);
+
+  /// What the station says; passed over while the player moves the slider.
+  void follow(double value, double now_s);
+  void toDefault();
+  /// What shall be sent now. \param now_s  of a clock that never goes back, s
+  std::optional<double> take(double now_s);
+
+  const std::string& name() const { return name_; }
+  QSlider* slider() const { return slider_; }
+
+ private:
+  QWidget* makeSlider(const Parameters& parameters, std::size_t index);
+  void show(double value);
+  void set(double value);
+
+  std::string name_;
+  double default_;
+  QString unit_;
+  SliderScale scale_;
+  Throttle throttle_;
+  QLabel* value_;
+  QSlider* slider_;
+  bool follows_ = false;  // the slider is moved by us
+  double moved_s_ = -1e9;
+  bool was_moved_ = false;
+};
+
+/// All parameters of the scene that plays.
+class ParameterList : public QScrollArea {
+ public:
+  explicit ParameterList(QWidget* parent);
+
+  void follow(const Parameters& parameters, double now_s);
+  void toDefaults();
+  /// \param send  gets names and values that shall be sent now
+  void send(const std::function<void(const std::string&, double)>& send, double now_s);
+  /// The keyboard moves the first slider from now on.
+  void takeFocus();
+
+ private:
+  bool isShown(const Parameters& parameters) const;
+  void rebuild();
+
+  Parameters shown_;
+  std::vector<ParameterRow*> rows_;
+};
+
+}  // namespace ergotic::panel

@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/station_link.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <ctime>
+#include <filesystem>
+#include <mutex>
+#include <sstream>
+#include <thread>
+
+#include <ergotic/Event.h>
+#include <ergotic/ParameterValue.h>
+#include <ros/callback_queue.h>
+#include <ros/master.h>
+#include <ros/names.h>
+#include <ros/package.h>
+#include <ros/param.h>
+#include <sensor_msgs/JointState.h>
+#include <std_msgs/Empty.h>
+
+#include "rviz/message_log.hpp"
+#include "rviz/words.hpp"
+
+namespace ergotic::panel {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::seconds kLastWait(1);
+constexpr double kPatienceS = 6.0;  // the station itself gives up after 5 s
+constexpr double kLoadingPatienceS = 180.0;
+constexpr double kTurnS = 0.05;
+constexpr std::chrono::seconds kLookPeriod(2);
+
+std::string timeOfDay() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  char text[16];
+  std::strftime(text, sizeof text, "%H:%M:%S", &local);
+  return text;
+}
+
+}  // namespace
+
+/// What the listening thread and the window share.
+struct StationLink::Shared {
+  explicit Shared(std::string name) : station(std::move(name)) {}
+
+  const std::string station;
+  std::mutex mutex;  // of what follows
+  std::condition_variable changed;
+  News news;
+  Clock::time_point heard;  // of the status
+  bool was_heard = false;
+  MessageLog log;
+  ::ros::Publisher parameter;
+  ::ros::Publisher emergency;
+  std::function<void()> give_up_late;  // of the callers
+  bool quit = false;
+  bool has_ended = false;
+
+  double ageS() const {
+    return was_heard ? std::chrono::duration<double>(Clock::now() - heard).count() : -1.0;
+  }
+  void tell(const Answer& answer) {
+    const std::lock_guard lock(mutex);
+    log.add(timeOfDay(), answer.text);
+    show(answer);
+  }
+  void show(const Answer& answer) {
+    news.answer = answer;
+    ++news.answers;
+  }
+};
+
+namespace {
+
+/// Hears a station, in a thread of its own.
+class Listener {
+ public:
+  explicit Listener(std::shared_ptr<StationLink::Shared> shared) : shared_(std::move(shared)) {}
+
+  void run() {
+    std::string fault;
+    if (!::ros::names::validate(shared_->station, fault)) {
+      return shared_->tell({false, "This is no name of a station: " + fault});
+    }
+    connect();
+    while (!hasToQuit()) {
+      queue_.callAvailable(::ros::WallDuration(kTurnS));
+      lookAround();
+    }
+  }
+
+ private:
+  bool hasToQuit() {
+    const std::lock_guard lock(shared_->mutex);
+    if (shared_->give_up_late) {
+      shared_->give_up_late();
+    }
+    return shared_->quit || !::ros::ok();
+  }
+
+  /// Waits for the master.
+  void connect() {
+    ::ros::NodeHandle node(shared_->station);
+    node.setCallbackQueue(&queue_);
+    constexpr std::uint32_t kEvents = 1000;
+    subscribers_.clear();
+    subscribers_ = {node.subscribe("status", 1, &Listener::onStatus, this),
+                    node.subscribe("joint_states", 1, &Listener::onJoints, this),
+                    node.subscribe("model_parameters", 1, &Listener::onParameters, this),
+                    node.subscribe("events", kEvents, &Listener::onEvent, this)};
+    constexpr std::uint32_t kParameters = 100;
+    const ::ros::Publisher parameter = node.advertise<ParameterValue>("parameters", kParameters);
+    const ::ros::Publisher emergency = node.advertise<std_msgs::Empty>("emergency_stop", 1);
+    ::ros::param::get("/run_id", master_);
+    const std::lock_guard lock(shared_->mutex);
+    shared_->parameter = parameter;
+    shared_->emergency = emergency;
+  }
+
+  void onStatus(const Status& status) {
+    const std::lock_guard lock(shared_->mutex);
+    addNews(shared_->news.status.message, status.message);
+    is_another_ = is_another_ || shared_->ageS() < 0.0 || shared_->ageS() > kStaleAfterS ||
+                  status.model != shared_->news.status.model;
+    shared_->news.status = status;
+    shared_->heard = Clock::now();
+    shared_->was_heard = true;
+  }
+
+  /// Lines that were not there before.
+  void addNews(const std::string& before, const std::string& now) {
+    std::istringstream lines(now);
+    for (std::string line; before != now && std::getline(lines, line);) {
+      if (("\n" + before + "\n").find("\n" + line + "\n") == std::string::npos) {
+        shared_->log.add(timeOfDay(), line);
+      }
+    }
+  }
+
+  void onJoints(const sensor_msgs::JointState& joints) {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->news.forces = joints.effort;
+  }
+
+  void onParameters(const Parameters& parameters) {
+    const std::size_t count = parameters.names.size();
+    if (parameters.values.size() != count || parameters.lows.size() != count ||
+        parameters.highs.size() != count || parameters.defaults.size() != count ||
+        parameters.units.size() != count) {
+      return;  // of somebody else
+    }
+    const std::lock_guard lock(shared_->mutex);
+    shared_->news.parameters = parameters;
+    ++shared_->news.parameters_version;
+  }
+
+  void onEvent(const Event& event) {
+    if (isWorthALine(event)) {
+      const std::lock_guard lock(shared_->mutex);
+      shared_->log.add(timeOfDay(), event.text, kindOf(event));
+    }
+  }
+
+  /// Now and then: a master that is gone or another, limits of another station, scenes in the
+  /// folders.
+  void lookAround() {
+    if (std::exchange(is_another_, false)) {
+      const double limit = ::ros::param::param(shared_->station + "/force_limit", 20.0);
+      const std::lock_guard lock(shared_->mutex);
+      shared_->news.force_limit = limit;
+    }
+    if (Clock::now() < next_look_) {
+      return;
+    }
+    next_look_ = Clock::now() + kLookPeriod;
+    lookForMaster();
+    lookForScenes();
+  }
+
+  void lookForMaster() {
+    bool is_silent = false;
+    {
+      const std::lock_guard lock(shared_->mutex);
+      is_silent = shared_->ageS() < 0.0 || shared_->ageS() > kStaleAfterS;
+    }
+    const bool has_master = !is_silent || ::ros::master::check();
+    std::string master = master_;
+    if (is_silent && has_master && ::ros::param::get("/run_id", master) && master != master_) {
+      connect();  // it knows nothing of us
+    }
+    const std::lock_guard lock(shared_->mutex);
+    shared_->news.has_master = has_master;
+  }
+
+  void lookForScenes() {
+    const std::vector<std::string> folders = modelFolders();
+    const std::string seen = tracesOf(folders);
+    if (seen == seen_) {
+      return;
+    }
+    seen_ = seen;
+    std::vector<SceneEntry> scenes = scenesIn(folders);
+    const std::lock_guard lock(shared_->mutex);
+    shared_->news.scenes = std::move(scenes);
+    ++shared_->news.scenes_version;
+  }
+
+  /// Those of the parameter `~models`, asked for once; else those of the package.
+  const std::vector<std::string>& modelFolders() {
+    if (folders_.empty() && !::ros::param::get("~models", folders_)) {
+      folders_ = {::ros::param::param<std::string>("~models",
+                                                   ::ros::package::getPath("ergotic") + "/models")};
+    }
+    return folders_;
+  }
+
+  /// Of files and of when they were written.
+  static std::string tracesOf(const std::vector<std::string>& folders) {
+    std::vector<std::string> traces;
+    for (const std::string& folder : folders) {
+      std::error_code failure;
+      for (const auto& file : std::filesystem::directory_iterator(folder, failure)) {
+        const auto written = file.last_write_time(failure).time_since_epoch().count();
+        traces.push_back(file.path().string() + " " + std::to_string(written));
+      }
+    }
+    std::sort(traces.begin(), traces.end());
+    std::string all = "\n";
+    for (const std::string& trace : traces) {
+      all += trace + "\n";
+    }
+    return all;
+  }
+
+  std::shared_ptr<StationLink::Shared> shared_;
+  ::ros::CallbackQueue queue_;
+  std::vector<::ros::Subscriber> subscribers_;  // end before their queue
+  std::string master_;                          // run id of the one that knows us
+  bool is_another_ = false;                     // station or model since its limits were asked for
+  Clock::time_point next_look_;
+  std::vector<std::string> folders_;
+  std::string seen_;
+};
+
+void listen(const std::shared_ptr<StationLink::Shared>& shared) {
+  try {
+    Listener(shared).run();
+  } catch (const std::exception& failure) {
+    shared->tell({false, failure.what()});
+  }
+  const std::lock_guard lock(shared->mutex);
+  shared->has_ended = true;
+  shared->changed.notify_all();
+}
+
+}  // namespace
+
+StationLink::StationLink(const std::string& station) : shared_(std::make_shared<Shared>(station)) {
+  for (std::unique_ptr<Caller>* caller : {&force_, &stop_, &emergency_, &loading_}) {
+    *caller = std::make_unique<Caller>(
+        [shared = shared_](const Answer& answer) { shared->tell(answer); });
+  }
+  shared_->give_up_late = [this] {
+    for (Caller* caller : {force_.get(), stop_.get(), emergency_.get(), loading_.get()}) {
+      caller->giveUpLate();
+    }
+  };
+  std::thread([shared = shared_] { listen(shared); }).detach();
+}
+
+StationLink::~StationLink() {
+  std::unique_lock lock(shared_->mutex);
+  shared_->quit = true;
+  shared_->give_up_late = nullptr;
+  shared_->changed.wait_for(lock, kLastWait, [this] { return shared_->has_ended; });
+}
+
+const std::string& StationLink::station() const {
+  return shared_->station;
+}
+
+void StationLink::refresh(News& news) const {
+  const std::lock_guard lock(shared_->mutex);
+  const News& newest = shared_->news;
+  news.status = newest.status;
+  news.age_s = shared_->ageS();
+  news.has_master = newest.has_master;
+  news.forces = newest.forces;
+  news.force_limit = newest.force_limit;
+  news.answer = newest.answer;
+  news.answers = newest.answers;
+  if (news.parameters_version != newest.parameters_version) {
+    news.parameters_version = newest.parameters_version;
+    news.parameters = newest.parameters;
+  }
+  if (news.scenes_version != newest.scenes_version) {
+    news.scenes_version = newest.scenes_version;
+    news.scenes = newest.scenes;
+  }
+  if (news.log_version != shared_->log.version()) {
+    news.log_version = shared_->log.version();
+    news.log = shared_->log.text();
+  }
+}
+
+void StationLink::ask(Caller& caller, const char* what, const char* service) {
+  {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->show({true, std::string(what) + " ..."});
+  }
+  caller.ask<std_srvs::Trigger>(what, shared_->station + service, {}, kPatienceS);
+}
+
+void StationLink::engage() {
+  ask(*force_, "Engage", "/engage");
+}
+void StationLink::recover() {
+  ask(*force_, "Recover", "/recover");
+}
+void StationLink::stop() {
+  ask(*stop_, "Stop", "/stop");
+}
+
+void StationLink::emergencyStop() {
+  ::ros::Publisher emergency;
+  {
+    const std::lock_guard lock(shared_->mutex);
+    emergency = shared_->emergency;
+  }
+  if (emergency) {
+    emergency.publish(std_msgs::Empty());
+  }
+  ask(*emergency_, "Emergency stop", "/emergency_stop");
+}
+
+void StationLink::load(const std::string& model, const std::string& title) {
+  {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->show({true, "Loading " + title + " ..."});
+  }
+  LoadModel::Request request;
+  request.model = model;
+  loading_->forgetWaiting();
+  loading_->ask<LoadModel>("Load", shared_->station + "/load_model", request, kLoadingPatienceS);
+}
+
+void StationLink::setParameter(const std::string& name, double value) {
+  ::ros::Publisher parameter;
+  {
+    const std::lock_guard lock(shared_->mutex);
+    parameter = shared_->parameter;
+  }
+  if (parameter) {
+    ParameterValue message;
+    message.name = name;
+    message.value = value;
+    parameter.publish(message);
+  }
+}
+
+}  // namespace ergotic::panel

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <ergotic/Parameters.h>
+#include <ergotic/Status.h>
+
+#include "rviz/caller.hpp"
+#include "rviz/scenes.hpp"
+
+namespace ergotic::panel {
+
+/// What is known of a station.
+struct News {
+  Status status;
+  double age_s = -1.0;  ///< of the status, s; negative: none came yet
+  bool has_master = true;
+  std::vector<double> forces;  ///< [slices] as sent to the device, N
+  double force_limit = 20.0;   ///< N per slice
+  Parameters parameters;
+  std::size_t parameters_version = 0;
+  std::vector<SceneEntry> scenes;
+  std::size_t scenes_version = 0;
+  std::string log;
+  std::size_t log_version = 0;
+  Answer answer;  ///< the last
+  std::size_t answers = 0;
+};
+
+/// One station, by its messages and services. All that may wait for a station or a ROS master is
+/// done by threads of its own. A station that dies and comes back is heard again, also over another
+/// master. Thread: the one of the window. Nothing here waits, but the destructor, for some seconds
+/// if a master hangs.
+class StationLink {
+ public:
+  /// \param station  its full name
+  explicit StationLink(const std::string& station);
+  ~StationLink();
+  StationLink(const StationLink&) = delete;
+  StationLink& operator=(const StationLink&) = delete;
+
+  const std::string& station() const;
+
+  /// Brings `news` up to date; what has a version only if that is another.
+  void refresh(News& news) const;
+
+  void engage();
+  void stop();
+  /// By the service and by the topic, whichever comes first.
+  void emergencyStop();
+  void recover();
+  /// \param model  path, path#variant
+  void load(const std::string& model, const std::string& title);
+  /// By the topic: of several values that come at once, the station takes the newest.
+  void setParameter(const std::string& name, double value);
+
+  struct Shared;
+
+ private:
+  void ask(Caller& caller, const char* what, const char* service);
+
+  std::shared_ptr<Shared> shared_;  // with the thread that listens
+  std::unique_ptr<Caller> force_;
+  std::unique_ptr<Caller> stop_;
+  std::unique_ptr<Caller> emergency_;
+  std::unique_ptr<Caller> loading_;
+};
+
+}  // namespace ergotic::panel

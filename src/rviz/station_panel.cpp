@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/station_panel.hpp"
+
+#include <QHBoxLayout>
+#include <QScrollBar>
+#include <QShortcut>
+#include <QWheelEvent>
+#include <algorithm>
+#include <cmath>
+
+#include <pluginlib/class_list_macros.hpp>
+#include <rviz/config.h>
+
+namespace ergotic::panel {
+namespace {
+
+constexpr int kRefreshMs = 40;
+const char kUsualStation[] = "/station";
+const char kSetting[] = "Station";
+
+/// Of all panels: an emergency stop means every station that this window shows.
+std::vector<StationPanel*>& panels() {
+  static std::vector<StationPanel*> all;
+  return all;
+}
+
+/// A wheel that passes by must not load another instrument.
+class Chooser : public QComboBox {
+ protected:
+  void wheelEvent(QWheelEvent* event) override { event->ignore(); }
+};
+
+QLabel* title(const QString& text) {
+  auto* label = adopted<QLabel>(text);
+  QFont font = label->font();
+  font.setBold(true);
+  label->setFont(font);
+  return label;
+}
+
+int percent(double share) {
+  return static_cast<int>(std::lround(100.0 * share));
+}
+
+std::string playsText(const Status& status) {
+  return status.model.empty() ? "Nothing plays."
+                              : "Plays " + status.model + ". Certificate: " + status.verdict + ".";
+}
+
+}  // namespace
+
+StationPanel::StationPanel(QWidget* parent) : rviz::Panel(parent) {
+  panels().push_back(this);
+  clock_.start();
+  auto* column = adopted<QVBoxLayout>(this);
+  column->setContentsMargins(6, 6, 6, 6);
+  column->setSpacing(5);
+  addForce(column);  // always in sight; what follows scrolls in a low window
+  auto* scroll = adopted<QScrollArea>();
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  auto* inside = adopted<QWidget>();
+  auto* rest = adopted<QVBoxLayout>(inside);
+  rest->setContentsMargins(0, 0, 0, 0);
+  rest->setSpacing(4);
+  addInstruments(rest);
+  addParameters(rest);
+  addMeters(rest);
+  addMessages(rest);
+  scroll->setWidget(inside);
+  column->addWidget(scroll, 1);
+  setMinimumWidth(300);
+  addKeys();
+  QObject::connect(&timer_, &QTimer::timeout, this, [this] { refresh(); });
+}
+
+StationPanel::~StationPanel() {
+  panels().erase(std::remove(panels().begin(), panels().end(), this), panels().end());
+}
+
+void StationPanel::onInitialize() {
+  timer_.start(kRefreshMs);
+}
+
+void StationPanel::load(const rviz::Config& config) {
+  rviz::Panel::load(config);
+  QString station;
+  if (config.mapGetString(kSetting, &station)) {
+    station_->setText(station);
+  }
+}
+
+void StationPanel::save(rviz::Config config) const {
+  rviz::Panel::save(config);
+  config.mapSetValue(kSetting, station_->text());
+}
+
+QPushButton* StationPanel::addButton(const QString& text, const QString& tip) {
+  auto* button = adopted<QPushButton>(text);
+  button->setToolTip(tip);
+  button->setMinimumHeight(30);
+  button->setAutoDefault(false);
+  return button;
+}
+
+std::function<void()> StationPanel::press(void (StationLink::*act)()) {
+  return [this, act] {
+    if (link_) {
+      (link_.get()->*act)();
+    }
+  };
+}
+
+void StationPanel::addForce(QVBoxLayout* column) {
+  lamp_ = adopted<LampWidget>(this);
+  engage_ = addButton("Engage  F5", "Lets force ramp in");
+  stop_ = addButton("Stop  F6", "Takes force away, until Engage");
+  recover_ = addButton("Recover  F7", "Ends a fault; force stays at zero until Engage");
+  emergency_ = addButton("EMERGENCY STOP  F12", "Takes force away at once, until Recover");
+  emergency_->setMinimumHeight(46);
+  emergency_->setStyleSheet(
+      "QPushButton { background: #b81414; color: white; font-weight: bold; font-size: 15px;"
+      " border: 2px solid #7d0c0c; border-radius: 6px; }"
+      "QPushButton:pressed { background: #7d0c0c; }"
+      "QPushButton:focus { border-color: white; }");
+  QObject::connect(engage_, &QPushButton::clicked, this, press(&StationLink::engage));
+  QObject::connect(stop_, &QPushButton::clicked, this, press(&StationLink::stop));
+  QObject::connect(recover_, &QPushButton::clicked, this, press(&StationLink::recover));
+  QObject::connect(emergency_, &QPushButton::clicked, this, press(&StationLink::emergencyStop));
+  answer_ = adopted<Paragraph>(2, this);
+
+  column->addWidget(lamp_);
+  auto* buttons = adopted<QHBoxLayout>();
+  buttons->setSpacing(5);
+  for (QPushButton* button : {engage_, stop_, recover_}) {
+    buttons->addWidget(button, 1);
+  }
+  column->addLayout(buttons);
+  column->addWidget(emergency_);
+  column->addWidget(answer_);
+}
+
+void StationPanel::addInstruments(QVBoxLayout* column) {
+  instruments_ = adopted<Chooser>();
+  instruments_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  instruments_->setPlaceholderText("choose an instrument");
+  instruments_->setAccessibleName("instruments");
+  QObject::connect(instruments_, QOverload<int>::of(&QComboBox::activated), this, [this](int row) {
+    const auto index = static_cast<std::size_t>(row);
+    if (index < news_.scenes.size()) {
+      choose(news_.scenes[index]);
+    }
+  });
+  about_ = adopted<Paragraph>(3, this);
+  about_->setEnabled(false);
+  plays_ = adopted<Paragraph>(1, this);
+  column->addWidget(title("Instrument (F3)"));
+  column->addWidget(instruments_);
+  column->addWidget(about_);
+  column->addWidget(plays_);
+}
+
+void StationPanel::addParameters(QVBoxLayout* column) {
+  parameters_ = adopted<ParameterList>(this);
+  parameters_->setMinimumHeight(110);
+  auto* reset = adopted<QPushButton>("Defaults");
+  reset->setToolTip("Sets all parameters to what the scene begins with");
+  reset->setAutoDefault(false);
+  QObject::connect(reset, &QPushButton::clicked, this, [this] { parameters_->toDefaults(); });
+  auto* line = adopted<QHBoxLayout>();
+  line->addWidget(title("Parameters (F4)"), 1);
+  line->addWidget(reset);
+  column->addLayout(line);
+  column->addWidget(parameters_, 3);
+}
+
+void StationPanel::addMeters(QVBoxLayout* column) {
+  force_title_ = title("Forces");
+  forces_ = adopted<ForceMeter>(this);
+  load_ = adopted<QProgressBar>();
+  load_->setRange(0, 100);
+  load_->setToolTip("Computing time of a tick over the time there is; the peak is since the start");
+  rates_ = adopted<Paragraph>(1, this);
+  column->addWidget(force_title_);
+  column->addWidget(forces_);
+  column->addWidget(load_);
+  column->addWidget(rates_);
+}
+
+void StationPanel::addMessages(QVBoxLayout* column) {
+  messages_ = adopted<QPlainTextEdit>();
+  messages_->setReadOnly(true);
+  messages_->setMinimumHeight(70);
+  messages_->setTabChangesFocus(true);
+  QFont font = messages_->font();
+  font.setPointSizeF(0.9 * font.pointSizeF());
+  messages_->setFont(font);
+  station_ = adopted<QLineEdit>(kUsualStation);
+  station_->setToolTip("Name of the station; it is kept in the configuration of rviz");
+  QObject::connect(station_, &QLineEdit::editingFinished, this, [this] {
+    if (link_ && QString::fromStdString(link_->station()) != station_->text()) {
+      Q_EMIT configChanged();
+    }
+  });
+  column->addWidget(title("Messages"));
+  column->addWidget(messages_, 2);
+  auto* line = adopted<QHBoxLayout>();
+  line->addWidget(adopted<QLabel>("Station"));
+  line->addWidget(station_, 1);
+  column->addLayout(line);
+}
+
+void StationPanel::bind(int key, const std::function<void()>& act, bool also_ambiguous) {
+  auto* shortcut = adopted<QShortcut>(QKeySequence(key), this);
+  shortcut->setContext(Qt::ApplicationShortcut);
+  shortcut->setAutoRepeat(false);
+  QObject::connect(shortcut, &QShortcut::activated, this, act);
+  if (also_ambiguous) {  // several panels
+    QObject::connect(shortcut, &QShortcut::activatedAmbiguously, this, act);
+  }
+}
+
+/// No letters: these are of rviz's tools.
+void StationPanel::addKeys() {
+  const auto on_all = [](void (StationLink::*act)()) {
+    for (StationPanel* panel : panels()) {
+      panel->press(act)();
+    }
+  };
+  bind(Qt::Key_F5, [this] { engage_->click(); });
+  bind(
+      Qt::Key_F6, [on_all] { on_all(&StationLink::stop); }, true);
+  bind(Qt::Key_F7, [this] { recover_->click(); });
+  bind(
+      Qt::Key_F12, [on_all] { on_all(&StationLink::emergencyStop); }, true);
+  bind(Qt::Key_F3, [this] { instruments_->setFocus(Qt::ShortcutFocusReason); });
+  bind(Qt::Key_F4, [this] { parameters_->takeFocus(); });
+}
+
+void StationPanel::connectTo(const QString& station) {
+  link_.reset();
+  link_ = std::make_unique<StationLink>(station.toStdString());
+  news_ = {};
+  scenes_shown_ = log_shown_ = 0;
+  model_shown_.clear();
+  messages_->clear();
+}
+
+void StationPanel::refresh() {
+  const bool is_edited = station_->hasFocus() && station_->isModified();
+  if (!link_ || (!is_edited && QString::fromStdString(link_->station()) != station_->text())) {
+    connectTo(station_->text());
+  }
+  link_->refresh(news_);
+  const double now_s = 1e-3 * static_cast<double>(clock_.elapsed());
+  parameters_->send(
+      [this](const std::string& name, double value) { link_->setParameter(name, value); }, now_s);
+  showForce();
+  showInstruments();
+  parameters_->setEnabled(!isStale());
+  parameters_->follow(news_.parameters, now_s);
+  showMeters();
+  showMessages();
+}
+
+void StationPanel::showForce() {
+  const Lamp lamp = lampOf(news_.status.state, news_.age_s);
+  lamp_->show(lamp, reasonOf(lamp, news_.status, news_.age_s, link_->station(), news_.has_master));
+  engage_->setEnabled(lamp != Lamp::kStale);
+  recover_->setEnabled(lamp != Lamp::kStale);
+  answer_->show(news_.answer.text, !news_.answer.ok);
+}
+
+void StationPanel::showInstruments() {
+  const bool are_others = scenes_shown_ != news_.scenes_version;
+  if (are_others) {
+    scenes_shown_ = news_.scenes_version;
+    instruments_->clear();
+    for (const SceneEntry& scene : news_.scenes) {
+      instruments_->addItem(QString::fromStdString(scene.title));
+    }
+  }
+  if (are_others || model_shown_ != news_.status.model) {
+    model_shown_ = news_.status.model;
+    const auto is_it = [this](const SceneEntry& scene) { return scene.name == model_shown_; };
+    const auto chosen = static_cast<std::size_t>(std::max(instruments_->currentIndex(), 0));
+    if (are_others || chosen >= news_.scenes.size() || !is_it(news_.scenes[chosen])) {
+      const auto found = std::find_if(news_.scenes.begin(), news_.scenes.end(), is_it);
+      instruments_->setCurrentIndex(
+          found == news_.scenes.end() ? -1 : static_cast<int>(found - news_.scenes.begin()));
+    }
+  }
+  const int row = instruments_->currentIndex();
+  about_->show(row < 0 ? "" : news_.scenes[static_cast<std::size_t>(row)].about);
+  plays_->show(isStale() ? "" : playsText(news_.status));
+}
+
+void StationPanel::choose(const SceneEntry& scene) {
+  link_->load(scene.model, scene.title);
+}
+
+void StationPanel::showMeters() {
+  const bool stale = isStale();
+  double largest = 0.0;
+  for (const double force : news_.forces) {
+    largest = std::max(largest, std::abs(force));
+  }
+  forces_->show(news_.forces, news_.force_limit, !stale);
+  force_title_->setText(stale ? "Forces"
+                              : QString("Forces: %1 N of %2 N")
+                                    .arg(largest, 0, 'f', 1)
+                                    .arg(news_.force_limit, 0, 'g', 3));
+  const Status& status = news_.status;
+  load_->setEnabled(!stale);
+  load_->setValue(stale ? 0 : std::clamp(percent(status.load_mean), 0, 100));
+  load_->setFormat(stale ? QString("load")
+                         : QString("load %1 %, peak %2 %")
+                               .arg(percent(status.load_mean))
+                               .arg(percent(status.load_peak)));
+  rates_->show(stale ? "" : ratesText(status));
+}
+
+void StationPanel::showMessages() {
+  if (log_shown_ == news_.log_version) {
+    return;
+  }
+  log_shown_ = news_.log_version;
+  QScrollBar* bar = messages_->verticalScrollBar();
+  const bool reads_back = bar->value() < bar->maximum();
+  const int place = bar->value();
+  messages_->setPlainText(QString::fromStdString(news_.log));
+  bar->setValue(reads_back ? place : bar->maximum());
+}
+
+}  // namespace ergotic::panel
+
+PLUGINLIB_EXPORT_CLASS(ergotic::panel::StationPanel, rviz::Panel)

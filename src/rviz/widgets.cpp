@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/widgets.hpp"
+
+#include <QPainter>
+#include <QPainterPath>
+#include <QTextLayout>
+#include <algorithm>
+#include <cmath>
+
+namespace ergotic::panel {
+namespace {
+
+constexpr int kLampHeight = 66;
+constexpr int kMeterHeight = 92;
+constexpr double kNearLimit = 0.8;  // of the limit: from here on a bar warns
+const QColor kWarning(0xcc, 0x22, 0x22);
+const QColor kForce(0x28, 0x74, 0xc8);
+
+/// Draws words that wrap; the last line that fits ends with dots if there is more.
+void drawWords(QPainter& painter, const QRect& box, const QString& text) {
+  const QFontMetrics metrics(painter.font());
+  QTextLayout layout(QString(text).replace('\n', QChar::LineSeparator), painter.font());
+  layout.beginLayout();
+  for (int y = box.top();; y += metrics.lineSpacing()) {
+    QTextLine line = layout.createLine();
+    if (!line.isValid()) {
+      break;
+    }
+    line.setLineWidth(box.width());
+    if (y + 2 * metrics.lineSpacing() > box.bottom() + 2) {
+      const QString rest = text.mid(line.textStart()).replace('\n', ' ');
+      painter.drawText(QPoint(box.left(), y + metrics.ascent()),
+                       metrics.elidedText(rest, Qt::ElideRight, box.width()));
+      break;
+    }
+    line.draw(&painter, QPointF(box.left(), y));
+  }
+  layout.endLayout();
+}
+
+QFont scaled(QFont font, double factor, bool bold) {
+  font.setPointSizeF(font.pointSizeF() * factor);
+  font.setBold(bold);
+  return font;
+}
+
+QPolygonF polygon(const QRectF& box, const std::vector<std::pair<double, double>>& corners) {
+  QPolygonF points;
+  for (const auto& [x, y] : corners) {
+    points << QPointF(box.left() + x * box.width(), box.top() + y * box.height());
+  }
+  return points;
+}
+
+/// A sign of a few strokes in the middle of a shape, in the colour behind it.
+void drawLetter(QPainter& painter, const QRectF& box, const QString& letter) {
+  painter.setFont(scaled(painter.font(), 1.5, true));
+  painter.drawText(box, Qt::AlignCenter, letter);
+}
+
+void drawRing(QPainter& painter, const QRectF& box) {
+  painter.setBrush(Qt::NoBrush);
+  painter.drawEllipse(box.adjusted(2, 2, -2, -2));
+}
+
+/// The shape in the colour of the pen, what is in it in `behind`.
+void drawShape(QPainter& painter, const QRectF& box, Lamp lamp, const QColor& behind) {
+  const QColor colour = painter.pen().color();
+  painter.setBrush(colour);
+  painter.setPen(QPen(colour, 4.0, Qt::SolidLine, Qt::RoundCap, Qt::MiterJoin));
+  switch (lamp) {
+    case Lamp::kStale:
+      drawRing(painter, box);
+      return drawLetter(painter, box, "?");
+    case Lamp::kDisconnected:
+      drawRing(painter, box);
+      return painter.drawLine(polygon(box, {{0.2, 0.8}, {0.8, 0.2}}).at(0),
+                              polygon(box, {{0.2, 0.8}, {0.8, 0.2}}).at(1));
+    case Lamp::kReady:
+      return painter.drawRect(box.adjusted(5, 5, -5, -5));
+    case Lamp::kEngaging:
+      painter.drawPolygon(polygon(box, {{0.05, 0.9}, {0.95, 0.9}, {0.95, 0.1}}));
+      return;
+    case Lamp::kUncalibrated:
+      painter.drawPolygon(polygon(box, {{0.05, 0.92}, {0.5, 0.06}, {0.95, 0.92}}));
+      painter.setPen(behind);
+      return drawLetter(painter, box.adjusted(0, 8, 0, 0), "!");
+    case Lamp::kPlaying:
+      painter.drawEllipse(box);
+      painter.setPen(Qt::NoPen);
+      painter.setBrush(behind);
+      painter.drawPolygon(polygon(box, {{0.36, 0.24}, {0.36, 0.76}, {0.8, 0.5}}));
+      return;
+    case Lamp::kFault:
+      painter.drawPolygon(polygon(box, {{0.3, 0.02},
+                                        {0.7, 0.02},
+                                        {0.98, 0.3},
+                                        {0.98, 0.7},
+                                        {0.7, 0.98},
+                                        {0.3, 0.98},
+                                        {0.02, 0.7},
+                                        {0.02, 0.3}}));
+      painter.setPen(QPen(behind, 5.0, Qt::SolidLine, Qt::RoundCap));
+      painter.drawLine(box.topLeft() + QPointF(13, 13), box.bottomRight() - QPointF(13, 13));
+      painter.drawLine(box.topRight() + QPointF(-13, 13), box.bottomLeft() + QPointF(13, -13));
+      return;
+  }
+}
+
+}  // namespace
+
+Paragraph::Paragraph(int lines, QWidget* parent) : QWidget(parent) {
+  setFixedHeight(lines * fontMetrics().lineSpacing() + 2);
+  setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+}
+
+void Paragraph::show(const std::string& text) {
+  show(text, false);
+}
+
+void Paragraph::show(const std::string& text, bool warns) {
+  const QString words = QString::fromStdString(text);
+  if (words != text_ || warns != warns_) {
+    text_ = words;
+    warns_ = warns;
+    setToolTip(text_);
+    update();
+  }
+}
+
+void Paragraph::paintEvent(QPaintEvent* /*event*/) {
+  QPainter painter(this);
+  painter.setPen(warns_ ? kWarning : palette().color(QPalette::WindowText));
+  drawWords(painter, rect().adjusted(0, 1, 0, 0), text_);
+}
+
+LampWidget::LampWidget(QWidget* parent) : QWidget(parent) {
+  setFixedHeight(kLampHeight);
+  setAccessibleName("state of force");
+}
+
+void LampWidget::show(Lamp lamp, const std::string& reason) {
+  const QString words = QString::fromStdString(reason);
+  if (lamp != lamp_ || words != reason_) {
+    lamp_ = lamp;
+    reason_ = words;
+    setToolTip(QString(wordOf(lamp)) + ": " + reason_);
+    setAccessibleDescription(toolTip());
+    update();
+  }
+}
+
+void LampWidget::paintEvent(QPaintEvent* /*event*/) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const QColor behind(colourOf(lamp_));
+  const QColor ink = qGray(behind.rgb()) > 125 ? Qt::black : Qt::white;
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(behind);
+  painter.drawRoundedRect(rect(), 6, 6);
+  painter.setPen(ink);
+  painter.save();
+  drawShape(painter, QRectF(12, 12, kLampHeight - 24, kLampHeight - 24), lamp_, behind);
+  painter.restore();
+
+  const QFont usual = painter.font();
+  const QRect words(kLampHeight + 2, 4, width() - kLampHeight - 8, height() - 8);
+  painter.setFont(scaled(usual, 1.6, true));
+  const int line = QFontMetrics(painter.font()).height();
+  painter.drawText(words, Qt::AlignLeft | Qt::AlignTop, wordOf(lamp_));
+  painter.setFont(usual);
+  drawWords(painter, words.adjusted(0, line, 0, 0), reason_);
+}
+
+ForceMeter::ForceMeter(QWidget* parent) : QWidget(parent) {
+  setFixedHeight(kMeterHeight);
+}
+
+void ForceMeter::show(const std::vector<double>& forces, double limit, bool is_known) {
+  if (forces == forces_ && limit == limit_ && is_known == is_known_) {
+    return;
+  }
+  forces_ = forces;
+  limit_ = limit;
+  is_known_ = is_known && !forces.empty();
+  update();
+}
+
+void ForceMeter::paintEvent(QPaintEvent* /*event*/) {
+  QPainter painter(this);
+  painter.fillRect(rect(), palette().color(QPalette::Base));
+  painter.setFont(scaled(font(), 0.8, false));
+  if (!is_known_) {
+    painter.setPen(palette().color(QPalette::Disabled, QPalette::Text));
+    painter.drawText(rect(), Qt::AlignCenter, "No forces are heard.");
+    return;
+  }
+  const int count = static_cast<int>(forces_.size());
+  for (int slice = 0; slice < count; ++slice) {
+    const int left = width() * slice / count;
+    const int right = width() * (slice + 1) / count;
+    paintColumn(painter, QRect(left, 0, right - left, height()), static_cast<std::size_t>(slice));
+  }
+}
+
+/// From above: newtons, a bar from the middle, the number of the slice.
+void ForceMeter::paintColumn(QPainter& painter, const QRect& column, std::size_t slice) const {
+  const int line = QFontMetrics(painter.font()).height();
+  const QRect track = column.adjusted(2, line + 1, -2, -line - 1);
+  const double share = limit_ > 0.0 ? std::clamp(forces_[slice] / limit_, -1.0, 1.0) : 0.0;
+  const bool warns = std::abs(share) >= kNearLimit;
+  painter.fillRect(track, palette().color(QPalette::AlternateBase));
+  const int middle = track.center().y();
+  const int tip = middle - static_cast<int>(std::lround(share * (track.height() / 2.0)));
+  painter.fillRect(QRect(QPoint(track.left(), std::min(middle, tip)),
+                         QPoint(track.right(), std::max(middle, tip))),
+                   warns ? kWarning : kForce);
+  painter.setPen(palette().color(QPalette::Mid));
+  painter.drawRect(track.adjusted(0, 0, -1, -1));
+
+  painter.setPen(warns ? kWarning : palette().color(QPalette::Text));
+  const auto write = [&](const QRect& box, const QString& text) {
+    if (QFontMetrics(painter.font()).horizontalAdvance(text) <= box.width()) {
+      painter.drawText(box, Qt::AlignCenter, text);  // else there are too many slices for numbers
+    }
+  };
+  const double newtons = forces_[slice];
+  const int digits = std::abs(newtons) < 9.95 ? 1 : 0;
+  write(QRect(column.left(), 0, column.width(), line), QString::number(newtons, 'f', digits));
+  painter.setPen(palette().color(QPalette::Text));
+  write(QRect(column.left(), height() - line, column.width(), line),
+        QString::number(static_cast<int>(slice)));
+}
+
+}  // namespace ergotic::panel

@@ -4,8 +4,11 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <map>
 #include <mutex>
 #include <thread>
+
+#include <ros/master.h>
 
 namespace ergotic::panel {
 namespace {
@@ -22,7 +25,8 @@ struct Caller::Shared {
   std::mutex mutex;  // of what follows
   std::condition_variable changed;
   std::deque<Job> waiting;
-  ::ros::ServiceClient asked;  // that has not answered yet
+  std::map<std::string, ::ros::ServiceClient> clients;  // by their services
+  ::ros::ServiceClient asked;                           // that has not answered yet
   Clock::time_point give_up = Clock::time_point::max();
   bool quit = false;
   bool has_ended = false;
@@ -85,22 +89,37 @@ void Caller::run(const std::shared_ptr<Shared>& shared) {
     shared->waiting.pop_front();
     lock.unlock();
     const Answer answer = answerTo(job, *shared);
-    lock.lock();
-    if (!shared->quit) {
-      lock.unlock();
+    if (job.call) {
       shared->tell(answer);
-      lock.lock();
     }
+    lock.lock();
   }
+  shared->clients.clear();
   shared->has_ended = true;
   shared->changed.notify_all();
 }
 
+/// Of the thread's own: the map is touched by no other.
+::ros::ServiceClient Caller::connectedTo(const Job& job, Shared& shared) {
+  ::ros::ServiceClient& client = shared.clients[job.service];
+  if (!client.isValid()) {  // it never was there, or its station is gone
+    client = job.find();
+  }
+  return client;
+}
+
 Answer Caller::answerTo(const Job& job, Shared& shared) {
   try {
-    ::ros::ServiceClient client = job.find();
+    ::ros::ServiceClient client = connectedTo(job, shared);
+    if (!job.call) {
+      return {};
+    }
     if (!client.isValid()) {
-      return {false, job.what + ": there is no " + job.service + ". Does the station run?"};
+      return {
+          false,
+          job.what + (::ros::master::check()
+                          ? ": there is no " + job.service + ". Does the station run?"
+                          : ": the ROS master does not answer, which knows where the station is.")};
     }
     {
       const std::lock_guard lock(shared.mutex);

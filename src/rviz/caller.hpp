@@ -25,8 +25,8 @@ std::string wordsOf(const std_srvs::Trigger::Response& response);
 std::string wordsOf(const LoadModel::Response& response);
 
 /// Asks services in a thread of its own, one after the other: a window never waits for a station.
-/// Each gets a connection of its own, which stays until the answer is there: roscpp loses answers
-/// over others (ros_comm issue 1976).
+/// Connections stay: what was found once can be asked when the ROS master is gone, and roscpp loses
+/// answers over others (ros_comm issue 1976).
 /// Thread: any; but `tell` is called by the own one.
 class Caller {
  public:
@@ -50,10 +50,7 @@ class Caller {
     job.what = what;
     job.service = service;
     job.patience_s = patience_s;
-    job.find = [service] {
-      constexpr bool kPersistent = true;
-      return ::ros::NodeHandle().serviceClient<Service>(service, kPersistent);
-    };
+    job.find = [service] { return find<Service>(service); };
     job.call = [request](::ros::ServiceClient& client, Answer& answer) {
       Service call;
       call.request = request;
@@ -61,6 +58,15 @@ class Caller {
       answer = {answered && call.response.success != 0U, wordsOf(call.response)};
       return answered;
     };
+    add(std::move(job));
+  }
+
+  /// Connects to a service that will be asked, if it is there and not connected already.
+  template <class Service>
+  void prepare(const std::string& service) {
+    Job job;
+    job.service = service;
+    job.find = [service] { return find<Service>(service); };
     add(std::move(job));
   }
 
@@ -75,12 +81,18 @@ class Caller {
     std::string service;
     double patience_s = 0.0;
     std::function<::ros::ServiceClient()> find;
-    std::function<bool(::ros::ServiceClient&, Answer&)> call;
+    std::function<bool(::ros::ServiceClient&, Answer&)> call;  // none: to be prepared
   };
   struct Shared;
 
+  template <class Service>
+  static ::ros::ServiceClient find(const std::string& service) {
+    constexpr bool kPersistent = true;
+    return ::ros::NodeHandle().serviceClient<Service>(service, kPersistent);
+  }
   void add(Job job);
   static void run(const std::shared_ptr<Shared>& shared);
+  static ::ros::ServiceClient connectedTo(const Job& job, Shared& shared);
   static Answer answerTo(const Job& job, Shared& shared);
 
   std::shared_ptr<Shared> shared_;  // with the thread, which may be the last to leave

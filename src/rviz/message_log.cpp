@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rviz/message_log.hpp"
 
+#include <iterator>
+
 namespace ergotic::panel {
 
 void MessageLog::add(const std::string& time, const std::string& text, const std::string& kind) {
   ++version_;
-  if (!kind.empty() && !lines_.empty() && lines_.back().kind == kind) {
-    Line& last = lines_.back();
-    last = {time, text, kind, last.times + 1};
-    return;
+  int times = 1;
+  for (auto line = lines_.rbegin(); !kind.empty() && line != lines_.rend(); ++line) {
+    if (line->kind == kind) {
+      times = line->times + 1;
+      lines_.erase(std::next(line).base());
+      break;
+    }
+    if (line->kind.empty()) {
+      break;  // what happened in between shall stay between them
+    }
   }
-  lines_.push_back({time, text, kind});
+  lines_.push_back({time, text, kind, times});
   if (lines_.size() > kLines) {
     lines_.pop_front();
   }

@@ -7,13 +7,14 @@
 
 namespace ergotic::panel {
 
-/// The last lines that a station told, newest last. What comes again and again is one line.
+/// The last lines that a station told, newest last. What comes again and again is one line, until
+/// something else happens.
 class MessageLog {
  public:
   static constexpr std::size_t kLines = 100;
 
   /// \param time  when, for readers
-  /// \param kind  of what is summed up with the line before, if that is of the same; empty: never
+  /// \param kind  of what is summed up with others of its kind; empty: never
   void add(const std::string& time, const std::string& text, const std::string& kind = "");
 
   /// All lines, ended by "\n" but for the last.

@@ -151,7 +151,7 @@ void ParameterList::rebuild() {
     layout->addWidget(rows_.back());
   }
   if (rows_.empty()) {
-    auto* none = adopted<QLabel>("Nothing can be changed while this plays.");
+    auto* none = adopted<QLabel>("There are no parameters.");
     none->setEnabled(false);
     layout->addWidget(none);
   }

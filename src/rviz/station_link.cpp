@@ -58,6 +58,7 @@ struct StationLink::Shared {
   ::ros::Publisher parameter;
   ::ros::Publisher emergency;
   std::function<void()> give_up_late;  // of the callers
+  std::function<void()> prepare;       // their connections
   bool quit = false;
   bool has_ended = false;
 
@@ -66,7 +67,9 @@ struct StationLink::Shared {
   }
   void tell(const Answer& answer) {
     const std::lock_guard lock(mutex);
-    log.add(timeOfDay(), answer.text);
+    if (!answer.ok) {  // else events tell of it
+      log.add(timeOfDay(), answer.text);
+    }
     show(answer);
   }
   void show(const Answer& answer) {
@@ -136,7 +139,9 @@ class Listener {
   void addNews(const std::string& before, const std::string& now) {
     std::istringstream lines(now);
     for (std::string line; before != now && std::getline(lines, line);) {
-      if (("\n" + before + "\n").find("\n" + line + "\n") == std::string::npos) {
+      const bool is_known = ("\n" + before + "\n").find("\n" + line + "\n") != std::string::npos;
+      if (!is_known &&
+          line.find(": note: ") == std::string::npos) {  // notes are for who writes scenes
         shared_->log.add(timeOfDay(), line);
       }
     }
@@ -173,6 +178,9 @@ class Listener {
       const double limit = ::ros::param::param(shared_->station + "/force_limit", 20.0);
       const std::lock_guard lock(shared_->mutex);
       shared_->news.force_limit = limit;
+      if (shared_->prepare) {
+        shared_->prepare();
+      }
     }
     if (Clock::now() < next_look_) {
       return;
@@ -270,6 +278,10 @@ StationLink::StationLink(const std::string& station) : shared_(std::make_shared<
       caller->giveUpLate();
     }
   };
+  shared_->prepare = [this] {  // to take force away when the master is gone
+    stop_->prepare<std_srvs::Trigger>(shared_->station + "/stop");
+    emergency_->prepare<std_srvs::Trigger>(shared_->station + "/emergency_stop");
+  };
   std::thread([shared = shared_] { listen(shared); }).detach();
 }
 
@@ -277,6 +289,7 @@ StationLink::~StationLink() {
   std::unique_lock lock(shared_->mutex);
   shared_->quit = true;
   shared_->give_up_late = nullptr;
+  shared_->prepare = nullptr;
   shared_->changed.wait_for(lock, kLastWait, [this] { return shared_->has_ended; });
 }
 

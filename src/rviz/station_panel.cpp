@@ -2,6 +2,7 @@
 #include "rviz/station_panel.hpp"
 
 #include <QHBoxLayout>
+#include <QPainter>
 #include <QScrollBar>
 #include <QShortcut>
 #include <QWheelEvent>
@@ -28,6 +29,14 @@ std::vector<StationPanel*>& panels() {
 class Chooser : public QComboBox {
  protected:
   void wheelEvent(QWheelEvent* event) override { event->ignore(); }
+  void paintEvent(QPaintEvent* event) override {
+    QComboBox::paintEvent(event);
+    if (currentIndex() < 0) {  // Qt 5.15 shows no placeholder in lists (QTBUG-90595)
+      QPainter painter(this);
+      painter.setPen(palette().color(QPalette::Disabled, QPalette::Text));
+      painter.drawText(rect().adjusted(8, 0, -28, 0), Qt::AlignVCenter, placeholderText());
+    }
+  }
 };
 
 QLabel* title(const QString& text) {
@@ -40,11 +49,6 @@ QLabel* title(const QString& text) {
 
 int percent(double share) {
   return static_cast<int>(std::lround(100.0 * share));
-}
-
-std::string playsText(const Status& status) {
-  return status.model.empty() ? "Nothing plays."
-                              : "Plays " + status.model + ". Certificate: " + status.verdict + ".";
 }
 
 }  // namespace
@@ -144,21 +148,26 @@ void StationPanel::addForce(QVBoxLayout* column) {
 void StationPanel::addInstruments(QVBoxLayout* column) {
   instruments_ = adopted<Chooser>();
   instruments_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  instruments_->setPlaceholderText("choose an instrument");
+
   instruments_->setAccessibleName("instruments");
+  instruments_->setPlaceholderText("choose an instrument");
   QObject::connect(instruments_, QOverload<int>::of(&QComboBox::activated), this, [this](int row) {
     const auto index = static_cast<std::size_t>(row);
     if (index < news_.scenes.size()) {
       choose(news_.scenes[index]);
     }
   });
-  about_ = adopted<Paragraph>(3, this);
-  about_->setEnabled(false);
-  plays_ = adopted<Paragraph>(1, this);
-  column->addWidget(title("Instrument (F3)"));
+  about_ = adopted<Paragraph>(2, this);
+
+  verdict_ = adopted<QLabel>();
+  verdict_->setAlignment(Qt::AlignRight);
+  verdict_->setToolTip("Whether what plays is proven to be stable: passive, bounded, unproven");
+  auto* line = adopted<QHBoxLayout>();
+  line->addWidget(title("Instrument (F3)"));
+  line->addWidget(verdict_, 1);
+  column->addLayout(line);
   column->addWidget(instruments_);
   column->addWidget(about_);
-  column->addWidget(plays_);
 }
 
 void StationPanel::addParameters(QVBoxLayout* column) {
@@ -180,6 +189,7 @@ void StationPanel::addMeters(QVBoxLayout* column) {
   forces_ = adopted<ForceMeter>(this);
   load_ = adopted<QProgressBar>();
   load_->setRange(0, 100);
+  load_->setFixedHeight(18);
   load_->setToolTip("Computing time of a tick over the time there is; the peak is since the start");
   rates_ = adopted<Paragraph>(1, this);
   column->addWidget(force_title_);
@@ -191,7 +201,7 @@ void StationPanel::addMeters(QVBoxLayout* column) {
 void StationPanel::addMessages(QVBoxLayout* column) {
   messages_ = adopted<QPlainTextEdit>();
   messages_->setReadOnly(true);
-  messages_->setMinimumHeight(70);
+  messages_->setMinimumHeight(64);
   messages_->setTabChangesFocus(true);
   QFont font = messages_->font();
   font.setPointSizeF(0.9 * font.pointSizeF());
@@ -203,12 +213,12 @@ void StationPanel::addMessages(QVBoxLayout* column) {
       Q_EMIT configChanged();
     }
   });
-  column->addWidget(title("Messages"));
-  column->addWidget(messages_, 2);
   auto* line = adopted<QHBoxLayout>();
-  line->addWidget(adopted<QLabel>("Station"));
+  line->addWidget(title("Messages"), 1);
+  line->addWidget(adopted<QLabel>("of station"));
   line->addWidget(station_, 1);
   column->addLayout(line);
+  column->addWidget(messages_, 2);
 }
 
 void StationPanel::bind(int key, const std::function<void()>& act, bool also_ambiguous) {
@@ -283,6 +293,8 @@ void StationPanel::showInstruments() {
   }
   if (are_others || model_shown_ != news_.status.model) {
     model_shown_ = news_.status.model;
+    instruments_->setPlaceholderText(model_shown_.empty() ? "choose an instrument"
+                                                          : QString::fromStdString(model_shown_));
     const auto is_it = [this](const SceneEntry& scene) { return scene.name == model_shown_; };
     const auto chosen = static_cast<std::size_t>(std::max(instruments_->currentIndex(), 0));
     if (are_others || chosen >= news_.scenes.size() || !is_it(news_.scenes[chosen])) {
@@ -293,7 +305,9 @@ void StationPanel::showInstruments() {
   }
   const int row = instruments_->currentIndex();
   about_->show(row < 0 ? "" : news_.scenes[static_cast<std::size_t>(row)].about);
-  plays_->show(isStale() ? "" : playsText(news_.status));
+  const std::string& verdict = news_.status.verdict;
+  verdict_->setText(
+      isStale() || verdict.empty() ? "" : "certificate: " + QString::fromStdString(verdict));
 }
 
 void StationPanel::choose(const SceneEntry& scene) {
@@ -301,7 +315,7 @@ void StationPanel::choose(const SceneEntry& scene) {
 }
 
 void StationPanel::showMeters() {
-  const bool stale = isStale();
+  const bool stale = isStale() || news_.status.state == Status::DISCONNECTED;
   double largest = 0.0;
   for (const double force : news_.forces) {
     largest = std::max(largest, std::abs(force));

@@ -71,7 +71,7 @@ class StationPanel : public rviz::Panel {
   Paragraph* answer_ = nullptr;
   QComboBox* instruments_ = nullptr;
   Paragraph* about_ = nullptr;
-  Paragraph* plays_ = nullptr;
+  QLabel* verdict_ = nullptr;
   ParameterList* parameters_ = nullptr;
   QLabel* force_title_ = nullptr;
   ForceMeter* forces_ = nullptr;

@@ -11,7 +11,7 @@ namespace ergotic::panel {
 namespace {
 
 constexpr int kLampHeight = 66;
-constexpr int kMeterHeight = 92;
+constexpr int kMeterHeight = 80;
 constexpr double kNearLimit = 0.8;  // of the limit: from here on a bar warns
 const QColor kWarning(0xcc, 0x22, 0x22);
 const QColor kForce(0x28, 0x74, 0xc8);
@@ -224,7 +224,7 @@ void ForceMeter::paintColumn(QPainter& painter, const QRect& column, std::size_t
       painter.drawText(box, Qt::AlignCenter, text);  // else there are too many slices for numbers
     }
   };
-  const double newtons = forces_[slice];
+  const double newtons = std::abs(forces_[slice]) < 0.05 ? 0.0 : forces_[slice];  // no "-0.0"
   const int digits = std::abs(newtons) < 9.95 ? 1 : 0;
   write(QRect(column.left(), 0, column.width(), line), QString::number(newtons, 'f', digits));
   painter.setPen(palette().color(QPalette::Text));

@@ -42,8 +42,12 @@ std::string capital(std::string text) {
   return text;
 }
 
+/// The first line, without the place in a file that it speaks of.
 std::string firstLine(const std::string& text) {
-  return text.substr(0, text.find('\n'));
+  const std::string line = text.substr(0, text.find('\n'));
+  const char mark[] = ": error: ";
+  const std::size_t error = line.find(mark);
+  return error == std::string::npos ? line : line.substr(error + sizeof mark - 1);
 }
 
 }  // namespace
@@ -140,7 +144,7 @@ std::string kindOf(const Event& event) {
     case Event::TICKS_LOST:
     case Event::UNDERRUN:
     case Event::AUDIO_SKIPPED:
-      return "disturbance " + std::to_string(event.type);
+      return std::to_string(event.type);
     default:
       return "";
   }
@@ -154,12 +158,11 @@ std::string ratesText(const Status& status) {
   if (status.gestural_rate <= 0.0) {
     return "";
   }
-  std::string text = printed("%.0f Hz ticks", status.gestural_rate);
-  text += printed(", sound at %.0f Hz", status.audio_rate);
+  std::string text = printed("%.0f ticks/s", status.gestural_rate);
   if (status.delay_ticks > 0.0) {
     text += printed(", force after %.2g ms", 1e3 * status.delay_ticks / status.gestural_rate);
   }
-  return text;
+  return text + printed(", sound %.4g kHz", 1e-3 * status.audio_rate);
 }
 
 }  // namespace ergotic::panel

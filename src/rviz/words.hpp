@@ -47,7 +47,7 @@ std::string kindOf(const Event& event);
 /// "440".
 std::string numberText(double value);
 
-/// "3150 Hz ticks, sound at 44100 Hz, force after 0.3 ms", as far as it is known.
+/// "3150 ticks/s, force after 0.32 ms, sound 44.1 kHz", as far as it is known.
 std::string ratesText(const Status& status);
 
 }  // namespace ergotic::panel

@@ -54,6 +54,8 @@ TEST(WordsTest, ReasonsSayWhatTheStationSaid) {
   EXPECT_EQ(reason(Lamp::kFault, status), "Emergency stop. Recover ends it, then Engage.");
   status.message = "no board /dev/comedi0\nand more";
   EXPECT_EQ(reason(Lamp::kDisconnected, status), "No board /dev/comedi0.");
+  status.message = "drum.yaml:3:1: error: scene 'drum' is too heavy";
+  EXPECT_EQ(reason(Lamp::kDisconnected, status), "Scene 'drum' is too heavy.");
   status.uncalibrated = {1, 4};
   EXPECT_EQ(reason(Lamp::kUncalibrated, status), "Slices 1, 4 have no calibration.");
 }
@@ -70,9 +72,9 @@ TEST(WordsTest, RatesAreToldAsFarAsTheyAreKnown) {
   EXPECT_EQ(ratesText(status), "");
   status.gestural_rate = 3150.0;
   status.audio_rate = 44100.0;
-  EXPECT_EQ(ratesText(status), "3150 Hz ticks, sound at 44100 Hz");
+  EXPECT_EQ(ratesText(status), "3150 ticks/s, sound 44.1 kHz");
   status.delay_ticks = 1.0;
-  EXPECT_EQ(ratesText(status), "3150 Hz ticks, sound at 44100 Hz, force after 0.32 ms");
+  EXPECT_EQ(ratesText(status), "3150 ticks/s, force after 0.32 ms, sound 44.1 kHz");
 }
 
 TEST(WordsTest, AnAnswerToALoadSaysTheVerdictInItsFirstLine) {
@@ -100,11 +102,14 @@ TEST(MessageLogTest, WhatComesAgainAndAgainIsOneLine) {
     log.add("12:00:00", "tick " + std::to_string(i) + " ms late", "late");
   }
   EXPECT_EQ(log.text(), "12:00:00 tick 4999 ms late (5000 times)");
+  log.add("12:00:01", "stall", "stall");
+  log.add("12:00:01", "tick 7 ms late", "late");
+  EXPECT_EQ(log.text(), "12:00:01 stall\n12:00:01 tick 7 ms late (5001 times)");
   log.add("12:00:01", "full force");
   log.add("12:00:02", "tick 1 ms late", "late");
-  EXPECT_EQ(
-      log.text(),
-      "12:00:00 tick 4999 ms late (5000 times)\n12:00:01 full force\n12:00:02 tick 1 ms late");
+  EXPECT_EQ(log.text(),
+            "12:00:01 stall\n12:00:01 tick 7 ms late (5001 times)\n12:00:01 full force\n12:00:02 "
+            "tick 1 ms late");
 }
 
 TEST(MessageLogTest, EveryChangeIsAnotherVersion) {

@@ -25,6 +25,7 @@ struct Caller::Shared {
   std::mutex mutex;  // of what follows
   std::condition_variable changed;
   std::deque<Job> waiting;
+  std::uint64_t era = 0;                                // grows with each cancellation
   std::map<std::string, ::ros::ServiceClient> clients;  // by their services
   ::ros::ServiceClient asked;                           // that has not answered yet
   Clock::time_point give_up = Clock::time_point::max();
@@ -61,6 +62,7 @@ Caller::~Caller() {
 
 void Caller::add(Job job) {
   const std::lock_guard lock(shared_->mutex);
+  job.era = shared_->era;
   shared_->waiting.push_back(std::move(job));
   shared_->changed.notify_all();
 }
@@ -68,6 +70,13 @@ void Caller::add(Job job) {
 void Caller::forgetWaiting() {
   const std::lock_guard lock(shared_->mutex);
   shared_->waiting.clear();
+}
+
+void Caller::cancel() {
+  const std::lock_guard lock(shared_->mutex);
+  ++shared_->era;
+  shared_->waiting.clear();
+  shared_->asked.shutdown();
 }
 
 void Caller::giveUpLate() {
@@ -110,36 +119,45 @@ void Caller::run(const std::shared_ptr<Shared>& shared) {
 
 Answer Caller::answerTo(const Job& job, Shared& shared) {
   try {
-    ::ros::ServiceClient client = connectedTo(job, shared);
-    if (!job.call) {
-      return {};
-    }
-    if (!client.isValid()) {
-      return {
-          false,
-          job.what + (::ros::master::check()
-                          ? ": there is no " + job.service + ". Does the station run?"
-                          : ": the ROS master does not answer, which knows where the station is.")};
-    }
-    {
-      const std::lock_guard lock(shared.mutex);
-      if (shared.quit) {
+    Answer answer;
+    for (int tries = job.insists ? 2 : 1; tries > 0; --tries) {
+      const ::ros::ServiceClient client = connectedTo(job, shared);
+      if (!job.call) {
         return {};
       }
-      shared.asked = client;
-      shared.give_up =
-          Clock::now() + std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * job.patience_s));
+      if (!client.isValid()) {
+        return {false, job.what + (::ros::master::check()
+                                       ? ": there is no " + job.service + ". Does the station run?"
+                                       : ": the ROS master does not answer, which knows where the "
+                                         "station is.")};
+      }
+      if (call(job, shared, client, answer)) {
+        return {answer.ok, job.what + ": " + answer.text};
+      }
+      shared.clients.erase(job.service);  // roscpp may take it for valid, though it is lost
     }
-    Answer answer;
-    const bool answered = job.call(client, answer);
-    const std::lock_guard lock(shared.mutex);
-    shared.asked = {};
-    shared.give_up = Clock::time_point::max();
-    return {answered && answer.ok,
-            job.what + ": " + (answered ? answer.text : "the station did not answer.")};
+    return {false, job.what + ": the station did not answer."};
   } catch (const std::exception& failure) {
     return {false, job.what + ": " + failure.what()};
   }
+}
+
+/// \return whether it was answered
+bool Caller::call(const Job& job, Shared& shared, ::ros::ServiceClient client, Answer& answer) {
+  const auto patience = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * job.patience_s));
+  {
+    const std::lock_guard lock(shared.mutex);
+    if (shared.quit || job.era != shared.era) {
+      return false;
+    }
+    shared.asked = client;
+    shared.give_up = Clock::now() + patience;
+  }
+  const bool answered = job.call(client, answer);
+  const std::lock_guard lock(shared.mutex);
+  shared.asked = {};
+  shared.give_up = Clock::time_point::max();
+  return answered;
 }
 
 }  // namespace ergotic::panel

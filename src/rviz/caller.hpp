@@ -3,6 +3,7 @@
 
 #include <std_srvs/Trigger.h>
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -41,15 +42,20 @@ class Caller {
   /// \param what        is asked for, begins the answer: "Engage"
   /// \param service     its full name
   /// \param patience_s  after which no answer is waited for, s
+  /// \param insists     asks once more over a new connection if the first was lost: only for what
+  /// may
+  ///                    come late
   template <class Service>
   void ask(const std::string& what,
            const std::string& service,
            const typename Service::Request& request,
-           double patience_s) {
+           double patience_s,
+           bool insists = false) {
     Job job;
     job.what = what;
     job.service = service;
     job.patience_s = patience_s;
+    job.insists = insists;
     job.find = [service] { return find<Service>(service); };
     job.call = [request](::ros::ServiceClient& client, Answer& answer) {
       Service call;
@@ -72,6 +78,8 @@ class Caller {
 
   /// What waits is forgotten: something newer takes its place.
   void forgetWaiting();
+  /// What waits is forgotten, and what is asked is given up: it shall not come late.
+  void cancel();
   /// Ends what has waited too long for its answer. To be called now and then.
   void giveUpLate();
 
@@ -80,6 +88,8 @@ class Caller {
     std::string what;
     std::string service;
     double patience_s = 0.0;
+    bool insists = false;
+    std::uint64_t era = 0;  // of cancellations
     std::function<::ros::ServiceClient()> find;
     std::function<bool(::ros::ServiceClient&, Answer&)> call;  // none: to be prepared
   };
@@ -94,6 +104,7 @@ class Caller {
   static void run(const std::shared_ptr<Shared>& shared);
   static ::ros::ServiceClient connectedTo(const Job& job, Shared& shared);
   static Answer answerTo(const Job& job, Shared& shared);
+  static bool call(const Job& job, Shared& shared, ::ros::ServiceClient client, Answer& answer);
 
   std::shared_ptr<Shared> shared_;  // with the thread, which may be the last to leave
 };

@@ -15,7 +15,6 @@
 #include <ros/callback_queue.h>
 #include <ros/master.h>
 #include <ros/names.h>
-#include <ros/package.h>
 #include <ros/param.h>
 #include <sensor_msgs/JointState.h>
 #include <std_msgs/Empty.h>
@@ -46,9 +45,11 @@ std::string timeOfDay() {
 
 /// What the listening thread and the window share.
 struct StationLink::Shared {
-  explicit Shared(std::string name) : station(std::move(name)) {}
+  Shared(std::string name, std::string models_folder)
+      : station(std::move(name)), models(std::move(models_folder)) {}
 
   const std::string station;
+  const std::string models;
   std::mutex mutex;  // of what follows
   std::condition_variable changed;
   News news;
@@ -218,11 +219,10 @@ class Listener {
     ++shared_->news.scenes_version;
   }
 
-  /// Those of the parameter `~models`, asked for once; else those of the package.
+  /// Those of the parameter `~models`, asked for once.
   const std::vector<std::string>& modelFolders() {
     if (folders_.empty() && !::ros::param::get("~models", folders_)) {
-      folders_ = {::ros::param::param<std::string>("~models",
-                                                   ::ros::package::getPath("ergotic") + "/models")};
+      folders_ = {::ros::param::param<std::string>("~models", shared_->models)};
     }
     return folders_;
   }
@@ -268,7 +268,8 @@ void listen(const std::shared_ptr<StationLink::Shared>& shared) {
 
 }  // namespace
 
-StationLink::StationLink(const std::string& station) : shared_(std::make_shared<Shared>(station)) {
+StationLink::StationLink(const std::string& station, const std::string& models)
+    : shared_(std::make_shared<Shared>(station, models)) {
   for (std::unique_ptr<Caller>* caller : {&force_, &stop_, &emergency_, &loading_}) {
     *caller = std::make_unique<Caller>(
         [shared = shared_](const Answer& answer) { shared->tell(answer); });
@@ -321,12 +322,12 @@ void StationLink::refresh(News& news) const {
   }
 }
 
-void StationLink::ask(Caller& caller, const char* what, const char* service) {
+void StationLink::ask(Caller& caller, const char* what, const char* service, bool insists) {
   {
     const std::lock_guard lock(shared_->mutex);
     shared_->show({true, std::string(what) + " ..."});
   }
-  caller.ask<std_srvs::Trigger>(what, shared_->station + service, {}, kPatienceS);
+  caller.ask<std_srvs::Trigger>(what, shared_->station + service, {}, kPatienceS, insists);
 }
 
 void StationLink::engage() {
@@ -336,10 +337,12 @@ void StationLink::recover() {
   ask(*force_, "Recover", "/recover");
 }
 void StationLink::stop() {
-  ask(*stop_, "Stop", "/stop");
+  force_->cancel();  // it must not come after the stop
+  ask(*stop_, "Stop", "/stop", true);
 }
 
 void StationLink::emergencyStop() {
+  force_->cancel();
   ::ros::Publisher emergency;
   {
     const std::lock_guard lock(shared_->mutex);
@@ -348,7 +351,7 @@ void StationLink::emergencyStop() {
   if (emergency) {
     emergency.publish(std_msgs::Empty());
   }
-  ask(*emergency_, "Emergency stop", "/emergency_stop");
+  ask(*emergency_, "Emergency stop", "/emergency_stop", true);
 }
 
 void StationLink::load(const std::string& model, const std::string& title) {

@@ -38,7 +38,8 @@ struct News {
 class StationLink {
  public:
   /// \param station  its full name
-  explicit StationLink(const std::string& station);
+  /// \param models   folder of scenes, where the parameter `~models` names no others
+  StationLink(const std::string& station, const std::string& models);
   ~StationLink();
   StationLink(const StationLink&) = delete;
   StationLink& operator=(const StationLink&) = delete;
@@ -49,6 +50,7 @@ class StationLink {
   void refresh(News& news) const;
 
   void engage();
+  /// Also of an Engage that is on its way.
   void stop();
   /// By the service and by the topic, whichever comes first.
   void emergencyStop();
@@ -61,7 +63,7 @@ class StationLink {
   struct Shared;
 
  private:
-  void ask(Caller& caller, const char* what, const char* service);
+  void ask(Caller& caller, const char* what, const char* service, bool insists = false);
 
   std::shared_ptr<Shared> shared_;  // with the thread that listens
   std::unique_ptr<Caller> force_;

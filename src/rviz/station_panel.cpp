@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include <pluginlib/class_list_macros.hpp>
+#include <ros/package.h>
 #include <rviz/config.h>
 
 namespace ergotic::panel {
@@ -84,6 +85,8 @@ StationPanel::~StationPanel() {
 }
 
 void StationPanel::onInitialize() {
+  // Here, for rospack is not made for several threads, and rviz asks it in this one.
+  models_ = ros::package::getPath("ergotic") + "/models";
   timer_.start(kRefreshMs);
 }
 
@@ -250,7 +253,7 @@ void StationPanel::addKeys() {
 
 void StationPanel::connectTo(const QString& station) {
   link_.reset();
-  link_ = std::make_unique<StationLink>(station.toStdString());
+  link_ = std::make_unique<StationLink>(station.toStdString(), models_);
   news_ = {};
   scenes_shown_ = log_shown_ = 0;
   model_shown_.clear();

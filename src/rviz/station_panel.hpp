@@ -55,6 +55,7 @@ class StationPanel : public rviz::Panel {
   void showMessages();
   bool isStale() const { return lampOf(news_.status.state, news_.age_s) == Lamp::kStale; }
 
+  std::string models_;  // folder of the package's scenes
   std::unique_ptr<StationLink> link_;
   News news_;
   QElapsedTimer clock_;

@@ -50,7 +50,8 @@ struct StationLink::Shared {
 
   const std::string station;
   const std::string models;
-  std::mutex mutex;  // of what follows
+  ::ros::CallbackQueue queue;  // publishers speak to it when they end, too
+  std::mutex mutex;            // of what follows
   std::condition_variable changed;
   News news;
   Clock::time_point heard;  // of the status
@@ -85,6 +86,16 @@ namespace {
 class Listener {
  public:
   explicit Listener(std::shared_ptr<StationLink::Shared> shared) : shared_(std::move(shared)) {}
+  /// Nothing of ROS outlives the thread: who waits for it may end the process.
+  ~Listener() {
+    ::ros::Publisher parameter;
+    ::ros::Publisher emergency;
+    const std::lock_guard lock(shared_->mutex);
+    std::swap(parameter, shared_->parameter);
+    std::swap(emergency, shared_->emergency);
+  }
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
 
   void run() {
     std::string fault;
@@ -93,7 +104,7 @@ class Listener {
     }
     connect();
     while (!hasToQuit()) {
-      queue_.callAvailable(::ros::WallDuration(kTurnS));
+      shared_->queue.callAvailable(::ros::WallDuration(kTurnS));
       lookAround();
     }
   }
@@ -110,7 +121,7 @@ class Listener {
   /// Waits for the master.
   void connect() {
     ::ros::NodeHandle node(shared_->station);
-    node.setCallbackQueue(&queue_);
+    node.setCallbackQueue(&shared_->queue);
     constexpr std::uint32_t kEvents = 1000;
     subscribers_.clear();
     subscribers_ = {node.subscribe("status", 1, &Listener::onStatus, this),
@@ -118,12 +129,13 @@ class Listener {
                     node.subscribe("model_parameters", 1, &Listener::onParameters, this),
                     node.subscribe("events", kEvents, &Listener::onEvent, this)};
     constexpr std::uint32_t kParameters = 100;
-    const ::ros::Publisher parameter = node.advertise<ParameterValue>("parameters", kParameters);
-    const ::ros::Publisher emergency = node.advertise<std_msgs::Empty>("emergency_stop", 1);
+    ::ros::Publisher parameter = node.advertise<ParameterValue>("parameters", kParameters);
+    ::ros::Publisher emergency = node.advertise<std_msgs::Empty>("emergency_stop", 1);
     ::ros::param::get("/run_id", master_);
-    const std::lock_guard lock(shared_->mutex);
-    shared_->parameter = parameter;
-    shared_->emergency = emergency;
+    const std::lock_guard lock(
+        shared_->mutex);  // opened before the old ones end, for which the master is asked
+    std::swap(shared_->parameter, parameter);
+    std::swap(shared_->emergency, emergency);
   }
 
   void onStatus(const Status& status) {
@@ -246,10 +258,9 @@ class Listener {
   }
 
   std::shared_ptr<StationLink::Shared> shared_;
-  ::ros::CallbackQueue queue_;
-  std::vector<::ros::Subscriber> subscribers_;  // end before their queue
-  std::string master_;                          // run id of the one that knows us
-  bool is_another_ = false;                     // station or model since its limits were asked for
+  std::vector<::ros::Subscriber> subscribers_;
+  std::string master_;       // run id of the one that knows us
+  bool is_another_ = false;  // station or model since its limits were asked for
   Clock::time_point next_look_;
   std::vector<std::string> folders_;
   std::string seen_;

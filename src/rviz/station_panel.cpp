@@ -54,7 +54,7 @@ int percent(double share) {
 
 }  // namespace
 
-StationPanel::StationPanel(QWidget* parent) : rviz::Panel(parent) {
+StationPanel::StationPanel(QWidget* parent) : rviz::Panel(parent), wanted_(kUsualStation) {
   panels().push_back(this);
   clock_.start();
   auto* column = adopted<QVBoxLayout>(this);
@@ -95,12 +95,13 @@ void StationPanel::load(const rviz::Config& config) {
   QString station;
   if (config.mapGetString(kSetting, &station)) {
     station_->setText(station);
+    wanted_ = station.toStdString();
   }
 }
 
 void StationPanel::save(rviz::Config config) const {
   rviz::Panel::save(config);
-  config.mapSetValue(kSetting, station_->text());
+  config.mapSetValue(kSetting, QString::fromStdString(wanted_));
 }
 
 QPushButton* StationPanel::addButton(const QString& text, const QString& tip) {
@@ -212,7 +213,8 @@ void StationPanel::addMessages(QVBoxLayout* column) {
   station_ = adopted<QLineEdit>(kUsualStation);
   station_->setToolTip("Name of the station; it is kept in the configuration of rviz");
   QObject::connect(station_, &QLineEdit::editingFinished, this, [this] {
-    if (link_ && QString::fromStdString(link_->station()) != station_->text()) {
+    if (station_->text().toStdString() != wanted_) {
+      wanted_ = station_->text().toStdString();
       Q_EMIT configChanged();
     }
   });
@@ -251,9 +253,9 @@ void StationPanel::addKeys() {
   bind(Qt::Key_F4, [this] { parameters_->takeFocus(); });
 }
 
-void StationPanel::connectTo(const QString& station) {
+void StationPanel::connect() {
   link_.reset();
-  link_ = std::make_unique<StationLink>(station.toStdString(), models_);
+  link_ = std::make_unique<StationLink>(wanted_, models_);
   news_ = {};
   scenes_shown_ = log_shown_ = 0;
   model_shown_.clear();
@@ -261,9 +263,8 @@ void StationPanel::connectTo(const QString& station) {
 }
 
 void StationPanel::refresh() {
-  const bool is_edited = station_->hasFocus() && station_->isModified();
-  if (!link_ || (!is_edited && QString::fromStdString(link_->station()) != station_->text())) {
-    connectTo(station_->text());
+  if (!link_ || link_->station() != wanted_) {
+    connect();
   }
   link_->refresh(news_);
   const double now_s = 1e-3 * static_cast<double>(clock_.elapsed());

@@ -46,7 +46,7 @@ class StationPanel : public rviz::Panel {
   void addKeys();
   void bind(int key, const std::function<void()>& act, bool also_ambiguous = false);
 
-  void connectTo(const QString& station);
+  void connect();
   void refresh();
   void showForce();
   void showInstruments();
@@ -55,8 +55,9 @@ class StationPanel : public rviz::Panel {
   void showMessages();
   bool isStale() const { return lampOf(news_.status.state, news_.age_s) == Lamp::kStale; }
 
-  std::string models_;  // folder of the package's scenes
-  std::unique_ptr<StationLink> link_;
+  std::string models_;                 // folder of the package's scenes
+  std::string wanted_;                 // name of the station
+  std::unique_ptr<StationLink> link_;  // to it, from the next refresh on
   News news_;
   QElapsedTimer clock_;
   QTimer timer_;

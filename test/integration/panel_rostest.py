@@ -127,7 +127,9 @@ class PanelTest(unittest.TestCase):
         self.start_station()
         self.expect(Status.READY, seconds=30)
         self.expect(*FORCE, key="F5")
-        self.assertIsNone(self.rviz.poll(), "rviz has ended")
+        self.press("ctrl+q")
+        self.assertTrue(until(lambda: self.rviz.poll() is not None), "rviz does not end")
+        self.assertEqual(self.rviz.returncode, 0)
 
     def check_sliders(self):
         at_first = self.values()

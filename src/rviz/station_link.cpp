@@ -20,6 +20,7 @@
 #include <std_msgs/Empty.h>
 
 #include "rviz/message_log.hpp"
+#include "rviz/peak_hold.hpp"
 #include "rviz/words.hpp"
 
 namespace ergotic::panel {
@@ -163,6 +164,8 @@ class Listener {
   void onJoints(const sensor_msgs::JointState& joints) {
     const std::lock_guard lock(shared_->mutex);
     shared_->news.forces = joints.effort;
+    const std::chrono::duration<double> now = Clock::now().time_since_epoch();
+    shared_->news.peaks = peaks_.follow(joints.effort, now.count());
   }
 
   void onParameters(const Parameters& parameters) {
@@ -259,6 +262,7 @@ class Listener {
 
   std::shared_ptr<StationLink::Shared> shared_;
   std::vector<::ros::Subscriber> subscribers_;
+  PeakHold peaks_;
   std::string master_;       // run id of the one that knows us
   bool is_another_ = false;  // station or model since its limits were asked for
   Clock::time_point next_look_;
@@ -316,6 +320,7 @@ void StationLink::refresh(News& news) const {
   news.age_s = shared_->ageS();
   news.has_master = newest.has_master;
   news.forces = newest.forces;
+  news.peaks = newest.peaks;
   news.force_limit = newest.force_limit;
   news.answer = newest.answer;
   news.answers = newest.answers;

@@ -20,6 +20,7 @@ struct News {
   double age_s = -1.0;  ///< of the status, s; negative: none came yet
   bool has_master = true;
   std::vector<double> forces;  ///< [slices] as sent to the device, N
+  std::vector<double> peaks;   ///< [slices] their largest sizes in the last second, N
   double force_limit = 20.0;   ///< N per slice
   Parameters parameters;
   std::size_t parameters_version = 0;

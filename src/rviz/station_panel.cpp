@@ -321,13 +321,13 @@ void StationPanel::choose(const SceneEntry& scene) {
 void StationPanel::showMeters() {
   const bool stale = isStale() || news_.status.state == Status::DISCONNECTED;
   double largest = 0.0;
-  for (const double force : news_.forces) {
-    largest = std::max(largest, std::abs(force));
+  for (const double peak : news_.peaks) {
+    largest = std::max(largest, peak);
   }
-  forces_->show(news_.forces, news_.force_limit, !stale);
+  forces_->show(news_.forces, news_.peaks, news_.force_limit, !stale);
   force_title_->setText(stale ? "Forces"
                               : QString("Forces: %1 N of %2 N")
-                                    .arg(largest, 0, 'f', 1)
+                                    .arg(largest, 0, 'f', 2)
                                     .arg(news_.force_limit, 0, 'g', 3));
   const Status& status = news_.status;
   load_->setEnabled(!stale);
@@ -348,7 +348,12 @@ void StationPanel::showMessages() {
   const bool reads_back = bar->value() < bar->maximum();
   const int place = bar->value();
   messages_->setPlainText(QString::fromStdString(news_.log));
-  bar->setValue(reads_back ? place : bar->maximum());
+  if (reads_back) {
+    bar->setValue(place);
+  } else {
+    messages_->moveCursor(QTextCursor::End);
+    bar->setValue(bar->maximum());
+  }
 }
 
 }  // namespace ergotic::panel

@@ -38,6 +38,11 @@ void drawWords(QPainter& painter, const QRect& box, const QString& text) {
   layout.endLayout();
 }
 
+/// Three digits at most: "0.04", "7.3", "19".
+QString newtonsText(double newtons) {
+  return QString::number(newtons, 'f', newtons < 0.995 ? 2 : newtons < 9.95 ? 1 : 0);
+}
+
 QFont scaled(QFont font, double factor, bool bold) {
   font.setPointSizeF(font.pointSizeF() * factor);
   font.setBold(bold);
@@ -176,13 +181,17 @@ ForceMeter::ForceMeter(QWidget* parent) : QWidget(parent) {
   setFixedHeight(kMeterHeight);
 }
 
-void ForceMeter::show(const std::vector<double>& forces, double limit, bool is_known) {
-  if (forces == forces_ && limit == limit_ && is_known == is_known_) {
+void ForceMeter::show(const std::vector<double>& forces,
+                      const std::vector<double>& peaks,
+                      double limit,
+                      bool is_known) {
+  if (forces == forces_ && peaks == peaks_ && limit == limit_ && is_known == is_known_) {
     return;
   }
   forces_ = forces;
+  peaks_ = peaks;
   limit_ = limit;
-  is_known_ = is_known && !forces.empty();
+  is_known_ = is_known && !forces.empty() && peaks.size() == forces.size();
   update();
 }
 
@@ -203,30 +212,37 @@ void ForceMeter::paintEvent(QPaintEvent* /*event*/) {
   }
 }
 
-/// From above: newtons, a bar from the middle, the number of the slice.
+/// From above: newtons, a bar from the middle with marks at the peak, the number of the slice.
 void ForceMeter::paintColumn(QPainter& painter, const QRect& column, std::size_t slice) const {
   const int line = QFontMetrics(painter.font()).height();
   const QRect track = column.adjusted(2, line + 1, -2, -line - 1);
-  const double share = limit_ > 0.0 ? std::clamp(forces_[slice] / limit_, -1.0, 1.0) : 0.0;
-  const bool warns = std::abs(share) >= kNearLimit;
-  painter.fillRect(track, palette().color(QPalette::AlternateBase));
   const int middle = track.center().y();
-  const int tip = middle - static_cast<int>(std::lround(share * (track.height() / 2.0)));
+  const auto height_of = [&](double newtons) {
+    const double share = limit_ > 0.0 ? std::clamp(newtons / limit_, -1.0, 1.0) : 0.0;
+    return static_cast<int>(std::lround(share * (track.height() / 2.0)));
+  };
+  const double peak = peaks_[slice];
+  const bool warns = peak >= kNearLimit * limit_;
+  const QColor colour = warns ? kWarning : kForce;
+  const int tip = middle - height_of(forces_[slice]);
+  painter.fillRect(track, palette().color(QPalette::AlternateBase));
   painter.fillRect(QRect(QPoint(track.left(), std::min(middle, tip)),
                          QPoint(track.right(), std::max(middle, tip))),
-                   warns ? kWarning : kForce);
+                   colour);
+  painter.setPen(colour);
+  for (const int y : {middle - height_of(peak), middle + height_of(peak)}) {
+    painter.drawLine(track.left(), y, track.right(), y);
+  }
   painter.setPen(palette().color(QPalette::Mid));
   painter.drawRect(track.adjusted(0, 0, -1, -1));
 
-  painter.setPen(warns ? kWarning : palette().color(QPalette::Text));
   const auto write = [&](const QRect& box, const QString& text) {
     if (QFontMetrics(painter.font()).horizontalAdvance(text) <= box.width()) {
       painter.drawText(box, Qt::AlignCenter, text);  // else there are too many slices for numbers
     }
   };
-  const double newtons = std::abs(forces_[slice]) < 0.05 ? 0.0 : forces_[slice];  // no "-0.0"
-  const int digits = std::abs(newtons) < 9.95 ? 1 : 0;
-  write(QRect(column.left(), 0, column.width(), line), QString::number(newtons, 'f', digits));
+  painter.setPen(warns ? kWarning : palette().color(QPalette::Text));
+  write(QRect(column.left(), 0, column.width(), line), newtonsText(peak));
   painter.setPen(palette().color(QPalette::Text));
   write(QRect(column.left(), height() - line, column.width(), line),
         QString::number(static_cast<int>(slice)));

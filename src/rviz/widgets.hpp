@@ -52,13 +52,20 @@ class LampWidget : public QWidget {
   QString reason_;
 };
 
-/// The force at each slice, up or down from zero, against the limit.
+/// The force at each slice, up or down from zero, against the limit; and in numbers the largest of
+/// the last second.
 class ForceMeter : public QWidget {
  public:
   explicit ForceMeter(QWidget* parent);
 
-  /// \param forces  [slices] N \param limit  N \param is_known  else it is drawn without bars
-  void show(const std::vector<double>& forces, double limit, bool is_known);
+  /// \param forces    [slices] N
+  /// \param peaks     [slices] N, no less than 0
+  /// \param limit     N
+  /// \param is_known  else it is drawn without bars
+  void show(const std::vector<double>& forces,
+            const std::vector<double>& peaks,
+            double limit,
+            bool is_known);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -67,6 +74,7 @@ class ForceMeter : public QWidget {
   void paintColumn(QPainter& painter, const QRect& column, std::size_t slice) const;
 
   std::vector<double> forces_;
+  std::vector<double> peaks_;
   double limit_ = 0.0;
   bool is_known_ = false;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "rviz/peak_hold.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::panel {
@@ -87,6 +88,22 @@ TEST(ThrottleTest, LetsNoMoreThroughThanItMay) {
   EXPECT_LE(sent, 301);
   EXPECT_GE(sent, 290);
   EXPECT_GE(last, 9960.0);
+}
+
+TEST(PeakHoldTest, HoldsTheLargestForASecond) {
+  PeakHold hold;
+  EXPECT_EQ(hold.follow({1.0, -3.0}, 0.0), (std::vector<double>{1.0, 3.0}));
+  EXPECT_EQ(hold.follow({2.0, -1.0}, 0.5), (std::vector<double>{2.0, 3.0}));
+  EXPECT_EQ(hold.follow({0.0, -1.0}, 1.1), (std::vector<double>{2.0, 1.0}));
+  EXPECT_EQ(hold.follow({0.0, -1.0}, 1.6), (std::vector<double>{0.0, 1.0}));
+}
+
+TEST(PeakHoldTest, FollowsADeviceWithAnotherNumberOfSlices) {
+  PeakHold hold;
+  hold.follow({1.0, 2.0}, 0.0);
+  EXPECT_EQ(hold.follow({0.5}, 0.1), std::vector<double>{1.0});
+  EXPECT_EQ(hold.follow({0.5, 0.25, 4.0}, 0.2), (std::vector<double>{1.0, 0.25, 4.0}));
+  EXPECT_TRUE(hold.follow({}, 0.3).empty());
 }
 
 }  // namespace

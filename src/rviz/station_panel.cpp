@@ -259,6 +259,7 @@ void StationPanel::connect() {
   news_ = {};
   scenes_shown_ = log_shown_ = 0;
   model_shown_.clear();
+  instruments_->clear();  // they are no longer in the news
   messages_->clear();
 }
 

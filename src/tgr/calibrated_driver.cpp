@@ -83,9 +83,7 @@ class CalibratedDriverOverRaw final : public CalibratedDriver {
   double declaredDamping() const noexcept override { return raw_->declaredDamping(); }
   DeviceClock* clock() noexcept override { return raw_->clock(); }
   std::vector<Guard> guards() const override { return raw_->guards(); }
-  bool setTarget(int slice, double target_m) noexcept override {
-    return raw_->setTarget(slice, target_m);
-  }
+  bool move(const HandMove& move) noexcept override { return raw_->move(move); }
 
   void set(int slice, const SliceCalibration& calibration) override {
     requireWithin("slice of the calibration", slice, 0, slices() - 1, "");

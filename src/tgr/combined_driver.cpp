@@ -142,12 +142,13 @@ class CombinedDriver final : public Driver {
     return nullptr;
   }
 
-  bool setTarget(int slice, double target_m) noexcept override {
+  bool move(const HandMove& move) noexcept override {
+    HandMove own = move;
     for (const auto& driver : drivers_) {
-      if (slice < driver->slices()) {
-        return driver->setTarget(slice, target_m);
+      if (own.slice < driver->slices()) {
+        return driver->move(own);
       }
-      slice -= driver->slices();
+      own.slice -= driver->slices();
     }
     return false;
   }

@@ -89,9 +89,7 @@ class FaultyDriverOverAnother final : public FaultyDriver {
   double damping() const noexcept override { return inside_->damping(); }
   double declaredDamping() const noexcept override { return inside_->declaredDamping(); }
   DeviceClock* clock() noexcept override { return inside_->clock(); }
-  bool setTarget(int slice, double target_m) noexcept override {
-    return inside_->setTarget(slice, target_m);
-  }
+  bool move(const HandMove& move) noexcept override { return inside_->move(move); }
 
   void check(const FaultOrder& order) const override { requireInjectable(order, slices()); }
   void inject(const FaultOrder& order) override {

@@ -80,8 +80,8 @@ class ScriptedDevice final : public tgr::Driver, private tgr::DeviceClock {
   double damping() const noexcept override { return script_.damping; }
   double declaredDamping() const noexcept override { return 0.1 * script_.damping; }
   tgr::DeviceClock* clock() noexcept override { return script_.has_clock ? this : nullptr; }
-  bool setTarget(int slice, double target_m) noexcept override {
-    script_.target = {slice, target_m};
+  bool move(const tgr::HandMove& move) noexcept override {
+    script_.target = {move.slice, move.target_m};
     return true;
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,6 +29,36 @@ enum ExchangeFlag : std::uint32_t {
 
 /// N s/m, of a slice of which nobody knows more.
 constexpr double kSupposedDamping = 2.0;
+
+/// How a simulated hand holds a slice; docs/tgr.md has the figures.
+enum class HandGrip : std::uint8_t { kConfigured, kSoft, kFirm, kQuick, kKey };
+
+constexpr int kMaxHandSources = 16;
+constexpr double kMaxTargetM = 0.1;  ///< a hand does not want to be further from rest
+
+/// What a player who has no device wants of the hand at one slice of a simulated device.
+struct HandMove {
+  static constexpr double kOnArrival = std::numeric_limits<double>::quiet_NaN();
+
+  int slice = 0;
+  double target_m = 0.0;  ///< where the hand shall be, within +-kMaxTargetM
+  /// When it shall be there, s, by the clock of the source: moves of one source keep their
+  /// distances in time, and the hand goes on straight lines between them. kOnArrival: `delay_s`
+  /// after the move arrives in the tick.
+  double time_s = kOnArrival;
+  double delay_s = 0.0;
+  /// How long it takes from then on, on a path of minimum jerk that the hand feeds forward; 0: on a
+  /// straight line that ends then.
+  double glide_s = 0.0;
+  double timeout_s = 0.0;  ///< it lets go if it does not hear of its source for so long; 0: never
+  HandGrip grip = HandGrip::kConfigured;
+  std::uint8_t source = 0;  ///< below kMaxHandSources
+  bool lets_go = false;     ///< of the slice, which is free then; the target has no effect
+  bool jumps = false;       ///< is there with the next tick, however far that is
+
+  /// Whether the fields are within their ranges for a device of so many slices.
+  bool isValid(int slices) const noexcept;
+};
 
 /// What a process of its own needs to take the force off a device when this process cannot any
 /// more.
@@ -110,10 +141,18 @@ class Driver {
   /// Not null if the device says when ticks are due. Constant after open.
   virtual DeviceClock* clock() noexcept { return nullptr; }
 
-  /// Where the hand of a virtual device wants slice `slice`, m, from now on. Thread: one, any
-  /// \return false if there is no such hand or slice, the target is not within +-0.1 m, or the ring
-  ///         of pending targets is full
-  virtual bool setTarget(int /*slice*/, double /*target_m*/) noexcept { return false; }
+  /// Moves the hand at a slice of a simulated device. Thread: one, any
+  /// \return false if there is no such hand or slice, a value is outside its range, or the ring of
+  ///         pending moves is full
+  virtual bool move(const HandMove& /*move*/) noexcept { return false; }
+  /// The hand wants the slice to be there from the next tick on, as one that jumps. As `move`
+  bool setTarget(int slice, double target_m) noexcept {
+    HandMove move;
+    move.slice = slice;
+    move.target_m = target_m;
+    move.jumps = true;
+    return this->move(move);
+  }
 };
 
 /// Makes drivers of one kind; what a plugin exports.

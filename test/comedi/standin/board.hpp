@@ -32,7 +32,13 @@ class StandinBoard {
   bool isPluggedIn();
   /// Handles know it from when they were opened; another one is dead.
   int generation() const { return generation_; }
-  void hold(int channel, double target_m) { bank_.setTarget(channel, target_m); }
+  void hold(int channel, double target_m) {
+    tgr::HandMove move;
+    move.slice = channel;
+    move.target_m = target_m;
+    move.jumps = true;
+    bank_.take(move);
+  }
   double outputVolts(int channel) const { return outputs_[static_cast<std::size_t>(channel)]; }
 
   /// What the outputs give, V, as doubles in a file: as the terminals of a board, it is seen from

@@ -38,7 +38,7 @@ ERGOTIC_REALTIME std::uint32_t InProcessDriver::exchange(const double* forces,
       queued.fill(0.0);
     }
   }
-  takeTargets();
+  takeMoves();
   Forces& oldest = queue_[head_];
   bank_.step(oldest.data());
   bank_.read(last_positions_.data());
@@ -50,17 +50,15 @@ ERGOTIC_REALTIME std::uint32_t InProcessDriver::exchange(const double* forces,
   return made_safe;
 }
 
-ERGOTIC_REALTIME void InProcessDriver::takeTargets() noexcept {
-  std::array<Target, kPendingTargets> pending{};
-  const std::size_t count = targets_.pop(pending.data(), pending.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    bank_.setTarget(pending[i].slice, pending[i].target_m);
+ERGOTIC_REALTIME void InProcessDriver::takeMoves() noexcept {
+  HandMove move;
+  for (std::size_t i = 0; i < kPendingMoves && moves_.pop(move); ++i) {
+    bank_.take(move);
   }
 }
 
-bool InProcessDriver::setTarget(int slice, double target_m) noexcept {
-  const bool valid = slice >= 0 && slice < slices() && std::abs(target_m) <= kMaxTargetM;
-  return valid && targets_.push({slice, target_m});
+bool InProcessDriver::move(const HandMove& move) noexcept {
+  return move.isValid(slices()) && moves_.push(move);
 }
 
 }  // namespace ergotic::tgr

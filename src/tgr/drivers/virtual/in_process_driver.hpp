@@ -31,17 +31,13 @@ class InProcessDriver final : public Driver {
   bool canHurt() const noexcept override { return false; }
   double damping() const noexcept override { return bank_.damping(); }
   double declaredDamping() const noexcept override { return damping(); }
-  bool setTarget(int slice, double target_m) noexcept override;
+  bool move(const HandMove& move) noexcept override;
 
  private:
-  struct Target {
-    int slice;
-    double target_m;
-  };
-  static constexpr std::size_t kPendingTargets = 256;
+  static constexpr std::size_t kPendingMoves = 256;
   using Forces = std::array<double, kMaxSlices>;
 
-  void takeTargets() noexcept;
+  void takeMoves() noexcept;
 
   SliceBank bank_;
   int queue_ticks_;
@@ -49,7 +45,7 @@ class InProcessDriver final : public Driver {
   std::array<Forces, kMaxExtraDelayTicks + 1> queue_{};  // forces under way, oldest at head_
   std::size_t head_ = 0;
   Forces last_positions_{};
-  rt::Ring<Target> targets_{kPendingTargets};
+  rt::Ring<HandMove> moves_{kPendingMoves};
   std::atomic<bool> open_{false};
   std::atomic<bool> safe_{false};
 };

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <limits>
 #include <new>
 #include <system_error>
 #include <utility>
@@ -73,6 +72,32 @@ bool isTaken(const std::string& name) {
 
 }  // namespace
 
+ERGOTIC_REALTIME bool SharedMoves::push(std::uint32_t session, const HandMove& move) noexcept {
+  const std::uint32_t written = written_.load(std::memory_order_relaxed);
+  if (written - read_.load(std::memory_order_acquire) >= kCapacity) {
+    return false;
+  }
+  entries_[written % kCapacity] = {session, move};
+  written_.store(written + 1, std::memory_order_release);
+  return true;
+}
+
+/// What a driver of an earlier session left is passed over; what a later one wrote waits until the
+/// device has seen that its session began.
+ERGOTIC_REALTIME bool SharedMoves::pop(std::uint32_t session, HandMove& move) noexcept {
+  const std::uint32_t written = written_.load(std::memory_order_acquire);
+  std::uint32_t read = read_.load(std::memory_order_relaxed);
+  bool found = false;
+  while (!found && read != written && entries_[read % kCapacity].session <= session) {
+    const Entry& entry = entries_[read % kCapacity];
+    found = entry.session == session;
+    move = entry.move;
+    ++read;
+  }
+  read_.store(read, std::memory_order_release);
+  return found;
+}
+
 ERGOTIC_REALTIME void SharedFrame::write(const double* values, int count) noexcept {
   const std::uint64_t odd = sequence_.load(std::memory_order_relaxed) | 1U;
   sequence_.store(odd, std::memory_order_relaxed);
@@ -121,9 +146,6 @@ SharedSegment SharedSegment::create(const std::string& given, const SharedTraits
   auto* const device = new (map(file, name)) SharedDevice;
   device->traits = traits;
   device->born_ns = rt::monotonicNs();
-  for (std::atomic<double>& target : device->targets) {
-    target = std::numeric_limits<double>::quiet_NaN();
-  }
   device->device_pid = ::getpid();
   device->magic.store(SharedDevice::kMagic, std::memory_order_release);
   return {device, name};

@@ -29,6 +29,26 @@ class SharedFrame {
   std::array<std::atomic<double>, kMaxSlices> values_{};
 };
 
+/// Moves of hands on their way from one writing to one reading process. Neither waits. Each belongs
+/// to a session: those of a driver that is gone have no effect under the next one. Realtime: yes
+class SharedMoves {
+ public:
+  /// \return false if 256 of them wait. Process: driver
+  bool push(std::uint32_t session, const HandMove& move) noexcept;
+  /// \return false if none of this session waits. Process: device
+  bool pop(std::uint32_t session, HandMove& move) noexcept;
+
+ private:
+  static constexpr std::uint32_t kCapacity = 256;
+  struct Entry {
+    std::uint32_t session = 0;
+    HandMove move;
+  };
+  std::array<Entry, kCapacity> entries_{};
+  std::atomic<std::uint32_t> written_{0};
+  std::atomic<std::uint32_t> read_{0};
+};
+
 /// What a virtual device is, constant while it lives.
 struct SharedTraits {
   std::int32_t slices = 0;
@@ -41,7 +61,7 @@ struct SharedTraits {
 /// What a virtual device and its driver share when they are two processes.
 struct SharedDevice {
   static constexpr std::uint32_t kMagic = 0x54475256U;
-  static constexpr std::uint32_t kVersion = 2;
+  static constexpr std::uint32_t kVersion = 3;
 
   std::atomic<std::uint32_t> magic{0};  ///< kMagic once all the rest is in place
   std::uint32_t version = kVersion;
@@ -59,7 +79,7 @@ struct SharedDevice {
   std::atomic<std::uint32_t> session{0};                ///< counts the times a driver opened
   std::atomic<std::uint64_t> exchanges{0};              ///< of this session: what the watchdog sees
   SharedFrame forces;                                   ///< N, or V
-  std::array<std::atomic<double>, kMaxSlices> targets{};  ///< m; NaN: the gesture's
+  SharedMoves moves;
 
   // Both write:
   alignas(64) std::atomic<std::uint32_t> safe{0};  ///< not 0: no force until the driver re-arms

@@ -5,13 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/clock.hpp"
 #include "ergotic/rt/realtime.hpp"
-#include "tgr/drivers/virtual/target_gesture.hpp"
 #include "tgr/require.hpp"
 
 namespace ergotic::tgr {
@@ -58,9 +56,6 @@ void takeOver(SharedDevice& device, const std::string& name) {
     throw DeviceError("virtual device " + name + ": another driver opens it at the same moment");
   }
   device.forces.write(kNoForce.data(), device.traits.slices);
-  for (std::atomic<double>& target : device.targets) {
-    target = std::numeric_limits<double>::quiet_NaN();
-  }
   device.exchanges = 0;
   device.safe = 0;
   ++device.session;
@@ -189,13 +184,12 @@ std::vector<Guard> SharedMemoryDriver::guards() const {
   return {{{"shared_memory", name_, born}, -1, device.born_ns + device.session}};
 }
 
-bool SharedMemoryDriver::setTarget(int slice, double target_m) noexcept {
-  const bool valid = slice >= 0 && slice < slices_ && std::abs(target_m) <= kMaxTargetM;
-  if (!valid || !open_) {
+bool SharedMemoryDriver::move(const HandMove& move) noexcept {
+  if (!move.isValid(slices_) || !open_) {
     return false;
   }
-  device_.load()->targets[static_cast<std::size_t>(slice)] = target_m;
-  return true;
+  SharedDevice& device = *device_.load();
+  return device.moves.push(device.session, move);
 }
 
 }  // namespace ergotic::tgr

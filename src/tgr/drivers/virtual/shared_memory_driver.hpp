@@ -38,7 +38,7 @@ class SharedMemoryDriver final : public Driver {
   double damping() const noexcept override { return traits_.damping; }
   double declaredDamping() const noexcept override { return damping(); }
   std::vector<Guard> guards() const override;
-  bool setTarget(int slice, double target_m) noexcept override;
+  bool move(const HandMove& move) noexcept override;
 
   static constexpr std::int64_t kMissingNs = 20'000'000;  ///< age of the device's last step
   static constexpr std::int64_t kLostNs = 1'000'000'000;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "ergotic/exception.hpp"
@@ -44,7 +43,8 @@ void SliceBank::start(double step_s, double tick_rate_hz) {
   step_s_ = step_s;
   steps_ = 0;
   gesture_.setTickRate(gesture_rate_ > 0.0 ? gesture_rate_ : tick_rate_hz);
-  set_targets_.fill(std::numeric_limits<double>::quiet_NaN());
+  gesture_begins_ = 0;
+  players_.clear();
   slices_.clear();
   for (const VirtualSliceConfig& config : configs_) {
     constexpr std::uint64_t kStream = 0xd1342543de82ef95U;  // odd: every slice another sequence
@@ -52,8 +52,20 @@ void SliceBank::start(double step_s, double tick_rate_hz) {
   }
 }
 
-ERGOTIC_REALTIME void SliceBank::setTarget(int slice, double target_m) noexcept {
-  set_targets_[static_cast<std::size_t>(slice)] = target_m;
+ERGOTIC_REALTIME void SliceBank::restartGesture() noexcept {
+  gesture_begins_ = steps_;
+  players_.clear();
+  for (std::size_t i = 0; i < slices_.size(); ++i) {
+    slices_[i].hold(holdOf(HandGrip::kConfigured, configs_[i]));
+  }
+}
+
+ERGOTIC_REALTIME bool SliceBank::take(const HandMove& move) noexcept {
+  if (!move.isValid(slices())) {
+    return false;
+  }
+  players_.take(move, now());
+  return true;
 }
 
 ERGOTIC_REALTIME double SliceBank::newtons(int slice, double force) const noexcept {
@@ -67,13 +79,31 @@ ERGOTIC_REALTIME double SliceBank::newtons(int slice, double force) const noexce
 }
 
 ERGOTIC_REALTIME void SliceBank::step(const double* forces) noexcept {
-  const double t_s = static_cast<double>(steps_) * step_s_;
-  ++steps_;
   for (int i = 0; i < slices(); ++i) {
-    const double set = set_targets_[static_cast<std::size_t>(i)];
-    const HandTarget target = std::isnan(set) ? gesture_.at(i, t_s) : HandTarget{set, 0.0};
+    const HandTarget target = handAt(i);
     slices_[static_cast<std::size_t>(i)].step(forces[i], target);
   }
+  ++steps_;
+}
+
+ERGOTIC_REALTIME HandTarget SliceBank::handAt(int slice) noexcept {
+  if (!players_.owns(slice)) {
+    return gesture_.at(slice, static_cast<double>(steps_ - gesture_begins_) * step_s_);
+  }
+  VirtualSlice& held = slices_[static_cast<std::size_t>(slice)];
+  const PlayerHands::Holding hand =
+      players_.step(slice, {held.position(), held.velocity()}, now(), step_s_);
+  const VirtualSliceConfig& config = configs_[static_cast<std::size_t>(slice)];
+  HandHold hold = holdOf(hand.grip, config);
+  hold.stiffness *= hand.strength;
+  hold.damping *= hand.strength;
+  held.hold(hold);
+  HandTarget target = hand.target;
+  if (hand.acceleration != 0.0) {
+    target.push = hand.strength * ((config.mass + config.hand_mass) * hand.acceleration +
+                                   config.damping * target.velocity);
+  }
+  return target;
 }
 
 ERGOTIC_REALTIME void SliceBank::read(double* positions) noexcept {

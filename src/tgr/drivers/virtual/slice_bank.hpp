@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tgr/drivers/virtual/player_hands.hpp"
 #include "tgr/drivers/virtual/target_gesture.hpp"
 #include "tgr/drivers/virtual/virtual_slice.hpp"
 
@@ -19,16 +20,16 @@ class SliceBank {
   /// \throws TextError from the gesture file, Exception if a setting is outside its range
   explicit SliceBank(const VirtualDriverConfig& config);
 
-  /// Back to rest at 0, time 0, first noise sample; forgets the targets that were set.
+  /// Back to rest at 0, time 0, first noise sample; no player holds anything.
   /// \param step_s        time that `step` moves on. \throws Exception if it is outside its range
   /// \param tick_rate_hz  of a gesture of positions that has no rate of its own
   void start(double step_s, double tick_rate_hz);
 
-  /// The gesture begins anew with the next step.
-  void restartGesture() noexcept { steps_ = 0; }
+  /// The gesture begins anew with the next step, and has all slices again.
+  void restartGesture() noexcept;
 
-  /// A hand's target in place of the gesture's, m; NaN gives the slice back to the gesture.
-  void setTarget(int slice, double target_m) noexcept;
+  /// A player's hand takes the slice from the gesture. \return false if the move is not valid
+  bool take(const HandMove& move) noexcept;
 
   /// What is asked of an actuator that gets `force`, N, or volts if `isRaw`; saturated.
   double newtons(int slice, double force) const noexcept;
@@ -45,14 +46,18 @@ class SliceBank {
   int slices() const noexcept { return static_cast<int>(configs_.size()); }
 
  private:
+  double now() const noexcept { return static_cast<double>(steps_) * step_s_; }
+  HandTarget handAt(int slice) noexcept;
+
   std::vector<VirtualSliceConfig> configs_;  // [slices]
   std::uint64_t seed_;
   double gesture_rate_;
   TargetGesture gesture_;
   std::vector<VirtualSlice> slices_;
-  std::array<double, kMaxSlices> set_targets_{};  // NaN: the gesture's
+  PlayerHands players_;
   double step_s_ = 0.0;
-  std::int64_t steps_ = 0;  // of the gesture
+  std::int64_t steps_ = 0;           // since the start
+  std::int64_t gesture_begins_ = 0;  // step
 };
 
 }  // namespace ergotic::tgr

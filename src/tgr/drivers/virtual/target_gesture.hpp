@@ -10,8 +10,6 @@
 
 namespace ergotic::tgr {
 
-constexpr double kMaxTargetM = 0.1;  ///< a hand does not want to be further from rest
-
 /// Where the virtual hands want to be over time, from a CSV of one of two kinds:
 ///
 /// - `time_s,slice,target_m` (that line may stand on top; `#` starts a comment line). The rows of a

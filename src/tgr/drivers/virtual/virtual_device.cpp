@@ -80,8 +80,9 @@ ERGOTIC_REALTIME void VirtualDevice::takeForces(std::int64_t now_ns) noexcept {
 
 ERGOTIC_REALTIME void VirtualDevice::step(std::int64_t now_ns) noexcept {
   takeForces(now_ns);
-  for (int i = 0; i < bank_.slices(); ++i) {
-    bank_.setTarget(i, shared_->targets[static_cast<std::size_t>(i)]);
+  HandMove move;
+  while (shared_->moves.pop(session_, move)) {
+    bank_.take(move);
   }
   bank_.step(forces_.data());
   std::array<double, kMaxSlices> positions{};

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
+#include "ergotic/tgr/driver.hpp"
 #include "ergotic/tgr/virtual_driver.hpp"
 #include "tgr/sensor_noise.hpp"
 
@@ -14,14 +16,27 @@ namespace ergotic::tgr {
 struct HandTarget {
   double position = 0.0;  ///< m
   double velocity = 0.0;  ///< m/s
+  double push = 0.0;      ///< N, that it gives besides, as it knows what the way asks for
 };
+
+/// The spring and damper of a hand, N/m and N s/m, and the most that both give together, N.
+struct HandHold {
+  double stiffness = 0.0;
+  double damping = 0.0;
+  double max_force = std::numeric_limits<double>::infinity();
+};
+
+/// What a grip is at a slice: critically damped, or nearly so, with all that moves.
+HandHold holdOf(HandGrip grip, const VirtualSliceConfig& slice) noexcept;
 
 /// The force an actuator gives when `force` is asked of it, N; not a number counts as zero.
 double saturated(double force, double limit) noexcept;
 
 /// Mechanics of one virtual slice and its hand, from rest at x = 0.
 ///
-///   M x'' = F + k (target - x) + c (target' - x') - b x' - dry(x'),  M = m + m_hand
+///   M x'' = F + hand - b x' - dry(x'),  hand = k (target - x) + c (target' - x') + push
+///
+/// M = m + m_hand. The hand gives `max_force` at most, and is then a constant force.
 ///
 /// Implicit midpoint rule with the dry friction solved inside the step. With u the mean velocity of
 /// the step, the energy M v^2/2 + k (target - x)^2/2 changes by exactly h u (F - (b + c) u) - h dry
@@ -40,6 +55,9 @@ class VirtualSlice {
 
   /// Moves on by one step with the force held. \param force  asked for, N, positive along x
   void step(double force, const HandTarget& target) noexcept;
+
+  /// How the hand holds it from now on; at first as configured.
+  void hold(const HandHold& hold) noexcept;
 
   /// What the sensor says now, m: with noise, quantised. Every call is a new sample.
   double read() noexcept;
@@ -60,10 +78,13 @@ class VirtualSlice {
     double mean_share = 0.0;         // of it in the mean over a substep, (1 - decay) tau / h
   };
   Part makePart(double length_s) const;
+  double inverseImpedance(const Part& part, const HandHold& hold) const noexcept;
   void run(const Part& part, double force, const HandTarget& target, double start_s) noexcept;
-  void substep(const Part& part, double force, double target) noexcept;
+  void substep(const Part& part, double force, const HandTarget& target) noexcept;
+  double meanVelocity(const Part& part, double force, const HandTarget& target) const noexcept;
 
   VirtualSliceConfig config_;
+  HandHold hold_;
   std::array<Part, 2> parts_;  // until the delayed change of force, and after it
   std::vector<double> asked_;  // N, of the last steps, newest at head_: as many as the delay needs
   std::size_t head_ = 0;

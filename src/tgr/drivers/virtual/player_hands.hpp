@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "ergotic/tgr/driver.hpp"
+#include "tgr/drivers/virtual/virtual_slice.hpp"
+
+namespace ergotic::tgr {
+
+/// When the moves of a source are due, by the clock of the device. A source (a mouse, a program)
+/// stamps them by a clock of its own, and they arrive with jitter. The earliest arrival of late
+/// tells how the clocks differ; a move is due a while after that, so that the one after it is
+/// known by then, as it was for nine of ten of late; 12 ms at most.
+/// Realtime: yes.
+class MoveTiming {
+ public:
+  static constexpr double kMaxDelayS = 0.012;
+
+  /// \param stamp_s  of the source's clock. \param now_s  when the move arrived
+  /// \return when it is due, s, of the device's clock; not before it arrived
+  double dueAt(double stamp_s, double now_s) noexcept;
+
+ private:
+  static constexpr std::size_t kWaits = 16;
+  void count(double interval_s, double late_s) noexcept;
+  double delay() const noexcept;
+
+  bool is_known_ = false;
+  double last_stamp_s_ = 0.0;
+  double last_now_s_ = 0.0;
+  double offset_s_ = 0.0;               // from the source's clock to the device's
+  std::array<double, kWaits> waits_{};  // from when a move could be due to when the next was there
+  std::size_t counted_ = 0;
+};
+
+/// The hands that players move, one per slice, in place of the gesture's.
+///
+/// A hand that takes hold begins where the slice is. Its target goes on straight lines to where it
+/// shall be when (MoveTiming), at most `kMaxSpeed` fast; then it stands. One that lets go goes
+/// along with the slice, its pull fades within `kFadeS`, and the slice is free. Times in s, of one
+/// clock that does not stop. Realtime: yes. Thread: who steps the device
+class PlayerHands {
+ public:
+  static constexpr double kMaxSpeed = 2.0;  ///< m/s
+  static constexpr double kFadeS = 0.02;
+
+  /// What the hand does at a slice over a step.
+  struct Holding {
+    HandTarget target;
+    double acceleration = 0.0;  ///< m/s^2, of the target on a glide, which the hand feeds forward
+    HandGrip grip = HandGrip::kConfigured;
+    double strength = 1.0;  ///< 0...1, of spring and damper
+  };
+
+  /// Nobody has held anything yet.
+  void clear() noexcept { *this = PlayerHands(); }
+
+  /// \pre move.isValid
+  void take(const HandMove& move, double now_s) noexcept;
+
+  /// Whether a player's hand has held the slice since `clear`.
+  bool owns(int slice) const noexcept { return at(slice).state != State::kNever; }
+
+  /// Moves the hand on by a step from `now_s`. \param present  where the slice is, and its speed
+  /// \pre owns(slice)
+  Holding step(int slice, const HandTarget& present, double now_s, double step_s) noexcept;
+
+ private:
+  enum class State : std::uint8_t { kNever, kTakesHold, kHolds, kLetsGo };
+  /// Where the target shall be when; on a glide it begins then to go there.
+  struct Knot {
+    double time_s = 0.0;
+    double target_m = 0.0;
+    double glide_s = 0.0;
+  };
+  /// A way of minimum jerk; over where `now` is beyond its end.
+  struct Glide {
+    double begin_s = 0.0;
+    double length_s = 0.0;
+    double from_m = 0.0;
+    double way_m = 0.0;
+    double placeAt(double time_s) const noexcept;
+    double accelerationAt(double time_s) const noexcept;
+  };
+  /// The hand at one slice. Its target is on the line from `from` to the first knot.
+  struct Hand {
+    static constexpr std::size_t kKnots = 64;
+    void add(const Knot& knot, double now_s) noexcept;
+    double placeAt(double time_s) noexcept;
+    const Knot& newest() const noexcept { return knots[(first + count - 1) % kKnots]; }
+
+    State state = State::kNever;
+    HandGrip grip = HandGrip::kConfigured;
+    bool jumps = false;
+    Knot from;
+    std::array<Knot, kKnots> knots{};  // a ring
+    std::size_t first = 0;
+    std::size_t count = 0;
+    Glide glide;
+    double target_m = 0.0;  // where it is now
+    double strength = 1.0;
+    double stretch_m = 0.0;  // of one that lets go
+    double timeout_s = 0.0;
+    double heard_s = 0.0;
+  };
+  static Holding fade(Hand& hand, const HandTarget& present, double step_s) noexcept;
+  const Hand& at(int slice) const noexcept { return hands_[static_cast<std::size_t>(slice)]; }
+
+  std::array<Hand, kMaxSlices> hands_{};
+  std::array<MoveTiming, kMaxHandSources> timings_{};
+};
+
+}  // namespace ergotic::tgr

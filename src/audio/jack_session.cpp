@@ -2,11 +2,13 @@
 #include "audio/jack_session.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdlib>
 #include <utility>
 
 #include <jack/jack.h>
+#include <jack/midiport.h>
 
 #include "audio/frame_counter.hpp"
 #include "audio/gate.hpp"
@@ -21,6 +23,7 @@ namespace ergotic::audio {
 namespace {
 
 constexpr std::int64_t kNsPerUs = 1000;
+constexpr std::size_t kMidiMessages = 256;
 
 [[noreturn]] void fail(const std::string& what) {
   const std::string reason = jack_library::takeMessage();
@@ -46,6 +49,7 @@ struct JackSession::Core {
   std::shared_ptr<Semaphore> wake;
   rt::AudioProcessor* processor = nullptr;
   std::vector<jack_port_t*> inputs, outputs;
+  jack_port_t* midi_input = nullptr;  // null: none
   std::uint32_t latency_frames = 0;
   std::optional<JackTerminal> terminal;
   std::vector<JackWires> wires;
@@ -54,6 +58,7 @@ struct JackSession::Core {
   // Written while the gate is closed, read inside it.
   std::vector<const float*> input_buffers;
   std::vector<float*> output_buffers;
+  std::array<rt::MidiMessage, kMidiMessages> midi_messages{};
   std::int64_t clock_offset_ns = 0;
   FrameCounter counter;
 
@@ -99,6 +104,28 @@ struct JackSession::Core {
             static_cast<std::int64_t>(start_us) * kNsPerUs - clock_offset_ns};
   }
 
+  /// \return how many there are. Of more than `kMidiMessages` in a period the rest is lost.
+  int readMidi(jack_nframes_t nframes) noexcept {
+    if (midi_input == nullptr) {
+      return 0;
+    }
+    void* const buffer = jack_port_get_buffer(midi_input, nframes);
+    const std::uint32_t count = jack_midi_get_event_count(buffer);
+    std::size_t read = 0;
+    for (std::uint32_t i = 0; i < count && read < midi_messages.size(); ++i) {
+      jack_midi_event_t event{};
+      rt::MidiMessage& message = midi_messages[read];
+      if (jack_midi_event_get(&event, buffer, i) == 0 && event.size >= 1 &&
+          event.size <= message.bytes.size()) {
+        message.offset = event.time;
+        message.size = static_cast<std::uint8_t>(event.size);
+        std::copy_n(event.buffer, event.size, message.bytes.begin());
+        ++read;
+      }
+    }
+    return static_cast<int>(read);
+  }
+
   void processInside(jack_nframes_t nframes) noexcept {
     const rt::FlushDenormals flush;
     rt::Period now;
@@ -114,6 +141,8 @@ struct JackSession::Core {
     now.outputs = output_buffers.data();
     now.input_channels = static_cast<int>(inputs.size());
     now.output_channels = static_cast<int>(outputs.size());
+    now.midi = midi_messages.data();
+    now.midi_messages = readMidi(nframes);
     now.wired = wiresHold();
     processor->process(now);
   }
@@ -191,8 +220,10 @@ struct JackSession::Core {
     setLatency(capture ? core.outputs : core.inputs, mode, total);
   }
 
-  jack_port_t* registerPort(const std::string& name, unsigned long flags) {
-    jack_port_t* port = jack_port_register(client, name.c_str(), JACK_DEFAULT_AUDIO_TYPE, flags, 0);
+  jack_port_t* registerPort(const std::string& name,
+                            unsigned long flags,
+                            const char* type = JACK_DEFAULT_AUDIO_TYPE) {
+    jack_port_t* port = jack_port_register(client, name.c_str(), type, flags, 0);
     if (port == nullptr) {
       fail("port " + name + " cannot be registered");
     }
@@ -213,6 +244,9 @@ struct JackSession::Core {
     }
     for (const std::string& name : portNames(config.output_names, config.outputs, "out_")) {
       outputs.push_back(registerPort(name, JackPortIsOutput | end));
+    }
+    if (config.midi) {
+      midi_input = registerPort("midi_in", JackPortIsInput, JACK_DEFAULT_MIDI_TYPE);
     }
     input_buffers.resize(inputs.size());
     output_buffers.resize(outputs.size());

@@ -104,6 +104,7 @@ void AudioBridge::process(const rt::Period& period) noexcept {
   last_period_ns_.store(rt::monotonicNs(), std::memory_order_relaxed);
   readings_.draft() = {connection, period.start};
   readings_.publish();
+  noteMidi(period);
   capture(period);
   relations_.refresh();
   const Relation& relation = relations_.latest();
@@ -114,6 +115,13 @@ void AudioBridge::process(const rt::Period& period) noexcept {
   to_host_.clear();
   for (int c = 0; c < period.output_channels; ++c) {
     std::fill_n(period.outputs[c], period.nframes, 0.0F);
+  }
+}
+
+void AudioBridge::noteMidi(const rt::Period& period) noexcept {
+  for (int i = 0; i < period.midi_messages; ++i) {
+    const rt::MidiMessage& message = period.midi[i];
+    midi_.push({period.start.time_ns, message.offset / config_.rates.audio_hz, message});
   }
 }
 

@@ -23,6 +23,7 @@ struct JackConfig {
   std::string server;                ///< empty: $JACK_DEFAULT_SERVER, else `default`
   int inputs = 0;                    ///< ports `in_1`... , 0...kMaxPorts
   int outputs = 0;                   ///< ports `out_1`... , 0...kMaxPorts
+  bool midi = false;                 ///< a port `midi_in`
   bool connect = false;              ///< out_i to the i-th physical playback port, at every start
   std::uint32_t latency_frames = 0;  ///< added between our inputs and outputs, declared to JACK
   std::vector<std::string> input_names;   ///< of the ports, instead of `in_1`... ; empty: those

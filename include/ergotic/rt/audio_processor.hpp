@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "ergotic/rt/clock.hpp"
 
 namespace ergotic::rt {
+
+/// A MIDI message that came in with a period.
+struct MidiMessage {
+  std::uint32_t offset = 0;  ///< frames after the start of the period; see Period::midi
+  std::uint8_t size = 0;     ///< bytes, 1...3: longer messages (system exclusive) are left out
+  std::array<std::uint8_t, 3> bytes{};
+};
 
 /// What an audio host offers to the engine: nothing of JACK is visible past this file.
 ///
@@ -18,6 +26,9 @@ struct Period {
   float* const* outputs = nullptr;       ///< [output channels][nframes], to be filled wholly
   int input_channels = 0;
   int output_channels = 0;
+  /// [midi_messages] in order. They happened in the period before, at the same offsets.
+  const MidiMessage* midi = nullptr;
+  int midi_messages = 0;
   bool wired = true;  ///< all channels are connected as the host was told to connect them
 };
 

@@ -29,6 +29,13 @@ struct AudioBridgeConfig {
   bool limited = false;  ///< a Limiter stands before the host
 };
 
+/// A MIDI message, and when the period began in which it came.
+struct MidiArrival {
+  std::int64_t period_ns = 0;  ///< CLOCK_MONOTONIC, as Period::start
+  double offset_s = 0.0;       ///< of the message in its period
+  rt::MidiMessage message;
+};
+
 /// How loud it was at the host's door.
 struct Loudness {
   float peak = 0.0F;                ///< of full scale, before the limiter
@@ -69,6 +76,9 @@ class AudioBridge : public rt::AudioProcessor, public FramePort {
   ERGOTIC_REALTIME void process(const rt::Period& period) noexcept override;
   /// Realtime: yes. Thread: any
   void xrun() noexcept override;
+
+  /// \return false if none waits. Realtime: yes. Thread: one, any
+  bool popMidi(MidiArrival& arrival) noexcept { return midi_.pop(arrival); }
 
   // The tick:
   /// Realtime: yes. Thread: tick
@@ -125,6 +135,7 @@ class AudioBridge : public rt::AudioProcessor, public FramePort {
     std::int64_t host_frame = 0;
   };
 
+  void noteMidi(const rt::Period& period) noexcept;
   void capture(const rt::Period& period) noexcept;
   void play(const rt::Period& period, const Relation& relation) noexcept;
   float gainOf(const float* frame, int channels) noexcept;
@@ -136,6 +147,7 @@ class AudioBridge : public rt::AudioProcessor, public FramePort {
   bool hostRuns(std::uint32_t connection) const noexcept;
 
   AudioBridgeConfig config_;
+  rt::Ring<MidiArrival> midi_{1024};
 
   // Shared.
   std::atomic<bool> running_{false};

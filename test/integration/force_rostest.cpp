@@ -14,10 +14,10 @@
 #include <ergotic/Calibrate.h>
 #include <ergotic/ConfigureEndEffectors.h>
 #include <ergotic/Event.h>
+#include <ergotic/HandTargets.h>
 #include <ergotic/InjectFault.h>
 #include <ergotic/LoadModel.h>
 #include <ergotic/ParameterValue.h>
-#include <ergotic/SliceTarget.h>
 #include <ergotic/Status.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
@@ -136,7 +136,7 @@ class ForceTest : public ::testing::Test {
   Listener<Event> events_{node_, "/station/events"};
   Listener<sensor_msgs::JointState> joints_{node_, "/station/joint_states"};
   ForceWatch force_{node_};
-  ::ros::Publisher hand_ = node_.advertise<SliceTarget>("/station/hand_target", 10);
+  ::ros::Publisher hand_ = node_.advertise<HandTargets>("/station/hand_targets", 10);
   std::unique_ptr<ChildProcess> station_;
 };
 

@@ -10,9 +10,9 @@
 #include <ergotic/EndEffectors.h>
 #include <ergotic/Event.h>
 #include <ergotic/GestureBlock.h>
+#include <ergotic/HandTargets.h>
 #include <ergotic/InjectFault.h>
 #include <ergotic/LoadModel.h>
-#include <ergotic/SliceTarget.h>
 #include <ergotic/Status.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
@@ -47,7 +47,7 @@ class HandsTest : public ::testing::Test {
     Listener<sensor_msgs::JointState> joints{node, "/station/joint_states"};
     Listener<tf2_msgs::TFMessage> frames{node, "/tf"};
     Listener<visualization_msgs::MarkerArray> markers{node, "/station/markers"};
-    ::ros::Publisher hand = node.advertise<SliceTarget>("/station/hand_target", 10);
+    ::ros::Publisher hand = node.advertise<HandTargets>("/station/hand_targets", 10);
     ::ros::Publisher end_effectors = node.advertise<EndEffectors>("/station/end_effectors", 1);
     std::unique_ptr<ChildProcess> station;
   };

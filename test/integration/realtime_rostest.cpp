@@ -6,10 +6,10 @@
 
 #include <ergotic/ConfigureEndEffectors.h>
 #include <ergotic/GestureBlock.h>
+#include <ergotic/HandTargets.h>
 #include <ergotic/InjectFault.h>
 #include <ergotic/LoadModel.h>
 #include <ergotic/SetParameter.h>
-#include <ergotic/SliceTarget.h>
 #include <ergotic/Status.h>
 #include <ros/ros.h>
 
@@ -177,7 +177,7 @@ class RealtimeTest : public ::testing::Test {
   JackServer jack_{"realtime"};
   ::ros::NodeHandle node_;
   Listener<Status> status_{node_, "/station/status"};
-  ::ros::Publisher hand_ = node_.advertise<SliceTarget>("/station/hand_target", 10);
+  ::ros::Publisher hand_ = node_.advertise<HandTargets>("/station/hand_targets", 10);
   std::unique_ptr<ChildProcess> station_;
 };
 

@@ -11,8 +11,8 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <ergotic/Event.h>
+#include <ergotic/HandTargets.h>
 #include <ergotic/InjectFault.h>
-#include <ergotic/SliceTarget.h>
 #include <ergotic/Status.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
@@ -203,7 +203,7 @@ class SafetyWorld {
   const std::string segment_ = "/ergotic_safety_" + std::to_string(getpid());
   const std::filesystem::path folder_ = std::filesystem::temp_directory_path() / segment_.substr(1);
   Listener<sensor_msgs::JointState> joints_{node, "/station/joint_states"};
-  ::ros::Publisher hand_ = node.advertise<SliceTarget>("/station/hand_target", 10);
+  ::ros::Publisher hand_ = node.advertise<HandTargets>("/station/hand_targets", 10);
   std::unique_ptr<ChildProcess> device_;
   int devices_ = 0;
   double watchdog_ms_ = 0.0;

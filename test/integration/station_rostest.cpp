@@ -5,6 +5,7 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <ergotic/Event.h>
 #include <ergotic/GestureBlock.h>
+#include <ergotic/HandTargets.h>
 #include <ergotic/InjectFault.h>
 #include <ergotic/Keyframe.h>
 #include <ergotic/LoadModel.h>
@@ -12,7 +13,6 @@
 #include <ergotic/ModelState.h>
 #include <ergotic/ModelStructure.h>
 #include <ergotic/SetParameter.h>
-#include <ergotic/SliceTarget.h>
 #include <ergotic/Status.h>
 #include <nodelet/NodeletLoad.h>
 #include <nodelet/NodeletUnload.h>
@@ -81,7 +81,7 @@ class StationTest : public ::testing::Test {
     Listener<sensor_msgs::JointState> joints{node, "/station/joint_states"};
     Listener<visualization_msgs::MarkerArray> markers{node, "/station/markers"};
     Listener<diagnostic_msgs::DiagnosticArray> diagnostics{node, "/diagnostics"};
-    ::ros::Publisher hand = node.advertise<SliceTarget>("/station/hand_target", 10);
+    ::ros::Publisher hand = node.advertise<HandTargets>("/station/hand_targets", 10);
     JackServer jack;
     std::unique_ptr<ChildProcess> manager;
   };

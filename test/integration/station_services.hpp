@@ -6,7 +6,7 @@
 #include <map>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
-#include <ergotic/SliceTarget.h>
+#include <ergotic/HandTargets.h>
 #include <ergotic/Status.h>
 #include <ros/ros.h>
 
@@ -57,9 +57,9 @@ inline std_srvs::Trigger::Response call(const std::string& service) {
 }
 
 inline void moveHand(const ::ros::Publisher& hand, std::uint32_t slice, double target_m) {
-  SliceTarget message;
-  message.slice = slice;
-  message.target = target_m;
+  HandTargets message;
+  message.indices = {slice};
+  message.targets = {target_m};
   hand.publish(message);
 }
 

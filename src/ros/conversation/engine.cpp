@@ -121,6 +121,7 @@ Engine::Engine(const Parameters& parameters,
     jack.inputs = config.input_channels;
     jack.outputs = config.output_channels;
     jack.connect = parameters.jack_connect;
+    jack.midi = true;
     jack.latency_frames = static_cast<std::uint32_t>(bridge_->latencyFrames());
     jack_ = std::make_unique<audio::JackHost>(jack, *bridge_);
   }

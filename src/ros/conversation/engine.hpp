@@ -52,6 +52,9 @@ class Engine {
   /// The watchdog acted and no tick came since: the station cannot say so itself. Thread: any
   bool standsStill() const { return silent_at_ == station_->heartbeat(); }
 
+  /// \return false if no MIDI message waits, or it plays without JACK. Thread: one, any
+  bool popMidi(station::MidiArrival& arrival) { return bridge_ && bridge_->popMidi(arrival); }
+
   /// Thread: any
   station::Loudness loudness() const { return bridge_ ? bridge_->loudness() : station::Loudness(); }
   tgr::WatchdogReading watchdogReading() const { return watchdog_->reading(); }  ///< Thread: any

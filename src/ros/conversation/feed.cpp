@@ -22,6 +22,7 @@ constexpr bool kLatched = true;
 
 Feed::Feed(const ::ros::NodeHandle& node) : node_(node), display_(node) {
   joint_states_ = node_.advertise<sensor_msgs::JointState>("joint_states", kQueue);
+  handles_ = node_.advertise<Handles>("handles", 1, kLatched);
   keyframe_ = node_.advertise<Keyframe>("keyframe", kQueue, kLatched);
   events_ = node_.advertise<Event>("events", kEventQueue);
   status_topic_ = node_.advertise<Status>("status", 1, kLatched);
@@ -35,6 +36,7 @@ Feed::Feed(const ::ros::NodeHandle& node) : node_(node), display_(node) {
 void Feed::configure(const Parameters& parameters, const Hands& hands) {
   station_config_ = toYaml(parameters, hands.config());
   motion_period_ns_ = static_cast<std::int64_t>(1e9 / parameters.display_rate);
+  display_zoom_ = parameters.display_zoom;
   status_.devices.clear();
   for (const tgr::DeviceConfig& device : hands.config().devices) {
     status_.devices.push_back(device.driver);
@@ -72,6 +74,13 @@ void Feed::showModel(const station::Performer& performer,
   if (!blocks_) {  // rates hold until the next `configure`
     blocks_.emplace(instrument.rates().gesturalHz());
   }
+}
+
+void Feed::showHandles(Handles handles) {
+  handles.header.stamp = ::ros::Time::now();
+  handles.header.frame_id = "model";
+  handles.display_zoom = display_zoom_;
+  handles_.publish(handles);
 }
 
 void Feed::showSilence(const std::string& message) {

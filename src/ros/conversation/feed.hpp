@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <ergotic/Handles.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <tf2_ros/transform_broadcaster.h>
@@ -39,6 +40,8 @@ class Feed {
                  std::shared_ptr<Picture> picture,
                  const std::string& note,
                  const std::vector<double>& parameters);
+  /// What of the model hands move from now on.
+  void showHandles(Handles handles);
   /// A parameter of the model that plays has another value.
   void showParameter(std::int64_t index, double value);
   /// Nothing plays any more, or nothing yet; `message` says why.
@@ -75,6 +78,8 @@ class Feed {
   std::string station_config_;
   std::int64_t motion_period_ns_ = 0;
   ::ros::Publisher joint_states_;
+  ::ros::Publisher handles_;
+  double display_zoom_ = 1.0;
   ::ros::Publisher model_energy_;  // only if the books are kept
   ::ros::Publisher gesture_;
   ::ros::Publisher keyframe_;

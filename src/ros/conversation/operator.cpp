@@ -139,10 +139,6 @@ Answer Operator::setParameter(const std::string& name, double value) {
   return ask([=](const Promise& promise) { performance_.setParameter(name, value, promise); });
 }
 
-Answer Operator::setTarget(int slice, double target_m) {
-  return ask([=](const Promise& promise) { performance_.setTarget(slice, target_m, promise); });
-}
-
 Answer Operator::configure(const tgr::EndEffectors& end_effectors) {
   return ask([=](const Promise& promise) { performance_.configure(end_effectors, promise); });
 }
@@ -245,6 +241,12 @@ void Operator::run() {
   performance_.close();
   const std::lock_guard lock(mutex_);
   tasks_.clear();
+}
+
+void Operator::playMidi() {
+  for (const auto& [parameter, value] : performance_.playMidi()) {
+    setParameterSoon(parameter, value);
+  }
 }
 
 /// What watches may fail by itself, as where the time of ROS cannot be: no reason to take force

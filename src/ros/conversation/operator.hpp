@@ -52,8 +52,6 @@ class Operator {
   Answer recover(const ForceRequest& request);
   /// Answers when the tick plays with the new value.
   Answer setParameter(const std::string& name, double value);
-  /// Moves the hand of a virtual device.
-  Answer setTarget(int slice, double target_m);
   /// Puts other end-effectors on the slices; answers when they are in place, with force at zero.
   Answer configure(const tgr::EndEffectors& end_effectors);
   Calibrate::Response calibrate(const Calibrate::Request& request, const Arrival& arrival);
@@ -82,6 +80,16 @@ class Operator {
   /// Sets a parameter soon: of several values for one name, the newest.
   /// \return false if too many names wait
   bool setParameterSoon(const std::string& name, double value);
+  /// Moves hands of a simulated device. \return what is wrong with it, or an empty text
+  std::string moveHands(const HandTargets& wanted, const std::string& sender) {
+    return performance_.moveHands(wanted, sender);
+  }
+  /// Plays a note by the map of notes.
+  void playNote(int note, int velocity) { performance_.playNote(note, velocity); }
+  /// Plays what came in by MIDI. Thread: one, any
+  void playMidi();
+  /// \param map  of notes, path or YAML text. \return what is wrong with it, or an empty text
+  std::string usePlayMap(const std::string& map) { return performance_.usePlayMap(map); }
   /// Who owns the state of force.
   const std::shared_ptr<station::Interlock>& interlock() const { return interlock_; }
   /// The presence switch is held, or not.

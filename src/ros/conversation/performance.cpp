@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <sstream>
 #include <utility>
 
 #include <ros/console.h>
@@ -14,6 +13,7 @@
 #include "ergotic/station/judge_hands.hpp"
 #include "files/printable.hpp"
 #include "ros/conversation/model_loader.hpp"
+#include "ros/display/handles.hpp"
 
 namespace ergotic::node {
 namespace {
@@ -147,17 +147,6 @@ void Performance::setParameter(const std::string& name, double value, const Prom
   }
   parameters_ = std::move(values);
   changes_.push_back({name, promise});
-}
-
-void Performance::setTarget(int slice, double target_m, const Promise& promise) {
-  if (!engine_) {
-    return answer(promise, false, kNothingPlays);
-  }
-  const bool taken = engine_->station().driver().setTarget(slice, target_m);
-  std::ostringstream refusal;
-  refusal << "target " << target_m << " m of slice " << slice
-          << ": no such slice with a virtual hand, or the target is not within -0.1...0.1 m";
-  answer(promise, taken, taken ? "" : refusal.str());
 }
 
 bool Performance::command(CommandType type, int index, double value) {
@@ -324,6 +313,9 @@ void Performance::play(station::Performer* performer, std::shared_ptr<Picture> p
     }
   }
   feed_.showModel(*performer, std::move(picture), noteOn(*performer), values);
+  const scene::Scene& scene = performer->instrument->scene();
+  feed_.showHandles(handlesOf(scene, endEffectors()));
+  findPlayMap(scene);
   command(CommandType::kKeyframe);
 }
 

@@ -12,15 +12,18 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <ergotic/Calibrate.h>
 #include <ergotic/InjectFault.h>
 
+#include "ergotic/tgr/keyboard.hpp"
 #include "ros/conversation/arrivals.hpp"
 #include "ros/conversation/disturbances.hpp"
 #include "ros/conversation/engine.hpp"
 #include "ros/conversation/feed.hpp"
+#include "ros/conversation/players.hpp"
 #include "ros/device/calibration_guide.hpp"
 #include "ros/device/own_host.hpp"
 
@@ -44,7 +47,7 @@ struct ForceRequest {
 /// What plays, and what was asked of it: the operator's side of the station.
 ///
 /// Requests are answered when the real-time thread has obeyed, or said why not.
-/// Thread: operator, all but `makeSafe` and `tellPresence`
+/// Thread: operator, all but `makeSafe`, `tellPresence` and what moves hands
 class Performance {
  public:
   /// \param interlock  not null
@@ -69,7 +72,6 @@ class Performance {
   void engage(const ForceRequest& request, const Promise& promise);
   void recover(const ForceRequest& request, const Promise& promise);
   void setParameter(const std::string& name, double value, const Promise& promise);
-  void setTarget(int slice, double target_m, const Promise& promise);
   void configure(const tgr::EndEffectors& end_effectors, const Promise& promise);
   /// \param measured  written before a promise is kept that says that all went well
   void calibrate(const Calibrate::Request& request,
@@ -90,6 +92,16 @@ class Performance {
   /// Force to zero at once, latched, also if no device is open yet. \return whether one is.
   /// Thread: any
   bool makeSafe(tgr::FaultReason reason);
+  /// Moves hands of a simulated device, with the next ticks. \return what is wrong with it, or an
+  /// empty text. Thread: any
+  std::string moveHands(const HandTargets& wanted, const std::string& sender);
+  /// Plays a note by the map of notes. Thread: any
+  void playNote(int note, int velocity);
+  /// Plays what came in by MIDI. \return parameters of the scene that it changes, and their values.
+  /// Thread: one, any
+  std::vector<std::pair<std::string, double>> playMidi();
+  /// \param map  path or YAML text. \return what is wrong with it, or an empty text. Thread: any
+  std::string usePlayMap(const std::string& map);
   /// The presence switch is held, or not. Thread: any
   void tellPresence(bool is_held);
 
@@ -147,6 +159,9 @@ class Performance {
   void giveUp();
   void play(station::Performer* performer, std::shared_ptr<Picture> picture);
   void reportWarnings();
+  void findPlayMap(const scene::Scene& scene);
+  std::string move(const std::vector<tgr::HandMove>& moves);
+  void play(const std::vector<tgr::Stroke>& strokes, double delay_s);
 
   Feed& feed_;
   std::shared_ptr<station::Interlock> interlock_;
@@ -164,6 +179,10 @@ class Performance {
   std::deque<Configuration> configurations_;
   std::map<std::uint64_t, Waiter> requests_;  // engage and recover, by their numbers
   std::uint64_t last_request_ = 0;
+  Players players_;
+  std::mutex keyboard_mutex_;  // of what follows
+  tgr::Keyboard keyboard_;
+  std::map<std::string, std::pair<double, double>> ranges_;  // of the scene's parameters
   CalibrationGuide guide_;
   std::shared_ptr<Calibrate::Response> measured_;  // of the sample under way
   Promise sampled_;

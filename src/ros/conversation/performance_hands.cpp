@@ -15,6 +15,7 @@
 #include "ergotic/tgr/faulty_driver.hpp"
 #include "ros/conversation/performance.hpp"
 #include "ros/device/process_faults.hpp"
+#include "ros/display/handles.hpp"
 
 namespace ergotic::node {
 namespace {
@@ -67,7 +68,12 @@ const tgr::EndEffectors& Performance::endEffectors() const {
 
 void Performance::show(const tgr::EndEffectors& end_effectors) {
   engine_->hands().setEndEffectors(end_effectors);
+  players_.configure(end_effectors);
   feed_.show(end_effectors);
+  if (playing_ != nullptr) {
+    feed_.showHandles(handlesOf(playing_->instrument->scene(), end_effectors));
+    findPlayMap(playing_->instrument->scene());
+  }
 }
 
 void Performance::configure(const tgr::EndEffectors& end_effectors, const Promise& promise) {

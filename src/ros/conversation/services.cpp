@@ -14,7 +14,10 @@ namespace {
 
 constexpr std::uint32_t kRequestQueue = 100;
 constexpr std::uint32_t kParameterQueue = 10'000;  // taken at once: the newest of each name counts
+constexpr std::uint32_t kHandsQueue = 1000;
+const ::ros::WallDuration kMidiPeriod(0.001);
 constexpr double kRefusalPeriodS = 1.0;
+constexpr std::int64_t kComplaintPeriodNs = 1'000'000'000;
 
 /// How many are in here.
 class Counted {
@@ -61,10 +64,14 @@ Services::Services(::ros::NodeHandle node, Operator& operator_thread)
       node_(node),
       loading_node_(node),
       loading_spinner_(1, &loading_queue_),
+      hands_node_(node),
       safety_node_(node),
+      hands_spinner_(
+          hands_queue_, urgencyOf(node), [this] { operator_.playMidi(); }, kMidiPeriod),
       safety_spinner_(safety_queue_, urgencyOf(node), [this] { followShutdown(); }) {
   node_.setCallbackQueue(&queue_);
   loading_node_.setCallbackQueue(&loading_queue_);
+  hands_node_.setCallbackQueue(&hands_queue_);
   safety_node_.setCallbackQueue(&safety_queue_);
   servers_ = {
       loading_node_.advertiseService("load_model", &Services::onLoadModel, this),
@@ -74,13 +81,17 @@ Services::Services(::ros::NodeHandle node, Operator& operator_thread)
       node_.advertiseService("configure_end_effectors", &Services::onConfigure, this),
       node_.advertiseService("calibrate", &Services::onCalibrate, this),
       node_.advertiseService("inject_fault", &Services::onInjectFault, this),
+      node_.advertiseService("play_map", &Services::onPlayMap, this),
       safety_node_.advertiseService("emergency_stop", &Services::onEmergencyStop, this),
       safety_node_.advertiseService("stop", &Services::onStop, this),
   };
   subscribers_ = {
       loading_node_.subscribe("model", 1, &Services::onModel, this),
       node_.subscribe("parameters", kParameterQueue, &Services::onParameter, this),
-      node_.subscribe("hand_target", kRequestQueue, &Services::onHandTarget, this),
+      hands_node_.subscribe("hand_targets", kHandsQueue, &Services::onHandTargets, this,
+                            ::ros::TransportHints().tcpNoDelay()),
+      hands_node_.subscribe("notes", kHandsQueue, &Services::onNote, this,
+                            ::ros::TransportHints().tcpNoDelay()),
       node_.subscribe("end_effectors", 1, &Services::onEndEffectors, this),
       safety_node_.subscribe("emergency_stop", 1, &Services::onEmergencyTopic, this),
       safety_node_.subscribe("presence", kRequestQueue, &Services::onPresence, this),
@@ -129,8 +140,26 @@ void Services::onParameter(const ParameterValue& parameter) {
   }
 }
 
-void Services::onHandTarget(const SliceTarget& target) {
-  complain("hand_target", operator_.setTarget(static_cast<int>(target.slice), target.target));
+/// They come by the hundred a second: of what is wrong with them, one a second is told.
+void Services::onHandTargets(const ::ros::MessageEvent<const HandTargets>& targets) {
+  const std::string refusal =
+      operator_.moveHands(*targets.getConstMessage(), targets.getPublisherName());
+  const std::int64_t now_ns = rt::monotonicNs();
+  if (!refusal.empty() && now_ns - complained_ns_ > kComplaintPeriodNs) {
+    complained_ns_ = now_ns;
+    const std::string text = "hand_targets of " + targets.getPublisherName() + ": " + refusal;
+    ROS_WARN_STREAM(text);
+    operator_.tell(files::printableLines(text));
+  }
+}
+
+void Services::onNote(const Note& note) {
+  operator_.playNote(note.note, note.velocity);
+}
+
+bool Services::onPlayMap(PlayMap::Request& request, PlayMap::Response& response) {
+  const std::string refusal = request.map.empty() ? "" : operator_.usePlayMap(request.map);
+  return fill(response, {refusal.empty(), refusal});
 }
 
 bool Services::onRecover(Call<Trigger>& call) {

@@ -8,11 +8,13 @@
 #include <ergotic/Calibrate.h>
 #include <ergotic/ConfigureEndEffectors.h>
 #include <ergotic/EndEffectors.h>
+#include <ergotic/HandTargets.h>
 #include <ergotic/InjectFault.h>
 #include <ergotic/LoadModel.h>
+#include <ergotic/Note.h>
 #include <ergotic/ParameterValue.h>
+#include <ergotic/PlayMap.h>
 #include <ergotic/SetParameter.h>
-#include <ergotic/SliceTarget.h>
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
@@ -30,7 +32,8 @@ namespace ergotic::node {
 
 /// What ROS can ask of the station. Most comes through the queue of `node`, which notes when it
 /// came; everything that loads a model has a queue and a thread of its own, one at a time. So has
-/// what takes force away, and the presence switch: nothing may delay them.
+/// what takes force away, and the presence switch: nothing may delay them. The moves of players'
+/// hands, and MIDI, have a thread of their own, so that they keep their distances in time.
 class Services {
  public:
   Services(::ros::NodeHandle node, Operator& operator_thread);
@@ -49,7 +52,9 @@ class Services {
   bool onStop(Trigger::Request& request, Trigger::Response& response);
   bool onSetParameter(SetParameter::Request& request, SetParameter::Response& response);
   void onParameter(const ParameterValue& parameter);
-  void onHandTarget(const SliceTarget& target);
+  void onHandTargets(const ::ros::MessageEvent<const HandTargets>& targets);
+  void onNote(const Note& note);
+  bool onPlayMap(PlayMap::Request& request, PlayMap::Response& response);
   Answer configure(const std::vector<EndEffector>& end_effectors);
   bool onRecover(Call<Trigger>& call);
   bool onConfigure(ConfigureEndEffectors::Request& request,
@@ -68,15 +73,19 @@ class Services {
   ArrivalQueue queue_;  // in front of the usual one
   ::ros::NodeHandle node_;
   std::atomic<int> configurations_{0};  // that are being read
+  std::int64_t complained_ns_ = 0;      // of hands, by their thread
   ::ros::CallbackQueue loading_queue_;
   ::ros::NodeHandle loading_node_;
   ::ros::AsyncSpinner loading_spinner_;
+  ::ros::CallbackQueue hands_queue_;
+  ::ros::NodeHandle hands_node_;
   ::ros::CallbackQueue safety_queue_;
   ::ros::NodeHandle safety_node_;
   ::ros::WallTimer first_load_;
   std::vector<::ros::ServiceServer> servers_;
   std::vector<::ros::Subscriber> subscribers_;
-  bool is_shut_down_ = false;     // ROS is, and force is gone for it; of the spinner's thread
+  bool is_shut_down_ = false;  // ROS is, and force is gone for it; of the spinner's thread
+  UrgentSpinner hands_spinner_;
   UrgentSpinner safety_spinner_;  // ends first
 };
 

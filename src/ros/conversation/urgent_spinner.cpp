@@ -13,8 +13,6 @@ namespace ergotic::node {
 
 namespace {
 
-const ::ros::WallDuration kLook(0.005);
-
 /// Of one thread, which asks for it again and again. Others may do so for the same one.
 class Priority {
  public:
@@ -57,8 +55,11 @@ constexpr std::chrono::milliseconds kLastLook{300};  // of a thread that looks e
 
 }  // namespace
 
-UrgentSpinner::UrgentSpinner(::ros::CallbackQueue& queue, int priority, std::function<void()> look)
-    : queue_(queue), look_(std::move(look)) {
+UrgentSpinner::UrgentSpinner(::ros::CallbackQueue& queue,
+                             int priority,
+                             std::function<void()> look,
+                             ::ros::WallDuration period)
+    : queue_(queue), look_(std::move(look)), period_(period) {
   if (priority > 0) {
     // Called each time that thread has looked at its sockets, ten times a second at least.
     reader_ = std::make_shared<Reader>();
@@ -94,7 +95,7 @@ void UrgentSpinner::run(int priority) {
   while (!ends_) {
     own.follow();
     look_();
-    queue_.callAvailable(kLook);
+    queue_.callAvailable(period_);
   }
 }
 

@@ -20,8 +20,11 @@ class UrgentSpinner {
  public:
   /// \param priority  SCHED_FIFO, 1...99, below that of the ticks; 0: ordinary threads. Where the
   ///   system refuses it both stay ordinary: the tick thread, which asks for more, warns of it
-  /// \param look      called 200 times a second at least, by the thread that serves the queue
-  UrgentSpinner(::ros::CallbackQueue& queue, int priority, std::function<void()> look);
+  /// \param look      called by the thread that serves the queue, at least once in `period`
+  UrgentSpinner(::ros::CallbackQueue& queue,
+                int priority,
+                std::function<void()> look,
+                ::ros::WallDuration period = ::ros::WallDuration(0.005));
   ~UrgentSpinner();
   UrgentSpinner(const UrgentSpinner&) = delete;
   UrgentSpinner& operator=(const UrgentSpinner&) = delete;
@@ -38,6 +41,7 @@ class UrgentSpinner {
 
   ::ros::CallbackQueue& queue_;
   std::function<void()> look_;
+  ::ros::WallDuration period_;
   std::atomic<bool> ends_{false};
   std::shared_ptr<Reader> reader_;  // none where nothing is urgent
   boost::signals2::connection sockets_;

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/conversation/players.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "ergotic/exception.hpp"
+
+namespace ergotic::node {
+namespace {
+
+constexpr double kMostGlideS = 60.0;
+
+template <class Value>
+[[noreturn]] void refuse(const char* field, const Value& value, const std::string& allowed) {
+  std::ostringstream text;
+  text << field << " is " << value << ", allowed: " << allowed;
+  throw Exception(text.str());
+}
+
+void check(const HandTargets& wanted) {
+  if (!wanted.release && wanted.targets.size() != wanted.indices.size()) {
+    refuse("the number of targets", wanted.targets.size(),
+           std::to_string(wanted.indices.size()) + ", as there are indices");
+  }
+  if (wanted.grip > HandTargets::KEY) {
+    refuse("grip", static_cast<int>(wanted.grip), "0...4");
+  }
+  if (!(wanted.glide >= 0.0 && wanted.glide <= kMostGlideS)) {
+    refuse("glide", wanted.glide, "0...60 s");
+  }
+  if (!(wanted.timeout >= 0.0)) {
+    refuse("timeout", wanted.timeout, "0 or more seconds");
+  }
+  if (!wanted.release && wanted.indices.empty()) {
+    refuse("the number of indices", 0, "1 or more");
+  }
+}
+
+tgr::HandMove moveOf(int slice, double target_m) {
+  if (slice < 0 || slice >= tgr::kMaxSlices) {
+    refuse("slice", slice, "0..." + std::to_string(tgr::kMaxSlices - 1));
+  }
+  if (!(std::abs(target_m) <= tgr::kMaxTargetM)) {
+    refuse("target", target_m, "-0.1...0.1 m");
+  }
+  tgr::HandMove move;
+  move.slice = slice;
+  move.target_m = target_m;
+  return move;
+}
+
+std::vector<tgr::HandMove> allOf(std::uint64_t slices) {
+  std::vector<tgr::HandMove> moves;
+  for (int slice = 0; slice < tgr::kMaxSlices; ++slice) {
+    if ((slices >> static_cast<unsigned>(slice) & 1U) != 0U) {
+      moves.push_back(moveOf(slice, 0.0));
+    }
+  }
+  return moves;
+}
+
+}  // namespace
+
+void Players::configure(const tgr::EndEffectors& end_effectors) {
+  std::vector<Tool> tools;
+  for (const tgr::EndEffectorConfig& config : end_effectors.list) {
+    Tool tool;
+    tool.config = config;
+    tool.kinematics = tgr::makeKinematics(config, end_effectors.file);
+    tool.slices.assign(static_cast<std::size_t>(tool.kinematics->slices()), 0.0);
+    tool.coordinates.assign(static_cast<std::size_t>(tool.kinematics->coordinates()), 0.0);
+    tools.push_back(std::move(tool));
+  }
+  const std::lock_guard lock(mutex_);
+  tools_ = std::move(tools);
+}
+
+bool Players::has(const std::string& end_effector) {
+  const std::lock_guard lock(mutex_);
+  return std::any_of(tools_.begin(), tools_.end(),
+                     [&](const Tool& tool) { return tool.config.name == end_effector; });
+}
+
+std::vector<tgr::HandMove> Players::read(const HandTargets& wanted,
+                                         const std::string& sender,
+                                         double now_s) {
+  check(wanted);
+  const std::lock_guard lock(mutex_);
+  const std::uint8_t source = numberOf(sender);
+  std::uint64_t& held = senders_[source].slices;
+  std::vector<tgr::HandMove> wanted_moves =
+      wanted.release && wanted.indices.empty() ? allOf(held) : moves(wanted);
+  const double stamp_s = wanted.header.stamp.toSec();
+  for (tgr::HandMove& move : wanted_moves) {
+    move.source = source;
+    move.time_s = stamp_s > 0.0 ? stamp_s : now_s;
+    move.timeout_s = wanted.timeout;
+    move.glide_s = wanted.glide;
+    move.grip = static_cast<tgr::HandGrip>(wanted.grip);
+    move.lets_go = wanted.release != 0U;
+    const std::uint64_t bit = std::uint64_t{1} << static_cast<unsigned>(move.slice);
+    held = move.lets_go ? held & ~bit : held | bit;
+  }
+  return wanted_moves;
+}
+
+/// Of more senders than there are numbers, who was silent for longest gives its number away.
+std::uint8_t Players::numberOf(const std::string& sender) {
+  auto found = std::find_if(senders_.begin(), senders_.end(),
+                            [&](const Sender& known) { return known.name == sender; });
+  if (found == senders_.end() && senders_.size() < tgr::kMaxHandSources) {
+    found = senders_.insert(senders_.end(), Sender{sender, 0, 0});
+  } else if (found == senders_.end()) {
+    found = std::min_element(senders_.begin(), senders_.end(),
+                             [](const Sender& a, const Sender& b) { return a.heard < b.heard; });
+    *found = Sender{sender, 0, 0};
+  }
+  found->heard = ++messages_;
+  return static_cast<std::uint8_t>(found - senders_.begin());
+}
+
+Players::Tool& Players::toolNamed(const std::string& name) {
+  std::string names;
+  for (Tool& tool : tools_) {
+    if (tool.config.name == name) {
+      return tool;
+    }
+    names += (names.empty() ? "" : ", ") + tool.config.name;
+  }
+  refuse("end_effector", "'" + name + "'", names.empty() ? "none, as none is there" : names);
+}
+
+std::vector<tgr::HandMove> Players::moves(const HandTargets& wanted) {
+  if (!wanted.end_effector.empty()) {
+    return moveTool(toolNamed(wanted.end_effector), wanted);
+  }
+  std::vector<tgr::HandMove> moves;
+  for (std::size_t i = 0; i < wanted.indices.size(); ++i) {
+    const auto slice = std::min<std::uint32_t>(wanted.indices[i], tgr::kMaxSlices);
+    moves.push_back(
+        moveOf(static_cast<int>(slice), wanted.release != 0U ? 0.0 : wanted.targets[i]));
+  }
+  return moves;
+}
+
+/// A linkage is held or let go of as a whole.
+std::vector<tgr::HandMove> Players::moveTool(Tool& tool, const HandTargets& wanted) {
+  std::vector<double> coordinates = tool.coordinates;
+  for (std::size_t i = 0; i < wanted.indices.size(); ++i) {
+    const std::uint32_t index = wanted.indices[i];
+    if (index >= coordinates.size()) {
+      refuse(("coordinate of " + tool.config.name).c_str(), index,
+             "0..." + std::to_string(coordinates.size() - 1));
+    }
+    if (wanted.release == 0U) {
+      coordinates[index] = wanted.targets[i];
+      if (!(std::abs(coordinates[index]) <= 1.0)) {
+        refuse("target", coordinates[index], "-1...1 m");
+      }
+    }
+  }
+  if (wanted.release == 0U) {
+    tool.coordinates = std::move(coordinates);
+    tgr::bringTo(*tool.kinematics, tool.coordinates.data(), tgr::kMaxTargetM, tool.slices.data());
+  }
+  std::vector<tgr::HandMove> moves;
+  for (std::size_t i = 0; i < tool.slices.size(); ++i) {
+    moves.push_back(moveOf(tool.config.slices[i], tool.slices[i]));
+  }
+  return moves;
+}
+
+}  // namespace ergotic::node

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <ergotic/HandTargets.h>
+
+#include "ergotic/tgr/driver.hpp"
+#include "ergotic/tgr/end_effector.hpp"
+
+namespace ergotic::node {
+
+/// Understands what players want of the hands of a simulated device: coordinates of end-effectors
+/// become slices, senders become numbers. Thread: any
+class Players {
+ public:
+  /// Other end-effectors stand on the slices from now on, and nobody holds anything.
+  /// \throws TextError if one of them cannot be put together
+  void configure(const tgr::EndEffectors& end_effectors);
+
+  /// Whether an end-effector of that name stands on slices.
+  bool has(const std::string& end_effector);
+
+  /// \param sender  node, by what it says itself
+  /// \param now_s   of targets without a stamp, s
+  /// \return what the hands shall do
+  /// \throws Exception naming field, value and allowed range; nothing has changed then
+  std::vector<tgr::HandMove> read(const HandTargets& wanted,
+                                  const std::string& sender,
+                                  double now_s);
+
+ private:
+  struct Tool {
+    tgr::EndEffectorConfig config;
+    std::unique_ptr<tgr::Kinematics> kinematics;
+    std::vector<double> slices;       // [slices] m, as wanted last
+    std::vector<double> coordinates;  // [coordinates] m, as wanted last
+  };
+  struct Sender {
+    std::string name;
+    std::uint64_t slices = 0;  // that it holds, a bit each
+    std::uint64_t heard = 0;   // number of its last message
+  };
+  std::uint8_t numberOf(const std::string& sender);
+  Tool& toolNamed(const std::string& name);
+  std::vector<tgr::HandMove> moves(const HandTargets& wanted);
+  static std::vector<tgr::HandMove> moveTool(Tool& tool, const HandTargets& wanted);
+
+  std::mutex mutex_;  // of what follows
+  std::vector<Tool> tools_;
+  std::vector<Sender> senders_;  // at most kMaxHandSources
+  std::uint64_t messages_ = 0;
+};
+
+}  // namespace ergotic::node

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ergotic/Handles.h>
+
+#include "ergotic/scene/scene.hpp"
+#include "ergotic/tgr/end_effector.hpp"
+
+namespace ergotic::node {
+
+/// What of a scene hands move under these end-effectors, one entry per module.
+Handles handlesOf(const scene::Scene& scene, const tgr::EndEffectors& end_effectors);
+
+}  // namespace ergotic::node

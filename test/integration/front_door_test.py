@@ -163,6 +163,14 @@ class ArgumentsTest(WithFolder):
             self.assertEqual((told, given.get("autoengage")), (simulated, "true" if simulated else None), words)
         self.assertEqual(self.meant("autoengage:=false")[0]["autoengage"], "false")
 
+    def test_a_scene_with_hands_of_its_own_gets_them_at_a_simulated_device(self):
+        meant = self.meant("drum")[0]
+        self.assertTrue(meant["end_effectors"].endswith("models/hands/drum.yaml"))
+        self.assertNotIn("end_effectors", self.meant("string")[0])
+        self.assertNotIn("end_effectors", self.meant("drum", "driver:=comedi")[0])
+        self.write("mine.yaml")
+        self.assertTrue(self.meant("drum", "end_effectors:=mine.yaml")[0]["end_effectors"].endswith("mine.yaml"))
+
     def test_there_is_a_window_where_there_is_a_display(self):
         self.assertEqual(self.meant(DISPLAY=":0")[0]["rviz"], "true")
         self.assertEqual(self.meant()[0]["rviz"], "false")

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/grab_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ergotic::panel {
+namespace {
+
+constexpr std::size_t kAxes = 3;
+constexpr double kMostOfSliceM = 0.1;  // what a hand may want, see HandTargets
+constexpr double kMostOfCoordinateM = 1.0;
+constexpr double kLeastSine = 0.1;  // an axis that points at the eye has no place under the mouse
+
+Eigen::Affine3d drawingOf(const geometry_msgs::Pose& pose, double zoom_of_x) {
+  const auto& q = pose.orientation;
+  Eigen::Affine3d drawing = Eigen::Affine3d::Identity();
+  drawing.linear() = Eigen::Quaterniond(q.w, q.x, q.y, q.z).toRotationMatrix();
+  drawing.translation() = Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z);
+  return drawing * Eigen::Scaling(zoom_of_x, 1.0, 1.0);
+}
+
+bool fits(const Handles& handles, const ModelStructure& structure) {
+  const std::size_t count = handles.modules.size();
+  return handles.names.size() == count && handles.end_effectors.size() == count &&
+         handles.indices.size() == kAxes * count && handles.scales.size() == kAxes * count &&
+         handles.offsets.size() == kAxes * count &&
+         std::all_of(handles.modules.begin(), handles.modules.end(), [&](std::uint32_t module) {
+           return module < structure.module_sections.size() &&
+                  kAxes * module + 2 < structure.rest_positions.size();
+         });
+}
+
+}  // namespace
+
+int Handle::axes() const {
+  return static_cast<int>(
+      std::count_if(indices.begin(), indices.end(), [](int index) { return index >= 0; }));
+}
+
+void HandleSet::show(const ModelStructure& structure) {
+  structure_ = structure;
+  build();
+}
+
+void HandleSet::show(const Handles& handles) {
+  message_ = handles;
+  build();
+}
+
+void HandleSet::show(const ModelState& state) {
+  if (state.displacement.size() != coordinates_) {
+    return;
+  }
+  for (Handle& handle : handles_) {
+    for (int k = 0; k < handle.dimensions; ++k) {
+      const float moved = state.displacement[handle.first + static_cast<std::size_t>(k)];
+      handle.displacement[k] = std::isfinite(moved) ? static_cast<double>(moved) : 0.0;
+    }
+  }
+}
+
+/// Structure and handles come in two messages: until both are of one model there are none.
+void HandleSet::build() {
+  handles_.clear();
+  ++version_;
+  std::vector<std::size_t> first;
+  coordinates_ = 0;
+  for (const std::uint32_t section : structure_.module_sections) {
+    first.push_back(coordinates_);
+    coordinates_ += structure_.section_dimensions.at(section);
+  }
+  if (!fits(message_, structure_)) {
+    return;
+  }
+  for (std::size_t i = 0; i < message_.modules.size(); ++i) {
+    const std::size_t module = message_.modules[i];
+    const std::size_t section = structure_.module_sections[module];
+    const geometry_msgs::Pose& pose = structure_.section_poses[section];
+    Handle handle;
+    handle.name = message_.names[i];
+    handle.end_effector = message_.end_effectors[i];
+    handle.dimensions = structure_.section_dimensions[section];
+    handle.drawing = drawingOf(pose, handle.dimensions == 1 ? message_.display_zoom : 1.0);
+    handle.first = first[module];
+    const float* at = &structure_.rest_positions[kAxes * module];
+    const Eigen::Vector3d in_model(at[0], at[1], at[2]);
+    handle.rest = drawingOf(pose, 1.0).inverse() * in_model;
+    std::copy_n(&message_.indices[kAxes * i], kAxes, handle.indices.begin());
+    std::copy_n(&message_.scales[kAxes * i], kAxes, handle.scales.begin());
+    std::copy_n(&message_.offsets[kAxes * i], kAxes, handle.offsets.begin());
+    handles_.push_back(std::move(handle));
+  }
+}
+
+Drag::Drag(const Handle& handle, const Ray& ray, const Eigen::Vector3d& looks)
+    : handle_(handle),
+      looks_(looks.normalized()),
+      grabbed_(handle.place()),
+      last_(grabbed_),
+      displacement_(handle.displacement) {
+  last_ = pointOf(ray);
+}
+
+/// Of the axis through the handle the point that is nearest to the ray; of the plane through it
+/// that faces the camera the point where the ray meets it.
+Eigen::Vector3d Drag::pointOf(const Ray& ray) const {
+  if (handle_.axes() != 1) {
+    const double facing = ray.direction.dot(looks_);
+    return facing < kLeastSine ? last_ : ray.at((grabbed_ - ray.origin).dot(looks_) / facing);
+  }
+  const auto axis_index = std::find_if(handle_.indices.begin(), handle_.indices.end(),
+                                       [](int index) { return index >= 0; }) -
+                          handle_.indices.begin();
+  const Eigen::Vector3d axis = handle_.drawing.linear().col(axis_index).normalized();
+  const double cosine = axis.dot(ray.direction);
+  const double sine_square = 1.0 - cosine * cosine;
+  if (sine_square < kLeastSine * kLeastSine) {
+    return last_;
+  }
+  const Eigen::Vector3d to_handle = grabbed_ - ray.origin;
+  const double along = (cosine * ray.direction - axis).dot(to_handle) / sine_square;
+  return grabbed_ + along * axis;
+}
+
+void Drag::move(const Ray& ray, double share) {
+  const Eigen::Vector3d point = pointOf(ray);
+  add(share * (point - last_));
+  last_ = point;
+}
+
+void Drag::push(double depth_m) {
+  if (handle_.axes() > 1) {
+    add(depth_m * looks_);
+    grabbed_ += depth_m * looks_;
+    last_ += depth_m * looks_;
+  }
+}
+
+HandTargets Grab::targets() const {
+  const Eigen::Vector3d way = drag_.displacement() - taken_.displacement;
+  HandTargets wanted;
+  wanted.end_effector = taken_.end_effector;
+  for (const Handle& handle : moved_) {
+    const Eigen::Vector3d displaced = handle.displacement + way;
+    for (std::size_t k = 0; k < kAxes; ++k) {
+      if (handle.indices[k] >= 0) {
+        const double target =
+            handle.scales[k] * displaced[static_cast<Eigen::Index>(k)] + handle.offsets[k];
+        const double most = taken_.end_effector.empty() ? kMostOfSliceM : kMostOfCoordinateM;
+        wanted.indices.push_back(static_cast<std::uint32_t>(handle.indices[k]));
+        wanted.targets.push_back(std::clamp(target, -most, most));
+      }
+    }
+  }
+  return wanted;
+}
+
+Grab::Grab(const HandleSet& set, const Handle& handle, const Ray& ray, const Eigen::Vector3d& looks)
+    : taken_(handle), drag_(handle, ray, looks) {
+  for (const Handle& other : set.handles()) {
+    const bool is_same = other.first == handle.first;
+    if (is_same || (!handle.end_effector.empty() && other.end_effector == handle.end_effector)) {
+      moved_.push_back(other);
+    }
+  }
+}
+
+double Grab::stretchFrom(const Eigen::Vector3d& displacement) const {
+  double square = 0.0;
+  for (std::size_t k = 0; k < kAxes; ++k) {
+    if (taken_.indices[k] >= 0) {
+      const auto axis = static_cast<Eigen::Index>(k);
+      const double way = taken_.scales[k] * (drag_.displacement()[axis] - displacement[axis]);
+      square += way * way;
+    }
+  }
+  return std::sqrt(square);
+}
+
+void Drag::add(const Eigen::Vector3d& way) {
+  const Eigen::Vector3d in_section = handle_.drawing.linear().inverse() * way;
+  for (int k = 0; k < 3; ++k) {
+    if (handle_.indices[static_cast<std::size_t>(k)] >= 0) {
+      displacement_[k] += in_section[k];
+    }
+  }
+}
+
+}  // namespace ergotic::panel

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <ergotic/HandTargets.h>
+#include <ergotic/Handles.h>
+#include <ergotic/ModelState.h>
+#include <ergotic/ModelStructure.h>
+
+namespace ergotic::panel {
+
+/// Where the mouse points: from the eye on, in frame `model`.
+struct Ray {
+  Eigen::Vector3d origin;
+  Eigen::Vector3d direction;  ///< of length 1
+
+  Eigen::Vector3d at(double distance) const { return origin + distance * direction; }
+};
+
+/// A module that hands move, as it is drawn: where it is, and what moves it.
+struct Handle {
+  std::string name;
+  std::string end_effector;  ///< whose coordinates move it; empty: slices do
+  std::array<int, 3> indices{-1, -1, -1};
+  std::array<double, 3> scales{1.0, 1.0, 1.0};
+  std::array<double, 3> offsets{};
+  Eigen::Affine3d drawing = Eigen::Affine3d::Identity();   ///< from its section to the picture
+  Eigen::Vector3d rest = Eigen::Vector3d::Zero();          ///< m, in its section
+  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< m, of now
+  std::size_t first = 0;                                   ///< of its displacements in ModelState
+  int dimensions = 1;
+
+  /// Where it is drawn at a displacement, m.
+  Eigen::Vector3d placeAt(const Eigen::Vector3d& displaced) const {
+    return drawing * (rest + displaced);
+  }
+  Eigen::Vector3d place() const { return placeAt(displacement); }
+  int axes() const;  ///< along which it can be moved
+};
+
+/// The handles of the model that plays. Thread: one
+class HandleSet {
+ public:
+  void show(const ModelStructure& structure);
+  void show(const Handles& handles);
+  /// What has another number of coordinates is of another model, and passed over.
+  void show(const ModelState& state);
+
+  const std::vector<Handle>& handles() const { return handles_; }
+  /// Counts the times that the handles became others.
+  int version() const { return version_; }
+
+ private:
+  void build();
+
+  ModelStructure structure_;
+  Handles message_;
+  std::vector<Handle> handles_;
+  std::size_t coordinates_ = 0;
+  int version_ = 0;
+};
+
+/// A handle that follows the mouse: along its axis if it has but one, else in the plane that faces
+/// the camera, from where both were when it was taken.
+class Drag {
+ public:
+  /// \param looks  the camera's direction of view, frame `model`
+  Drag(const Handle& handle, const Ray& ray, const Eigen::Vector3d& looks);
+
+  /// The mouse has moved. \param share  of its way that counts: below 1 for fine motion
+  void move(const Ray& ray, double share);
+  /// Nearer or farther along the view, m in the picture.
+  void push(double depth_m);
+
+  /// Where the handle is wanted, m from its rest, in its section.
+  const Eigen::Vector3d& displacement() const { return displacement_; }
+
+ private:
+  Eigen::Vector3d pointOf(const Ray& ray) const;
+  void add(const Eigen::Vector3d& way);
+
+  Handle handle_;
+  Eigen::Vector3d looks_;
+  Eigen::Vector3d grabbed_;  // where the mouse took it, in the picture
+  Eigen::Vector3d last_;     // of the mouse, on the axis or in the plane
+  Eigen::Vector3d displacement_;
+};
+
+/// What a player has taken hold of. All modules of an end-effector go the same way.
+class Grab {
+ public:
+  Grab(const HandleSet& set, const Handle& handle, const Ray& ray, const Eigen::Vector3d& looks);
+
+  Drag& drag() { return drag_; }
+  const Handle& handle() const { return taken_; }  ///< as it was when it was taken
+  /// Where it is wanted, in the picture.
+  Eigen::Vector3d place() const { return taken_.placeAt(drag_.displacement()); }
+  /// Between where it is wanted and where it is, m of coordinate or slice.
+  double stretchFrom(const Eigen::Vector3d& displacement) const;
+  /// For the station, within what a hand may want; without a stamp.
+  HandTargets targets() const;
+
+ private:
+  Handle taken_;
+  std::vector<Handle> moved_;  // as they were when it was taken
+  Drag drag_;
+};
+
+/// What a hand with that stiffness and most force gives over a distance, N.
+inline double pullOf(double stiffness, double most_n, double distance_m) {
+  return std::min(stiffness * distance_m, most_n);
+}
+
+}  // namespace ergotic::panel

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/grab_tool.hpp"
+
+#include <OgreCamera.h>
+#include <OgreSceneManager.h>
+#include <OgreViewport.h>
+
+#include <QEvent>
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <array>
+#include <chrono>
+#include <cmath>
+
+#include <ergotic/Note.h>
+#include <rviz/display_context.h>
+#include <rviz/frame_manager.h>
+#include <rviz/properties/enum_property.h>
+#include <rviz/properties/string_property.h>
+#include <rviz/render_panel.h>
+#include <rviz/view_controller.h>
+#include <rviz/view_manager.h>
+#include <rviz/viewport_mouse_event.h>
+
+namespace ergotic::panel {
+namespace {
+
+constexpr double kNearPixels = 16.0;     // from the pointer to a handle that it takes
+constexpr double kMarkPixels = 14.0;     // diameter of a handle's mark
+constexpr double kFine = 0.1;            // of the way of the mouse, with Shift
+constexpr double kDepthPerStep = 0.002;  // m per step of the wheel
+constexpr int kWheelStep = 120;
+constexpr int kVelocity = 80;  // of keys that know only on and off
+constexpr int kHardVelocity = 120;
+constexpr double kTimeoutS = 1.0;
+constexpr std::int64_t kRepeatNs = 100'000'000;  // a hand that stands still is told so often
+constexpr std::uint32_t kQueue = 100;
+
+/// What docs/tgr.md says of the grips.
+struct Grip {
+  const char* name;
+  std::uint8_t number;
+  double stiffness;
+  double most_n;
+};
+constexpr std::array<Grip, 3> kGrips = {{{"soft", HandTargets::SOFT, 500.0, 5.0},
+                                         {"firm", HandTargets::FIRM, 1500.0, 10.0},
+                                         {"quick", HandTargets::QUICK, 3000.0, 20.0}}};
+constexpr int kFirm = 1;
+
+std::int64_t wallNs() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+Eigen::Vector3d toEigen(const Ogre::Vector3& v) {
+  return {v.x, v.y, v.z};
+}
+
+}  // namespace
+
+GrabTool::GrabTool() {
+  shortcut_key_ = 'g';
+  station_ = new rviz::StringProperty("Station", "/station", "Name of the station's node.",
+                                      getPropertyContainer());
+  grip_ = new rviz::EnumProperty("Grip", kGrips[kFirm].name,
+                                 "How firmly the hand holds: stiffness and greatest force.",
+                                 getPropertyContainer());
+  for (std::size_t i = 0; i < kGrips.size(); ++i) {
+    grip_->addOption(kGrips[i].name, static_cast<int>(i));
+  }
+}
+
+GrabTool::~GrabTool() {
+  letGo();
+}
+
+void GrabTool::onInitialize() {
+  setName("Play");
+  picture_ = std::make_unique<GrabPicture>(*context_->getSceneManager());
+  connect(station_, &rviz::Property::changed, this, [this] { subscribe(); });
+  subscribe();
+}
+
+void GrabTool::subscribe() {
+  letGo();
+  const std::string station = station_->getStdString();
+  std::string error;
+  if (!ros::names::validate(station, error)) {
+    setStatus(QString("There is no station of that name: ") + error.c_str());
+    return;
+  }
+  targets_ = node_.advertise<HandTargets>(station + "/hand_targets", kQueue);
+  notes_ = node_.advertise<Note>(station + "/notes", kQueue);
+  const auto show = [this](const auto& message) { set_.show(message); };
+  structure_ = node_.subscribe<ModelStructure>(
+      station + "/model_structure", 1,
+      [show](const ModelStructure::ConstPtr& message) { show(*message); });
+  handles_ = node_.subscribe<Handles>(station + "/handles", 1,
+                                      [show](const Handles::ConstPtr& message) { show(*message); });
+  state_ = node_.subscribe<ModelState>(
+      station + "/model_state", 1, [show](const ModelState::ConstPtr& message) { show(*message); });
+}
+
+void GrabTool::activate() {
+  panel_ = context_->getViewManager()->getRenderPanel();
+  panel_->installEventFilter(this);
+  setStatus(
+      "Drag what lights up under the mouse. Wheel: nearer, farther. Shift: finer. Right "
+      "button: let go. Keys Z to / and Q to P play notes.");
+}
+
+void GrabTool::deactivate() {
+  letGo();
+  hovered_.clear();
+  picture_->hide();
+  if (panel_) {
+    panel_->removeEventFilter(this);
+  }
+}
+
+bool GrabTool::eventFilter(QObject* /*watched*/, QEvent* event) {
+  switch (event->type()) {
+    case QEvent::MouseMove:
+    case QEvent::MouseButtonPress:
+    case QEvent::MouseButtonRelease:
+      event_wall_ns_ = wallNs();
+      event_ms_ = static_cast<std::int64_t>(static_cast<QMouseEvent*>(event)->timestamp());
+      break;
+    case QEvent::KeyPress:
+    case QEvent::KeyRelease:
+      return playKey(*static_cast<QKeyEvent*>(event), event->type() == QEvent::KeyPress);
+    case QEvent::FocusOut:
+    case QEvent::WindowDeactivate:
+    case QEvent::Hide:
+      letGo();
+      break;
+    default:
+      break;
+  }
+  return false;
+}
+
+/// \return whether it is a key that plays, which then has no other effect: letters switch tools
+bool GrabTool::playKey(const QKeyEvent& key, bool is_press) {
+  const std::uint32_t code = key.nativeScanCode();
+  if (!noteOfKey(code) || (key.modifiers() & (Qt::ControlModifier | Qt::AltModifier)) != 0) {
+    return false;
+  }
+  if (key.isAutoRepeat()) {
+    return true;
+  }
+  if (const auto note = is_press ? keys_.press(code) : keys_.release(code)) {
+    const bool is_hard = (key.modifiers() & Qt::ShiftModifier) != 0;
+    sendNote(*note, !is_press ? 0 : is_hard ? kHardVelocity : kVelocity);
+  }
+  return true;
+}
+
+void GrabTool::sendNote(int note, int velocity) {
+  Note message;
+  message.note = static_cast<std::uint8_t>(note);
+  message.velocity = static_cast<std::uint8_t>(velocity);
+  notes_.publish(message);
+}
+
+/// By the clock of the window system, which stamps mouse events when they happen; rviz may come to
+/// them a frame later.
+std::int64_t GrabTool::nowOfEvents() const {
+  constexpr std::int64_t kNsPerMs = 1'000'000;
+  return event_ms_ * kNsPerMs + (wallNs() - event_wall_ns_);
+}
+
+void GrabTool::update(float /*wall_dt*/, float /*ros_dt*/) {
+  if (grab_ && (heldNow() == nullptr || set_.version() != version_)) {
+    drop();  // another model plays
+  }
+  Ogre::Vector3 position;
+  Ogre::Quaternion orientation;
+  if (context_->getFrameManager()->getTransform("model", ros::Time(), position, orientation)) {
+    model_.translation() = toEigen(position);
+    model_.linear() = Eigen::Quaterniond(orientation.w, orientation.x, orientation.y, orientation.z)
+                          .toRotationMatrix();
+    picture_->setFrame(position, orientation);
+    const Ogre::Camera* const camera = context_->getViewManager()->getRenderPanel()->getCamera();
+    picture_->setUp(model_.linear().inverse() * toEigen(camera->getDerivedUp()));
+  }
+  if (grab_ && wallNs() - sent_wall_ns_ > kRepeatNs) {
+    send();
+  }
+  draw();
+}
+
+std::optional<GrabTool::View> GrabTool::viewOf(const rviz::ViewportMouseEvent& event) {
+  const Ogre::Camera* const camera = event.viewport->getCamera();
+  const float width = static_cast<float>(event.viewport->getActualWidth());
+  const float height = static_cast<float>(event.viewport->getActualHeight());
+  if (width <= 0.0F || height <= 0.0F) {
+    return std::nullopt;
+  }
+  const Ogre::Ray ray = camera->getCameraToViewportRay(static_cast<float>(event.x) / width,
+                                                       static_cast<float>(event.y) / height);
+  const Eigen::Isometry3d to_model = model_.inverse();
+  return View{{to_model * toEigen(ray.getOrigin()),
+               (to_model.linear() * toEigen(ray.getDirection())).normalized()},
+              to_model.linear() * toEigen(camera->getDerivedDirection())};
+}
+
+const Handle* GrabTool::handleUnder(const rviz::ViewportMouseEvent& event) const {
+  const Ogre::Camera* const camera = event.viewport->getCamera();
+  const Ogre::Matrix4 to_screen = camera->getProjectionMatrix() * camera->getViewMatrix();
+  const double width = event.viewport->getActualWidth();
+  const double height = event.viewport->getActualHeight();
+  const Handle* nearest = nullptr;
+  double least = kNearPixels;
+  for (const Handle& handle : set_.handles()) {
+    const Ogre::Vector4 at = to_screen * Ogre::Vector4(toOgre(model_ * handle.place()));
+    if (at.w <= 0.0F) {
+      continue;  // behind the camera
+    }
+    const double x = 0.5 * (1.0 + static_cast<double>(at.x / at.w)) * width;
+    const double y = 0.5 * (1.0 - static_cast<double>(at.y / at.w)) * height;
+    if (const double distance = std::hypot(x - event.x, y - event.y); distance < least) {
+      least = distance;
+      nearest = &handle;
+    }
+  }
+  return nearest;
+}
+
+int GrabTool::processMouseEvent(rviz::ViewportMouseEvent& event) {
+  return grab_ ? hold(event) : hover(event);
+}
+
+int GrabTool::hover(rviz::ViewportMouseEvent& event) {
+  const bool drags_camera = event.type == QEvent::MouseMove && event.buttons_down != Qt::NoButton;
+  const Handle* const handle = drags_camera ? nullptr : handleUnder(event);
+  hovered_ = handle != nullptr ? handle->name : "";
+  const auto view = viewOf(event);
+  if (handle != nullptr && event.leftDown() && view) {
+    take(*handle, *view);
+    return Render;
+  }
+  if (rviz::ViewController* const camera = event.panel->getViewController()) {
+    camera->handleMouseEvent(event);
+    setCursor(camera->getCursor());
+  }
+  return Render;
+}
+
+void GrabTool::take(const Handle& handle, const View& view) {
+  grab_.emplace(set_, handle, view.ray, view.looks);
+  version_ = set_.version();
+  send();
+}
+
+int GrabTool::hold(rviz::ViewportMouseEvent& event) {
+  const auto view = viewOf(event);
+  if (event.wheel_delta != 0) {
+    grab_->drag().push(kDepthPerStep * event.wheel_delta / kWheelStep);
+  } else if (view && event.type == QEvent::MouseMove) {
+    grab_->drag().move(view->ray, event.shift() ? kFine : 1.0);
+  }
+  send();
+  if (event.leftUp() || event.rightDown()) {
+    drop();
+  }
+  return Render;
+}
+
+void GrabTool::send() {
+  const Grip& grip = kGrips[static_cast<std::size_t>(grip_->getOptionInt())];
+  HandTargets wanted = grab_->targets();
+  wanted.header.stamp.fromNSec(
+      static_cast<std::uint64_t>(std::max<std::int64_t>(nowOfEvents(), 1)));
+  wanted.grip = grip.number;
+  wanted.timeout = kTimeoutS;
+  targets_.publish(wanted);
+  sent_wall_ns_ = wallNs();
+}
+
+void GrabTool::letGo() {
+  for (const int note : keys_.releaseAll()) {
+    sendNote(note, 0);
+  }
+  drop();
+}
+
+void GrabTool::drop() {
+  if (grab_) {
+    grab_.reset();
+    HandTargets release;
+    release.release = 1U;
+    targets_.publish(release);
+  }
+}
+
+const Handle* GrabTool::heldNow() const {
+  for (const Handle& handle : set_.handles()) {
+    if (grab_ && handle.name == grab_->handle().name) {
+      return &handle;
+    }
+  }
+  return nullptr;
+}
+
+/// Of about the same size on the screen wherever it is.
+double GrabTool::markSize(const Eigen::Vector3d& place) const {
+  const Ogre::Camera* const camera = context_->getViewManager()->getRenderPanel()->getCamera();
+  const double distance = (toEigen(camera->getDerivedPosition()) - model_ * place).norm();
+  const double height = std::max(camera->getViewport()->getActualHeight(), 1);
+  return kMarkPixels / height * 2.0 * distance *
+         std::tan(0.5 * static_cast<double>(camera->getFOVy().valueRadians()));
+}
+
+void GrabTool::draw() {
+  const Handle* const held = heldNow();
+  if (held != nullptr) {
+    const Grip& grip = kGrips[static_cast<std::size_t>(grip_->getOptionInt())];
+    const double newtons =
+        pullOf(grip.stiffness, grip.most_n, grab_->stretchFrom(held->displacement));
+    return picture_->showPull(held->place(), grab_->place(), newtons, newtons / grip.most_n,
+                              markSize(held->place()));
+  }
+  for (const Handle& handle : set_.handles()) {
+    if (handle.name == hovered_) {
+      return picture_->showHover(handle.place(), handle.name, markSize(handle.place()));
+    }
+  }
+  picture_->hide();
+}
+
+}  // namespace ergotic::panel
+
+#include <pluginlib/class_list_macros.hpp>
+PLUGINLIB_EXPORT_CLASS(ergotic::panel::GrabTool, rviz::Tool)

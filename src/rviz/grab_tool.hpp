@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QPointer>
+#include <QWidget>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <Eigen/Geometry>
+#include <ros/ros.h>
+#include <rviz/tool.h>
+
+#include "rviz/grab_geometry.hpp"
+#include "rviz/grab_picture.hpp"
+#include "rviz/key_rows.hpp"
+
+class QKeyEvent;
+namespace rviz {
+class EnumProperty;
+class RenderPanel;
+class StringProperty;
+class ViewportMouseEvent;
+}  // namespace rviz
+
+namespace ergotic::panel {
+
+/// Plays the model with the mouse: what hands move can be taken, dragged and let go of. With
+/// nothing in hand the mouse moves the camera as everywhere in rviz.
+///
+/// Left button: take and drag. Wheel: nearer, farther. Shift: ten times finer. Right button, or
+/// letting go of the left: let go. Two rows of the computer's keyboard play notes by the station's
+/// map of notes; Shift: harder. A window that loses the focus lets go, and so does the station
+/// when it does not hear of this tool for a second. Thread: of the window
+class GrabTool : public rviz::Tool {
+ public:
+  GrabTool();
+  ~GrabTool() override;
+
+  void onInitialize() override;
+  void activate() override;
+  void deactivate() override;
+  void update(float wall_dt, float ros_dt) override;
+  int processMouseEvent(rviz::ViewportMouseEvent& event) override;
+
+ private:
+  void subscribe();
+  struct View {
+    Ray ray;
+    Eigen::Vector3d looks;
+  };
+  /// Takes the time of mouse events, which rviz does not hand on, and the loss of the focus.
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+  bool playKey(const QKeyEvent& key, bool is_press);
+  void sendNote(int note, int velocity);
+
+  std::optional<View> viewOf(const rviz::ViewportMouseEvent& event);
+  const Handle* handleUnder(const rviz::ViewportMouseEvent& event) const;
+  int hover(rviz::ViewportMouseEvent& event);
+  int hold(rviz::ViewportMouseEvent& event);
+  void take(const Handle& handle, const View& view);
+  void drop();   ///< what is in hand
+  void letGo();  ///< of that and of all keys
+  void send();
+  void draw();
+  const Handle* heldNow() const;
+  double markSize(const Eigen::Vector3d& place) const;
+  std::int64_t nowOfEvents() const;
+
+  rviz::StringProperty* station_;
+  rviz::EnumProperty* grip_;
+  QPointer<QWidget> panel_;  // null once rviz has deleted it, which it does before its tools
+
+  ros::NodeHandle node_;
+  ros::Publisher targets_;
+  ros::Publisher notes_;
+  ros::Subscriber structure_;
+  ros::Subscriber handles_;
+  ros::Subscriber state_;
+
+  HandleSet set_;
+  int version_ = 0;  // of the set that the grab is of
+  std::optional<Grab> grab_;
+  KeyRows keys_;
+  std::string hovered_;
+  std::unique_ptr<GrabPicture> picture_;
+  Eigen::Isometry3d model_ = Eigen::Isometry3d::Identity();  // in the fixed frame
+
+  std::int64_t event_ms_ = 0;       // of the latest mouse event, by the window system's clock
+  std::int64_t event_wall_ns_ = 0;  // when it came
+  std::int64_t sent_wall_ns_ = 0;
+};
+
+}  // namespace ergotic::panel

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/grab_geometry.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace ergotic::panel {
+namespace {
+
+/// Looks along -x from (1, y, z).
+Ray rayAt(double y, double z) {
+  return {{1.0, y, z}, {-1.0, 0.0, 0.0}};
+}
+
+/// A string's section of one dimension, whose x is up in the picture and drawn five times as large:
+/// a mass, and a key that slice 3 moves; and a mallet in a section of space, of end-effector
+/// `stick`.
+ModelStructure structure() {
+  ModelStructure structure;
+  structure.section_dimensions = {1, 3};
+  structure.section_poses.resize(2);
+  const double half = std::sqrt(0.5);
+  structure.section_poses[0].orientation.w = half;
+  structure.section_poses[0].orientation.y = -half;
+  structure.section_poses[0].position.z = 0.2;
+  structure.section_poses[1].orientation.w = 1.0;
+  structure.module_sections = {0, 0, 1};
+  structure.rest_positions = {0, 0, 0.2F, 0, 0.1F, 0.19F, 0.3F, 0.3F, 0.3F};
+  return structure;
+}
+
+Handles handles() {
+  Handles handles;
+  handles.display_zoom = 5.0;
+  handles.names = {"key", "mallet"};
+  handles.modules = {1, 2};
+  handles.end_effectors = {"", "stick"};
+  handles.indices = {3, -1, -1, 0, 1, 2};
+  handles.scales = {0.5, 1, 1, 2, 2, 2};
+  handles.offsets = {0.001, 0, 0, 0, 0, 0};
+  return handles;
+}
+
+HandleSet shown() {
+  HandleSet set;
+  set.show(structure());
+  set.show(handles());
+  return set;
+}
+
+TEST(HandleSetTest, PlacesHandlesWhereTheyAreDrawn) {
+  HandleSet set = shown();
+  ASSERT_EQ(set.handles().size(), 2U);
+  EXPECT_TRUE(set.handles()[0].place().isApprox(Eigen::Vector3d(0.0, 0.1, 0.15), 1e-6))
+      << "0.01 m below the string, drawn five times as far";
+  ModelState state;
+  state.displacement = {0.0F, 0.004F, 0.01F, 0.0F, -0.02F};
+  set.show(state);
+  EXPECT_TRUE(set.handles()[0].place().isApprox(Eigen::Vector3d(0.0, 0.1, 0.17), 1e-6));
+  EXPECT_TRUE(set.handles()[1].place().isApprox(Eigen::Vector3d(0.31, 0.3, 0.28), 1e-6));
+}
+
+TEST(HandleSetTest, WhatIsOfAnotherModelIsPassedOver) {
+  HandleSet set;
+  set.show(handles());
+  EXPECT_TRUE(set.handles().empty()) << "no structure yet";
+  ModelStructure smaller = structure();
+  smaller.module_sections.pop_back();
+  smaller.rest_positions.resize(6);
+  set.show(smaller);
+  EXPECT_TRUE(set.handles().empty()) << "the mallet is not in it";
+  set.show(structure());
+  ModelState state;
+  state.displacement = {1.0F};
+  set.show(state);
+  EXPECT_EQ(set.handles()[0].displacement.x(), 0.0);
+}
+
+TEST(GrabTest, AHandleOfOneAxisFollowsTheMouseAlongIt) {
+  const HandleSet set = shown();
+  Grab grab(set, set.handles()[0], rayAt(0.1, 0.15), {-1.0, 0.0, 0.0});
+  grab.drag().move(rayAt(0.3, 0.20), 1.0);  // 0.05 m up in the picture, and sideways
+  EXPECT_NEAR(grab.drag().displacement().x(), 0.01, 1e-9);
+  const HandTargets wanted = grab.targets();
+  EXPECT_EQ(wanted.end_effector, "");
+  EXPECT_EQ(wanted.indices, (std::vector<std::uint32_t>{3}));
+  ASSERT_EQ(wanted.targets.size(), 1U);
+  EXPECT_NEAR(wanted.targets[0], 0.5 * 0.01 + 0.001, 1e-9);
+  EXPECT_NEAR(grab.stretchFrom(Eigen::Vector3d::Zero()), 0.005, 1e-9);
+}
+
+TEST(GrabTest, AHandleOfThreeAxesFollowsTheMouseInThePlaneThatFacesTheCamera) {
+  const HandleSet set = shown();
+  Grab grab(set, set.handles()[1], rayAt(0.3, 0.3), {-1.0, 0.0, 0.0});
+  grab.drag().move(rayAt(0.32, 0.29), 1.0);
+  EXPECT_TRUE(grab.drag().displacement().isApprox(Eigen::Vector3d(0.0, 0.02, -0.01), 1e-9));
+  grab.drag().push(0.005);  // away from the camera
+  EXPECT_NEAR(grab.drag().displacement().x(), -0.005, 1e-9);
+  const HandTargets wanted = grab.targets();
+  EXPECT_EQ(wanted.end_effector, "stick");
+  EXPECT_EQ(wanted.indices, (std::vector<std::uint32_t>{0, 1, 2}));
+  EXPECT_NEAR(wanted.targets[1], 0.04, 1e-9);
+}
+
+TEST(GrabTest, FineMotionIsAShareOfTheMouses) {
+  const HandleSet set = shown();
+  Grab grab(set, set.handles()[1], rayAt(0.3, 0.3), {-1.0, 0.0, 0.0});
+  grab.drag().move(rayAt(0.4, 0.3), 0.1);
+  grab.drag().move(rayAt(0.41, 0.3), 1.0);
+  EXPECT_NEAR(grab.drag().displacement().y(), 0.01 + 0.01, 1e-9);
+}
+
+TEST(GrabTest, AnAxisThatPointsAtTheEyeMovesNothing) {
+  const HandleSet set = shown();
+  const Ray from_above{{0.0, 0.1, 2.0}, {0.0, 0.0, -1.0}};
+  Grab grab(set, set.handles()[0], from_above, {0.0, 0.0, -1.0});
+  grab.drag().move({{0.001, 0.1, 2.0}, {0.0, 0.0, -1.0}}, 1.0);
+  EXPECT_EQ(grab.drag().displacement().x(), 0.0);
+}
+
+TEST(GrabTest, TargetsStayWithinWhatAHandMayWant) {
+  const HandleSet set = shown();
+  Grab grab(set, set.handles()[0], rayAt(0.1, 0.15), {-1.0, 0.0, 0.0});
+  grab.drag().move(rayAt(0.1, 100.0), 1.0);
+  EXPECT_EQ(grab.targets().targets[0], 0.1);
+}
+
+TEST(GrabTest, AllPointsOfAnEndEffectorGoTheSameWay) {
+  Handles both = handles();
+  both.end_effectors = {"stick", "stick"};
+  HandleSet set;
+  set.show(structure());
+  set.show(both);
+  Grab grab(set, set.handles()[1], rayAt(0.3, 0.3), {-1.0, 0.0, 0.0});
+  grab.drag().move(rayAt(0.32, 0.3), 1.0);
+  EXPECT_EQ(grab.targets().indices.size(), 4U);
+}
+
+TEST(PullTest, IsThatOfASpringUpToTheMostThatAHandGives) {
+  EXPECT_DOUBLE_EQ(pullOf(1500.0, 10.0, 0.002), 3.0);
+  EXPECT_DOUBLE_EQ(pullOf(1500.0, 10.0, 0.1), 10.0);
+}
+
+}  // namespace
+}  // namespace ergotic::panel

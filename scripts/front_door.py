@@ -36,9 +36,9 @@ def greeting(instrument, has_window, is_simulated, has_force):
     elif not is_simulated:
         act = " Its force is on;"
     elif has_window:
-        act = " Drag the yellow handles in the window with the mouse;"
+        act = " Drag what lights up under the mouse, or play the keys Z to / and Q to P in the picture;"
     else:
-        act = " There is no window; gesture:=FILE.csv moves the hands;"
+        act = " There is no window; a MIDI keyboard at ergotic:midi_in plays it, or gesture:=FILE.csv;"
     return f"Instrument {instrument} plays.{act} Ctrl-C ends."
 
 
@@ -237,6 +237,13 @@ def is_simulated(given):
         return False  # the station will say what is wrong
 
 
+def usual_hands(given):
+    """The file of what stands on the slices for a scene `folder/NAME.yaml`: `folder/hands/NAME.yaml`, or None."""
+    scene = pathlib.Path(split_variant(given.get("model", ""))[0])
+    hands = scene.parent / "hands" / (scene.stem + ".yaml")
+    return str(hands) if scene.name and hands.is_file() else None
+
+
 def arguments_of(words, folder, environment, shipped, known):
     """({argument: value} of what roslaunch is told, whether the device is simulated)"""
     instrument, given = split_words(words, known)
@@ -248,6 +255,9 @@ def arguments_of(words, folder, environment, shipped, known):
     simulated = is_simulated(given)
     if simulated:
         given.setdefault("autoengage", "true")
+        hands = usual_hands(given)
+        if hands and not given.get("device"):
+            given.setdefault("end_effectors", hands)
     given.setdefault("rviz", "true" if environment.get("DISPLAY") else "false")
     return given, simulated
 

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include <ergotic/Event.h>
+#include <ergotic/Levels.h>
 #include <ergotic/ParameterValue.h>
 #include <ros/callback_queue.h>
 #include <ros/master.h>
@@ -18,6 +19,7 @@
 #include <ros/param.h>
 #include <sensor_msgs/JointState.h>
 #include <std_msgs/Empty.h>
+#include <std_msgs/Float64.h>
 
 #include "rviz/message_log.hpp"
 #include "rviz/peak_hold.hpp"
@@ -59,6 +61,7 @@ struct StationLink::Shared {
   bool was_heard = false;
   MessageLog log;
   ::ros::Publisher parameter;
+  ::ros::Publisher volume;
   ::ros::Publisher emergency;
   std::function<void()> give_up_late;  // of the callers
   std::function<void()> prepare;       // their connections
@@ -90,9 +93,11 @@ class Listener {
   /// Nothing of ROS outlives the thread: who waits for it may end the process.
   ~Listener() {
     ::ros::Publisher parameter;
+    ::ros::Publisher volume;
     ::ros::Publisher emergency;
     const std::lock_guard lock(shared_->mutex);
     std::swap(parameter, shared_->parameter);
+    std::swap(volume, shared_->volume);
     std::swap(emergency, shared_->emergency);
   }
   Listener(const Listener&) = delete;
@@ -127,15 +132,18 @@ class Listener {
     subscribers_.clear();
     subscribers_ = {node.subscribe("status", 1, &Listener::onStatus, this),
                     node.subscribe("joint_states", 1, &Listener::onJoints, this),
+                    node.subscribe("levels", 1, &Listener::onLevels, this),
                     node.subscribe("model_parameters", 1, &Listener::onParameters, this),
                     node.subscribe("events", kEvents, &Listener::onEvent, this)};
     constexpr std::uint32_t kParameters = 100;
     ::ros::Publisher parameter = node.advertise<ParameterValue>("parameters", kParameters);
+    ::ros::Publisher volume = node.advertise<std_msgs::Float64>("volume", 1);
     ::ros::Publisher emergency = node.advertise<std_msgs::Empty>("emergency_stop", 1);
     ::ros::param::get("/run_id", master_);
     const std::lock_guard lock(
         shared_->mutex);  // opened before the old ones end, for which the master is asked
     std::swap(shared_->parameter, parameter);
+    std::swap(shared_->volume, volume);
     std::swap(shared_->emergency, emergency);
   }
 
@@ -166,6 +174,17 @@ class Listener {
     shared_->news.forces = joints.effort;
     const std::chrono::duration<double> now = Clock::now().time_since_epoch();
     shared_->news.peaks = peaks_.follow(joints.effort, now.count());
+  }
+
+  void onLevels(const Levels& levels) {
+    const std::vector<double> now(levels.peaks.begin(), levels.peaks.end());
+    const std::lock_guard lock(shared_->mutex);
+    shared_->news.levels = now;
+    const std::chrono::duration<double> time = Clock::now().time_since_epoch();
+    shared_->news.level_peaks = level_peaks_.follow(now, time.count());
+    shared_->news.volume = static_cast<double>(levels.volume);
+    shared_->news.is_limited = levels.limited != 0U;
+    shared_->news.hears_sound = true;
   }
 
   void onParameters(const Parameters& parameters) {
@@ -263,6 +282,7 @@ class Listener {
   std::shared_ptr<StationLink::Shared> shared_;
   std::vector<::ros::Subscriber> subscribers_;
   PeakHold peaks_;
+  PeakHold level_peaks_;
   std::string master_;       // run id of the one that knows us
   bool is_another_ = false;  // station or model since its limits were asked for
   Clock::time_point next_look_;
@@ -322,6 +342,11 @@ void StationLink::refresh(News& news) const {
   news.forces = newest.forces;
   news.peaks = newest.peaks;
   news.force_limit = newest.force_limit;
+  news.levels = newest.levels;
+  news.level_peaks = newest.level_peaks;
+  news.volume = newest.volume;
+  news.is_limited = newest.is_limited;
+  news.hears_sound = newest.hears_sound;
   news.answer = newest.answer;
   news.answers = newest.answers;
   if (news.parameters_version != newest.parameters_version) {
@@ -392,6 +417,19 @@ void StationLink::setParameter(const std::string& name, double value) {
     message.name = name;
     message.value = value;
     parameter.publish(message);
+  }
+}
+
+void StationLink::setVolume(double volume) {
+  ::ros::Publisher publisher;
+  {
+    const std::lock_guard lock(shared_->mutex);
+    publisher = shared_->volume;
+  }
+  if (publisher) {
+    std_msgs::Float64 message;
+    message.data = volume;
+    publisher.publish(message);
   }
 }
 

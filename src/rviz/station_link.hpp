@@ -22,6 +22,11 @@ struct News {
   std::vector<double> forces;  ///< [slices] as sent to the device, N
   std::vector<double> peaks;   ///< [slices] their largest sizes in the last second, N
   double force_limit = 20.0;   ///< N per slice
+  std::vector<double> levels;       ///< [outputs] of full scale
+  std::vector<double> level_peaks;  ///< [outputs] in the last second
+  double volume = 1.0;              ///< master volume, 0...1
+  bool is_limited = false;          ///< the limiter turned the sound down just now
+  bool hears_sound = false;
   Parameters parameters;
   std::size_t parameters_version = 0;
   std::vector<SceneEntry> scenes;
@@ -60,6 +65,8 @@ class StationLink {
   void load(const std::string& model, const std::string& title);
   /// By the topic: of several values that come at once, the station takes the newest.
   void setParameter(const std::string& name, double value);
+  /// \param volume  0...1
+  void setVolume(double volume);
 
   struct Shared;
 

@@ -13,10 +13,13 @@
 #include <ros/package.h>
 #include <rviz/config.h>
 
+#include "rviz/volume_scale.hpp"
+
 namespace ergotic::panel {
 namespace {
 
 constexpr int kRefreshMs = 40;
+constexpr double kSilence = 1e-4;  // of full scale
 const char kUsualStation[] = "/station";
 const char kSetting[] = "Station";
 
@@ -72,6 +75,7 @@ StationPanel::StationPanel(QWidget* parent) : rviz::Panel(parent), wanted_(kUsua
   addInstruments(rest);
   addParameters(rest);
   addMeters(rest);
+  addSound(rest);
   addMessages(rest);
   scroll->setWidget(inside);
   column->addWidget(scroll, 1);
@@ -202,6 +206,33 @@ void StationPanel::addMeters(QVBoxLayout* column) {
   column->addWidget(rates_);
 }
 
+void StationPanel::addSound(QVBoxLayout* column) {
+  sound_title_ = title("Sound");
+  mute_ = adopted<QPushButton>("Mute  F8");
+  mute_->setCheckable(true);
+  mute_->setAutoDefault(false);
+  mute_->setToolTip("Silence at JACK; the instrument plays on");
+  volume_ = adopted<QSlider>(Qt::Horizontal);
+  volume_->setRange(0, kVolumeSteps);
+  volume_->setValue(kVolumeSteps);
+  volume_->setAccessibleName("master volume");
+  volume_->setToolTip("Master volume, half a decibel a step");
+  const auto send = [this] {
+    if (link_) {
+      link_->setVolume(mute_->isChecked() ? 0.0 : volumeAt(volume_->value()));
+    }
+  };
+  QObject::connect(volume_, &QSlider::valueChanged, this, send);
+  QObject::connect(mute_, &QPushButton::toggled, this, send);
+  sound_ = adopted<SoundMeter>(this);
+  auto* line = adopted<QHBoxLayout>();
+  line->addWidget(sound_title_, 2);
+  line->addWidget(volume_, 2);
+  line->addWidget(mute_);
+  column->addLayout(line);
+  column->addWidget(sound_);
+}
+
 void StationPanel::addMessages(QVBoxLayout* column) {
   messages_ = adopted<QPlainTextEdit>();
   messages_->setReadOnly(true);
@@ -247,6 +278,7 @@ void StationPanel::addKeys() {
   bind(
       Qt::Key_F6, [on_all] { on_all(&StationLink::stop); }, true);
   bind(Qt::Key_F7, [this] { recover_->click(); });
+  bind(Qt::Key_F8, [this] { mute_->toggle(); });
   bind(
       Qt::Key_F12, [on_all] { on_all(&StationLink::emergencyStop); }, true);
   bind(Qt::Key_F3, [this] { instruments_->setFocus(Qt::ShortcutFocusReason); });
@@ -276,6 +308,7 @@ void StationPanel::refresh() {
   parameters_->setEnabled(!isStale());
   parameters_->follow(news_.parameters, now_s);
   showMeters();
+  showSound();
   showMessages();
 }
 
@@ -338,6 +371,27 @@ void StationPanel::showMeters() {
                                .arg(percent(status.load_mean))
                                .arg(percent(status.load_peak)));
   rates_->show(stale ? "" : ratesText(status));
+}
+
+/// The slider is as the station says, but while somebody moves it, and while it is silent.
+void StationPanel::showSound() {
+  const bool is_known = !isStale() && news_.hears_sound;
+  sound_->show(news_.levels, news_.level_peaks, is_known);
+  volume_->setEnabled(is_known);
+  mute_->setEnabled(is_known);
+  double loudest = 0.0;
+  for (const double peak : news_.level_peaks) {
+    loudest = std::max(loudest, peak);
+  }
+  sound_title_->setText(!is_known            ? QString("Sound")
+                        : news_.is_limited   ? QString("Sound: limited")
+                        : loudest < kSilence ? QString("Sound: silent")
+                                             : QString("Sound: %1 dB").arg(20.0 * std::log10(loudest), 0, 'f', 0));
+  if (is_known && !volume_->isSliderDown() && !volume_->hasFocus() && news_.volume > 0.0 &&
+      stepOfVolume(news_.volume) != volume_->value()) {
+    const QSignalBlocker quiet(volume_);
+    volume_->setValue(stepOfVolume(news_.volume));
+  }
 }
 
 void StationPanel::showMessages() {

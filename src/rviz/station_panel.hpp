@@ -7,6 +7,7 @@
 #include <QPlainTextEdit>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QSlider>
 #include <QTimer>
 #include <QVBoxLayout>
 #include <functional>
@@ -40,6 +41,7 @@ class StationPanel : public rviz::Panel {
   void addInstruments(QVBoxLayout* column);
   void addParameters(QVBoxLayout* column);
   void addMeters(QVBoxLayout* column);
+  void addSound(QVBoxLayout* column);
   void addMessages(QVBoxLayout* column);
   QPushButton* addButton(const QString& text, const QString& tip);
   std::function<void()> press(void (StationLink::*act)());
@@ -52,6 +54,7 @@ class StationPanel : public rviz::Panel {
   void showInstruments();
   void choose(const SceneEntry& scene);
   void showMeters();
+  void showSound();
   void showMessages();
   bool isStale() const { return lampOf(news_.status.state, news_.age_s) == Lamp::kStale; }
 
@@ -79,6 +82,10 @@ class StationPanel : public rviz::Panel {
   ForceMeter* forces_ = nullptr;
   QProgressBar* load_ = nullptr;
   Paragraph* rates_ = nullptr;
+  QLabel* sound_title_ = nullptr;
+  SoundMeter* sound_ = nullptr;
+  QSlider* volume_ = nullptr;
+  QPushButton* mute_ = nullptr;
   QPlainTextEdit* messages_ = nullptr;
   QLineEdit* station_ = nullptr;
 };

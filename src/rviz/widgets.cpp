@@ -7,14 +7,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rviz/volume_scale.hpp"
+
 namespace ergotic::panel {
 namespace {
 
 constexpr int kLampHeight = 66;
 constexpr int kMeterHeight = 80;
+constexpr int kSoundHeight = 18;
+constexpr double kNearFullScale = 0.98;  // from here on the limiter works
 constexpr double kNearLimit = 0.8;  // of the limit: from here on a bar warns
 const QColor kWarning(0xcc, 0x22, 0x22);
 const QColor kForce(0x28, 0x74, 0xc8);
+const QColor kSound(0x2f, 0x9e, 0x5b);
 
 /// Draws words that wrap; the last line that fits ends with dots if there is more.
 void drawWords(QPainter& painter, const QRect& box, const QString& text) {
@@ -246,6 +251,47 @@ void ForceMeter::paintColumn(QPainter& painter, const QRect& column, std::size_t
   painter.setPen(palette().color(QPalette::Text));
   write(QRect(column.left(), height() - line, column.width(), line),
         QString::number(static_cast<int>(slice)));
+}
+
+SoundMeter::SoundMeter(QWidget* parent) : QWidget(parent) {
+  setFixedHeight(kSoundHeight);
+  setAccessibleName("loudness of the outputs");
+}
+
+void SoundMeter::show(const std::vector<double>& levels,
+                      const std::vector<double>& peaks,
+                      bool is_known) {
+  if (levels == levels_ && peaks == peaks_ && is_known == is_known_) {
+    return;
+  }
+  levels_ = levels;
+  peaks_ = peaks;
+  is_known_ = is_known && !levels.empty() && peaks.size() == levels.size();
+  update();
+}
+
+void SoundMeter::paintEvent(QPaintEvent* /*event*/) {
+  QPainter painter(this);
+  painter.fillRect(rect(), palette().color(QPalette::Base));
+  painter.setFont(scaled(font(), 0.8, false));
+  if (!is_known_) {
+    painter.setPen(palette().color(QPalette::Disabled, QPalette::Text));
+    painter.drawText(rect(), Qt::AlignCenter, "No sound is heard.");
+    return;
+  }
+  const int count = static_cast<int>(levels_.size());
+  for (int i = 0; i < count; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    const int top = height() * i / count;
+    const int thickness = std::max(height() * (i + 1) / count - top - 1, 1);
+    const auto length_of = [&](double level) {
+      return static_cast<int>(std::lround(shareOfDecibels(level) * width()));
+    };
+    const QColor colour = peaks_[index] >= kNearFullScale ? kWarning : kSound;
+    painter.fillRect(QRect(0, top, length_of(levels_[index]), thickness), colour);
+    const int peak = length_of(peaks_[index]);
+    painter.fillRect(QRect(std::max(peak - 2, 0), top, 2, thickness), colour.darker());
+  }
 }
 
 }  // namespace ergotic::panel

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::int64_t kStillNs = 1'000'000'000;  // without a period, many times the longest
 constexpr double kClockBandwidthHz = 0.5;
+constexpr double kVolumeS = 0.02;  // from silence to full volume
 constexpr int kReadingsToConnect = 8;  // the first periods of a host are the least regular
 constexpr std::size_t kFifoFrames = 2U * AudioBridge::kMaxLatencyFrames;
 constexpr std::size_t kLosses = 1U << 10U;
@@ -33,6 +34,8 @@ const AudioBridgeConfig& checkedBridge(const AudioBridgeConfig& config) {
 
 AudioBridge::AudioBridge(const AudioBridgeConfig& config)
     : config_(checkedBridge(config)),
+      volume_step_(static_cast<float>(1.0 / (kVolumeS * config.rates.audio_hz))),
+      channel_peaks_(static_cast<std::size_t>(config.output_channels)),
       latency_(config.latency_frames),
       to_host_(kFifoFrames, config.output_channels),
       from_host_(kFifoFrames, config.input_channels),
@@ -74,6 +77,14 @@ void AudioBridge::audioStopped() noexcept {
 
 void AudioBridge::xrun() noexcept {
   xruns_.fetch_add(1, std::memory_order_relaxed);
+}
+
+std::vector<float> AudioBridge::takePeaks() {
+  std::vector<float> peaks;
+  for (std::atomic<float>& channel : channel_peaks_) {
+    peaks.push_back(channel.exchange(0.0F, std::memory_order_relaxed));
+  }
+  return peaks;
 }
 
 std::vector<std::string> AudioBridge::takeWarnings() {
@@ -170,11 +181,23 @@ void AudioBridge::play(const rt::Period& period, const Relation& relation) noexc
   }
 }
 
-/// 1 if nothing limits it.
+float AudioBridge::nextVolume() noexcept {
+  const float way = volume_.load(std::memory_order_relaxed) - present_volume_;
+  present_volume_ += std::clamp(way, -volume_step_, volume_step_);
+  return present_volume_;
+}
+
+/// 1 at full volume if nothing limits it.
 float AudioBridge::gainOf(const float* frame, int channels) noexcept {
+  const float volume = nextVolume();
   float peak = 0.0F;
   for (int c = 0; c < channels; ++c) {
-    peak = std::max(peak, std::abs(frame[c]));
+    const float size = volume * std::abs(frame[c]);
+    std::atomic<float>& channel = channel_peaks_[static_cast<std::size_t>(c)];
+    if (size > channel.load(std::memory_order_relaxed)) {
+      channel.store(size, std::memory_order_relaxed);
+    }
+    peak = std::max(peak, size);
   }
   if (peak > peak_.load(std::memory_order_relaxed)) {
     peak_.store(peak, std::memory_order_relaxed);
@@ -183,7 +206,7 @@ float AudioBridge::gainOf(const float* frame, int channels) noexcept {
   if (gain < 1.0F) {
     limited_frames_.fetch_add(1, std::memory_order_relaxed);
   }
-  return gain;
+  return volume * gain;
 }
 
 /// After an xrun the host's frame count goes on without having called: those frames are lost.

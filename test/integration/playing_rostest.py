@@ -12,7 +12,10 @@ import rospy
 import rostest
 
 from desk import ROOT, DeskTest, Newest, until
-from ergotic.msg import GestureBlock, Handles, HandTargets, ModelState, ModelStructure, Note, Status
+from ergotic.msg import GestureBlock, Handles, HandTargets, Levels, ModelState, ModelStructure, Note, Status
+from ergotic.srv import LoadModel
+from std_msgs.msg import Float64
+from visualization_msgs.msg import Marker, MarkerArray
 
 PLUCK, STRIKE = 0, 1  # slices
 FRAMES_BETWEEN_NOTES = 11025
@@ -39,6 +42,26 @@ class Gesture:
         ticks = numpy.array(self.ticks[:count])
         crossing = numpy.flatnonzero((x[:-1] < height) & (x[1:] >= height))
         return ticks[crossing] + (height - x[crossing]) / (x[crossing + 1] - x[crossing])
+
+
+class SlowPicture:
+    """What a program shows that takes its time for each message of markers."""
+
+    def __init__(self):
+        self.shown = {}  # namespace and number: when it ends
+        self.topic = rospy.Subscriber("/station/markers", MarkerArray, self.hear, queue_size=1, buff_size=1 << 24)
+
+    def hear(self, array):
+        for marker in array.markers:
+            if marker.action == Marker.DELETEALL:
+                self.shown = {}
+            else:
+                self.shown[marker.ns, marker.id] = time.monotonic() + marker.lifetime.to_sec()
+        time.sleep(0.7)
+
+    def sections(self):
+        now = time.monotonic()
+        return {name.split("/")[0] for (name, _), end in dict(self.shown).items() if end > now}
 
 
 class Camera:
@@ -195,6 +218,28 @@ class PlayingTest(DeskTest):
         # Each stall of the host makes one note late. Without stamps the median were a third of a period, 6 ticks.
         self.assertLess(numpy.median(numpy.abs(distances - wanted)), 1.0)
         self.assertLess(worst, 0.02 * gesture.rate_hz)
+
+
+    def test_4_the_volume_is_that_of_the_player(self):
+        levels = Newest("/station/levels", Levels)
+        volume = rospy.Publisher("/station/volume", Float64, queue_size=1, latch=True)
+        rospy.Publisher("/station/notes", Note, queue_size=1, latch=True).publish(note=60, velocity=100)
+        self.assertTrue(until(lambda: levels.message and max(levels.message.peaks) > 0.001), "no sound")
+        self.assertEqual(list(levels.message.channels), [1, 2])
+        volume.publish(0.0)
+        self.assertTrue(until(lambda: levels.message.volume == 0 and max(levels.message.peaks) == 0))
+        volume.publish(math.nan)
+        volume.publish(1.0)
+        self.assertTrue(until(lambda: levels.message.volume == 1))
+
+    def test_5_nothing_of_the_old_model_stays_in_a_slow_picture(self):
+        picture = SlowPicture()
+        self.assertTrue(until(lambda: picture.sections() == {"string", "action", "keys"}), picture.sections())
+        load = rospy.ServiceProxy("/station/load_model", LoadModel)
+        for _ in range(3):
+            for scene, sections in (("duet", {"string", "action", "hands"}), ("string", {"string", "action", "keys"})):
+                self.assertTrue(load(model=os.path.join(ROOT, f"models/{scene}.yaml")).success)
+                self.assertTrue(until(lambda: picture.sections() == sections, 5), picture.sections())
 
 
 if __name__ == "__main__":

@@ -392,5 +392,37 @@ TEST(AudioBridgeTest, KeepsTheSoundBelowFullScaleIfItShallAndSaysSoOnce) {
   EXPECT_THAT(rig.bridge.takeWarnings(), IsEmpty());
 }
 
+TEST(AudioBridgeTest, TheVolumeIsReachedWithin20MsAndAtOnePassesBitForBit) {
+  AudioBridgeConfig config = smallConfig();
+  Rig rig(config);  // whose samples are the numbers of their frames
+  rig.host.start(kPeriod, 5000, 7'000'000);
+  for (int n = 0; n < 40; ++n) {
+    rig.step();
+  }
+  for (const auto& [frame, sample] : rig.sounded) {
+    EXPECT_TRUE(sample == 0.0F || sample == std::floor(sample)) << "whole numbers, as they were";
+  }
+  rig.bridge.setVolume(0.0F);
+  for (int n = 0; n < 40; ++n) {
+    rig.step();
+  }
+  rig.sounded.clear();
+  rig.bridge.takePeaks();
+  for (int n = 0; n < 10; ++n) {
+    rig.step();
+  }
+  ASSERT_FALSE(rig.sounded.empty());
+  for (const auto& [frame, sample] : rig.sounded) {
+    EXPECT_EQ(sample, 0.0F);
+  }
+  EXPECT_EQ(rig.bridge.takePeaks().front(), 0.0F);
+  rig.bridge.setVolume(0.5F);
+  for (int n = 0; n < 60; ++n) {
+    rig.step();
+  }
+  EXPECT_GT(rig.bridge.takePeaks().front(), 100.0F);
+  EXPECT_EQ(rig.bridge.takePeaks().front(), 0.0F) << "since the last call";
+}
+
 }  // namespace
 }  // namespace ergotic::station

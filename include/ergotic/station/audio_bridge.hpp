@@ -110,6 +110,13 @@ class AudioBridge : public rt::AudioProcessor, public FramePort {
   Loudness loudness() const noexcept {
     return {peak_.load(std::memory_order_relaxed), limited_frames_.load(std::memory_order_relaxed)};
   }
+  /// Master volume of all outputs, 0...1, which is reached within 20 ms: at 1 the sound passes bit
+  /// for bit. Realtime: yes. Thread: any
+  void setVolume(float volume) noexcept { volume_.store(volume, std::memory_order_relaxed); }
+  float volume() const noexcept { return volume_.load(std::memory_order_relaxed); }
+  /// Of each output channel the largest sample since the last call, of full scale, after the volume
+  /// and before the limiter. Realtime: no. Thread: one, any
+  std::vector<float> takePeaks();
   /// Ring depth of the present connection. Realtime: yes. Thread: any
   int latencyFrames() const noexcept { return latency_.load(std::memory_order_relaxed); }
   /// What operators should know (a raised latency, sound beyond full scale); each is given once.
@@ -139,6 +146,7 @@ class AudioBridge : public rt::AudioProcessor, public FramePort {
   void capture(const rt::Period& period) noexcept;
   void play(const rt::Period& period, const Relation& relation) noexcept;
   float gainOf(const float* frame, int channels) noexcept;
+  float nextVolume() noexcept;
   void noteSkipped(const rt::Period& period, const Relation& relation) noexcept;
   void tellLoss(const Loss& loss) noexcept;
   void noteUnderrun(const Relation& relation, std::int64_t first, std::int64_t end) noexcept;
@@ -148,6 +156,10 @@ class AudioBridge : public rt::AudioProcessor, public FramePort {
 
   AudioBridgeConfig config_;
   rt::Ring<MidiArrival> midi_{1024};
+  std::atomic<float> volume_{1.0F};
+  float present_volume_ = 1.0F;  // the host's real-time thread has it
+  float volume_step_;            // per frame
+  std::vector<std::atomic<float>> channel_peaks_;  // [output channels]
 
   // Shared.
   std::atomic<bool> running_{false};

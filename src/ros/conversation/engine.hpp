@@ -55,6 +55,9 @@ class Engine {
   /// \return false if no MIDI message waits, or it plays without JACK. Thread: one, any
   bool popMidi(station::MidiArrival& arrival) { return bridge_ && bridge_->popMidi(arrival); }
 
+  /// \return null if it plays without JACK
+  station::AudioBridge* bridge() { return bridge_.get(); }
+
   /// Thread: any
   station::Loudness loudness() const { return bridge_ ? bridge_->loudness() : station::Loudness(); }
   tgr::WatchdogReading watchdogReading() const { return watchdog_->reading(); }  ///< Thread: any

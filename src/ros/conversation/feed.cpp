@@ -22,6 +22,7 @@ constexpr bool kLatched = true;
 
 Feed::Feed(const ::ros::NodeHandle& node) : node_(node), display_(node) {
   joint_states_ = node_.advertise<sensor_msgs::JointState>("joint_states", kQueue);
+  levels_ = node_.advertise<Levels>("levels", 1);
   handles_ = node_.advertise<Handles>("handles", 1, kLatched);
   keyframe_ = node_.advertise<Keyframe>("keyframe", kQueue, kLatched);
   events_ = node_.advertise<Event>("events", kEventQueue);
@@ -81,6 +82,11 @@ void Feed::showHandles(Handles handles) {
   handles.header.frame_id = "model";
   handles.display_zoom = display_zoom_;
   handles_.publish(handles);
+}
+
+void Feed::show(Levels levels) {
+  levels.header.stamp = ::ros::Time::now();
+  levels_.publish(levels);
 }
 
 void Feed::showSilence(const std::string& message) {

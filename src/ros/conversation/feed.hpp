@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <ergotic/Handles.h>
+#include <ergotic/Levels.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <tf2_ros/transform_broadcaster.h>
@@ -42,6 +43,9 @@ class Feed {
                  const std::vector<double>& parameters);
   /// What of the model hands move from now on.
   void showHandles(Handles handles);
+  /// \return whether anybody wants to know how loud it is
+  bool wantsLevels() const { return levels_.getNumSubscribers() > 0; }
+  void show(Levels levels);
   /// A parameter of the model that plays has another value.
   void showParameter(std::int64_t index, double value);
   /// Nothing plays any more, or nothing yet; `message` says why.
@@ -79,6 +83,7 @@ class Feed {
   std::int64_t motion_period_ns_ = 0;
   ::ros::Publisher joint_states_;
   ::ros::Publisher handles_;
+  ::ros::Publisher levels_;
   double display_zoom_ = 1.0;
   ::ros::Publisher model_energy_;  // only if the books are kept
   ::ros::Publisher gesture_;

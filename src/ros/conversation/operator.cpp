@@ -139,6 +139,13 @@ Answer Operator::setParameter(const std::string& name, double value) {
   return ask([=](const Promise& promise) { performance_.setParameter(name, value, promise); });
 }
 
+Answer Operator::setVolume(double volume) {
+  return ask([=](const Promise& promise) {
+    const std::string refusal = performance_.setVolume(volume);
+    promise->set_value({refusal.empty(), refusal});
+  });
+}
+
 Answer Operator::configure(const tgr::EndEffectors& end_effectors) {
   return ask([=](const Promise& promise) { performance_.configure(end_effectors, promise); });
 }

@@ -52,6 +52,8 @@ class Operator {
   Answer recover(const ForceRequest& request);
   /// Answers when the tick plays with the new value.
   Answer setParameter(const std::string& name, double value);
+  /// Master volume of the sound at JACK, 0...1.
+  Answer setVolume(double volume);
   /// Puts other end-effectors on the slices; answers when they are in place, with force at zero.
   Answer configure(const tgr::EndEffectors& end_effectors);
   Calibrate::Response calibrate(const Calibrate::Request& request, const Arrival& arrival);

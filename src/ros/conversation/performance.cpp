@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 #include <utility>
 
 #include <ros/console.h>
@@ -25,6 +26,7 @@ constexpr std::int64_t kObeyTimeoutNs = 1'000'000'000;
 // From a call to its arrival, where the caller has to find the service first, on a busy machine.
 constexpr std::int64_t kOnItsWayNs = 500'000'000;
 constexpr std::size_t kGestureBatch = 256;
+constexpr std::int64_t kLevelsPeriodNs = 66'000'000;
 const char kWasOnItsWay[] =
     "it was on its way when somebody asked for an emergency stop: ask again";
 const char kTooMany[] = "too many requests wait for the real-time thread";
@@ -202,6 +204,7 @@ void Performance::poll() {
     feed_.show(playing_->motion.latest(), playing_->instrument->scene());
   }
   pollCalibration();
+  pollLevels();
   giveUp();
   reportWarnings();
   if (const std::string counted = disturbances_.ofLastMinute(rt::monotonicNs()); !counted.empty()) {
@@ -215,6 +218,43 @@ void Performance::pollGestures() {
     count = engine_->station().pollGestures(gestures_.data(), gestures_.size());
     feed_.show(gestures_.data(), count);
   } while (count == gestures_.size());
+}
+
+std::string Performance::setVolume(double volume) {
+  if (!(volume >= 0.0 && volume <= 1.0)) {
+    return "volume is " + std::to_string(volume) + ", allowed: 0...1";
+  }
+  if (!engine_ || engine_->bridge() == nullptr) {
+    return engine_ ? "there is no sound to set a volume of: jack is none" : kNothingPlays;
+  }
+  engine_->bridge()->setVolume(static_cast<float>(volume));
+  return "";
+}
+
+void Performance::pollLevels() {
+  station::AudioBridge* const bridge = engine_->bridge();
+  const std::int64_t now_ns = rt::monotonicNs();
+  if (bridge == nullptr || !feed_.wantsLevels() || now_ns < levels_due_ns_) {
+    return;
+  }
+  levels_due_ns_ = now_ns + kLevelsPeriodNs;
+  Levels levels;
+  const std::vector<float> peaks = bridge->takePeaks();
+  std::set<int> channels;
+  for (const scene::Output& output : playing_->instrument->scene().outputs) {
+    channels.insert(output.channel);
+  }
+  for (const int channel : channels) {
+    if (channel >= 0 && static_cast<std::size_t>(channel) < peaks.size()) {
+      levels.channels.push_back(static_cast<std::uint32_t>(channel) + 1);
+      levels.peaks.push_back(peaks[static_cast<std::size_t>(channel)]);
+    }
+  }
+  levels.volume = bridge->volume();
+  const std::int64_t limited = bridge->loudness().limited_frames;
+  levels.limited = limited != limited_frames_ ? 1U : 0U;
+  limited_frames_ = limited;
+  feed_.show(std::move(levels));
 }
 
 void Performance::take(const station::Event& event) {

@@ -80,6 +80,9 @@ class Performance {
                  const Promise& promise);
   void inject(const InjectFault::Request& request, const Promise& promise);
 
+  /// Master volume of the sound at JACK. \return what is wrong with it, or an empty text
+  std::string setVolume(double volume);
+
   /// In words, for who loaded it. \pre something plays
   std::string whatPlays(bool force_waits) const;
 
@@ -157,6 +160,7 @@ class Performance {
   void takeSwapped(const station::Event& event);
   void takeKeyframe(const station::Event& event);
   void giveUp();
+  void pollLevels();
   void play(station::Performer* performer, std::shared_ptr<Picture> picture);
   void reportWarnings();
   void findPlayMap(const scene::Scene& scene);
@@ -175,6 +179,8 @@ class Performance {
   std::vector<double> parameters_;           // of submitted_, as submitted
   std::deque<Incoming> incoming_;
   Disturbances disturbances_;
+  std::int64_t levels_due_ns_ = 0;
+  std::int64_t limited_frames_ = 0;  // as told last
   std::deque<Change> changes_;
   std::deque<Configuration> configurations_;
   std::map<std::uint64_t, Waiter> requests_;  // engage and recover, by their numbers

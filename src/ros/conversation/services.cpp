@@ -92,6 +92,7 @@ Services::Services(::ros::NodeHandle node, Operator& operator_thread)
                             ::ros::TransportHints().tcpNoDelay()),
       hands_node_.subscribe("notes", kHandsQueue, &Services::onNote, this,
                             ::ros::TransportHints().tcpNoDelay()),
+      node_.subscribe("volume", 1, &Services::onVolume, this),
       node_.subscribe("end_effectors", 1, &Services::onEndEffectors, this),
       safety_node_.subscribe("emergency_stop", 1, &Services::onEmergencyTopic, this),
       safety_node_.subscribe("presence", kRequestQueue, &Services::onPresence, this),
@@ -155,6 +156,10 @@ void Services::onHandTargets(const ::ros::MessageEvent<const HandTargets>& targe
 
 void Services::onNote(const Note& note) {
   operator_.playNote(note.note, note.velocity);
+}
+
+void Services::onVolume(const std_msgs::Float64& volume) {
+  complain("volume", operator_.setVolume(volume.data));
 }
 
 bool Services::onPlayMap(PlayMap::Request& request, PlayMap::Response& response) {

@@ -20,6 +20,7 @@
 #include <ros/spinner.h>
 #include <std_msgs/Bool.h>
 #include <std_msgs/Empty.h>
+#include <std_msgs/Float64.h>
 #include <std_msgs/String.h>
 
 #include "ros/conversation/arrivals.hpp"
@@ -54,6 +55,7 @@ class Services {
   void onParameter(const ParameterValue& parameter);
   void onHandTargets(const ::ros::MessageEvent<const HandTargets>& targets);
   void onNote(const Note& note);
+  void onVolume(const std_msgs::Float64& volume);
   bool onPlayMap(PlayMap::Request& request, PlayMap::Response& response);
   Answer configure(const std::vector<EndEffector>& end_effectors);
   bool onRecover(Call<Trigger>& call);

@@ -49,7 +49,7 @@ void Display::draw(News& news) {
   }
   if (news.end_effectors) {
     frames_ = EndEffectorFrames(*news.end_effectors);
-    markers_.publish(Markers::eraseAll());  // those that are gone
+    erases_ = true;  // those that are gone
   }
   if (news.has_moved && picture_) {
     draw(news.motion);
@@ -64,8 +64,8 @@ void Display::begin(std::shared_ptr<Picture> picture) {
   if (picture_) {
     picture_->structure.header.stamp = ::ros::Time::now();
     model_structure_.publish(picture_->structure);
-    markers_.publish(Markers::eraseAll());
   }
+  erases_ = true;
 }
 
 void Display::draw(const ModelState& motion) {
@@ -73,11 +73,26 @@ void Display::draw(const ModelState& motion) {
     model_state_.publish(motion);
   }
   if (markers_.getNumSubscribers() > 0) {
-    const ::ros::Time stamp = motion.header.stamp;
-    markers_.publish(picture_->markers.draw(motion.displacement, stamp));
-    if (const auto& shapes = frames_.shapes(stamp); !shapes.markers.empty()) {
-      markers_.publish(shapes);
+    drawMarkers(motion);
+  }
+}
+
+/// What was there before is erased by the message that brings the new: a subscriber that is slow for
+/// a moment gets both or neither.
+void Display::drawMarkers(const ModelState& motion) {
+  const ::ros::Time stamp = motion.header.stamp;
+  const auto& model = picture_->markers.draw(motion.displacement, stamp);
+  const auto& shapes = frames_.shapes(stamp);
+  if (std::exchange(erases_, false)) {
+    visualization_msgs::MarkerArray all = Markers::eraseAll();
+    for (const auto* part : {&model, &shapes}) {
+      all.markers.insert(all.markers.end(), part->markers.begin(), part->markers.end());
     }
+    return markers_.publish(all);
+  }
+  markers_.publish(model);
+  if (!shapes.markers.empty()) {
+    markers_.publish(shapes);
   }
 }
 

@@ -49,6 +49,7 @@ class Display {
   void draw(News& news);
   void begin(std::shared_ptr<Picture> picture);
   void draw(const ModelState& motion);
+  void drawMarkers(const ModelState& motion);
 
   ::ros::NodeHandle node_;
   ::ros::Publisher model_structure_;
@@ -57,6 +58,7 @@ class Display {
 
   std::shared_ptr<Picture> picture_;
   EndEffectorFrames frames_;
+  bool erases_ = false;  // what was drawn before, with the next frame
 
   Newest<News> news_;  // last: its thread needs all the others
 };

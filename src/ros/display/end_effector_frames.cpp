@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "ros/device/end_effectors.hpp"
+#include "ros/display/markers.hpp"
 
 namespace ergotic::node {
 namespace {
@@ -30,6 +31,7 @@ Marker shapeMarker(const std::string& frame, int id, int type, const Size& size)
   marker.type = type;
   marker.action = Marker::ADD;
   marker.pose.orientation.w = 1.0;
+  marker.lifetime = ::ros::Duration(Markers::kLifetimeS);
   marker.scale.x = size.x;
   marker.scale.y = size.y;
   marker.scale.z = size.z;

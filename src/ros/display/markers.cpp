@@ -31,6 +31,7 @@ Marker markerOf(const scene::Section& section, std::size_t index, int type, int 
   marker.type = type;
   marker.action = Marker::ADD;
   marker.pose.orientation.w = 1.0;
+  marker.lifetime = ::ros::Duration(Markers::kLifetimeS);
   marker.scale.x = type == Marker::POINTS ? kPointWidthM : kLineWidthM;
   marker.scale.y = type == Marker::POINTS ? kPointWidthM : 0.0;
   const Colour& colour = kColours[index % kColours.size()];

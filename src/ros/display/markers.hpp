@@ -17,6 +17,8 @@ namespace ergotic::node {
 class Markers {
  public:
   static constexpr std::size_t kChunkPoints = 16000;
+  /// After which what is drawn no more is gone, whoever missed that it was erased, s.
+  static constexpr double kLifetimeS = 1.0;
 
   /// \param zoom  of x about x = 0 where modules move along x alone, as maps exaggerate height:
   ///              strings move by millimetres. What touches in the model touches in the picture.

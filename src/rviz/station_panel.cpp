@@ -8,6 +8,7 @@
 #include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 
 #include <pluginlib/class_list_macros.hpp>
 #include <ros/package.h>
@@ -89,7 +90,9 @@ StationPanel::~StationPanel() {
 }
 
 void StationPanel::onInitialize() {
-  // Here, for rospack is not made for several threads, and rviz asks it in this one.
+  // Here, for neither rospack nor the environment is made for several threads, and rviz asks in
+  // this one.
+  tzset();
   models_ = ros::package::getPath("ergotic") + "/models";
   timer_.start(kRefreshMs);
 }

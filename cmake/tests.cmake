@@ -105,8 +105,9 @@ ergotic_add_gtests(tools 4 ergotic_measuring)
 # preloaded. The mechanics are its own copy, so that what preloads it meets no symbols of the core.
 file(GLOB standin_sources CONFIGURE_DEPENDS test/comedi/standin/*.cpp)
 add_library(comedi_standin SHARED ${standin_sources}
-  src/tgr/drivers/virtual/slice_bank.cpp src/tgr/drivers/virtual/target_gesture.cpp
-  src/tgr/drivers/virtual/virtual_slice.cpp src/tgr/drivers/virtual/virtual_slice_fields.cpp
+  src/tgr/drivers/virtual/player_hands.cpp src/tgr/drivers/virtual/slice_bank.cpp
+  src/tgr/drivers/virtual/target_gesture.cpp src/tgr/drivers/virtual/virtual_slice.cpp
+  src/tgr/drivers/virtual/virtual_slice_fields.cpp
   src/tgr/calibration.cpp src/tgr/gesture_csv.cpp src/tgr/csv.cpp src/tgr/require.cpp
   src/scene/limits.cpp src/files/printable.cpp src/files/read_file.cpp
   src/exception.cpp)

@@ -19,9 +19,9 @@ struct News {
   Status status;
   double age_s = -1.0;  ///< of the status, s; negative: none came yet
   bool has_master = true;
-  std::vector<double> forces;  ///< [slices] as sent to the device, N
-  std::vector<double> peaks;   ///< [slices] their largest sizes in the last second, N
-  double force_limit = 20.0;   ///< N per slice
+  std::vector<double> forces;       ///< [slices] as sent to the device, N
+  std::vector<double> peaks;        ///< [slices] their largest sizes in the last second, N
+  double force_limit = 20.0;        ///< N per slice
   std::vector<double> levels;       ///< [outputs] of full scale
   std::vector<double> level_peaks;  ///< [outputs] in the last second
   double volume = 1.0;              ///< master volume, 0...1

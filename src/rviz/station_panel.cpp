@@ -183,7 +183,7 @@ void StationPanel::addInstruments(QVBoxLayout* column) {
 
 void StationPanel::addParameters(QVBoxLayout* column) {
   parameters_ = adopted<ParameterList>(this);
-  parameters_->setMinimumHeight(110);
+  parameters_->setMinimumHeight(92);
   auto* reset = adopted<QPushButton>("Defaults");
   reset->setToolTip("Sets all parameters to what the scene begins with");
   reset->setAutoDefault(false);
@@ -239,7 +239,7 @@ void StationPanel::addSound(QVBoxLayout* column) {
 void StationPanel::addMessages(QVBoxLayout* column) {
   messages_ = adopted<QPlainTextEdit>();
   messages_->setReadOnly(true);
-  messages_->setMinimumHeight(64);
+  messages_->setMinimumHeight(46);
   messages_->setTabChangesFocus(true);
   QFont font = messages_->font();
   font.setPointSizeF(0.9 * font.pointSizeF());
@@ -386,10 +386,11 @@ void StationPanel::showSound() {
   for (const double peak : news_.level_peaks) {
     loudest = std::max(loudest, peak);
   }
-  sound_title_->setText(!is_known            ? QString("Sound")
-                        : news_.is_limited   ? QString("Sound: limited")
-                        : loudest < kSilence ? QString("Sound: silent")
-                                             : QString("Sound: %1 dB").arg(20.0 * std::log10(loudest), 0, 'f', 0));
+  sound_title_->setText(!is_known          ? QString("Sound")
+                        : news_.is_limited ? QString("Sound: limited")
+                        : loudest < kSilence
+                            ? QString("Sound: silent")
+                            : QString("Sound: %1 dB").arg(20.0 * std::log10(loudest), 0, 'f', 0));
   if (is_known && !volume_->isSliderDown() && !volume_->hasFocus() && news_.volume > 0.0 &&
       stepOfVolume(news_.volume) != volume_->value()) {
     const QSignalBlocker quiet(volume_);

@@ -16,7 +16,7 @@ constexpr int kLampHeight = 66;
 constexpr int kMeterHeight = 80;
 constexpr int kSoundHeight = 18;
 constexpr double kNearFullScale = 0.98;  // from here on the limiter works
-constexpr double kNearLimit = 0.8;  // of the limit: from here on a bar warns
+constexpr double kNearLimit = 0.8;       // of the limit: from here on a bar warns
 const QColor kWarning(0xcc, 0x22, 0x22);
 const QColor kForce(0x28, 0x74, 0xc8);
 const QColor kSound(0x2f, 0x9e, 0x5b);

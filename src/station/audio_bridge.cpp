@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kStillNs = 1'000'000'000;  // without a period, many times the longest
 constexpr double kClockBandwidthHz = 0.5;
-constexpr double kVolumeS = 0.02;  // from silence to full volume
+constexpr double kVolumeS = 0.02;      // from silence to full volume
 constexpr int kReadingsToConnect = 8;  // the first periods of a host are the least regular
 constexpr std::size_t kFifoFrames = 2U * AudioBridge::kMaxLatencyFrames;
 constexpr std::size_t kLosses = 1U << 10U;

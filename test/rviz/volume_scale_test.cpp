@@ -11,7 +11,8 @@ namespace {
 TEST(VolumeScaleTest, TheEndsAreSilenceAndFullVolume) {
   EXPECT_EQ(volumeAt(0), 0.0);
   EXPECT_EQ(volumeAt(kVolumeSteps), 1.0);
-  EXPECT_NEAR(volumeAt(kVolumeSteps - 2), std::pow(10.0, -1.0 / 20.0), 1e-12) << "half a decibel a step";
+  EXPECT_NEAR(volumeAt(kVolumeSteps - 2), std::pow(10.0, -1.0 / 20.0), 1e-12)
+      << "half a decibel a step";
 }
 
 TEST(VolumeScaleTest, StepsComeBackFromTheirVolumes) {

@@ -157,8 +157,8 @@ class AudioBridge : public rt::AudioProcessor, public FramePort {
   AudioBridgeConfig config_;
   rt::Ring<MidiArrival> midi_{1024};
   std::atomic<float> volume_{1.0F};
-  float present_volume_ = 1.0F;  // the host's real-time thread has it
-  float volume_step_;            // per frame
+  float present_volume_ = 1.0F;                    // the host's real-time thread has it
+  float volume_step_;                              // per frame
   std::vector<std::atomic<float>> channel_peaks_;  // [output channels]
 
   // Shared.

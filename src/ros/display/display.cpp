@@ -77,8 +77,8 @@ void Display::draw(const ModelState& motion) {
   }
 }
 
-/// What was there before is erased by the message that brings the new: a subscriber that is slow for
-/// a moment gets both or neither.
+/// What was there before is erased by the message that brings the new: a subscriber that is slow
+/// for a moment gets both or neither.
 void Display::drawMarkers(const ModelState& motion) {
   const ::ros::Time stamp = motion.header.stamp;
   const auto& model = picture_->markers.draw(motion.displacement, stamp);

@@ -20,6 +20,15 @@ Eigen::Affine3d drawingOf(const geometry_msgs::Pose& pose, double zoom_of_x) {
   return drawing * Eigen::Scaling(zoom_of_x, 1.0, 1.0);
 }
 
+bool isWhole(const ModelStructure& structure) {
+  const std::size_t sections = structure.section_poses.size();
+  return structure.section_dimensions.size() == sections &&
+         std::all_of(structure.section_dimensions.begin(), structure.section_dimensions.end(),
+                     [](std::uint8_t dimension) { return dimension >= 1 && dimension <= kAxes; }) &&
+         std::all_of(structure.module_sections.begin(), structure.module_sections.end(),
+                     [sections](std::uint32_t section) { return section < sections; });
+}
+
 bool fits(const Handles& handles, const ModelStructure& structure) {
   const std::size_t count = handles.modules.size();
   return handles.names.size() == count && handles.end_effectors.size() == count &&
@@ -66,9 +75,12 @@ void HandleSet::build() {
   ++version_;
   std::vector<std::size_t> first;
   coordinates_ = 0;
+  if (!isWhole(structure_)) {
+    return;
+  }
   for (const std::uint32_t section : structure_.module_sections) {
     first.push_back(coordinates_);
-    coordinates_ += structure_.section_dimensions.at(section);
+    coordinates_ += structure_.section_dimensions[section];
   }
   if (!fits(message_, structure_)) {
     return;

@@ -87,7 +87,7 @@ void GrabTool::subscribe() {
   letGo();
   const std::string station = station_->getStdString();
   std::string error;
-  if (!ros::names::validate(station, error)) {
+  if (!ros::names::validate(station, error) || station.empty() || station[0] == '~') {
     setStatus(QString("There is no station of that name: ") + error.c_str());
     return;
   }
@@ -145,7 +145,8 @@ bool GrabTool::eventFilter(QObject* /*watched*/, QEvent* event) {
 /// \return whether it is a key that plays, which then has no other effect: letters switch tools
 bool GrabTool::playKey(const QKeyEvent& key, bool is_press) {
   const std::uint32_t code = key.nativeScanCode();
-  if (!noteOfKey(code) || (key.modifiers() & (Qt::ControlModifier | Qt::AltModifier)) != 0) {
+  const bool is_command = (key.modifiers() & (Qt::ControlModifier | Qt::AltModifier)) != 0;
+  if (!noteOfKey(code) || (is_press && is_command)) {
     return false;
   }
   if (key.isAutoRepeat()) {
@@ -186,8 +187,14 @@ void GrabTool::update(float /*wall_dt*/, float /*ros_dt*/) {
     const Ogre::Camera* const camera = context_->getViewManager()->getRenderPanel()->getCamera();
     picture_->setUp(model_.linear().inverse() * toEigen(camera->getDerivedUp()));
   }
-  if (grab_ && wallNs() - sent_wall_ns_ > kRepeatNs) {
-    send();
+  if (wallNs() - sent_wall_ns_ > kRepeatNs) {
+    sent_wall_ns_ = wallNs();
+    for (const int note : keys_.down()) {
+      sendNote(note, Note::HELD);
+    }
+    if (grab_) {
+      send();
+    }
   }
   draw();
 }

@@ -36,6 +36,7 @@ class KeyRows {
     down_.erase(found);
     return note;
   }
+  const std::vector<int>& down() const { return down_; }
   /// \return all notes that were down
   std::vector<int> releaseAll() { return std::exchange(down_, {}); }
 

@@ -108,7 +108,8 @@ TEST_F(DeployedTest, WhatTakesForceAwayComesBeforeTheTick) {
   EXPECT_EQ(having(kTickPriority + 5), 1) << "the watchdog";
   EXPECT_EQ(having(80), 1) << "who hears signals";
   EXPECT_EQ(having(40), 2) << "who reads sockets, and who answers to stop";
-  EXPECT_EQ(threads.size(), 4U) << "and nobody else";
+  EXPECT_EQ(having(39), 1) << "who moves players' hands";
+  EXPECT_EQ(threads.size(), 5U) << "and nobody else";
 }
 
 TEST_F(DeployedTest, ItsMemoryIsLockedUnlessItIsToldToBeOrdinary) {

@@ -67,7 +67,8 @@ class DocumentedTest(unittest.TestCase):
         came = {}
         done = threading.Event()
         expected = {full(name): "latched" in told for name, told, *_ in rows("Topics out")}
-        quiet = {"/station/events", "/tf"}  # nothing happens, and no end-effector is there
+        # Nothing happens, no end-effector is there, and no sound.
+        quiet = {"/station/events", "/station/levels", "/tf"}
 
         def hear(name):
             def heard(message):

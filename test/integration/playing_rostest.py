@@ -198,9 +198,10 @@ class PlayingTest(DeskTest):
         with self.subTest("a window that loses the focus releases the keys that are down"):
             xdotool("keydown", "w", "sleep", 0.3)
             self.assertTrue(until(lambda: self.notes.message.note == 62 and self.notes.message.velocity > 0))
-            xdotool("search", "--onlyvisible", "--name", "RViz", "windowminimize")
+            window = xdotool("search", "--onlyvisible", "--name", "RViz").split()[-1]
+            xdotool("windowminimize", window)
             self.assertTrue(until(lambda: self.notes.message.velocity == 0))
-            xdotool("keyup", "w")
+            xdotool("keyup", "w", "windowactivate", "--sync", window)
 
     def test_3_midi_notes_keep_their_distances_in_time_to_a_tick(self):
         gesture = Gesture(STRIKE)
@@ -240,6 +241,17 @@ class PlayingTest(DeskTest):
             for scene, sections in (("duet", {"string", "action", "hands"}), ("string", {"string", "action", "keys"})):
                 self.assertTrue(load(model=os.path.join(ROOT, f"models/{scene}.yaml")).success)
                 self.assertTrue(until(lambda: picture.sections() == sections, 5), picture.sections())
+
+
+    def test_6_keys_come_up_when_rviz_dies(self):
+        self.wait_for_window("/station/handles")
+        gesture = Gesture(PLUCK)
+        x, y = self.handle("hammer_key")
+        xdotool("mousemove", x + 90, y + 60, "sleep", 0.3, "keydown", "z")
+        self.assertTrue(until(lambda: gesture.positions and gesture.positions[-1] > 0.015), "the key is not down")
+        self.assertTrue(until(lambda: self.notes.message.velocity == Note.HELD))
+        self.rviz.kill()
+        self.assertTrue(until(lambda: gesture.positions[-1] < 0.005, 5), "the key stays down")
 
 
 if __name__ == "__main__":

@@ -77,6 +77,25 @@ TEST(HandleSetTest, WhatIsOfAnotherModelIsPassedOver) {
   EXPECT_EQ(set.handles()[0].displacement.x(), 0.0);
 }
 
+TEST(HandleSetTest, AStructureThatIsNotWholeHasNoHandles) {
+  const auto shows = [](const ModelStructure& structure) {
+    HandleSet set;
+    set.show(handles());
+    set.show(structure);
+    return !set.handles().empty();
+  };
+  EXPECT_TRUE(shows(structure()));
+  ModelStructure broken = structure();
+  broken.module_sections[0] = 7;
+  EXPECT_FALSE(shows(broken));
+  broken = structure();
+  broken.section_poses.pop_back();
+  EXPECT_FALSE(shows(broken));
+  broken = structure();
+  broken.section_dimensions[0] = 9;
+  EXPECT_FALSE(shows(broken));
+}
+
 TEST(GrabTest, AHandleOfOneAxisFollowsTheMouseAlongIt) {
   const HandleSet set = shown();
   Grab grab(set, set.handles()[0], rayAt(0.1, 0.15), {-1.0, 0.0, 0.0});

@@ -130,6 +130,15 @@ TEST_F(KeyboardTest, PassesOverWhatMeansNothingHere) {
   }
 }
 
+TEST(PlayMapTest, AStrokeTakesAMinuteAtMost) {
+  Keyboard keyboard;
+  keyboard.use(read("keys:\n  - {slices: 0, to: 1, speed: 0.001, back: 0.001, strikes: true}\n"));
+  const auto strokes = keyboard.note(60, 1);
+  ASSERT_EQ(strokes.size(), 2U);
+  EXPECT_EQ(strokes[0].glide_s, 60.0);
+  EXPECT_EQ(strokes[1].after_s, 60.0);
+}
+
 TEST(PlayMapTest, Transposes) {
   PlayMap map = twoKeys();
   map.transpose = -12;

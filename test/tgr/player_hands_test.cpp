@@ -109,6 +109,20 @@ TEST(MoveTimingTest, WaitsNoLongerThanTwelveMilliseconds) {
   }
 }
 
+TEST(MoveTimingTest, AClockThatIsSetBackALittleIsForgottenSoon) {
+  MoveTiming timing;
+  double last_due = 0.0;
+  for (int n = 0; n < 400; ++n) {
+    const double now = 0.008 * n;
+    const double due = timing.dueAt(n < 200 ? now : now - 0.05, now);
+    if (n > 250) {
+      EXPECT_NEAR(due - last_due, 0.008, 1e-6);
+      EXPECT_NEAR(due - now, 0.0085, 1e-6);
+    }
+    last_due = due;
+  }
+}
+
 TEST(MoveTimingTest, BeginsAnewWhenAClockJumps) {
   MoveTiming timing;
   for (int n = 0; n < 20; ++n) {
@@ -294,6 +308,35 @@ TEST(PlayedSliceTest, AMoveOnArrivalWaitsAsLongAsItSays) {
     }
   }
   EXPECT_NEAR(half - begin, 0.0073 + 0.025, 2.0 * kTick);
+}
+
+TEST(PlayedSliceTest, AGlideThatWouldBeTooFastTakesItsTime) {
+  for (const double glide : {1e-200, 1e-6, 0.005}) {
+    PlayedSlice slice;
+    HandMove press = moveTo(0.02, 0.0, HandGrip::kKey);
+    press.glide_s = glide;
+    slice.move(press);
+    double last = 0.0;
+    for (int n = 0; n < 1000; ++n) {
+      const double x = slice.tick();
+      EXPECT_LE(std::abs(x - last), PlayerHands::kMaxSpeed * kTick * 1.05);
+      last = x;
+    }
+    EXPECT_NEAR(slice.x(), 0.02, 1e-4);
+  }
+}
+
+TEST(PlayedSliceTest, AHandThatLetsGoBeforeItHasPulledDoesNotPull) {
+  PlayedSlice slice;
+  slice.run(0.5, 5.0);  // held by the gesture's hand against a force
+  const double before = slice.x();
+  slice.move(moveTo(-0.05, slice.now(), HandGrip::kKey));
+  slice.move(letGo());
+  slice.tick(0.0);
+  slice.tick(0.0);
+  EXPECT_NEAR(slice.x(), before, 1e-4);
+  slice.run(0.02);
+  EXPECT_NEAR(slice.x(), before, 1e-3);
 }
 
 TEST(PlayedSliceTest, ARepeatedGlideBeginsWhereTheKeyWasLeft) {

@@ -273,6 +273,8 @@ void Performance::take(const station::Event& event) {
     }
     case EventType::kConfigured:
       return takeConfigured(event);
+    case EventType::kAudioStopped:  // with JACK, notes that end are not heard
+      return releaseKeys();
     case EventType::kKeyframe:
       return takeKeyframe(event);
     default:
@@ -355,7 +357,7 @@ void Performance::play(station::Performer* performer, std::shared_ptr<Picture> p
   feed_.showModel(*performer, std::move(picture), noteOn(*performer), values);
   const scene::Scene& scene = performer->instrument->scene();
   feed_.showHandles(handlesOf(scene, endEffectors()));
-  findPlayMap(scene);
+  findPlayMap(scene, false);
   command(CommandType::kKeyframe);
 }
 

@@ -103,6 +103,8 @@ class Performance {
   /// Plays what came in by MIDI. \return parameters of the scene that it changes, and their values.
   /// Thread: one, any
   std::vector<std::pair<std::string, double>> playMidi();
+  /// No key is down any more. Thread: any
+  void releaseKeys();
   /// \param map  path or YAML text. \return what is wrong with it, or an empty text. Thread: any
   std::string usePlayMap(const std::string& map);
   /// The presence switch is held, or not. Thread: any
@@ -163,8 +165,9 @@ class Performance {
   void pollLevels();
   void play(station::Performer* performer, std::shared_ptr<Picture> picture);
   void reportWarnings();
-  void findPlayMap(const scene::Scene& scene);
+  void findPlayMap(const scene::Scene& scene, bool keeps_the_players);
   std::string move(const std::vector<tgr::HandMove>& moves);
+  std::string readPlayMap(const std::string& map);
   void play(const std::vector<tgr::Stroke>& strokes, double delay_s);
 
   Feed& feed_;
@@ -188,6 +191,7 @@ class Performance {
   Players players_;
   std::mutex keyboard_mutex_;  // of what follows
   tgr::Keyboard keyboard_;
+  std::string players_map_;  // that somebody asked for while this model plays
   std::map<std::string, std::pair<double, double>> ranges_;  // of the scene's parameters
   CalibrationGuide guide_;
   std::shared_ptr<Calibrate::Response> measured_;  // of the sample under way

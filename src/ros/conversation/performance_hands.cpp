@@ -68,11 +68,15 @@ const tgr::EndEffectors& Performance::endEffectors() const {
 
 void Performance::show(const tgr::EndEffectors& end_effectors) {
   engine_->hands().setEndEffectors(end_effectors);
-  players_.configure(end_effectors);
+  {
+    const std::lock_guard lock(keyboard_mutex_);
+    keyboard_.releaseAll();  // its hands let go with all others
+  }
+  move(players_.configure(end_effectors));
   feed_.show(end_effectors);
   if (playing_ != nullptr) {
     feed_.showHandles(handlesOf(playing_->instrument->scene(), end_effectors));
-    findPlayMap(playing_->instrument->scene());
+    findPlayMap(playing_->instrument->scene(), true);
   }
 }
 

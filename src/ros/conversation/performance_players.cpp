@@ -64,7 +64,7 @@ HandTargets targetsOf(const tgr::Stroke& stroke) {
 std::string Performance::moveHands(const HandTargets& wanted, const std::string& sender) {
   try {
     return move(players_.read(wanted, sender, static_cast<double>(rt::monotonicNs()) / kNsPerS));
-  } catch (const Exception& refusal) {
+  } catch (const std::exception& refusal) {
     return refusal.what();
   }
 }
@@ -91,8 +91,10 @@ void Performance::play(const std::vector<tgr::Stroke>& strokes, double delay_s) 
         move.time_s = tgr::HandMove::kOnArrival;
         move.delay_s = std::max(delay_s + stroke.after_s, 0.0);
       }
-      move(moves);
-    } catch (const Exception& refusal) {
+      if (const std::string refusal = move(moves); !refusal.empty()) {
+        throw Exception(refusal);
+      }
+    } catch (const std::exception& refusal) {
       ROS_WARN_STREAM_THROTTLE(1.0, "a note moves nothing: " << refusal.what());
     }
   }
@@ -101,6 +103,11 @@ void Performance::play(const std::vector<tgr::Stroke>& strokes, double delay_s) 
 void Performance::playNote(int note, int velocity) {
   const std::lock_guard lock(keyboard_mutex_);
   play(keyboard_.note(std::min(note, 127), std::min(velocity, 127)), 0.0);
+}
+
+void Performance::releaseKeys() {
+  const std::lock_guard lock(keyboard_mutex_);
+  play(keyboard_.releaseAll(), 0.0);
 }
 
 std::vector<std::pair<std::string, double>> Performance::playMidi() {
@@ -127,6 +134,15 @@ std::vector<std::pair<std::string, double>> Performance::playMidi() {
 }
 
 std::string Performance::usePlayMap(const std::string& map) {
+  std::string refusal = readPlayMap(map);
+  if (refusal.empty()) {
+    const std::lock_guard lock(keyboard_mutex_);
+    players_map_ = map;
+  }
+  return refusal;
+}
+
+std::string Performance::readPlayMap(const std::string& map) {
   try {
     const bool is_text = map.find('\n') != std::string::npos;
     tgr::PlayMap read = is_text ? tgr::readPlayMap(map, "play_map")
@@ -146,9 +162,13 @@ std::string Performance::usePlayMap(const std::string& map) {
   }
 }
 
-void Performance::findPlayMap(const scene::Scene& scene) {
+/// \param keeps_the_players  the map that somebody asked for stays
+void Performance::findPlayMap(const scene::Scene& scene, bool keeps_the_players) {
+  std::string map;
   {
     const std::lock_guard lock(keyboard_mutex_);
+    players_map_ = keeps_the_players ? players_map_ : "";
+    map = players_map_;
     ranges_.clear();
     for (const scene::Parameter& parameter : scene.parameters) {
       ranges_[parameter.name] = {parameter.minimum, parameter.maximum};
@@ -157,10 +177,10 @@ void Performance::findPlayMap(const scene::Scene& scene) {
   }
   std::error_code error;
   const std::filesystem::path file = mapBeside(scene.file);
-  if (!std::filesystem::is_regular_file(file, error)) {
-    return;
+  if (map.empty() && std::filesystem::is_regular_file(file, error)) {
+    map = file.string();
   }
-  if (const std::string refusal = usePlayMap(file.string()); !refusal.empty()) {
+  if (const std::string refusal = map.empty() ? "" : readPlayMap(map); !refusal.empty()) {
     ROS_WARN_STREAM(refusal);
     feed_.addMessage(refusal);
   }

@@ -21,6 +21,10 @@ template <class Value>
 }
 
 void check(const HandTargets& wanted) {
+  if (wanted.indices.size() > static_cast<std::size_t>(tgr::kMaxSlices)) {
+    refuse("the number of indices", wanted.indices.size(),
+           "at most " + std::to_string(tgr::kMaxSlices));
+  }
   if (!wanted.release && wanted.targets.size() != wanted.indices.size()) {
     refuse("the number of targets", wanted.targets.size(),
            std::to_string(wanted.indices.size()) + ", as there are indices");
@@ -64,7 +68,7 @@ std::vector<tgr::HandMove> allOf(std::uint64_t slices) {
 
 }  // namespace
 
-void Players::configure(const tgr::EndEffectors& end_effectors) {
+std::vector<tgr::HandMove> Players::configure(const tgr::EndEffectors& end_effectors) {
   std::vector<Tool> tools;
   for (const tgr::EndEffectorConfig& config : end_effectors.list) {
     Tool tool;
@@ -76,6 +80,15 @@ void Players::configure(const tgr::EndEffectors& end_effectors) {
   }
   const std::lock_guard lock(mutex_);
   tools_ = std::move(tools);
+  std::uint64_t held = 0;
+  for (Sender& sender : senders_) {
+    held |= std::exchange(sender.slices, 0);
+  }
+  std::vector<tgr::HandMove> released = allOf(held);
+  for (tgr::HandMove& move : released) {
+    move.lets_go = true;
+  }
+  return released;
 }
 
 bool Players::has(const std::string& end_effector) {
@@ -102,20 +115,26 @@ std::vector<tgr::HandMove> Players::read(const HandTargets& wanted,
     move.grip = static_cast<tgr::HandGrip>(wanted.grip);
     move.lets_go = wanted.release != 0U;
     const std::uint64_t bit = std::uint64_t{1} << static_cast<unsigned>(move.slice);
-    held = move.lets_go ? held & ~bit : held | bit;
+    for (Sender& other : senders_) {  // of several that move a slice, the last has it
+      other.slices &= ~bit;
+    }
+    held |= move.lets_go ? 0 : bit;
   }
   return wanted_moves;
 }
 
-/// Of more senders than there are numbers, who was silent for longest gives its number away.
+/// Of more senders than there are numbers, who holds nothing and was silent for longest gives its
+/// number away.
 std::uint8_t Players::numberOf(const std::string& sender) {
   auto found = std::find_if(senders_.begin(), senders_.end(),
                             [&](const Sender& known) { return known.name == sender; });
   if (found == senders_.end() && senders_.size() < tgr::kMaxHandSources) {
     found = senders_.insert(senders_.end(), Sender{sender, 0, 0});
   } else if (found == senders_.end()) {
-    found = std::min_element(senders_.begin(), senders_.end(),
-                             [](const Sender& a, const Sender& b) { return a.heard < b.heard; });
+    found =
+        std::min_element(senders_.begin(), senders_.end(), [](const Sender& a, const Sender& b) {
+          return std::pair(a.slices != 0, a.heard) < std::pair(b.slices != 0, b.heard);
+        });
     *found = Sender{sender, 0, 0};
   }
   found->heard = ++messages_;
@@ -130,7 +149,9 @@ Players::Tool& Players::toolNamed(const std::string& name) {
     }
     names += (names.empty() ? "" : ", ") + tool.config.name;
   }
-  refuse("end_effector", "'" + name + "'", names.empty() ? "none, as none is there" : names);
+  constexpr std::size_t kMostOfName = 64;
+  refuse("end_effector", "'" + name.substr(0, kMostOfName) + "'",
+         names.empty() ? "none, as none is there" : names);
 }
 
 std::vector<tgr::HandMove> Players::moves(const HandTargets& wanted) {

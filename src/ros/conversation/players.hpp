@@ -18,9 +18,10 @@ namespace ergotic::node {
 /// become slices, senders become numbers. Thread: any
 class Players {
  public:
-  /// Other end-effectors stand on the slices from now on, and nobody holds anything.
+  /// Other end-effectors stand on the slices from now on.
+  /// \return moves that let go of all that anybody holds
   /// \throws TextError if one of them cannot be put together
-  void configure(const tgr::EndEffectors& end_effectors);
+  std::vector<tgr::HandMove> configure(const tgr::EndEffectors& end_effectors);
 
   /// Whether an end-effector of that name stands on slices.
   bool has(const std::string& end_effector);

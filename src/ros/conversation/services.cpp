@@ -15,6 +15,7 @@ namespace {
 constexpr std::uint32_t kRequestQueue = 100;
 constexpr std::uint32_t kParameterQueue = 10'000;  // taken at once: the newest of each name counts
 constexpr std::uint32_t kHandsQueue = 1000;
+constexpr std::int64_t kHeldNs = 1'000'000'000;
 const ::ros::WallDuration kMidiPeriod(0.001);
 constexpr double kRefusalPeriodS = 1.0;
 constexpr std::int64_t kComplaintPeriodNs = 1'000'000'000;
@@ -66,9 +67,15 @@ Services::Services(::ros::NodeHandle node, Operator& operator_thread)
       loading_spinner_(1, &loading_queue_),
       hands_node_(node),
       safety_node_(node),
+      safety_spinner_(safety_queue_, urgencyOf(node), [this] { followShutdown(); }),
       hands_spinner_(
-          hands_queue_, urgencyOf(node), [this] { operator_.playMidi(); }, kMidiPeriod),
-      safety_spinner_(safety_queue_, urgencyOf(node), [this] { followShutdown(); }) {
+          hands_queue_,
+          std::max(urgencyOf(node) - 1, 0),
+          [this] {
+            operator_.playMidi();
+            releaseNotes();
+          },
+          kMidiPeriod) {
   node_.setCallbackQueue(&queue_);
   loading_node_.setCallbackQueue(&loading_queue_);
   hands_node_.setCallbackQueue(&hands_queue_);
@@ -149,13 +156,31 @@ void Services::onHandTargets(const ::ros::MessageEvent<const HandTargets>& targe
   if (!refusal.empty() && now_ns - complained_ns_ > kComplaintPeriodNs) {
     complained_ns_ = now_ns;
     const std::string text = "hand_targets of " + targets.getPublisherName() + ": " + refusal;
-    ROS_WARN_STREAM(text);
+    ROS_WARN_STREAM(files::printableLines(text));
     operator_.tell(files::printableLines(text));
   }
 }
 
 void Services::onNote(const Note& note) {
+  if (note.velocity == Note::HELD) {
+    held_notes_[note.note] = rt::monotonicNs() + kHeldNs;
+    return;
+  }
+  held_notes_.erase(note.note);
   operator_.playNote(note.note, note.velocity);
+}
+
+/// Of who said that keys are held, and says so no more.
+void Services::releaseNotes() {
+  const std::int64_t now_ns = rt::monotonicNs();
+  for (auto held = held_notes_.begin(); held != held_notes_.end();) {
+    if (now_ns > held->second) {
+      operator_.playNote(held->first, 0);
+      held = held_notes_.erase(held);
+    } else {
+      ++held;
+    }
+  }
 }
 
 void Services::onVolume(const std_msgs::Float64& volume) {

@@ -4,6 +4,7 @@
 #include <std_srvs/Trigger.h>
 
 #include <atomic>
+#include <map>
 
 #include <ergotic/Calibrate.h>
 #include <ergotic/ConfigureEndEffectors.h>
@@ -55,6 +56,7 @@ class Services {
   void onParameter(const ParameterValue& parameter);
   void onHandTargets(const ::ros::MessageEvent<const HandTargets>& targets);
   void onNote(const Note& note);
+  void releaseNotes();
   void onVolume(const std_msgs::Float64& volume);
   bool onPlayMap(PlayMap::Request& request, PlayMap::Response& response);
   Answer configure(const std::vector<EndEffector>& end_effectors);
@@ -75,7 +77,9 @@ class Services {
   ArrivalQueue queue_;  // in front of the usual one
   ::ros::NodeHandle node_;
   std::atomic<int> configurations_{0};  // that are being read
-  std::int64_t complained_ns_ = 0;      // of hands, by their thread
+  // Of the thread of hands:
+  std::int64_t complained_ns_ = 0;
+  std::map<int, std::int64_t> held_notes_;  // until when they count, unless they are held longer
   ::ros::CallbackQueue loading_queue_;
   ::ros::NodeHandle loading_node_;
   ::ros::AsyncSpinner loading_spinner_;
@@ -87,8 +91,9 @@ class Services {
   std::vector<::ros::ServiceServer> servers_;
   std::vector<::ros::Subscriber> subscribers_;
   bool is_shut_down_ = false;  // ROS is, and force is gone for it; of the spinner's thread
+  // These end first. Who reads sockets is as urgent as the first of them.
+  UrgentSpinner safety_spinner_;
   UrgentSpinner hands_spinner_;
-  UrgentSpinner safety_spinner_;  // ends first
 };
 
 }  // namespace ergotic::node

@@ -103,6 +103,36 @@ TEST(PlayersTest, LettingGoOfNothingNamedLetsGoOfAllThatTheSenderHolds) {
   EXPECT_EQ(players.read(release, "/keys", 0.0).size(), 1U);
 }
 
+TEST(PlayersTest, OfTwoThatMoveASliceTheLastHasIt) {
+  Players players;
+  players.read(slicesTo({1}, {0.0}), "/mouse", 0.0);
+  players.read(slicesTo({1}, {0.0}), "keyboard", 0.0);
+  HandTargets release;
+  release.release = 1U;
+  EXPECT_TRUE(players.read(release, "/mouse", 0.0).empty());
+  EXPECT_EQ(players.read(release, "keyboard", 0.0).size(), 1U);
+}
+
+TEST(PlayersTest, WhoHoldsSomethingIsNotForgotten) {
+  Players players;
+  players.read(slicesTo({1}, {0.0}), "/holds", 0.0);
+  HandTargets release;
+  release.release = 1U;
+  for (int i = 0; i < 100; ++i) {
+    players.read(release, "/other" + std::to_string(i), 0.0);
+  }
+  EXPECT_EQ(players.read(release, "/holds", 0.0).size(), 1U);
+}
+
+TEST(PlayersTest, OtherEndEffectorsLetGoOfAll) {
+  Players players;
+  players.read(slicesTo({1, 4}, {0.0, 0.0}), "/mouse", 0.0);
+  const auto moves = players.configure(ballOnSlices({0, 1, 2}));
+  ASSERT_EQ(moves.size(), 2U);
+  EXPECT_TRUE(moves[0].lets_go && moves[1].lets_go);
+  EXPECT_TRUE(players.configure({}).empty());
+}
+
 TEST(PlayersTest, SendersHaveNumbersOfTheirOwn) {
   Players players;
   const auto sourceOf = [&](const std::string& sender) {
@@ -129,6 +159,8 @@ TEST(PlayersTest, RefusesWhatIsWrongWithFieldValueAndRange) {
   EXPECT_EQ(refusal(slicesTo({0, 1}, {0.0})),
             "the number of targets is 1, allowed: 2, as there are indices");
   EXPECT_EQ(refusal(slicesTo({}, {})), "the number of indices is 0, allowed: 1 or more");
+  EXPECT_EQ(refusal(slicesTo(std::vector<std::uint32_t>(65, 0), std::vector<double>(65, 0.0))),
+            "the number of indices is 65, allowed: at most 64");
   HandTargets wanted = slicesTo({0}, {0.0});
   wanted.grip = 5;
   EXPECT_EQ(refusal(wanted), "grip is 5, allowed: 0...4");

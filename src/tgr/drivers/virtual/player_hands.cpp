@@ -3,17 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "ergotic/rt/realtime.hpp"
 
 namespace ergotic::tgr {
 namespace {
 
-constexpr double kMostDelayS = 1.0;
+constexpr double kMostDelayS = 120.0;
 constexpr double kMostGlideS = 60.0;
-constexpr double kPauseS = 0.1;    // an interval of that length is a pause, no rhythm
-constexpr double kClockJumpS = 1;  // between stamps and arrivals: the source has begun anew
-constexpr double kDrift = 1e-4;    // s per s, of which clocks may differ
+constexpr double kShortestGlideS = 1e-3;
+constexpr double kPeakOfMean = 1.875;  // speed of a path of minimum jerk
+constexpr double kPauseS = 0.1;        // an interval of that length is a pause, no rhythm
+constexpr double kClockJumpS = 0.1;    // between stamps and arrivals: the source has begun anew
+constexpr double kRecentS = 10.0;      // older arrivals tell nothing: clocks drift
 constexpr double kMarginS = 5e-4;
 
 }  // namespace
@@ -44,20 +47,31 @@ ERGOTIC_REALTIME double MoveTiming::delay() const noexcept {
   return std::min(counted_ < kWaits ? largest : second, kMaxDelayS);
 }
 
+ERGOTIC_REALTIME double MoveTiming::leastOffset(double now_s) const noexcept {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < std::min(arrived_, kArrivals); ++i) {
+    if (now_s - arrivals_[i].time_s <= kRecentS) {
+      least = std::min(least, arrivals_[i].offset_s);
+    }
+  }
+  return least;
+}
+
 ERGOTIC_REALTIME double MoveTiming::dueAt(double stamp_s, double now_s) noexcept {
-  const double passed_s = now_s - last_now_s_;
   const double interval_s = stamp_s - last_stamp_s_;
-  if (!is_known_ || std::abs(interval_s - passed_s) > kClockJumpS) {
+  const bool begins = arrived_ == 0 || std::abs(interval_s - (now_s - last_now_s_)) > kClockJumpS;
+  if (begins) {
     *this = MoveTiming();
-    is_known_ = true;
-    offset_s_ = now_s - stamp_s;
-  } else {
-    offset_s_ = std::min(offset_s_ + kDrift * passed_s, now_s - stamp_s);
-    count(interval_s, now_s - stamp_s - offset_s_);
+  }
+  arrivals_[arrived_ % kArrivals] = {now_s, now_s - stamp_s};
+  ++arrived_;
+  const double offset_s = leastOffset(now_s);
+  if (!begins) {
+    count(interval_s, now_s - stamp_s - offset_s);
   }
   last_stamp_s_ = stamp_s;
   last_now_s_ = now_s;
-  return std::max(stamp_s + offset_s_ + delay(), now_s);
+  return std::max(stamp_s + offset_s + delay(), now_s);
 }
 
 ERGOTIC_REALTIME void PlayerHands::Hand::add(const Knot& knot, double now_s) noexcept {
@@ -90,7 +104,9 @@ ERGOTIC_REALTIME double PlayerHands::Hand::placeAt(double time_s) noexcept {
     first = (first + 1) % kKnots;
     --count;
     if (from.glide_s > 0.0) {  // from where it is now: a repeated key begins where it was left
-      glide = {from.time_s, from.glide_s, target_m, from.target_m - target_m};
+      const double way = from.target_m - target_m;
+      const double shortest = std::max(kPeakOfMean * std::abs(way) / kMaxSpeed, kShortestGlideS);
+      glide = {from.time_s, std::max(from.glide_s, shortest), target_m, way};
     }
   }
   if (from.glide_s > 0.0) {
@@ -107,6 +123,9 @@ ERGOTIC_REALTIME double PlayerHands::Hand::placeAt(double time_s) noexcept {
 ERGOTIC_REALTIME void PlayerHands::take(const HandMove& move, double now_s) noexcept {
   Hand& hand = hands_[static_cast<std::size_t>(move.slice)];
   if (move.lets_go) {
+    if (hand.state == State::kTakesHold) {
+      hand.strength = 0.0;  // it has not pulled yet
+    }
     if (hand.state != State::kNever) {
       hand.state = State::kLetsGo;
     }

@@ -26,11 +26,17 @@ class MoveTiming {
   static constexpr std::size_t kWaits = 16;
   void count(double interval_s, double late_s) noexcept;
   double delay() const noexcept;
+  double leastOffset(double now_s) const noexcept;
 
-  bool is_known_ = false;
+  struct Arrival {
+    double time_s = 0.0;
+    double offset_s = 0.0;  // from the source's clock to the device's
+  };
+  static constexpr std::size_t kArrivals = 32;
+  std::array<Arrival, kArrivals> arrivals_{};  // a ring
+  std::size_t arrived_ = 0;
   double last_stamp_s_ = 0.0;
   double last_now_s_ = 0.0;
-  double offset_s_ = 0.0;               // from the source's clock to the device's
   std::array<double, kWaits> waits_{};  // from when a move could be due to when the next was there
   std::size_t counted_ = 0;
 };

@@ -83,9 +83,9 @@ set_tests_properties(integration.remote PROPERTIES RUN_SERIAL ON TIMEOUT 300 LAB
 
 # scripts/station, with a master and a JACK server of its own.
 add_test(NAME integration.front_door
-  COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/front_door_live_test.py
+  COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/front_door_long_test.py
           ${CATKIN_DEVEL_PREFIX}/setup.bash)
-set_tests_properties(integration.front_door PROPERTIES RUN_SERIAL ON TIMEOUT 240 LABELS live)
+set_tests_properties(integration.front_door PROPERTIES RUN_SERIAL ON TIMEOUT 240 LABELS long)
 
 # roslaunch reads the file, finds every package and every substitution, and names the nodes.
 file(GLOB launch_files CONFIGURE_DEPENDS launch/*.launch)

@@ -79,7 +79,7 @@ class TypedTest(unittest.TestCase):
         said = {}
         for line in shown(document):
             if re.match("scripts/station --(demo|tune)", line):
-                continue  # the demo runs as a whole before every change, and front_door_live_test.py tunes
+                continue  # the demo runs as a whole before every change, and front_door_long_test.py tunes
             done = subprocess.run(["bash", "-c", tried(line)], cwd=self.folder.name, timeout=60, text=True,
                                   stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                   stderr=subprocess.STDOUT, check=False)

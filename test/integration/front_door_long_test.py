@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """scripts/station as a musician starts it, without a display: it plays, tunes its sound, and leaves nothing.
-usage: front_door_live_test.py SETUP_FILE"""
+usage: front_door_long_test.py SETUP_FILE"""
 import os
 import pathlib
 import shutil

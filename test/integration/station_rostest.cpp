@@ -281,9 +281,14 @@ TEST_F(StationTest, SetsParametersWithinTheirRange) {
 
 TEST_F(StationTest, DrawsItsModelInFrameModel) {
   ASSERT_TRUE(eventually([] { return world_->markers.latest().markers.size() > 1; }));
-  for (const auto& marker : world_->markers.latest().markers) {
-    EXPECT_EQ(marker.header.frame_id, "model");
-    EXPECT_FALSE(marker.points.empty());
+  const auto markers = world_->markers.latest().markers;
+  for (std::size_t i = 0; i < markers.size(); ++i) {
+    EXPECT_EQ(markers[i].header.frame_id, "model");
+    if (markers[i].action == visualization_msgs::Marker::DELETEALL) {
+      EXPECT_EQ(i, 0U) << "what was there is erased before anything is drawn";
+    } else {
+      EXPECT_FALSE(markers[i].points.empty());
+    }
   }
 }
 

@@ -98,6 +98,11 @@ class DeskTest(unittest.TestCase):
             _, subscribed, _ = rosgraph.Master("/desk").getSystemState()
             return any(name == topic and any("/rviz" in node for node in nodes) for name, nodes in subscribed)
         self.assertTrue(until(hears, 60), f"rviz does not listen to {topic}")
-        self.assertTrue(until(lambda: subprocess.run(
-            ["xdotool", "search", "--onlyvisible", "--name", "RViz", "windowactivate", "--sync"], timeout=10,
-            capture_output=True, check=False).returncode == 0, 30), "rviz has no window")
+        found = []
+
+        def activates():
+            found[:] = [subprocess.run(
+                ["xdotool", "search", "--onlyvisible", "--name", "RViz", "windowactivate", "--sync"], timeout=10,
+                capture_output=True, text=True, check=False)]
+            return found[0].returncode == 0
+        self.assertTrue(until(activates, 30), f"rviz has no window: {found[0].stderr}")

@@ -12,7 +12,7 @@ import rospy
 import rostest
 
 from desk import ROOT, DeskTest, Newest, until
-from ergotic.msg import GestureBlock, Handles, HandTargets, Levels, ModelState, ModelStructure, Note, Status
+from ergotic.msg import Event, GestureBlock, Handles, HandTargets, Levels, ModelState, ModelStructure, Note, Status
 from ergotic.srv import LoadModel
 from std_msgs.msg import Float64
 from visualization_msgs.msg import Marker, MarkerArray
@@ -205,6 +205,9 @@ class PlayingTest(DeskTest):
 
     def test_3_midi_notes_keep_their_distances_in_time_to_a_tick(self):
         gesture = Gesture(STRIKE)
+        disturbed = []  # ticks that were late, or caught up after a stall
+        rospy.Subscriber("/station/events", Event, lambda event: disturbed.append(event.tick)
+                         if event.type in (Event.LATE_TICK, Event.STALL) else None, queue_size=1000)
         self.start("jack_midiseq", "notes", str(2 * FRAMES_BETWEEN_NOTES), "0", "60", "4000",
                    str(FRAMES_BETWEEN_NOTES), "64", "4000", stdout=subprocess.DEVNULL)
         self.assertTrue(until(lambda: subprocess.run(
@@ -216,9 +219,14 @@ class PlayingTest(DeskTest):
         wanted = FRAMES_BETWEEN_NOTES / RATE_HZ * gesture.rate_hz
         worst = numpy.max(numpy.abs(distances - wanted))
         print(f"{len(onsets)} notes, distances {wanted:.1f} ticks, worst off by {worst:.2f} ticks")
-        # Each stall of the host makes one note late. Without stamps the median were a third of a period, 6 ticks.
-        self.assertLess(numpy.median(numpy.abs(distances - wanted)), 1.0)
-        self.assertLess(worst, 0.02 * gesture.rate_hz)
+        # A tick that the host delays is late by itself: what is between two notes of which one met such a tick
+        # says nothing of the station.
+        near = 0.02 * gesture.rate_hz  # from the note to its stroke, and a period of JACK
+        quiet = numpy.array([not any(-near < onset - tick < near for tick in disturbed) for onset in onsets])
+        judged = numpy.abs(distances - wanted)[quiet[1:] & quiet[:-1]]
+        print(f"{len(judged)} of them undisturbed, worst off by {max(judged, default=0.0):.2f} ticks")
+        self.assertGreaterEqual(len(judged), 5)
+        self.assertLess(max(judged), 1.2)  # a tick, and the noise of the sensor
 
 
     def test_4_the_volume_is_that_of_the_player(self):

@@ -98,7 +98,7 @@ class Performance {
   /// Moves hands of a simulated device, with the next ticks. \return what is wrong with it, or an
   /// empty text. Thread: any
   std::string moveHands(const HandTargets& wanted, const std::string& sender);
-  /// Plays a note by the map of notes. Thread: any
+  /// Plays a note by the map of notes. \pre both 0...127. Thread: any
   void playNote(int note, int velocity);
   /// Plays what came in by MIDI. \return parameters of the scene that it changes, and their values.
   /// Thread: one, any

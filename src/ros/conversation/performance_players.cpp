@@ -21,7 +21,7 @@ const char kKeyboard[] = "keyboard";  // as a sender of targets: no node has a n
 constexpr double kMidiDelayS = 0.002;
 constexpr double kDecades = 100.0;  // a range over more of them is gone through by its logarithm
 
-std::uintmax_t constexpr kMostBytes = 1U << 20U;
+constexpr std::size_t kMostBytes = std::size_t{1} << 20U;  // of a map
 
 /// Of a scene `folder/NAME.yaml`.
 std::filesystem::path mapBeside(const std::string& scene) {
@@ -102,7 +102,7 @@ void Performance::play(const std::vector<tgr::Stroke>& strokes, double delay_s) 
 
 void Performance::playNote(int note, int velocity) {
   const std::lock_guard lock(keyboard_mutex_);
-  play(keyboard_.note(std::min(note, 127), std::min(velocity, 127)), 0.0);
+  play(keyboard_.note(note, velocity), 0.0);
 }
 
 void Performance::releaseKeys() {

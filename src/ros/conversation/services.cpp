@@ -162,6 +162,12 @@ void Services::onHandTargets(const ::ros::MessageEvent<const HandTargets>& targe
 }
 
 void Services::onNote(const Note& note) {
+  constexpr int kMost = 127;
+  if (note.note > kMost || note.velocity > Note::HELD) {
+    return complain("notes",
+                    {false, "note " + std::to_string(note.note) + " at velocity " +
+                                std::to_string(note.velocity) + ", allowed: 0...127 at 0...128"});
+  }
   if (note.velocity == Note::HELD) {
     held_notes_[note.note] = rt::monotonicNs() + kHeldNs;
     return;

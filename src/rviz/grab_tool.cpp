@@ -8,7 +8,6 @@
 #include <QEvent>
 #include <QKeyEvent>
 #include <QMouseEvent>
-#include <array>
 #include <chrono>
 #include <cmath>
 
@@ -21,6 +20,8 @@
 #include <rviz/view_controller.h>
 #include <rviz/view_manager.h>
 #include <rviz/viewport_mouse_event.h>
+
+#include "rviz/grips.hpp"
 
 namespace ergotic::panel {
 namespace {
@@ -36,17 +37,7 @@ constexpr double kTimeoutS = 1.0;
 constexpr std::int64_t kRepeatNs = 100'000'000;  // a hand that stands still is told so often
 constexpr std::uint32_t kQueue = 100;
 
-/// What docs/tgr.md says of the grips.
-struct Grip {
-  const char* name;
-  std::uint8_t number;
-  double stiffness;
-  double most_n;
-};
-constexpr std::array<Grip, 3> kGrips = {{{"soft", HandTargets::SOFT, 500.0, 5.0},
-                                         {"firm", HandTargets::FIRM, 1500.0, 10.0},
-                                         {"quick", HandTargets::QUICK, 3000.0, 20.0}}};
-constexpr int kFirm = 1;
+constexpr std::size_t kFirm = 1;  // of kGrips
 
 std::int64_t wallNs() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -62,6 +53,7 @@ Eigen::Vector3d toEigen(const Ogre::Vector3& v) {
 
 GrabTool::GrabTool() {
   shortcut_key_ = 'g';
+  // Properties belong to the container, which deletes them.
   station_ = new rviz::StringProperty("Station", "/station", "Name of the station's node.",
                                       getPropertyContainer());
   grip_ = new rviz::EnumProperty("Grip", kGrips[kFirm].name,

@@ -11,7 +11,9 @@ namespace ergotic::panel {
 
 /// The note of a key of the computer's keyboard, MIDI numbers: two rows are two octaves of a piano,
 /// the row of Z from C3 (48) and the row of Q from C4 (60) on, with the black keys in the rows
-/// above. \param scan_code  of X11 (evdev plus 8): the place of the key, whatever its letter is
+/// above.
+///
+/// \param scan_code  of X11 (evdev plus 8): the place of the key, whatever its letter is
 std::optional<int> noteOfKey(std::uint32_t scan_code);
 
 /// Which notes the keys of a computer hold down. Thread: of the window

@@ -101,6 +101,22 @@ TEST(MoveTimingTest, TakesOutTheJitterOfTheWay) {
   }
 }
 
+/// A message may name all slices of a device: that is one arrival.
+TEST(MoveTimingTest, ManySlicesOfAMessageCountOnce) {
+  MoveTiming of_one;
+  MoveTiming of_twelve;
+  std::mt19937 dice(7);
+  std::uniform_real_distribution<double> jitter(0.0, 0.006);
+  for (int n = 0; n < 1000; ++n) {
+    const double stamp = 0.008 * n;
+    const double now = stamp + jitter(dice);
+    const double due = of_one.dueAt(stamp, now);
+    for (int slice = 0; slice < 12; ++slice) {
+      EXPECT_EQ(of_twelve.dueAt(stamp, now), due);
+    }
+  }
+}
+
 TEST(MoveTimingTest, WaitsNoLongerThanTwelveMilliseconds) {
   MoveTiming timing;
   for (int n = 0; n < 50; ++n) {

@@ -39,6 +39,8 @@ constexpr double kMaxTargetM = 0.1;  ///< a hand does not want to be further fro
 /// What a player who has no device wants of the hand at one slice of a simulated device.
 struct HandMove {
   static constexpr double kOnArrival = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double kMostGlideS = 60.0;
+  static constexpr double kPeakOfMean = 1.875;  ///< speed of a glide, of its mean one
 
   int slice = 0;
   double target_m = 0.0;  ///< where the hand shall be, within +-kMaxTargetM

@@ -82,9 +82,12 @@ class Kinematics {
 };
 
 /// Moves slices until the coordinates are as near to the wanted ones as they get, in the sense of
-/// least squares: a handle has more coordinates than slices. Levenberg-Marquardt, from `q` on,
-/// never out of the workspace. Realtime: no \param x          [coordinates] m, wanted \param most
-/// slices stay within +-most, m \param[in,out] q  [slices] m from rest, within the workspace
+/// least squares: a handle has more coordinates than slices. Levenberg-Marquardt, from `q` on, and
+/// never out of the workspace. Realtime: no
+///
+/// \param x          [coordinates] m, wanted
+/// \param most       slices stay within +-most, m
+/// \param[in,out] q  [slices] m from rest, within the workspace
 /// \return what is left between the coordinates and the wanted ones, m (norm)
 double bringTo(const Kinematics& kinematics, const double* x, double most, double* q) noexcept;
 

@@ -54,9 +54,8 @@ struct Stroke {
 /// is a release, the sustain pedal (controller 64) keeps keys down until it is up, "all sound off"
 /// and "all notes off" (120, 123) release everything.
 ///
-/// The launch law: the hand goes `to_m - from_m` on a path of minimum jerk, whose greatest speed is
-/// 1.875 times the mean one, at the speed that the velocity says; what it throws leaves at that
-/// speed. Thread: one
+/// The launch law: the hand goes from `from_m` to `to_m` on a path of minimum jerk, whose greatest
+/// speed is the one that the velocity says; what it throws leaves at that speed. Thread: one
 class Keyboard {
  public:
   /// What becomes of a message.
@@ -74,8 +73,6 @@ class Keyboard {
   /// \param note  0...127. \param velocity  0...127; 0: release
   std::vector<Stroke> note(int note, int velocity);
   std::vector<Stroke> releaseAll();
-
-  static constexpr double kPeakOfMean = 1.875;  ///< speed of a path of minimum jerk
 
  private:
   struct Key {

@@ -11,8 +11,6 @@
 namespace ergotic::node {
 namespace {
 
-constexpr double kMostGlideS = 60.0;
-
 template <class Value>
 [[noreturn]] void refuse(const char* field, const Value& value, const std::string& allowed) {
   std::ostringstream text;
@@ -32,7 +30,7 @@ void check(const HandTargets& wanted) {
   if (wanted.grip > HandTargets::KEY) {
     refuse("grip", static_cast<int>(wanted.grip), "0...4");
   }
-  if (!(wanted.glide >= 0.0 && wanted.glide <= kMostGlideS)) {
+  if (!(wanted.glide >= 0.0 && wanted.glide <= tgr::HandMove::kMostGlideS)) {
     refuse("glide", wanted.glide, "0...60 s");
   }
   if (!(wanted.timeout >= 0.0)) {

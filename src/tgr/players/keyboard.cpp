@@ -5,13 +5,14 @@
 #include <cmath>
 #include <utility>
 
+#include "ergotic/tgr/driver.hpp"
+
 namespace ergotic::tgr {
 namespace {
 
 constexpr int kNotes = 128;
 constexpr int kHalf = 64;  // a pedal is down from there on
 constexpr double kMost = 127.0;
-constexpr double kLongestGlideS = 60.0;  // that a hand does
 
 enum Status : std::uint8_t { kNoteOff = 0x80, kNoteOn = 0x90, kController = 0xb0 };
 enum Controller : std::uint8_t { kSustain = 64, kAllSoundOff = 120, kAllNotesOff = 123 };
@@ -49,7 +50,7 @@ bool Keyboard::isDown(const Key& key) const {
 Stroke Keyboard::stroke(const Key& key, double target_m, double speed) {
   const double way = std::abs(key.line->to_m - key.line->from_m);
   return {key.line->end_effector, key.index, target_m,
-          std::min(kPeakOfMean * way / speed, kLongestGlideS), 0.0};
+          std::min(HandMove::kPeakOfMean * way / speed, HandMove::kMostGlideS), 0.0};
 }
 
 Keyboard::Played Keyboard::play(const std::uint8_t* bytes, int size) {

@@ -11,12 +11,10 @@ namespace ergotic::tgr {
 namespace {
 
 constexpr double kMostDelayS = 120.0;
-constexpr double kMostGlideS = 60.0;
 constexpr double kShortestGlideS = 1e-3;
-constexpr double kPeakOfMean = 1.875;  // speed of a path of minimum jerk
-constexpr double kPauseS = 0.1;        // an interval of that length is a pause, no rhythm
-constexpr double kClockJumpS = 0.1;    // between stamps and arrivals: the source has begun anew
-constexpr double kRecentS = 10.0;      // older arrivals tell nothing: clocks drift
+constexpr double kPauseS = 0.1;      // an interval of that length is a pause, no rhythm
+constexpr double kClockJumpS = 0.1;  // between stamps and arrivals: the source has begun anew
+constexpr double kRecentS = 10.0;    // older arrivals tell nothing: clocks drift
 constexpr double kMarginS = 5e-4;
 
 }  // namespace
@@ -58,6 +56,9 @@ ERGOTIC_REALTIME double MoveTiming::leastOffset(double now_s) const noexcept {
 }
 
 ERGOTIC_REALTIME double MoveTiming::dueAt(double stamp_s, double now_s) noexcept {
+  if (arrived_ > 0 && stamp_s == last_stamp_s_ && now_s == last_now_s_) {
+    return last_due_s_;  // another slice of the same message
+  }
   const double interval_s = stamp_s - last_stamp_s_;
   const bool begins = arrived_ == 0 || std::abs(interval_s - (now_s - last_now_s_)) > kClockJumpS;
   if (begins) {
@@ -71,7 +72,8 @@ ERGOTIC_REALTIME double MoveTiming::dueAt(double stamp_s, double now_s) noexcept
   }
   last_stamp_s_ = stamp_s;
   last_now_s_ = now_s;
-  return std::max(stamp_s + offset_s + delay(), now_s);
+  last_due_s_ = std::max(stamp_s + offset_s + delay(), now_s);
+  return last_due_s_;
 }
 
 ERGOTIC_REALTIME void PlayerHands::Hand::add(const Knot& knot, double now_s) noexcept {
@@ -105,7 +107,8 @@ ERGOTIC_REALTIME double PlayerHands::Hand::placeAt(double time_s) noexcept {
     --count;
     if (from.glide_s > 0.0) {  // from where it is now: a repeated key begins where it was left
       const double way = from.target_m - target_m;
-      const double shortest = std::max(kPeakOfMean * std::abs(way) / kMaxSpeed, kShortestGlideS);
+      const double shortest =
+          std::max(HandMove::kPeakOfMean * std::abs(way) / kMaxSpeed, kShortestGlideS);
       glide = {from.time_s, std::max(from.glide_s, shortest), target_m, way};
     }
   }

@@ -10,10 +10,10 @@
 namespace ergotic::tgr {
 
 /// When the moves of a source are due, by the clock of the device. A source (a mouse, a program)
-/// stamps them by a clock of its own, and they arrive with jitter. The earliest arrival of late
-/// tells how the clocks differ; a move is due a while after that, so that the one after it is
-/// known by then, as it was for nine of ten of late; 12 ms at most.
-/// Realtime: yes.
+/// stamps them by a clock of its own, and they arrive with jitter. Of the last 32 arrivals the one
+/// with the shortest way tells how the clocks differ. A move is due so long after that as the move
+/// behind it usually took to arrive (15 of the last 16 did), 12 ms at most: then the hand knows
+/// where it goes next. Realtime: yes.
 class MoveTiming {
  public:
   static constexpr double kMaxDelayS = 0.012;
@@ -37,16 +37,18 @@ class MoveTiming {
   std::size_t arrived_ = 0;
   double last_stamp_s_ = 0.0;
   double last_now_s_ = 0.0;
+  double last_due_s_ = 0.0;
   std::array<double, kWaits> waits_{};  // from when a move could be due to when the next was there
   std::size_t counted_ = 0;
 };
 
 /// The hands that players move, one per slice, in place of the gesture's.
 ///
-/// A hand that takes hold begins where the slice is. Its target goes on straight lines to where it
-/// shall be when (MoveTiming), at most `kMaxSpeed` fast; then it stands. One that lets go goes
-/// along with the slice, its pull fades within `kFadeS`, and the slice is free. Times in s, of one
-/// clock that does not stop. Realtime: yes. Thread: who steps the device
+/// A hand that takes hold begins where the slice is. Its target goes on straight lines from move to
+/// move (MoveTiming says when), at most `kMaxSpeed` fast; then it stands. One that lets go goes
+/// along with the slice, its pull fades within `kFadeS`, and the slice is free.
+///
+/// Times are in s, of one clock that does not stop. Realtime: yes. Thread: who steps the device
 class PlayerHands {
  public:
   static constexpr double kMaxSpeed = 2.0;  ///< m/s
@@ -81,7 +83,7 @@ class PlayerHands {
     double target_m = 0.0;
     double glide_s = 0.0;
   };
-  /// A way of minimum jerk; over where `now` is beyond its end.
+  /// A path of minimum jerk; before its beginning and after its end the target stands.
   struct Glide {
     double begin_s = 0.0;
     double length_s = 0.0;

@@ -71,7 +71,7 @@ FOREIGN = {
     "ros/display": ROS,
     "ros/conversation": ROS,
     "rviz": ROS + " rviz/ Q Ogre",
-    "tools/lib": CORE + " CLI/ nlohmann/ sndfile",
+    "tools/lib": CORE + " CLI/ nlohmann/ sndfile ebur128",
     "tools": CORE + " CLI/ nlohmann/",
 }
 # Of the system: no slash, or one of these.

@@ -111,7 +111,7 @@ class SchemePart : public TargetPart {
   }
 
   PartOption choose(const Rates& rates, double allowed) const override {
-    const PartOption present = asItIs(rates);
+    PartOption present = asItIs(rates);
     if (present.error <= allowed || present.scheme == Scheme::kGuarded || !canBeGuarded(rates)) {
       return present;
     }
@@ -223,7 +223,7 @@ class HandPart final : public TargetPart {
   std::string figure() const override { return "steps of a hand that moves at 20 Hz"; }
   PartOption asItIs(const Rates& rates) const override { return option(coupling_, rates); }
   PartOption choose(const Rates& rates, double allowed) const override {
-    const PartOption present = asItIs(rates);
+    PartOption present = asItIs(rates);
     const double ratio = touch_.fastHz(rates) / touch_.slowHz(rates);
     if (present.error <= allowed || !can_be_filtered_ || ratio < scene::kChapletC2LowestRatio) {
       return present;

@@ -186,6 +186,21 @@ RecordedMessage bytesOf(const rosbag::MessageInstance& message) {
   return {message.getDataType(), message.getMD5Sum(), std::move(data)};
 }
 
+/// Why a bag cannot be read, and the command that makes it readable.
+Exception unreadable(const std::string& path, const rosbag::BagException& error) {
+  const std::string mend =
+      ". `rosbag reindex " + path + "` keeps what is whole of it, if anything is";
+  if (dynamic_cast<const rosbag::BagUnindexedException*>(&error) != nullptr) {
+    return Exception(
+        path + ": has no index, as if its recorder was killed before it closed the file" + mend);
+  }
+  if (dynamic_cast<const rosbag::BagIOException*>(&error) != nullptr) {
+    return Exception(path + ": ends too soon, as if the disk was full (" + error.what() + ")" +
+                     mend);
+  }
+  return Exception(path + ": is damaged or no bag of ROS 1 (" + error.what() + ")" + mend);
+}
+
 /// Where the positions of a recording are.
 struct Blocks {
   explicit Blocks(const std::string& path) : bag(path, rosbag::bagmode::Read) {}
@@ -204,7 +219,7 @@ struct Blocks {
       stretch.positions = std::move(whole.positions);
       stretch.ports_at = std::move(whole.ports_at);
     } catch (const rosbag::BagException& error) {
-      throw Exception(path + ": " + error.what());
+      throw unreadable(path, error);
     }
   }
 
@@ -300,7 +315,7 @@ Recording readRecording(const std::string& path, const std::string& station) {
     }
     recording.load = [blocks, path](Stretch& stretch) { blocks->load(stretch, path); };
   } catch (const rosbag::BagException& error) {
-    throw Exception(path + ": " + error.what());
+    throw unreadable(path, error);
   }
   finish(recording, path);
   return recording;

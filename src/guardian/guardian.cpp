@@ -59,7 +59,9 @@ void closeAllBut(const std::vector<int>& kept) {
       others.push_back(file);
     }
   }
-  ::closedir(folder);
+  if (folder != nullptr) {
+    ::closedir(folder);
+  }
   std::for_each(others.begin(), others.end(), ::close);
 }
 

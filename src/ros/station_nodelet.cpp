@@ -10,6 +10,7 @@
 #include "ros/conversation/diagnostics.hpp"
 #include "ros/conversation/feed.hpp"
 #include "ros/conversation/operator.hpp"
+#include "ros/conversation/parameter_watch.hpp"
 #include "ros/conversation/services.hpp"
 #include "ros/device/own_host.hpp"
 #include "ros/device/signal_guard.hpp"
@@ -43,6 +44,7 @@ class StationNodelet : public nodelet::Nodelet {
           [this] { operator_->makeSafe(tgr::FaultReason::kMadeSafe); },
           [this] { operator_->close(); });
       services_ = std::make_unique<Services>(node, *operator_);
+      parameter_watch_ = std::make_unique<ParameterWatch>(node);
       spinner_.start();
     } catch (const std::exception& failure) {
       NODELET_ERROR_STREAM(failure.what());
@@ -58,6 +60,7 @@ class StationNodelet : public nodelet::Nodelet {
   std::unique_ptr<OwnHost> own_host_;
   std::unique_ptr<Operator> operator_;
   std::unique_ptr<Services> services_;
+  std::unique_ptr<ParameterWatch> parameter_watch_;
   std::unique_ptr<SignalGuard> guard_;
 };
 

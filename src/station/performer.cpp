@@ -106,8 +106,8 @@ std::unique_ptr<Performer> makePerformer(scene::Scene scene,
   tell("validate and settle");
   scene::validate(scene);
   auto rig = tgr::makeRig(scene, policy.end_effectors, policy.slices);
-  const std::vector<std::string> warnings = scene.warnings;
   physics::Settled settled = physics::settle(std::move(scene), rates);
+  const std::vector<std::string> warnings = settled.scene.warnings;
   tell("certify");
   physics::DeviceTraits device = policy.device;
   device.taken_ports = tgr::takenPorts(settled.scene, policy.end_effectors);

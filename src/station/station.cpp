@@ -239,6 +239,9 @@ void Station::runTick(const Slices& positions, std::uint32_t flags) noexcept {
   tickInstrument();
   pushFrames();
   updateForces((flags & GestureTick::kCatchUp) != 0);
+  if (!(chain_.gain() > 0.0)) {
+    flags |= GestureTick::kNoForce;
+  }
   record(positions, flags);
   relayAudioEvents();
   fade_.advance();

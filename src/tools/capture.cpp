@@ -10,6 +10,7 @@
 
 #include "tools/lib/options.hpp"
 #include "tools/lib/report.hpp"
+#include "tools/lib/sound_level.hpp"
 
 namespace {
 
@@ -29,6 +30,14 @@ void stopOnSignals() {
 }  // namespace
 
 using ergotic::tools::Json;
+
+/// How loud the file is: in the report, and in words on stderr.
+void addLevel(const std::string& path, Json& report) {
+  const ergotic::tools::SoundLevel level = ergotic::tools::levelOf(path);
+  report["loudness_lufs"] = level.loudness ? Json(*level.loudness) : Json();
+  report["true_peak_dbtp"] = level.true_peak_db;
+  std::cerr << "capture: " << path << ": " << describe(level) << std::endl;
+}
 
 int main(int argc, char** argv) {
   ergotic::audio::CaptureConfig config;
@@ -56,12 +65,13 @@ int main(int argc, char** argv) {
           }
           std::cerr << std::endl;
         });
-    const Json line{{"frames", report.frames},
-                    {"first_jack_frame", report.first_jack_frame},
-                    {"sample_rate", static_cast<std::int64_t>(report.sample_rate_hz)},
-                    {"dropped", report.dropped},
-                    {"lost", report.lost},
-                    {"xruns", report.xruns}};
+    Json line{{"frames", report.frames},
+              {"first_jack_frame", report.first_jack_frame},
+              {"sample_rate", static_cast<std::int64_t>(report.sample_rate_hz)},
+              {"dropped", report.dropped},
+              {"lost", report.lost},
+              {"xruns", report.xruns}};
+    addLevel(config.path, line);
     ergotic::tools::printJsonLine(line, std::cout);
     std::cout.flush();
     if (!report.message.empty()) {

@@ -51,10 +51,10 @@ TEST(ToolOptionsTest, RenderSaysWhatPlayed) {
 }
 
 TEST(ToolOptionsTest, CheckSaysWhatTheSceneIsCompiledToAndWhatThatCosts) {
-  EXPECT_THAT(run("check", kString + " --isa baseline --threads 2").text,
+  EXPECT_THAT(run("check", kString + " --verbose --isa baseline --threads 2").text,
               AllOf(HasSubstr("program:\n  precision: float\n  isa: baseline\n  threads: 2\n"),
                     HasSubstr("    - section 'string': "), HasSubstr("cost:\n  float: {")));
-  EXPECT_THAT(run("check", kString + " --precision double").text,
+  EXPECT_THAT(run("check", kString + " --verbose --precision double").text,
               HasSubstr("program:\n  precision: double\n"));
 }
 
@@ -115,7 +115,7 @@ TEST(TargetOptionTest, BadTargetsAreRefusedWithWhatIsAllowed) {
 const std::string kDuet = repository("models/duet.yaml");
 
 TEST(PortToolsTest, CheckTellsPortsFromAgentsAndSaysWhatNoiseTheyBring) {
-  const Outcome outcome = run("check", kDuet);
+  const Outcome outcome = run("check", kDuet + " --verbose");
   EXPECT_EQ(outcome.code, 0) << outcome.text;
   EXPECT_THAT(
       outcome.text,
@@ -131,7 +131,7 @@ TEST(PortToolsTest, CheckTellsPortsFromAgentsAndSaysWhatNoiseTheyBring) {
 TEST(PortToolsTest, CheckIsForTheDeviceThatIsAskedFor) {
   const Outcome outcome =
       run("check", kDuet +
-                       " --device-damping 6 --device-delay 0 --sensor-noise 3e-6 "
+                       " --verbose --device-damping 6 --device-delay 0 --sensor-noise 3e-6 "
                        "--sensor-quantum 0");
   EXPECT_THAT(outcome.text, AllOf(HasSubstr("passive_up_to_n_per_m: 9450\n"),
                                   HasSubstr("noise: {position_m: 3e-06, ")));
@@ -157,7 +157,7 @@ Outcome checkOf(const std::string& scene,
   const test::ScratchFile place;
   const std::string path = place.path() + ".yaml";
   std::ofstream(path) << scene;
-  Outcome outcome = run("check", path + " --gestural-rate 3150" + options, errors);
+  Outcome outcome = run("check", path + " --verbose --gestural-rate 3150" + options, errors);
   std::remove(path.c_str());
   return outcome;
 }
@@ -230,7 +230,7 @@ double peakBetween(const std::vector<double>& stereo, double from_s, double to_s
 TEST(PortToolsTest, ABallStrikesTheDrumAndAHandleMutesIt) {
   const std::string drum = repository("models/drum");
   const std::string hands = " --end-effectors " + repository("config/hands.yaml");
-  const Outcome checked = run("check", drum + ".yaml" + hands);
+  const Outcome checked = run("check", drum + ".yaml --verbose" + hands);
   EXPECT_EQ(checked.code, 0) << checked.text;
   EXPECT_THAT(checked.text, AllOf(HasSubstr("findings: none"), HasSubstr("warnings: none")));
   const test::ScratchFile sound;
@@ -289,7 +289,7 @@ class EndEffectorsToolTest : public testing::Test {
 
   Outcome check(const std::string& end_effectors, const std::string& errors = "&1") {
     const ScratchFile file(end_effectors);
-    return run("check", scene_.path() + ".yaml --end-effectors " + file.path(), errors);
+    return run("check", scene_.path() + ".yaml --verbose --end-effectors " + file.path(), errors);
   }
 
   ScratchFile scene_{test::struckBar("{quantity: position, at: bar, channel: 1, gain: 100}")};

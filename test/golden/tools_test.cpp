@@ -295,7 +295,7 @@ double likenessAt(const std::vector<double>& sound, std::size_t first, std::size
 TEST_F(RenderTest, PlaysTheFrettedStringOpenAndOnAFret) {
   const std::string model = repository("models/fretted_string");
   EXPECT_THAT(
-      run("check", model + ".yaml").text,
+      run("check", model + ".yaml --verbose").text,
       AllOf(HasSubstr("verdict: bounded"), HasSubstr("geometry: 3D"), HasSubstr("guarded: 5")));
   const std::string out = path("out.wav");
   const Outcome outcome =
@@ -321,7 +321,7 @@ TEST_F(RenderTest, PlaysTheFrettedStringOpenAndOnAFret) {
 
 TEST_F(CheckTest, SaysWhatASceneIsMadeOf) {
   const std::string scene = write("drum.yaml", kDrum);
-  const Outcome outcome = run("check", scene + " --set tone=2500");
+  const Outcome outcome = run("check", scene + " --verbose --set tone=2500");
   EXPECT_EQ(outcome.code, 0) << outcome.text;
   EXPECT_THAT(
       outcome.text,
@@ -336,7 +336,7 @@ TEST_F(CheckTest, SaysWhatASceneIsMadeOf) {
 }
 
 TEST_F(CheckTest, GivesTheClosedFormPitchOfEachString) {
-  const Outcome outcome = run("check", repository("models/string.yaml"));
+  const Outcome outcome = run("check", repository("models/string.yaml") + " --verbose");
   EXPECT_EQ(outcome.code, 0) << outcome.text;
   EXPECT_THAT(outcome.text, HasSubstr("pitch_hz: 110}"));
 }
@@ -345,7 +345,7 @@ TEST_F(CheckTest, SaysWhatWasChosenForTheScene) {
   std::string text = kDrum;
   text.replace(text.find("rate: audio"), 11, "rate: auto");
   text.replace(text.find("type: cell"), 10, "type: cell, matched: false");
-  const Outcome outcome = run("check", write("drum.yaml", text) + " --set tone=2500");
+  const Outcome outcome = run("check", write("drum.yaml", text) + " --verbose --set tone=2500");
   EXPECT_EQ(outcome.code, 0) << outcome.text;
   EXPECT_THAT(outcome.text,
               AllOf(HasSubstr("note: section 'sound' runs at "),
@@ -370,13 +370,13 @@ TEST_F(CheckTest, LeavesOutRangesThatTakeLong) {
   for (int p = 0; p < 90; ++p) {
     text += "  p" + std::to_string(p) + ": {value: 1, range: [1, 2]}\n";
   }
-  const Outcome outcome = run("check", write("large.yaml", text));
+  const Outcome outcome = run("check", write("large.yaml", text) + " --verbose");
   EXPECT_EQ(outcome.code, 0) << outcome.text;
   EXPECT_THAT(outcome.text, AllOf(HasSubstr("ranges: not judged: "), HasSubstr("--ranges")));
 }
 
 TEST_F(CheckTest, RefusesWhatIsUnstable) {
-  const Outcome outcome = run("check", write("unstable.mdl", kUnstable));
+  const Outcome outcome = run("check", write("unstable.mdl", kUnstable) + " --verbose");
   EXPECT_EQ(outcome.code, 3);
   EXPECT_THAT(outcome.text, AllOf(HasSubstr("verdict: unstable"), HasSubstr("unstable.mdl:3:1")));
 }

@@ -43,8 +43,8 @@ class ToolsTest(unittest.TestCase):
             self.assertEqual(known, told, tool)
 
     def test_a_shown_report_is_what_check_says(self):
-        shown = re.search(r"`check (\S+)` says.*?```yaml\n(.*?)```", sections()["check"], re.DOTALL)
-        lines = says("check", shown.group(1)).splitlines()
+        shown = re.search(r"`check (\S+) --verbose` says.*?```yaml\n(.*?)```", sections()["check"], re.DOTALL)
+        lines = says("check", shown.group(1), "--verbose").splitlines()
         for line in shown.group(2).splitlines():
             self.assertTrue(any(is_same(said, line) for said in lines), line)
 

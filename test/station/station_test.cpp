@@ -115,8 +115,8 @@ TEST(StationTest, GivesLiveInputToTheModelAndMarksTheTicksThatHeardIt) {
   EXPECT_EQ(bench.instrument->last_input, 14 * 0.25);
   const std::vector<GestureTick> ticks = bench.recorded();
   ASSERT_EQ(ticks.size(), 2U);
-  EXPECT_EQ(ticks[0].flags, 0U);
-  EXPECT_EQ(ticks[1].flags, GestureTick::kAudioInput);
+  EXPECT_EQ(ticks[0].flags, GestureTick::kNoForce);
+  EXPECT_EQ(ticks[1].flags, GestureTick::kAudioInput | GestureTick::kNoForce);
 }
 
 TEST(StationTest, HoldsForcesAtZeroUntilEngagedThenRampsThenPlays) {
@@ -237,7 +237,9 @@ TEST(StationTest, FaultsOnAPositionThatIsNotANumberAndPlaysTheLastGoodOne) {
   const std::vector<GestureTick> ticks = bench.recorded();
   ASSERT_EQ(ticks.size(), 602U);
   EXPECT_EQ(ticks[600].position[0], 0.01);
-  EXPECT_EQ(ticks[600].flags, GestureTick::kHeld);
+  EXPECT_EQ(ticks[599].flags, 0U) << "force was on";
+  EXPECT_EQ(ticks[600].flags, GestureTick::kHeld | GestureTick::kNoForce);
+  EXPECT_EQ(ticks[601].flags, GestureTick::kNoForce);
 }
 
 TEST(StationTest, FaultsOnceWhenTheDeviceIsLost) {

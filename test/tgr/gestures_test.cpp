@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/tgr/gesture.hpp"
 #include "ergotic/tgr/replay_driver.hpp"
+#include "ergotic/tgr/virtual_driver.hpp"
 #include "support/scratch_file.hpp"
 #include "support/test.hpp"
 #include "tgr/drivers/virtual/target_gesture.hpp"
@@ -187,6 +188,29 @@ TEST(TargetGestureTest, SaysWhereARowIsWrong) {
 
 TEST(TargetGestureTest, RefusesAFileThatIsNotThere) {
   EXPECT_THROW(readTargetGesture("/nowhere/g.csv", 1), Exception);
+}
+
+/// Of a device of six slices, with ports at the first two.
+std::vector<std::string> gestureWarningsOf(const std::string& rows, double seconds = 4.0) {
+  const ScratchFile file("time_s,slice,target_m\n" + rows);
+  VirtualDriverConfig config;
+  config.slices = 6;
+  config.gesture_file = file.path();
+  config.others[1].stop = 0.1;
+  return gestureWarnings(config, 0b11, seconds);
+}
+
+TEST(GestureWarningsTest, SayWhatIsNotPlayedAsItIsWritten) {
+  EXPECT_THAT(gestureWarningsOf("0,0,0\n1,0,0.03\n"), testing::IsEmpty());
+  EXPECT_THAT(gestureWarningsOf("0,0,0\n1,0,-0.08\n2,0,0.04\n"),
+              testing::ElementsAre(HasSubstr("a target of slice 0 is -0.08 m; the slice stops at "
+                                             "+-0.03 m")));
+  EXPECT_THAT(gestureWarningsOf("0,1,0.08\n"), testing::IsEmpty()) << "it has a longer way";
+  EXPECT_THAT(gestureWarningsOf("0,5,0\n0,3,0\n"),
+              testing::ElementsAre(HasSubstr("it moves slices 3, 5, which no port")));
+  EXPECT_THAT(gestureWarningsOf("0,0,0\n1000,0,0.01\n", 1.0),
+              testing::ElementsAre(HasSubstr("its last row is at 1000 s, and 1 s are played")));
+  EXPECT_THAT(gestureWarningsOf(""), testing::ElementsAre(HasSubstr("has no rows")));
 }
 
 }  // namespace

@@ -37,6 +37,7 @@ TEST(InProcessDriverTest, IsStableUpToTheLimitOfOneTickOfDelayAndTheExtraOnes) {
   for (const int extra : {0, 1, 3}) {
     VirtualDriverConfig config = idealConfig();
     config.extra_delay_ticks = extra;
+    config.slice.hand_damping = 5.0;
     config.slice.hand_stiffness = 0.0;  // its share of the stiffness has no delay
     const double damping = config.slice.damping + config.slice.hand_damping;
     const double limit = 2.0 * damping * rate / (1.0 + 2.0 * (1 + extra));

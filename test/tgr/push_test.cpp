@@ -191,13 +191,14 @@ TEST_F(PushUnderWayTest, BeginsAnewWithAnother) {
   EXPECT_NEAR(script_.forces[0], kZeroVolts - 0.05 * 0.5 / 50.0, 1e-12);
 }
 
-/// What a calibration says of a virtual slice of the usual mechanics, with the hand at it.
+/// What a calibration says of a virtual slice of the usual mechanics, with a hand at it.
 class PushedVirtualSliceTest : public ::testing::TestWithParam<double> {
  protected:
   /// \param times  the slice's force over what the calibration says
   std::string complaintAt(double times) {
     VirtualDriverConfig config;
     config.slices = 1;
+    config.slice.hand_damping = 5.0;  // held loosely
     config.slice.volts = pushedCalibration();
     config.slice.volts->zero_volts = 0.0;
     SliceCalibration believed = *config.slice.volts;

@@ -16,6 +16,7 @@ inline tgr::VirtualDriverConfig plainDevice() {
   config.slice.dry_friction = 0.0;
   config.slice.noise_rms = 0.0;
   config.slice.quantum = 0.0;
+  config.slice.hand_damping = 5.0;
   return config;
 }
 

@@ -338,6 +338,17 @@ struct StringInfo {
   int first_lia = 0;               ///< index of its first link
 };
 
+/// Why a generated body cannot be stepped at its rate, and what to do about it, in the words in
+/// which it was asked for. `settle` finds it.
+struct BodyLimit {
+  int first_mat = 0;
+  int mats = 0;
+  int first_lia = 0;
+  int lias = 0;
+  Place place;
+  std::string text;
+};
+
 /// How many modules a text such as `plate/rim` has meant.
 struct Selected {
   std::string text;
@@ -366,6 +377,7 @@ struct Scene {
   std::vector<Output> outputs;
   std::vector<StringInfo> strings;
   std::vector<Tuning> tunings;
+  std::vector<BodyLimit> body_limits;
   std::vector<Grid> grids;
   std::vector<Connection> connections;
   std::vector<Tap> taps;

@@ -136,6 +136,7 @@ struct GestureTick {
     kHeld = 1U << 1U,     ///< a position was missing or rejected and held
     /// Live audio entered the instrument: a replay from ports alone is not exact.
     kAudioInput = 1U << 2U,
+    kNoForce = 1U << 3U,  ///< not engaged, stopped or at fault: no slice was given any force
   };
   std::int64_t tick = 0;
   std::uint32_t flags = 0;

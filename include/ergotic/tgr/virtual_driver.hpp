@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "ergotic/tgr/calibration.hpp"
 #include "ergotic/tgr/driver.hpp"
@@ -30,7 +31,7 @@ struct VirtualSliceConfig {
   double delay = 0.0;           ///< s, of the actuator
   double hand_mass = 0.1;       ///< kg
   double hand_stiffness = 500;  ///< N/m
-  double hand_damping = 5.0;    ///< N s/m
+  double hand_damping = 18.0;   ///< N s/m: 0.7 of what is critical, with the slice's own
   /// What sensor and actuator truly are, if the device speaks volts: what a calibration should
   /// find.
   std::optional<SliceCalibration> volts;
@@ -56,5 +57,15 @@ struct VirtualDriverConfig {
 /// gesture file.
 /// \throws TextError from the gesture file, Exception if a setting is outside its range
 std::unique_ptr<Driver> makeVirtualDriver(const VirtualDriverConfig& config);
+
+/// What of the targets in a gesture file is not played as they are written, in full sentences:
+/// slices that move nothing in the scene, targets beyond the end stops, rows after the end, no rows
+/// at all. Nothing for a file of positions.
+/// \param slices_in_use  bit i: a port of the scene follows slice i
+/// \param seconds        how long is played
+/// \throws TextError from the gesture file
+std::vector<std::string> gestureWarnings(const VirtualDriverConfig& config,
+                                         std::uint64_t slices_in_use,
+                                         double seconds);
 
 }  // namespace ergotic::tgr

@@ -93,18 +93,38 @@ class Certifier {
     return result;
   }
 
-  void refuse(const SectionCertificate& section, const NetworkAnalysis& analysis) {
+  /// Of the generated body that is to blame by itself, if one is.
+  const scene::BodyLimit* limitOf(const SectionCertificate& section) const {
+    const auto is_within = [](int index, int first, int count) {
+      return index >= first && index < first + count;
+    };
+    const auto found = std::find_if(
+        scene_.body_limits.begin(), scene_.body_limits.end(), [&](const scene::BodyLimit& body) {
+          return is_within(section.worst_lia, body.first_lia, body.lias) ||
+                 is_within(section.worst_mat, body.first_mat, body.mats);
+        });
+    return found == scene_.body_limits.end() ? nullptr : &*found;
+  }
+
+  /// What is too stiff, and what to do about it.
+  std::string faultOf(const SectionCertificate& section) const {
     const bool is_link = section.worst_lia >= 0;
-    const scene::Mat& mat = scene_.mats[at(std::max(section.worst_mat, 0))];
-    const scene::Place place = is_link ? scene_.lias[at(section.worst_lia)].place : mat.place;
-    std::string text = "section '" + scene_.sections[at(section.section)].name + "' at " +
-                       wholeHz(section.rate_hz) + " Hz: " +
-                       (is_link ? "link '" + scene_.lias[at(section.worst_lia)].name + "'"
-                                : "module '" + mat.name + "'") +
-                       " is too stiff or too damped, bound " + describe(section.lambda) +
-                       ", allowed below 4. Soften it, make its masses heavier, or run the section "
-                       "at " +
-                       wholeHz(section.stable_rate_hz) + " Hz or more";
+    return "section '" + scene_.sections[at(section.section)].name + "' at " +
+           wholeHz(section.rate_hz) + " Hz: " +
+           (is_link ? "link '" + scene_.lias[at(section.worst_lia)].name + "'"
+                    : "module '" + scene_.mats[at(std::max(section.worst_mat, 0))].name + "'") +
+           " is too stiff or too damped, bound " + describe(section.lambda) +
+           ", allowed below 4. Soften it, make its masses heavier, or run the section at " +
+           wholeHz(section.stable_rate_hz) + " Hz or more";
+  }
+
+  void refuse(const SectionCertificate& section, const NetworkAnalysis& analysis) {
+    const scene::BodyLimit* const body = limitOf(section);
+    const scene::Place place = body != nullptr ? body->place
+                               : section.worst_lia >= 0
+                                   ? scene_.lias[at(section.worst_lia)].place
+                                   : scene_.mats[at(std::max(section.worst_mat, 0))].place;
+    std::string text = body != nullptr ? body->text : faultOf(section);
     if (analysis.is_too_large) {
       text += ". It is only a bound: the network is too large to be tested exactly";
     } else if (analysis.is_bound) {

@@ -195,10 +195,11 @@ class CouplingJudge {
   /// False if no form is found that does not grow, or only one that rounding may change.
   bool prove(const scene::Scene& scene, int frames, const Period& period) {
     std::optional<PeriodProof> proof = proofOf(period, rounded(scene, networks_.rates()));
-    if (findings_.proof() != nullptr && proof) {
+    const bool is_proven = proof.has_value();
+    if (findings_.proof() != nullptr && is_proven) {
       keep(*std::move(proof), scene, frames);
     }
-    return proof.has_value();
+    return is_proven;
   }
 
   /// The first one of an island: others are it with bends as single precision rounds them.

@@ -128,16 +128,16 @@ class PortJudge {
   }
 
   std::string describeFree(const scene::Port& port, HandLevel level) const {
-    return "in nobody's hand " + ofSlice() + "begins to swing with " + ofHanging(port) +
+    return "when nobody holds it, " + ofSlice() + "begins to swing with " + ofHanging(port) +
            (level == HandLevel::kRefused ? ": it will buzz" : "") +
            ". Damp what hangs there, soften the link, scale the force down, or raise the gestural "
            "rate";
   }
 
   std::string describeLeftOut(const scene::Port& port) const {
-    return "whether in nobody's hand a slice begins to swing with " + ofHanging(port) +
-           " is not all worked out, because of " + free_slices_.leftOut(port.mat) +
-           ". Let go of it with care";
+    return "it is not known whether a slice that nobody holds begins to swing with " +
+           ofHanging(port) + ", because the analysis leaves out " + free_slices_.leftOut(port.mat) +
+           ". Try it without a hand first, or scale the force down";
   }
 
   std::string describeLinks(const scene::Port& port,

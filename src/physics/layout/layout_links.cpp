@@ -65,7 +65,7 @@ class Ends {
   End seen(int mat, int by, bool projects, int frame) {
     const int section = scene_.mats[at(by)].section;
     const bool glides = physics::glides(scene_, rates_, mat, section);
-    const End end =
+    End end =
         glides ? endOf(layout_.glides[glideOf(scene_, rates_, mat, section, layout_)]) : of(mat);
     if (!projects) {
       return end;
@@ -320,7 +320,7 @@ void placeLinks(const scene::Scene& scene, const Rates& rates, Layout& layout) {
     LinkRun& target = layout.runs[found->second];
     target.lias.push_back(l);
     target.ends.push_back({a.slot, b.slot});
-    if (run.block < 0) {
+    if (target.block < 0) {
       const scene::Lia& lia = scene.lias[at(l)];
       target.rests.push_back(lia.bend < 0 ? a.rest - b.rest : scene::restApart(scene, lia));
     }

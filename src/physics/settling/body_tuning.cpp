@@ -62,7 +62,7 @@ class BodyTuning {
     scene::scaleBody(scene_, body_, scale);
     links_ = 1.0;  // its modes have it now
     notes.push_back(note() + partials() + madeOf());
-    noteLimit(notes);
+    findLimit();
   }
 
  private:
@@ -193,7 +193,7 @@ class BodyTuning {
   }
 
   /// What to do about too many masses.
-  void noteLimit(std::vector<std::string>& notes) const {
+  void findLimit() const {
     const Mode& top = body_.top;
     const double bound =
         step_ * step_ * (top.springs + top.bends) + 2.0 * (step_ * top.dampers + ground_);
@@ -201,11 +201,13 @@ class BodyTuning {
       return;
     }
     const double fewer = std::pow(4.0 / bound, top.bends > top.springs ? 0.25 : 0.5);
-    notes.push_back(note() + "cannot be stepped at " + hertz(rate_hz_) + ": its highest mode has " +
-                    shortly(bound) + ", allowed below 4. Use " + shortly(0.99 * fewer) +
-                    " times as many masses in a row, " +
-                    shortly(rate_hz_ * std::sqrt(bound / 4.0)) +
-                    " Hz or more, a lower pitch, or as: modes");
+    scene_.body_limits.push_back(
+        {body_.first_mat, body_.mats, body_.first_lia, body_.lias, body_.place,
+         "body '" + body_.name + "' cannot be stepped at " + hertz(rate_hz_) +
+             ": its highest mode is at " + shortly(bound) + ", allowed below 4. Use " +
+             shortly(0.99 * fewer) + " times as many masses in a row, a rate of " +
+             shortly(rate_hz_ * std::sqrt(bound / 4.0)) +
+             " Hz or more, a lower pitch, or as: modes"});
   }
 
   scene::Scene& scene_;

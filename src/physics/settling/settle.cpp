@@ -9,6 +9,7 @@
 #include "physics/settling/coupling_choice.hpp"
 #include "physics/settling/filters.hpp"
 #include "physics/settling/pitch_pull.hpp"
+#include "physics/settling/play_warnings.hpp"
 #include "physics/settling/raise_rates.hpp"
 #include "physics/settling/scheme_choice.hpp"
 #include "physics/settling/sleep_bound.hpp"
@@ -50,6 +51,7 @@ Settled settle(scene::Scene scene, const Rates& rates) {
   settled.scene = complete(std::move(scene), rates, settled.notes);
   noteSleep(settled.scene, settled.notes);
   notePitchPull(settled.scene, settled.notes);
+  warnAboutPlaying(settled.scene, settled.scene.warnings);
   return settled;
 }
 

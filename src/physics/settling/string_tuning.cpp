@@ -59,7 +59,7 @@ class Tuning {
     if (string_.coarse) {
       fit(notes);
     } else {
-      tune(notes);
+      tune();
     }
     string_.frequency_hz = 0.0;
   }
@@ -75,17 +75,19 @@ class Tuning {
   std::string pitch() const { return scene::numberText(string_.frequency_hz) + " Hz"; }
   std::string cutTo() const { return pitch() + " with " + std::to_string(masses_) + " masses"; }
 
-  void tune(std::vector<std::string>& notes) {
+  void tune() {
     string_.stiffness = scene::tunedStiffness(scene_, string_, rate_hz_);
     if (scene_.lias[at(string_.first_lia)].scheme != scene::Scheme::kExplicit) {
       requireTension();
     } else if (!isStable(masses_, rate_hz_)) {
       const auto stable = [this](int n) { return isStable(n, rate_hz_); };
       const int most = mostMasses(1, masses_, stable);
-      notes.push_back(note() + "cannot be stepped at " + cutTo() + ". Use " +
-                      (most > 0 ? "at most " + std::to_string(most) + " masses, " : "") +
-                      scene::numberText(std::ceil(stableRate())) +
-                      " Hz or more, or a lower frequency");
+      scene_.body_limits.push_back(
+          {string_.first, string_.count, string_.first_lia, masses_ + 1,
+           scene_.mats[at(string_.first)].place,
+           "string '" + string_.name + "' cannot be stepped at " + cutTo() + ". Use " +
+               (most > 0 ? "at most " + std::to_string(most) + " masses, " : "") + "a rate of " +
+               scene::numberText(std::ceil(stableRate())) + " Hz or more, or a lower frequency"});
     }
     for (int i = 0; i <= masses_; ++i) {
       scene_.lias[at(string_.first_lia + i)].stiffness = string_.stiffness;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "constants.hpp"
 #include "scene/language/functions.hpp"
 #include "scene/language/kinds.hpp"
 #include "scene/language/measured.hpp"
@@ -20,6 +21,7 @@ constexpr int kDeepestExpression = 100;
 constexpr std::size_t kLongest = 4096;
 
 constexpr const char* kNote = "note";
+constexpr const char* kPiName = "pi";
 
 class Parser {
  public:
@@ -63,11 +65,21 @@ class Parser {
       if (unused_ > 0) {
         return {};
       }
+      if (const std::optional<double> hz = noteIn(value)) {
+        return {*hz, kindOfUnit("Hz")};
+      }
       fail((std::holds_alternative<Part>(value) ? std::string("a list")
                                                 : quoted(std::get<std::string>(value))) +
            " is no number");
     }
     return *number;
+  }
+  /// The frequency of a word that is the name of a note, as `A4`, Hz.
+  static std::optional<double> noteIn(const Constant& value) {
+    const auto* const word = std::get_if<std::string>(&value);
+    const auto hz = parseQuantity(word == nullptr ? std::string() : *word, "Hz");
+    const auto* const found = std::get_if<double>(&hz);
+    return found == nullptr ? std::nullopt : std::optional(*found);
   }
   /// Without a unit.
   double bare(const Constant& value, const char* what) const {
@@ -271,6 +283,9 @@ class Parser {
       return called(name);
     }
     const Constant* const known = scope_.find(name);
+    if (known == nullptr && name == kPiName) {
+      return Amount{kPi};
+    }
     if (known == nullptr) {
       at_ = first;
       fail("unknown name " + quoted(name) + suggestion(name, scope_.names()));

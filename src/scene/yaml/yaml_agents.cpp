@@ -183,7 +183,15 @@ void readAgent(SceneBuilder& builder,
   port.mat = builder.add(targetOf(scene, map, name, held, sectionOfHand(builder, map, held)));
   port.axis = readAxis(builder, map, port.mat);
   port.agent = static_cast<int>(scene.agents.size());
-  builder.add(handOf(scene, map, name, port.mat, mat));
+  Lia hand = handOf(scene, map, name, port.mat, mat);
+  const auto is_scalar = [&scene](int index) {
+    return scene.sectionOf(scene.mats[static_cast<std::size_t>(index)]).geometry ==
+           Geometry::kScalar;
+  };
+  if (!is_scalar(port.mat) || !is_scalar(mat)) {
+    hand.scheme = Scheme::kAuto;  // the damper of an explicit one is not proven there
+  }
+  builder.add(std::move(hand));
   scene.ports.push_back(std::move(port));
   scene.agents.push_back(std::move(agent));
 }

@@ -21,10 +21,23 @@ namespace {
 struct Heard {
   std::vector<Point> points;
   bool are_many = false;
+  /// [points] how much of each makes one place of a mesh, plate or skin; none: all of each.
+  std::vector<double> weights{};
 };
 
+/// The force at a place between the modules of a mesh is interpolated, as its motion is.
+Heard forceOn(const Grid& grid, const NamedPlace& at) {
+  const GridPlace around = placeOn(grid, at.along, at.across);
+  Heard heard;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(around.count); ++i) {
+    heard.points.push_back({around.mats[i], -1, 0.0});
+    heard.weights.push_back(around.weights[i]);
+  }
+  return heard;
+}
+
 /// A module; a place on a string, between two of its modules; a point on a mesh; or many of these.
-Heard readHeardPlaces(SceneBuilder& builder, const YamlMap& map) {
+Heard readHeardPlaces(SceneBuilder& builder, const YamlMap& map, Quantity quantity) {
   const Place place = map.placeAt("at");
   const Node& node = map.at("at");
   if (node.isScalar() && !isSelection(node.text()) && node.text().find('@') != std::string::npos) {
@@ -33,6 +46,9 @@ Heard readHeardPlaces(SceneBuilder& builder, const YamlMap& map) {
     if (grid.rows == 1 && moduleOn(grid, at) < 0) {
       const GridPlace around = placeOn(grid, at.along, 0.0);
       return {{{around.mats[0], around.mats[1], around.weights[1]}}, false};
+    }
+    if (grid.rows > 1 && moduleOn(grid, at) < 0 && quantity == Quantity::kForce) {
+      return forceOn(grid, at);
     }
   }
   const Selection selection = selectionOf(builder, node, "'at' of " + map.what(), place);
@@ -166,18 +182,23 @@ class OutputReader {
       builder_.fail(map.place(), map.what() + (ways == 0 ? " goes nowhere" : " goes two ways") +
                                      ", allowed: 'channel', 'channels', or 'speakers' and 'pan'");
     }
-    const Heard heard = readHeardPlaces(builder_, map);
     Output output;
     output.place = map.place();
     output.quantity = readQuantity(map, {"position", "force", "velocity"});
+    const Heard heard = readHeardPlaces(builder_, map, output.quantity);
+    if (!heard.weights.empty() && !map.has("channel")) {
+      map.fail("at", "the force at a place of a mesh goes to one channel, allowed: 'channel'");
+    }
     output.axis = readAxis(builder_, map, heard.points.front().mat);
     output.gain = map.value("gain", kGainLimits, {1.0});
     name_ = name;
-    next_ = heard.are_many || !map.has("channel") ? 0 : -1;
+    next_ = heard.points.size() > 1 || heard.are_many || !map.has("channel") ? 0 : -1;
     if (map.has("channel")) {
       output.channel = map.integer("channel", kChannelLimits) - 1;
-      for (const Point& point : heard.points) {
-        output.point = point;
+      const Value gain = output.gain;
+      for (std::size_t i = 0; i < heard.points.size(); ++i) {
+        output.point = heard.points[i];
+        output.gain = heard.weights.empty() ? gain : heard.weights[i] * gain;
         add(output);
       }
     } else if (map.has("pan")) {

@@ -22,6 +22,7 @@
 #include "physics/note.hpp"
 #include "scene/laws/law.hpp"
 #include "tools/lib/check_about.hpp"
+#include "tools/lib/check_brief.hpp"
 #include "tools/lib/check_filters.hpp"
 #include "tools/lib/check_names.hpp"
 #include "tools/lib/check_points.hpp"
@@ -91,6 +92,17 @@ Json stringsOf(const Scene& scene, const physics::Rates& rates) {
     report.push_back({{"name", string.name},
                       {"masses", string.count - 2},
                       {"pitch_hz", scene::stringPitchHz(scene, string, rate_hz)}});
+  }
+  return report;
+}
+
+/// Generated bodies that were asked for a pitch: they are tuned to it by their modes.
+Json bodiesOf(const Scene& scene) {
+  Json report = Json::array();
+  for (const scene::Tuning& body : scene.tunings) {
+    if (body.pitch_hz > 0.0) {
+      report.push_back({{"name", body.name}, {"pitch_hz", body.pitch_hz}});
+    }
   }
   return report;
 }
@@ -168,7 +180,8 @@ void addProgram(const Scene& scene,
   report["cost"] = std::move(costs);
 }
 
-Json reportOn(const physics::Settled& settled,
+Json reportOn(const Scene& read,
+              const physics::Settled& settled,
               const physics::Rates& rates,
               const physics::Certificate& certificate,
               const physics::CompileOptions& options,
@@ -200,6 +213,7 @@ Json reportOn(const physics::Settled& settled,
                  {"outputs", outputsReport(scene)},
                  {"parameters", parametersOf(scene)},
                  {"strings", stringsOf(scene, rates)},
+                 {"bodies", bodiesOf(read)},
                  {"filters", filtersReport(scene, rates)},
                  {"load", std::move(load)}};
   addProgram(scene, rates, options, report);
@@ -231,12 +245,17 @@ std::vector<std::string> addSlices(const tgr::EndEffectors& end_effectors,
 
 /// Prints the report, then why the scene cannot be played. \return the exit code
 int finish(const Json& report,
+           bool is_brief,
            bool json,
            const std::string& file,
            physics::Verdict verdict,
            const std::vector<std::string>& refusals,
            const std::vector<std::string>& unstable_variants) {
-  tell(report, json);
+  if (is_brief) {
+    printBrief(report, std::cout);
+  } else {
+    tell(report, json);
+  }
   for (const std::string& line : refusals) {
     std::cerr << line << '\n';
   }
@@ -293,8 +312,12 @@ void addOptions(CLI::App& app, CheckOptions& options) {
   addTargetOption(app, options.target, "propose the cheapest setting that plays this accurately");
   addEndEffectorsOption(app, options.end_effectors);
   addOptions(app, options.device);
-  app.add_flag("--ranges", options.ranges,
-               "judge the ranges of the parameters of a scene that is not quickly judged, too");
+  app.add_flag("--verbose", options.verbose,
+               "say all that is known of the scene, as YAML, not only what a musician asks first");
+  app.add_flag(
+      "--ranges", options.ranges,
+      "as --verbose, with the ranges of the parameters also of a scene that is not quickly "
+      "judged");
   app.add_flag("--json", options.json, "for a program to read");
   app.add_option("--filter-response", options.filter_response,
                  "write what the chaplets of the scene let through to this table")
@@ -342,11 +365,13 @@ int check(const CheckOptions& options) {
       physics::certify(settled.scene, rates, device, options.proof.empty() ? nullptr : &proof);
   const double cpu_s = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
   const physics::CompileOptions compile = chosenOptions(options.compile);
-  Json report = reportOn(settled, rates, certificate, compile, options.device,
+  Json report = reportOn(scene, settled, rates, certificate, compile, options.device,
                          loadOf(settled.scene, rates, compile, load));
-  if (options.ranges || static_cast<double>(scene.parameters.size()) * cpu_s <= kQuicklyJudgedS) {
+  const bool is_brief = !options.json && !options.verbose && !options.ranges;
+  const bool is_quick = static_cast<double>(scene.parameters.size()) * cpu_s <= kQuicklyJudgedS;
+  if (options.ranges || (!is_brief && is_quick)) {
     addRanges(scene, rates, device, report);
-  } else {
+  } else if (!is_brief) {
     report["ranges"] = "not judged: some hundred verdicts for each parameter, of " +
                        physics::shortly(cpu_s) + " s each; ask with --ranges";
   }
@@ -370,7 +395,8 @@ int check(const CheckOptions& options) {
   if (options.scene.variant.empty() && !scene.variants.empty()) {
     report["variants"] = variantsReport(scene.variants, options.scene, device, unstable);
   }
-  return finish(report, options.json, settled.scene.file, certificate.verdict, refusals, unstable);
+  return finish(report, is_brief, options.json, settled.scene.file, certificate.verdict, refusals,
+                unstable);
 }
 
 }  // namespace ergotic::tools

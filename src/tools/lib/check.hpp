@@ -18,6 +18,7 @@ struct CheckOptions {
   DeviceChoice device;
   bool ranges = false;  ///< judge those of large scenes, too
   bool json = false;
+  bool verbose = false;         ///< all that is known of the scene, not what a musician asks first
   std::string target;           ///< empty: nothing is proposed
   std::string filter_response;  ///< empty: not written
   std::string proof;            ///< empty: not written

@@ -8,30 +8,55 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "ergotic/exception.hpp"
 
 namespace ergotic::tools {
 
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The file that `path` means.
+std::string regularFile(const std::string& path) {
+  std::error_code error;
+  const fs::path file =
+      fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : fs::path(path);
+  if (fs::exists(file, error) && !fs::is_regular_file(file, error)) {
+    throw Exception(path +
+                    ": is no regular file, and the header of a WAV file is written last, which "
+                    "devices and pipes do not bear. Give the name of a file, or leave out --out to "
+                    "play without writing");
+  }
+  return file.string();
+}
+
+}  // namespace
+
 FrameWriter::FrameWriter(std::string path,
                          double sample_rate,
                          int channels,
-                         audio::WavFormat format)
-    : path_(std::move(path)), channels_(channels) {
+                         audio::WavFormat format,
+                         const SoundWish& wish)
+    : path_(std::move(path)), format_(format), wish_(wish), channels_(channels) {
   if (path_.empty()) {
     return;
   }
+  path_ = regularFile(path_);
   if (channels_ < 1) {
     throw Exception(path_ + ": the scene has no outputs, there is nothing to write");
   }
   // In the same folder, so that the rename is one step; named by process, so that two do not meet.
   unfinished_path_ = path_ + "." + std::to_string(getpid()) + ".part";
-  file_ = std::make_unique<audio::WavWriter>(unfinished_path_, sample_rate, channels_, format);
+  file_ = std::make_unique<audio::WavWriter>(unfinished_path_, sample_rate, channels_,
+                                             wish_.isAny() ? audio::WavFormat::kDouble : format_);
 }
 
 FrameWriter::~FrameWriter() {
-  if (file_ && !finished_) {
+  if (!unfinished_path_.empty()) {
     file_.reset();
     std::remove(unfinished_path_.c_str());
   }
@@ -53,15 +78,30 @@ void FrameWriter::write(const double* frames, std::int64_t nframes) {
   frames_ += nframes;
 }
 
+void FrameWriter::grantWish() {
+  if (wish_.loudness) {
+    gain_ = normalizingGain(levelOf(unfinished_path_), *wish_.loudness);
+  }
+  const std::string played = unfinished_path_;
+  unfinished_path_ += ".2";
+  clipped_ = finishSound(played, unfinished_path_, format_, {gain_, wish_.fade_s});
+  std::remove(played.c_str());
+}
+
 void FrameWriter::finish() {
   if (!file_) {
     return;
   }
   file_->finish();
+  clipped_ = file_->clippedSamples();
+  if (wish_.isAny()) {
+    grantWish();
+  }
+  level_ = levelOf(unfinished_path_);
   if (std::rename(unfinished_path_.c_str(), path_.c_str()) != 0) {
     throw Exception(path_ + ": cannot be written: " + std::strerror(errno));
   }
-  finished_ = true;
+  unfinished_path_.clear();
 }
 
 }  // namespace ergotic::tools

@@ -62,7 +62,9 @@ class HandPlayer final : public Player {
              const std::string& csv)
       : outputs_(std::max(performer->instrument->outputChannels(), 1)),
         instrument_(*performer->instrument),
-        driver_(makeDriver(csv, *performer, ended_)),
+        slices_in_use_(performer->rig->slicesInUse()),
+        device_(deviceFor(csv, slices_in_use_)),
+        driver_(makeDriver(device_, ended_)),
         station_(std::move(performer), std::move(driver_), std::move(inputs), outputs_) {
     station::Command engage;
     engage.type = station::Command::Type::kEngage;
@@ -82,6 +84,10 @@ class HandPlayer final : public Player {
 
   std::string trouble() const override { return trouble_; }
 
+  std::vector<std::string> gestureWarnings(double seconds) const override {
+    return tgr::gestureWarnings(device_, slices_in_use_, seconds);
+  }
+
  private:
   void hear(const station::Event& event) {
     if (isBlowUp(event)) {
@@ -95,28 +101,33 @@ class HandPlayer final : public Player {
     }
   }
 
-  static std::unique_ptr<tgr::Driver> makeDriver(const std::string& csv,
-                                                 const station::Performer& performer,
-                                                 bool& ended) {
-    if (tgr::gestureKindOf(csv) == tgr::GestureKind::kPositions) {
-      return tgr::makeReplayDriver(
-          std::make_unique<EndingSource>(tgr::readPositionsCsv(csv), ended));
-    }
+  /// The usual virtual device, with as many slices as the scene needs.
+  static tgr::VirtualDriverConfig deviceFor(const std::string& csv, std::uint64_t slices_in_use) {
     tgr::VirtualDriverConfig config;
     for (int slice = 0; slice < tgr::kMaxSlices; ++slice) {
-      if ((performer.rig->slicesInUse() >> static_cast<unsigned>(slice) & 1U) != 0) {
+      if ((slices_in_use >> static_cast<unsigned>(slice) & 1U) != 0) {
         config.slices = std::max(config.slices, slice + 1);
       }
     }
     config.gesture_file = csv;
-    return tgr::makeVirtualDriver(config);
+    return config;
+  }
+  static std::unique_ptr<tgr::Driver> makeDriver(const tgr::VirtualDriverConfig& device,
+                                                 bool& ended) {
+    if (tgr::gestureKindOf(device.gesture_file) == tgr::GestureKind::kPositions) {
+      return tgr::makeReplayDriver(
+          std::make_unique<EndingSource>(tgr::readPositionsCsv(device.gesture_file), ended));
+    }
+    return tgr::makeVirtualDriver(device);
   }
 
   bool ended_ = false;
   std::string trouble_;
   int outputs_;
   const physics::Instrument& instrument_;  // the station's: nobody swaps it
-  std::unique_ptr<tgr::Driver> driver_;    // on its way into the station
+  std::uint64_t slices_in_use_;            // bit i: a port follows slice i
+  tgr::VirtualDriverConfig device_;
+  std::unique_ptr<tgr::Driver> driver_;  // on its way into the station
   OfflineStation station_;
 };
 

@@ -12,6 +12,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "constants.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/build_id.hpp"
 #include "ergotic/rt/thread.hpp"
@@ -39,6 +40,15 @@ void say(const std::string& line) {
 
 bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+/// What was chosen for the scene is told by `check --verbose`.
+void sayWarnings(const station::Performer& performer) {
+  for (const std::string& line : performer.warnings) {
+    if (line.find(": note: ") == std::string::npos) {
+      say(line);
+    }
+  }
 }
 
 station::PerformerPolicy policyOf(const RenderOptions& options) {
@@ -91,9 +101,7 @@ std::unique_ptr<Player> playScene(const RenderOptions& options) {
   policy.on_stage = [&](const std::string& stage) { stages.show(stage); };
   auto performer = station::makePerformer(std::move(scene), rates, compile, policy);
   stages.clear();
-  for (const std::string& warning : performer->warnings) {
-    say(warning);
-  }
+  sayWarnings(*performer);
   if (performer->certificate.verdict != physics::Verdict::kPassive &&
       performer->certificate.verdict != physics::Verdict::kBounded) {
     say(std::string("warning: the verdict on this scene is ") +
@@ -120,9 +128,7 @@ int feelScene(const RenderOptions& options) {
   policy.end_effectors = readEndEffectors(options.end_effectors);
   const auto performer =
       station::makePerformer(std::move(scene), rates, chosenOptions(options.compile), policy);
-  for (const std::string& warning : performer->warnings) {
-    say(warning);
-  }
+  sayWarnings(*performer);
   printText(feelReport(*performer, policy.device, policy.end_effectors, options.feel), std::cout);
   return kSuccess;
 }
@@ -230,6 +236,33 @@ std::string summary(const Player& player, const FrameWriter& writer, double work
   return line.str();
 }
 
+/// How loud the file is, and what would make it as loud as is usual.
+void sayLevel(const FrameWriter& writer, const std::string& out) {
+  if (!writer.level()) {
+    return;
+  }
+  std::ostringstream line;
+  line.precision(3);
+  line << out << ": " << describe(*writer.level());
+  if (writer.gain() != 1.0) {
+    line << "; normalized by a gain of " << writer.gain();
+  } else if (writer.level()->loudness) {
+    line << "; a gain of " << normalizingGain(*writer.level(), kUsualLoudness)
+         << " would bring it towards " << kUsualLoudness << " LUFS, below " << kHighestPeakDb
+         << " dBTP (--normalize)";
+  }
+  say(line.str());
+}
+
+SoundWish wishOf(const RenderOptions& options) {
+  SoundWish wish;
+  if (options.loudness != 0.0) {
+    wish.loudness = options.loudness;
+  }
+  wish.fade_s = options.fade_s;
+  return wish;
+}
+
 void sayHowLinksFared(const physics::Instrument& instrument) {
   std::vector<physics::GuardReport> guards = instrument.makeGuardReports();
   instrument.readGuards(guards);
@@ -251,6 +284,12 @@ void addOptions(CLI::App& app, RenderOptions& options) {
   app.add_option("--out-format", options.out_format, "format of the samples")
       ->check(CLI::IsMember({"float", "double", "24"}))
       ->capture_default_str();
+  app.add_flag("--normalize{-18}", options.loudness,
+               "make the file as loud as this, LUFS, with its true peak at -1 dBTP at most "
+               "(default: -18)")
+      ->check(CLI::Range(-60.0, -1.0));
+  app.add_option("--fade", options.fade_s, "how long the end of the file fades away, s")
+      ->check(CLI::Range(0.0, 1e6));
   app.add_option("--input", options.inputs, "sound file for an input of the scene")
       ->type_name("NAME=F.wav")
       ->allow_extra_args(false);
@@ -269,6 +308,9 @@ void addOptions(CLI::App& app, RenderOptions& options) {
 }
 
 int render(const RenderOptions& options) {
+  if (options.out.empty() && wishOf(options).isAny()) {
+    throw CLI::ValidationError("--normalize and --fade", "change a file, so they need --out");
+  }
   if (!options.feel.slice.empty()) {
     return feelScene(options);
   }
@@ -282,8 +324,13 @@ int render(const RenderOptions& options) {
     player = playScene(options);
   }
   FrameWriter writer(options.out, player->rates().audio_hz, player->outputChannels(),
-                     audio::wavFormatOf(options.out_format));
-  const double work_s = playFrames(*player, framesOf(options, *player), writer);
+                     audio::wavFormatOf(options.out_format), wishOf(options));
+  const std::int64_t frames = framesOf(options, *player);
+  const double usual_s = options.seconds > 0.0 ? kInfinity : kDefaultSeconds;
+  for (const std::string& warning : player->gestureWarnings(usual_s)) {
+    say(warning);
+  }
+  const double work_s = playFrames(*player, frames, writer);
   if (replay != nullptr && !replay->flaws().empty()) {
     for (const std::string& flaw : replay->flaws()) {
       say(flaw);
@@ -295,6 +342,7 @@ int render(const RenderOptions& options) {
   }
   writer.finish();
   say(summary(*player, writer, work_s));
+  sayLevel(writer, options.out);
   sayHowLinksFared(player->instrument());
   if (const std::string trouble = player->trouble(); !trouble.empty()) {
     say(trouble);

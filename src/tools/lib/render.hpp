@@ -16,6 +16,8 @@ struct RenderOptions {
   double seconds = 0.0;  ///< 0: 10, or as long as the gesture is
   std::string out;       ///< empty: nothing is kept
   std::string out_format = "float";
+  double loudness = 0.0;            ///< wanted, LUFS; 0: the sound stays as it was played
+  double fade_s = 0.0;              ///< of its end
   std::vector<std::string> inputs;  ///< NAME=FILE
   std::string gesture;              ///< empty: nobody plays
   std::string station;              ///< whose recording of a bag; empty: of the only one

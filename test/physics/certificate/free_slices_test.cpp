@@ -104,7 +104,8 @@ TEST(FreeSlicesTest, ALosslessMassOnASpringSetsOffASliceAtLessThanTheSpringAlone
   const Certificate certificate = certify(scene, kRates);
   EXPECT_LT(certificate.ports.at(0).stiffness, 0.5 * certificate.ports[0].stiffness_limit);
   EXPECT_EQ(certificate.ports[0].level, HandLevel::kWarned);
-  EXPECT_THAT(certificate.findings, ElementsAre(HasSubstr("in nobody's hand a slice of 0.3 kg")));
+  EXPECT_THAT(certificate.findings,
+              ElementsAre(HasSubstr("when nobody holds it, a slice of 0.3 kg")));
 }
 
 TEST(FreeSlicesTest, ALossKeepsItSilent) {
@@ -355,7 +356,9 @@ TEST(FreeSlicesTest, SlicesOnOneMassSetItOffTogether) {
   EXPECT_TRUE(silent.findings.empty());
   const Certificate warned = certify(onOneMass(8, 2000.0, 0.3), kRates);
   EXPECT_EQ(warned.verdict, Verdict::kPassive);
-  EXPECT_THAT(warned.findings, testing::SizeIs(8));
+  EXPECT_THAT(warned.findings, ElementsAre(HasSubstr("(7 more like it)")));
+  EXPECT_TRUE(std::all_of(warned.ports.begin(), warned.ports.end(),
+                          [](const PortCertificate& p) { return p.level == HandLevel::kWarned; }));
   const scene::Scene scene = onOneMass(8, 4000.0, 1.0);
   DeviceTraits twice;
   twice.damping *= 2.0;
@@ -373,7 +376,9 @@ TEST(FreeSlicesTest, ASliceIsToldOfAMassThatHangsOnAnother) {
   b.spring(far, b.ground(), 10.0);
   b.spring(far, scene.ports.front().mat, 10.0);
   const Certificate certificate = certify(b.scene, kRates);
-  EXPECT_THAT(certificate.findings, Contains(HasSubstr("what hangs on link 'l3'")));
+  EXPECT_THAT(certificate.findings, ElementsAre(HasSubstr("(1 more like it)")));
+  ASSERT_EQ(certificate.ports.size(), 2U);
+  EXPECT_THAT(certificate.ports[1].finding, HasSubstr("what hangs on link 'l3'"));
 }
 
 /// In space a damper does nothing to what swings across its line, so it makes no hand safe.

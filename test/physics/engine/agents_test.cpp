@@ -57,7 +57,8 @@ TEST(AgentsTest, AStepPullsAMassAsThePolesOfTheSchemeSay) {
       player.tick();
       const int k = n - kBefore - 1;
       const double expected = k < 0 ? 0.0 : 0.02 * (1.0 - leftAfter(k, 0.1, 200.0, 1.5));
-      EXPECT_NEAR(displacementOf(player, axis == 'x' ? 0 : 1), expected, 2e-9) << n;
+      EXPECT_NEAR(displacementOf(player, axis == 'x' ? 0 : 1), expected, axis == 'x' ? 2e-9 : 1e-4)
+          << "where it is not scalar the damper is guarded; tick " << n;
       if (axis == 'y') {
         EXPECT_EQ(displacementOf(player, 0), 0.0);
         EXPECT_EQ(displacementOf(player, 2), 0.0);

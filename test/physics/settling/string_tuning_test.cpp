@@ -171,26 +171,29 @@ TEST(StringTuningTest, RefusalsAdviseHowManyMassesWouldDo) {
               HasSubstr("less damping or loss"));
 }
 
-TEST(StringTuningTest, NoteAdvisesHowManyMassesCanBeStepped) {
+TEST(StringTuningTest, TheVerdictAdvisesHowManyMassesCanBeStepped) {
   Wish wish{4186.0, 20, "mass: 1e-4", ""};
-  const auto note =
+  const auto advice =
       HasSubstr("cannot be stepped at 4186 Hz with 20 masses. Use at most 4 masses, ");
-  EXPECT_THAT(settle(open(wish), wish.rates).notes, ElementsAre(note));
+  const Settled cut = settle(open(wish), wish.rates);
+  EXPECT_THAT(cut.notes, ::testing::IsEmpty());
+  EXPECT_THAT(certify(cut.scene, wish.rates).findings, ::testing::ElementsAre(advice));
   for (const int masses : {4, 5}) {
     const Settled settled = settle(open(cutInto(masses, wish)), wish.rates);
     const bool is_stable = certify(settled.scene, wish.rates).verdict == Verdict::kPassive;
     EXPECT_EQ(is_stable, masses == 4);
-    EXPECT_EQ(settled.notes.empty(), masses == 4);
+    EXPECT_EQ(settled.scene.body_limits.empty(), masses == 4);
   }
 }
 
-TEST(StringTuningTest, NoteAdvisesTheRateAtWhichItCanBeStepped) {
+TEST(StringTuningTest, TheVerdictAdvisesTheRateAtWhichItCanBeStepped) {
   for (const char* fields : {"mass: 1e-4", "mass: 1e-4, loss: 2e-2, damping: 5e-2"}) {
     Wish wish{4186.0, 5, fields, ""};
-    const std::vector<std::string> notes = settle(open(wish), wish.rates).notes;
-    ASSERT_EQ(notes.size(), 1U) << fields;
-    const std::size_t before = notes[0].find("masses, ") + 8;
-    const double rate_hz = std::stod(notes[0].substr(before));
+    const std::vector<scene::BodyLimit> limits = settle(open(wish), wish.rates).scene.body_limits;
+    ASSERT_EQ(limits.size(), 1U) << fields;
+    const std::string advice = "a rate of ";
+    const double rate_hz =
+        std::stod(limits[0].text.substr(limits[0].text.find(advice) + advice.size()));
     for (const double off : {0.0, -2.0}) {
       wish.rates = {rate_hz + off, 14};
       const Settled settled = settle(open(wish), wish.rates);

@@ -75,10 +75,19 @@ TEST_F(ExpressionTest, KnowsUnitsNotesAndLists) {
   EXPECT_EQ(valueOf("50 %"), 0.5);
   EXPECT_EQ(valueOf("note(A4)"), 440.0);
   EXPECT_EQ(valueOf("note(pitch)*2"), 440.0);
+  EXPECT_EQ(valueOf("2*pitch"), 440.0) << "a constant that names a note is its frequency";
+  EXPECT_EQ(valueOf("list[2]/pitch"), valueOf("note(C4)/220"));
+  EXPECT_EQ(valueOf("2*pi"), 2.0 * 3.14159265358979323846);
   EXPECT_NEAR(valueOf("cents(1200)"), 2.0, 1e-15);
   EXPECT_EQ(valueOf("list[0] + list[1]"), 10.002);
   EXPECT_EQ(std::get<std::string>(evaluate("list[n - 1]", scope_)), "C4");
   EXPECT_EQ(std::get<std::string>(evaluate("peg", scope_)), "$peg");
+}
+
+TEST_F(ExpressionTest, AConstantMayBeCalledPi) {
+  Scope own;
+  own.set("pi", Amount{3.0});
+  EXPECT_EQ(std::get<Amount>(evaluate("2*pi", own)).value, 6.0);
 }
 
 TEST_F(ExpressionTest, RandomNumbersAreFixed) {
@@ -105,7 +114,8 @@ TEST_F(ExpressionTest, SaysWhatIsWrong) {
   EXPECT_EQ(refusal("min(1)"), "',' is missing");
   EXPECT_EQ(refusal("m + 1"), "unknown name 'm'; did you mean 'n'?");
   EXPECT_THAT(refusal("sine(1)"), HasSubstr("unknown function 'sine'"));
-  EXPECT_EQ(refusal("pitch + 1"), "'A3' is no number");
+  EXPECT_EQ(refusal("peg + 1"), "'$peg' is no number");
+  EXPECT_THAT(refusal("pitch + 2 mm"), HasSubstr("are of different kinds"));
   EXPECT_EQ(refusal("list*2"), "a list is no number");
   EXPECT_EQ(refusal("list[3]"), "item 3 of a list of 3, allowed: 0...2");
   EXPECT_EQ(refusal("n[0]"), "what is no list has no items");

@@ -77,6 +77,27 @@ TEST(GridPlaceTest, OfAStringIsBetweenTwoModulesWhateverIsAskedFor) {
   EXPECT_NEAR(placeOn(string, 0.4, 0.0).weights[1], 0.2, 1e-15);
 }
 
+TEST(PlaceOutputTest, TheForceAtAPlaceOfAMeshIsInterpolatedAsItsMotionIs) {
+  const std::string out =
+      "outputs: {o: {at: 'net@0.3:0.4', axis: y, channel: 2, gain: 10, quantity: ";
+  const Scene scene = readYaml(kPointsHead + out + "force}}\n", "force.yaml");
+  const GridPlace place = placeOn(scene.grids.back(), 0.3, 0.4);
+  ASSERT_EQ(scene.outputs.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Output& output = scene.outputs[i];
+    EXPECT_EQ(output.name, "o." + std::to_string(i));
+    EXPECT_EQ(output.quantity, Quantity::kForce);
+    EXPECT_EQ(output.point.mat, place.mats[i]);
+    EXPECT_EQ(output.channel, 1);
+    EXPECT_EQ(output.axis, 1);
+    EXPECT_NEAR(scene.valueOf(output.gain), 10.0 * place.weights[i], 1e-12);
+  }
+  EXPECT_EQ(readYaml(kPointsHead + out + "velocity}}\n", "v.yaml").outputs.size(), 1U);
+  const std::string many = "outputs: {o: {at: 'net@0.3:0.4', quantity: force, channels: [1, 2]}}\n";
+  EXPECT_THAT(complaintOf<TextError>([&] { readYaml(kPointsHead + many, "m.yaml"); }),
+              HasSubstr("goes to one channel"));
+}
+
 TEST(PointTest, OnAStringIsReadFieldByField) {
   const Scene s = pointScene(
       "along: s, at: $finger, guide: {mat: k, scale: 5}, range: [0.1, 0.9], speed: 2, power: 0.5");

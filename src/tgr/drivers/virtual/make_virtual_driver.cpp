@@ -1,15 +1,77 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+
 #include "ergotic/tgr/virtual_driver.hpp"
+#include "scene/limits.hpp"
 #include "tgr/drivers/virtual/in_process_driver.hpp"
 #include "tgr/drivers/virtual/shared_memory_driver.hpp"
+#include "tgr/drivers/virtual/target_gesture.hpp"
 
 namespace ergotic::tgr {
+namespace {
+
+std::string listOf(const std::vector<int>& slices) {
+  std::string list;
+  for (const int slice : slices) {
+    list += (list.empty() ? "" : ", ") + std::to_string(slice);
+  }
+  return list;
+}
+
+}  // namespace
 
 std::unique_ptr<Driver> makeVirtualDriver(const VirtualDriverConfig& config) {
   if (config.shared_memory.empty()) {
     return std::make_unique<InProcessDriver>(config);
   }
   return std::make_unique<SharedMemoryDriver>(config);
+}
+
+std::vector<std::string> gestureWarnings(const VirtualDriverConfig& config,
+                                         std::uint64_t slices_in_use,
+                                         double seconds) {
+  const std::string start = config.gesture_file + ": warning: ";
+  if (gestureKindOf(config.gesture_file) == GestureKind::kPositions) {
+    return {};
+  }
+  const TargetGesture gesture = readTargetGesture(config.gesture_file, config.slices);
+  std::vector<std::string> warnings;
+  std::vector<int> idle;
+  double last_s = 0.0;
+  bool is_empty = true;
+  for (int i = 0; i < config.slices; ++i) {
+    const TargetGesture::Range range = gesture.rangeOf(i);
+    if (range.is_empty) {
+      continue;
+    }
+    is_empty = false;
+    last_s = std::max(last_s, range.last_s);
+    if ((slices_in_use >> static_cast<unsigned>(i) & 1U) == 0) {
+      idle.push_back(i);
+    }
+    const auto other = config.others.find(i);
+    const double stop_m = other == config.others.end() ? config.slice.stop : other->second.stop;
+    const double farthest_m = -range.lowest_m > range.highest_m ? range.lowest_m : range.highest_m;
+    if (std::abs(farthest_m) > stop_m) {
+      warnings.push_back(start + "a target of slice " + std::to_string(i) + " is " +
+                         scene::numberText(farthest_m) + " m; the slice stops at +-" +
+                         scene::numberText(stop_m) + " m, so the hand never gets there");
+    }
+  }
+  if (is_empty) {
+    warnings.push_back(start + "the file has no rows, so the hands rest at 0");
+  }
+  if (!idle.empty()) {
+    warnings.push_back(start + "it moves " + (idle.size() == 1 ? "slice " : "slices ") +
+                       listOf(idle) + ", which no port of the scene follows");
+  }
+  if (last_s > seconds) {
+    warnings.push_back(start + "its last row is at " + scene::numberText(last_s) + " s, and " +
+                       scene::numberText(seconds) +
+                       " s are played (--seconds says how many; times are in seconds)");
+  }
+  return warnings;
 }
 
 }  // namespace ergotic::tgr

@@ -71,6 +71,17 @@ void TargetGesture::setTickRate(double tick_rate_hz) noexcept {
   per_second_ = is_in_ticks_ ? tick_rate_hz : 1.0;
 }
 
+TargetGesture::Range TargetGesture::rangeOf(int slice) const {
+  Range range;
+  for (const Knot& knot : knots_[static_cast<std::size_t>(slice)]) {
+    range.lowest_m = range.is_empty ? knot.target_m : std::min(range.lowest_m, knot.target_m);
+    range.highest_m = range.is_empty ? knot.target_m : std::max(range.highest_m, knot.target_m);
+    range.last_s = knot.t / per_second_;
+    range.is_empty = false;
+  }
+  return range;
+}
+
 ERGOTIC_REALTIME HandTarget TargetGesture::at(int slice, double t_s) const noexcept {
   const std::vector<Knot>& knots = knots_[static_cast<std::size_t>(slice)];
   if (knots.empty()) {

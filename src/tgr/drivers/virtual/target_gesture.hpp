@@ -34,6 +34,15 @@ class TargetGesture {
   /// Ticks per second; of targets without effect. \pre > 0
   void setTickRate(double tick_rate_hz) noexcept;
 
+  /// What the rows of one slice ask for.
+  struct Range {
+    bool is_empty = true;  ///< there are none
+    double last_s = 0.0;   ///< time of the last one
+    double lowest_m = 0.0;
+    double highest_m = 0.0;
+  };
+  Range rangeOf(int slice) const;
+
   /// \param t_s  from the start of the gesture. Realtime: yes (binary search)
   HandTarget at(int slice, double t_s) const noexcept;
 

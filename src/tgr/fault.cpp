@@ -39,6 +39,10 @@ const char* toString(FaultReason reason) noexcept {
       return "ticks stopped coming";
     case FaultReason::kMasterLost:
       return "the ROS master does not answer, or does not know the station any more";
+    case FaultReason::kGuardianLost:
+      return "the guardian of the devices died or does not look: nobody would take the force away "
+             "if "
+             "this process died";
   }
   return "?";
 }

@@ -28,14 +28,17 @@ class PushedStation {
   /// \param environment  of the station
   /// \param watchdog_ms  of the device
   /// \param model        kWall, or more
+  /// \param watchdog_s   of the station, which beats for its guardian
   explicit PushedStation(const std::map<std::string, std::string>& environment = {},
                          double watchdog_ms = 2000.0,
-                         const std::string& model = kWall) {
+                         const std::string& model = kWall,
+                         double watchdog_s = 1.0) {
     node_.setParam("/station/model", model);
     node_.setParam("/station/virtual_shared_memory", segment_);
     node_.setParam("/station/jack", "none");
     node_.setParam("/station/ramp", 0.1);
     allowStalls(node_);
+    node_.setParam("/station/watchdog", watchdog_s);
     node_.setParam("/station/max_missing", 1000);
     node_.setParam("/station/max_speed", 100.0);
     node_.setParam("/station/frozen", 0.0);

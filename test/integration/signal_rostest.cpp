@@ -180,47 +180,95 @@ std::optional<pid_t> guardianOf(pid_t station) {
   return std::nullopt;
 }
 
-TEST(GuardianTest, IsStartedAsSoonAsItCanBe) {
-  PushedStation station;
-  ASSERT_TRUE(station.isPushed()) << station.status().state_text;
-  const pid_t pid = station.process().pid();
-  const auto says = [&](const std::string& what) {
+/// What befalls a guardian.
+struct Loss {
+  const char* name;
+  int signal;
+  bool is_refused;  ///< no other one can take its place
+};
+
+/// Where a new guardian would look for the device.
+class HiddenDevice {
+ public:
+  explicit HiddenDevice(const PushedStation& station, bool hides)
+      : from_(station.sharedMemory()), to_(hides ? from_.string() + "_away" : from_.string()) {
+    std::filesystem::rename(from_, to_);
+  }
+  ~HiddenDevice() { show(); }
+  HiddenDevice(const HiddenDevice&) = delete;
+  HiddenDevice& operator=(const HiddenDevice&) = delete;
+  void show() {
+    if (from_ != to_) {
+      std::filesystem::rename(to_, from_);
+      to_ = from_;
+    }
+  }
+
+ private:
+  std::filesystem::path from_;
+  std::filesystem::path to_;
+};
+
+class GuardianTest : public ::testing::TestWithParam<Loss> {
+ protected:
+  static constexpr double kWatchdogS = 0.02;
+  static constexpr std::int64_t kGoneNs = 50'000'000;
+
+  static bool says(const PushedStation& station, const std::string& what) {
     return eventually([&] { return station.status().message.find(what) != std::string::npos; },
                       PushedStation::kLongS);
-  };
-  const auto first = guardianOf(pid);
-  ASSERT_TRUE(first);
-  auto away = station.sharedMemory();
-  away += "_away";
-  std::filesystem::rename(station.sharedMemory(), away);
-  kill(*first, SIGKILL);
-  EXPECT_TRUE(says("may keep their force")) << station.status().message;
-  EXPECT_FALSE(guardianOf(pid));
-  std::filesystem::rename(away, station.sharedMemory());
-  EXPECT_TRUE(says("a guardian of the devices again")) << station.status().message;
-  EXPECT_TRUE(guardianOf(pid));
-  EXPECT_TRUE(station.isPushed()) << station.status().state_text;
-  station.process().signal(SIGKILL);
-  EXPECT_TRUE(eventually([&] { return station.force() == 0.0; }, 1.0))
-      << "the device waits for 2 s";
+  }
+};
+
+// The watchdog of the device would take two seconds, and nobody but the guardian could take the
+// force away from it if the station died.
+TEST_P(GuardianTest, WithoutOneThatWatchesThereIsNoForce) {
+  const Loss& loss = GetParam();
+  const ReferenceThreads reference;
+  Trials trials(reference, std::getenv("ERGOTIC_LONG") != nullptr ? 20 : 1);
+  while (trials.goOn()) {
+    PushedStation station({}, 2000.0, kWall, kWatchdogS);
+    ASSERT_TRUE(station.isPushed()) << station.status().state_text;
+    const pid_t pid = station.process().pid();
+    const auto first = guardianOf(pid);
+    ASSERT_TRUE(first);
+    HiddenDevice device(station, loss.is_refused);
+    const std::int64_t lost_ns = rt::monotonicNs();
+    kill(*first, loss.signal);
+    EXPECT_TRUE(eventually([&] { return station.force() == 0.0; }, PushedStation::kLongS));
+    const std::int64_t released_ns = station.releasedNs().value_or(Trials::kNever);
+    std::cout << "force gone after " << static_cast<double>(released_ns - lost_ns) * 1e-6
+              << " ms\n";
+    trials.judge({lost_ns, lost_ns + kGoneNs}, released_ns, "the release without a guardian");
+    EXPECT_TRUE(station.becomes(Status::FAULT));
+    if (loss.is_refused) {
+      EXPECT_TRUE(says(station, "there is no force until another can be started"))
+          << station.status().message;
+      EXPECT_FALSE(call("recover").success);
+      device.show();
+    }
+    EXPECT_TRUE(says(station, "a guardian of the devices again")) << station.status().message;
+    EXPECT_EQ(station.force(), 0.0) << "it waits for an operator";
+    EXPECT_TRUE(eventually([] { return call("recover").success; }, PushedStation::kLongS));
+    EXPECT_TRUE(call("engage").success);
+    ASSERT_TRUE(station.isPushed()) << station.status().state_text;
+    const std::int64_t killed_ns = rt::monotonicNs();
+    station.process().signal(SIGKILL);
+    EXPECT_TRUE(eventually([&] { return station.force() == 0.0; }, PushedStation::kLongS));
+    trials.judge({killed_ns, killed_ns + kGoneNs}, station.releasedNs().value_or(Trials::kNever),
+                 "the release by the new guardian");
+  }
 }
 
-TEST(GuardianTest, IsReplacedWhenItWasStopped) {
-  PushedStation station;
-  ASSERT_TRUE(station.isPushed()) << station.status().state_text;
-  const pid_t pid = station.process().pid();
-  const auto first = guardianOf(pid);
-  ASSERT_TRUE(first);
-  kill(*first, SIGSTOP);
-  const auto isReplaced = [&] {
-    const auto now = guardianOf(pid);
-    return now && now != first;
-  };
-  EXPECT_TRUE(eventually(isReplaced, PushedStation::kLongS));
-  station.process().signal(SIGKILL);
-  EXPECT_TRUE(eventually([&] { return station.force() == 0.0; }, 1.0))
-      << "the device waits for 2 s";
+std::string nameOfLoss(const ::testing::TestParamInfo<Loss>& tested) {
+  return tested.param.name;
 }
+INSTANTIATE_TEST_SUITE_P(Every,
+                         GuardianTest,
+                         ::testing::Values(Loss{"Killed", SIGKILL, false},
+                                           Loss{"Stopped", SIGSTOP, false},
+                                           Loss{"KilledAndRefused", SIGKILL, true}),
+                         &nameOfLoss);
 
 // ROS ends the first of two nodes with one name. The device is busy until that has closed it.
 TEST(TwoStationsTest, TheSecondOfANameGetsTheDeviceOfTheFirst) {

@@ -143,7 +143,7 @@ TEST_F(GuardianTest, LeavesTheDeviceAloneWhenItIsToldToGo) {
   double position = 0.0;
   {
     Guardian guardian(driver->guards(), {kSilenceS, 0});
-    EXPECT_TRUE(guardian.isThere());
+    EXPECT_TRUE(guardian.isWatching());
   }
   EXPECT_EQ(driver->exchange(&kForceN, &position) & kMadeSafe, 0U);
 }
@@ -165,20 +165,20 @@ TEST_F(GuardianTest, HoldsADeviceThroughWhateverStandsInFrontOfIt) {
 
 TEST_F(GuardianTest, IsSeenToBeGone) {
   Guardian guardian({}, {kSilenceS, 0});
-  ASSERT_TRUE(guardian.isThere());
+  ASSERT_TRUE(guardian.isWatching());
   ::kill(guardian.pid(), SIGKILL);
-  EXPECT_TRUE(eventually([&] { return !guardian.isThere(); }));
+  EXPECT_TRUE(eventually([&] { return !guardian.isWatching(); }));
   guardian.beat();  // no signal of a broken pipe
 }
 
 TEST_F(GuardianTest, IsEndedIfItDoesNotLook) {
   Guardian guardian({}, {kSilenceS, 0});
   for (int n = 0; n < 8; ++n) {
-    EXPECT_TRUE(guardian.isThere());
+    EXPECT_TRUE(guardian.isWatching());
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   ::kill(guardian.pid(), SIGSTOP);
-  EXPECT_TRUE(eventually([&] { return !guardian.isThere(); }));
+  EXPECT_TRUE(eventually([&] { return !guardian.isWatching(); }));
 }
 
 TEST_F(GuardianTest, HoldsTheOtherDevicesThoughTheMemoryOfOneIsCutOff) {
@@ -205,7 +205,7 @@ TEST_F(GuardianTest, HoldsTheOtherDevicesThoughTheMemoryOfOneIsCutOff) {
     ::kill(guardian.pid(), SIGUSR1);
     EXPECT_TRUE(
         eventually([&] { return (drivers[1]->exchange(&kForceN, &position) & kMadeSafe) != 0U; }));
-    EXPECT_TRUE(guardian.isThere());
+    EXPECT_TRUE(guardian.isWatching());
   }
   ASSERT_EQ(::truncate(("/dev/shm" + name_).c_str(), 65536), 0);  // to be given back
 }
@@ -243,7 +243,7 @@ TEST_F(GuardianTest, HearsNoTerminal) {
     ::kill(guardian.pid(), signal);
   }
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  EXPECT_TRUE(guardian.isThere());
+  EXPECT_TRUE(guardian.isWatching());
   EXPECT_NE(::getsid(guardian.pid()), ::getsid(0));
 }
 

@@ -24,6 +24,7 @@ enum class FaultReason : std::uint8_t {
   kWorkspace = 14,      ///< an end-effector is where its linkage cannot be
   kWatchdog = 15,       ///< ticks stopped coming
   kMasterLost = 16,     ///< the ROS master is gone, and with it the way to an emergency stop
+  kGuardianLost = 17,   ///< no guardian would take the force away if this process died
 };
 
 /// In words, for operators. Realtime: yes.

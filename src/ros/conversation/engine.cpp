@@ -18,7 +18,7 @@ constexpr double kPresenceS = 0.2;
 constexpr int kMaxPriority = 99;
 constexpr double kPeriodsOfSilence = 3.0;
 constexpr double kMaxWatchdogS = 1.0;
-constexpr std::int64_t kGuardianRetryNs = 2'000'000'000;
+constexpr std::int64_t kGuardianRetryNs = 1'000'000'000;
 constexpr double kPeriodsOfHang = 2.0;  // of the watchdog, which beats for the guardian
 constexpr int kWatchdogAboveTick = 5;   // it must not wait for a tick that never ends
 
@@ -101,7 +101,9 @@ Engine::Engine(const Parameters& parameters,
     bridge_ = std::make_unique<station::AudioBridge>(bridge);
     station_->setFramePort(bridge_.get());
   }
-  startGuardian();
+  if (const std::string problem = startGuardian(); !problem.empty()) {
+    warnings_.push_back(problem + ": there will be no force until another can be started");
+  }
   source_ = station::startTicks(*station_, bridge_.get(), timerOptions(parameters));
   warnings_.insert(warnings_.end(), source_->warnings().begin(), source_->warnings().end());
   startWatchdog();
@@ -146,12 +148,7 @@ void Engine::startWatchdog() {
   tgr::WatchdogOptions options;
   options.period_s = watchdog_s_;
   options.priority = watchdogPriority(parameters_);
-  options.beat = [this] {
-    const std::lock_guard lock(guardian_mutex_);
-    if (guardian_) {
-      guardian_->beat();
-    }
-  };
+  options.beat = [this] { watchGuardian(); };
   watchdog_->start(options);
   if (!watchdog_->warning().empty()) {
     warnings_.push_back(watchdog_->warning());
@@ -159,44 +156,55 @@ void Engine::startWatchdog() {
   watchdog_->arm();
 }
 
-/// In place of one that there is. Without a guardian it plays all the same, says so, and tries
-/// again.
-void Engine::startGuardian() {
-  guards_ = station_->driver().guards();
-  if (const std::string problem = tryToStartGuardian(); !problem.empty()) {
-    warnings_.push_back(problem + ": if this process dies the devices may keep their force");
-  }
-}
-
+/// In place of one that there is. Where none can be started there is no force.
 /// \return what keeps it from starting
-std::string Engine::tryToStartGuardian() {
+std::string Engine::startGuardian() {
+  const std::vector<tgr::Guard> guards = station_->driver().guards();
   std::unique_ptr<tgr::Guardian> next;
   std::string problem;
   try {
-    if (!guards_.empty()) {
+    if (!guards.empty()) {
       tgr::GuardianOptions options;
       options.silence_s =
           kPeriodsOfHang * watchdogPeriod(parameters_.watchdog.value(), station_->driver());
       options.priority = watchdogPriority(parameters_);
-      next = std::make_unique<tgr::Guardian>(guards_, options);
+      next = std::make_unique<tgr::Guardian>(guards, options);
     }
   } catch (const DeviceError& refusal) {
     problem = refusal.what();
     guardian_retry_ns_ = rt::monotonicNs() + kGuardianRetryNs;
+    station_->makeSafe(tgr::FaultReason::kGuardianLost);
   }
+  guardian_lost_ = !problem.empty();
   const std::lock_guard lock(guardian_mutex_);
+  guards_ = guards;
   guardian_.swap(next);
   return problem;
 }
 
+/// Another in place of one that is lost, as soon as one can be started. Force waits for a recover.
 void Engine::keepGuardian() {
-  if (guardian_ && !guardian_->isThere()) {
-    warnings_.emplace_back("the guardian of the devices died: another takes its place");
-    startGuardian();
+  if (!guardian_lost_ || rt::monotonicNs() < guardian_retry_ns_) {
+    return;
   }
-  if (!guardian_ && !guards_.empty() && rt::monotonicNs() >= guardian_retry_ns_ &&
-      tryToStartGuardian().empty()) {
-    warnings_.emplace_back("there is a guardian of the devices again");
+  const bool is_first_try = guardian_retry_ns_ == 0;
+  if (const std::string problem = startGuardian(); problem.empty()) {
+    guardian_retry_ns_ = 0;
+    warnings_.emplace_back(
+        "there is a guardian of the devices again: recover and engage bring the force back");
+  } else if (is_first_try) {
+    warnings_.push_back(problem + ": there is no force until another can be started");
+  }
+}
+
+/// Tells the guardian that this process lives, and sees that the guardian does: without one that
+/// looks, a device that needs one gets no force. Thread: the watchdog's
+void Engine::watchGuardian() {
+  const std::lock_guard lock(guardian_mutex_);
+  if (guardian_ && guardian_->isWatching()) {
+    guardian_->beat();
+  } else if (!guards_.empty() && !guardian_lost_.exchange(true)) {
+    station_->makeSafe(tgr::FaultReason::kGuardianLost);
   }
 }
 
@@ -208,8 +216,11 @@ void Engine::watchMaster(const std::vector<std::string>& services,
 
 void Engine::recover() {
   station_->driver().reconnect();  // may take its time
-  if (!(station_->driver().guards() == guards_)) {
-    startGuardian();
+  if (guardian_lost_ || !(station_->driver().guards() == guards_)) {
+    if (const std::string problem = startGuardian(); !problem.empty()) {
+      throw Exception(problem + ": without a guardian this device gets no force");
+    }
+    guardian_retry_ns_ = 0;
   }
   if (master_watch_ && master_watch_->isMissing()) {
     throw Exception(

@@ -73,9 +73,9 @@ class Engine {
 
  private:
   void startWatchdog();
-  void startGuardian();
-  std::string tryToStartGuardian();
+  std::string startGuardian();
   void keepGuardian();
+  void watchGuardian();
 
   Parameters parameters_;
   std::unique_ptr<Hands> hands_;  // outlives the station, which has its drivers
@@ -83,10 +83,11 @@ class Engine {
   std::unique_ptr<station::AudioBridge> bridge_;
   std::unique_ptr<station::TickSource> source_;
   std::unique_ptr<audio::JackHost> jack_;
-  std::vector<tgr::Guard> guards_;  // what the guardian holds
-  std::mutex guardian_mutex_;       // of the pointer, between the operator and the watchdog's beats
+  std::mutex guardian_mutex_;  // of the next two, between the operator and the watchdog's beats
+  std::vector<tgr::Guard> guards_;  // what the guardian holds; none: the device needs no guardian
   std::unique_ptr<tgr::Guardian> guardian_;
-  std::int64_t guardian_retry_ns_ = 0;  // where there should be one and is none
+  std::atomic<bool> guardian_lost_{false};  // there should be one that looks
+  std::int64_t guardian_retry_ns_ = 0;      // where there is none
   std::unique_ptr<tgr::Watchdog> watchdog_;
   std::unique_ptr<MasterWatch> master_watch_;
   double watchdog_s_ = 0.0;

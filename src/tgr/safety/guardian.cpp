@@ -281,18 +281,12 @@ ERGOTIC_REALTIME void Guardian::beat() noexcept {
   page_->beats.fetch_add(1, std::memory_order_relaxed);
 }
 
-/// Where the machine stands still nobody asks.
-bool Guardian::isThere() noexcept {
-  constexpr std::int64_t kSilenceNs = 2'000'000'000;
-  constexpr int kLeastAsked = 20;
+bool Guardian::isWatching() noexcept {
+  constexpr int kMostAsked = 8;
   const std::int64_t looks = page_->looks;
-  const std::int64_t now_ns = rt::monotonicNs();
-  if (looks != looks_) {
-    looks_ = looks;
-    looked_ns_ = now_ns;
-    asked_ = 0;
-  }
-  if (++asked_ > kLeastAsked && now_ns - looked_ns_ > kSilenceNs) {
+  asked_ = looks == looks_ ? asked_ + 1 : 0;
+  looks_ = looks;
+  if (asked_ >= kMostAsked) {
     ::kill(pid_, SIGKILL);
     return false;
   }

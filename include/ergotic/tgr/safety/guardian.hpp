@@ -38,9 +38,10 @@ class Guardian {
   /// This process lives: at least four times in `silence_s`, from the first one on.
   /// Realtime: yes. Thread: any
   void beat() noexcept;
-  /// False once the guardian has died, or has not looked at us for two seconds in which we asked
-  /// again and again: one that was stopped, which is ended then. Realtime: no. Thread: one
-  bool isThere() noexcept;
+  /// False once the guardian has died, or has not looked at us during eight of these calls: one
+  /// that was stopped, which is ended then. With a call for every beat that is half of `silence_s`
+  /// to all of it. What keeps us from asking is no fault of the guardian. Realtime: no. Thread: one
+  bool isWatching() noexcept;
   pid_t pid() const noexcept { return pid_; }
 
  private:
@@ -52,10 +53,9 @@ class Guardian {
   std::promise<void> done_;
   std::thread holder_;  // of the page's lock
   pid_t pid_ = -1;
-  bool is_told_ = false;        // of faults
-  std::int64_t looks_ = -1;     // of the guardian, as of the last call of isThere
-  std::int64_t looked_ns_ = 0;  // when they were others
-  int asked_ = 0;               // since then
+  bool is_told_ = false;     // of faults
+  std::int64_t looks_ = -1;  // of the guardian, as of the last call of isWatching
+  int asked_ = 0;            // since they were others
 };
 
 }  // namespace ergotic::tgr

@@ -149,6 +149,13 @@ add_test(NAME scripts.documents
 add_test(NAME scripts.recipes
   COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/recipes_test.py
           $<TARGET_FILE_DIR:render>)
+foreach(instruments instruments instruments_whole)
+  add_test(NAME scripts.${instruments}
+    COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/instruments_test.py
+            $<TARGET_FILE_DIR:render>)
+endforeach()
+set_tests_properties(scripts.instruments PROPERTIES COST 40)
+set_tests_properties(scripts.instruments_whole PROPERTIES LABELS long ENVIRONMENT ERGOTIC_LONG=1 TIMEOUT 900)
 add_test(NAME scripts.compare_builds
   COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/compare_builds_test.py
           $<TARGET_FILE_DIR:render>)

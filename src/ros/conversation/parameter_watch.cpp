@@ -50,11 +50,11 @@ void ParameterWatch::look() {
   XmlRpcValue now;
   node_.getParamCached(node_.getNamespace(), now);
   for (const std::string& name : changedNames(known_, now)) {
-    ROS_WARN_STREAM("The parameter " << node_.getNamespace() << '/' << name
-                                     << " was changed on the ROS master, which has no effect on "
-                                        "the station that runs: it reads its parameters when it "
-                                        "starts. Start it anew; parameters of the model are set "
-                                        "by the service set_parameter.");
+    ROS_WARN_STREAM("The parameter "
+                    << node_.getNamespace() << '/' << name
+                    << " was changed on the ROS master. The station reads its parameters when its "
+                       "first model starts to play: if one plays already, start the station anew. "
+                       "Parameters of the model are set by the service set_parameter.");
   }
   known_ = now;
 }

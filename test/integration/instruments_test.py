@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -68,6 +69,16 @@ class InstrumentsTest(unittest.TestCase):
                 if name not in OLDER:
                     self.assertNotEqual(report["about"], {})
                     self.assertTrue((ROOT / "docs" / "instruments" / f"{name}.md").exists())
+
+    def test_what_the_library_plucks_with_begins_out_of_reach(self):
+        shutil.copytree(MODELS / "lib", self.out.parent / "lib")
+        for definition in ("plectrum", "quill"):
+            scene = self.out.parent / f"{definition}.yaml"
+            scene.write_text("ergotic: 1\ninclude: [lib/plectra.yaml, lib/strings.yaml]\n"
+                             "sections: {s: {rate: audio}, k: {rate: gestural}}\nuse:\n"
+                             "  - {is: limp_string, as: a, in: {s: s}}\n"
+                             f"  - {{is: {definition}, as: p, in: {{keys: k}}, with: {{on: a.body@0.2}}}}\n")
+            self.assertNotIn("as soon as the scene starts", run("check", scene).stdout, definition)
 
     def test_each_is_silent_until_it_is_played_and_then_sounds(self):
         for name in set(instruments()) - OLDER:

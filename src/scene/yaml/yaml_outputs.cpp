@@ -148,6 +148,11 @@ std::vector<Direction> readPan(const SceneBuilder& builder,
                                const Heard& heard) {
   const Node& node = map.at("pan");
   const std::string what = "'pan' of " + map.what();
+  if (!heard.are_many && node.isScalar() && node.text().compare(0, 7, "spread(") == 0) {
+    map.fail("pan", what + " is " + quoted(node.text()) +
+                        ", allowed of a single module: a direction, as 20 deg, or "
+                        "[azimuth, elevation]");
+  }
   if (!heard.are_many) {
     return {directionIn(builder, node, what, map.placeAt("pan"))};
   }

@@ -144,6 +144,14 @@ TEST(SelectionsTest, TapsAndOutputsTakeThem) {
   EXPECT_EQ(scene.outputs[5].gain.factor, 1.0);
 }
 
+TEST(SelectionsTest, ASingleModuleIsNotSpread) {
+  const std::string output =
+      "outputs: {o: {at: m, quantity: position, speakers: stereo, pan: 'spread(-30 deg, 30 "
+      "deg)'}}\n";
+  EXPECT_THAT(complaintOf<TextError>([&] { readYaml(kSelectionsHead + output, "s.yaml"); }),
+              HasSubstr("allowed of a single module: a direction"));
+}
+
 TEST(SelectionsTest, MeanTheSameInThePlainText) {
   const std::string brief =
       kSelectionsHead +

@@ -95,8 +95,9 @@ void HandleSet::build() {
     handle.dimensions = structure_.section_dimensions[section];
     handle.drawing = drawingOf(pose, handle.dimensions == 1 ? message_.display_zoom : 1.0);
     handle.first = first[module];
-    const float* at = &structure_.rest_positions[kAxes * module];
-    const Eigen::Vector3d in_model(at[0], at[1], at[2]);
+    const Eigen::Vector3d in_model =
+        Eigen::Map<const Eigen::Vector3f>(&structure_.rest_positions[kAxes * module])
+            .cast<double>();
     handle.rest = drawingOf(pose, 1.0).inverse() * in_model;
     std::copy_n(&message_.indices[kAxes * i], kAxes, handle.indices.begin());
     std::copy_n(&message_.scales[kAxes * i], kAxes, handle.scales.begin());

@@ -46,7 +46,11 @@ std::int64_t wallNs() {
 }
 
 Eigen::Vector3d toEigen(const Ogre::Vector3& v) {
-  return {v.x, v.y, v.z};
+  return Eigen::Vector3f(v.x, v.y, v.z).cast<double>();
+}
+
+Eigen::Quaterniond toEigen(const Ogre::Quaternion& q) {
+  return Eigen::Quaternionf(q.w, q.x, q.y, q.z).cast<double>();
 }
 
 }  // namespace
@@ -173,8 +177,7 @@ void GrabTool::update(float /*wall_dt*/, float /*ros_dt*/) {
   Ogre::Quaternion orientation;
   if (context_->getFrameManager()->getTransform("model", ros::Time(), position, orientation)) {
     model_.translation() = toEigen(position);
-    model_.linear() = Eigen::Quaterniond(orientation.w, orientation.x, orientation.y, orientation.z)
-                          .toRotationMatrix();
+    model_.linear() = toEigen(orientation).toRotationMatrix();
     picture_->setFrame(position, orientation);
     const Ogre::Camera* const camera = context_->getViewManager()->getRenderPanel()->getCamera();
     picture_->setUp(model_.linear().inverse() * toEigen(camera->getDerivedUp()));

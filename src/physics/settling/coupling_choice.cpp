@@ -15,7 +15,6 @@ namespace ergotic::physics {
 namespace {
 
 using scene::Coupling;
-using scene::MatType;
 using scene::Scene;
 
 constexpr double kHandHz = 20.0;

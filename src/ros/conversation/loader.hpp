@@ -20,8 +20,8 @@ namespace ergotic::node {
 /// Thread: one, which may take its time
 class Loader {
  public:
-  Loader(::ros::NodeHandle private_node, Operator& operator_thread)
-      : node_(std::move(private_node)), operator_(operator_thread) {}
+  Loader(const ::ros::NodeHandle& private_node, Operator& operator_thread)
+      : node_(private_node), operator_(operator_thread) {}
 
   /// Plays a model. The one that plays keeps playing if this fails.
   /// \param model           path or YAML text

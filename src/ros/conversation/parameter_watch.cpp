@@ -12,12 +12,12 @@ using XmlRpc::XmlRpcValue;
 
 constexpr double kLookS = 1.0;
 
-/// `XmlRpcValue` reads its maps only where it may change them.
 bool hasEntries(const XmlRpcValue& value) {
   return value.valid() && value.getType() == XmlRpcValue::TypeStruct;
 }
 
-void addMissingIn(XmlRpcValue before, XmlRpcValue after, std::vector<std::string>& names) {
+/// \param after  a copy: `XmlRpcValue` finds an entry only where it might add it
+void addMissingIn(const XmlRpcValue& before, XmlRpcValue after, std::vector<std::string>& names) {
   if (!hasEntries(before)) {
     return;
   }

@@ -58,7 +58,7 @@ int urgencyOf(const ::ros::NodeHandle& node) {
 
 }  // namespace
 
-Services::Services(::ros::NodeHandle node, Operator& operator_thread)
+Services::Services(const ::ros::NodeHandle& node, Operator& operator_thread)
     : operator_(operator_thread),
       loader_(node, operator_thread),
       queue_(*node.getCallbackQueue(), operator_thread.interlock()),

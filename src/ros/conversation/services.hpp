@@ -38,7 +38,7 @@ namespace ergotic::node {
 /// hands, and MIDI, have a thread of their own, so that they keep their distances in time.
 class Services {
  public:
-  Services(::ros::NodeHandle node, Operator& operator_thread);
+  Services(const ::ros::NodeHandle& node, Operator& operator_thread);
   ~Services();
   Services(const Services&) = delete;
   Services& operator=(const Services&) = delete;

@@ -41,8 +41,7 @@ const char* toString(FaultReason reason) noexcept {
       return "the ROS master does not answer, or does not know the station any more";
     case FaultReason::kGuardianLost:
       return "the guardian of the devices died or does not look: nobody would take the force away "
-             "if "
-             "this process died";
+             "if this process died";
   }
   return "?";
 }

@@ -175,8 +175,9 @@ std::string Engine::startGuardian() {
     guardian_retry_ns_ = rt::monotonicNs() + kGuardianRetryNs;
     station_->makeSafe(tgr::FaultReason::kGuardianLost);
   }
-  guardian_lost_ = !problem.empty();
+  // All at once: the watchdog must not take the loss of the old one for that of the new.
   const std::lock_guard lock(guardian_mutex_);
+  guardian_lost_ = !problem.empty();
   guards_ = guards;
   guardian_.swap(next);
   return problem;

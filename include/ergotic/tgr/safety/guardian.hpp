@@ -39,8 +39,8 @@ class Guardian {
   /// Realtime: yes. Thread: any
   void beat() noexcept;
   /// False once the guardian has died, or has not looked at us during eight of these calls: one
-  /// that was stopped, which is ended then. With a call for every beat that is half of `silence_s`
-  /// to all of it. What keeps us from asking is no fault of the guardian. Realtime: no. Thread: one
+  /// that was stopped, which is ended then. Called every eighth of `silence_s`, that is a whole
+  /// `silence_s`. What keeps us from asking is no fault of the guardian. Realtime: no. Thread: one
   bool isWatching() noexcept;
   pid_t pid() const noexcept { return pid_; }
 

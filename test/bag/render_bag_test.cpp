@@ -229,6 +229,27 @@ TEST_F(RenderBagTest, PlaysTheSameSamplesWithTheKernelsAndThreadsAskedFor) {
   EXPECT_EQ(render("--isa avx4096").code, 2);
 }
 
+TEST_F(RenderBagTest, SaysWhatIsWrongWithADamagedBagAndHowToMendIt) {
+  record();
+  const std::string whole = test::textOf(bag_path_);
+  const std::string mend = "`rosbag reindex " + bag_path_ + "`";
+  const auto complaintOn = [&](const std::string& damaged) {
+    std::ofstream(bag_path_, std::ios::binary) << damaged;
+    const Outcome refused = render();
+    EXPECT_EQ(refused.code, 1);
+    EXPECT_THAT(refused.text, HasSubstr(mend));
+    return refused.text;
+  };
+  std::string unindexed = whole;
+  const std::string key = "index_pos=";
+  unindexed.replace(unindexed.find(key) + key.size(), 8, 8, '\0');  // as while it is recorded
+  EXPECT_THAT(complaintOn(unindexed), HasSubstr("has no index"));
+  EXPECT_THAT(complaintOn(whole.substr(0, whole.size() / 2)), HasSubstr("ends too soon"));
+  std::string holed = whole;
+  holed.replace(whole.size() - 600, 500, 500, '\0');
+  EXPECT_THAT(complaintOn(holed), HasSubstr("is damaged"));
+}
+
 TEST_F(RenderBagTest, SaysThatItLacksTheKernelsOfTheRecording) {
   record();
   EXPECT_THAT(render().text, Not(HasSubstr("lacks")));

@@ -109,8 +109,8 @@ std::string parametersIn(const Json& report) {
 std::string costIn(const Json& report) {
   const auto precision = report["program"]["precision"].get<std::string>();
   const double factor = report["cost"][precision]["real_time_factor"].get<double>();
-  return digits(100.0 / factor, 2) + " % of a core of this machine, in " + precision +
-         " precision, beside sound and device";
+  return digits(100.0 / factor, 2) + " % of a core of this machine for the model alone, in " +
+         precision + " precision";
 }
 
 std::vector<std::string> warningsIn(const Json& report) {

@@ -19,6 +19,20 @@ std::string listOf(const std::vector<int>& slices) {
   return list;
 }
 
+/// What is said of a slice that is wanted beyond its end stops; nothing if it is not.
+std::string beyondStops(const VirtualDriverConfig& config,
+                        int slice,
+                        const TargetGesture::Range& range) {
+  const auto other = config.others.find(slice);
+  const double stop_m = other == config.others.end() ? config.slice.stop : other->second.stop;
+  const double farthest_m = -range.lowest_m > range.highest_m ? range.lowest_m : range.highest_m;
+  return std::abs(farthest_m) <= stop_m
+             ? ""
+             : "a target of slice " + std::to_string(slice) + " is " +
+                   scene::numberText(farthest_m) + " m; the slice stops at +-" +
+                   scene::numberText(stop_m) + " m, so the hand never gets there";
+}
+
 }  // namespace
 
 std::unique_ptr<Driver> makeVirtualDriver(const VirtualDriverConfig& config) {
@@ -50,13 +64,8 @@ std::vector<std::string> gestureWarnings(const VirtualDriverConfig& config,
     if ((slices_in_use >> static_cast<unsigned>(i) & 1U) == 0) {
       idle.push_back(i);
     }
-    const auto other = config.others.find(i);
-    const double stop_m = other == config.others.end() ? config.slice.stop : other->second.stop;
-    const double farthest_m = -range.lowest_m > range.highest_m ? range.lowest_m : range.highest_m;
-    if (std::abs(farthest_m) > stop_m) {
-      warnings.push_back(start + "a target of slice " + std::to_string(i) + " is " +
-                         scene::numberText(farthest_m) + " m; the slice stops at +-" +
-                         scene::numberText(stop_m) + " m, so the hand never gets there");
+    if (const std::string beyond = beyondStops(config, i, range); !beyond.empty()) {
+      warnings.push_back(start + beyond);
     }
   }
   if (is_empty) {

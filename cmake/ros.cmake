@@ -62,7 +62,7 @@ add_library(ergotic_ros SHARED ${ros_sources})
 target_include_directories(ergotic_ros PUBLIC src)
 target_compile_definitions(ergotic_ros PRIVATE ERGOTIC_VERSION="${ergotic_VERSION}")
 target_link_libraries(ergotic_ros
-  PUBLIC ergotic_core ergotic_audio ergotic_bag ergotic_messages ${catkin_LIBRARIES}
+  PUBLIC ergotic_core ergotic_audio ergotic_bag ergotic_replay ergotic_messages ${catkin_LIBRARIES}
   PRIVATE ergotic_flags yaml-cpp)
 ergotic_precompile(ergotic_ros <ros/node_handle.h>)
 

@@ -94,6 +94,7 @@ endfunction()
 foreach(room rt files station audio)
   ergotic_add_gtests(${room} 1)
 endforeach()
+ergotic_add_gtests(replay 1 ergotic_replay)
 ergotic_add_gtests(golden 3)
 ergotic_add_gtests(scene 3 yaml-cpp)  # broken scenes are listed in it
 pkg_check_modules(URDFDOM REQUIRED IMPORTED_TARGET urdfdom)  # reads what pictures are made of

@@ -1,4 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# Performances played again from what was recorded, for the tools and the nodelet.
+file(GLOB replay_sources CONFIGURE_DEPENDS src/replay/*.cpp)
+ergotic_batch(replay_sources replay ${replay_sources})
+add_library(ergotic_replay STATIC ${replay_sources})
+target_include_directories(ergotic_replay PUBLIC src)
+target_link_libraries(ergotic_replay PUBLIC ergotic_core PRIVATE ergotic_flags)
+
 # Command-line tools: src/tools/<name>.cpp is `rosrun ergotic <name>`; other sources are shared.
 set(ergotic_tools "")
 file(GLOB tool_library_sources CONFIGURE_DEPENDS src/tools/lib/*.cpp)
@@ -13,7 +20,7 @@ if(tool_library_sources)
   add_library(ergotic_tool_support STATIC ${tool_library_sources})
   target_include_directories(ergotic_tool_support PUBLIC src)
   target_link_libraries(ergotic_tool_support
-    PUBLIC ergotic_advice ergotic_audio CLI11::CLI11 nlohmann_json::nlohmann_json
+    PUBLIC ergotic_advice ergotic_audio ergotic_replay CLI11::CLI11 nlohmann_json::nlohmann_json
     PRIVATE ergotic_flags PkgConfig::EBUR128)
   ergotic_precompile(ergotic_tool_support <nlohmann/json.hpp>)
   # What measures is of its own: who only plays need not wait for it.

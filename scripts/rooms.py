@@ -44,14 +44,15 @@ ROOMS = {
     "guardian": "exception rt tgr",
     "preload": "",
     "bag": "exception files physics/engine tgr station",
+    "replay": "exception scene/text physics tgr station bag",
     "ros/device": "exception files rt scene physics/engine physics/certificate tgr station bag",
     "ros/display": "scene tgr station ros/device",
-    "ros/conversation": "exception files rt scene scene/laws scene/text physics/engine tgr station audio ros/device"
-                        " ros/display",
+    "ros/conversation": "exception files rt scene scene/laws scene/text physics/engine tgr station audio bag replay"
+                        " ros/device ros/display",
     "ros": "ros/device ros/conversation",
     "rviz": "",
     "tools/lib": "exception files rt scene scene/laws scene/generate scene/text physics physics/engine"
-                 " physics/certificate physics/settling advice tgr station audio bag",
+                 " physics/certificate physics/settling advice tgr station audio bag replay",
     "tools": "exception files rt scene tgr audio tgr/drivers/jack tools/lib",
 }
 

@@ -39,7 +39,7 @@ class StationNodelet : public nodelet::Nodelet {
       diagnostics_ = std::make_unique<Diagnostics>(shared, node, getName());
       feed_ = std::make_unique<Feed>(node);
       own_host_ = std::make_unique<OwnHost>(node.param("allow_remote", false));
-      operator_ = std::make_unique<Operator>(*feed_, *diagnostics_, *own_host_);
+      operator_ = std::make_unique<Operator>(node, *feed_, *diagnostics_, *own_host_);
       guard_ = std::make_unique<SignalGuard>(
           [this] { operator_->makeSafe(tgr::FaultReason::kMadeSafe); },
           [this] { operator_->close(); });

@@ -46,6 +46,10 @@ std::string wordsOf(const LoadModel::Response& response) {
              : response.message.substr(0, line) + verdict + response.message.substr(line);
 }
 
+std::string wordsOf(const Take::Response& response) {
+  return response.message;
+}
+
 Caller::Caller(std::function<void(const Answer&)> tell)
     : shared_(std::make_shared<Shared>(std::move(tell))) {
   std::thread([shared = shared_] { run(shared); }).detach();

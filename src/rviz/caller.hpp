@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <ergotic/LoadModel.h>
+#include <ergotic/Take.h>
 #include <ros/node_handle.h>
 #include <ros/service_client.h>
 
@@ -24,6 +25,7 @@ struct Answer {
 /// \return what the station said, for a reader
 std::string wordsOf(const std_srvs::Trigger::Response& response);
 std::string wordsOf(const LoadModel::Response& response);
+std::string wordsOf(const Take::Response& response);
 
 /// Asks services in a thread of its own, one after the other: a window never waits for a station.
 /// Connections stay: what was found once can be asked when the ROS master is gone, and roscpp loses

@@ -134,6 +134,7 @@ class Listener {
                     node.subscribe("joint_states", 1, &Listener::onJoints, this),
                     node.subscribe("levels", 1, &Listener::onLevels, this),
                     node.subscribe("model_parameters", 1, &Listener::onParameters, this),
+                    node.subscribe("takes", 1, &Listener::onTakes, this),
                     node.subscribe("events", kEvents, &Listener::onEvent, this)};
     constexpr std::uint32_t kParameters = 100;
     ::ros::Publisher parameter = node.advertise<ParameterValue>("parameters", kParameters);
@@ -197,6 +198,12 @@ class Listener {
     const std::lock_guard lock(shared_->mutex);
     shared_->news.parameters = parameters;
     ++shared_->news.parameters_version;
+  }
+
+  void onTakes(const Takes& takes) {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->news.takes = takes;
+    ++shared_->news.takes_version;
   }
 
   void onEvent(const Event& event) {
@@ -305,12 +312,13 @@ void listen(const std::shared_ptr<StationLink::Shared>& shared) {
 
 StationLink::StationLink(const std::string& station, const std::string& models)
     : shared_(std::make_shared<Shared>(station, models)) {
-  for (std::unique_ptr<Caller>* caller : {&force_, &stop_, &emergency_, &loading_}) {
+  for (std::unique_ptr<Caller>* caller : {&force_, &stop_, &emergency_, &loading_, &takes_}) {
     *caller = std::make_unique<Caller>(
         [shared = shared_](const Answer& answer) { shared->tell(answer); });
   }
   shared_->give_up_late = [this] {
-    for (Caller* caller : {force_.get(), stop_.get(), emergency_.get(), loading_.get()}) {
+    for (Caller* caller :
+         {force_.get(), stop_.get(), emergency_.get(), loading_.get(), takes_.get()}) {
       caller->giveUpLate();
     }
   };
@@ -352,6 +360,10 @@ void StationLink::refresh(News& news) const {
   if (news.parameters_version != newest.parameters_version) {
     news.parameters_version = newest.parameters_version;
     news.parameters = newest.parameters;
+  }
+  if (news.takes_version != newest.takes_version) {
+    news.takes_version = newest.takes_version;
+    news.takes = newest.takes;
   }
   if (news.scenes_version != newest.scenes_version) {
     news.scenes_version = newest.scenes_version;
@@ -404,6 +416,39 @@ void StationLink::load(const std::string& model, const std::string& title) {
   request.model = model;
   loading_->forgetWaiting();
   loading_->ask<LoadModel>("Load", shared_->station + "/load_model", request, kLoadingPatienceS);
+}
+
+void StationLink::ask(const char* what, const Take::Request& request) {
+  {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->show({true, std::string(what) + " ..."});
+  }
+  takes_->ask<Take>(what, shared_->station + "/take", request, kLoadingPatienceS);
+}
+
+void StationLink::record() {
+  Take::Request request;
+  request.action = Take::Request::RECORD;
+  ask("Record", request);
+}
+
+void StationLink::finishTake() {
+  Take::Request request;
+  request.action = Take::Request::FINISH;
+  ask("Finish", request);
+}
+
+void StationLink::replay(const std::string& name) {
+  Take::Request request;
+  request.action = Take::Request::REPLAY;
+  request.name = name;
+  ask("Replay", request);
+}
+
+void StationLink::haltTake() {
+  Take::Request request;
+  request.action = Take::Request::HALT;
+  ask("Halt", request);
 }
 
 void StationLink::setParameter(const std::string& name, double value) {

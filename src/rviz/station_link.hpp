@@ -8,6 +8,7 @@
 
 #include <ergotic/Parameters.h>
 #include <ergotic/Status.h>
+#include <ergotic/Takes.h>
 
 #include "rviz/caller.hpp"
 #include "rviz/scenes.hpp"
@@ -29,6 +30,8 @@ struct News {
   bool hears_sound = false;
   Parameters parameters;
   std::size_t parameters_version = 0;
+  Takes takes;
+  std::size_t takes_version = 0;
   std::vector<SceneEntry> scenes;
   std::size_t scenes_version = 0;
   std::string log;
@@ -68,9 +71,16 @@ class StationLink {
   /// \param volume  0...1
   void setVolume(double volume);
 
+  void record();
+  void finishTake();
+  /// \param name  of the take; empty: the newest
+  void replay(const std::string& name);
+  void haltTake();
+
   struct Shared;
 
  private:
+  void ask(const char* what, const Take::Request& request);
   void ask(Caller& caller, const char* what, const char* service, bool insists = false);
 
   std::shared_ptr<Shared> shared_;  // with the thread that listens
@@ -78,6 +88,7 @@ class StationLink {
   std::unique_ptr<Caller> stop_;
   std::unique_ptr<Caller> emergency_;
   std::unique_ptr<Caller> loading_;
+  std::unique_ptr<Caller> takes_;
 };
 
 }  // namespace ergotic::panel

@@ -77,6 +77,7 @@ StationPanel::StationPanel(QWidget* parent) : rviz::Panel(parent), wanted_(kUsua
   addParameters(rest);
   addMeters(rest);
   addSound(rest);
+  addTakes(rest);
   addMessages(rest);
   scroll->setWidget(inside);
   column->addWidget(scroll, 1);
@@ -236,6 +237,33 @@ void StationPanel::addSound(QVBoxLayout* column) {
   column->addWidget(sound_);
 }
 
+void StationPanel::addTakes(QVBoxLayout* column) {
+  takes_title_ = title("Takes");
+  takes_ = adopted<Chooser>();
+  takes_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  takes_->setAccessibleName("takes");
+  takes_->setPlaceholderText("nothing recorded yet");
+  record_ = addButton("Record  F9", "Records what is played, until it is pressed again");
+  replay_ = addButton("Replay  F10", "Plays the chosen take through the same outputs");
+  QObject::connect(record_, &QPushButton::clicked, this, [this] {
+    press(news_.takes.recording.empty() ? &StationLink::record : &StationLink::finishTake)();
+  });
+  QObject::connect(replay_, &QPushButton::clicked, this, [this] {
+    const auto row = static_cast<std::size_t>(std::max(takes_->currentIndex(), 0));
+    if (!news_.takes.replaying.empty()) {
+      press (&StationLink::haltTake)();
+    } else if (link_) {
+      link_->replay(row < take_names_.size() ? take_names_[row] : "");
+    }
+  });
+  auto* line = adopted<QHBoxLayout>();
+  line->addWidget(takes_title_, 1);
+  line->addWidget(record_);
+  line->addWidget(replay_);
+  column->addLayout(line);
+  column->addWidget(takes_);
+}
+
 void StationPanel::addMessages(QVBoxLayout* column) {
   messages_ = adopted<QPlainTextEdit>();
   messages_->setReadOnly(true);
@@ -284,6 +312,8 @@ void StationPanel::addKeys() {
   bind(Qt::Key_F8, [this] { mute_->toggle(); });
   bind(
       Qt::Key_F12, [on_all] { on_all(&StationLink::emergencyStop); }, true);
+  bind(Qt::Key_F9, [this] { record_->click(); });
+  bind(Qt::Key_F10, [this] { replay_->click(); });
   bind(Qt::Key_F3, [this] { instruments_->setFocus(Qt::ShortcutFocusReason); });
   bind(Qt::Key_F4, [this] { parameters_->takeFocus(); });
 }
@@ -292,7 +322,9 @@ void StationPanel::connect() {
   link_.reset();
   link_ = std::make_unique<StationLink>(wanted_, models_);
   news_ = {};
-  scenes_shown_ = log_shown_ = 0;
+  scenes_shown_ = log_shown_ = takes_shown_ = 0;
+  take_names_.clear();
+  takes_->clear();
   model_shown_.clear();
   instruments_->clear();  // they are no longer in the news
   messages_->clear();
@@ -312,6 +344,7 @@ void StationPanel::refresh() {
   parameters_->follow(news_.parameters, now_s);
   showMeters();
   showSound();
+  showTakes();
   showMessages();
 }
 
@@ -396,6 +429,32 @@ void StationPanel::showSound() {
     const QSignalBlocker quiet(volume_);
     volume_->setValue(stepOfVolume(news_.volume));
   }
+}
+
+/// A new take is chosen, so that Replay plays the last one.
+void StationPanel::showTakes() {
+  record_->setEnabled(!isStale());
+  replay_->setEnabled(!isStale() && (!take_names_.empty() || !news_.takes.replaying.empty()));
+  if (takes_shown_ == news_.takes_version) {
+    return;
+  }
+  takes_shown_ = news_.takes_version;
+  const Takes& takes = news_.takes;
+  if (take_names_ != takes.names) {
+    take_names_ = takes.names;
+    takes_->clear();
+    for (const std::string& name : take_names_) {
+      takes_->addItem(QString::fromStdString(name));
+    }
+  }
+  const bool records = !takes.recording.empty();
+  const bool plays = !takes.replaying.empty();
+  record_->setText(records ? "Finish  F9" : "Record  F9");
+  replay_->setText(plays ? "Halt  F10" : "Replay  F10");
+  takes_title_->setText(
+      records ? QString("● recording %1 s").arg(takes.recorded, 0, 'f', 1)
+      : plays ? QString("▶ %1 of %2 s").arg(takes.replayed, 0, 'f', 1).arg(takes.length, 0, 'f', 1)
+              : QString("Takes"));
 }
 
 void StationPanel::showMessages() {

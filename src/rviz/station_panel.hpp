@@ -42,6 +42,7 @@ class StationPanel : public rviz::Panel {
   void addParameters(QVBoxLayout* column);
   void addMeters(QVBoxLayout* column);
   void addSound(QVBoxLayout* column);
+  void addTakes(QVBoxLayout* column);
   void addMessages(QVBoxLayout* column);
   QPushButton* addButton(const QString& text, const QString& tip);
   std::function<void()> press(void (StationLink::*act)());
@@ -55,6 +56,7 @@ class StationPanel : public rviz::Panel {
   void choose(const SceneEntry& scene);
   void showMeters();
   void showSound();
+  void showTakes();
   void showMessages();
   bool isStale() const { return lampOf(news_.status.state, news_.age_s) == Lamp::kStale; }
 
@@ -66,6 +68,8 @@ class StationPanel : public rviz::Panel {
   QTimer timer_;
   std::size_t scenes_shown_ = 0;
   std::size_t log_shown_ = 0;
+  std::size_t takes_shown_ = 0;
+  std::vector<std::string> take_names_;  // as the list shows them
   std::string model_shown_;
 
   LampWidget* lamp_ = nullptr;
@@ -86,6 +90,10 @@ class StationPanel : public rviz::Panel {
   SoundMeter* sound_ = nullptr;
   QSlider* volume_ = nullptr;
   QPushButton* mute_ = nullptr;
+  QLabel* takes_title_ = nullptr;
+  QComboBox* takes_ = nullptr;
+  QPushButton* record_ = nullptr;
+  QPushButton* replay_ = nullptr;
   QPlainTextEdit* messages_ = nullptr;
   QLineEdit* station_ = nullptr;
 };

@@ -15,6 +15,7 @@ constexpr double kClockBandwidthHz = 0.5;
 constexpr double kVolumeS = 0.02;      // from silence to full volume
 constexpr int kReadingsToConnect = 8;  // the first periods of a host are the least regular
 constexpr std::size_t kFifoFrames = 2U * AudioBridge::kMaxLatencyFrames;
+constexpr double kTakesS = 0.25;  // of a take that is ready before it sounds
 constexpr std::size_t kLosses = 1U << 10U;
 
 const AudioBridgeConfig& checkedBridge(const AudioBridgeConfig& config) {
@@ -39,8 +40,12 @@ AudioBridge::AudioBridge(const AudioBridgeConfig& config)
       latency_(config.latency_frames),
       to_host_(kFifoFrames, config.output_channels),
       from_host_(kFifoFrames, config.input_channels),
+      takes_(std::make_shared<TakePort>(static_cast<std::size_t>(kTakesS * config.rates.audio_hz),
+                                        config.output_channels,
+                                        config.rates.audio_hz)),
       losses_(kLosses),
       capture_frame_(static_cast<std::size_t>(config.input_channels)),
+      mixed_frame_(static_cast<std::size_t>(config.output_channels)),
       limiter_(config.rates.audio_hz),
       clock_(config.rates.audio_hz, kClockBandwidthHz) {}
 
@@ -162,12 +167,13 @@ void AudioBridge::play(const rt::Period& period, const Relation& relation) noexc
   bool missing = false;
   for (std::uint32_t i = 0; i < period.nframes; ++i) {
     const std::int64_t station_frame = start + i;
-    const float* from = to_host_.take(station_frame);
-    const float gain = from != nullptr ? gainOf(from, shared) : 0.0F;
+    const float* live = to_host_.take(station_frame);
+    const float* heard = mix(live);
+    const float gain = heard != nullptr ? gainOf(heard, shared) : 0.0F;
     for (int c = 0; c < shared; ++c) {
-      period.outputs[c][i] = from != nullptr ? gain * from[c] : 0.0F;
+      period.outputs[c][i] = heard != nullptr ? gain * heard[c] : 0.0F;
     }
-    const bool lost = from == nullptr && station_frame >= relation.first;
+    const bool lost = live == nullptr && station_frame >= relation.first;
     if (lost && !missing) {
       missing_from = station_frame;
     } else if (!lost && missing) {
@@ -179,6 +185,19 @@ void AudioBridge::play(const rt::Period& period, const Relation& relation) noexc
   if (missing) {
     noteUnderrun(relation, missing_from, start + period.nframes);
   }
+}
+
+/// What the instrument plays and what a take adds to it; where there is no take, the former's bits.
+const float* AudioBridge::mix(const float* live) noexcept {
+  float gain = 0.0F;
+  const float* const take = takes_->next(gain);
+  if (take == nullptr) {
+    return live;
+  }
+  for (std::size_t c = 0; c < mixed_frame_.size(); ++c) {
+    mixed_frame_[c] = (live != nullptr ? live[c] : 0.0F) + gain * take[c];
+  }
+  return mixed_frame_.data();
 }
 
 float AudioBridge::nextVolume() noexcept {

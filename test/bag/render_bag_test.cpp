@@ -9,11 +9,11 @@
 #include <rosbag/bag.h>
 
 #include "ergotic/audio/wav.hpp"
+#include "replay/live_run.hpp"
 #include "support/scratch_file.hpp"
 #include "support/struck_bar.hpp"
 #include "support/test.hpp"
 #include "support/tool_process.hpp"
-#include "tools/live_run.hpp"
 
 namespace ergotic {
 namespace {

@@ -12,7 +12,8 @@ import rospy
 import rostest
 
 from desk import ROOT, DeskTest, Newest, until
-from ergotic.msg import Event, GestureBlock, Handles, HandTargets, Levels, ModelState, ModelStructure, Note, Status
+from ergotic.msg import Event, GestureBlock, Handles, HandTargets, Levels, ModelState, ModelStructure, Note, \
+    Status, Takes
 from ergotic.srv import LoadModel
 from std_msgs.msg import Float64
 from visualization_msgs.msg import Marker, MarkerArray
@@ -240,6 +241,21 @@ class PlayingTest(DeskTest):
         volume.publish(math.nan)
         volume.publish(1.0)
         self.assertTrue(until(lambda: levels.message.volume == 1))
+
+    def test_4b_keys_of_the_panel_record_a_take_and_play_it_again(self):
+        takes = Newest("/station/takes", Takes)
+        self.wait_for_window("/station/takes")
+
+        def comes(key, condition):
+            return until(lambda: xdotool("key", key) == "" and until(condition, 3), 20)
+        self.assertTrue(comes("F9", lambda: takes.message and takes.message.recorded > 0.2), "nothing is recorded")
+        rospy.Publisher("/station/notes", Note, queue_size=1, latch=True).publish(note=60, velocity=100)
+        time.sleep(0.5)
+        self.assertTrue(comes("F9", lambda: takes.message.recording == "" and len(takes.message.names) == 1))
+        self.assertTrue(comes("F10", lambda: takes.message.replaying != ""), "it is not played")
+        if os.environ.get("TAKES_PICTURE"):
+            subprocess.run(["import", "-window", "root", os.environ["TAKES_PICTURE"]], check=True)
+        self.assertTrue(until(lambda: takes.message.replaying == "", 20), "it does not end")
 
     def test_5_nothing_of_the_old_model_stays_in_a_slow_picture(self):
         picture = SlowPicture()

@@ -424,5 +424,30 @@ TEST(AudioBridgeTest, TheVolumeIsReachedWithin20MsAndAtOnePassesBitForBit) {
   EXPECT_EQ(rig.bridge.takePeaks().front(), 0.0F) << "since the last call";
 }
 
+TEST(AudioBridgeTest, ATakeSoundsBesideTheInstrument) {
+  Rig rig;  // whose samples are the numbers of their frames, from 1 on
+  rig.host.start(kPeriod, 5000, 7'000'000);
+  rig.settle();
+  TakePort& takes = *rig.bridge.takes();
+  takes.open();
+  const std::vector<float> quarters(2 * std::size_t{8 * kPeriod}, 0.25F);
+  ASSERT_TRUE(takes.push(quarters.data(), 8 * kPeriod));
+  rig.step();  // it fades in within 221 frames
+  rig.sounded.clear();
+  for (int n = 0; n < 7; ++n) {
+    rig.step();
+  }
+  ASSERT_EQ(rig.sounded.size(), std::size_t{7 * kPeriod});
+  for (const auto& [frame, sample] : rig.sounded) {
+    ASSERT_EQ(sample, static_cast<float>(frame - rig.offset() + 1) + 0.25F) << "at " << frame;
+  }
+  rig.sounded.clear();
+  rig.step();
+  for (const auto& [frame, sample] : rig.sounded) {
+    ASSERT_EQ(sample, static_cast<float>(frame - rig.offset() + 1)) << "it has ended";
+  }
+  EXPECT_EQ(rig.bridge.status().underruns, 0);
+}
+
 }  // namespace
 }  // namespace ergotic::station

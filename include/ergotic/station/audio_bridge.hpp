@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "ergotic/station/frame_fifo.hpp"
 #include "ergotic/station/frame_port.hpp"
 #include "ergotic/station/limiter.hpp"
+#include "ergotic/station/take_port.hpp"
 
 namespace ergotic::station {
 
@@ -106,6 +108,9 @@ class AudioBridge : public rt::AudioProcessor, public FramePort {
   /// Realtime: yes. Thread: tick
   void disconnect() noexcept;
 
+  /// Where a recorded take is played, beside the instrument, through the same volume and limiter.
+  const std::shared_ptr<TakePort>& takes() const noexcept { return takes_; }
+
   /// Since the bridge was made. Realtime: yes. Thread: any
   Loudness loudness() const noexcept {
     return {peak_.load(std::memory_order_relaxed), limited_frames_.load(std::memory_order_relaxed)};
@@ -145,6 +150,7 @@ class AudioBridge : public rt::AudioProcessor, public FramePort {
   void noteMidi(const rt::Period& period) noexcept;
   void capture(const rt::Period& period) noexcept;
   void play(const rt::Period& period, const Relation& relation) noexcept;
+  const float* mix(const float* live) noexcept;
   float gainOf(const float* frame, int channels) noexcept;
   float nextVolume() noexcept;
   void noteSkipped(const rt::Period& period, const Relation& relation) noexcept;
@@ -176,6 +182,7 @@ class AudioBridge : public rt::AudioProcessor, public FramePort {
   std::atomic<std::int64_t> limited_frames_{0};
   FrameFifo to_host_;
   FrameFifo from_host_;
+  std::shared_ptr<TakePort> takes_;  // not null
   rt::Mailbox<Reading> readings_;    // host RT -> tick
   rt::Mailbox<Relation> relations_;  // tick -> host RT
   rt::Ring<Loss> losses_;            // host RT -> tick
@@ -185,6 +192,7 @@ class AudioBridge : public rt::AudioProcessor, public FramePort {
 
   // The host's real-time thread.
   std::vector<float> capture_frame_;
+  std::vector<float> mixed_frame_;  // [output channels]
   Limiter limiter_;
   std::int64_t expected_ = 0;      // host frame after the last block
   std::int64_t underrun_end_ = 0;  // station frame after the last missing one

@@ -34,6 +34,22 @@ Feed::Feed(const ::ros::NodeHandle& node) : node_(node), display_(node) {
   showSilence("no model yet");
 }
 
+template <class Message>
+void Feed::tell(::ros::Publisher& topic, const Message& message) {
+  topic.publish(message);
+  if (take_) {
+    take_->write(topic.getTopic(), message);
+  }
+}
+
+void Feed::record(std::shared_ptr<TakeWriter> take) {
+  take_ = std::move(take);
+  if (take_) {
+    sendStatus();
+    sendParameters();
+  }
+}
+
 void Feed::configure(const Parameters& parameters, const Hands& hands) {
   station_config_ = toYaml(parameters, hands.config());
   motion_period_ns_ = static_cast<std::int64_t>(1e9 / parameters.display_rate);
@@ -109,7 +125,7 @@ void Feed::addMessage(const std::string& line) {
 Event Feed::show(const station::Event& event, const scene::Scene* scene) {
   Event message = toEvent(event, scene);
   message.stamp = ::ros::Time::now();
-  events_.publish(message);
+  tell(events_, message);
   return message;
 }
 
@@ -125,7 +141,7 @@ void Feed::show(const station::GestureTick* ticks, std::size_t count) {
       const ::ros::Duration ago(age / block->tick_rate_hz);
       // A clock that is simulated may stand at its beginning.
       block->header.stamp = now.toSec() > ago.toSec() ? now - ago : ::ros::Time();
-      gesture_.publish(*block);
+      tell(gesture_, *block);
     }
   }
 }
@@ -185,7 +201,7 @@ void Feed::show(const station::Keyframe& keyframe, const physics::Instrument& in
   message.header.stamp = ::ros::Time::now();
   message.build = std::string(ERGOTIC_VERSION " ") + rt::buildId();
   message.station_config = station_config_;
-  keyframe_.publish(message);
+  tell(keyframe_, message);
 }
 
 void Feed::showParameter(std::int64_t index, double value) {
@@ -210,13 +226,13 @@ void Feed::sendParameters() {
   parameters_changed_ = false;
   parameters_due_ns_ = rt::monotonicNs() + motion_period_ns_;
   parameters_.header.stamp = ::ros::Time::now();
-  model_parameters_.publish(parameters_);
+  tell(model_parameters_, parameters_);
 }
 
 void Feed::sendStatus() {
   status_due_ns_ = rt::monotonicNs() + kStatusPeriodNs;
   status_.header.stamp = ::ros::Time::now();
-  status_topic_.publish(status_);
+  tell(status_topic_, status_);
 }
 
 }  // namespace ergotic::node

@@ -17,6 +17,7 @@
 #include "ergotic/station/station.hpp"
 #include "ros/conversation/convert.hpp"
 #include "ros/conversation/gesture_blocks.hpp"
+#include "ros/conversation/take_writer.hpp"
 #include "ros/device/hands.hpp"
 #include "ros/device/parameters.hpp"
 #include "ros/display/display.hpp"
@@ -64,6 +65,15 @@ class Feed {
   void show(const station::MotionFrame& motion, const scene::Scene& scene);
   void show(const station::Keyframe& keyframe, const physics::Instrument& instrument);
 
+  /// Another picture than that of the model that plays, which moves on unseen, until the next
+  /// `showPicture` or `showModel`.
+  void showPicture(std::shared_ptr<Picture> picture) { display_.show(std::move(picture)); }
+  /// How the model of that picture stands.
+  void showTake(const station::MotionFrame& motion) { display_.show(motion); }
+
+  /// What a performance is made of goes into `take` as well, from now on; null: no more.
+  void record(std::shared_ptr<TakeWriter> take);
+
   /// True once for everybody who starts to listen to `gesture`, most likely to record it.
   bool takeNewListener() { return new_listener_.exchange(false); }
 
@@ -73,11 +83,14 @@ class Feed {
   const Status& status() const { return status_; }
 
  private:
+  template <class Message>
+  void tell(::ros::Publisher& topic, const Message& message);
   void sendStatus();
   void sendParameters();
   void watch(const station::MotionFrame& motion, const scene::Scene& scene);
 
   ::ros::NodeHandle node_;
+  std::shared_ptr<TakeWriter> take_;  // null: none is recorded
   std::atomic<bool> new_listener_{false};
   std::string station_config_;
   std::int64_t motion_period_ns_ = 0;

@@ -41,8 +41,11 @@ bool settle(std::atomic<Claim>& claim, Claim to) {
 
 }  // namespace
 
-Operator::Operator(Feed& feed, Diagnostics& diagnostics, const OwnHost& own_host)
-    : feed_(feed), diagnostics_(diagnostics), performance_(feed, interlock_, own_host) {
+Operator::Operator(const ::ros::NodeHandle& node,
+                   Feed& feed,
+                   Diagnostics& diagnostics,
+                   const OwnHost& own_host)
+    : feed_(feed), diagnostics_(diagnostics), performance_(node, feed, interlock_, own_host) {
   thread_ = std::thread([this] { run(); });
 }
 
@@ -165,6 +168,17 @@ Calibrate::Response Operator::calibrate(const Calibrate::Request& request, const
 
 Answer Operator::inject(const InjectFault::Request& request) {
   return ask([=](const Promise& promise) { performance_.inject(request, promise); });
+}
+
+Take::Response Operator::take(const Take::Request& request) {
+  const auto path = std::make_shared<std::string>();
+  const Answer answer =
+      ask([=](const Promise& promise) { performance_.take(request, path, promise); });
+  Take::Response response;
+  response.success = answer.ok ? 1U : 0U;
+  response.message = answer.message;
+  response.path = answer.ok ? *path : "";  // otherwise it may still be written
+  return response;
 }
 
 bool Operator::setParameterSoon(const std::string& name, double value) {

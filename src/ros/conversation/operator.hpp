@@ -25,7 +25,10 @@ namespace ergotic::node {
 /// ROS callbacks never touch the station; they hand a request over here and wait for its answer.
 class Operator {
  public:
-  Operator(Feed& feed, Diagnostics& diagnostics, const OwnHost& own_host);
+  Operator(const ::ros::NodeHandle& node,
+           Feed& feed,
+           Diagnostics& diagnostics,
+           const OwnHost& own_host);
   ~Operator();  ///< forces to zero, device closed
   Operator(const Operator&) = delete;
   Operator& operator=(const Operator&) = delete;
@@ -58,6 +61,8 @@ class Operator {
   Answer configure(const tgr::EndEffectors& end_effectors);
   Calibrate::Response calibrate(const Calibrate::Request& request, const Arrival& arrival);
   Answer inject(const InjectFault::Request& request);
+  /// Records what is played; a replay answers when it begins to sound.
+  Take::Response take(const Take::Request& request);
 
   /// What a new model must fit.
   struct Terms {

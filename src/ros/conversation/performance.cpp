@@ -38,10 +38,6 @@ station::Caller numberOf(const std::string& node) {
 
 }  // namespace
 
-void answer(const Promise& promise, bool ok, std::string message) {
-  promise->set_value({ok, std::move(message)});
-}
-
 void Performance::begin(std::unique_ptr<Engine> engine,
                         station::Performer* performer,
                         std::shared_ptr<Picture> picture) {
@@ -200,7 +196,8 @@ void Performance::poll() {
   if (engine_->standsStill()) {
     feed_.showStandstill();
   }
-  if (playing_->motion.refresh()) {
+  takes_.poll(picture_);
+  if (playing_->motion.refresh() && !takes_.isShown()) {
     feed_.show(playing_->motion.latest(), playing_->instrument->scene());
   }
   pollCalibration();
@@ -354,7 +351,9 @@ void Performance::play(station::Performer* performer, std::shared_ptr<Picture> p
       values.push_back(parameter.value);
     }
   }
-  feed_.showModel(*performer, std::move(picture), noteOn(*performer), values);
+  takes_.halt();
+  picture_ = std::move(picture);
+  feed_.showModel(*performer, picture_, noteOn(*performer), values);
   const scene::Scene& scene = performer->instrument->scene();
   feed_.showHandles(handlesOf(scene, endEffectors()));
   findPlayMap(scene, false);
@@ -368,7 +367,39 @@ void Performance::reportWarnings() {
   }
 }
 
+void Performance::take(const Take::Request& request,
+                       const std::shared_ptr<std::string>& path,
+                       const Promise& promise) {
+  if (!engine_) {
+    return answer(promise, false, kNothingPlays);
+  }
+  Answer outcome{false, "action is " + std::to_string(request.action) + ", allowed: 0...3"};
+  switch (request.action) {
+    case Take::Request::RECORD:
+      outcome = takes_.record(request.name, playing_->instrument->scene().name);
+      command(CommandType::kKeyframe);
+      break;
+    case Take::Request::FINISH:
+      outcome = takes_.finish();
+      break;
+    case Take::Request::REPLAY:
+      takes_.replay(request.name, engine_->bridge(), engine_->station().config().rates.audio_hz,
+                    engine_->parameters().display_zoom, promise);
+      *path = takes_.path();
+      return;
+    case Take::Request::HALT:
+      outcome = takes_.halt();
+      break;
+    default:
+      break;
+  }
+  *path = takes_.path();
+  answer(promise, outcome.ok, outcome.message);
+}
+
 void Performance::close() {
+  takes_.close();
+  picture_.reset();
   playing_ = nullptr;
   submitted_ = nullptr;
   incoming_.clear();

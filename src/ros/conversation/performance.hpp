@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
-#include <future>
 #include <limits>
 #include <map>
 #include <memory>
@@ -17,25 +16,21 @@
 
 #include <ergotic/Calibrate.h>
 #include <ergotic/InjectFault.h>
+#include <ergotic/Take.h>
 
 #include "ergotic/tgr/keyboard.hpp"
+#include "ros/conversation/answer.hpp"
 #include "ros/conversation/arrivals.hpp"
 #include "ros/conversation/disturbances.hpp"
 #include "ros/conversation/engine.hpp"
 #include "ros/conversation/feed.hpp"
 #include "ros/conversation/players.hpp"
+#include "ros/conversation/takes.hpp"
 #include "ros/device/calibration_guide.hpp"
 #include "ros/device/own_host.hpp"
 
 namespace ergotic::node {
 
-/// Outcome of what a caller asked for, in words.
-struct Answer {
-  bool ok = false;
-  std::string message;
-};
-using Promise = std::shared_ptr<std::promise<Answer>>;
-void answer(const Promise& promise, bool ok, std::string message);
 constexpr const char* kNothingPlays = "nothing plays: load a model first";
 
 /// Somebody wants force, or the end of a fault.
@@ -51,8 +46,11 @@ struct ForceRequest {
 class Performance {
  public:
   /// \param interlock  not null
-  Performance(Feed& feed, std::shared_ptr<station::Interlock> interlock, const OwnHost& own_host)
-      : feed_(feed), interlock_(std::move(interlock)), own_host_(own_host) {}
+  Performance(const ::ros::NodeHandle& node,
+              Feed& feed,
+              std::shared_ptr<station::Interlock> interlock,
+              const OwnHost& own_host)
+      : feed_(feed), interlock_(std::move(interlock)), own_host_(own_host), takes_(node, feed) {}
   ~Performance() { close(); }
   Performance(const Performance&) = delete;
   Performance& operator=(const Performance&) = delete;
@@ -82,6 +80,12 @@ class Performance {
 
   /// Master volume of the sound at JACK. \return what is wrong with it, or an empty text
   std::string setVolume(double volume);
+
+  /// Records what is played, and plays it again. \param path  of the bag, written before a promise
+  /// is kept that says that all went well
+  void take(const Take::Request& request,
+            const std::shared_ptr<std::string>& path,
+            const Promise& promise);
 
   /// In words, for who loaded it. \pre something plays
   std::string whatPlays(bool force_waits) const;
@@ -181,6 +185,8 @@ class Performance {
   station::Performer* submitted_ = nullptr;  // the newest, owned by the station
   std::vector<double> parameters_;           // of submitted_, as submitted
   std::deque<Incoming> incoming_;
+  Takes takes_;
+  std::shared_ptr<Picture> picture_;  // of playing_
   Disturbances disturbances_;
   std::int64_t levels_due_ns_ = 0;
   std::int64_t limited_frames_ = 0;  // as told last

@@ -89,6 +89,7 @@ Services::Services(const ::ros::NodeHandle& node, Operator& operator_thread)
       node_.advertiseService("calibrate", &Services::onCalibrate, this),
       node_.advertiseService("inject_fault", &Services::onInjectFault, this),
       node_.advertiseService("play_map", &Services::onPlayMap, this),
+      node_.advertiseService("take", &Services::onTake, this),
       safety_node_.advertiseService("emergency_stop", &Services::onEmergencyStop, this),
       safety_node_.advertiseService("stop", &Services::onStop, this),
   };
@@ -196,6 +197,12 @@ void Services::onVolume(const std_msgs::Float64& volume) {
 bool Services::onPlayMap(PlayMap::Request& request, PlayMap::Response& response) {
   const std::string refusal = request.map.empty() ? "" : operator_.usePlayMap(request.map);
   return fill(response, {refusal.empty(), refusal});
+}
+
+bool Services::onTake(Take::Request& request, Take::Response& response) {
+  response = operator_.take(request);
+  response.message = files::printableLines(response.message);
+  return true;
 }
 
 bool Services::onRecover(Call<Trigger>& call) {

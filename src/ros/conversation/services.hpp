@@ -58,6 +58,7 @@ class Services {
   void onNote(const Note& note);
   void releaseNotes();
   void onVolume(const std_msgs::Float64& volume);
+  bool onTake(Take::Request& request, Take::Response& response);
   bool onPlayMap(PlayMap::Request& request, PlayMap::Response& response);
   Answer configure(const std::vector<EndEffector>& end_effectors);
   bool onRecover(Call<Trigger>& call);

@@ -21,16 +21,15 @@ tgr::DriverStack makeDrivers(DriverPlugins& plugins,
   return tgr::makeDrivers(devices, make, allow_fault_injection);
 }
 
-/// Where calibrations are written, whoever asks for it.
-std::string calibrationFolder() {
+}  // namespace
+
+std::string homeFolder() {
   if (const char* ros = std::getenv("ROS_HOME")) {
     return std::string(ros) + "/ergotic";
   }
   const char* home = std::getenv("HOME");
   return std::string(home != nullptr ? home : ".") + "/.ros/ergotic";
 }
-
-}  // namespace
 
 Hands::Hands(tgr::StationDevices devices, bool allow_fault_injection)
     : config_(std::move(devices)),
@@ -64,7 +63,7 @@ std::string Hands::save(const std::string& name) {
     config_.devices[static_cast<std::size_t>(part.device)].calibration =
         part.calibrated->calibration();
   }
-  return files::replaceFile(calibrationFolder(), name, tgr::toYaml(config_));
+  return files::replaceFile(homeFolder(), name, tgr::toYaml(config_));
 }
 
 }  // namespace ergotic::node

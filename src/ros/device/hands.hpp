@@ -13,6 +13,10 @@
 
 namespace ergotic::node {
 
+/// Where this program keeps files of its own, whoever asks for it: `$ROS_HOME/ergotic`, or
+/// `~/.ros/ergotic`.
+std::string homeFolder();
+
 /// The devices of a station and what stands on their slices. The drivers go to the station, which
 /// this has to outlive: it holds their code.
 /// Thread: loader while it is made, then operator. Realtime: no

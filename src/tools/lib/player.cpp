@@ -8,7 +8,7 @@
 #include "ergotic/exception.hpp"
 #include "ergotic/tgr/replay_driver.hpp"
 #include "ergotic/tgr/virtual_driver.hpp"
-#include "tools/lib/offline_station.hpp"
+#include "replay/offline_station.hpp"
 
 namespace ergotic::tools {
 namespace {
@@ -55,6 +55,18 @@ class EndingSource final : public tgr::GestureSource {
   bool& ended_;
 };
 
+/// Nothing enters where there is no file at all.
+replay::SoundSource sourceOf(SoundInputs inputs) {
+  replay::SoundSource source;
+  source.channels = inputs.channels();
+  if (!inputs.areSilent()) {
+    source.read = [sounds = std::move(inputs)](std::int64_t first, int nframes, float* to) {
+      sounds.read(first, nframes, to);
+    };
+  }
+  return source;
+}
+
 class HandPlayer final : public Player {
  public:
   HandPlayer(std::unique_ptr<station::Performer> performer,
@@ -65,7 +77,8 @@ class HandPlayer final : public Player {
         slices_in_use_(performer->rig->slicesInUse()),
         device_(deviceFor(csv, slices_in_use_)),
         driver_(makeDriver(device_, ended_)),
-        station_(std::move(performer), std::move(driver_), std::move(inputs), outputs_) {
+        station_(
+            std::move(performer), std::move(driver_), outputs_, 0, sourceOf(std::move(inputs))) {
     station::Command engage;
     engage.type = station::Command::Type::kEngage;
     station_.submit(engage);
@@ -90,7 +103,7 @@ class HandPlayer final : public Player {
 
  private:
   void hear(const station::Event& event) {
-    if (isBlowUp(event)) {
+    if (replay::isBlowUp(event)) {
       throw Exception("the sound or a force is not finite from frame " +
                       std::to_string(event.frame) + " on: the model blows up; nothing is kept");
     }
@@ -128,7 +141,23 @@ class HandPlayer final : public Player {
   std::uint64_t slices_in_use_;            // bit i: a port follows slice i
   tgr::VirtualDriverConfig device_;
   std::unique_ptr<tgr::Driver> driver_;  // on its way into the station
-  OfflineStation station_;
+  replay::OfflineStation station_;
+};
+
+class RecordedPlayer final : public Player {
+ public:
+  explicit RecordedPlayer(std::unique_ptr<replay::Replay> recorded)
+      : recorded_(std::move(recorded)) {}
+
+  const physics::Rates& rates() const override { return recorded_->rates(); }
+  int outputChannels() const override { return recorded_->outputChannels(); }
+  const physics::Instrument& instrument() const override { return recorded_->instrument(); }
+  bool next(double* frames) override { return recorded_->next(frames); }
+  std::vector<std::string> flaws() const override { return recorded_->flaws(); }
+  std::int64_t ticksLeft() const override { return recorded_->ticksLeft(); }
+
+ private:
+  std::unique_ptr<replay::Replay> recorded_;
 };
 
 }  // namespace
@@ -142,6 +171,10 @@ std::unique_ptr<Player> makeHandPlayer(std::unique_ptr<station::Performer> perfo
                                        SoundInputs inputs,
                                        const std::string& csv) {
   return std::make_unique<HandPlayer>(std::move(performer), std::move(inputs), csv);
+}
+
+std::unique_ptr<Player> makeRecordedPlayer(std::unique_ptr<replay::Replay> recorded) {
+  return std::make_unique<RecordedPlayer>(std::move(recorded));
 }
 
 }  // namespace ergotic::tools

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ergotic/station/performer.hpp"
+#include "replay/replay.hpp"
 #include "tools/lib/sound_inputs.hpp"
 
 namespace ergotic::tools {
@@ -28,6 +29,9 @@ class Player {
   /// What went wrong so far, though the sound is good; empty: nothing.
   virtual std::string trouble() const { return {}; }
 
+  /// Why the sound is not that of the performance that is played again, in order; empty: it is.
+  virtual std::vector<std::string> flaws() const { return {}; }
+
   /// Ticks that are left to play; -1: no end.
   virtual std::int64_t ticksLeft() const { return -1; }
 
@@ -47,5 +51,8 @@ std::unique_ptr<Player> makeFreePlayer(std::unique_ptr<station::Performer> perfo
 std::unique_ptr<Player> makeHandPlayer(std::unique_ptr<station::Performer> performer,
                                        SoundInputs inputs,
                                        const std::string& csv);
+
+/// A recorded performance. \pre `recorded` is not null
+std::unique_ptr<Player> makeRecordedPlayer(std::unique_ptr<replay::Replay> recorded);
 
 }  // namespace ergotic::tools

@@ -13,6 +13,7 @@
 #include <CLI/CLI.hpp>
 
 #include "constants.hpp"
+#include "ergotic/bag/recording.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/build_id.hpp"
 #include "ergotic/rt/thread.hpp"
@@ -25,7 +26,6 @@
 #include "tools/lib/player.hpp"
 #include "tools/lib/progress.hpp"
 #include "tools/lib/render_energies.hpp"
-#include "tools/lib/replay.hpp"
 #include "tools/lib/report.hpp"
 #include "tools/lib/target.hpp"
 
@@ -172,10 +172,13 @@ void requireNothingElse(const RenderOptions& options) {
   }
 }
 
-std::unique_ptr<Replay> playRecording(const RenderOptions& options) {
+std::unique_ptr<Player> playRecording(const RenderOptions& options) {
   requireNothingElse(options);
-  auto replay = std::make_unique<Replay>(bag::readRecording(options.gesture, options.station),
-                                         policyOf(options), options.compile);
+  const auto choose = [&](const physics::CompileOptions& recorded) {
+    return chosenOptions(options.compile, recorded);
+  };
+  auto replay = std::make_unique<replay::Replay>(
+      bag::readRecording(options.gesture, options.station), policyOf(options), choose);
   requireBooks(options, replay->start());
   compareScene(options.scene.scene, replay->start());
   compareIsa(replay->start(), replay->instrument().options().isa, !options.compile.isa.empty());
@@ -183,10 +186,10 @@ std::unique_ptr<Replay> playRecording(const RenderOptions& options) {
     say("warning: recorded by build " + replay->start().build + ", played by build " +
         rt::buildId() + ": the sound may differ");
   }
-  return replay;
+  return makeRecordedPlayer(std::move(replay));
 }
 #else
-std::unique_ptr<Replay> playRecording(const RenderOptions& options) {
+std::unique_ptr<Player> playRecording(const RenderOptions& options) {
   throw Exception(options.gesture + ": this build has no ROS and reads no bags");
 }
 #endif
@@ -314,15 +317,8 @@ int render(const RenderOptions& options) {
   if (!options.feel.slice.empty()) {
     return feelScene(options);
   }
-  std::unique_ptr<Player> player;
-  const Replay* replay = nullptr;
-  if (endsWith(options.gesture, ".bag")) {
-    auto recorded = playRecording(options);
-    replay = recorded.get();
-    player = std::move(recorded);
-  } else {
-    player = playScene(options);
-  }
+  const std::unique_ptr<Player> player =
+      endsWith(options.gesture, ".bag") ? playRecording(options) : playScene(options);
   FrameWriter writer(options.out, player->rates().audio_hz, player->outputChannels(),
                      audio::wavFormatOf(options.out_format), wishOf(options));
   const std::int64_t frames = framesOf(options, *player);
@@ -331,14 +327,13 @@ int render(const RenderOptions& options) {
     say(warning);
   }
   const double work_s = playFrames(*player, frames, writer);
-  if (replay != nullptr && !replay->flaws().empty()) {
-    for (const std::string& flaw : replay->flaws()) {
-      say(flaw);
-    }
-    if (!options.allow_gaps) {
-      say("nothing is kept; --allow-gaps keeps it all the same");
-      return kRefused;
-    }
+  const std::vector<std::string> flaws = player->flaws();
+  for (const std::string& flaw : flaws) {
+    say(flaw);
+  }
+  if (!flaws.empty() && !options.allow_gaps) {
+    say("nothing is kept; --allow-gaps keeps it all the same");
+    return kRefused;
   }
   writer.finish();
   say(summary(*player, writer, work_s));

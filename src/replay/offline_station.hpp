@@ -7,12 +7,18 @@
 #include <vector>
 
 #include "ergotic/station/station.hpp"
-#include "tools/lib/sound_inputs.hpp"
 
-namespace ergotic::tools {
+namespace ergotic::replay {
 
 /// The model is not finite any more: silence from here on, until it begins anew or another plays.
 bool isBlowUp(const station::Event& event);
+
+/// Sound that enters an instrument from outside.
+struct SoundSource {
+  int channels = 0;
+  /// Fills [nframes][channels] from station frame `first` on.
+  std::function<void(std::int64_t first, int nframes, float* to)> read;
+};
 
 /// A station without a clock, whose sound is taken tick by tick.
 class OfflineStation : private station::FramePort {
@@ -22,9 +28,9 @@ class OfflineStation : private station::FramePort {
   /// \throws Exception if performer and driver do not fit
   OfflineStation(std::unique_ptr<station::Performer> performer,
                  std::unique_ptr<tgr::Driver> driver,
-                 SoundInputs inputs,
                  int output_channels,
-                 std::int64_t first_tick = 0);
+                 std::int64_t first_tick = 0,
+                 SoundSource inputs = {});
 
   const physics::Rates& rates() const { return rates_; }
   int outputChannels() const { return output_channels_; }
@@ -46,11 +52,11 @@ class OfflineStation : private station::FramePort {
   void push(std::int64_t first, const float* frames, int nframes) noexcept override;
   bool pull(std::int64_t first, float* frames, int nframes) noexcept override;
 
-  SoundInputs inputs_;
+  SoundSource inputs_;
   int output_channels_;
   physics::Rates rates_;
   std::vector<float> sound_;  // of the last tick, [R][station channels]
   station::Station station_;
 };
 
-}  // namespace ergotic::tools
+}  // namespace ergotic::replay

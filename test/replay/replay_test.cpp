@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/lib/replay.hpp"
+#include "replay/replay.hpp"
 
 #include <cstring>
 
+#include "replay/live_run.hpp"
 #include "support/struck_bar.hpp"
 #include "support/test.hpp"
-#include "tools/live_run.hpp"
 
-namespace ergotic::tools {
+namespace ergotic::replay {
 namespace {
 
 using test::LiveRun;
@@ -227,12 +227,20 @@ TEST(ReplayTest, TakesPrecisionKernelsThreadsAndBooksFromTheRecording) {
   expectSame(again, live.sound());
 }
 
+CompileChoice with(rt::Isa isa, int threads) {
+  return [=](physics::CompileOptions options) {
+    options.isa = isa;
+    options.threads = threads;
+    return options;
+  };
+}
+
 TEST(ReplayTest, PlaysTheSameStatesAndSamplesWithAnyKernelsAndThreads) {
   LiveRun live(kStruckScene);
   const bag::Recording recording = recordingOf(live);
   for (const rt::Isa isa : rt::isas()) {
     for (const int threads : {1, 2}) {
-      const Replayed again = replay(recording, {"", nameOf(isa), threads});
+      const Replayed again = replay(recording, with(isa, threads));
       EXPECT_EQ(again.options.isa, isa);
       EXPECT_EQ(again.options.threads, threads);
       expectSame(again, live.sound());
@@ -335,4 +343,4 @@ TEST(ReplayTest, RefusesAChangeOfAParameterThatTheModelDoesNotHave) {
 }
 
 }  // namespace
-}  // namespace ergotic::tools
+}  // namespace ergotic::replay

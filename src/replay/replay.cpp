@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/lib/replay.hpp"
+#include "replay/replay.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -9,7 +9,7 @@
 #include "ergotic/scene/text/read_scene.hpp"
 #include "ergotic/tgr/replay_driver.hpp"
 
-namespace ergotic::tools {
+namespace ergotic::replay {
 namespace {
 
 using EventType = station::Event::Type;
@@ -77,10 +77,10 @@ struct Replay::Ports final : tgr::Rig {
 
 Replay::Replay(bag::Recording recording,
                const station::PerformerPolicy& policy,
-               CompileChoice choice)
+               CompileChoice choose)
     : recording_(std::move(recording)),
       policy_(policy),
-      choice_(std::move(choice)),
+      choose_(std::move(choose)),
       start_(findStart()),
       tick_(start().tick),
       position_(slicesAt(start(), recording_)),
@@ -93,9 +93,9 @@ Replay::Replay(bag::Recording recording,
   std::copy_if(first, recording_.events.end(), std::back_inserter(lost_),
                [](const station::Event& event) { return event.type == EventType::kTicksLost; });
   std::unique_ptr<station::Performer> performer = resume(start());
-  playing_ = {performer->instrument.get(), performer->parameters};
-  station_ = std::make_unique<OfflineStation>(std::move(performer), makeDriver(),
-                                              SoundInputs({}, {}, 0.0), widestModel(), tick_);
+  playing_ = {performer.get(), performer->parameters};
+  station_ =
+      std::make_unique<OfflineStation>(std::move(performer), makeDriver(), widestModel(), tick_);
 }
 
 Replay::~Replay() = default;
@@ -124,9 +124,9 @@ std::size_t Replay::findStart() const {
 
 /// As when it was swapped in: with the parameters of its text, from its initial state.
 std::unique_ptr<station::Performer> Replay::perform(const bag::Keyframe& keyframe) const {
-  auto performer =
-      station::makePerformer(sceneOf(keyframe), keyframe.rates,
-                             chosenOptions(choice_, recordedOptions(keyframe)), policy_);
+  const physics::CompileOptions recorded = recordedOptions(keyframe);
+  auto performer = station::makePerformer(sceneOf(keyframe), keyframe.rates,
+                                          choose_ ? choose_(recorded) : recorded, policy_);
   performer->rig = std::make_unique<Ports>(ports_, performer->positions.size());
   return performer;
 }
@@ -172,6 +172,11 @@ int Replay::widestModel() const {
     channels = std::max(channels, sceneOf(recording_.keyframes[i]).outputChannels());
   }
   return channels;
+}
+
+const station::MotionFrame* Replay::motion() {
+  rt::Mailbox<station::MotionFrame>& motion = playing_.performer->motion;
+  return motion.refresh() ? &motion.latest() : nullptr;
 }
 
 std::int64_t Replay::ticksLeft() const {
@@ -241,7 +246,7 @@ void Replay::takePositions() {
 }
 
 void Replay::checkPorts() {
-  const auto ports = static_cast<std::size_t>(playing_.instrument->ports());
+  const auto ports = static_cast<std::size_t>(instrument().ports());
   if (!in_gap_ && !ports_differ_told_ && ports_.size() != ports) {
     ports_differ_told_ = true;
     addFlaw(tick_, std::to_string(ports_.size()) + " ports were recorded, the model has " +
@@ -268,7 +273,7 @@ void Replay::submitSwaps() {
       continue;
     }
     std::unique_ptr<station::Performer> performer = perform(keyframeOfSwap(event.tick));
-    incoming_ = {performer->instrument.get(), performer->parameters};
+    incoming_ = {performer.get(), performer->parameters};
     swap_tick_ = event.tick;
     station::Command swap;
     swap.type = station::Command::Type::kSwap;
@@ -292,14 +297,14 @@ void Replay::submitChanges() {
 }
 
 void Replay::submitParameter(const station::Event& event) {
-  Tone& tone = incoming_.instrument != nullptr && tick_ < swap_tick_ ? incoming_ : playing_;
+  Tone& tone = incoming_.performer != nullptr && tick_ < swap_tick_ ? incoming_ : playing_;
   if (event.index < 0 || event.index >= static_cast<std::int64_t>(tone.parameters.size())) {
     throw Exception("the change of a parameter at tick " + std::to_string(event.tick) +
                     " is of number " + std::to_string(event.index) + ", the model has " +
                     std::to_string(tone.parameters.size()));
   }
   tone.parameters[static_cast<std::size_t>(event.index)] = event.value;
-  auto coefficients = tone.instrument->prepare(tone.parameters);
+  auto coefficients = tone.performer->instrument->prepare(tone.parameters);
   station::Command change;
   change.type = station::Command::Type::kParameter;
   change.index = static_cast<int>(event.index);
@@ -360,4 +365,4 @@ void Replay::addFlaw(std::int64_t tick, const std::string& what) {
   flaws_.push_back("recording is inexact: " + what + " at tick " + std::to_string(tick));
 }
 
-}  // namespace ergotic::tools
+}  // namespace ergotic::replay

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/lib/offline_station.hpp"
+#include "replay/offline_station.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "ergotic/exception.hpp"
 
-namespace ergotic::tools {
+namespace ergotic::replay {
 namespace {
 
 station::StationConfig configOf(const physics::Rates& rates,
@@ -31,13 +31,13 @@ bool isBlowUp(const station::Event& event) {
 
 OfflineStation::OfflineStation(std::unique_ptr<station::Performer> performer,
                                std::unique_ptr<tgr::Driver> driver,
-                               SoundInputs inputs,
                                int output_channels,
-                               std::int64_t first_tick)
+                               std::int64_t first_tick,
+                               SoundSource inputs)
     : inputs_(std::move(inputs)),
       output_channels_(output_channels),
       rates_(performer->instrument->rates()),
-      station_(configOf(rates_, inputs_.channels(), output_channels, first_tick),
+      station_(configOf(rates_, inputs_.channels, output_channels, first_tick),
                std::move(driver),
                std::move(performer)) {
   sound_.resize(static_cast<std::size_t>(rates_.ratio * output_channels_));
@@ -70,8 +70,11 @@ void OfflineStation::push(std::int64_t /*first*/, const float* frames, int nfram
 }
 
 bool OfflineStation::pull(std::int64_t first, float* frames, int nframes) noexcept {
+  if (!inputs_.read) {
+    return false;
+  }
   inputs_.read(first, nframes, frames);
-  return !inputs_.areSilent();
+  return true;
 }
 
-}  // namespace ergotic::tools
+}  // namespace ergotic::replay

@@ -2,16 +2,20 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "ergotic/bag/recording.hpp"
-#include "tools/lib/offline_station.hpp"
-#include "tools/lib/options.hpp"
-#include "tools/lib/player.hpp"
+#include "ergotic/physics/options.hpp"
+#include "replay/offline_station.hpp"
 
-namespace ergotic::tools {
+namespace ergotic::replay {
+
+/// From the options that were recorded to those that are played with.
+using CompileChoice = std::function<physics::CompileOptions(physics::CompileOptions recorded)>;
 
 /// Plays a recorded performance again in a station: the recorded positions, parameter changes,
 /// swaps and new beginnings after a blow-up at their ticks. The same build gives the same samples,
@@ -19,21 +23,34 @@ namespace ergotic::tools {
 ///
 /// Ticks that never ran when it was recorded are silence; ticks that ran but are missing from the
 /// recording are played with the last position held, and told of in `flaws`.
-class Replay final : public Player {
+class Replay {
  public:
   /// Starts at the first keyframe whose tick was recorded.
   /// \throws TextError, Exception if a scene cannot be read or compiled here, or may not be played
-  /// \param choice  overrides what was recorded; the precision must not be told
+  /// \param choose  how to compile what was recorded with these options; the precision has to stay.
+  ///                If empty, as recorded
   Replay(bag::Recording recording,
          const station::PerformerPolicy& policy,
-         CompileChoice choice = {});
-  ~Replay() override;
+         CompileChoice choose = {});
+  ~Replay();
 
-  const physics::Rates& rates() const override { return station_->rates(); }
-  int outputChannels() const override { return station_->outputChannels(); }
-  const physics::Instrument& instrument() const override { return *playing_.instrument; }
-  bool next(double* frames) override;
-  std::int64_t ticksLeft() const override;
+  const physics::Rates& rates() const { return station_->rates(); }
+  int outputChannels() const { return station_->outputChannels(); }
+  const physics::Instrument& instrument() const {
+    return *playing_.performer->instrument;
+  }  ///< that plays
+
+  /// \param[out] frames  [R][output channels], where R frames make a tick
+  /// \return false if there is no more; `frames` is untouched then
+  /// \throws Exception if the recording cannot be played on
+  bool next(double* frames);
+
+  /// How the model stands now, about 60 times a second of its time.
+  /// \return null if that was not taken since the last call
+  const station::MotionFrame* motion();
+
+  /// Ticks that are left to play.
+  std::int64_t ticksLeft() const;
 
   const bag::Keyframe& start() const { return recording_.keyframes[start_]; }
 
@@ -44,7 +61,7 @@ class Replay final : public Player {
   struct Source;
   struct Ports;
   struct Tone {
-    const physics::Instrument* instrument = nullptr;
+    station::Performer* performer = nullptr;  // the station's
     std::vector<double> parameters;
   };
 
@@ -68,7 +85,7 @@ class Replay final : public Player {
 
   bag::Recording recording_;
   station::PerformerPolicy policy_;
-  CompileChoice choice_;
+  CompileChoice choose_;
   std::size_t start_;
   std::int64_t tick_;  // the one to be played next, as numbered in the recording
   std::vector<double> position_;
@@ -88,4 +105,4 @@ class Replay final : public Player {
   std::vector<std::string> flaws_;
 };
 
-}  // namespace ergotic::tools
+}  // namespace ergotic::replay

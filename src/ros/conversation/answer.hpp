@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <future>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace ergotic::node {
+
+/// Outcome of what a caller asked for, in words.
+struct Answer {
+  bool ok = false;
+  std::string message;
+};
+using Promise = std::shared_ptr<std::promise<Answer>>;
+inline void answer(const Promise& promise, bool ok, std::string message) {
+  promise->set_value({ok, std::move(message)});
+}
+
+}  // namespace ergotic::node

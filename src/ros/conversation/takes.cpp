@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/conversation/takes.hpp"
+
+#include <algorithm>
+#include <ctime>
+#include <filesystem>
+#include <set>
+#include <utility>
+
+#include <ros/console.h>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/rt/clock.hpp"
+#include "files/printable.hpp"
+#include "ros/device/hands.hpp"
+
+namespace ergotic::node {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostNames = 100;
+constexpr std::size_t kLongestName = 64;
+constexpr std::int64_t kPeriodNs = 200'000'000;
+constexpr std::uint32_t kQueue = 1;
+constexpr bool kLatched = true;
+const char kEnding[] = ".bag";
+
+bool isAllowed(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.';
+}
+
+/// \throws Exception if no file of a folder may have this name
+void requireName(const std::string& name) {
+  if (name.empty() || name.size() > kLongestName || name.front() == '.' ||
+      !std::all_of(name.begin(), name.end(), isAllowed)) {
+    throw Exception("a take cannot be named '" + files::printable(name, kLongestName) +
+                    "', allowed: 1...64 letters, digits, '_', '-' and '.', the first no '.'");
+  }
+}
+
+/// `2026-11-27_04-12-33_guitar` of `models/guitar.yaml`.
+std::string nameNow(const std::string& instrument) {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%d_%H-%M-%S_", &local);
+  std::string name = text + fs::path(instrument).stem().string();
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !isAllowed(c); }, '_');
+  return name.substr(0, kLongestName);
+}
+
+/// Names of the bags of a folder, the newest first.
+std::vector<std::string> namesIn(const std::string& folder) {
+  std::set<std::pair<fs::file_time_type, std::string>, std::greater<>> found;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const fs::path& path = entry.path();
+    if (path.extension() == kEnding && entry.is_regular_file(error)) {
+      found.emplace(entry.last_write_time(error), path.stem().string());
+    }
+  }
+  std::vector<std::string> names;
+  for (const auto& [time, name] : found) {
+    if (names.size() < kMostNames) {
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
+}  // namespace
+
+Takes::Takes(const ::ros::NodeHandle& node, Feed& feed)
+    : feed_(feed), folder_(homeFolder() + "/takes") {
+  ::ros::NodeHandle own(node);
+  publisher_ = own.advertise<ergotic::Takes>("takes", kQueue, kLatched);
+  message_.folder = folder_;
+  message_.names = namesIn(folder_);
+  send();
+}
+
+Answer Takes::record(const std::string& name, const std::string& instrument) {
+  try {
+    const std::string wanted = name.empty() ? nameNow(instrument) : name;
+    requireName(wanted);
+    std::error_code error;
+    fs::create_directories(folder_, error);
+    const std::string path = folder_ + "/" + wanted + kEnding;
+    if (fs::exists(path, error)) {
+      throw Exception(path + " is there already: choose another name");
+    }
+    if (writer_) {
+      static_cast<void>(finish());
+    }
+    writer_ = std::make_shared<TakeWriter>(path);
+    feed_.record(writer_);
+    path_ = path;
+    message_.recording = wanted;
+    message_.recorded = 0.0;
+    send();
+    return {true, "records " + path};
+  } catch (const std::exception& refusal) {
+    return {false, refusal.what()};
+  }
+}
+
+Answer Takes::finish() {
+  if (!writer_) {
+    return {false, "no take is recorded"};
+  }
+  feed_.record(nullptr);
+  const std::shared_ptr<TakeWriter> done = std::exchange(writer_, nullptr);
+  Answer answer{true, done->path()};
+  path_ = done->path();
+  try {
+    done->finish();
+  } catch (const std::exception& failure) {
+    answer = {false, failure.what()};
+  }
+  message_.recording.clear();
+  message_.names = namesIn(folder_);
+  send();
+  return answer;
+}
+
+void Takes::replay(const std::string& name,
+                   const station::AudioBridge* bridge,
+                   double rate_hz,
+                   double display_zoom,
+                   const Promise& promise) {
+  try {
+    message_.names = namesIn(folder_);
+    if (name.empty() && message_.names.empty()) {
+      throw Exception("there is no take in " + folder_);
+    }
+    const std::string wanted = name.empty() ? message_.names.front() : name;
+    requireName(wanted);
+    if (bridge == nullptr || !bridge->status().running) {
+      throw Exception(
+          "there is no sound to play a take with, for no JACK server runs: `render --gesture` "
+          "writes a take into a file");
+    }
+    if (player_ || !bridge->takes()->isSilent()) {
+      throw Exception("a take is played already: halt it first");
+    }
+    path_ = folder_ + "/" + wanted + kEnding;
+    player_ = std::make_unique<TakePlayer>(path_, bridge->takes(), rate_hz, display_zoom);
+    begins_ = promise;
+    message_.replaying = wanted;
+    message_.replayed = message_.length = 0.0;
+    send();
+  } catch (const std::exception& refusal) {
+    answer(promise, false, refusal.what());
+  }
+}
+
+Answer Takes::halt() {
+  if (!player_) {
+    return {false, "no take is played"};
+  }
+  player_->halt();
+  return {true, "the take ends"};
+}
+
+void Takes::poll(const std::shared_ptr<Picture>& picture) {
+  pollPlayer(picture);
+  pollWriter();
+  retired_.erase(std::remove_if(retired_.begin(), retired_.end(),
+                                [](const std::unique_ptr<TakePlayer>& player) {
+                                  return player->news().state == TakePlayer::State::kOver;
+                                }),
+                 retired_.end());
+  if ((player_ || writer_) && rt::monotonicNs() >= due_ns_) {
+    send();
+  }
+}
+
+void Takes::pollPlayer(const std::shared_ptr<Picture>& picture) {
+  if (!player_) {
+    return;
+  }
+  TakePlayer::News news = player_->news();
+  message_.replayed = news.played_s;
+  message_.length = news.length_s;
+  if (news.picture) {
+    begin(news);
+  }
+  if (const auto motion = player_->motion(); motion && shows_) {
+    feed_.showTake(*motion);
+  }
+  if (news.state == TakePlayer::State::kOver) {
+    end(news, picture);
+  }
+}
+
+void Takes::begin(const TakePlayer::News& news) {
+  shows_ = true;
+  feed_.showPicture(news.picture);
+  if (begins_) {
+    answer(std::exchange(begins_, nullptr), true, "plays " + path_);
+  }
+}
+
+void Takes::end(const TakePlayer::News& news, const std::shared_ptr<Picture>& picture) {
+  player_.reset();
+  if (begins_) {
+    answer(std::exchange(begins_, nullptr), !news.failed, news.message);
+  } else if (!news.message.empty()) {
+    ROS_WARN_STREAM(news.message);
+    feed_.addMessage(news.message);
+  }
+  if (std::exchange(shows_, false)) {
+    feed_.showPicture(picture);
+  }
+  message_.replaying.clear();
+  send();
+}
+
+/// A take that cannot be written to its end is finished at once, and that is told.
+void Takes::pollWriter() {
+  if (!writer_) {
+    return;
+  }
+  message_.recorded = writer_->seconds();
+  if (!writer_->trouble().empty()) {
+    const Answer failure = finish();
+    ROS_ERROR_STREAM(failure.message);
+    feed_.addMessage(failure.message);
+  }
+}
+
+void Takes::close() {
+  if (writer_) {
+    static_cast<void>(finish());
+  }
+  begins_.reset();
+  if (player_) {
+    player_->halt();
+    retired_.push_back(std::move(player_));
+    message_.replaying.clear();
+    shows_ = false;
+    send();
+  }
+}
+
+void Takes::send() {
+  due_ns_ = rt::monotonicNs() + kPeriodNs;
+  message_.header.stamp = ::ros::Time::now();
+  publisher_.publish(message_);
+}
+
+}  // namespace ergotic::node

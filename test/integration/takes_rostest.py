@@ -1,0 +1,139 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Takes: what a station records by itself, and how it plays that again through its JACK ports."""
+import os
+import subprocess
+import time
+
+import numpy
+import rospy
+import rostest
+
+from desk import ROOT, DeskTest, Newest, until
+from ergotic.msg import ModelState, ModelStructure, Note, Status, Takes
+from ergotic.srv import LoadModel, SetParameter, Take, TakeRequest
+
+TOOLS = os.path.join(ROOT, "devel/lib/ergotic")
+MODEL = os.path.join(ROOT, "models/string.yaml")
+FADE = 400  # frames, more than the fade in of a take
+
+
+def samples(path):
+    """[channels, frames] of 32-bit floats."""
+    with open(path, "rb") as file:
+        data = file.read()
+    channels = int.from_bytes(data[data.index(b"fmt ") + 10:][:2], "little")
+    start = data.index(b"data") + 8
+    sound = numpy.frombuffer(data[start:start + (len(data) - start) // (4 * channels) * 4 * channels], dtype="<f4")
+    return sound.reshape(-1, channels).T
+
+
+class TakesTest(DeskTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        os.environ["ROS_HOME"] = os.path.join(cls.folder.name, "ros home")
+        cls.takes_folder = os.path.join(os.environ["ROS_HOME"], "ergotic/takes")
+        cls.start_jack()
+        cls.status = Newest("/station/status", Status)
+        cls.takes = Newest("/station/takes", Takes)
+        cls.state = Newest("/station/model_state", ModelState)
+        cls.structure = Newest("/station/model_structure", ModelStructure)
+        cls.start_station(model=MODEL, autoengage=True, limiter=False)
+        assert until(lambda: cls.status.message and cls.status.message.state == Status.PLAYING and
+                     cls.status.message.audio_running, 60), "no force, or no sound"
+        cls.notes = rospy.Publisher("/station/notes", Note, queue_size=10)
+        assert until(lambda: cls.notes.get_num_connections() > 0)
+
+    def take(self, action, name=""):
+        return rospy.ServiceProxy("/station/take", Take)(action=action, name=name)
+
+    def record(self, name):
+        answer = self.take(TakeRequest.RECORD, name)
+        self.assertTrue(answer.success, answer.message)
+        self.assertTrue(until(lambda: self.takes.message.recorded > 0.1), "nothing is recorded")
+        for note in (60, 48, 62):
+            self.notes.publish(note=note, velocity=100)
+            time.sleep(0.3)
+            self.notes.publish(note=note, velocity=0)
+        parameter = rospy.ServiceProxy("/station/set_parameter", SetParameter)
+        self.assertTrue(parameter(name="brightness", value=5e-3).success)
+        time.sleep(0.5)
+        answer = self.take(TakeRequest.FINISH)
+        self.assertTrue(answer.success, answer.message)
+        return answer.path
+
+    def swing(self):
+        first, count = self.structure.message.string_first[0], self.structure.message.string_count[0]
+        return max(map(abs, self.state.message.displacement[first:first + count]))
+
+    def test_1_a_take_is_replayed_through_the_ports_bit_for_bit(self):
+        path = self.record("first")
+        self.assertEqual(path, os.path.join(self.takes_folder, "first.bag"))
+        self.assertEqual(self.takes.message.names[0], "first")
+        rendered = os.path.join(self.folder.name, "rendered.wav")
+        subprocess.run([os.path.join(TOOLS, "render"), "--gesture", path, "--out", rendered],
+                       check=True, timeout=60, capture_output=True)
+        # A new one has not been touched, so that it is silent.
+        self.assertTrue(rospy.ServiceProxy("/station/load_model", LoadModel)(model=MODEL).success)
+        captured = os.path.join(self.folder.name, "captured.wav")
+        capture = self.start(os.path.join(TOOLS, "capture"), "--seconds", "8", "--port", "ergotic:out_1", "--port",
+                             "ergotic:out_2", captured, stdout=subprocess.DEVNULL)
+        time.sleep(1.0)
+        answer = self.take(TakeRequest.REPLAY)
+        self.assertTrue(answer.success, answer.message)
+        self.assertTrue(until(lambda: self.takes.message.replaying == "first" and self.takes.message.replayed > 0))
+        self.assertTrue(until(lambda: self.swing() > 1e-4), "the picture is not that of the take")
+        self.assertFalse(self.take(TakeRequest.REPLAY).success, "one is played already")
+        self.assertTrue(until(lambda: self.takes.message.replaying == "", 20), "it does not end")
+        self.assertTrue(until(lambda: self.swing() < 1e-6), "the picture is still that of the take")
+        self.assertTrue(until(lambda: capture.poll() is not None, 20))
+        wanted, heard = samples(rendered)[:, FADE:], samples(captured)
+        loud = int(numpy.argmax(numpy.abs(wanted[0])))
+        self.assertGreater(abs(wanted[0][loud]), 1e-3, "the take is silent")
+        places = [at - loud for at in numpy.flatnonzero(heard[0] == wanted[0][loud])
+                  if 0 <= at - loud <= heard.shape[1] - wanted.shape[1]]
+        worst = min((int(numpy.count_nonzero(heard[:, at:at + wanted.shape[1]] != wanted)) for at in places),
+                    default=-1)
+        print(f"{wanted.shape[1]} frames, {worst} samples differ")
+        self.assertEqual(worst, 0)
+
+    def test_2_what_cannot_be_done_is_said_and_nothing_is_lost(self):
+        for name in ("../first", "a b", ".x", "n" * 65):
+            answer = self.take(TakeRequest.RECORD, name)
+            self.assertFalse(answer.success)
+            self.assertIn("allowed: 1...64 letters", answer.message)
+        before = os.path.getsize(os.path.join(self.takes_folder, "first.bag"))
+        self.assertIn("is there already", self.take(TakeRequest.RECORD, "first").message)
+        self.assertEqual(os.path.getsize(os.path.join(self.takes_folder, "first.bag")), before)
+        self.assertIn("no take is recorded", self.take(TakeRequest.FINISH).message)
+        self.assertIn("no take is played", self.take(TakeRequest.HALT).message)
+        self.assertIn("action is 9", self.take(9).message)
+        with open(os.path.join(self.takes_folder, "broken.bag"), "w", encoding="utf-8") as file:
+            file.write("no bag")
+        answer = self.take(TakeRequest.REPLAY, "broken")
+        self.assertFalse(answer.success)
+        self.assertIn("broken.bag: ", answer.message)
+        self.assertIn("missing.bag", self.take(TakeRequest.REPLAY, "missing").message)
+
+    def test_3_a_halted_take_fades_and_the_next_one_can_be_played(self):
+        for _ in range(2):
+            self.assertTrue(self.take(TakeRequest.REPLAY, "first").success)
+            time.sleep(0.5)
+            self.assertTrue(self.take(TakeRequest.HALT).success)
+            self.assertTrue(until(lambda: self.takes.message.replaying == "", 2))
+
+    def test_4_a_take_without_a_name_has_that_of_its_instrument(self):
+        answer = self.take(TakeRequest.RECORD)
+        self.assertTrue(answer.success, answer.message)
+        self.assertTrue(until(lambda: self.takes.message.recording))
+        self.assertRegex(self.takes.message.recording, r"^\d{4}-\d\d-\d\d_\d\d-\d\d-\d\d_plucked_and_struck_string$")
+        self.assertTrue(until(lambda: self.takes.message.recorded > 0.2))
+        self.station.terminate()
+        self.station.wait()
+        self.assertTrue(os.path.exists(answer.path), "a station that ends finishes its take")
+
+
+if __name__ == "__main__":
+    rospy.init_node("takes")
+    rostest.rosrun("ergotic", "takes", TakesTest)

@@ -5,18 +5,86 @@
 #include <cmath>
 #include <sstream>
 
+#include "ergotic/scene/grid.hpp"
+
 namespace ergotic::station {
 namespace {
 
 constexpr std::size_t kMostWarnings = 5;  // links named; a generator makes many
 
-std::string warningOf(const scene::Scene& scene, const physics::GuardReport& guard) {
+/// Modules by their guarded links, which share what they may spend, and how far a force moves each.
+class Mobility {
+ public:
+  explicit Mobility(const scene::Scene& scene) : scene_(scene), links_(scene.mats.size(), 0.0) {
+    for (const scene::Lia& lia : scene.lias) {
+      if (lia.scheme == scene::Scheme::kGuarded) {
+        for (const int end : {lia.a, lia.b}) {
+          visit(end, 1.0, [this](std::size_t mat, double /*weight*/) { links_[mat] += 1.0; });
+        }
+      }
+    }
+  }
+
+  /// 1/kg, as if all guarded links of a module pushed at once.
+  double of(int end) const {
+    double mobility = 0.0;
+    visit(end, 1.0, [&](std::size_t mat, double weight) {
+      mobility +=
+          std::max(links_[mat], 1.0) * weight * weight / scene_.valueOf(scene_.mats[mat].mass);
+    });
+    return mobility;
+  }
+
+ private:
+  /// The masses that a module is, or lies on as a point, and how much each counts.
+  template <class Visit>
+  void visit(int index, double weight, const Visit& seen) const {
+    const auto mat = static_cast<std::size_t>(index);
+    const scene::MatType type = scene_.mats[mat].type;
+    if (type == scene::MatType::kMass || type == scene::MatType::kCell) {
+      return seen(mat, weight);
+    }
+    if (type != scene::MatType::kPoint) {
+      return;
+    }
+    for (const scene::Connection& connection : scene_.connections) {
+      if (connection.mat == index) {
+        const scene::GridPlace around = scene::placeOf(scene_, connection);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(around.count); ++i) {
+          visit(around.mats[i], weight * around.weights[i], seen);
+        }
+      }
+    }
+    for (const scene::Tap& tap : scene_.taps) {
+      for (std::size_t i = 0; tap.mat == index && i < tap.shares.size(); ++i) {
+        visit(tap.shares[i].mat, weight * tap.shares[i].weight, seen);
+      }
+    }
+  }
+
+  const scene::Scene& scene_;
+  std::vector<double> links_;  // [mats] that are guarded
+};
+
+std::string warningOf(const scene::Scene& scene,
+                      const physics::Rates& rates,
+                      const physics::GuardReport& guard) {
   const scene::Lia& lia = scene.lias[static_cast<std::size_t>(guard.lia)];
+  const double stiffness = scene.valueOf(lia.stiffness);
+  const double most = mostStiffness(scene, lia, rates);
   std::ostringstream text;
   text.precision(2);
   text << scene.file << ':' << lia.place.line << ':' << lia.place.column << ": warning: link '"
        << lia.name << "': its force was cut in " << 100.0 * clippedShare(guard) << " % of "
-       << guard.active << " steps so that it makes no energy; raise the rate or soften the link";
+       << guard.active << " steps so that it makes no energy";
+  if (stiffness > most) {
+    text << ": its 'stiffness' is " << stiffness << ", and from about " << most
+         << " down these masses can follow it at this rate. Lower it, raise the rate, or let fewer "
+            "contacts share a module";
+  } else {
+    text << ": it gives back less than it took. Lower its 'damping', raise the rate, or let fewer "
+            "contacts share a module";
+  }
   return text.str();
 }
 
@@ -27,7 +95,20 @@ double clippedShare(const physics::GuardReport& guard) {
                            : static_cast<double>(guard.clipped) / static_cast<double>(guard.active);
 }
 
+double mostStiffness(const scene::Scene& scene,
+                     const scene::Lia& lia,
+                     const physics::Rates& rates) {
+  const auto divisor = [&](int mat) {
+    const auto& module = scene.mats[static_cast<std::size_t>(mat)];
+    return physics::divisorOf(scene.sectionOf(module), rates);
+  };
+  const double step = std::min(divisor(lia.a), divisor(lia.b)) / rates.audio_hz / scene.time_unit_s;
+  const Mobility mobility(scene);
+  return 1.0 / (step * step * (mobility.of(lia.a) + mobility.of(lia.b)));
+}
+
 std::vector<std::string> guardWarnings(const scene::Scene& scene,
+                                       const physics::Rates& rates,
                                        const std::vector<physics::GuardReport>& guards) {
   std::vector<physics::GuardReport> cut;
   std::copy_if(guards.begin(), guards.end(), std::back_inserter(cut),
@@ -38,7 +119,7 @@ std::vector<std::string> guardWarnings(const scene::Scene& scene,
             [](const auto& a, const auto& b) { return clippedShare(a) > clippedShare(b); });
   std::vector<std::string> warnings;
   for (std::size_t g = 0; g < std::min(cut.size(), kMostWarnings); ++g) {
-    warnings.push_back(warningOf(scene, cut[g]));
+    warnings.push_back(warningOf(scene, rates, cut[g]));
   }
   if (cut.size() > kMostWarnings) {
     warnings.push_back(scene.file + ": warning: and " + std::to_string(cut.size() - kMostWarnings) +

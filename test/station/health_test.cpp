@@ -21,14 +21,26 @@ scene::Scene links() {
 }
 
 TEST(HealthTest, TellsOfLinksThatAreCutInMoreThanFivePercentOfTheirStepsWorstFirst) {
-  EXPECT_THAT(guardWarnings(links(), {{0, 1000, 60}, {1, 1000, 50}, {2, 200, 150}}),
+  EXPECT_THAT(guardWarnings(links(), {}, {{0, 1000, 60}, {1, 1000, 50}, {2, 200, 150}}),
               ElementsAre(AllOf(HasSubstr("built.yaml:"), HasSubstr("warning: link 'l2'"),
-                                HasSubstr("75 % of 200 steps"), HasSubstr("raise the rate")),
+                                HasSubstr("75 % of 200 steps"), HasSubstr("Lower its 'damping'")),
                           AllOf(HasSubstr("link 'l0'"), HasSubstr("6 % of 1000 steps"))));
 }
 
+TEST(HealthTest, SaysHowStiffALinkCanBeForItsMassesAndThoseThatShareThem) {
+  scene::Scene scene = links();  // of 1 kg and the ground
+  for (scene::Lia& lia : scene.lias) {
+    lia.scheme = scene::Scheme::kGuarded;
+  }
+  const double alone = 44100.0 * 44100.0;
+  EXPECT_NEAR(mostStiffness(scene, scene.lias[0], {}), alone / 3.0, 1e-6 * alone);
+  scene.lias[1].stiffness.factor = 6.6e8;
+  EXPECT_THAT(guardWarnings(scene, {}, {{1, 1000, 60}}),
+              ElementsAre(HasSubstr("its 'stiffness' is 6.6e+08, and from about 6.5e+08 down")));
+}
+
 TEST(HealthTest, KeepsQuietAboutLinksThatHardlyPushed) {
-  EXPECT_THAT(guardWarnings(links(), {{0, 199, 199}, {1, 0, 0}}), IsEmpty());
+  EXPECT_THAT(guardWarnings(links(), {}, {{0, 199, 199}, {1, 0, 0}}), IsEmpty());
 }
 
 TEST(HealthTest, MeasuresTheResidualAgainstAllTheEnergyThatThereWas) {

@@ -356,6 +356,17 @@ struct Selected {
   Place place;
 };
 
+/// The shape of a body that is played by its modes, for pictures: places, each of which moves along
+/// x by the weighted sum of its modes.
+struct Outline {
+  std::string name;
+  int first_mat = 0;  ///< its first mode; the others follow
+  int modes = 0;
+  std::vector<Eigen::Vector3d> rest;       ///< [places] m, in the section
+  std::vector<double> weights;             ///< [places][modes]
+  std::vector<std::pair<int, int>> lines;  ///< between places
+};
+
 /// A whole scene.
 /// \invariant after `validate`: every index is legal, names are unique, masses are positive.
 struct Scene {
@@ -378,6 +389,7 @@ struct Scene {
   std::vector<StringInfo> strings;
   std::vector<Tuning> tunings;
   std::vector<BodyLimit> body_limits;
+  std::vector<Outline> outlines;
   std::vector<Grid> grids;
   std::vector<Connection> connections;
   std::vector<Tap> taps;

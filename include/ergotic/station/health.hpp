@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ergotic/physics/engine/energy.hpp"
+#include "ergotic/physics/rates.hpp"
 #include "ergotic/scene/scene.hpp"
 
 /// Whether what plays is what the scene says. Realtime: no.
@@ -18,9 +19,15 @@ constexpr std::int64_t kMinActiveSteps = 200;
 /// Clipped over active steps; 0 if it never pushed.
 double clippedShare(const physics::GuardReport& guard);
 
+/// How steep the force of a guarded link may be where it pushes, for its tank to hold what its law
+/// asks for, kg/time_unit^2: q K <= 1, with all guarded links of a module at once; infinite between
+/// modules that no force moves. Source: docs/physics.md, "Guarded links".
+double mostStiffness(const scene::Scene& scene, const scene::Lia& lia, const physics::Rates& rates);
+
 /// One line for each guarded link that is cut too often, worst first: which, how often, and what to
 /// change.
 std::vector<std::string> guardWarnings(const scene::Scene& scene,
+                                       const physics::Rates& rates,
                                        const std::vector<physics::GuardReport>& guards);
 
 /// Residual of the balance over all the energy that there was: what is stored and what was

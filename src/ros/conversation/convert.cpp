@@ -182,6 +182,12 @@ ModelStructure toModelStructure(const scene::Scene& scene, const physics::Rates&
   return message;
 }
 
+std::shared_ptr<Picture> toPicture(const physics::Instrument& instrument, double zoom) {
+  const scene::Scene drawn = Outlines::addTo(instrument.scene());
+  return std::make_shared<Picture>(Picture{toModelStructure(drawn, instrument.rates()),
+                                           Markers(drawn, zoom), Outlines(instrument.scene())});
+}
+
 ParametersMessage toParameters(const scene::Scene& scene, const std::vector<double>& values) {
   ParametersMessage message;
   for (const scene::Parameter& parameter : scene.parameters) {
@@ -285,8 +291,11 @@ void fillStatus(const physics::Instrument& instrument, Status& status) {
 void fillStatus(const station::MotionFrame& motion, const scene::Scene& scene, Status& status) {
   status.stored_energy = motion.energies.stored;
   status.energy_residual = station::relativeResidual(motion.energies);
-  const std::vector<std::string> warnings = station::guardWarnings(scene, motion.guards);
-  status.guard_warning = warnings.empty() ? "" : warnings.front();
+  if (status.guard_warning.empty()) {  // one is enough, and costs a look at the whole scene
+    const std::vector<std::string> warnings = station::guardWarnings(
+        scene, {status.audio_rate, static_cast<int>(status.ratio)}, motion.guards);
+    status.guard_warning = warnings.empty() ? "" : warnings.front();
+  }
 }
 
 ModelEnergy toModelEnergy(const station::MotionFrame& motion) {

@@ -12,6 +12,7 @@
 #include "ergotic/physics/engine/instrument.hpp"
 #include "ergotic/station/messages.hpp"
 #include "ergotic/station/station.hpp"
+#include "ros/display/display.hpp"
 
 /// From our plain structs to messages. Stamps are the caller's.
 namespace ergotic::node {
@@ -20,6 +21,9 @@ namespace ergotic::node {
 using ParametersMessage = ::ergotic::Parameters;
 
 ModelStructure toModelStructure(const scene::Scene& scene, const physics::Rates& rates);
+
+/// What an instrument looks like. \param zoom  of Markers
+std::shared_ptr<Picture> toPicture(const physics::Instrument& instrument, double zoom);
 
 /// Names, ranges and units of what can be changed while it plays.
 /// \param values  now in force, one for each

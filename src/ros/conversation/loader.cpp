@@ -36,12 +36,6 @@ std::unique_ptr<station::Performer> makePerformer(scene::Scene scene,
   }
 }
 
-std::shared_ptr<Picture> pictureOf(const physics::Instrument& instrument, double zoom) {
-  const scene::Scene& scene = instrument.scene();
-  return std::make_shared<Picture>(
-      Picture{toModelStructure(scene, instrument.rates()), Markers(scene, zoom)});
-}
-
 void logStage(const std::string& stage) {
   ROS_INFO_STREAM(stage);
 }
@@ -134,7 +128,7 @@ Answer Loader::play(scene::Scene scene,
       physics::chooseRates(scene, terms->rates.audio_hz, terms->rates.gesturalHz());
   auto performer =
       makePerformer(std::move(scene), rates, terms->parameters.compile, policy, verdict);
-  const auto picture = pictureOf(*performer->instrument, terms->parameters.display_zoom);
+  const auto picture = toPicture(*performer->instrument, terms->parameters.display_zoom);
   return operator_.swap(std::move(performer), picture, loader);
 }
 
@@ -155,7 +149,7 @@ Answer Loader::start(scene::Scene scene, bool allow_unproven, std::string& verdi
   auto performer = makePerformer(std::move(scene), rates, parameters.compile, policy, verdict);
   station::giveHands(*performer, policy.end_effectors, policy.slices, policy.device);
   station::Performer* const first = performer.get();
-  const auto picture = pictureOf(*first->instrument, parameters.display_zoom);
+  const auto picture = toPicture(*first->instrument, parameters.display_zoom);
   auto engine = std::make_unique<Engine>(parameters, std::move(hands), std::move(performer),
                                          operator_.interlock());
   if (parameters.require_master) {

@@ -76,10 +76,9 @@ void TakePlayer::run(const std::string& path, double display_zoom) {
       throw Exception(text.str());
     }
     {
-      const scene::Scene& scene = replay.instrument().scene();
+      std::shared_ptr<Picture> picture = toPicture(replay.instrument(), display_zoom);
       const std::lock_guard lock(mutex_);
-      news_.picture = std::make_shared<Picture>(
-          Picture{toModelStructure(scene, replay.rates()), Markers(scene, display_zoom)});
+      news_.picture = std::move(picture);
       news_.length_s = static_cast<double>(replay.ticksLeft() * replay.rates().ratio) / rate_hz_;
       news_.state = State::kPlays;
     }

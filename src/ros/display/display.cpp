@@ -68,7 +68,8 @@ void Display::begin(std::shared_ptr<Picture> picture) {
   erases_ = true;
 }
 
-void Display::draw(const ModelState& motion) {
+void Display::draw(ModelState& motion) {
+  picture_->outlines.move(motion.displacement);
   if (model_state_.getNumSubscribers() > 0) {
     model_state_.publish(motion);
   }

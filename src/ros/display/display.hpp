@@ -14,6 +14,7 @@
 #include "ros/display/end_effector_frames.hpp"
 #include "ros/display/markers.hpp"
 #include "ros/display/newest.hpp"
+#include "ros/display/outlines.hpp"
 
 namespace ergotic::node {
 
@@ -21,6 +22,7 @@ namespace ergotic::node {
 struct Picture {
   ModelStructure structure;  ///< without a stamp
   Markers markers;
+  Outlines outlines;
 };
 
 /// Draws what plays, in a thread of its own: however long a picture takes, nothing else waits for
@@ -48,7 +50,7 @@ class Display {
   // Thread: the display's own.
   void draw(News& news);
   void begin(std::shared_ptr<Picture> picture);
-  void draw(const ModelState& motion);
+  void draw(ModelState& motion);
   void drawMarkers(const ModelState& motion);
 
   ::ros::NodeHandle node_;

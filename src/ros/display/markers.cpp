@@ -43,6 +43,14 @@ Marker markerOf(const scene::Section& section, std::size_t index, int type, int 
   return marker;
 }
 
+/// What it stands for is seen by its outline.
+bool isModeOfOutline(const scene::Scene& scene, int mat) {
+  return std::any_of(scene.outlines.begin(), scene.outlines.end(),
+                     [mat](const scene::Outline& outline) {
+                       return mat >= outline.first_mat && mat < outline.first_mat + outline.modes;
+                     });
+}
+
 }  // namespace
 
 Markers::Markers(const scene::Scene& scene, double zoom) {
@@ -58,7 +66,9 @@ Markers::Markers(const scene::Scene& scene, double zoom) {
     const auto section = static_cast<std::size_t>(mat.section);
     const int dimensions = scene::dimensionsOf(scene.sections[section].geometry);
     modules_.push_back({mat.rest, section, first, dimensions});
-    modules[section].push_back(i);
+    if (!isModeOfOutline(scene, static_cast<int>(i))) {
+      modules[section].push_back(i);
+    }
     first += static_cast<std::size_t>(dimensions);
   }
   for (const scene::Lia& lia : scene.lias) {

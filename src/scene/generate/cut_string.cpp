@@ -159,6 +159,9 @@ class Cutter {
       tuning.first_mat = moved(tuning.first_mat);
       tuning.first_lia = movedLia(tuning.first_lia);
     }
+    for (Outline& outline : to_.outlines) {
+      outline.first_mat = moved(outline.first_mat);
+    }
     for (Grid& grid : to_.grids) {
       grid.first = moved(grid.first);
     }

@@ -17,6 +17,9 @@ namespace {
 
 constexpr double kHighestByItselfHz = 18'000.0;
 constexpr double kCellSpacing = 0.01;  // m, of the picture
+// Of an outline: so many places show the shape of every mode that is seen.
+constexpr int kOutlineColumns = 25;
+constexpr int kOutlineRows = 13;
 
 /// The taps of a network, between the modules around each place.
 void addPlaces(SceneBuilder& builder, const std::string& name, const BodyForm& form, Place place) {
@@ -96,6 +99,7 @@ class Modes {
         break;
       }
     }
+    setOutline(modes, std::sqrt(whole));
     return std::move(spec_);
   }
 
@@ -138,17 +142,77 @@ class Modes {
     partial.frequency_hz = hz;
     partial.t60_s = t60At(hz_, wish_, hz);
     partial.mass = whole;
-    const Grid& grid = network_.scene().grids.back();
     for (const BodyPlace& wanted : form_.places) {
-      const GridPlace there = placeOn(grid, wanted.along, wanted.across);
-      double weight = 0.0;
-      for (std::size_t i = 0; i < at(there.count); ++i) {
-        weight += there.weights[i] * modes.shapes(there.mats[i] - grid.first, j);
-      }
-      partial.weights.push_back(weight * std::sqrt(whole));
+      const GridPlace there = placeOn(grid(), wanted.along, wanted.across);
+      partial.weights.push_back(shapeAt(modes, there, j) * std::sqrt(whole));
     }
     spec_.partials.push_back(std::move(partial));
     return true;
+  }
+
+  const Grid& grid() const { return network_.scene().grids.back(); }
+  double shapeAt(const BodyModes& modes, const GridPlace& there, int j) const {
+    double shape = 0.0;
+    for (std::size_t i = 0; i < at(there.count); ++i) {
+      shape += there.weights[i] * modes.shapes(there.mats[i] - grid().first, j);
+    }
+    return shape;
+  }
+  Eigen::Vector3d restAt(const GridPlace& there) const {
+    Eigen::Vector3d rest = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < at(there.count); ++i) {
+      rest += there.weights[i] * network_.scene().mats[at(there.mats[i])].rest;
+    }
+    return rest;
+  }
+
+  void setOutline(const BodyModes& modes, double root_of_mass) {
+    for (const BodyPlace& wanted : form_.places) {
+      spec_.seen_at.push_back(restAt(placeOn(grid(), wanted.along, wanted.across)));
+    }
+    Outline& outline = spec_.outline;
+    outline.name = spec_.name;
+    outline.modes = static_cast<int>(spec_.partials.size());
+    const int columns = std::min(grid().columns, kOutlineColumns);
+    const int rows = std::min(grid().rows, kOutlineRows);
+    std::vector<int> places(at(rows * columns));  // their numbers, -1: none, beyond a round edge
+    const auto shape = [&](int row, int column, int j) {
+      return shapeAt(modes, outlinePlace(row, rows, column, columns), j) * root_of_mass;
+    };
+    const auto moves = [&](int row, int column) {
+      bool any = false;
+      for (int j = 0;
+           j < outline.modes && row >= 0 && row < rows && column >= 0 && column < columns; ++j) {
+        any = any || shape(row, column, j) != 0.0;
+      }
+      return any;
+    };
+    for (int row = 0; row < rows; ++row) {
+      for (int column = 0; column < columns; ++column) {
+        const bool is_there = moves(row, column) || moves(row - 1, column) ||
+                              moves(row + 1, column) || moves(row, column - 1) ||
+                              moves(row, column + 1);
+        int& number = places[at(row * columns + column)];
+        number = is_there ? static_cast<int>(outline.rest.size()) : -1;
+        if (!is_there) {
+          continue;
+        }
+        outline.rest.push_back(restAt(outlinePlace(row, rows, column, columns)));
+        for (int j = 0; j < outline.modes; ++j) {
+          outline.weights.push_back(shape(row, column, j));
+        }
+        const int left = column > 0 ? places[at(row * columns + column - 1)] : -1;
+        const int above = row > 0 ? places[at((row - 1) * columns + column)] : -1;
+        for (const int other : {left, above}) {
+          if (other >= 0) {
+            outline.lines.emplace_back(other, number);
+          }
+        }
+      }
+    }
+  }
+  GridPlace outlinePlace(int row, int rows, int column, int columns) const {
+    return placeOn(grid(), column / std::max(columns - 1.0, 1.0), row / std::max(rows - 1.0, 1.0));
   }
 
   const SceneBuilder& builder_;
@@ -195,7 +259,14 @@ void addModalBody(SceneBuilder& builder, const ModalSpec& spec) {
       builder.fail(spec.place, "place " + quoted(spec.places[p]) + " of body " + quoted(spec.name) +
                                    " does not move in any of its partials, allowed: one that does");
     }
-    addTap(builder, spec.name + "." + spec.places[p], std::move(tap));
+    const int point = addTap(builder, spec.name + "." + spec.places[p], std::move(tap));
+    if (p < spec.seen_at.size()) {  // a picture shows it there; along x it rests as it did
+      builder.scene().mats[at(point)].rest.tail<2>() = spec.seen_at[p].tail<2>();
+    }
+  }
+  if (!spec.outline.rest.empty()) {
+    builder.scene().outlines.push_back(spec.outline);
+    builder.scene().outlines.back().first_mat = first;
   }
 }
 

@@ -36,6 +36,8 @@ struct ModalSpec {
   int section = 0;
   std::vector<Partial> partials;
   std::vector<std::string> places;
+  std::vector<Eigen::Vector3d> seen_at;  ///< rest of each place in pictures, m; may be empty
+  Outline outline;                       ///< without places: it has none
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< rest of the first cell, m
   Place place;
 };

@@ -45,7 +45,7 @@ int addPoint(SceneBuilder& builder, const std::string& name, Connection connecti
   return connection.mat;
 }
 
-void addTap(SceneBuilder& builder, const std::string& name, Tap tap) {
+int addTap(SceneBuilder& builder, const std::string& name, Tap tap) {
   Scene& scene = builder.scene();
   Mat point = pointOn(scene, name, tap.shares, tap.place);
   // What does not move is seen in the middle, whatever the weights add up to.
@@ -59,6 +59,7 @@ void addTap(SceneBuilder& builder, const std::string& name, Tap tap) {
   point.rest.tail(3 - moving) = middle.tail(3 - moving) / (whole > 0.0 ? whole : 1.0);
   tap.mat = builder.add(std::move(point));
   scene.taps.push_back(std::move(tap));
+  return scene.taps.back().mat;
 }
 
 }  // namespace ergotic::scene

@@ -16,7 +16,8 @@ int addPoint(SceneBuilder& builder, const std::string& name, Connection connecti
 
 /// Adds a tap and its kPoint, which starts where its modules take it.
 /// \param tap  all but `mat`; one share at least
+/// \return     index of the point
 /// \throws TextError  if the name is taken
-void addTap(SceneBuilder& builder, const std::string& name, Tap tap);
+int addTap(SceneBuilder& builder, const std::string& name, Tap tap);
 
 }  // namespace ergotic::scene

@@ -190,9 +190,10 @@ void moveTo(const SceneBuilder& builder,
   }
   Mover mover(pose, geometry, element);
   const bool is_generated = part == "generators";
-  const bool is_long = element.find("to") != nullptr;
+  const bool is_bar = is_generated && word == "bar";
+  const bool is_long = is_bar || element.find("to") != nullptr;
   mover.place("from", is_long);
-  mover.place("to", false);
+  mover.place("to", is_bar);
   mover.place("at", is_generated ? contains(kSpot, word) : !is_long);
   mover.moving("x", true);
   mover.moving("v", false);

@@ -269,7 +269,8 @@ SoundWish wishOf(const RenderOptions& options) {
 void sayHowLinksFared(const physics::Instrument& instrument) {
   std::vector<physics::GuardReport> guards = instrument.makeGuardReports();
   instrument.readGuards(guards);
-  for (const std::string& warning : station::guardWarnings(instrument.scene(), guards)) {
+  for (const std::string& warning :
+       station::guardWarnings(instrument.scene(), instrument.rates(), guards)) {
     say(warning);
   }
 }

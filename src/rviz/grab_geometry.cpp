@@ -49,6 +49,7 @@ int Handle::axes() const {
 
 void HandleSet::show(const ModelStructure& structure) {
   structure_ = structure;
+  ++models_;
   build();
 }
 
@@ -67,6 +68,29 @@ void HandleSet::show(const ModelState& state) {
       handle.displacement[k] = std::isfinite(moved) ? static_cast<double>(moved) : 0.0;
     }
   }
+}
+
+std::vector<Eigen::Vector3d> HandleSet::places() const {
+  std::vector<Eigen::Vector3d> places;
+  const std::size_t modules = structure_.module_sections.size();
+  if (!isWhole(structure_) || !fits(message_, structure_) || message_.modules.empty() ||
+      structure_.rest_positions.size() != kAxes * modules) {
+    return places;
+  }
+  for (std::size_t module = 0; module < modules; ++module) {
+    const std::size_t section = structure_.module_sections[module];
+    const geometry_msgs::Pose& pose = structure_.section_poses[section];
+    const bool is_scalar = structure_.section_dimensions[section] == 1;
+    const Eigen::Vector3d rest =
+        Eigen::Map<const Eigen::Vector3f>(&structure_.rest_positions[kAxes * module])
+            .cast<double>();
+    places.push_back(drawingOf(pose, is_scalar ? message_.display_zoom : 1.0) *
+                     (drawingOf(pose, 1.0).inverse() * rest));
+  }
+  places.erase(std::remove_if(places.begin(), places.end(),
+                              [](const Eigen::Vector3d& place) { return !place.allFinite(); }),
+               places.end());
+  return places;
 }
 
 /// Structure and handles come in two messages: until both are of one model there are none.

@@ -53,6 +53,10 @@ class HandleSet {
   void show(const ModelState& state);
 
   const std::vector<Handle>& handles() const { return handles_; }
+  /// Where all modules are drawn at rest, frame `model`, m; empty until it is known of what.
+  std::vector<Eigen::Vector3d> places() const;
+  /// Counts the models.
+  int models() const { return models_; }
   /// Counts the times that the handles became others.
   int version() const { return version_; }
 
@@ -63,6 +67,7 @@ class HandleSet {
   Handles message_;
   std::vector<Handle> handles_;
   std::size_t coordinates_ = 0;
+  int models_ = 0;
   int version_ = 0;
 };
 

@@ -14,6 +14,7 @@
 #include <ergotic/Note.h>
 #include <rviz/display_context.h>
 #include <rviz/frame_manager.h>
+#include <rviz/properties/bool_property.h>
 #include <rviz/properties/enum_property.h>
 #include <rviz/properties/string_property.h>
 #include <rviz/render_panel.h>
@@ -21,6 +22,7 @@
 #include <rviz/view_manager.h>
 #include <rviz/viewport_mouse_event.h>
 
+#include "rviz/framing.hpp"
 #include "rviz/grips.hpp"
 
 namespace ergotic::panel {
@@ -66,6 +68,10 @@ GrabTool::GrabTool() {
   for (std::size_t i = 0; i < kGrips.size(); ++i) {
     grip_->addOption(kGrips[i].name, static_cast<int>(i));
   }
+  frames_ = new rviz::BoolProperty("Frame models", true,
+                                   "Whether the camera is moved to show all of a model that begins "
+                                   "to play.",
+                                   getPropertyContainer());
 }
 
 GrabTool::~GrabTool() {
@@ -181,6 +187,7 @@ void GrabTool::update(float /*wall_dt*/, float /*ros_dt*/) {
     picture_->setFrame(position, orientation);
     const Ogre::Camera* const camera = context_->getViewManager()->getRenderPanel()->getCamera();
     picture_->setUp(model_.linear().inverse() * toEigen(camera->getDerivedUp()));
+    frameModel();
   }
   if (wallNs() - sent_wall_ns_ > kRepeatNs) {
     sent_wall_ns_ = wallNs();
@@ -192,6 +199,35 @@ void GrabTool::update(float /*wall_dt*/, float /*ros_dt*/) {
     }
   }
   draw();
+}
+
+/// Once for each model, from where the camera looks now; only of the camera that orbits around a
+/// point, which is rviz's usual one.
+void GrabTool::frameModel() {
+  const std::vector<Eigen::Vector3d> places = framed_ != set_.models() && frames_->getBool()
+                                                  ? set_.places()
+                                                  : std::vector<Eigen::Vector3d>();
+  rviz::ViewController* const view = context_->getViewManager()->getCurrent();
+  if (places.empty() || view == nullptr || view->getClassId() != "rviz/Orbit") {
+    return;
+  }
+  framed_ = set_.models();
+  const Ogre::Camera* const camera = context_->getViewManager()->getRenderPanel()->getCamera();
+  Look look;
+  look.yaw = view->subProp("Yaw")->getValue().toDouble();
+  look.pitch = view->subProp("Pitch")->getValue().toDouble();
+  look.field_of_view = static_cast<double>(camera->getFOVy().valueRadians());
+  look.aspect = static_cast<double>(camera->getAspectRatio());
+  std::vector<Eigen::Vector3d> in_frame;
+  for (const Eigen::Vector3d& place : places) {
+    in_frame.push_back(model_ * place);
+  }
+  const Framing framing = frame(in_frame, look);
+  rviz::Property* const focus = view->subProp("Focal Point");
+  focus->subProp("X")->setValue(framing.focus.x());
+  focus->subProp("Y")->setValue(framing.focus.y());
+  focus->subProp("Z")->setValue(framing.focus.z());
+  view->subProp("Distance")->setValue(framing.distance);
 }
 
 std::optional<GrabTool::View> GrabTool::viewOf(const rviz::ViewportMouseEvent& event) {

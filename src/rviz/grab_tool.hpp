@@ -17,6 +17,7 @@
 
 class QKeyEvent;
 namespace rviz {
+class BoolProperty;
 class EnumProperty;
 class RenderPanel;
 class StringProperty;
@@ -65,11 +66,13 @@ class GrabTool : public rviz::Tool {
   void send();
   void draw();
   const Handle* heldNow() const;
+  void frameModel();
   double markSize(const Eigen::Vector3d& place) const;
   std::int64_t nowOfEvents() const;
 
   rviz::StringProperty* station_;
   rviz::EnumProperty* grip_;
+  rviz::BoolProperty* frames_;
   QPointer<QWidget> panel_;  // null once rviz has deleted it, which it does before its tools
 
   ros::NodeHandle node_;
@@ -81,6 +84,7 @@ class GrabTool : public rviz::Tool {
 
   HandleSet set_;
   int version_ = 0;  // of the set that the grab is of
+  int framed_ = 0;   // model that the camera was turned to
   std::optional<Grab> grab_;
   KeyRows keys_;
   std::string hovered_;

@@ -70,13 +70,7 @@ class DeskTest(unittest.TestCase):
 
     @classmethod
     def start_rviz(cls):
-        """With the configuration of the program, but that rviz ends without a question."""
-        path = os.path.join(cls.folder.name, "station.rviz")
-        with open(os.path.join(ROOT, "rviz/station.rviz"), encoding="utf-8") as file:
-            text = file.read()
-        with open(path, "w", encoding="utf-8") as file:
-            file.write("Preferences: {PromptSaveOnExit: false}\n" + text)
-        return cls.start("rviz", "--display-config", path)
+        return cls.start("rviz", "--display-config", os.path.join(ROOT, "rviz/station.rviz"))
 
     @classmethod
     def start_jack(cls):

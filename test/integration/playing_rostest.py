@@ -66,29 +66,33 @@ class SlowPicture:
 
 
 class Camera:
-    """That of rviz/station.rviz, which looks at a focal point from a place on a sphere."""
+    """That of rviz/station.rviz, which looks at a model from a place on a sphere, so that all of it is in the picture."""
 
-    def __init__(self):
+    def __init__(self, points, width, height):
         with open(os.path.join(ROOT, "rviz/station.rviz"), encoding="utf-8") as file:
             view = file.read().split("Views:")[1]
 
         def number(name):
             return float(re.search(rf"\b{name}: ([-\d.e]+)", view).group(1))
-        focus = numpy.array([number("X"), number("Y"), number("Z")])
         pitch, yaw = number("Pitch"), number("Yaw")
         out = numpy.array([math.cos(yaw) * math.cos(pitch), math.sin(yaw) * math.cos(pitch), math.sin(pitch)])
-        self.eye = focus + number("Distance") * out
-        self.forward = -out
-        self.right = numpy.cross(self.forward, [0, 0, 1])
-        self.right /= numpy.linalg.norm(self.right)
-        self.up = numpy.cross(self.right, self.forward)
+        self.right = numpy.array([-math.sin(yaw), math.cos(yaw), 0.0])
+        self.up = numpy.cross(out, self.right)
         self.half_height = math.tan(0.5 * number("Field of View"))
+        self.forward = -out
+        self.size = width, height
+        focus = 0.5 * (numpy.min(points, axis=0) + numpy.max(points, axis=0))
+        margin = 1.15
+        half = numpy.array([self.half_height * width / height, self.half_height]) / margin
+        around = points - focus
+        across = numpy.abs(numpy.stack([around @ self.right, around @ self.up], axis=1)) / half
+        self.eye = focus + max(0.1, numpy.max(around @ out + numpy.max(across, axis=1))) * out
 
-    def pixel(self, point, width, height):
-        """Where a point of the fixed frame is in a picture of that size."""
+    def pixel(self, point):
+        """Where a point of the fixed frame is in the picture."""
+        width, height = self.size
         way = point - self.eye
-        depth = way @ self.forward
-        scale = 0.5 * height / (self.half_height * depth)
+        scale = 0.5 * height / (self.half_height * (way @ self.forward))
         return 0.5 * width + scale * (way @ self.right), 0.5 * height - scale * (way @ self.up)
 
 
@@ -141,22 +145,26 @@ class PlayingTest(DeskTest):
         width, height, left, top = max(found, key=lambda box: box[0] * box[1])
         return left, top, width, height
 
-    def handle(self, name):
-        """Where a handle of one axis is on the screen."""
-        handles, structure = self.handles.message, self.structure.message
-        module = handles.modules[handles.names.index(name)]
-        moved = self.state.message.displacement[module]  # all sections have one dimension
+    def place(self, module, moved):
+        """Where a module of one axis is drawn, in the fixed frame; all sections have one dimension."""
+        structure = self.structure.message
         at = numpy.array(structure.rest_positions[3 * module:3 * module + 3])
         section = structure.section_poses[structure.module_sections[module]]
         origin = numpy.array([section.position.x, section.position.y, section.position.z])
         axis = rotate(section.orientation, numpy.array([1.0, 0.0, 0.0]))
         along = (at - origin) @ axis
-        drawn = at + (handles.display_zoom * (along + moved) - along) * axis
+        drawn = at + (self.handles.message.display_zoom * (along + moved) - along) * axis
         mount = re.search(r'<child link="model"/>\s*<origin xyz="([^"]*)" rpy="([^"]*)"', self.urdf)
         place, turn = (numpy.array(list(map(float, numbers.split()))) for numbers in mount.groups())
-        point = place + turned(turn) @ drawn
+        return place + turned(turn) @ drawn
+
+    def handle(self, name):
+        """Where a handle of one axis is on the screen."""
+        module = self.handles.message.modules[self.handles.message.names.index(name)]
         left, top, width, height = self.picture()
-        x, y = Camera().pixel(point, width, height)
+        modules = range(len(self.structure.message.module_sections))
+        camera = Camera(numpy.array([self.place(i, 0.0) for i in modules]), width, height)
+        x, y = camera.pixel(self.place(module, self.state.message.displacement[module]))
         return round(left + x), round(top + y)
 
     def test_1_the_mouse_drags_the_plectrum_through_the_string(self):

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include <ergotic/LearnController.h>
 #include <ergotic/LoadModel.h>
 #include <ros/node_handle.h>
 #include <ros/service_client.h>
@@ -23,6 +24,7 @@ struct Answer {
 
 /// \return what the station said, for a reader
 std::string wordsOf(const std_srvs::Trigger::Response& response);
+std::string wordsOf(const LearnController::Response& response);
 std::string wordsOf(const LoadModel::Response& response);
 
 /// Asks services in a thread of its own, one after the other: a window never waits for a station.

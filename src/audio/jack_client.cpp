@@ -7,6 +7,7 @@
 
 #include "audio/jack_session.hpp"
 #include "audio/jack_wires.hpp"
+#include "audio/midi_sources.hpp"
 #include "audio/semaphore.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/clock.hpp"
@@ -45,6 +46,7 @@ void validate(const JackConfig& config) {
     throw Exception("JACK client name `" + config.name + "`, allowed: 1..." +
                     std::to_string(kMaxNameLength) + " characters, no colon");
   }
+  const MidiSources checked(config.midi_connect);
 }
 
 }  // namespace
@@ -117,6 +119,7 @@ void JackHost::Impl::step() {
     follow();
   }
   mendWires();
+  session->connectMidi();
 }
 
 void JackHost::Impl::start() {

@@ -15,6 +15,7 @@
 #include "audio/jack_latency.hpp"
 #include "audio/jack_library.hpp"
 #include "audio/jack_wires.hpp"
+#include "audio/midi_sources.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/thread.hpp"
 
@@ -50,6 +51,7 @@ struct JackSession::Core {
   rt::AudioProcessor* processor = nullptr;
   std::vector<jack_port_t*> inputs, outputs;
   jack_port_t* midi_input = nullptr;  // null: none
+  std::optional<MidiSources> midi_sources;
   std::uint32_t latency_frames = 0;
   std::optional<JackTerminal> terminal;
   std::vector<JackWires> wires;
@@ -247,6 +249,7 @@ struct JackSession::Core {
     }
     if (config.midi) {
       midi_input = registerPort("midi_in", JackPortIsInput, JACK_DEFAULT_MIDI_TYPE);
+      midi_sources.emplace(config.midi_connect);
     }
     input_buffers.resize(inputs.size());
     output_buffers.resize(outputs.size());
@@ -392,6 +395,12 @@ void JackSession::connectToPlayback() {
         jack_connect(core_->client, jack_port_name(core_->outputs[i]), sinks[i].c_str()) != 0) {
       fail(std::string(jack_port_name(core_->outputs[i])) + " cannot be connected to " + sinks[i]);
     }
+  }
+}
+
+void JackSession::connectMidi() {
+  if (core_->midi_sources) {
+    core_->midi_sources->connect(core_->client, core_->midi_input);
   }
 }
 

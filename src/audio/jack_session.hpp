@@ -61,6 +61,8 @@ class JackSession {
   /// out_i to the i-th physical playback port, unless another output of this process is wired to
   /// it; what is connected there stays.
   void connectToPlayback();
+  /// MIDI sources that have appeared to `midi_in`, if there is one.
+  void connectMidi();
   /// Connects the ports with their peers as far as they are not. No effect without peers.
   /// \throws DeviceError saying which wire is missing or shared; blocks are not `wired` then
   void mendWires();

@@ -43,8 +43,11 @@ void requireAlone(const std::vector<std::string>& connected,
 
 }  // namespace
 
-std::vector<std::string> jackPorts(jack_client_t* client, const char* regex, unsigned long flags) {
-  return namesIn(jack_get_ports(client, regex, JACK_DEFAULT_AUDIO_TYPE, flags));
+std::vector<std::string> jackPorts(jack_client_t* client,
+                                   const char* regex,
+                                   unsigned long flags,
+                                   const char* type) {
+  return namesIn(jack_get_ports(client, regex, type, flags));
 }
 
 ReservedSinks::ReservedSinks(const std::vector<std::string>& peers) : peers_(peers) {

@@ -9,7 +9,10 @@
 namespace ergotic::audio {
 
 /// Port names of one direction. \param flags  of jack_get_ports
-std::vector<std::string> jackPorts(jack_client_t* client, const char* regex, unsigned long flags);
+std::vector<std::string> jackPorts(jack_client_t* client,
+                                   const char* regex,
+                                   unsigned long flags,
+                                   const char* type = JACK_DEFAULT_AUDIO_TYPE);
 
 /// Keeps what outputs of this process are wired to, while it lives, from being connected to by
 /// `JackConfig::connect`: a force-feedback device is no loudspeaker. Whatever the server, which may

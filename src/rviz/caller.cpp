@@ -37,6 +37,10 @@ std::string wordsOf(const std_srvs::Trigger::Response& response) {
   return response.message;
 }
 
+std::string wordsOf(const LearnController::Response& response) {
+  return response.message;
+}
+
 std::string wordsOf(const LoadModel::Response& response) {
   const std::string verdict =
       response.verdict.empty() ? "" : " (certificate: " + response.verdict + ")";

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include <ergotic/LearnController.h>
 #include <ergotic/LoadModel.h>
 #include <ergotic/Take.h>
 #include <ros/node_handle.h>
@@ -24,6 +25,7 @@ struct Answer {
 
 /// \return what the station said, for a reader
 std::string wordsOf(const std_srvs::Trigger::Response& response);
+std::string wordsOf(const LearnController::Response& response);
 std::string wordsOf(const LoadModel::Response& response);
 std::string wordsOf(const Take::Response& response);
 

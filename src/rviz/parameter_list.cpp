@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rviz/parameter_list.hpp"
 
+#include <QAction>
 #include <QGridLayout>
 #include <QVBoxLayout>
 #include <QWheelEvent>
+#include <utility>
 
 #include "rviz/widgets.hpp"
 
@@ -47,7 +49,10 @@ class Slider : public QSlider {
 
 }  // namespace
 
-ParameterRow::ParameterRow(const Parameters& parameters, std::size_t index, QWidget* parent)
+ParameterRow::ParameterRow(const Parameters& parameters,
+                           std::size_t index,
+                           const std::function<void(const std::string&)>& learn,
+                           QWidget* parent)
     : QWidget(parent),
       name_(parameters.names[index]),
       default_(parameters.defaults[index]),
@@ -69,6 +74,16 @@ ParameterRow::ParameterRow(const Parameters& parameters, std::size_t index, QWid
   setToolTip(QString("%1: %2 to %3 %4, at first %5")
                  .arg(QString::fromStdString(name_), number(parameters.lows[index]),
                       number(parameters.highs[index]), unit_, number(default_)));
+  offerToLearn(learn);
+}
+
+/// By a right click on the name, the value or the slider.
+void ParameterRow::offerToLearn(const std::function<void(const std::string&)>& learn) {
+  auto* action = adopted<QAction>("Learn a MIDI controller", this);
+  QObject::connect(action, &QAction::triggered, this, [this, learn] { learn(name_); });
+  addAction(action);
+  setContextMenuPolicy(Qt::ActionsContextMenu);
+  value_->setContextMenuPolicy(Qt::NoContextMenu);  // its own offers to copy what is marked
 }
 
 QWidget* ParameterRow::makeSlider(const Parameters& parameters, std::size_t index) {
@@ -127,7 +142,8 @@ std::optional<double> ParameterRow::take(double now_s) {
   return value;
 }
 
-ParameterList::ParameterList(QWidget* parent) : QScrollArea(parent) {
+ParameterList::ParameterList(std::function<void(const std::string&)> learn, QWidget* parent)
+    : QScrollArea(parent), learn_(std::move(learn)) {
   setWidgetResizable(true);
   setFrameShape(QFrame::StyledPanel);
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
@@ -147,7 +163,7 @@ void ParameterList::rebuild() {
   layout->setSpacing(0);
   rows_.clear();
   for (std::size_t i = 0; i < shown_.names.size(); ++i) {
-    rows_.push_back(adopted<ParameterRow>(shown_, i, inside));
+    rows_.push_back(adopted<ParameterRow>(shown_, i, learn_, inside));
     layout->addWidget(rows_.back());
   }
   if (rows_.empty()) {

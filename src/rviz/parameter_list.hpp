@@ -18,7 +18,11 @@ namespace ergotic::panel {
 /// Name, value, unit, range and slider of one parameter.
 class ParameterRow : public QWidget {
  public:
-  ParameterRow(const Parameters& parameters, std::size_t index, QWidget* parent);
+  /// \param learn  is called when a MIDI controller shall move the parameter
+  ParameterRow(const Parameters& parameters,
+               std::size_t index,
+               const std::function<void(const std::string&)>& learn,
+               QWidget* parent);
 
   /// What the station says; passed over while the player moves the slider.
   void follow(double value, double now_s);
@@ -30,6 +34,7 @@ class ParameterRow : public QWidget {
   QSlider* slider() const { return slider_; }
 
  private:
+  void offerToLearn(const std::function<void(const std::string&)>& learn);
   QWidget* makeSlider(const Parameters& parameters, std::size_t index);
   void show(double value);
   void set(double value);
@@ -49,7 +54,8 @@ class ParameterRow : public QWidget {
 /// All parameters of the scene that plays.
 class ParameterList : public QScrollArea {
  public:
-  explicit ParameterList(QWidget* parent);
+  /// \param learn  gets the name of a parameter that a MIDI controller shall move
+  ParameterList(std::function<void(const std::string&)> learn, QWidget* parent);
 
   void follow(const Parameters& parameters, double now_s);
   void toDefaults();
@@ -62,6 +68,7 @@ class ParameterList : public QScrollArea {
   bool isShown(const Parameters& parameters) const;
   void rebuild();
 
+  std::function<void(const std::string&)> learn_;
   Parameters shown_;
   std::vector<ParameterRow*> rows_;
 };

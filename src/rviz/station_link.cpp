@@ -312,13 +312,14 @@ void listen(const std::shared_ptr<StationLink::Shared>& shared) {
 
 StationLink::StationLink(const std::string& station, const std::string& models)
     : shared_(std::make_shared<Shared>(station, models)) {
-  for (std::unique_ptr<Caller>* caller : {&force_, &stop_, &emergency_, &loading_, &takes_}) {
+  for (std::unique_ptr<Caller>* caller :
+       {&force_, &stop_, &emergency_, &loading_, &takes_, &learning_}) {
     *caller = std::make_unique<Caller>(
         [shared = shared_](const Answer& answer) { shared->tell(answer); });
   }
   shared_->give_up_late = [this] {
-    for (Caller* caller :
-         {force_.get(), stop_.get(), emergency_.get(), loading_.get(), takes_.get()}) {
+    for (Caller* caller : {force_.get(), stop_.get(), emergency_.get(), loading_.get(),
+                           takes_.get(), learning_.get()}) {
       caller->giveUpLate();
     }
   };
@@ -463,6 +464,13 @@ void StationLink::setParameter(const std::string& name, double value) {
     message.value = value;
     parameter.publish(message);
   }
+}
+
+void StationLink::learnController(const std::string& parameter) {
+  LearnController::Request request;
+  request.parameter = parameter;
+  learning_->ask<LearnController>("Learn", shared_->station + "/learn_controller", request,
+                                  kPatienceS);
 }
 
 void StationLink::setVolume(double volume) {

@@ -68,6 +68,8 @@ class StationLink {
   void load(const std::string& model, const std::string& title);
   /// By the topic: of several values that come at once, the station takes the newest.
   void setParameter(const std::string& name, double value);
+  /// The next MIDI controller that moves shall move this parameter.
+  void learnController(const std::string& parameter);
   /// \param volume  0...1
   void setVolume(double volume);
 
@@ -89,6 +91,7 @@ class StationLink {
   std::unique_ptr<Caller> emergency_;
   std::unique_ptr<Caller> loading_;
   std::unique_ptr<Caller> takes_;
+  std::unique_ptr<Caller> learning_;
 };
 
 }  // namespace ergotic::panel

@@ -183,7 +183,13 @@ void StationPanel::addInstruments(QVBoxLayout* column) {
 }
 
 void StationPanel::addParameters(QVBoxLayout* column) {
-  parameters_ = adopted<ParameterList>(this);
+  parameters_ = adopted<ParameterList>(
+      [this](const std::string& parameter) {
+        if (link_) {
+          link_->learnController(parameter);
+        }
+      },
+      this);
   parameters_->setMinimumHeight(92);
   auto* reset = adopted<QPushButton>("Defaults");
   reset->setToolTip("Sets all parameters to what the scene begins with");

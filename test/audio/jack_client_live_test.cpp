@@ -6,6 +6,9 @@
 #include <future>
 #include <thread>
 
+#include <jack/jack.h>
+#include <jack/midiport.h>
+
 #include "audio/gate.hpp"
 #include "audio/jack_library.hpp"
 #include "audio/jack_session.hpp"
@@ -249,6 +252,72 @@ TEST_F(JackHostTest, MendsAWireAndSaysWhenItIsShared) {
                         "connected with `system:capture_1` too"));
   ASSERT_EQ(server_.tool("jack_disconnect system:capture_1 ergotic:left"), 0);
   EXPECT_TRUE(eventually([&] { return host.status().wired && host.status().message.empty(); }));
+}
+
+/// A client with a MIDI output `out`, as long as it lives.
+class MidiPort {
+ public:
+  MidiPort(const JackServer& server, const char* name, unsigned long flags)
+      : client_(jack_client_open(name,
+                                 static_cast<jack_options_t>(JackNoStartServer | JackServerName),
+                                 nullptr,
+                                 server.name().c_str())) {
+    jack_set_process_callback(
+        client_, [](jack_nframes_t, void*) { return 0; }, nullptr);
+    jack_activate(client_);
+    jack_port_register(client_, "out", JACK_DEFAULT_MIDI_TYPE, JackPortIsOutput | flags, 0);
+  }
+  ~MidiPort() { jack_client_close(client_); }
+  MidiPort(const MidiPort&) = delete;
+  MidiPort& operator=(const MidiPort&) = delete;
+
+ private:
+  jack_client_t* client_;
+};
+
+TEST_F(JackHostTest, ConnectsMidiHardwareWheneverItAppears) {
+  server_.start();
+  config_.midi = true;
+  config_.midi_connect = kPhysicalMidi;
+  JackHost host(config_, probe_);
+  ASSERT_TRUE(blocksFlow(probe_, 10));
+  const auto is_connected = [&] {
+    host.look();
+    return isConnected("ergotic:midi_in", "piano:out");
+  };
+  const auto is_looked_at = [&](int times) {
+    const std::int64_t looks = host.status().looks;
+    return eventually([&] {
+      host.look();
+      return host.status().looks > looks + times;
+    });
+  };
+  const MidiPort program(server_, "program", 0);
+  for (int life = 0; life < 2; ++life) {
+    ASSERT_TRUE(is_looked_at(1)) << "without it";
+    const MidiPort piano(server_, "piano", JackPortIsPhysical);
+    EXPECT_TRUE(eventually(is_connected)) << life;
+    EXPECT_FALSE(isConnected("ergotic:midi_in", "program:out"));
+    if (life == 0) {  // what is disconnected by hand stays so, for three looks
+      ASSERT_EQ(server_.tool("jack_disconnect piano:out ergotic:midi_in"), 0);
+      ASSERT_TRUE(is_looked_at(3));
+      EXPECT_FALSE(is_connected());
+    }
+  }
+}
+
+TEST_F(JackHostTest, ConnectsMidiByName) {
+  server_.start();
+  config_.midi = true;
+  config_.midi_connect = "PROGRAM";
+  JackHost host(config_, probe_);
+  const MidiPort piano(server_, "piano", JackPortIsPhysical);
+  const MidiPort program(server_, "a_program_2", 0);
+  EXPECT_TRUE(eventually([&] {
+    host.look();
+    return isConnected("ergotic:midi_in", "a_program_2:out");
+  }));
+  EXPECT_FALSE(isConnected("ergotic:midi_in", "piano:out"));
 }
 
 TEST_F(JackHostTest, DeclaresItsLatencyOnTopOfTheInputs) {

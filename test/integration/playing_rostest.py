@@ -12,10 +12,12 @@ import rospy
 import rostest
 
 from desk import ROOT, DeskTest, Newest, until
-from ergotic.msg import Event, GestureBlock, Handles, HandTargets, Levels, ModelState, ModelStructure, Note, \
-    Status, Takes
-from ergotic.srv import LoadModel
+from ergotic.msg import (Event, GestureBlock, Handles, HandTargets, Levels, ModelState, ModelStructure, Note, Parameters,
+                         Status, Takes)
+from ergotic.srv import LearnController, LoadModel, PlayMap
+from midi_keyboard import MidiKeyboard
 from std_msgs.msg import Float64
+from std_srvs.srv import Trigger
 from visualization_msgs.msg import Marker, MarkerArray
 
 PLUCK, STRIKE = 0, 1  # slices
@@ -275,7 +277,20 @@ class PlayingTest(DeskTest):
                 self.assertTrue(until(lambda: picture.sections() == sections, 5), picture.sections())
 
 
-    def test_6_keys_come_up_when_rviz_dies(self):
+    def test_6_a_slider_of_the_panel_learns_a_controller(self):
+        self.wait_for_window("/station/handles")
+        keyboard = MidiKeyboard("knobs")
+        self.addCleanup(keyboard.close)
+        self.assertTrue(until(keyboard.is_connected), "it is not connected by itself")
+
+        def learns():
+            xdotool("key", "F4", "sleep", 0.3, "key", "Menu", "sleep", 0.5, "key", "Down", "Return", "sleep", 0.3)
+            keyboard.send(0xb0, 22, 0)
+            keyboard.send(0xb0, 22, 127)
+            return until(lambda: "controller 22 moves 'loss'" in self.status.message.message, 2)
+        self.assertTrue(until(learns, 20), self.status.message.message)
+
+    def test_7_keys_come_up_when_rviz_dies(self):
         self.wait_for_window("/station/handles")
         gesture = Gesture(PLUCK)
         x, y = self.handle("hammer_key")
@@ -284,6 +299,51 @@ class PlayingTest(DeskTest):
         self.assertTrue(until(lambda: self.notes.message.velocity == Note.HELD))
         self.rviz.kill()
         self.assertTrue(until(lambda: gesture.positions[-1] < 0.005, 5), "the key stays down")
+
+    def test_8_midi_hardware_plays_learns_and_chooses_an_instrument(self):
+        keyboard = MidiKeyboard("keyboard")
+        self.addCleanup(keyboard.close)
+        self.assertTrue(until(keyboard.is_connected), "it is not connected by itself")
+
+        with self.subTest("a wheel moves a hand"):
+            gesture = Gesture(PLUCK)
+            play_map = rospy.ServiceProxy("/station/play_map", PlayMap)
+            wheel = "controllers:\n  - {controller: 1, slices: 0, to: 15 mm, speed: 0.2}\n"
+            self.assertTrue(play_map(map=wheel).success)
+            for value in range(0, 128, 2):
+                keyboard.send(0xb0, 1, value)
+            keyboard.send(0xb0, 1, 127)
+            self.assertTrue(until(lambda: gesture.positions and gesture.positions[-1] > 0.0145), gesture.positions[-1:])
+            keyboard.send(0xb0, 1, 0)
+            self.assertTrue(until(lambda: gesture.positions[-1] < 0.001), gesture.positions[-1:])
+
+        with self.subTest("a parameter learns a controller"):
+            parameters = Newest("/station/model_parameters", Parameters)
+            learn = rospy.ServiceProxy("/station/learn_controller", LearnController)
+            self.assertIn("it has: ", learn(parameter="no_such_thing").message)
+            self.assertTrue(learn(parameter="brightness").success)
+            keyboard.send(0xb5, 21, 0)
+            keyboard.send(0xb5, 21, 127)
+            self.assertTrue(until(lambda: "controller 21 moves 'brightness'" in self.status.message.message),
+                            self.status.message.message)
+
+            def is_at_its_end():
+                now = parameters.message
+                index = now.names.index("brightness")
+                return now.values[index] == now.highs[index]
+            self.assertTrue(until(lambda: parameters.message and is_at_its_end()), parameters.message)
+
+        with self.subTest("a program change plays another instrument, and force that others let out waits"):
+            self.assertTrue(rospy.ServiceProxy("/station/engage", Trigger)().success)
+            self.assertTrue(until(lambda: self.status.message.state == Status.PLAYING))
+            scenes = sorted(name[:-5] for name in os.listdir(os.path.join(ROOT, "models"))
+                            if name.endswith(".yaml") and not name.endswith("_truths.yaml"))
+            keyboard.send(0xc0, 127)
+            self.assertTrue(until(lambda: "program 127, allowed: 0..." in self.status.message.message))
+            keyboard.send(0xc0, scenes.index("duet"))
+            self.assertTrue(until(lambda: self.status.message.model == "duet with an agent", 30),
+                            self.status.message.message)
+            self.assertTrue(until(lambda: self.status.message.state == Status.READY), self.status.message.state_text)
 
 
 if __name__ == "__main__":

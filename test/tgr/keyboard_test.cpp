@@ -25,60 +25,62 @@ PlayMap twoKeys() {
 
 class KeyboardTest : public ::testing::Test {
  protected:
-  KeyboardTest() { keyboard_.use(twoKeys()); }
+  KeyboardTest() { keyboard_.use(twoKeys(), 0.0); }
   Keyboard::Played send(std::uint8_t status, std::uint8_t first, std::uint8_t second) {
     const std::array<std::uint8_t, 3> bytes{status, first, second};
-    return keyboard_.play(bytes.data(), 3);
+    return keyboard_.play(bytes.data(), 3, now_s_);
   }
+  Strokes note(int note, int velocity) { return keyboard_.note(note, velocity, now_s_); }
   Keyboard keyboard_;
+  double now_s_ = 0.0;
 };
 
 TEST_F(KeyboardTest, TheGreatestSpeedOfAStrokeFollowsTheVelocity) {
   for (const int velocity : {1, 64, 127}) {
-    const auto strokes = keyboard_.note(40, velocity);
+    const auto strokes = note(40, velocity);
     ASSERT_EQ(strokes.size(), 1U);
     EXPECT_EQ(strokes[0].index, 0);
     EXPECT_EQ(strokes[0].target_m, 0.02);
     EXPECT_NEAR(1.875 * 0.02 / strokes[0].glide_s, 0.1 * std::pow(10.0, (velocity - 1) / 126.0),
                 1e-12);
-    keyboard_.note(40, 0);
+    note(40, 0);
   }
 }
 
 TEST_F(KeyboardTest, NotesGoRoundTheSlicesOfTheirLine) {
-  EXPECT_EQ(keyboard_.note(41, 100)[0].index, 2);
-  EXPECT_EQ(keyboard_.note(42, 100)[0].index, 0);
-  EXPECT_TRUE(keyboard_.note(39, 100).empty()) << "no line has it";
+  EXPECT_EQ(note(41, 100)[0].index, 2);
+  EXPECT_EQ(note(42, 100)[0].index, 0);
+  EXPECT_TRUE(note(39, 100).empty()) << "no line has it";
 }
 
 TEST_F(KeyboardTest, AKeyGoesBackWhenItIsReleased) {
-  keyboard_.note(40, 100);
-  const auto back = keyboard_.note(40, 0);
+  note(40, 100);
+  const auto back = note(40, 0);
   ASSERT_EQ(back.size(), 1U);
   EXPECT_EQ(back[0].target_m, 0.0);
   EXPECT_NEAR(back[0].glide_s, 1.875 * 0.02 / 0.5, 1e-12);
-  EXPECT_TRUE(keyboard_.note(40, 0).empty()) << "it is up already";
+  EXPECT_TRUE(note(40, 0).empty()) << "it is up already";
 }
 
 TEST_F(KeyboardTest, AStrikeGoesThereAndBackByItself) {
-  const auto strokes = keyboard_.note(60, 64);
+  const auto strokes = note(60, 64);
   ASSERT_EQ(strokes.size(), 2U);
   EXPECT_EQ(strokes[0].end_effector, "mallet");
   EXPECT_EQ(strokes[0].target_m, -0.01);
   EXPECT_EQ(strokes[1].target_m, 0.01);
   EXPECT_EQ(strokes[1].after_s, strokes[0].glide_s);
-  EXPECT_TRUE(keyboard_.note(60, 0).empty());
+  EXPECT_TRUE(note(60, 0).empty());
 }
 
 TEST_F(KeyboardTest, AKeyThatIsDownComesUpBeforeItIsPressedAgain) {
-  keyboard_.note(40, 100);
-  const auto again = keyboard_.note(42, 100);  // the same slice
+  note(40, 100);
+  const auto again = note(42, 100);  // the same slice
   ASSERT_EQ(again.size(), 2U);
   EXPECT_EQ(again[0].target_m, 0.0);
   EXPECT_EQ(again[1].target_m, 0.02);
   EXPECT_EQ(again[1].after_s, again[0].glide_s);
-  EXPECT_TRUE(keyboard_.note(40, 0).empty()) << "the other note holds it";
-  EXPECT_EQ(keyboard_.note(42, 0).size(), 1U);
+  EXPECT_TRUE(note(40, 0).empty()) << "the other note holds it";
+  EXPECT_EQ(note(42, 0).size(), 1U);
 }
 
 TEST_F(KeyboardTest, UnderstandsMidi) {
@@ -86,16 +88,20 @@ TEST_F(KeyboardTest, UnderstandsMidi) {
   EXPECT_EQ(send(0x93, 40, 0).strokes.size(), 1U) << "velocity 0 is a release";
   send(0x90, 41, 1);
   EXPECT_EQ(send(0x80, 41, 64).strokes.size(), 1U);
-  EXPECT_EQ(send(0xb0, 7, 127).parameter, "volume");
-  EXPECT_EQ(send(0xb0, 7, 127).share, 1.0);
-  EXPECT_EQ(send(0xb0, 8, 127).parameter, "");
+  ASSERT_EQ(send(0xb0, 7, 127).changes.size(), 1U);
+  EXPECT_EQ(send(0xb0, 7, 127).changes[0].parameter, "volume");
+  EXPECT_EQ(send(0xb0, 7, 127).changes[0].share, 1.0);
+  EXPECT_TRUE(send(0xb0, 8, 127).changes.empty());
 }
 
 TEST_F(KeyboardTest, TheSustainPedalKeepsKeysDown) {
   send(0x90, 40, 100);
   send(0xb0, 64, 127);
   EXPECT_TRUE(send(0x80, 40, 0).strokes.empty());
-  EXPECT_EQ(send(0xb0, 64, 63).strokes.size(), 1U);
+  const auto back = send(0xb0, 64, 0).strokes;
+  ASSERT_EQ(back.size(), 1U);
+  EXPECT_EQ(back[0].target_m, 0.0);
+  EXPECT_NEAR(back[0].glide_s, 1.875 * 0.02 / 0.5, 1e-12);
   EXPECT_TRUE(send(0xb0, 64, 0).strokes.empty());
 }
 
@@ -112,7 +118,7 @@ TEST_F(KeyboardTest, PanicReleasesEverything) {
 
 TEST_F(KeyboardTest, AnotherMapReleasesWhatIsDown) {
   send(0x90, 40, 100);
-  EXPECT_EQ(keyboard_.use({}).size(), 1U);
+  EXPECT_EQ(keyboard_.use({}, now_s_).size(), 1U);
   EXPECT_TRUE(send(0x80, 40, 0).strokes.empty());
 }
 
@@ -123,7 +129,7 @@ TEST_F(KeyboardTest, PassesOverWhatMeansNothingHere) {
                                               static_cast<std::uint8_t>(value),
                                               static_cast<std::uint8_t>(value)};
       for (int size = 0; size <= 3; ++size) {
-        const auto played = keyboard_.play(bytes.data(), size);
+        const auto played = keyboard_.play(bytes.data(), size, now_s_);
         EXPECT_LE(played.strokes.size(), 130U);
       }
     }
@@ -132,8 +138,9 @@ TEST_F(KeyboardTest, PassesOverWhatMeansNothingHere) {
 
 TEST(PlayMapTest, AStrokeTakesAMinuteAtMost) {
   Keyboard keyboard;
-  keyboard.use(read("keys:\n  - {slices: 0, to: 1, speed: 0.001, back: 0.001, strikes: true}\n"));
-  const auto strokes = keyboard.note(60, 1);
+  keyboard.use(read("keys:\n  - {slices: 0, to: 1, speed: 0.001, back: 0.001, strikes: true}\n"),
+               0.0);
+  const auto strokes = keyboard.note(60, 1, 0.0);
   ASSERT_EQ(strokes.size(), 2U);
   EXPECT_EQ(strokes[0].glide_s, 60.0);
   EXPECT_EQ(strokes[1].after_s, 60.0);
@@ -143,8 +150,8 @@ TEST(PlayMapTest, Transposes) {
   PlayMap map = twoKeys();
   map.transpose = -12;
   Keyboard keyboard;
-  keyboard.use(map);
-  EXPECT_EQ(keyboard.note(53, 100)[0].index, 2);
+  keyboard.use(map, 0.0);
+  EXPECT_EQ(keyboard.note(53, 100, 0.0)[0].index, 2);
 }
 
 TEST(PlayMapTest, TellsWhatIsWrongWhere) {

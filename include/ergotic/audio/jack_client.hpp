@@ -18,12 +18,18 @@ struct JackTerminal {
   std::uint32_t output_latency_frames = 0;  ///< from the world to our outputs
 };
 
+constexpr const char* kPhysicalMidi = "physical";
+constexpr const char* kNoMidi = "none";
+
 struct JackConfig {
-  std::string name = "ergotic";      ///< of the client; JACK appends a number if it is taken
-  std::string server;                ///< empty: $JACK_DEFAULT_SERVER, else `default`
-  int inputs = 0;                    ///< ports `in_1`... , 0...kMaxPorts
-  int outputs = 0;                   ///< ports `out_1`... , 0...kMaxPorts
-  bool midi = false;                 ///< a port `midi_in`
+  std::string name = "ergotic";  ///< of the client; JACK appends a number if it is taken
+  std::string server;            ///< empty: $JACK_DEFAULT_SERVER, else `default`
+  int inputs = 0;                ///< ports `in_1`... , 0...kMaxPorts
+  int outputs = 0;               ///< ports `out_1`... , 0...kMaxPorts
+  bool midi = false;             ///< a port `midi_in`
+  /// What is connected to `midi_in` whenever it appears: kPhysicalMidi, kNoMidi, or all MIDI ports
+  /// with a name or an alias that a regular expression (POSIX extended, no cases) is found in.
+  std::string midi_connect = kNoMidi;
   bool connect = false;              ///< out_i to the i-th physical playback port, at every start
   std::uint32_t latency_frames = 0;  ///< added between our inputs and outputs, declared to JACK
   std::vector<std::string> input_names;   ///< of the ports, instead of `in_1`... ; empty: those

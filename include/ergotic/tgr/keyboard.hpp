@@ -1,94 +1,117 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "ergotic/tgr/players/control.hpp"
+#include "ergotic/tgr/players/hand_ways.hpp"
+#include "ergotic/tgr/players/play_map.hpp"
 
 namespace ergotic::tgr {
 
-/// How some notes move a hand: a line of a map.
-struct KeyLine {
-  int first_note = 0;  ///< MIDI numbers, 60 is middle C
-  int last_note = 127;
-  /// Slices, or coordinates of an end-effector; note first_note + i moves number i of them, and
-  /// from the last on it begins anew.
-  std::vector<int> indices;
-  std::string end_effector;  ///< whose coordinates these are; empty: they are slices
-  double from_m = 0.0;       ///< where the hand rests
-  double to_m = 0.0;         ///< where it goes
-  double slowest = 0.05;     ///< m/s, greatest speed of the hand at velocity 1
-  double fastest = 1.0;      ///< at velocity 127; between them evenly in the logarithm
-  double back = 0.3;         ///< m/s, greatest speed of its way back
-  bool strikes = false;      ///< goes back at once; else when the key is released
-};
-
-/// A controller that moves a parameter of the scene over its range.
-struct ControllerLine {
-  int controller = 0;  ///< MIDI number
-  std::string parameter;
-};
-
-struct PlayMap {
-  std::vector<KeyLine> keys;
-  std::vector<ControllerLine> controllers;
-  int transpose = 0;  ///< semitones, added to each note
-};
-
-/// Reads `{keys: [{notes: [0, 59], slices: 0, to: 20 mm, ...}], controllers: [...], transpose: 0}`;
-/// docs/ros.md has all keys. \throws TextError with file:line:col, value and allowed range
-PlayMap readPlayMap(const std::string& text, const std::string& name);
-
-/// Where a hand shall go.
-struct Stroke {
-  std::string end_effector;  ///< empty: `index` is a slice
-  int index = 0;
-  double target_m = 0.0;
-  double glide_s = 0.0;  ///< on a path of minimum jerk that takes so long
-  double after_s = 0.0;  ///< it begins so much later than the note
-};
-
-/// Turns notes into strokes of hands, as MIDI instruments understand notes: a note with velocity 0
-/// is a release, the sustain pedal (controller 64) keeps keys down until it is up, "all sound off"
-/// and "all notes off" (120, 123) release everything.
+/// Turns notes and controls into strokes of hands, as MIDI instruments understand them: a note with
+/// velocity 0 is a release, the sustain pedal (controller 64) keeps keys down, sostenuto (66) those
+/// that were down before it, the soft pedal (67) makes strokes slower, "all sound off" and "all
+/// notes off" (120, 123 and above) release everything. A key is down as long as it is on any
+/// channel.
 ///
 /// The launch law: the hand goes from `from_m` to `to_m` on a path of minimum jerk, whose greatest
-/// speed is the one that the velocity says; what it throws leaves at that speed. Thread: one
+/// speed is the one that the velocity says; what it throws leaves at that speed.
+///
+/// The half pedal: up to a quarter of its way the sustain pedal keeps nothing, from three quarters
+/// on the keys that it keeps are down, and between these they are as far down as the pedal is.
+///
+/// `now_s` is a time in s, of one clock that does not go back. Thread: one
 class Keyboard {
  public:
   /// What becomes of a message.
   struct Played {
-    std::vector<Stroke> strokes;
-    std::string parameter;  ///< empty: none
-    double share = 0.0;     ///< of its range
+    Strokes strokes;
+    std::vector<ParameterChange> changes;
+    std::optional<Learner::Learnt> learnt;
+    std::optional<int> program;  ///< 0...127
   };
 
-  /// Other notes and controllers mean something from now on. \return strokes that release all
-  std::vector<Stroke> use(PlayMap map);
+  /// Other notes and controls mean something from now on. What was learnt stays.
+  /// \return strokes that release all keys and let go of what controls moved
+  Strokes use(PlayMap map, double now_s);
 
   /// \param bytes  of a MIDI message. What means nothing here is passed over
-  Played play(const std::uint8_t* bytes, int size);
+  Played play(const std::uint8_t* bytes, int size, double now_s);
+  /// From somebody who has no channel.
   /// \param note  0...127. \param velocity  0...127; 0: release
-  std::vector<Stroke> note(int note, int velocity);
-  std::vector<Stroke> releaseAll();
+  Strokes note(int note, int velocity, double now_s);
+  Strokes releaseAll(double now_s);
+  /// All hands have let go by themselves, and no key is down.
+  void forgetHands();
+
+  /// Binds controls to parameters, in place of what the map says of them.
+  Learner& learner() { return learner_; }
 
  private:
   struct Key {
     const KeyLine* line;
-    int index;
+    std::size_t number;  // of the note in its line
+    HandWays::Hand hand;
   };
+  using Name = std::pair<int, int>;  // channel and note of a key
+  struct Down {
+    bool is_held = false;    // by a finger; else a pedal keeps it
+    bool is_caught = false;  // by sostenuto
+    double pressure = 0.0;
+  };
+  /// What was last heard on a channel, which a note that begins there has at once.
+  struct Expression {
+    double bend = 0.0;
+    double slide = 64.0 / 127.0;
+    double pressure = 0.0;
+  };
+
   std::optional<Key> keyOf(int note) const;
-  bool isDown(const Key& key) const;
-  std::vector<Stroke> press(int note, int velocity);
-  std::vector<Stroke> release(int note);
-  std::vector<Stroke> setPedal(bool is_down);
-  static Stroke stroke(const Key& key, double target_m, double speed);
+  double depthOf(const Down& down) const;
+  double depthOf(const Key& key) const;
+  double placeOf(const Key& key) const;
+  void strike(const Key& key, double target_m, double speed, double after_s, Strokes& strokes);
+  void press(const Name& name, int velocity, Strokes& strokes);
+  void release(const Name& name, Strokes& strokes);
+  void goBack(const Key& key, Strokes& strokes);
+  void settle(const Key& key, Strokes& strokes);
+  void setPedal(int number, int value, Strokes& strokes);
+  void catchKeys(bool is_down, Strokes& strokes);
+  void settleKept(Strokes& strokes);
+
+  // keyboard_controls.cpp:
+  void playNote(const Name& name, int velocity, Played& played);
+  void setController(int channel, int number, int value, Played& played);
+  void resetControls(int channel, Played& played);
+  void setKeyPressure(int channel, int note, int value, Played& played);
+  void setControl(const Control& control, int channel, double share, Played& played);
+  void express(const Control& control, std::optional<int> channel, double share, Played& played);
+  void moveFor(const Key& key, const Control& control, double share, Played& played);
+  void moveByMap(const Control& control, double share, Played& played);
+  void move(const Motion& motion,
+            std::optional<std::size_t> number,
+            const Control& control,
+            double share,
+            Played& played);
 
   PlayMap map_;
-  bool pedal_ = false;
-  std::map<int, bool> down_;  // notes whose keys are down; true: only the pedal keeps them
+  HandWays ways_;
+  Learner learner_;
+  MpeZone zone_;
+  double now_s_ = 0.0;
+  double pedal_depth_ = 0.0;  // how far down the sustain pedal keeps keys, 0...1
+  double soft_ = 0.0;         // 0...1
+  bool sostenuto_ = false;
+  std::map<Name, Down> down_;
+  std::map<Name, int> key_pressures_;         // those above 0
+  std::array<Expression, 16> expressions_{};  // [channels]
 };
 
 }  // namespace ergotic::tgr

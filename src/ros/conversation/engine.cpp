@@ -124,6 +124,7 @@ Engine::Engine(const Parameters& parameters,
     jack.outputs = config.output_channels;
     jack.connect = parameters.jack_connect;
     jack.midi = true;
+    jack.midi_connect = parameters.midi_connect;
     jack.latency_frames = static_cast<std::uint32_t>(bridge_->latencyFrames());
     jack_ = std::make_unique<audio::JackHost>(jack, *bridge_);
   }

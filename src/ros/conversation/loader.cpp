@@ -14,6 +14,7 @@
 #include "ros/conversation/convert.hpp"
 #include "ros/conversation/description.hpp"
 #include "ros/conversation/model_loader.hpp"
+#include "ros/conversation/programs.hpp"
 
 namespace ergotic::node {
 namespace {
@@ -105,6 +106,25 @@ void Loader::loadFromParameters() {
     } while (is_device_missing_ && waitUntilNextTry(end_ns));
   } catch (const Exception& refusal) {
     ROS_ERROR_STREAM(refusal.what());
+    operator_.tell(refusal.what());
+  }
+}
+
+/// Whoever plays notes does not ask for force: what is kept is what the station let out by itself.
+void Loader::loadProgram(int program) {
+  try {
+    const auto terms = operator_.terms();
+    if (!terms) {
+      throw Exception(kNothingPlays);
+    }
+    const MidiPrograms allowed = terms->parameters.midi_programs;
+    if (allowed == MidiPrograms::kNever ||
+        (allowed == MidiPrograms::kSimulated && terms->can_hurt)) {
+      return;
+    }
+    load(sceneOfProgram(program, terms->scene_file), false, ::ros::this_node::getName());
+  } catch (const Exception& refusal) {
+    ROS_WARN_STREAM(refusal.what());
     operator_.tell(refusal.what());
   }
 }

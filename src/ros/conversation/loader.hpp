@@ -31,6 +31,11 @@ class Loader {
                            bool allow_unproven,
                            const std::string& loader);
 
+  /// Plays the scene that a MIDI program change means, if the station allows it, as if the station
+  /// itself had asked for it.
+  /// \param program  0...127
+  void loadProgram(int program);
+
   /// Plays the model that the parameter `model` names, if it names one. While its devices cannot be
   /// opened it tries again for some seconds: a station of this name may be about to end.
   void loadFromParameters();

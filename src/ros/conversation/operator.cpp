@@ -195,8 +195,9 @@ std::optional<Operator::Terms> Operator::terms() {
   const Answer answer = ask([this, terms](const Promise& promise) {
     if (Engine* engine = performance_.engine()) {
       const Hands& hands = engine->hands();
-      *terms = Terms{engine->station().config().rates, hands.slices(), hands.traits(),
-                     hands.config().end_effectors, engine->parameters()};
+      *terms = Terms{engine->station().config().rates, hands.slices(),       hands.traits(),
+                     hands.config().end_effectors,     engine->parameters(), hands.canHurt(),
+                     performance_.sceneFile()};
     }
     promise->set_value({true, ""});
   });
@@ -264,10 +265,16 @@ void Operator::run() {
   tasks_.clear();
 }
 
-void Operator::playMidi() {
-  for (const auto& [parameter, value] : performance_.playMidi()) {
+std::optional<int> Operator::playMidi() {
+  const MidiWishes wishes = performance_.playMidi();
+  for (const auto& [parameter, value] : wishes.parameters) {
     setParameterSoon(parameter, value);
   }
+  for (const std::string& line : wishes.news) {
+    ROS_INFO_STREAM(line);
+    tell(line);
+  }
+  return wishes.program;
 }
 
 /// What watches may fail by itself, as where the time of ROS cannot be: no reason to take force

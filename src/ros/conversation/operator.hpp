@@ -71,6 +71,8 @@ class Operator {
     physics::DeviceTraits device;
     tgr::EndEffectors end_effectors;
     Parameters parameters;
+    bool can_hurt = true;    ///< see Hands
+    std::string scene_file;  ///< of the model that plays
   };
   /// \return nothing if no engine runs
   /// \throws Exception if it does not answer
@@ -93,8 +95,10 @@ class Operator {
   }
   /// Plays a note by the map of notes.
   void playNote(int note, int velocity) { performance_.playNote(note, velocity); }
-  /// Plays what came in by MIDI. Thread: one, any
-  void playMidi();
+  /// Plays what came in by MIDI. \return the program that somebody chose last. Thread: one, any
+  std::optional<int> playMidi();
+  /// The next control that somebody moves shall move this parameter; empty: none shall.
+  Answer learnControl(const std::string& parameter) { return performance_.learnControl(parameter); }
   /// \param map  of notes, path or YAML text. \return what is wrong with it, or an empty text
   std::string usePlayMap(const std::string& map) { return performance_.usePlayMap(map); }
   /// Who owns the state of force.

@@ -31,6 +31,12 @@
 
 namespace ergotic::node {
 
+/// What MIDI asks for besides strokes of hands.
+struct MidiWishes {
+  std::vector<std::pair<std::string, double>> parameters;  ///< of the scene, and their values
+  std::vector<std::string> news;                           ///< for who looks at the status
+  std::optional<int> program;                              ///< the newest, 0...127
+};
 constexpr const char* kNothingPlays = "nothing plays: load a model first";
 
 /// Somebody wants force, or the end of a fault.
@@ -90,6 +96,9 @@ class Performance {
   /// In words, for who loaded it. \pre something plays
   std::string whatPlays(bool force_waits) const;
 
+  /// Of the model that plays. \pre something plays
+  const std::string& sceneFile() const { return playing_->instrument->scene().file; }
+
   /// Brings the news of the station to ROS and to those who wait for them.
   void poll();
 
@@ -104,9 +113,11 @@ class Performance {
   std::string moveHands(const HandTargets& wanted, const std::string& sender);
   /// Plays a note by the map of notes. \pre both 0...127. Thread: any
   void playNote(int note, int velocity);
-  /// Plays what came in by MIDI. \return parameters of the scene that it changes, and their values.
-  /// Thread: one, any
-  std::vector<std::pair<std::string, double>> playMidi();
+  /// Plays what came in by MIDI. Thread: one, any
+  MidiWishes playMidi();
+  /// The next control that somebody moves shall move this parameter; empty: none shall.
+  /// Thread: any
+  Answer learnControl(const std::string& parameter);
   /// No key is down any more. Thread: any
   void releaseKeys();
   /// \param map  path or YAML text. \return what is wrong with it, or an empty text. Thread: any
@@ -172,7 +183,8 @@ class Performance {
   void findPlayMap(const scene::Scene& scene, bool keeps_the_players);
   std::string move(const std::vector<tgr::HandMove>& moves);
   std::string readPlayMap(const std::string& map);
-  void play(const std::vector<tgr::Stroke>& strokes, double delay_s);
+  void play(const tgr::Strokes& strokes, double delay_s);
+  void play(const tgr::Keyboard::Played& played, MidiWishes& wishes);
 
   Feed& feed_;
   std::shared_ptr<station::Interlock> interlock_;
@@ -198,7 +210,7 @@ class Performance {
   std::mutex keyboard_mutex_;  // of what follows
   tgr::Keyboard keyboard_;
   std::string players_map_;  // that somebody asked for while this model plays
-  std::map<std::string, std::pair<double, double>> ranges_;  // of the scene's parameters
+  std::map<std::string, tgr::ParameterRange> ranges_;  // of the scene's parameters
   CalibrationGuide guide_;
   std::shared_ptr<Calibrate::Response> measured_;  // of the sample under way
   Promise sampled_;

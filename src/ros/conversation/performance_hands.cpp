@@ -70,7 +70,7 @@ void Performance::show(const tgr::EndEffectors& end_effectors) {
   engine_->hands().setEndEffectors(end_effectors);
   {
     const std::lock_guard lock(keyboard_mutex_);
-    keyboard_.releaseAll();  // its hands let go with all others
+    keyboard_.forgetHands();  // its hands let go with all others
   }
   move(players_.configure(end_effectors));
   feed_.show(end_effectors);

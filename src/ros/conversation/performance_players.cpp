@@ -9,8 +9,10 @@
 #include "constants.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/clock.hpp"
+#include "files/printable.hpp"
 #include "files/read_file.hpp"
 #include "ros/conversation/performance.hpp"
+#include "scene/names.hpp"
 
 namespace ergotic::node {
 namespace {
@@ -19,9 +21,12 @@ const char kKeyboard[] = "keyboard";  // as a sender of targets: no node has a n
 // From the period in which a MIDI message came to the stroke: the thread that reads it is there by
 // then, so that all messages keep their distances in time.
 constexpr double kMidiDelayS = 0.002;
-constexpr double kDecades = 100.0;  // a range over more of them is gone through by its logarithm
-
+constexpr std::size_t kShownName = 64;                     // of what a stranger says, bytes
 constexpr std::size_t kMostBytes = std::size_t{1} << 20U;  // of a map
+
+double nowS() {
+  return static_cast<double>(rt::monotonicNs()) / kNsPerS;
+}
 
 /// Of a scene `folder/NAME.yaml`.
 std::filesystem::path mapBeside(const std::string& scene) {
@@ -49,6 +54,25 @@ tgr::PlayMap usualMap(const scene::Scene& scene) {
   return map;
 }
 
+/// Leaves out what moves coordinates of end-effectors that are not there.
+template <class IsMissing>
+void leaveOut(tgr::PlayMap& map, const IsMissing& is_missing) {
+  const auto leave_out_of = [&](auto& lines, const auto& is_of) {
+    lines.erase(std::remove_if(lines.begin(), lines.end(),
+                               [&](const auto& line) { return is_missing(is_of(line)); }),
+                lines.end());
+  };
+  leave_out_of(map.keys, [](const tgr::KeyLine& line) { return line.end_effector; });
+  leave_out_of(map.controls, [](const tgr::ControlLine& line) { return line.motion.end_effector; });
+  for (tgr::KeyLine& line : map.keys) {
+    for (auto* const motion : {&line.bend, &line.slide}) {
+      if (*motion && is_missing((*motion)->end_effector)) {
+        motion->reset();
+      }
+    }
+  }
+}
+
 HandTargets targetsOf(const tgr::Stroke& stroke) {
   HandTargets wanted;
   wanted.end_effector = stroke.end_effector;
@@ -56,6 +80,7 @@ HandTargets targetsOf(const tgr::Stroke& stroke) {
   wanted.targets = {stroke.target_m};
   wanted.glide = stroke.glide_s;
   wanted.grip = HandTargets::KEY;
+  wanted.release = stroke.lets_go ? 1U : 0U;
   return wanted;
 }
 
@@ -63,7 +88,7 @@ HandTargets targetsOf(const tgr::Stroke& stroke) {
 
 std::string Performance::moveHands(const HandTargets& wanted, const std::string& sender) {
   try {
-    return move(players_.read(wanted, sender, static_cast<double>(rt::monotonicNs()) / kNsPerS));
+    return move(players_.read(wanted, sender, nowS()));
   } catch (const std::exception& refusal) {
     return refusal.what();
   }
@@ -83,7 +108,7 @@ std::string Performance::move(const std::vector<tgr::HandMove>& moves) {
   return "";
 }
 
-void Performance::play(const std::vector<tgr::Stroke>& strokes, double delay_s) {
+void Performance::play(const tgr::Strokes& strokes, double delay_s) {
   for (const tgr::Stroke& stroke : strokes) {
     try {
       std::vector<tgr::HandMove> moves = players_.read(targetsOf(stroke), kKeyboard, 0.0);
@@ -102,16 +127,16 @@ void Performance::play(const std::vector<tgr::Stroke>& strokes, double delay_s) 
 
 void Performance::playNote(int note, int velocity) {
   const std::lock_guard lock(keyboard_mutex_);
-  play(keyboard_.note(note, velocity), 0.0);
+  play(keyboard_.note(note, velocity, nowS()), 0.0);
 }
 
 void Performance::releaseKeys() {
   const std::lock_guard lock(keyboard_mutex_);
-  play(keyboard_.releaseAll(), 0.0);
+  play(keyboard_.releaseAll(nowS()), 0.0);
 }
 
-std::vector<std::pair<std::string, double>> Performance::playMidi() {
-  std::vector<std::pair<std::string, double>> changes;
+MidiWishes Performance::playMidi() {
+  MidiWishes wishes;
   const std::lock_guard keyboard_lock(keyboard_mutex_);
   station::MidiArrival arrival;
   const auto next = [&] {
@@ -119,18 +144,51 @@ std::vector<std::pair<std::string, double>> Performance::playMidi() {
     return engine_ && engine_->popMidi(arrival);
   };
   while (next()) {
-    const auto played = keyboard_.play(arrival.message.bytes.data(), arrival.message.size);
-    const double passed_s = static_cast<double>(rt::monotonicNs() - arrival.period_ns) / kNsPerS;
-    play(played.strokes, kMidiDelayS + arrival.offset_s - passed_s);
-    if (const auto range = ranges_.find(played.parameter); range != ranges_.end()) {
-      const auto [low, high] = range->second;
-      const double value = low > 0.0 && high > kDecades * low
-                               ? low * std::pow(high / low, played.share)
-                               : low + played.share * (high - low);
-      changes.emplace_back(played.parameter, value);
+    const double period_s = static_cast<double>(arrival.period_ns) / kNsPerS;
+    const double happened_s = period_s + arrival.offset_s;
+    const auto& message = arrival.message;
+    const auto played = keyboard_.play(message.bytes.data(), message.size, happened_s);
+    play(played.strokes, kMidiDelayS + happened_s - nowS());
+    play(played, wishes);
+  }
+  return wishes;
+}
+
+/// What it does besides strokes.
+void Performance::play(const tgr::Keyboard::Played& played, MidiWishes& wishes) {
+  for (const tgr::ParameterChange& change : played.changes) {
+    if (const auto range = ranges_.find(change.parameter); range != ranges_.end()) {
+      wishes.parameters.emplace_back(change.parameter, tgr::valueOf(change, range->second));
     }
   }
-  return changes;
+  if (played.learnt) {
+    wishes.news.push_back(nameOf(played.learnt->control) + " moves " +
+                          scene::quoted(played.learnt->parameter) +
+                          " from now on, until another model plays");
+  }
+  wishes.program = played.program ? played.program : wishes.program;
+}
+
+Answer Performance::learnControl(const std::string& parameter) {
+  const std::lock_guard lock(keyboard_mutex_);
+  if (parameter.empty()) {
+    keyboard_.learner().wait("");
+    return {true, "no control is waited for"};
+  }
+  if (ranges_.empty()) {
+    return {false, "nothing plays that has parameters: load a model first"};
+  }
+  if (ranges_.count(parameter) == 0) {
+    std::string known;
+    for (const auto& [name, unused] : ranges_) {
+      known += (known.empty() ? "" : ", ") + name;
+    }
+    return {false, "the model has no parameter " +
+                       scene::quoted(files::printable(parameter, kShownName)) +
+                       ", it has: " + known};
+  }
+  keyboard_.learner().wait(parameter);
+  return {true, "waits for a control: move the one that shall move " + scene::quoted(parameter)};
 }
 
 std::string Performance::usePlayMap(const std::string& map) {
@@ -138,6 +196,7 @@ std::string Performance::usePlayMap(const std::string& map) {
   if (refusal.empty()) {
     const std::lock_guard lock(keyboard_mutex_);
     players_map_ = map;
+    keyboard_.learner().forget();
   }
   return refusal;
 }
@@ -147,15 +206,10 @@ std::string Performance::readPlayMap(const std::string& map) {
     const bool is_text = map.find('\n') != std::string::npos;
     tgr::PlayMap read = is_text ? tgr::readPlayMap(map, "play_map")
                                 : tgr::readPlayMap(files::readFile(map, kMostBytes), map);
-    auto& keys = read.keys;
-    keys.erase(std::remove_if(keys.begin(), keys.end(),
-                              [this](const tgr::KeyLine& line) {
-                                return !line.end_effector.empty() &&
-                                       !players_.has(line.end_effector);
-                              }),
-               keys.end());
+    leaveOut(read,
+             [this](const std::string& tool) { return !tool.empty() && !players_.has(tool); });
     const std::lock_guard lock(keyboard_mutex_);
-    play(keyboard_.use(std::move(read)), 0.0);
+    play(keyboard_.use(std::move(read), nowS()), 0.0);
     return "";
   } catch (const Exception& refusal) {
     return refusal.what();
@@ -169,11 +223,14 @@ void Performance::findPlayMap(const scene::Scene& scene, bool keeps_the_players)
     const std::lock_guard lock(keyboard_mutex_);
     players_map_ = keeps_the_players ? players_map_ : "";
     map = players_map_;
+    if (!keeps_the_players) {
+      keyboard_.learner().forget();
+    }
     ranges_.clear();
     for (const scene::Parameter& parameter : scene.parameters) {
-      ranges_[parameter.name] = {parameter.minimum, parameter.maximum};
+      ranges_[parameter.name] = {parameter.minimum, parameter.value, parameter.maximum};
     }
-    play(keyboard_.use(usualMap(scene)), 0.0);
+    play(keyboard_.use(usualMap(scene), nowS()), 0.0);
   }
   std::error_code error;
   const std::filesystem::path file = mapBeside(scene.file);

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/conversation/services.hpp"
 
+#include <functional>
+#include <utility>
+
+#include <ros/callback_queue_interface.h>
 #include <ros/console.h>
 
 #include "ergotic/exception.hpp"
@@ -32,6 +36,19 @@ class Counted {
  private:
   std::atomic<int>& count_;
   int number_;
+};
+
+/// Runs once, in the thread of a queue.
+class QueuedCall : public ::ros::CallbackInterface {
+ public:
+  explicit QueuedCall(std::function<void()> call) : call_(std::move(call)) {}
+  CallResult call() override {
+    call_();
+    return Success;
+  }
+
+ private:
+  std::function<void()> call_;
 };
 
 template <class Response>
@@ -72,7 +89,7 @@ Services::Services(const ::ros::NodeHandle& node, Operator& operator_thread)
           hands_queue_,
           std::max(urgencyOf(node) - 1, 0),
           [this] {
-            operator_.playMidi();
+            playMidi();
             releaseNotes();
           },
           kMidiPeriod) {
@@ -90,6 +107,7 @@ Services::Services(const ::ros::NodeHandle& node, Operator& operator_thread)
       node_.advertiseService("inject_fault", &Services::onInjectFault, this),
       node_.advertiseService("play_map", &Services::onPlayMap, this),
       node_.advertiseService("take", &Services::onTake, this),
+      node_.advertiseService("learn_controller", &Services::onLearnController, this),
       safety_node_.advertiseService("emergency_stop", &Services::onEmergencyStop, this),
       safety_node_.advertiseService("stop", &Services::onStop, this),
   };
@@ -203,6 +221,21 @@ bool Services::onTake(Take::Request& request, Take::Response& response) {
   response = operator_.take(request);
   response.message = files::printableLines(response.message);
   return true;
+}
+
+bool Services::onLearnController(LearnController::Request& request,
+                                 LearnController::Response& response) {
+  return fill(response, operator_.learnControl(request.parameter));
+}
+
+/// Programs are loaded where all models are: of several that come meanwhile, the last.
+void Services::playMidi() {
+  const auto program = operator_.playMidi();
+  if (!program || program_.exchange(*program) != kNoProgram) {
+    return;
+  }
+  const auto load = [this] { loader_.loadProgram(program_.exchange(kNoProgram)); };
+  loading_queue_.addCallback(boost::make_shared<QueuedCall>(load));
 }
 
 bool Services::onRecover(Call<Trigger>& call) {

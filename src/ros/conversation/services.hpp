@@ -11,6 +11,7 @@
 #include <ergotic/EndEffectors.h>
 #include <ergotic/HandTargets.h>
 #include <ergotic/InjectFault.h>
+#include <ergotic/LearnController.h>
 #include <ergotic/LoadModel.h>
 #include <ergotic/Note.h>
 #include <ergotic/ParameterValue.h>
@@ -60,6 +61,8 @@ class Services {
   void onVolume(const std_msgs::Float64& volume);
   bool onTake(Take::Request& request, Take::Response& response);
   bool onPlayMap(PlayMap::Request& request, PlayMap::Response& response);
+  bool onLearnController(LearnController::Request& request, LearnController::Response& response);
+  void playMidi();
   Answer configure(const std::vector<EndEffector>& end_effectors);
   bool onRecover(Call<Trigger>& call);
   bool onConfigure(ConfigureEndEffectors::Request& request,
@@ -72,6 +75,8 @@ class Services {
   void onPresence(const ::ros::MessageEvent<const std_msgs::Bool>& present);
   void followShutdown();
 
+  static constexpr int kNoProgram = -1;
+
   Operator& operator_;
   PresenceOwner presence_owner_;
   Loader loader_;
@@ -81,6 +86,7 @@ class Services {
   // Of the thread of hands:
   std::int64_t complained_ns_ = 0;
   std::map<int, std::int64_t> held_notes_;  // until when they count, unless they are held longer
+  std::atomic<int> program_{kNoProgram};    // that shall be loaded, by MIDI
   ::ros::CallbackQueue loading_queue_;
   ::ros::NodeHandle loading_node_;
   ::ros::AsyncSpinner loading_spinner_;

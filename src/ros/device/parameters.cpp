@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <regex>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -38,6 +39,9 @@ const std::map<std::string, station::SwapForce> kForceAfterSwap = {
     {"loader", station::SwapForce::kCaller},
     {"always", station::SwapForce::kAlways},
     {"never", station::SwapForce::kNever}};
+const std::map<std::string, MidiPrograms> kMidiPrograms = {{"simulated", MidiPrograms::kSimulated},
+                                                           {"always", MidiPrograms::kAlways},
+                                                           {"never", MidiPrograms::kNever}};
 const std::map<std::string, bool> kPresence = {{"topic", true}, {"none", false}};
 
 std::map<std::string, rt::Isa> isas() {
@@ -276,6 +280,8 @@ void visitParameters(Visitor& on, P& p) {
   on.text("jack_name", p.jack_name);
   on.number("jack_wait", p.jack_wait, 0.0, 60.0);
   on.flag("jack_connect", p.jack_connect);
+  on.text("midi_connect", p.midi_connect);
+  on.choice("midi_programs", p.midi_programs, kMidiPrograms);
   on.integer("ring_depth", p.ring_depth, 1, station::AudioBridge::kMaxLatencyFrames);
   on.flag("limiter", p.limiter);
   visitSafety(on, p.safety);
@@ -295,6 +301,20 @@ void visitParameters(Visitor& on, P& p) {
   on.flag("allow_remote", p.allow_remote);
   on.number("display_rate", p.display_rate, 1.0, 60.0);
   on.number("display_zoom", p.display_zoom, 0.0, 1e6);
+}
+
+void requireMidiConnect(const std::string& wish, const std::string& node) {
+  const std::string text = "parameter " + node + "/midi_connect is ";
+  const char allowed[] =
+      ", allowed: physical, none, or a part of the names of ports, a regular expression";
+  if (wish.empty()) {
+    throw Exception(text + "empty" + allowed);
+  }
+  try {
+    const std::regex checked(wish, std::regex::extended);
+  } catch (const std::regex_error&) {
+    throw Exception(text + wish + allowed);
+  }
 }
 
 /// A path, or a text of more than one line.
@@ -359,6 +379,7 @@ Parameters readParameters(const Value& values, const std::string& node) {
   p.safety.frozen_s = kFrozenS;
   visitParameters(read, p);
   read.refuseUnread();
+  requireMidiConnect(p.midi_connect, node);
   return p;
 }
 

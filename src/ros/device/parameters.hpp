@@ -22,6 +22,13 @@ enum class Realtime {
   kOff,
 };
 
+/// Where program changes by MIDI play other models.
+enum class MidiPrograms {
+  kSimulated,  ///< at devices that are only simulated
+  kAlways,
+  kNever,
+};
+
 /// Private parameters of the nodelet, read once; docs/ros.md says the same with more words.
 struct Parameters {
   std::string model;                  ///< path of a scene, or its YAML text; empty: wait for one
@@ -39,8 +46,10 @@ struct Parameters {
   std::string jack_name = "ergotic";  ///< of the JACK client
   double jack_wait = 2.0;             ///< s, for a server to appear before the first model plays
   bool jack_connect = true;           ///< out_i to the i-th physical playback port
-  int ring_depth = 768;               ///< audio frames from a tick's due time to its sound
-  bool limiter = true;                ///< keeps the sound below full scale
+  std::string midi_connect = "physical";  ///< see audio::JackConfig
+  MidiPrograms midi_programs = MidiPrograms::kSimulated;
+  int ring_depth = 768;  ///< audio frames from a tick's due time to its sound
+  bool limiter = true;   ///< keeps the sound below full scale
   tgr::SafetyConfig safety;
   std::optional<double> max_stall;  ///< s, longer stalls are a fault; none: see withStallLimits
   std::optional<int> max_stalls;    ///< in a second of force, more are a fault; none: the same

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Notes, and the pedals that keep them.
 #include "ergotic/tgr/keyboard.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "ergotic/tgr/driver.hpp"
@@ -10,23 +12,39 @@
 namespace ergotic::tgr {
 namespace {
 
-constexpr int kNotes = 128;
-constexpr int kHalf = 64;  // a pedal is down from there on
-constexpr double kMost = 127.0;
+constexpr double kFastestVelocity = 127.0;
+constexpr int kNoChannel = 16;
+constexpr double kSoftest = 2.0 / 3.0;  // of the velocity, with the soft pedal down
 
-enum Status : std::uint8_t { kNoteOff = 0x80, kNoteOn = 0x90, kController = 0xb0 };
-enum Controller : std::uint8_t { kSustain = 64, kAllSoundOff = 120, kAllNotesOff = 123 };
-
-double speedOf(const KeyLine& line, int velocity) {
-  return line.slowest * std::pow(line.fastest / line.slowest, (velocity - 1) / (kMost - 1.0));
+double speedOf(const KeyLine& line, double velocity) {
+  return line.slowest *
+         std::pow(line.fastest / line.slowest, (velocity - 1.0) / (kFastestVelocity - 1.0));
 }
 
 }  // namespace
 
-std::vector<Stroke> Keyboard::use(PlayMap map) {
-  std::vector<Stroke> released = releaseAll();
+Strokes Keyboard::use(PlayMap map, double now_s) {
+  Strokes strokes = releaseAll(now_s);
+  const auto let_go = [&](const Motion& motion) {
+    for (const int index : motion.indices) {
+      ways_.letGo({motion.end_effector, index}, strokes);
+    }
+  };
+  for (const ControlLine& line : map_.controls) {
+    let_go(line.motion);
+  }
+  for (const KeyLine& line : map_.keys) {
+    let_go(line.bend.value_or(Motion()));
+    let_go(line.slide.value_or(Motion()));
+  }
   map_ = std::move(map);
-  return released;
+  zone_.use(map_.mpe);
+  return strokes;
+}
+
+void Keyboard::forgetHands() {
+  down_.clear();
+  ways_.clear();
 }
 
 std::optional<Keyboard::Key> Keyboard::keyOf(int note) const {
@@ -34,115 +52,182 @@ std::optional<Keyboard::Key> Keyboard::keyOf(int note) const {
   for (const KeyLine& line : map_.keys) {
     if (sounding >= line.first_note && sounding <= line.last_note) {
       const auto number = static_cast<std::size_t>(sounding - line.first_note);
-      return Key{&line, line.indices[number % line.indices.size()]};
+      return Key{&line, number, {line.end_effector, line.indices[number % line.indices.size()]}};
     }
   }
   return std::nullopt;
 }
 
-bool Keyboard::isDown(const Key& key) const {
-  return std::any_of(down_.begin(), down_.end(), [&](const auto& other) {
-    const auto others = keyOf(other.first);
-    return others->index == key.index && others->line->end_effector == key.line->end_effector;
-  });
+double Keyboard::depthOf(const Down& down) const {
+  return down.is_held || down.is_caught ? 1.0 : pedal_depth_;
 }
 
-Stroke Keyboard::stroke(const Key& key, double target_m, double speed) {
+/// Of all notes that have this key.
+double Keyboard::depthOf(const Key& key) const {
+  double depth = 0.0;
+  for (const auto& [name, down] : down_) {
+    if (keyOf(name.second)->hand == key.hand) {
+      depth = std::max(depth, depthOf(down));
+    }
+  }
+  return depth;
+}
+
+double Keyboard::placeOf(const Key& key) const {
+  const KeyLine& line = *key.line;
+  double pressure = 0.0;
+  for (const auto& [name, down] : down_) {
+    if (down.is_held && keyOf(name.second)->hand == key.hand) {
+      pressure = std::max(pressure, down.pressure);
+    }
+  }
+  if (pressure > 0.0) {  // a finger is there, so that it is down
+    return line.to_m + pressure * (line.pressure_to_m.value_or(line.to_m) - line.to_m);
+  }
+  const double depth = depthOf(key);
+  return depth == 1.0 ? line.to_m : line.from_m + depth * (line.to_m - line.from_m);
+}
+
+/// Between the two ends, which is as far as a stroke goes.
+void Keyboard::strike(
+    const Key& key, double target_m, double speed, double after_s, Strokes& strokes) {
   const double way = std::abs(key.line->to_m - key.line->from_m);
-  return {key.line->end_effector, key.index, target_m,
-          std::min(HandMove::kPeakOfMean * way / speed, HandMove::kMostGlideS), 0.0};
+  ways_.glide(key.hand, target_m,
+              std::min(HandMove::kPeakOfMean * way / speed, HandMove::kMostGlideS), after_s, now_s_,
+              strokes);
 }
 
-Keyboard::Played Keyboard::play(const std::uint8_t* bytes, int size) {
-  if (size < 3 || bytes[1] >= kNotes || bytes[2] >= kNotes) {
-    return {};
+Strokes Keyboard::note(int note, int velocity, double now_s) {
+  now_s_ = now_s;
+  Strokes strokes;
+  if (velocity > 0) {
+    press({kNoChannel, note}, velocity, strokes);
+  } else {
+    release({kNoChannel, note}, strokes);
   }
-  constexpr std::uint8_t kWithoutChannel = 0xf0;
-  const int value = bytes[2];
-  switch (bytes[0] & kWithoutChannel) {
-    case kNoteOn:
-      return {note(bytes[1], value), "", 0.0};
-    case kNoteOff:
-      return {note(bytes[1], 0), "", 0.0};
-    case kController:
-      break;
-    default:
-      return {};
-  }
-  if (bytes[1] == kSustain) {
-    return {setPedal(value >= kHalf), "", 0.0};
-  }
-  if (bytes[1] == kAllSoundOff || bytes[1] == kAllNotesOff) {
-    return {releaseAll(), "", 0.0};
-  }
-  for (const ControllerLine& line : map_.controllers) {
-    if (line.controller == bytes[1]) {
-      return {{}, line.parameter, value / kMost};
-    }
-  }
-  return {};
+  return strokes;
 }
 
-std::vector<Stroke> Keyboard::note(int note, int velocity) {
-  return velocity > 0 ? press(note, velocity) : release(note);
-}
-
-std::vector<Stroke> Keyboard::press(int note, int velocity) {
-  const auto key = keyOf(note);
+void Keyboard::press(const Name& name, int velocity, Strokes& strokes) {
+  const auto key = keyOf(name.second);
   if (!key) {
-    return {};
+    return;
   }
-  Stroke there = stroke(*key, key->line->to_m, speedOf(*key->line, velocity));
-  if (key->line->strikes) {
-    Stroke back = stroke(*key, key->line->from_m, key->line->back);
-    back.after_s = there.glide_s;
-    return {there, back};
+  const KeyLine& line = *key->line;
+  const double speed = speedOf(line, std::max(velocity * (1.0 - soft_ * (1.0 - kSoftest)), 1.0));
+  if (line.strikes) {
+    strike(*key, line.to_m, speed, 0.0, strokes);
+    strike(*key, line.from_m, line.back, strokes.back().glide_s, strokes);
+    return;
   }
-  std::vector<Stroke> strokes;
-  if (isDown(*key)) {  // it has to come up before it can be pressed again
-    strokes.push_back(stroke(*key, key->line->from_m, key->line->fastest));
-    there.after_s = strokes.back().glide_s;
+  double after_s = 0.0;
+  if (depthOf(*key) > 0.0) {  // it has to come up before it can be pressed again
+    strike(*key, line.from_m, line.fastest, 0.0, strokes);
+    after_s = strokes.back().glide_s;
   }
-  strokes.push_back(there);
-  down_[note] = false;
-  return strokes;
+  strike(*key, line.to_m, speed, after_s, strokes);
+  Down& down = down_[name];
+  down.is_held = true;
+  down.pressure = 0.0;
 }
 
-std::vector<Stroke> Keyboard::release(int note) {
-  const auto found = down_.find(note);
+void Keyboard::release(const Name& name, Strokes& strokes) {
+  const auto found = down_.find(name);
   if (found == down_.end()) {
-    return {};
+    return;
   }
-  if (pedal_) {
-    found->second = true;
-    return {};
+  const Key key = *keyOf(name.second);
+  Down& down = found->second;
+  down.is_held = false;
+  down.pressure = 0.0;
+  if (depthOf(down) == 0.0) {
+    down_.erase(found);
   }
-  down_.erase(found);
-  const Key key = *keyOf(note);
-  if (isDown(key)) {
-    return {};  // by another note
-  }
-  return {stroke(key, key.line->from_m, key.line->back)};
+  goBack(key, strokes);
 }
 
-std::vector<Stroke> Keyboard::setPedal(bool is_down) {
-  pedal_ = is_down;
-  std::vector<Stroke> strokes;
-  const std::map<int, bool> down = down_;
-  for (const auto& [note, is_kept] : down) {
-    if (!is_down && is_kept) {
-      const std::vector<Stroke> back = release(note);
-      strokes.insert(strokes.end(), back.begin(), back.end());
+/// As far as the other notes that have it, and pedals, let it.
+void Keyboard::goBack(const Key& key, Strokes& strokes) {
+  const double place_m = placeOf(key);
+  const double told_m = ways_.toldOf(key.hand, key.line->from_m);
+  if (place_m == told_m) {
+    return;
+  }
+  if (depthOf(key) == 1.0) {
+    return settle(key, strokes);
+  }
+  const double glide_s = HandMove::kPeakOfMean * std::abs(place_m - told_m) / key.line->back;
+  ways_.glide(key.hand, place_m, std::min(glide_s, HandMove::kMostGlideS), 0.0, now_s_, strokes);
+}
+
+/// Follows a pedal, or a finger that presses more or less.
+void Keyboard::settle(const Key& key, Strokes& strokes) {
+  ways_.follow(key.hand, placeOf(key), key.line->from_m, key.line->back, now_s_, strokes);
+}
+
+/// No effect of a controller that is no pedal.
+void Keyboard::setPedal(int number, int value, Strokes& strokes) {
+  constexpr int kSustain = 64;
+  constexpr int kSostenuto = 66;
+  constexpr int kSoft = 67;
+  constexpr int kHalf = 64;  // a pedal that only is down or up is down from there on
+  const double share = value / kFastestVelocity;
+  switch (number) {
+    case kSustain:
+      pedal_depth_ = std::clamp(2.0 * share - 0.5, 0.0, 1.0);
+      return settleKept(strokes);
+    case kSostenuto:
+      return catchKeys(value >= kHalf, strokes);
+    case kSoft:
+      soft_ = share;
+      return;
+    default:
+      return;
+  }
+}
+
+void Keyboard::catchKeys(bool is_down, Strokes& strokes) {
+  if (is_down == sostenuto_) {
+    return;
+  }
+  sostenuto_ = is_down;
+  for (auto& [name, down] : down_) {
+    down.is_caught = is_down && down.is_held;
+  }
+  settleKept(strokes);
+}
+
+/// Keys that no finger holds are as far down as pedals keep them.
+void Keyboard::settleKept(Strokes& strokes) {
+  std::map<HandWays::Hand, Key> kept;
+  for (auto next = down_.begin(); next != down_.end();) {
+    const auto [name, down] = *next;
+    if (!down.is_held) {
+      const Key key = *keyOf(name.second);
+      kept.emplace(key.hand, key);
+    }
+    next = depthOf(down) == 0.0 ? down_.erase(next) : std::next(next);
+  }
+  for (const auto& [hand, key] : kept) {
+    if (depthOf(key) == 0.0) {
+      goBack(key, strokes);
+    } else {
+      settle(key, strokes);
     }
   }
-  return strokes;
 }
 
-std::vector<Stroke> Keyboard::releaseAll() {
-  for (auto& [note, is_kept] : down_) {
-    is_kept = true;
+Strokes Keyboard::releaseAll(double now_s) {
+  now_s_ = now_s;
+  pedal_depth_ = 0.0;
+  sostenuto_ = false;
+  key_pressures_.clear();
+  for (auto& [name, down] : down_) {
+    down = Down();
   }
-  return setPedal(false);
+  Strokes strokes;
+  settleKept(strokes);
+  return strokes;
 }
 
 }  // namespace ergotic::tgr

@@ -148,11 +148,21 @@ TEST(ParametersTest, AreRefusedOutsideTheirRange) {
             "parameter /station/jack is perhaps, allowed: auto, none");
 }
 
+TEST(ParametersTest, ThatNamePortsAreRefusedIfTheyAreNoRegularExpression) {
+  EXPECT_EQ(refusalOf("midi_connect", "nanoKEY"), "");
+  EXPECT_THAT(refusalOf("midi_connect", "nano["),
+              AllOf(HasSubstr("parameter /station/midi_connect is nano[,"),
+                    HasSubstr("allowed: physical, none")));
+  EXPECT_EQ(refusalOf("midi_programs", "yes"),
+            "parameter /station/midi_programs is yes, allowed: always, never, simulated");
+}
+
 /// `presence:=$UNSET` of a shell must not mean that there is no switch.
 TEST(ParametersTest, AreRefusedWhereAChoiceIsEmpty) {
   EXPECT_EQ(refusalOf("presence", ""),
             "parameter /station/presence is empty, allowed: none, topic");
-  for (const char* const name : {"realtime", "force_after_swap", "precision", "isa", "jack"}) {
+  for (const char* const name : {"realtime", "force_after_swap", "precision", "isa", "jack",
+                                 "midi_connect", "midi_programs"}) {
     EXPECT_THAT(refusalOf(name, ""), HasSubstr(" is empty, allowed: ")) << name;
   }
   EXPECT_EQ(refusalOf("end_effectors", ""), "") << "a text may be empty";

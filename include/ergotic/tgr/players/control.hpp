@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ergotic::tgr {
+
+/// What a player turns, bends or presses, on any channel.
+struct Control {
+  enum class Kind : std::uint8_t {
+    kController,  ///< 0...1
+    kBend,        ///< -1...1, 0 when it is let go
+    kPressure     ///< 0...1, of a channel or of the key that is pressed most
+  };
+  Kind kind = Kind::kController;
+  int number = 0;  ///< of a controller, MIDI
+
+  bool operator==(const Control& other) const {
+    return kind == other.kind && number == other.number;
+  }
+};
+
+/// "controller 21", "the pitch bend", "the pressure".
+std::string nameOf(const Control& control);
+
+/// -1...1 of the 14 bits of a bend; both ends are reached, and so is 0.
+double bendOf(int low, int high);
+
+/// A parameter of the scene shall have another value.
+struct ParameterChange {
+  std::string parameter;
+  double share = 0.0;  ///< of its range, 0...1; -1...1 if it is bent
+  bool is_bent = false;
+};
+
+/// Of a parameter: 0 of a bend is its usual value.
+struct ParameterRange {
+  double low = 0.0;
+  double usual = 0.0;
+  double high = 1.0;
+};
+
+/// Evenly in the value, or in its logarithm if the range has more than two decades above zero.
+double valueOf(const ParameterChange& change, const ParameterRange& range);
+
+/// Binds the next control that somebody moves to a parameter. Thread: one
+class Learner {
+ public:
+  struct Learnt {
+    Control control;
+    std::string parameter;
+  };
+
+  /// \param parameter  that the next control shall move; empty: it waits for none any more
+  void wait(std::string parameter);
+  /// What was learnt has no effect any more, and it waits for nothing.
+  void forget();
+
+  /// \param share  where the control is, -1...1
+  /// \return what was learnt by that: it went further than `kLittle` from where it was first heard
+  std::optional<Learnt> hear(const Control& control, double share);
+
+  /// Of a control that was learnt. \return null for others
+  const std::string* parameterOf(const Control& control) const;
+
+  /// A hand that rests on a wheel, and what sends a value now and then, binds nothing.
+  static constexpr double kLittle = 8.5 / 127.0;
+
+ private:
+  std::string parameter_;
+  std::vector<std::pair<Control, double>> first_heard_;  // since it waits
+  std::vector<Learnt> learnt_;
+};
+
+/// Which channels have notes of their own, by MIDI Polyphonic Expression (MMA/AMEI RP-053), lower
+/// zone: 0 is the manager, and members follow it. Channels are 0...15. Thread: one
+class MpeZone {
+ public:
+  static constexpr int kAllMembers = 15;
+
+  /// \param wanted  by the map; nothing: as the player's device has said, which says it once
+  void use(std::optional<bool> wanted) { wanted_ = wanted; }
+  /// Any controller; registered parameter 6 on the manager's channel tells how many members.
+  void hear(int channel, int controller, int value);
+
+  bool isOn() const { return members() > 0; }
+  bool isMember(int channel) const { return channel >= 1 && channel <= members(); }
+
+ private:
+  int members() const;
+
+  std::optional<bool> wanted_;
+  std::optional<int> told_;                  // members, by the device
+  std::array<int, 2> registered_{127, 127};  // of the manager: high and low of what it chose last
+};
+
+}  // namespace ergotic::tgr

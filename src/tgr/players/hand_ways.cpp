@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ergotic/tgr/players/hand_ways.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ergotic/tgr/driver.hpp"
+
+namespace ergotic::tgr {
+namespace {
+
+Stroke lineTo(const HandWays::Hand& hand, double target_m, double after_s) {
+  return {hand.first, hand.second, target_m, 0.0, after_s, false};
+}
+
+}  // namespace
+
+double HandWays::Way::lineAt(double time_s) const {
+  const double share =
+      end_s > begin_s ? std::clamp((time_s - begin_s) / (end_s - begin_s), 0.0, 1.0) : 1.0;
+  return share == 1.0 ? to_m : from_m + share * (to_m - from_m);
+}
+
+double HandWays::toldOf(const Hand& hand, double rest_m) const {
+  const auto found = ways_.find(hand);
+  return found == ways_.end() ? rest_m : found->second.to_m;
+}
+
+void HandWays::glide(const Hand& hand,
+                     double target_m,
+                     double glide_s,
+                     double after_s,
+                     double now_s,
+                     Strokes& strokes) {
+  const auto [way, is_new] = ways_.try_emplace(hand);
+  Way& last = way->second;
+  const bool is_on_line = !is_new && !last.is_glide && last.begin_s < now_s && now_s < last.end_s;
+  if (is_on_line) {
+    strokes.push_back(lineTo(hand, last.lineAt(now_s), 0.0));
+  }
+  strokes.push_back({hand.first, hand.second, target_m, glide_s, after_s, false});
+  const double begin_s = now_s + after_s;
+  last = {begin_s, begin_s + glide_s, target_m, target_m, true};
+}
+
+void HandWays::follow(const Hand& hand,
+                      double target_m,
+                      double rest_m,
+                      double speed,
+                      double now_s,
+                      Strokes& strokes) {
+  const auto [way, is_new] = ways_.try_emplace(hand);
+  Way& last = way->second;
+  if (is_new) {
+    last = {now_s, now_s, rest_m, rest_m, false};
+  }
+  if (last.to_m == target_m && !is_new) {
+    return;
+  }
+  const double begin_s = std::max(now_s, last.is_glide ? last.end_s : last.begin_s);
+  const double from_m = last.lineAt(begin_s);
+  if (last.is_glide || begin_s < last.end_s) {  // else it stands there
+    strokes.push_back(lineTo(hand, from_m, begin_s - now_s));
+  }
+  const double way_s =
+      std::clamp(std::abs(target_m - from_m) / speed, kLagS, HandMove::kMostGlideS);
+  last = {begin_s, begin_s + way_s, from_m, target_m, false};
+  strokes.push_back(lineTo(hand, target_m, last.end_s - now_s));
+}
+
+void HandWays::letGo(const Hand& hand, Strokes& strokes) {
+  if (ways_.erase(hand) > 0) {
+    Stroke stroke = lineTo(hand, 0.0, 0.0);
+    stroke.lets_go = true;
+    strokes.push_back(stroke);
+  }
+}
+
+}  // namespace ergotic::tgr

@@ -8,10 +8,12 @@
 #include <QEvent>
 #include <QKeyEvent>
 #include <QMouseEvent>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include <ergotic/Note.h>
+#include <ergotic/Tap.h>
 #include <rviz/display_context.h>
 #include <rviz/frame_manager.h>
 #include <rviz/properties/bool_property.h>
@@ -28,7 +30,10 @@
 namespace ergotic::panel {
 namespace {
 
-constexpr double kNearPixels = 16.0;     // from the pointer to a handle that it takes
+constexpr double kNearPixels = 16.0;  // from the pointer to a handle that it takes
+constexpr double kTapPixels = 90.0;   // from a click to a handle that it strikes
+constexpr double kClickPixels = 4.0;  // that the pointer may move in a click
+constexpr std::int64_t kClickNs = 400'000'000;
 constexpr double kMarkPixels = 14.0;     // diameter of a handle's mark
 constexpr double kFine = 0.1;            // of the way of the mouse, with Shift
 constexpr double kDepthPerStep = 0.002;  // m per step of the wheel
@@ -95,6 +100,7 @@ void GrabTool::subscribe() {
   }
   targets_ = node_.advertise<HandTargets>(station + "/hand_targets", kQueue);
   notes_ = node_.advertise<Note>(station + "/notes", kQueue);
+  taps_ = node_.advertise<Tap>(station + "/taps", kQueue);
   const auto show = [this](const auto& message) { set_.show(message); };
   structure_ = node_.subscribe<ModelStructure>(
       station + "/model_structure", 1,
@@ -109,7 +115,8 @@ void GrabTool::activate() {
   panel_ = context_->getViewManager()->getRenderPanel();
   panel_->installEventFilter(this);
   setStatus(
-      "Drag what lights up under the mouse. Wheel: nearer, farther. Shift: finer. Right "
+      "Click what lights up under the mouse, or drag it. Wheel: nearer, farther. Shift: finer. "
+      "Right "
       "button: let go. Keys Z to / and Q to P play notes.");
 }
 
@@ -245,13 +252,13 @@ std::optional<GrabTool::View> GrabTool::viewOf(const rviz::ViewportMouseEvent& e
               to_model.linear() * toEigen(camera->getDerivedDirection())};
 }
 
-const Handle* GrabTool::handleUnder(const rviz::ViewportMouseEvent& event) const {
+const Handle* GrabTool::handleNear(const rviz::ViewportMouseEvent& event, double pixels) const {
   const Ogre::Camera* const camera = event.viewport->getCamera();
   const Ogre::Matrix4 to_screen = camera->getProjectionMatrix() * camera->getViewMatrix();
   const double width = event.viewport->getActualWidth();
   const double height = event.viewport->getActualHeight();
   const Handle* nearest = nullptr;
-  double least = kNearPixels;
+  double least = pixels;
   for (const Handle& handle : set_.handles()) {
     const Ogre::Vector4 at = to_screen * Ogre::Vector4(toOgre(model_ * handle.place()));
     if (at.w <= 0.0F) {
@@ -267,18 +274,44 @@ const Handle* GrabTool::handleUnder(const rviz::ViewportMouseEvent& event) const
   return nearest;
 }
 
+/// The left button comes up where and soon after it went down.
+bool GrabTool::isClick(rviz::ViewportMouseEvent& event) const {
+  return event.leftUp() && wallNs() - pressed_ns_ < kClickNs &&
+         std::hypot(event.x - pressed_x_, event.y - pressed_y_) < kClickPixels;
+}
+
+void GrabTool::tap(const Handle& handle, bool is_hard) {
+  const auto index =
+      std::find_if(handle.indices.begin(), handle.indices.end(), [](int i) { return i >= 0; });
+  if (index != handle.indices.end()) {
+    Tap message;
+    message.end_effector = handle.end_effector;
+    message.index = static_cast<std::uint32_t>(*index);
+    message.velocity = static_cast<std::uint8_t>(is_hard ? kHardVelocity : kVelocity);
+    taps_.publish(message);
+  }
+}
+
 int GrabTool::processMouseEvent(rviz::ViewportMouseEvent& event) {
+  if (event.leftDown()) {
+    pressed_x_ = event.x;
+    pressed_y_ = event.y;
+    pressed_ns_ = wallNs();
+  }
   return grab_ ? hold(event) : hover(event);
 }
 
 int GrabTool::hover(rviz::ViewportMouseEvent& event) {
   const bool drags_camera = event.type == QEvent::MouseMove && event.buttons_down != Qt::NoButton;
-  const Handle* const handle = drags_camera ? nullptr : handleUnder(event);
+  const Handle* const handle = drags_camera ? nullptr : handleNear(event, kNearPixels);
   hovered_ = handle != nullptr ? handle->name : "";
   const auto view = viewOf(event);
   if (handle != nullptr && event.leftDown() && view) {
     take(*handle, *view);
     return Render;
+  }
+  if (const Handle* const near = isClick(event) ? handleNear(event, kTapPixels) : nullptr) {
+    tap(*near, event.shift());
   }
   if (rviz::ViewController* const camera = event.panel->getViewController()) {
     camera->handleMouseEvent(event);
@@ -302,7 +335,11 @@ int GrabTool::hold(rviz::ViewportMouseEvent& event) {
   }
   send();
   if (event.leftUp() || event.rightDown()) {
+    const Handle handle = grab_->handle();
     drop();
+    if (isClick(event)) {
+      tap(handle, event.shift());
+    }
   }
   return Render;
 }

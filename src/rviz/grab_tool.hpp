@@ -55,9 +55,11 @@ class GrabTool : public rviz::Tool {
 
   bool playKey(const QKeyEvent& key, bool is_press);
   void sendNote(int note, int velocity);
+  void tap(const Handle& handle, bool is_hard);
 
   std::optional<View> viewOf(const rviz::ViewportMouseEvent& event);
-  const Handle* handleUnder(const rviz::ViewportMouseEvent& event) const;
+  const Handle* handleNear(const rviz::ViewportMouseEvent& event, double pixels) const;
+  bool isClick(rviz::ViewportMouseEvent& event) const;
   int hover(rviz::ViewportMouseEvent& event);
   int hold(rviz::ViewportMouseEvent& event);
   void take(const Handle& handle, const View& view);
@@ -78,6 +80,7 @@ class GrabTool : public rviz::Tool {
   ros::NodeHandle node_;
   ros::Publisher targets_;
   ros::Publisher notes_;
+  ros::Publisher taps_;
   ros::Subscriber structure_;
   ros::Subscriber handles_;
   ros::Subscriber state_;
@@ -91,6 +94,9 @@ class GrabTool : public rviz::Tool {
   std::unique_ptr<GrabPicture> picture_;
   Eigen::Isometry3d model_ = Eigen::Isometry3d::Identity();  // in the fixed frame
 
+  int pressed_x_ = 0;  // where the left button went down, and when
+  int pressed_y_ = 0;
+  std::int64_t pressed_ns_ = 0;
   std::int64_t event_ms_ = 0;       // of the latest mouse event, by the window system's clock
   std::int64_t event_wall_ns_ = 0;  // when it came
   std::int64_t sent_wall_ns_ = 0;

@@ -197,6 +197,14 @@ class PlayingTest(DeskTest):
         swing = max(map(abs, self.state.message.displacement[first:first + count]))
         self.assertGreater(swing, 1e-4, "the string does not sound")
 
+    def test_1b_a_click_strikes(self):
+        self.wait_for_window("/station/handles")
+        gesture = Gesture(STRIKE)
+        x, y = self.handle("hammer_key")
+        xdotool("mousemove", x + 12, y + 25, "sleep", 0.3, "click", 1)  # near it is enough
+        self.assertTrue(until(lambda: gesture.positions and max(gesture.positions) > 0.003), "nothing is struck")
+        self.assertTrue(until(lambda: gesture.positions[-1] < 0.002), "the hand does not go back")
+
     def test_2_keys_of_the_computer_play_notes(self):
         self.wait_for_window("/station/handles")
         gesture = Gesture(STRIKE)

@@ -53,6 +53,16 @@ TEST_F(KeyboardTest, NotesGoRoundTheSlicesOfTheirLine) {
   EXPECT_TRUE(note(39, 100).empty()) << "no line has it";
 }
 
+TEST_F(KeyboardTest, KnowsTheNoteThatMovesAHand) {
+  EXPECT_EQ(keyboard_.noteOf({"", 2}), 41);
+  EXPECT_EQ(keyboard_.noteOf({"mallet", 2}), 60);
+  EXPECT_EQ(keyboard_.noteOf({"", 1}), std::nullopt);
+  PlayMap higher = twoKeys();
+  higher.transpose = 12;
+  keyboard_.use(higher, 0.0);
+  EXPECT_EQ(keyboard_.noteOf({"", 0}), 28) << "which sounds as 40";
+}
+
 TEST_F(KeyboardTest, AKeyGoesBackWhenItIsReleased) {
   note(40, 100);
   const auto back = note(40, 0);

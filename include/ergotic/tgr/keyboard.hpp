@@ -44,6 +44,9 @@ class Keyboard {
 
   /// \param bytes  of a MIDI message. What means nothing here is passed over
   Played play(const std::uint8_t* bytes, int size, double now_s);
+  /// The lowest note, as it is given to `note`, that moves a hand.
+  std::optional<int> noteOf(const HandWays::Hand& hand) const;
+
   /// From somebody who has no channel.
   /// \param note  0...127. \param velocity  0...127; 0: release
   Strokes note(int note, int velocity, double now_s);

@@ -95,6 +95,10 @@ class Operator {
   }
   /// Plays a note by the map of notes.
   void playNote(int note, int velocity) { performance_.playNote(note, velocity); }
+  /// Plays the note that moves a hand. \return it, if there is one
+  std::optional<int> tap(const std::string& end_effector, int index, int velocity) {
+    return performance_.tap(end_effector, index, velocity);
+  }
   /// Plays what came in by MIDI. \return the program that somebody chose last. Thread: one, any
   std::optional<int> playMidi();
   /// The next control that somebody moves shall move this parameter; empty: none shall.

@@ -113,6 +113,9 @@ class Performance {
   std::string moveHands(const HandTargets& wanted, const std::string& sender);
   /// Plays a note by the map of notes. \pre both 0...127. Thread: any
   void playNote(int note, int velocity);
+  /// Plays the note that moves a hand. \param velocity  1...127. \return it, if there is one.
+  /// Thread: any
+  std::optional<int> tap(const std::string& end_effector, int index, int velocity);
   /// Plays what came in by MIDI. Thread: one, any
   MidiWishes playMidi();
   /// The next control that somebody moves shall move this parameter; empty: none shall.

@@ -130,6 +130,15 @@ void Performance::playNote(int note, int velocity) {
   play(keyboard_.note(note, velocity, nowS()), 0.0);
 }
 
+std::optional<int> Performance::tap(const std::string& end_effector, int index, int velocity) {
+  const std::lock_guard lock(keyboard_mutex_);
+  const std::optional<int> note = keyboard_.noteOf({end_effector, index});
+  if (note) {
+    play(keyboard_.note(*note, velocity, nowS()), 0.0);
+  }
+  return note;
+}
+
 void Performance::releaseKeys() {
   const std::lock_guard lock(keyboard_mutex_);
   play(keyboard_.releaseAll(nowS()), 0.0);

@@ -20,6 +20,8 @@ constexpr std::uint32_t kRequestQueue = 100;
 constexpr std::uint32_t kParameterQueue = 10'000;  // taken at once: the newest of each name counts
 constexpr std::uint32_t kHandsQueue = 1000;
 constexpr std::int64_t kHeldNs = 1'000'000'000;
+constexpr std::int64_t kTapNs = 200'000'000;  // from a tap to its release
+constexpr std::uint32_t kMostIndices = 64;    // slices, or coordinates
 const ::ros::WallDuration kMidiPeriod(0.001);
 constexpr double kRefusalPeriodS = 1.0;
 constexpr std::int64_t kComplaintPeriodNs = 1'000'000'000;
@@ -118,6 +120,8 @@ Services::Services(const ::ros::NodeHandle& node, Operator& operator_thread)
                             ::ros::TransportHints().tcpNoDelay()),
       hands_node_.subscribe("notes", kHandsQueue, &Services::onNote, this,
                             ::ros::TransportHints().tcpNoDelay()),
+      hands_node_.subscribe("taps", kHandsQueue, &Services::onTap, this,
+                            ::ros::TransportHints().tcpNoDelay()),
       node_.subscribe("volume", 1, &Services::onVolume, this),
       node_.subscribe("end_effectors", 1, &Services::onEndEffectors, this),
       safety_node_.subscribe("emergency_stop", 1, &Services::onEmergencyTopic, this),
@@ -193,6 +197,19 @@ void Services::onNote(const Note& note) {
   }
   held_notes_.erase(note.note);
   operator_.playNote(note.note, note.velocity);
+}
+
+void Services::onTap(const Tap& tap) {
+  constexpr int kMost = 127;
+  if (tap.velocity < 1 || tap.velocity > kMost || tap.index >= kMostIndices) {
+    return complain("taps",
+                    {false, "index " + std::to_string(tap.index) + " at velocity " +
+                                std::to_string(tap.velocity) + ", allowed: below 64 at 1...127"});
+  }
+  const auto note = operator_.tap(tap.end_effector, static_cast<int>(tap.index), tap.velocity);
+  if (note) {
+    held_notes_[*note] = rt::monotonicNs() + kTapNs;
+  }
 }
 
 /// Of who said that keys are held, and says so no more.

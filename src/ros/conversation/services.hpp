@@ -17,6 +17,7 @@
 #include <ergotic/ParameterValue.h>
 #include <ergotic/PlayMap.h>
 #include <ergotic/SetParameter.h>
+#include <ergotic/Tap.h>
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
@@ -57,6 +58,7 @@ class Services {
   void onParameter(const ParameterValue& parameter);
   void onHandTargets(const ::ros::MessageEvent<const HandTargets>& targets);
   void onNote(const Note& note);
+  void onTap(const Tap& tap);
   void releaseNotes();
   void onVolume(const std_msgs::Float64& volume);
   bool onTake(Take::Request& request, Take::Response& response);

@@ -58,6 +58,16 @@ std::optional<Keyboard::Key> Keyboard::keyOf(int note) const {
   return std::nullopt;
 }
 
+std::optional<int> Keyboard::noteOf(const HandWays::Hand& hand) const {
+  constexpr int kNotes = 128;
+  for (int note = 0; note < kNotes; ++note) {
+    if (const auto key = keyOf(note); key && key->hand == hand) {
+      return note;
+    }
+  }
+  return std::nullopt;
+}
+
 double Keyboard::depthOf(const Down& down) const {
   return down.is_held || down.is_caught ? 1.0 : pedal_depth_;
 }

@@ -255,6 +255,7 @@ def arguments_of(words, folder, environment, shipped, known):
     simulated = is_simulated(given)
     if simulated:
         given.setdefault("autoengage", "true")
+        given.setdefault("force_after_swap", "always")  # nobody can be hurt, whoever chooses another instrument
         hands = usual_hands(given)
         if hands and not given.get("device"):
             given.setdefault("end_effectors", hands)

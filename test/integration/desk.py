@@ -7,6 +7,7 @@ import tempfile
 import time
 import unittest
 
+import numpy
 import rosgraph
 import rospy
 
@@ -42,6 +43,16 @@ def end(process):
             until(lambda: process.poll() is not None)
     if process.stdout:
         process.stdout.close()
+
+
+def samples(path):
+    """[channels, frames] of 32-bit floats."""
+    with open(path, "rb") as file:
+        data = file.read()
+    channels = int.from_bytes(data[data.index(b"fmt ") + 10:][:2], "little")
+    start = data.index(b"data") + 8
+    sound = numpy.frombuffer(data[start:start + (len(data) - start) // (4 * channels) * 4 * channels], dtype="<f4")
+    return sound.reshape(-1, channels).T
 
 
 class DeskTest(unittest.TestCase):

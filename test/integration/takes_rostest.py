@@ -9,23 +9,13 @@ import numpy
 import rospy
 import rostest
 
-from desk import ROOT, DeskTest, Newest, until
+from desk import ROOT, DeskTest, Newest, samples, until
 from ergotic.msg import ModelState, ModelStructure, Note, Status, Takes
 from ergotic.srv import LoadModel, SetParameter, Take, TakeRequest
 
 TOOLS = os.path.join(ROOT, "devel/lib/ergotic")
 MODEL = os.path.join(ROOT, "models/string.yaml")
 FADE = 400  # frames, more than the fade in of a take
-
-
-def samples(path):
-    """[channels, frames] of 32-bit floats."""
-    with open(path, "rb") as file:
-        data = file.read()
-    channels = int.from_bytes(data[data.index(b"fmt ") + 10:][:2], "little")
-    start = data.index(b"data") + 8
-    sound = numpy.frombuffer(data[start:start + (len(data) - start) // (4 * channels) * 4 * channels], dtype="<f4")
-    return sound.reshape(-1, channels).T
 
 
 class TakesTest(DeskTest):

@@ -1,0 +1,127 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Three instruments without a device, by mouse, keys and MIDI: each a take that is what was heard, bit for bit."""
+import os
+import subprocess
+import time
+
+import numpy
+import rospy
+import rostest
+
+from desk import ROOT, DeskTest, Newest, samples, until
+from ergotic.msg import Handles, ModelState, ModelStructure, Status, Takes
+from ergotic.srv import LoadModel, Take, TakeRequest
+from midi_keyboard import MidiKeyboard
+from pointer import Pointer, xdotool
+
+TOOLS = os.path.join(ROOT, "devel/lib/ergotic")
+SECONDS = 16
+
+
+class PlayedTest(Pointer, DeskTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.start_screen()
+        cls.start_jack()
+        cls.status = Newest("/station/status", Status)
+        cls.takes = Newest("/station/takes", Takes)
+        cls.handles = Newest("/station/handles", Handles)
+        cls.structure = Newest("/station/model_structure", ModelStructure)
+        cls.state = Newest("/station/model_state", ModelState)
+        with open(os.path.join(ROOT, "urdf/tgr.urdf"), encoding="utf-8") as file:
+            cls.urdf = file.read()
+        rospy.set_param("/robot_description", cls.urdf)
+        cls.start("/usr/lib/robot_state_publisher/robot_state_publisher", "joint_states:=/station/joint_states")
+        cls.start_station(model=os.path.join(ROOT, "models/string.yaml"), autoengage=True, limiter=False,
+                          force_after_swap="always")
+        cls.rviz = cls.start_rviz()
+        assert until(lambda: cls.status.message and cls.status.message.state == Status.PLAYING, 60), "no force"
+
+    def load(self, name):
+        answer = rospy.ServiceProxy("/station/load_model", LoadModel)(model=os.path.join(ROOT, f"models/{name}.yaml"))
+        self.assertTrue(answer.success, answer.message)
+        self.wait_for_window("/station/handles")
+        time.sleep(1.0)  # rviz turns its camera to it
+        self.assertTrue(until(lambda: self.status.message.state == Status.PLAYING, 10), "no force")
+
+    def check_take(self, name, play):
+        """Plays while it is recorded, and compares what was heard with what the take renders."""
+        captured, rendered = (os.path.join(self.folder.name, f"{name}_{kind}.wav") for kind in ("heard", "again"))
+        capture = self.start(os.path.join(TOOLS, "capture"), "--seconds", str(SECONDS), "--port", "ergotic:out_1",
+                             "--port", "ergotic:out_2", captured, stdout=subprocess.DEVNULL)
+        time.sleep(1.0)
+        take = rospy.ServiceProxy("/station/take", Take)
+        self.assertTrue(take(action=TakeRequest.RECORD, name=name).success)
+        self.assertTrue(until(lambda: self.takes.message.recorded > 0.1), "nothing is recorded")
+        play()
+        answer = take(action=TakeRequest.FINISH)
+        self.assertTrue(answer.success, answer.message)
+        self.assertTrue(until(lambda: capture.poll() is not None, SECONDS + 10))
+        subprocess.run([os.path.join(TOOLS, "render"), "--gesture", answer.path, "--out", rendered], check=True,
+                       timeout=120, capture_output=True)
+        heard, again = samples(captured)[0], samples(rendered)[0]
+        loudest = int(numpy.argmax(numpy.abs(again)))
+        self.assertGreater(abs(again[loudest]), 3e-3, "it does not sound")
+        best = (0.0, -1)
+        for at in numpy.flatnonzero(heard == again[loudest]) - loudest:
+            low, high = max(0, -at), min(len(again), len(heard) - at)
+            both = heard[at + low:at + high], again[low:high]
+            # What JACK left out on a busy machine is silence, and nothing else may differ.
+            wrong = int(numpy.count_nonzero((both[0] != both[1]) & (both[0] != 0.0)))
+            best = max(best, (float(numpy.mean(both[0] == both[1])), -wrong))
+        equal, wrong = best[0], -best[1]
+        print(f"{name}: {len(again)} frames, peak {abs(again[loudest]):.3f}, {100 * equal:.2f} % equal, {wrong} wrong")
+        self.assertGreater(equal, 0.95)
+        self.assertEqual(wrong, 0)
+
+    def test_1_guitar_by_mouse(self):
+        self.load("guitar")
+
+        def play():
+            strings = [name for name in self.handles.message.names if "pick" in name or "quill" in name or "key" in name]
+            for name in strings[:4]:
+                x, y = self.handle(name)
+                xdotool("mousemove", x, y, "sleep", 0.2, "click", 1, "sleep", 0.4)
+            x, y = self.handle(strings[0])
+            xdotool("mousemove", x, y, "sleep", 0.3, "mousedown", 1, "sleep", 0.3)
+            for _ in range(20):
+                xdotool("mousemove_relative", "--", 0, -3, "sleep", 0.01)
+            if os.environ.get("PICTURES"):
+                subprocess.run(["import", "-window", "root", f"{os.environ['PICTURES']}/guitar.png"], check=True)
+            xdotool("mouseup", 1, "sleep", 0.5)
+        self.check_take("guitar", play)
+
+    def test_2_piano_by_keys(self):
+        self.load("piano12")
+        left, top, width, height = self.picture()
+        xdotool("mousemove", left + width // 2, top + height - 20, "sleep", 0.5)
+
+        def play():
+            for key in "qwertyq":
+                xdotool("keydown", key, "sleep", 0.25, "keyup", key, "sleep", 0.05)
+            if os.environ.get("PICTURES"):
+                subprocess.run(["import", "-window", "root", f"{os.environ['PICTURES']}/piano12.png"], check=True)
+        self.check_take("piano12", play)
+
+    def test_3_marimba_by_midi(self):
+        self.load("marimba12")
+        keyboard = MidiKeyboard("keyboard")
+        self.addCleanup(keyboard.close)
+        self.assertTrue(until(keyboard.is_connected), "it is not connected by itself")
+
+        def play():
+            for note, velocity in ((48, 60), (52, 80), (55, 100), (59, 127), (55, 90), (52, 70), (48, 110)):
+                keyboard.send(0x90, note, velocity)
+                time.sleep(0.2)
+                keyboard.send(0x80, note, 64)
+            if os.environ.get("PICTURES"):
+                subprocess.run(["import", "-window", "root", f"{os.environ['PICTURES']}/marimba12.png"], check=True)
+            time.sleep(0.5)
+        self.check_take("marimba12", play)
+
+
+if __name__ == "__main__":
+    rospy.init_node("played")
+    rostest.rosrun("ergotic", "played", PlayedTest)

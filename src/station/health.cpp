@@ -95,6 +95,10 @@ double clippedShare(const physics::GuardReport& guard) {
                            : static_cast<double>(guard.clipped) / static_cast<double>(guard.active);
 }
 
+bool isCutTooOften(const physics::GuardReport& guard) {
+  return guard.active >= kMinActiveSteps && clippedShare(guard) > kMaxClippedShare;
+}
+
 double mostStiffness(const scene::Scene& scene,
                      const scene::Lia& lia,
                      const physics::Rates& rates) {
@@ -111,10 +115,7 @@ std::vector<std::string> guardWarnings(const scene::Scene& scene,
                                        const physics::Rates& rates,
                                        const std::vector<physics::GuardReport>& guards) {
   std::vector<physics::GuardReport> cut;
-  std::copy_if(guards.begin(), guards.end(), std::back_inserter(cut),
-               [](const physics::GuardReport& guard) {
-                 return guard.active >= kMinActiveSteps && clippedShare(guard) > kMaxClippedShare;
-               });
+  std::copy_if(guards.begin(), guards.end(), std::back_inserter(cut), isCutTooOften);
   std::sort(cut.begin(), cut.end(),
             [](const auto& a, const auto& b) { return clippedShare(a) > clippedShare(b); });
   std::vector<std::string> warnings;

@@ -16,6 +16,9 @@ constexpr double kMaxClippedShare = 0.05;
 /// Steps in which it must have pushed before its share means anything.
 constexpr std::int64_t kMinActiveSteps = 200;
 
+/// Whether a link is cut so often that it is told of.
+bool isCutTooOften(const physics::GuardReport& guard);
+
 /// Clipped over active steps; 0 if it never pushed.
 double clippedShare(const physics::GuardReport& guard);
 

@@ -9,8 +9,6 @@ namespace ergotic::physics {
 namespace {
 
 constexpr double kEmptyTank = 1e-6;
-constexpr double kClipped =
-    0.99;  // share of what the law asks for, below which a step counts as cut
 constexpr double kShortContact = 3.0;  // kt above which a contact is over before a sample sees it
 
 /// How far ahead the law is taken. 1/12 cancels the second-order error of the step in time and
@@ -200,8 +198,7 @@ void exertElastic(GuardedMotion<Real>& m,
   const Real low = is_contact ? Real(0) : -largestForce(budget, -m.opening, m.give);
   m.force = std::clamp(wanted, low, high);
   brake(damping, m);
-  const bool is_too_much = wanted > high || (!is_contact && wanted < low);
-  const bool is_clipped = is_too_much && std::abs(m.force) < Real(kClipped) * std::abs(wanted);
+  const bool is_clipped = wanted > high || (!is_contact && wanted < low);
   state.active += 1.0;
   state.clipped += is_clipped ? 1.0 : 0.0;
   if (law.form->is_lossy) {
@@ -228,7 +225,7 @@ void exertFriction(GuardedMotion<Real>& m,
     const Real wanted =
         (at.force - slope * (m.opening / Real(2) + slip)) / (Real(1) + slope * m.give / Real(2));
     m.damper = std::clamp(wanted, low, high);
-    is_clipped = std::abs(m.damper) < Real(kClipped) * std::abs(wanted);
+    is_clipped = std::abs(wanted) > std::abs(m.damper);
     slip = -m.swing() / Real(2);
   }
   state.active += m.damper != Real(0) ? 1.0 : 0.0;

@@ -20,7 +20,7 @@ struct GuardedState {
   double stored = 0.0;      ///< at this step: the tank, with the first half of the step's work
   double lost = 0.0;        ///< energy dissipated since the start
   double active = 0.0;      ///< steps in which it pushed
-  double clipped = 0.0;     ///< of these, with less than 99 % of what its law asks for
+  double clipped = 0.0;     ///< of these, with less force than its law asks for
   Real tank = Real(0);      ///< E, energy it may still give
   Real force = Real(0);     ///< F of the last step, elastic
   Real damper = Real(0);    ///< of the last step, damping or friction

@@ -377,11 +377,14 @@ void Performance::take(const Take::Request& request,
   switch (request.action) {
     case Take::Request::RECORD:
       outcome = takes_.record(request.name, playing_->instrument->scene().name);
-      command(CommandType::kKeyframe);
+      if (outcome.ok) {
+        command(CommandType::kKeyframe);
+      }
       break;
     case Take::Request::FINISH:
-      outcome = takes_.finish();
-      break;
+      takes_.finish(promise);
+      *path = takes_.path();
+      return;
     case Take::Request::REPLAY:
       takes_.replay(request.name, engine_->bridge(), engine_->station().config().rates.audio_hz,
                     engine_->parameters().display_zoom, promise);
@@ -398,8 +401,6 @@ void Performance::take(const Take::Request& request,
 }
 
 void Performance::close() {
-  takes_.close();
-  picture_.reset();
   playing_ = nullptr;
   submitted_ = nullptr;
   incoming_.clear();
@@ -418,6 +419,8 @@ void Performance::close() {
     closing.reset();
     feed_.showSilence("closed");
   }
+  takes_.close();  // after the device is: a disk may take its time
+  picture_.reset();
 }
 
 void Performance::tellPresence(bool is_held) {

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <utility>
 
-#include <ros/console.h>
 #include <rosbag/bag.h>
 
 #include "ergotic/exception.hpp"
@@ -24,6 +23,12 @@ constexpr std::size_t kMostWaiting = 10'000;  // blocks of gestures: some minute
 
 TakeWriter::TakeWriter(std::string path)
     : path_(std::move(path)), active_(path_ + ".active"), bag_(std::make_unique<rosbag::Bag>()) {
+  std::error_code unknown;  // opening it says what is wrong
+  if (std::filesystem::exists(active_, unknown)) {
+    throw Exception(active_ +
+                    " is there, of a station that was killed: `rosbag reindex` it and give it a "
+                    "name that ends in .bag, or remove it, or choose another name");
+  }
   try {
     bag_->open(active_, rosbag::bagmode::Write);
   } catch (const rosbag::BagException& error) {
@@ -33,11 +38,8 @@ TakeWriter::TakeWriter(std::string path)
 }
 
 TakeWriter::~TakeWriter() {
-  try {
-    finish();
-  } catch (const std::exception& failure) {
-    ROS_ERROR_STREAM(failure.what());
-  }
+  end();
+  thread_.join();
 }
 
 template <class Message>
@@ -82,62 +84,70 @@ std::string TakeWriter::trouble() {
   return trouble_;
 }
 
-void TakeWriter::run() {
-  std::unique_lock lock(mutex_);
-  for (;;) {
-    woken_.wait(lock, [this] { return is_over_ || !work_.empty(); });
-    std::deque<Work> work;
-    work.swap(work_);
-    if (work.empty()) {
-      return;
-    }
-    const bool goes_on = trouble_.empty();
-    lock.unlock();
-    std::string trouble;
-    try {
-      for (const Work& write : work) {
-        if (goes_on) {
-          write(*bag_);
-        }
-      }
-    } catch (const rosbag::BagException& error) {
-      trouble = error.what();
-    }
-    lock.lock();
-    trouble_ = trouble.empty() ? trouble_ : trouble;
-  }
-}
-
-void TakeWriter::finish() {
-  if (!thread_.joinable()) {
-    return;
-  }
+void TakeWriter::end() {
   {
     const std::lock_guard lock(mutex_);
-    is_over_ = true;
+    ends_ = true;
   }
   woken_.notify_one();
-  thread_.join();
+}
+
+std::optional<std::string> TakeWriter::outcome() {
+  const std::lock_guard lock(mutex_);
+  return outcome_;
+}
+
+void TakeWriter::run() {
+  while (writeWhatWaits()) {
+  }
+  std::string outcome = close();
+  const std::lock_guard lock(mutex_);
+  outcome_ = std::move(outcome);
+}
+
+/// \return false once there is nothing more. After a failure the rest is dropped
+bool TakeWriter::writeWhatWaits() {
+  std::deque<Work> work;
+  bool is_good = false;
+  {
+    std::unique_lock lock(mutex_);
+    woken_.wait(lock, [this] { return ends_ || !work_.empty(); });
+    work.swap(work_);
+    is_good = trouble_.empty();
+  }
+  try {
+    for (const Work& write : work) {
+      if (is_good) {
+        write(*bag_);
+      }
+    }
+  } catch (const std::exception& failure) {  // nothing may end the process while there is force
+    const std::lock_guard lock(mutex_);
+    trouble_ = failure.what();
+  }
+  return !work.empty();
+}
+
+/// \return why the take is not there, or an empty text
+std::string TakeWriter::close() {
+  std::string problem = trouble();
   try {
     bag_->close();
-  } catch (const rosbag::BagException& error) {
-    trouble_ = trouble_.empty() ? error.what() : trouble_;
+  } catch (const std::exception& failure) {
+    problem = problem.empty() ? failure.what() : problem;
   }
   std::error_code error;
   if (!(seconds_ > 0.0)) {
     std::filesystem::remove(active_, error);
-    throw Exception(path_ + (has_keyframe_
-                                 ? ": nothing was played in it, so it is not kept"
-                                 : ": the state of this model could not be taken, so nobody could "
-                                   "play the take again. Begin it while there is no force"));
+    return path_ + (has_keyframe_ ? ": nothing was played in it, so it is not kept"
+                                  : ": the state of this model could not be taken, so nobody could "
+                                    "play the take again. Begin it while there is no force");
   }
-  if (!trouble_.empty()) {
-    throw Exception(active_ + ": could not be written to its end (" + trouble_ + ")");
+  if (!problem.empty()) {
+    return active_ + ": could not be written to its end (" + problem + ")";
   }
   std::filesystem::rename(active_, path_, error);
-  if (error) {
-    throw Exception(path_ + ": " + error.message() + "; the take is " + active_);
-  }
+  return error ? path_ + ": " + error.message() + "; the take is " + active_ : "";
 }
 
 }  // namespace ergotic::node

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -22,14 +23,15 @@ class Bag;  // its header takes seconds to compile
 namespace ergotic::node {
 
 /// Writes what a station tells of a performance into a bag, in a thread of its own: a slow disk
-/// delays nobody. The file has the ending `.active` until it is whole.
+/// delays nobody. The file has the ending `.active` until it is whole; one that nobody could play
+/// again is removed.
 /// Thread: operator, all of it
 class TakeWriter {
  public:
   /// \param path  of the bag, in a folder that exists
-  /// \throws Exception if it cannot be written
+  /// \throws Exception if it cannot be written, or was begun by somebody who did not end it
   explicit TakeWriter(std::string path);
-  ~TakeWriter();  ///< as `finish`
+  ~TakeWriter();  ///< waits until it is over
   TakeWriter(const TakeWriter&) = delete;
   TakeWriter& operator=(const TakeWriter&) = delete;
 
@@ -46,15 +48,18 @@ class TakeWriter {
   /// \return what keeps it from being written; empty: nothing
   std::string trouble();
 
-  /// Waits until all is written, and gives the file its name. A file that nobody could play again
-  /// is removed. \throws Exception if it could not be written, or has nothing that can be played
-  void finish();
+  /// Nothing more will come: what waits is written, and the file gets its name.
+  void end();
+  /// \return nothing while that is done; then why the take is not there, or an empty text
+  std::optional<std::string> outcome();
 
  private:
   using Work = std::function<void(rosbag::Bag&)>;
   template <class Message>
   void enqueue(const std::string& topic, const Message& message);
   void run();
+  bool writeWhatWaits();
+  std::string close();
 
   std::string path_;
   std::string active_;  // path until it is whole
@@ -65,7 +70,8 @@ class TakeWriter {
   std::condition_variable woken_;
   std::deque<Work> work_;
   std::string trouble_;
-  bool is_over_ = false;
+  bool ends_ = false;
+  std::optional<std::string> outcome_;
   std::thread thread_;
 };
 

@@ -92,9 +92,7 @@ Answer Takes::record(const std::string& name, const std::string& instrument) {
     if (fs::exists(path, error)) {
       throw Exception(path + " is there already: choose another name");
     }
-    if (writer_) {
-      static_cast<void>(finish());
-    }
+    endRecording();
     writer_ = std::make_shared<TakeWriter>(path);
     feed_.record(writer_);
     path_ = path;
@@ -107,23 +105,25 @@ Answer Takes::record(const std::string& name, const std::string& instrument) {
   }
 }
 
-Answer Takes::finish() {
+void Takes::finish(const Promise& promise) {
   if (!writer_) {
-    return {false, "no take is recorded"};
+    return answer(promise, false, "no take is recorded");
+  }
+  endRecording();
+  endings_.back().promise = promise;
+}
+
+/// The one that is recorded, if there is one; the disk may take its time.
+void Takes::endRecording() {
+  if (!writer_) {
+    return;
   }
   feed_.record(nullptr);
-  const std::shared_ptr<TakeWriter> done = std::exchange(writer_, nullptr);
-  Answer answer{true, done->path()};
-  path_ = done->path();
-  try {
-    done->finish();
-  } catch (const std::exception& failure) {
-    answer = {false, failure.what()};
-  }
+  writer_->end();
+  path_ = writer_->path();
+  endings_.push_back({std::exchange(writer_, nullptr), nullptr});
   message_.recording.clear();
-  message_.names = namesIn(folder_);
   send();
-  return answer;
 }
 
 void Takes::replay(const std::string& name,
@@ -167,7 +167,7 @@ Answer Takes::halt() {
 
 void Takes::poll(const std::shared_ptr<Picture>& picture) {
   pollPlayer(picture);
-  pollWriter();
+  pollWriters();
   retired_.erase(std::remove_if(retired_.begin(), retired_.end(),
                                 [](const std::unique_ptr<TakePlayer>& player) {
                                   return player->news().state == TakePlayer::State::kOver;
@@ -219,23 +219,37 @@ void Takes::end(const TakePlayer::News& news, const std::shared_ptr<Picture>& pi
   send();
 }
 
-/// A take that cannot be written to its end is finished at once, and that is told.
-void Takes::pollWriter() {
-  if (!writer_) {
-    return;
+/// A take that cannot be written to its end is ended at once; what went wrong with one that nobody
+/// waits for is told.
+void Takes::pollWriters() {
+  if (writer_) {
+    message_.recorded = writer_->seconds();
+    if (!writer_->trouble().empty()) {
+      endRecording();
+    }
   }
-  message_.recorded = writer_->seconds();
-  if (!writer_->trouble().empty()) {
-    const Answer failure = finish();
-    ROS_ERROR_STREAM(failure.message);
-    feed_.addMessage(failure.message);
+  for (auto ending = endings_.begin(); ending != endings_.end();) {
+    const std::optional<std::string> problem = ending->writer->outcome();
+    if (!problem) {
+      ++ending;
+      continue;
+    }
+    message_.names = namesIn(folder_);
+    send();
+    if (ending->promise) {
+      answer(ending->promise, problem->empty(),
+             problem->empty() ? ending->writer->path() : *problem);
+    } else if (!problem->empty()) {
+      ROS_ERROR_STREAM(*problem);
+      feed_.addMessage(*problem);
+    }
+    ending = endings_.erase(ending);
   }
 }
 
 void Takes::close() {
-  if (writer_) {
-    static_cast<void>(finish());
-  }
+  endRecording();
+  endings_.clear();  // which waits until they are written
   begins_.reset();
   if (player_) {
     player_->halt();

@@ -28,8 +28,8 @@ class Takes {
   /// \param name        empty: date, time and `instrument`
   /// \return what went wrong, or where it is written
   Answer record(const std::string& name, const std::string& instrument);
-  /// \return where the take is, or what is wrong with it
-  Answer finish();
+  /// The promise is kept when the take is written: where it is, or what is wrong with it.
+  void finish(const Promise& promise);
 
   /// The promise is kept when it begins to sound.
   /// \param name    empty: the newest
@@ -54,10 +54,15 @@ class Takes {
   const std::string& path() const { return path_; }
 
  private:
+  struct Ending {
+    std::shared_ptr<TakeWriter> writer;
+    Promise promise;  // null: nobody waits
+  };
   void begin(const TakePlayer::News& news);
   void end(const TakePlayer::News& news, const std::shared_ptr<Picture>& picture);
   void pollPlayer(const std::shared_ptr<Picture>& picture);
-  void pollWriter();
+  void pollWriters();
+  void endRecording();
   void send();
 
   Feed& feed_;
@@ -66,6 +71,7 @@ class Takes {
   ergotic::Takes message_;
   std::string path_;
   std::shared_ptr<TakeWriter> writer_;                // null: none is recorded
+  std::vector<Ending> endings_;                       // takes that are written to their end
   std::unique_ptr<TakePlayer> player_;                // null: none is played
   std::vector<std::unique_ptr<TakePlayer>> retired_;  // that are about to end
   Promise begins_;                                    // of who asked for the one that is read

@@ -44,7 +44,7 @@ struct Energies {
 struct GuardReport {
   int lia = 0;               ///< index in Scene::lias
   std::int64_t active = 0;   ///< steps in which it pushed
-  std::int64_t clipped = 0;  ///< of these, with less than 99 % of what its law asks for
+  std::int64_t clipped = 0;  ///< of these, with less force than its law asks for
 };
 
 }  // namespace ergotic::physics

@@ -71,13 +71,19 @@ std::string warningOf(const scene::Scene& scene,
                       const physics::GuardReport& guard) {
   const scene::Lia& lia = scene.lias[static_cast<std::size_t>(guard.lia)];
   const double stiffness = scene.valueOf(lia.stiffness);
+  const bool is_linear = lia.type == scene::LiaType::kContact ||
+                         lia.type == scene::LiaType::kSpringDamper;  // 'stiffness' is a slope
   const double most = mostStiffness(scene, lia, rates);
   std::ostringstream text;
   text.precision(2);
   text << scene.file << ':' << lia.place.line << ':' << lia.place.column << ": warning: link '"
        << lia.name << "': its force was cut in " << 100.0 * clippedShare(guard) << " % of "
        << guard.active << " steps so that it makes no energy";
-  if (stiffness > most) {
+  if (!is_linear) {
+    text << ": where it is pressed most it is too steep for these masses and this rate, or its "
+            "damping takes too much. Lower its 'stiffness' or 'damping', raise the rate, or let "
+            "fewer contacts share a module";
+  } else if (stiffness > most) {
     text << ": its 'stiffness' is " << stiffness << ", and from about " << most
          << " down these masses can follow it at this rate. Lower it, raise the rate, or let fewer "
             "contacts share a module";

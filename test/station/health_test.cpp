@@ -39,6 +39,39 @@ TEST(HealthTest, SaysHowStiffALinkCanBeForItsMassesAndThoseThatShareThem) {
               ElementsAre(HasSubstr("its 'stiffness' is 6.6e+08, and from about 6.5e+08 down")));
 }
 
+/// A gram that three damped contacts share falls onto them and stays there. \param share  of the
+/// stiffness that is told to be the most
+std::vector<std::string> warningsOfABall(double share) {
+  constexpr double kMost = 1e-3 * 44100.0 * 44100.0 / 3.0;
+  std::ostringstream text;
+  text << "ergotic: 1\nsections: {s: {rate: audio, gravity: -9.81}}\nmats:\n"
+          "  ground: {type: ground, section: s, at: [0, 0]}\n"
+          "  ball: {type: mass, section: s, mass: 1 g, at: [0, 0], x: 0.002}\n"
+          "  rider: {type: mass, section: s, mass: 1 g, at: [0.1, 0], x: 0.0005}\n"
+          "lias:\n"
+          "  tie: {type: spring_damper, between: [ball, rider], stiffness: 500, damping: 0.02,\n"
+          "        rest_length: 0.0015}\n";
+  for (int i = 0; i < 3; ++i) {
+    text << "  c" << i << ": {type: contact, between: [ground, ball], stiffness: " << share * kMost
+         << ", damping: 0.05, scheme: guarded}\n";
+  }
+  const physics::Rates rates{44100.0, 14};
+  const auto performer = makePerformer(scene::readYaml(text.str(), "ball.yaml"), rates, {});
+  for (int tick = 0; tick < 3 * 3150; ++tick) {
+    performer->instrument->tick({performer->positions.data(), performer->forces.data(),
+                                 performer->inputs.data(), performer->outputs.data()});
+  }
+  std::vector<physics::GuardReport> guards = performer->instrument->makeGuardReports();
+  performer->instrument->readGuards(guards);
+  return guardWarnings(performer->instrument->scene(), rates, guards);
+}
+
+TEST(HealthTest, TheStiffnessThatItTellsIsCutNoMore) {
+  EXPECT_THAT(warningsOfABall(2.9), Contains(HasSubstr("and from about 6.5e+05 down")));
+  EXPECT_THAT(warningsOfABall(1.0), IsEmpty());
+  EXPECT_THAT(warningsOfABall(0.3), IsEmpty());
+}
+
 TEST(HealthTest, KeepsQuietAboutLinksThatHardlyPushed) {
   EXPECT_THAT(guardWarnings(links(), {}, {{0, 199, 199}, {1, 0, 0}}), IsEmpty());
 }

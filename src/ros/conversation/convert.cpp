@@ -183,9 +183,12 @@ ModelStructure toModelStructure(const scene::Scene& scene, const physics::Rates&
 }
 
 std::shared_ptr<Picture> toPicture(const physics::Instrument& instrument, double zoom) {
-  const scene::Scene drawn = Outlines::addTo(instrument.scene());
-  return std::make_shared<Picture>(Picture{toModelStructure(drawn, instrument.rates()),
-                                           Markers(drawn, zoom), Outlines(instrument.scene())});
+  const scene::Scene& scene = instrument.scene();
+  const auto show = [&](const scene::Scene& drawn) {
+    return std::make_shared<Picture>(Picture{toModelStructure(drawn, instrument.rates()),
+                                             Markers(drawn, zoom), Outlines(scene)});
+  };
+  return scene.outlines.empty() ? show(scene) : show(Outlines::addTo(scene));  // a copy is large
 }
 
 ParametersMessage toParameters(const scene::Scene& scene, const std::vector<double>& values) {

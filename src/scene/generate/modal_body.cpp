@@ -175,44 +175,46 @@ class Modes {
     outline.modes = static_cast<int>(spec_.partials.size());
     const int columns = std::min(grid().columns, kOutlineColumns);
     const int rows = std::min(grid().rows, kOutlineRows);
-    std::vector<int> places(at(rows * columns));  // their numbers, -1: none, beyond a round edge
-    const auto shape = [&](int row, int column, int j) {
-      return shapeAt(modes, outlinePlace(row, rows, column, columns), j) * root_of_mass;
-    };
-    const auto moves = [&](int row, int column) {
-      bool any = false;
-      for (int j = 0;
-           j < outline.modes && row >= 0 && row < rows && column >= 0 && column < columns; ++j) {
-        any = any || shape(row, column, j) != 0.0;
+    Eigen::MatrixXd weights(rows * columns, outline.modes);
+    for (int place = 0; place < rows * columns; ++place) {
+      for (int j = 0; j < outline.modes; ++j) {
+        weights(place, j) = shapeAt(modes, outlinePlace(place, rows, columns), j) * root_of_mass;
       }
-      return any;
+    }
+    addOutlinePlaces(weights, rows, columns);
+  }
+
+  /// What moves, and the rim around it: the corners beyond a round edge are left out.
+  void addOutlinePlaces(const Eigen::MatrixXd& weights, int rows, int columns) {
+    const auto moves = [&](int row, int column) {
+      return row >= 0 && row < rows && column >= 0 && column < columns &&
+             !weights.row(row * columns + column).isZero(0.0);
     };
-    for (int row = 0; row < rows; ++row) {
-      for (int column = 0; column < columns; ++column) {
-        const bool is_there = moves(row, column) || moves(row - 1, column) ||
-                              moves(row + 1, column) || moves(row, column - 1) ||
-                              moves(row, column + 1);
-        int& number = places[at(row * columns + column)];
-        number = is_there ? static_cast<int>(outline.rest.size()) : -1;
-        if (!is_there) {
-          continue;
-        }
-        outline.rest.push_back(restAt(outlinePlace(row, rows, column, columns)));
-        for (int j = 0; j < outline.modes; ++j) {
-          outline.weights.push_back(shape(row, column, j));
-        }
-        const int left = column > 0 ? places[at(row * columns + column - 1)] : -1;
-        const int above = row > 0 ? places[at((row - 1) * columns + column)] : -1;
-        for (const int other : {left, above}) {
-          if (other >= 0) {
-            outline.lines.emplace_back(other, number);
-          }
+    std::vector<int> numbers(at(rows * columns), -1);  // of those that are drawn
+    for (int place = 0; place < rows * columns; ++place) {
+      const int row = place / columns;
+      const int column = place % columns;
+      if (!moves(row, column) && !moves(row - 1, column) && !moves(row + 1, column) &&
+          !moves(row, column - 1) && !moves(row, column + 1)) {
+        continue;
+      }
+      Outline& outline = spec_.outline;
+      const int number = numbers[at(place)] = static_cast<int>(outline.rest.size());
+      outline.rest.push_back(restAt(outlinePlace(place, rows, columns)));
+      for (int j = 0; j < outline.modes; ++j) {
+        outline.weights.push_back(weights(place, j));
+      }
+      for (const int other : {column > 0 ? numbers[at(place - 1)] : -1,
+                              row > 0 ? numbers[at(place - columns)] : -1}) {
+        if (other >= 0) {
+          outline.lines.emplace_back(other, number);
         }
       }
     }
   }
-  GridPlace outlinePlace(int row, int rows, int column, int columns) const {
-    return placeOn(grid(), column / std::max(columns - 1.0, 1.0), row / std::max(rows - 1.0, 1.0));
+  GridPlace outlinePlace(int place, int rows, int columns) const {
+    return placeOn(grid(), place % columns / std::max(columns - 1.0, 1.0),
+                   place / columns / std::max(rows - 1.0, 1.0));
   }
 
   const SceneBuilder& builder_;

@@ -73,7 +73,7 @@ void HandleSet::show(const ModelState& state) {
 std::vector<Eigen::Vector3d> HandleSet::places() const {
   std::vector<Eigen::Vector3d> places;
   const std::size_t modules = structure_.module_sections.size();
-  if (!isWhole(structure_) || !fits(message_, structure_) || message_.modules.empty() ||
+  if (!isWhole(structure_) || !(message_.display_zoom > 0.0) ||
       structure_.rest_positions.size() != kAxes * modules) {
     return places;
   }

@@ -61,6 +61,21 @@ TEST(HandleSetTest, PlacesHandlesWhereTheyAreDrawn) {
   EXPECT_TRUE(set.handles()[1].place().isApprox(Eigen::Vector3d(0.31, 0.3, 0.28), 1e-6));
 }
 
+TEST(HandleSetTest, KnowsWhereAllModulesAreDrawnAlsoOfAModelWithoutHandles) {
+  HandleSet set;
+  set.show(structure());
+  EXPECT_TRUE(set.places().empty()) << "how large x is drawn is not known";
+  Handles none;
+  none.display_zoom = 5.0;
+  set.show(none);
+  const std::vector<Eigen::Vector3d> places = set.places();
+  ASSERT_EQ(places.size(), 3U);
+  EXPECT_TRUE(places[0].isApprox(Eigen::Vector3d(0.0, 0.0, 0.2), 1e-6));
+  EXPECT_TRUE(places[1].isApprox(Eigen::Vector3d(0.0, 0.1, 0.15), 1e-6));
+  EXPECT_TRUE(places[2].isApprox(Eigen::Vector3d(0.3, 0.3, 0.3), 1e-6));
+  EXPECT_EQ(set.models(), 1);
+}
+
 TEST(HandleSetTest, WhatIsOfAnotherModelIsPassedOver) {
   HandleSet set;
   set.show(handles());

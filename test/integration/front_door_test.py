@@ -161,6 +161,7 @@ class ArgumentsTest(WithFolder):
                                  (("parameters:=[",), False), (("device:=devices:\n- {driver: jack}\n",), False)):
             given, told = self.meant(*words)
             self.assertEqual((told, given.get("autoengage")), (simulated, "true" if simulated else None), words)
+            self.assertEqual(given.get("force_after_swap"), "always" if simulated else None, words)
         self.assertEqual(self.meant("autoengage:=false")[0]["autoengage"], "false")
 
     def test_a_scene_with_hands_of_its_own_gets_them_at_a_simulated_device(self):

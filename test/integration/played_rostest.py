@@ -10,7 +10,7 @@ import rospy
 import rostest
 
 from desk import ROOT, DeskTest, Newest, samples, until
-from ergotic.msg import Handles, ModelState, ModelStructure, Status, Takes
+from ergotic.msg import Status, Takes
 from ergotic.srv import LoadModel, Take, TakeRequest
 from midi_keyboard import MidiKeyboard
 from pointer import Pointer, xdotool
@@ -23,21 +23,8 @@ class PlayedTest(Pointer, DeskTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.start_screen()
-        cls.start_jack()
-        cls.status = Newest("/station/status", Status)
         cls.takes = Newest("/station/takes", Takes)
-        cls.handles = Newest("/station/handles", Handles)
-        cls.structure = Newest("/station/model_structure", ModelStructure)
-        cls.state = Newest("/station/model_state", ModelState)
-        with open(os.path.join(ROOT, "urdf/tgr.urdf"), encoding="utf-8") as file:
-            cls.urdf = file.read()
-        rospy.set_param("/robot_description", cls.urdf)
-        cls.start("/usr/lib/robot_state_publisher/robot_state_publisher", "joint_states:=/station/joint_states")
-        cls.start_station(model=os.path.join(ROOT, "models/string.yaml"), autoengage=True, limiter=False,
-                          force_after_swap="always")
-        cls.rviz = cls.start_rviz()
-        assert until(lambda: cls.status.message and cls.status.message.state == Status.PLAYING, 60), "no force"
+        cls.start_desk(limiter=False, force_after_swap="always")
 
     def load(self, name):
         answer = rospy.ServiceProxy("/station/load_model", LoadModel)(model=os.path.join(ROOT, f"models/{name}.yaml"))

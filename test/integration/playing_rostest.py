@@ -11,8 +11,7 @@ import rospy
 import rostest
 
 from desk import ROOT, DeskTest, Newest, until
-from ergotic.msg import (Event, GestureBlock, Handles, HandTargets, Levels, ModelState, ModelStructure, Note, Parameters,
-                         Status, Takes)
+from ergotic.msg import Event, GestureBlock, HandTargets, Levels, Note, Parameters, Status, Takes
 from ergotic.srv import LearnController, LoadModel, PlayMap
 from midi_keyboard import MidiKeyboard
 from pointer import Pointer, xdotool
@@ -71,21 +70,9 @@ class PlayingTest(Pointer, DeskTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.start_screen()
-        cls.start_jack()
-        cls.status = Newest("/station/status", Status)
         cls.targets = Newest("/station/hand_targets", HandTargets)
         cls.notes = Newest("/station/notes", Note)
-        cls.handles = Newest("/station/handles", Handles)
-        cls.structure = Newest("/station/model_structure", ModelStructure)
-        cls.state = Newest("/station/model_state", ModelState)
-        with open(os.path.join(ROOT, "urdf/tgr.urdf"), encoding="utf-8") as file:
-            cls.urdf = file.read()
-        rospy.set_param("/robot_description", cls.urdf)
-        cls.start("/usr/lib/robot_state_publisher/robot_state_publisher", "joint_states:=/station/joint_states")
-        cls.start_station(model=os.path.join(ROOT, "models/string.yaml"), autoengage=True)
-        cls.rviz = cls.start_rviz()
-        assert until(lambda: cls.status.message and cls.status.message.state == Status.PLAYING, 60), "no force"
+        cls.start_desk()
 
     def test_1_the_mouse_drags_the_plectrum_through_the_string(self):
         self.wait_for_window("/station/handles")

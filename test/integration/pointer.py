@@ -6,8 +6,10 @@ import re
 import subprocess
 
 import numpy
+import rospy
 
-from desk import ROOT
+from desk import ROOT, Newest, until
+from ergotic.msg import Handles, ModelState, ModelStructure, Status
 
 
 class Camera:
@@ -61,7 +63,24 @@ def rotate(q, v):
 
 
 class Pointer:
-    """For tests that have the newest `handles`, `structure` and `state` of a station, and its `urdf`."""
+    """For a DeskTest whose station is shown by rviz."""
+
+    @classmethod
+    def start_desk(cls, **parameters):
+        """JACK, a station that plays the default instrument, and rviz."""
+        cls.start_screen()
+        cls.start_jack()
+        cls.status = Newest("/station/status", Status)
+        cls.handles = Newest("/station/handles", Handles)
+        cls.structure = Newest("/station/model_structure", ModelStructure)
+        cls.state = Newest("/station/model_state", ModelState)
+        with open(os.path.join(ROOT, "urdf/tgr.urdf"), encoding="utf-8") as file:
+            cls.urdf = file.read()
+        rospy.set_param("/robot_description", cls.urdf)
+        cls.start("/usr/lib/robot_state_publisher/robot_state_publisher", "joint_states:=/station/joint_states")
+        cls.start_station(model=os.path.join(ROOT, "models/string.yaml"), autoengage=True, **parameters)
+        cls.rviz = cls.start_rviz()
+        assert until(lambda: cls.status.message and cls.status.message.state == Status.PLAYING, 60), "no force"
 
     def picture(self):
         """Corner, width and height of the picture on the screen: the largest window inside that of rviz."""

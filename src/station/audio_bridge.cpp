@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "ergotic/exception.hpp"
@@ -120,11 +121,12 @@ void AudioBridge::process(const rt::Period& period) noexcept {
   last_period_ns_.store(rt::monotonicNs(), std::memory_order_relaxed);
   readings_.draft() = {connection, period.start};
   readings_.publish();
-  noteMidi(period);
   capture(period);
   relations_.refresh();
   const Relation& relation = relations_.latest();
-  if (relation.connection == connection && hostRuns(connection)) {
+  const bool holds = relation.connection == connection && hostRuns(connection);
+  noteMidi(period, relation, holds);
+  if (holds) {
     play(period, relation);
     return;
   }
@@ -134,10 +136,20 @@ void AudioBridge::process(const rt::Period& period) noexcept {
   }
 }
 
-void AudioBridge::noteMidi(const rt::Period& period) noexcept {
+/// From frames to ticks as `dueNs` has it: what is between two messages is kept to the frame.
+void AudioBridge::noteMidi(const rt::Period& period,
+                           const Relation& relation,
+                           bool holds) noexcept {
   for (int i = 0; i < period.midi_messages; ++i) {
     const rt::MidiMessage& message = period.midi[i];
-    midi_.push({period.start.time_ns, message.offset / config_.rates.audio_hz, message});
+    const std::int64_t frame = period.start.frames + message.offset;
+    const std::int64_t station_frame =
+        frame - relation.offset + latency_.load(std::memory_order_relaxed);
+    const double tick = holds ? static_cast<double>(station_frame) / config_.rates.ratio
+                              : std::numeric_limits<double>::quiet_NaN();
+    const double time_s =
+        1e-9 * static_cast<double>(period.start.time_ns) + message.offset / config_.rates.audio_hz;
+    midi_.push({time_s, tick, message});
   }
 }
 

@@ -147,6 +147,7 @@ void Station::cycle(const Timing& timing) noexcept {
   heartbeat_.fetch_add(1, std::memory_order_relaxed);
   const std::int64_t begin = rt::monotonicNs();
   followInterlock();
+  moveHands();
   Slices positions{};
   const std::uint32_t met = driver_->exchange(force_.data(), positions.data());
   const std::int64_t exchanged = rt::monotonicNs();
@@ -160,6 +161,7 @@ void Station::catchUp(std::int64_t ticks, std::int64_t stall_ns) noexcept {
     return;
   }
   heartbeat_.fetch_add(1, std::memory_order_relaxed);
+  moveHands();
   force_.fill(0.0);
   Slices target{};
   const std::uint32_t met = driver_->exchange(force_.data(), target.data());
@@ -198,6 +200,23 @@ void Station::catchUp(std::int64_t ticks, std::int64_t stall_ns) noexcept {
     runTick(between, flags);
   }
   runTick(target, flags);
+}
+
+bool Station::move(const tgr::HandMove& move, double due_tick) noexcept {
+  return move.isValid(slices_) && driver_->hasHand(move.slice) && moves_.push({move, due_tick});
+}
+
+/// A move that is due at a tick is so much later than this one, whenever it was asked for.
+void Station::moveHands() noexcept {
+  DueMove due;
+  for (std::size_t i = 0; i < kWaitingMoves && moves_.pop(due); ++i) {
+    if (!std::isnan(due.due_tick)) {
+      const double ticks = due.due_tick - static_cast<double>(tick_);
+      due.move.time_s = tgr::HandMove::kOnArrival;
+      due.move.delay_s = 1e-9 * tick_ns_ * std::max(ticks, 0.0);
+    }
+    driver_->move(due.move);
+  }
 }
 
 void Station::rest() noexcept {

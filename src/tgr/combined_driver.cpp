@@ -142,18 +142,27 @@ class CombinedDriver final : public Driver {
     return nullptr;
   }
 
+  bool hasHand(int slice) const noexcept override {
+    Driver* const driver = ownerOf(slice);
+    return driver != nullptr && driver->hasHand(slice);
+  }
   bool move(const HandMove& move) noexcept override {
     HandMove own = move;
-    for (const auto& driver : drivers_) {
-      if (own.slice < driver->slices()) {
-        return driver->move(own);
-      }
-      own.slice -= driver->slices();
-    }
-    return false;
+    Driver* const driver = ownerOf(own.slice);
+    return driver != nullptr && driver->move(own);
   }
 
  private:
+  /// \param slice  of all; becomes that of the driver, which is null if there is none
+  Driver* ownerOf(int& slice) const noexcept {
+    for (const auto& driver : drivers_) {
+      if (slice < driver->slices()) {
+        return driver.get();
+      }
+      slice -= driver->slices();
+    }
+    return nullptr;
+  }
   double least(double (Driver::*quantity)() const noexcept) const noexcept {
     double least = (drivers_.front().get()->*quantity)();
     for (const auto& driver : drivers_) {

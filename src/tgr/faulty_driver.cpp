@@ -89,6 +89,7 @@ class FaultyDriverOverAnother final : public FaultyDriver {
   double damping() const noexcept override { return inside_->damping(); }
   double declaredDamping() const noexcept override { return inside_->declaredDamping(); }
   DeviceClock* clock() noexcept override { return inside_->clock(); }
+  bool hasHand(int slice) const noexcept override { return inside_->hasHand(slice); }
   bool move(const HandMove& move) noexcept override { return inside_->move(move); }
 
   void check(const FaultOrder& order) const override { requireInjectable(order, slices()); }

@@ -449,5 +449,29 @@ TEST(AudioBridgeTest, ATakeSoundsBesideTheInstrument) {
   EXPECT_EQ(rig.bridge.status().underruns, 0);
 }
 
+TEST(AudioBridgeTest, MidiMessagesKeepTheirDistancesToTheFrame) {
+  Rig rig;
+  rig.host.start(kPeriod, 5000, 7'000'000);
+  MidiArrival arrival;
+  rig.host.send({17, 3, {0x90, 60, 100}});
+  rig.step();
+  ASSERT_TRUE(rig.bridge.popMidi(arrival));
+  EXPECT_TRUE(std::isnan(arrival.tick)) << "no ticks are tied to these frames yet";
+  rig.settle();
+  for (std::uint32_t offset = 0; offset < kPeriod; offset += 51) {
+    const std::int64_t frame = rig.host.nextFrame() + offset;
+    rig.host.send({offset, 3, {0x90, 60, 100}});
+    rig.step();
+    ASSERT_TRUE(rig.bridge.popMidi(arrival));
+    EXPECT_DOUBLE_EQ(arrival.tick * kRatio,
+                     static_cast<double>(frame - rig.offset() + rig.bridge.latencyFrames()));
+    // That tick is due by the clock of the host when the frame begins, to a tick.
+    const std::int64_t due_ns = rig.bridge.dueNs(static_cast<std::int64_t>(arrival.tick));
+    EXPECT_NEAR(static_cast<double>(due_ns - rig.host.timeOf(frame)), -0.5 * kTickNs,
+                0.51 * kTickNs);
+    EXPECT_FALSE(rig.bridge.popMidi(arrival));
+  }
+}
+
 }  // namespace
 }  // namespace ergotic::station

@@ -49,11 +49,17 @@ class AudioHost {
     made.outputs = out_pointers.data();
     made.input_channels = static_cast<int>(inputs_);
     made.output_channels = static_cast<int>(outputs_);
+    made.midi = midi_.data();
+    made.midi_messages = static_cast<int>(midi_.size());
     processor_.process(made);
+    midi_.clear();
     next_ += period_;
     last_ = std::move(out);
     return last_[0];
   }
+
+  /// A MIDI message for the next block.
+  void send(const rt::MidiMessage& message) { midi_.push_back(message); }
 
   /// The host's frame count goes on without a call, as after an xrun.
   void skip(std::int64_t frames) { next_ += frames; }
@@ -63,6 +69,7 @@ class AudioHost {
   const std::vector<std::vector<float>>& last() const { return last_; }
 
  private:
+  std::vector<rt::MidiMessage> midi_;
   rt::AudioProcessor& processor_;
   std::size_t outputs_;
   std::size_t inputs_;

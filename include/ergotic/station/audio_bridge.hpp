@@ -31,10 +31,12 @@ struct AudioBridgeConfig {
   bool limited = false;  ///< a Limiter stands before the host
 };
 
-/// A MIDI message, and when the period began in which it came.
+/// A MIDI message, and when it came.
 struct MidiArrival {
-  std::int64_t period_ns = 0;  ///< CLOCK_MONOTONIC, as Period::start
-  double offset_s = 0.0;       ///< of the message in its period
+  double time_s = 0.0;  ///< CLOCK_MONOTONIC, a period after it came
+  /// The tick that was due a period after it came, with its fraction; NaN while no ticks are tied
+  /// to the host's frames.
+  double tick = 0.0;
   rt::MidiMessage message;
 };
 
@@ -147,7 +149,7 @@ class AudioBridge : public rt::AudioProcessor, public FramePort {
     std::int64_t host_frame = 0;
   };
 
-  void noteMidi(const rt::Period& period) noexcept;
+  void noteMidi(const rt::Period& period, const Relation& relation, bool holds) noexcept;
   void capture(const rt::Period& period) noexcept;
   void play(const rt::Period& period, const Relation& relation) noexcept;
   const float* mix(const float* live) noexcept;

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -127,6 +128,14 @@ class Station {
   /// Counts up with every cycle and catchUp: what a watchdog looks at. Realtime: yes. Thread: any
   const std::atomic<std::int64_t>& heartbeat() const noexcept { return heartbeat_; }
 
+  // Whoever moves the hands of simulated devices, one thread at a time:
+  static constexpr double kAtOnce = std::numeric_limits<double>::quiet_NaN();
+  /// Moves the hand at a slice, with the next tick. \param due_tick  when the move is due, in ticks
+  /// with their fraction, in place of what the move says; one that has passed: at once
+  /// \return false if there is no such hand, a value is outside its range, or too many moves wait
+  /// Realtime: yes. Thread: one, any
+  bool move(const tgr::HandMove& move, double due_tick = kAtOnce) noexcept;
+
   // Operator:
   /// Hands a command over. A recovery also re-arms the driver. What a command points to belongs to
   /// the station from here on, and comes back through exactly one event.
@@ -158,8 +167,14 @@ class Station {
   using Slices = std::array<double, tgr::kMaxSlices>;
   static constexpr unsigned kHeld = 1;  // presence as it was told since the last tick, bits
   static constexpr unsigned kLetGo = 2;
+  static constexpr std::size_t kWaitingMoves = 256;
+  struct DueMove {
+    tgr::HandMove move;
+    double due_tick = kAtOnce;
+  };
 
   // One tick, step by step (station.cpp).
+  void moveHands() noexcept;
   std::uint32_t accept(Slices& positions,
                        std::uint32_t exchange_flags,
                        std::int64_t host_missed) noexcept;
@@ -259,6 +274,7 @@ class Station {
   std::atomic<unsigned> told_presence_{0};
   std::atomic<std::int64_t> heartbeat_{0};
   rt::Ring<Command> commands_;
+  rt::Ring<DueMove> moves_{kWaitingMoves};
   rt::Ring<Event> events_;
   rt::Ring<GestureTick> gestures_;
   rt::Mailbox<Snapshot> snapshots_;

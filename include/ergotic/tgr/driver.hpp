@@ -143,7 +143,10 @@ class Driver {
   /// Not null if the device says when ticks are due. Constant after open.
   virtual DeviceClock* clock() noexcept { return nullptr; }
 
-  /// Moves the hand at a slice of a simulated device. Thread: one, any
+  /// Whether the slice is simulated, with a hand that `move` moves. Constant while open.
+  /// Realtime: yes. Thread: any
+  virtual bool hasHand(int /*slice*/) const noexcept { return false; }
+  /// Moves the hand at a slice of a simulated device. Realtime: yes. Thread: one, any
   /// \return false if there is no such hand or slice, a value is outside its range, or the ring of
   ///         pending moves is full
   virtual bool move(const HandMove& /*move*/) noexcept { return false; }

@@ -184,9 +184,10 @@ class Performance {
   void play(station::Performer* performer, std::shared_ptr<Picture> picture);
   void reportWarnings();
   void findPlayMap(const scene::Scene& scene, bool keeps_the_players);
-  std::string move(const std::vector<tgr::HandMove>& moves);
+  std::string move(const std::vector<tgr::HandMove>& moves,
+                   double due_tick = station::Station::kAtOnce);
   std::string readPlayMap(const std::string& map);
-  void play(const tgr::Strokes& strokes, double delay_s);
+  void play(const tgr::Strokes& strokes, double due_tick);
   void play(const tgr::Keyboard::Played& played, MidiWishes& wishes);
 
   Feed& feed_;

@@ -18,9 +18,10 @@ namespace ergotic::node {
 namespace {
 
 const char kKeyboard[] = "keyboard";  // as a sender of targets: no node has a name without a slash
-// From the period in which a MIDI message came to the stroke: the thread that reads it is there by
+// From a period after a MIDI message came to the stroke: the thread that reads it is there by
 // then, so that all messages keep their distances in time.
 constexpr double kMidiDelayS = 0.002;
+constexpr double kAtOnce = station::Station::kAtOnce;
 constexpr std::size_t kShownName = 64;                     // of what a stranger says, bytes
 constexpr std::size_t kMostBytes = std::size_t{1} << 20U;  // of a map
 
@@ -94,13 +95,16 @@ std::string Performance::moveHands(const HandTargets& wanted, const std::string&
   }
 }
 
-std::string Performance::move(const std::vector<tgr::HandMove>& moves) {
+std::string Performance::move(const std::vector<tgr::HandMove>& moves, double due_tick) {
   const std::lock_guard lock(engine_mutex_);
   if (!engine_) {
     return kNothingPlays;
   }
+  station::Station& station = engine_->station();
   for (const tgr::HandMove& move : moves) {
-    if (!engine_->station().driver().move(move)) {
+    // Not a number, as `due_tick`, if it is due at once: the move says it then.
+    const double delay_ticks = move.delay_s * station.config().rates.gesturalHz();
+    if (!station.move(move, due_tick + delay_ticks)) {
       return "slice " + std::to_string(move.slice) +
              ": the station has no simulated hand there, or too many moves wait";
     }
@@ -108,15 +112,15 @@ std::string Performance::move(const std::vector<tgr::HandMove>& moves) {
   return "";
 }
 
-void Performance::play(const tgr::Strokes& strokes, double delay_s) {
+void Performance::play(const tgr::Strokes& strokes, double due_tick) {
   for (const tgr::Stroke& stroke : strokes) {
     try {
       std::vector<tgr::HandMove> moves = players_.read(targetsOf(stroke), kKeyboard, 0.0);
       for (tgr::HandMove& move : moves) {
         move.time_s = tgr::HandMove::kOnArrival;
-        move.delay_s = std::max(delay_s + stroke.after_s, 0.0);
+        move.delay_s = stroke.after_s;
       }
-      if (const std::string refusal = move(moves); !refusal.empty()) {
+      if (const std::string refusal = move(moves, due_tick); !refusal.empty()) {
         throw Exception(refusal);
       }
     } catch (const std::exception& refusal) {
@@ -127,37 +131,40 @@ void Performance::play(const tgr::Strokes& strokes, double delay_s) {
 
 void Performance::playNote(int note, int velocity) {
   const std::lock_guard lock(keyboard_mutex_);
-  play(keyboard_.note(note, velocity, nowS()), 0.0);
+  play(keyboard_.note(note, velocity, nowS()), kAtOnce);
 }
 
 std::optional<int> Performance::tap(const std::string& end_effector, int index, int velocity) {
   const std::lock_guard lock(keyboard_mutex_);
   const std::optional<int> note = keyboard_.noteOf({end_effector, index});
   if (note) {
-    play(keyboard_.note(*note, velocity, nowS()), 0.0);
+    play(keyboard_.note(*note, velocity, nowS()), kAtOnce);
   }
   return note;
 }
 
 void Performance::releaseKeys() {
   const std::lock_guard lock(keyboard_mutex_);
-  play(keyboard_.releaseAll(nowS()), 0.0);
+  play(keyboard_.releaseAll(nowS()), kAtOnce);
 }
 
 MidiWishes Performance::playMidi() {
   MidiWishes wishes;
   const std::lock_guard keyboard_lock(keyboard_mutex_);
   station::MidiArrival arrival;
+  double delay_ticks = 0.0;
   const auto next = [&] {
     const std::lock_guard lock(engine_mutex_);
-    return engine_ && engine_->popMidi(arrival);
+    if (!engine_ || !engine_->popMidi(arrival)) {
+      return false;
+    }
+    delay_ticks = kMidiDelayS * engine_->station().config().rates.gesturalHz();
+    return true;
   };
   while (next()) {
-    const double period_s = static_cast<double>(arrival.period_ns) / kNsPerS;
-    const double happened_s = period_s + arrival.offset_s;
     const auto& message = arrival.message;
-    const auto played = keyboard_.play(message.bytes.data(), message.size, happened_s);
-    play(played.strokes, kMidiDelayS + happened_s - nowS());
+    const auto played = keyboard_.play(message.bytes.data(), message.size, arrival.time_s);
+    play(played.strokes, arrival.tick + delay_ticks);
     play(played, wishes);
   }
   return wishes;
@@ -218,7 +225,7 @@ std::string Performance::readPlayMap(const std::string& map) {
     leaveOut(read,
              [this](const std::string& tool) { return !tool.empty() && !players_.has(tool); });
     const std::lock_guard lock(keyboard_mutex_);
-    play(keyboard_.use(std::move(read), nowS()), 0.0);
+    play(keyboard_.use(std::move(read), nowS()), kAtOnce);
     return "";
   } catch (const Exception& refusal) {
     return refusal.what();
@@ -239,7 +246,7 @@ void Performance::findPlayMap(const scene::Scene& scene, bool keeps_the_players)
     for (const scene::Parameter& parameter : scene.parameters) {
       ranges_[parameter.name] = {parameter.minimum, parameter.value, parameter.maximum};
     }
-    play(keyboard_.use(usualMap(scene), nowS()), 0.0);
+    play(keyboard_.use(usualMap(scene), nowS()), kAtOnce);
   }
   std::error_code error;
   const std::filesystem::path file = mapBeside(scene.file);

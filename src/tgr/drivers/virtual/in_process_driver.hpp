@@ -31,6 +31,7 @@ class InProcessDriver final : public Driver {
   bool canHurt() const noexcept override { return false; }
   double damping() const noexcept override { return bank_.damping(); }
   double declaredDamping() const noexcept override { return damping(); }
+  bool hasHand(int slice) const noexcept override { return slice >= 0 && slice < slices(); }
   bool move(const HandMove& move) noexcept override;
 
  private:

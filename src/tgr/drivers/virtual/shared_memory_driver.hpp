@@ -38,6 +38,7 @@ class SharedMemoryDriver final : public Driver {
   double damping() const noexcept override { return traits_.damping; }
   double declaredDamping() const noexcept override { return damping(); }
   std::vector<Guard> guards() const override;
+  bool hasHand(int slice) const noexcept override { return slice >= 0 && slice < slices_; }
   bool move(const HandMove& move) noexcept override;
 
   static constexpr std::int64_t kMissingNs = 20'000'000;  ///< age of the device's last step

@@ -47,23 +47,25 @@ const char kDrawnString[] =
     "outputs:\n"
     "  sound: {quantity: velocity, at: string@0.83, channel: 1}\n";
 
-/// A hand that goes by some speed, of which a mouse tells 125 times a second.
-/// \param jumps  the hand is where the mouse is, at once
-std::vector<double> swept(double speed, bool jumps) {
-  constexpr double kFromM = -0.09;
-  constexpr double kSeconds = 1.8;
-  auto driver = tgr::makeVirtualDriver({});
-  tgr::Driver& hands = *driver;
+std::unique_ptr<Station> makeStation() {
   StationConfig config;
   config.rates = kSweepRates;
   config.output_channels = 2;
   PerformerPolicy policy;
   policy.allow_unproven = true;
-  HeardSound heard;
-  Station station(
-      config, std::move(driver),
+  return std::make_unique<Station>(
+      config, tgr::makeVirtualDriver({}),
       makePerformer(scene::readYaml(kDrawnString, "drawn.yaml"), kSweepRates, {}, policy));
-  station.setFramePort(&heard);
+}
+
+/// A hand that goes by some speed, of which a mouse tells 125 times a second.
+/// \param jumps  the hand is where the mouse is, at once
+std::vector<double> swept(double speed, bool jumps) {
+  constexpr double kFromM = -0.09;
+  constexpr double kSeconds = 1.8;
+  HeardSound heard;
+  const std::unique_ptr<Station> station = makeStation();
+  station->setFramePort(&heard);
   double next_s = 0.0;
   const double tick_s = 1.0 / kSweepRates.gesturalHz();
   for (double now_s = 0.0; now_s < kSeconds; now_s += tick_s) {
@@ -73,10 +75,10 @@ std::vector<double> swept(double speed, bool jumps) {
       wanted.time_s = 1.0 + next_s;
       wanted.grip = tgr::HandGrip::kQuick;
       wanted.jumps = jumps;
-      EXPECT_TRUE(hands.move(wanted));
+      EXPECT_TRUE(station->move(wanted));
       next_s += 1.0 / kMouseHz;
     }
-    station.cycle({0, true});
+    station->cycle({0, true});
   }
   return heard.sound;
 }
@@ -112,7 +114,7 @@ std::vector<double> linesIn(const std::vector<double>& sound) {
   return lines;
 }
 
-TEST(SweepTest, TargetsOf125HzLeaveNoLineInTheSoundOfAString) {
+TEST(MovedHandsTest, TargetsOf125HzLeaveNoLineInTheSoundOfAString) {
   constexpr double kInaudible = -60.0;
   const std::vector<double> still = linesIn(swept(0.0, false));
   const std::vector<double> even = linesIn(swept(0.1, false));
@@ -130,6 +132,58 @@ TEST(SweepTest, TargetsOf125HzLeaveNoLineInTheSoundOfAString) {
   }
   EXPECT_GE(judged, 10);
   EXPECT_GT(of_stairs, of_even + 6.0) << "a staircase is louder";
+}
+
+/// Where a slice was, tick by tick, if a stroke that is due at some tick was asked for before
+/// `tick`.
+std::vector<double> struck(double due_tick, std::int64_t tick) {
+  constexpr std::int64_t kTicks = 400;
+  const std::unique_ptr<Station> station = makeStation();
+  tgr::HandMove stroke;
+  stroke.target_m = 0.01;
+  stroke.glide_s = 0.02;
+  stroke.grip = tgr::HandGrip::kKey;
+  while (station->nextTick() < kTicks) {
+    if (station->nextTick() == 0 || station->nextTick() == 100) {  // the hand holds the slice
+      tgr::HandMove hold;
+      hold.grip = tgr::HandGrip::kKey;
+      EXPECT_TRUE(station->move(hold));
+    }
+    if (station->nextTick() == tick) {
+      EXPECT_TRUE(station->move(stroke, due_tick));
+    }
+    station->cycle({0, true});
+  }
+  std::vector<GestureTick> ticks(kTicks);
+  EXPECT_EQ(station->pollGestures(ticks.data(), ticks.size()), ticks.size());
+  std::vector<double> places;
+  for (const GestureTick& gesture : ticks) {
+    places.push_back(gesture.position[0]);
+  }
+  return places;
+}
+
+TEST(MovedHandsTest, AMoveThatIsDueAtATickDoesNotDependOnWhenItWasAskedFor) {
+  constexpr double kDueTick = 200.37;
+  const std::vector<double> early = struck(kDueTick, 120);
+  EXPECT_NEAR(early.at(200), 0.0, 2e-5);
+  EXPECT_NEAR(early.back(), 0.01, 2e-3);
+  EXPECT_EQ(struck(kDueTick, 199), early);
+  EXPECT_EQ(struck(kDueTick, 200), early);
+  EXPECT_NE(struck(kDueTick, 205), early) << "this one comes too late";
+  EXPECT_EQ(struck(100.0, 205), struck(205.0, 205)) << "and is due at once";
+  EXPECT_NE(struck(kDueTick + 0.2, 120), early);
+}
+
+TEST(MovedHandsTest, RefusesHandsThatAreNotThere) {
+  const std::unique_ptr<Station> station = makeStation();
+  tgr::HandMove move;
+  EXPECT_TRUE(station->move(move));
+  move.slice = 12;
+  EXPECT_FALSE(station->move(move));
+  move.slice = 0;
+  move.target_m = 1.0;
+  EXPECT_FALSE(station->move(move));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include <ergotic/Event.h>
 #include <ergotic/GestureBlock.h>
+#include <ergotic/Hold.h>
 #include <ergotic/Keyframe.h>
 #include <ros/message_traits.h>
 #include <rosbag/bag.h>
@@ -104,6 +105,21 @@ void check(const ergotic::Event& message, const std::string& path) {
   requireFinite(name, "value", {message.value}, 1);
 }
 
+void check(const ergotic::Hold& message, const std::string& path) {
+  const std::string name = named(path, "hold", message.tick);
+  constexpr double kMost = 1e12;
+  requireTick(name, message.tick);
+  requireWithin(name, "its hand", message.hand, 0, physics::kMaxTouches - 1);
+  requireWithin(name, "its module", message.module, physics::Touch::kNothing, 1e9);
+  requireWithin(name, "its ticks_left", message.ticks_left, 0, station::kMaxHoldTicks);
+  requireWithin(name, "its stiffness", message.stiffness, 0.0, kMost);
+  requireWithin(name, "its damping", message.damping, 0.0, kMost);
+  requireWithin(name, "its most_force", message.most_force, 0.0, kMost);
+  requireFinite(name, "coordinate", {message.at.begin(), message.at.end()}, message.at.size());
+  requireFinite(name, "coordinate of the goal", {message.goal.begin(), message.goal.end()},
+                message.goal.size());
+}
+
 Keyframe fromMessage(const ergotic::Keyframe& message, const std::string& path) {
   check(message, path);
   Keyframe keyframe;
@@ -141,6 +157,23 @@ station::Event fromMessage(const ergotic::Event& message, const std::string& pat
   event.frame = message.frame;
   event.index = message.index;
   event.value = message.value;
+  return event;
+}
+
+station::Event fromMessage(const ergotic::Hold& message, const std::string& path) {
+  check(message, path);
+  station::Event event;
+  event.type = station::Event::Type::kHold;
+  event.tick = message.tick;
+  event.index = message.hand;
+  event.hold.mat = message.module;
+  event.hold.takes_hold = message.takes_hold != 0U;
+  std::copy(message.at.begin(), message.at.end(), event.hold.at.begin());
+  std::copy(message.goal.begin(), message.goal.end(), event.hold.goal.begin());
+  event.hold.ticks_left = message.ticks_left;
+  event.hold.stiffness = message.stiffness;
+  event.hold.damping = message.damping;
+  event.hold.most_force = message.most_force;
   return event;
 }
 
@@ -280,6 +313,8 @@ void add(Recording& recording, RecordedMessage& message, const std::string& path
     recording.keyframes.push_back(fromMessage(*keyframe, path));
   } else if (const auto told = as<ergotic::Event>(message, path)) {
     recording.events.push_back(fromMessage(*told, path));
+  } else if (const auto hold = as<ergotic::Hold>(message, path)) {
+    recording.events.push_back(fromMessage(*hold, path));
   }
 }
 

@@ -50,6 +50,13 @@ void OfflineStation::submit(const station::Command& command) {
   }
 }
 
+void OfflineStation::hold(std::size_t hand, const station::Hold& hold) {
+  if (!station_.hold(hand, hold, true)) {
+    throw Exception("hand " + std::to_string(hand) +
+                    " holds a module with a value outside its range, or too many hands do");
+  }
+}
+
 void OfflineStation::cycle(double* frames, const std::function<void(const station::Event&)>& hear) {
   station::Station::Timing timing;
   timing.freewheel = true;

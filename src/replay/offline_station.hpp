@@ -38,6 +38,9 @@ class OfflineStation : private station::FramePort {
   /// \throws Exception if the station does not take it
   void submit(const station::Command& command);
 
+  /// As recorded. \throws Exception if the station does not take it
+  void hold(std::size_t hand, const station::Hold& hold);
+
   /// Runs one tick; then what it told, freed of what it handed back, goes to `hear`.
   /// \param[out] frames  [R][output channels]
   void cycle(double* frames, const std::function<void(const station::Event&)>& hear = nullptr);

@@ -288,6 +288,8 @@ void Replay::submitChanges() {
     const station::Event& event = recording_.events[change_++];
     if (event.type == EventType::kParameter) {
       submitParameter(event);
+    } else if (event.type == EventType::kHold) {
+      station_->hold(static_cast<std::size_t>(event.index), event.hold);
     } else if (beginsAnew(event)) {
       station::Command recover;
       recover.type = station::Command::Type::kRecover;

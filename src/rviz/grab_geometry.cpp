@@ -10,6 +10,7 @@ namespace {
 constexpr std::size_t kAxes = 3;
 constexpr double kMostOfSliceM = 0.1;  // what a hand may want, see HandTargets
 constexpr double kMostOfCoordinateM = 1.0;
+constexpr double kMostOfModuleM = 100.0;  // see HoldTarget
 constexpr double kLeastSine = 0.1;  // an axis that points at the eye has no place under the mouse
 
 Eigen::Affine3d drawingOf(const geometry_msgs::Pose& pose, double zoom_of_x) {
@@ -62,71 +63,110 @@ void HandleSet::show(const ModelState& state) {
   if (state.displacement.size() != coordinates_) {
     return;
   }
+  displacement_ = state.displacement;
   for (Handle& handle : handles_) {
-    for (int k = 0; k < handle.dimensions; ++k) {
-      const float moved = state.displacement[handle.first + static_cast<std::size_t>(k)];
-      handle.displacement[k] = std::isfinite(moved) ? static_cast<double>(moved) : 0.0;
-    }
+    handle.displacement = displacementOf(handle.first, handle.dimensions);
   }
+}
+
+/// One that is not finite is drawn at rest.
+Eigen::Vector3d HandleSet::displacementOf(std::size_t first, int dimensions) const {
+  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();
+  for (int k = 0; k < dimensions && !displacement_.empty(); ++k) {
+    const float moved = displacement_[first + static_cast<std::size_t>(k)];
+    displacement[k] = std::isfinite(moved) ? static_cast<double>(moved) : 0.0;
+  }
+  return displacement;
+}
+
+Eigen::Vector3d HandleSet::restOf(std::size_t module) const {
+  const Eigen::Vector3d in_model =
+      Eigen::Map<const Eigen::Vector3f>(&structure_.rest_positions[kAxes * module]).cast<double>();
+  return drawings_[structure_.module_sections[module]].to_section * in_model;
+}
+
+Eigen::Vector3d HandleSet::placeOf(std::size_t module) const {
+  const std::size_t section = structure_.module_sections[module];
+  return drawings_[section].drawing *
+         (restOf(module) + displacementOf(first_[module], structure_.section_dimensions[section]));
+}
+
+Eigen::Vector3d HandleSet::restPlaceOf(std::size_t module) const {
+  return drawings_[structure_.module_sections[module]].drawing * restOf(module);
 }
 
 std::vector<Eigen::Vector3d> HandleSet::places() const {
   std::vector<Eigen::Vector3d> places;
-  const std::size_t modules = structure_.module_sections.size();
-  if (!isWhole(structure_) || !(message_.display_zoom > 0.0) ||
-      structure_.rest_positions.size() != kAxes * modules) {
-    return places;
-  }
+  const std::size_t modules = drawings_.empty() ? 0 : structure_.module_sections.size();
   for (std::size_t module = 0; module < modules; ++module) {
-    const std::size_t section = structure_.module_sections[module];
-    const geometry_msgs::Pose& pose = structure_.section_poses[section];
-    const bool is_scalar = structure_.section_dimensions[section] == 1;
-    const Eigen::Vector3d rest =
-        Eigen::Map<const Eigen::Vector3f>(&structure_.rest_positions[kAxes * module])
-            .cast<double>();
-    places.push_back(drawingOf(pose, is_scalar ? message_.display_zoom : 1.0) *
-                     (drawingOf(pose, 1.0).inverse() * rest));
+    const Eigen::Vector3d place = restPlaceOf(module);
+    if (place.allFinite()) {
+      places.push_back(place);
+    }
   }
-  places.erase(std::remove_if(places.begin(), places.end(),
-                              [](const Eigen::Vector3d& place) { return !place.allFinite(); }),
-               places.end());
   return places;
+}
+
+Handle HandleSet::handleOf(std::size_t module) const {
+  const std::size_t section = structure_.module_sections[module];
+  Handle handle;
+  handle.dimensions = structure_.section_dimensions[section];
+  handle.drawing = drawings_[section].drawing;
+  handle.rest = restOf(module);
+  return handle;
+}
+
+Handle HandleSet::moduleAt(std::size_t module) const {
+  Handle handle = handleOf(module);
+  handle.module = static_cast<int>(module);
+  handle.name = module < structure_.module_names.size() ? structure_.module_names[module] : "";
+  handle.first = first_[module];
+  handle.displacement = displacementOf(handle.first, handle.dimensions);
+  for (int k = 0; k < handle.dimensions; ++k) {
+    handle.indices[static_cast<std::size_t>(k)] = k;
+  }
+  return handle;
 }
 
 /// Structure and handles come in two messages: until both are of one model there are none.
 void HandleSet::build() {
   handles_.clear();
-  ++version_;
-  std::vector<std::size_t> first;
+  drawings_.clear();
+  first_.clear();
+  displacement_.clear();
   coordinates_ = 0;
+  ++version_;
   if (!isWhole(structure_)) {
     return;
   }
+  std::vector<std::size_t> first;
   for (const std::uint32_t section : structure_.module_sections) {
     first.push_back(coordinates_);
     coordinates_ += structure_.section_dimensions[section];
   }
-  if (!fits(message_, structure_)) {
+  const bool is_placed = structure_.rest_positions.size() == kAxes * first.size();
+  for (std::size_t s = 0;
+       is_placed && message_.display_zoom > 0.0 && s < structure_.section_poses.size(); ++s) {
+    const geometry_msgs::Pose& pose = structure_.section_poses[s];
+    const bool is_scalar = structure_.section_dimensions[s] == 1;
+    drawings_.push_back(
+        {drawingOf(pose, is_scalar ? message_.display_zoom : 1.0), drawingOf(pose, 1.0).inverse()});
+  }
+  if (drawings_.empty() || !fits(message_, structure_)) {
     return;
   }
   for (std::size_t i = 0; i < message_.modules.size(); ++i) {
-    const std::size_t module = message_.modules[i];
-    const std::size_t section = structure_.module_sections[module];
-    const geometry_msgs::Pose& pose = structure_.section_poses[section];
-    Handle handle;
+    Handle handle = handleOf(message_.modules[i]);
     handle.name = message_.names[i];
     handle.end_effector = message_.end_effectors[i];
-    handle.dimensions = structure_.section_dimensions[section];
-    handle.drawing = drawingOf(pose, handle.dimensions == 1 ? message_.display_zoom : 1.0);
-    handle.first = first[module];
-    const Eigen::Vector3d in_model =
-        Eigen::Map<const Eigen::Vector3f>(&structure_.rest_positions[kAxes * module])
-            .cast<double>();
-    handle.rest = drawingOf(pose, 1.0).inverse() * in_model;
+    handle.first = first[message_.modules[i]];
     std::copy_n(&message_.indices[kAxes * i], kAxes, handle.indices.begin());
     std::copy_n(&message_.scales[kAxes * i], kAxes, handle.scales.begin());
     std::copy_n(&message_.offsets[kAxes * i], kAxes, handle.offsets.begin());
     handles_.push_back(std::move(handle));
+  }
+  if (message_.can_be_held.size() == first.size()) {
+    first_ = std::move(first);
   }
 }
 
@@ -189,6 +229,16 @@ HandTargets Grab::targets() const {
         wanted.targets.push_back(std::clamp(target, -most, most));
       }
     }
+  }
+  return wanted;
+}
+
+HoldTarget Grab::target() const {
+  HoldTarget wanted;
+  wanted.module = taken_.module;
+  for (std::size_t k = 0; k < kAxes; ++k) {
+    wanted.target[k] = std::clamp(drag_.displacement()[static_cast<Eigen::Index>(k)],
+                                  -kMostOfModuleM, kMostOfModuleM);
   }
   return wanted;
 }

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 #include <ergotic/HandTargets.h>
 #include <ergotic/Handles.h>
+#include <ergotic/HoldTarget.h>
 #include <ergotic/ModelState.h>
 #include <ergotic/ModelStructure.h>
 
@@ -23,9 +24,10 @@ struct Ray {
   Eigen::Vector3d at(double distance) const { return origin + distance * direction; }
 };
 
-/// A module that hands move, as it is drawn: where it is, and what moves it.
+/// A module that can be taken, as it is drawn: where it is, and what moves it.
 struct Handle {
   std::string name;
+  int module = -1;           ///< index in ModelStructure, if a hand holds the module itself
   std::string end_effector;  ///< whose coordinates move it; empty: slices do
   std::array<int, 3> indices{-1, -1, -1};
   std::array<double, 3> scales{1.0, 1.0, 1.0};
@@ -53,6 +55,19 @@ class HandleSet {
   void show(const ModelState& state);
 
   const std::vector<Handle>& handles() const { return handles_; }
+  /// A module that a hand can hold wherever it is, as it is now. \pre below modules()
+  Handle moduleAt(std::size_t module) const;
+  /// Of the structure, once handles have come for it, else 0.
+  std::size_t modules() const { return first_.size(); }
+  /// Calls `visit(module, where it is drawn now, where at rest)` for all modules that can be held.
+  template <class Visit>
+  void forEachModule(const Visit& visit) const {
+    for (std::size_t module = 0; module < modules(); ++module) {
+      if (message_.can_be_held[module] != 0) {
+        visit(module, placeOf(module), restPlaceOf(module));
+      }
+    }
+  }
   /// Where all modules are drawn at rest, frame `model`, m; empty until it is known of what.
   std::vector<Eigen::Vector3d> places() const;
   /// Counts the models.
@@ -61,10 +76,22 @@ class HandleSet {
   int version() const { return version_; }
 
  private:
+  struct Drawing {
+    Eigen::Affine3d drawing;     // from the section to the picture
+    Eigen::Affine3d to_section;  // from frame `model`
+  };
   void build();
+  Handle handleOf(std::size_t module) const;
+  Eigen::Vector3d restOf(std::size_t module) const;
+  Eigen::Vector3d displacementOf(std::size_t first, int dimensions) const;
+  Eigen::Vector3d placeOf(std::size_t module) const;
+  Eigen::Vector3d restPlaceOf(std::size_t module) const;
 
   ModelStructure structure_;
   Handles message_;
+  std::vector<float> displacement_;  // of ModelState; empty: none came
+  std::vector<Drawing> drawings_;    // [sections]
+  std::vector<std::size_t> first_;   // [modules] of its displacements; empty: nothing can be held
   std::vector<Handle> handles_;
   std::size_t coordinates_ = 0;
   int models_ = 0;
@@ -110,6 +137,8 @@ class Grab {
   double stretchFrom(const Eigen::Vector3d& displacement) const;
   /// For the station, within what a hand may want; without a stamp.
   HandTargets targets() const;
+  /// The same for a module that is held itself. \pre handle().module >= 0
+  HoldTarget target() const;
 
  private:
   Handle taken_;

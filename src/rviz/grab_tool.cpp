@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include <ergotic/Note.h>
 #include <ergotic/Tap.h>
@@ -30,9 +31,10 @@
 namespace ergotic::panel {
 namespace {
 
-constexpr double kNearPixels = 16.0;  // from the pointer to a handle that it takes
-constexpr double kTapPixels = 90.0;   // from a click to a handle that it strikes
-constexpr double kClickPixels = 4.0;  // that the pointer may move in a click
+constexpr double kNearPixels = 16.0;    // from the pointer to a handle that it takes
+constexpr double kModulePixels = 10.0;  // to a module, where no handle is
+constexpr double kTapPixels = 90.0;     // from a click to a handle that it strikes
+constexpr double kClickPixels = 4.0;    // that the pointer may move in a click
 constexpr std::int64_t kClickNs = 400'000'000;
 constexpr double kMarkPixels = 14.0;     // diameter of a handle's mark
 constexpr double kFine = 0.1;            // of the way of the mouse, with Shift
@@ -59,6 +61,36 @@ Eigen::Vector3d toEigen(const Ogre::Vector3& v) {
 Eigen::Quaterniond toEigen(const Ogre::Quaternion& q) {
   return Eigen::Quaternionf(q.w, q.x, q.y, q.z).cast<double>();
 }
+
+/// Where places of frame `model` are seen, in pixels of the picture.
+class Screen {
+ public:
+  Screen(const rviz::ViewportMouseEvent& event, const Eigen::Isometry3d& model)
+      : model_(model),
+        to_screen_(event.viewport->getCamera()->getProjectionMatrix() *
+                   event.viewport->getCamera()->getViewMatrix()),
+        width_(event.viewport->getActualWidth()),
+        height_(event.viewport->getActualHeight()),
+        pointer_(event.x, event.y) {}
+
+  /// From the pointer; infinite for what is behind the camera.
+  double distanceTo(const Eigen::Vector3d& place) const {
+    const Ogre::Vector4 at = to_screen_ * Ogre::Vector4(toOgre(model_ * place));
+    if (!(at.w > 0.0F)) {
+      return std::numeric_limits<double>::infinity();
+    }
+    const Eigen::Vector2d seen(0.5 * (1.0 + static_cast<double>(at.x / at.w)) * width_,
+                               0.5 * (1.0 - static_cast<double>(at.y / at.w)) * height_);
+    return (seen - pointer_).norm();
+  }
+
+ private:
+  Eigen::Isometry3d model_;
+  Ogre::Matrix4 to_screen_;
+  double width_;
+  double height_;
+  Eigen::Vector2d pointer_;
+};
 
 }  // namespace
 
@@ -99,6 +131,7 @@ void GrabTool::subscribe() {
     return;
   }
   targets_ = node_.advertise<HandTargets>(station + "/hand_targets", kQueue);
+  hold_targets_ = node_.advertise<HoldTarget>(station + "/hold_targets", kQueue);
   notes_ = node_.advertise<Note>(station + "/notes", kQueue);
   taps_ = node_.advertise<Tap>(station + "/taps", kQueue);
   const auto show = [this](const auto& message) { set_.show(message); };
@@ -122,7 +155,7 @@ void GrabTool::activate() {
 
 void GrabTool::deactivate() {
   letGo();
-  hovered_.clear();
+  hovered_.reset();
   picture_->hide();
   if (panel_) {
     panel_->removeEventFilter(this);
@@ -183,7 +216,7 @@ std::int64_t GrabTool::nowOfEvents() const {
 }
 
 void GrabTool::update(float /*wall_dt*/, float /*ros_dt*/) {
-  if (grab_ && (heldNow() == nullptr || set_.version() != version_)) {
+  if (grab_ && (!heldNow() || set_.version() != version_)) {
     drop();  // another model plays
   }
   Ogre::Vector3 position;
@@ -252,26 +285,32 @@ std::optional<GrabTool::View> GrabTool::viewOf(const rviz::ViewportMouseEvent& e
               to_model.linear() * toEigen(camera->getDerivedDirection())};
 }
 
-const Handle* GrabTool::handleNear(const rviz::ViewportMouseEvent& event, double pixels) const {
-  const Ogre::Camera* const camera = event.viewport->getCamera();
-  const Ogre::Matrix4 to_screen = camera->getProjectionMatrix() * camera->getViewMatrix();
-  const double width = event.viewport->getActualWidth();
-  const double height = event.viewport->getActualHeight();
-  const Handle* nearest = nullptr;
-  double least = pixels;
+std::optional<Handle> GrabTool::handleNear(const rviz::ViewportMouseEvent& event,
+                                           double pixels) const {
+  const Screen screen(event, model_);
+  std::optional<Handle> nearest;
   for (const Handle& handle : set_.handles()) {
-    const Ogre::Vector4 at = to_screen * Ogre::Vector4(toOgre(model_ * handle.place()));
-    if (at.w <= 0.0F) {
-      continue;  // behind the camera
-    }
-    const double x = 0.5 * (1.0 + static_cast<double>(at.x / at.w)) * width;
-    const double y = 0.5 * (1.0 - static_cast<double>(at.y / at.w)) * height;
-    if (const double distance = std::hypot(x - event.x, y - event.y); distance < least) {
-      least = distance;
-      nearest = &handle;
+    if (const double distance = screen.distanceTo(handle.place()); distance < pixels) {
+      pixels = distance;
+      nearest = handle;
     }
   }
   return nearest;
+}
+
+std::optional<Handle> GrabTool::moduleNear(const rviz::ViewportMouseEvent& event) const {
+  const Screen screen(event, model_);
+  double least = kModulePixels;
+  std::optional<std::size_t> nearest;
+  // What swings is caught where it is at rest, too.
+  set_.forEachModule([&](std::size_t module, const Eigen::Vector3d& now, const auto& at_rest) {
+    const double distance = std::min(screen.distanceTo(now), screen.distanceTo(at_rest));
+    if (distance < least) {
+      least = distance;
+      nearest = module;
+    }
+  });
+  return nearest ? std::optional<Handle>(set_.moduleAt(*nearest)) : std::nullopt;
 }
 
 /// The left button comes up where and soon after it went down.
@@ -303,14 +342,16 @@ int GrabTool::processMouseEvent(rviz::ViewportMouseEvent& event) {
 
 int GrabTool::hover(rviz::ViewportMouseEvent& event) {
   const bool drags_camera = event.type == QEvent::MouseMove && event.buttons_down != Qt::NoButton;
-  const Handle* const handle = drags_camera ? nullptr : handleNear(event, kNearPixels);
-  hovered_ = handle != nullptr ? handle->name : "";
+  hovered_ = drags_camera ? std::nullopt : handleNear(event, kNearPixels);
+  if (!hovered_ && !drags_camera) {
+    hovered_ = moduleNear(event);
+  }
   const auto view = viewOf(event);
-  if (handle != nullptr && event.leftDown() && view) {
-    take(*handle, *view);
+  if (hovered_ && event.leftDown() && view) {
+    take(*hovered_, *view);
     return Render;
   }
-  if (const Handle* const near = isClick(event) ? handleNear(event, kTapPixels) : nullptr) {
+  if (const auto near = isClick(event) ? handleNear(event, kTapPixels) : std::nullopt) {
     tap(*near, event.shift());
   }
   if (rviz::ViewController* const camera = event.panel->getViewController()) {
@@ -323,7 +364,15 @@ int GrabTool::hover(rviz::ViewportMouseEvent& event) {
 void GrabTool::take(const Handle& handle, const View& view) {
   grab_.emplace(set_, handle, view.ray, view.looks);
   version_ = set_.version();
+  holds_ = false;
   send();
+}
+
+/// The button went down so short a while ago that it may come up again as a click, which must not
+/// mute what sounds.
+bool GrabTool::mayBeClick() const {
+  return wallNs() - pressed_ns_ < kClickNs &&
+         (grab_->place() - grab_->handle().place()).norm() < markSize(grab_->place());
 }
 
 int GrabTool::hold(rviz::ViewportMouseEvent& event) {
@@ -333,12 +382,16 @@ int GrabTool::hold(rviz::ViewportMouseEvent& event) {
   } else if (view && event.type == QEvent::MouseMove) {
     grab_->drag().move(view->ray, event.shift() ? kFine : 1.0);
   }
-  send();
-  if (event.leftUp() || event.rightDown()) {
-    const Handle handle = grab_->handle();
-    drop();
-    if (isClick(event)) {
-      tap(handle, event.shift());
+  const bool lets_go = event.leftUp() || event.rightDown();
+  if (!lets_go) {
+    send();
+    return Render;
+  }
+  const Handle handle = grab_->handle();
+  drop();
+  if (isClick(event)) {
+    if (const auto near = handle.module < 0 ? handle : handleNear(event, kTapPixels)) {
+      tap(*near, event.shift());
     }
   }
   return Render;
@@ -346,13 +399,23 @@ int GrabTool::hold(rviz::ViewportMouseEvent& event) {
 
 void GrabTool::send() {
   const Grip& grip = kGrips[static_cast<std::size_t>(grip_->getOptionInt())];
-  HandTargets wanted = grab_->targets();
-  wanted.header.stamp.fromNSec(
-      static_cast<std::uint64_t>(std::max<std::int64_t>(nowOfEvents(), 1)));
-  wanted.grip = grip.number;
-  wanted.timeout = kTimeoutS;
-  targets_.publish(wanted);
+  const auto fill = [&](auto& wanted) {
+    wanted.header.stamp.fromNSec(
+        static_cast<std::uint64_t>(std::max<std::int64_t>(nowOfEvents(), 1)));
+    wanted.grip = grip.number;
+    wanted.timeout = kTimeoutS;
+  };
   sent_wall_ns_ = wallNs();
+  if (grab_->handle().module < 0) {
+    HandTargets wanted = grab_->targets();
+    fill(wanted);
+    targets_.publish(wanted);
+  } else if (holds_ || !mayBeClick()) {
+    HoldTarget wanted = grab_->target();
+    fill(wanted);
+    hold_targets_.publish(wanted);
+    holds_ = true;
+  }
 }
 
 void GrabTool::letGo() {
@@ -363,21 +426,39 @@ void GrabTool::letGo() {
 }
 
 void GrabTool::drop() {
-  if (grab_) {
-    grab_.reset();
+  if (!grab_) {
+    return;
+  }
+  const bool is_module = grab_->handle().module >= 0;
+  grab_.reset();
+  if (is_module) {
+    HoldTarget release;
+    release.module = -1;
+    release.release = 1U;
+    hold_targets_.publish(release);
+  } else {
     HandTargets release;
     release.release = 1U;
     targets_.publish(release);
   }
 }
 
-const Handle* GrabTool::heldNow() const {
+/// What is in hand, or would be, as it is now.
+std::optional<Handle> GrabTool::asNow(const Handle& taken) const {
+  if (taken.module >= 0) {
+    const auto module = static_cast<std::size_t>(taken.module);
+    return module < set_.modules() ? std::optional<Handle>(set_.moduleAt(module)) : std::nullopt;
+  }
   for (const Handle& handle : set_.handles()) {
-    if (grab_ && handle.name == grab_->handle().name) {
-      return &handle;
+    if (handle.name == taken.name) {
+      return handle;
     }
   }
-  return nullptr;
+  return std::nullopt;
+}
+
+std::optional<Handle> GrabTool::heldNow() const {
+  return grab_ ? asNow(grab_->handle()) : std::nullopt;
 }
 
 /// Of about the same size on the screen wherever it is.
@@ -390,18 +471,15 @@ double GrabTool::markSize(const Eigen::Vector3d& place) const {
 }
 
 void GrabTool::draw() {
-  const Handle* const held = heldNow();
-  if (held != nullptr) {
+  if (const auto held = heldNow()) {
     const Grip& grip = kGrips[static_cast<std::size_t>(grip_->getOptionInt())];
     const double newtons =
         pullOf(grip.stiffness, grip.most_n, grab_->stretchFrom(held->displacement));
     return picture_->showPull(held->place(), grab_->place(), newtons, newtons / grip.most_n,
                               markSize(held->place()));
   }
-  for (const Handle& handle : set_.handles()) {
-    if (handle.name == hovered_) {
-      return picture_->showHover(handle.place(), handle.name, markSize(handle.place()));
-    }
+  if (const auto under = hovered_ ? asNow(*hovered_) : std::nullopt) {
+    return picture_->showHover(under->place(), under->name, markSize(under->place()));
   }
   picture_->hide();
 }

@@ -26,8 +26,9 @@ class ViewportMouseEvent;
 
 namespace ergotic::panel {
 
-/// Plays the model with the mouse: what hands move can be taken, dragged and let go of. With
-/// nothing in hand the mouse moves the camera as everywhere in rviz.
+/// Plays the model with the mouse: what hands move can be taken, dragged and let go of, and so can
+/// any module that moves by itself, which a hand of its own holds then. With nothing in hand the
+/// mouse moves the camera as everywhere in rviz.
 ///
 /// Left button: take and drag. Wheel: nearer, farther. Shift: ten times finer. Right button, or
 /// letting go of the left: let go. Two rows of the computer's keyboard play notes by the station's
@@ -58,7 +59,8 @@ class GrabTool : public rviz::Tool {
   void tap(const Handle& handle, bool is_hard);
 
   std::optional<View> viewOf(const rviz::ViewportMouseEvent& event);
-  const Handle* handleNear(const rviz::ViewportMouseEvent& event, double pixels) const;
+  std::optional<Handle> handleNear(const rviz::ViewportMouseEvent& event, double pixels) const;
+  std::optional<Handle> moduleNear(const rviz::ViewportMouseEvent& event) const;
   bool isClick(rviz::ViewportMouseEvent& event) const;
   int hover(rviz::ViewportMouseEvent& event);
   int hold(rviz::ViewportMouseEvent& event);
@@ -67,7 +69,9 @@ class GrabTool : public rviz::Tool {
   void letGo();  ///< of that and of all keys
   void send();
   void draw();
-  const Handle* heldNow() const;
+  std::optional<Handle> asNow(const Handle& taken) const;
+  std::optional<Handle> heldNow() const;
+  bool mayBeClick() const;
   void frameModel();
   double markSize(const Eigen::Vector3d& place) const;
   std::int64_t nowOfEvents() const;
@@ -79,6 +83,7 @@ class GrabTool : public rviz::Tool {
 
   ros::NodeHandle node_;
   ros::Publisher targets_;
+  ros::Publisher hold_targets_;
   ros::Publisher notes_;
   ros::Publisher taps_;
   ros::Subscriber structure_;
@@ -90,7 +95,8 @@ class GrabTool : public rviz::Tool {
   int framed_ = 0;   // model that the camera was turned to
   std::optional<Grab> grab_;
   KeyRows keys_;
-  std::string hovered_;
+  std::optional<Handle> hovered_;
+  bool holds_ = false;  // the station was told of the module in hand
   std::unique_ptr<GrabPicture> picture_;
   Eigen::Isometry3d model_ = Eigen::Isometry3d::Identity();  // in the fixed frame
 

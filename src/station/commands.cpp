@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What operators ask of the tick, and the swap that follows from it.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "ergotic/exception.hpp"
@@ -84,6 +85,10 @@ void Station::drainCommands() noexcept {
   for (int i = 0; i < kCommandsPerTick && commands_.pop(command); ++i) {
     obey(command);
   }
+  HoldWish wish;
+  for (std::size_t i = 0; i < kWaitingHolds && hold_wishes_.pop(wish); ++i) {
+    takeHold(wish);
+  }
   if (keyframe_wanted_ && mayTakeKeyframe()) {
     keyframe_wanted_ = false;
     takeKeyframe();
@@ -160,6 +165,7 @@ void Station::recover(const Command& command) noexcept {
   rearm(command.asked);
   if (anew) {
     performer_->restart();
+    letGo();
     blown_up_ = false;
   }
   inject_ticks_ = 0;
@@ -203,6 +209,7 @@ void Station::advanceSwap() noexcept {
     return;
   }
   performer_.swap(incoming_);
+  letGo();
   blown_up_ = false;
   gliding_ = 0;
   fade_.startIn();
@@ -278,6 +285,38 @@ void Station::takeInjection(const Command& command) noexcept {
   tell(injected);
 }
 
+bool Station::hold(std::size_t hand, const Hold& hold, bool is_recorded) noexcept {
+  const auto is_finite = [](double place) { return std::isfinite(place); };
+  return hand < holds_.size() && std::all_of(hold.at.begin(), hold.at.end(), is_finite) &&
+         std::all_of(hold.goal.begin(), hold.goal.end(), is_finite) && hold.ticks_left >= 0 &&
+         hold.ticks_left <= kMaxHoldTicks && hold.stiffness >= 0.0 && hold.damping >= 0.0 &&
+         hold.most_force >= 0.0 && hold_wishes_.push({hand, hold, is_recorded});
+}
+
+/// What the model lacks, as another one was meant, or cannot be held is let be.
+void Station::takeHold(const HoldWish& wish) noexcept {
+  const physics::Instrument& instrument = *performer_->instrument;
+  const int mat = wish.hold.mat;
+  const bool lets_go = mat == physics::Touch::kNothing;
+  if (!lets_go && (mat < 0 || mat >= instrument.touchables() || !instrument.canTouch(mat))) {
+    return;
+  }
+  Hold& hold = holds_[wish.hand];
+  const Hold before = std::exchange(hold, lets_go ? Hold() : wish.hold);
+  if (!lets_go && !wish.is_recorded && before.mat == mat) {
+    hold.takes_hold = before.takes_hold;
+    hold.at = before.at;
+  }
+  tellHold(wish.hand);
+}
+
+void Station::tellHold(std::size_t index) noexcept {
+  Event told = event(Event::Type::kHold);
+  told.index = static_cast<std::int64_t>(index);
+  told.hold = holds_[index];
+  tell(told);
+}
+
 /// Not within a fade: a replay starts at full gain. And no hand waits while much is copied.
 bool Station::mayTakeKeyframe() const noexcept {
   const bool is_short = performer_->instrument->stateSize() <= config_.keyframe_bytes_in_force;
@@ -297,6 +336,11 @@ void Station::takeKeyframe() noexcept {
     taken.index = 1;
   }
   handBack(taken);
+  for (std::size_t i = 0; i < holds_.size(); ++i) {  // a replay begins with them
+    if (holds_[i].mat != physics::Touch::kNothing) {
+      tellHold(i);
+    }
+  }
 }
 
 }  // namespace ergotic::station

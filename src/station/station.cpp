@@ -328,12 +328,45 @@ void Station::movePorts(const Slices& positions) noexcept {
   }
 }
 
+/// One tick on their way; one that takes hold waits for that.
+void Station::moveHolds() noexcept {
+  for (std::size_t i = 0; i < holds_.size(); ++i) {
+    Hold& hold = holds_[i];
+    physics::Touch& touch = touches_[i];
+    touch.mat = hold.mat;
+    touch.takes_hold = hold.takes_hold;
+    touch.from = hold.at;
+    touch.to = hold.at;
+    touch.stiffness = hold.stiffness;
+    touch.damping = hold.damping;
+    touch.most_force = hold.most_force;
+    if (!hold.takes_hold && hold.ticks_left > 0) {
+      const double part = 1.0 / hold.ticks_left;
+      for (std::size_t k = 0; k < hold.at.size(); ++k) {
+        touch.to[k] = hold.at[k] + part * (hold.goal[k] - hold.at[k]);
+      }
+      --hold.ticks_left;
+    }
+  }
+}
+
+void Station::letGo() noexcept {
+  holds_ = Holds();
+  touches_ = {};
+}
+
 void Station::tickInstrument() noexcept {
   if (blown_up_) {
     return;
   }
   Performer& p = *performer_;
-  p.instrument->tick({p.positions.data(), p.forces.data(), p.inputs.data(), p.outputs.data()});
+  moveHolds();
+  p.instrument->tick(
+      {p.positions.data(), p.forces.data(), p.inputs.data(), p.outputs.data(), touches_.data()});
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    holds_[i].at = touches_[i].to;
+    holds_[i].takes_hold = holds_[i].takes_hold && p.instrument->isUnderWay();
+  }
   if (p.instrument->isUnderWay() && !std::exchange(is_held_up_, true)) {
     kick(0.0);
   }

@@ -5,6 +5,7 @@
 
 #include <ergotic/Event.h>
 #include <ergotic/GestureBlock.h>
+#include <ergotic/Hold.h>
 #include <ergotic/Keyframe.h>
 #include <rosbag/bag.h>
 #include <std_msgs/String.h>
@@ -225,6 +226,32 @@ TEST(ReadRecordingTest, RefusesPositionsAndEventsThatAreNoNumbers) {
   event.value = 0.0;
   event.index = std::numeric_limits<std::int64_t>::max();
   EXPECT_THAT(refusalOf(block(12), event), HasSubstr("its index is 9.22337e+18, allowed: "));
+}
+
+TEST(ReadRecordingTest, RefusesHandsThatHoldWhatNoStationCanHaveRecorded) {
+  const test::ScratchFile file;
+  const auto refusalOf = [&](const auto& damage) {
+    ergotic::Hold hold;
+    hold.tick = 13;
+    damage(hold);
+    {
+      rosbag::Bag bag(file.path(), rosbag::bagmode::Write);
+      bag.write("/station/gesture", kStart, block(12));
+      bag.write("/station/keyframe", kStart, keyframe());
+      bag.write("/station/holds", kStart, hold);
+    }
+    return errorOf(file.path());
+  };
+  EXPECT_EQ(refusalOf([](auto&) {}), "");
+  EXPECT_THAT(refusalOf([](auto& h) { h.hand = 4; }),
+              HasSubstr("hold of tick 13: its hand is 4, allowed: 0...3"));
+  EXPECT_THAT(refusalOf([](auto& h) { h.module = -2; }), HasSubstr("its module is -2"));
+  EXPECT_THAT(refusalOf([](auto& h) { h.ticks_left = -1; }), HasSubstr("its ticks_left is -1"));
+  EXPECT_THAT(refusalOf([](auto& h) { h.damping = -1.0; }), HasSubstr("its damping is -1"));
+  EXPECT_THAT(refusalOf([](auto& h) { h.most_force = std::nan(""); }),
+              HasSubstr("its most_force is nan"));
+  EXPECT_THAT(refusalOf([](auto& h) { h.goal[1] = std::nan(""); }),
+              HasSubstr("coordinate of the goal 1"));
 }
 
 std::vector<std::uint8_t> bytesOf(const ergotic::GestureBlock& message) {

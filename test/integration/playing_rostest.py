@@ -11,7 +11,7 @@ import rospy
 import rostest
 
 from desk import ROOT, DeskTest, Newest, until
-from ergotic.msg import GestureBlock, HandTargets, Levels, Note, Parameters, Status, Takes
+from ergotic.msg import GestureBlock, HandTargets, Hold, Levels, Note, Parameters, Status, Takes
 from ergotic.srv import LearnController, LoadModel, PlayMap
 from midi_keyboard import MidiKeyboard
 from pointer import Pointer, xdotool
@@ -101,6 +101,26 @@ class PlayingTest(Pointer, DeskTest):
         first, count = strings.string_first[0], strings.string_count[0]
         swing = max(map(abs, self.state.message.displacement[first:first + count]))
         self.assertGreater(swing, 1e-4, "the string does not sound")
+
+    def test_1a_the_mouse_plucks_the_string_itself(self):
+        self.wait_for_window("/station/handles")
+        held = Newest("/station/holds", Hold)
+        first, count = self.structure.message.string_first[0], self.structure.message.string_count[0]
+        middle = first + count // 2
+        x, y = self.module(middle, at_rest=True)
+        xdotool("mousemove", x, y, "sleep", 0.3, "mousedown", 1)
+        for _ in range(20):
+            xdotool("mousemove_relative", "--", 0, -3, "sleep", 0.01)
+        self.assertTrue(until(lambda: held.message and held.message.module >= 0), "nothing is held")
+        self.assertLess(abs(held.message.module - middle), 4)
+        drawn = held.message.module
+        self.assertTrue(until(lambda: self.state.message.displacement[drawn] > 1e-3), "the string is not drawn aside")
+        if os.environ.get("HOLD_PICTURE"):  # for the docs
+            time.sleep(0.5)
+            subprocess.run(["import", "-window", "root", os.environ["HOLD_PICTURE"]], check=True)
+        xdotool("mouseup", 1)
+        self.assertTrue(until(lambda: held.message.module < 0), "the button does not let go")
+        self.assertTrue(until(lambda: self.state.message.displacement[drawn] < -1e-4), "it does not swing")
 
     def test_1b_a_click_strikes(self):
         self.wait_for_window("/station/handles")

@@ -107,9 +107,12 @@ class Pointer:
 
     def handle(self, name):
         """Where a handle of one axis is on the screen."""
-        module = self.handles.message.modules[self.handles.message.names.index(name)]
+        return self.module(self.handles.message.modules[self.handles.message.names.index(name)])
+
+    def module(self, module, at_rest=False):
+        """Where a module is on the screen."""
         left, top, width, height = self.picture()
         modules = range(len(self.structure.message.module_sections))
         camera = Camera(numpy.array([self.place(i, 0.0) for i in modules]), width, height)
-        x, y = camera.pixel(self.place(module, self.state.message.displacement[module]))
+        x, y = camera.pixel(self.place(module, 0.0 if at_rest else self.state.message.displacement[module]))
         return round(left + x), round(top + y)

@@ -10,7 +10,7 @@ import rospy
 import rostest
 
 from desk import ROOT, DeskTest, Newest, samples, until
-from ergotic.msg import ModelState, ModelStructure, Note, Status, Takes
+from ergotic.msg import HandTargets, Hold, HoldTarget, ModelState, ModelStructure, Note, Status, Takes
 from ergotic.srv import LoadModel, SetParameter, Take, TakeRequest
 
 TOOLS = os.path.join(ROOT, "devel/lib/ergotic")
@@ -33,15 +33,27 @@ class TakesTest(DeskTest):
         assert until(lambda: cls.status.message and cls.status.message.state == Status.PLAYING and
                      cls.status.message.audio_running, 60), "no force, or no sound"
         cls.notes = rospy.Publisher("/station/notes", Note, queue_size=10)
-        assert until(lambda: cls.notes.get_num_connections() > 0)
+        cls.holds = rospy.Publisher("/station/hold_targets", HoldTarget, queue_size=10)
+        cls.held = Newest("/station/holds", Hold)
+        assert until(lambda: cls.notes.get_num_connections() > 0 and cls.holds.get_num_connections() > 0)
 
     def take(self, action, name=""):
         return rospy.ServiceProxy("/station/take", Take)(action=action, name=name)
 
+    def hold(self, module, target):
+        self.holds.publish(module=module, target=[target, 0, 0], grip=HandTargets.SOFT, timeout=5)
+        self.assertTrue(until(lambda: self.held.message and self.held.message.module == module), "it is not held")
+
     def record(self, name):
+        string = self.structure.message.string_first[0]
+        self.hold(string + 20, 0.002)  # is held when the take begins
         answer = self.take(TakeRequest.RECORD, name)
         self.assertTrue(answer.success, answer.message)
         self.assertTrue(until(lambda: self.takes.message.recorded > 0.1), "nothing is recorded")
+        self.hold(string + 20, -0.001)
+        self.hold(string + 40, 0.003)
+        time.sleep(0.2)
+        self.holds.publish(module=-1, release=True)
         for note in (60, 48, 62):
             self.notes.publish(note=note, velocity=100)
             time.sleep(0.3)

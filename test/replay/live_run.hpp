@@ -83,6 +83,20 @@ class LiveRun : private station::FramePort {
 
   void recover() { submit(station::Command::Type::kRecover); }
 
+  /// A hand holds a module and draws it to some place.
+  void hold(std::size_t hand, int mat, double goal_m) {
+    station::Hold hold;
+    hold.mat = mat;
+    hold.takes_hold = true;
+    hold.goal[0] = goal_m;
+    hold.ticks_left = 300;
+    hold.stiffness = 400.0;
+    hold.damping = 0.1;
+    hold.most_force = 5.0;
+    ASSERT_TRUE(station_->hold(hand, hold));
+  }
+  void letGo(std::size_t hand) { ASSERT_TRUE(station_->hold(hand, {})); }
+
   void takeKeyframe() { submit(station::Command::Type::kKeyframe); }
 
   const bag::Recording& recording() const { return recording_; }

@@ -89,6 +89,27 @@ TEST(ReplayTest, TakesParametersAtTheirTicks) {
   expectSame(replay(live.recording()), live.sound());
 }
 
+TEST(ReplayTest, HoldsWhatHandsHeldFromTheMiddleOfTheirWayOn) {
+  LiveRun live(kStruckScene);
+  live.play(100);
+  live.hold(1, 0, 0.01);
+  live.play(103);
+  live.takeKeyframe();  // on its way
+  live.play(50);
+  live.hold(1, 0, -0.005);
+  live.play(700);
+  live.letGo(1);
+  live.play(301);
+  live.hold(3, 0, 0.002);
+  live.swap(otherScene());
+  live.play(1000);
+  live.hold(0, 0, 0.004);
+  live.play(10);
+  live.takeKeyframe();
+  live.play(500);
+  expectSame(replay(live.recording()), live.sound());
+}
+
 TEST(ReplayTest, FollowsOtherEndEffectorsAndTheirGlide) {
   LiveRun live(kStruckScene);
   live.takeKeyframe();

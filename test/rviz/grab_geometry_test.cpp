@@ -61,6 +61,43 @@ TEST(HandleSetTest, PlacesHandlesWhereTheyAreDrawn) {
   EXPECT_TRUE(set.handles()[1].place().isApprox(Eigen::Vector3d(0.31, 0.3, 0.28), 1e-6));
 }
 
+TEST(HandleSetTest, ModulesThatCanBeHeldAreWhereTheyAreDrawn) {
+  HandleSet set;
+  set.show(structure());
+  Handles message = handles();
+  set.show(message);
+  EXPECT_EQ(set.modules(), 0U) << "an older station does not say which";
+  message.can_be_held = {1, 0, 1};
+  set.show(message);
+  ModelState state;
+  state.displacement = {0.01F, 0.004F, 0.01F, 0.0F, -0.02F};
+  set.show(state);
+  std::vector<std::size_t> modules;
+  set.forEachModule([&](std::size_t module, const Eigen::Vector3d& place, const auto& at_rest) {
+    modules.push_back(module);
+    EXPECT_TRUE(place.isApprox(set.moduleAt(module).place()));
+    EXPECT_TRUE(at_rest.isApprox(set.places()[module]));
+  });
+  EXPECT_THAT(modules, testing::ElementsAre(0U, 2U));
+  EXPECT_TRUE(set.moduleAt(0).place().isApprox(Eigen::Vector3d(0.0, 0.0, 0.25), 1e-6));
+  EXPECT_EQ(set.moduleAt(0).axes(), 1);
+  EXPECT_EQ(set.moduleAt(2).axes(), 3);
+}
+
+TEST(GrabTest, AModuleIsHeldItself) {
+  HandleSet set;
+  set.show(structure());
+  Handles message = handles();
+  message.can_be_held = {1, 1, 1};
+  set.show(message);
+  Grab grab(set, set.moduleAt(0), rayAt(0.0, 0.2), {0.0, 1.0, 0.0});
+  grab.drag().move(rayAt(0.0, 0.25), 1.0);
+  const HoldTarget target = grab.target();
+  EXPECT_EQ(target.module, 0);
+  EXPECT_NEAR(target.target[0], 0.01, 1e-6) << "0.05 m in a picture that shows five times as much";
+  EXPECT_EQ(target.target[1], 0.0);
+}
+
 TEST(HandleSetTest, KnowsWhereAllModulesAreDrawnAlsoOfAModelWithoutHandles) {
   HandleSet set;
   set.show(structure());

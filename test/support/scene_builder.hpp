@@ -74,10 +74,11 @@ class Player {
   }
 
   std::unique_ptr<physics::Instrument> instrument;
-  std::vector<double> positions;           ///< [ports] for the next ticks
-  std::vector<double> forces;              ///< [ports] of the last tick
-  std::vector<double> inputs;              ///< [R][input channels] for the next ticks
-  std::vector<std::vector<double>> heard;  ///< [output channels][frames]
+  std::vector<double> positions;  ///< [ports] for the next ticks
+  std::vector<double> forces;     ///< [ports] of the last tick
+  std::vector<double> inputs;     ///< [R][input channels] for the next ticks
+  std::array<physics::Touch, physics::kMaxTouches> touches{};  ///< of the next ticks
+  std::vector<std::vector<double>> heard;                      ///< [output channels][frames]
 
  private:
   std::vector<double> outputs_;

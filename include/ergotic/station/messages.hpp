@@ -42,6 +42,22 @@ enum class SwapForce : std::uint8_t {
 /// An instrument ready to play and what its ports need, made outside, owned by whoever holds it.
 struct Performer;
 
+/// A hand that holds a module anywhere in the model, and where it goes: all of it between two
+/// ticks, so that a recording of its changes is enough to play it again. Places are displacements
+/// from rest, m, as in physics::Touch.
+struct Hold {
+  int mat = physics::Touch::kNothing;  ///< as Touch::mat; kNothing: it holds nothing
+  bool takes_hold = false;             ///< with the next tick, where the module is then
+  std::array<double, 3> at{};          ///< where it wants the module to be
+  std::array<double, 3> goal{};        ///< where it goes, on a straight line
+  int ticks_left = 0;                  ///< until it is there, 0...kMaxHoldTicks
+  double stiffness = 0.0;              ///< N/m
+  double damping = 0.0;                ///< N s/m
+  double most_force = 0.0;             ///< N
+};
+constexpr int kMaxHoldTicks = 1 << 20;
+using Holds = std::array<Hold, physics::kMaxTouches>;
+
 /// From operators to the tick, taken at a tick boundary.
 struct Command {
   enum class Type : std::uint8_t {
@@ -100,6 +116,7 @@ struct Event {
     kRecovered,   ///< id; from Fault to Ready; index: 1 the model began anew
     kRefused,     ///< id; index: Refusal; an `engage` or `recover` that was not obeyed
     kInjected,    ///< a fault is made on purpose, from this tick on; index: of the command
+    kHold,        ///< index: which hand; hold: what it does from this tick on
   };
   Type type = Type::kStopped;
   std::int64_t tick = 0;
@@ -110,6 +127,7 @@ struct Event {
   Performer* performer = nullptr;
   physics::Coefficients* coefficients = nullptr;
   tgr::Rig* rig = nullptr;
+  Hold hold{};
 };
 
 /// Why a command was not obeyed.

@@ -136,6 +136,14 @@ class Station {
   /// Realtime: yes. Thread: one, any
   bool move(const tgr::HandMove& move, double due_tick = kAtOnce) noexcept;
 
+  /// One of the hands that can hold any module does as `hold` says, from the next tick on; one that
+  /// holds this module already goes on from where it is. All let go when another model plays.
+  /// \param hand         below physics::kMaxTouches
+  /// \param is_recorded  as `hold` says in all, for a replay
+  /// \return false if a value is outside its range, or too many wait. What cannot be held
+  ///         (Instrument::canTouch) is let be. Realtime: yes. Thread: as `move`
+  bool hold(std::size_t hand, const Hold& hold, bool is_recorded = false) noexcept;
+
   // Operator:
   /// Hands a command over. A recovery also re-arms the driver. What a command points to belongs to
   /// the station from here on, and comes back through exactly one event.
@@ -168,6 +176,12 @@ class Station {
   static constexpr unsigned kHeld = 1;  // presence as it was told since the last tick, bits
   static constexpr unsigned kLetGo = 2;
   static constexpr std::size_t kWaitingMoves = 256;
+  static constexpr std::size_t kWaitingHolds = 64;
+  struct HoldWish {
+    std::size_t hand = 0;
+    Hold hold;
+    bool is_recorded = false;
+  };
   struct DueMove {
     tgr::HandMove move;
     double due_tick = kAtOnce;
@@ -182,7 +196,9 @@ class Station {
   bool pullInputs() noexcept;
   void movePorts(const Slices& positions) noexcept;
   void glideFromThere() noexcept;
+  void moveHolds() noexcept;
   void tickInstrument() noexcept;
+  void letGo() noexcept;
   void pushFrames() noexcept;
   void updateForces(bool muted) noexcept;
   void followCalibration() noexcept;
@@ -207,6 +223,8 @@ class Station {
   void recover(const Command& command) noexcept;
   void refuse(const Command& command, Refusal refusal) noexcept;
   void takeInjection(const Command& command) noexcept;
+  void takeHold(const HoldWish& wish) noexcept;
+  void tellHold(std::size_t index) noexcept;
   bool mayTakeKeyframe() const noexcept;
   void takeKeyframe() noexcept;
 
@@ -262,6 +280,8 @@ class Station {
   std::int64_t gliding_ = 0;                    // ticks left of it
   std::int64_t absent_ = 0;                     // ticks since the last one
   bool present_ = false;
+  Holds holds_{};
+  std::array<physics::Touch, physics::kMaxTouches> touches_{};  // of this tick
   InjectedModelFault injected_{};
   std::int64_t inject_ticks_ = 0;  // left of it
   std::int64_t inject_age_ = 0;    // ticks that it has lasted
@@ -275,6 +295,7 @@ class Station {
   std::atomic<std::int64_t> heartbeat_{0};
   rt::Ring<Command> commands_;
   rt::Ring<DueMove> moves_{kWaitingMoves};
+  rt::Ring<HoldWish> hold_wishes_{kWaitingHolds};
   rt::Ring<Event> events_;
   rt::Ring<GestureTick> gestures_;
   rt::Mailbox<Snapshot> snapshots_;

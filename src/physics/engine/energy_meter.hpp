@@ -31,6 +31,13 @@ class EnergyMeter {
     }
   }
 
+  /// Books the work of a hand that holds a module, in the scene's unit.
+  void addTouch(int section, double work, State<Real>& state) const noexcept {
+    if (state.isMetered()) {
+      state.arena().template at<SectionBooks>(books_at_)[section].from_inputs += work;
+    }
+  }
+
   /// Closes the books of the sections of a group whose steps end with this frame.
   void endFrame(const Group& group, std::int64_t now, State<Real>& state) const noexcept;
 

@@ -62,6 +62,9 @@ class GroupStepper {
             for (int r = step * divisor; r < (step + 1) * divisor; ++r) {
               hearLoneBlock(lone, tick.first + r, first, last, outputsOf(group, tick, r));
             }
+            mechanism_.touches.pressLone(first, last, tick.first + step * divisor,
+                                         *mechanism_.coefficients, mechanism_.meter,
+                                         mechanism_.state);
           });
       mechanism_.meter.addDissipated(section, lost, mechanism_.state);
     }
@@ -86,7 +89,7 @@ class GroupStepper {
     }
   }
 
-  /// Inputs and guarded links give theirs, forces are heard and booked.
+  /// Inputs, hands and guarded links give theirs, forces are heard and booked.
   /// \pre those of all other groups on this one are there
   void end(const Group& group, const Frames& frames) noexcept {
     State<Real>& state = mechanism_.state;
@@ -95,6 +98,8 @@ class GroupStepper {
       feedForces(group, inputsOf(frames, k));
     }
     mechanism_.points.scatter(group, state);
+    mechanism_.touches.press(group, frames.first, *mechanism_.coefficients, mechanism_.meter,
+                             state);
     mechanism_.guarded.step(group, frames.first, last, *mechanism_.coefficients, mechanism_.stepper,
                             state);
     mechanism_.meter.endFrame(group, last, state);

@@ -59,9 +59,9 @@ std::unique_ptr<Instrument> compileFor(std::shared_ptr<const scene::Scene> writt
   Groups groups = makeGroups(*played, rates, layout);
   auto coefficients = std::make_unique<CoefficientsOf<Real>>(*played, rates, layout);
   State<Real> state(layout, options.metered);
-  auto mechanism =
-      std::make_unique<Mechanism<Real>>(played, options, std::move(layout), std::move(groups),
-                                        std::move(coefficients), std::move(state));
+  auto mechanism = std::make_unique<Mechanism<Real>>(played, written->mats.size(), rates, options,
+                                                     std::move(layout), std::move(groups),
+                                                     std::move(coefficients), std::move(state));
   placeInitialState(rates, *mechanism);
   Picture picture(played, written->mats.size(), mechanism->layout);
   return std::make_unique<InstrumentOf<Real>>(std::move(written), rates, options,

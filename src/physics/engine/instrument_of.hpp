@@ -74,6 +74,7 @@ class InstrumentOf final : public Instrument {
     }
     std::copy_n(io.inputs, inputs_.size(), inputs_.data());
     takeSlices(io.positions);
+    mechanism_->touches.begin(io.touches, mechanism_->state);
     beginTick();
     is_under_way_ = !workers_.run();
     if (is_under_way_) {
@@ -83,6 +84,7 @@ class InstrumentOf final : public Instrument {
     endTick();
     giveOutputs(io.outputs);
     giveForces(io.forces);
+    mechanism_->touches.end(io.touches);
   }
 
   std::unique_ptr<Coefficients> prepare(const std::vector<double>& values) const override {
@@ -113,6 +115,10 @@ class InstrumentOf final : public Instrument {
   }
   void saveState(void* to) const noexcept override { mechanism_->state.arena().save(to); }
   void loadState(const void* from) noexcept override { mechanism_->state.arena().load(from); }
+
+  bool canTouch(int mat) const noexcept override {
+    return mechanism_->touches.canTouch(mat, *mechanism_->coefficients);
+  }
 
   void readDisplacements(float* to) const noexcept override {
     if (!is_under_way_) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "physics/engine/points.hpp"
 #include "physics/engine/sleeper.hpp"
 #include "physics/engine/stepper.hpp"
+#include "physics/engine/touches.hpp"
 #include "physics/layout/groups.hpp"
 #include "physics/layout/layout.hpp"
 #include "physics/state/coefficients.hpp"
@@ -21,7 +23,10 @@ namespace ergotic::physics {
 /// What ticks, in the order in which it is made: each part refers to those before it.
 template <class Real>
 struct Mechanism {
+  /// \param written  modules of the scene as it was written, the first of those that are played
   Mechanism(std::shared_ptr<const scene::Scene> played,
+            std::size_t written,
+            const Rates& rates,
             const CompileOptions& options,
             Layout&& made_layout,
             Groups&& made_groups,
@@ -38,7 +43,8 @@ struct Mechanism {
         points(*scene, layout, options.isa),
         guarded(*scene, layout, groups, points, state),
         pickups(layout),
-        sleeper(*scene, layout, points, *coefficients) {
+        sleeper(*scene, layout, points, *coefficients),
+        touches(*scene, written, rates, layout) {
     state.allocate();
   }
   Mechanism(const Mechanism&) = delete;  // its parts refer to each other
@@ -56,6 +62,7 @@ struct Mechanism {
   GuardedRuns<Real> guarded;
   Pickups<Real> pickups;
   Sleeper<Real> sleeper;
+  Touches<Real> touches;
 };
 
 }  // namespace ergotic::physics

@@ -137,6 +137,8 @@ std::string textOf(const station::Event& event, const scene::Scene* scene) {
     case EventType::kInjected:
       text << "a fault is made on purpose, for " << event.value << " ticks";
       break;
+    case EventType::kHold:  // has a message of its own
+      break;
   }
   return text.str();
 }
@@ -212,6 +214,42 @@ Event toEvent(const station::Event& event, const scene::Scene* scene) {
   message.index = event.index;
   message.value = event.value;
   message.frame = event.frame;
+  return message;
+}
+
+namespace {
+
+/// Of a module, or of a place of an outline behind them.
+std::string nameOfModule(const scene::Scene& scene, std::size_t module) {
+  if (module < scene.mats.size()) {
+    return scene.mats[module].name;
+  }
+  module -= scene.mats.size();
+  for (const scene::Outline& outline : scene.outlines) {
+    if (module < outline.rest.size()) {
+      return Outlines::nameOf(outline, module);
+    }
+    module -= outline.rest.size();
+  }
+  return "";
+}
+
+}  // namespace
+
+Hold toHold(const station::Event& event, const scene::Scene& scene) {
+  const station::Hold& hold = event.hold;
+  Hold message;
+  message.tick = event.tick;
+  message.hand = static_cast<std::uint8_t>(event.index);
+  message.module = hold.mat;
+  message.name = hold.mat < 0 ? "" : nameOfModule(scene, static_cast<std::size_t>(hold.mat));
+  message.takes_hold = hold.takes_hold ? 1U : 0U;
+  std::copy(hold.at.begin(), hold.at.end(), message.at.begin());
+  std::copy(hold.goal.begin(), hold.goal.end(), message.goal.begin());
+  message.ticks_left = hold.ticks_left;
+  message.stiffness = hold.stiffness;
+  message.damping = hold.damping;
+  message.most_force = hold.most_force;
   return message;
 }
 

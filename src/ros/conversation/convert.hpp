@@ -2,6 +2,7 @@
 #pragma once
 
 #include <ergotic/Event.h>
+#include <ergotic/Hold.h>
 #include <ergotic/Keyframe.h>
 #include <ergotic/ModelEnergy.h>
 #include <ergotic/ModelStructure.h>
@@ -31,6 +32,9 @@ ParametersMessage toParameters(const scene::Scene& scene, const std::vector<doub
 
 /// \param scene  the one that plays, for names of parameters; null: none
 Event toEvent(const station::Event& event, const scene::Scene* scene);
+
+/// \pre the event is a kHold. \param scene  the one that plays, for names of modules
+Hold toHold(const station::Event& event, const scene::Scene& scene);
 
 /// Joints `slice_<i>`: m, m/s, N.
 sensor_msgs::JointState toJointState(const station::Snapshot& snapshot);

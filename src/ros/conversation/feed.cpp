@@ -24,6 +24,7 @@ Feed::Feed(const ::ros::NodeHandle& node) : node_(node), display_(node) {
   joint_states_ = node_.advertise<sensor_msgs::JointState>("joint_states", kQueue);
   levels_ = node_.advertise<Levels>("levels", 1);
   handles_ = node_.advertise<Handles>("handles", 1, kLatched);
+  holds_ = node_.advertise<Hold>("holds", kEventQueue);
   keyframe_ = node_.advertise<Keyframe>("keyframe", kQueue, kLatched);
   events_ = node_.advertise<Event>("events", kEventQueue);
   status_topic_ = node_.advertise<Status>("status", 1, kLatched);
@@ -127,6 +128,12 @@ Event Feed::show(const station::Event& event, const scene::Scene* scene) {
   message.stamp = ::ros::Time::now();
   tell(events_, message);
   return message;
+}
+
+void Feed::showHold(const station::Event& event, const scene::Scene& scene) {
+  Hold message = toHold(event, scene);
+  message.stamp = ::ros::Time::now();
+  tell(holds_, message);
 }
 
 void Feed::show(const station::GestureTick* ticks, std::size_t count) {

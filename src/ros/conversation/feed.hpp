@@ -57,6 +57,7 @@ class Feed {
 
   /// \return what was sent
   Event show(const station::Event& event, const scene::Scene* scene);
+  void showHold(const station::Event& event, const scene::Scene& scene);
   void show(const station::GestureTick* ticks, std::size_t count);
   /// \param uncalibrated  slices, a bit each
   void show(const station::Snapshot& snapshot, std::uint64_t uncalibrated);
@@ -96,6 +97,7 @@ class Feed {
   std::int64_t motion_period_ns_ = 0;
   ::ros::Publisher joint_states_;
   ::ros::Publisher handles_;
+  ::ros::Publisher holds_;
   ::ros::Publisher levels_;
   double display_zoom_ = 1.0;
   ::ros::Publisher model_energy_;  // only if the books are kept

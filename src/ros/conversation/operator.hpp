@@ -90,6 +90,10 @@ class Operator {
   /// \return false if too many names wait
   bool setParameterSoon(const std::string& name, double value);
   /// Moves hands of a simulated device. \return what is wrong with it, or an empty text
+  std::string hold(const HoldTarget& wanted, const std::string& sender) {
+    return performance_.hold(wanted, sender);
+  }
+  void expireHolds() { performance_.expireHolds(); }
   std::string moveHands(const HandTargets& wanted, const std::string& sender) {
     return performance_.moveHands(wanted, sender);
   }

@@ -255,6 +255,9 @@ void Performance::pollLevels() {
 }
 
 void Performance::take(const station::Event& event) {
+  if (event.type == EventType::kHold) {
+    return feed_.showHold(event, playing_->instrument->scene());
+  }
   const Event told = feed_.show(event, &playing_->instrument->scene());
   log(told);
   switch (event.type) {
@@ -355,7 +358,9 @@ void Performance::play(station::Performer* performer, std::shared_ptr<Picture> p
   picture_ = std::move(picture);
   feed_.showModel(*performer, picture_, noteOn(*performer), values);
   const scene::Scene& scene = performer->instrument->scene();
-  feed_.showHandles(handlesOf(scene, endEffectors()));
+  holders_.play(modulesThatCanBeHeld(*performer->instrument),
+                performer->instrument->rates().gesturalHz());
+  showHandles();
   findPlayMap(scene, false);
   command(CommandType::kKeyframe);
 }

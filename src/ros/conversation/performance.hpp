@@ -24,6 +24,7 @@
 #include "ros/conversation/disturbances.hpp"
 #include "ros/conversation/engine.hpp"
 #include "ros/conversation/feed.hpp"
+#include "ros/conversation/holders.hpp"
 #include "ros/conversation/players.hpp"
 #include "ros/conversation/takes.hpp"
 #include "ros/device/calibration_guide.hpp"
@@ -111,6 +112,11 @@ class Performance {
   /// Moves hands of a simulated device, with the next ticks. \return what is wrong with it, or an
   /// empty text. Thread: any
   std::string moveHands(const HandTargets& wanted, const std::string& sender);
+  /// Holds a module of the model wherever that is, or lets go of it. \return what is wrong with it,
+  /// or an empty text. Thread: any
+  std::string hold(const HoldTarget& wanted, const std::string& sender);
+  /// Lets go of what senders held who fell silent. Thread: any
+  void expireHolds();
   /// Plays a note by the map of notes. \pre both 0...127. Thread: any
   void playNote(int note, int velocity);
   /// Plays the note that moves a hand. \param velocity  1...127. \return it, if there is one.
@@ -184,6 +190,8 @@ class Performance {
   void play(station::Performer* performer, std::shared_ptr<Picture> picture);
   void reportWarnings();
   void findPlayMap(const scene::Scene& scene, bool keeps_the_players);
+  void showHandles();
+  std::string hold(const std::vector<Holders::Wish>& wishes);
   std::string move(const std::vector<tgr::HandMove>& moves,
                    double due_tick = station::Station::kAtOnce);
   std::string readPlayMap(const std::string& map);
@@ -210,6 +218,7 @@ class Performance {
   std::deque<Configuration> configurations_;
   std::map<std::uint64_t, Waiter> requests_;  // engage and recover, by their numbers
   std::uint64_t last_request_ = 0;
+  Holders holders_;
   Players players_;
   std::mutex keyboard_mutex_;  // of what follows
   tgr::Keyboard keyboard_;

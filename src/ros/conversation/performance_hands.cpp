@@ -75,7 +75,7 @@ void Performance::show(const tgr::EndEffectors& end_effectors) {
   move(players_.configure(end_effectors));
   feed_.show(end_effectors);
   if (playing_ != nullptr) {
-    feed_.showHandles(handlesOf(playing_->instrument->scene(), end_effectors));
+    showHandles();
     findPlayMap(playing_->instrument->scene(), true);
   }
 }

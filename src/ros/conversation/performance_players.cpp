@@ -129,6 +129,34 @@ void Performance::play(const tgr::Strokes& strokes, double due_tick) {
   }
 }
 
+std::string Performance::hold(const HoldTarget& wanted, const std::string& sender) {
+  try {
+    return hold(holders_.read(wanted, sender, nowS()));
+  } catch (const std::exception& refusal) {
+    return refusal.what();
+  }
+}
+
+void Performance::expireHolds() {
+  hold(holders_.expire(nowS()));
+}
+
+std::string Performance::hold(const std::vector<Holders::Wish>& wishes) {
+  const std::lock_guard lock(engine_mutex_);
+  for (const Holders::Wish& wish : wishes) {
+    if (!engine_ || !engine_->station().hold(wish.hand, wish.hold)) {
+      return engine_ ? "too many targets wait" : kNothingPlays;
+    }
+  }
+  return "";
+}
+
+void Performance::showHandles() {
+  Handles handles = handlesOf(playing_->instrument->scene(), endEffectors());
+  handles.can_be_held = modulesThatCanBeHeld(*playing_->instrument);
+  feed_.showHandles(std::move(handles));
+}
+
 void Performance::playNote(int note, int velocity) {
   const std::lock_guard lock(keyboard_mutex_);
   play(keyboard_.note(note, velocity, nowS()), kAtOnce);

@@ -93,6 +93,7 @@ Services::Services(const ::ros::NodeHandle& node, Operator& operator_thread)
           [this] {
             playMidi();
             releaseNotes();
+            operator_.expireHolds();
           },
           kMidiPeriod) {
   node_.setCallbackQueue(&queue_);
@@ -117,6 +118,8 @@ Services::Services(const ::ros::NodeHandle& node, Operator& operator_thread)
       loading_node_.subscribe("model", 1, &Services::onModel, this),
       node_.subscribe("parameters", kParameterQueue, &Services::onParameter, this),
       hands_node_.subscribe("hand_targets", kHandsQueue, &Services::onHandTargets, this,
+                            ::ros::TransportHints().tcpNoDelay()),
+      hands_node_.subscribe("hold_targets", kHandsQueue, &Services::onHoldTarget, this,
                             ::ros::TransportHints().tcpNoDelay()),
       hands_node_.subscribe("notes", kHandsQueue, &Services::onNote, this,
                             ::ros::TransportHints().tcpNoDelay()),
@@ -171,17 +174,26 @@ void Services::onParameter(const ParameterValue& parameter) {
   }
 }
 
-/// They come by the hundred a second: of what is wrong with them, one a second is told.
 void Services::onHandTargets(const ::ros::MessageEvent<const HandTargets>& targets) {
   const std::string refusal =
       operator_.moveHands(*targets.getConstMessage(), targets.getPublisherName());
+  complainAtTimes("hand_targets of " + targets.getPublisherName(), refusal);
+}
+
+/// They come by the hundred a second: of what is wrong with them, one a second is told.
+void Services::complainAtTimes(const std::string& whose, const std::string& refusal) {
   const std::int64_t now_ns = rt::monotonicNs();
   if (!refusal.empty() && now_ns - complained_ns_ > kComplaintPeriodNs) {
     complained_ns_ = now_ns;
-    const std::string text = "hand_targets of " + targets.getPublisherName() + ": " + refusal;
+    const std::string text = whose + ": " + refusal;
     ROS_WARN_STREAM(files::printableLines(text));
     operator_.tell(files::printableLines(text));
   }
+}
+
+void Services::onHoldTarget(const ::ros::MessageEvent<const HoldTarget>& target) {
+  const std::string refusal = operator_.hold(*target.getConstMessage(), target.getPublisherName());
+  complainAtTimes("hold_targets of " + target.getPublisherName(), refusal);
 }
 
 void Services::onNote(const Note& note) {

@@ -10,6 +10,7 @@
 #include <ergotic/ConfigureEndEffectors.h>
 #include <ergotic/EndEffectors.h>
 #include <ergotic/HandTargets.h>
+#include <ergotic/HoldTarget.h>
 #include <ergotic/InjectFault.h>
 #include <ergotic/LearnController.h>
 #include <ergotic/LoadModel.h>
@@ -57,6 +58,8 @@ class Services {
   bool onSetParameter(SetParameter::Request& request, SetParameter::Response& response);
   void onParameter(const ParameterValue& parameter);
   void onHandTargets(const ::ros::MessageEvent<const HandTargets>& targets);
+  void onHoldTarget(const ::ros::MessageEvent<const HoldTarget>& target);
+  void complainAtTimes(const std::string& whose, const std::string& refusal);
   void onNote(const Note& note);
   void onTap(const Tap& tap);
   void releaseNotes();

@@ -71,6 +71,10 @@ void TakeWriter::write(const std::string& topic, const Event& message) {
   enqueue(topic, message);
 }
 
+void TakeWriter::write(const std::string& topic, const Hold& message) {
+  enqueue(topic, message);
+}
+
 void TakeWriter::write(const std::string& topic, const Status& message) {
   enqueue(topic, message);
 }

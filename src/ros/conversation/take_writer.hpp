@@ -12,6 +12,7 @@
 
 #include <ergotic/Event.h>
 #include <ergotic/GestureBlock.h>
+#include <ergotic/Hold.h>
 #include <ergotic/Keyframe.h>
 #include <ergotic/Parameters.h>
 #include <ergotic/Status.h>
@@ -39,6 +40,7 @@ class TakeWriter {
   void write(const std::string& topic, const GestureBlock& message);
   void write(const std::string& topic, const Keyframe& message);
   void write(const std::string& topic, const Event& message);
+  void write(const std::string& topic, const Hold& message);
   void write(const std::string& topic, const Status& message);
   void write(const std::string& topic, const ::ergotic::Parameters& message);
 

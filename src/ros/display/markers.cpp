@@ -43,15 +43,14 @@ Marker markerOf(const scene::Section& section, std::size_t index, int type, int 
   return marker;
 }
 
-/// What it stands for is seen by its outline.
+}  // namespace
+
 bool isModeOfOutline(const scene::Scene& scene, int mat) {
   return std::any_of(scene.outlines.begin(), scene.outlines.end(),
                      [mat](const scene::Outline& outline) {
                        return mat >= outline.first_mat && mat < outline.first_mat + outline.modes;
                      });
 }
-
-}  // namespace
 
 Markers::Markers(const scene::Scene& scene, double zoom) {
   for (const scene::Section& section : scene.sections) {

@@ -12,6 +12,9 @@
 
 namespace ergotic::node {
 
+/// Whether a module is a mode that is not drawn: what it stands for is seen by its outline.
+bool isModeOfOutline(const scene::Scene& scene, int mat);
+
 /// Draws a scene for rviz: per section one POINTS and one LINE_LIST, in chunks of at most
 /// `kChunkPoints` points (rviz slows down beyond), in frame `model`.
 class Markers {

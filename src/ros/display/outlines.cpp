@@ -21,7 +21,7 @@ void addOutline(scene::Scene& scene, const scene::Outline& outline) {
   const int section = scene.mats[static_cast<std::size_t>(outline.first_mat)].section;
   for (std::size_t p = 0; p < outline.rest.size(); ++p) {
     scene::Mat place;
-    place.name = outline.name + ".outline." + std::to_string(p);
+    place.name = Outlines::nameOf(outline, p);
     place.type = scene::MatType::kPoint;
     place.section = section;
     place.rest = outline.rest[p];
@@ -56,6 +56,10 @@ void Outlines::move(std::vector<float>& displacements) const {
       displacements.push_back(moved);
     }
   }
+}
+
+std::string Outlines::nameOf(const scene::Outline& outline, std::size_t place) {
+  return outline.name + ".outline." + std::to_string(place);
 }
 
 scene::Scene Outlines::addTo(scene::Scene scene) {

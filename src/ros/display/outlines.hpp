@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "ergotic/scene/scene.hpp"
@@ -18,6 +19,7 @@ class Outlines {
   /// \param displacements  [Scene::coordinates] m from rest, to which one for each place is added
   void move(std::vector<float>& displacements) const;
 
+  static std::string nameOf(const scene::Outline& outline, std::size_t place);
   /// The scene as pictures show it.
   static scene::Scene addTo(scene::Scene scene);
 

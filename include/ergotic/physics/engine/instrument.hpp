@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -16,12 +17,31 @@
 
 namespace ergotic::physics {
 
+/// A hand that holds a module over a tick, wherever that is: a spring and a damper between the
+/// module and where the hand wants it to be, on a straight line from the beginning of the tick to
+/// its end. Places are displacements from rest, m, in the coordinates of Instrument's
+/// `readDisplacements`.
+struct Touch {
+  static constexpr int kNothing = -1;
+
+  int mat = kNothing;             ///< below Instrument::touchables(). \pre canTouch of it
+  bool takes_hold = false;        ///< it wants the module to be where that is now, over this tick
+  std::array<double, 3> from{};   ///< overwritten if it takes hold
+  std::array<double, 3> to{};     ///< as `from`
+  double stiffness = 0.0;         ///< N/m
+  double damping = 0.0;           ///< N s/m
+  double most_force = 0.0;        ///< N, of spring and damper together
+  std::array<double, 3> force{};  ///< N, on the module in the last frame; overwritten
+};
+constexpr std::size_t kMaxTouches = 4;
+
 /// What one tick takes and gives. All arrays belong to the caller; R frames, frame-major.
 struct TickIo {
   const double* positions = nullptr;  ///< [ports] slice positions, m, in the model
   double* forces = nullptr;           ///< [ports] force on each slice, N, overwritten
   const double* inputs = nullptr;     ///< [R][input channels]
   double* outputs = nullptr;          ///< [R][output channels], overwritten
+  Touch* touches = nullptr;           ///< [kMaxTouches] null: none
 };
 
 /// The instrument: flat arrays and one `tick`.
@@ -32,7 +52,7 @@ struct TickIo {
 ///      connection points follow them,
 ///   2. outputs are taken,
 ///   3. explicit links of the sections due give forces from the new positions, points hand theirs
-///      on, then guarded links, which need to know all other forces.
+///      on, then hands that hold modules, then guarded links, which need to know all other forces.
 /// What does not need each other at the same instant goes through all R frames by itself
 /// (docs/physics.md, "Groups and threads").
 /// The forces on the slices after the last frame are F[n], a function of x[n]: they wait for the
@@ -75,6 +95,14 @@ class Instrument {
   /// Realtime: yes. \pre saved by an instrument compiled from the same scene, rates and precision
   virtual void loadState(const void* from) noexcept = 0;
 
+  /// Modules of the scene, and behind them the places of its outlines, one after the other: what
+  /// `Touch::mat` may name. Realtime: yes.
+  int touchables() const noexcept { return touchables_; }
+  /// Whether a hand can hold a module: one that moves by itself, no slice, ground or point; and of
+  /// bodies that are played by their modes the places of the outline.
+  /// Realtime: yes. \pre 0 <= mat < touchables()
+  virtual bool canTouch(int /*mat*/) const noexcept { return false; }
+
   /// Displacement from rest of every module, m, in the order of Scene::mats: as many numbers for
   /// each as its section has coordinates that move (Scene::coordinates in all).
   /// Realtime: yes.
@@ -113,7 +141,12 @@ class Instrument {
         rates_(rates),
         options_(options),
         input_channels_(scene_->inputChannels()),
-        output_channels_(scene_->outputChannels()) {}
+        output_channels_(scene_->outputChannels()),
+        touchables_(static_cast<int>(scene_->mats.size())) {
+    for (const scene::Outline& outline : scene_->outlines) {
+      touchables_ += static_cast<int>(outline.rest.size());
+    }
+  }
 
  private:
   std::shared_ptr<const scene::Scene> scene_;
@@ -121,6 +154,7 @@ class Instrument {
   CompileOptions options_;
   int input_channels_;
   int output_channels_;
+  int touchables_;
 };
 
 /// Turns a valid scene into arrays. Does not certify. The instrument shares the scene; one that is

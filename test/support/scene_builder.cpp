@@ -156,7 +156,8 @@ Player::Player(std::unique_ptr<physics::Instrument> made)
       outputs_(at(instrument->rates().ratio) * heard.size()) {}
 
 void Player::tick() {
-  instrument->tick({positions.data(), forces.data(), inputs.data(), outputs_.data(), touches.data()});
+  instrument->tick(
+      {positions.data(), forces.data(), inputs.data(), outputs_.data(), touches.data()});
   const std::size_t channels = heard.size();
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     heard[i % channels].push_back(outputs_[i]);

@@ -51,9 +51,9 @@ void OfflineStation::submit(const station::Command& command) {
 }
 
 void OfflineStation::hold(std::size_t hand, const station::Hold& hold) {
-  if (!station_.hold(hand, hold, true)) {
+  if (!station_.hold(hand, hold, nullptr)) {
     throw Exception("hand " + std::to_string(hand) +
-                    " holds a module with a value outside its range, or too many hands do");
+                    " holds a module with a value outside its range");
   }
 }
 

@@ -219,6 +219,10 @@ void GrabTool::update(float /*wall_dt*/, float /*ros_dt*/) {
   if (grab_ && (!heldNow() || set_.version() != version_)) {
     drop();  // another model plays
   }
+  if (set_.version() != version_) {
+    hovered_.reset();
+    version_ = set_.version();
+  }
   Ogre::Vector3 position;
   Ogre::Quaternion orientation;
   if (context_->getFrameManager()->getTransform("model", ros::Time(), position, orientation)) {

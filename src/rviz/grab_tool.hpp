@@ -91,7 +91,7 @@ class GrabTool : public rviz::Tool {
   ros::Subscriber state_;
 
   HandleSet set_;
-  int version_ = 0;  // of the set that the grab is of
+  int version_ = 0;  // of the set that what is in hand, or under the pointer, is of
   int framed_ = 0;   // model that the camera was turned to
   std::optional<Grab> grab_;
   KeyRows keys_;

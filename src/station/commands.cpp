@@ -85,9 +85,10 @@ void Station::drainCommands() noexcept {
   for (int i = 0; i < kCommandsPerTick && commands_.pop(command); ++i) {
     obey(command);
   }
-  HoldWish wish;
-  for (std::size_t i = 0; i < kWaitingHolds && hold_wishes_.pop(wish); ++i) {
-    takeHold(wish);
+  for (std::size_t hand = 0; hand < hold_wishes_.size(); ++hand) {
+    if (hold_wishes_[hand].refresh()) {
+      takeHold(hand, hold_wishes_[hand].latest());
+    }
   }
   if (keyframe_wanted_ && mayTakeKeyframe()) {
     keyframe_wanted_ = false;
@@ -285,29 +286,37 @@ void Station::takeInjection(const Command& command) noexcept {
   tell(injected);
 }
 
-bool Station::hold(std::size_t hand, const Hold& hold, bool is_recorded) noexcept {
+bool Station::hold(std::size_t hand, const Hold& hold, const Performer* model) noexcept {
   const auto is_finite = [](double place) { return std::isfinite(place); };
-  return hand < holds_.size() && std::all_of(hold.at.begin(), hold.at.end(), is_finite) &&
-         std::all_of(hold.goal.begin(), hold.goal.end(), is_finite) && hold.ticks_left >= 0 &&
-         hold.ticks_left <= kMaxHoldTicks && hold.stiffness >= 0.0 && hold.damping >= 0.0 &&
-         hold.most_force >= 0.0 && hold_wishes_.push({hand, hold, is_recorded});
+  const bool is_valid = hand < holds_.size() &&
+                        std::all_of(hold.at.begin(), hold.at.end(), is_finite) &&
+                        std::all_of(hold.goal.begin(), hold.goal.end(), is_finite) &&
+                        hold.ticks_left >= 0 && hold.ticks_left <= kMaxHoldTicks &&
+                        hold.stiffness >= 0.0 && hold.damping >= 0.0 && hold.most_force >= 0.0;
+  if (is_valid) {
+    hold_wishes_[hand].draft() = {hold, model};
+    hold_wishes_[hand].publish();
+  }
+  return is_valid;
 }
 
-/// What the model lacks, as another one was meant, or cannot be held is let be.
-void Station::takeHold(const HoldWish& wish) noexcept {
+void Station::takeHold(std::size_t hand, const HoldWish& wish) noexcept {
   const physics::Instrument& instrument = *performer_->instrument;
   const int mat = wish.hold.mat;
   const bool lets_go = mat == physics::Touch::kNothing;
-  if (!lets_go && (mat < 0 || mat >= instrument.touchables() || !instrument.canTouch(mat))) {
+  const bool is_recorded = wish.model == nullptr;
+  if ((!is_recorded && wish.model != performer_.get()) ||
+      (!lets_go && (mat < 0 || mat >= instrument.touchables() || !instrument.canTouch(mat)))) {
     return;
   }
-  Hold& hold = holds_[wish.hand];
+  Hold& hold = holds_[hand];
   const Hold before = std::exchange(hold, lets_go ? Hold() : wish.hold);
-  if (!lets_go && !wish.is_recorded && before.mat == mat) {
-    hold.takes_hold = before.takes_hold;
-    hold.at = before.at;
+  if (!lets_go && !is_recorded) {
+    const bool goes_on = before.mat == mat;
+    hold.takes_hold = !goes_on || before.takes_hold;
+    hold.at = goes_on ? before.at : hold.at;
   }
-  tellHold(wish.hand);
+  tellHold(hand);
 }
 
 void Station::tellHold(std::size_t index) noexcept {

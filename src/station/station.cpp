@@ -365,7 +365,10 @@ void Station::tickInstrument() noexcept {
       {p.positions.data(), p.forces.data(), p.inputs.data(), p.outputs.data(), touches_.data()});
   for (std::size_t i = 0; i < touches_.size(); ++i) {
     holds_[i].at = touches_[i].to;
-    holds_[i].takes_hold = holds_[i].takes_hold && p.instrument->isUnderWay();
+    holds_[i].takes_hold = touches_[i].takes_hold;
+    if (!std::all_of(holds_[i].at.begin(), holds_[i].at.end(), isOfThisWorld)) {
+      holds_[i] = Hold();  // what it took hold of has blown up
+    }
   }
   if (p.instrument->isUnderWay() && !std::exchange(is_held_up_, true)) {
     kick(0.0);

@@ -23,6 +23,7 @@ class LiveRun : private station::FramePort {
     config.input_channels = 1;
     auto performer = perform(scene_text);
     playing_ = performer->instrument.get();
+    performer_ = submitted_ = performer.get();
     auto driver = tgr::makeVirtualDriver({});
     driver_ = driver.get();
     station_ = std::make_unique<station::Station>(config, std::move(driver), std::move(performer));
@@ -63,6 +64,7 @@ class LiveRun : private station::FramePort {
     scene_text_ = scene_text;
     auto performer = perform(scene_text);
     playing_ = performer->instrument.get();
+    submitted_ = performer.get();
     station::Command next;
     next.type = station::Command::Type::kSwap;
     next.performer = performer.release();
@@ -93,9 +95,9 @@ class LiveRun : private station::FramePort {
     hold.stiffness = 400.0;
     hold.damping = 0.1;
     hold.most_force = 5.0;
-    ASSERT_TRUE(station_->hold(hand, hold));
+    ASSERT_TRUE(station_->hold(hand, hold, performer_));
   }
-  void letGo(std::size_t hand) { ASSERT_TRUE(station_->hold(hand, {})); }
+  void letGo(std::size_t hand) { ASSERT_TRUE(station_->hold(hand, {}, performer_)); }
 
   void takeKeyframe() { submit(station::Command::Type::kKeyframe); }
 
@@ -141,6 +143,9 @@ class LiveRun : private station::FramePort {
     }
     station::Event event;
     while (station_->poll(event)) {
+      if (event.type == station::Event::Type::kSwapped && event.index == 1) {
+        performer_ = submitted_;
+      }
       delete std::exchange(event.performer, nullptr);
       delete std::exchange(event.coefficients, nullptr);
       delete std::exchange(event.rig, nullptr);
@@ -174,6 +179,8 @@ class LiveRun : private station::FramePort {
   bag::Recording recording_;
   const physics::Instrument* playing_ = nullptr;
   tgr::Driver* driver_ = nullptr;
+  const station::Performer* performer_ = nullptr;  // that plays
+  const station::Performer* submitted_ = nullptr;  // the newest
   std::unique_ptr<station::Station> station_;
 };
 

@@ -92,22 +92,39 @@ TEST(ReplayTest, TakesParametersAtTheirTicks) {
 TEST(ReplayTest, HoldsWhatHandsHeldFromTheMiddleOfTheirWayOn) {
   LiveRun live(kStruckScene);
   live.play(100);
-  live.hold(1, 0, 0.01);
+  constexpr int kBar = 1;
+  live.hold(1, kBar, 0.01);
   live.play(103);
   live.takeKeyframe();  // on its way
   live.play(50);
-  live.hold(1, 0, -0.005);
-  live.play(700);
+  live.hold(1, kBar, -0.005);
+  live.hold(2, kBar, 0.003);
+  live.play(300);
+  live.takeKeyframe();
+  live.play(300);
   live.letGo(1);
+  live.takeKeyframe();  // at the tick in which it lets go
   live.play(301);
-  live.hold(3, 0, 0.002);
+  live.hold(3, kBar, 0.002);
   live.swap(otherScene());
   live.play(1000);
-  live.hold(0, 0, 0.004);
+  live.hold(0, kBar, 0.004);
   live.play(10);
   live.takeKeyframe();
   live.play(500);
+  const auto holds = [&live](const station::Event& event) {
+    return event.type == station::Event::Type::kHold && event.hold.mat == kBar &&
+           live.recording().keyframes.front().tick <= event.tick;
+  };
+  const auto& events = live.recording().events;
+  EXPECT_GE(std::count_if(events.begin(), events.end(), holds), 8);
   expectSame(replay(live.recording()), live.sound());
+  for (std::size_t first = 1; first < live.recording().keyframes.size(); ++first) {
+    bag::Recording later = live.recording();
+    later.keyframes.erase(later.keyframes.begin(),
+                          later.keyframes.begin() + static_cast<std::ptrdiff_t>(first));
+    expectSame(replay(later), live.sound());
+  }
 }
 
 TEST(ReplayTest, FollowsOtherEndEffectorsAndTheirGlide) {

@@ -27,8 +27,11 @@ struct HoldRig {
   HoldRig() {
     StationConfig config;
     config.rates = kHoldRates;
-    station = std::make_unique<Station>(config, tgr::makeVirtualDriver({}), chain(30));
+    auto performer = chain(30);
+    model = performer.get();
+    station = std::make_unique<Station>(config, tgr::makeVirtualDriver({}), std::move(performer));
   }
+  bool hold(std::size_t hand, const Hold& hold) const { return station->hold(hand, hold, model); }
   void run(int ticks) {
     for (int n = 0; n < ticks; ++n) {
       station->cycle({0, true});
@@ -47,6 +50,7 @@ struct HoldRig {
     command.performer = performer;
     station->submit(command);
   }
+  const Performer* model = nullptr;  // that hands are meant for
   std::unique_ptr<Station> station;
   std::vector<Event> told;  // of hands that hold
 };
@@ -65,14 +69,14 @@ Hold drawTo(int mat, double goal_m) {
 
 TEST(HoldsTest, AHandGoesOnAStraightLineFromWhereTheModuleWas) {
   HoldRig rig;
-  ASSERT_TRUE(rig.station->hold(2, drawTo(9, 0.005)));
+  ASSERT_TRUE(rig.hold(2, drawTo(9, 0.005)));
   rig.run(26);  // one tick to take hold, then half of the way
   ASSERT_EQ(rig.told.size(), 1U);
   EXPECT_EQ(rig.told[0].tick, 0);
   EXPECT_EQ(rig.told[0].index, 2);
   EXPECT_EQ(rig.told[0].hold.mat, 9);
   EXPECT_TRUE(rig.told[0].hold.takes_hold);
-  ASSERT_TRUE(rig.station->hold(2, drawTo(9, 0.001)));
+  ASSERT_TRUE(rig.hold(2, drawTo(9, 0.001)));
   rig.run(51);
   ASSERT_EQ(rig.told.size(), 2U);
   EXPECT_NEAR(rig.told[1].hold.at[0], 0.0025, 1e-9) << "it goes on from there";
@@ -82,7 +86,7 @@ TEST(HoldsTest, AHandGoesOnAStraightLineFromWhereTheModuleWas) {
   ASSERT_EQ(rig.told.size(), 3U) << "with every keyframe all that hold are told";
   EXPECT_EQ(rig.told[2].hold.at[0], 0.001);
   EXPECT_EQ(rig.told[2].hold.ticks_left, 0);
-  ASSERT_TRUE(rig.station->hold(2, {}));
+  ASSERT_TRUE(rig.hold(2, {}));
   rig.run(1);
   ASSERT_EQ(rig.told.size(), 4U);
   EXPECT_EQ(rig.told[3].hold.mat, physics::Touch::kNothing);
@@ -90,26 +94,57 @@ TEST(HoldsTest, AHandGoesOnAStraightLineFromWhereTheModuleWas) {
 
 TEST(HoldsTest, AllLetGoWhenAnotherModelPlays) {
   HoldRig rig;
-  ASSERT_TRUE(rig.station->hold(0, drawTo(25, 0.005)));
+  ASSERT_TRUE(rig.hold(0, drawTo(25, 0.005)));
   rig.run(10);
-  rig.ask(Command::Type::kSwap, chain(12).release());
-  rig.run(50);
+  Performer* const next = chain(12).release();
+  rig.ask(Command::Type::kSwap, next);
+  for (int n = 0; n < 50; ++n) {  // targets for the old model come in every tick
+    ASSERT_TRUE(rig.hold(1, drawTo(7, 0.005)));
+    rig.run(1);
+  }
+  rig.model = next;
   rig.told.clear();
   rig.ask(Command::Type::kKeyframe);
   rig.run(50);
   EXPECT_THAT(rig.told, IsEmpty());
-  ASSERT_TRUE(rig.station->hold(0, drawTo(25, 0.005)));
+  ASSERT_TRUE(rig.hold(0, drawTo(25, 0.005)));
   rig.run(1);
   EXPECT_THAT(rig.told, IsEmpty()) << "it has no module of that number";
 }
 
+TEST(HoldsTest, OfManyTargetsInATickTheNewestCountsAndNoneIsRefused) {
+  HoldRig rig;
+  for (int n = 0; n < 1000; ++n) {
+    ASSERT_TRUE(rig.hold(0, drawTo(9, 1e-6 * n)));
+  }
+  rig.run(1);
+  ASSERT_EQ(rig.told.size(), 1U);
+  EXPECT_EQ(rig.told[0].hold.goal[0], 1e-6 * 999);
+  ASSERT_TRUE(rig.hold(0, drawTo(9, 0.001)));
+  ASSERT_TRUE(rig.hold(0, {}));
+  rig.run(1);
+  ASSERT_EQ(rig.told.size(), 2U);
+  EXPECT_EQ(rig.told[1].hold.mat, physics::Touch::kNothing);
+}
+
+TEST(HoldsTest, AHandTakesHoldWhereTheModuleIsWhateverItsTargetSays) {
+  HoldRig rig;
+  ASSERT_TRUE(rig.hold(0, drawTo(9, 0.005)));
+  rig.run(200);
+  Hold other = drawTo(10, 0.0);
+  other.takes_hold = false;
+  ASSERT_TRUE(rig.hold(0, other));
+  rig.run(2);
+  EXPECT_TRUE(rig.told.back().hold.takes_hold);
+}
+
 TEST(HoldsTest, WhatIsOutsideItsRangeIsRefused) {
   const HoldRig rig;
-  EXPECT_FALSE(rig.station->hold(physics::kMaxTouches, drawTo(9, 0.005)));
+  EXPECT_FALSE(rig.hold(physics::kMaxTouches, drawTo(9, 0.005)));
   const auto refuses = [&rig](const auto& spoil) {
     Hold hold = drawTo(9, 0.005);
     spoil(hold);
-    return !rig.station->hold(0, hold);
+    return !rig.hold(0, hold);
   };
   EXPECT_TRUE(refuses([](Hold& hold) { hold.ticks_left = -1; }));
   EXPECT_TRUE(refuses([](Hold& hold) { hold.ticks_left = kMaxHoldTicks + 1; }));

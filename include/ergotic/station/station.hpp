@@ -137,12 +137,15 @@ class Station {
   bool move(const tgr::HandMove& move, double due_tick = kAtOnce) noexcept;
 
   /// One of the hands that can hold any module does as `hold` says, from the next tick on; one that
-  /// holds this module already goes on from where it is. All let go when another model plays.
-  /// \param hand         below physics::kMaxTouches
-  /// \param is_recorded  as `hold` says in all, for a replay
-  /// \return false if a value is outside its range, or too many wait. What cannot be held
-  ///         (Instrument::canTouch) is let be. Realtime: yes. Thread: as `move`
-  bool hold(std::size_t hand, const Hold& hold, bool is_recorded = false) noexcept;
+  /// holds this module already goes on from where it is, any other takes hold where the module is.
+  /// All let go when another model plays. Of several in a tick the newest counts.
+  /// \param hand   below physics::kMaxTouches
+  /// \param model  that it is meant for: while another one plays nothing happens. Null: the one
+  /// that
+  ///               plays, which does as `hold` says in all, as a replay needs it
+  /// \return false if a value is outside its range. What cannot be held (Instrument::canTouch) is
+  ///         let be. Realtime: yes. Thread: as `move`
+  bool hold(std::size_t hand, const Hold& hold, const Performer* model) noexcept;
 
   // Operator:
   /// Hands a command over. A recovery also re-arms the driver. What a command points to belongs to
@@ -176,11 +179,9 @@ class Station {
   static constexpr unsigned kHeld = 1;  // presence as it was told since the last tick, bits
   static constexpr unsigned kLetGo = 2;
   static constexpr std::size_t kWaitingMoves = 256;
-  static constexpr std::size_t kWaitingHolds = 64;
   struct HoldWish {
-    std::size_t hand = 0;
     Hold hold;
-    bool is_recorded = false;
+    const Performer* model = nullptr;
   };
   struct DueMove {
     tgr::HandMove move;
@@ -223,7 +224,7 @@ class Station {
   void recover(const Command& command) noexcept;
   void refuse(const Command& command, Refusal refusal) noexcept;
   void takeInjection(const Command& command) noexcept;
-  void takeHold(const HoldWish& wish) noexcept;
+  void takeHold(std::size_t hand, const HoldWish& wish) noexcept;
   void tellHold(std::size_t index) noexcept;
   bool mayTakeKeyframe() const noexcept;
   void takeKeyframe() noexcept;
@@ -295,7 +296,7 @@ class Station {
   std::atomic<std::int64_t> heartbeat_{0};
   rt::Ring<Command> commands_;
   rt::Ring<DueMove> moves_{kWaitingMoves};
-  rt::Ring<HoldWish> hold_wishes_{kWaitingHolds};
+  std::array<rt::Mailbox<HoldWish>, physics::kMaxTouches> hold_wishes_;
   rt::Ring<Event> events_;
   rt::Ring<GestureTick> gestures_;
   rt::Mailbox<Snapshot> snapshots_;

@@ -59,6 +59,7 @@ EnergyMeter<Real>::EnergyMeter(const scene::Scene& scene, const Layout& layout, 
                                  (is_inside || !isDriven(scene, run)));
   }
   scratch_ = make();
+  ahead_.assign(layout.sections.size(), 0.0);
   if (!state.isMetered()) {
     return;
   }
@@ -296,6 +297,9 @@ template <class Real>
 void EnergyMeter<Real>::addSources(const State<Real>& state, Energies& to) const noexcept {
   if (!state.isMetered()) {
     return;
+  }
+  for (std::size_t s = 0; s < to.sections.size(); ++s) {
+    to.sections[s].from_inputs -= ahead_[s];
   }
   forEachSource(everything_, state,
                 [&](int section, Source source, Real moved, Real moved_last, const Feeding& feeding,

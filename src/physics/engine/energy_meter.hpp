@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "ergotic/physics/engine/energy.hpp"
@@ -37,6 +38,13 @@ class EnergyMeter {
       state.arena().template at<SectionBooks>(books_at_)[section].from_inputs += work;
     }
   }
+
+  /// The same of a step to come: balances before that step leave it out.
+  void addAhead(int section, double work, State<Real>& state) noexcept {
+    addTouch(section, work, state);
+    ahead_[static_cast<std::size_t>(section)] += work;
+  }
+  void forgetAhead() noexcept { std::fill(ahead_.begin(), ahead_.end(), 0.0); }
 
   /// Closes the books of the sections of a group whose steps end with this frame.
   void endFrame(const Group& group, std::int64_t now, State<Real>& state) const noexcept;
@@ -126,6 +134,7 @@ class EnergyMeter {
   std::vector<std::size_t> coupling_of_run_;  // [runs] kInside: inside a section
   std::vector<bool> follows_positions_;       // [runs] what they store
   Energies scratch_;
+  std::vector<double> ahead_;  // [sections] booked, but yet to be done
   std::size_t books_at_ = 0;
   std::size_t forced_at_ = 0;  // Feeding [forced]
   std::size_t feeds_at_ = 0;   // Feeding [feeds]

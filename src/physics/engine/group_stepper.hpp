@@ -59,12 +59,12 @@ class GroupStepper {
       const double lost = mechanism_.stepper.advance(
           lone.block, tick.count / divisor, *mechanism_.coefficients, mechanism_.state,
           [&](int step, int first, int last) noexcept {
+            mechanism_.touches.pressLone(first, last, tick.first + (step + 1) * divisor - 1,
+                                         *mechanism_.coefficients, mechanism_.meter,
+                                         mechanism_.state);
             for (int r = step * divisor; r < (step + 1) * divisor; ++r) {
               hearLoneBlock(lone, tick.first + r, first, last, outputsOf(group, tick, r));
             }
-            mechanism_.touches.pressLone(first, last, tick.first + step * divisor,
-                                         *mechanism_.coefficients, mechanism_.meter,
-                                         mechanism_.state);
           });
       mechanism_.meter.addDissipated(section, lost, mechanism_.state);
     }
@@ -98,8 +98,7 @@ class GroupStepper {
       feedForces(group, inputsOf(frames, k));
     }
     mechanism_.points.scatter(group, state);
-    mechanism_.touches.press(group, frames.first, *mechanism_.coefficients, mechanism_.meter,
-                             state);
+    mechanism_.touches.press(group, last, *mechanism_.coefficients, mechanism_.meter, state);
     mechanism_.guarded.step(group, frames.first, last, *mechanism_.coefficients, mechanism_.stepper,
                             state);
     mechanism_.meter.endFrame(group, last, state);
@@ -110,8 +109,9 @@ class GroupStepper {
       mechanism_.pickups.takeForces(group, *mechanism_.coefficients, frames.first + k, state,
                                     outputsOf(group, frames, k));
     }
-    mechanism_.sleeper.endFrames(group, frames.first, *mechanism_.coefficients, mechanism_.meter,
-                                 state);
+    mechanism_.sleeper.endFrames(
+        group, frames.first, *mechanism_.coefficients, mechanism_.meter, state,
+        [this](int section) noexcept { return mechanism_.touches.holdsIn(section); });
   }
 
   /// Something outside moves a module.

@@ -74,7 +74,7 @@ class InstrumentOf final : public Instrument {
     }
     std::copy_n(io.inputs, inputs_.size(), inputs_.data());
     takeSlices(io.positions);
-    mechanism_->touches.begin(io.touches, mechanism_->state);
+    mechanism_->touches.begin(io.touches, mechanism_->meter, mechanism_->state);
     beginTick();
     is_under_way_ = !workers_.run();
     if (is_under_way_) {
@@ -84,7 +84,8 @@ class InstrumentOf final : public Instrument {
     endTick();
     giveOutputs(io.outputs);
     giveForces(io.forces);
-    mechanism_->touches.end(io.touches);
+    mechanism_->touches.end(io.touches, *mechanism_->coefficients, mechanism_->meter,
+                            mechanism_->state);
   }
 
   std::unique_ptr<Coefficients> prepare(const std::vector<double>& values) const override {
@@ -116,9 +117,7 @@ class InstrumentOf final : public Instrument {
   void saveState(void* to) const noexcept override { mechanism_->state.arena().save(to); }
   void loadState(const void* from) noexcept override { mechanism_->state.arena().load(from); }
 
-  bool canTouch(int mat) const noexcept override {
-    return mechanism_->touches.canTouch(mat, *mechanism_->coefficients);
-  }
+  bool canTouch(int mat) const noexcept override { return mechanism_->touches.canTouch(mat); }
 
   void readDisplacements(float* to) const noexcept override {
     if (!is_under_way_) {

@@ -44,7 +44,7 @@ struct Mechanism {
         guarded(*scene, layout, groups, points, state),
         pickups(layout),
         sleeper(*scene, layout, points, *coefficients),
-        touches(*scene, written, rates, layout) {
+        touches(*scene, written, rates, layout, *coefficients) {
     state.allocate();
   }
   Mechanism(const Mechanism&) = delete;  // its parts refer to each other

@@ -48,15 +48,18 @@ class Sleeper {
     }
   }
 
-  /// After all forces of the frames from `first` on are known. Realtime: yes
+  /// After all forces of the frames from `first` on are known.
+  /// \param is_held  whether a hand holds something in a section. Realtime: yes
+  template <class IsHeld>
   void endFrames(const Group& group,
                  std::int64_t first,
                  const CoefficientsOf<Real>& c,
                  const EnergyMeter<Real>& meter,
-                 State<Real>& state) const noexcept {
+                 State<Real>& state,
+                 const IsHeld& is_held) const noexcept {
     for (const int section : group.sections) {
       const Limit& limit = limits_[static_cast<std::size_t>(section)];
-      if (limit.energy == 0.0) {
+      if (limit.energy == 0.0 || is_held(section)) {
         continue;
       }
       unsigned char& asleep = state.asleep()[section];

@@ -27,7 +27,11 @@ template <class Real>
 class Touches {
  public:
   /// \param written  modules of the scene as it was written, the first of those that are played
-  Touches(const scene::Scene& scene, std::size_t written, const Rates& rates, const Layout& layout)
+  Touches(const scene::Scene& scene,
+          std::size_t written,
+          const Rates& rates,
+          const Layout& layout,
+          const CoefficientsOf<Real>& c)
       : scene_(scene), written_(static_cast<int>(written)), rates_(rates), layout_(layout) {
     for (const std::vector<TapPoint>* taps : {&layout.taps, &layout.seen_taps}) {
       for (const TapPoint& tap : *taps) {
@@ -35,82 +39,90 @@ class Touches {
       }
     }
     std::sort(taps_.begin(), taps_.end());
+    std::size_t touchables = written;
+    for (const scene::Outline& outline : scene.outlines) {
+      touchables += outline.rest.size();
+    }
+    for (std::size_t mat = 0; mat < touchables; ++mat) {
+      can_touch_.push_back(moves(static_cast<int>(mat), c));
+    }
   }
 
-  bool canTouch(int mat, const CoefficientsOf<Real>& c) const noexcept {
-    const Held held = find(mat);
-    bool moves = held.slot >= 0 || !held.isModule();
-    forEachShareOf(held, 0, [&](int slot, Real) {
-      moves = moves && isModule(held.section, slot) &&
-              c.masses.inverse_mass[static_cast<std::size_t>(slot)] > Real(0) &&
-              (held.isModule() || !isInLoneBlock(slot));
-    });
-    return moves;
-  }
+  /// \pre 0 <= mat < Instrument::touchables
+  bool canTouch(int mat) const noexcept { return can_touch_[static_cast<std::size_t>(mat)]; }
 
   /// At the start of a tick. \param touches  [kMaxTouches], or null
-  void begin(Touch* touches, State<Real>& state) noexcept {
+  void begin(Touch* touches, EnergyMeter<Real>& meter, State<Real>& state) noexcept {
+    meter.forgetAhead();
     any_ = false;
     for (std::size_t i = 0; i < kMaxTouches; ++i) {
       const int mat = touches == nullptr ? Touch::kNothing : touches[i].mat;
       Hand& hand = hands_[i];
-      Hand& gone = hands_[kMaxTouches + i];
-      gone = Hand();
       if (mat != hand.mat) {
-        gone = std::exchange(hand, Hand());
-        gone.stiffness = Real(0);
-        gone.damping = Real(0);
+        hand = Hand();
       }
       if (mat != Touch::kNothing) {
         hold(hand, touches[i], state);
+        any_ = true;
       }
-      any_ = any_ || hand.mat != Touch::kNothing || gone.mat != Touch::kNothing;
     }
   }
 
-  /// One step of what hands hold in a group, blocks that go through a tick alone left out.
+  /// Whether a hand holds something in a section.
+  bool holdsIn(int section) const noexcept {
+    return any_ && std::any_of(hands_.begin(), hands_.end(), [section](const Hand& hand) {
+             return hand.mat != Touch::kNothing && hand.held.section == section;
+           });
+  }
+
+  /// The step of what hands hold in a group that ends with frame `last`, blocks that go through a
+  /// tick alone left out. \pre all other forces are there, but those of guarded links
   void press(const Group& group,
-             std::int64_t now,
+             std::int64_t last,
              const CoefficientsOf<Real>& c,
              const EnergyMeter<Real>& meter,
              State<Real>& state) noexcept {
-    if (!any_) {
-      return;
-    }
-    for (Hand& hand : hands_) {
-      const int section = hand.held.section;
-      if (hand.mat != Touch::kNothing && !hand.is_in_lone_block && layout_.isDue(section, now) &&
-          std::find(group.sections.begin(), group.sections.end(), section) !=
-              group.sections.end()) {
-        press(hand, now, c, meter, state);
-      }
-    }
+    pressWhere(last, c, meter, state, [&](const Hand& hand) {
+      return !hand.is_in_lone_block && endsStep(hand.held.section, last) &&
+             std::find(group.sections.begin(), group.sections.end(), hand.held.section) !=
+                 group.sections.end();
+    });
   }
 
   /// The same for slots of such a block.
   void pressLone(int first,
-                 int last,
-                 std::int64_t now,
+                 int end,
+                 std::int64_t last,
                  const CoefficientsOf<Real>& c,
                  const EnergyMeter<Real>& meter,
                  State<Real>& state) noexcept {
-    if (!any_) {
-      return;
-    }
-    for (Hand& hand : hands_) {
-      if (hand.mat != Touch::kNothing && hand.is_in_lone_block && hand.held.slot >= first &&
-          hand.held.slot < last) {
-        press(hand, now, c, meter, state);
-      }
-    }
+    pressWhere(last, c, meter, state, [&](const Hand& hand) {
+      return hand.is_in_lone_block && hand.held.slot >= first && hand.held.slot < end;
+    });
   }
 
-  /// Forces of the tick's last frame. \param touches  as of `begin`
-  void end(Touch* touches) const noexcept {
+  /// At the end of a tick, when all forces are known: the other half of the work of those that move
+  /// something with the step to come, so that nothing of it is left to remember.
+  /// \param touches  as of `begin`
+  void end(Touch* touches,
+           const CoefficientsOf<Real>& c,
+           EnergyMeter<Real>& meter,
+           State<Real>& state) noexcept {
     const double newton = 1.0 / (scene_.time_unit_s * scene_.time_unit_s);
-    for (std::size_t i = 0; touches != nullptr && i < kMaxTouches; ++i) {
-      for (std::size_t k = 0; k < hands_[i].force.size(); ++k) {
-        touches[i].force[k] = newton * static_cast<double>(hands_[i].force[k]);
+    for (std::size_t i = 0; i < kMaxTouches && any_; ++i) {
+      Hand& hand = hands_[i];
+      for (std::size_t k = 0; k < hand.force.size(); ++k) {
+        touches[i].force[k] = newton * static_cast<double>(hand.force[k]);
+      }
+      if (hand.mat != Touch::kNothing && endsStep(hand.held.section, state.frame() - 1)) {
+        double work = 0.0;
+        for (int k = 0; k < hand.held.dimensions; ++k) {
+          const Motion motion = motionOf(hand.held, k, c.masses, state);
+          const Real step = motion.next - (motion.last + motion.step);
+          work += 0.5 * static_cast<double>(step * hand.booked[static_cast<std::size_t>(k)]);
+        }
+        meter.addAhead(hand.held.section, work, state);
+        hand.booked = {};
       }
     }
   }
@@ -137,15 +149,28 @@ class Touches {
     Real stiffness = Real(0);   // in the scene's units
     Real damping = Real(0);     // per step
     Real most_force = Real(0);
-    std::array<Real, 3> force{};  // of the last step
+    std::array<Real, 3> force{};   // of the last step
+    std::array<Real, 3> booked{};  // the same, of whose work half is not yet in the books
   };
   /// A coordinate of what is held: a step ago, as no hand would move it, and how a force does.
   struct Motion {
     Real last = Real(0);
     Real next = Real(0);
     Real per_force = Real(0);
-    Real step = Real(0);  // the last one
+    Real of_others = Real(0);  // what forces of other hands may do here
+    Real step = Real(0);       // the last one
   };
+
+  bool moves(int mat, const CoefficientsOf<Real>& c) const {
+    const Held held = find(mat);
+    bool all_move = held.slot >= 0 || !held.isModule();
+    forEachShareOf(held, 0, [&](int slot, Real) {
+      all_move = all_move && isModule(held.section, slot) &&
+                 c.masses.inverse_mass[static_cast<std::size_t>(slot)] > Real(0) &&
+                 (held.isModule() || !isInLoneBlock(slot));
+    });
+    return all_move;
+  }
 
   Held find(int mat) const noexcept {
     if (mat >= written_) {
@@ -206,6 +231,7 @@ class Touches {
         touch.from[i] = static_cast<double>(placeOf(hand.held, k, state));
         touch.to[i] = touch.from[i];
       }
+      touch.takes_hold = false;
     }
     const double unit = scene_.time_unit_s * scene_.time_unit_s;
     const SectionRange& range = layout_.sections[static_cast<std::size_t>(hand.held.section)];
@@ -270,30 +296,69 @@ class Touches {
     return motion;
   }
 
-  /// The step that begins with frame `now`.
+  bool endsStep(int section, std::int64_t last) const noexcept {
+    return (last + 1) % layout_.sections[static_cast<std::size_t>(section)].divisor == 0;
+  }
+
+  /// What a force on one hand's place may move at most at that of another, by Cauchy and Schwarz:
+  /// they are of one body, or one module.
+  static bool mayMeet(const Held& a, const Held& b) noexcept {
+    return a.section == b.section && (!a.isModule() || !b.isModule() || a.slot == b.slot);
+  }
+
+  template <class IsMeant>
+  void pressWhere(std::int64_t last,
+                  const CoefficientsOf<Real>& c,
+                  const EnergyMeter<Real>& meter,
+                  State<Real>& state,
+                  const IsMeant& is_meant) noexcept {
+    std::array<Hand*, kMaxTouches> pressed{};
+    std::array<std::array<Motion, 3>, kMaxTouches> motions{};
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < kMaxTouches && any_; ++i) {
+      Hand& hand = hands_[i];
+      if (hand.mat != Touch::kNothing && is_meant(hand)) {
+        for (int k = 0; k < hand.held.dimensions; ++k) {
+          motions[count][static_cast<std::size_t>(k)] = motionOf(hand.held, k, c.masses, state);
+        }
+        pressed[count++] = &hand;
+      }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t j = 0; j < count; ++j) {
+        if (i != j && mayMeet(pressed[i]->held, pressed[j]->held)) {
+          for (std::size_t k = 0; k < 3; ++k) {
+            motions[i][k].of_others += std::sqrt(motions[i][k].per_force * motions[j][k].per_force);
+          }
+        }
+      }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      press(*pressed[i], motions[i], last, meter, state);
+    }
+  }
+
   void press(Hand& hand,
-             std::int64_t now,
-             const CoefficientsOf<Real>& c,
+             const std::array<Motion, 3>& motions,
+             std::int64_t last,
              const EnergyMeter<Real>& meter,
              State<Real>& state) const noexcept {
     const Held& held = hand.held;
     const int divisor = layout_.sections[static_cast<std::size_t>(held.section)].divisor;
     const Real of_tick = static_cast<Real>(divisor) / static_cast<Real>(rates_.ratio);
-    const auto frame = static_cast<Real>(now - state.frame());
-    const Real done = std::min(frame / static_cast<Real>(rates_.ratio) + of_tick, Real(1));
+    const auto frames = static_cast<Real>(last + 1 - state.frame());
+    const Real done = frames / static_cast<Real>(rates_.ratio);
     std::array<Real, 3> force{};
-    std::array<Real, 3> step{};
     Real square(0);
     for (int k = 0; k < held.dimensions; ++k) {
       const auto i = static_cast<std::size_t>(k);
-      const Motion motion = motionOf(held, k, c.masses, state);
+      const Motion& motion = motions[i];
       const Real target = hand.from[i] + done * hand.way[i];
       const Real stretch = Real(0.5) * (motion.next + motion.last) - target;
       const Real slip = Real(0.5) * (motion.next - motion.last) - of_tick * hand.way[i];
-      const Real softened =
-          Real(1) + Real(0.5) * motion.per_force * (hand.stiffness + hand.damping);
+      const Real softened = Real(1) + Real(0.5) * (motion.per_force + motion.of_others) *
+                                          (hand.stiffness + hand.damping);
       force[i] = -(hand.stiffness * stretch + hand.damping * slip) / softened;
-      step[i] = motion.step;
       square += force[i] * force[i];
     }
     const Real all = std::sqrt(square);
@@ -302,10 +367,11 @@ class Touches {
     for (int k = 0; k < held.dimensions; ++k) {
       const auto i = static_cast<std::size_t>(k);
       force[i] *= share;
-      work += 0.5 * static_cast<double>(step[i] * (force[i] + hand.force[i]));
+      work += 0.5 * static_cast<double>(motions[i].step * (force[i] + hand.booked[i]));
       forEachShareOf(held, k, [&](int slot, Real weight) { state.f()[slot] += weight * force[i]; });
     }
     hand.force = force;
+    hand.booked = force;
     meter.addTouch(held.section, work, state);
   }
 
@@ -314,8 +380,8 @@ class Touches {
   const Rates rates_;
   const Layout& layout_;
   std::vector<std::pair<int, const TapPoint*>> taps_;  // by module
-  // Those that hold, then those that have just let go, whose last force moves its module yet.
-  std::array<Hand, 2 * kMaxTouches> hands_{};
+  std::vector<bool> can_touch_;                        // [Instrument::touchables]
+  std::array<Hand, kMaxTouches> hands_{};
   bool any_ = false;
 };
 

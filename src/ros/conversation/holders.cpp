@@ -9,6 +9,7 @@
 #include <ergotic/HandTargets.h>
 
 #include "ergotic/exception.hpp"
+#include "ros/display/markers.hpp"
 
 namespace ergotic::node {
 namespace {
@@ -45,8 +46,21 @@ template <class Value>
 
 }  // namespace
 
-void Holders::play(std::vector<std::uint8_t> can_be_held, double tick_rate_hz) {
+std::vector<std::uint8_t> modulesThatCanBeHeld(const physics::Instrument& instrument) {
+  const scene::Scene& scene = instrument.scene();
+  std::vector<std::uint8_t> modules;
+  for (int mat = 0; mat < instrument.touchables(); ++mat) {
+    const bool can = instrument.canTouch(mat) && !isModeOfOutline(scene, mat);
+    modules.push_back(can ? 1U : 0U);
+  }
+  return modules;
+}
+
+void Holders::play(const station::Performer* model,
+                   std::vector<std::uint8_t> can_be_held,
+                   double tick_rate_hz) {
   const std::lock_guard lock(mutex_);
+  model_ = model;
   can_be_held_ = std::move(can_be_held);
   tick_rate_hz_ = tick_rate_hz;
   hands_ = {};
@@ -106,18 +120,16 @@ std::vector<Holders::Wish> Holders::read(const HoldTarget& wanted,
   }
   const std::size_t index = handFor(wanted.module, sender);
   Hand& hand = hands_[index];
-  const bool begins = hand.module == physics::Touch::kNothing;
   hand = {wanted.module, sender, now_s, wanted.timeout};
   const Grip grip = gripOf(wanted.grip);
   station::Hold hold;
   hold.mat = wanted.module;
-  hold.takes_hold = begins;
   std::copy(wanted.target.begin(), wanted.target.end(), hold.goal.begin());
   hold.ticks_left = static_cast<int>(std::lround(kGlideS * tick_rate_hz_));
   hold.stiffness = grip.stiffness;
   hold.damping = kDampingS * grip.stiffness;
   hold.most_force = grip.most_force;
-  return {{index, hold}};
+  return {{index, hold, model_}};
 }
 
 std::vector<Holders::Wish> Holders::release(const HoldTarget& wanted, const std::string& sender) {
@@ -127,7 +139,7 @@ std::vector<Holders::Wish> Holders::release(const HoldTarget& wanted, const std:
         wanted.module == physics::Touch::kNothing || wanted.module == hands_[i].module;
     if (is_meant && hands_[i].module != physics::Touch::kNothing && hands_[i].sender == sender) {
       hands_[i] = Hand();
-      wishes.push_back({i, {}});
+      wishes.push_back({i, {}, model_});
     }
   }
   return wishes;
@@ -141,7 +153,7 @@ std::vector<Holders::Wish> Holders::expire(double now_s) {
     if (hand.module != physics::Touch::kNothing && hand.timeout_s > 0.0 &&
         now_s - hand.heard_s > hand.timeout_s) {
       hand = Hand();
-      wishes.push_back({i, {}});
+      wishes.push_back({i, {}, model_});
     }
   }
   return wishes;

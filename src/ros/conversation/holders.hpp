@@ -13,6 +13,9 @@
 
 namespace ergotic::node {
 
+/// [Instrument::touchables] 1: a hand can hold it wherever it is, and it is drawn.
+std::vector<std::uint8_t> modulesThatCanBeHeld(const physics::Instrument& instrument);
+
 /// Deals out the hands that can hold any module: who asks for a module that nobody holds gets one
 /// of those that are free. Thread: any
 class Holders {
@@ -21,11 +24,14 @@ class Holders {
   struct Wish {
     std::size_t hand = 0;
     station::Hold hold;
+    const station::Performer* model = nullptr;  ///< that it is meant for
   };
 
   /// Another model plays, of which nothing is held yet.
   /// \param can_be_held  [modules] 1: this one
-  void play(std::vector<std::uint8_t> can_be_held, double tick_rate_hz);
+  void play(const station::Performer* model,
+            std::vector<std::uint8_t> can_be_held,
+            double tick_rate_hz);
 
   /// \param sender  node, by what it says itself
   /// \return what the hands shall do; nothing if it lets go of what it does not hold
@@ -47,6 +53,7 @@ class Holders {
   std::size_t handFor(int module, const std::string& sender) const;
 
   std::mutex mutex_;  // of what follows
+  const station::Performer* model_ = nullptr;
   std::vector<std::uint8_t> can_be_held_;
   double tick_rate_hz_ = 0.0;
   std::array<Hand, physics::kMaxTouches> hands_;

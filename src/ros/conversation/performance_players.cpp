@@ -144,8 +144,8 @@ void Performance::expireHolds() {
 std::string Performance::hold(const std::vector<Holders::Wish>& wishes) {
   const std::lock_guard lock(engine_mutex_);
   for (const Holders::Wish& wish : wishes) {
-    if (!engine_ || !engine_->station().hold(wish.hand, wish.hold)) {
-      return engine_ ? "too many targets wait" : kNothingPlays;
+    if (!engine_ || !engine_->station().hold(wish.hand, wish.hold, wish.model)) {
+      return kNothingPlays;
     }
   }
   return "";

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "ergotic/tgr/rig.hpp"
-#include "ros/display/markers.hpp"
 
 namespace ergotic::node {
 namespace {
@@ -49,16 +48,6 @@ std::size_t entryOf(const scene::Port& port,
 }
 
 }  // namespace
-
-std::vector<std::uint8_t> modulesThatCanBeHeld(const physics::Instrument& instrument) {
-  const scene::Scene& scene = instrument.scene();
-  std::vector<std::uint8_t> modules;
-  for (int mat = 0; mat < instrument.touchables(); ++mat) {
-    const bool can = instrument.canTouch(mat) && !isModeOfOutline(scene, mat);
-    modules.push_back(can ? 1U : 0U);
-  }
-  return modules;
-}
 
 Handles handlesOf(const scene::Scene& scene, const tgr::EndEffectors& end_effectors) {
   Handles handles;

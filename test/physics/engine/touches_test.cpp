@@ -248,6 +248,68 @@ TEST(TouchesTest, AHandThatStandsGivesOutNoMoreThanItsSpringHeld) {
   }
 }
 
+/// The same where faster links pull on what is held: their forces come in all frames of its step.
+TEST(TouchesTest, AHandThatHoldsWhatIsSlowerIsAsQuiet) {
+  for (const int divisor : {2, 7, 14}) {
+    SceneBuilder b;
+    scene::Section slow = b.scene.sections[0];
+    slow.name = "slow";
+    slow.divisor = divisor;
+    b.scene.sections.push_back(slow);
+    const int held = b.mass(1e-5, 0.0, 0.0, 2);
+    const int fast = b.mass(1e-3, 1e-5);
+    const double step = kStep * divisor;
+    b.spring(held, fast, 0.2 * 1e-5 / (step * step), 0.0);
+    b.spring(b.ground(), fast, 100.0);
+    b.hear(held);
+    Player player(b.scene, kRates);
+    player.touches[0] = holdAt(held, 0.0, 5000.0, 1.5);
+    player.ticks(20000);
+    double largest = 0.0;
+    for (std::size_t n = player.heard[0].size() / 2; n < player.heard[0].size(); ++n) {
+      largest = std::max(largest, std::abs(player.heard[0][n]));
+    }
+    EXPECT_LT(largest, 1e-5) << divisor;
+  }
+}
+
+/// Two on one body feel each other: what one does to it the other has to count with.
+TEST(TouchesTest, TwoHandsOnOneBodyGiveOutNothing) {
+  SceneBuilder b;
+  std::vector<scene::Tap::Share> left;
+  std::vector<scene::Tap::Share> right;
+  for (int j = 1; j <= 6; ++j) {
+    const int mode = b.cell(1e-6, 1e-6 * std::pow(2.0 * kPi * 100.0 * j, 2), 0.0, 1e-6);
+    left.push_back({mode, std::sin(j * 0.9)});
+    right.push_back({mode, std::sin(j * 1.1)});
+  }
+  const int a = b.tap(left);
+  const int c = b.tap(right);
+  b.hear(a);
+  Player player(b.scene, kRates);
+  player.ticks(1);
+  const double before = energiesOf(player).stored;
+  player.touches[0] = holdAt(a, 0.0, 5000.0, 5.0);
+  player.touches[1] = holdAt(c, 0.0, 5000.0, 5.0);
+  player.touches[2] = holdAt(a, 0.0, 1e7, 1e3);
+  player.ticks(20000);
+  EXPECT_LT(kineticEnergy(player), 4.0 * before);
+}
+
+TEST(TouchesTest, WhatIsHeldDoesNotFallAsleep) {
+  SceneBuilder b;
+  const int mass = b.mass(0.01);
+  b.scene.sections[0].sleep_energy = 1e-9;
+  b.hear(mass);
+  Player player(b.scene, kRates);
+  player.touches[0] = holdAt(mass, 0.01, 500.0, 3.0);
+  player.ticks(3000);
+  const std::vector<double>& x = player.heard[0];
+  for (std::size_t n = x.size() / 2; n < x.size(); ++n) {
+    ASSERT_NEAR(x[n], 0.01, 1e-6) << n;
+  }
+}
+
 TEST(TouchesTest, ForceStaysWithinItsLimit) {
   const scene::Scene scene = strings();
   Player player(scene, kRates, Precision::kFloat);

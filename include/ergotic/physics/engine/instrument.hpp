@@ -24,8 +24,9 @@ namespace ergotic::physics {
 struct Touch {
   static constexpr int kNothing = -1;
 
-  int mat = kNothing;             ///< below Instrument::touchables(). \pre canTouch of it
-  bool takes_hold = false;        ///< it wants the module to be where that is now, over this tick
+  int mat = kNothing;  ///< below Instrument::touchables(). \pre canTouch of it
+  bool takes_hold =
+      false;  ///< it wants the module to be where that is now, over this tick; cleared
   std::array<double, 3> from{};   ///< overwritten if it takes hold
   std::array<double, 3> to{};     ///< as `from`
   double stiffness = 0.0;         ///< N/m

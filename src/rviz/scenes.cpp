@@ -37,8 +37,15 @@ void addVariants(const YAML::Node& variants, std::vector<SceneEntry>& scenes) {
   for (const auto& variant : variants) {
     const std::string name = variant.first.Scalar();
     scenes.push_back({whole.model + "#" + name, whole.name, whole.title + ": " + name,
-                      firstOf({word(variant.second, "doc"), whole.about})});
+                      firstOf({word(variant.second, "doc"), whole.about}), whole.picture});
   }
+}
+
+std::string pictureBeside(const std::filesystem::path& scene) {
+  const std::filesystem::path picture =
+      scene.parent_path() / "pictures" / scene.stem().concat(".png");
+  std::error_code failure;
+  return std::filesystem::is_regular_file(picture, failure) ? picture.string() : "";
 }
 
 std::string readWhole(const std::filesystem::path& path) {
@@ -64,7 +71,7 @@ std::string leadingComment(const std::string& text) {
 
 std::vector<SceneEntry> scenesOf(const std::string& path, const std::string& text) {
   const std::string stem = std::filesystem::path(path).stem().string();
-  std::vector<SceneEntry> scenes = {{path, stem, stem, leadingComment(text)}};
+  std::vector<SceneEntry> scenes = {{path, stem, stem, leadingComment(text), pictureBeside(path)}};
   try {
     const YAML::Node scene = YAML::Load(text);
     const YAML::Node about = scene.IsMap() ? scene["about"] : YAML::Node();

@@ -12,6 +12,9 @@ struct SceneEntry {
   std::string name;   ///< as `status.model` says when it plays
   std::string title;  ///< for the list
   std::string about;  ///< what it is, in words; may be empty
+  /// Path of what it looks like, `pictures/NAME.png` beside a scene `NAME.yaml`; empty: none is
+  /// there
+  std::string picture;
 };
 
 /// The scene in a text, and its variants. A text that is no scene is described as far as it can be:

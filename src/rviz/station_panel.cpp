@@ -2,6 +2,7 @@
 #include "rviz/station_panel.hpp"
 
 #include <QHBoxLayout>
+#include <QIcon>
 #include <QPainter>
 #include <QScrollBar>
 #include <QShortcut>
@@ -162,6 +163,7 @@ void StationPanel::addInstruments(QVBoxLayout* column) {
   instruments_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
 
   instruments_->setAccessibleName("instruments");
+  instruments_->setIconSize({60, 36});
   instruments_->setPlaceholderText("choose an instrument");
   QObject::connect(instruments_, QOverload<int>::of(&QComboBox::activated), this, [this](int row) {
     const auto index = static_cast<std::size_t>(row);
@@ -368,7 +370,8 @@ void StationPanel::showInstruments() {
     scenes_shown_ = news_.scenes_version;
     instruments_->clear();
     for (const SceneEntry& scene : news_.scenes) {
-      instruments_->addItem(QString::fromStdString(scene.title));
+      instruments_->addItem(QIcon(QString::fromStdString(scene.picture)),
+                            QString::fromStdString(scene.title));
     }
   }
   if (are_others || model_shown_ != news_.status.model) {

@@ -67,8 +67,8 @@ class DocumentedTest(unittest.TestCase):
         came = {}
         done = threading.Event()
         expected = {full(name): "latched" in told for name, told, *_ in rows("Topics out")}
-        # Nothing happens, no end-effector is there, and no sound.
-        quiet = {"/station/events", "/station/levels", "/tf"}
+        # Nothing happens, nobody holds anything, no end-effector is there, and no sound.
+        quiet = {"/station/events", "/station/holds", "/station/levels", "/tf"}
 
         def hear(name):
             def heard(message):

@@ -58,6 +58,15 @@ TEST(ScenesTest, WhatIsNoSceneIsListedByItsFile) {
   }
 }
 
+TEST(ScenesTest, APictureBesideASceneIsThatOfItsVariantsToo) {
+  const std::string guitar = test::repository("models/guitar.yaml");
+  const auto scenes = scenesOf(guitar, "variants: {soft: {}}");
+  ASSERT_EQ(scenes.size(), 2U);
+  EXPECT_EQ(scenes[0].picture, test::repository("models/pictures/guitar.png"));
+  EXPECT_EQ(scenes[1].picture, scenes[0].picture);
+  EXPECT_EQ(scenesOf("/m/guitar.yaml", "")[0].picture, "");
+}
+
 TEST(ScenesTest, FindsTheModelsOfTheProgramInOrder) {
   const auto scenes = scenesIn({"/no/such/folder", test::repository("models")});
   ASSERT_GE(scenes.size(), 5U);

@@ -67,12 +67,17 @@ void Holders::play(const station::Performer* model,
 }
 
 void Holders::check(const HoldTarget& wanted) const {
-  const auto modules = static_cast<int>(can_be_held_.size());
-  if (wanted.module >= modules || wanted.module < (wanted.release ? -1 : 0)) {
-    refuse("module", wanted.module, "0..." + std::to_string(modules - 1));
-  }
   if (wanted.release) {
-    return;
+    return;  // of what is not held nothing has to be let go
+  }
+  if (can_be_held_.empty()) {
+    refuse(
+        "module", wanted.module,
+        "none, as a person may be at the device: modules are held where all devices are simulated");
+  }
+  const auto modules = static_cast<int>(can_be_held_.size());
+  if (wanted.module < 0 || wanted.module >= modules) {
+    refuse("module", wanted.module, "0..." + std::to_string(modules - 1));
   }
   if (can_be_held_[static_cast<std::size_t>(wanted.module)] == 0) {
     refuse("module", wanted.module,

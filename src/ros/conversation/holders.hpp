@@ -28,7 +28,7 @@ class Holders {
   };
 
   /// Another model plays, of which nothing is held yet.
-  /// \param can_be_held  [modules] 1: this one
+  /// \param can_be_held  [modules] 1: this one; empty: none, as a person may be at the device
   void play(const station::Performer* model,
             std::vector<std::uint8_t> can_be_held,
             double tick_rate_hz);

@@ -358,8 +358,7 @@ void Performance::play(station::Performer* performer, std::shared_ptr<Picture> p
   picture_ = std::move(picture);
   feed_.showModel(*performer, picture_, noteOn(*performer), values);
   const scene::Scene& scene = performer->instrument->scene();
-  holders_.play(performer, modulesThatCanBeHeld(*performer->instrument),
-                performer->instrument->rates().gesturalHz());
+  holders_.play(performer, modulesToHold(), performer->instrument->rates().gesturalHz());
   showHandles();
   findPlayMap(scene, false);
   command(CommandType::kKeyframe);

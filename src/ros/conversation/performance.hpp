@@ -191,6 +191,7 @@ class Performance {
   void reportWarnings();
   void findPlayMap(const scene::Scene& scene, bool keeps_the_players);
   void showHandles();
+  std::vector<std::uint8_t> modulesToHold() const;
   std::string hold(const std::vector<Holders::Wish>& wishes);
   std::string move(const std::vector<tgr::HandMove>& moves,
                    double due_tick = station::Station::kAtOnce);

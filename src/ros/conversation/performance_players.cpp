@@ -130,6 +130,12 @@ void Performance::play(const tgr::Strokes& strokes, double due_tick) {
 }
 
 std::string Performance::hold(const HoldTarget& wanted, const std::string& sender) {
+  {
+    const std::lock_guard lock(engine_mutex_);
+    if (!engine_) {
+      return kNothingPlays;
+    }
+  }
   try {
     return hold(holders_.read(wanted, sender, nowS()));
   } catch (const std::exception& refusal) {
@@ -151,9 +157,15 @@ std::string Performance::hold(const std::vector<Holders::Wish>& wishes) {
   return "";
 }
 
+/// None at a device where a person may be: what holds the model would push there, too.
+std::vector<std::uint8_t> Performance::modulesToHold() const {
+  return engine_->hands().canHurt() ? std::vector<std::uint8_t>()
+                                    : modulesThatCanBeHeld(*playing_->instrument);
+}
+
 void Performance::showHandles() {
   Handles handles = handlesOf(playing_->instrument->scene(), endEffectors());
-  handles.can_be_held = modulesThatCanBeHeld(*playing_->instrument);
+  handles.can_be_held = modulesToHold();
   feed_.showHandles(std::move(handles));
 }
 

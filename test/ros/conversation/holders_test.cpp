@@ -96,6 +96,12 @@ TEST_F(HoldersTest, SaysWhatIsWrong) {
   EXPECT_EQ(holders.read(target(1), "/mouse", 0.0)[0].hand, 0U) << "nothing was taken by all that";
 }
 
+TEST_F(HoldersTest, NothingIsHeldWhereAPersonMayBeAtTheDevice) {
+  holders.play(nullptr, {}, 3150.0);
+  EXPECT_THAT(refusalOf(target(1)), testing::HasSubstr("a person may be at the device"));
+  EXPECT_EQ(refusalOf(release(-1)), "");
+}
+
 TEST_F(HoldersTest, NothingOfAnotherModelIsHeld) {
   holders.read(target(1), "/mouse", 0.0);
   holders.play(nullptr, {1}, 3150.0);

@@ -403,20 +403,18 @@ int GrabTool::hold(rviz::ViewportMouseEvent& event) {
 
 void GrabTool::send() {
   const Grip& grip = kGrips[static_cast<std::size_t>(grip_->getOptionInt())];
-  const auto fill = [&](auto& wanted) {
+  sent_wall_ns_ = wallNs();
+  if (grab_->handle().module < 0) {
+    HandTargets wanted = grab_->targets();
     wanted.header.stamp.fromNSec(
         static_cast<std::uint64_t>(std::max<std::int64_t>(nowOfEvents(), 1)));
     wanted.grip = grip.number;
     wanted.timeout = kTimeoutS;
-  };
-  sent_wall_ns_ = wallNs();
-  if (grab_->handle().module < 0) {
-    HandTargets wanted = grab_->targets();
-    fill(wanted);
     targets_.publish(wanted);
   } else if (holds_ || !mayBeClick()) {
     HoldTarget wanted = grab_->target();
-    fill(wanted);
+    wanted.grip = grip.number;
+    wanted.timeout = kTimeoutS;
     hold_targets_.publish(wanted);
     holds_ = true;
   }

@@ -124,9 +124,9 @@ void AudioBridge::process(const rt::Period& period) noexcept {
   capture(period);
   relations_.refresh();
   const Relation& relation = relations_.latest();
-  const bool holds = relation.connection == connection && hostRuns(connection);
-  noteMidi(period, relation, holds);
-  if (holds) {
+  const bool is_tied = relation.connection == connection && hostRuns(connection);
+  noteMidi(period, is_tied ? &relation : nullptr);
+  if (is_tied) {
     play(period, relation);
     return;
   }
@@ -137,16 +137,15 @@ void AudioBridge::process(const rt::Period& period) noexcept {
 }
 
 /// From frames to ticks as `dueNs` has it: what is between two messages is kept to the frame.
-void AudioBridge::noteMidi(const rt::Period& period,
-                           const Relation& relation,
-                           bool holds) noexcept {
+void AudioBridge::noteMidi(const rt::Period& period, const Relation* relation) noexcept {
   for (int i = 0; i < period.midi_messages; ++i) {
     const rt::MidiMessage& message = period.midi[i];
-    const std::int64_t frame = period.start.frames + message.offset;
-    const std::int64_t station_frame =
-        frame - relation.offset + latency_.load(std::memory_order_relaxed);
-    const double tick = holds ? static_cast<double>(station_frame) / config_.rates.ratio
-                              : std::numeric_limits<double>::quiet_NaN();
+    double tick = std::numeric_limits<double>::quiet_NaN();
+    if (relation != nullptr) {
+      const std::int64_t station_frame = period.start.frames + message.offset - relation->offset +
+                                         latency_.load(std::memory_order_relaxed);
+      tick = static_cast<double>(station_frame) / config_.rates.ratio;
+    }
     const double time_s =
         1e-9 * static_cast<double>(period.start.time_ns) + message.offset / config_.rates.audio_hz;
     midi_.push({time_s, tick, message});

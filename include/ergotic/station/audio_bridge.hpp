@@ -149,7 +149,8 @@ class AudioBridge : public rt::AudioProcessor, public FramePort {
     std::int64_t host_frame = 0;
   };
 
-  void noteMidi(const rt::Period& period, const Relation& relation, bool holds) noexcept;
+  /// \param relation  null: no ticks are tied to the host's frames
+  void noteMidi(const rt::Period& period, const Relation* relation) noexcept;
   void capture(const rt::Period& period) noexcept;
   void play(const rt::Period& period, const Relation& relation) noexcept;
   const float* mix(const float* live) noexcept;

@@ -13,6 +13,7 @@
 #include "ergotic/advice/accuracy.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/physics/certificate/certify.hpp"
+#include "ergotic/physics/certificate/precision.hpp"
 #include "ergotic/physics/settling/chaplet.hpp"
 #include "ergotic/physics/settling/settle.hpp"
 #include "physics/note.hpp"
@@ -119,6 +120,7 @@ class SettingSearch {
         target_(target),
         freedom_(freedom),
         settled_(settle(scene, rates)),
+        moves_freely_(!bodiesThatMoveFreely(settled_.scene).empty()),
         certificate_(certify(settled_.scene, rates)),
         rest_(scene, target.unit == Unit::kDecibels) {
     findParts();
@@ -231,7 +233,7 @@ class SettingSearch {
       candidate.cost += candidate.options.back().cost;
     }
     if (freedom_.precision) {
-      const bool is_enough = floatError(target_.unit) <= target_.relative();
+      const bool is_enough = !moves_freely_ && floatError(target_.unit) <= target_.relative();
       candidate.precision = is_enough ? Precision::kFloat : Precision::kDouble;
     }
     if (candidate.precision == Precision::kFloat) {
@@ -295,6 +297,7 @@ class SettingSearch {
   Target target_;
   Freedom freedom_;
   Settled settled_;
+  bool moves_freely_;  // then only double is enough
   Certificate certificate_;
   RestCost rest_;
   Parts parts_;

@@ -6,7 +6,15 @@
 namespace ergotic::physics {
 
 const char* nameOf(Precision precision) {
-  return precision == Precision::kDouble ? "double" : "float";
+  switch (precision) {
+    case Precision::kFloat:
+      return "float";
+    case Precision::kDouble:
+      return "double";
+    case Precision::kAuto:
+      break;
+  }
+  return "auto";
 }
 
 Precision precisionNamed(const std::string& name) {

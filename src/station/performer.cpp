@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ergotic/exception.hpp"
+#include "ergotic/physics/certificate/precision.hpp"
 #include "ergotic/physics/settling/settle.hpp"
 #include "ergotic/scene/scene.hpp"
 #include "ergotic/station/measure_load.hpp"
@@ -111,14 +112,16 @@ std::unique_ptr<Performer> makePerformer(scene::Scene scene,
   tell("certify");
   physics::DeviceTraits device = policy.device;
   device.taken_ports = tgr::takenPorts(settled.scene, policy.end_effectors);
-  physics::Certificate certificate = physics::certify(settled.scene, rates, device);
+  const physics::CompileOptions compile = physics::withPrecision(options, settled.scene);
+  physics::Certificate certificate =
+      inPrecision(physics::certify(settled.scene, rates, device), settled.scene, compile);
   if (!isAllowed(certificate.verdict, policy)) {
     refuse(settled.scene, certificate);
   }
   tell("compile");
   auto performer = std::make_unique<Performer>(
       physics::compile(std::make_shared<const scene::Scene>(std::move(settled.scene)), rates,
-                       options),
+                       compile),
       std::move(rig));
   performer->warnings = warnings;
   const auto warn = [&](const std::vector<std::string>& said) {

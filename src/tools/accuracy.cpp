@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tools/lib/machine.hpp"
 #include "tools/lib/options.hpp"
 
 namespace {
@@ -20,6 +21,7 @@ void printLine(const Measurement& m) {
             << (m.precision == ergotic::physics::Precision::kFloat ? "float" : "double") << ','
             << m.rates.audio_hz << ',' << m.rates.ratio << ',' << m.masses << ',' << m.exponent
             << ',' << m.error << ',' << m.unit << ',' << m.cost.cpu_s << ',' << m.cost.steps
+            << ",\"" << ergotic::tools::processorName() << '"'
             << std::endl;  // some take their time: those that are done can be read
 }
 
@@ -41,7 +43,7 @@ int main(int argc, char** argv) {
       ->allow_extra_args(false);
   return tools::runTool(app, argc, argv, [&] {
     std::cout << "problem,measure,family,precision,audio_hz,ratio,masses,exponent,error,unit,"
-                 "cpu_s_per_s,steps_per_s\n";
+                 "cpu_s_per_s,steps_per_s,machine\n";
     for (const auto& [name, measure] : problems) {
       if (chosen.empty() || std::find(chosen.begin(), chosen.end(), name) != chosen.end()) {
         measure(printLine);

@@ -56,7 +56,8 @@ std::vector<std::string> warningsOfABall(double share) {
          << ", damping: 0.05, scheme: guarded}\n";
   }
   const physics::Rates rates{44100.0, 14};
-  const auto performer = makePerformer(scene::readYaml(text.str(), "ball.yaml"), rates, {});
+  const auto performer =
+      makePerformer(scene::readYaml(text.str(), "ball.yaml"), rates, physics::Precision::kDouble);
   for (int tick = 0; tick < 3 * 3150; ++tick) {
     performer->instrument->tick({performer->positions.data(), performer->forces.data(),
                                  performer->inputs.data(), performer->outputs.data()});

@@ -8,17 +8,18 @@
 
 namespace ergotic::physics {
 
-enum class Precision { kFloat, kDouble };
+/// kAuto is what the scene needs (withPrecision, certificate/precision.hpp).
+enum class Precision { kFloat, kDouble, kAuto };
 
-/// "float", "double".
+/// "float", "double", "auto".
 const char* nameOf(Precision precision);
 /// \throws Exception if there is no such precision, listing those there are
 Precision precisionNamed(const std::string& name);
 
 /// How a scene is turned into an instrument. Only the precision changes what it plays.
 struct CompileOptions {
-  Precision precision = Precision::kFloat;
-  rt::Isa isa = rt::bestIsa();  ///< of the kernels; every level gives the same bits
+  Precision precision = Precision::kFloat;  ///< kAuto: not chosen yet, compile() refuses it
+  rt::Isa isa = rt::bestIsa();              ///< of the kernels; every level gives the same bits
   int threads = 1;  ///< 1...kMaxThreads that share a tick; any number gives the same bits
   /// Longest wait in a tick for a thread that has begun its share; beyond it the tick stalls
   /// (Instrument::stalledTicks). Where a hand waits: kOneTick (liveOptions).
@@ -34,9 +35,10 @@ struct CompileOptions {
 constexpr int kMaxThreads = 8;
 constexpr std::int64_t kOneTick = -1;  ///< of the instrument's own rates
 
-/// As a station plays, where a hand waits: no tick waits longer for a thread than a tick.
+/// As a station plays, where a hand waits: no tick waits longer for a thread than a tick. The
+/// precision is what the scene needs.
 inline CompileOptions liveOptions() {
-  CompileOptions options;
+  CompileOptions options(Precision::kAuto);
   options.wait_limit_ns = kOneTick;
   return options;
 }

@@ -98,6 +98,9 @@ std::unique_ptr<Instrument> compile(std::shared_ptr<const scene::Scene> scene,
     throw Exception("threads: " + std::to_string(options.threads) + ", allowed: 1..." +
                     std::to_string(kMaxThreads));
   }
+  if (options.precision == Precision::kAuto) {
+    throw Exception("precision: auto is to be chosen before compile(), by withPrecision()");
+  }
   if (options.precision == Precision::kFloat) {
     return compileFor<float>(std::move(scene), rates, options);
   }

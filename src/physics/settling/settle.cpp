@@ -12,6 +12,7 @@
 #include "physics/settling/play_warnings.hpp"
 #include "physics/settling/raise_rates.hpp"
 #include "physics/settling/scheme_choice.hpp"
+#include "physics/settling/share_tanks.hpp"
 #include "physics/settling/sleep_bound.hpp"
 #include "physics/settling/split_springs.hpp"
 #include "physics/settling/split_tables.hpp"
@@ -32,6 +33,7 @@ scene::Scene complete(scene::Scene scene, const Rates& rates, std::vector<std::s
   askForChaplets(scene, rates);
   insertFilters(scene, rates, notes);
   splitTables(scene, rates);
+  shareTanks(scene, notes);
   chooseSchemes(scene, rates, notes);
   splitSprings(scene);
   return scene;

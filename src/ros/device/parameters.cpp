@@ -31,7 +31,9 @@ constexpr double kLongestWatchdogS = 1.0;
 constexpr double kFrozenS = 0.1;  // the sensors of a TGR are noisier than their quantum
 
 const std::map<std::string, physics::Precision> kPrecisions = {
-    {"float", physics::Precision::kFloat}, {"double", physics::Precision::kDouble}};
+    {"auto", physics::Precision::kAuto},
+    {"float", physics::Precision::kFloat},
+    {"double", physics::Precision::kDouble}};
 const std::map<std::string, bool> kJack = {{"auto", true}, {"none", false}};
 const std::map<std::string, Realtime> kRealtime = {
     {"try", Realtime::kTry}, {"require", Realtime::kRequire}, {"off", Realtime::kOff}};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,7 +32,7 @@ struct Measurement {
   physics::Rates rates;
   int masses = 0;         ///< of a string; 0: none
   double exponent = 0.0;  ///< of a contact; 0: none
-  double error = 0.0;     ///< smaller is better
+  double error = 0.0;     ///< smaller is better; infinite: the certificate refuses the setting
   std::string unit;
   PlayCost cost;
 };
@@ -83,6 +84,9 @@ class Experiment {
   std::vector<unsigned char> start_;
   std::vector<double> positions_, forces_, inputs_, outputs_;
 };
+
+/// The error of a setting that the certificate refuses.
+constexpr double kRefused = std::numeric_limits<double>::infinity();
 
 /// True if the certificate does not foresee that this blows up.
 bool isPlayable(const std::string& yaml, const physics::Rates& rates);

@@ -91,12 +91,11 @@ void measureBows(const Sink& sink) {
       const std::string yaml = bowScene(scheme, bowed.steepness, bowed.force, bowed.scene);
       for (const double rate_hz : {44100.0, 88200.0, 176400.0}) {
         const physics::Rates rates{rate_hz, 14};
-        if (!isPlayable(yaml, rates)) {
-          continue;
-        }
+        const bool is_playable = isPlayable(yaml, rates);
         for (const auto precision : {physics::Precision::kFloat, physics::Precision::kDouble}) {
           Experiment experiment(yaml, rates, precision);
-          const double error = cents(playBow(bowed, experiment, rate_hz), right_hz);
+          const double error =
+              is_playable ? cents(playBow(bowed, experiment, rate_hz), right_hz) : kRefused;
           sink({"bow", "pitch", std::string(bowed.name) + ", " + scheme, precision, rates, 0, 0.0,
                 std::abs(error), "cents", experiment.cost(0.1)});
         }

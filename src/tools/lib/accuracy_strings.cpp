@@ -54,12 +54,11 @@ void measureStrings(const Sink& sink) {
         const std::string yaml = stringScene(masses, kind.more);
         const physics::Rates rates{rate_hz, 14};
         const scene::StringCut cut{masses, std::string(kind.family) == "coarse"};
-        if (!isPlayable(yaml, rates)) {
-          continue;
-        }
+        const bool is_playable = isPlayable(yaml, rates);
         for (const auto precision : {physics::Precision::kFloat, physics::Precision::kDouble}) {
           Experiment experiment(yaml, rates, precision);
-          const double error = worstCents(experiment.play(0.52)[0], cut, rate_hz);
+          const double error =
+              is_playable ? worstCents(experiment.play(0.52)[0], cut, rate_hz) : kRefused;
           sink({"string", "worst of ten partials", kind.family, precision, rates, masses, 0.0,
                 error, "cents", experiment.cost(0.1)});
         }

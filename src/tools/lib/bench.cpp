@@ -52,7 +52,7 @@ std::vector<Case> casesOf(const BenchOptions& options) {
 
 BenchSettings settingsOf(const BenchOptions& options) {
   BenchSettings settings;
-  settings.compile = chosenOptions(options.compile);
+  settings.compile = chosenOptions(options.compile, physics::Precision::kFloat);
   settings.compile.metered = options.metered;
   settings.runs = options.runs;
   settings.seconds = options.seconds;

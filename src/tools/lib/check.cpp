@@ -15,6 +15,7 @@
 #include "ergotic/advice/ranges.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/physics/certificate/certify.hpp"
+#include "ergotic/physics/certificate/precision.hpp"
 #include "ergotic/physics/engine/instrument.hpp"
 #include "ergotic/physics/settling/settle.hpp"
 #include "ergotic/scene/generate/pitch.hpp"
@@ -221,6 +222,10 @@ Json reportOn(const Scene& read,
   if (options.precision == physics::Precision::kFloat) {
     const std::vector<std::string> rounding = physics::notesOnRounding(scene, rates);
     notes.insert(notes.end(), rounding.begin(), rounding.end());
+  } else {
+    const std::vector<std::string> why = physics::notesOnPrecision(scene);
+    notes.insert(notes.end(), why.begin(), why.end());
+    report["program"]["a_body_moves_freely"] = !why.empty();
   }
   report["notes"] = std::move(notes);
   report["warnings"] = std::move(warnings);
@@ -361,10 +366,12 @@ int check(const CheckOptions& options) {
   physics::DeviceTraits device = options.device.traits;
   device.taken_ports = tgr::takenPorts(settled.scene, end_effectors);
   physics::Proof proof;
-  const physics::Certificate certificate =
-      physics::certify(settled.scene, rates, device, options.proof.empty() ? nullptr : &proof);
+  const physics::CompileOptions compile =
+      withPrecision(chosenOptions(options.compile), settled.scene);
+  const physics::Certificate certificate = inPrecision(
+      physics::certify(settled.scene, rates, device, options.proof.empty() ? nullptr : &proof),
+      settled.scene, compile);
   const double cpu_s = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
-  const physics::CompileOptions compile = chosenOptions(options.compile);
   Json report = reportOn(scene, settled, rates, certificate, compile, options.device,
                          loadOf(settled.scene, rates, compile, load));
   const bool is_brief = !options.json && !options.verbose && !options.ranges;

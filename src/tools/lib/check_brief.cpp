@@ -110,7 +110,8 @@ std::string costIn(const Json& report) {
   const auto precision = report["program"]["precision"].get<std::string>();
   const double factor = report["cost"][precision]["real_time_factor"].get<double>();
   return digits(100.0 / factor, 2) + " % of a core of this machine for the model alone, in " +
-         precision + " precision";
+         precision + " precision" +
+         (report["program"].value("a_body_moves_freely", false) ? ", as a body moves freely" : "");
 }
 
 std::vector<std::string> warningsIn(const Json& report) {

@@ -50,7 +50,8 @@ std::unique_ptr<station::Performer> performerOf(const LatencyOptions& options) {
   station::PerformerPolicy policy;
   policy.allow_unproven = true;
   policy.slices = kSlices;
-  return station::makePerformer(std::move(scene), rates, chosenOptions(options.compile), policy);
+  return station::makePerformer(std::move(scene), rates,
+                                chosenOptions(options.compile, physics::Precision::kFloat), policy);
 }
 
 /// A station that plays, and what an operator does meanwhile.
@@ -140,7 +141,7 @@ Json settingsReport(const LatencyOptions& options,
           {"seconds", options.seconds},
           {"priority", options.priority},
           {"cpu", options.cpu},
-          {"instrument", toString(chosenOptions(options.compile))},
+          {"instrument", toString(chosenOptions(options.compile, physics::Precision::kFloat))},
           {"refused", warnings}};
 }
 

@@ -56,8 +56,9 @@ void addOptions(CLI::App& app, SceneOptions& options) {
 }
 
 void addOptions(CLI::App& app, CompileChoice& choice) {
-  app.add_option("--precision", choice.precision, "of the instrument (default: float)")
-      ->check(CLI::IsMember({"float", "double"}));
+  app.add_option("--precision", choice.precision,
+                 "of the instrument (default: auto, double where a body moves freely, else float)")
+      ->check(CLI::IsMember({"auto", "float", "double"}));
   app.add_option("--isa", choice.isa,
                  "instruction set of the kernels; all give the same samples (default: the best "
                  "that this processor has)")
@@ -114,7 +115,9 @@ physics::Rates chosenRates(const scene::Scene& scene, const SceneOptions& option
 physics::CompileOptions chosenOptions(const CompileChoice& choice,
                                       physics::CompileOptions options) {
   if (!choice.precision.empty()) {
-    options.precision = physics::precisionNamed(choice.precision);
+    options.precision = choice.precision == nameOf(physics::Precision::kAuto)
+                            ? physics::Precision::kAuto
+                            : physics::precisionNamed(choice.precision);
   }
   if (!choice.isa.empty()) {
     options.isa = rt::isaNamed(choice.isa);

@@ -60,8 +60,8 @@ scene::Scene readScene(const SceneOptions& options);
 physics::Rates chosenRates(const scene::Scene& scene, const SceneOptions& options);
 
 /// The options of a tool: what it is told, and `otherwise` where it is told nothing.
-physics::CompileOptions chosenOptions(const CompileChoice& choice,
-                                      physics::CompileOptions otherwise = {});
+physics::CompileOptions chosenOptions(
+    const CompileChoice& choice, physics::CompileOptions otherwise = physics::Precision::kAuto);
 
 /// "float, avx2, 1 thread".
 std::string toString(const physics::CompileOptions& options);

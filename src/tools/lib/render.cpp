@@ -15,6 +15,8 @@
 #include "constants.hpp"
 #include "ergotic/bag/recording.hpp"
 #include "ergotic/exception.hpp"
+#include "ergotic/physics/certificate/precision.hpp"
+#include "ergotic/physics/settling/settle.hpp"
 #include "ergotic/rt/build_id.hpp"
 #include "ergotic/rt/thread.hpp"
 #include "ergotic/station/health.hpp"
@@ -70,7 +72,9 @@ void meetTarget(const RenderOptions& options,
                              tgr::gestureKindOf(options.gesture) == tgr::GestureKind::kPositions;
   freedom.audio_rate = freedom.audio_rate && options.inputs.empty() && !has_positions;
   freedom.gestural_rate = freedom.gestural_rate && !has_positions;
-  physics::Proposal proposal = physics::propose(scene, rates, compile.precision, target, freedom);
+  const physics::Precision now =
+      withPrecision(compile, physics::settle(scene, rates).scene).precision;
+  physics::Proposal proposal = physics::propose(scene, rates, now, target, freedom);
   for (const std::string& line : targetLines(target, proposal)) {
     say(line);
   }

@@ -51,7 +51,7 @@ physics::Freedom freedomOf(const SceneOptions& options, const CompileChoice& com
   physics::Freedom freedom;
   freedom.audio_rate = options.rate_hz == 0.0;
   freedom.gestural_rate = options.gestural_rate_hz == 0.0;
-  freedom.precision = compile.precision.empty();
+  freedom.precision = compile.precision.empty() || compile.precision == "auto";
   return freedom;
 }
 

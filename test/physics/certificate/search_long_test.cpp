@@ -5,6 +5,7 @@
 #include <map>
 
 #include "ergotic/physics/certificate/certify.hpp"
+#include "ergotic/physics/certificate/precision.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
 #include "support/physics.hpp"
 #include "support/small_scene.hpp"
@@ -112,14 +113,16 @@ Precision precisionOf(unsigned seed) {
   return seed / kFamilies % 2 == 0 ? Precision::kDouble : Precision::kFloat;
 }
 
-Judged judge(const SmallScene& small, unsigned seed, Plays plays = Plays::kVouched) {
+/// \param precision  kAuto: as a station chooses it
+Judged judge(const SmallScene& small, Precision precision, Plays plays = Plays::kVouched) {
   Judged judged;
   const scene::Scene scene = settle(scene::readYaml(small.text(), "small.yaml"), small.rates).scene;
-  const Certificate certificate = certify(scene, small.rates);
+  const CompileOptions options = withPrecision(precision, scene);
+  const Certificate certificate = inPrecision(certify(scene, small.rates), scene, options);
   judged.verdict = certificate.verdict;
   judged.is_vouched = isVouched(judged.verdict);
   judged.grows = judged.is_vouched == (plays == Plays::kVouched) &&
-                 grows(scene, small.rates, precisionOf(seed), certificate);
+                 grows(scene, small.rates, options.precision, certificate);
   return judged;
 }
 
@@ -140,7 +143,7 @@ SmallScene shrunk(SmallScene liar, unsigned seed) {
     }
     SmallScene smaller = liar;
     smaller.lias.erase(smaller.lias.begin() + static_cast<std::ptrdiff_t>(i));
-    const Judged judged = judge(smaller, seed);
+    const Judged judged = judge(smaller, precisionOf(seed));
     if (judged.is_vouched && judged.grows) {
       liar = smaller;
     }
@@ -158,7 +161,7 @@ unsigned scenes() {
 // and less of what is kept.
 TEST(SmallScenesTest, WhatStepsNearTheirLimitLendIsNoGrowth) {
   constexpr unsigned kSeed = 82167;
-  const Judged judged = judge(test::withTaps(test::smallScene(kSeed), kSeed), kSeed);
+  const Judged judged = judge(test::withTaps(test::smallScene(kSeed), kSeed), precisionOf(kSeed));
   EXPECT_EQ(judged.verdict, Verdict::kPassive);
   EXPECT_FALSE(judged.grows);
 }
@@ -166,7 +169,7 @@ TEST(SmallScenesTest, WhatStepsNearTheirLimitLendIsNoGrowth) {
 class SearchTest : public testing::TestWithParam<unsigned> {};
 
 void expectNotToGrow(const SmallScene& small, unsigned seed) {
-  const Judged judged = judge(small, seed);
+  const Judged judged = judge(small, precisionOf(seed));
   EXPECT_FALSE(judged.is_vouched && judged.grows)
       << "seed " << seed << ", " << small.family << ", " << toString(judged.verdict) << ":\n"
       << shrunk(small, seed).text();
@@ -207,7 +210,7 @@ TEST(SmallScenesTest, SomeOfEveryFamilyAreVouchedFor) {
 }
 
 /// Springs above their limit, which what hardens with them keeps from growing: as noise.
-bool isHeldByHardening(SmallScene small, unsigned seed) {
+bool isHeldByHardening(SmallScene small) {
   const auto hardens = [](const std::string& lia) {
     return lia.find("type: stretch") != std::string::npos ||
            lia.find(", tank: ") != std::string::npos;
@@ -217,12 +220,12 @@ bool isHeldByHardening(SmallScene small, unsigned seed) {
     return false;
   }
   small.lias.erase(from, small.lias.end());
-  return judge(small, seed, Plays::kOthers).grows;
+  return judge(small, Precision::kAuto, Plays::kOthers).grows;
 }
 
-/// Where schemes are left to the station. Of tables fewer are: many drive, for ever or up to a
-/// speed, and nothing around them brakes as much. What is vouched for counts as holding: that is
-/// the search above.
+/// Where schemes and precision are left to the station. Of tables fewer are: many drive, for ever
+/// or up to a speed, and nothing around them brakes as much. What is vouched for counts as holding:
+/// that is the search above.
 TEST(SmallScenesTest, NearlyAllThatHoldsIsVouchedFor) {
   struct Share {
     int holding = 0;
@@ -232,9 +235,9 @@ TEST(SmallScenesTest, NearlyAllThatHoldsIsVouchedFor) {
   Share of_one_rate;
   for (unsigned seed = 0; seed < 2 * kScenes; ++seed) {
     const SmallScene small = test::leftOpen(test::smallScene(seed));
-    const Judged judged = judge(small, seed, Plays::kOthers);
+    const Judged judged = judge(small, Precision::kAuto, Plays::kOthers);
     Share& share = shares[small.family];
-    share.holding += judged.grows || isHeldByHardening(small, seed) ? 0 : 1;
+    share.holding += judged.grows || isHeldByHardening(small) ? 0 : 1;
     share.vouched += judged.is_vouched ? 1 : 0;
   }
   for (const auto& [family, share] : shares) {

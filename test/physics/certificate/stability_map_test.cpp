@@ -24,10 +24,12 @@ struct StabilityCase {
   bool is_safe = false;
   std::string verdict;  ///< that must be foretold
   std::string finding;  ///< part of a finding that must be among those foretold
-  std::function<StabilityOutcome()> run;
+  std::function<StabilityOutcome(Precision)> run;
+  std::function<double()> tightness = {};  ///< see tightnessOf; none: not measured
 };
 
-constexpr double kFar = 1e6;  // of growth: nobody need go on
+constexpr double kTightnessStep = 1e-4;  // of a rate
+constexpr double kFar = 1e6;             // of growth: nobody need go on
 constexpr double kMass = 1e-3;
 constexpr double kUnit = kMass * kRate * kRate;  // stiffness of kappa = 1
 
@@ -52,7 +54,9 @@ class Witness {
   /// \param outside  energy of what the instrument does not know of
   void look(double outside = 0.0) {
     instrument_.readEnergies(energies_);
-    const double energy = outside + swing_.energyOf(instrument_, energies_);
+    const double energy = outside + (instrument_.options().precision == Precision::kDouble
+                                         ? swing_.energyOf(instrument_, energies_)
+                                         : kinetic());
     // A number that is none compares false with everything.
     outcome_.growth = energy / start_ <= kFar ? std::max(outcome_.growth, energy / start_) : kFar;
     stored_ = stored_.value_or(energies_.stored);
@@ -63,6 +67,15 @@ class Witness {
   bool isFar() const { return outcome_.growth >= kFar; }
 
  private:
+  /// All that is looked at in single precision.
+  double kinetic() const {
+    double sum = 0.0;
+    for (const SectionEnergy& section : energies_.sections) {
+      sum += std::abs(section.kinetic);
+    }
+    return sum;
+  }
+
   const Instrument& instrument_;
   test::Swing swing_;
   Closed closed_;
@@ -86,18 +99,19 @@ struct Performance {
 };
 
 /// Judges a scene and makes it ready to play.
-Performance prepare(const scene::Scene& scene, const Rates& rates) {
+Performance prepare(const scene::Scene& scene, const Rates& rates, Precision precision) {
   const Settled settled = settle(scene, rates);
   const Certificate certificate = certify(settled.scene, rates);
   return {{toString(certificate.verdict), testing::PrintToString(certificate.findings), 0.0, 0.0},
-          Player(compile(settled.scene, rates, Precision::kDouble))};
+          Player(compile(settled.scene, rates, precision))};
 }
 
 StabilityOutcome play(const SceneBuilder& builder,
                       const Rates& rates,
                       int ticks,
+                      Precision precision,
                       Closed closed = Closed::kYes) {
-  Performance performance = prepare(builder.scene, rates);
+  Performance performance = prepare(builder.scene, rates, precision);
   Player& player = performance.player;
   Witness witness(*player.instrument, closed, kineticEnergyAtStart(builder.scene),
                   performance.outcome);
@@ -112,9 +126,25 @@ StabilityOutcome play(const SceneBuilder& builder,
 /// 1/(1 - lambda/4) of what there was.
 StabilityOutcome playAtStableRate(const SceneBuilder& builder,
                                   int ticks,
+                                  Precision precision,
                                   Closed closed = Closed::kYes) {
   const Certificate refused = certify(builder.scene, {kRate, 1});
-  return play(builder, {1.1 * refused.sections[0].stable_rate_hz, 1}, ticks, closed);
+  return play(builder, {1.1 * refused.sections[0].stable_rate_hz, 1}, ticks, precision, closed);
+}
+
+/// The rate below which a scene really grows, found by playing, over the lowest that the
+/// certificate allows: 1 if the verdict is as tight as can be.
+double tightnessOf(const SceneBuilder& builder) {
+  const double certified = certify(builder.scene, {kRate, 1}).sections[0].stable_rate_hz;
+  double grows = 0.9;
+  double holds = 1.0;
+  while (holds - grows > kTightnessStep) {
+    const double middle = 0.5 * (grows + holds);
+    const Rates rates{middle * certified, 1};
+    const bool is_far = play(builder, rates, 20000, Precision::kDouble, Closed::kNo).growth >= kFar;
+    (is_far ? grows : holds) = middle;
+  }
+  return holds;
 }
 
 /// A string, struck in its middle. `kappa`, `zeta`: of its links.
@@ -218,7 +248,7 @@ SceneBuilder joinedScene(const JoinedMass& joined) {
 
 /// The figures of a device (0.3 kg, 2 N s/m) on a wall, in multiples of the passivity limit.
 /// Its force is given one tick late and held; between ticks it moves exactly.
-StabilityOutcome pushWall(double multiple) {
+StabilityOutcome pushWall(double multiple, Precision precision) {
   const Rates rates{kRate, 14};
   const double t = rates.ratio / rates.audio_hz;
   const double mass = 0.3;
@@ -229,7 +259,7 @@ StabilityOutcome pushWall(double multiple) {
   SceneBuilder b;
   const int slice = b.slice(0);
   b.spring(slice, b.ground(0.0, SceneBuilder::kGestural), wall);
-  Performance performance = prepare(b.scene, rates);
+  Performance performance = prepare(b.scene, rates, precision);
   Player& player = performance.player;
   double x = 0.0;
   double v = 1.0;
@@ -245,24 +275,24 @@ StabilityOutcome pushWall(double multiple) {
   return performance.outcome;
 }
 
-StabilityOutcome joinedPlainly(const JoinedMass& joined) {
-  return play(joinedScene(joined), {kRate, joined.ratio}, 60000, Closed::kNo);
+StabilityOutcome joinedPlainly(const JoinedMass& joined, Precision precision) {
+  return play(joinedScene(joined), {kRate, joined.ratio}, 60000, precision, Closed::kNo);
 }
 
 /// With a chaplet, and every mass of the string loses that share of its momentum per step.
-StabilityOutcome joinedThroughChaplet(const JoinedMass& joined, double loss) {
+StabilityOutcome joinedThroughChaplet(const JoinedMass& joined, double loss, Precision precision) {
   SceneBuilder b = joinedScene(joined);
   b.scene.lias.back().filtered = true;
   b.scene.sections[SceneBuilder::kAudio].medium = {loss * kMass * kRate};
-  return play(b, {kRate, joined.ratio}, 20000, Closed::kNo);
+  return play(b, {kRate, joined.ratio}, 20000, precision, Closed::kNo);
 }
 
-StabilityOutcome joinedAtOneRate(const JoinedMass& joined) {
+StabilityOutcome joinedAtOneRate(const JoinedMass& joined, Precision precision) {
   SceneBuilder b = joinedScene(joined);
   for (scene::Mat& mat : b.scene.mats) {
     mat.section = SceneBuilder::kAudio;
   }
-  return play(b, {kRate, joined.ratio}, 20000);
+  return play(b, {kRate, joined.ratio}, 20000, precision);
 }
 
 using Cases = std::vector<StabilityCase>;
@@ -270,21 +300,25 @@ using Cases = std::vector<StabilityCase>;
 void addLimits(Cases& cases) {
   const auto beyond = [&](const std::string& what, const SceneBuilder& b, Closed closed) {
     const std::string stress = what + " 1 % over the limit";
-    cases.push_back({stress, "explicit", false, "unstable", "too stiff or too damped", [=] {
-                       return play(b, {kRate, 1}, 20000, closed);
-                     }});
-    cases.push_back({stress, "at the certified rate", true, "passive", "",
-                     [=] { return playAtStableRate(b, 20000, closed); }});
+    cases.push_back({stress, "explicit", false, "unstable", "too stiff or too damped",
+                     [=](Precision precision) {
+                       return play(b, {kRate, 1}, 20000, precision, closed);
+                     },
+                     [=] { return tightnessOf(b); }});
+    cases.push_back(
+        {stress, "at the certified rate", true, "passive", "",
+         [=](Precision precision) { return playAtStableRate(b, 20000, precision, closed); }});
   };
   beyond("stiffness", string(30, 1.013, 0.0), Closed::kYes);
   beyond("damping", string(30, 0.3, 0.356), Closed::kYes);
   beyond("net in space", net(9, 0.53), Closed::kNo);
   const std::string thrown = "net in space thrown about by more than its meshes";
-  cases.push_back({thrown, "explicit", false, "unproven", "a line that turns", [=] {
-                     return play(net(9, 0.4, 0.9), {kRate, 1}, 20000, Closed::kNo);
-                   }});
-  cases.push_back({thrown, "guarded", true, "passive", "", [=] {
-                     return play(net(9, 0.4, 0.9, Scheme::kGuarded), {kRate, 1}, 20000);
+  cases.push_back(
+      {thrown, "explicit", false, "unproven", "a line that turns", [=](Precision precision) {
+         return play(net(9, 0.4, 0.9), {kRate, 1}, 20000, precision, Closed::kNo);
+       }});
+  cases.push_back({thrown, "guarded", true, "passive", "", [=](Precision precision) {
+                     return play(net(9, 0.4, 0.9, Scheme::kGuarded), {kRate, 1}, 20000, precision);
                    }});
 }
 
@@ -292,12 +326,14 @@ void addRates(Cases& cases) {
   for (const JoinedMass& joined : kJoinedMasses) {
     const std::string stress = "two rates, " + std::to_string(joined.ratio) + " to 1";
     cases.push_back({stress, "no chaplet", false, joined.ratio == 2 ? "unstable" : "unproven",
-                     "grows", [=] { return joinedPlainly(joined); }});
+                     "grows",
+                     [=](Precision precision) { return joinedPlainly(joined, precision); }});
     cases.push_back({stress, "all at the audio rate", true, "passive", "",
-                     [=] { return joinedAtOneRate(joined); }});
+                     [=](Precision precision) { return joinedAtOneRate(joined, precision); }});
     if (joined.ratio >= 4) {  // C2 needs that
-      cases.push_back({stress, "chaplet + loss", true, "passive", "",
-                       [=] { return joinedThroughChaplet(joined, 1e-4); }});
+      cases.push_back({stress, "chaplet + loss", true, "passive", "", [=](Precision precision) {
+                         return joinedThroughChaplet(joined, 1e-4, precision);
+                       }});
     }
   }
 }
@@ -305,11 +341,11 @@ void addRates(Cases& cases) {
 void addNonlinear(Cases& cases) {
   const auto both = [&](const std::string& stress, const std::string& verdict,
                         const std::string& finding, auto make) {
-    cases.push_back({stress, "explicit", false, verdict, finding, [=] {
-                       return play(make(Scheme::kExplicit), {kRate, 1}, 40000);
+    cases.push_back({stress, "explicit", false, verdict, finding, [=](Precision precision) {
+                       return play(make(Scheme::kExplicit), {kRate, 1}, 40000, precision);
                      }});
-    cases.push_back({stress, "guarded", true, "passive", "", [=] {
-                       return play(make(Scheme::kAuto), {kRate, 1}, 40000);
+    cases.push_back({stress, "guarded", true, "passive", "", [=](Precision precision) {
+                       return play(make(Scheme::kAuto), {kRate, 1}, 40000, precision);
                      }});
   };
   both("string on a barrier, kappa 30", "unstable", "comes and goes",
@@ -323,12 +359,13 @@ void addNonlinear(Cases& cases) {
 void addFriction(Cases& cases) {
   const auto both = [&](const std::string& stress, LiaType type, double steepness) {
     for (const bool is_safe : {false, true}) {
-      cases.push_back(
-          {stress, is_safe ? "guarded" : "explicit", is_safe, is_safe ? "bounded" : "unstable",
-           is_safe ? "" : "steep for the step", [=] {
-             const Scheme scheme = is_safe ? Scheme::kAuto : Scheme::kExplicit;
-             return play(rubbedMass(type, steepness, scheme), {kRate, 1}, 40000, Closed::kNo);
-           }});
+      cases.push_back({stress, is_safe ? "guarded" : "explicit", is_safe,
+                       is_safe ? "bounded" : "unstable", is_safe ? "" : "steep for the step",
+                       [=](Precision precision) {
+                         const Scheme scheme = is_safe ? Scheme::kAuto : Scheme::kExplicit;
+                         return play(rubbedMass(type, steepness, scheme), {kRate, 1}, 40000,
+                                     precision, Closed::kNo);
+                       }});
     }
   };
   both("bow, h F'/M = 2.5", LiaType::kBow, 2.5);
@@ -338,8 +375,9 @@ void addFriction(Cases& cases) {
 void addWalls(Cases& cases) {
   const std::string stress = "wall over the passivity limit";
   cases.push_back({stress, "2.2 x the limit", false, "unproven", "it will buzz or jump",
-                   [] { return pushWall(2.2); }});
-  cases.push_back({stress, "0.45 x the limit", true, "passive", "", [] { return pushWall(0.45); }});
+                   [](Precision precision) { return pushWall(2.2, precision); }});
+  cases.push_back({stress, "0.45 x the limit", true, "passive", "",
+                   [](Precision precision) { return pushWall(0.45, precision); }});
 }
 
 Cases allCases() {
@@ -355,19 +393,25 @@ Cases allCases() {
 constexpr double kDiverged = 1e3;
 constexpr double kHeld = 10.0;  // near the limit energy breathes, see the cases
 constexpr double kEnergyError = 1e-11;
+constexpr double kTight = 0.999;  // of what the certificate allows, where that is exact
 
 class StabilityMapTest : public testing::TestWithParam<StabilityCase> {
  protected:
   static void SetUpTestSuite() {
     if (const char* path = std::getenv("ERGOTIC_STABILITY_MAP")) {
-      std::ofstream(path) << "stress,method,safe,verdict,growth,energy_error\n";
+      std::ofstream(path)
+          << "stress,method,safe,verdict,growth,growth_in_float,energy_error,tightness\n";
     }
   }
-  static void write(const StabilityCase& cell, const StabilityOutcome& outcome) {
+  static void write(const StabilityCase& cell,
+                    const StabilityOutcome& outcome,
+                    double growth_in_float,
+                    double tightness) {
     if (const char* path = std::getenv("ERGOTIC_STABILITY_MAP")) {
       std::ofstream(path, std::ios::app)
           << '"' << cell.stress << "\",\"" << cell.method << "\"," << cell.is_safe << ','
-          << outcome.verdict << ',' << outcome.growth << ',' << outcome.energy_error << '\n';
+          << outcome.verdict << ',' << outcome.growth << ',' << growth_in_float << ','
+          << outcome.energy_error << ',' << tightness << '\n';
     }
   }
 };
@@ -381,15 +425,23 @@ std::string nameOf(const testing::TestParamInfo<StabilityCase>& info) {
 
 TEST_P(StabilityMapTest, BehavesAsForetold) {
   const StabilityCase& cell = GetParam();
-  const StabilityOutcome outcome = cell.run();
-  write(cell, outcome);
+  const StabilityOutcome outcome = cell.run(Precision::kDouble);
+  const double growth_in_float = cell.run(Precision::kFloat).growth;
+  const double tightness = cell.tightness ? cell.tightness() : 0.0;
+  write(cell, outcome, growth_in_float, tightness);
   EXPECT_EQ(outcome.verdict, cell.verdict) << outcome.findings.substr(0, 1000);
   EXPECT_THAT(outcome.findings, testing::HasSubstr(cell.finding));
+  if (cell.tightness) {
+    EXPECT_GT(tightness, kTight);
+    EXPECT_LE(tightness, 1.0);
+  }
   if (cell.is_safe) {
     EXPECT_LE(outcome.growth, kHeld);
+    EXPECT_LE(growth_in_float, kHeld);
     EXPECT_LE(outcome.energy_error, kEnergyError);
   } else {
     EXPECT_GE(outcome.growth, kDiverged);
+    EXPECT_GE(growth_in_float, kDiverged);
   }
 }
 

@@ -22,7 +22,10 @@ constexpr double kBowedSeconds = 0.5;
 constexpr int kJudged = 40;                              // last periods
 constexpr double kSpeeds[] = {0.15, 0.3, 0.6};           // m/s
 constexpr double kPlaces[] = {0.04, 0.06, 0.09, 0.135};  // of the length, from the bridge
-constexpr int kForces = 24;                              // from 0.5 f_min to 3 f_max
+constexpr double kRestSpeed = 0.3;                       // m/s, at which it starts from rest, too
+constexpr double kRestSeconds = 1.0;
+constexpr double kRestStep = 1.1;
+constexpr int kForces = 24;  // from 0.5 f_min to 3 f_max
 
 double frictionAt(double v) {
   return 0.35 + 0.4 * std::exp(-v / 0.01) + 0.45 * std::exp(-v / 0.1);
@@ -40,8 +43,10 @@ struct Limits {
   double most;
 };
 
-/// A bowed string that already moves as Helmholtz has it, its corner half way.
-scene::Scene bowedString(double speed, double place, double force) {
+/// How the string moves when the bow is put on: as Helmholtz has it, its corner half way, or not.
+enum class Start { kHelmholtz, kRest };
+
+scene::Scene bowedString(double speed, double place, double force, Start start) {
   const double length = kBowedMasses + 1;
   const double step = std::sin(kPi * kBowedPitch / kRate) / std::sin(kPi / (2.0 * length));
   const double mass = kResistance / (kRate * step);
@@ -60,6 +65,9 @@ scene::Scene bowedString(double speed, double place, double force) {
        << "outputs:\n  string: {at: s@" << place << ", quantity: velocity, channel: 1}\n"
        << "  hair: {at: hair, quantity: velocity, channel: 2}\n";
   scene::Scene scene = scene::readYaml(text.str(), "bowed.yaml");
+  if (start == Start::kRest) {
+    return scene;
+  }
   for (int i = 1; i <= kBowedMasses; ++i) {
     scene::Mat& mat = scene.mats[at(scene.strings[0].first + i)];
     const double x = i / length;
@@ -82,13 +90,13 @@ struct Sound {
   }
 };
 
-Sound playBowed(double speed, double place, double force) {
+Sound playBowed(double speed, double place, double force, Start start, double seconds) {
   constexpr Rates kBowedRates{kRate, 45};
   CompileOptions options(Precision::kDouble);
   options.metered = false;
-  const scene::Scene scene = settle(bowedString(speed, place, force), kBowedRates).scene;
+  const scene::Scene scene = settle(bowedString(speed, place, force, start), kBowedRates).scene;
   Player player(compile(scene, kBowedRates, options));
-  player.ticks(static_cast<int>(kBowedSeconds * kRate / kBowedRates.ratio));
+  player.ticks(static_cast<int>(seconds * kRate / kBowedRates.ratio));
   const std::vector<double>& string = player.heard[0];
   const std::vector<double>& hair = player.heard[1];
   const double period = kRate / kBowedPitch;
@@ -125,6 +133,7 @@ struct Cell {
   double place;
   Limits limits{speed, place};
   std::vector<std::pair<double, Sound>> played = {};
+  double from_rest = 0.0;  ///< N, the least force that starts it, 0: none
 
   double firstHelmholtz() const {
     for (const auto& [force, sound] : played) {
@@ -143,6 +152,16 @@ struct Cell {
   }
 };
 
+/// The least force, in steps of 1.1, that brings a string at rest to Helmholtz motion.
+double leastFromRest(const Cell& cell) {
+  for (double force = cell.limits.least; force < cell.limits.most; force *= kRestStep) {
+    if (playBowed(cell.speed, cell.place, force, Start::kRest, kRestSeconds).isHelmholtz()) {
+      return force;
+    }
+  }
+  return 0.0;
+}
+
 std::vector<Cell> playMap() {
   std::vector<Cell> map;
   for (const double speed : kSpeeds) {
@@ -152,8 +171,10 @@ std::vector<Cell> playMap() {
       const double ratio = std::pow(3.0 * cell.limits.most / from, 1.0 / (kForces - 1));
       for (int i = 0; i < kForces; ++i) {
         const double force = from * std::pow(ratio, i);
-        cell.played.emplace_back(force, playBowed(speed, place, force));
+        cell.played.emplace_back(force,
+                                 playBowed(speed, place, force, Start::kHelmholtz, kBowedSeconds));
       }
+      cell.from_rest = speed == kRestSpeed ? leastFromRest(cell) : 0.0;
       map.push_back(std::move(cell));
     }
   }
@@ -162,12 +183,13 @@ std::vector<Cell> playMap() {
 
 void write(const std::vector<Cell>& map, const char* file) {
   std::ofstream out(file);
-  out << "speed,place,least,most,force,slips,cents,ragged,slipping,stuck,helmholtz\n";
+  out << "speed,place,least,most,force,slips,cents,ragged,slipping,stuck,helmholtz,from_rest\n";
   for (const Cell& cell : map) {
     for (const auto& [force, s] : cell.played) {
       out << cell.speed << ',' << cell.place << ',' << cell.limits.least << ',' << cell.limits.most
           << ',' << force << ',' << s.slips << ',' << s.cents << ',' << s.ragged << ','
-          << s.slipping << ',' << s.stuck << ',' << s.isHelmholtz() << '\n';
+          << s.slipping << ',' << s.stuck << ',' << s.isHelmholtz() << ',' << cell.from_rest
+          << '\n';
     }
   }
 }
@@ -201,6 +223,13 @@ TEST(SchellengTest, StringsSoundBetweenTheForcesThatHeGives) {
       EXPECT_FALSE(is_outside && sound.isHelmholtz());
       EXPECT_FALSE(is_inside && !sound.isHelmholtz())
           << sound.slips << " slips, " << sound.cents << " cents, " << sound.ragged;
+    }
+  }
+  for (const Cell& cell : map) {
+    if (cell.speed == kRestSpeed) {
+      const double times = cell.from_rest / cell.limits.least;
+      EXPECT_GT(times, 7.0) << cell.place;
+      EXPECT_LT(times, 22.0) << cell.place;
     }
   }
   const auto least = exponentsOf(map, [](const Cell& c) { return c.limits.least; });

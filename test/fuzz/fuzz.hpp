@@ -29,7 +29,8 @@ inline std::string textOf(const std::uint8_t* data, std::size_t size) {
 
 /// Fails unless the error is at a place of the text, or right behind it.
 inline void expectPlace(const TextError& error, const std::string& text) {
-  const auto lines = 1 + std::count(text.begin(), text.end(), '\n');
+  const auto lines = 1 + std::count(text.begin(), text.end(), '\n') +
+                     std::count(text.begin(), text.end(), '\r');  // of old Macintosh files
   const std::string what = error.what();
   const std::string start = std::string(kFile) + ":" + std::to_string(error.line()) + ":" +
                             std::to_string(error.column()) + ": error: ";

@@ -28,8 +28,8 @@ class PlayGestureTest(unittest.TestCase):
 
     def write(self, text):
         path = os.path.join(self.folder.name, "g.csv")
-        with open(path, "w") as file:
-            file.write(text)
+        with open(path, "wb") as file:
+            file.write(text if isinstance(text, bytes) else text.encode())
         return path
 
     def test_reads_targets(self):
@@ -38,6 +38,15 @@ class PlayGestureTest(unittest.TestCase):
         self.assertEqual(gesture.length, 2.0)
         self.assertEqual(gesture.at(1.0), [(1, 0.01)])
         self.assertEqual(gesture.at(9.0), [(1, 0.02)])
+
+    def test_reads_files_of_any_program(self):
+        for text in ("\ufeffTime_s,Slice,Target_m\r\n0,1,0\r\n2,1,0.02\r\n",
+                     'sep=,\n"time_s","slice","target_m"\n"0","1","0"\n"2","1","0.02"\n',
+                     "time_s,slice,target_m,,\n+0.0,1.0,+0,,\n,,,,\n2e0,1,+2.0e-02,,\n",
+                     b"# \xfcber den Steg; 0,5\r0\t1\t0\r2\t1\t0.02\r"):
+            gesture = play_gesture.read_csv(self.write(text), None)
+            self.assertEqual(gesture.length, 2.0)
+            self.assertEqual(gesture.at(1.0), [(1, 0.01)])
 
     def test_reads_positions_per_tick(self):
         path = self.write("tick,x0,x1\n7,0,0.01\n8,0.02,0.03\n")
@@ -53,6 +62,8 @@ class PlayGestureTest(unittest.TestCase):
                 ("tick,x0\n0,zero\n", 100.0, "g.csv:2: error: expected tick"),
                 ("tick,x0\n0,nan\n", 100.0, "g.csv:2: error: expected tick"),
                 ("time_s,slice,target_m\n0,1,inf\n", None, "g.csv:2: error: expected time_s"),
+                ("0;0;0\n0,5;0;0,02\n", None, "g.csv:1: error: a semicolon separates the fields"),
+                ("0,0,0\n".encode("utf-16"), None, "g.csv:1: error: the text is UTF-16, allowed: UTF-8"),
                 ("# nothing\n", None, "no targets")]:
             with self.assertRaises(SystemExit) as refused:
                 play_gesture.read_csv(self.write(text), rate)

@@ -22,7 +22,7 @@ TEST(PositionsCsvTest, GivesEveryDoubleBackBitForBit) {
   using Limits = std::numeric_limits<double>;
   const std::array<Pair, 4> written{{{0.1, -1.0 / 3.0},
                                      {Limits::denorm_min(), -0.0},
-                                     {Limits::max(), Limits::min()},
+                                     {-1e30, Limits::min()},
                                      {0.1 + Limits::epsilon(), 1e-17}}};
   const ScratchFile file;
   {
@@ -49,16 +49,19 @@ TEST(PositionsCsvTest, GivesEveryDoubleBackBitForBit) {
 }
 
 TEST(PositionsCsvTest, SaysWhereTheFileIsWrong) {
-  EXPECT_EQ(positionsError(""), ":1:1: error: no header line, expected tick,x0,...");
-  EXPECT_EQ(positionsError("0,0.1\n"), ":1:1: error: header '0', expected 'tick'");
-  EXPECT_EQ(positionsError("tick\n"), ":1:1: error: 1 columns, expected 2");
-  EXPECT_EQ(positionsError("tick,x1\n"), ":1:6: error: header 'x1', expected 'x0'");
-  EXPECT_EQ(positionsError("tick,x0\n5,0\n7,0\n"), ":3:1: error: tick '7', allowed 6...6");
-  EXPECT_EQ(positionsError("tick,x0\n-1,0\n").substr(0, 22), ":2:1: error: tick '-1'");
-  EXPECT_EQ(positionsError("tick,x0\n0,nan\n").substr(0, 27), ":2:3: error: position 'nan'");
-  EXPECT_EQ(positionsError("tick,x0,x1\n0,0\n"), ":2:3: error: 2 columns, expected 3");
-  EXPECT_EQ(positionsError("tick,x0\n9223372036854775806,0\n"),
-            ":2:1: error: tick '9223372036854775806', allowed 0...1000000000000000");
+  EXPECT_EQ(positionsError(""),
+            ":1:1: error: no line tick,x0,... above the rows, allowed: positions of every tick");
+  EXPECT_THAT(positionsError("# of a hand\n0,0.1\n"), StartsWith(":2:1: error: no line tick,x0"));
+  EXPECT_EQ(positionsError("tick\n"), ":1:5: error: column '' of the header, allowed: x0");
+  EXPECT_EQ(positionsError("tick,x1\n"), ":1:6: error: column 'x1' of the header, allowed: x0");
+  EXPECT_EQ(positionsError("tick,x0\n5,0\n7,0\n"),
+            ":3:1: error: tick = 7, allowed: 6, each tick has a row");
+  EXPECT_THAT(positionsError("tick,x0\n-1,0\n"), StartsWith(":2:1: error: tick = -1 is out of"));
+  EXPECT_THAT(positionsError("tick,x0\n0,nan\n"), StartsWith(":2:3: error: position = 'nan' is"));
+  EXPECT_EQ(positionsError("tick,x0,x1\n0,0\n"),
+            ":2:4: error: position is missing, allowed: a tick and 2 positions in a line");
+  EXPECT_THAT(positionsError("tick,x0\n9223372036854775806,0\n"),
+              StartsWith(":2:1: error: tick = 9.22337203685e+18 is out of range"));
 }
 
 TEST(PositionsCsvTest, RefusesPathsThatCannotBeUsed) {
@@ -127,26 +130,8 @@ TEST(TargetGestureTest, SkipsCommentsBlankLinesSpacesAndCarriageReturns) {
   EXPECT_EQ(gesture.at(1, 0.0).position, 0.02);
 }
 
-class Rows final : public GestureSource {
- public:
-  explicit Rows(std::vector<std::array<double, 2>> rows) : rows_(std::move(rows)) {}
-  int slices() const noexcept override { return 2; }
-  bool next(double* positions) noexcept override {
-    if (row_ == rows_.size()) {
-      return false;
-    }
-    std::copy_n(rows_[row_++].begin(), 2, positions);
-    return true;
-  }
-
- private:
-  std::vector<std::array<double, 2>> rows_;
-  std::size_t row_ = 0;
-};
-
 TEST(TargetGestureTest, MovesOnStraightLinesBetweenRecordedTicks) {
-  Rows rows({{0.01, 0.0}, {0.03, -0.02}, {0.03, -0.06}});
-  TargetGesture gesture(rows, "p.csv", 3);
+  TargetGesture gesture = parse("tick,x0,x1\n7,0.01,0\n8,0.03,-0.02\n9,0.03,-0.06\n", /*slices=*/3);
   gesture.setTickRate(100.0);
   EXPECT_DOUBLE_EQ(gesture.at(0, 0.0).position, 0.01);
   EXPECT_DOUBLE_EQ(gesture.at(0, 0.005).position, 0.02);
@@ -159,31 +144,80 @@ TEST(TargetGestureTest, MovesOnStraightLinesBetweenRecordedTicks) {
 }
 
 TEST(TargetGestureTest, RefusesRecordedPositionsThatNoHandCanFollow) {
-  Rows far({{0.0, 0.0}, {0.0, 0.11}});
-  EXPECT_THROW(TargetGesture(far, "p.csv", 2), Exception);
-  Rows many({{0.0, 0.0}});
-  EXPECT_THROW(TargetGesture(many, "p.csv", 1), Exception);
+  EXPECT_EQ(targetsError("tick,x0,x1\n0,0,0\n1,0,0.11\n"),
+            "g.csv:3:5: error: position = 0.11 m is out of range, allowed: -0.1...0.1 m");
+  EXPECT_EQ(targetsError("tick,x0,x1,x2\n0,0,0,0\n"),
+            "g.csv:1:12: error: columns of more than 2 slices, allowed: at most 2");
 }
 
 TEST(TargetGestureTest, SaysWhereARowIsWrong) {
   const std::string ok = "0,0,0\n";
   EXPECT_EQ(targetsError(ok + "0,0,0.01\n"),
-            "g.csv:2:1: error: time_s '0' is not after the slice's row before it, by 1e-9 s at "
+            "g.csv:2:1: error: time_s = 0 s is not after the slice's row before it, by 1e-9 s at "
             "least");
-  EXPECT_THAT(targetsError(ok + "5e-324,0,0.01\n"), HasSubstr("g.csv:2:1: error: time_s '5e-324'"));
-  EXPECT_EQ(targetsError(ok + "1, 2,0\n"), "g.csv:2:4: error: slice '2', allowed 0...1");
-  EXPECT_EQ(targetsError(ok + "1,-1,0\n"), "g.csv:2:3: error: slice '-1', allowed 0...1");
+  EXPECT_THAT(targetsError(ok + "5e-324,0,0.01\n"),
+              StartsWith("g.csv:2:1: error: time_s = 4.94065645841e-324 s is not after"));
+  EXPECT_EQ(targetsError(ok + "1, 2,0\n"),
+            "g.csv:2:4: error: slice = 2 is out of range, allowed: 0...1");
+  EXPECT_EQ(targetsError(ok + "1,-1,0\n"),
+            "g.csv:2:3: error: slice = -1 is out of range, allowed: 0...1");
+  EXPECT_EQ(targetsError(ok + "1,0.5,0\n"),
+            "g.csv:2:3: error: slice = 0.5, allowed: whole numbers");
   EXPECT_EQ(targetsError(ok + "1,0,0.11\n"),
-            "g.csv:2:5: error: target_m '0.11', allowed -0.1...0.1");
-  EXPECT_EQ(targetsError(ok + "1,0,nan\n"), "g.csv:2:5: error: target_m 'nan', allowed -0.1...0.1");
-  EXPECT_EQ(targetsError(ok + "inf,0,0\n"), "g.csv:2:1: error: time_s 'inf', allowed 0...1e+06");
-  EXPECT_EQ(targetsError(ok + "1,0\n"), "g.csv:2:3: error: 2 columns, expected 3");
-  EXPECT_EQ(targetsError(ok + "1,0,0,7\n"), "g.csv:2:7: error: 4 columns, expected 3");
-  EXPECT_EQ(targetsError(ok + "1,0,0.01x\n"),
-            "g.csv:2:5: error: target_m '0.01x', allowed -0.1...0.1");
-  EXPECT_EQ(targetsError("time_s,slice\n"), "g.csv:1:8: error: 2 columns, expected 3");
-  EXPECT_EQ(targetsError("time_s,key,target_m\n"),
-            "g.csv:1:8: error: header, expected time_s,slice,target_m");
+            "g.csv:2:5: error: target_m = 0.11 m is out of range, allowed: -0.1...0.1 m");
+  EXPECT_EQ(targetsError(ok + "1,0,nan\n"),
+            "g.csv:2:5: error: target_m = 'nan' is not a finite number, allowed: -0.1...0.1 m");
+  EXPECT_EQ(targetsError(ok + "inf,0,0\n"),
+            "g.csv:2:1: error: time_s = 'inf' is not a finite number, allowed: 0...1000000 s");
+  EXPECT_EQ(targetsError(ok + "1,0\n"),
+            "g.csv:2:4: error: target_m is missing, allowed: time_s,slice,target_m");
+  EXPECT_EQ(targetsError(ok + "1,0,0,7\n"),
+            "g.csv:2:7: error: more than 3 fields in a line, allowed: time_s,slice,target_m");
+  EXPECT_THAT(targetsError(ok + "1,0,0.01x\n"),
+              StartsWith("g.csv:2:5: error: target_m = '0.01x' is not a finite number"));
+  EXPECT_EQ(targetsError("time_s,slice\n"),
+            "g.csv:1:13: error: column '' of the header, allowed: time_s,slice,target_m, or "
+            "tick,x0,x1,...");
+  EXPECT_THAT(targetsError("time_s,key,target_m\n"),
+              StartsWith("g.csv:1:8: error: column 'key' of the header, allowed: time_s,slice"));
+}
+
+/// What spreadsheets and scripts write.
+TEST(TargetGestureTest, ReadsFilesOfAnyProgram) {
+  const std::string header = "time_s,slice,target_m\n";
+  for (const std::string& text : std::vector<std::string>{
+           "\xEF\xBB\xBFtime_s,slice,target_m\r\n0,1,0.01\r\n1,1,0.03\r\n",
+           "time_s,slice,target_m\r0,1,0.01\r1,1,0.03\r",
+           header + "+0.0,+1,+0.01\n+1.0e0,1.0,+3.0E-02\n",
+           "Time_S,SLICE,Target_m\n0,1,0.01\n1,1,0.03\n",
+           "\"time_s\",\"slice\",\"target_m\"\n\"0\",\"1\",\" 0.01\"\n\"1\",1,\"0.03\"\n",
+           "sep=,\n" + header + "0,1,0.01,,\n,,,\n1,1,0.03,,\n",
+           "\"SEP=,\"\r\n" + header + "# \xFC; 0,5\n0,1,0.01  # start\n1\t1\t0.03\n",
+       }) {
+    const TargetGesture gesture = parse(text);
+    EXPECT_DOUBLE_EQ(gesture.at(1, 0.5).position, 0.02) << text;
+    EXPECT_EQ(gesture.at(1, 2.0).position, 0.03) << text;
+  }
+}
+
+TEST(TargetGestureTest, SaysHowToSaveWhatItCannotRead) {
+  EXPECT_EQ(targetsError("time_s;slice;target_m\n0;0;0\n0,5;0;0,02\n"),
+            "g.csv:1:7: error: a semicolon separates the fields, as spreadsheets write it where "
+            "numbers have commas, allowed: commas between the fields and points in the numbers "
+            "(in a spreadsheet, save as CSV with English number formats)");
+  EXPECT_THAT(targetsError("0,0,0\n\"0,5\",0,0.02\n"),
+              StartsWith("g.csv:2:1: error: time_s = '0,5' has a decimal comma, allowed: commas"));
+  EXPECT_THAT(targetsError("0\t0\t0\n0,5\t0\t0,02\n"),
+              StartsWith("g.csv:2:2: error: a comma between digits, where blanks separate"));
+  EXPECT_THAT(targetsError("sep=;\n0;0;0\n"),
+              StartsWith("g.csv:1:1: error: the line names another separator"));
+  EXPECT_THAT(targetsError(std::string("\xFF\xFE"
+                                       "0\0,\0"
+                                       "0\0,\0"
+                                       "0\0\n\0",
+                                       14)),
+              StartsWith("g.csv:1:1: error: the text is UTF-16, which has two bytes for each "
+                         "letter, allowed: UTF-8"));
 }
 
 TEST(TargetGestureTest, RefusesAFileThatIsNotThere) {
@@ -191,13 +225,15 @@ TEST(TargetGestureTest, RefusesAFileThatIsNotThere) {
 }
 
 /// Of a device of six slices, with ports at the first two.
-std::vector<std::string> gestureWarningsOf(const std::string& rows, double seconds = 4.0) {
+std::vector<std::string> gestureWarningsOf(const std::string& rows,
+                                           double seconds = 4.0,
+                                           double late_s = 0.0) {
   const ScratchFile file("time_s,slice,target_m\n" + rows);
   VirtualDriverConfig config;
   config.slices = 6;
   config.gesture_file = file.path();
   config.others[1].stop = 0.1;
-  return gestureWarnings(config, 0b11, seconds);
+  return gestureWarnings(config, 0b11, seconds, late_s);
 }
 
 TEST(GestureWarningsTest, SayWhatIsNotPlayedAsItIsWritten) {
@@ -209,7 +245,10 @@ TEST(GestureWarningsTest, SayWhatIsNotPlayedAsItIsWritten) {
   EXPECT_THAT(gestureWarningsOf("0,5,0\n0,3,0\n"),
               testing::ElementsAre(HasSubstr("it moves slices 3, 5, which no port")));
   EXPECT_THAT(gestureWarningsOf("0,0,0\n1000,0,0.01\n", 1.0),
-              testing::ElementsAre(HasSubstr("its last row is at 1000 s, and 1 s are played")));
+              testing::ElementsAre(HasSubstr("the gesture ends 999 s after the render does, at "
+                                             "1000 s; times are in seconds")));
+  EXPECT_THAT(gestureWarningsOf("0,0,0\n9,0,0.01\n", 1.0, 9.0), testing::IsEmpty());
+  EXPECT_THAT(gestureWarningsOf("0,0,0\n1000,0,0.01\n", 1.0, 9.0), testing::SizeIs(1));
   EXPECT_THAT(gestureWarningsOf(""), testing::ElementsAre(HasSubstr("has no rows")));
 }
 

@@ -63,9 +63,11 @@ std::unique_ptr<Driver> makeVirtualDriver(const VirtualDriverConfig& config);
 /// at all. Nothing for a file of positions.
 /// \param slices_in_use  bit i: a port of the scene follows slice i
 /// \param seconds        how long is played
+/// \param late_s         how much later rows may be without a word, s
 /// \throws TextError from the gesture file
 std::vector<std::string> gestureWarnings(const VirtualDriverConfig& config,
                                          std::uint64_t slices_in_use,
-                                         double seconds);
+                                         double seconds,
+                                         double late_s = 0.0);
 
 }  // namespace ergotic::tgr

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/language/speaker_file.hpp"
 
-#include "scene/text/csv_line.hpp"
+#include <sstream>
+
+#include "scene/text/csv.hpp"
 #include "scene/tree/near_file.hpp"
 #include "scene/tree/yaml_map.hpp"
 
@@ -10,7 +12,19 @@ namespace {
 
 constexpr std::size_t kMostSpeakers = 64;
 constexpr std::size_t kMostBytes = 1U << 16U;
-constexpr const char* kLine = "azimuth, elevation, channel";
+constexpr const char* kColumns = "azimuth,elevation,channel";
+
+Node readSpeaker(const CsvReader& csv, Place place) {
+  Node speaker(Node::Kind::kList, place);
+  const auto add = [&](double number, const char* unit) {
+    speaker.add({Node::Kind::kScalar, place, shortest(number) + unit});
+  };
+  add(csv.number(0, "azimuth", {"deg"}), " deg");
+  add(csv.number(1, "elevation", {"deg"}), " deg");
+  add(csv.whole(2, "channel", kChannelLimits), "");
+  csv.expectEnd(3);
+  return speaker;
+}
 
 }  // namespace
 
@@ -22,20 +36,17 @@ Node speakersIn(const SceneBuilder& builder, const Node& spec, Place place) {
   const std::string path = pathOfNear(builder, name, "", where);
   const std::string text = readNear(builder, path, kMostBytes, "", where);
   Node list(Node::Kind::kList, place);
-  forEachCsvLine(text, path, [&](CsvLine& line) {
-    Node speaker(Node::Kind::kList, place);
-    for (const char* const what : {"azimuth", "elevation", "channel"}) {
-      const bool is_angle = what[0] != 'c';
-      const double number = line.number(what, is_angle ? Limits{"deg"} : kChannelLimits, kLine);
-      speaker.add({Node::Kind::kScalar, place, shortest(number) + (is_angle ? " deg" : "")});
-      line.skipSeparator();
+  std::istringstream in(text);
+  CsvReader csv(in, path, kColumns);
+  while (csv.next()) {
+    if (csv.isHeader()) {
+      continue;
     }
-    line.expectEnd(std::string("a speaker has more than 3 numbers, allowed: ") + kLine);
     if (list.size() == kMostSpeakers) {
-      line.fail("too many speakers, allowed: 64");
+      csv.fail(0, "too many speakers, allowed: " + std::to_string(kMostSpeakers));
     }
-    list.add(std::move(speaker));
-  });
+    list.add(readSpeaker(csv, place));
+  }
   return list;
 }
 

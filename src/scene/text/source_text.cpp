@@ -55,25 +55,41 @@ std::string hex(unsigned byte) {
 
 }  // namespace
 
-void checkBytes(const std::string& text, const std::string& file, Bytes allowed) {
+void checkBytes(const std::string& text, const std::string& file, Bytes allowed, int first_line) {
   if (text.size() > kMaxTextBytes) {
     throw TextError(file, 1, 1,
                     "the text has " + std::to_string(text.size()) + " bytes, allowed: at most " +
                         std::to_string(kMaxTextBytes));
   }
+  if (first_line == 1) {
+    refuseUtf16(text, file);
+  }
   const auto control = std::find_if(text.begin(), text.end(), isForbiddenControl);
   if (control != text.end()) {
     const auto offset = static_cast<std::size_t>(control - text.begin());
     const Place place = placeAt(text, offset);
-    throw TextError(file, place.line, place.column,
+    throw TextError(file, place.line + first_line - 1, place.column,
                     "control character " + hex(byteAt(text, offset)) +
                         " in a text, allowed: tab and line ends only");
   }
   const std::size_t bad = allowed == Bytes::kUtf8 ? findNonUtf8(text) : std::string::npos;
   if (bad != std::string::npos) {
     const Place place = placeAt(text, bad);
-    throw TextError(file, place.line, place.column,
+    throw TextError(file, place.line + first_line - 1, place.column,
                     "byte " + hex(byteAt(text, bad)) + " is not UTF-8, allowed: UTF-8 only");
+  }
+}
+
+void refuseUtf16(const std::string& text, const std::string& file) {
+  const auto isNul = [&text](std::size_t offset) { return text[offset] == '\0'; };
+  const std::string mark = text.substr(0, 2);
+  const bool has_mark = mark == "\xFF\xFE" || mark == "\xFE\xFF";
+  const bool has_half_letters =
+      text.size() >= 4 && isNul(0) == isNul(2) && isNul(1) == isNul(3) && isNul(0) != isNul(1);
+  if (has_mark || has_half_letters) {
+    throw TextError(file, 1, 1,
+                    "the text is UTF-16, which has two bytes for each letter, allowed: UTF-8 (an "
+                    "editor or a spreadsheet offers it where a file is saved: `CSV UTF-8`)");
   }
 }
 

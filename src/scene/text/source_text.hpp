@@ -15,8 +15,16 @@ enum class Bytes {
 
 /// Refuses what no scene text may hold: more than 64 MB, NUL and other control characters (tab and
 /// line ends excepted), and bytes that are not UTF-8 if these are not allowed.
+/// \param first_line  number of the line with which the text begins
 /// \throws TextError at the first such byte
-void checkBytes(const std::string& text, const std::string& file, Bytes allowed);
+void checkBytes(const std::string& text,
+                const std::string& file,
+                Bytes allowed,
+                int first_line = 1);
+
+/// Says of a text that has two bytes for each letter what it is and how to save it. checkBytes does
+/// so, too. \throws TextError
+void refuseUtf16(const std::string& text, const std::string& file);
 
 /// Offset of the first byte that is not part of a well-formed UTF-8 character, npos if there is
 /// none.

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "scene/rules/lia_rules.hpp"
 #include "scene/rules/mover_rules.hpp"
-#include "scene/yaml/gesture_csv.hpp"
+#include "scene/text/gesture_csv.hpp"
 #include "scene/yaml/point_files.hpp"
 #include "scene/yaml/points.hpp"
 #include "scene/yaml/yaml_elements.hpp"
@@ -112,6 +113,44 @@ PointList knotsIn(const SceneBuilder& builder,
   return knots;
 }
 
+/// Where one slice of a gesture file goes: its times, or its ticks from the first one on, and m.
+struct GestureOfSlice {
+  bool in_ticks = false;
+  PointList points;
+};
+
+void addPoint(const GestureReader& rows, int slice, double first_tick, PointList& points) {
+  if (rows.isInTicks()) {
+    points.emplace_back(rows.time() - first_tick,
+                        rows.positions()[static_cast<std::size_t>(slice)]);
+  } else if (rows.slice() == slice) {
+    points.emplace_back(rows.time(), rows.target());
+  }
+}
+
+GestureOfSlice readGesture(const PointFiles::File& file, int slice) {
+  std::istringstream in(file.text);
+  constexpr auto kMostSlices = static_cast<int>(kSliceLimits.maximum) + 1;
+  GestureReader rows(in, file.path, kMostSlices, kTargetLimits);
+  if (slice >= rows.slices()) {
+    rows.failAtLine("no column of slice " + std::to_string(slice) + ", there are " +
+                    std::to_string(rows.slices()) + " slices");
+  }
+  GestureOfSlice gesture{rows.isInTicks(), {}};
+  double first_tick = -1.0;
+  while (rows.next()) {
+    first_tick = first_tick < 0.0 ? rows.time() : first_tick;
+    addPoint(rows, slice, first_tick, gesture.points);
+    if (gesture.points.size() > kMaxSceneTablePoints) {
+      rows.fail("too many points, allowed: " + std::to_string(kMaxSceneTablePoints));
+    }
+  }
+  if (gesture.points.empty()) {
+    rows.failAtLine("the gesture has nothing of slice " + std::to_string(slice));
+  }
+  return gesture;
+}
+
 /// `gesture: {file: ..., slice: ..., tick_rate: ...}`
 PointList knotsOfFile(const SceneBuilder& builder,
                       PointFiles& files,
@@ -130,7 +169,7 @@ PointList knotsOfFile(const SceneBuilder& builder,
     return knotsIn(builder, *appended->points, "gesture " + quoted(name), appended->place);
   }
   const PointFiles::File file = files.open(spec);
-  GestureOfSlice gesture = readGestureCsv(file.text, file.path, slice);
+  GestureOfSlice gesture = readGesture(file, slice);
   if (gesture.in_ticks != spec.has("tick_rate")) {
     builder.fail(spec.place(),
                  quoted(file_name) + (gesture.in_ticks ? " counts ticks" : " is in seconds") +

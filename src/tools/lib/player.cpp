@@ -97,8 +97,8 @@ class HandPlayer final : public Player {
 
   std::string trouble() const override { return trouble_; }
 
-  std::vector<std::string> gestureWarnings(double seconds) const override {
-    return tgr::gestureWarnings(device_, slices_in_use_, seconds);
+  std::vector<std::string> gestureWarnings(double seconds, double late_s) const override {
+    return tgr::gestureWarnings(device_, slices_in_use_, seconds, late_s);
   }
 
  private:

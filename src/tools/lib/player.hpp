@@ -35,8 +35,11 @@ class Player {
   /// Ticks that are left to play; -1: no end.
   virtual std::int64_t ticksLeft() const { return -1; }
 
-  /// What of the gesture is not played as it is written, if not more than `seconds` are played.
-  virtual std::vector<std::string> gestureWarnings(double /*seconds*/) const { return {}; }
+  /// What of the gesture is not played as it is written, if `seconds` are played. Rows may be
+  /// `late_s` later without a word.
+  virtual std::vector<std::string> gestureWarnings(double /*seconds*/, double /*late_s*/) const {
+    return {};
+  }
 };
 
 /// The instrument alone: nobody touches the slices, they rest at the zero of the hand. The sound

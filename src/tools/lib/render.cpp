@@ -208,6 +208,18 @@ std::int64_t framesOf(const RenderOptions& options, const Player& player) {
   return player.ticksLeft() < 0 ? std::llround(kDefaultSeconds * rate) : recorded;
 }
 
+/// Who says --seconds may want the beginning of a gesture, but hardly a tenth of it: what is longer
+/// is written in milliseconds.
+void sayWhatOfTheGestureIsLost(const RenderOptions& options, const Player& player) {
+  constexpr double kHardlyWanted = 9.0;
+  const bool is_chosen = options.seconds > 0.0;
+  const double seconds = is_chosen ? options.seconds : kDefaultSeconds;
+  for (const std::string& warning :
+       player.gestureWarnings(seconds, is_chosen ? kHardlyWanted * seconds : 0.0)) {
+    say(warning);
+  }
+}
+
 /// Plays `frames` frames, or as many as there are. \return seconds of work
 double playFrames(Player& player, std::int64_t frames, FrameWriter& writer) {
   const rt::FlushDenormals fast;
@@ -327,10 +339,7 @@ int render(const RenderOptions& options) {
   FrameWriter writer(options.out, player->rates().audio_hz, player->outputChannels(),
                      audio::wavFormatOf(options.out_format), wishOf(options));
   const std::int64_t frames = framesOf(options, *player);
-  const double usual_s = options.seconds > 0.0 ? kInfinity : kDefaultSeconds;
-  for (const std::string& warning : player->gestureWarnings(usual_s)) {
-    say(warning);
-  }
+  sayWhatOfTheGestureIsLost(options, *player);
   const double work_s = playFrames(*player, frames, writer);
   const std::vector<std::string> flaws = player->flaws();
   for (const std::string& flaw : flaws) {

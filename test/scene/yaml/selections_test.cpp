@@ -188,7 +188,8 @@ TEST(SelectionsTest, PublicNamesOfInstancesAreMeantByAStar) {
 }
 
 TEST(SelectionsTest, SpeakersOfAFileAreThoseThatItLists) {
-  const test::ScratchFile room("0, 0, 3\n90, 0, 5\n180, 0, 6\n-90, 0, 7\n");
+  const test::ScratchFile room(
+      "Azimuth,elevation,channel\r\n0, 0, 3\n90, 0, 5\n180, 0, 6\n-90, 0, 7\n");
   const std::string file = "speakers: {file: " + room.path().substr(5) + "}";
   const std::string mass =
       "ergotic: 1\nsections: {a: {rate: audio}}\nmats: {m: {type: mass, mass: 1}}\n";

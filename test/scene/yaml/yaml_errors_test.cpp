@@ -17,6 +17,16 @@ TEST(YamlErrorsTest, BytesThatNoTextHasAreRefusedAtTheirPlace) {
   expectRefused({SECTION_HEAD "name: a<!>\x04z\n", "control character 0x04"}, "bad.yaml");
 }
 
+TEST(YamlErrorsTest, TextsOfTwoBytesForEachLetterAreCalledSo) {
+  using std::string_literals::operator""s;
+  for (const std::string& text : {"\xFF\xFE"
+                                  "e\0r\0"s,
+                                  "\xFE\xFF\0e\0r"s, "e\0r\0g\0"s, "\0e\0r\0g"s}) {
+    EXPECT_THAT(complaintOf<TextError>([&] { readYaml(text, "a.yaml"); }),
+                StartsWith("a.yaml:1:1: error: the text is UTF-16"));
+  }
+}
+
 TEST(YamlErrorsTest, NulByteIsRefusedAtItsPlace) {
   const std::string text = std::string("ergotic: 1\nname: a") + '\0' + "b\n";
   EXPECT_THAT(complaintOf<TextError>([&] { readYaml(text, "nul.yaml"); }),

@@ -52,7 +52,9 @@ void expectAlike(const Scene& a, const Scene& b) {
 }
 
 TEST_F(YamlPartialsTest, AreThoseOfTheFileWrittenOut) {
-  const std::string csv = "# of a bell\n440, 3, 0.2, 1, -0.5\n881.5 2.5 0.2 0.3 1  # the octave\n";
+  const std::string csv =
+      "# of a bell\nFrequency,T60,mass,p,q\n440, 3, 0.2, 1, -0.5\n881.5 2.5 0.2 0.3 1  # the "
+      "octave\n";
   const char rows[] = "[[440, 3, 0.2, 1, -0.5], [881.5, 2.5, 0.2, 0.3, 1]]";
   expectAlike(read(csv), readYaml(text(rows), "a.yaml"));
   const char ratios[] = "[[0.5, 3, 0.2, 1, -0.5], [1.183, 2.5, 0.2, 0.3, 1]]";
@@ -74,7 +76,7 @@ TEST_F(YamlPartialsTest, BrokenFilesAreToldWithTheirPlace) {
   expectRefused("440, 3\n",
                 "1:7: error: mass is missing, allowed: frequency, t60, mass and 2 weights");
   expectRefused("440, 3, 1, 1\n", "1:13: error: a weight is missing");
-  expectRefused("440, 3, 1, 1, 1, 1\n", "1:18: error: more than 5 numbers in a line");
+  expectRefused("440, 3, 1, 1, 1, 1\n", "1:18: error: more than 5 fields in a line");
   expectRefused("440, 3, 1, 1, 1\n0, 3, 1, 1, 1\n", "2:1: error: frequency = 0 Hz is out of range");
   expectRefused("21000, 3, 1, 1, 1\n", "1:1: error: frequency = 21000 Hz is out of range");
   expectRefused("100, 3, 1, 1, 1\n", "1:1: error: frequency = 44000 Hz", ", pitch: A4");

@@ -173,16 +173,17 @@ TEST_F(GestureFileTest, TextHoldsTablesAndGesturesSideBySide) {
 }
 
 TEST_F(GestureFileTest, WhatIsWrongIsToldWithItsLine) {
-  expectRefused("0,0,1\n0,0,2\n", "slice: 0", "g.csv:2:1: error: time = 0 s is out of range");
-  expectRefused("0,0\n", "slice: 0", "g.csv:1:4: error: target is missing");
-  expectRefused("0,0,1,2\n", "slice: 0", "g.csv:1:6: error: more than three numbers");
+  expectRefused("0,0,1\n0,0,2\n", "slice: 0",
+                "g.csv:2:1: error: time_s = 0 s is not after the slice's row before it");
+  expectRefused("0,0\n", "slice: 0", "g.csv:1:4: error: target_m is missing");
+  expectRefused("0,0,1,2\n", "slice: 0", "g.csv:1:7: error: more than 3 fields");
   expectRefused("0,0,1\n", "slice: 1", "g.csv:1:1: error: the gesture has nothing of slice 1");
   expectRefused("tick,x0\n0,1\n", "slice: 1, tick_rate: 1000",
                 "g.csv:1:1: error: no column of slice 1, there are 1 slices");
   expectRefused("tick,y0\n0,1\n", "slice: 0, tick_rate: 1000",
-                "g.csv:1:6: error: column 'y0', allowed: x0");
+                "g.csv:1:6: error: column 'y0' of the header, allowed: x0");
   expectRefused("tick,x0\n0,1\n0,2\n", "slice: 0, tick_rate: 1000",
-                "g.csv:3:1: error: tick = 0 is out of range, allowed: > 0");
+                "g.csv:3:1: error: tick = 0 is out of range, allowed: 1...");
   expectRefused("tick,x0\n0.5,1\n", "slice: 0, tick_rate: 1000",
                 "g.csv:2:1: error: tick = 0.5, allowed: whole numbers");
   expectRefused("tick,x0\n0,1\n", "slice: 0",

@@ -157,24 +157,33 @@ TEST_F(YamlTablesTest, PathsBeginAtTheFolderOfTheScene) {
             2U);
 }
 
+TEST_F(YamlTablesTest, FilesMayHaveAHeaderAndEmptyFieldsAtTheEnd) {
+  const Table table = tableOf("\xEF\xBB\xBF\"compression m\",force_N,,\r\n0,+1,,\r\n1e0,2,,\r\n");
+  EXPECT_EQ(table.points, (std::vector<std::pair<double, double>>{{0.0, 1.0}, {1.0, 2.0}}));
+}
+
 TEST_F(YamlTablesTest, ErrorsInAFileAreToldWithItsPlace) {
   expectCsvRefused("# nothing\n", "1:1: error: the table has 0 points, allowed: 2...4096");
   expectCsvRefused("", "1:1: error: the table has 0 points, allowed: 2...4096");
   expectCsvRefused("0 1\n# end\n", "2:1: error: the table has 1 points, allowed: 2...4096");
-  expectCsvRefused("x, y\n0, 1\n",
-                   "1:1: error: first number of a point = 'x' is not a finite number");
+  expectCsvRefused("nan, 0\n0, 1\n",
+                   "1:1: error: first number of a point = 'nan' is not a finite number");
+  expectCsvRefused("0, 1\nx, y\n",
+                   "2:1: error: first number of a point = 'x' is not a finite number");
   expectCsvRefused("0 1\n 1 nan\n",
                    "2:4: error: force of a point = 'nan' is not a finite number, allowed: any "
                    "finite number of N");
   expectCsvRefused("0 1\n1\n", "2:2: error: force of a point is missing");
   expectCsvRefused("0 1\n1, # 2\n", "2:4: error: force of a point is missing");
   expectCsvRefused("0 1\n,1 2\n", "2:1: error: first number of a point is missing");
-  expectCsvRefused("0 1\n1 2 3\n", "2:5: error: more than two numbers in a line, allowed: two");
-  expectCsvRefused("0 1\n1 2,\n", "2:4: error: more than two numbers in a line, allowed: two");
+  expectCsvRefused("0 1\n1 2 3\n",
+                   "2:5: error: more than 2 fields in a line, allowed: two numbers");
   expectCsvRefused("0 1\n0 2\n",
                    "2:1: error: first number of a point = 0 is out of range, allowed: > 0");
   expectCsvRefused(std::string("0 1\n1 2\0", 8), "2:4: error: control character 0x00");
-  expectCsvRefused("0 1\n1 2 # \xE9\n", "2:7: error: byte 0xE9 is not UTF-8");
+  expectCsvRefused("0 1\n1 \xE9 # 2\n", "2:3: error: byte 0xE9 is not UTF-8");
+  expectCsvRefused("0;1\n1;2\n", "1:2: error: a semicolon separates the fields");
+  expectCsvRefused("0\t0,5\n", "1:4: error: a comma between digits, where blanks separate");
   std::string many;
   for (int i = 0; i <= 4096; ++i) {
     many += std::to_string(i) + " 0\n";

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
+#include <sstream>
 #include <vector>
 
-#include "ergotic/exception.hpp"
-#include "scene/text/csv_line.hpp"
+#include "scene/text/csv.hpp"
 #include "scene/yaml/generators/body_keys.hpp"
 #include "scene/yaml/generators/generator_keys.hpp"
 #include "scene/yaml/generators/readers.hpp"
@@ -79,37 +78,43 @@ Partial readPartial(const SceneBuilder& builder,
   return partial;
 }
 
+std::vector<double> readRow(const CsvReader& csv, double pitch_hz, std::size_t places) {
+  std::vector<double> row;
+  const auto read = [&](const char* what, const Limits& limits) {
+    row.push_back(csv.number(row.size(), what, limits));
+  };
+  read(pitch_hz > 0.0 ? "ratio" : "frequency", limitsOfFrequency(pitch_hz));
+  if (pitch_hz > 0.0 && !limitsOfFrequency(0.0).hold(pitch_hz * row[0])) {
+    csv.fail(0, outOfRange("frequency", pitch_hz * row[0], limitsOfFrequency(0.0)));
+  }
+  read("t60", kT60Limits);
+  read("mass", kMassLimits);
+  for (std::size_t p = 0; p < places; ++p) {
+    read("a weight", kWeightLimits);
+  }
+  csv.expectEnd(kColumns + places);
+  return row;
+}
+
 /// As many numbers in each line as a row has.
 RowList readRows(const PointFiles::File& file, double pitch_hz, std::size_t places) {
   const std::string columns =
       "frequency, t60, mass" +
       (places > 0 ? " and " + std::to_string(places) + " weights" : std::string()) + " in a line";
+  std::istringstream in(file.text);
+  CsvReader csv(in, file.path, columns);
   RowList rows;
-  const int lines = forEachCsvLine(file.text, file.path, [&](CsvLine& csv) {
+  while (csv.next()) {
+    if (csv.isHeader()) {
+      continue;
+    }
     if (rows.size() == kMostRows) {
-      csv.fail("too many partials, allowed: 1..." + std::to_string(kMostRows));
+      csv.fail(0, "too many partials, allowed: 1..." + std::to_string(kMostRows));
     }
-    std::vector<double> row;
-    const auto read = [&](const char* what, const Limits& limits) {
-      row.push_back(csv.number(what, limits, columns));
-      csv.skipSeparator();
-    };
-    read(pitch_hz > 0.0 ? "ratio" : "frequency", limitsOfFrequency(pitch_hz));
-    if (pitch_hz > 0.0 && !limitsOfFrequency(0.0).hold(pitch_hz * row[0])) {
-      csv.fail(outOfRange("frequency", pitch_hz * row[0], limitsOfFrequency(0.0)));
-    }
-    read("t60", kT60Limits);
-    read("mass", kMassLimits);
-    for (std::size_t p = 0; p < places; ++p) {
-      read("a weight", kWeightLimits);
-    }
-    csv.expectEnd("more than " + std::to_string(kColumns + places) +
-                  " numbers in a line, allowed: " + columns);
-    rows.push_back(std::move(row));
-  });
+    rows.push_back(readRow(csv, pitch_hz, places));
+  }
   if (rows.empty()) {
-    throw TextError(file.path, std::max(lines, 1), 1,
-                    "the list has no partials, allowed: 1..." + std::to_string(kMostRows));
+    csv.failAtLine("the list has no partials, allowed: 1..." + std::to_string(kMostRows));
   }
   return rows;
 }

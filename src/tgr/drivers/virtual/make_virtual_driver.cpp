@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ergotic/tgr/gesture.hpp"
 #include "ergotic/tgr/virtual_driver.hpp"
 #include "scene/limits.hpp"
 #include "tgr/drivers/virtual/in_process_driver.hpp"
@@ -44,7 +45,8 @@ std::unique_ptr<Driver> makeVirtualDriver(const VirtualDriverConfig& config) {
 
 std::vector<std::string> gestureWarnings(const VirtualDriverConfig& config,
                                          std::uint64_t slices_in_use,
-                                         double seconds) {
+                                         double seconds,
+                                         double late_s) {
   const std::string start = config.gesture_file + ": warning: ";
   if (gestureKindOf(config.gesture_file) == GestureKind::kPositions) {
     return {};
@@ -75,10 +77,10 @@ std::vector<std::string> gestureWarnings(const VirtualDriverConfig& config,
     warnings.push_back(start + "it moves " + (idle.size() == 1 ? "slice " : "slices ") +
                        listOf(idle) + ", which no port of the scene follows");
   }
-  if (last_s > seconds) {
-    warnings.push_back(start + "its last row is at " + scene::numberText(last_s) + " s, and " +
-                       scene::numberText(seconds) +
-                       " s are played (--seconds says how many; times are in seconds)");
+  if (last_s > seconds + late_s) {
+    warnings.push_back(start + "the gesture ends " + scene::numberText(last_s - seconds) +
+                       " s after the render does, at " + scene::numberText(last_s) +
+                       " s; times are in seconds, and --seconds says how long is played");
   }
   return warnings;
 }

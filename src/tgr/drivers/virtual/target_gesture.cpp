@@ -2,67 +2,26 @@
 #include "tgr/drivers/virtual/target_gesture.hpp"
 
 #include <algorithm>
-#include <array>
 
-#include "ergotic/exception.hpp"
 #include "ergotic/rt/realtime.hpp"
 #include "files/read_file.hpp"
-#include "tgr/csv.hpp"
-#include "tgr/require.hpp"
+#include "scene/text/gesture_csv.hpp"
 
 namespace ergotic::tgr {
-namespace {
-
-constexpr double kMaxTimeS = 1e6;
-constexpr double kShortestS = 1e-9;  // between rows of a slice: a hand moves at finite speed
-
-bool isHeader(const CsvReader& csv) {
-  if (csv.text(0) != "time_s") {
-    return false;
-  }
-  csv.requireSize(3);
-  if (csv.text(1) != "slice" || csv.text(2) != "target_m") {
-    csv.fail(1, "header, expected time_s,slice,target_m");
-  }
-  return true;
-}
-
-}  // namespace
 
 TargetGesture::TargetGesture(std::istream& in, const std::string& name, int slices)
     : TargetGesture(slices) {
-  CsvReader csv(in, name);
-  for (bool first = true; csv.nextRow(); first = false) {
-    if (first && isHeader(csv)) {
+  scene::GestureReader rows(in, name, slices, {"m", -kMaxTargetM, kMaxTargetM});
+  is_in_ticks_ = rows.isInTicks();
+  double first_tick = -1.0;
+  while (rows.next()) {
+    if (!is_in_ticks_) {
+      knots_[static_cast<std::size_t>(rows.slice())].push_back({rows.time(), rows.target()});
       continue;
     }
-    csv.requireSize(3);
-    const double t_s = csv.number(0, "time_s", 0.0, kMaxTimeS);
-    const auto slice = static_cast<std::size_t>(csv.integer(1, "slice", 0, slices - 1));
-    const double target_m = csv.number(2, "target_m", -kMaxTargetM, kMaxTargetM);
-    std::vector<Knot>& knots = knots_[slice];
-    if (!knots.empty() && t_s - knots.back().t < kShortestS) {
-      csv.fail(0, "time_s '" + std::string(csv.text(0)) +
-                      "' is not after the slice's row before it, by 1e-9 s at least");
-    }
-    knots.push_back({t_s, target_m});
-  }
-}
-
-TargetGesture::TargetGesture(GestureSource& positions, const std::string& name, int slices)
-    : TargetGesture(slices) {
-  if (positions.slices() > slices) {
-    throw Exception(name + ": positions of " + std::to_string(positions.slices()) +
-                    " slices, allowed: at most " + std::to_string(slices));
-  }
-  is_in_ticks_ = true;
-  std::array<double, kMaxSlices> x{};
-  for (double tick = 0.0; positions.next(x.data()); tick += 1.0) {
-    for (int i = 0; i < positions.slices(); ++i) {
-      const auto slot = static_cast<std::size_t>(i);
-      requireWithin(name + ": position of slice " + std::to_string(i), x[slot], -kMaxTargetM,
-                    kMaxTargetM, "m");
-      knots_[slot].push_back({tick, x[slot]});
+    first_tick = first_tick < 0.0 ? rows.time() : first_tick;
+    for (std::size_t i = 0; i < rows.positions().size(); ++i) {
+      knots_[i].push_back({rows.time() - first_tick, rows.positions()[i]});
     }
   }
 }
@@ -104,9 +63,6 @@ ERGOTIC_REALTIME HandTarget TargetGesture::at(int slice, double t_s) const noexc
 TargetGesture readTargetGesture(const std::string& path, int slices) {
   if (path.empty()) {
     return TargetGesture(slices);
-  }
-  if (gestureKindOf(path) == GestureKind::kPositions) {
-    return {*readPositionsCsv(path), path, slices};
   }
   std::ifstream in = files::openFile(path, files::kMaxRecordingBytes);
   return {in, path, slices};

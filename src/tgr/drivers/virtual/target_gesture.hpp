@@ -5,16 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "ergotic/tgr/gesture.hpp"
 #include "tgr/drivers/virtual/virtual_slice.hpp"
 
 namespace ergotic::tgr {
 
-/// Where the virtual hands want to be over time, from a CSV of one of two kinds:
-///
-/// - `time_s,slice,target_m` (that line may stand on top; `#` starts a comment line). The rows of a
-///   slice come in increasing time; slices may interleave.
-/// - `tick,x0,...`: what `readPositionsCsv` reads, as of a recording. The first row is time 0.
+/// Where the virtual hands want to be over time, from a gesture file of either kind
+/// (scene/text/gesture_csv.hpp). The first row of one that counts ticks is time 0.
 ///
 /// Between the rows of a slice the target moves on a straight line; before its first row it is the
 /// first row's, after its last row the last one's; a slice without rows rests at 0.
@@ -23,13 +19,9 @@ class TargetGesture {
   /// All slices rest at 0.
   explicit TargetGesture(int slices) : knots_(static_cast<std::size_t>(slices)) {}
 
-  /// Targets. \param name  of the file, for messages
-  /// \throws TextError with file:line:col
+  /// \param name  of the file, for messages
+  /// \throws TextError with file:line:col, also of more slices, and beyond where a hand wants to be
   TargetGesture(std::istream& in, const std::string& name, int slices);
-
-  /// Positions. \param name  as above
-  /// \throws Exception if they are of more slices, or beyond where a hand wants to be
-  TargetGesture(GestureSource& positions, const std::string& name, int slices);
 
   /// Ticks per second; of targets without effect. \pre > 0
   void setTickRate(double tick_rate_hz) noexcept;

@@ -132,7 +132,7 @@ CaptureReport capture(const CaptureConfig& config,
   std::unique_ptr<JackSession> found = search.takeSession();
   report.sample_rate_hz = found->sampleRate();
   Recorder recorder(channels, static_cast<std::size_t>(kRingSeconds * report.sample_rate_hz));
-  WavWriter file(config.path, report.sample_rate_hz, channels, WavFormat::kFloat);
+  WavWriter file(config.path, report.sample_rate_hz, channels, config.format);
   JackConfig ports;
   ports.inputs = channels;
   const std::unique_ptr<JackSession> session = std::move(found);  // ends before what it calls

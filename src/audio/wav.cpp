@@ -5,18 +5,17 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
-#include <sstream>
+#include <filesystem>
+#include <fstream>
+#include <optional>
 
+#include "audio/wav_header.hpp"
 #include "ergotic/exception.hpp"
 
 namespace ergotic::audio {
 
 namespace {
-
-constexpr double kFullScale24 = 8388608.0;  // 2^23
-constexpr int kMaxRate = 1'000'000;
 
 [[noreturn]] void failOn(const std::string& path, const std::string& what) {
   throw Exception(path + ": " + what);
@@ -31,23 +30,29 @@ std::string reason(SNDFILE* file, int system_error) {
   return text;
 }
 
-int sndfileFormat(WavFormat format) {
-  switch (format) {
-    case WavFormat::kFloat:
-      return SF_FORMAT_RF64 | SF_FORMAT_FLOAT;
-    case WavFormat::kDouble:
-      return SF_FORMAT_RF64 | SF_FORMAT_DOUBLE;
-    case WavFormat::k24:
-      return SF_FORMAT_RF64 | SF_FORMAT_PCM_24;
+/// Not of a pipe, which can be read but once.
+std::optional<UnfinishedWav> unfinishedAt(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    return std::nullopt;
   }
-  throw Exception("no such WAV format");
+  std::ifstream file(path, std::ios::binary);
+  return findUnfinished(file);
 }
 
-sf_count_t put(SNDFILE* file, const double* frames, sf_count_t nframes) {
-  return sf_writef_double(file, frames, nframes);
-}
-sf_count_t put(SNDFILE* file, const float* frames, sf_count_t nframes) {
-  return sf_writef_float(file, frames, nframes);
+int subtypeOf(const WavShape& shape) {
+  switch (shape.sample_bytes) {
+    case 1:
+      return SF_FORMAT_PCM_U8;
+    case 2:
+      return SF_FORMAT_PCM_16;
+    case 3:
+      return SF_FORMAT_PCM_24;
+    case 4:
+      return shape.is_float ? SF_FORMAT_FLOAT : SF_FORMAT_PCM_32;
+    default:
+      return SF_FORMAT_DOUBLE;
+  }
 }
 
 }  // namespace
@@ -69,14 +74,41 @@ struct WavReader::File {
   std::string path;
   SF_INFO info{};
   SNDFILE* handle = nullptr;
+  bool is_unfinished = false;
+  sf_count_t left = 0;  // frames: libsndfile goes beyond the end of a raw file
+
+  void open();
+  void open(const UnfinishedWav& unfinished);
 };
 
-WavReader::WavReader(const std::string& path) : file_(new File{path, {}, nullptr}) {
+void WavReader::File::open() {
   errno = 0;
-  file_->handle = sf_open(path.c_str(), SFM_READ, &file_->info);
-  if (file_->handle == nullptr) {
+  handle = sf_open(path.c_str(), SFM_READ, &info);
+  if (handle == nullptr) {
     failOn(path, "cannot read: " + reason(nullptr, errno));
   }
+  left = info.frames;
+}
+
+/// libsndfile believes a header that says 0.
+void WavReader::File::open(const UnfinishedWav& unfinished) {
+  is_unfinished = true;
+  info.samplerate = unfinished.shape.rate;
+  info.channels = unfinished.shape.channels;
+  info.format = SF_FORMAT_RAW | SF_ENDIAN_LITTLE | subtypeOf(unfinished.shape);
+  open();
+  sf_count_t begin = unfinished.begin;
+  if (sf_command(handle, SFC_SET_RAW_START_OFFSET, &begin, sizeof begin) != 0 ||
+      sf_seek(handle, 0, SEEK_SET) != 0) {
+    failOn(path, "cannot read: " + reason(handle, 0));
+  }
+  info.frames = unfinished.frames;
+  left = unfinished.frames;
+}
+
+WavReader::WavReader(const std::string& path) : file_(new File{path}) {
+  const std::optional<UnfinishedWav> unfinished = unfinishedAt(path);
+  unfinished ? file_->open(*unfinished) : file_->open();
 }
 
 WavReader::~WavReader() {
@@ -93,8 +125,14 @@ std::int64_t WavReader::frames() const noexcept {
   return file_->info.frames;
 }
 
+bool WavReader::isUnfinished() const noexcept {
+  return file_->is_unfinished;
+}
+
 std::int64_t WavReader::read(double* to, std::int64_t nframes) {
-  const sf_count_t got = sf_readf_double(file_->handle, to, nframes);
+  const sf_count_t got =
+      sf_readf_double(file_->handle, to, std::min<sf_count_t>(nframes, file_->left));
+  file_->left -= got;
   if (sf_error(file_->handle) != SF_ERR_NO_ERROR) {
     failOn(file_->path, "cannot read: " + reason(file_->handle, 0));
   }
@@ -112,120 +150,6 @@ std::vector<double> WavReader::readAll() {
     all.resize(before + static_cast<std::size_t>(got) * width);
   }
   return all;
-}
-
-struct WavWriter::File {
-  std::string path;
-  int channels;
-  WavFormat format;
-  SNDFILE* handle = nullptr;
-  std::int64_t frames = 0;
-  std::int64_t clipped = 0;
-  std::vector<int> integers{};  // scratch
-
-  template <class Sample>
-  void requireFinite(const Sample* samples, std::int64_t count) const;
-  template <class Sample>
-  sf_count_t put24(const Sample* samples, std::int64_t nframes);
-  template <class Sample>
-  void write(const Sample* samples, std::int64_t nframes);
-};
-
-template <class Sample>
-void WavWriter::File::requireFinite(const Sample* samples, std::int64_t count) const {
-  const Sample* end = samples + count;
-  const Sample* bad = std::find_if(samples, end, [](Sample s) { return !std::isfinite(s); });
-  if (bad != end) {
-    std::ostringstream message;
-    message << "sample " << frames + (bad - samples) / channels << " of channel "
-            << (bad - samples) % channels + 1 << " is " << *bad
-            << "; only finite samples can be written";
-    failOn(path, message.str());
-  }
-}
-
-template <class Sample>
-sf_count_t WavWriter::File::put24(const Sample* samples, std::int64_t nframes) {
-  const auto count = static_cast<std::size_t>(nframes * channels);
-  integers.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto sample = static_cast<double>(samples[i]);
-    clipped += std::abs(sample) > 1.0 ? 1 : 0;
-    // libsndfile would truncate; it keeps the upper 24 bits of an int.
-    const double rounded = std::nearbyint(sample * kFullScale24);
-    integers[i] = static_cast<int>(std::clamp(rounded, -kFullScale24, kFullScale24 - 1.0)) * 256;
-  }
-  return sf_writef_int(handle, integers.data(), nframes);
-}
-
-template <class Sample>
-void WavWriter::File::write(const Sample* samples, std::int64_t nframes) {
-  if (handle == nullptr) {
-    failOn(path, "is finished already");
-  }
-  requireFinite(samples, nframes * channels);
-  errno = 0;
-  const sf_count_t written =
-      format == WavFormat::k24 ? put24(samples, nframes) : put(handle, samples, nframes);
-  frames += written;
-  if (written != nframes) {
-    failOn(path,
-           "only " + std::to_string(frames) + " frames could be written: " + reason(handle, errno));
-  }
-}
-
-WavWriter::WavWriter(const std::string& path, double sample_rate, int channels, WavFormat format)
-    : file_(new File{path, channels, format}) {
-  if (!(sample_rate >= 1.0 && sample_rate <= kMaxRate) || sample_rate != std::floor(sample_rate)) {
-    std::ostringstream message;
-    message << "sample rate " << sample_rate << " Hz, allowed: whole numbers in 1..." << kMaxRate;
-    failOn(path, message.str());
-  }
-  SF_INFO info{};
-  info.samplerate = static_cast<int>(sample_rate);
-  info.channels = channels;
-  info.format = sndfileFormat(format);
-  errno = 0;
-  file_->handle = sf_open(path.c_str(), SFM_WRITE, &info);
-  if (file_->handle == nullptr) {
-    failOn(path, "cannot write: " + reason(nullptr, errno));
-  }
-  sf_command(file_->handle, SFC_RF64_AUTO_DOWNGRADE, nullptr, SF_TRUE);
-}
-
-WavWriter::~WavWriter() {
-  if (file_->handle != nullptr) {
-    sf_close(file_->handle);
-  }
-}
-
-void WavWriter::write(const double* frames, std::int64_t nframes) {
-  file_->write(frames, nframes);
-}
-void WavWriter::write(const float* frames, std::int64_t nframes) {
-  file_->write(frames, nframes);
-}
-
-void WavWriter::finish() {
-  if (file_->handle == nullptr) {
-    return;
-  }
-  errno = 0;
-  sf_write_sync(file_->handle);
-  const int error = sf_error(file_->handle);
-  const std::string why = reason(file_->handle, errno);
-  const int close_error = sf_close(file_->handle);
-  file_->handle = nullptr;
-  if (error != SF_ERR_NO_ERROR || close_error != SF_ERR_NO_ERROR) {
-    failOn(file_->path, "cannot complete: " + (error != 0 ? why : sf_error_number(close_error)));
-  }
-}
-
-std::int64_t WavWriter::frames() const noexcept {
-  return file_->frames;
-}
-std::int64_t WavWriter::clippedSamples() const noexcept {
-  return file_->clipped;
 }
 
 }  // namespace ergotic::audio

@@ -42,7 +42,11 @@ void addLevel(const std::string& path, Json& report) {
 int main(int argc, char** argv) {
   ergotic::audio::CaptureConfig config;
   CLI::App app("Records JACK ports to a WAV file, sample by sample.");
-  app.add_option("--out,out", config.path, "WAV file, 32-bit float")->required();
+  app.add_option("--out,out", config.path, "WAV file")->required();
+  std::string format = "float";
+  app.add_option("--out-format", format, "format of the samples")
+      ->check(CLI::IsMember({"float", "double", "24"}))
+      ->capture_default_str();
   app.add_option("--port", config.ports, "port to record, client:name; repeatable");
   app.add_option("--match", config.match, "record all ports matching this regular expression");
   app.add_option("--seconds", config.seconds, "length; without: until SIGINT or SIGTERM")
@@ -54,6 +58,7 @@ int main(int argc, char** argv) {
   app.add_option("--server", config.server, "name of the JACK server");
   ergotic::tools::checkNumbers(app);
   CLI11_PARSE(app, argc, argv);
+  config.format = ergotic::audio::wavFormatOf(format);
 
   stopOnSignals();
   try {

@@ -121,6 +121,38 @@ TEST_F(RenderTest, RoundsToTheFormatAskedFor) {
   EXPECT_TRUE(rounded);
 }
 
+/// Python's module knows format tag 1 alone.
+TEST_F(RenderTest, WritesIntegersThatEveryProgramReads) {
+  const std::string scene = write("spring.mdl", kSpring);
+  const std::string out = path("24.wav");
+  ASSERT_EQ(run("render", scene + " --seconds 0.1 --out-format 24 --out " + out +
+                              " && /usr/bin/python3 -c 'import wave; w = wave.open(\"" + out +
+                              "\"); assert (w.getsampwidth(), w.getnframes()) == (3, 4410)'")
+                .code,
+            0);
+}
+
+TEST_F(RenderTest, SaysWhichSoundsAreEmptyOrWereNotFinished) {
+  const std::string scene = write("spring.mdl", kSpring);
+  const std::string empty = writeSound("empty.wav", {});
+  EXPECT_THAT(run("render", scene + " --seconds 0.01 --input in1=" + empty).text,
+              HasSubstr("empty.wav: warning: the file has no frames, so the input is silent"));
+  const std::string whole = writeSound("killed.wav", std::vector<double>(300, 0.05));
+  const std::string sound = scene + " --seconds 0.01 --out-format double --input in1=" + whole;
+  ASSERT_EQ(run("render", sound + " --out " + path("whole_out.wav")).code, 0);
+  const std::vector<double> wanted = soundOf(path("whole_out.wav"));
+  {
+    std::fstream file(whole, std::ios::binary | std::ios::in | std::ios::out);
+    const std::string text((std::istreambuf_iterator<char>(file)), {});
+    file.seekp(4).write("\0\0\0\0", 4);
+    file.seekp(static_cast<std::streamoff>(text.find("data") + 4)).write("\0\0\0\0", 4);
+  }
+  const Outcome killed = run("render", sound + " --out " + path("killed_out.wav"));
+  EXPECT_THAT(killed.text, HasSubstr("killed.wav: warning: the header does not say how long"));
+  EXPECT_EQ(soundOf(path("killed_out.wav")), wanted);
+  EXPECT_GT(peakOf(wanted), 0.0);
+}
+
 TEST_F(RenderTest, SaysWhereASceneIsWrong) {
   const std::string scene = write("bad.mdl", "@m mass 1 0 0\n@s spring @m @nobody 0.1\n");
   const Outcome outcome = run("render", scene);

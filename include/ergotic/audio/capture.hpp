@@ -7,10 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "ergotic/audio/wav.hpp"
+
 namespace ergotic::audio {
 
 struct CaptureConfig {
-  std::string path;                ///< of the WAV file, 32-bit float
+  std::string path;  ///< of the WAV file
+  WavFormat format = WavFormat::kFloat;
   std::vector<std::string> ports;  ///< full names, `client:port`, a channel each
   std::string match;               ///< and all ports matching this regular expression, after these
   std::string server;              ///< empty: $JACK_DEFAULT_SERVER, else `default`

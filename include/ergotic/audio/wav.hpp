@@ -17,7 +17,8 @@ enum class WavFormat {
 /// \throws Exception if `name` is not one of float, double, 24
 WavFormat wavFormatOf(const std::string& name);
 
-/// Reads a sound file of any format that libsndfile knows. Realtime: no. Thread: one
+/// Reads a sound file of any format that libsndfile knows; a WAV file whose header does not say how
+/// long it is, up to its end. Realtime: no. Thread: one
 class WavReader {
  public:
   /// \throws Exception with path and reason
@@ -29,6 +30,7 @@ class WavReader {
   double sampleRate() const noexcept;  ///< Hz
   int channels() const noexcept;
   std::int64_t frames() const noexcept;
+  bool isUnfinished() const noexcept;  ///< the header does not say how long it is
 
   /// \param[out] to  [nframes][channels], integer formats scaled to full scale 1
   /// \return frames read, less than `nframes` only at the end of the file
@@ -44,13 +46,15 @@ class WavReader {
   std::unique_ptr<File> file_;
 };
 
-/// Writes a WAV file, which becomes RF64 if it grows beyond 4 GiB. Realtime: no. Thread: one
+/// Writes a WAV file, with format tag 1 or 3 for up to two channels and WAVE_FORMAT_EXTENSIBLE for
+/// more, which becomes RF64 if it grows beyond 4 GiB. What is there can be read if this process is
+/// killed. Realtime: no. Thread: one
 class WavWriter {
  public:
   /// \param sample_rate  Hz, a whole number: the format knows no other
   /// \throws Exception with path and reason
   WavWriter(const std::string& path, double sample_rate, int channels, WavFormat format);
-  ~WavWriter();  ///< closes the file; what goes wrong then is lost, hence `finish`
+  ~WavWriter();  ///< completes the file; what goes wrong then is lost, hence `finish`
   WavWriter(const WavWriter&) = delete;
   WavWriter& operator=(const WavWriter&) = delete;
 

@@ -106,6 +106,9 @@ std::unique_ptr<Player> playScene(const RenderOptions& options) {
   auto performer = station::makePerformer(std::move(scene), rates, compile, policy);
   stages.clear();
   sayWarnings(*performer);
+  for (const std::string& warning : inputs.warnings()) {
+    say(warning);
+  }
   if (performer->certificate.verdict != physics::Verdict::kPassive &&
       performer->certificate.verdict != physics::Verdict::kBounded) {
     say(std::string("warning: the verdict on this scene is ") +

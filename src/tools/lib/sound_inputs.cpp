@@ -26,7 +26,9 @@ const scene::Input& inputNamed(const scene::Scene& scene, const std::string& nam
   return *found;
 }
 
-std::vector<double> readSound(const std::string& path, double rate_hz) {
+std::vector<double> readSound(const std::string& path,
+                              double rate_hz,
+                              std::vector<std::string>& warnings) {
   audio::WavReader reader(path);
   std::ostringstream message;
   if (reader.sampleRate() != rate_hz) {
@@ -39,6 +41,13 @@ std::vector<double> readSound(const std::string& path, double rate_hz) {
     throw Exception(message.str());
   }
   std::vector<double> sound = reader.readAll();
+  if (sound.empty()) {
+    warnings.push_back(path + ": warning: the file has no frames, so the input is silent");
+  } else if (reader.isUnfinished()) {
+    warnings.push_back(path +
+                       ": warning: the header does not say how long the sound is, as when "
+                       "its recorder was killed; it is read up to the end of the file");
+  }
   const auto bad = std::find_if_not(sound.begin(), sound.end(),
                                     [](double sample) { return std::isfinite(sample); });
   if (bad != sound.end()) {
@@ -58,7 +67,7 @@ SoundInputs::SoundInputs(const std::vector<std::string>& files,
   for (const std::string& file : files) {
     const auto [name, path] = splitAssignment(file);
     const scene::Input& input = inputNamed(scene, name);
-    sounds_[static_cast<std::size_t>(input.channel)] = readSound(path, rate_hz);
+    sounds_[static_cast<std::size_t>(input.channel)] = readSound(path, rate_hz, warnings_);
   }
 }
 

@@ -19,6 +19,8 @@ class SoundInputs {
 
   int channels() const noexcept { return static_cast<int>(sounds_.size()); }
   bool areSilent() const noexcept { return !any_; }  ///< no file at all
+  /// What of the files is not as who names them expects, in full sentences.
+  const std::vector<std::string>& warnings() const noexcept { return warnings_; }
 
   /// Fills [nframes][channels] from frame `first` on. Realtime: yes
   template <class Sample>
@@ -33,6 +35,7 @@ class SoundInputs {
 
  private:
   std::vector<std::vector<double>> sounds_;  // [channels][frames of the file]
+  std::vector<std::string> warnings_;
   bool any_;
 };
 

@@ -45,7 +45,7 @@ ROOMS = {
     "preload": "",
     "bag": "exception files physics/engine tgr station",
     "replay": "exception scene/text physics tgr station bag",
-    "ros/device": "exception files rt scene physics/engine physics/certificate tgr station bag",
+    "ros/device": "exception files rt scene scene/text physics/engine physics/certificate tgr station bag",
     "ros/display": "scene tgr station ros/device",
     "ros/conversation": "exception files rt scene scene/laws scene/text physics/engine tgr station audio bag replay"
                         " ros/device ros/display",

@@ -13,6 +13,7 @@
 #include "ros/conversation/parameter_watch.hpp"
 #include "ros/conversation/services.hpp"
 #include "ros/device/own_host.hpp"
+#include "ros/device/parameters.hpp"
 #include "ros/device/signal_guard.hpp"
 
 namespace ergotic::node {
@@ -38,7 +39,11 @@ class StationNodelet : public nodelet::Nodelet {
       node.setCallbackQueue(&calls_);
       diagnostics_ = std::make_unique<Diagnostics>(shared, node, getName());
       feed_ = std::make_unique<Feed>(node);
-      own_host_ = std::make_unique<OwnHost>(node.param("allow_remote", false));
+      const EarlyParameters early = readEarlyParameters(node);
+      for (const std::string& refusal : early.refusals) {
+        NODELET_ERROR_STREAM(refusal << "; until it is put right, what is usual counts");
+      }
+      own_host_ = std::make_unique<OwnHost>(early.allow_remote);
       operator_ = std::make_unique<Operator>(node, *feed_, *diagnostics_, *own_host_);
       guard_ = std::make_unique<SignalGuard>(
           [this] { operator_->makeSafe(tgr::FaultReason::kMadeSafe); },

@@ -12,6 +12,7 @@
 #include "files/printable.hpp"
 #include "ros/conversation/description.hpp"
 #include "ros/device/end_effectors.hpp"
+#include "ros/device/parameters.hpp"
 
 namespace ergotic::node {
 namespace {
@@ -66,13 +67,11 @@ void complain(const std::string& topic, const Answer& answer) {
   }
 }
 
-/// Below JACK and the ticks, above everything ordinary. Of parameters that are refused later, where
-/// a model is loaded, the usual ones count.
+/// Below JACK and the ticks, above everything ordinary.
 int urgencyOf(const ::ros::NodeHandle& node) {
   constexpr int kUrgent = 40;
-  return node.param<std::string>("realtime", "try") == "off"
-             ? 0
-             : std::min(kUrgent, node.param("priority", kUrgent + 1) - 1);
+  const EarlyParameters early = readEarlyParameters(node);
+  return early.realtime == Realtime::kOff ? 0 : std::min(kUrgent, early.priority - 1);
 }
 
 }  // namespace

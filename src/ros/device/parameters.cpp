@@ -18,6 +18,7 @@
 #include "files/read_file.hpp"
 #include "scene/limits.hpp"
 #include "scene/names.hpp"
+#include "scene/text/number.hpp"
 #include "tgr/settings.hpp"
 
 namespace ergotic::node {
@@ -28,6 +29,8 @@ using Value = XmlRpc::XmlRpcValue;
 constexpr double kLongestStallS = 1.0;
 constexpr int kMostStalls = 1'000'000;
 constexpr double kLongestWatchdogS = 1.0;
+constexpr int kLeastPriority = 1;
+constexpr int kMostPriority = 99;
 constexpr double kFrozenS = 0.1;  // the sensors of a TGR are noisier than their quantum
 
 const std::map<std::string, physics::Precision> kPrecisions = {
@@ -58,6 +61,76 @@ std::map<std::string, rt::Isa> isas() {
 // own.
 const std::vector<std::string> kReadByOthers = {"diagnostic_period", "num_worker_threads"};
 
+/// On or off, as YAML says it: it makes a boolean of `on`, `yes`, `true` and their contraries
+/// unless they are in quotes, and `roslaunch` of `true` and `false` alone. Nothing of what is
+/// neither.
+std::optional<bool> switchOf(const Value& given) {
+  if (given.getType() == Value::TypeBoolean) {
+    return static_cast<const bool&>(given);
+  }
+  return given.getType() == Value::TypeString
+             ? scene::parseSwitch(static_cast<const std::string&>(given))
+             : std::nullopt;
+}
+
+/// The word of a choice; `no`, `off` and `false` mean that among them which switches off.
+std::string chosen(const Value& given, const std::vector<std::string>& words) {
+  const auto isAllowed = [&](const std::string& word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+  };
+  if (given.getType() == Value::TypeString && isAllowed(static_cast<const std::string&>(given))) {
+    return static_cast<const std::string&>(given);
+  }
+  const std::optional<bool> is_on = switchOf(given);
+  for (const char* const off : {"off", "none", "never"}) {
+    if (is_on == false && isAllowed(off)) {
+      return off;
+    }
+  }
+  return "";
+}
+
+std::string shown(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
+/// What was given, in words.
+std::string described(const Value& given) {
+  switch (given.getType()) {
+    case Value::TypeBoolean:
+      return static_cast<const bool&>(given) ? "true, for which YAML takes on and yes, too"
+                                             : "false, for which YAML takes off and no, too";
+    case Value::TypeInt:
+      return "the number " + std::to_string(static_cast<const int&>(given));
+    case Value::TypeDouble:
+      return "the number " + shown(static_cast<const double&>(given));
+    case Value::TypeString: {
+      const auto& text = static_cast<const std::string&>(given);
+      return text.empty() ? "empty" : "the text " + scene::quoted(text);
+    }
+    case Value::TypeArray:
+      return "a list";
+    case Value::TypeStruct:
+      return "a map";
+    default:
+      return "of another type";
+  }
+}
+
+/// What YAML took for something else than a word.
+std::string howToQuote(const Value& given) {
+  switch (given.getType()) {
+    case Value::TypeBoolean:
+    case Value::TypeInt:
+    case Value::TypeDouble:
+      return "; quote it for YAML and for the shell: \"'...'\"";
+    default:
+      return "";
+  }
+}
+
 /// Reads parameters of one node; every refusal says name, value and what is allowed.
 class Reader {
  public:
@@ -67,11 +140,28 @@ class Reader {
     }
   }
 
-  void text(const std::string& name, std::string& value) {
-    typed(name, value, Value::TypeString, "a string");
+  /// \param off  what it is where it is switched off, nullptr if it cannot be
+  void text(const std::string& name, std::string& value, const char* off = nullptr) {
+    const auto given = take(name);
+    if (!given) {
+      return;
+    }
+    if (off != nullptr && switchOf(*given) == false) {
+      value = off;
+    } else if (given->getType() == Value::TypeString) {
+      value = static_cast<const std::string&>(*given);
+    } else {
+      refuse(name, described(*given), "a string" + howToQuote(*given));
+    }
   }
   void flag(const std::string& name, bool& value) {
-    typed(name, value, Value::TypeBoolean, "true or false");
+    if (const auto given = take(name)) {
+      const std::optional<bool> on = switchOf(*given);
+      if (!on) {
+        refuse(name, described(*given), "true or false");
+      }
+      value = *on;
+    }
   }
 
   void number(const std::string& name, double& value, double minimum, double maximum) {
@@ -107,19 +197,19 @@ class Reader {
 
   template <class T>
   void choice(const std::string& name, T& value, const std::map<std::string, T>& choices) {
-    const bool is_given = unread_.count(name) > 0;
-    std::string word;
-    text(name, word);
-    if (!is_given) {
+    const auto given = take(name);
+    if (!given) {
       return;
     }
-    const auto found = choices.find(word);
+    std::vector<std::string> words;
+    for (const auto& [key, unused] : choices) {
+      words.push_back(key);
+    }
+    const auto found = choices.find(chosen(*given, words));
     if (found == choices.end()) {
-      std::vector<std::string> words;
-      for (const auto& [key, unused] : choices) {
-        words.push_back(key);
-      }
-      refuse(name, word.empty() ? "empty" : word, listed(words));
+      const bool is_word = given->getType() == Value::TypeString;
+      const std::string word = is_word ? static_cast<const std::string&>(*given) : "";
+      refuse(name, word.empty() ? described(*given) : word, listed(words) + howToQuote(*given));
     }
     value = found->second;
   }
@@ -139,12 +229,6 @@ class Reader {
   }
 
  private:
-  static std::string shown(double number) {
-    std::ostringstream text;
-    text << number;
-    return text.str();
-  }
-
   static std::string listed(const std::vector<std::string>& words) {
     std::string list;
     for (const std::string& word : words) {
@@ -160,16 +244,6 @@ class Reader {
     return node ? std::optional(node.mapped()) : std::nullopt;
   }
 
-  template <class T>
-  void typed(const std::string& name, T& value, Value::Type type, const std::string& allowed) {
-    if (const auto given = take(name)) {
-      if (given->getType() != type) {
-        refuse(name, "of another type", allowed);
-      }
-      value = static_cast<const T&>(*given);
-    }
-  }
-
   void within(const std::string& name,
               double& value,
               double minimum,
@@ -181,7 +255,7 @@ class Reader {
       } else if (given->getType() == Value::TypeDouble) {
         value = static_cast<const double&>(*given);
       } else {
-        refuse(name, "of another type", allowed);
+        refuse(name, described(*given), allowed);
       }
       if (!(value >= minimum && value <= maximum)) {
         refuse(name, shown(value), allowed);
@@ -208,7 +282,9 @@ class Writer {
     entry("device", tgr::toYaml(devices));
   }
 
-  void text(const char* name, const std::string& value) { entry(name, value); }
+  void text(const char* name, const std::string& value, const char* /*off*/ = nullptr) {
+    entry(name, value);
+  }
   void flag(const char* name, bool value) { entry(name, value); }
   void number(const char* name, double value, double /*minimum*/, double /*maximum*/) {
     entry(name, value);
@@ -282,7 +358,7 @@ void visitParameters(Visitor& on, P& p) {
   on.text("jack_name", p.jack_name);
   on.number("jack_wait", p.jack_wait, 0.0, 60.0);
   on.flag("jack_connect", p.jack_connect);
-  on.text("midi_connect", p.midi_connect);
+  on.text("midi_connect", p.midi_connect, "none");
   on.choice("midi_programs", p.midi_programs, kMidiPrograms);
   on.integer("ring_depth", p.ring_depth, 1, station::AudioBridge::kMaxLatencyFrames);
   on.flag("limiter", p.limiter);
@@ -293,7 +369,7 @@ void visitParameters(Visitor& on, P& p) {
   on.choice("presence", p.presence, kPresence);
   on.flag("require_master", p.require_master);
   on.flag("allow_fault_injection", p.allow_fault_injection);
-  on.integer("priority", p.priority, 1, 99);
+  on.integer("priority", p.priority, kLeastPriority, kMostPriority);
   on.integer("cpu", p.cpu, -1, 1023);
   on.choice("realtime", p.realtime, kRealtime);
   on.flag("allow_unproven", p.allow_unproven);
@@ -383,6 +459,28 @@ Parameters readParameters(const Value& values, const std::string& node) {
   read.refuseUnread();
   requireMidiConnect(p.midi_connect, node);
   return p;
+}
+
+EarlyParameters readEarlyParameters(const ::ros::NodeHandle& node) {
+  Value values;
+  node.getParam(node.getNamespace(), values);
+  return readEarlyParameters(values, node.getNamespace());
+}
+
+EarlyParameters readEarlyParameters(const Value& values, const std::string& node) {
+  EarlyParameters early;
+  Reader read(values, node);
+  const auto attempt = [&](const auto& one) {
+    try {
+      one();
+    } catch (const Exception& refusal) {
+      early.refusals.emplace_back(refusal.what());
+    }
+  };
+  attempt([&] { read.flag("allow_remote", early.allow_remote); });
+  attempt([&] { read.choice("realtime", early.realtime, kRealtime); });
+  attempt([&] { read.integer("priority", early.priority, kLeastPriority, kMostPriority); });
+  return early;
 }
 
 Parameters withStallLimits(Parameters p, bool can_hurt) {

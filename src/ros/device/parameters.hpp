@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <ros/node_handle.h>
 #include <xmlrpcpp/XmlRpcValue.h>
@@ -76,6 +77,16 @@ Parameters readParameters(const ::ros::NodeHandle& node);
 /// \param values  a map of them; invalid: there are none
 /// \param node    its name, for messages
 Parameters readParameters(const XmlRpc::XmlRpcValue& values, const std::string& node);
+
+/// What is heard when the node starts, before a model is loaded.
+struct EarlyParameters {
+  bool allow_remote = false;
+  Realtime realtime = Realtime::kTry;
+  int priority = 75;
+  std::vector<std::string> refusals;  ///< of those that cannot be used and are as above
+};
+EarlyParameters readEarlyParameters(const ::ros::NodeHandle& node);
+EarlyParameters readEarlyParameters(const XmlRpc::XmlRpcValue& values, const std::string& node);
 
 /// With limits for stalls where none were given. A hand is kicked when force goes and comes back:
 /// 50 ms, 3 in a second, a watchdog of 20 ms. At a device that is only simulated stalls are counted

@@ -32,14 +32,6 @@ std::string_view trimmedView(std::string_view text) {
   return text.substr(0, text.find_last_not_of(kBlanks) + 1);
 }
 
-std::string inSmallLetters(std::string_view text) {
-  std::string small(text);
-  std::transform(small.begin(), small.end(), small.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return small;
-}
-
 /// Not `nan`, which is a number that is not allowed.
 bool isWord(std::string_view text) {
   const std::string small = inSmallLetters(text);

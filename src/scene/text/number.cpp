@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/text/number.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -31,6 +32,22 @@ std::optional<double> parseNumber(std::string_view text) {
 
 std::optional<int> parseInteger(std::string_view text) {
   return parseWhole<int>(text);
+}
+
+std::string inSmallLetters(std::string_view text) {
+  std::string small(text);
+  std::transform(small.begin(), small.end(), small.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return small;
+}
+
+std::optional<bool> parseSwitch(std::string_view text) {
+  const std::string small = inSmallLetters(text);
+  if (small == "true" || small == "yes" || small == "on") {
+    return true;
+  }
+  return small == "false" || small == "no" || small == "off" ? std::optional(false) : std::nullopt;
 }
 
 std::string shortest(double value) {

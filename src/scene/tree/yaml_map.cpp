@@ -300,7 +300,11 @@ std::vector<double> YamlMap::list(const std::string& key,
 }
 
 bool YamlMap::flag(const std::string& key, bool otherwise) const {
-  return has(key) ? choice(key, {"false", "true"}) == 1 : otherwise;
+  if (!has(key)) {
+    return otherwise;
+  }
+  const std::optional<bool> is_on = parseSwitch(word(key));
+  return is_on ? *is_on : choice(key, {"false", "true"}) == 1;  // which says what is allowed
 }
 
 Value YamlMap::value(const std::string& key, const Limits& limits) const {

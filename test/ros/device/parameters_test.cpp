@@ -178,13 +178,77 @@ TEST(ParametersTest, AreRefusedWithAFractionWhereOnlyWholeNumbersAreMeant) {
 
 TEST(ParametersTest, AreRefusedWhenOfAnotherType) {
   EXPECT_EQ(refusalOf("force_limit", "5"),
-            "parameter /station/force_limit is of another type, allowed: 0...200");
-  EXPECT_EQ(refusalOf("max_missing", true),
-            "parameter /station/max_missing is of another type, allowed: 0...1000, whole numbers");
+            "parameter /station/force_limit is the text '5', allowed: 0...200");
+  EXPECT_EQ(
+      refusalOf("max_missing", true),
+      "parameter /station/max_missing is true, for which YAML takes on and yes, too, allowed: "
+      "0...1000, whole numbers");
   EXPECT_EQ(refusalOf("autoengage", 1),
-            "parameter /station/autoengage is of another type, allowed: true or false");
-  EXPECT_EQ(refusalOf("model", 5),
-            "parameter /station/model is of another type, allowed: a string");
+            "parameter /station/autoengage is the number 1, allowed: true or false");
+  EXPECT_EQ(refusalOf("autoengage", "perhaps"),
+            "parameter /station/autoengage is the text 'perhaps', allowed: true or false");
+  EXPECT_EQ(refusalOf("driver", with("a", 1)),
+            "parameter /station/driver is a map, allowed: a string");
+}
+
+/// `rosparam set /station/jack_name 007`
+TEST(ParametersTest, AreToBeQuotedWhereYamlMakesNumbersAndSwitchesOfWords) {
+  const std::string quote = "; quote it for YAML and for the shell: \"'...'\"";
+  EXPECT_EQ(refusalOf("jack_name", 7),
+            "parameter /station/jack_name is the number 7, allowed: a string" + quote);
+  EXPECT_EQ(refusalOf("model", 1.5),
+            "parameter /station/model is the number 1.5, allowed: a string" + quote);
+  EXPECT_EQ(refusalOf("jack_name", false),
+            "parameter /station/jack_name is false, for which YAML takes off and no, too, allowed: "
+            "a string" +
+                quote);
+  EXPECT_EQ(refusalOf("realtime", true),
+            "parameter /station/realtime is true, for which YAML takes on and yes, too, allowed: "
+            "off, require, try" +
+                quote);
+  EXPECT_THAT(refusalOf("precision", false), HasSubstr("allowed: double, float" + quote));
+}
+
+/// YAML makes false of `off` and `no`, and `roslaunch` leaves them as they are.
+TEST(ParametersTest, MayBeSwitchedOffInAnyWord) {
+  for (const XmlRpcValue& off :
+       {XmlRpcValue(false), XmlRpcValue("off"), XmlRpcValue("no"), XmlRpcValue("False")}) {
+    XmlRpcValue values;
+    for (const char* const name : {"realtime", "presence", "jack", "midi_programs", "midi_connect",
+                                   "force_after_swap", "energies"}) {
+      values[name] = off;
+    }
+    const Parameters p = readParameters(values, "/station");
+    EXPECT_EQ(p.realtime, Realtime::kOff);
+    EXPECT_FALSE(p.presence);
+    EXPECT_FALSE(p.jack);
+    EXPECT_EQ(p.midi_programs, MidiPrograms::kNever);
+    EXPECT_EQ(p.midi_connect, "none");
+    EXPECT_EQ(p.force_after_swap, station::SwapForce::kNever);
+    EXPECT_FALSE(p.compile.metered);
+    const EarlyParameters early = readEarlyParameters(values, "/station");
+    EXPECT_EQ(early.realtime, Realtime::kOff);
+    EXPECT_THAT(early.refusals, testing::IsEmpty());
+  }
+  for (const XmlRpcValue& on : {XmlRpcValue(true), XmlRpcValue("yes"), XmlRpcValue("On")}) {
+    EXPECT_TRUE(readParameters(with("autoengage", on), "/station").autoengage);
+    EXPECT_TRUE(readEarlyParameters(with("allow_remote", on), "/station").allow_remote);
+  }
+}
+
+TEST(ParametersTest, ThatAreHeardFirstAreNotReplacedWithoutAWord) {
+  XmlRpcValue values;
+  values["realtime"] = 3;
+  values["priority"] = "high";
+  values["allow_remote"] = "perhaps";
+  const EarlyParameters early = readEarlyParameters(values, "/station");
+  EXPECT_EQ(early.realtime, Realtime::kTry);
+  EXPECT_EQ(early.priority, readParameters(XmlRpcValue(), "/station").priority);
+  EXPECT_FALSE(early.allow_remote);
+  EXPECT_THAT(early.refusals,
+              testing::ElementsAre(HasSubstr("/station/allow_remote is the text 'perhaps'"),
+                                   HasSubstr("/station/realtime is the number 3, allowed: off"),
+                                   HasSubstr("/station/priority is the text 'high'")));
 }
 
 }  // namespace

@@ -110,6 +110,26 @@ TEST(YamlAgentsTest, TheHandMovesInTheSectionThatIsNamed) {
   EXPECT_EQ(s.mats[3].section, 1);
 }
 
+/// As YAML 1.1 has them, and most of its readers.
+TEST(YamlPortsTest, SwitchesMayBeAnyWordOfYaml) {
+  const auto periodOf = [](const std::string& word) {
+    return readYaml(kPortsHead +
+                        "agents: {a: {mat: m, stiffness: 1, points: [[0, 0], [2, 0]], loop: " +
+                        word + "}}\n",
+                    "a.yaml")
+        .agents[0]
+        .period_s;
+  };
+  for (const char* word : {"true", "yes", "on", "Yes", "TRUE"}) {
+    EXPECT_EQ(periodOf(word), 2.0) << word;
+  }
+  for (const char* word : {"false", "no", "off", "No"}) {
+    EXPECT_EQ(periodOf(word), 0.0) << word;
+  }
+  EXPECT_THAT(complaintOf<TextError>([&] { periodOf("perhaps"); }),
+              HasSubstr("unknown loop 'perhaps' of agent 'a'"));
+}
+
 /// A folder with gestures, `g.csv` as given.
 class GestureFileTest : public testing::Test {
  protected:

@@ -110,7 +110,7 @@ add_library(comedi_standin SHARED ${standin_sources}
   src/tgr/drivers/virtual/player_hands.cpp src/tgr/drivers/virtual/slice_bank.cpp
   src/tgr/drivers/virtual/target_gesture.cpp src/tgr/drivers/virtual/virtual_slice.cpp
   src/tgr/drivers/virtual/virtual_slice_fields.cpp
-  src/tgr/calibration.cpp src/tgr/require.cpp src/scene/limits.cpp src/scene/names.cpp
+  src/tgr/calibration.cpp src/tgr/require.cpp src/scene/limits.cpp src/scene/name.cpp src/scene/names.cpp
   src/scene/text/csv.cpp src/scene/text/gesture_csv.cpp src/scene/text/number.cpp src/scene/text/source_text.cpp
   src/files/printable.cpp src/files/read_file.cpp src/exception.cpp)
 set_target_properties(comedi_standin PROPERTIES CXX_VISIBILITY_PRESET hidden)

@@ -14,25 +14,10 @@
 namespace ergotic::physics {
 namespace {
 
-std::vector<std::vector<PlaceProof>> placesOf(const Network& network) {
-  std::vector<std::vector<PlaceProof>> all;
-  for (const Network::Point& point : network.points) {
-    all.emplace_back();
-    for (const Shares& shares : point.places) {
-      PlaceProof place;
-      for (const Share& share : shares) {
-        place.emplace_back(share.node, share.weight);
-      }
-      all.back().push_back(std::move(place));
-    }
-  }
-  return all;
-}
-
 class Certifier {
  public:
-  Certifier(const Network& network, const Rates& rates, Proof* proof)
-      : scene_(network.scene), networks_(network, rates), findings_(scene_.file, proof) {}
+  Certifier(const Network& network, const Rates& rates)
+      : scene_(network.scene), networks_(network, rates), findings_(scene_.file) {}
 
   Certificate run(const DeviceTraits& device) {
     Certificate result;
@@ -55,9 +40,6 @@ class Certifier {
                         "it moves");
     }
     judgeLinks(networks_, findings_);
-    if (findings_.proof() != nullptr) {
-      findings_.proof()->places = placesOf(networks_.network());
-    }
     result.ports = judgePorts(networks_, device, findings_);
     findings_.giveTo(result);
     return result;
@@ -67,11 +49,8 @@ class Certifier {
   /// All sections of one rate are one network; slower ends are held, so fixed.
   SectionCertificate certifyRate(int s, int divisor) {
     const NetworkBound network = networks_.atOwnRate(divisor);
-    SignProof signs = judgeSigns(networks_, network, findings_);
+    judgeSigns(networks_, network, findings_);
     NetworkAnalysis analysis = analyse(network);
-    if (findings_.proof() != nullptr && analysis.isProven() && network.nodes() > 0) {
-      findings_.proof()->rates.push_back({divisor, proofOfLimit(network), std::move(signs)});
-    }
     if (networks_.hasLinkedMatched(divisor)) {
       // Matched modules change with the step in their own way, but stay below plain ones.
       const double plain =
@@ -142,21 +121,18 @@ class Certifier {
 
 /// Between scalar sections all links act along one axis. In others one that makes up for what is
 /// negative may act along another.
-bool isAlongOneAxis(const scene::Scene& scene, const std::optional<Factor>& factor) {
-  return !factor || std::all_of(factor->modules.begin(), factor->modules.end(), [&](int mat) {
+bool isAlongOneAxis(const scene::Scene& scene, const std::vector<int>& modules) {
+  return std::all_of(modules.begin(), modules.end(), [&](int mat) {
     return scene.sectionOf(scene.mats[at(mat)]).geometry == scene::Geometry::kScalar;
   });
 }
 
 }  // namespace
 
-SignProof judgeSigns(const RatedNetwork& networks,
-                     const NetworkBound& network,
-                     Findings& findings) {
-  auto proof = proofOfSigns(network);
-  if (proof && isAlongOneAxis(networks.scene(), proof->stiffness) &&
-      isAlongOneAxis(networks.scene(), proof->damping)) {
-    return std::move(*proof);
+void judgeSigns(const RatedNetwork& networks, const NetworkBound& network, Findings& findings) {
+  const std::optional<std::vector<int>> beside = semidefiniteBesideNegative(network);
+  if (beside && isAlongOneAxis(networks.scene(), *beside)) {
+    return;
   }
   for (const NetworkBound::Link& link : network.links()) {
     if (link.stiffness.lowest >= 0.0 && link.damping.lowest >= 0.0) {
@@ -168,9 +144,8 @@ SignProof judgeSigns(const RatedNetwork& networks,
                      "' has a negative stiffness or damping that the links around it do not make "
                      "up for: it gives energy, no bound holds. Make it weaker or those stronger, "
                      "all of them between scalar sections");
-    break;
+    return;
   }
-  return {};
 }
 
 const char* toString(Verdict verdict) {
@@ -195,16 +170,13 @@ double Certificate::margin() const {
   return 1.0 - lambda / NetworkBound::kLimit;
 }
 
-Certificate certify(const scene::Scene& scene,
-                    const Rates& rates,
-                    const DeviceTraits& device,
-                    Proof* proof) {
+Certificate certify(const scene::Scene& scene, const Rates& rates, const DeviceTraits& device) {
   for (const scene::Lia& lia : scene.lias) {
     if (lia.scheme == scene::Scheme::kAuto) {
       throw std::logic_error("link '" + lia.name + "' is not settled: nobody chose its scheme");
     }
   }
-  return Certifier(Network(scene), rates, proof).run(device);
+  return Certifier(Network(scene), rates).run(device);
 }
 
 }  // namespace ergotic::physics

@@ -11,7 +11,7 @@
 #include "physics/certificate/certify_parts.hpp"
 #include "physics/certificate/island.hpp"
 #include "physics/certificate/linear_stepper.hpp"
-#include "physics/certificate/period_proof.hpp"
+#include "physics/certificate/lyapunov_form.hpp"
 #include "physics/network/couplings.hpp"
 #include "physics/network/network_analysis.hpp"
 
@@ -172,7 +172,7 @@ class CouplingJudge {
         return;
       }
       worst = trial.radius >= worst.radius ? trial : worst;
-      is_proven = prove(scene, stepper.ticks() * networks_.rates().ratio, period) && is_proven;
+      is_proven = hasForm(scene, period) && is_proven;
     }
     if (worst.radius > 1.0 + kRadiusRounding) {
       const bool is_certain = worst.radius > 1.0 + kCertainGrowth;
@@ -193,26 +193,8 @@ class CouplingJudge {
   }
 
   /// False if no form is found that does not grow, or only one that rounding may change.
-  bool prove(const scene::Scene& scene, int frames, const Period& period) {
-    std::optional<PeriodProof> proof = proofOf(period, rounded(scene, networks_.rates()));
-    const bool is_proven = proof.has_value();
-    if (findings_.proof() != nullptr && is_proven) {
-      keep(*std::move(proof), scene, frames);
-    }
-    return is_proven;
-  }
-
-  /// The first one of an island: others are it with bends as single precision rounds them.
-  void keep(PeriodProof proof, const scene::Scene& scene, int frames) {
-    const std::vector<PeriodProof>& known = findings_.proof()->periods;
-    if (!known.empty() && known.back().modules == proof.modules) {
-      return;
-    }
-    proof.frames = frames;
-    for (const scene::Parameter& parameter : scene.parameters) {
-      proof.parameters.push_back(parameter.value);
-    }
-    findings_.proof()->periods.push_back(std::move(proof));
+  bool hasForm(const scene::Scene& scene, const Period& period) {
+    return lyapunovFormOf(period, rounded(scene, networks_.rates())).has_value();
   }
 
   void watch(const Island& members, const Coupling& coupling, const std::string& what) {

@@ -38,7 +38,6 @@ class LinkJudge {
     judgeSize(lia);
     if (lia.scheme == scene::Scheme::kGuarded) {
       judgeGuarded(lia, slopes);
-      prove(lia, "guarded");
       return;
     }
     notePlaces(lia);
@@ -61,10 +60,10 @@ class LinkJudge {
     const bool switches = law.switches && acts && !slopes.is_unbounded;
     const bool falls = law.friction != nullptr && !networks_.onlyBrakes(lia);
     if (!(switches || falls) || !(networks_.inverseMassStep2(lia) > 0.0)) {
-      prove(lia, "slopes");
-    } else if (switches ? loss_.bears(lia) : loss_.surrounds(lia)) {
+      return;  // its slopes are in the network
+    }
+    if (switches ? loss_.bears(lia) : loss_.surrounds(lia)) {
       findings_.worsen(Verdict::kBounded);
-      prove(lia, "lossy");
     } else if (switches) {
       judgeSwitching(lia, law, slopes.stiffness.highest);
     } else {
@@ -76,9 +75,6 @@ class LinkJudge {
   void finish() {
     for (const scene::Connection* place : moving_) {
       judgePlace(*place);
-    }
-    if (findings_.proof() != nullptr) {
-      findings_.proof()->losses = loss_.factors();
     }
     for (const auto& [place, turning] : turning_) {
       const std::string more =
@@ -317,15 +313,6 @@ class LinkJudge {
             "energy: what swings in time with the steps may be driven. Damp every mass "
             "that it reaches" +
             (scene::isGuardable(networks_.scene(), lia) ? ", or use scheme: guarded" : ""));
-  }
-
-  /// The rule that vouches for a link that is more than a spring and a damper.
-  void prove(const Lia& lia, const char* rule) {
-    const bool is_linear = lia.type == scene::LiaType::kSpringDamper && networks_.isExplicit(lia);
-    if (findings_.proof() != nullptr && !is_linear) {
-      const int index = static_cast<int>(&lia - networks_.scene().lias.data());
-      findings_.proof()->links.push_back({index, rule});
-    }
   }
 
   const RatedNetwork& networks_;

@@ -25,6 +25,6 @@ std::vector<PortCertificate> judgePorts(const RatedNetwork& networks,
 
 /// Says which link is negative, if what is given is not semidefinite all the same.
 /// \return what shows that it is, or nothing
-SignProof judgeSigns(const RatedNetwork& networks, const NetworkBound& network, Findings& findings);
+void judgeSigns(const RatedNetwork& networks, const NetworkBound& network, Findings& findings);
 
 }  // namespace ergotic::physics

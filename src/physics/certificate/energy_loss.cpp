@@ -79,17 +79,9 @@ bool EnergyLoss::judge(const Group& group) {
   if (group.keeps || group.divisors.size() != 1) {
     return false;
   }
-  std::vector<Factor> factors;
-  for (const int island : group.islands) {
-    std::optional<Factor> factor =
-        proofOfLoss(networks_.atOwnRate(*group.divisors.begin(), island, true));
-    if (!factor) {
-      return false;
-    }
-    factors.push_back(std::move(*factor));
-  }
-  std::move(factors.begin(), factors.end(), std::back_inserter(factors_));
-  return true;
+  return std::all_of(group.islands.begin(), group.islands.end(), [&](int island) {
+    return losesInEveryMotion(networks_.atOwnRate(*group.divisors.begin(), island, true));
+  });
 }
 
 }  // namespace ergotic::physics

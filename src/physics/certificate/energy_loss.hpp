@@ -5,7 +5,6 @@
 #include <set>
 #include <vector>
 
-#include "ergotic/physics/certificate/proof.hpp"
 #include "physics/disjoint_sets.hpp"
 #include "physics/network/rated_network.hpp"
 
@@ -27,8 +26,6 @@ class EnergyLoss {
   /// that comes and goes with the link is not held, and two or more modes may meet it where it
   /// drives.
   bool bears(const scene::Lia& lia);
-  /// What shows it, of all islands around links for which it was true.
-  const std::vector<Factor>& factors() const { return factors_; }
 
  private:
   struct Group {
@@ -46,7 +43,6 @@ class EnergyLoss {
   DisjointSets joined_;           // islands, by guarded links
   std::map<int, Group> groups_;   // by the island that names them
   std::map<int, bool> of_group_;  // known
-  std::vector<Factor> factors_;
 };
 
 }  // namespace ergotic::physics

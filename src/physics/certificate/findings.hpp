@@ -6,18 +6,13 @@
 #include <vector>
 
 #include "ergotic/physics/certificate/certify.hpp"
-#include "ergotic/physics/certificate/proof.hpp"
 
 namespace ergotic::physics {
 
 /// Collects what the certificate has to say.
 class Findings {
  public:
-  /// \param proof  nullptr: nobody asks for it
-  Findings(std::string file, Proof* proof) : file_(std::move(file)), proof_(proof) {}
-
-  /// Where judges put what proves their verdict, nullptr: nowhere.
-  Proof* proof() const { return proof_; }
+  explicit Findings(std::string file) : file_(std::move(file)) {}
 
   /// Worsens the verdict, without words.
   void worsen(Verdict verdict);
@@ -40,7 +35,6 @@ class Findings {
     int more = 0;
   };
   std::string file_;
-  Proof* proof_;
   Verdict worst_ = Verdict::kPassive;
   std::vector<Finding> findings_;
   std::map<std::string, std::size_t> alike_;  // by their words

@@ -94,25 +94,21 @@ NetworkAnalysis analyse(const NetworkBound& network) {
   return result;
 }
 
-Factor proofOfLimit(const NetworkBound& network) {
-  return NetworkSpectrum(network).factorAtLimit();
+std::optional<std::vector<int>> semidefiniteBesideNegative(const NetworkBound& network) {
+  std::vector<int> modules;
+  const auto add = [&](const std::optional<std::vector<int>>& more) {
+    modules.insert(modules.end(), more ? more->begin() : modules.end(),
+                   more ? more->end() : modules.end());
+    return more.has_value();
+  };
+  const bool is_semidefinite =
+      (!network.hasNegativeStiffness() || add(NetworkSpectrum::semidefiniteStiffness(network))) &&
+      (!network.hasNegativeDamping() || add(NetworkSpectrum::semidefiniteDamping(network)));
+  return is_semidefinite ? std::optional(modules) : std::nullopt;
 }
 
-std::optional<SignProof> proofOfSigns(const NetworkBound& network) {
-  SignProof proof;
-  if (network.hasNegativeStiffness()) {
-    proof.stiffness = NetworkSpectrum::semidefiniteStiffness(network);
-  }
-  if (network.hasNegativeDamping()) {
-    proof.damping = NetworkSpectrum::semidefiniteDamping(network);
-  }
-  const bool is_shown = proof.stiffness.has_value() == network.hasNegativeStiffness() &&
-                        proof.damping.has_value() == network.hasNegativeDamping();
-  return is_shown ? std::optional<SignProof>(proof) : std::nullopt;
-}
-
-std::optional<Factor> proofOfLoss(const NetworkBound& network) {
-  return NetworkSpectrum::definiteDamping(network);
+bool losesInEveryMotion(const NetworkBound& network) {
+  return NetworkSpectrum::hasDefiniteDamping(network);
 }
 
 }  // namespace ergotic::physics

@@ -3,7 +3,6 @@
 
 #include <optional>
 
-#include "ergotic/physics/network/factor.hpp"
 #include "physics/network/network_bound.hpp"
 
 namespace ergotic::physics {
@@ -31,15 +30,12 @@ struct NetworkAnalysis {
 /// nodes. Realtime: no.
 NetworkAnalysis analyse(const NetworkBound& network);
 
-/// What shows that it is: moving links left out. \pre analyse(network).isProven()
-Factor proofOfLimit(const NetworkBound& network);
+/// Where all of this supposes that the softest case of stiffness and of damping is positive
+/// semidefinite: the modules that hang together with something negative, whose sum is definite by
+/// 1e-9 of its norm all the same; none if it is not. Costs nothing unless something is negative.
+std::optional<std::vector<int>> semidefiniteBesideNegative(const NetworkBound& network);
 
-/// What shows that the softest case of stiffness and damping is positive semidefinite, as all of
-/// this supposes; none if it is not. Costs nothing unless something is negative.
-std::optional<SignProof> proofOfSigns(const NetworkBound& network);
-
-/// What shows that the softest case of damping takes energy from every motion, Z being positive
-/// definite; none if it is not.
-std::optional<Factor> proofOfLoss(const NetworkBound& network);
+/// True if the softest case of damping takes energy from every motion: Z is positive definite.
+bool losesInEveryMotion(const NetworkBound& network);
 
 }  // namespace ergotic::physics

@@ -6,7 +6,6 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
-#include "ergotic/physics/network/factor.hpp"
 #include "physics/network/load_matrix.hpp"
 #include "physics/network/network_bound.hpp"
 
@@ -49,10 +48,5 @@ bool isFinite(const Matrix& lower);
 bool allPivotsPositive(const Eigen::SimplicialLDLT<Matrix>& solver);
 
 std::vector<int> allNodes(const NetworkBound& network);
-
-/// \param nodes  of the network, one for each row
-Factor factorOf(const Eigen::SimplicialLDLT<Matrix>& solver,
-                const NetworkBound& network,
-                const std::vector<int>& nodes);
 
 }  // namespace ergotic::physics

@@ -2,6 +2,7 @@
 // What a network is at its softest: whether it is definite, and how far it gives way.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <set>
 
@@ -51,20 +52,15 @@ double normOfParts(const NetworkBound& network,
   return norm;
 }
 
-/// What shows that the eigenvalues of some rows are above a margin.
-std::optional<Factor> factorAbove(const NetworkBound& network,
-                                  Matrix lower,
-                                  const std::vector<int>& nodes,
-                                  double margin) {
+/// Whether the eigenvalues of a lower triangle are above a margin.
+bool isAbove(Matrix lower, double margin) {
   if (!isFinite(lower) || !(margin > 0.0) || !std::isfinite(margin)) {
-    return std::nullopt;
+    return false;
   }
   for (int i = 0; i < lower.rows(); ++i) {
     lower.coeffRef(i, i) -= margin;
   }
-  const Eigen::SimplicialLDLT<Matrix> solver(lower);
-  return allPivotsPositive(solver) ? std::optional<Factor>(factorOf(solver, network, nodes))
-                                   : std::nullopt;
+  return allPivotsPositive(Eigen::SimplicialLDLT<Matrix>(lower));
 }
 
 /// All that hangs together with some nodes.
@@ -119,12 +115,18 @@ Matrix assemblePart(const NetworkBound& network,
 /// What is negative lets all that hangs together with it grow unless the whole is definite: how
 /// slowly is a matter of the norm, but however little is missing it grows.
 template <class CoefficientOf>
-std::optional<Factor> definiteBesideNegative(const NetworkBound& network,
-                                             CoefficientOf coefficient) {
+std::optional<std::vector<int>> definiteBesideNegative(const NetworkBound& network,
+                                                       CoefficientOf coefficient) {
   const std::vector<int> nodes =
       nodesBeside(network, negativeNodes(network, coefficient), coefficient);
-  return factorAbove(network, assemblePart(network, nodes, coefficient), nodes,
-                     kSignMargin * normOfParts(network, nodes, coefficient));
+  if (!isAbove(assemblePart(network, nodes, coefficient),
+               kSignMargin * normOfParts(network, nodes, coefficient))) {
+    return std::nullopt;
+  }
+  std::vector<int> modules;
+  std::transform(nodes.begin(), nodes.end(), std::back_inserter(modules),
+                 [&](int node) { return network.ownerOf(node); });
+  return modules;
 }
 
 /// u' A^-1 u for the weights u at some nodes, A of a positive coefficient.
@@ -153,19 +155,18 @@ double giveOf(const NetworkBound& network, const Shares& u, CoefficientOf coeffi
 
 }  // namespace
 
-std::optional<Factor> NetworkSpectrum::semidefiniteStiffness(const NetworkBound& network) {
+std::optional<std::vector<int>> NetworkSpectrum::semidefiniteStiffness(
+    const NetworkBound& network) {
   return definiteBesideNegative(network, stiffnessOf);
 }
 
-std::optional<Factor> NetworkSpectrum::semidefiniteDamping(const NetworkBound& network) {
+std::optional<std::vector<int>> NetworkSpectrum::semidefiniteDamping(const NetworkBound& network) {
   return definiteBesideNegative(network, dampingOf);
 }
 
-std::optional<Factor> NetworkSpectrum::definiteDamping(const NetworkBound& network) {
-  const Matrix softest = assemble(network, scaleOf(network), dampingOf);
-  const std::vector<int> nodes = allNodes(network);
-  return factorAbove(network, softest, nodes,
-                     kPivotMargin * normOfParts(network, nodes, dampingOf));
+bool NetworkSpectrum::hasDefiniteDamping(const NetworkBound& network) {
+  return isAbove(assemble(network, scaleOf(network), dampingOf),
+                 kPivotMargin * normOfParts(network, allNodes(network), dampingOf));
 }
 
 double NetworkSpectrum::softness(const NetworkBound& network, const Shares& u) {

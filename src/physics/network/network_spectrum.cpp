@@ -55,13 +55,6 @@ NetworkSpectrum::NetworkSpectrum(const NetworkBound& network)
   }
 }
 
-Factor NetworkSpectrum::factorAtLimit() {
-  Pencil pencil = pencil_;
-  pencil.limit = NetworkAnalysis::kProven;
-  return isDefinite(pencil, network_.step()) ? factorOf(solver_, network_, allNodes(network_))
-                                             : Factor{};
-}
-
 bool NetworkSpectrum::isDefinite(const Pencil& pencil, double t) {
   Matrix matrix = pencil.stiffness;
   const double* z = pencil.damping.valuePtr();

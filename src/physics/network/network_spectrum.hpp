@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Sparse>
 
-#include "ergotic/physics/network/factor.hpp"
 #include "physics/network/network_bound.hpp"
 
 namespace ergotic::physics {
@@ -36,16 +36,13 @@ class NetworkSpectrum {
   int worstLink() const { return worst_link_; }
   int worstOwner() const { return worst_owner_; }
 
-  /// Of 4 (1 - 1e-6) M - h^2 K - 2 h Z, moving links left out. \pre lambda is below that limit
-  Factor factorAtLimit();
-
-  /// What shows that the softest case of K (of Z) is positive semidefinite, although some of it is
-  /// negative: all that hangs together with that is definite, by 1e-9 of its norm; none if not.
-  /// \pre something is negative
-  static std::optional<Factor> semidefiniteStiffness(const NetworkBound& network);
-  static std::optional<Factor> semidefiniteDamping(const NetworkBound& network);
-  /// The same, that Z is positive definite, by 1e-9 of its norm; none of nothing.
-  static std::optional<Factor> definiteDamping(const NetworkBound& network);
+  /// Modules that hang together with something negative, if the softest case of K (of Z) is
+  /// positive semidefinite there all the same, by 1e-9 of its norm; none if not. \pre something is
+  /// negative
+  static std::optional<std::vector<int>> semidefiniteStiffness(const NetworkBound& network);
+  static std::optional<std::vector<int>> semidefiniteDamping(const NetworkBound& network);
+  /// True if Z is positive definite in its softest case, by 1e-9 of its norm; false of nothing.
+  static bool hasDefiniteDamping(const NetworkBound& network);
 
   /// u' K^-1 u for the weights u at some nodes, K in its softest case, rounded up: K less a load of
   /// k u u^T is definite for every k below its inverse. Infinite if all that hangs together with

@@ -102,7 +102,7 @@ class CouplingChooser {
     const Scene whole = complete_(std::move(candidate));
     const Network network(whole);
     const RatedNetwork networks(network, rates_);
-    Findings findings(whole.file, nullptr);
+    Findings findings(whole.file);
     Option option{coupling};
     option.steps = heardSteps(coupling, kHandHz / rates_.gesturalHz());
     for (const PortCertificate& met : judgePorts(networks, {}, findings)) {

@@ -33,7 +33,6 @@
 #include "tools/lib/end_effectors.hpp"
 #include "tools/lib/explain.hpp"
 #include "tools/lib/load_figures.hpp"
-#include "tools/lib/proof_file.hpp"
 #include "tools/lib/report.hpp"
 #include "tools/lib/target.hpp"
 #include "tools/lib/truths.hpp"
@@ -327,8 +326,6 @@ void addOptions(CLI::App& app, CheckOptions& options) {
   app.add_option("--filter-response", options.filter_response,
                  "write what the chaplets of the scene let through to this table")
       ->type_name("FILE.csv");
-  app.add_option("--proof", options.proof, "write what proves the verdict, for check_proof")
-      ->type_name("FILE.json");
   app.add_option("--explain", options.explain,
                  "say where this module, link or other part comes from, and nothing else")
       ->type_name("NAME");
@@ -365,12 +362,10 @@ int check(const CheckOptions& options) {
   load.begin("certify_s", "certify " + sizeText(settled.scene));
   physics::DeviceTraits device = options.device.traits;
   device.taken_ports = tgr::takenPorts(settled.scene, end_effectors);
-  physics::Proof proof;
   const physics::CompileOptions compile =
       withPrecision(chosenOptions(options.compile), settled.scene);
-  const physics::Certificate certificate = inPrecision(
-      physics::certify(settled.scene, rates, device, options.proof.empty() ? nullptr : &proof),
-      settled.scene, compile);
+  const physics::Certificate certificate =
+      inPrecision(physics::certify(settled.scene, rates, device), settled.scene, compile);
   const double cpu_s = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
   Json report = reportOn(scene, settled, rates, certificate, compile, options.device,
                          loadOf(settled.scene, rates, compile, load));
@@ -394,9 +389,6 @@ int check(const CheckOptions& options) {
   }
   if (!options.filter_response.empty()) {
     writeFilterResponse(options.filter_response, settled.scene, rates);
-  }
-  if (!options.proof.empty()) {
-    writeProof(options.proof, settled.scene, rates, certificate.verdict, proof);
   }
   std::vector<std::string> unstable;
   if (options.scene.variant.empty() && !scene.variants.empty()) {

@@ -21,7 +21,6 @@ struct CheckOptions {
   bool verbose = false;         ///< all that is known of the scene, not what a musician asks first
   std::string target;           ///< empty: nothing is proposed
   std::string filter_response;  ///< empty: not written
-  std::string proof;            ///< empty: not written
   std::string explain;          ///< a name; empty: all of the scene is checked
   ModesChoice modes;
   AdviceChoice advice;
@@ -32,7 +31,7 @@ void addOptions(CLI::App& app, CheckOptions& options);
 
 /// Says on stdout what a scene is made of, whether it is stable, and what it costs.
 /// \return kSuccess, kRefused if it is unstable, or kFailure if a slice meets too much
-/// \throws TextError, Exception, also if a proof is asked for that there is not
+/// \throws TextError, Exception
 int check(const CheckOptions& options);
 
 }  // namespace ergotic::tools

@@ -368,9 +368,9 @@ TEST(NetworkSpectrumTest, NegativeSpringsAreFineWhereTheRestMakesUpForThem) {
     spring(network, between(0, 1), between_them);
     return network;
   };
-  EXPECT_TRUE(proofOfSigns(pair(1.0, -0.49)));
-  EXPECT_FALSE(proofOfSigns(pair(1.0, -0.5))) << "rounding decides whether it grows";
-  EXPECT_FALSE(proofOfSigns(pair(1.0, -0.51)));
+  EXPECT_TRUE(semidefiniteBesideNegative(pair(1.0, -0.49)));
+  EXPECT_FALSE(semidefiniteBesideNegative(pair(1.0, -0.5))) << "rounding decides whether it grows";
+  EXPECT_FALSE(semidefiniteBesideNegative(pair(1.0, -0.51)));
   EXPECT_GT(Dense(pair(1.0, -0.51)).radius(1.0), 1.05);
   EXPECT_LE(Dense(pair(1.0, -0.49)).radius(1.0), 1.0 + 1e-9);
   EXPECT_NEAR(analyse(pair(1.0, -0.49)).lambda, 1.0, 1e-6);
@@ -382,7 +382,7 @@ TEST(NetworkSpectrumTest, DampingMustBeSemidefiniteByItself) {
   spring(network, {{0, 1.0}}, 1.0, -0.1);
   EXPECT_GT(Dense(network).lambda(1.0), 0.0);
   EXPECT_LT(Dense(network).lambda(1.0), 4.0);
-  EXPECT_FALSE(proofOfSigns(network));
+  EXPECT_FALSE(semidefiniteBesideNegative(network));
   EXPECT_GT(Dense(network).radius(1.0), 1.04);
 }
 

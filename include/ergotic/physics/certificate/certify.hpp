@@ -10,8 +10,6 @@
 
 namespace ergotic::physics {
 
-struct Proof;  // ergotic/physics/certificate/proof.hpp
-
 enum class Verdict {
   kPassive,   ///< stable for any motion
   kBounded,   ///< active but saturating elements (pluck, bow) over a passive network
@@ -69,13 +67,9 @@ struct Certificate {
 /// Coupled rates: the eigenvalues of one period of the slowest section, up to 300 masses.
 /// \param scene   settled
 /// \param device  that it will be played on
-/// \param proof   takes what proves the verdict, if it is passive or bounded; nullptr: not wanted
 /// Realtime: no. Cost: some tens of sparse factorisations, below 1 s for 7,000 masses; coupled
 /// rates: the eigenvalues of twice as many numbers as there are masses, 0.5 s for 280. \throws
 /// std::logic_error if `settle` has left something to choose Source: docs/physics.md, "Stability".
-Certificate certify(const scene::Scene& scene,
-                    const Rates& rates,
-                    const DeviceTraits& device = {},
-                    Proof* proof = nullptr);
+Certificate certify(const scene::Scene& scene, const Rates& rates, const DeviceTraits& device = {});
 
 }  // namespace ergotic::physics

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/certificate/period_proof.hpp"
+#include "physics/certificate/lyapunov_form.hpp"
 
 #include <cmath>
 
@@ -50,33 +50,34 @@ Matrix4d joinedBy(const Matrix2d& first, const Matrix2d& second, Matrix4d matrix
   return matrix;
 }
 
-TEST(PeriodProofTest, FormIsKeptByThePeriod) {
+TEST(LyapunovFormTest, FormIsKeptByThePeriod) {
   const Matrix4d matrix = ofTwo(turn(1.0), 0.5 * turn(2.0));
-  const std::optional<PeriodProof> proof = proofOf(periodOf(matrix), {});
-  ASSERT_TRUE(proof);
-  EXPECT_LT((proof->form * matrix - proof->turn * proof->form).norm(), 1e-12);
-  EXPECT_LE(proof->turn.operatorNorm(), 1.0 + 1e-12);
+  const std::optional<LyapunovForm> form = lyapunovFormOf(periodOf(matrix), {});
+  ASSERT_TRUE(form);
+  EXPECT_LT((form->form * matrix - form->turn * form->form).norm(), 1e-12);
+  EXPECT_LE(form->turn.operatorNorm(), 1.0 + 1e-12);
 }
 
 /// What stays is where bodies are, however it is rounded. A mode that comes back after a period
 /// stays, too, and the least that is rounded may let it grow.
-TEST(PeriodProofTest, OnlyBodiesMayStay) {
+TEST(LyapunovFormTest, OnlyBodiesMayStay) {
   Matrix2d drift;
   drift << 1.0, 1.0, 0.0, 1.0;
   Matrix2d held = drift;
   held(1, 0) = 1e-7;
   const Matrix4d body = ofTwo(turn(1.0), drift);
-  EXPECT_TRUE(proofOf(periodOf(body), {body}));
-  EXPECT_FALSE(proofOf(periodOf(body), {ofTwo(turn(1.0), held)}));
-  EXPECT_FALSE(proofOf(periodOf(ofTwo(turn(1.0), Matrix2d::Identity())), {}));
+  EXPECT_TRUE(lyapunovFormOf(periodOf(body), {body}));
+  EXPECT_FALSE(lyapunovFormOf(periodOf(body), {ofTwo(turn(1.0), held)}));
+  EXPECT_FALSE(lyapunovFormOf(periodOf(ofTwo(turn(1.0), Matrix2d::Identity())), {}));
 }
 
 /// As far as rounding joins two modes they grow, if each drives the other: not where they are apart
 /// by more than twice that, and not where one brakes what the other drives.
-TEST(PeriodProofTest, RoundingMayJoinModes) {
+TEST(LyapunovFormTest, RoundingMayJoinModes) {
   const auto isProven = [](double apart, double joined, double back) {
     const Matrix4d matrix = ofTwo(turn(1.0), turn(1.0 + apart));
-    return proofOf(periodOf(matrix), {joinedBy(joined * turn(1.0), back * turn(1.0), matrix)})
+    return lyapunovFormOf(periodOf(matrix),
+                          {joinedBy(joined * turn(1.0), back * turn(1.0), matrix)})
         .has_value();
   };
   EXPECT_TRUE(isProven(1e-5, 4e-6, 4e-6));
@@ -85,21 +86,22 @@ TEST(PeriodProofTest, RoundingMayJoinModes) {
 }
 
 /// One of two loses more than the other: what it feeds need not make up for both losses to grow.
-TEST(PeriodProofTest, RoundingMayFeedTheModeThatLosesLess) {
+TEST(LyapunovFormTest, RoundingMayFeedTheModeThatLosesLess) {
   const auto isProven = [](double joined) {
     const Matrix4d matrix = ofTwo(0.995 * turn(1.0), turn(1.0));
     const Matrix4d rounded = joinedBy(joined * turn(1.0), joined * turn(1.0), matrix);
     EXPECT_GT(rounded.eigenvalues().cwiseAbs().maxCoeff(), 1.0 + joined * joined);
-    return proofOf(periodOf(matrix), {rounded}).has_value();
+    return lyapunovFormOf(periodOf(matrix), {rounded}).has_value();
   };
   EXPECT_FALSE(isProven(3e-3));
   EXPECT_TRUE(isProven(1e-6));
 }
 
-TEST(PeriodProofTest, RoundingMayTakeAwayWhatAModeLoses) {
+TEST(LyapunovFormTest, RoundingMayTakeAwayWhatAModeLoses) {
   const auto isProven = [](double loss) {
     const Matrix4d matrix = ofTwo((1.0 - loss) * turn(1.0), 0.9 * turn(2.0));
-    return proofOf(periodOf(matrix), {ofTwo((1.0 - loss + 1e-6) * turn(1.0), 0.9 * turn(2.0))})
+    return lyapunovFormOf(periodOf(matrix),
+                          {ofTwo((1.0 - loss + 1e-6) * turn(1.0), 0.9 * turn(2.0))})
         .has_value();
   };
   EXPECT_FALSE(isProven(9e-7));
@@ -107,12 +109,12 @@ TEST(PeriodProofTest, RoundingMayTakeAwayWhatAModeLoses) {
 }
 
 /// Two modes that have nearly met: what begins small becomes large before it comes back.
-TEST(PeriodProofTest, ModesThatNearlyMeetAreNoProof) {
+TEST(LyapunovFormTest, ModesThatNearlyMeetHaveNone) {
   const auto isProven = [](double left) {
     const double apart = 0.01;
     const Matrix2d joined = (1.0 - left) * std::sin(apart / 2.0) * turn(1.0 + apart / 2.0);
     const Matrix4d matrix = joinedBy(joined, joined, ofTwo(turn(1.0), turn(1.0 + apart)));
-    return proofOf(periodOf(matrix), {}).has_value();
+    return lyapunovFormOf(periodOf(matrix), {}).has_value();
   };
   EXPECT_FALSE(isProven(1e-6));
   EXPECT_FALSE(isProven(1e-3));

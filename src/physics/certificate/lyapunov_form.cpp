@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/certificate/period_proof.hpp"
+#include "physics/certificate/lyapunov_form.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -341,7 +341,8 @@ class RoundedModes {
 
 }  // namespace
 
-std::optional<PeriodProof> proofOf(const Period& period, const std::vector<MatrixXd>& rounded) {
+std::optional<LyapunovForm> lyapunovFormOf(const Period& period,
+                                           const std::vector<MatrixXd>& rounded) {
   const std::optional<Staying> staying = besideWhatStays(period.matrix, rounded);
   if (!staying) {
     return std::nullopt;
@@ -363,15 +364,15 @@ std::optional<PeriodProof> proofOf(const Period& period, const std::vector<Matri
   for (const MatrixXd& other : rounded) {
     roundings.push_back(kept.transpose() * (other - period.matrix) * kept);
   }
-  PeriodProof proof{{}, 0, period.modules, form.rows * kept.transpose(), form.turn};
-  if (!(conditionOf(proof.form, staying->bodies) < kMeeting) ||
-      !(breathingOf(proof.form, proof.turn, lasting.rows.rows(), staying->bodies, period) < 1.0) ||
+  LyapunovForm found{form.rows * kept.transpose(), form.turn};
+  if (!(conditionOf(found.form, staying->bodies) < kMeeting) ||
+      !(breathingOf(found.form, found.turn, lasting.rows.rows(), staying->bodies, period) < 1.0) ||
       RoundedModes(modes, roundings).mayGrow()) {
     return std::nullopt;
   }
   const Index modules = period.units.size();
-  proof.form.rightCols(modules) *= period.units.cwiseInverse().asDiagonal();
-  return proof;
+  found.form.rightCols(modules) *= period.units.cwiseInverse().asDiagonal();
+  return found;
 }
 
 }  // namespace ergotic::physics

@@ -75,8 +75,7 @@ bool isSettled(const Scene& scene) {
               [](const Mat& m) {
                 return m.coupling == Coupling::kChaplet || m.coupling == Coupling::kAuto;
               }) &&
-         none(scene.lias,
-              [](const Lia& lia) { return lia.filtered || lia.scheme == Scheme::kAuto; });
+         none(scene.lias, [](const Lia& lia) { return lia.filtered || isOpen(lia.scheme); });
 }
 
 }  // namespace ergotic::scene

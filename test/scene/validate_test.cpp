@@ -165,24 +165,38 @@ TEST(ClippedLawTest, IsContinuousAtItsTippingPointInYaml) {
   EXPECT_EQ(lia.law->limit_damping.factor, 0.0);
 }
 
-TEST(ClippedLawTest, TipsWhereMdlSaysAndIsMoreDampedThere) {
-  const Lia lia = clipped(LiaType::kCubicContact, 0.01, 0.4, 0.05, ClippedLaw::kMdl);
+TEST(ClippedLawTest, TipsWhereMiGenSaysAndItsSpringsAreMoreDampedThere) {
+  const Lia contact = clipped(LiaType::kCubicContact, 0.01, 0.16, 0.05, ClippedLaw::kMiGen);
+  EXPECT_DOUBLE_EQ(contact.law->tipping_point, 0.5);
+  EXPECT_EQ(contact.law->limit_damping.factor, 0.0);
+  EXPECT_EQ(contact.type, LiaType::kCubicContact);
+  const Lia spring = clipped(LiaType::kClippedCubic, 0.01, 0.16, 0.05, ClippedLaw::kMiGen);
+  EXPECT_DOUBLE_EQ(spring.law->tipping_point, 0.5);
+  EXPECT_DOUBLE_EQ(spring.law->limit_damping.factor, 0.015);
+}
+
+TEST(ClippedLawTest, TipsWhereFaustSaysAndIsMoreDampedThere) {
+  const Lia lia = clipped(LiaType::kCubicContact, 0.01, 0.4, 0.05, ClippedLaw::kFaust);
   EXPECT_DOUBLE_EQ(lia.law->tipping_point, 0.5);
   EXPECT_DOUBLE_EQ(lia.law->limit_damping.factor, 0.015);
   EXPECT_EQ(lia.type, LiaType::kCubicContact);
 }
 
 TEST(ClippedLawTest, IsStraightWithoutACube) {
-  const Lia lia = clipped(LiaType::kClippedCubic, 0.01, 0.0, 0.05, ClippedLaw::kMdl);
+  const Lia lia = clipped(LiaType::kClippedCubic, 0.01, 0.0, 0.05, ClippedLaw::kMiGen);
   EXPECT_EQ(lia.type, LiaType::kSpringDamper);
   EXPECT_EQ(lia.stiffness.factor, 0.01);
 }
 
-TEST(ClippedLawTest, IsStraightWithTheLimitWhenStifferThanThat) {
-  const Lia lia = clipped(LiaType::kCubicContact, 0.06, 0.4, 0.05, ClippedLaw::kMdl);
+TEST(ClippedLawTest, IsStraightWhenStifferThanItsLimit) {
+  const Lia lia = clipped(LiaType::kCubicContact, 0.06, 0.4, 0.05, ClippedLaw::kFaust);
   EXPECT_EQ(lia.type, LiaType::kContact);
   EXPECT_EQ(lia.stiffness.factor, 0.05);
   EXPECT_EQ(lia.law->limit_damping.factor, 0.0);
+  const Lia contact = clipped(LiaType::kCubicContact, 0.06, 0.4, 0.05, ClippedLaw::kMiGen);
+  EXPECT_EQ(contact.stiffness.factor, 0.06) << "mi-gen raises the limit of a contact";
+  const Lia spring = clipped(LiaType::kClippedCubic, 0.06, 0.4, 0.05, ClippedLaw::kMiGen);
+  EXPECT_EQ(spring.stiffness.factor, 0.05);
 }
 
 TEST(ClippedLawTest, IsNotAParametersBusiness) {

@@ -26,12 +26,11 @@ struct Material {
 /// mass and osc: x' = a x + b x_last + (force - gravity) / m
 struct Inertia : Material {
   Inertia(double mass, double k, double z, double gravity, double position, double velocity)
-      : Material(position, position - velocity / kMdlSampleRate),
-        m(mass),
-        g(gravity / kMdlSampleRate) {
-    set(k, z);
+      : Material(position, position - velocity / kMdlSampleRate), g(gravity / kMdlSampleRate) {
+    set(mass, k, z);
   }
-  void set(double k, double z) {
+  void set(double mass, double k, double z) {
+    m = mass;
     a = 2.0 - (k + z) / m;
     b = z / m - 1.0;
   }
@@ -41,7 +40,8 @@ struct Inertia : Material {
     x = next;
     force = 0.0;
   }
-  double m, g;
+  double g;
+  double m = 1.0;
   double a = 0.0;
   double b = 0.0;
 };
@@ -62,20 +62,17 @@ struct DrivenPoint : Material {
   double target;
 };
 
-/// A point of a macro: where its modules take it, and its force goes to them.
+/// A point of a macro: where its modules take it, and its force goes to them. Its velocity is that
+/// of the modules, wherever it has been before.
 struct MacroPoint : Material {
   using Shares = std::vector<std::pair<Material*, double>>;
-  explicit MacroPoint(const Shares& of) : Material(0.0, 0.0), shares(of) {
+  explicit MacroPoint(const Shares& of) : Material(0.0, 0.0), shares(of) { move(); }
+  void move() override {
+    x = 0.0;
+    x_last = 0.0;
     for (const auto& [material, share] : shares) {
       x += share * material->x;
       x_last += share * material->x_last;
-    }
-  }
-  void move() override {
-    x_last = x;
-    x = 0.0;
-    for (const auto& [material, share] : shares) {
-      x += share * material->x;
     }
     force = 0.0;
   }
@@ -110,7 +107,7 @@ struct Link {
   Numbers numbers;
 };
 
-/// nlSpringDamper: cubic up to the tipping point, then straight and more damped.
+/// nlSpringDamper of mi-gen: cubic up to the tipping point, then straight and more damped.
 inline double clippedLaw(const Numbers& v, double dx, double dv) {
   const auto& [s, c, limit, z, threshold] = v;
   if (c == 0.0) {
@@ -119,10 +116,31 @@ inline double clippedLaw(const Numbers& v, double dx, double dv) {
   if (s >= limit) {
     return limit * dx + z * dv;
   }
-  if (std::abs(dx) <= std::sqrt(limit - s) / c) {
-    return s * dx + c * dx * dx * dx + z * dv;
+  return std::abs(dx) <= std::sqrt((limit - s) / c) ? s * dx + c * dx * dx * dx + z * dv
+                                                    : limit * dx + (z + 0.3 * limit) * dv;
+}
+
+/// nlContact of mi-gen: the same without more damping, and never softer than at first.
+inline double clippedContactLaw(const Numbers& v, double dx, double dv) {
+  const auto& [s, c, limit, z, threshold] = v;
+  const double p = dx + threshold;
+  if (p <= 0.0) {
+    return 0.0;
   }
-  return limit * dx + (z + 0.3 * limit) * dv;
+  const bool is_cubic = c != 0.0 && s < limit;
+  if (is_cubic && std::abs(p) > std::sqrt((limit - s) / c)) {
+    return limit * p + z * dv;
+  }
+  return s * p + (is_cubic ? c * p * p * p : 0.0) + z * dv;
+}
+
+/// nlSpringDamper of Faust's library; with a gate also its nlContact.
+inline double faustClippedLaw(const Numbers& v, double dx, double dv) {
+  const auto& [s, c, limit, z, threshold] = v;
+  const bool is_cubic = c != 0.0 && s < limit;
+  return is_cubic && std::abs(dx) <= std::sqrt(limit - s) / c
+             ? s * dx + c * dx * dx * dx + z * dv
+             : (c == 0.0 ? s : limit) * dx + (is_cubic ? z + 0.3 * limit : z) * dv;
 }
 
 inline double pluckLaw(const Numbers& v, double dx, double dv) {
@@ -159,8 +177,12 @@ inline const std::map<std::string, Law>& laws() {
       {"contact", [](const Numbers& v, double dx,
                      double dv) { return -dx < v[2] ? v[0] * (dx + v[2]) + v[1] * dv : 0.0; }},
       {"nlSpringDamper", clippedLaw},
-      {"nlContact", [](const Numbers& v, double dx,
-                       double dv) { return -dx < v[4] ? clippedLaw(v, dx + v[4], dv) : 0.0; }},
+      {"nlContact", clippedContactLaw},
+      {"nlSpringDamper of Faust", faustClippedLaw},
+      {"nlContact of Faust",
+       [](const Numbers& v, double dx, double dv) {
+         return -dx < v[4] ? faustClippedLaw(v, dx + v[4], dv) : 0.0;
+       }},
       {"nlPluck", pluckLaw},
       {"nlBow", bowLaw},
   };

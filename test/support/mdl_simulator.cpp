@@ -204,11 +204,16 @@ class Model {
     }
     links_.clear();
     for (const MdlElement& line : lines_) {
-      if (line.keyword == "osc") {
+      if (line.keyword == "osc" || line.keyword == "mass") {
+        const bool is_osc = line.keyword == "osc";
         dynamic_cast<Inertia&>(*materials_.at(line.name))
-            .set(number(line.arguments.at(1)), number(line.arguments.at(2)));
+            .set(number(line.arguments.at(0)), is_osc ? number(line.arguments.at(1)) : 0.0,
+                 is_osc ? number(line.arguments.at(2)) : 0.0);
       }
       addLink(line);
+    }
+    for (auto& [reference, point] : points_) {
+      point->shares = sharesOf(reference);
     }
   }
 
@@ -257,8 +262,9 @@ class Model {
     if (net == nets_.end()) {
       throw std::runtime_error("no macro '" + name + "'");
     }
-    const double row = net->rows > 1 ? number(first) * (net->rows - 1) : 0.0;
-    const double column = number(net->rows > 1 ? second : first) * (net->columns - 1);
+    const auto cut = [this](const std::string& text) { return std::clamp(number(text), 0.0, 1.0); };
+    const double row = net->rows > 1 ? cut(first) * (net->rows - 1) : 0.0;
+    const double column = cut(net->rows > 1 ? second : first) * (net->columns - 1);
     MacroPoint::Shares shares;
     for (int i = 0; i < net->rows; ++i) {
       for (int j = 0; j < net->columns; ++j) {
@@ -298,8 +304,12 @@ class Model {
     if (line.arguments.size() < 3 || line.arguments[0][0] != '@') {
       return;
     }
-    Link link{
-        &material(line.arguments[0]), &material(line.arguments[1]), laws().at(line.keyword), {}};
+    const bool is_faust =
+        given_.count("faust_clip") > 0 && laws().count(line.keyword + " of Faust") > 0;
+    Link link{&material(line.arguments[0]),
+              &material(line.arguments[1]),
+              laws().at(line.keyword + (is_faust ? " of Faust" : "")),
+              {}};
     for (std::size_t i = 2; i < line.arguments.size(); ++i) {
       link.numbers.at(i - 2) = number(line.arguments[i]);
     }

@@ -29,7 +29,8 @@ inline double peakOf(const std::vector<double>& channel) {
 ///   x[-1] = pos, x[-2] = pos - vel / 44100; a posInput is where its input is, pos before that;
 ///   then F[n] = sum of the link forces at x[n] and v[n] = x[n] - x[n-1], and of frcInputs.
 ///
-/// \param params  values in place of those of the text's `param` lines
+/// \param params  values in place of those of the text's `param` lines; `faust_clip` asks for the
+///                clipped laws of Faust's library in place of mi-gen's
 /// \param inputs  [k-1] is heard by `@in<k>`; missing channels and frames are 0
 /// \return [k-1] is what `@out<k>` gives
 /// \throws std::runtime_error naming the line that is not understood

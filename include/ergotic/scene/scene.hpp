@@ -120,6 +120,8 @@ enum class Scheme : std::uint8_t {
   kExplicit,  ///< CORDIS-ANIMA, from the present positions
   kGuarded,   ///< never gives more energy than it took; contact, two-sided springs and friction
   kAuto,      ///< `settle` chooses by the rules of the certificate
+  /// `settle` chooses: explicit, as `.mdl` files mean it, unless it is too stiff for that.
+  kExplicitIfStable,
 };
 
 /// Points (x, y) of a function, sorted by x, at least two if there are any.
@@ -145,8 +147,9 @@ struct LiaLaw {
   /// m/time_unit.
   Value width{};
   Value exponent{1.0};  ///< of the power contact, 1...5
-  /// Clipped cubic laws: |e| at which the slope K_limit takes over, m. `.mdl` files mean
-  /// sqrt(K_limit - K) / Q, YAML sqrt((K_limit - K) / Q), where the force is continuous.
+  /// Clipped cubic laws: |e| at which the slope K_limit takes over, m. It is
+  /// sqrt((K_limit - K) / Q), where the force is continuous, or as Faust has it, which `.mdl` files
+  /// may ask for, sqrt(K_limit - K) / Q.
   double tipping_point = 0.0;
   double release = 0.0;  ///< conditional: |e| at which it lets go, m, >= width
   /// (e, force): pluck and LNL; (v, force): bow; (|v|, mu): friction. Pluck and bow are 0 outside,
@@ -366,6 +369,11 @@ struct Outline {
   std::vector<double> weights;             ///< [places][modes]
   std::vector<std::pair<int, int>> lines;  ///< between places
 };
+
+/// True if `settle` has still to choose.
+inline bool isOpen(Scheme scheme) {
+  return scheme == Scheme::kAuto || scheme == Scheme::kExplicitIfStable;
+}
 
 /// A whole scene.
 /// \invariant after `validate`: every index is legal, names are unique, masses are positive.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <string>
 
 /// Numbers of a scene, what may change them, and where they stand in its text.
@@ -39,13 +41,21 @@ struct Parameter {
   Place place{};
 };
 
-/// A number that follows an audio input from sample to sample (`.mdl` audioParam). It has no range,
-/// so nothing is proven of what it moves. Only stiffness, damping and nonlinearity may follow one.
+/// A number that follows an audio input from sample to sample (`.mdl` audioParam). Only places on
+/// strings and meshes have a range, so nothing is proven of what else it moves: masses, stiffness,
+/// damping, nonlinearity and widths.
 struct AudioParameter {
   std::string name;
   int channel = 0;     ///< audio channel, from 0
-  double value = 0.0;  ///< the present sample
+  double value = 0.0;  ///< of the present sample
   Place place;
+  double scale = 1.0;  ///< of the sample
+  double offset = 0.0;
+  double minimum = -std::numeric_limits<double>::infinity();  ///< it never leaves this range
+  double maximum = std::numeric_limits<double>::infinity();
+  double at(double sample) const noexcept {
+    return std::clamp(offset + scale * sample, minimum, maximum);
+  }
 };
 
 }  // namespace ergotic::scene

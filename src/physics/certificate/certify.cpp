@@ -2,8 +2,10 @@
 #include "ergotic/physics/certificate/certify.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -13,6 +15,24 @@
 
 namespace ergotic::physics {
 namespace {
+
+/// Audio parameters that anything but a place follows: places have a range, which is certified.
+std::set<int> audioInCoefficients(const scene::Scene& scene) {
+  std::set<int> found;
+  const auto add = [&found](std::initializer_list<scene::Value> values) {
+    for (const scene::Value& value : values) {
+      found.insert(value.audio);
+    }
+  };
+  for (const scene::Mat& mat : scene.mats) {
+    add({mat.mass, mat.stiffness, mat.damping});
+  }
+  for (const scene::Lia& lia : scene.lias) {
+    add({lia.stiffness, lia.damping, lia.law->nonlinearity, lia.law->width});
+  }
+  found.erase(-1);
+  return found;
+}
 
 class Certifier {
  public:
@@ -33,7 +53,8 @@ class Certifier {
     }
     judgeAxes(networks_, findings_);
     judgeCouplings(networks_, findings_);
-    for (const scene::AudioParameter& parameter : scene_.audio_parameters) {
+    for (const int index : audioInCoefficients(scene_)) {
+      const scene::AudioParameter& parameter = scene_.audio_parameters[at(index)];
       findings_.add(Verdict::kUnproven, parameter.place,
                     "'" + parameter.name +
                         "' follows an audio input, which has no range: nothing is proven of what "
@@ -109,9 +130,37 @@ class Certifier {
     } else if (analysis.is_bound) {
       text += ". It is only a bound: several points that move were taken at their worst together";
     }
-    const bool may_hold =
-        analysis.is_too_large || analysis.is_bound || analysis.lambda < NetworkBound::kLimit;
-    findings_.add(may_hold ? Verdict::kUnproven : Verdict::kUnstable, place, text);
+    const Verdict verdict = verdictOn(section, analysis);
+    if (verdict == Verdict::kBounded) {
+      text +=
+          ". What is too steep has a force that is bounded: it can rattle in time with the "
+          "steps, but not grow";
+    } else if (verdict == Verdict::kUnproven && isRefuted(analysis)) {
+      text +=
+          ". That is where links are at their steepest: at rest it is stable, and whether it "
+          "grows depends on how it is played";
+    }
+    findings_.add(verdict, place, text);
+  }
+
+  /// True if the network is beyond its limit for certain.
+  static bool isRefuted(const NetworkAnalysis& analysis) {
+    return !analysis.is_too_large && !analysis.is_bound && analysis.lambda >= NetworkBound::kLimit;
+  }
+
+  /// Of a network that is not proven. Only what is linear is shown to grow: the others may leave
+  /// the slope that is too steep, or have a force that is bounded.
+  Verdict verdictOn(const SectionCertificate& section, const NetworkAnalysis& analysis) const {
+    if (!isRefuted(analysis)) {
+      return Verdict::kUnproven;
+    }
+    const int divisor = divisorOf(scene_.sections[at(section.section)], networks_.rates());
+    if (isRefuted(analyse(networks_.atRest(divisor)))) {
+      return Verdict::kUnstable;
+    }
+    // Whether all that such forces act on loses energy is judged link by link.
+    return analyse(networks_.withoutBounded(divisor)).isProven() ? Verdict::kBounded
+                                                                 : Verdict::kUnproven;
   }
 
   const scene::Scene& scene_;
@@ -172,7 +221,7 @@ double Certificate::margin() const {
 
 Certificate certify(const scene::Scene& scene, const Rates& rates, const DeviceTraits& device) {
   for (const scene::Lia& lia : scene.lias) {
-    if (lia.scheme == scene::Scheme::kAuto) {
+    if (scene::isOpen(lia.scheme)) {
       throw std::logic_error("link '" + lia.name + "' is not settled: nobody chose its scheme");
     }
   }

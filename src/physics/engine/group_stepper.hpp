@@ -153,7 +153,7 @@ class GroupStepper {
       return;
     }
     for (scene::AudioParameter& parameter : followed_.audio_parameters) {
-      parameter.value = in[parameter.channel];
+      parameter.value = parameter.at(in[parameter.channel]);
     }
     for (const std::size_t k : group.followers) {
       mechanism_.coefficients->follow(followed_, rates_, mechanism_.layout,

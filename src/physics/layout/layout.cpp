@@ -149,12 +149,19 @@ bool follows(const scene::Value& v) {
   return v.audio >= 0;
 }
 
+bool followsAudio(const scene::Mat& mat) {
+  const bool is_cell = mat.type == MatType::kCell;
+  return (is_cell || mat.type == MatType::kMass) &&
+         (follows(mat.mass) || (is_cell && (follows(mat.stiffness) || follows(mat.damping))));
+}
+
 void findFollowers(const scene::Scene& scene, Layout& layout) {
   for (int r = 0; r < static_cast<int>(layout.runs.size()); ++r) {
     const LinkRun& run = layout.runs[at(r)];
     for (int l = 0; l < static_cast<int>(run.lias.size()); ++l) {
       const scene::Lia& lia = scene.lias[at(run.lias[at(l)])];
-      if (follows(lia.stiffness) || follows(lia.damping) || follows(lia.law->nonlinearity)) {
+      if (follows(lia.stiffness) || follows(lia.damping) || follows(lia.law->nonlinearity) ||
+          follows(lia.law->width)) {
         layout.followers.push_back({r, l, run.section});
       }
     }
@@ -164,9 +171,15 @@ void findFollowers(const scene::Scene& scene, Layout& layout) {
       continue;
     }
     const scene::Mat& mat = scene.mats[at(layout.mat_of_slot[at(slot)])];
-    if (layout.component[at(slot)] == 0 && mat.type == MatType::kCell &&
-        (follows(mat.stiffness) || follows(mat.damping))) {
-      layout.followers.push_back({-1, slot, mat.section});
+    if (layout.component[at(slot)] == 0 && followsAudio(mat)) {
+      layout.followers.push_back({Follower::kModule, slot, mat.section});
+    }
+  }
+  for (int p = 0; p < static_cast<int>(layout.places.size()); ++p) {
+    const PlacePoint& point = layout.places[at(p)];
+    const scene::Connection& connection = scene.connections[at(point.connection)];
+    if (follows(connection.along.at) || follows(connection.across.at)) {
+      layout.followers.push_back({Follower::kPlace, p, point.section});
     }
   }
 }

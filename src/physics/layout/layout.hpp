@@ -163,10 +163,12 @@ struct Feed {
   int channel = 0;
 };
 
-/// A link or a module whose coefficients follow an audio input.
+/// A link, a module or a place on a grid whose coefficients follow an audio input.
 struct Follower {
-  int run = 0;    ///< index in Layout::runs; -1: a module
-  int index = 0;  ///< of the link in its run, or slot of the module
+  static constexpr int kModule = -1;
+  static constexpr int kPlace = -2;
+  int run = 0;    ///< index in Layout::runs, kModule or kPlace
+  int index = 0;  ///< of the link in its run, slot of the module, or index in Layout::places
   int section = 0;
 };
 

@@ -19,6 +19,13 @@ Varying varying(const scene::Scene& scene, const scene::Value& v) {
   return {scene.valueOf(v), rangeOf(scene, v)};
 }
 
+/// Of one that follows an audio input nothing is proven; so that it is not said to be unstable,
+/// either, it is taken as too heavy to move.
+Varying massOf(const scene::Scene& scene, const scene::Mat& mat) {
+  constexpr double kHeavy = 1e6;  // kg
+  return mat.mass.audio < 0 ? varying(scene, mat.mass) : Varying{kHeavy, {kHeavy, kHeavy}};
+}
+
 Varying operator+(const Varying& a, const Varying& b) {
   return {a.now + b.now, {a.range.lowest + b.range.lowest, a.range.highest + b.range.highest}};
 }
@@ -32,7 +39,7 @@ Network::Node nodeOf(const scene::Scene& scene, const scene::Mat& mat) {
     return node;
   }
   const scene::Value& medium = scene.sectionOf(mat).medium;
-  node.mass = varying(scene, mat.mass);
+  node.mass = massOf(scene, mat);
   node.damping = varying(scene, medium);
   node.is_matched = largest(scene, medium) > 0.0;
   if (mat.type == MatType::kCell) {

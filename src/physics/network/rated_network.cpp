@@ -28,6 +28,7 @@ struct RatedNetwork::Builder {
   int divisor;
   int island;
   std::unordered_map<int, int> nodes;  // by module
+  Part part = Part::kSteepest;
 
   int nodeOf(int mat, double mass) {
     const auto [known, is_new] = nodes.try_emplace(mat, 0);
@@ -209,6 +210,21 @@ void RatedNetwork::addModules(Builder& to, bool plain) const {
   }
 }
 
+Slopes RatedNetwork::slopesOf(const scene::Lia& lia, Part part) const {
+  const scene::Law& law = scene::lawOf(lia.type);
+  const bool is_linear =
+      law.kind == scene::Law::Kind::kLinear || law.kind == scene::Law::Kind::kRelaxing;
+  if (part == Part::kAtRest && !is_linear) {
+    return law.has_linear_part
+               ? Slopes{rangeOf(scene_, lia.stiffness), rangeOf(scene_, lia.damping)}
+               : Slopes{};
+  }
+  const bool is_bounded =
+      law.friction != nullptr || (law.is_held && rangeOf(scene_, lia.damping).highest <= 0.0);
+  return part == Part::kUnbounded && is_bounded ? Slopes{}
+                                                : scene::slopesInSteps(scene_, lia, stepOf(lia));
+}
+
 void RatedNetwork::addLink(Builder& to, int l, bool hold_a, bool hold_b) const {
   const scene::Lia& lia = scene_.lias[at(l)];
   const auto nodesOf = [&](const Shares& place, double sign) {
@@ -222,7 +238,7 @@ void RatedNetwork::addLink(Builder& to, int l, bool hold_a, bool hold_b) const {
   const std::vector<Shares> held(1);
   const std::vector<Shares> at_a = hold_a ? held : placesOf(lia.a);
   const std::vector<Shares> at_b = hold_b ? held : placesOf(lia.b);
-  const Slopes steepest = scene::slopesInSteps(scene_, lia, stepOf(lia));
+  const Slopes steepest = slopesOf(lia, to.part);
   const Range& k = steepest.stiffness;
   const Range& z = steepest.damping;
   if (at_a.size() > 1 && at_b.size() > 1) {
@@ -293,8 +309,8 @@ void RatedNetwork::addCells(Builder& to) const {
   }
 }
 
-NetworkBound RatedNetwork::atOwnRate(int divisor, int island, bool plain) const {
-  Builder builder{NetworkBound(StepUnits(scene_, rates_, divisor).step), divisor, island, {}};
+NetworkBound RatedNetwork::ofOwnRate(int divisor, int island, bool plain, Part part) const {
+  Builder builder{NetworkBound(StepUnits(scene_, rates_, divisor).step), divisor, island, {}, part};
   addModules(builder, plain);
   addBends(builder);
   for (int l = 0; l < static_cast<int>(scene_.lias.size()); ++l) {

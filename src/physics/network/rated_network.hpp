@@ -63,7 +63,15 @@ class RatedNetwork {
 
   /// Everything that is computed at one rate, slower ends held.
   /// \param plain  matched modules as if they were not: a bound of them, at any step
-  NetworkBound atOwnRate(int divisor, int island = kAll, bool plain = false) const;
+  NetworkBound atOwnRate(int divisor, int island = kAll, bool plain = false) const {
+    return ofOwnRate(divisor, island, plain, Part::kSteepest);
+  }
+  /// The same, of links that are not linear only their linear part; and the same without links
+  /// whose force is bounded however far or fast their ends move.
+  NetworkBound atRest(int divisor) const { return ofOwnRate(divisor, kAll, false, Part::kAtRest); }
+  NetworkBound withoutBounded(int divisor) const {
+    return ofOwnRate(divisor, kAll, false, Part::kUnbounded);
+  }
   /// Modules of one rate, all their links, and the faster modules that these touch, at that rate.
   NetworkBound atSlowRate(int divisor, int island = kAll) const;
   /// True if a module of this rate with matched coefficients has links.
@@ -71,6 +79,7 @@ class RatedNetwork {
 
  private:
   struct Builder;
+  enum class Part { kSteepest, kAtRest, kUnbounded };
 
   void joinGroups();
   /// True if it is explicit, and by itself: a bend is one load, whatever it is stepped as.
@@ -82,6 +91,8 @@ class RatedNetwork {
     return network_.nodes[static_cast<std::size_t>(mat)];
   }
   std::vector<Shares> placesOf(int mat) const { return physics::placesOf(network_, mat); }
+  NetworkBound ofOwnRate(int divisor, int island, bool plain, Part part) const;
+  Slopes slopesOf(const scene::Lia& lia, Part part) const;
   void addModules(Builder& to, bool plain) const;
   void addLink(Builder& to, int lia, bool hold_a, bool hold_b) const;
   void addBends(Builder& to) const;

@@ -5,8 +5,10 @@
 #include <map>
 #include <tuple>
 
+#include "at.hpp"
 #include "physics/certificate/energy_loss.hpp"
 #include "physics/certificate/explicit_limits.hpp"
+#include "physics/network/network_analysis.hpp"
 #include "physics/network/rated_network.hpp"
 #include "physics/note.hpp"
 #include "scene/laws/law.hpp"
@@ -137,10 +139,89 @@ class SchemeChooser {
   std::map<Key, AlikeLinks> alike_;
 };
 
+/// Guards the stiffest of the links that are explicit only if that is stable, until it is.
+class StableChooser {
+ public:
+  StableChooser(scene::Scene& scene, const Rates& rates, std::vector<std::string>& notes)
+      : scene_(scene), rates_(rates), notes_(notes) {}
+
+  void run() {
+    for (int l = 0; l < static_cast<int>(scene_.lias.size()); ++l) {
+      if (scene_.lias[at(l)].scheme == Scheme::kExplicitIfStable) {
+        open_.push_back(l);
+      }
+    }
+    setOpen(Scheme::kGuarded);
+    const bool is_stable_without = !open_.empty() && !isRefuted();
+    setOpen(Scheme::kExplicit);
+    if (open_.empty() || !isRefuted()) {
+      return;
+    }
+    sortByLoad();
+    while (!open_.empty() &&
+           (loads_[open_.back()] >= NetworkBound::kLimit || (is_stable_without && isRefuted()))) {
+      guard(open_.back());
+      open_.pop_back();
+    }
+  }
+
+ private:
+  void setOpen(Scheme scheme) {
+    for (const int l : open_) {
+      scene_.lias[at(l)].scheme = scheme;
+    }
+  }
+
+  /// Of each link by itself: h^2 K (1/Ma + 1/Mb) + 2 h Z (1/Ma + 1/Mb).
+  void sortByLoad() {
+    const Network network(scene_);
+    const RatedNetwork networks(network, rates_);
+    for (const int l : open_) {
+      const scene::Lia& lia = scene_.lias[at(l)];
+      const Slopes& slopes = networks.slopes(l);
+      loads_[l] = networks.inverseMassStep2(lia) * slopes.stiffness.highest +
+                  2.0 * networks.inverseMassStep(lia) * slopes.damping.highest;
+    }
+    std::stable_sort(open_.begin(), open_.end(),
+                     [this](int a, int b) { return loads_[a] < loads_[b]; });
+  }
+
+  /// Whether the network is beyond its limit with all links at their steepest.
+  bool isRefuted() const {
+    const Network network(scene_);
+    const RatedNetwork networks(network, rates_);
+    return std::any_of(scene_.sections.begin(), scene_.sections.end(), [&](const auto& section) {
+      const NetworkAnalysis found = analyse(networks.atOwnRate(divisorOf(section, rates_)));
+      return found.lambda >= NetworkBound::kLimit && !found.is_bound && !found.is_too_large;
+    });
+  }
+
+  void guard(int l) {
+    scene::Lia& lia = scene_.lias[at(l)];
+    if (!(loads_[l] > 0.0)) {
+      return;
+    }
+    lia.scheme = Scheme::kGuarded;
+    notes_.push_back(
+        noteAt(scene_, lia.place) + "link '" + lia.name.str() +
+        "': guarded (h^2 K (1/Ma + 1/Mb) + 2 h Z (1/Ma + 1/Mb) = " + shortly(loads_[l]) +
+        ", which with what is around it is more than the explicit scheme bears, 4): "
+        "it never gives more energy than it took, and does not sound as explicit "
+        "programs play it");
+  }
+
+  scene::Scene& scene_;
+  const Rates& rates_;
+  std::vector<std::string>& notes_;
+  std::vector<int> open_;
+  std::map<int, double> loads_;
+};
+
 }  // namespace
 
 void chooseSchemes(scene::Scene& scene, const Rates& rates, std::vector<std::string>& notes) {
   SchemeChooser(scene, rates, notes).run();
+  StableChooser(scene, rates, notes).run();
 }
 
 }  // namespace ergotic::physics

@@ -17,13 +17,13 @@ namespace {
 
 constexpr double kCreditSeconds = 0.1;  // of what a place may bring, in advance
 
-/// What guides a place moves it in its own step, or as it is seen to glide, parameters between two
-/// ticks.
+/// What guides a place moves it in its own step, or as it is seen to glide; an audio input in the
+/// step of the place, parameters between two ticks.
 PlaceCoefficients::Way wayOf(const scene::Scene& scene,
                              const Rates& rates,
                              const scene::Connection::Way& way,
                              int section) {
-  int glide = rates.ratio;
+  int glide = way.at.audio >= 0 ? divisorOf(scene.sections[at(section)], rates) : rates.ratio;
   if (way.guide >= 0) {
     const bool is_seen = glides(scene, rates, way.guide, section);
     const int steps = is_seen ? section : scene.mats[at(way.guide)].section;
@@ -172,8 +172,13 @@ void CoefficientsOf<Real>::follow(const scene::Scene& scene,
                                   const Layout& layout,
                                   const Follower& follower) noexcept {
   const StepUnits units(scene, rates, layout.sections[at(follower.section)].divisor);
-  if (follower.run < 0) {
+  if (follower.run == Follower::kModule) {
     setSlot(scene, units, layout, follower.index);
+  } else if (follower.run == Follower::kPlace) {
+    const scene::Connection& from =
+        scene.connections[at(layout.places[at(follower.index)].connection)];
+    places[at(follower.index)].ways[0].at = scene.valueOf(from.along.at);
+    places[at(follower.index)].ways[1].at = scene.valueOf(from.across.at);
   } else {
     setLink(scene, units, layout.runs[at(follower.run)], at(follower.run), follower.index);
   }

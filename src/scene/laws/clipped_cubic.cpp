@@ -30,17 +30,17 @@ void completeClippedLaw(Lia& lia, ClippedLaw law) {
   const double q = lia.law->nonlinearity.factor;
   const double limit = lia.law->stiffness_limit.factor;
   if (q == 0.0 || k >= limit) {
+    const bool keeps_stiffness = q == 0.0 || (law == ClippedLaw::kMiGen && contact);
     lia.type = contact ? LiaType::kContact : LiaType::kSpringDamper;
-    lia.stiffness = q == 0.0 ? lia.stiffness : lia.law->stiffness_limit;
+    lia.stiffness = keeps_stiffness ? lia.stiffness : lia.law->stiffness_limit;
     lia.law.edit().nonlinearity = {};
     lia.law.edit().stiffness_limit = {};
     return;
   }
-  if (law == ClippedLaw::kMdl) {
-    lia.law.edit().tipping_point = std::sqrt(limit - k) / q;
+  const bool is_faust = law == ClippedLaw::kFaust;
+  lia.law.edit().tipping_point = is_faust ? std::sqrt(limit - k) / q : std::sqrt((limit - k) / q);
+  if (is_faust || (law == ClippedLaw::kMiGen && !contact)) {
     lia.law.edit().limit_damping = 0.3 * lia.law->stiffness_limit;
-  } else {
-    lia.law.edit().tipping_point = std::sqrt((limit - k) / q);
   }
 }
 

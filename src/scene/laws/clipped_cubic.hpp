@@ -10,8 +10,9 @@ namespace ergotic::scene {
 /// What a format means by a clipped cubic law: f = K e + Q e^3 up to the tipping point, K_limit e
 /// beyond.
 enum class ClippedLaw {
-  kMdl,        ///< tipping point sqrt(K_limit - K) / Q, 0.3 K_limit more damping beyond
-  kContinuous  ///< tipping point sqrt((K_limit - K) / Q), where the two meet
+  kContinuous,  ///< tipping point sqrt((K_limit - K) / Q), where the two meet
+  kMiGen,       ///< the same; springs have 0.3 K_limit more damping beyond, contacts at least K
+  kFaust        ///< tipping point sqrt(K_limit - K) / Q, 0.3 K_limit more damping beyond
 };
 
 /// Completes a link of type kClippedCubic or kCubicContact; one without a cube, or with K beyond

@@ -36,7 +36,7 @@ bool hasBuffer(const MdlLine& line) {
 std::string olderSign(const MdlLine& line) {
   const std::string& keyword = line.keyword.text;
   const std::size_t count = line.arguments.size();
-  if (keyword == "massG" || keyword == "nlSpring") {
+  if (keyword == "massG" || keyword == "nlSpring" || keyword == "detent") {
     return quoted(keyword);
   }
   if (keyword == "spring" && count == 4) {

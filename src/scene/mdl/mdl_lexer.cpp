@@ -171,7 +171,7 @@ const std::vector<std::string>& mdlKeywords() {
       "springDamper", "contact", "nlContact", "nlSpring2",   "nlSpring3", "nlSpringDamper",
       "nlPluck",      "nlBow",   "frcInput",  "posOutput",   "frcOutput", "param",
       "audioParam",   "string",  "chain",     "stiffString", "mesh",      "cornerMesh",
-      "closedMesh",   "massG",   "nlSpring"};
+      "closedMesh",   "massG",   "nlSpring",  "detent"};
   return kKeywords;
 }
 

@@ -34,7 +34,7 @@ struct MdlLine {
 /// with a warning. \throws TextError if an element cannot be cut
 std::vector<MdlLine> cutMdl(SceneBuilder& builder, const std::string& text);
 
-/// The keywords of elements, `massG` and `nlSpring` of the older language included.
+/// The keywords of elements, `massG`, `nlSpring` and `detent` of the older language included.
 const std::vector<std::string>& mdlKeywords();
 
 /// `stiffness of '@s'`

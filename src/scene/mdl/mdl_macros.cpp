@@ -14,6 +14,10 @@
 namespace ergotic::scene {
 namespace {
 
+/// kg m^2/sample^2 each second, that moving a point may bring: models have masses of about 1 and
+/// move by about 1.
+constexpr double kPointEnergyPerSecond = 100.0;
+
 constexpr std::array<MdlMacro, 6> kMacros{{
     {"string", 1, false, MacroEdges::kFixed, 3.0, "N M K Z"},
     {"chain", 1, false, MacroEdges::kFree, 2.0, "N M K Z"},
@@ -200,14 +204,24 @@ class Expansion {
   int first_lia_ = 0;
 };
 
-double fraction(SceneBuilder& builder, MdlNumbers& numbers, const MdlToken& token) {
-  const double value = numbers.number(token);
-  const double cut = std::clamp(value, 0.0, 1.0);
-  if (cut != value) {
-    builder.warn(token.place, "coordinate " + numberText(value) + " is taken as " +
+/// A coordinate, and what it is called in the name of a point.
+struct Fraction {
+  Value at;
+  std::string name;
+};
+
+/// One that follows an audio input is cut to 0...1 while it plays.
+Fraction fraction(SceneBuilder& builder, MdlNumbers& numbers, const MdlToken& token) {
+  const Value value = numbers.value(token, "coordinate", {});
+  if (value.audio >= 0) {
+    return {value, token.text};
+  }
+  const double cut = std::clamp(value.factor, 0.0, 1.0);
+  if (cut != value.factor) {
+    builder.warn(token.place, "coordinate " + numberText(value.factor) + " is taken as " +
                                   numberText(cut) + ", allowed: 0...1");
   }
-  return cut;
+  return {{cut}, shortest(cut)};
 }
 
 }  // namespace
@@ -253,17 +267,17 @@ int macroPoint(SceneBuilder& builder, MdlNumbers& numbers, const MdlToken& at) {
                                at.text + (is_row ? " 0.3]" : " 0.3 0.7]"));
   }
   // The first counts along X, which are the rows.
-  std::string name = macro + "@";
-  const double first = fraction(builder, numbers, at.at[0]);
-  name += shortest(first);
+  const Fraction first = fraction(builder, numbers, at.at[0]);
+  std::string name = macro + "@" + first.name;
   if (is_row) {
-    connection.along.at = {first};
+    connection.along.at = first.at;
   } else {
-    const double second = fraction(builder, numbers, at.at[1]);
-    name += ":" + shortest(second);
-    connection.across.at = {first};
-    connection.along.at = {second};
+    const Fraction second = fraction(builder, numbers, at.at[1]);
+    name += ":" + second.name;
+    connection.across.at = first.at;
+    connection.along.at = second.at;
   }
+  connection.power = kPointEnergyPerSecond * kMdlRateHz * kMdlRateHz;
   const int known = builder.findMat(name);
   return known >= 0 ? known : addPoint(builder, name, std::move(connection));
 }

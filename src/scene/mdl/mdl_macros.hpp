@@ -50,7 +50,8 @@ void addMacro(SceneBuilder& builder,
               const MdlDialect& dialect);
 
 /// Index of the point at the coordinates `at.at` of a macro, which is found again where it exists.
-/// Coordinates outside 0...1 are cut to that, with a warning.
+/// Coordinates outside 0...1 are cut to that, with a warning; those that follow an audio input
+/// while it plays.
 int macroPoint(SceneBuilder& builder, MdlNumbers& numbers, const MdlToken& at);
 
 }  // namespace ergotic::scene

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "scene/mdl/expression.hpp"
 #include "scene/text/number.hpp"
@@ -15,10 +17,12 @@ namespace {
 
 // Params that refer to params that refer to ...: with the nesting of expressions, bounds the stack.
 constexpr int kLongestChain = 64;
+constexpr double kRounding = 1e-12;      // of the parts of an expression
+constexpr double kLeastFollowed = 1e-9;  // of what must be above 0 and follows an audio input
 
 }  // namespace
 
-MdlNumbers::MdlNumbers(const SceneBuilder& builder,
+MdlNumbers::MdlNumbers(SceneBuilder& builder,
                        const std::vector<MdlLine>& lines,
                        const Overrides& overrides)
     : builder_(builder) {
@@ -41,7 +45,13 @@ MdlNumbers::MdlNumbers(const SceneBuilder& builder,
     }
     names_.push_back(line.name);
   }
-  checkOverrides(overrides, names_, builder.scene().file);
+  std::vector<std::string> known = names_;
+  if (!isParam(kFaustClipName)) {
+    known.emplace_back(kFaustClipName);
+  }
+  checkOverrides(overrides, known, builder.scene().file);
+  const auto clip = overrides.find(kFaustClipName);
+  is_faust_ = clip != overrides.end() && clip->second != 0.0;
   for (const auto& [name, value] : overrides) {
     const auto param = params_.find(name);
     if (param != params_.end()) {
@@ -53,7 +63,8 @@ MdlNumbers::MdlNumbers(const SceneBuilder& builder,
 
 void MdlNumbers::check() {
   for (const std::string& name : names_) {
-    paramValue(name, params_.at(name).line->place);
+    const double value = paramValue(name, params_.at(name).line->place);
+    is_faust_ = name == kFaustClipName ? value != 0.0 : is_faust_;
   }
 }
 
@@ -110,8 +121,9 @@ double MdlNumbers::nameValue(const std::string& name, Place place) {
   }
   if (!sample_) {
     builder_.fail(place, "audioParam " + quoted(name) +
-                             " stands here, allowed only in the stiffness, damping or "
-                             "nonlinearity of a link or an osc");
+                             " stands here, allowed only in places on macros, in the mass, "
+                             "stiffness and damping of a mass or an osc, and in the stiffness, "
+                             "damping, nonlinearity and width of a link");
   }
   const int index = static_cast<int>(found - audio.begin());
   if (followed_ >= 0 && followed_ != index) {
@@ -129,19 +141,73 @@ double MdlNumbers::evaluateWith(const MdlToken& token, double sample) {
 }
 
 Value MdlNumbers::value(const MdlToken& token, const std::string& what, const Limits& limits) {
-  followed_ = -1;
-  const double one = evaluateWith(token, 1.0);
-  const int audio = followed_;
-  if (audio < 0) {
+  const std::optional<AudioParameter> line = straightLine(token, what);
+  if (!line) {
     return {number(token, what, limits)};
   }
-  const double none = evaluateWith(token, 0.0);
-  const double two = evaluateWith(token, 2.0);
-  if (none != 0.0 || two != 2.0 * one) {
-    builder_.fail(token.place, what + " is '" + token.text +
-                                   "', allowed with an audioParam: a constant times it");
+  return line->offset == 0.0 ? Value{line->scale, -1, followed_} : followed(token, *line);
+}
+
+Value MdlNumbers::positiveValue(const MdlToken& token,
+                                const std::string& what,
+                                const Limits& limits) {
+  std::optional<AudioParameter> line = straightLine(token, what);
+  if (!line) {
+    return {number(token, what, limits)};
   }
-  return {one, -1, audio};
+  line->minimum = kLeastFollowed;
+  return followed(token, *line);
+}
+
+/// What an expression is of the audioParam in it; nothing if none is.
+std::optional<AudioParameter> MdlNumbers::straightLine(const MdlToken& token,
+                                                       const std::string& what) {
+  followed_ = -1;
+  const double one = evaluateWith(token, 1.0);
+  if (followed_ < 0) {
+    return std::nullopt;
+  }
+  AudioParameter line = builder_.scene().audio_parameters[static_cast<std::size_t>(followed_)];
+  line.offset = evaluateWith(token, 0.0);
+  line.scale = one - line.offset;
+  if (!isStraight(token, line.offset, line.scale)) {
+    builder_.fail(token.place, what + " is '" + token.text +
+                                   "', allowed with an audioParam: a constant plus a constant "
+                                   "times it");
+  }
+  return line;
+}
+
+/// Whether an expression with an audioParam is a straight line over its samples.
+bool MdlNumbers::isStraight(const MdlToken& token, double offset, double scale) {
+  constexpr std::array<double, 4> kSamples{-1.0, 0.25, 2.0, 1000.0};
+  return std::all_of(kSamples.begin(), kSamples.end(), [&](double sample) {
+    const double wanted = offset + scale * sample;
+    const double size = std::abs(offset) + std::abs(scale * sample);
+    return std::abs(evaluateWith(token, sample) - wanted) <= kRounding * size;
+  });
+}
+
+/// The audio parameter of an expression, which is made once.
+Value MdlNumbers::followed(const MdlToken& token, AudioParameter parameter) {
+  std::vector<AudioParameter>& all = builder_.scene().audio_parameters;
+  const auto isSame = [&](const AudioParameter& other) {
+    return other.channel == parameter.channel && other.scale == parameter.scale &&
+           other.offset == parameter.offset && other.minimum == parameter.minimum;
+  };
+  const auto known = std::find_if(all.begin(), all.end(), isSame);
+  if (known != all.end()) {
+    return {1.0, -1, static_cast<int>(known - all.begin())};
+  }
+  parameter.name = trimmed(token.text);
+  const auto isNamed = [&](const AudioParameter& other) { return other.name == parameter.name; };
+  while (std::any_of(all.begin(), all.end(), isNamed)) {
+    parameter.name += "'";
+  }
+  parameter.place = token.place;
+  parameter.value = parameter.at(0.0);
+  all.push_back(std::move(parameter));
+  return {1.0, -1, static_cast<int>(all.size()) - 1};
 }
 
 double MdlNumbers::number(const MdlToken& token) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <map>
 #include <set>
 #include <utility>
@@ -38,6 +40,7 @@ const std::map<std::string, MdlLink>& mdlLinks() {
       {"damper", {LiaType::kSpringDamper, {z}, 1, "@m1 @m2 Z"}},
       {"springDamper", {LiaType::kSpringDamper, {k, z}, 2, "@m1 @m2 K Z"}},
       {"contact", {LiaType::kContact, {k, z, width}, 2, "@m1 @m2 K Z [thresh]"}},
+      {"detent", {LiaType::kContact, {k, z, width}, 2, "@m1 @m2 K Z [thresh]"}},
       {"nlContact",
        {LiaType::kCubicContact, {k, q, limit, z, width}, 4, "@m1 @m2 K Q Klim Z [thresh]"}},
       {"nlSpring2", {LiaType::kQuadratic, {k, q, z}, 3, "@m1 @m2 K P Z"}},
@@ -77,6 +80,9 @@ class MdlReader {
     for (const MdlLine& line : lines_) {
       readMat(line);
     }
+    if (builder_.scene().mats.empty()) {
+      builder_.fail({1, 1}, "no module found, allowed: a text with elements like @m mass 1 0 0");
+    }
     for (const MdlLine& line : lines_) {  // every module is known now
       readLink(line);
       readTap(line);
@@ -95,7 +101,7 @@ class MdlReader {
       builder_.fail(line.keyword.place,
                     "unknown keyword " + quoted(keyword) + suggestion(keyword, known));
     }
-    if (!dialect_.isOld() && (keyword == "massG" || keyword == "nlSpring")) {
+    if (!dialect_.isOld() && (keyword == "massG" || keyword == "nlSpring" || keyword == "detent")) {
       builder_.fail(line.keyword.place, "keyword " + quoted(keyword) + " is not allowed here" +
                                             olderNote(line, dialect_));
     }
@@ -152,7 +158,7 @@ class MdlReader {
     Mat mat;
     mat.name = line.name;
     mat.place = line.place;
-    mat.mass = {numbers_.number(arguments[0], ofElement("mass", line), kMassLimits)};
+    mat.mass = numbers_.positiveValue(arguments[0], ofElement("mass", line), kMassLimits);
     if (osc) {
       mat.type = MatType::kCell;
       mat.stiffness = numbers_.value(arguments[1], ofElement("stiffness", line), kStiffnessLimits);
@@ -236,23 +242,46 @@ class MdlReader {
         setMember(lia, field.member, linkNumber(line, field, index));
       }
     }
-    completeClippedLaw(lia, ClippedLaw::kMdl);
+    completeClippedLaw(lia, numbers_.isFaust() ? ClippedLaw::kFaust : ClippedLaw::kMiGen);
+    renameTwin(lia);
+    const bool is_constant = lia.stiffness.audio < 0 && lia.damping.audio < 0 &&
+                             lia.law->nonlinearity.audio < 0 && lia.law->width.audio < 0;
+    if (is_constant && lawOf(lia.type).switches) {
+      lia.scheme = Scheme::kExplicitIfStable;
+    }
     builder_.add(std::move(lia));
   }
 
-  /// Widths and the shape of a clipped law are worked out once, so they cannot follow audio.
-  Value linkNumber(const MdlLine& line, const LiaField& field, std::size_t argument) const {
+  /// No line refers to a link, so several may share a name; in a scene names are unique.
+  void renameTwin(Lia& lia) {
+    const std::string name = lia.name.str();
+    const auto [first, is_new] = links_.emplace(name, lia.place.line);
+    if (is_new) {
+      return;
+    }
+    int number = 2;
+    do {
+      lia.name = name + "." + std::to_string(number++);
+    } while (!links_.emplace(lia.name.str(), lia.place.line).second);
+    builder_.warn(lia.place, "link " + quoted("@" + name) + " has the name of that in line " +
+                                 std::to_string(first->second) + ", it is called " +
+                                 quoted(lia.name.str()) + " here");
+  }
+
+  /// The shape of a clipped law is worked out once, so it cannot follow audio.
+  Value linkNumber(const MdlLine& line, const LiaField& field, std::size_t argument) {
     const MdlToken& token = line.arguments[argument];
     const std::string what = ofElement(field.key, line);
     const auto is = [&](LiaMember member) { return field.member == member; };
-    const bool follows =
-        !field.is_fixed && (is(&Lia::damping) || is(&Lia::stiffness) || is(&LiaLaw::nonlinearity));
     Limits limits = field.limits;
     if (is(&Lia::stiffness) || is(&Lia::damping)) {
       limits.minimum = 0.0;  // what linear links of published models keep to
     }
-    return follows ? numbers_.value(token, what, limits)
-                   : Value{numbers_.number(token, what, limits)};
+    if (field.is_fixed) {
+      return {numbers_.number(token, what, limits)};
+    }
+    return limits.above ? numbers_.positiveValue(token, what, limits)
+                        : numbers_.value(token, what, limits);
   }
 
   /// `@name audioParam @in1`
@@ -348,14 +377,40 @@ class MdlReader {
   MdlNumbers& numbers_;
   const MdlDialect& dialect_;
   std::map<std::string, int> macros_;  // the line of each
+  std::map<std::string, int> links_;   // the same
   std::map<int, int> inputs_of_channel_;
 };
+
+/// Texts in which browsers and word processors wrap a model.
+void refuseOtherText(const SceneBuilder& builder, const std::string& text) {
+  struct Wrapping {
+    const char* start;
+    const char* kind;
+  };
+  constexpr std::array<Wrapping, 6> kWrappings{{{"<!doctype", "a page of HTML"},
+                                                {"<html", "a page of HTML"},
+                                                {"<!--", "a page of HTML"},
+                                                {"<?xml", "an XML document"},
+                                                {"{\\rtf", "a rich text document"},
+                                                {"{", "a JSON document"}}};
+  const std::size_t begin = text.find_first_not_of(" \t\r\n", byteOrderMark(text));
+  std::string head = begin == std::string::npos ? "" : text.substr(begin, 16);
+  std::transform(head.begin(), head.end(), head.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const Wrapping& wrapping : kWrappings) {
+    if (head.rfind(wrapping.start, 0) == 0) {
+      builder.fail(placeAt(text, begin), std::string("this is ") + wrapping.kind +
+                                             ", allowed: the plain text of the model itself");
+    }
+  }
+}
 
 }  // namespace
 
 Scene readMdl(const std::string& text, const std::string& name, const Overrides& overrides) {
   checkBytes(text, name, Bytes::kAny);
   SceneBuilder builder(name, text);
+  refuseOtherText(builder, text);
   Scene& scene = builder.scene();
   scene.name = stemOf(name);
   scene.time_unit_s = 1.0 / kMdlRateHz;

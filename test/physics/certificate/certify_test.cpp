@@ -190,6 +190,21 @@ TEST(CertifyTest, WhatFollowsAnAudioInputIsUnproven) {
               Contains(HasSubstr("built.yaml:7:1: warning: 'k' follows an audio input")));
 }
 
+TEST(CertifyTest, PlacesThatFollowAnAudioInputAreJudgedOverTheirRange) {
+  const auto certificate = [](double k) {
+    SceneBuilder b;
+    const int first = b.chain(3, 1.0, 0.5 * kRate * kRate, 0.01 * kRate);
+    const int place = b.point(b.grid(first, 5), 0.5);
+    b.scene.audio_parameters.push_back({"place", 0, 0.0, {7, 1}});
+    b.scene.connections.back().along.at = {1.0, -1, 0};
+    b.spring(place, b.ground(), k * kRate * kRate);
+    return certify(b.scene, {kRate, 14});
+  };
+  EXPECT_EQ(certificate(1.0).verdict, Verdict::kBounded);
+  EXPECT_TRUE(certificate(1.0).findings.empty());
+  EXPECT_EQ(certificate(4.0).verdict, Verdict::kUnstable) << "where it lies on a module";
+}
+
 TEST(CertifyTest, ScenesMustBeSettled) {
   SceneBuilder b;
   b.scene.lias[at(b.spring(b.mass(1.0), b.ground(), 1.0))].scheme = scene::Scheme::kAuto;

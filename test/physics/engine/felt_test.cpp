@@ -293,7 +293,7 @@ TEST(FeltTest, CertificateLooksAtBothEndsOfItsRanges) {
   EXPECT_EQ((Certified{soft, 1.01, 0.0}.verdict(Scheme::kExplicit)), Verdict::kUnproven);
   EXPECT_EQ((Certified{soft, 1.0, 0.01}.verdict(Scheme::kExplicit)), Verdict::kUnproven);
   EXPECT_EQ((Certified{5.0 * kRate * kRate, 1.0, 0.0}.verdict(Scheme::kExplicit)),
-            Verdict::kUnstable);
+            Verdict::kUnproven);
   EXPECT_EQ((Certified{5.0 * kRate * kRate, 5.0, 1e6}.verdict(Scheme::kGuarded)),
             Verdict::kPassive);
 }

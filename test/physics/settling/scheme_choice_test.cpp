@@ -240,5 +240,42 @@ TEST(SchemeChoiceTest, OtherLinksStayExplicit) {
   }
 }
 
+TEST(SchemeChoiceTest, LinksThatAreExplicitIfStableAreGuardedOnlyIfTheyAreTooStiff) {
+  Pair pair(LiaType::kContact);
+  pair.lia().scheme = Scheme::kExplicitIfStable;
+  pair.lia().stiffness = stiff(3.9);
+  EXPECT_EQ(pair.scheme(), Scheme::kExplicit);
+  EXPECT_TRUE(pair.settled().notes.empty());
+  pair.lia().stiffness = stiff(40.0);
+  EXPECT_EQ(pair.scheme(), Scheme::kGuarded);
+  EXPECT_THAT(pair.settled().notes.at(0),
+              AllOf(HasSubstr("link 'l0': guarded (h^2 K"), HasSubstr(" = 40, "),
+                    HasSubstr("does not sound as explicit programs play it")));
+  EXPECT_EQ(certify(pair.settled().scene, kRates).verdict, Verdict::kPassive);
+}
+
+TEST(SchemeChoiceTest, TheStiffestAreGuardedUntilTheOthersAreStable) {
+  SceneBuilder b;
+  const int mass = b.mass(kLight);
+  for (const double kappa : {1.0, 6.0, 2.5}) {
+    const int link = b.link(LiaType::kContact, mass, b.ground(), kappa * kLight * kRate * kRate);
+    b.scene.lias[at(link)].scheme = Scheme::kExplicitIfStable;
+  }
+  const scene::Scene settled = settle(b.scene, kRates).scene;
+  EXPECT_EQ(settled.lias[0].scheme, Scheme::kExplicit);
+  EXPECT_EQ(settled.lias[1].scheme, Scheme::kGuarded);
+  EXPECT_EQ(settled.lias[2].scheme, Scheme::kExplicit);
+}
+
+/// What is linear is unstable without them, and guarding them would only change their sound.
+TEST(SchemeChoiceTest, NoneIsGuardedForTheSakeOfWhatIsTooStiffByItself) {
+  SceneBuilder b;
+  const int mass = b.mass(kLight);
+  b.spring(mass, b.ground(), 5.0 * kLight * kRate * kRate);
+  b.scene.lias[at(b.link(LiaType::kContact, mass, b.ground(), 1.0))].scheme =
+      Scheme::kExplicitIfStable;
+  EXPECT_EQ(settle(b.scene, kRates).scene.lias[1].scheme, Scheme::kExplicit);
+}
+
 }  // namespace
 }  // namespace ergotic::physics

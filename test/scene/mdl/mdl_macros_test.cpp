@@ -219,6 +219,28 @@ TEST(MdlPointsTest, CoordinatesBeyondTheEndsAreCutWithAWarning) {
   EXPECT_THAT(scene.warnings[0], HasSubstr("m.mdl:2:21: warning: coordinate 1.5 is taken as 1"));
 }
 
+TEST(MdlPointsTest, FollowAudioParams) {
+  const Scene scene = sceneOf(
+      "@p audioParam @in1\n@q audioParam @in2\n@s chain 5 1 1 1 [0 0 0] 0\n"
+      "@n mesh 4 5 1 1 1 0 0\n@l spring [@s p] [@s p-0.1] 1\n@out1 posOutput [@s p]\n"
+      "@out2 posOutput [@n q 0.5*p]\n");
+  ASSERT_EQ(scene.connections.size(), 3U);
+  EXPECT_EQ(scene.connections[0].along.at.audio, 0);
+  EXPECT_EQ(scene.audio_parameters.at(2).at(0.4), 0.4 - 0.1);
+  EXPECT_EQ(scene.connections[1].along.at.audio, 2);
+  EXPECT_EQ(scene.connections[2].across.at.audio, 1) << "the first counts across the rows";
+  EXPECT_EQ(scene.connections[2].along.at.factor, 0.5);
+  EXPECT_EQ(scene.mats.at(at(scene.connections[1].mat)).name, "s@p-0.1");
+  EXPECT_EQ(scene.outputs.at(0).point.mat, scene.connections[0].mat) << "one place, one point";
+}
+
+TEST(MdlPointsTest, FollowAudioParamsInTheOlderLanguage) {
+  const Scene scene = sceneOf(
+      "@p audioParam @in1\n@g ground 0.\n@s string 5 1 1 1 0.\n@c contact @g @s 1 0 0. p-0.2\n");
+  ASSERT_EQ(scene.connections.size(), 1U);
+  EXPECT_EQ(scene.audio_parameters.at(1).offset, -0.2);
+}
+
 TEST(MdlMacrosTest, ParamsAndAudioParamsStandInThem) {
   const std::string text =
       "@N param 6\n@K param 0.1\n@a audioParam @in2\n"

@@ -134,10 +134,69 @@ TEST(ReadMdlTest, LinksTakeTheirArgumentsInOrderAndOptionalOnes) {
     EXPECT_EQ(read.damping.factor, link.damping) << link.text;
     EXPECT_EQ(read.law->nonlinearity.factor, link.nonlinearity) << link.text;
     EXPECT_EQ(read.law->stiffness_limit.factor, link.stiffness_limit) << link.text;
-    EXPECT_EQ(read.law->limit_damping.factor > 0.0, link.stiffness_limit > 0.0) << link.text;
+    EXPECT_EQ(read.law->limit_damping.factor > 0.0, link.type == LiaType::kClippedCubic)
+        << link.text;
     EXPECT_EQ(read.law->width.factor, link.width) << link.text;
   }
   EXPECT_EQ(linkOf("@l damper @b @a 0.5\n").a, 1);
+}
+
+TEST(ReadMdlTest, LinksMayShareANameWithAWarning) {
+  const Scene s = readMdl(kTwo + "@r spring @a @b 1\n@r spring @a @b 2\n@r.2 damper @a @b 3\n" +
+                              "@r contact @a @b 4 0\n",
+                          "m.mdl");
+  ASSERT_EQ(s.lias.size(), 4U);
+  EXPECT_EQ(s.lias[0].name, "r");
+  EXPECT_EQ(s.lias[1].name, "r.2");
+  EXPECT_EQ(s.lias[2].name, "r.2.2");
+  EXPECT_EQ(s.lias[3].name, "r.3");
+  ASSERT_EQ(s.warnings.size(), 3U);
+  EXPECT_THAT(s.warnings[0], HasSubstr("m.mdl:4:1: warning: link '@r' has the name of that in line "
+                                       "3, it is called 'r.2' here"));
+}
+
+TEST(ReadMdlTest, DetentIsTheOldNameOfAContact) {
+  const Scene s =
+      readMdl("@a mass 1 0. 0.5\n@b mass 1 0. 0.\n@d detent @a @b 0.1 0.2 0.3\n", "m.mdl");
+  EXPECT_EQ(s.lias.at(0).type, LiaType::kContact);
+  EXPECT_EQ(s.lias[0].law->width.factor, 0.3);
+  EXPECT_DOUBLE_EQ(s.mats[0].push->velocity.x(), -0.5) << "its file is of the older language";
+}
+
+TEST(ReadMdlTest, OnlyLinksThatComeAndGoMayBecomeGuarded) {
+  const auto schemeOf = [](const std::string& line) { return linkOf("@l " + line + "\n").scheme; };
+  EXPECT_EQ(schemeOf("contact @a @b 1 0"), Scheme::kExplicitIfStable);
+  EXPECT_EQ(schemeOf("nlContact @a @b 1 2 3 0"), Scheme::kExplicitIfStable);
+  EXPECT_EQ(schemeOf("spring @a @b 1"), Scheme::kExplicit);
+  EXPECT_EQ(schemeOf("nlBow @a @b 1 0.1"), Scheme::kExplicit);
+  EXPECT_EQ(schemeOf("contact @a @b p 0\n@p audioParam @in1"), Scheme::kExplicit);
+}
+
+/// The one audio parameter that is made of an expression.
+AudioParameter madeOf(const std::string& text) {
+  const Scene s = readMdl("@p audioParam @in2\n" + kTwo + text, "m.mdl");
+  EXPECT_EQ(s.audio_parameters.size(), 2U) << text;
+  return s.audio_parameters.back();
+}
+
+TEST(ReadMdlTest, StraightLinesOfAnAudioParamBecomeOneOfTheirOwn) {
+  const AudioParameter p = madeOf("@s spring @a @b [0.5 - 2*p/4]\n@t damper @a @b [0.5 - 2*p/4]\n");
+  EXPECT_EQ(p.name, "0.5 - 2*p/4");
+  EXPECT_EQ(p.channel, 1);
+  EXPECT_EQ(p.at(0.0), 0.5);
+  EXPECT_EQ(p.at(3.0), -1.0);
+  EXPECT_EQ(p.place.line, 4);
+  EXPECT_EQ(p.place.column, 18);
+}
+
+TEST(ReadMdlTest, WhatMustBeAboveZeroIsKeptThere) {
+  for (const char* text : {"@m mass p 0 0\n", "@s nlBow @a @b 1 p\n", "@s nlPluck @a @b 1 2*p\n"}) {
+    const AudioParameter p = madeOf(text);
+    EXPECT_GT(p.value, 0.0) << text;
+    EXPECT_EQ(p.at(-1.0), p.minimum) << text;
+    EXPECT_LT(p.minimum, 1e-6) << text;
+  }
+  EXPECT_EQ(madeOf("@s nlPluck @a @b 1 2*p\n").at(3.0), 6.0);
 }
 
 TEST(ReadMdlTest, ExpressionsFollowTheUsualPrecedence) {

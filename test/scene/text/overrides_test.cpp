@@ -67,7 +67,7 @@ TEST(OverridesTest, UnknownNamesAreRefusedWithAllThatAreKnown) {
   EXPECT_THAT(refusal(kYaml, "a.yaml", {{"los", 1.0}}),
               AllOf(HasSubstr("'los'"), HasSubstr("known: loss, size, gestural_rate")));
   EXPECT_THAT(refusal(kMdl, "a.mdl", {{"k", 1.0}}),
-              AllOf(HasSubstr("'k'"), HasSubstr("known: s, K, gestural_rate")));
+              AllOf(HasSubstr("'k'"), HasSubstr("known: s, K, faust_clip, gestural_rate")));
 }
 
 TEST(OverridesTest, ThatAreNoFiniteNumberAreRefused) {

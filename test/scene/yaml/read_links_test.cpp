@@ -166,9 +166,7 @@ TEST(ReadLinksTest, GuardIsGivenOrRefusedAsTheTypeAllows) {
   }
 }
 
-TEST(ReadLinksTest, LinksOfMdlFilesStayExplicit) {
-  const Scene s = readMdl("@a mass 1 0 0\n@b ground 0\n@c contact @a @b 0.1 0\n", "a.mdl");
-  EXPECT_EQ(s.lias[0].scheme, Scheme::kExplicit);
+TEST(ReadLinksTest, LinksOfMdlFilesAreNeverNegative) {
   EXPECT_THROW(readMdl("@a mass 1 0 0\n@b ground 0\n@c spring @a @b -0.1\n", "a.mdl"), TextError);
   EXPECT_THROW(readMdl("@a mass 1 0 0\n@b ground 0\n@c damper @a @b -0.1\n", "a.mdl"), TextError);
 }

@@ -26,8 +26,9 @@ bool follows(const scene::Value& value) {
 
 /// Modules that blocks can hold: free ones and grounds.
 bool isFree(const Mat& mat) {
-  return mat.type == MatType::kMass ||
-         (mat.type == MatType::kCell && !follows(mat.stiffness) && !follows(mat.damping));
+  const bool is_cell = mat.type == MatType::kCell;
+  return (is_cell || mat.type == MatType::kMass) && !follows(mat.mass) &&
+         !(is_cell && (follows(mat.stiffness) || follows(mat.damping)));
 }
 
 /// Of a bend that rests bent: beside others, such springs may add up to a force without stiffness.

@@ -348,7 +348,7 @@ void addNonlinear(Cases& cases) {
                        return play(make(Scheme::kAuto), {kRate, 1}, 40000, precision);
                      }});
   };
-  both("string on a barrier, kappa 30", "unstable", "comes and goes",
+  both("string on a barrier, kappa 30", "unproven", "comes and goes",
        [](Scheme scheme) { return stringOnBarrier(LiaType::kContact, 30.0, scheme); });
   both("string on a barrier, power 1.5", "unproven", "grows with its amplitude",
        [](Scheme scheme) { return stringOnBarrier(LiaType::kPowerContact, 30.0, scheme); });
@@ -360,7 +360,7 @@ void addFriction(Cases& cases) {
   const auto both = [&](const std::string& stress, LiaType type, double steepness) {
     for (const bool is_safe : {false, true}) {
       cases.push_back({stress, is_safe ? "guarded" : "explicit", is_safe,
-                       is_safe ? "bounded" : "unstable", is_safe ? "" : "steep for the step",
+                       is_safe ? "bounded" : "unproven", is_safe ? "" : "steep for the step",
                        [=](Precision precision) {
                          const Scheme scheme = is_safe ? Scheme::kAuto : Scheme::kExplicit;
                          return play(rubbedMass(type, steepness, scheme), {kRate, 1}, 40000,

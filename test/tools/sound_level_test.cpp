@@ -18,13 +18,13 @@ namespace {
 
 using test::ScratchFile;
 
-constexpr double kRate = 48000.0;
+constexpr double kSoundRate = 48000.0;
 
 /// A sine of 997 Hz, the same in all channels.
 std::vector<double> sine(double amplitude, double seconds, int channels, double hz = 997.0) {
   std::vector<double> frames;
-  for (int n = 0; n < static_cast<int>(seconds * kRate); ++n) {
-    const double x = amplitude * std::sin(2.0 * kPi * hz * n / kRate + 0.25 * kPi);
+  for (int n = 0; n < static_cast<int>(seconds * kSoundRate); ++n) {
+    const double x = amplitude * std::sin(2.0 * kPi * hz * n / kSoundRate + 0.25 * kPi);
     frames.insert(frames.end(), static_cast<std::size_t>(channels), x);
   }
   return frames;
@@ -37,7 +37,7 @@ void write(FrameWriter& writer, const std::vector<double>& frames, int channels)
 
 SoundLevel levelOfSine(double amplitude, int channels, double hz = 997.0) {
   const ScratchFile file;
-  FrameWriter writer(file.path(), kRate, channels, audio::WavFormat::kDouble);
+  FrameWriter writer(file.path(), kSoundRate, channels, audio::WavFormat::kDouble);
   write(writer, sine(amplitude, 5.0, channels, hz), channels);
   return levelOf(file.path());
 }
@@ -52,7 +52,7 @@ TEST(SoundLevelTest, ASineOfFullScaleIsThreeDecibelsBelowItInOneChannel) {
 
 TEST(SoundLevelTest, TheTruePeakLiesBetweenTheSamples) {
   // A quarter of the rate, 45 degrees off: all samples are at 0.707 of the wave's peak.
-  const SoundLevel level = levelOfSine(0.5, 1, kRate / 4.0);
+  const SoundLevel level = levelOfSine(0.5, 1, kSoundRate / 4.0);
   EXPECT_NEAR(level.peaks[0], 0.5 * std::sqrt(0.5), 1e-9);
   EXPECT_NEAR(level.true_peak_db, 20.0 * std::log10(0.5), 0.3);
 }
@@ -76,7 +76,7 @@ TEST(FrameWriterTest, NormalizesAndFadesAsIsWished) {
   SoundWish wish;
   wish.loudness = -18.0;
   wish.fade_s = 0.5;
-  FrameWriter writer(file.path(), kRate, 2, audio::WavFormat::kFloat, wish);
+  FrameWriter writer(file.path(), kSoundRate, 2, audio::WavFormat::kFloat, wish);
   const std::vector<double> played = sine(0.5, 5.0, 2);
   write(writer, played, 2);
   EXPECT_NEAR(*writer.level()->loudness, -18.0, 0.2) << "the fade takes a little";
@@ -84,7 +84,7 @@ TEST(FrameWriterTest, NormalizesAndFadesAsIsWished) {
   ASSERT_EQ(kept.size(), played.size());
   for (std::size_t i = 0; i < kept.size(); i += 997) {
     const double left_s =
-        (static_cast<double>(kept.size() / 2 - 1) - static_cast<double>(i / 2)) / kRate;
+        (static_cast<double>(kept.size() / 2 - 1) - static_cast<double>(i / 2)) / kSoundRate;
     const double fade = left_s < 0.5 ? 0.5 - 0.5 * std::cos(kPi * left_s / 0.5) : 1.0;
     EXPECT_NEAR(kept[i], writer.gain() * fade * played[i], 1e-6) << i;
   }
@@ -96,7 +96,7 @@ TEST(FrameWriterTest, FollowsLinksAndRefusesWhatIsNoRegularFile) {
   const ScratchFile place;
   const std::string link = place.path() + ".link";
   ASSERT_EQ(symlink(target.path().c_str(), link.c_str()), 0);
-  FrameWriter writer(link, kRate, 1, audio::WavFormat::kFloat);
+  FrameWriter writer(link, kSoundRate, 1, audio::WavFormat::kFloat);
   write(writer, sine(0.1, 0.1, 1), 1);
   EXPECT_EQ(audio::WavReader(target.path()).frames(), 4800);
   char to[4096] = {};
@@ -104,7 +104,7 @@ TEST(FrameWriterTest, FollowsLinksAndRefusesWhatIsNoRegularFile) {
   unlink(link.c_str());
   for (const char* const path : {"/dev/null", "/tmp"}) {
     EXPECT_THAT(
-        complaintOf<Exception>([&] { FrameWriter(path, kRate, 1, audio::WavFormat::kFloat); }),
+        complaintOf<Exception>([&] { FrameWriter(path, kSoundRate, 1, audio::WavFormat::kFloat); }),
         HasSubstr("is no regular file"))
         << path;
   }

@@ -86,7 +86,7 @@ class Experiment {
 };
 
 /// The error of a setting that the certificate refuses.
-constexpr double kRefused = std::numeric_limits<double>::infinity();
+constexpr double kNotPlayed = std::numeric_limits<double>::infinity();
 
 /// True if the certificate does not foresee that this blows up.
 bool isPlayable(const std::string& yaml, const physics::Rates& rates);

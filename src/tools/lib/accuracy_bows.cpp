@@ -95,7 +95,7 @@ void measureBows(const Sink& sink) {
         for (const auto precision : {physics::Precision::kFloat, physics::Precision::kDouble}) {
           Experiment experiment(yaml, rates, precision);
           const double error =
-              is_playable ? cents(playBow(bowed, experiment, rate_hz), right_hz) : kRefused;
+              is_playable ? cents(playBow(bowed, experiment, rate_hz), right_hz) : kNotPlayed;
           sink({"bow", "pitch", std::string(bowed.name) + ", " + scheme, precision, rates, 0, 0.0,
                 std::abs(error), "cents", experiment.cost(0.1)});
         }

@@ -58,7 +58,7 @@ void measureStrings(const Sink& sink) {
         for (const auto precision : {physics::Precision::kFloat, physics::Precision::kDouble}) {
           Experiment experiment(yaml, rates, precision);
           const double error =
-              is_playable ? worstCents(experiment.play(0.52)[0], cut, rate_hz) : kRefused;
+              is_playable ? worstCents(experiment.play(0.52)[0], cut, rate_hz) : kNotPlayed;
           sink({"string", "worst of ten partials", kind.family, precision, rates, masses, 0.0,
                 error, "cents", experiment.cost(0.1)});
         }

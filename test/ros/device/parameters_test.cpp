@@ -206,7 +206,7 @@ TEST(ParametersTest, AreToBeQuotedWhereYamlMakesNumbersAndSwitchesOfWords) {
             "parameter /station/realtime is true, for which YAML takes on and yes, too, allowed: "
             "off, require, try" +
                 quote);
-  EXPECT_THAT(refusalOf("precision", false), HasSubstr("allowed: double, float" + quote));
+  EXPECT_THAT(refusalOf("precision", false), HasSubstr("allowed: auto, double, float" + quote));
 }
 
 /// YAML makes false of `off` and `no`, and `roslaunch` leaves them as they are.

@@ -49,7 +49,7 @@ class Evaluator {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const { throw ExpressionError(at_, what); }
+  [[noreturn]] void fail(const std::string& what) const { throw MdlExpressionError(at_, what); }
 
   /// The next character that is not blank, 0 at the end.
   char peek() {
@@ -69,7 +69,7 @@ class Evaluator {
 
   double finite(double value, std::size_t offset) const {
     if (!std::isfinite(value)) {
-      throw ExpressionError(offset, "expression " + quoted(text_) + " has no finite value");
+      throw MdlExpressionError(offset, "expression " + quoted(text_) + " has no finite value");
     }
     return value;
   }
@@ -98,7 +98,7 @@ class Evaluator {
       } else if (take('/')) {
         const double divisor = unary();
         if (divisor == 0.0) {
-          throw ExpressionError(offset, "division by zero in expression " + quoted(text_));
+          throw MdlExpressionError(offset, "division by zero in expression " + quoted(text_));
         }
         value = finite(value / divisor, offset);
       } else {
@@ -169,7 +169,7 @@ class Evaluator {
       for (const Function& f : kFunctions) {
         known.emplace_back(f.name);
       }
-      throw ExpressionError(start, "unknown function " + quoted(name) + suggestion(name, known));
+      throw MdlExpressionError(start, "unknown function " + quoted(name) + suggestion(name, known));
     }
     take('(');
     std::array<double, 2> arguments{};

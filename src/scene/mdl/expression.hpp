@@ -9,9 +9,9 @@
 namespace ergotic::scene {
 
 /// What is wrong in an expression and where in it.
-class ExpressionError : public std::runtime_error {
+class MdlExpressionError : public std::runtime_error {
  public:
-  ExpressionError(std::size_t offset, const std::string& what)
+  MdlExpressionError(std::size_t offset, const std::string& what)
       : std::runtime_error(what), offset_(offset) {}
   std::size_t offset() const noexcept { return offset_; }  ///< bytes from the start
 
@@ -25,7 +25,7 @@ using NameValue = std::function<double(const std::string& name, std::size_t offs
 /// Evaluates numbers, names, `+ - * /`, parentheses, and the functions sqrt exp log sin cos abs
 /// (one argument), pow min max (two). Nesting is limited to 32.
 /// \return a finite number
-/// \throws ExpressionError if it cannot be read, divides by zero or leaves the finite numbers;
+/// \throws MdlExpressionError if it cannot be read, divides by zero or leaves the finite numbers;
 ///         whatever `name_value` throws
 double evaluate(const std::string& text, const NameValue& name_value);
 

@@ -106,7 +106,7 @@ double MdlNumbers::evaluateAt(const MdlToken& token) {
     return evaluate(text, [&](const std::string& name, std::size_t offset) {
       return nameValue(name, placeOf(offset));
     });
-  } catch (const ExpressionError& e) {
+  } catch (const MdlExpressionError& e) {
     const Place place = placeOf(e.offset());
     builder_.fail(place, e.what());
   }

@@ -48,7 +48,7 @@ def wait_for_window():
     end = time.monotonic() + PATIENCE_S
     master = rosgraph.Master("/watch_station")
     while time.monotonic() < end:
-        readers = dict(master.getSystemState()[1]).get("/station/markers", [])
+        readers = dict(master.getSystemState()[1]).get("/station/model_state", [])
         if any("rviz" in reader for reader in readers):
             return
         time.sleep(0.3)

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rviz/model_drawing.hpp"
+
 namespace ergotic::panel {
 namespace {
 
@@ -12,14 +14,6 @@ constexpr double kMostOfSliceM = 0.1;  // what a hand may want, see HandTargets
 constexpr double kMostOfCoordinateM = 1.0;
 constexpr double kMostOfModuleM = 100.0;  // see HoldTarget
 constexpr double kLeastSine = 0.1;  // an axis that points at the eye has no place under the mouse
-
-Eigen::Affine3d drawingOf(const geometry_msgs::Pose& pose, double zoom_of_x) {
-  const auto& q = pose.orientation;
-  Eigen::Affine3d drawing = Eigen::Affine3d::Identity();
-  drawing.linear() = Eigen::Quaterniond(q.w, q.x, q.y, q.z).toRotationMatrix();
-  drawing.translation() = Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z);
-  return drawing * Eigen::Scaling(zoom_of_x, 1.0, 1.0);
-}
 
 bool isWhole(const ModelStructure& structure) {
   const std::size_t sections = structure.section_poses.size();

@@ -17,6 +17,8 @@ Display::Display(const ::ros::NodeHandle& node)
       model_structure_(node_.advertise<ModelStructure>("model_structure", 1, kLatched)),
       model_state_(node_.advertise<ModelState>("model_state", kQueue)),
       markers_(node_.advertise<visualization_msgs::MarkerArray>("markers", kMarkersQueue)),
+      end_effector_shapes_(
+          node_.advertise<visualization_msgs::MarkerArray>("end_effector_shapes", kMarkersQueue)),
       news_([this](News& news) { draw(news); }) {}
 
 void Display::show(std::shared_ptr<Picture> picture) {
@@ -31,7 +33,8 @@ void Display::show(const tgr::EndEffectors& end_effectors) {
 }
 
 void Display::show(const station::MotionFrame& motion) {
-  if (model_state_.getNumSubscribers() == 0 && markers_.getNumSubscribers() == 0) {
+  if (model_state_.getNumSubscribers() == 0 && markers_.getNumSubscribers() == 0 &&
+      end_effector_shapes_.getNumSubscribers() == 0) {
     return;
   }
   news_.tell([&](News& news) {
@@ -49,7 +52,7 @@ void Display::draw(News& news) {
   }
   if (news.end_effectors) {
     frames_ = EndEffectorFrames(*news.end_effectors);
-    erases_ = true;  // those that are gone
+    erases_ = erases_shapes_ = true;  // those that are gone
   }
   if (news.has_moved && picture_) {
     draw(news.motion);
@@ -76,6 +79,19 @@ void Display::draw(ModelState& motion) {
   if (markers_.getNumSubscribers() > 0) {
     drawMarkers(motion);
   }
+  if (end_effector_shapes_.getNumSubscribers() > 0) {
+    drawShapes(motion.header.stamp);
+  }
+}
+
+void Display::drawShapes(const ::ros::Time& stamp) {
+  const auto& shapes = frames_.shapes(stamp);
+  if (!std::exchange(erases_shapes_, false)) {
+    return shapes.markers.empty() ? void() : end_effector_shapes_.publish(shapes);
+  }
+  visualization_msgs::MarkerArray all = Markers::eraseAll();
+  all.markers.insert(all.markers.end(), shapes.markers.begin(), shapes.markers.end());
+  end_effector_shapes_.publish(all);
 }
 
 /// What was there before is erased by the message that brings the new: a subscriber that is slow

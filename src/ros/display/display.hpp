@@ -52,15 +52,18 @@ class Display {
   void begin(std::shared_ptr<Picture> picture);
   void draw(ModelState& motion);
   void drawMarkers(const ModelState& motion);
+  void drawShapes(const ::ros::Time& stamp);
 
   ::ros::NodeHandle node_;
   ::ros::Publisher model_structure_;
   ::ros::Publisher model_state_;
   ::ros::Publisher markers_;
+  ::ros::Publisher end_effector_shapes_;
 
   std::shared_ptr<Picture> picture_;
   EndEffectorFrames frames_;
-  bool erases_ = false;  // what was drawn before, with the next frame
+  bool erases_ = false;         // what was drawn before, with the next frame
+  bool erases_shapes_ = false;  // the same of the end-effectors alone
 
   Newest<News> news_;  // last: its thread needs all the others
 };

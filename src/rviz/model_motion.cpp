@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/model_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "rviz/model_drawing.hpp"
+
+namespace ergotic::panel {
+namespace {
+
+// A clock that was set back while a model plays must not hide it.
+constexpr double kLongestHandOverS = 5.0;
+constexpr float kHoldS = 0.12F;  // in which what glows fades to 1/e, so that it does not flicker
+constexpr float kReferenceS = 4.0F;  // the same for what it is compared with
+constexpr float kLeastElapsedS = 1e-3F;
+constexpr float kMostElapsedS = 1.0F;
+constexpr float kLeastM = 2e-6F;      // below which nothing is seen to glow
+constexpr float kLeastSpeed = 6e-5F;  // m/s, the same at 30 states per second
+
+std::size_t coordinatesOf(const ModelStructure& structure) {
+  std::size_t coordinates = 0;
+  for (const std::uint32_t section : structure.module_sections) {
+    coordinates += structure.section_dimensions[section];
+  }
+  return coordinates;
+}
+
+float leastOf(GlowBy quantity) {
+  switch (quantity) {
+    case GlowBy::kSpeed:
+      return kLeastSpeed;
+    case GlowBy::kEnergy:
+      return kLeastSpeed * kLeastSpeed;
+    default:
+      return kLeastM;
+  }
+}
+
+}  // namespace
+
+bool belongs(const ModelState& state, const ModelStructure& structure) {
+  const double age_s = (structure.header.stamp - state.header.stamp).toSec();
+  const bool is_older = age_s > 0.0 && age_s < kLongestHandOverS;
+  return !is_older && state.displacement.size() == coordinatesOf(structure);
+}
+
+ModelMotion::ModelMotion(const ModelStructure& structure, const ModelShape& shape)
+    : section_of_(structure.module_sections),
+      now_(section_of_.size(), Eigen::Vector3f::Zero()),
+      before_(now_),
+      measures_(section_of_.size()),
+      glow_(section_of_.size()) {
+  for (std::size_t s = 0; s < structure.section_poses.size(); ++s) {
+    SectionMotion section;
+    section.pose = structure.section_poses[s];
+    section.to_section = drawingOf(section.pose, 1.0).inverse().cast<float>();
+    section.dimensions = structure.section_dimensions[s];
+    sections_.push_back(section);
+  }
+  const LinkGraph graph(structure, [](std::size_t) { return true; });
+  for (std::size_t i = 0; i < section_of_.size(); ++i) {
+    const ModuleLook look = shape.looks[i];
+    rests_.emplace_back(sections_[section_of_[i]].to_section * restOf(structure, i));
+    can_glow_.push_back(look != ModuleLook::kHand && look != ModuleLook::kGround &&
+                        look != ModuleLook::kHidden);
+    neighbours_.push_back(graph.of(i));
+  }
+  setScale(1.0, 1.0);
+}
+
+void ModelMotion::setScale(double zoom, double gain) {
+  rest_places_.clear();
+  std::vector<Eigen::Affine3f> drawings;
+  for (SectionMotion& section : sections_) {
+    const Eigen::Affine3d drawing = drawingOf(section.pose, section.dimensions == 1 ? zoom : 1.0);
+    section.drawn = (gain * drawing.linear()).cast<float>();
+    drawings.push_back(drawing.cast<float>());
+  }
+  for (std::size_t i = 0; i < rests_.size(); ++i) {
+    rest_places_.emplace_back(drawings[section_of_[i]] * rests_[i]);
+  }
+  place();
+}
+
+void ModelMotion::glowBy(GlowBy quantity) {
+  glows_by_ = quantity;
+  std::fill(measures_.begin(), measures_.end(), 0.0F);
+  std::fill(glow_.begin(), glow_.end(), 0.0F);
+  for (SectionMotion& section : sections_) {
+    section.reference = 0.0F;
+  }
+}
+
+Eigen::Vector3f ModelMotion::upOf(std::size_t module) const {
+  return sections_[section_of_[module]].drawn.col(0).normalized();
+}
+
+void ModelMotion::show(const ModelState& state) {
+  std::swap(now_, before_);
+  const float* moved = state.displacement.data();
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    const int dimensions = sections_[section_of_[i]].dimensions;
+    for (int k = 0; k < 3; ++k) {
+      now_[i][k] = k < dimensions && std::isfinite(moved[k]) ? moved[k] : 0.0F;
+    }
+    moved += dimensions;
+  }
+  const double stamp_s = state.header.stamp.toSec();
+  const double previous_s = std::exchange(stamp_s_, stamp_s);
+  if (previous_s == 0.0) {
+    before_ = now_;  // it was not seen to move yet
+  }
+  place();
+  measure(std::clamp(static_cast<float>(stamp_s - previous_s), kLeastElapsedS, kMostElapsedS));
+}
+
+void ModelMotion::place() {
+  places_.resize(now_.size());
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    places_[i] = rest_places_[i] + sections_[section_of_[i]].drawn * now_[i];
+  }
+}
+
+void ModelMotion::measure(float elapsed_s) {
+  if (glows_by_ == GlowBy::kNothing) {
+    return;
+  }
+  const float kept = std::exp(-elapsed_s / kHoldS);
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    if (can_glow_[i]) {
+      measures_[i] = std::max(kept * measures_[i], measureOf(i, elapsed_s));
+    }
+  }
+  glow(elapsed_s);
+}
+
+float ModelMotion::measureOf(std::size_t module, float elapsed_s) const {
+  switch (glows_by_) {
+    case GlowBy::kSpeed:
+      return (now_[module] - before_[module]).norm() / elapsed_s;
+    case GlowBy::kEnergy:
+      return (now_[module] - before_[module]).squaredNorm() / (elapsed_s * elapsed_s);
+    case GlowBy::kForce:
+      return awayFromNeighbours(module);
+    default:
+      return now_[module].norm();
+  }
+}
+
+float ModelMotion::awayFromNeighbours(std::size_t module) const {
+  const ModuleIndices& around = neighbours_[module];
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (const std::uint32_t other : around) {
+    sum += now_[other] - now_[module];
+  }
+  return around.empty() ? 0.0F : sum.norm() / static_cast<float>(around.size());
+}
+
+/// The square root, so that what moves a tenth as much is still seen.
+void ModelMotion::glow(float elapsed_s) {
+  const float kept = std::exp(-elapsed_s / kReferenceS);
+  for (SectionMotion& section : sections_) {
+    section.reference = std::max(kept * section.reference, leastOf(glows_by_));
+  }
+  for (std::size_t i = 0; i < measures_.size(); ++i) {
+    float& reference = sections_[section_of_[i]].reference;
+    reference = std::max(reference, measures_[i]);
+  }
+  for (std::size_t i = 0; i < measures_.size(); ++i) {
+    glow_[i] = std::sqrt(measures_[i] / sections_[section_of_[i]].reference);
+  }
+}
+
+}  // namespace ergotic::panel

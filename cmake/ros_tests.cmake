@@ -9,7 +9,7 @@ set_target_properties(third_party_device PROPERTIES
 target_link_libraries(third_party_device
   PRIVATE ergotic_core ergotic_messages ergotic_flags yaml-cpp ${class_loader_LIBRARIES})
 ergotic_tests_need(ros third_party_device)
-ergotic_add_gtests(rviz 1 ergotic_rviz)
+ergotic_add_gtests(rviz 1 ergotic_rviz rostime)
 ergotic_add_gtests(bag 1 ergotic_bag)
 ergotic_tests_need(bag render)
 

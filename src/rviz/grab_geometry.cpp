@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "rviz/model_drawing.hpp"
+#include "rviz/model_graph.hpp"
 
 namespace ergotic::panel {
 namespace {
@@ -92,9 +93,10 @@ Eigen::Vector3d HandleSet::restPlaceOf(std::size_t module) const {
 std::vector<Eigen::Vector3d> HandleSet::places() const {
   std::vector<Eigen::Vector3d> places;
   const std::size_t modules = drawings_.empty() ? 0 : structure_.module_sections.size();
+  const std::vector<bool> are_modes = modesOfOutlines(structure_);
   for (std::size_t module = 0; module < modules; ++module) {
     const Eigen::Vector3d place = restPlaceOf(module);
-    if (place.allFinite()) {
+    if (place.allFinite() && !(module < are_modes.size() && are_modes[module])) {
       places.push_back(place);
     }
   }

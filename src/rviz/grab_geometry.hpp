@@ -68,7 +68,8 @@ class HandleSet {
       }
     }
   }
-  /// Where all modules are drawn at rest, frame `model`, m; empty until it is known of what.
+  /// Where all modules are drawn at rest, frame `model`, m; empty until it is known of what. Modes
+  /// whose body has an outline are not drawn.
   std::vector<Eigen::Vector3d> places() const;
   /// Counts the models.
   int models() const { return models_; }

@@ -14,6 +14,7 @@ namespace {
 constexpr float kMostCosine = 0.6F;           // of a corner of a mesh with four
 constexpr float kMostTriangleCosine = 0.95F;  // of a corner of a triangle
 constexpr float kLeastAgreement = 0.5F;       // of the normals at the corners: about flat
+constexpr float kInside = 0.01F;              // of the length of a side, from it
 constexpr int kSidesOfLink = 2;
 
 struct Mesh {
@@ -29,10 +30,11 @@ class FaceFinder {
 
   ModuleIndices find() {
     accept(quads());
-    for (std::size_t i = 0; i < triangles_.size(); ++i) {
-      is_in_quad_[triangles_[i]] = true;
+    for (const std::uint32_t module : quad_corners_) {
+      is_in_quad_[module] = true;
     }
     accept(loneTriangles());
+    roundOff();
     return std::move(triangles_);
   }
 
@@ -89,7 +91,27 @@ class FaceFinder {
       }
       mesh.skew = std::max(mesh.skew, cosine);
     }
-    found.push_back(mesh);
+    if (isEmpty(mesh, first_normal)) {
+      found.push_back(mesh);
+    }
+  }
+
+  /// No neighbour of its first corner lies inside, as in the squares that diagonals make.
+  bool isEmpty(const Mesh& mesh, const Eigen::Vector3f& normal) const {
+    const ModuleIndices& around = graph_.of(mesh.corners[0]);
+    return std::none_of(around.begin(), around.end(),
+                        [&](std::uint32_t module) { return isInside(module, mesh, normal); });
+  }
+  bool isInside(std::uint32_t module, const Mesh& mesh, const Eigen::Vector3f& normal) const {
+    const Eigen::Vector3f place = restOf(structure_, module);
+    for (std::size_t k = 0; k < mesh.count; ++k) {
+      const Eigen::Vector3f here = restOf(structure_, mesh.corners[k]);
+      const Eigen::Vector3f side = restOf(structure_, mesh.corners[(k + 1) % mesh.count]) - here;
+      if (!(side.cross(place - here).dot(normal) > kInside * side.squaredNorm())) {
+        return false;
+      }
+    }
+    return true;
   }
 
   /// The most rectangular first, so that of a net with diagonals the squares are taken.
@@ -115,6 +137,9 @@ class FaceFinder {
     for (std::size_t k = 0; k < mesh.count; ++k) {
       ++sides_[linkOf(mesh, k)];
     }
+    if (mesh.count == 4) {
+      quad_corners_.insert(quad_corners_.end(), mesh.corners.begin(), mesh.corners.end());
+    }
     for (std::size_t k = 2; k < mesh.count; ++k) {
       triangles_.insert(triangles_.end(), {mesh.corners[0], mesh.corners[k - 1], mesh.corners[k]});
     }
@@ -124,9 +149,38 @@ class FaceFinder {
     return std::uint64_t{low} << 32 | high;
   }
 
+  /// Fills the corners of the stairs that a square net makes of a round edge: where a module has
+  /// three meshes around it, a triangle takes the place of the fourth.
+  void roundOff() {
+    std::vector<int> meshes(graph_.modules());
+    for (const std::uint32_t module : quad_corners_) {
+      ++meshes[module];
+    }
+    std::vector<Mesh> fillings;
+    for (std::uint32_t a = 0; a < graph_.modules(); ++a) {
+      const ModuleIndices rim = rimOf(a);
+      if (meshes[a] == 3 && rim.size() == 2) {
+        addIfFlat({{a, rim[0], rim[1], rim[1]}, 3}, kMostTriangleCosine, fillings);
+      }
+    }
+    accept(std::move(fillings));
+  }
+  /// Its neighbours at links that only one mesh lies on.
+  ModuleIndices rimOf(std::uint32_t module) const {
+    ModuleIndices rim;
+    for (const std::uint32_t other : graph_.of(module)) {
+      const auto side = sides_.find(linkOf({{module, other, other, other}, 2}, 0));
+      if (side != sides_.end() && side->second == 1) {
+        rim.push_back(other);
+      }
+    }
+    return rim;
+  }
+
   const ModelStructure& structure_;
   const LinkGraph& graph_;
   std::vector<bool> is_in_quad_;
+  ModuleIndices quad_corners_;                    // [quads][4]
   std::unordered_map<std::uint64_t, int> sides_;  // of links, that meshes lie on
   ModuleIndices triangles_;
 };

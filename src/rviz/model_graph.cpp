@@ -77,6 +77,9 @@ std::vector<bool> placesOfOutlines(const ModelStructure& structure) {
 }
 
 std::vector<bool> modesOfOutlines(const ModelStructure& structure) {
+  if (structure.module_types.size() != structure.module_names.size()) {
+    return {};
+  }
   std::set<std::string> bodies;
   for (const std::string& name : structure.module_names) {
     if (const std::size_t stem = outlineStem(name); stem != std::string::npos) {
@@ -84,7 +87,7 @@ std::vector<bool> modesOfOutlines(const ModelStructure& structure) {
     }
   }
   std::vector<bool> modes(structure.module_names.size());
-  for (std::size_t i = 0; i < modes.size(); ++i) {
+  for (std::size_t i = 0; i < modes.size() && !bodies.empty(); ++i) {
     const std::string& name = structure.module_names[i];
     const std::size_t dot = name.rfind('.');
     modes[i] = structure.module_types[i] == ModelStructure::CELL && dot != std::string::npos &&

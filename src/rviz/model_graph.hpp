@@ -19,7 +19,7 @@ bool isConsistent(const ModelStructure& structure);
 
 /// Whether a module is a mode of a body whose outline is in the structure as well. Such a mode has
 /// no place of its own in a picture.
-/// \return [modules]
+/// \return [modules]; empty if names and types do not fit each other
 std::vector<bool> modesOfOutlines(const ModelStructure& structure);
 
 /// Whether a module is a place on the outline of a body. \return [modules]

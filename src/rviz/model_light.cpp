@@ -29,7 +29,7 @@ const std::array<Tint, 6> kSectionTints = {{{1.0F, 0.72F, 0.20F},
                                             {1.0F, 0.45F, 0.45F},
                                             {0.80F, 0.60F, 1.0F},
                                             {0.95F, 0.95F, 0.60F}}};
-const Tint kWarm(1.0F, 0.50F, 0.10F);
+const Tint kWarm(1.0F, 0.45F, 0.08F);
 const Tint kHot(1.0F, 0.93F, 0.55F);
 
 /// From nothing over orange to a light yellow.
@@ -78,7 +78,8 @@ std::uint32_t colourOf(const Tint& tint, float light, float glow, bool is_stale)
   } else {
     // What glows keeps some of its shades, or its form would be lost.
     const float shaded = 0.6F + 0.4F * std::min(light, 1.0F);
-    colour += glow * (shaded * heat(glow) - colour);
+    const float share = 1.0F - (1.0F - glow) * (1.0F - glow);
+    colour += share * (shaded * heat(glow) - colour);
   }
   return toByte(colour.x()) | toByte(colour.y()) << 8 | toByte(colour.z()) << 16 | 0xFF000000U;
 }

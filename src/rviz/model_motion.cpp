@@ -51,7 +51,8 @@ ModelMotion::ModelMotion(const ModelStructure& structure, const ModelShape& shap
       now_(section_of_.size(), Eigen::Vector3f::Zero()),
       before_(now_),
       measures_(section_of_.size()),
-      glow_(section_of_.size()) {
+      glow_(section_of_.size()),
+      references_(2 * structure.section_poses.size()) {
   for (std::size_t s = 0; s < structure.section_poses.size(); ++s) {
     SectionMotion section;
     section.pose = structure.section_poses[s];
@@ -66,6 +67,9 @@ ModelMotion::ModelMotion(const ModelStructure& structure, const ModelShape& shap
     can_glow_.push_back(look != ModuleLook::kHand && look != ModuleLook::kGround &&
                         look != ModuleLook::kHidden);
     neighbours_.push_back(graph.of(i));
+    // A hammer that flies would outshine the string that it has struck.
+    const bool is_body = look == ModuleLook::kMass || look == ModuleLook::kPoint;
+    reference_of_.push_back(2 * section_of_[i] + (is_body ? 1 : 0));
   }
   setScale(1.0, 1.0);
 }
@@ -88,9 +92,7 @@ void ModelMotion::glowBy(GlowBy quantity) {
   glows_by_ = quantity;
   std::fill(measures_.begin(), measures_.end(), 0.0F);
   std::fill(glow_.begin(), glow_.end(), 0.0F);
-  for (SectionMotion& section : sections_) {
-    section.reference = 0.0F;
-  }
+  std::fill(references_.begin(), references_.end(), 0.0F);
 }
 
 Eigen::Vector3f ModelMotion::upOf(std::size_t module) const {
@@ -109,8 +111,8 @@ void ModelMotion::show(const ModelState& state) {
   }
   const double stamp_s = state.header.stamp.toSec();
   const double previous_s = std::exchange(stamp_s_, stamp_s);
-  if (previous_s == 0.0) {
-    before_ = now_;  // it was not seen to move yet
+  if (previous_s == 0.0 || stamp_s <= previous_s) {
+    before_ = now_;  // it was not seen to move, or a recording begins anew
   }
   place();
   measure(std::clamp(static_cast<float>(stamp_s - previous_s), kLeastElapsedS, kMostElapsedS));
@@ -158,18 +160,19 @@ float ModelMotion::awayFromNeighbours(std::size_t module) const {
   return around.empty() ? 0.0F : sum.norm() / static_cast<float>(around.size());
 }
 
-/// The square root, so that what moves a tenth as much is still seen.
+/// Less than in proportion, so that what moves a tenth as much is still seen.
 void ModelMotion::glow(float elapsed_s) {
   const float kept = std::exp(-elapsed_s / kReferenceS);
-  for (SectionMotion& section : sections_) {
-    section.reference = std::max(kept * section.reference, leastOf(glows_by_));
+  for (float& reference : references_) {
+    reference = std::max(kept * reference, leastOf(glows_by_));
   }
   for (std::size_t i = 0; i < measures_.size(); ++i) {
-    float& reference = sections_[section_of_[i]].reference;
+    float& reference = references_[reference_of_[i]];
     reference = std::max(reference, measures_[i]);
   }
   for (std::size_t i = 0; i < measures_.size(); ++i) {
-    glow_[i] = std::sqrt(measures_[i] / sections_[section_of_[i]].reference);
+    const float root = std::sqrt(measures_[i] / references_[reference_of_[i]]);
+    glow_[i] = root * std::sqrt(root);
   }
 }
 

@@ -42,8 +42,8 @@ class ModelMotion {
   const std::vector<Eigen::Vector3f>& places() const { return places_; }
   /// [modules] where they are drawn at rest.
   const std::vector<Eigen::Vector3f>& restPlaces() const { return rest_places_; }
-  /// [modules] 0...1, as share of the largest of its section that was seen in the last seconds.
-  /// Hands and grounds do not glow.
+  /// [modules] 0...1, as share of the largest of its section in the last seconds, among single
+  /// masses or among all others. Hands and grounds do not glow.
   const std::vector<float>& glow() const { return glow_; }
   /// Along which the modules of a section move that move along x alone, length 1, frame `model`.
   Eigen::Vector3f upOf(std::size_t module) const;
@@ -60,7 +60,6 @@ class ModelMotion {
     geometry_msgs::Pose pose;
     int dimensions = 1;
     Eigen::Matrix3f drawn = Eigen::Matrix3f::Identity();  // of displacements, with zoom and gain
-    float reference = 0.0F;                               // what glows most
   };
   std::vector<SectionMotion> sections_;
   std::vector<std::uint32_t> section_of_;  // [modules]
@@ -73,6 +72,8 @@ class ModelMotion {
   std::vector<Eigen::Vector3f> rest_places_;
   std::vector<float> measures_;  // [modules] of the quantity, held for a moment
   std::vector<float> glow_;
+  std::vector<float> references_;            // [2 sections] of what glows most, see reference_of_
+  std::vector<std::uint32_t> reference_of_;  // [modules] single masses have one of their own
   GlowBy glows_by_ = GlowBy::kSpeed;
   double stamp_s_ = 0.0;  // of the latest state; 0: none came
 };

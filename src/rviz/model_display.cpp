@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 
 #include <rviz/display_context.h>
 #include <rviz/frame_manager.h>
@@ -131,7 +132,7 @@ void ModelDisplay::subscribe() {
 void ModelDisplay::begin(const ModelStructure::ConstPtr& structure) {
   picture_->clear();
   structure_.reset();
-  came_ = {};
+  came_ = ros::WallTime::now();
   if (!isConsistent(*structure)) {
     setStatus(rviz::StatusProperty::Error, "Model",
               "The lists of model_structure do not fit each other.");
@@ -174,40 +175,38 @@ void ModelDisplay::rebuild() {
 
 void ModelDisplay::update(float /*wall_dt*/, float /*ros_dt*/) {
   const ros::WallTime start = ros::WallTime::now();
-  if (!structure_ || !findFrame()) {
+  if (structure_ && findFrame()) {
+    takeState();
+    if (drawIfNeeded()) {
+      const double spent_ms = 1e3 * (ros::WallTime::now() - start).toSec();
+      worst_ms_ = std::max(worst_ms_, spent_ms);
+      spent_ms_ += spent_ms;
+      ++pictures_;
+    }
+  }
+  if ((start - told_).toSec() > kTellS) {
+    told_ = start;
     tellStation();
-    return;
+    tellPicture();
   }
-  takeState();
-  const bool is_stale = (start - came_).toSec() > kStaleS;
-  if (is_stale != is_stale_) {
-    is_stale_ = is_stale;
-    must_draw_ = true;
-    tellStation();
-  }
-  const Eigen::Vector3f now = eye();
-  if (must_draw_ || (now - drawn_for_).norm() > kMovedEye * now.norm()) {
-    drawn_for_ = now;
-    draw();
-    const double spent_ms = 1e3 * (ros::WallTime::now() - start).toSec();
-    worst_ms_ = std::max(worst_ms_, spent_ms);
-    spent_ms_ += spent_ms;
-    ++pictures_;
-  }
-  tellPicture();
 }
 
 bool ModelDisplay::findFrame() {
   Ogre::Vector3 position;
   Ogre::Quaternion orientation;
-  if (!context_->getFrameManager()->getTransform("model", ros::Time(), position, orientation)) {
-    setStatus(rviz::StatusProperty::Error, "Frame",
-              "Where frame model is in the fixed frame is not known.");
-    scene_node_->setVisible(false);
+  const bool is_known =
+      context_->getFrameManager()->getTransform("model", ros::Time(), position, orientation);
+  scene_node_->setVisible(is_known);
+  if (!is_known) {
+    if (std::exchange(has_frame_, false)) {
+      setStatus(rviz::StatusProperty::Error, "Frame",
+                "Where frame model is in the fixed frame is not known.");
+    }
     return false;
   }
-  setStatus(rviz::StatusProperty::Ok, "Frame", "known");
-  scene_node_->setVisible(true);
+  if (!std::exchange(has_frame_, true)) {
+    deleteStatus("Frame");
+  }
   scene_node_->setPosition(position);
   scene_node_->setOrientation(orientation);
   Eigen::Isometry3f model = Eigen::Isometry3f::Identity();
@@ -219,12 +218,28 @@ bool ModelDisplay::findFrame() {
 }
 
 void ModelDisplay::takeState() {
+  const ros::WallTime now = ros::WallTime::now();
   if (state_ && belongs(*state_, *structure_)) {
     motion_.show(*state_);
-    came_ = ros::WallTime::now();
+    came_ = now;
     must_draw_ = true;
   }
   state_.reset();
+  const bool is_stale = (now - came_).toSec() > kStaleS;
+  if (is_stale != std::exchange(is_stale_, is_stale)) {
+    must_draw_ = true;
+    tellStation();
+  }
+}
+
+bool ModelDisplay::drawIfNeeded() {
+  const Eigen::Vector3f now = eye();
+  if (!must_draw_ && (now - drawn_for_).norm() < kMovedEye * now.norm()) {
+    return false;
+  }
+  drawn_for_ = now;
+  draw();
+  return true;
 }
 
 Eigen::Vector3f ModelDisplay::eye() const {
@@ -264,20 +279,14 @@ void ModelDisplay::tellModel() {
   setStatus(rviz::StatusProperty::Ok, "Model", text);
 }
 
-/// Once a second, so that it can be read.
+/// Of the last second.
 void ModelDisplay::tellPicture() {
-  const ros::WallTime now = ros::WallTime::now();
-  if ((now - told_).toSec() < kTellS) {
-    return;
-  }
-  told_ = now;
-  tellStation();
   if (pictures_ > 0) {
     setStatus(rviz::StatusProperty::Ok, "Picture",
-              QString("%1 vertices, %2 ms of the window's thread in the mean, %3 at worst")
-                  .arg(picture_->vertices())
+              QString("%1 ms of rviz's own thread, %2 at worst, %3 vertices")
                   .arg(spent_ms_ / pictures_, 0, 'f', 2)
-                  .arg(worst_ms_, 0, 'f', 2));
+                  .arg(worst_ms_, 0, 'f', 2)
+                  .arg(picture_->vertices()));
   }
   pictures_ = 0;
   spent_ms_ = worst_ms_ = 0.0;

@@ -50,6 +50,7 @@ class ModelDisplay : public rviz::Display {
 
   bool findFrame();
   void takeState();
+  bool drawIfNeeded();
   void draw();
   Eigen::Vector3f eye() const;
   void tellStation();
@@ -78,6 +79,7 @@ class ModelDisplay : public rviz::Display {
   ros::WallTime came_;  // the latest state of this model
   bool is_stale_ = true;
   bool must_draw_ = false;
+  bool has_frame_ = true;                                // until it was looked for in vain
   Eigen::Vector3f drawn_for_ = Eigen::Vector3f::Zero();  // eye of the latest picture
   double worst_ms_ = 0.0;                                // of a second's pictures
   double spent_ms_ = 0.0;

@@ -12,7 +12,7 @@ constexpr float kAmbient = 0.30F;
 constexpr float kDiffuse = 0.70F;
 constexpr float kShine = 0.25F;
 constexpr float kAboveCamera = 0.6F;  // of the light, as share of its distance
-constexpr float kStaleLight = 0.45F;
+constexpr float kStaleLight = 0.8F;
 
 // Light on rviz's dark ground, in the order of ModuleLook.
 const std::array<Tint, kModuleLooks> kTints = {{{0.0F, 0.0F, 0.0F},

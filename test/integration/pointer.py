@@ -109,10 +109,17 @@ class Pointer:
         """Where a handle of one axis is on the screen."""
         return self.module(self.handles.message.modules[self.handles.message.names.index(name)])
 
+    def seen(self):
+        """Modules that are in the picture: all but the modes of bodies whose outlines are."""
+        names = self.structure.message.module_names
+        bodies = {name.rpartition(".outline.")[0] for name in names if ".outline." in name}
+        parts = [name.rpartition(".") for name in names]
+        return [i for i, (body, _, number) in enumerate(parts) if not (body in bodies and number.isdigit())]
+
     def module(self, module, at_rest=False):
         """Where a module is on the screen."""
         left, top, width, height = self.picture()
-        modules = range(len(self.structure.message.module_sections))
+        modules = self.seen()
         camera = Camera(numpy.array([self.place(i, 0.0) for i in modules]), width, height)
         x, y = camera.pixel(self.place(module, 0.0 if at_rest else self.state.message.displacement[module]))
         return round(left + x), round(top + y)

@@ -113,6 +113,17 @@ TEST(HandleSetTest, KnowsWhereAllModulesAreDrawnAlsoOfAModelWithoutHandles) {
   EXPECT_EQ(set.models(), 1);
 }
 
+TEST(HandleSetTest, ModesOfABodyThatHasAnOutlineAreNotDrawn) {
+  ModelStructure body = structure();
+  body.module_names = {"plate.0", "plate.outline.0", "plate.edge"};
+  body.module_types = {ModelStructure::CELL, ModelStructure::POINT, ModelStructure::POINT};
+  HandleSet set;
+  set.show(body);
+  set.show(handles());
+  EXPECT_EQ(set.places().size(), 2U);
+  EXPECT_TRUE(set.places().front().isApprox(Eigen::Vector3d(0.0, 0.1, 0.15), 1e-6));
+}
+
 TEST(HandleSetTest, WhatIsOfAnotherModelIsPassedOver) {
   HandleSet set;
   set.show(handles());

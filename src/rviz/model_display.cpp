@@ -47,7 +47,8 @@ ModelDisplay::ModelDisplay() {
       "Colour by", kGlowOptions[0].name,
       "What makes parts of the model glow: their speed from picture to picture, their displacement "
       "from rest, the force by which their neighbours pull them back, or their energy, each as a "
-      "share of the largest in their section. With section, nothing glows, and each section has "
+      "share of the largest among the strings, the surfaces and bars, or the masses of their "
+      "section. With section, nothing glows, and each section has "
       "its colour.",
       this);
   for (std::size_t i = 0; i < kGlowOptions.size(); ++i) {

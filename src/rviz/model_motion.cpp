@@ -19,6 +19,21 @@ constexpr float kMostElapsedS = 1.0F;
 constexpr float kLeastM = 2e-6F;      // below which nothing is seen to glow
 constexpr float kLeastSpeed = 6e-5F;  // m/s, the same at 30 states per second
 
+/// Each kind is compared with its own: a hammer that flies would outshine the string that it has
+/// struck, and the string the soundboard.
+constexpr std::uint32_t kKinds = 3;
+std::uint32_t kindOf(ModuleLook look) {
+  switch (look) {
+    case ModuleLook::kString:
+      return 0;
+    case ModuleLook::kBar:
+    case ModuleLook::kSurface:
+      return 1;
+    default:
+      return 2;
+  }
+}
+
 std::size_t coordinatesOf(const ModelStructure& structure) {
   std::size_t coordinates = 0;
   for (const std::uint32_t section : structure.module_sections) {
@@ -52,7 +67,7 @@ ModelMotion::ModelMotion(const ModelStructure& structure, const ModelShape& shap
       before_(now_),
       measures_(section_of_.size()),
       glow_(section_of_.size()),
-      references_(2 * structure.section_poses.size()) {
+      references_(kKinds * structure.section_poses.size()) {
   for (std::size_t s = 0; s < structure.section_poses.size(); ++s) {
     SectionMotion section;
     section.pose = structure.section_poses[s];
@@ -67,9 +82,7 @@ ModelMotion::ModelMotion(const ModelStructure& structure, const ModelShape& shap
     can_glow_.push_back(look != ModuleLook::kHand && look != ModuleLook::kGround &&
                         look != ModuleLook::kHidden);
     neighbours_.push_back(graph.of(i));
-    // A hammer that flies would outshine the string that it has struck.
-    const bool is_body = look == ModuleLook::kMass || look == ModuleLook::kPoint;
-    reference_of_.push_back(2 * section_of_[i] + (is_body ? 1 : 0));
+    reference_of_.push_back(kKinds * section_of_[i] + kindOf(look));
   }
   setScale(1.0, 1.0);
 }

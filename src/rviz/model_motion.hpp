@@ -42,8 +42,8 @@ class ModelMotion {
   const std::vector<Eigen::Vector3f>& places() const { return places_; }
   /// [modules] where they are drawn at rest.
   const std::vector<Eigen::Vector3f>& restPlaces() const { return rest_places_; }
-  /// [modules] 0...1, as share of the largest of its section in the last seconds, among single
-  /// masses or among all others. Hands and grounds do not glow.
+  /// [modules] 0...1, as share of the largest of its section in the last seconds: of strings,
+  /// of bars and surfaces, or of single masses. Hands and grounds do not glow.
   const std::vector<float>& glow() const { return glow_; }
   /// Along which the modules of a section move that move along x alone, length 1, frame `model`.
   Eigen::Vector3f upOf(std::size_t module) const;
@@ -72,8 +72,8 @@ class ModelMotion {
   std::vector<Eigen::Vector3f> rest_places_;
   std::vector<float> measures_;  // [modules] of the quantity, held for a moment
   std::vector<float> glow_;
-  std::vector<float> references_;            // [2 sections] of what glows most, see reference_of_
-  std::vector<std::uint32_t> reference_of_;  // [modules] single masses have one of their own
+  std::vector<float> references_;            // [kinds] of what glows most
+  std::vector<std::uint32_t> reference_of_;  // [modules] index into them
   GlowBy glows_by_ = GlowBy::kSpeed;
   double stamp_s_ = 0.0;  // of the latest state; 0: none came
 };

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <thread>
 
+#include "ergotic/physics/certificate/precision.hpp"
 #include "ergotic/rt/clock.hpp"
 #include "ergotic/rt/thread.hpp"
 
@@ -75,7 +76,8 @@ std::string describeLoad(const physics::Instrument& instrument, double load, dou
        << ", allowed: up to max_load = " << max_load << ", " << load / max_load
        << " times less. What helps: fewer modules and links, lower rates of its sections (rate: "
           "auto)";
-  if (options.precision == physics::Precision::kDouble) {
+  if (options.precision == physics::Precision::kDouble &&
+      physics::bodiesThatMoveFreely(instrument.scene()).empty()) {
     text << ", precision: float";
   }
   if (options.metered) {

@@ -9,13 +9,14 @@ namespace ergotic::station {
 namespace {
 
 /// Of so many modules, of which none is moved.
-scene::Scene plate(int rows) {
+scene::Scene plate(int rows, const std::string& edges = "fixed") {
   const std::string size = std::to_string(rows);
   return scene::readYaml(
       "ergotic: 1\nname: plate\nsections:\n  plate: {rate: audio}\ngenerators:\n"
       "  - {type: mesh, name: plate, section: plate, rows: " +
           size + ", columns: " + size +
-          ", spacing: 0.01, mass: 1.0e-4, stiffness: 2000, damping: 1.0e-3, edges: fixed}\n",
+          ", spacing: 0.01, mass: 1.0e-4, stiffness: 2000, damping: 1.0e-3, edges: " + edges +
+          "}\n",
       "plate.yaml");
 }
 
@@ -51,6 +52,19 @@ TEST(MeasureLoadTest, RefusesWhatIsTooHeavyAndSaysByHowMuchAndWhatWouldHelp) {
                 AllOf(HasSubstr("plate.yaml: error: "), HasSubstr("max_load = 0.0001"),
                       HasSubstr("times less"), HasSubstr("energies: false")));
   }
+}
+
+/// A plate that nothing holds needs double precision, one that is held does not.
+TEST(MeasureLoadTest, AdvisesSinglePrecisionOnlyToWhatIsTrueInIt) {
+  const auto refusalIn = [](const std::string& edges) {
+    PerformerPolicy policy;
+    policy.max_load = 1e-6;
+    return complaintOf<Exception>([&] {
+      makePerformer(plate(20, edges), {44100.0, 14}, physics::Precision::kDouble, policy);
+    });
+  };
+  EXPECT_THAT(refusalIn("fixed"), HasSubstr("precision: float"));
+  EXPECT_THAT(refusalIn("free"), AllOf(HasSubstr("too heavy"), Not(HasSubstr("precision: float"))));
 }
 
 }  // namespace

@@ -17,8 +17,7 @@ namespace {
 
 using scene::Lia;
 
-constexpr double kMostPower = 100.0;  // W, of a hand that moves a point
-constexpr double kRounding = 1e-9;
+constexpr double kMostPower = 100.0;  // kg m^2/time_unit^2 each second, of what moves a point
 // With products and some hundred times more, what single precision holds:
 constexpr double kMostLoad = 1e30;
 constexpr double kMostCurved = 1e15;  // whose square is worked out
@@ -107,8 +106,9 @@ class LinkJudge {
 
   /// Moving it works on what explicit links join to it, and nothing feels that; its power is held.
   void judgePlace(const scene::Connection& place) {
-    const double unit = networks_.scene().time_unit_s;  // `.mdl` files have energies of their own
-    if (place.power * unit * unit <= kMostPower * (1.0 + kRounding)) {
+    // An energy is in kg m^2/time_unit^2.
+    const double unit = networks_.scene().time_unit_s;
+    if (place.power <= kMostPower / (unit * unit)) {
       findings_.worsen(Verdict::kBounded);
       return;
     }

@@ -277,7 +277,8 @@ int macroPoint(SceneBuilder& builder, MdlNumbers& numbers, const MdlToken& at) {
     connection.across.at = first.at;
     connection.along.at = second.at;
   }
-  connection.power = kPointEnergyPerSecond * kMdlRateHz * kMdlRateHz;
+  const double sample_s = 1.0 / kMdlRateHz;
+  connection.power = kPointEnergyPerSecond / (sample_s * sample_s);
   const int known = builder.findMat(name);
   return known >= 0 ? known : addPoint(builder, name, std::move(connection));
 }

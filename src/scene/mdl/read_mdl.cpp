@@ -243,7 +243,7 @@ class MdlReader {
       }
     }
     completeClippedLaw(lia, numbers_.isFaust() ? ClippedLaw::kFaust : ClippedLaw::kMiGen);
-    renameTwin(lia);
+    renameDuplicate(lia);
     const bool is_constant = lia.stiffness.audio < 0 && lia.damping.audio < 0 &&
                              lia.law->nonlinearity.audio < 0 && lia.law->width.audio < 0;
     if (is_constant && lawOf(lia.type).switches) {
@@ -253,7 +253,7 @@ class MdlReader {
   }
 
   /// No line refers to a link, so several may share a name; in a scene names are unique.
-  void renameTwin(Lia& lia) {
+  void renameDuplicate(Lia& lia) {
     const std::string name = lia.name.str();
     const auto [first, is_new] = links_.emplace(name, lia.place.line);
     if (is_new) {

@@ -95,16 +95,18 @@ NetworkAnalysis analyse(const NetworkBound& network) {
 }
 
 std::optional<std::vector<int>> semidefiniteBesideNegative(const NetworkBound& network) {
-  std::vector<int> modules;
-  const auto add = [&](const std::optional<std::vector<int>>& more) {
-    modules.insert(modules.end(), more ? more->begin() : modules.end(),
-                   more ? more->end() : modules.end());
-    return more.has_value();
-  };
-  const bool is_semidefinite =
-      (!network.hasNegativeStiffness() || add(NetworkSpectrum::semidefiniteStiffness(network))) &&
-      (!network.hasNegativeDamping() || add(NetworkSpectrum::semidefiniteDamping(network)));
-  return is_semidefinite ? std::optional(modules) : std::nullopt;
+  std::optional<std::vector<int>> modules = std::vector<int>();
+  if (network.hasNegativeStiffness()) {
+    modules = NetworkSpectrum::semidefiniteStiffness(network);
+  }
+  if (modules && network.hasNegativeDamping()) {
+    const auto more = NetworkSpectrum::semidefiniteDamping(network);
+    if (!more) {
+      return std::nullopt;
+    }
+    modules->insert(modules->end(), more->begin(), more->end());
+  }
+  return modules;
 }
 
 bool losesInEveryMotion(const NetworkBound& network) {

@@ -37,7 +37,7 @@ class NetworkSpectrum {
   int worstOwner() const { return worst_owner_; }
 
   /// Modules that hang together with something negative, if the softest case of K (of Z) is
-  /// positive semidefinite there all the same, by 1e-9 of its norm; none if not. \pre something is
+  /// positive semidefinite there all the same, by 1e-6 of its norm; none if not. \pre something is
   /// negative
   static std::optional<std::vector<int>> semidefiniteStiffness(const NetworkBound& network);
   static std::optional<std::vector<int>> semidefiniteDamping(const NetworkBound& network);

@@ -32,7 +32,7 @@ ROOMS = {
     "physics/engine": "exception rt scene physics physics/laws physics/modes physics/layout"
                       " physics/layout/blocks physics/state physics/kernels",
     "physics/certificate": "exception algebra scene scene/laws physics physics/layout physics/network physics/engine",
-    "physics/settling": "exception scene scene/laws scene/generate physics physics/network"
+    "physics/settling": "exception algebra scene scene/laws scene/generate physics physics/laws physics/network"
                         " physics/certificate",
     "advice": "exception algebra scene scene/laws scene/generate physics physics/laws physics/network physics/certificate"
               " physics/settling",

@@ -6,8 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/SparseLU>
-
+#include "algebra/damped_pole.hpp"
 #include "algebra/decompositions.hpp"
 #include "at.hpp"
 
@@ -15,22 +14,12 @@ namespace ergotic::physics {
 namespace {
 
 using Complex = std::complex<double>;
-using ComplexMatrix = Eigen::SparseMatrix<Complex>;
 
 constexpr double kShared = 1e-9;     // of a shape that losses make of a mode: they share it
 constexpr double kExact = 1e-11;     // relative, of a pole
 constexpr double kOneMode = 0.99;    // of two shapes
 constexpr int kMostProjected = 200;  // modes among which the problem is solved
 constexpr int kMostRefinements = 6;
-
-/// That of a w^2 + b w + c = 0 that is nearer.
-Complex nearerRoot(Complex a, Complex b, Complex c, Complex guess) {
-  const Complex root = std::sqrt(b * b - 4.0 * a * c);
-  const Complex sum = std::abs(b + root) > std::abs(b - root) ? b + root : b - root;
-  const Complex one = -sum / (2.0 * a);
-  const Complex other = sum == 0.0 ? one : -2.0 * c / sum;
-  return std::abs(one - guess) < std::abs(other - guess) ? one : other;
-}
 
 class Damping {
  public:
@@ -154,15 +143,10 @@ class Damping {
         DampedMode& mode = modes_[static_cast<std::size_t>(best)];
         mode.w = values[i];
         mode.shape = basis * shares;
-        normalize(mode);
+        algebra::normalize(mode.shape);
         mode.error = errorOf(mode);
       }
     }
-  }
-
-  static void normalize(DampedMode& mode) {
-    const Complex length = std::sqrt(square(mode.shape));
-    mode.shape /= std::abs(length) > 1e-9 * mode.shape.norm() ? length : Complex(mode.shape.norm());
   }
 
   void refine() {
@@ -195,30 +179,14 @@ class Damping {
   }
 
   DampedMode refined(const DampedMode& mode) {
-    const Complex w = mode.w;
-    ComplexMatrix unit(part_.pull.rows(), part_.pull.cols());
-    unit.setIdentity();
-    ComplexMatrix matrix = w * both_.cast<Complex>() + part_.pull.cast<Complex>();
-    matrix += w * w * unit;
-    matrix.makeCompressed();
-    Eigen::SparseLU<ComplexMatrix> solver(matrix);
     DampedMode next = mode;
     next.error = std::numeric_limits<double>::infinity();
-    if (solver.info() != Eigen::Success) {
-      return next;
+    const auto pole = algebra::refinedPole(both_, part_.pull, {mode.w, mode.shape});
+    if (pole) {
+      next.w = pole->w;
+      next.shape = pole->shape;
+      next.error = errorOf(next);
     }
-    const Eigen::VectorXcd slope = 2.0 * w * mode.shape + both_ * mode.shape;
-    next.shape = solver.solve(slope);
-    if (!next.shape.allFinite()) {
-      return next;
-    }
-    next.shape /= next.shape.norm();
-    normalize(next);
-    const Eigen::VectorXcd of_both = both_ * next.shape;
-    const Eigen::VectorXcd of_pull = part_.pull * next.shape;
-    next.w = nearerRoot(square(next.shape), product(next.shape, of_both),
-                        product(next.shape, of_pull), w);
-    next.error = errorOf(next);
     return next;
   }
 

@@ -136,10 +136,8 @@ class RecipesTest(unittest.TestCase):
 
     def test_strings_on_a_board(self):
         low, high = self.gestures["bridge"], self.gestures["bridge"].replace(",0,", ",1,")
-        board, strings = self.play("bridge", 3, low)
-        self.expect(strings, A2, 4, 0.8, 3)
-        self.expect(board, A2, 4, 0.8, 3)
-        self.expect(self.play("bridge", 3, high)[0], E3, 4, 0.8, 3)
+        self.expect(self.play("bridge", 3, low)[0], A2, 4, 0.8, 3)
+        self.expect(self.play("bridge", 3, high)[1], E3, 3.4, 0.8, 3)
 
     def test_a_bowed_string_open_and_stopped(self):
         bow = self.gestures["bow"]

@@ -334,6 +334,7 @@ struct StringInfo {
   Value loss;       ///< of one mass to the ground
   /// > 0: the wanted fundamental, Hz. `settle` tunes the links to it, and leaves 0.
   double frequency_hz = 0.0;
+  bool keeps_pitch = false;  ///< on what it ends on, too: `settle` tunes both together
   /// Its links also go to the second and third neighbours, in the order of addString; `settle` fits
   /// them to the partials of an ideal string.
   bool coarse = false;

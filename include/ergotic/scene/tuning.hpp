@@ -28,11 +28,12 @@ struct Tuning {
   int lias = 0;  ///< the springs of its bends among them
   int first_bend = 0;
   int bends = 0;
-  std::vector<Mode> modes;  ///< the lowest that are no motion as a whole, by frequency
-  Mode top;                 ///< the highest: whether it can be stepped
-  int rigid = 0;            ///< how many of its motions bend nothing; not among `modes`
-  double pitch_hz = 0.0;    ///< wanted
-  int pitch_mode = 0;       ///< index in `modes` of what sounds at it
+  std::vector<Mode> modes;   ///< the lowest that are no motion as a whole, by frequency
+  Mode top;                  ///< the highest: whether it can be stepped
+  int rigid = 0;             ///< how many of its motions bend nothing; not among `modes`
+  double pitch_hz = 0.0;     ///< wanted
+  int pitch_mode = 0;        ///< index in `modes` of what sounds at it
+  bool keeps_pitch = false;  ///< on what it ends on, too: `settle` tunes both together
   /// B of strings, f_j = j f_1 sqrt((1 + B j^2)/(1 + B)): springs and bends are scaled apart;
   /// negative: alike.
   double inharmonicity = -1.0;

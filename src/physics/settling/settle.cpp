@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "physics/settling/automatic_rate.hpp"
 #include "physics/settling/body_tuning.hpp"
+#include "physics/settling/coupled_strings.hpp"
 #include "physics/settling/coupling_choice.hpp"
 #include "physics/settling/filters.hpp"
 #include "physics/settling/pitch_pull.hpp"
@@ -26,8 +28,10 @@ namespace {
 /// Everything but the rates. A chaplet is tuned to the springs of what it touches; schemes depend
 /// on the masses that a link ends on.
 scene::Scene complete(scene::Scene scene, const Rates& rates, std::vector<std::string>& notes) {
+  const std::vector<CoupledString> coupled = coupledStrings(scene);
   tuneStrings(scene, rates, notes);
   tuneBodies(scene, rates, notes);
+  tuneCoupledStrings(scene, coupled, rates, notes);
   scene::settleStretches(scene);
   settleStops(scene, rates, notes);
   askForChaplets(scene, rates);

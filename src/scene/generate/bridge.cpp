@@ -68,6 +68,26 @@ void hang(SceneBuilder& builder, const BridgeSpec& spec, const Grid& grid, int e
   }
 }
 
+/// `settle` tunes the string together with what it ends on.
+void keepPitch(SceneBuilder& builder, const BridgeSpec& spec, const Grid& grid) {
+  Scene& scene = builder.scene();
+  for (Tuning& body : scene.tunings) {
+    if (body.first_mat == grid.first) {
+      body.keeps_pitch = true;
+      return;
+    }
+  }
+  for (StringInfo& string : scene.strings) {
+    if (string.first == grid.first && string.frequency_hz > 0.0) {
+      string.keeps_pitch = true;
+      return;
+    }
+  }
+  builder.fail(spec.place, "string " + quoted(grid.name) + " of bridge " + quoted(spec.name) +
+                               " has no pitch that it could keep, allowed: one with 'pitch' or "
+                               "'frequency', or a bridge without 'keep_pitch'");
+}
+
 }  // namespace
 
 void addBridge(SceneBuilder& builder, const BridgeSpec& spec) {
@@ -86,6 +106,9 @@ void addBridge(SceneBuilder& builder, const BridgeSpec& spec) {
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const Grid grid = builder.scene().grids[at(spec.grids[i])];
     hang(builder, spec, grid, ends[i], on);
+    if (spec.keeps_pitch) {
+      keepPitch(builder, spec, grid);
+    }
   }
 }
 

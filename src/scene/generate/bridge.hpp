@@ -14,18 +14,19 @@ namespace ergotic::scene {
 struct BridgeSpec {
   std::string name;
   int section = 0;
-  std::vector<int> grids;   ///< of the strings, each a scalar one of one row
-  bool is_at_last = false;  ///< their last modules end here, not their first
-  int on = -1;              ///< a module that is there; -1: its own, of what follows
-  Value mass;               ///< kg
-  Value stiffness;          ///< N/m
-  Value resistance;         ///< N s/m
+  std::vector<int> grids;    ///< of the strings, each a scalar one of one row
+  bool is_at_last = false;   ///< their last modules end here, not their first
+  bool keeps_pitch = false;  ///< the strings are tuned together with what they end on
+  int on = -1;               ///< a module that is there; -1: its own, of what follows
+  Value mass;                ///< kg
+  Value stiffness;           ///< N/m
+  Value resistance;          ///< N s/m
   Place place;
 };
 
 /// Appends the bridge and hangs the strings on it.
 /// \throws TextError if a name is taken, a string does not end on a ground there, or its bends
-///         would end on a point
+///         would end on a point, or if its pitch is to be kept and it has none
 void addBridge(SceneBuilder& builder, const BridgeSpec& spec);
 
 }  // namespace ergotic::scene

@@ -17,8 +17,8 @@ constexpr std::size_t kMostText = 8U << 20U;   // bytes in them and in what is e
 constexpr std::size_t kLongestWord = 4096;     // bytes, of what is put together
 constexpr double kMostTurns = 1e5;             // of a loop
 constexpr double kLargestTurn = 1e15;          // whole numbers beyond have no next one
-constexpr const char* kReferences[] = {"between", "at",     "mat",  "of",
-                                       "along",   "normal", "from", "guide"};
+constexpr const char* kReferences[] = {"between", "at",   "mat",   "of",  "along",
+                                       "normal",  "from", "guide", "ends"};
 
 bool isExpression(const Node& node) {
   return node.isScalar() && !node.text().empty() && node.text()[0] == '=';

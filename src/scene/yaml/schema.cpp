@@ -73,6 +73,7 @@ const std::map<std::string, const char*>& values() {
       {"include", kList},
       {"inharmonicity", kNumber},
       {"is", kWord},
+      {"keep_pitch", kFlag},
       {"kind", kWord},
       {"length", kNumber},
       {"let", kMap},

@@ -52,11 +52,13 @@ void withFiles(SceneBuilder& builder, const std::string& name, const YamlMap& ma
 struct Generator {
   const char* type;
   GeneratorReader read;
-  KeyNames (*keys)();    ///< for the schema
-  bool is_late = false;  ///< read when all bodies are there, those of instances, too
+  KeyNames (*keys)();                ///< for the schema
+  bool is_late = false;              ///< read when all bodies are there, those of instances, too
+  GeneratorReader finish = nullptr;  ///< what is left of it then
 };
 constexpr Generator kGenerators[] = {
-    {"string", alone<readString>, [] { return joined(limpStringKeys(), tunedStringKeys()); }},
+    {"string", alone<readString>, [] { return joined(limpStringKeys(), tunedStringKeys()); }, false,
+     alone<readEnds>},
     {"mesh", alone<readMesh>, [] { return meshKeys(); }},
     {"bar", alone<readBar>, barKeys},
     {"membrane", alone<readMembrane>, membraneKeys},
@@ -98,10 +100,12 @@ void readGenerators(SceneBuilder& builder,
     for (const Node& node : list) {
       const YamlMap map(builder, node, "generator", placeOf(node, top.placeAt("generators")));
       const Generator& generator = kGenerators[map.choice("type", kinds)];
+      const std::string name = map.word("name");
       if (generator.is_late == is_late) {
-        const std::string name = map.word("name");
         checkName(builder, name, map.placeAt("name"));
         generator.read(builder, name, map, beside);
+      } else if (is_late && generator.finish != nullptr) {
+        generator.finish(builder, name, map, beside);
       }
     }
   }

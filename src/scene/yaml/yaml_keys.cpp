@@ -109,13 +109,13 @@ const KeyNames& resonatorKeys() {
 const KeyNames& limpStringKeys() {
   static const KeyNames kKeys = {
       "type",    "name", "section",           "masses", "mass", "stiffness", "frequency", "coarse",
-      "damping", "loss", "rest_length_ratio", "scheme", "from", "to",        "pluck"};
+      "damping", "loss", "rest_length_ratio", "scheme", "from", "to",        "pluck",     "ends"};
   return kKeys;
 }
 
 KeyNames tunedStringKeys() {
-  return withBodyKeys(
-      {"masses", "mass", "impedance", "tension", "length", "inharmonicity", "from", "to", "pluck"});
+  return withBodyKeys({"masses", "mass", "impedance", "tension", "length", "inharmonicity", "from",
+                       "to", "pluck", "ends"});
 }
 
 KeyNames barKeys() {
@@ -143,8 +143,8 @@ const KeyNames& barrierKeys() {
 }
 
 const KeyNames& bridgeKeys() {
-  static const KeyNames kKeys = {"type", "name", "section",   "of",        "end",
-                                 "mat",  "mass", "stiffness", "resistance"};
+  static const KeyNames kKeys = {"type", "name", "section",   "of",         "end",
+                                 "mat",  "mass", "stiffness", "resistance", "keep_pitch"};
   return kKeys;
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
 #include <iostream>
 #include <sstream>
 
@@ -11,11 +12,19 @@ namespace {
 
 using scene::Truth;
 
+/// A share of an amplitude, which one thinks of in decibels.
+bool isLevel(const Truth& truth) {
+  return truth.what == Truth::What::kHarmonicsLeft || truth.what == Truth::What::kSilence;
+}
+
 std::string numbers(const std::vector<double>& values, const Truth& truth) {
   std::ostringstream text;
-  text.precision(7);
+  text.precision(isLevel(truth) ? 3 : 7);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    text << (i == 0 ? "" : ", ") << values[i];
+    text << (i == 0 ? "" : ", ") << (isLevel(truth) ? 20.0 * std::log10(values[i]) : values[i]);
+  }
+  if (isLevel(truth)) {
+    return text.str() + " dB";
   }
   const std::string unit = truth.what == Truth::What::kPartials ? "Hz" : unitOf(truth);
   return text.str() + (unit.empty() ? "" : " " + unit);
@@ -56,6 +65,20 @@ std::string claim(const Truth& truth) {
   return text;
 }
 
+std::string howPlayed(const scene::Scene& scene, const Truth& truth) {
+  switch (truth.play) {
+    case Truth::Play::kTap:
+    case Truth::Play::kPluck:
+      return ", " + scene.mats[static_cast<std::size_t>(truth.struck.front().first)].name.str() +
+             (truth.play == Truth::Play::kTap ? " tapped" : " plucked");
+    case Truth::Play::kGesture:
+      return ", played by " + truth.gesture;
+    case Truth::Play::kStart:
+      break;
+  }
+  return "";
+}
+
 std::string nameOfTruth(const scene::ClaimingScene& claims, const Truth& truth) {
   constexpr const char* kFigures[] = {"duration", "peak", "release", "stiffness", "work"};
   const scene::Scene& scene = claims.scene;
@@ -70,7 +93,7 @@ std::string nameOfTruth(const scene::ClaimingScene& claims, const Truth& truth) 
   } else if (truth.port >= 0) {
     name += " at " + scene.ports[static_cast<std::size_t>(truth.port)].name;
   }
-  return name;
+  return name + howPlayed(scene, truth);
 }
 
 }  // namespace
@@ -93,6 +116,9 @@ bool tellTruths(const scene::ClaimingScene& claims,
                     {"measured", result.measured},
                     {"unit", unitOf(truth)},
                     {"holds", result.holds}};
+      if (result.trouble.empty()) {
+        entry["found"] = numbers(result.measured, truth);
+      }
       if (!expectedOf(truth).empty() && result.trouble.empty()) {
         entry["off"] = tolerance(result.off, truth);
       }

@@ -26,6 +26,8 @@ void readBarrier(SceneBuilder& builder,
                  const std::string& name,
                  const YamlMap& map,
                  YamlTables& tables);
+/// What a string ends on, of its `ends`. \pre all bodies are there
+void readEnds(SceneBuilder& builder, const std::string& name, const YamlMap& map);
 void readBridge(SceneBuilder& builder, const std::string& name, const YamlMap& map);
 
 }  // namespace ergotic::scene

@@ -113,7 +113,33 @@ void readBridge(SceneBuilder& builder, const std::string& name, const YamlMap& m
     spec.stiffness = map.value("stiffness", kStiffnessLimits, {});
     spec.resistance = map.value("resistance", kDampingLimits, {});
   }
+  spec.keeps_pitch = map.flag("keep_pitch", false);
   addBridge(builder, spec);
+}
+
+void readEnds(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
+  if (!map.has("ends")) {
+    return;
+  }
+  const Node& ends = map.at("ends");
+  const Place place = map.placeAt("ends");
+  if (!ends.isList() || ends.size() != 2) {
+    map.fail("ends", "'ends' of " + map.what() + " is " + kindOf(ends) +
+                         ", allowed: a list of two, each 'ground' or a module or place");
+  }
+  BridgeSpec spec;
+  spec.name = name;
+  spec.grids = {readRow(builder, map, name, place)};
+  spec.keeps_pitch = true;
+  for (std::size_t i = 0; i < 2; ++i) {
+    spec.place = placeOf(ends[i], place);
+    const std::string word = wordOf(builder, ends[i], "an end of " + map.what(), spec.place);
+    if (word != "ground") {
+      spec.is_at_last = i == 1;
+      spec.on = pointAt(builder, word, spec.place);
+      addBridge(builder, spec);
+    }
+  }
 }
 
 }  // namespace ergotic::scene

@@ -130,9 +130,11 @@ void readStringBody(SceneBuilder& builder, const std::string& name, const YamlMa
   spec.mass.factor = readStringMass(builder, map, fundamental_hz, spec.masses);
   readStringPlaces(builder, map, spec);
   spec.wish->is_string = true;
-  if (form.is_modal && map.has("pluck")) {
-    builder.fail(map.keyPlaceAt("pluck"),
-                 "'pluck' of " + map.what() + " of modes, allowed as: network");
+  for (const char* const key : {"pluck", "ends"}) {
+    if (form.is_modal && map.has(key)) {
+      builder.fail(map.keyPlaceAt(key),
+                   quoted(key) + " of " + map.what() + " of modes, allowed as: network");
+    }
   }
   readPluck(map, spec);
   addBody(builder, name, spec.section, *spec.wish, form, spec.place,

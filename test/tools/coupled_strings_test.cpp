@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Strings that end on bodies, by their sound: in tune with them, and out of tune if nobody tunes
+// them together.
+#include "support/places.hpp"
+#include "support/scene_builder.hpp"
+#include "tools/lib/truths.hpp"
+
+namespace ergotic::tools {
+namespace {
+
+using test::kRates;
+
+struct Body {
+  std::string mats;  // with a module `end`
+  std::string lias;
+};
+
+const Body kMass{
+    "  end: {type: mass, section: a, mass: 5 g}\n",
+    "  hold: {type: spring_damper, between: [end, rock], stiffness: 1e5, damping: 0.1}\n"};
+const Body kSpring{
+    "  end: {type: mass, section: a, mass: 0.1 g}\n",
+    "  hold: {type: spring_damper, between: [end, rock], stiffness: 3e4, damping: 0}\n"};
+const Body kResonator{"  end: {type: cell, section: a, mass: 0.1 kg, stiffness: 6e4, damping: 6}\n",
+                      ""};
+
+/// How far off the string is on a body, cents: of what is heard after the body has come to rest.
+double centsOff(const Body& body, const std::string& string, const std::string& end) {
+  const std::string text =
+      "ergotic: 1\nsections: {a: {rate: audio}}\nmats:\n"
+      "  rock: {type: ground, section: a}\n" +
+      body.mats + "lias:\n  ease: {type: damper, between: [end, rock], damping: 1e-6}\n" +
+      body.lias + "generators:\n  - {type: string, name: s, section: a, masses: 60, " + string +
+      ", to: [0.65, 0]" + (end == "ends" ? ", ends: [ground, end]}\n" : "}\n") +
+      (end == "tied" ? "  - {type: bridge, name: b, of: [s], end: last, mat: end}\n" : "") +
+      "outputs: {out: {at: s@0.2, quantity: velocity, channel: 1}}\ntruths:\n"
+      "  - {what: pitch, of: out, play: {pluck: 0.2 N, at: s@0.15}, after: 0.6 s, "
+      "expect: A2, within: 0.05 cents}\n";
+  const scene::ClaimingScene claims = scene::readTruths(text, "coupled.yaml");
+  const JudgedTruth judged = judgeTruths(claims, kRates, physics::Precision::kDouble).at(0);
+  EXPECT_EQ(judged.trouble, "");
+  return judged.off;
+}
+
+const std::string kTuned = "pitch: A2, impedance: 0.3, t60: [[1, 6 s], [10, 2 s]]";
+const std::string kLimp = "frequency: 110, mass: 2.2e-5, loss: 2e-5";
+
+TEST(CoupledStringsTest, AreInTuneOnMassesSpringsAndResonators) {
+  for (const Body& body : {kMass, kSpring, kResonator}) {
+    for (const std::string& string : {kTuned, kLimp}) {
+      EXPECT_LT(centsOff(body, string, "ends"), 0.05) << body.mats << string;
+      EXPECT_GT(centsOff(body, string, "tied"), 1.0) << body.mats << string;
+    }
+  }
+}
+
+TEST(CoupledStringsTest, AreInTuneOnAPlateThatIsANetwork) {
+  const std::string scene = R"(ergotic: 1
+sections: {a: {rate: audio}}
+generators:
+  - {type: plate, name: board, section: a, edges: clamped, cells: 10, mass: 300 g, pitch: 170 Hz,
+     t60: [[1, 0.2 s], [8, 0.1 s]]}
+  - {type: string, name: s, section: a, masses: 60, pitch: A2, impedance: 0.3, t60: 6 s, to: [0.65, 0],
+     ends: ['board@0.5:0.5', ground]}
+outputs: {out: {at: s@0.2, quantity: velocity, channel: 1}}
+truths:
+  - {what: pitch, of: out, play: {pluck: 0.2 N, at: s@0.15}, after: 0.3 s, expect: A2, within: 0.05 cents}
+)";
+  EXPECT_TRUE(
+      judgeTruths(scene::readTruths(scene, "plate.yaml"), kRates, physics::Precision::kDouble)
+          .at(0)
+          .holds);
+}
+
+}  // namespace
+}  // namespace ergotic::tools

@@ -120,6 +120,7 @@ const std::map<std::string, const char*>& values() {
       {"rest", kNumber},
       {"rest_length", kNumber},
       {"rest_length_ratio", kNumber},
+      {"ring", kMap},
       {"rotate", kListOrNumber},
       {"rows", kNumber},
       {"scheme", kWord},

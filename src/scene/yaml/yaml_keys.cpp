@@ -102,7 +102,8 @@ const KeyNames& chapletKeys() {
 }
 
 const KeyNames& resonatorKeys() {
-  static const KeyNames kKeys = {"type", "name", "section", "pitch", "partials", "places", "at"};
+  static const KeyNames kKeys = {"type",     "name",   "section", "pitch",
+                                 "partials", "places", "at",      "ring"};
   return kKeys;
 }
 

@@ -109,5 +109,33 @@ TEST_F(YamlPartialsTest, FilesLieBelowTheScene) {
               HasSubstr("list 'c.csv' is used by no resonator"));
 }
 
+TEST(YamlRingTest, IsTheOutlineOfItsPartials) {
+  const std::string text =
+      "ergotic: 1\nsections: {a: {}}\ngenerators: [{type: resonator, name: b, places: [p, q], "
+      "partials: [[100, 1, 1, 1, 1], [200, 1, 1, 1, 1]], at: [1, 2], "
+      "ring: {radius: 0.1, height: -0.2, waves: [2, -3]}}]\n";
+  const Scene scene = readYaml(text, "ring.yaml");
+  ASSERT_EQ(scene.outlines.size(), 1U);
+  const Outline& outline = scene.outlines[0];
+  ASSERT_EQ(outline.modes, 2);
+  ASSERT_EQ(outline.rest.size(), 4U * 48U);
+  const auto weight = [&](std::size_t place, std::size_t mode) {
+    return outline.weights[2 * place + mode];
+  };
+  EXPECT_DOUBLE_EQ(weight(0, 0), 1.0);
+  EXPECT_DOUBLE_EQ(weight(0, 1), 0.0);
+  EXPECT_NEAR(weight(12, 0), -1.0, 1e-12);  // a quarter round: half a wave of two
+  EXPECT_NEAR(weight(8, 1), 0.0, 1e-12);    // a sixth: half a wave of three, whose sine is 0
+  EXPECT_NEAR(weight(4, 1), 1.0, 1e-12);
+  EXPECT_DOUBLE_EQ(weight(3 * 48 + 4, 1), 0.0);  // where the cone ends nothing moves
+  const Eigen::Vector3d middle(0.0, 1.0, 2.0);
+  EXPECT_LT((outline.rest[12] - middle - Eigen::Vector3d(0.0, 0.0, 0.1)).norm(), 1e-12);
+  EXPECT_LT((outline.rest[3 * 48] - middle - Eigen::Vector3d(-0.2, 0.05, 0.0)).norm(), 1e-12);
+  // Its two places are opposite one another.
+  const Mat& q = scene.mats[3];
+  EXPECT_EQ(q.name, "b.q");
+  EXPECT_NEAR(q.rest.y(), 0.9, 1e-12);
+}
+
 }  // namespace
 }  // namespace ergotic::scene

@@ -2,6 +2,7 @@
 #include <sstream>
 #include <vector>
 
+#include "scene/generate/ring.hpp"
 #include "scene/text/csv.hpp"
 #include "scene/yaml/generators/body_keys.hpp"
 #include "scene/yaml/generators/generator_keys.hpp"
@@ -15,6 +16,7 @@ namespace {
 constexpr std::size_t kMostRows = 400;
 constexpr std::size_t kMostPlaces = 64;
 constexpr std::size_t kColumns = 3;  // before the weights
+constexpr Limits kWavesLimits{"", -12.0, 12.0};
 constexpr Limits kPartialRatioLimits{"", 0.0, 1000.0, true};
 
 std::vector<std::string> readPlaceNames(const SceneBuilder& builder, const YamlMap& map) {
@@ -165,6 +167,23 @@ std::vector<Partial> readPartials(const SceneBuilder& builder,
   return partials;
 }
 
+/// How it looks, for pictures alone.
+RingShape readRing(const SceneBuilder& builder, const YamlMap& map, std::size_t partials) {
+  const YamlMap ring = map.map("ring");
+  ring.allow({"radius", "height", "waves"});
+  RingShape shape;
+  shape.radius = ring.number("radius", kSpacingLimits);
+  shape.height = ring.number("height", kMetreLimits, 0.0);
+  shape.waves = ring.integers("waves", 1, kMostRows, kWavesLimits);
+  if (shape.waves.size() != partials) {
+    builder.fail(ring.placeAt("waves"), "'waves' of " + ring.what() + " has " +
+                                            std::to_string(shape.waves.size()) +
+                                            " numbers, allowed: one for each of its " +
+                                            std::to_string(partials) + " partials");
+  }
+  return shape;
+}
+
 }  // namespace
 
 void readResonator(SceneBuilder& builder,
@@ -180,6 +199,9 @@ void readResonator(SceneBuilder& builder,
   spec.places = readPlaceNames(builder, map);
   const double pitch_hz = map.number("pitch", kFrequencyLimits, 0.0);
   spec.partials = readPartials(builder, map, pitch_hz, spec.places.size(), files);
+  if (map.has("ring")) {
+    setRing(spec, readRing(builder, map, spec.partials.size()));
+  }
   addModalBody(builder, spec);
 }
 

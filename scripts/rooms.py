@@ -20,7 +20,7 @@ ROOMS = {
     "scene/language": "exception scene scene/generate scene/text scene/tree",
     "scene/yaml": "exception scene scene/laws scene/rules scene/generate scene/text scene/tree"
                   " scene/language",
-    "scene/mdl": "scene scene/laws scene/generate scene/text",
+    "scene/mdl": "scene scene/laws scene/generate scene/text scene/language",
     "physics": "exception rt scene scene/laws",
     "physics/laws": "exception scene scene/laws physics",
     "physics/network": "exception algebra scene scene/laws physics physics/laws",

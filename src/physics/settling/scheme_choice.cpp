@@ -123,10 +123,10 @@ class SchemeChooser {
       who += " and " + std::to_string(alike.links - 1) + " more";
     }
     const std::string why = std::string(alike.worst.figure) + " = " + shortly(alike.worst.value) +
-                            ", explicit bears " + shortly(alike.worst.allowed);
+                            "; the explicit scheme is stable up to " + shortly(alike.worst.allowed);
     return noteAt(scene_, alike.first->place) + who +
-           (alike.guarded ? ": guarded (" + why + ")"
-                          : ": explicit, because one end is a slower mass, although " + why);
+           (alike.guarded ? ": guarded, so that it cannot gain energy (" + why + ")"
+                          : ": explicit, because one end is a slower mass (" + why + ")");
   }
 
   using Key = std::tuple<int, int, std::string, bool>;  // place, figure, guarded
@@ -205,9 +205,9 @@ class StableChooser {
     notes_.push_back(
         noteAt(scene_, lia.place) + "link '" + lia.name.str() +
         "': guarded (h^2 K (1/Ma + 1/Mb) + 2 h Z (1/Ma + 1/Mb) = " + shortly(loads_[l]) +
-        ", which with what is around it is more than the explicit scheme bears, 4): "
-        "it never gives more energy than it took, and does not sound as explicit "
-        "programs play it");
+        ", and with what is around it the explicit scheme is stable below 4): "
+        "it never gives more energy than it took, and does not sound as programs do that play it "
+        "explicitly");
   }
 
   scene::Scene& scene_;

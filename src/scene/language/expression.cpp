@@ -102,12 +102,13 @@ class Parser {
     }
     return kind.value_or(Kind{});
   }
-  double finite(double value) const {
+  /// \param from  where what has this value begins
+  double finite(double value, std::size_t from) const {
     if (std::isfinite(value)) {
       return value;
     }
     if (unused_ == 0) {
-      fail("it is not a finite number");
+      throw ExpressionError("it is not a finite number", from);
     }
     return 0.0;
   }
@@ -166,34 +167,41 @@ class Parser {
   Constant sum() {
     Constant value = product();
     while (true) {
+      skip();
+      const std::size_t operation = at_;
       const bool adds = takes("+");
       if (!adds && !takes("-")) {
         return value;
       }
       const Amount a = number(value);
       const Amount b = number(product());
-      value = Amount{finite(adds ? a.value + b.value : a.value - b.value), common(a, b)};
+      value = Amount{finite(adds ? a.value + b.value : a.value - b.value, operation), common(a, b)};
     }
   }
 
   Constant product() {
     Constant value = sign();
     while (true) {
+      skip();
+      const std::size_t operation = at_;
       const bool multiplies = takes("*");
       if (!multiplies && !takes("/")) {
         return value;
       }
       const Amount a = number(value);
       const Amount b = number(sign());
-      value = Amount{finite(multiplies ? a.value * b.value : a.value / b.value),
+      if (!multiplies && b.value == 0.0 && unused_ == 0) {
+        throw ExpressionError("division by zero", operation);
+      }
+      value = Amount{finite(multiplies ? a.value * b.value : a.value / b.value, operation),
                      known(productKind(a.kind, b.kind, multiplies ? 1 : -1))};
     }
   }
 
   Constant sign() {
     int minuses = 0;
-    while (takes("-")) {
-      ++minuses;
+    for (bool is_minus = takes("-"); is_minus || takes("+"); is_minus = takes("-")) {
+      minuses += is_minus ? 1 : 0;
     }
     skip();
     const std::size_t operand = at_;
@@ -210,6 +218,8 @@ class Parser {
   /// Binds to the right, and more than a sign before it.
   Constant power() {
     Constant base = primary();
+    skip();
+    const std::size_t operation = at_;
     if (!takes("^")) {
       return base;
     }
@@ -219,7 +229,8 @@ class Parser {
     const double exponent = bare(sign(), "an exponent");
     --depth_;
     const Amount of = number(base);
-    return Amount{finite(std::pow(of.value, exponent)), known(powerKind(of.kind, exponent))};
+    return Amount{finite(std::pow(of.value, exponent), operation),
+                  known(powerKind(of.kind, exponent))};
   }
 
   Constant primary() {
@@ -265,7 +276,7 @@ class Parser {
     }
     const std::optional<double> bare = parseNumber(number);
     if (!bare) {
-      fail("'" + std::string(number) + "' is not a finite number");
+      throw ExpressionError("'" + std::string(number) + "' is not a finite number", first);
     }
     return {*bare};
   }
@@ -280,7 +291,7 @@ class Parser {
     }
     const std::string name(text_.substr(first, at_ - first));
     if (takes("(")) {
-      return called(name);
+      return called(name, first);
     }
     const Constant* const known = scope_.find(name);
     if (known == nullptr && name == kPiName) {
@@ -316,7 +327,7 @@ class Parser {
     return constantOf(items[static_cast<std::size_t>(index)], *part);
   }
 
-  Constant called(const std::string& name) {
+  Constant called(const std::string& name, std::size_t first) {
     if (name == kNote) {
       return note();
     }
@@ -324,7 +335,7 @@ class Parser {
     if (function == nullptr) {
       std::vector<std::string> names = functionNames();
       names.emplace_back(kNote);
-      fail("unknown function " + quoted(name) + suggestion(name, names));
+      throw ExpressionError("unknown function " + quoted(name) + suggestion(name, names), first);
     }
     Amount arguments[2] = {};
     for (std::size_t i = 0; i < function->arguments; ++i) {
@@ -338,9 +349,9 @@ class Parser {
           is_bare ? Amount{bare(value, ("what " + name + " takes").c_str())} : number(value);
     }
     expect(")");
-    return applied(*function, arguments);
+    return applied(*function, arguments, first);
   }
-  Amount applied(const Function& function, const Amount* arguments) const {
+  Amount applied(const Function& function, const Amount* arguments, std::size_t first) const {
     const double values[] = {arguments[0].value, arguments[1].value};
     Kind kind;
     switch (function.kinds) {
@@ -356,7 +367,7 @@ class Parser {
         kind = known(powerKind(arguments[0].kind, values[1]));
         break;
     }
-    return {finite(function.value(values)), kind};
+    return {finite(function.value(values), first), kind};
   }
 
   /// `note(A4)`, or of a name that stands for one.

@@ -7,8 +7,10 @@
 #include <optional>
 #include <string_view>
 #include <utility>
+#include <variant>
 
-#include "scene/mdl/expression.hpp"
+#include "scene/language/expression.hpp"
+#include "scene/language/kinds.hpp"
 #include "scene/text/number.hpp"
 #include "scene/text/overrides.hpp"
 
@@ -19,6 +21,45 @@ namespace {
 constexpr int kLongestChain = 64;
 constexpr double kRounding = 1e-12;      // of the parts of an expression
 constexpr double kLeastFollowed = 1e-9;  // of what must be above 0 and follows an audio input
+
+bool isDigit(char c) {
+  return (c >= '0' && c <= '9') || c == '.';
+}
+bool isLetter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+/// Calls `take` with each name of an expression and where it stands; functions are none.
+template <class Take>
+void forEachName(const std::string& text, const Take& take) {
+  std::size_t at = 0;
+  const auto skip = [&](auto&& is_part) {
+    const std::size_t first = at;
+    while (at < text.size() && is_part(text[at])) {
+      ++at;
+    }
+    return text.substr(first, at - first);
+  };
+  while (at < text.size()) {
+    if (isDigit(text[at])) {
+      skip(isDigit);
+      const std::size_t sign = at + 1 < text.size() && (text[at + 1] == '-' || text[at + 1] == '+');
+      if (at + 1 + sign < text.size() && (text[at] == 'e' || text[at] == 'E') &&
+          isDigit(text[at + 1 + sign])) {
+        at += 1 + sign;
+      }
+    } else if (isLetter(text[at])) {
+      const std::size_t first = at;
+      const std::string name = skip([](char c) { return isLetter(c) || isDigit(c); });
+      skip([](char c) { return c == ' '; });
+      if (at == text.size() || text[at] != '(') {
+        take(name, first);
+      }
+    } else {
+      ++at;
+    }
+  }
+}
 
 }  // namespace
 
@@ -102,13 +143,25 @@ double MdlNumbers::evaluateAt(const MdlToken& token) {
   if (params_.count(whole) > 0) {
     return paramValue(whole, token.place);
   }
+  if (const std::optional<double> number = parseNumber(whole)) {
+    return *number;
+  }
+  std::string spaced = text;
+  std::replace(spaced.begin(), spaced.end(), '\t', ' ');
+  Scope scope;
+  forEachName(spaced, [&](const std::string& name, std::size_t offset) {
+    scope.set(name, Amount{nameValue(name, placeOf(offset))});
+  });
+  const std::string what = "expression " + quoted(text) + ": ";
   try {
-    return evaluate(text, [&](const std::string& name, std::size_t offset) {
-      return nameValue(name, placeOf(offset));
-    });
-  } catch (const MdlExpressionError& e) {
-    const Place place = placeOf(e.offset());
-    builder_.fail(place, e.what());
+    const Constant result = evaluate(spaced, scope);
+    const auto* const amount = std::get_if<Amount>(&result);
+    if (amount != nullptr && isPlainNumber(amount->kind)) {
+      return amount->value;
+    }
+    builder_.fail(token.place, what + "it has a unit, allowed: a plain number");
+  } catch (const ExpressionError& e) {
+    builder_.fail(placeOf(e.at()), what + e.what());
   }
 }
 

@@ -43,8 +43,8 @@ TEST(SchemeChoiceTest, ContactsAreGuarded) {
   EXPECT_EQ(pair.scheme(), Scheme::kGuarded);
   ASSERT_EQ(pair.settled().notes.size(), 1U);
   EXPECT_EQ(pair.settled().notes[0],
-            "built.yaml:100:1: note: link 'l0': guarded (h^2 K (1/Ma + 1/Mb) = 0.0501, explicit "
-            "bears 0)");
+            "built.yaml:100:1: note: link 'l0': guarded, so that it cannot gain energy "
+            "(h^2 K (1/Ma + 1/Mb) = 0.0501; the explicit scheme is stable up to 0)");
 }
 
 TEST(SchemeChoiceTest, FrictionIsJudgedAtTheWorstEndOfItsRange) {
@@ -250,7 +250,7 @@ TEST(SchemeChoiceTest, LinksThatAreExplicitIfStableAreGuardedOnlyIfTheyAreTooSti
   EXPECT_EQ(pair.scheme(), Scheme::kGuarded);
   EXPECT_THAT(pair.settled().notes.at(0),
               AllOf(HasSubstr("link 'l0': guarded (h^2 K"), HasSubstr(" = 40, "),
-                    HasSubstr("does not sound as explicit programs play it")));
+                    HasSubstr("does not sound as programs do that play it explicitly")));
   EXPECT_EQ(certify(pair.settled().scene, kRates).verdict, Verdict::kPassive);
 }
 

@@ -138,7 +138,7 @@ struct Bad {
 
 TEST(LanguageTest, WhatIsWrongIsToldWithItsPlace) {
   const Bad cases[] = {
-      {HEAD "let: {x: =1/0}\n", "s.yaml:3:14: error: in '=1/0': it is not a finite number"},
+      {HEAD "let: {x: =1/0}\n", "s.yaml:3:12: error: in '=1/0': division by zero"},
       {HEAD "let: {x: =y}\n", "s.yaml:3:11: error: in '=y': unknown name 'y'"},
       {HEAD "let: [1]\n", "s.yaml:3:6: error: 'let' is a list of 1, allowed: a map"},
       {HEAD "define: {d: 1}\n", "definition 'd' is a single value, allowed: a map"},

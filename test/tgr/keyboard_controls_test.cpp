@@ -2,6 +2,7 @@
 // Wheels, bends, pressure, notes with channels of their own, and what is learnt.
 #include <algorithm>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "ergotic/tgr/keyboard.hpp"
@@ -199,45 +200,152 @@ TEST_F(ControlsTest, WithoutMpeAllChannelsCountAlike) {
   EXPECT_EQ(pressed.changes.size(), 1U);
 }
 
-TEST(MpeZoneTest, ADeviceSaysHowManyMembersThereAre) {
-  MpeZone zone;
-  EXPECT_FALSE(zone.isOn());
-  const auto configure = [&](int channel, int high, int low, int members) {
-    zone.hear(channel, 101, high);
-    zone.hear(channel, 100, low);
-    zone.hear(channel, 6, members);
-  };
-  configure(0, 0, 6, 5);
-  EXPECT_TRUE(zone.isOn());
-  EXPECT_FALSE(zone.isMember(0));
-  EXPECT_TRUE(zone.isMember(1));
-  EXPECT_TRUE(zone.isMember(5));
-  EXPECT_FALSE(zone.isMember(6));
-  configure(15, 0, 6, 3);  // the upper zone
-  configure(0, 0, 0, 2);   // the range of bends
-  EXPECT_TRUE(zone.isMember(5));
-  zone.hear(0, 99, 0);  // another parameter, which is not registered
-  zone.hear(0, 6, 2);
-  EXPECT_TRUE(zone.isMember(5));
-  configure(0, 0, 6, 127);
-  EXPECT_TRUE(zone.isMember(15));
-  configure(0, 0, 6, 0);
-  EXPECT_FALSE(zone.isOn());
+void configureMpe(MpeZones& zones, int manager, int members) {
+  for (const auto& [controller, value] : std::map<int, int>{{101, 0}, {100, 6}}) {
+    zones.hear(manager, controller, value);
+  }
+  zones.hear(manager, 6, members);
 }
 
-TEST(MpeZoneTest, AMapMaySayOtherwise) {
-  MpeZone zone;
-  zone.use(true);
-  EXPECT_TRUE(zone.isMember(15));
-  for (const auto& [controller, value] : std::map<int, int>{{101, 0}, {100, 6}}) {
-    zone.hear(0, controller, value);
+/// A letter for each channel: m of a member, - of others.
+std::string membersOf(const MpeZones& zones) {
+  std::string members;
+  for (int channel = 0; channel < 16; ++channel) {
+    members += zones.isMember(channel) ? 'm' : '-';
   }
-  zone.hear(0, 6, 3);
-  EXPECT_FALSE(zone.isMember(4));
-  zone.use(false);
-  EXPECT_FALSE(zone.isOn());
-  zone.use(std::nullopt);
-  EXPECT_TRUE(zone.isMember(3)) << "the device says it once";
+  return members;
+}
+
+TEST(MpeZonesTest, ADeviceSaysHowManyMembersThereAre) {
+  MpeZones zones;
+  EXPECT_FALSE(zones.isOn());
+  configureMpe(zones, 0, 5);
+  EXPECT_TRUE(zones.isOn());
+  EXPECT_EQ(membersOf(zones), "-mmmmm----------");
+  zones.hear(0, 100, 0);  // the range of bends
+  zones.hear(0, 6, 2);
+  EXPECT_EQ(membersOf(zones), "-mmmmm----------");
+  zones.hear(0, 100, 6);
+  zones.hear(0, 99, 0);  // another parameter, which is not registered
+  zones.hear(0, 6, 2);
+  EXPECT_EQ(membersOf(zones), "-mmmmm----------");
+  configureMpe(zones, 4, 2);  // no manager
+  EXPECT_EQ(membersOf(zones), "-mmmmm----------");
+  configureMpe(zones, 0, 127);
+  EXPECT_EQ(membersOf(zones), "-mmmmmmmmmmmmmmm");
+  configureMpe(zones, 0, 0);
+  EXPECT_FALSE(zones.isOn());
+}
+
+TEST(MpeZonesTest, TheUpperZoneGoesDownFromTheLastChannel) {
+  MpeZones zones;
+  configureMpe(zones, 15, 3);
+  EXPECT_TRUE(zones.isOn());
+  EXPECT_EQ(membersOf(zones), "------------mmm-");
+  configureMpe(zones, 15, 15);
+  EXPECT_EQ(membersOf(zones), "mmmmmmmmmmmmmmm-");
+  configureMpe(zones, 15, 0);
+  EXPECT_FALSE(zones.isOn());
+}
+
+TEST(MpeZonesTest, TheManagersChooseRegisteredParametersEachForItself) {
+  MpeZones zones;
+  zones.hear(0, 101, 0);
+  zones.hear(15, 100, 6);
+  zones.hear(0, 6, 4);
+  zones.hear(15, 6, 4);
+  EXPECT_FALSE(zones.isOn());
+  zones.hear(15, 101, 0);
+  zones.hear(15, 6, 4);
+  EXPECT_EQ(membersOf(zones), "-----------mmmm-");
+}
+
+TEST(MpeZonesTest, ALaterZoneTakesChannelsFromTheOther) {
+  MpeZones zones;
+  configureMpe(zones, 0, 7);
+  configureMpe(zones, 15, 7);
+  EXPECT_EQ(membersOf(zones), "-mmmmmmmmmmmmmm-") << "they fit beside each other";
+  configureMpe(zones, 15, 10);
+  EXPECT_EQ(membersOf(zones), "-mmmmmmmmmmmmmm-");
+  configureMpe(zones, 15, 2);
+  EXPECT_EQ(membersOf(zones), "-mmmm--------mm-") << "what was taken does not come back";
+  configureMpe(zones, 0, 13);
+  EXPECT_EQ(membersOf(zones), "-mmmmmmmmmmmmmm-");
+  configureMpe(zones, 0, 1);
+  EXPECT_EQ(membersOf(zones), "-m------------m-") << "one was left";
+}
+
+TEST(MpeZonesTest, AZoneThatHasNoMemberLeftIsOff) {
+  for (const int members : {14, 15}) {
+    MpeZones zones;
+    configureMpe(zones, 15, 6);
+    configureMpe(zones, 0, members);
+    configureMpe(zones, 0, 0);
+    EXPECT_FALSE(zones.isOn()) << members;
+    configureMpe(zones, 0, 6);
+    configureMpe(zones, 15, members);
+    configureMpe(zones, 15, 0);
+    EXPECT_FALSE(zones.isOn()) << members;
+  }
+}
+
+TEST(MpeZonesTest, NoTwoConfigurationsShareAChannel) {
+  for (int first = 0; first <= 15; ++first) {
+    for (int later = 1; later <= 15; ++later) {
+      for (const bool is_upper_later : {false, true}) {
+        MpeZones zones;
+        configureMpe(zones, is_upper_later ? 0 : 15, first);
+        configureMpe(zones, is_upper_later ? 15 : 0, later);
+        const std::string members = membersOf(zones);
+        const auto count = std::count(members.begin(), members.end(), 'm');
+        EXPECT_EQ(count, std::max(std::min(first + later, 14), later)) << first << ' ' << later;
+        const char of_later_manager = members[is_upper_later ? 15 : 0];
+        EXPECT_EQ(of_later_manager, '-') << first << ' ' << later;
+      }
+    }
+  }
+}
+
+TEST(MpeZonesTest, AMapMaySayOtherwise) {
+  MpeZones zones;
+  zones.use(true);
+  EXPECT_EQ(membersOf(zones), "-mmmmmmmmmmmmmmm");
+  configureMpe(zones, 0, 3);
+  EXPECT_EQ(membersOf(zones), "-mmm------------");
+  zones.use(false);
+  EXPECT_FALSE(zones.isOn());
+  zones.use(std::nullopt);
+  EXPECT_EQ(membersOf(zones), "-mmm------------") << "the device says it once";
+}
+
+TEST(MpeZonesTest, AnUpperZoneTakesChannelsFromTheOneThatTheMapWants) {
+  MpeZones zones;
+  zones.use(true);
+  configureMpe(zones, 15, 5);
+  EXPECT_EQ(membersOf(zones), "-mmmmmmmmmmmmmm-");
+  configureMpe(zones, 15, 15);
+  EXPECT_EQ(membersOf(zones), "mmmmmmmmmmmmmmm-");
+  zones.use(false);
+  EXPECT_FALSE(zones.isOn());
+}
+
+TEST_F(ControlsTest, NotesOfTheUpperZoneHaveWhatTheirChannelsSay) {
+  std::string map = kMpeMap;
+  map.replace(0, 9, "");  // as the device says
+  use(map);
+  for (const Bytes& told : std::vector<Bytes>{{0xbf, 101, 0}, {0xbf, 100, 6}, {0xbf, 6, 4}}) {
+    send(told);
+  }
+  send({0x9e, 60, 100});
+  send({0x9b, 61, 100});
+  EXPECT_EQ(endsOf(send({0xeb, 127, 127}).strokes), (std::map<int, double>{{3, 0.002}}));
+  EXPECT_EQ(endsOf(send({0xde, 127}).strokes), (std::map<int, double>{{0, 0.013}}));
+  const auto of_manager = send({0xef, 0, 0});
+  EXPECT_TRUE(of_manager.strokes.empty());
+  EXPECT_EQ(of_manager.changes.at(0).parameter, "tension");
+  const auto of_nobody = send({0xd1, 127});
+  EXPECT_TRUE(of_nobody.strokes.empty()) << "channel 2 is in no zone";
+  EXPECT_EQ(of_nobody.changes.at(0).parameter, "loss");
 }
 
 TEST_F(ControlsTest, TellsProgramChanges) {

@@ -107,7 +107,7 @@ class Keyboard {
   PlayMap map_;
   HandWays ways_;
   Learner learner_;
-  MpeZone zone_;
+  MpeZones zones_;
   double now_s_ = 0.0;
   double pedal_depth_ = 0.0;  // how far down the sustain pedal keeps keys, 0...1
   double soft_ = 0.0;         // 0...1

@@ -16,6 +16,14 @@ enum RegisteredController : std::uint8_t {
   kRegisteredLow = 100,
   kRegisteredHigh = 101
 };
+constexpr int kLowerManager = 0;
+constexpr int kUpperManager = 15;
+
+/// Members of a zone besides another one that has so many: both managers have channels, too.
+int membersBeside(int others, int members) {
+  constexpr int kMostOfBoth = 14;
+  return others > 0 ? std::clamp(kMostOfBoth - others, 0, members) : members;
+}
 
 }  // namespace
 
@@ -91,24 +99,42 @@ const std::string* Learner::parameterOf(const Control& control) const {
   return found == learnt_.end() ? nullptr : &found->parameter;
 }
 
-void MpeZone::hear(int channel, int controller, int value) {
-  constexpr int kManager = 0;
+void MpeZones::hear(int channel, int controller, int value) {
   constexpr std::array<int, 2> kConfiguration{0, 6};
   constexpr int kNone = 127;
-  if (channel != kManager) {
+  if (channel != kLowerManager && channel != kUpperManager) {
     return;
   }
+  Zone& zone = channel == kLowerManager ? lower_ : upper_;
+  Zone& other = channel == kLowerManager ? upper_ : lower_;
   if (controller == kRegisteredHigh || controller == kRegisteredLow) {
-    registered_[controller == kRegisteredHigh ? 0 : 1] = value;
+    zone.registered[controller == kRegisteredHigh ? 0 : 1] = value;
   } else if (controller == kOtherHigh || controller == kOtherLow) {
-    registered_ = {kNone, kNone};
-  } else if (controller == kDataHigh && registered_ == kConfiguration) {
-    told_ = std::min(value, kAllMembers);
+    zone.registered = {kNone, kNone};
+  } else if (controller == kDataHigh && zone.registered == kConfiguration) {
+    zone.told = std::min(value, kAllMembers);
+    if (other.told) {
+      other.told = membersBeside(*zone.told, *other.told);
+    }
   }
 }
 
-int MpeZone::members() const {
-  return wanted_.value_or(true) ? told_.value_or(wanted_ ? kAllMembers : 0) : 0;
+bool MpeZones::isMember(int channel) const {
+  const bool is_of_lower = channel > kLowerManager && channel <= kLowerManager + lowerMembers();
+  const bool is_of_upper = channel < kUpperManager && channel >= kUpperManager - upperMembers();
+  return is_of_lower || is_of_upper;
+}
+
+/// What the map wants is older than all that the device says.
+int MpeZones::lowerMembers() const {
+  if (!wanted_.value_or(true)) {
+    return 0;
+  }
+  return lower_.told.value_or(membersBeside(upperMembers(), wanted_ ? kAllMembers : 0));
+}
+
+int MpeZones::upperMembers() const {
+  return wanted_.value_or(true) ? upper_.told.value_or(0) : 0;
 }
 
 }  // namespace ergotic::tgr

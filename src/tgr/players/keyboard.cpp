@@ -38,7 +38,7 @@ Strokes Keyboard::use(PlayMap map, double now_s) {
     let_go(line.slide.value_or(Motion()));
   }
   map_ = std::move(map);
-  zone_.use(map_.mpe);
+  zones_.use(map_.mpe);
   return strokes;
 }
 

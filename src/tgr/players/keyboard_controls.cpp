@@ -89,7 +89,7 @@ void Keyboard::playNote(const Name& name, int velocity, Played& played) {
     return release(name, played.strokes);
   }
   const auto key = keyOf(name.second);
-  const bool has_expression = key && zone_.isMember(name.first);
+  const bool has_expression = key && zones_.isMember(name.first);
   if (!has_expression) {
     return press(name, velocity, played.strokes);
   }
@@ -104,7 +104,7 @@ void Keyboard::playNote(const Name& name, int velocity, Played& played) {
 }
 
 void Keyboard::setController(int channel, int number, int value, Played& played) {
-  zone_.hear(channel, number, value);
+  zones_.hear(channel, number, value);
   if (number == kResetControllers) {
     return resetControls(channel, played);
   }
@@ -143,7 +143,7 @@ void Keyboard::setKeyPressure(int channel, int note, int value, Played& played) 
     down->second.pressure = value / kMost;
     settle(*keyOf(note), played.strokes);
   }
-  if (!zone_.isMember(channel)) {
+  if (!zones_.isMember(channel)) {
     int most = 0;
     for (const auto& [other, pressure] : key_pressures_) {
       most = std::max(most, pressure);
@@ -153,14 +153,14 @@ void Keyboard::setKeyPressure(int channel, int note, int value, Played& played) 
 }
 
 void Keyboard::setControl(const Control& control, int channel, double share, Played& played) {
-  if (zone_.isMember(channel) && isOfNotes(control)) {
+  if (zones_.isMember(channel) && isOfNotes(control)) {
     Expression& expression = expressions_[static_cast<std::size_t>(channel)];
     expression.bend = control == kBendControl ? share : expression.bend;
     expression.pressure = control == kPressureControl ? share : expression.pressure;
     expression.slide = control == kSlideControl ? share : expression.slide;
     return express(control, channel, share, played);
   }
-  if (!zone_.isOn()) {
+  if (!zones_.isOn()) {
     express(control, std::nullopt, share, played);
   }
   moveByMap(control, share, played);

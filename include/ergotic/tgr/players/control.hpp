@@ -76,26 +76,34 @@ class Learner {
   std::vector<Learnt> learnt_;
 };
 
-/// Which channels have notes of their own, by MIDI Polyphonic Expression (MMA/AMEI RP-053), lower
-/// zone: 0 is the manager, and members follow it. Channels are 0...15. Thread: one
-class MpeZone {
+/// Which channels have notes of their own, by MIDI Polyphonic Expression (MMA/AMEI RP-053). The
+/// manager of the lower zone is channel 0, and its members follow it upwards; that of the upper
+/// zone is channel 15, and its members follow it downwards. Of two zones that would share channels
+/// the one that was configured last has them. Channels are 0...15. Thread: one
+class MpeZones {
  public:
   static constexpr int kAllMembers = 15;
 
-  /// \param wanted  by the map; nothing: as the player's device has said, which says it once
+  /// \param wanted  by the map, the lower zone with all members unless the player's device has
+  ///                said otherwise; nothing: as the device has said, which says it once
   void use(std::optional<bool> wanted) { wanted_ = wanted; }
-  /// Any controller; registered parameter 6 on the manager's channel tells how many members.
+  /// Any controller; registered parameter 6 on a manager's channel tells how many members.
   void hear(int channel, int controller, int value);
 
-  bool isOn() const { return members() > 0; }
-  bool isMember(int channel) const { return channel >= 1 && channel <= members(); }
+  bool isOn() const { return lowerMembers() > 0 || upperMembers() > 0; }
+  bool isMember(int channel) const;
 
  private:
-  int members() const;
+  struct Zone {
+    std::optional<int> told;                  // members, by the device
+    std::array<int, 2> registered{127, 127};  // high and low of what its manager chose last
+  };
+  int lowerMembers() const;
+  int upperMembers() const;
 
   std::optional<bool> wanted_;
-  std::optional<int> told_;                  // members, by the device
-  std::array<int, 2> registered_{127, 127};  // of the manager: high and low of what it chose last
+  Zone lower_;
+  Zone upper_;
 };
 
 }  // namespace ergotic::tgr

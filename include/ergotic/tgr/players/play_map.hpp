@@ -48,7 +48,7 @@ struct PlayMap {
   std::vector<KeyLine> keys;
   std::vector<ControlLine> controls;
   int transpose = 0;  ///< semitones, added to each note
-  /// Each note has a channel of its own (MPE, lower zone); nothing: if the player's device says so.
+  /// Each note has a channel of its own (MPE); nothing: if the player's device says so.
   std::optional<bool> mpe;
 };
 

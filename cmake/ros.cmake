@@ -63,7 +63,7 @@ target_include_directories(ergotic_ros PUBLIC src)
 target_compile_definitions(ergotic_ros PRIVATE ERGOTIC_VERSION="${ergotic_VERSION}")
 target_link_libraries(ergotic_ros
   PUBLIC ergotic_core ergotic_audio ergotic_bag ergotic_replay ergotic_messages ${catkin_LIBRARIES}
-  PRIVATE ergotic_flags yaml-cpp)
+  PRIVATE ergotic_gamepads ergotic_flags yaml-cpp)
 ergotic_precompile(ergotic_ros <ros/node_handle.h>)
 
 foreach(driver comedi jack)

@@ -96,6 +96,7 @@ foreach(room rt files station)
 endforeach()
 ergotic_add_gtests(replay 1 ergotic_replay)
 ergotic_add_gtests(audio 1 PkgConfig::JACK)  # has MIDI ports of its own
+ergotic_add_gtests(gamepads 1 ergotic_gamepads)
 ergotic_add_gtests(golden 3)
 ergotic_add_gtests(scene 3 yaml-cpp)  # broken scenes are listed in it
 pkg_check_modules(URDFDOM REQUIRED IMPORTED_TARGET urdfdom)  # reads what pictures are made of

@@ -39,6 +39,7 @@ ROOMS = {
     "tgr": "exception algebra files rt scene scene/text scene/tree",
     "station": "exception rt scene physics physics/engine physics/certificate physics/settling tgr",
     "audio": "exception rt",
+    "gamepads": "rt tgr",
     "tgr/drivers/comedi": "exception rt tgr",
     "tgr/drivers/jack": "exception rt tgr audio",
     "guardian": "exception rt tgr",
@@ -47,7 +48,7 @@ ROOMS = {
     "replay": "exception scene/text physics tgr station bag",
     "ros/device": "exception files rt scene scene/text physics/engine physics/certificate tgr station bag",
     "ros/display": "scene tgr station ros/device",
-    "ros/conversation": "exception files rt scene scene/laws scene/text physics/engine tgr station audio bag replay"
+    "ros/conversation": "exception files rt scene scene/laws scene/text physics/engine tgr station audio gamepads bag replay"
                         " ros/device ros/display",
     "ros": "ros/device ros/conversation",
     "rviz": "",
@@ -63,6 +64,7 @@ ROS = CORE + " ros/ rosbag/ nodelet/ pluginlib/ class_loader/ xmlrpcpp/ diagnost
              " console_bridge/ ergotic/ diagnostic_msgs/ geometry_msgs/ sensor_msgs/ std_msgs/ std_srvs/ visualization_msgs/"
 FOREIGN = {
     "audio": CORE + " jack/ sndfile",
+    "gamepads": CORE + " libevdev/",
     "guardian": CORE + " jack/",
     "tgr/drivers/comedi": CORE + " comedilib.h pluginlib/",
     "tgr/drivers/jack": CORE + " pluginlib/",

@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "ergotic/tgr/players/control.hpp"
+#include "ergotic/tgr/players/gamepad.hpp"
 #include "ergotic/tgr/players/hand_ways.hpp"
 #include "ergotic/tgr/players/play_map.hpp"
 
@@ -19,7 +21,7 @@ namespace ergotic::tgr {
 /// velocity 0 is a release, the sustain pedal (controller 64) keeps keys down, sostenuto (66) those
 /// that were down before it, the soft pedal (67) makes strokes slower, "all sound off" and "all
 /// notes off" (120, 123 and above) release everything. A key is down as long as it is on any
-/// channel.
+/// channel. Buttons of gamepads are keys, too, and their axes are controls.
 ///
 /// The launch law: the hand goes from `from_m` to `to_m` on a path of minimum jerk, whose greatest
 /// speed is the one that the velocity says; what it throws leaves at that speed.
@@ -44,6 +46,10 @@ class Keyboard {
 
   /// \param bytes  of a MIDI message. What means nothing here is passed over
   Played play(const std::uint8_t* bytes, int size, double now_s);
+  /// \param pad  tells gamepads apart, 0 or more
+  Played play(const GamepadMove& move, int pad, double now_s);
+  /// A gamepad is gone: its notes end, and hands that its axes moved are let go of.
+  Strokes unplug(int pad, double now_s);
   /// The lowest note, as it is given to `note`, that moves a hand.
   std::optional<int> noteOf(const HandWays::Hand& hand) const;
 
@@ -76,6 +82,12 @@ class Keyboard {
     double pressure = 0.0;
   };
 
+  /// What is done with a gamepad.
+  struct Pad {
+    std::set<int> buttons;  // that are down
+    std::set<int> axes;     // that have moved since there is this map
+  };
+
   std::optional<Key> keyOf(int note) const;
   double depthOf(const Down& down) const;
   double depthOf(const Key& key) const;
@@ -104,6 +116,11 @@ class Keyboard {
             double share,
             Played& played);
 
+  // keyboard_gamepad.cpp:
+  void useUsualGamepad();
+  bool hasMoved(int axis) const;
+  void playButton(int pad, int button, bool is_down, Strokes& strokes);
+
   PlayMap map_;
   HandWays ways_;
   Learner learner_;
@@ -113,6 +130,7 @@ class Keyboard {
   double soft_ = 0.0;         // 0...1
   bool sostenuto_ = false;
   std::map<Name, Down> down_;
+  std::map<int, Pad> pads_;
   std::map<Name, int> key_pressures_;         // those above 0
   std::array<Expression, 16> expressions_{};  // [channels]
 };

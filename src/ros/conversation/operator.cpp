@@ -266,7 +266,17 @@ void Operator::run() {
 }
 
 std::optional<int> Operator::playMidi() {
-  const MidiWishes wishes = performance_.playMidi();
+  const PlayersWishes wishes = performance_.playMidi();
+  grant(wishes);
+  return wishes.program;
+}
+
+void Operator::playGamepad(int pad, const tgr::GamepadMove& move) {
+  grant(performance_.playGamepad(pad, move));
+}
+
+/// All but another program.
+void Operator::grant(const PlayersWishes& wishes) {
   for (const auto& [parameter, value] : wishes.parameters) {
     setParameterSoon(parameter, value);
   }
@@ -274,7 +284,6 @@ std::optional<int> Operator::playMidi() {
     ROS_INFO_STREAM(line);
     tell(line);
   }
-  return wishes.program;
 }
 
 /// What watches may fail by itself, as where the time of ROS cannot be: no reason to take force

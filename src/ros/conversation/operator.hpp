@@ -105,6 +105,10 @@ class Operator {
   }
   /// Plays what came in by MIDI. \return the program that somebody chose last. Thread: one, any
   std::optional<int> playMidi();
+  /// Plays what is done with a gamepad. \param pad  tells them apart, 0 or more
+  void playGamepad(int pad, const tgr::GamepadMove& move);
+  /// It lets go of everything.
+  void unplugGamepad(int pad) { performance_.unplugGamepad(pad); }
   /// The next control that somebody moves shall move this parameter; empty: none shall.
   Answer learnControl(const std::string& parameter) { return performance_.learnControl(parameter); }
   /// \param map  of notes, path or YAML text. \return what is wrong with it, or an empty text
@@ -133,6 +137,7 @@ class Operator {
   void runTasks();
   void diagnose();
   void setParameters();
+  void grant(const PlayersWishes& wishes);
 
   Feed& feed_;
   Diagnostics& diagnostics_;

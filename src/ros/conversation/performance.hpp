@@ -32,8 +32,8 @@
 
 namespace ergotic::node {
 
-/// What MIDI asks for besides strokes of hands.
-struct MidiWishes {
+/// What MIDI and gamepads ask for besides strokes of hands.
+struct PlayersWishes {
   std::vector<std::pair<std::string, double>> parameters;  ///< of the scene, and their values
   std::vector<std::string> news;                           ///< for who looks at the status
   std::optional<int> program;                              ///< the newest, 0...127
@@ -123,7 +123,11 @@ class Performance {
   /// Thread: any
   std::optional<int> tap(const std::string& end_effector, int index, int velocity);
   /// Plays what came in by MIDI. Thread: one, any
-  MidiWishes playMidi();
+  PlayersWishes playMidi();
+  /// Plays what is done with a gamepad. \param pad  tells them apart, 0 or more. Thread: any
+  PlayersWishes playGamepad(int pad, const tgr::GamepadMove& move);
+  /// It lets go of everything. Thread: any
+  void unplugGamepad(int pad);
   /// The next control that somebody moves shall move this parameter; empty: none shall.
   /// Thread: any
   Answer learnControl(const std::string& parameter);
@@ -197,7 +201,7 @@ class Performance {
                    double due_tick = station::Station::kAtOnce);
   std::string readPlayMap(const std::string& map);
   void play(const tgr::Strokes& strokes, double due_tick);
-  void play(const tgr::Keyboard::Played& played, MidiWishes& wishes);
+  void play(const tgr::Keyboard::Played& played, PlayersWishes& wishes);
 
   Feed& feed_;
   std::shared_ptr<station::Interlock> interlock_;

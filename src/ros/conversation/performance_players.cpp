@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What players without a device do: targets of hands, notes, MIDI.
+// What players without a device do: targets of hands, notes, MIDI, gamepads.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -188,8 +188,8 @@ void Performance::releaseKeys() {
   play(keyboard_.releaseAll(nowS()), kAtOnce);
 }
 
-MidiWishes Performance::playMidi() {
-  MidiWishes wishes;
+PlayersWishes Performance::playMidi() {
+  PlayersWishes wishes;
   const std::lock_guard keyboard_lock(keyboard_mutex_);
   station::MidiArrival arrival;
   double delay_ticks = 0.0;
@@ -210,8 +210,22 @@ MidiWishes Performance::playMidi() {
   return wishes;
 }
 
+PlayersWishes Performance::playGamepad(int pad, const tgr::GamepadMove& move) {
+  PlayersWishes wishes;
+  const std::lock_guard lock(keyboard_mutex_);
+  const auto played = keyboard_.play(move, pad, nowS());
+  play(played.strokes, kAtOnce);
+  play(played, wishes);
+  return wishes;
+}
+
+void Performance::unplugGamepad(int pad) {
+  const std::lock_guard lock(keyboard_mutex_);
+  play(keyboard_.unplug(pad, nowS()), kAtOnce);
+}
+
 /// What it does besides strokes.
-void Performance::play(const tgr::Keyboard::Played& played, MidiWishes& wishes) {
+void Performance::play(const tgr::Keyboard::Played& played, PlayersWishes& wishes) {
   for (const tgr::ParameterChange& change : played.changes) {
     if (const auto range = ranges_.find(change.parameter); range != ranges_.end()) {
       wishes.parameters.emplace_back(change.parameter, tgr::valueOf(change, range->second));

@@ -134,6 +134,9 @@ Services::Services(const ::ros::NodeHandle& node, Operator& operator_thread)
       ::ros::WallDuration(0.0), [this](const auto& /*event*/) { loader_.loadFromParameters(); },
       kOnce);
   loading_spinner_.start();
+  if (readEarlyParameters(node).gamepads) {
+    gamepads_ = std::make_unique<gamepads::GamepadWatch>(gamepadListener());
+  }
 }
 
 Services::~Services() {
@@ -264,6 +267,17 @@ void Services::playMidi() {
   }
   const auto load = [this] { loader_.loadProgram(program_.exchange(kNoProgram)); };
   loading_queue_.addCallback(boost::make_shared<QueuedCall>(load));
+}
+
+/// Their names are whatever their makers say.
+gamepads::GamepadListener Services::gamepadListener() {
+  return {[this](int pad, const tgr::GamepadMove& move) { operator_.playGamepad(pad, move); },
+          [this](int pad) { operator_.unplugGamepad(pad); },
+          [](const std::string& news) { ROS_INFO_STREAM(files::printableLines(news)); },
+          [this](const std::string& why) {
+            ROS_WARN_STREAM(files::printableLines(why));
+            operator_.tell(files::printableLines(why));
+          }};
 }
 
 bool Services::onRecover(Call<Trigger>& call) {

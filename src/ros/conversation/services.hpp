@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <map>
+#include <memory>
 
 #include <ergotic/Calibrate.h>
 #include <ergotic/ConfigureEndEffectors.h>
@@ -27,6 +28,7 @@
 #include <std_msgs/Float64.h>
 #include <std_msgs/String.h>
 
+#include "gamepads/gamepad_watch.hpp"
 #include "ros/conversation/arrivals.hpp"
 #include "ros/conversation/loader.hpp"
 #include "ros/conversation/operator.hpp"
@@ -38,7 +40,8 @@ namespace ergotic::node {
 /// What ROS can ask of the station. Most comes through the queue of `node`, which notes when it
 /// came; everything that loads a model has a queue and a thread of its own, one at a time. So has
 /// what takes force away, and the presence switch: nothing may delay them. The moves of players'
-/// hands, and MIDI, have a thread of their own, so that they keep their distances in time.
+/// hands, and MIDI, have a thread of their own, so that they keep their distances in time, and so
+/// have gamepads.
 class Services {
  public:
   Services(const ::ros::NodeHandle& node, Operator& operator_thread);
@@ -79,6 +82,7 @@ class Services {
   void onEmergencyTopic(const std_msgs::Empty& stop);
   void onPresence(const ::ros::MessageEvent<const std_msgs::Bool>& present);
   void followShutdown();
+  gamepads::GamepadListener gamepadListener();
 
   static constexpr int kNoProgram = -1;
 
@@ -106,6 +110,7 @@ class Services {
   // These end first. Who reads sockets is as urgent as the first of them.
   UrgentSpinner safety_spinner_;
   UrgentSpinner hands_spinner_;
+  std::unique_ptr<gamepads::GamepadWatch> gamepads_;  // none if the station has no use for them
 };
 
 }  // namespace ergotic::node

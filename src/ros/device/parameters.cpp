@@ -360,6 +360,7 @@ void visitParameters(Visitor& on, P& p) {
   on.flag("jack_connect", p.jack_connect);
   on.text("midi_connect", p.midi_connect, "none");
   on.choice("midi_programs", p.midi_programs, kMidiPrograms);
+  on.flag("gamepads", p.gamepads);
   on.integer("ring_depth", p.ring_depth, 1, station::AudioBridge::kMaxLatencyFrames);
   on.flag("limiter", p.limiter);
   visitSafety(on, p.safety);
@@ -480,6 +481,7 @@ EarlyParameters readEarlyParameters(const Value& values, const std::string& node
   attempt([&] { read.flag("allow_remote", early.allow_remote); });
   attempt([&] { read.choice("realtime", early.realtime, kRealtime); });
   attempt([&] { read.integer("priority", early.priority, kLeastPriority, kMostPriority); });
+  attempt([&] { read.flag("gamepads", early.gamepads); });
   return early;
 }
 

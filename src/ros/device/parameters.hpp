@@ -49,6 +49,7 @@ struct Parameters {
   bool jack_connect = true;           ///< out_i to the i-th physical playback port
   std::string midi_connect = "physical";  ///< see audio::JackConfig
   MidiPrograms midi_programs = MidiPrograms::kSimulated;
+  bool gamepads = true;  ///< those at /dev/input play; heard when the node starts
   int ring_depth = 768;  ///< audio frames from a tick's due time to its sound
   bool limiter = true;   ///< keeps the sound below full scale
   tgr::SafetyConfig safety;
@@ -83,6 +84,7 @@ struct EarlyParameters {
   bool allow_remote = false;
   Realtime realtime = Realtime::kTry;
   int priority = 75;
+  bool gamepads = true;
   std::vector<std::string> refusals;  ///< of those that cannot be used and are as above
 };
 EarlyParameters readEarlyParameters(const ::ros::NodeHandle& node);

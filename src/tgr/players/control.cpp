@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "ergotic/tgr/players/gamepad.hpp"
+
 namespace ergotic::tgr {
 namespace {
 
@@ -33,9 +35,16 @@ std::string nameOf(const Control& control) {
       return "the pitch bend";
     case Control::Kind::kPressure:
       return "the pressure";
+    case Control::Kind::kAxis:
+      return gamepadAxisNames()[static_cast<std::size_t>(control.number)] + " of the gamepad";
     default:
       return "controller " + std::to_string(control.number);
   }
+}
+
+bool Control::hasMiddle() const {
+  constexpr int kFirstTrigger = static_cast<int>(GamepadAxis::kLeftTrigger);
+  return kind == Kind::kBend || (kind == Kind::kAxis && number < kFirstTrigger);
 }
 
 double bendOf(int low, int high) {

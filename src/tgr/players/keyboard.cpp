@@ -31,13 +31,21 @@ Strokes Keyboard::use(PlayMap map, double now_s) {
     }
   };
   for (const ControlLine& line : map_.controls) {
-    let_go(line.motion);
+    if (line.control.kind != Control::Kind::kAxis || hasMoved(line.control.number)) {
+      let_go(line.motion);
+    }
   }
   for (const KeyLine& line : map_.keys) {
     let_go(line.bend.value_or(Motion()));
     let_go(line.slide.value_or(Motion()));
   }
   map_ = std::move(map);
+  for (auto& [number, pad] : pads_) {
+    pad.axes.clear();
+  }
+  if (!map_.has_gamepad) {
+    useUsualGamepad();
+  }
   zones_.use(map_.mpe);
   return strokes;
 }

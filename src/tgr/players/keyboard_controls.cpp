@@ -199,7 +199,7 @@ void Keyboard::moveByMap(const Control& control, double share, Played& played) {
     played.learnt = learner_.hear(control, share);
   }
   if (const std::string* parameter = learner_.parameterOf(control)) {
-    played.changes.push_back({*parameter, share, control == kBendControl});
+    played.changes.push_back({*parameter, share, control.hasMiddle()});
     return;
   }
   for (const ControlLine& line : map_.controls) {
@@ -215,7 +215,7 @@ void Keyboard::move(const Motion& motion,
                     const Control& control,
                     double share,
                     Played& played) {
-  const bool is_bent = control == kBendControl;
+  const bool is_bent = control.hasMiddle();
   if (!motion.parameter.empty()) {
     played.changes.push_back({motion.parameter, share, is_bent});
     return;

@@ -16,6 +16,7 @@ using scene::Limits;
 using scene::YamlMap;
 
 constexpr Limits kNoteLimits{"", 0.0, 127.0};
+constexpr Limits kVelocityLimits{"", 1.0, 127.0};
 constexpr Limits kIndexLimits{"", 0.0, kMaxSlices - 1.0};
 constexpr Limits kPlaceLimits{"m", -1.0, 1.0};
 constexpr Limits kSpeedLimits{"m/s", 0.001, 2.0};
@@ -122,6 +123,24 @@ ControlLine readControl(const YamlMap& map) {
   return line;
 }
 
+/// A button, or an axis.
+void readGamepad(const YamlMap& map, PlayMap& play_map) {
+  if (map.has("button")) {
+    map.allow({"button", "note", "velocity"});
+    ButtonLine line;
+    line.button = static_cast<int>(map.choice("button", gamepadButtonNames()));
+    line.note = map.integer("note", kNoteLimits);
+    line.velocity = map.has("velocity") ? map.integer("velocity", kVelocityLimits) : line.velocity;
+    play_map.buttons.push_back(line);
+    return;
+  }
+  ControlLine line;
+  line.control.kind = Control::Kind::kAxis;
+  line.control.number = static_cast<int>(map.choice("axis", gamepadAxisNames()));
+  line.motion = readMotion(map, {"axis"});
+  play_map.controls.push_back(line);
+}
+
 /// Calls `read` for each map of the list under a key, if there is one.
 template <class Read>
 void forEachOf(const Settings& settings, const std::string& key, const Read& read) {
@@ -144,11 +163,13 @@ void forEachOf(const Settings& settings, const std::string& key, const Read& rea
 
 PlayMap readPlayMap(const std::string& text, const std::string& name) {
   const Settings settings(parseSettings(text, name), name, "the map of notes");
-  settings.top().allow({"keys", "controllers", "transpose", "mpe"});
+  settings.top().allow({"keys", "controllers", "gamepad", "transpose", "mpe"});
   PlayMap map;
   forEachOf(settings, "keys", [&](const YamlMap& line) { map.keys.push_back(readKeys(line)); });
   forEachOf(settings, "controllers",
             [&](const YamlMap& line) { map.controls.push_back(readControl(line)); });
+  map.has_gamepad = settings.top().has("gamepad");
+  forEachOf(settings, "gamepad", [&](const YamlMap& line) { readGamepad(line, map); });
   if (settings.top().has("transpose")) {
     map.transpose = settings.top().integer("transpose", kTransposeLimits);
   }

@@ -215,7 +215,7 @@ TEST(ParametersTest, MayBeSwitchedOffInAnyWord) {
        {XmlRpcValue(false), XmlRpcValue("off"), XmlRpcValue("no"), XmlRpcValue("False")}) {
     XmlRpcValue values;
     for (const char* const name : {"realtime", "presence", "jack", "midi_programs", "midi_connect",
-                                   "force_after_swap", "energies"}) {
+                                   "force_after_swap", "energies", "gamepads"}) {
       values[name] = off;
     }
     const Parameters p = readParameters(values, "/station");
@@ -226,8 +226,10 @@ TEST(ParametersTest, MayBeSwitchedOffInAnyWord) {
     EXPECT_EQ(p.midi_connect, "none");
     EXPECT_EQ(p.force_after_swap, station::SwapForce::kNever);
     EXPECT_FALSE(p.compile.metered);
+    EXPECT_FALSE(p.gamepads);
     const EarlyParameters early = readEarlyParameters(values, "/station");
     EXPECT_EQ(early.realtime, Realtime::kOff);
+    EXPECT_FALSE(early.gamepads);
     EXPECT_THAT(early.refusals, testing::IsEmpty());
   }
   for (const XmlRpcValue& on : {XmlRpcValue(true), XmlRpcValue("yes"), XmlRpcValue("On")}) {
@@ -245,6 +247,7 @@ TEST(ParametersTest, ThatAreHeardFirstAreNotReplacedWithoutAWord) {
   EXPECT_EQ(early.realtime, Realtime::kTry);
   EXPECT_EQ(early.priority, readParameters(XmlRpcValue(), "/station").priority);
   EXPECT_FALSE(early.allow_remote);
+  EXPECT_TRUE(early.gamepads);
   EXPECT_THAT(early.refusals,
               testing::ElementsAre(HasSubstr("/station/allow_remote is the text 'perhaps'"),
                                    HasSubstr("/station/realtime is the number 3, allowed: off"),

@@ -14,17 +14,20 @@ struct Control {
   enum class Kind : std::uint8_t {
     kController,  ///< 0...1
     kBend,        ///< -1...1, 0 when it is let go
-    kPressure     ///< 0...1, of a channel or of the key that is pressed most
+    kPressure,    ///< 0...1, of a channel or of the key that is pressed most
+    kAxis         ///< of a gamepad, see GamepadAxis
   };
   Kind kind = Kind::kController;
-  int number = 0;  ///< of a controller, MIDI
+  int number = 0;  ///< of a controller, MIDI, or of an axis
 
   bool operator==(const Control& other) const {
     return kind == other.kind && number == other.number;
   }
+  /// Whether it comes back to a middle, 0, when it is let go: bends and sticks, -1...1.
+  bool hasMiddle() const;
 };
 
-/// "controller 21", "the pitch bend", "the pressure".
+/// "controller 21", "the pitch bend", "the pressure", "left_x of the gamepad".
 std::string nameOf(const Control& control);
 
 /// -1...1 of the 14 bits of a bend; both ends are reached, and so is 0.

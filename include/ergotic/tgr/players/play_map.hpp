@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ergotic/tgr/players/control.hpp"
+#include "ergotic/tgr/players/gamepad.hpp"
 
 namespace ergotic::tgr {
 
@@ -46,14 +47,17 @@ struct ControlLine {
 
 struct PlayMap {
   std::vector<KeyLine> keys;
-  std::vector<ControlLine> controls;
-  int transpose = 0;  ///< semitones, added to each note
+  std::vector<ControlLine> controls;  ///< by MIDI, and of gamepads
+  std::vector<ButtonLine> buttons;    ///< of gamepads
+  bool has_gamepad = false;           ///< it says what gamepads do; else they do what is usual
+  int transpose = 0;                  ///< semitones, added to each note
   /// Each note has a channel of its own (MPE); nothing: if the player's device says so.
   std::optional<bool> mpe;
 };
 
-/// Reads `{keys: [{notes: [0, 59], slices: 0, to: 20 mm, ...}], controllers: [...], transpose: 0}`;
-/// docs/ros.md has all keys. \throws TextError with file:line:col, value and allowed range
+/// Reads `{keys: [{notes: [0, 59], slices: 0, to: 20 mm, ...}], controllers: [...], gamepad: [...],
+/// transpose: 0}`; docs/ros.md has all keys. \throws TextError with file:line:col, value and
+/// allowed range
 PlayMap readPlayMap(const std::string& text, const std::string& name);
 
 }  // namespace ergotic::tgr

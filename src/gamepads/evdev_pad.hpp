@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <libevdev/libevdev.h>
+
+#include "gamepads/pad_device.hpp"
+
+namespace ergotic::gamepads {
+
+/// What libevdev knows of a device.
+PadTraits traitsOf(const libevdev* device);
+
+}  // namespace ergotic::gamepads

@@ -147,6 +147,7 @@ void GrabTool::subscribe() {
 void GrabTool::activate() {
   panel_ = context_->getViewManager()->getRenderPanel();
   panel_->installEventFilter(this);
+  panel_->installEventFilter(&pen_);
   setStatus(
       "Click what lights up under the mouse, or drag it. Wheel: nearer, farther. Shift: finer. "
       "Right "
@@ -159,6 +160,7 @@ void GrabTool::deactivate() {
   picture_->hide();
   if (panel_) {
     panel_->removeEventFilter(this);
+    panel_->removeEventFilter(&pen_);
   }
 }
 
@@ -399,6 +401,14 @@ int GrabTool::hold(rviz::ViewportMouseEvent& event) {
     }
   }
   return Render;
+}
+
+/// Of a pen, which may press more without moving.
+void GrabTool::push(double depth_m) {
+  if (grab_) {
+    grab_->drag().push(depth_m);
+    send();
+  }
 }
 
 void GrabTool::send() {

@@ -14,6 +14,7 @@
 #include "rviz/grab_geometry.hpp"
 #include "rviz/grab_picture.hpp"
 #include "rviz/key_rows.hpp"
+#include "rviz/pen_filter.hpp"
 
 class QKeyEvent;
 namespace rviz {
@@ -30,10 +31,11 @@ namespace ergotic::panel {
 /// any module that moves by itself, which a hand of its own holds then. With nothing in hand the
 /// mouse moves the camera as everywhere in rviz.
 ///
-/// Left button: take and drag. Wheel: nearer, farther. Shift: ten times finer. Right button, or
-/// letting go of the left: let go. Two rows of the computer's keyboard play notes by the station's
-/// map of notes; Shift: harder. A window that loses the focus lets go, and so does the station
-/// when it does not hear of this tool for a second. Thread: of the window
+/// Left button: take and drag. Wheel, or the pressure of a tablet's pen: nearer, farther. Shift:
+/// ten times finer. Right button, or letting go of the left: let go. Two rows of the computer's
+/// keyboard play notes by the station's map of notes; Shift: harder. A window that loses the focus
+/// lets go, and so does the station when it does not hear of this tool for a second. Thread: of the
+/// window
 class GrabTool : public rviz::Tool {
  public:
   GrabTool();
@@ -64,6 +66,7 @@ class GrabTool : public rviz::Tool {
   bool isClick(rviz::ViewportMouseEvent& event) const;
   int hover(rviz::ViewportMouseEvent& event);
   int hold(rviz::ViewportMouseEvent& event);
+  void push(double depth_m);
   void take(const Handle& handle, const View& view);
   void drop();   ///< what is in hand
   void letGo();  ///< of that and of all keys
@@ -95,6 +98,7 @@ class GrabTool : public rviz::Tool {
   int framed_ = 0;   // model that the camera was turned to
   std::optional<Grab> grab_;
   KeyRows keys_;
+  PenFilter pen_{[this](double depth_m) { push(depth_m); }};
   std::optional<Handle> hovered_;
   bool holds_ = false;  // the station was told of the module in hand
   std::unique_ptr<GrabPicture> picture_;

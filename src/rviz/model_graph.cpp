@@ -7,11 +7,14 @@
 #include <string>
 #include <utility>
 
+#include "rviz/model_touch.hpp"
+
 namespace ergotic::panel {
 namespace {
 
 constexpr std::size_t kMostDimensions = 3;
 constexpr float kDetour = 1.001F;  // of a way over a module that lies on the straight line
+constexpr float kAskew = 0.05F;    // of two links that are about parallel and of one length
 constexpr std::size_t kMostNeighbours = 16;  // of a module of a body; a hub has more
 const std::string kOutlineWord = ".outline.";
 
@@ -102,15 +105,25 @@ Eigen::Vector3f restOf(const ModelStructure& structure, std::size_t module) {
 
 LinkGraph::LinkGraph(const ModelStructure& structure, const std::function<bool(std::size_t)>& joins)
     : neighbours_(structure.module_sections.size()), is_bridged_(neighbours_.size()) {
-  for (std::size_t i = 0; i + 1 < structure.links.size(); i += 2) {
-    const std::uint32_t a = structure.links[i];
-    const std::uint32_t b = structure.links[i + 1];
-    if (a != b && structure.module_sections[a] == structure.module_sections[b] && joins(a) &&
-        joins(b) && restOf(structure, a) != restOf(structure, b)) {
+  const std::vector<Touch> touches = touchesOf(structure);
+  for (std::size_t link = 0; link < touches.size(); ++link) {
+    const std::uint32_t a = structure.links[2 * link];
+    const std::uint32_t b = structure.links[2 * link + 1];
+    if (touches[link] == Touch::kNone && a != b &&
+        structure.module_sections[a] == structure.module_sections[b] && joins(a) && joins(b) &&
+        restOf(structure, a) != restOf(structure, b)) {
       neighbours_[a].push_back(b);
       neighbours_[b].push_back(a);
     }
   }
+  sortOut();
+  dropBridges(structure);
+  joinRims(structure);
+  sortOut();
+}
+
+/// Each neighbour once, and none of a hub.
+void LinkGraph::sortOut() {
   for (ModuleIndices& list : neighbours_) {
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -118,7 +131,32 @@ LinkGraph::LinkGraph(const ModelStructure& structure, const std::function<bool(s
       list.clear();
     }
   }
-  dropBridges(structure);
+}
+
+/// Of two grounds that lie beside each other as two neighbours do that they hold.
+void LinkGraph::joinRims(const ModelStructure& structure) {
+  const auto isGround = [&](std::uint32_t i) {
+    return structure.module_types[i] == ModelStructure::GROUND;
+  };
+  ModuleIndices pairs;
+  for (std::uint32_t b = 0; b < neighbours_.size(); ++b) {
+    for (const std::uint32_t c : neighbours_[b]) {
+      const Eigen::Vector3f way = restOf(structure, c) - restOf(structure, b);
+      for (const std::uint32_t g : neighbours_[b]) {
+        for (std::size_t k = 0; k < neighbours_[c].size() && isGround(g); ++k) {
+          const std::uint32_t h = neighbours_[c][k];
+          const Eigen::Vector3f other = restOf(structure, h) - restOf(structure, g);
+          if (g != h && isGround(h) && (other - way).norm() < kAskew * way.norm()) {
+            pairs.insert(pairs.end(), {g, h});
+          }
+        }
+      }
+    }
+  }
+  for (std::size_t i = 0; i < pairs.size(); i += 2) {
+    neighbours_[pairs[i]].push_back(pairs[i + 1]);
+    neighbours_[pairs[i + 1]].push_back(pairs[i]);
+  }
 }
 
 bool LinkGraph::areNeighbours(std::uint32_t a, std::uint32_t b) const {

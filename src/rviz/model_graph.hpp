@@ -30,7 +30,9 @@ Eigen::Vector3f restOf(const ModelStructure& structure, std::size_t module);
 
 /// The neighbours of each module: those that a link of the structure joins to it and that lie in
 /// the same section at another place. A link that passes over a module between its ends, as those
-/// of stiff strings and bars do, joins no neighbours.
+/// of stiff strings and bars do, joins no neighbours, nor does one that only touches, as a hammer
+/// does. Grounds at the rim of a skin are neighbours
+/// without a link, as nothing moves between them.
 class LinkGraph {
  public:
   /// \param joins  says which modules take part. \pre isConsistent(structure)
@@ -45,6 +47,8 @@ class LinkGraph {
 
  private:
   void dropBridges(const ModelStructure& structure);
+  void joinRims(const ModelStructure& structure);
+  void sortOut();
 
   std::vector<ModuleIndices> neighbours_;
   std::vector<bool> is_bridged_;

@@ -94,9 +94,16 @@ class ShapeFinder {
       next = graph.of(next)[graph.of(next)[0] == before ? 1 : 0];
     }
     if (row.size() >= kLeastOfRow) {
-      const bool is_bar = is_outline_[end] || graph.isBridged(row[1]);
+      const bool is_bar = is_outline_[end] || (graph.isBridged(row[1]) && !isSpanned(row));
       addRow(std::move(row), is_bar ? ModuleLook::kBar : ModuleLook::kString);
     }
+  }
+  /// From one ground to another, as a stiff string is; bars are clamped by two grounds, or free.
+  bool isSpanned(const ModuleIndices& row) const {
+    const auto isGround = [&](std::size_t i) {
+      return structure_.module_types[row[i]] == ModelStructure::GROUND;
+    };
+    return isGround(0) && !isGround(1) && !isGround(row.size() - 2) && isGround(row.size() - 1);
   }
 
   void addBodies() {

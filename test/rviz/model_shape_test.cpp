@@ -67,6 +67,27 @@ TEST(ModelShapeTest, SquareMeshesCoverAPlateOnceWhateverElseIsLinked) {
   }
 }
 
+TEST(ModelShapeTest, ASkinReachesItsRimWhoseGroundsHaveNoLinks) {
+  StructureMaker maker;
+  constexpr std::uint32_t kSide = 6;
+  maker.net(kSide, kSide, 0.01F, 0.01F);
+  ModelStructure& skin = maker.structure;
+  for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
+    const bool is_rim = i % kSide % (kSide - 1) == 0 || i / kSide % (kSide - 1) == 0;
+    skin.module_types[i] = is_rim ? ModelStructure::GROUND : ModelStructure::MASS;
+  }
+  ModuleIndices links;
+  for (std::size_t i = 0; i < skin.links.size(); i += 2) {
+    if (skin.module_types[skin.links[i]] != ModelStructure::GROUND ||
+        skin.module_types[skin.links[i + 1]] != ModelStructure::GROUND) {
+      links.insert(links.end(), {skin.links[i], skin.links[i + 1]});
+    }
+  }
+  skin.links = links;
+  // Of the 25 meshes the four at the corners have three modules, and are triangles.
+  EXPECT_NEAR(areaOf(skin, shapeOf(skin).triangles), 23e-4, 1e-7);
+}
+
 TEST(ModelShapeTest, AnOutlineIsASurfaceWithRoundedStairsAndItsModesAreHidden) {
   StructureMaker maker;
   for (int j = 0; j < 5; ++j) {
@@ -108,9 +129,29 @@ TEST(ModelShapeTest, RowsThatAreNoStringsAreBarsIfTheyResistBending) {
     maker.link(stiff + i, stiff + i + 2);
   }
   maker.row(12, 0.2F);
+  const std::uint32_t spanned = maker.row(12, 0.3F);
+  for (std::uint32_t i = 0; i + 2 < 12; ++i) {
+    maker.link(spanned + i, spanned + i + 2);
+  }
+  maker.structure.module_types[spanned] = ModelStructure::GROUND;
+  maker.structure.module_types[spanned + 11] = ModelStructure::GROUND;
   const ModelShape shape = shapeOf(maker.structure);
   EXPECT_EQ(shape.bars.size(), 2U);
-  EXPECT_EQ(shape.strings.size(), 1U);
+  EXPECT_EQ(shape.strings.size(), 2U) << "one is stiff";
+}
+
+TEST(ModelShapeTest, WhatTouchesAStringIsNoPartOfIt) {
+  for (const bool is_felt : {false, true}) {
+    StructureMaker maker;
+    const std::uint32_t row = maker.row(12, 0.0F);
+    maker.link(maker.module(ModelStructure::MASS, -0.05F, 0.2F, 0.0F), row + 3);
+    maker.structure.law_names = {"spring-damper", "felt"};
+    maker.structure.link_types.back() = is_felt ? 1 : 0;
+    const ModelShape shape = shapeOf(maker.structure);
+    ASSERT_EQ(shape.strings.size(), 1U);
+    EXPECT_EQ(shape.strings[0].size(), is_felt ? 12U : 8U) << "held by a spring it is a branch";
+    EXPECT_EQ(shape.bodies.size(), is_felt ? 1U : 5U);
+  }
 }
 
 TEST(ModelShapeTest, WhatStandsByItselfIsABodyAndItsLinksAreSeen) {

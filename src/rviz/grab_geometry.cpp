@@ -6,6 +6,7 @@
 
 #include "rviz/model_drawing.hpp"
 #include "rviz/model_graph.hpp"
+#include "rviz/model_hands.hpp"
 
 namespace ergotic::panel {
 namespace {
@@ -44,7 +45,7 @@ int Handle::axes() const {
 }
 
 void HandleSet::show(const ModelStructure& structure) {
-  structure_ = structure;
+  structure_ = withHandsInPlace(structure);
   ++models_;
   build();
 }

@@ -18,6 +18,8 @@
 #include <rviz/render_panel.h>
 #include <rviz/view_manager.h>
 
+#include "rviz/model_hands.hpp"
+
 namespace ergotic::panel {
 namespace {
 
@@ -139,7 +141,7 @@ void ModelDisplay::begin(const ModelStructure::ConstPtr& structure) {
               "The lists of model_structure do not fit each other.");
     return;
   }
-  structure_ = structure;
+  structure_ = boost::make_shared<ModelStructure>(withHandsInPlace(*structure));
   shape_ = shapeOf(*structure_);
   motion_ = ModelMotion(*structure_, shape_);
   changeGlow();

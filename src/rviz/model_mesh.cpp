@@ -8,8 +8,6 @@
 
 #include <Eigen/Geometry>
 
-#include "rviz/model_solids.hpp"
-
 namespace ergotic::panel {
 namespace {
 
@@ -36,6 +34,33 @@ float radiusOf(ModuleLook look) {
     default:
       return 1.0F;
   }
+}
+
+const Solid& solidOf(ModuleLook look, HandForm form) {
+  switch (form) {
+    case HandForm::kKey:
+      return key();
+    case HandForm::kHammer:
+      return hammer();
+    case HandForm::kFinger:
+      return finger();
+    case HandForm::kPlectrum:
+      return plectrum();
+    case HandForm::kBow:
+      return bow();
+    default:
+      return look == ModuleLook::kGround ? box() : ball();
+  }
+}
+
+/// What holds it comes from the player, who sits at the lower end of z.
+Eigen::Matrix3f turnOf(const HandBody& hand) {
+  Eigen::Matrix3f turn;
+  turn.col(0) = hand.towards;
+  turn.col(2) = hand.towards.cross(hand.along);
+  turn.col(2) *= turn(2, 2) < 0.0F ? -1.0F : 1.0F;
+  turn.col(1) = turn.col(2).cross(turn.col(0));
+  return turn;
 }
 
 /// Directions across a row of modules, which turn as little as they can from each to the next.
@@ -153,15 +178,11 @@ class ModelMesh::Filling {
   }
 
   void body(const Body& body) {
-    const Solid& solid = body.is_box ? box() : ball();
-    std::vector<float>& lights = body.is_box ? box_lights_ : ball_lights_;
-    if (lights.empty()) {  // all are about as far from the camera
-      for (const Eigen::Vector3f& normal : solid.normals) {
-        lights.push_back(light_.on(normal, mesh_.middle_));
-      }
-    }
+    const Solid& solid = *body.solid;
+    const Eigen::Matrix3f turn = body.radius * body.turn;
+    const std::vector<float>& lights = lightsOf(body);
     for (std::size_t k = 0; k < solid.corners.size(); ++k) {
-      put(body.module, places_[body.module] + body.radius * solid.corners[k], lights[k]);
+      put(body.module, places_[body.module] + turn * solid.corners[k], lights[k]);
     }
   }
 
@@ -170,6 +191,19 @@ class ModelMesh::Filling {
  private:
   static constexpr float kDotLight = 0.75F;
 
+  /// Those that have one solid, and are turned alike, are lit alike: all are about as far from the
+  /// camera. Bodies of one kind follow each other mostly.
+  const std::vector<float>& lightsOf(const Body& body) {
+    if (body.solid != lit_ || body.turn != lit_turn_) {
+      lit_ = body.solid;
+      lit_turn_ = body.turn;
+      lights_.clear();
+      for (const Eigen::Vector3f& normal : body.solid->normals) {
+        lights_.push_back(light_.on(body.turn * normal, mesh_.middle_));
+      }
+    }
+    return lights_;
+  }
   void put(std::uint32_t module, const Eigen::Vector3f& place, float light) {
     *out_++ = {place.x(), place.y(), place.z(),
                colourOf(tints_[module], light, motion_.glow()[module], view_.is_stale)};
@@ -203,8 +237,9 @@ class ModelMesh::Filling {
   const MeshView& view_;
   const std::vector<Tint>& tints_;
   ModelLight light_;
-  std::vector<float> ball_lights_;
-  std::vector<float> box_lights_;
+  const Solid* lit_ = nullptr;
+  Eigen::Matrix3f lit_turn_ = Eigen::Matrix3f::Identity();
+  std::vector<float> lights_;  // of the solid that was lit last
   MeshVertex* out_;
 };
 
@@ -222,7 +257,7 @@ ModelMesh::ModelMesh(const ModelStructure& structure,
   addSurfaces(shape);
   addTubes(shape, static_cast<float>(thickness));
   addBars(shape, motion);
-  addBodies(shape, static_cast<float>(thickness));
+  addBodies(structure, shape, static_cast<float>(thickness));
   first_dot_ = vertices_;
   addRim();
   addThinStrings(shape);
@@ -315,16 +350,22 @@ void ModelMesh::addBars(const ModelShape& shape, const ModelMotion& motion) {
   }
 }
 
-void ModelMesh::addBodies(const ModelShape& shape, float thickness) {
+void ModelMesh::addBodies(const ModelStructure& structure,
+                          const ModelShape& shape,
+                          float thickness) {
   if (shape.bodies.size() > kMostBodies) {
     return;  // they are points
   }
-  for (const std::uint32_t module : shape.bodies) {
+  const std::vector<HandBody> hands = handsOf(structure, shape);
+  for (std::size_t b = 0; b < hands.size(); ++b) {
+    const std::uint32_t module = shape.bodies[b];
     const ModuleLook look = shape.looks[module];
-    const bool is_box = look == ModuleLook::kGround;
-    const Solid& solid = is_box ? box() : ball();
+    const Solid& solid = solidOf(look, hands[b].form);
     addTriangles(static_cast<std::uint32_t>(vertices_), solid.triangles);
-    bodies_.push_back({module, is_box, radiusOf(look) * thickness * kBodyRadius * size_});
+    bodies_.push_back({module, &solid, radiusOf(look) * thickness * kBodyRadius * size_});
+    if (hands[b].form != HandForm::kNone) {
+      bodies_.back().turn = turnOf(hands[b]);
+    }
     vertices_ += solid.corners.size();
   }
 }

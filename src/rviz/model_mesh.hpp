@@ -8,9 +8,11 @@
 
 #include <Eigen/Core>
 
+#include "rviz/model_hands.hpp"
 #include "rviz/model_light.hpp"
 #include "rviz/model_motion.hpp"
 #include "rviz/model_shape.hpp"
+#include "rviz/model_solids.hpp"
 
 namespace ergotic::panel {
 
@@ -61,8 +63,9 @@ class ModelMesh {
   };
   struct Body {
     std::uint32_t module = 0;
-    bool is_box = false;
-    float radius = 0.0F;  // m
+    const Solid* solid = nullptr;
+    float radius = 0.0F;                                 // m
+    Eigen::Matrix3f turn = Eigen::Matrix3f::Identity();  // from the solid to frame `model`
   };
   class Filling;
 
@@ -70,7 +73,7 @@ class ModelMesh {
   void addSurfaces(const ModelShape& shape);
   void addTubes(const ModelShape& shape, float thickness);
   void addBars(const ModelShape& shape, const ModelMotion& motion);
-  void addBodies(const ModelShape& shape, float thickness);
+  void addBodies(const ModelStructure& structure, const ModelShape& shape, float thickness);
   void addLinks(const ModelShape& shape);
   void addRim();
   void addThinStrings(const ModelShape& shape);

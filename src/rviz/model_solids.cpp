@@ -90,6 +90,56 @@ Solid makeBox() {
   return solid;
 }
 
+/// Adds one that is stretched to `reach` from its middle to its sides.
+void add(Solid& whole, const Solid& part, const Eigen::Vector3f& reach, const Eigen::Vector3f& at) {
+  const auto first = static_cast<std::uint32_t>(whole.corners.size());
+  const float of_part = &part == &box() ? kBoxReach : 1.0F;
+  for (std::size_t i = 0; i < part.corners.size(); ++i) {
+    whole.corners.emplace_back(at + part.corners[i].cwiseProduct(reach) / of_part);
+    whole.normals.emplace_back(part.normals[i].cwiseQuotient(reach).normalized());
+  }
+  for (const std::uint32_t corner : part.triangles) {
+    whole.triangles.push_back(first + corner);
+  }
+}
+
+Solid makeKey() {
+  Solid solid;
+  add(solid, box(), {0.5F, 0.8F, 3.0F}, {-0.5F, 0.0F, -2.2F});
+  return solid;
+}
+
+Solid makeHammer() {
+  Solid solid;
+  add(solid, ball(), {1.2F, 0.9F, 0.9F}, {-1.2F, 0.0F, 0.0F});
+  add(solid, box(), {0.2F, 0.2F, 2.8F}, {-1.2F, 0.0F, -3.2F});
+  return solid;
+}
+
+Solid makeFinger() {
+  Solid solid;
+  add(solid, ball(), {2.4F, 0.9F, 0.9F}, {-2.4F, 0.0F, 0.0F});
+  return solid;
+}
+
+Solid makePlectrum() {
+  Solid solid;
+  add(solid, ball(), {0.25F, 1.3F, 2.0F}, {0.0F, 0.0F, -2.0F});
+  return solid;
+}
+
+Solid makeBow() {
+  constexpr float kHalf = 18.0F;
+  constexpr float kStickAt = -2.2F;
+  Solid solid;
+  add(solid, box(), {kHalf, 0.5F, 0.1F}, {0.0F, 0.0F, -0.1F});
+  add(solid, box(), {kHalf, 0.3F, 0.3F}, {0.0F, 0.0F, kStickAt});
+  for (const float end : {-kHalf, kHalf}) {
+    add(solid, box(), {0.8F, 0.5F, 1.1F}, {end, 0.0F, -1.2F});
+  }
+  return solid;
+}
+
 }  // namespace
 
 const Solid& ball() {
@@ -99,6 +149,31 @@ const Solid& ball() {
 
 const Solid& box() {
   static const Solid solid = makeBox();
+  return solid;
+}
+
+const Solid& key() {
+  static const Solid solid = makeKey();
+  return solid;
+}
+
+const Solid& hammer() {
+  static const Solid solid = makeHammer();
+  return solid;
+}
+
+const Solid& finger() {
+  static const Solid solid = makeFinger();
+  return solid;
+}
+
+const Solid& plectrum() {
+  static const Solid solid = makePlectrum();
+  return solid;
+}
+
+const Solid& bow() {
+  static const Solid solid = makeBow();
   return solid;
 }
 

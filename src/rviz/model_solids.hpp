@@ -19,4 +19,12 @@ struct Solid {
 const Solid& ball();  ///< 42 corners
 const Solid& box();   ///< 24 corners: each side has its own
 
+// What touches the model at the origin, which lies along x from it. Along y goes what it touches;
+// what holds it comes from the side of -z.
+const Solid& key();
+const Solid& hammer();    ///< a head on a shaft
+const Solid& finger();    ///< its tip
+const Solid& plectrum();  ///< a blade
+const Solid& bow();       ///< hair that moves along x, and the stick
+
 }  // namespace ergotic::panel

@@ -143,6 +143,14 @@ TEST(ModelMeshTest, ABarIsAClosedBox) {
 }
 
 TEST(ModelMeshTest, BallsAndBoxesAreClosedAndPointOutwards) {
+  for (const Solid* solid : {&key(), &hammer(), &finger(), &plectrum(), &bow()}) {
+    EXPECT_EQ(solid->corners.size(), solid->normals.size());
+    EXPECT_TRUE(std::all_of(solid->triangles.begin(), solid->triangles.end(),
+                            [&](std::uint32_t corner) { return corner < solid->corners.size(); }));
+    EXPECT_TRUE(std::all_of(solid->corners.begin(), solid->corners.end(), [&](const auto& corner) {
+      return corner.z() < 1.0F;
+    })) << "what it touches lies there";
+  }
   for (const Solid* solid : {&ball(), &box()}) {
     EXPECT_EQ(solid->corners.size(), solid->normals.size());
     for (std::size_t i = 0; i < solid->corners.size(); ++i) {
@@ -153,6 +161,27 @@ TEST(ModelMeshTest, BallsAndBoxesAreClosedAndPointOutwards) {
   EXPECT_EQ(ball().triangles.size(), 3U * 80U);
   EXPECT_NEAR(volumeOf(ball().corners, ball().triangles) / 6.0, 4.0 / 3.0 * M_PI, 0.7);
   EXPECT_NEAR(volumeOf(box().corners, box().triangles) / 6.0, 1.5 * 1.5 * 1.5, 1e-3);
+}
+
+TEST(ModelMeshTest, AHammerEndsWhereItTouchesAndIsHeldFromThePlayersSide) {
+  for (const float x : {-0.02F, 0.02F}) {
+    StructureMaker maker;
+    maker.string(30, 0.0F);
+    const std::uint32_t hammer = maker.module(ModelStructure::MASS, x, 0.1F, 0.0F);
+    maker.link(hammer, 10);
+    maker.structure.law_names = {"spring-damper", "felt"};
+    maker.structure.link_types.back() = 1;
+    Drawn drawn(maker.structure, false);
+    const std::vector<MeshVertex> vertices = drawn.vertices();
+    Eigen::AlignedBox3f box;
+    for (std::size_t i = 30U * 6U; i < vertices.size(); ++i) {
+      box.extend(placeOf(vertices[i]));
+    }
+    const float nearest = x < 0.0F ? box.max().x() : box.min().x();
+    EXPECT_NEAR(nearest, x, 1e-4F) << "its head reaches to the place of its module";
+    EXPECT_LT(box.min().z(), -4.0F * box.max().z()) << "its shaft";
+    expectInside(drawn.mesh);
+  }
 }
 
 TEST(ModelMeshTest, LinksAreDrawnIfTheyAreWanted) {

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "rviz/model_shape.hpp"
+
+namespace ergotic::panel {
+
+/// What a module by itself looks like, as the laws of its links say.
+enum class HandForm : std::uint8_t {
+  kNone,      ///< it touches nothing
+  kKey,       ///< a hand that moves something else
+  kHammer,    ///< it strikes with felt, or flies
+  kFinger,    ///< it presses with a plain contact
+  kPlectrum,  ///< it plucks
+  kBow,       ///< it rubs
+};
+
+struct HandBody {
+  HandForm form = HandForm::kNone;
+  /// From it to what it touches, along x of its section if it moves along x alone; length 1.
+  Eigen::Vector3f towards = Eigen::Vector3f::UnitX();
+  /// Along the string, bar or surface that it touches, at right angles to `towards`; length 1.
+  Eigen::Vector3f along = Eigen::Vector3f::UnitY();
+};
+
+/// \return [shape.bodies], frame `model`. \pre shape = shapeOf(structure)
+std::vector<HandBody> handsOf(const ModelStructure& structure, const ModelShape& shape);
+
+/// Puts modules by themselves that move along x alone beside what they act on: hands, hammers, and
+/// the grounds that hold them. Where they are along y and z matters to the picture alone, and many
+/// scenes do not say. One that is there already, or that acts on several places, stays.
+/// \return the same with other rest positions; as it is if its lists do not fit each other
+ModelStructure withHandsInPlace(ModelStructure structure);
+
+}  // namespace ergotic::panel

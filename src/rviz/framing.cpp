@@ -12,6 +12,15 @@ constexpr double kNearest = 0.1;  // m
 
 }  // namespace
 
+Look lookOf(const Shot& shot, Look look) {
+  constexpr double kMostPitch = 1.55;  // rad: one that looks straight down would have no yaw
+  const Eigen::Vector3d out = shot.from - shot.at;
+  const double level = std::hypot(out.x(), out.y());
+  look.yaw = level > 0.0 ? std::atan2(out.y(), out.x()) : look.yaw;
+  look.pitch = std::clamp(std::atan2(out.z(), level), -kMostPitch, kMostPitch);
+  return look;
+}
+
 Framing frame(const std::vector<Eigen::Vector3d>& points, const Look& look) {
   const Eigen::Vector3d out(std::cos(look.yaw) * std::cos(look.pitch),
                             std::sin(look.yaw) * std::cos(look.pitch), std::sin(look.pitch));

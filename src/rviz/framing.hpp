@@ -20,6 +20,14 @@ struct Framing {
   double distance = 1.0;                            ///< from there, m
 };
 
+/// A camera at a place, and what it looks at. \pre they are not one place
+struct Shot {
+  Eigen::Vector3d from;
+  Eigen::Vector3d at;
+};
+/// How a camera looks that takes this shot; field of view and aspect stay as they were.
+Look lookOf(const Shot& shot, Look look);
+
 /// Puts all points into the picture, with a margin around them and no more.
 /// \param points  at least one, finite
 Framing frame(const std::vector<Eigen::Vector3d>& points, const Look& look);

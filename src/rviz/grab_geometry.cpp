@@ -15,6 +15,7 @@ constexpr std::size_t kAxes = 3;
 constexpr double kMostOfSliceM = 0.1;  // what a hand may want, see HandTargets
 constexpr double kMostOfCoordinateM = 1.0;
 constexpr double kMostOfModuleM = 100.0;  // see HoldTarget
+constexpr double kLeastCameraM = 1e-3;    // from what it looks at
 constexpr double kLeastSine = 0.1;  // an axis that points at the eye has no place under the mouse
 
 bool isWhole(const ModelStructure& structure) {
@@ -102,6 +103,16 @@ std::vector<Eigen::Vector3d> HandleSet::places() const {
     }
   }
   return places;
+}
+
+std::vector<Eigen::Vector3d> HandleSet::camera() const {
+  std::vector<Eigen::Vector3d> camera;
+  for (const geometry_msgs::Point& place : structure_.camera) {
+    camera.emplace_back(place.x, place.y, place.z);
+  }
+  const bool is_whole = camera.size() == 2 && camera[0].allFinite() && camera[1].allFinite() &&
+                        (camera[0] - camera[1]).norm() > kLeastCameraM;
+  return is_whole ? camera : std::vector<Eigen::Vector3d>();
 }
 
 Handle HandleSet::handleOf(std::size_t module) const {

@@ -71,6 +71,9 @@ class HandleSet {
   /// Where all modules are drawn at rest, frame `model`, m; empty until it is known of what. Modes
   /// whose body has an outline are not drawn.
   std::vector<Eigen::Vector3d> places() const;
+  /// The camera that the scene wants, and what it shall look at, frame `model`, m; empty: it does
+  /// not say.
+  std::vector<Eigen::Vector3d> camera() const;
   /// Counts the models.
   int models() const { return models_; }
   /// Counts the times that the handles became others.

@@ -25,7 +25,6 @@
 #include <rviz/view_manager.h>
 #include <rviz/viewport_mouse_event.h>
 
-#include "rviz/framing.hpp"
 #include "rviz/grips.hpp"
 
 namespace ergotic::panel {
@@ -247,8 +246,27 @@ void GrabTool::update(float /*wall_dt*/, float /*ros_dt*/) {
   draw();
 }
 
-/// Once for each model, from where the camera looks now; only of the camera that orbits around a
-/// point, which is rviz's usual one.
+/// As the scene says, or from where the player looks, so that all of the model is in the picture.
+Framing GrabTool::framingOf(const std::vector<Eigen::Vector3d>& places, Look& look) {
+  if (const std::vector<Eigen::Vector3d> camera = set_.camera(); !camera.empty()) {
+    const Shot shot{model_ * camera[0], model_ * camera[1]};
+    chosen_ = chosen_.value_or(look);
+    look = lookOf(shot, look);
+    return {shot.at, (shot.from - shot.at).norm()};
+  }
+  if (chosen_) {
+    look.yaw = chosen_->yaw;
+    look.pitch = chosen_->pitch;
+    chosen_.reset();
+  }
+  std::vector<Eigen::Vector3d> in_frame;
+  for (const Eigen::Vector3d& place : places) {
+    in_frame.push_back(model_ * place);
+  }
+  return frame(in_frame, look);
+}
+
+/// Once for each model; only of the camera that orbits around a point, which is rviz's usual one.
 void GrabTool::frameModel() {
   const std::vector<Eigen::Vector3d> places = framed_ != set_.models() && frames_->getBool()
                                                   ? set_.places()
@@ -264,11 +282,9 @@ void GrabTool::frameModel() {
   look.pitch = view->subProp("Pitch")->getValue().toDouble();
   look.field_of_view = static_cast<double>(camera->getFOVy().valueRadians());
   look.aspect = static_cast<double>(camera->getAspectRatio());
-  std::vector<Eigen::Vector3d> in_frame;
-  for (const Eigen::Vector3d& place : places) {
-    in_frame.push_back(model_ * place);
-  }
-  const Framing framing = frame(in_frame, look);
+  const Framing framing = framingOf(places, look);
+  view->subProp("Yaw")->setValue(look.yaw);
+  view->subProp("Pitch")->setValue(look.pitch);
   rviz::Property* const focus = view->subProp("Focal Point");
   focus->subProp("X")->setValue(framing.focus.x());
   focus->subProp("Y")->setValue(framing.focus.y());

@@ -11,6 +11,7 @@
 #include <ros/ros.h>
 #include <rviz/tool.h>
 
+#include "rviz/framing.hpp"
 #include "rviz/grab_geometry.hpp"
 #include "rviz/grab_picture.hpp"
 #include "rviz/key_rows.hpp"
@@ -76,6 +77,7 @@ class GrabTool : public rviz::Tool {
   std::optional<Handle> heldNow() const;
   bool mayBeClick() const;
   void frameModel();
+  Framing framingOf(const std::vector<Eigen::Vector3d>& places, Look& look);
   double markSize(const Eigen::Vector3d& place) const;
   std::int64_t nowOfEvents() const;
 
@@ -94,8 +96,9 @@ class GrabTool : public rviz::Tool {
   ros::Subscriber state_;
 
   HandleSet set_;
-  int version_ = 0;  // of the set that what is in hand, or under the pointer, is of
-  int framed_ = 0;   // model that the camera was turned to
+  int version_ = 0;             // of the set that what is in hand, or under the pointer, is of
+  int framed_ = 0;              // model that the camera was turned to
+  std::optional<Look> chosen_;  // by the player, before a scene chose another one
   std::optional<Grab> grab_;
   KeyRows keys_;
   PenFilter pen_{[this](double depth_m) { push(depth_m); }};

@@ -38,6 +38,20 @@ TEST(FramingTest, FillsThePictureWithAMarginWhereverTheCameraIs) {
   }
 }
 
+TEST(FramingTest, LooksFromWhereASceneSays) {
+  const Shot shot{{1.0, -2.0, 3.0}, {0.1, 0.2, -0.3}};
+  const Look look = lookOf(shot, {0.0, 0.0, 0.5, 1.5});
+  const Eigen::Vector3d out(std::cos(look.yaw) * std::cos(look.pitch),
+                            std::sin(look.yaw) * std::cos(look.pitch), std::sin(look.pitch));
+  EXPECT_TRUE(out.isApprox((shot.from - shot.at).normalized()));
+  EXPECT_EQ(look.field_of_view, 0.5);
+  EXPECT_EQ(look.aspect, 1.5);
+  const Look down = lookOf({{0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}}, {2.0, 0.0, 0.5, 1.5});
+  EXPECT_EQ(down.yaw, 2.0) << "straight down there is none";
+  EXPECT_GT(down.pitch, 1.5);
+  EXPECT_LT(down.pitch, 0.5 * M_PI);
+}
+
 TEST(FramingTest, KeepsItsDistanceFromASinglePoint) {
   const Framing framing = frame({{0.1, 0.2, 0.3}}, {});
   EXPECT_TRUE(framing.focus.isApprox(Eigen::Vector3d(0.1, 0.2, 0.3)));

@@ -113,6 +113,23 @@ TEST(HandleSetTest, KnowsWhereAllModulesAreDrawnAlsoOfAModelWithoutHandles) {
   EXPECT_EQ(set.models(), 1);
 }
 
+TEST(HandleSetTest, KnowsTheCameraThatASceneWantsIfItIsWhole) {
+  ModelStructure message = structure();
+  HandleSet set;
+  set.show(message);
+  EXPECT_TRUE(set.camera().empty());
+  message.camera.resize(2);
+  set.show(message);
+  EXPECT_TRUE(set.camera().empty()) << "it looks at itself";
+  message.camera[0].z = 2.0;
+  set.show(message);
+  ASSERT_EQ(set.camera().size(), 2U);
+  EXPECT_EQ(set.camera()[0], Eigen::Vector3d(0.0, 0.0, 2.0));
+  message.camera[1].x = std::nan("");
+  set.show(message);
+  EXPECT_TRUE(set.camera().empty());
+}
+
 TEST(HandleSetTest, ModesOfABodyThatHasAnOutlineAreNotDrawn) {
   ModelStructure body = structure();
   body.module_names = {"plate.0", "plate.outline.0", "plate.edge"};

@@ -153,6 +153,14 @@ void addSections(const scene::Scene& scene, const physics::Rates& rates, ModelSt
   }
 }
 
+geometry_msgs::Point toPoint(const Eigen::Vector3d& place) {
+  geometry_msgs::Point point;
+  point.x = place.x();
+  point.y = place.y();
+  point.z = place.z();
+  return point;
+}
+
 }  // namespace
 
 ModelStructure toModelStructure(const scene::Scene& scene, const physics::Rates& rates) {
@@ -175,6 +183,9 @@ ModelStructure toModelStructure(const scene::Scene& scene, const physics::Rates&
     message.links.push_back(static_cast<std::uint32_t>(lia.a));
     message.links.push_back(static_cast<std::uint32_t>(lia.b));
     message.link_types.push_back(number(lia.type));
+  }
+  if (scene.about.picture) {
+    message.camera = {toPoint(scene.about.picture->from), toPoint(scene.about.picture->at)};
   }
   for (const scene::StringInfo& string : scene.strings) {
     message.string_names.push_back(string.name);

@@ -45,6 +45,21 @@ TEST(ConvertTest, StructureHoldsPlacesInFrameModel) {
   EXPECT_EQ(structure.section_rates, std::vector<double>{44100.0});
 }
 
+TEST(ConvertTest, StructureHasTheCameraOfItsScene) {
+  const std::string rest = "sections: {s: {}}\nmats: {a: {type: mass, section: s, mass: 1}}\n";
+  const std::string about = "about: {picture: {from: [1, 2, 3], at: [0, 0.5, 0]}}\n";
+  for (const bool has_camera : {false, true}) {
+    const scene::Scene scene =
+        scene::readYaml("ergotic: 1\n" + (has_camera ? about : "") + rest, "a.yaml");
+    const ModelStructure structure = sentAndReceived(toModelStructure(scene, physics::Rates()));
+    ASSERT_EQ(structure.camera.size(), has_camera ? 2U : 0U);
+    if (has_camera) {
+      EXPECT_EQ(structure.camera[0].z, 3.0);
+      EXPECT_EQ(structure.camera[1].y, 0.5);
+    }
+  }
+}
+
 TEST(ConvertTest, StructureSaysHowManyCoordinatesOfASectionMove) {
   const scene::Scene scene = scene::readYaml(R"(ergotic: 1
 name: net

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "rviz/model_drawing.hpp"
 #include "rviz/model_graph.hpp"
@@ -43,6 +44,20 @@ bool fits(const Handles& handles, const ModelStructure& structure) {
 int Handle::axes() const {
   return static_cast<int>(
       std::count_if(indices.begin(), indices.end(), [](int index) { return index >= 0; }));
+}
+
+std::string Handle::label() const {
+  constexpr double kMmPerM = 1e3;
+  constexpr double kSeenMm = 0.005;  // below it all digits are 0
+  char moved[32];
+  if (dimensions == 1) {
+    const double mm = kMmPerM * displacement.x();
+    std::snprintf(moved, sizeof moved, std::abs(mm) < kSeenMm ? "%.2f mm" : "%+.2f mm",
+                  std::abs(mm) < kSeenMm ? 0.0 : mm);
+  } else {
+    std::snprintf(moved, sizeof moved, "%.2f mm", kMmPerM * displacement.norm());
+  }
+  return name.empty() ? moved : name + "  " + moved;
 }
 
 void HandleSet::show(const ModelStructure& structure) {

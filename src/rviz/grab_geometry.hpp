@@ -44,6 +44,8 @@ struct Handle {
   }
   Eigen::Vector3d place() const { return placeAt(displacement); }
   int axes() const;  ///< along which it can be moved
+  /// Its name, and how far it is from rest, mm: with a sign where it moves along x alone.
+  std::string label() const;
 };
 
 /// The handles of the model that plays. Thread: one

@@ -507,7 +507,7 @@ void GrabTool::draw() {
                               markSize(held->place()));
   }
   if (const auto under = hovered_ ? asNow(*hovered_) : std::nullopt) {
-    return picture_->showHover(under->place(), under->name, markSize(under->place()));
+    return picture_->showHover(under->place(), under->label(), markSize(under->place()));
   }
   picture_->hide();
 }

@@ -31,10 +31,11 @@ struct GlowOption {
   const char* name;
   GlowBy quantity;
 };
-constexpr std::array<GlowOption, 5> kGlowOptions = {{{"speed", GlowBy::kSpeed},
+constexpr std::array<GlowOption, 6> kGlowOptions = {{{"speed", GlowBy::kSpeed},
                                                      {"displacement", GlowBy::kDisplacement},
                                                      {"force", GlowBy::kForce},
                                                      {"energy", GlowBy::kEnergy},
+                                                     {"tension", GlowBy::kTension},
                                                      {"section", GlowBy::kNothing}}};
 
 Eigen::Vector3f eigenOf(const Ogre::Vector3& v) {
@@ -48,10 +49,11 @@ ModelDisplay::ModelDisplay() {
   colour_by_ = new rviz::EnumProperty(
       "Colour by", kGlowOptions[0].name,
       "What makes parts of the model glow: their speed from picture to picture, their displacement "
-      "from rest, the force by which their neighbours pull them back, or their energy, each as a "
-      "share of the largest among the strings, the surfaces and bars, or the masses of their "
-      "section. With section, nothing glows, and each section has "
-      "its colour.",
+      "from rest, the force by which their neighbours pull them back, their energy, or the tension "
+      "of their links, each as a share of the largest among the strings, the surfaces and bars, or "
+      "the masses of their section. By tension, what is slacker than at rest is blue. With "
+      "section, "
+      "nothing glows, and each section has its colour.",
       this);
   for (std::size_t i = 0; i < kGlowOptions.size(); ++i) {
     colour_by_->addOption(kGlowOptions[i].name, static_cast<int>(i));

@@ -31,11 +31,16 @@ const std::array<Tint, 6> kSectionTints = {{{1.0F, 0.72F, 0.20F},
                                             {0.95F, 0.95F, 0.60F}}};
 const Tint kWarm(1.0F, 0.45F, 0.08F);
 const Tint kHot(1.0F, 0.93F, 0.55F);
+const Tint kCool(0.10F, 0.25F, 1.0F);
+const Tint kCold(0.55F, 0.90F, 1.0F);
 
-/// From nothing over orange to a light yellow.
+/// From nothing over orange to a light yellow; below zero over blue to a light one.
 Tint heat(float glow) {
   constexpr float kHalf = 0.5F;
-  return glow < kHalf ? kWarm : Tint(kWarm + (glow - kHalf) / kHalf * (kHot - kWarm));
+  const Tint& weak = glow < 0.0F ? kCool : kWarm;
+  const Tint& strong = glow < 0.0F ? kCold : kHot;
+  const float size = std::abs(glow);
+  return size < kHalf ? weak : Tint(weak + (size - kHalf) / kHalf * (strong - weak));
 }
 
 std::uint32_t toByte(float share) {
@@ -78,7 +83,8 @@ std::uint32_t colourOf(const Tint& tint, float light, float glow, bool is_stale)
   } else {
     // What glows keeps some of its shades, or its form would be lost.
     const float shaded = 0.6F + 0.4F * std::min(light, 1.0F);
-    const float share = 1.0F - (1.0F - glow) * (1.0F - glow);
+    const float dark = 1.0F - std::abs(glow);
+    const float share = 1.0F - dark * dark;
     colour += share * (shaded * heat(glow) - colour);
   }
   return toByte(colour.x()) | toByte(colour.y()) << 8 | toByte(colour.z()) << 16 | 0xFF000000U;

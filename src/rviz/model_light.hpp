@@ -33,7 +33,7 @@ class ModelLight {
 };
 
 /// Red, green, blue, alpha in the order of the memory, 8 bits each.
-/// \param light  see ModelLight \param glow  0...1, on top of the light
+/// \param light  see ModelLight \param glow  -1...1, on top of the light: warm, or cold below 0
 /// \param is_stale  whether it is greyed, as nothing is known of its motion
 std::uint32_t colourOf(const Tint& tint, float light, float glow, bool is_stale);
 

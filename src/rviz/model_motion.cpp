@@ -16,8 +16,9 @@ constexpr float kHoldS = 0.12F;  // in which what glows fades to 1/e, so that it
 constexpr float kReferenceS = 4.0F;  // the same for what it is compared with
 constexpr float kLeastElapsedS = 1e-3F;
 constexpr float kMostElapsedS = 1.0F;
-constexpr float kLeastM = 2e-6F;      // below which nothing is seen to glow
-constexpr float kLeastSpeed = 6e-5F;  // m/s, the same at 30 states per second
+constexpr float kLeastM = 2e-6F;       // below which nothing is seen to glow
+constexpr float kLeastStrain = 1e-4F;  // of a link
+constexpr float kLeastSpeed = 6e-5F;   // m/s, the same at 30 states per second
 
 /// Each kind is compared with its own: a hammer that flies would outshine the string that it has
 /// struck, and the string the soundboard.
@@ -48,6 +49,8 @@ float leastOf(GlowBy quantity) {
       return kLeastSpeed;
     case GlowBy::kEnergy:
       return kLeastSpeed * kLeastSpeed;
+    case GlowBy::kTension:
+      return kLeastStrain;
     default:
       return kLeastM;
   }
@@ -145,7 +148,9 @@ void ModelMotion::measure(float elapsed_s) {
   const float kept = std::exp(-elapsed_s / kHoldS);
   for (std::size_t i = 0; i < now_.size(); ++i) {
     if (can_glow_[i]) {
-      measures_[i] = std::max(kept * measures_[i], measureOf(i, elapsed_s));
+      const float before = kept * measures_[i];
+      const float now = measureOf(i, elapsed_s);
+      measures_[i] = std::abs(now) >= std::abs(before) ? now : before;
     }
   }
   glow(elapsed_s);
@@ -159,6 +164,8 @@ float ModelMotion::measureOf(std::size_t module, float elapsed_s) const {
       return (now_[module] - before_[module]).squaredNorm() / (elapsed_s * elapsed_s);
     case GlowBy::kForce:
       return awayFromNeighbours(module);
+    case GlowBy::kTension:
+      return tension(module);
     default:
       return now_[module].norm();
   }
@@ -173,6 +180,19 @@ float ModelMotion::awayFromNeighbours(std::size_t module) const {
   return around.empty() ? 0.0F : sum.norm() / static_cast<float>(around.size());
 }
 
+float ModelMotion::tension(std::size_t module) const {
+  const ModuleIndices& around = neighbours_[module];
+  const bool is_scalar = sections_[section_of_[module]].dimensions == 1;
+  float sum = 0.0F;
+  for (const std::uint32_t other : around) {
+    const Eigen::Vector3f moved = now_[other] - now_[module];
+    const Eigen::Vector3f rest = rests_[other] - rests_[module];
+    const float length = rest.norm();  // neighbours lie apart
+    sum += (is_scalar ? moved.norm() : (rest + moved).norm() - length) / length;
+  }
+  return around.empty() ? 0.0F : sum / static_cast<float>(around.size());
+}
+
 /// Less than in proportion, so that what moves a tenth as much is still seen.
 void ModelMotion::glow(float elapsed_s) {
   const float kept = std::exp(-elapsed_s / kReferenceS);
@@ -181,11 +201,11 @@ void ModelMotion::glow(float elapsed_s) {
   }
   for (std::size_t i = 0; i < measures_.size(); ++i) {
     float& reference = references_[reference_of_[i]];
-    reference = std::max(reference, measures_[i]);
+    reference = std::max(reference, std::abs(measures_[i]));
   }
   for (std::size_t i = 0; i < measures_.size(); ++i) {
-    const float root = std::sqrt(measures_[i] / references_[reference_of_[i]]);
-    glow_[i] = root * std::sqrt(root);
+    const float root = std::sqrt(std::abs(measures_[i]) / references_[reference_of_[i]]);
+    glow_[i] = std::copysign(root * std::sqrt(root), measures_[i]);
   }
 }
 

@@ -18,6 +18,8 @@ enum class GlowBy : std::uint8_t {
   kDisplacement,  ///< from rest, m
   kForce,         ///< how far it is from the mean of its neighbours, which pull it back, m
   kEnergy,        ///< square of the speed, m^2/s^2
+  kTension,       ///< how much longer its links are than at rest, as a share; negative: shorter. Of
+                  ///< modules that move along x alone, how steep they are, whichever way
   kNothing,
 };
 
@@ -43,7 +45,8 @@ class ModelMotion {
   /// [modules] where they are drawn at rest.
   const std::vector<Eigen::Vector3f>& restPlaces() const { return rest_places_; }
   /// [modules] 0...1, as share of the largest of its section in the last seconds: of strings,
-  /// of bars and surfaces, or of single masses. Hands and grounds do not glow.
+  /// of bars and surfaces, or of single masses. Hands and grounds do not glow. By tension it is
+  /// negative, down to -1, where links are shorter than at rest.
   const std::vector<float>& glow() const { return glow_; }
   /// Along which the modules of a section move that move along x alone, length 1, frame `model`.
   Eigen::Vector3f upOf(std::size_t module) const;
@@ -53,6 +56,7 @@ class ModelMotion {
   void measure(float elapsed_s);
   float measureOf(std::size_t module, float elapsed_s) const;
   float awayFromNeighbours(std::size_t module) const;
+  float tension(std::size_t module) const;
   void glow(float elapsed_s);
 
   struct SectionMotion {

@@ -113,6 +113,20 @@ TEST(HandleSetTest, KnowsWhereAllModulesAreDrawnAlsoOfAModelWithoutHandles) {
   EXPECT_EQ(set.models(), 1);
 }
 
+TEST(HandleTest, ItsLabelSaysHowFarItIsFromRest) {
+  Handle handle;
+  handle.name = "key";
+  handle.displacement = {-0.00125, 0.0, 0.0};
+  EXPECT_EQ(handle.label(), "key  -1.25 mm");
+  handle.displacement.x() = 0.01;
+  EXPECT_EQ(handle.label(), "key  +10.00 mm");
+  handle.displacement.x() = -1e-7;
+  EXPECT_EQ(handle.label(), "key  0.00 mm");
+  handle.dimensions = 3;
+  handle.displacement = {0.003, 0.0, -0.004};
+  EXPECT_EQ(handle.label(), "key  5.00 mm");
+}
+
 TEST(HandleSetTest, KnowsTheCameraThatASceneWantsIfItIsWhole) {
   ModelStructure message = structure();
   HandleSet set;

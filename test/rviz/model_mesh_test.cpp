@@ -204,6 +204,13 @@ TEST(ModelLightTest, WhatGlowsIsWarmerAndWhatIsStaleIsGrey) {
     EXPECT_GT(red(now), blue(now));
     before = now;
   }
+  before = colourOf(tint, 1.0F, 0.0F, false);
+  for (const float glow : {-0.3F, -0.6F, -1.0F}) {
+    const std::uint32_t now = colourOf(tint, 1.0F, glow, false);
+    EXPECT_GT(blue(now), red(now)) << "what is slack is cold";
+    EXPECT_GE(blue(now), blue(before));
+    before = now;
+  }
   const std::uint32_t grey = colourOf(tint, 1.0F, 1.0F, true);
   EXPECT_EQ(red(grey), blue(grey));
   EXPECT_LT(red(grey), 140U);

@@ -74,6 +74,32 @@ TEST(ModelMotionTest, WhatMovesGlowsAndFadesAndHandsDoNot) {
   EXPECT_LT(motion.glow()[2], 0.01F);
 }
 
+TEST(ModelMotionTest, WhatIsTautIsWarmAndWhatIsSlackIsCold) {
+  StructureMaker maker;
+  maker.structure.section_dimensions[0] = 3;
+  maker.row(6, 0.0F);  // 1 cm apart along y
+  ModelMotion motion(maker.structure, shapeOf(maker.structure));
+  motion.glowBy(GlowBy::kTension);
+  std::vector<float> moved(18, 0.0F);
+  moved[3 * 5 + 1] = 2e-3F;  // the end is drawn out
+  moved[3 * 0 + 1] = 1e-3F;  // the other is pushed in
+  motion.show(stateAt(1.0, moved));
+  EXPECT_FLOAT_EQ(motion.glow()[5], 1.0F);
+  EXPECT_NEAR(motion.glow()[4], std::pow(0.5F, 0.75F), 1e-4F) << "one of its two links";
+  EXPECT_EQ(motion.glow()[3], 0.0F);
+  EXPECT_NEAR(motion.glow()[0], -std::pow(0.5F, 0.75F), 1e-4F);
+  std::vector<float> turned;  // the row as a whole, by a right angle about its first module
+  for (int i = 0; i < 6; ++i) {
+    turned.insert(turned.end(),
+                  {0.01F * static_cast<float>(i), -0.01F * static_cast<float>(i), 0.0F});
+  }
+  motion.glowBy(GlowBy::kTension);
+  motion.show(stateAt(2.0, turned));
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_NEAR(motion.glow()[i], 0.0F, 0.05F);
+  }
+}
+
 TEST(ModelMotionTest, EachQuantityGlowsByItsOwn) {
   StructureMaker maker;
   maker.string(5, 0.0F);
@@ -90,6 +116,9 @@ TEST(ModelMotionTest, EachQuantityGlowsByItsOwn) {
   EXPECT_EQ(glowOf(GlowBy::kSpeed)[2], 0.0F);
   EXPECT_NEAR(glowOf(GlowBy::kSpeed)[3], std::pow(0.5, 0.75), 1e-3);
   EXPECT_NEAR(glowOf(GlowBy::kEnergy)[3], std::pow(0.25, 0.75), 1e-3);
+  EXPECT_NEAR(glowOf(GlowBy::kTension)[2], std::pow(1.25 / (3.0 * std::exp(-0.1 / 4.0)), 0.75),
+              1e-3)
+      << "in one dimension either way is as far";
   EXPECT_EQ(glowOf(GlowBy::kNothing)[3], 0.0F);
 }
 

@@ -73,7 +73,7 @@ FOREIGN = {
     "ros/device": ROS,
     "ros/display": ROS,
     "ros/conversation": ROS,
-    "rviz": ROS + " rviz/ Q Ogre",
+    "rviz": ROS + " rviz/ Q Ogre unsupported/Eigen/FFT",
     "tools/lib": CORE + " CLI/ nlohmann/ sndfile ebur128",
     "tools": CORE + " CLI/ nlohmann/",
 }

@@ -65,6 +65,7 @@ struct StationLink::Shared {
   ::ros::Publisher emergency;
   std::function<void()> give_up_late;  // of the callers
   std::function<void()> prepare;       // their connections
+  bool wants_sound = false;
   bool quit = false;
   bool has_ended = false;
 
@@ -111,6 +112,7 @@ class Listener {
     connect();
     while (!hasToQuit()) {
       shared_->queue.callAvailable(::ros::WallDuration(kTurnS));
+      watchSound();
       lookAround();
     }
   }
@@ -130,6 +132,7 @@ class Listener {
     node.setCallbackQueue(&shared_->queue);
     constexpr std::uint32_t kEvents = 1000;
     subscribers_.clear();
+    sound_ = {};
     subscribers_ = {node.subscribe("status", 1, &Listener::onStatus, this),
                     node.subscribe("joint_states", 1, &Listener::onJoints, this),
                     node.subscribe("levels", 1, &Listener::onLevels, this),
@@ -186,6 +189,31 @@ class Listener {
     shared_->news.volume = static_cast<double>(levels.volume);
     shared_->news.is_limited = levels.limited != 0U;
     shared_->news.hears_sound = true;
+  }
+
+  /// The station copies its sound only for those who listen.
+  void watchSound() {
+    bool is_wanted = false;
+    {
+      const std::lock_guard lock(shared_->mutex);
+      is_wanted = shared_->wants_sound;
+    }
+    if (is_wanted == static_cast<bool>(sound_)) {
+      return;
+    }
+    if (is_wanted) {
+      ::ros::NodeHandle node(shared_->station);
+      node.setCallbackQueue(&shared_->queue);
+      sound_ = node.subscribe("scope", 1, &Listener::onSound, this);
+    } else {
+      sound_ = {};
+      onSound(nullptr);
+    }
+  }
+
+  void onSound(const Scope::ConstPtr& sound) {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->news.sound = sound;
   }
 
   void onParameters(const Parameters& parameters) {
@@ -288,6 +316,7 @@ class Listener {
 
   std::shared_ptr<StationLink::Shared> shared_;
   std::vector<::ros::Subscriber> subscribers_;
+  ::ros::Subscriber sound_;  // void while it is not watched
   PeakHold peaks_;
   PeakHold level_peaks_;
   std::string master_;       // run id of the one that knows us
@@ -356,6 +385,7 @@ void StationLink::refresh(News& news) const {
   news.volume = newest.volume;
   news.is_limited = newest.is_limited;
   news.hears_sound = newest.hears_sound;
+  news.sound = newest.sound;
   news.answer = newest.answer;
   news.answers = newest.answers;
   if (news.parameters_version != newest.parameters_version) {
@@ -471,6 +501,11 @@ void StationLink::learnController(const std::string& parameter) {
   request.parameter = parameter;
   learning_->ask<LearnController>("Learn", shared_->station + "/learn_controller", request,
                                   kPatienceS);
+}
+
+void StationLink::watchSound(bool is_wanted) {
+  const std::lock_guard lock(shared_->mutex);
+  shared_->wants_sound = is_wanted;
 }
 
 void StationLink::setVolume(double volume) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <ergotic/Parameters.h>
+#include <ergotic/Scope.h>
 #include <ergotic/Status.h>
 #include <ergotic/Takes.h>
 
@@ -28,6 +29,7 @@ struct News {
   double volume = 1.0;              ///< master volume, 0...1
   bool is_limited = false;          ///< the limiter turned the sound down just now
   bool hears_sound = false;
+  Scope::ConstPtr sound;  ///< null: it is not watched, or none came
   Parameters parameters;
   std::size_t parameters_version = 0;
   Takes takes;
@@ -72,6 +74,8 @@ class StationLink {
   void learnController(const std::string& parameter);
   /// \param volume  0...1
   void setVolume(double volume);
+  /// Whether the station shall send what the outputs play.
+  void watchSound(bool is_wanted);
 
   void record();
   void finishTake();

@@ -82,6 +82,11 @@ StationPanel::StationPanel(QWidget* parent) : rviz::Panel(parent), wanted_(kUsua
   addMessages(rest);
   scroll->setWidget(inside);
   column->addWidget(scroll, 1);
+  QObject::connect(watch_, &QPushButton::toggled, scroll, [this, scroll](bool is_on) {
+    QTimer::singleShot(0, scroll, [this, scroll, is_on] {  // when it has its place
+      scroll->ensureWidgetVisible(is_on ? static_cast<QWidget*>(scope_) : volume_);
+    });
+  });
   setMinimumWidth(300);
   addKeys();
   QObject::connect(&timer_, &QTimer::timeout, this, [this] { refresh(); });
@@ -237,12 +242,24 @@ void StationPanel::addSound(QVBoxLayout* column) {
   QObject::connect(volume_, &QSlider::valueChanged, this, send);
   QObject::connect(mute_, &QPushButton::toggled, this, send);
   sound_ = adopted<SoundMeter>(this);
+  watch_ = adopted<QPushButton>("Scope");
+  watch_->setCheckable(true);
+  watch_->setAutoDefault(false);
+  watch_->setFixedHeight(20);
+  watch_->setToolTip("Shows waves and spectra of the outputs");
+  scope_ = adopted<ScopeWidget>(this);
+  scope_->hide();
+  QObject::connect(watch_, &QPushButton::toggled, scope_, &QWidget::setVisible);
   auto* line = adopted<QHBoxLayout>();
   line->addWidget(sound_title_, 2);
   line->addWidget(volume_, 2);
   line->addWidget(mute_);
   column->addLayout(line);
-  column->addWidget(sound_);
+  auto* below = adopted<QHBoxLayout>();
+  below->addWidget(sound_, 1);
+  below->addWidget(watch_);
+  column->addLayout(below);
+  column->addWidget(scope_);
 }
 
 void StationPanel::addTakes(QVBoxLayout* column) {
@@ -422,6 +439,8 @@ void StationPanel::showMeters() {
 void StationPanel::showSound() {
   const bool is_known = !isStale() && news_.hears_sound;
   sound_->show(news_.levels, news_.level_peaks, is_known);
+  link_->watchSound(scope_->isVisible());  // a hidden dock sees nothing
+  scope_->ScopeWidget::show(is_known ? news_.sound : nullptr);
   volume_->setEnabled(is_known);
   mute_->setEnabled(is_known);
   double loudest = 0.0;

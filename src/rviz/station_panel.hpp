@@ -18,6 +18,7 @@
 #include <rviz/panel.h>
 
 #include "rviz/parameter_list.hpp"
+#include "rviz/scope_widget.hpp"
 #include "rviz/station_link.hpp"
 #include "rviz/widgets.hpp"
 
@@ -88,6 +89,8 @@ class StationPanel : public rviz::Panel {
   Paragraph* rates_ = nullptr;
   QLabel* sound_title_ = nullptr;
   SoundMeter* sound_ = nullptr;
+  QPushButton* watch_ = nullptr;
+  ScopeWidget* scope_ = nullptr;
   QSlider* volume_ = nullptr;
   QPushButton* mute_ = nullptr;
   QLabel* takes_title_ = nullptr;

@@ -44,6 +44,7 @@ AudioBridge::AudioBridge(const AudioBridgeConfig& config)
       takes_(std::make_shared<TakePort>(static_cast<std::size_t>(kTakesS * config.rates.audio_hz),
                                         config.output_channels,
                                         config.rates.audio_hz)),
+      scope_(config.output_channels),
       losses_(kLosses),
       capture_frame_(static_cast<std::size_t>(config.input_channels)),
       mixed_frame_(static_cast<std::size_t>(config.output_channels)),
@@ -181,6 +182,7 @@ void AudioBridge::play(const rt::Period& period, const Relation& relation) noexc
     const float* live = to_host_.take(station_frame);
     const float* heard = mix(live);
     const float gain = heard != nullptr ? gainOf(heard, shared) : 0.0F;
+    scope_.take(heard, shared, present_volume_);
     for (int c = 0; c < shared; ++c) {
       period.outputs[c][i] = heard != nullptr ? gain * heard[c] : 0.0F;
     }

@@ -8,8 +8,8 @@ import numpy
 import rospy
 import rostest
 
-from desk import ROOT, DeskTest, until
-from ergotic.msg import Note
+from desk import ROOT, DeskTest, Newest, until
+from ergotic.msg import Note, Scope
 from ergotic.srv import LoadModel
 from pointer import Pointer
 
@@ -44,6 +44,21 @@ class DisplayTest(Pointer, DeskTest):
             subprocess.run(["import", "-window", "root", os.environ["DISPLAY_PICTURE"]], timeout=10, check=False)
         self.assertTrue(came, what)
 
+    def check_scope(self, strike):
+        """The blocks of the topic `scope` have the partials of the string."""
+        scope = Newest("/station/scope", Scope)
+
+        def is_seen():
+            strike()
+            return scope.message and numpy.max(numpy.abs(scope.message.samples)) > 1e-3
+        self.expect(is_seen, "the sound is not seen")
+        sound = scope.message
+        self.assertEqual((sound.rate, list(sound.channels), len(sound.samples)), (44100.0, [1, 2], 2 * 2048))
+        lines = numpy.abs(numpy.fft.rfft(numpy.hanning(2048) * sound.samples[:2048]))
+        partial = numpy.argmax(lines) * sound.rate / 2048 / 110.0
+        self.assertLess(abs(partial - round(partial)), 0.2, partial)
+        self.assertGreater(partial, 0.8)
+
     def test_it_shows_what_sounds_what_is_silent_and_another_model(self):
         self.wait_for_window("/station/end_effector_shapes")
         self.expect(lambda: self.blue() > 50, "the hands are not seen")
@@ -55,6 +70,8 @@ class DisplayTest(Pointer, DeskTest):
             notes.publish(note=60, velocity=0)
             return self.warm() > 50
         self.expect(glows, "the string does not glow")
+
+        self.check_scope(glows)
 
         load = rospy.ServiceProxy("/station/load_model", LoadModel)
         self.assertTrue(load(model=os.path.join(ROOT, "models/marimba12.yaml")).success)

@@ -68,7 +68,7 @@ class DocumentedTest(unittest.TestCase):
         done = threading.Event()
         expected = {full(name): "latched" in told for name, told, *_ in rows("Topics out")}
         # Nothing happens, nobody holds anything, no end-effector is there, and no sound.
-        quiet = {"/station/events", "/station/holds", "/station/levels", "/tf"}
+        quiet = {"/station/events", "/station/holds", "/station/levels", "/station/scope", "/tf"}
 
         def hear(name):
             def heard(message):

@@ -424,6 +424,32 @@ TEST(AudioBridgeTest, TheVolumeIsReachedWithin20MsAndAtOnePassesBitForBit) {
   EXPECT_EQ(rig.bridge.takePeaks().front(), 0.0F) << "since the last call";
 }
 
+TEST(AudioBridgeTest, TheScopeSeesWhatSoundsWithTheVolume) {
+  Rig rig;
+  rig.host.start(kPeriod, 5000, 7'000'000);
+  rig.settle();
+  rig.bridge.setVolume(0.5F);
+  for (int n = 0; n < 20; ++n) {
+    rig.step();
+  }
+  EXPECT_FALSE(rig.bridge.scope().refresh()) << "nobody has asked";
+  rig.sounded.clear();
+  rig.bridge.scope().watch(true);
+  for (std::size_t n = 0; n < OutputScope::kFrames / kPeriod; ++n) {
+    rig.step();
+  }
+  ASSERT_TRUE(rig.bridge.scope().refresh());
+  ASSERT_EQ(rig.sounded.size(), OutputScope::kFrames);
+  const std::vector<float>& seen = rig.bridge.scope().latest();
+  std::size_t i = 0;
+  for (const auto& [frame, sample] : rig.sounded) {
+    ASSERT_EQ(seen[i], sample) << "at " << frame;
+    ASSERT_EQ(seen[OutputScope::kFrames + i], sample) << "both channels play the same";
+    ++i;
+  }
+  EXPECT_GT(seen[0], 0.0F);
+}
+
 TEST(AudioBridgeTest, ATakeSoundsBesideTheInstrument) {
   Rig rig;  // whose samples are the numbers of their frames, from 1 on
   rig.host.start(kPeriod, 5000, 7'000'000);

@@ -17,6 +17,7 @@
 #include "ergotic/station/frame_fifo.hpp"
 #include "ergotic/station/frame_port.hpp"
 #include "ergotic/station/limiter.hpp"
+#include "ergotic/station/output_scope.hpp"
 #include "ergotic/station/take_port.hpp"
 
 namespace ergotic::station {
@@ -124,6 +125,8 @@ class AudioBridge : public rt::AudioProcessor, public FramePort {
   /// Of each output channel the largest sample since the last call, of full scale, after the volume
   /// and before the limiter. Realtime: no. Thread: one, any
   std::vector<float> takePeaks();
+  /// What the outputs play, after the volume and before the limiter. Thread: one, any, that looks
+  OutputScope& scope() noexcept { return scope_; }
   /// Ring depth of the present connection. Realtime: yes. Thread: any
   int latencyFrames() const noexcept { return latency_.load(std::memory_order_relaxed); }
   /// What operators should know (a raised latency, sound beyond full scale); each is given once.
@@ -186,6 +189,7 @@ class AudioBridge : public rt::AudioProcessor, public FramePort {
   FrameFifo to_host_;
   FrameFifo from_host_;
   std::shared_ptr<TakePort> takes_;  // not null
+  OutputScope scope_;
   rt::Mailbox<Reading> readings_;    // host RT -> tick
   rt::Mailbox<Relation> relations_;  // tick -> host RT
   rt::Ring<Loss> losses_;            // host RT -> tick

@@ -23,6 +23,7 @@ constexpr bool kLatched = true;
 Feed::Feed(const ::ros::NodeHandle& node) : node_(node), display_(node) {
   joint_states_ = node_.advertise<sensor_msgs::JointState>("joint_states", kQueue);
   levels_ = node_.advertise<Levels>("levels", 1);
+  scope_ = node_.advertise<Scope>("scope", 1);
   handles_ = node_.advertise<Handles>("handles", 1, kLatched);
   holds_ = node_.advertise<Hold>("holds", kEventQueue);
   keyframe_ = node_.advertise<Keyframe>("keyframe", kQueue, kLatched);
@@ -104,6 +105,11 @@ void Feed::showHandles(Handles handles) {
 void Feed::show(Levels levels) {
   levels.header.stamp = ::ros::Time::now();
   levels_.publish(levels);
+}
+
+void Feed::show(Scope scope) {
+  scope.header.stamp = ::ros::Time::now();
+  scope_.publish(scope);
 }
 
 void Feed::showSilence(const std::string& message) {

@@ -10,6 +10,7 @@
 
 #include <ergotic/Handles.h>
 #include <ergotic/Levels.h>
+#include <ergotic/Scope.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <tf2_ros/transform_broadcaster.h>
@@ -47,6 +48,9 @@ class Feed {
   /// \return whether anybody wants to know how loud it is
   bool wantsLevels() const { return levels_.getNumSubscribers() > 0; }
   void show(Levels levels);
+  /// \return whether anybody wants to see the sound
+  bool wantsScope() const { return scope_.getNumSubscribers() > 0; }
+  void show(Scope scope);
   /// A parameter of the model that plays has another value.
   void showParameter(std::int64_t index, double value);
   /// Nothing plays any more, or nothing yet; `message` says why.
@@ -99,6 +103,7 @@ class Feed {
   ::ros::Publisher handles_;
   ::ros::Publisher holds_;
   ::ros::Publisher levels_;
+  ::ros::Publisher scope_;
   double display_zoom_ = 1.0;
   ::ros::Publisher model_energy_;  // only if the books are kept
   ::ros::Publisher gesture_;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <set>
 #include <utility>
 
 #include <ros/console.h>
@@ -202,6 +201,7 @@ void Performance::poll() {
   }
   pollCalibration();
   pollLevels();
+  pollScope();
   giveUp();
   reportWarnings();
   if (const std::string counted = disturbances_.ofLastMinute(rt::monotonicNs()); !counted.empty()) {
@@ -228,6 +228,43 @@ std::string Performance::setVolume(double volume) {
   return "";
 }
 
+/// Of the outputs of the scene that plays, from 0.
+std::set<int> Performance::usedChannels() const {
+  std::set<int> channels;
+  for (const scene::Output& output : playing_->instrument->scene().outputs) {
+    if (output.channel >= 0) {
+      channels.insert(output.channel);
+    }
+  }
+  return channels;
+}
+
+/// The sound is copied for it only while somebody listens.
+void Performance::pollScope() {
+  station::AudioBridge* const bridge = engine_->bridge();
+  if (bridge == nullptr) {
+    return;
+  }
+  bridge->scope().watch(feed_.wantsScope());
+  const std::int64_t now_ns = rt::monotonicNs();
+  if (!feed_.wantsScope() || now_ns < scope_due_ns_ || !bridge->scope().refresh()) {
+    return;
+  }
+  scope_due_ns_ = now_ns + kLevelsPeriodNs;
+  constexpr auto kFrames = static_cast<std::ptrdiff_t>(station::OutputScope::kFrames);
+  const std::vector<float>& block = bridge->scope().latest();
+  Scope scope;
+  scope.rate = playing_->instrument->rates().audio_hz;
+  for (const int channel : usedChannels()) {
+    const auto first = block.begin() + kFrames * channel;
+    if (block.end() - first >= kFrames) {
+      scope.channels.push_back(static_cast<std::uint32_t>(channel) + 1);
+      scope.samples.insert(scope.samples.end(), first, first + kFrames);
+    }
+  }
+  feed_.show(std::move(scope));
+}
+
 void Performance::pollLevels() {
   station::AudioBridge* const bridge = engine_->bridge();
   const std::int64_t now_ns = rt::monotonicNs();
@@ -237,12 +274,8 @@ void Performance::pollLevels() {
   levels_due_ns_ = now_ns + kLevelsPeriodNs;
   Levels levels;
   const std::vector<float> peaks = bridge->takePeaks();
-  std::set<int> channels;
-  for (const scene::Output& output : playing_->instrument->scene().outputs) {
-    channels.insert(output.channel);
-  }
-  for (const int channel : channels) {
-    if (channel >= 0 && static_cast<std::size_t>(channel) < peaks.size()) {
+  for (const int channel : usedChannels()) {
+    if (static_cast<std::size_t>(channel) < peaks.size()) {
       levels.channels.push_back(static_cast<std::uint32_t>(channel) + 1);
       levels.peaks.push_back(peaks[static_cast<std::size_t>(channel)]);
     }

@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -191,6 +192,8 @@ class Performance {
   void takeKeyframe(const station::Event& event);
   void giveUp();
   void pollLevels();
+  void pollScope();
+  std::set<int> usedChannels() const;
   void play(station::Performer* performer, std::shared_ptr<Picture> picture);
   void reportWarnings();
   void findPlayMap(const scene::Scene& scene, bool keeps_the_players);
@@ -218,6 +221,7 @@ class Performance {
   std::shared_ptr<Picture> picture_;  // of playing_
   Disturbances disturbances_;
   std::int64_t levels_due_ns_ = 0;
+  std::int64_t scope_due_ns_ = 0;
   std::int64_t limited_frames_ = 0;  // as told last
   std::deque<Change> changes_;
   std::deque<Configuration> configurations_;

@@ -68,6 +68,13 @@ target_link_libraries(clock_shift PRIVATE ergotic_flags ${CMAKE_DL_LIBS})
 add_library(slow_display SHARED test/slow_display/slow_display.cpp)
 target_include_directories(slow_display PRIVATE src)
 target_link_libraries(slow_display PRIVATE ergotic_core ergotic_messages ergotic_flags)
+# Gamepads that are pipes, in the same way.
+add_library(piped_pads SHARED test/piped_pads/piped_pads.cpp)
+target_include_directories(piped_pads PRIVATE src test)
+target_link_libraries(piped_pads PRIVATE ergotic_core ergotic_flags)
+target_include_directories(gamepads_rostest PRIVATE src)
+target_compile_definitions(gamepads_rostest PRIVATE PIPED_PADS="$<TARGET_FILE:piped_pads>")
+add_dependencies(gamepads_rostest ergotic_ros piped_pads)
 target_compile_definitions(outside_rostest PRIVATE
   CLOCK_SHIFT="$<TARGET_FILE:clock_shift>" SLOW_DISPLAY="$<TARGET_FILE:slow_display>")
 add_dependencies(outside_rostest ergotic_ros virtual_tgr render clock_shift slow_display)

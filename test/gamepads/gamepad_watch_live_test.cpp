@@ -2,17 +2,12 @@
 // Gamepads that come and go, as pipes in a folder of the test.
 #include "gamepads/gamepad_watch.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 #include <mutex>
 #include <system_error>
 
-#include <linux/input.h>
-#include <sys/stat.h>
+#include <linux/input-event-codes.h>
 
+#include "gamepads/pad_folder.hpp"
 #include "support/period_probe.hpp"
 #include "support/test.hpp"
 
@@ -20,39 +15,12 @@ namespace ergotic::gamepads {
 namespace {
 
 using test::eventually;
-
-const char kPadKeys[] = "7cdb000000000000 0 0 0 0";
-const char kMouseKeys[] = "1f0000 0 0 0 0";
-
-/// A pipe that stands for a device; whoever writes to it has it plugged.
-class PipePad : public PadDevice {
- public:
-  explicit PipePad(const std::string& path) : file_(::open(path.c_str(), O_RDONLY | O_NONBLOCK)) {}
-  ~PipePad() override { ::close(file_); }
-  PipePad(const PipePad&) = delete;
-  PipePad& operator=(const PipePad&) = delete;
-
-  int file() const override { return file_; }
-  const PadTraits& traits() const override { return traits_; }
-  std::optional<PadEvent> next() override {
-    input_event event{};
-    const ssize_t size = ::read(file_, &event, sizeof(event));
-    if (size == 0) {
-      throw std::system_error(ENODEV, std::generic_category());
-    }
-    return size == sizeof(event) ? std::optional<PadEvent>({event.type, event.code, event.value})
-                                 : std::nullopt;
-  }
-
- private:
-  int file_;
-  PadTraits traits_{"piped pad", {{ABS_X, {-100, 100, 0}}}};
-};
+using test::PadFolder;
+using test::PipePad;
 
 class GamepadWatchTest : public ::testing::Test {
  protected:
   GamepadWatchTest() {
-    std::filesystem::create_directories(folder_ / "dev");
     watch_ = std::make_unique<GamepadWatch>(
         GamepadListener{[this](int pad, const tgr::GamepadMove& move) {
                           note(std::to_string(pad) + (move.is_button ? " button " : " axis ") +
@@ -63,12 +31,9 @@ class GamepadWatchTest : public ::testing::Test {
                         [this](const std::string& news) { note(news); },
                         [this](const std::string& why) { note("refused: " + why); }},
         [this](const std::string& path) { return open(path); },
-        GamepadPlaces{(folder_ / "dev").string(), (folder_ / "sys").string()}, 20'000'000);
+        GamepadPlaces{folder_.devices(), folder_.classes()}, 20'000'000);
   }
-  ~GamepadWatchTest() override {
-    watch_.reset();
-    std::filesystem::remove_all(folder_);
-  }
+  ~GamepadWatchTest() override { watch_.reset(); }
 
   void note(const std::string& what) {
     const std::lock_guard lock(mutex_);
@@ -90,30 +55,15 @@ class GamepadWatchTest : public ::testing::Test {
     return std::make_unique<PipePad>(path);
   }
 
-  /// \return the end of the pipe that is written to
-  int plug(const std::string& event, const char* keys = kPadKeys) {
-    const auto device = folder_ / "sys" / event / "device";
-    std::filesystem::create_directories(device / "capabilities");
-    std::ofstream(device / "capabilities/key") << keys << "\n";
-    std::ofstream(device / "name") << "pad of " << event << "\n";
-    const std::string path = folder_ / "dev" / event;
-    EXPECT_EQ(mkfifo(path.c_str(), 0600), 0);
-    return ::open(path.c_str(), O_RDWR);
+  int plug(const std::string& event, const char* keys = PadFolder::kPadKeys) {
+    return folder_.plug(event, keys);
   }
-  void unplug(const std::string& event, int pipe) {
-    std::filesystem::remove(folder_ / "dev" / event);
-    ::close(pipe);
-  }
+  void unplug(const std::string& event, int pipe) { folder_.unplug(event, pipe); }
   static void send(int pipe, int type, int code, int value) {
-    input_event event{};
-    event.type = static_cast<std::uint16_t>(type);
-    event.code = static_cast<std::uint16_t>(code);
-    event.value = value;
-    EXPECT_EQ(::write(pipe, &event, sizeof(event)), static_cast<ssize_t>(sizeof(event)));
+    EXPECT_TRUE(PadFolder::send(pipe, type, code, value));
   }
 
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("ergotic_pads_" + std::to_string(getpid()));
+  PadFolder folder_;
   std::atomic<int> refuses_{0};
   std::atomic<int> opened_{0};
   std::mutex mutex_;
@@ -156,7 +106,7 @@ TEST_F(GamepadWatchTest, TwoGamepadsAreToldApartAndNumbersAreGivenAgain) {
 }
 
 TEST_F(GamepadWatchTest, WhatIsNoGamepadIsNotOpened) {
-  const int mouse = plug("event0", kMouseKeys);
+  const int mouse = plug("event0", PadFolder::kMouseKeys);
   const int pad = plug("event1");
   ASSERT_TRUE(eventually([&] { return opened_ == 1; }));
   EXPECT_TRUE(isHeard("the gamepad piped pad plays"));

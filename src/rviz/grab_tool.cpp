@@ -266,22 +266,36 @@ Framing GrabTool::framingOf(const std::vector<Eigen::Vector3d>& places, Look& lo
   return frame(in_frame, look);
 }
 
-/// Once for each model; only of the camera that orbits around a point, which is rviz's usual one.
+/// A window that gets its size late, or another, frames its model anew, unless the player has gone
+/// nearer or farther meanwhile.
+bool GrabTool::isFramed(rviz::ViewController& view, double aspect) const {
+  constexpr double kAlike = 1e-3;
+  const double distance = view.subProp("Distance")->getValue().toDouble();
+  const bool is_moved = std::abs(distance - framed_distance_) > kAlike * framed_distance_;
+  const bool is_other = std::abs(aspect - framed_aspect_) > kAlike * aspect;
+  return framed_ == set_.models() && (is_moved || !is_other);
+}
+
+/// Once for each model and shape of the window; only of the camera that orbits around a point,
+/// which is rviz's usual one.
 void GrabTool::frameModel() {
-  const std::vector<Eigen::Vector3d> places = framed_ != set_.models() && frames_->getBool()
-                                                  ? set_.places()
-                                                  : std::vector<Eigen::Vector3d>();
   rviz::ViewController* const view = context_->getViewManager()->getCurrent();
-  if (places.empty() || view == nullptr || view->getClassId() != "rviz/Orbit") {
+  if (!frames_->getBool() || view == nullptr || view->getClassId() != "rviz/Orbit") {
     return;
   }
-  framed_ = set_.models();
   const Ogre::Camera* const camera = context_->getViewManager()->getRenderPanel()->getCamera();
   Look look;
   look.yaw = view->subProp("Yaw")->getValue().toDouble();
   look.pitch = view->subProp("Pitch")->getValue().toDouble();
   look.field_of_view = static_cast<double>(camera->getFOVy().valueRadians());
   look.aspect = static_cast<double>(camera->getAspectRatio());
+  const std::vector<Eigen::Vector3d> places =
+      isFramed(*view, look.aspect) ? std::vector<Eigen::Vector3d>() : set_.places();
+  if (places.empty()) {
+    return;
+  }
+  framed_ = set_.models();
+  framed_aspect_ = look.aspect;
   const Framing framing = framingOf(places, look);
   view->subProp("Yaw")->setValue(look.yaw);
   view->subProp("Pitch")->setValue(look.pitch);
@@ -290,6 +304,7 @@ void GrabTool::frameModel() {
   focus->subProp("Y")->setValue(framing.focus.y());
   focus->subProp("Z")->setValue(framing.focus.z());
   view->subProp("Distance")->setValue(framing.distance);
+  framed_distance_ = framing.distance;
 }
 
 std::optional<GrabTool::View> GrabTool::viewOf(const rviz::ViewportMouseEvent& event) {

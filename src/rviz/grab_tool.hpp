@@ -23,6 +23,7 @@ class BoolProperty;
 class EnumProperty;
 class RenderPanel;
 class StringProperty;
+class ViewController;
 class ViewportMouseEvent;
 }  // namespace rviz
 
@@ -77,6 +78,7 @@ class GrabTool : public rviz::Tool {
   std::optional<Handle> heldNow() const;
   bool mayBeClick() const;
   void frameModel();
+  bool isFramed(rviz::ViewController& view, double aspect) const;
   Framing framingOf(const std::vector<Eigen::Vector3d>& places, Look& look);
   double markSize(const Eigen::Vector3d& place) const;
   std::int64_t nowOfEvents() const;
@@ -96,9 +98,11 @@ class GrabTool : public rviz::Tool {
   ros::Subscriber state_;
 
   HandleSet set_;
-  int version_ = 0;             // of the set that what is in hand, or under the pointer, is of
-  int framed_ = 0;              // model that the camera was turned to
-  std::optional<Look> chosen_;  // by the player, before a scene chose another one
+  int version_ = 0;               // of the set that what is in hand, or under the pointer, is of
+  int framed_ = 0;                // model that the camera was turned to
+  double framed_aspect_ = 0.0;    // of the picture then
+  double framed_distance_ = 0.0;  // m, of the camera
+  std::optional<Look> chosen_;    // by the player, before a scene chose another one
   std::optional<Grab> grab_;
   KeyRows keys_;
   PenFilter pen_{[this](double depth_m) { push(depth_m); }};

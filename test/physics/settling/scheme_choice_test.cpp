@@ -217,7 +217,7 @@ TEST(SchemeChoiceTest, LinksOfOnePlaceAreSaidOnce) {
   const Settled settled = settle(b.scene, kRates);
   ASSERT_EQ(settled.notes.size(), 1U);
   EXPECT_THAT(settled.notes[0], HasSubstr(":7:3: note: link 'l0' and 19 more: guarded"));
-  EXPECT_THAT(settled.notes[0], HasSubstr("= 0.29,"));
+  EXPECT_THAT(settled.notes[0], HasSubstr("= 0.29;"));
 }
 
 TEST(SchemeChoiceTest, WhatTheSceneSaysIsKept) {

@@ -10,8 +10,9 @@ import rospy
 import rostest
 
 from desk import ROOT, DeskTest, Newest, samples, until
-from ergotic.msg import HandTargets, Hold, HoldTarget, ModelState, ModelStructure, Note, Status, Takes
-from ergotic.srv import LoadModel, SetParameter, Take, TakeRequest
+from ergotic.msg import (HandTargets, Hold, HoldTarget, ModelState, ModelStructure, Note, Parameters, ParameterValue,
+                         Presets, Status, Takes)
+from ergotic.srv import LoadModel, Preset, PresetRequest, SetParameter, Take, TakeRequest
 
 TOOLS = os.path.join(ROOT, "devel/lib/ergotic")
 MODEL = os.path.join(ROOT, "models/string.yaml")
@@ -29,6 +30,8 @@ class TakesTest(DeskTest):
         cls.takes = Newest("/station/takes", Takes)
         cls.state = Newest("/station/model_state", ModelState)
         cls.structure = Newest("/station/model_structure", ModelStructure)
+        cls.presets = Newest("/station/presets", Presets)
+        cls.parameters = Newest("/station/model_parameters", Parameters)
         cls.start_station(model=MODEL, autoengage=True, limiter=False)
         assert until(lambda: cls.status.message and cls.status.message.state == Status.PLAYING and
                      cls.status.message.audio_running, 60), "no force, or no sound"
@@ -65,6 +68,12 @@ class TakesTest(DeskTest):
         self.assertTrue(answer.success, answer.message)
         return answer.path
 
+    def preset(self, action, name="", seconds=0.0):
+        return rospy.ServiceProxy("/station/preset", Preset)(action=action, name=name, seconds=seconds)
+
+    def values(self):
+        return dict(zip(self.parameters.message.names, self.parameters.message.values))
+
     def swing(self):
         first, count = self.structure.message.string_first[0], self.structure.message.string_count[0]
         return max(map(abs, self.state.message.displacement[first:first + count]))
@@ -99,6 +108,60 @@ class TakesTest(DeskTest):
                     default=-1)
         print(f"{wanted.shape[1]} frames, {worst} samples differ")
         self.assertEqual(worst, 0)
+
+    def test_1a_presets_are_kept_recalled_undone_and_saved(self):
+        self.assertTrue(rospy.ServiceProxy("/station/load_model", LoadModel)(model=MODEL).success)
+        first = {"loss": 1.5e-5, "brightness": 1e-3, "volume": 0.15}
+        self.assertTrue(until(lambda: self.values() == first), self.values())
+        self.assertFalse(self.presets.message.can_undo)
+        self.assertIn("no change", self.preset(PresetRequest.UNDO).message)
+        answer = self.preset(PresetRequest.KEEP, "dry")
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.path, os.path.join(os.environ["ROS_HOME"], "ergotic/presets/string.yaml"))
+        self.assertTrue(until(lambda: (self.presets.message.scene, self.presets.message.names) == ("string", ["dry"])))
+        parameter = rospy.ServiceProxy("/station/set_parameter", SetParameter)
+        third = 1 / 3
+        self.assertTrue(parameter(name="volume", value=third).success)
+        self.assertTrue(parameter(name="brightness", value=9e-3).success)
+        time.sleep(1.1)  # what follows is another change
+        answer = self.preset(PresetRequest.RECALL, "dry", 0.5)
+        self.assertTrue(answer.success, answer.message)
+        self.assertTrue(until(lambda: 0.16 < self.values()["volume"] < 0.3, 2), "it does not go there evenly")
+        self.assertTrue(until(lambda: self.values() == first, 2), self.values())
+        self.assertTrue(self.preset(PresetRequest.UNDO).success)
+        self.assertTrue(until(lambda: self.values() == {"loss": 1.5e-5, "brightness": 9e-3, "volume": third}, 2))
+        self.assertTrue(until(lambda: self.presets.message.can_undo))
+        self.assertTrue(self.preset(PresetRequest.UNDO).success)
+        self.assertTrue(until(lambda: self.values() == first and not self.presets.message.can_undo, 2), self.values())
+        topic = rospy.Publisher("/station/parameters", ParameterValue, queue_size=1, latch=True)
+        topic.publish(name="loss", value=7e-5)
+        self.assertTrue(until(lambda: self.presets.message.can_undo and self.values()["loss"] == 7e-5, 5))
+        answer = self.preset(PresetRequest.SAVE, "worn")
+        self.assertTrue(answer.success, answer.message)
+        self.assertTrue(self.preset(PresetRequest.RECALL, "dry").success)
+        load = rospy.ServiceProxy("/station/load_model", LoadModel)
+        self.assertTrue(load(model=answer.path + "#worn").success)
+        self.assertTrue(until(lambda: self.values()["loss"] == 7e-5, 5), self.values())
+        self.assertTrue(until(lambda: self.presets.message.scene == "worn" and not self.presets.message.can_undo))
+
+    def test_1b_what_of_a_preset_cannot_be_had_is_said(self):
+        self.assertTrue(rospy.ServiceProxy("/station/load_model", LoadModel)(model=MODEL).success)
+        with open(os.path.join(os.environ["ROS_HOME"], "ergotic/presets/string.yaml"), "a", encoding="utf-8") as file:
+            file.write("odd: {loss: 2e-5, volume: 7, width: 1}\n")
+        answer = self.preset(PresetRequest.RECALL, "odd")
+        self.assertTrue(answer.success, answer.message)
+        self.assertIn("left out: 'volume' is 7, allowed: 0...0.4; the scene has no parameter 'width'", answer.message)
+        self.assertTrue(until(lambda: (self.values()["loss"], self.values()["volume"]) == (2e-5, 0.15), 5))
+        for action, name, seconds, refusal in (
+                (PresetRequest.RECALL, "dry", 61, "allowed: 0...60 s"), (PresetRequest.RECALL, "dry", -1, "0...60 s"),
+                (PresetRequest.RECALL, "dry", float("nan"), "0...60 s"), (9, "dry", 0, "allowed: 0...4"),
+                (PresetRequest.RECALL, "wet", 0, "no preset 'wet'; known: dry, odd"),
+                (PresetRequest.KEEP, "../x", 0, "cannot be named"), (PresetRequest.FORGET, "wet", 0, "no preset 'wet'")):
+            answer = self.preset(action, name, seconds)
+            self.assertFalse(answer.success)
+            self.assertIn(refusal, answer.message)
+        self.assertTrue(self.preset(PresetRequest.FORGET, "odd").success)
+        self.assertTrue(until(lambda: self.presets.message.names == ["dry"]))
 
     def test_2_what_cannot_be_done_is_said_and_nothing_is_lost(self):
         for name in ("../first", "a b", ".x", "n" * 65):

@@ -14,8 +14,11 @@ struct Answer {
   std::string message;
 };
 using Promise = std::shared_ptr<std::promise<Answer>>;
+/// \param promise  null: nobody waits
 inline void answer(const Promise& promise, bool ok, std::string message) {
-  promise->set_value({ok, std::move(message)});
+  if (promise) {
+    promise->set_value({ok, std::move(message)});
+  }
 }
 
 }  // namespace ergotic::node

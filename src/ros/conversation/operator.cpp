@@ -142,6 +142,30 @@ Answer Operator::setParameter(const std::string& name, double value) {
   return ask([=](const Promise& promise) { performance_.setParameter(name, value, promise); });
 }
 
+ParametersNow Operator::parametersNow() {
+  const auto now = std::make_shared<std::optional<ParametersNow>>();
+  const Answer answer = ask([this, now](const Promise& promise) {
+    *now = performance_.parametersNow();
+    promise->set_value({now->has_value(), kNothingPlays});
+  });
+  if (!answer.ok) {
+    throw Exception(answer.message);
+  }
+  return std::move(**now);
+}
+
+Answer Operator::recall(const PresetValues& values, double seconds) {
+  return ask([=](const Promise& promise) { performance_.recall(values, seconds, promise); });
+}
+
+Answer Operator::undo() {
+  return ask([this](const Promise& promise) { performance_.undo(promise); });
+}
+
+void Operator::showPresets() {
+  post({[this] { performance_.showPresets(); }, kNever});
+}
+
 Answer Operator::setVolume(double volume) {
   return ask([=](const Promise& promise) {
     const std::string refusal = performance_.setVolume(volume);

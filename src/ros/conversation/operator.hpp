@@ -55,6 +55,11 @@ class Operator {
   Answer recover(const ForceRequest& request);
   /// Answers when the tick plays with the new value.
   Answer setParameter(const std::string& name, double value);
+  /// \throws Exception if nothing plays, or it does not answer
+  ParametersNow parametersNow();
+  /// As those of Performance.
+  Answer recall(const PresetValues& values, double seconds);
+  Answer undo();
   /// Master volume of the sound at JACK, 0...1.
   Answer setVolume(double volume);
   /// Puts other end-effectors on the slices; answers when they are in place, with force at zero.
@@ -89,6 +94,8 @@ class Operator {
   /// Sets a parameter soon: of several values for one name, the newest.
   /// \return false if too many names wait
   bool setParameterSoon(const std::string& name, double value);
+  /// Tells of the presets, which are others now.
+  void showPresets();
   /// Moves hands of a simulated device. \return what is wrong with it, or an empty text
   std::string hold(const HoldTarget& wanted, const std::string& sender) {
     return performance_.hold(wanted, sender);

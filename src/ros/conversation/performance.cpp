@@ -81,6 +81,7 @@ void Performance::swap(std::unique_ptr<station::Performer> performer,
   }
   submitted_ = performer.release();
   parameters_ = parameters;
+  forgetChanges();
   incoming_.push_back({submitted_, std::move(picture), promise});
 }
 
@@ -125,25 +126,21 @@ void Performance::setParameter(const std::string& name, double value, const Prom
   if (found == known.end()) {
     return answer(promise, false, unknownParameter(name, submitted_->instrument->scene()));
   }
-  const auto index = found - known.begin();
-  std::vector<double> values = parameters_;
-  values[static_cast<std::size_t>(index)] = value;
+  const auto index = static_cast<std::size_t>(found - known.begin());
   try {
-    auto coefficients = submitted_->instrument->prepare(values);
-    station::Command change;
-    change.type = CommandType::kParameter;
-    change.index = static_cast<int>(index);
-    change.value = value;
-    change.coefficients = coefficients.get();
-    if (!engine_->station().submit(change)) {
+    const double before = parameters_[index];
+    const std::vector<double> values = parameters_;
+    if (!change(index, value, {name + " is set", promise})) {
       return answer(promise, false, kTooMany);
     }
-    static_cast<void>(coefficients.release());  // comes back with its event
+    if (value != before) {
+      history_.note(values, rt::monotonicNs());
+    }
+    morph_.leave(index);
+    endMorph();
   } catch (const Exception& refusal) {
-    return answer(promise, false, refusal.what());
+    answer(promise, false, refusal.what());
   }
-  parameters_ = std::move(values);
-  changes_.push_back({name, promise});
 }
 
 bool Performance::command(CommandType type, int index, double value) {
@@ -196,6 +193,7 @@ void Performance::poll() {
     feed_.showStandstill();
   }
   takes_.poll(picture_);
+  pollMorph();
   if (playing_->motion.refresh() && !takes_.isShown()) {
     feed_.show(playing_->motion.latest(), playing_->instrument->scene());
   }
@@ -301,7 +299,7 @@ void Performance::take(const station::Event& event) {
       if (incoming_.empty()) {  // else it is of one that does not play yet
         feed_.showParameter(event.index, event.value);
       }
-      answer(changes_.front().promise, true, changes_.front().name + " is set");
+      answer(changes_.front().promise, true, changes_.front().done);
       return changes_.pop_front();
     }
     case EventType::kConfigured:
@@ -393,6 +391,7 @@ void Performance::play(station::Performer* performer, std::shared_ptr<Picture> p
   const scene::Scene& scene = performer->instrument->scene();
   holders_.play(performer, modulesToHold(), performer->instrument->rates().gesturalHz());
   showHandles();
+  showPresets();
   findPlayMap(scene, false);
   command(CommandType::kKeyframe);
 }
@@ -442,6 +441,7 @@ void Performance::close() {
   submitted_ = nullptr;
   incoming_.clear();
   changes_.clear();
+  forgetChanges();
   configurations_.clear();
   requests_.clear();
   guide_.abort();
@@ -455,6 +455,7 @@ void Performance::close() {
   if (closing) {
     closing.reset();
     feed_.showSilence("closed");
+    preset_topic_.showNothing();
   }
   takes_.close();  // after the device is: a disk may take its time
   picture_.reset();

@@ -26,8 +26,12 @@
 #include "ros/conversation/engine.hpp"
 #include "ros/conversation/feed.hpp"
 #include "ros/conversation/holders.hpp"
+#include "ros/conversation/morph.hpp"
 #include "ros/conversation/players.hpp"
+#include "ros/conversation/preset_file.hpp"
+#include "ros/conversation/preset_topic.hpp"
 #include "ros/conversation/takes.hpp"
+#include "ros/conversation/value_history.hpp"
 #include "ros/device/calibration_guide.hpp"
 #include "ros/device/own_host.hpp"
 
@@ -40,6 +44,12 @@ struct PlayersWishes {
   std::optional<int> program;                              ///< the newest, 0...127
 };
 constexpr const char* kNothingPlays = "nothing plays: load a model first";
+
+/// The parameters of the scene that plays.
+struct ParametersNow {
+  scene::Scene scene;          ///< its names, file, text and parameters; nothing else of it
+  std::vector<double> values;  ///< [parameters]
+};
 
 /// Somebody wants force, or the end of a fault.
 struct ForceRequest {
@@ -58,7 +68,11 @@ class Performance {
               Feed& feed,
               std::shared_ptr<station::Interlock> interlock,
               const OwnHost& own_host)
-      : feed_(feed), interlock_(std::move(interlock)), own_host_(own_host), takes_(node, feed) {}
+      : feed_(feed),
+        interlock_(std::move(interlock)),
+        own_host_(own_host),
+        takes_(node, feed),
+        preset_topic_(node) {}
   ~Performance() { close(); }
   Performance(const Performance&) = delete;
   Performance& operator=(const Performance&) = delete;
@@ -78,6 +92,17 @@ class Performance {
   void engage(const ForceRequest& request, const Promise& promise);
   void recover(const ForceRequest& request, const Promise& promise);
   void setParameter(const std::string& name, double value, const Promise& promise);
+  /// \return nothing if nothing plays
+  std::optional<ParametersNow> parametersNow() const;
+  /// Parameters go to other values. Answers at once, or where they go there at once, when the tick
+  /// plays with all of them.
+  /// \param values   of parameters, within their ranges
+  /// \param seconds  0: at once
+  void recall(const PresetValues& values, double seconds, const Promise& promise);
+  /// The values that were there before the last change; answers when the tick plays with them.
+  void undo(const Promise& promise);
+  /// Tells of the presets of the scene that plays, which are others now.
+  void showPresets();
   void configure(const tgr::EndEffectors& end_effectors, const Promise& promise);
   /// \param measured  written before a promise is kept that says that all went well
   void calibrate(const Calibrate::Request& request,
@@ -146,10 +171,10 @@ class Performance {
     std::shared_ptr<Picture> picture;
     Promise promise;
   };
-  /// Somebody waits for a parameter to take effect.
+  /// A parameter on its way to the tick, and who waits for it to take effect.
   struct Change {
-    std::string name;
-    Promise promise;
+    std::string done;  ///< what is answered then
+    Promise promise;   ///< null: nobody waits
   };
   /// Other end-effectors on their way into the station, whose event brings the old rig back.
   struct Configuration {
@@ -171,6 +196,11 @@ class Performance {
     Promise promise;
   };
 
+  bool change(std::size_t index, double value, Change change);
+  void moveTo(const std::map<std::size_t, double>& values, double seconds, Change change);
+  void pollMorph();
+  void endMorph();
+  void forgetChanges();
   void log(const Event& event);
   bool command(station::Command::Type type, int index = 0, double value = 0.0);
   bool submit(const station::Command& command);
@@ -218,6 +248,11 @@ class Performance {
   std::vector<double> parameters_;           // of submitted_, as submitted
   std::deque<Incoming> incoming_;
   Takes takes_;
+  Morph morph_;              // of submitted_
+  Change morphed_;           // what is answered when it is over
+  bool is_undoing_ = false;  // morph_ is
+  ValueHistory history_;     // of submitted_
+  PresetTopic preset_topic_;
   std::shared_ptr<Picture> picture_;  // of playing_
   Disturbances disturbances_;
   std::int64_t levels_due_ns_ = 0;

@@ -12,6 +12,7 @@
 #include "files/printable.hpp"
 #include "files/read_file.hpp"
 #include "ros/conversation/performance.hpp"
+#include "ros/display/handles.hpp"
 #include "scene/names.hpp"
 
 namespace ergotic::node {

@@ -79,6 +79,7 @@ int urgencyOf(const ::ros::NodeHandle& node) {
 Services::Services(const ::ros::NodeHandle& node, Operator& operator_thread)
     : operator_(operator_thread),
       loader_(node, operator_thread),
+      presets_(operator_thread),
       queue_(*node.getCallbackQueue(), operator_thread.interlock()),
       node_(node),
       loading_node_(node),
@@ -108,6 +109,7 @@ Services::Services(const ::ros::NodeHandle& node, Operator& operator_thread)
       node_.advertiseService("calibrate", &Services::onCalibrate, this),
       node_.advertiseService("inject_fault", &Services::onInjectFault, this),
       node_.advertiseService("play_map", &Services::onPlayMap, this),
+      node_.advertiseService("preset", &Services::onPreset, this),
       node_.advertiseService("take", &Services::onTake, this),
       node_.advertiseService("learn_controller", &Services::onLearnController, this),
       safety_node_.advertiseService("emergency_stop", &Services::onEmergencyStop, this),
@@ -246,6 +248,12 @@ void Services::onVolume(const std_msgs::Float64& volume) {
 bool Services::onPlayMap(PlayMap::Request& request, PlayMap::Response& response) {
   const std::string refusal = request.map.empty() ? "" : operator_.usePlayMap(request.map);
   return fill(response, {refusal.empty(), refusal});
+}
+
+bool Services::onPreset(Preset::Request& request, Preset::Response& response) {
+  response = presets_.serve(request);
+  response.message = files::printableLines(response.message);
+  return true;
 }
 
 bool Services::onTake(Take::Request& request, Take::Response& response) {

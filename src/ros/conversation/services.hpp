@@ -18,6 +18,7 @@
 #include <ergotic/Note.h>
 #include <ergotic/ParameterValue.h>
 #include <ergotic/PlayMap.h>
+#include <ergotic/Preset.h>
 #include <ergotic/SetParameter.h>
 #include <ergotic/Tap.h>
 #include <ros/callback_queue.h>
@@ -33,6 +34,7 @@
 #include "ros/conversation/loader.hpp"
 #include "ros/conversation/operator.hpp"
 #include "ros/conversation/presence_owner.hpp"
+#include "ros/conversation/preset_keeper.hpp"
 #include "ros/conversation/urgent_spinner.hpp"
 
 namespace ergotic::node {
@@ -68,6 +70,7 @@ class Services {
   void releaseNotes();
   void onVolume(const std_msgs::Float64& volume);
   bool onTake(Take::Request& request, Take::Response& response);
+  bool onPreset(Preset::Request& request, Preset::Response& response);
   bool onPlayMap(PlayMap::Request& request, PlayMap::Response& response);
   bool onLearnController(LearnController::Request& request, LearnController::Response& response);
   void playMidi();
@@ -89,6 +92,7 @@ class Services {
   Operator& operator_;
   PresenceOwner presence_owner_;
   Loader loader_;
+  PresetKeeper presets_;
   ArrivalQueue queue_;  // in front of the usual one
   ::ros::NodeHandle node_;
   std::atomic<int> configurations_{0};  // that are being read

@@ -11,7 +11,7 @@
 
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/clock.hpp"
-#include "files/printable.hpp"
+#include "ros/conversation/file_name.hpp"
 #include "ros/device/hands.hpp"
 
 namespace ergotic::node {
@@ -20,24 +20,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostNames = 100;
-constexpr std::size_t kLongestName = 64;
 constexpr std::int64_t kPeriodNs = 200'000'000;
 constexpr std::uint32_t kQueue = 1;
 constexpr bool kLatched = true;
 const char kEnding[] = ".bag";
-
-bool isAllowed(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.';
-}
-
-/// \throws Exception if no file of a folder may have this name
-void requireName(const std::string& name) {
-  if (name.empty() || name.size() > kLongestName || name.front() == '.' ||
-      !std::all_of(name.begin(), name.end(), isAllowed)) {
-    throw Exception("a take cannot be named '" + files::printable(name, kLongestName) +
-                    "', allowed: 1...64 letters, digits, '_', '-' and '.', the first no '.'");
-  }
-}
 
 /// `2026-11-27_04-12-33_guitar` of `models/guitar.yaml`.
 std::string nameNow(const std::string& instrument) {
@@ -46,10 +32,7 @@ std::string nameNow(const std::string& instrument) {
   localtime_r(&now, &local);
   char text[32];
   std::strftime(text, sizeof text, "%Y-%m-%d_%H-%M-%S_", &local);
-  std::string name = text + fs::path(instrument).stem().string();
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return !isAllowed(c); }, '_');
-  return name.substr(0, kLongestName);
+  return toFileName(text + fs::path(instrument).stem().string());
 }
 
 /// Names of the bags of a folder, the newest first.
@@ -85,7 +68,7 @@ Takes::Takes(const ::ros::NodeHandle& node, Feed& feed)
 Answer Takes::record(const std::string& name, const std::string& instrument) {
   try {
     const std::string wanted = name.empty() ? nameNow(instrument) : name;
-    requireName(wanted);
+    requireFileName("take", wanted);
     std::error_code error;
     fs::create_directories(folder_, error);
     const std::string path = folder_ + "/" + wanted + kEnding;
@@ -137,7 +120,7 @@ void Takes::replay(const std::string& name,
       throw Exception("there is no take in " + folder_);
     }
     const std::string wanted = name.empty() ? message_.names.front() : name;
-    requireName(wanted);
+    requireFileName("take", wanted);
     if (bridge == nullptr || !bridge->status().running) {
       throw Exception(
           "there is no sound to play a take with, for no JACK server runs: `render --gesture` "

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What changes parameters: presets, morphs to them, and the way back.
+#include <algorithm>
+#include <utility>
+
+#include <ros/console.h>
+
+#include "ergotic/exception.hpp"
+#include "ergotic/rt/clock.hpp"
+#include "ros/conversation/model_loader.hpp"
+#include "ros/conversation/performance.hpp"
+
+namespace ergotic::node {
+namespace {
+
+// What preparing a change costs is a matter of the model, and others wait.
+constexpr std::int64_t kMorphNs = 2'000'000;
+
+}  // namespace
+
+/// \return false if too many wait: then nothing is changed
+/// \throws Exception if it is out of range
+bool Performance::change(std::size_t index, double value, Change change) {
+  std::vector<double> values = parameters_;
+  values[index] = value;
+  auto coefficients = submitted_->instrument->prepare(values);
+  station::Command command;
+  command.type = station::Command::Type::kParameter;
+  command.index = static_cast<int>(index);
+  command.value = value;
+  command.coefficients = coefficients.get();
+  if (!engine_->station().submit(command)) {
+    return false;
+  }
+  static_cast<void>(coefficients.release());  // comes back with its event
+  parameters_ = std::move(values);
+  changes_.push_back(std::move(change));
+  return true;
+}
+
+std::optional<ParametersNow> Performance::parametersNow() const {
+  if (!engine_) {
+    return std::nullopt;
+  }
+  const scene::Scene& scene = submitted_->instrument->scene();
+  ParametersNow now;
+  now.scene.name = scene.name;
+  now.scene.file = scene.file;
+  now.scene.text = scene.text;
+  now.scene.parameters = scene.parameters;
+  now.values = parameters_;
+  return now;
+}
+
+void Performance::recall(const PresetValues& values, double seconds, const Promise& promise) {
+  if (!engine_) {
+    return answer(promise, false, kNothingPlays);
+  }
+  const auto& known = submitted_->instrument->scene().parameters;
+  std::map<std::size_t, double> targets;
+  for (const auto& [name, value] : values) {
+    const auto found =
+        std::find_if(known.begin(), known.end(),
+                     [wanted = name](const auto& parameter) { return parameter.name == wanted; });
+    if (found == known.end()) {  // another model was loaded meanwhile
+      return answer(promise, false, unknownParameter(name, submitted_->instrument->scene()));
+    }
+    targets[static_cast<std::size_t>(found - known.begin())] = value;
+  }
+  is_undoing_ = false;
+  moveTo(targets, seconds, {"the preset is recalled", promise});
+}
+
+void Performance::undo(const Promise& promise) {
+  if (!engine_) {
+    return answer(promise, false, kNothingPlays);
+  }
+  if (!history_.canUndo()) {
+    return answer(promise, false, "no change of parameters is left to be undone");
+  }
+  const std::vector<double> values = history_.undo();
+  std::map<std::size_t, double> targets;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    targets[i] = values[i];
+  }
+  is_undoing_ = true;
+  moveTo(targets, 0.0, {"the last change of parameters is undone", promise});
+}
+
+/// In place of the morph that is under way.
+void Performance::moveTo(const std::map<std::size_t, double>& values,
+                         double seconds,
+                         Change change) {
+  morph_ = {};
+  endMorph();
+  morph_ = Morph(submitted_->instrument->scene().parameters, parameters_, values, rt::monotonicNs(),
+                 seconds);
+  if (seconds > 0.0) {
+    answer(change.promise, true, change.done);
+  } else {
+    morphed_ = std::move(change);
+  }
+  pollMorph();
+  endMorph();  // where nothing had to be changed
+}
+
+void Performance::pollMorph() {
+  preset_topic_.showUndo(history_.canUndo());
+  if (morph_.isOver()) {
+    return;
+  }
+  const std::int64_t begin_ns = rt::monotonicNs();
+  const auto set = [this, begin_ns](std::size_t index, double value) {
+    const std::vector<double> before = parameters_;
+    try {
+      if (rt::monotonicNs() > begin_ns + kMorphNs || !change(index, value, {})) {
+        return false;
+      }
+    } catch (const Exception& refusal) {  // nobody waits for this step, the others go on
+      ROS_WARN_STREAM_THROTTLE(1.0, refusal.what());
+      return true;
+    }
+    if (!is_undoing_) {
+      history_.note(before, begin_ns);
+    }
+    return true;
+  };
+  morph_.step(begin_ns, set);
+  if (morph_.isOver() && morphed_.promise && !changes_.empty() && !changes_.back().promise) {
+    changes_.back() = std::exchange(morphed_, {});
+  }
+  endMorph();
+}
+
+/// Who waits for a morph that is over, and whose last step did not tell, hears of it.
+void Performance::endMorph() {
+  if (morph_.isOver() && morphed_.promise) {
+    answer(std::exchange(morphed_.promise, nullptr), true, morphed_.done);
+  }
+}
+
+/// Those of another scene.
+void Performance::forgetChanges() {
+  morph_ = {};
+  answer(std::exchange(morphed_.promise, nullptr), false, "another model was loaded meanwhile");
+  history_.clear();
+}
+
+void Performance::showPresets() {
+  if (playing_ == nullptr) {
+    return;
+  }
+  const std::string scene = presetsOf(playing_->instrument->scene());
+  std::vector<std::string> names;
+  try {
+    for (const auto& [name, unused] : PresetFile(presetFolder(), scene).read()) {
+      names.push_back(name);
+    }
+  } catch (const std::exception& refusal) {
+    ROS_WARN_STREAM(refusal.what());
+    feed_.addMessage(refusal.what());
+  }
+  preset_topic_.show(scene, names);
+}
+
+}  // namespace ergotic::node

@@ -40,8 +40,8 @@ class TakesTest(DeskTest):
         cls.held = Newest("/station/holds", Hold)
         assert until(lambda: cls.notes.get_num_connections() > 0 and cls.holds.get_num_connections() > 0)
 
-    def take(self, action, name=""):
-        return rospy.ServiceProxy("/station/take", Take)(action=action, name=name)
+    def take(self, action, name="", new_name=""):
+        return rospy.ServiceProxy("/station/take", Take)(action=action, name=name, new_name=new_name)
 
     def hold(self, module, target):
         self.holds.publish(module=module, target=[target, 0, 0], grip=HandTargets.SOFT, timeout=5)
@@ -192,6 +192,34 @@ class TakesTest(DeskTest):
             time.sleep(0.5)
             self.assertTrue(self.take(TakeRequest.HALT).success)
             self.assertTrue(until(lambda: self.takes.message.replaying == "", 2))
+
+    def test_3a_takes_are_listed_renamed_starred_and_thrown_away(self):
+        def told():
+            takes = self.takes.message
+            return dict(zip(takes.names, zip(takes.starred, takes.lengths, takes.instruments, takes.dates)))
+        self.assertTrue(until(lambda: told()["first"][1] > 1.5, 5), told())
+        self.assertEqual(told()["first"][2], "plucked and struck string")
+        self.assertLess(abs(told()["first"][3].to_sec() - time.time()), 300)
+        for action, name, new_name, refusal in (
+                (TakeRequest.RENAME, "first", "a b", "cannot be named"), (TakeRequest.RENAME, "none", "x", "no such take"),
+                (TakeRequest.RENAME, "first", "broken", "is there already"), (TakeRequest.DELETE, "", "", "cannot be named")):
+            answer = self.take(action, name, new_name)
+            self.assertFalse(answer.success)
+            self.assertIn(refusal, answer.message)
+        self.assertTrue(self.take(TakeRequest.STAR, "first").success)
+        answer = self.take(TakeRequest.RENAME, "first", "solo")
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.path, os.path.join(self.takes_folder, "solo+.bag"))
+        self.assertTrue(until(lambda: "solo" in told() and told()["solo"][0] and told()["solo"][1] > 1.5, 5), told())
+        self.assertTrue(self.take(TakeRequest.REPLAY, "solo").success)
+        self.assertIn("halt it first", self.take(TakeRequest.DELETE, "solo").message)
+        self.assertTrue(self.take(TakeRequest.HALT).success)
+        self.assertTrue(until(lambda: self.takes.message.replaying == "", 2))
+        answer = self.take(TakeRequest.DELETE, "broken")
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.path, os.path.join(self.takes_folder, "trash/broken.bag"))
+        self.assertTrue(os.path.exists(answer.path))
+        self.assertTrue(until(lambda: self.takes.message.names == ["solo"]), self.takes.message.names)
 
     def test_4_a_take_without_a_name_has_that_of_its_instrument(self):
         answer = self.take(TakeRequest.RECORD)

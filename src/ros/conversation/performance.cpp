@@ -409,7 +409,7 @@ void Performance::take(const Take::Request& request,
   if (!engine_) {
     return answer(promise, false, kNothingPlays);
   }
-  Answer outcome{false, "action is " + std::to_string(request.action) + ", allowed: 0...3"};
+  Answer outcome{false, "action is " + std::to_string(request.action) + ", allowed: 0...7"};
   switch (request.action) {
     case Take::Request::RECORD:
       outcome = takes_.record(request.name, playing_->instrument->scene().name);
@@ -428,6 +428,12 @@ void Performance::take(const Take::Request& request,
       return;
     case Take::Request::HALT:
       outcome = takes_.halt();
+      break;
+    case Take::Request::RENAME:
+    case Take::Request::STAR:
+    case Take::Request::UNSTAR:
+    case Take::Request::DELETE:
+      outcome = takes_.change(request);
       break;
     default:
       break;

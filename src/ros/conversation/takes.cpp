@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <ctime>
 #include <filesystem>
-#include <set>
 #include <utility>
 
 #include <ros/console.h>
@@ -19,11 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostNames = 100;
 constexpr std::int64_t kPeriodNs = 200'000'000;
 constexpr std::uint32_t kQueue = 1;
 constexpr bool kLatched = true;
-const char kEnding[] = ".bag";
 
 /// `2026-11-27_04-12-33_guitar` of `models/guitar.yaml`.
 std::string nameNow(const std::string& instrument) {
@@ -35,46 +32,21 @@ std::string nameNow(const std::string& instrument) {
   return toFileName(text + fs::path(instrument).stem().string());
 }
 
-/// Names of the bags of a folder, the newest first.
-std::vector<std::string> namesIn(const std::string& folder) {
-  std::set<std::pair<fs::file_time_type, std::string>, std::greater<>> found;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    const fs::path& path = entry.path();
-    if (path.extension() == kEnding && entry.is_regular_file(error)) {
-      found.emplace(entry.last_write_time(error), path.stem().string());
-    }
-  }
-  std::vector<std::string> names;
-  for (const auto& [time, name] : found) {
-    if (names.size() < kMostNames) {
-      names.push_back(name);
-    }
-  }
-  return names;
-}
-
 }  // namespace
 
 Takes::Takes(const ::ros::NodeHandle& node, Feed& feed)
     : feed_(feed), folder_(homeFolder() + "/takes") {
   ::ros::NodeHandle own(node);
   publisher_ = own.advertise<ergotic::Takes>("takes", kQueue, kLatched);
-  message_.folder = folder_;
-  message_.names = namesIn(folder_);
+  message_.folder = folder_.path();
+  list();
   send();
 }
 
 Answer Takes::record(const std::string& name, const std::string& instrument) {
   try {
     const std::string wanted = name.empty() ? nameNow(instrument) : name;
-    requireFileName("take", wanted);
-    std::error_code error;
-    fs::create_directories(folder_, error);
-    const std::string path = folder_ + "/" + wanted + kEnding;
-    if (fs::exists(path, error)) {
-      throw Exception(path + " is there already: choose another name");
-    }
+    const std::string path = folder_.placeFor(wanted);
     endRecording();
     writer_ = std::make_shared<TakeWriter>(path);
     feed_.record(writer_);
@@ -115,12 +87,12 @@ void Takes::replay(const std::string& name,
                    double display_zoom,
                    const Promise& promise) {
   try {
-    message_.names = namesIn(folder_);
+    list();
     if (name.empty() && message_.names.empty()) {
-      throw Exception("there is no take in " + folder_);
+      throw Exception("there is no take in " + folder_.path());
     }
     const std::string wanted = name.empty() ? message_.names.front() : name;
-    requireFileName("take", wanted);
+    const std::string path = folder_.find(wanted).path;
     if (bridge == nullptr || !bridge->status().running) {
       throw Exception(
           "there is no sound to play a take with, for no JACK server runs: `render --gesture` "
@@ -129,7 +101,7 @@ void Takes::replay(const std::string& name,
     if (player_ || !bridge->takes()->isSilent()) {
       throw Exception("a take is played already: halt it first");
     }
-    path_ = folder_ + "/" + wanted + kEnding;
+    path_ = path;
     player_ = std::make_unique<TakePlayer>(path_, bridge->takes(), rate_hz, display_zoom);
     begins_ = promise;
     message_.replaying = wanted;
@@ -148,6 +120,54 @@ Answer Takes::halt() {
   return {true, "the take ends"};
 }
 
+/// Refused of the one that is played, which goes on to read it.
+Answer Takes::change(const Take::Request& request) {
+  const std::string& name = request.name;
+  try {
+    if (!name.empty() && name == message_.replaying) {
+      throw Exception("take '" + name + "' is being played: halt it first");
+    }
+    std::string done;
+    switch (request.action) {
+      case Take::Request::RENAME:
+        path_ = folder_.rename(name, request.new_name);
+        done = "' is called '" + request.new_name + "' now";
+        break;
+      case Take::Request::DELETE:
+        path_ = folder_.discard(name);
+        done = "' is in the trash: " + path_;
+        break;
+      default:
+        path_ = folder_.star(name, request.action == Take::Request::STAR);
+        done = request.action == Take::Request::STAR ? "' is starred" : "' has no star";
+        break;
+    }
+    list();
+    send();
+    return {true, "take '" + name + done};
+  } catch (const std::exception& refusal) {
+    return {false, refusal.what()};
+  }
+}
+
+/// Reads the folder; what only the bags tell comes later.
+void Takes::list() {
+  message_.names.clear();
+  message_.starred.clear();
+  message_.dates.clear();
+  message_.lengths.clear();
+  message_.instruments.clear();
+  for (const TakeFile& take : folder_.list()) {
+    const TakeDetails details = index_.at(take).value_or(TakeDetails());
+    message_.names.push_back(take.name);
+    message_.starred.push_back(take.is_starred ? 1U : 0U);
+    const std::int64_t date_ns = details.began_ns > 0 ? details.began_ns : take.written_ns;
+    message_.dates.push_back(::ros::Time().fromNSec(static_cast<std::uint64_t>(date_ns)));
+    message_.lengths.push_back(details.length_s);
+    message_.instruments.push_back(details.instrument);
+  }
+}
+
 void Takes::poll(const std::shared_ptr<Picture>& picture) {
   pollPlayer(picture);
   pollWriters();
@@ -156,6 +176,10 @@ void Takes::poll(const std::shared_ptr<Picture>& picture) {
                                   return player->news().state == TakePlayer::State::kOver;
                                 }),
                  retired_.end());
+  if (index_.hasNews()) {
+    list();
+    send();
+  }
   if ((player_ || writer_) && rt::monotonicNs() >= due_ns_) {
     send();
   }
@@ -217,7 +241,7 @@ void Takes::pollWriters() {
       ++ending;
       continue;
     }
-    message_.names = namesIn(folder_);
+    list();
     send();
     if (ending->promise) {
       answer(ending->promise, problem->empty(),

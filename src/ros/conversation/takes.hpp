@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <ergotic/Take.h>
 #include <ergotic/Takes.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
@@ -13,6 +14,8 @@
 #include "ergotic/station/audio_bridge.hpp"
 #include "ros/conversation/answer.hpp"
 #include "ros/conversation/feed.hpp"
+#include "ros/conversation/take_folder.hpp"
+#include "ros/conversation/take_index.hpp"
 #include "ros/conversation/take_player.hpp"
 #include "ros/conversation/take_writer.hpp"
 
@@ -41,6 +44,8 @@ class Takes {
               double display_zoom,
               const Promise& promise);
   Answer halt();
+  /// Another name, a star or the trash: RENAME...DELETE of Take.srv.
+  Answer change(const Take::Request& request);
   /// \return whether the picture is that of a take
   bool isShown() const { return shows_; }
 
@@ -63,11 +68,13 @@ class Takes {
   void pollPlayer(const std::shared_ptr<Picture>& picture);
   void pollWriters();
   void endRecording();
+  void list();
   void send();
 
   Feed& feed_;
   ::ros::Publisher publisher_;
-  std::string folder_;
+  TakeFolder folder_;
+  TakeIndex index_;
   ergotic::Takes message_;
   std::string path_;
   std::shared_ptr<TakeWriter> writer_;                // null: none is recorded

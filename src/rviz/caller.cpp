@@ -50,6 +50,10 @@ std::string wordsOf(const LoadModel::Response& response) {
              : response.message.substr(0, line) + verdict + response.message.substr(line);
 }
 
+std::string wordsOf(const Preset::Response& response) {
+  return response.message;
+}
+
 std::string wordsOf(const Take::Response& response) {
   return response.message;
 }

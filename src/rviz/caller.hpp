@@ -11,6 +11,7 @@
 
 #include <ergotic/LearnController.h>
 #include <ergotic/LoadModel.h>
+#include <ergotic/Preset.h>
 #include <ergotic/Take.h>
 #include <ros/node_handle.h>
 #include <ros/service_client.h>
@@ -28,6 +29,7 @@ std::string wordsOf(const std_srvs::Trigger::Response& response);
 std::string wordsOf(const LearnController::Response& response);
 std::string wordsOf(const LoadModel::Response& response);
 std::string wordsOf(const Take::Response& response);
+std::string wordsOf(const Preset::Response& response);
 
 /// Asks services in a thread of its own, one after the other: a window never waits for a station.
 /// Connections stay: what was found once can be asked when the ROS master is gone, and roscpp loses

@@ -138,6 +138,7 @@ class Listener {
                     node.subscribe("levels", 1, &Listener::onLevels, this),
                     node.subscribe("model_parameters", 1, &Listener::onParameters, this),
                     node.subscribe("takes", 1, &Listener::onTakes, this),
+                    node.subscribe("presets", 1, &Listener::onPresets, this),
                     node.subscribe("events", kEvents, &Listener::onEvent, this)};
     constexpr std::uint32_t kParameters = 100;
     ::ros::Publisher parameter = node.advertise<ParameterValue>("parameters", kParameters);
@@ -232,6 +233,11 @@ class Listener {
     const std::lock_guard lock(shared_->mutex);
     shared_->news.takes = takes;
     ++shared_->news.takes_version;
+  }
+
+  void onPresets(const Presets& presets) {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->news.presets = presets;
   }
 
   void onEvent(const Event& event) {
@@ -342,13 +348,13 @@ void listen(const std::shared_ptr<StationLink::Shared>& shared) {
 StationLink::StationLink(const std::string& station, const std::string& models)
     : shared_(std::make_shared<Shared>(station, models)) {
   for (std::unique_ptr<Caller>* caller :
-       {&force_, &stop_, &emergency_, &loading_, &takes_, &learning_}) {
+       {&force_, &stop_, &emergency_, &loading_, &takes_, &presets_, &learning_}) {
     *caller = std::make_unique<Caller>(
         [shared = shared_](const Answer& answer) { shared->tell(answer); });
   }
   shared_->give_up_late = [this] {
     for (Caller* caller : {force_.get(), stop_.get(), emergency_.get(), loading_.get(),
-                           takes_.get(), learning_.get()}) {
+                           takes_.get(), presets_.get(), learning_.get()}) {
       caller->giveUpLate();
     }
   };
@@ -388,6 +394,7 @@ void StationLink::refresh(News& news) const {
   news.sound = newest.sound;
   news.answer = newest.answer;
   news.answers = newest.answers;
+  news.presets = newest.presets;
   if (news.parameters_version != newest.parameters_version) {
     news.parameters_version = newest.parameters_version;
     news.parameters = newest.parameters;
@@ -480,6 +487,32 @@ void StationLink::haltTake() {
   Take::Request request;
   request.action = Take::Request::HALT;
   ask("Halt", request);
+}
+
+void StationLink::changeTake(const char* what,
+                             std::uint8_t action,
+                             const std::string& name,
+                             const std::string& new_name) {
+  Take::Request request;
+  request.action = action;
+  request.name = name;
+  request.new_name = new_name;
+  ask(what, request);
+}
+
+void StationLink::preset(const char* what,
+                         std::uint8_t action,
+                         const std::string& name,
+                         double seconds) {
+  {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->show({true, std::string(what) + " ..."});
+  }
+  Preset::Request request;
+  request.action = action;
+  request.name = name;
+  request.seconds = seconds;
+  presets_->ask<Preset>(what, shared_->station + "/preset", request, kPatienceS);
 }
 
 void StationLink::setParameter(const std::string& name, double value) {

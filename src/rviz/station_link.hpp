@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include <ergotic/Parameters.h>
+#include <ergotic/Presets.h>
 #include <ergotic/Scope.h>
 #include <ergotic/Status.h>
 #include <ergotic/Takes.h>
@@ -34,6 +36,7 @@ struct News {
   std::size_t parameters_version = 0;
   Takes takes;
   std::size_t takes_version = 0;
+  Presets presets;
   std::vector<SceneEntry> scenes;
   std::size_t scenes_version = 0;
   std::string log;
@@ -82,6 +85,18 @@ class StationLink {
   /// \param name  of the take; empty: the newest
   void replay(const std::string& name);
   void haltTake();
+  /// \param what    for the answer: "Rename"
+  /// \param action  RENAME...DELETE of Take.srv
+  void changeTake(const char* what,
+                  std::uint8_t action,
+                  const std::string& name,
+                  const std::string& new_name = "");
+  /// \param what    for the answer: "Recall"
+  /// \param action  of Preset.srv
+  void preset(const char* what,
+              std::uint8_t action,
+              const std::string& name = "",
+              double seconds = 0.0);
 
   struct Shared;
 
@@ -95,6 +110,7 @@ class StationLink {
   std::unique_ptr<Caller> emergency_;
   std::unique_ptr<Caller> loading_;
   std::unique_ptr<Caller> takes_;
+  std::unique_ptr<Caller> presets_;
   std::unique_ptr<Caller> learning_;
 };
 

@@ -66,25 +66,26 @@ StationPanel::StationPanel(QWidget* parent) : rviz::Panel(parent), wanted_(kUsua
   column->setContentsMargins(6, 6, 6, 6);
   column->setSpacing(5);
   addForce(column);  // always in sight; what follows scrolls in a low window
-  auto* scroll = adopted<QScrollArea>();
-  scroll->setWidgetResizable(true);
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll_ = adopted<QScrollArea>();
+  scroll_->setWidgetResizable(true);
+  scroll_->setFrameShape(QFrame::NoFrame);
+  scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   auto* inside = adopted<QWidget>();
   auto* rest = adopted<QVBoxLayout>(inside);
   rest->setContentsMargins(0, 0, 0, 0);
   rest->setSpacing(4);
   addInstruments(rest);
   addParameters(rest);
+  addPresets(rest);
   addMeters(rest);
   addSound(rest);
   addTakes(rest);
   addMessages(rest);
-  scroll->setWidget(inside);
-  column->addWidget(scroll, 1);
-  QObject::connect(watch_, &QPushButton::toggled, scroll, [this, scroll](bool is_on) {
-    QTimer::singleShot(0, scroll, [this, scroll, is_on] {  // when it has its place
-      scroll->ensureWidgetVisible(is_on ? static_cast<QWidget*>(scope_) : volume_);
+  scroll_->setWidget(inside);
+  column->addWidget(scroll_, 1);
+  QObject::connect(watch_, &QPushButton::toggled, scroll_, [this](bool is_on) {
+    QTimer::singleShot(0, scroll_, [this, is_on] {  // when it has its place
+      scroll_->ensureWidgetVisible(is_on ? static_cast<QWidget*>(scope_) : volume_);
     });
   });
   setMinimumWidth(300);
@@ -209,6 +210,19 @@ void StationPanel::addParameters(QVBoxLayout* column) {
   column->addWidget(parameters_, 3);
 }
 
+void StationPanel::addPresets(QVBoxLayout* column) {
+  PresetRow::Acts acts;
+  acts.keep = [this](const std::string& name) {
+    link_->preset("Keep", Preset::Request::KEEP, name);
+  };
+  acts.recall = [this](const std::string& name, double seconds) {
+    link_->preset("Recall", Preset::Request::RECALL, name, seconds);
+  };
+  acts.undo = [this] { link_->preset("Undo", Preset::Request::UNDO); };
+  presets_ = adopted<PresetRow>(std::move(acts), this);
+  column->addWidget(presets_);
+}
+
 void StationPanel::addMeters(QVBoxLayout* column) {
   force_title_ = title("Forces");
   forces_ = adopted<ForceMeter>(this);
@@ -262,23 +276,35 @@ void StationPanel::addSound(QVBoxLayout* column) {
   column->addWidget(scope_);
 }
 
+TakeList::Acts StationPanel::takeActs() {
+  TakeList::Acts acts;
+  acts.play = [this](const std::string& name) { link_->replay(name); };
+  acts.rename = [this](const std::string& name, const std::string& new_name) {
+    link_->changeTake("Rename", Take::Request::RENAME, name, new_name);
+  };
+  acts.star = [this](const std::string& name, bool is_starred) {
+    link_->changeTake("Star", is_starred ? Take::Request::STAR : Take::Request::UNSTAR, name);
+  };
+  acts.discard = [this](const std::string& name) {
+    link_->changeTake("Delete", Take::Request::DELETE, name);
+  };
+  return acts;
+}
+
 void StationPanel::addTakes(QVBoxLayout* column) {
   takes_title_ = title("Takes");
-  takes_ = adopted<Chooser>();
-  takes_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  takes_->setAccessibleName("takes");
-  takes_->setPlaceholderText("nothing recorded yet");
+  takes_ = adopted<TakeList>(takeActs(), this);
+  takes_->setMinimumHeight(86);
   record_ = addButton("Record  F9", "Records what is played, until it is pressed again");
   replay_ = addButton("Replay  F10", "Plays the chosen take through the same outputs");
   QObject::connect(record_, &QPushButton::clicked, this, [this] {
     press(news_.takes.recording.empty() ? &StationLink::record : &StationLink::finishTake)();
   });
   QObject::connect(replay_, &QPushButton::clicked, this, [this] {
-    const auto row = static_cast<std::size_t>(std::max(takes_->currentIndex(), 0));
     if (!news_.takes.replaying.empty()) {
       press (&StationLink::haltTake)();
     } else if (link_) {
-      link_->replay(row < take_names_.size() ? take_names_[row] : "");
+      link_->replay(takes_->chosen());
     }
   });
   auto* line = adopted<QHBoxLayout>();
@@ -286,7 +312,7 @@ void StationPanel::addTakes(QVBoxLayout* column) {
   line->addWidget(record_);
   line->addWidget(replay_);
   column->addLayout(line);
-  column->addWidget(takes_);
+  column->addWidget(takes_, 2);
 }
 
 void StationPanel::addMessages(QVBoxLayout* column) {
@@ -341,6 +367,14 @@ void StationPanel::addKeys() {
   bind(Qt::Key_F10, [this] { replay_->click(); });
   bind(Qt::Key_F3, [this] { instruments_->setFocus(Qt::ShortcutFocusReason); });
   bind(Qt::Key_F4, [this] { parameters_->takeFocus(); });
+  bind(Qt::SHIFT + Qt::Key_F4, [this] { presets_->takeFocus(); });
+  bind(Qt::SHIFT + Qt::Key_F10, [this] {
+    takes_->setFocus(Qt::ShortcutFocusReason);
+    scroll_->ensureWidgetVisible(takes_);
+  });
+  auto* undo = adopted<QShortcut>(QKeySequence::Undo, this);
+  undo->setContext(Qt::WidgetWithChildrenShortcut);
+  QObject::connect(undo, &QShortcut::activated, this, [this] { presets_->undo(); });
 }
 
 void StationPanel::connect() {
@@ -348,8 +382,7 @@ void StationPanel::connect() {
   link_ = std::make_unique<StationLink>(wanted_, models_);
   news_ = {};
   scenes_shown_ = log_shown_ = takes_shown_ = 0;
-  take_names_.clear();
-  takes_->clear();
+  takes_->show({});
   model_shown_.clear();
   instruments_->clear();  // they are no longer in the news
   messages_->clear();
@@ -367,6 +400,7 @@ void StationPanel::refresh() {
   showInstruments();
   parameters_->setEnabled(!isStale());
   parameters_->follow(news_.parameters, now_s);
+  presets_->show(news_.presets, !isStale());
   showMeters();
   showSound();
   showTakes();
@@ -459,22 +493,15 @@ void StationPanel::showSound() {
   }
 }
 
-/// A new take is chosen, so that Replay plays the last one.
 void StationPanel::showTakes() {
   record_->setEnabled(!isStale());
-  replay_->setEnabled(!isStale() && (!take_names_.empty() || !news_.takes.replaying.empty()));
+  replay_->setEnabled(!isStale() && (!news_.takes.names.empty() || !news_.takes.replaying.empty()));
+  takes_->show(news_.takes);  // also what came while a name was edited
   if (takes_shown_ == news_.takes_version) {
     return;
   }
   takes_shown_ = news_.takes_version;
   const Takes& takes = news_.takes;
-  if (take_names_ != takes.names) {
-    take_names_ = takes.names;
-    takes_->clear();
-    for (const std::string& name : take_names_) {
-      takes_->addItem(QString::fromStdString(name));
-    }
-  }
   const bool records = !takes.recording.empty();
   const bool plays = !takes.replaying.empty();
   record_->setText(records ? "Finish  F9" : "Record  F9");

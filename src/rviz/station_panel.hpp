@@ -18,8 +18,10 @@
 #include <rviz/panel.h>
 
 #include "rviz/parameter_list.hpp"
+#include "rviz/preset_row.hpp"
 #include "rviz/scope_widget.hpp"
 #include "rviz/station_link.hpp"
+#include "rviz/take_list.hpp"
 #include "rviz/widgets.hpp"
 
 namespace ergotic::panel {
@@ -41,9 +43,11 @@ class StationPanel : public rviz::Panel {
   void addForce(QVBoxLayout* column);
   void addInstruments(QVBoxLayout* column);
   void addParameters(QVBoxLayout* column);
+  void addPresets(QVBoxLayout* column);
   void addMeters(QVBoxLayout* column);
   void addSound(QVBoxLayout* column);
   void addTakes(QVBoxLayout* column);
+  TakeList::Acts takeActs();
   void addMessages(QVBoxLayout* column);
   QPushButton* addButton(const QString& text, const QString& tip);
   std::function<void()> press(void (StationLink::*act)());
@@ -70,9 +74,9 @@ class StationPanel : public rviz::Panel {
   std::size_t scenes_shown_ = 0;
   std::size_t log_shown_ = 0;
   std::size_t takes_shown_ = 0;
-  std::vector<std::string> take_names_;  // as the list shows them
   std::string model_shown_;
 
+  QScrollArea* scroll_ = nullptr;  // all below the buttons of force
   LampWidget* lamp_ = nullptr;
   QPushButton* engage_ = nullptr;
   QPushButton* stop_ = nullptr;
@@ -83,6 +87,7 @@ class StationPanel : public rviz::Panel {
   Paragraph* about_ = nullptr;
   QLabel* verdict_ = nullptr;
   ParameterList* parameters_ = nullptr;
+  PresetRow* presets_ = nullptr;
   QLabel* force_title_ = nullptr;
   ForceMeter* forces_ = nullptr;
   QProgressBar* load_ = nullptr;
@@ -94,7 +99,7 @@ class StationPanel : public rviz::Panel {
   QSlider* volume_ = nullptr;
   QPushButton* mute_ = nullptr;
   QLabel* takes_title_ = nullptr;
-  QComboBox* takes_ = nullptr;
+  TakeList* takes_ = nullptr;
   QPushButton* record_ = nullptr;
   QPushButton* replay_ = nullptr;
   QPlainTextEdit* messages_ = nullptr;

@@ -11,7 +11,7 @@ import rospy
 import rostest
 
 from desk import ROOT, DeskTest, Newest, until
-from ergotic.msg import GestureBlock, HandTargets, Hold, Levels, Note, Parameters, Status, Takes
+from ergotic.msg import GestureBlock, HandTargets, Hold, Levels, Note, Parameters, Presets, Status, Takes
 from ergotic.srv import LearnController, LoadModel, PlayMap
 from midi_keyboard import MidiKeyboard
 from pointer import Pointer, xdotool
@@ -190,6 +190,31 @@ class PlayingTest(Pointer, DeskTest):
         if os.environ.get("TAKES_PICTURE"):
             subprocess.run(["import", "-window", "root", os.environ["TAKES_PICTURE"]], check=True)
         self.assertTrue(until(lambda: takes.message.replaying == "", 20), "it does not end")
+        xdotool("key", "shift+F10", "sleep", 0.2, "key", "F2", "sleep", 0.3, "type", "solo")
+        self.assertTrue(comes("Return", lambda: takes.message.names == ["solo"]), "it has its old name")
+        self.assertTrue(comes("space", lambda: takes.message.starred == [True]), "it has no star")
+        if os.environ.get("TAKES_PICTURE"):
+            time.sleep(0.3)
+            subprocess.run(["import", "-window", "root", os.environ["TAKES_PICTURE"] + ".list.png"], check=True)
+        self.assertTrue(comes("Delete", lambda: takes.message.names == []), "it is still there")
+
+    def test_4c_keys_of_the_panel_keep_a_preset_and_undo_a_change(self):
+        presets = Newest("/station/presets", Presets)
+        parameters = Newest("/station/model_parameters", Parameters)
+        self.wait_for_window("/station/presets")
+        self.assertTrue(until(lambda: presets.message and parameters.message))
+        before = list(parameters.message.values)
+        xdotool("key", "shift+F4", "sleep", 0.3, "type", "dry")
+        xdotool("key", "Tab", "Tab", "space")
+        self.assertTrue(until(lambda: presets.message.names == ["dry"], 5), "it is not kept")
+        xdotool("key", "F4", "sleep", 0.2, "key", "Right", "Right", "Right")
+        self.assertTrue(until(lambda: parameters.message.values[0] > before[0] and presets.message.can_undo, 5))
+        if os.environ.get("TAKES_PICTURE"):
+            time.sleep(0.3)
+            subprocess.run(["import", "-window", "root", os.environ["TAKES_PICTURE"] + ".preset.png"], check=True)
+        time.sleep(0.3)
+        xdotool("key", "ctrl+z")
+        self.assertTrue(until(lambda: list(parameters.message.values) == before, 5), parameters.message.values)
 
     def test_5_nothing_of_the_old_model_stays_in_a_slow_picture(self):
         picture = SlowPicture()

@@ -17,6 +17,7 @@
 #include <rosbag/view.h>
 
 #include "bag/message_bytes.hpp"
+#include "bag/open_bag.hpp"
 #include "bag/recorded_message.hpp"
 #include "ergotic/exception.hpp"
 #include "files/read_file.hpp"
@@ -236,7 +237,7 @@ Exception unreadable(const std::string& path, const rosbag::BagException& error)
 
 /// Where the positions of a recording are.
 struct Blocks {
-  explicit Blocks(const std::string& path) : bag(path, rosbag::bagmode::Read) {}
+  explicit Blocks(const std::string& path) : bag(openToRead(path)) {}
 
   /// Nothing is taken of a file that was changed since it was read, or overwritten.
   void load(Stretch& stretch, const std::string& path) const {
@@ -256,7 +257,7 @@ struct Blocks {
     }
   }
 
-  rosbag::Bag bag;
+  BagPointer bag;
   std::vector<rosbag::MessageInstance> messages;
 };
 
@@ -337,7 +338,7 @@ Recording readRecording(const std::string& path, const std::string& station) {
   Recording recording;
   try {
     const auto blocks = std::make_shared<Blocks>(path);
-    rosbag::View view(blocks->bag, ofStation(blocks->bag, station, path));
+    rosbag::View view(*blocks->bag, ofStation(*blocks->bag, station, path));
     for (const rosbag::MessageInstance& instance : view) {
       RecordedMessage message = bytesOf(instance);
       const std::size_t before = recording.stretches.size();

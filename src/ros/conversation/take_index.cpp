@@ -10,19 +10,21 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
+#include "bag/open_bag.hpp"
+
 namespace ergotic::node {
 
 TakeDetails detailsOf(const std::string& path) {
   TakeDetails details;
   try {
-    rosbag::Bag bag(path, rosbag::bagmode::Read);
-    rosbag::View blocks(bag,
+    const bag::BagPointer bag = bag::openToRead(path);
+    rosbag::View blocks(*bag,
                         rosbag::TypeQuery(::ros::message_traits::DataType<GestureBlock>::value()));
     if (blocks.size() > 0) {
       details.began_ns = static_cast<std::int64_t>(blocks.getBeginTime().toNSec());
       details.length_s = (blocks.getEndTime() - blocks.getBeginTime()).toSec();
     }
-    rosbag::View status(bag, rosbag::TypeQuery(::ros::message_traits::DataType<Status>::value()));
+    rosbag::View status(*bag, rosbag::TypeQuery(::ros::message_traits::DataType<Status>::value()));
     for (const rosbag::MessageInstance& message : status) {
       if (const auto told = message.instantiate<Status>(); told && !told->model.empty()) {
         details.instrument = told->model;

@@ -21,8 +21,7 @@ constexpr std::size_t kMostWaiting = 10'000;  // blocks of gestures: some minute
 
 }  // namespace
 
-TakeWriter::TakeWriter(std::string path)
-    : path_(std::move(path)), active_(path_ + ".active"), bag_(std::make_unique<rosbag::Bag>()) {
+TakeWriter::TakeWriter(std::string path) : path_(std::move(path)), active_(path_ + ".active") {
   std::error_code unknown;  // opening it says what is wrong
   if (std::filesystem::exists(active_, unknown)) {
     throw Exception(active_ +
@@ -30,7 +29,7 @@ TakeWriter::TakeWriter(std::string path)
                     "name that ends in .bag, or remove it, or choose another name");
   }
   try {
-    bag_->open(active_, rosbag::bagmode::Write);
+    bag_ = bag::openToWrite(active_);
   } catch (const rosbag::BagException& error) {
     throw Exception(active_ + ": cannot be written (" + error.what() + ")");
   }

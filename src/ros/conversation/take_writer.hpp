@@ -17,9 +17,7 @@
 #include <ergotic/Parameters.h>
 #include <ergotic/Status.h>
 
-namespace rosbag {
-class Bag;  // its header takes seconds to compile
-}
+#include "bag/open_bag.hpp"
 
 namespace ergotic::node {
 
@@ -65,7 +63,7 @@ class TakeWriter {
 
   std::string path_;
   std::string active_;  // path until it is whole
-  std::unique_ptr<rosbag::Bag> bag_;
+  bag::BagPointer bag_;
   bool has_keyframe_ = false;
   double seconds_ = 0.0;
   std::mutex mutex_;  // of what follows

@@ -82,7 +82,6 @@ add_dependencies(master_rostest ergotic_ros virtual_tgr)
 add_dependencies(crowd_rostest ergotic_ros virtual_tgr)
 add_dependencies(force_rostest ergotic_ros ergotic_generate_messages_py)
 add_dependencies(deployed_rostest ergotic_ros)
-pkg_check_modules(SMF REQUIRED IMPORTED_TARGET smf)  # of tests alone
 target_sources(melody_rostest PRIVATE test/integration/melody_player.cpp)
 target_link_libraries(melody_rostest PRIVATE PkgConfig::SMF PkgConfig::JACK)
 add_dependencies(melody_rostest ergotic_ros)

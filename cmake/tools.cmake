@@ -21,7 +21,7 @@ if(tool_library_sources)
   target_include_directories(ergotic_tool_support PUBLIC src)
   target_link_libraries(ergotic_tool_support
     PUBLIC ergotic_advice ergotic_audio ergotic_replay CLI11::CLI11 nlohmann_json::nlohmann_json
-    PRIVATE ergotic_flags PkgConfig::EBUR128)
+    PRIVATE ergotic_flags PkgConfig::EBUR128 PkgConfig::SMF)
   ergotic_precompile(ergotic_tool_support <nlohmann/json.hpp>)
   # What measures is of its own: who only plays need not wait for it.
   add_library(ergotic_measuring STATIC ${measuring_sources} ${report_of_flags})

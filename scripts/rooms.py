@@ -74,7 +74,7 @@ FOREIGN = {
     "ros/display": ROS,
     "ros/conversation": ROS,
     "rviz": ROS + " rviz/ Q Ogre unsupported/Eigen/FFT",
-    "tools/lib": CORE + " CLI/ nlohmann/ sndfile ebur128",
+    "tools/lib": CORE + " CLI/ nlohmann/ sndfile ebur128 smf.h glib.h",
     "tools": CORE + " CLI/ nlohmann/",
 }
 # Of the system: no slash, or one of these.

@@ -50,6 +50,26 @@ void OfflineStation::submit(const station::Command& command) {
   }
 }
 
+void OfflineStation::move(const tgr::HandMove& move, double due_tick) {
+  if (!station_.move(move, due_tick)) {
+    throw Exception("slice " + std::to_string(move.slice) +
+                    ": the station has no simulated hand there, or too many moves in one tick");
+  }
+}
+
+void OfflineStation::setParameter(const physics::Instrument& instrument,
+                                  const std::vector<double>& values,
+                                  int index) {
+  auto coefficients = instrument.prepare(values);
+  station::Command change;
+  change.type = station::Command::Type::kParameter;
+  change.index = index;
+  change.value = values[static_cast<std::size_t>(index)];
+  change.coefficients = coefficients.get();
+  submit(change);
+  static_cast<void>(coefficients.release());  // comes back with its event
+}
+
 void OfflineStation::hold(std::size_t hand, const station::Hold& hold) {
   if (!station_.hold(hand, hold, nullptr)) {
     throw Exception("hand " + std::to_string(hand) +

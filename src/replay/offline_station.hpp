@@ -38,6 +38,16 @@ class OfflineStation : private station::FramePort {
   /// \throws Exception if the station does not take it
   void submit(const station::Command& command);
 
+  /// As Station::move. \throws Exception if the station does not take it
+  void move(const tgr::HandMove& move, double due_tick);
+
+  /// The model plays with these values of its parameters from the next tick on.
+  /// \param values  [parameters]. \param index  which of them is new, for the record
+  /// \throws Exception if the station does not take it
+  void setParameter(const physics::Instrument& instrument,
+                    const std::vector<double>& values,
+                    int index);
+
   /// As recorded. \throws Exception if the station does not take it
   void hold(std::size_t hand, const station::Hold& hold);
 

@@ -306,14 +306,8 @@ void Replay::submitParameter(const station::Event& event) {
                     std::to_string(tone.parameters.size()));
   }
   tone.parameters[static_cast<std::size_t>(event.index)] = event.value;
-  auto coefficients = tone.performer->instrument->prepare(tone.parameters);
-  station::Command change;
-  change.type = station::Command::Type::kParameter;
-  change.index = static_cast<int>(event.index);
-  change.value = event.value;
-  change.coefficients = coefficients.get();
-  station_->submit(change);
-  coefficients.release();
+  station_->setParameter(*tone.performer->instrument, tone.parameters,
+                         static_cast<int>(event.index));
 }
 
 /// Every later keyframe is a check of the replay.

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What players without a device do: targets of hands, notes, MIDI, gamepads.
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-
 #include <ros/console.h>
 
 #include "constants.hpp"
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/clock.hpp"
+#include "ergotic/tgr/players/scene_map.hpp"
 #include "files/printable.hpp"
-#include "files/read_file.hpp"
 #include "ros/conversation/performance.hpp"
 #include "ros/display/handles.hpp"
 #include "scene/names.hpp"
@@ -23,56 +19,10 @@ const char kKeyboard[] = "keyboard";  // as a sender of targets: no node has a n
 // then, so that all messages keep their distances in time.
 constexpr double kMidiDelayS = 0.002;
 constexpr double kAtOnce = station::Station::kAtOnce;
-constexpr std::size_t kShownName = 64;                     // of what a stranger says, bytes
-constexpr std::size_t kMostBytes = std::size_t{1} << 20U;  // of a map
+constexpr std::size_t kShownName = 64;  // of what a stranger says, bytes
 
 double nowS() {
   return static_cast<double>(rt::monotonicNs()) / kNsPerS;
-}
-
-/// Of a scene `folder/NAME.yaml`.
-std::filesystem::path mapBeside(const std::string& scene) {
-  const std::filesystem::path path(scene);
-  return path.parent_path() / "maps" / (path.stem().string() + ".yaml");
-}
-
-/// Of a scene without a map: each slice a key, from middle C on.
-tgr::PlayMap usualMap(const scene::Scene& scene) {
-  constexpr int kMiddleC = 60;
-  constexpr double kWayM = 0.02;
-  tgr::PlayMap map;
-  tgr::KeyLine line;
-  line.first_note = kMiddleC;
-  line.to_m = kWayM;
-  for (const scene::Port& port : scene.ports) {
-    if (port.slice >= 0) {
-      line.indices.push_back(port.slice);
-    }
-  }
-  if (!line.indices.empty()) {
-    std::sort(line.indices.begin(), line.indices.end());
-    map.keys.push_back(line);
-  }
-  return map;
-}
-
-/// Leaves out what moves coordinates of end-effectors that are not there.
-template <class IsMissing>
-void leaveOut(tgr::PlayMap& map, const IsMissing& is_missing) {
-  const auto leave_out_of = [&](auto& lines, const auto& is_of) {
-    lines.erase(std::remove_if(lines.begin(), lines.end(),
-                               [&](const auto& line) { return is_missing(is_of(line)); }),
-                lines.end());
-  };
-  leave_out_of(map.keys, [](const tgr::KeyLine& line) { return line.end_effector; });
-  leave_out_of(map.controls, [](const tgr::ControlLine& line) { return line.motion.end_effector; });
-  for (tgr::KeyLine& line : map.keys) {
-    for (auto* const motion : {&line.bend, &line.slide}) {
-      if (*motion && is_missing((*motion)->end_effector)) {
-        motion->reset();
-      }
-    }
-  }
 }
 
 HandTargets targetsOf(const tgr::Stroke& stroke) {
@@ -275,10 +225,8 @@ std::string Performance::usePlayMap(const std::string& map) {
 std::string Performance::readPlayMap(const std::string& map) {
   try {
     const bool is_text = map.find('\n') != std::string::npos;
-    tgr::PlayMap read = is_text ? tgr::readPlayMap(map, "play_map")
-                                : tgr::readPlayMap(files::readFile(map, kMostBytes), map);
-    leaveOut(read,
-             [this](const std::string& tool) { return !tool.empty() && !players_.has(tool); });
+    tgr::PlayMap read = is_text ? tgr::readPlayMap(map, "play_map") : tgr::readPlayMapFile(map);
+    tgr::leaveOut(read, [this](const std::string& tool) { return players_.has(tool); });
     const std::lock_guard lock(keyboard_mutex_);
     play(keyboard_.use(std::move(read), nowS()), kAtOnce);
     return "";
@@ -297,16 +245,11 @@ void Performance::findPlayMap(const scene::Scene& scene, bool keeps_the_players)
     if (!keeps_the_players) {
       keyboard_.learner().forget();
     }
-    ranges_.clear();
-    for (const scene::Parameter& parameter : scene.parameters) {
-      ranges_[parameter.name] = {parameter.minimum, parameter.value, parameter.maximum};
-    }
-    play(keyboard_.use(usualMap(scene), nowS()), kAtOnce);
+    ranges_ = tgr::rangesOf(scene);
+    play(keyboard_.use(tgr::usualMap(scene), nowS()), kAtOnce);
   }
-  std::error_code error;
-  const std::filesystem::path file = mapBeside(scene.file);
-  if (map.empty() && std::filesystem::is_regular_file(file, error)) {
-    map = file.string();
+  if (map.empty()) {
+    map = tgr::mapBeside(scene.file);
   }
   if (const std::string refusal = map.empty() ? "" : readPlayMap(map); !refusal.empty()) {
     ROS_WARN_STREAM(refusal);

@@ -2,7 +2,6 @@
 #include "ros/conversation/players.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 #include <utility>
 
@@ -41,24 +40,12 @@ void check(const HandTargets& wanted) {
   }
 }
 
-tgr::HandMove moveOf(int slice, double target_m) {
-  if (slice < 0 || slice >= tgr::kMaxSlices) {
-    refuse("slice", slice, "0..." + std::to_string(tgr::kMaxSlices - 1));
-  }
-  if (!(std::abs(target_m) <= tgr::kMaxTargetM)) {
-    refuse("target", target_m, "-0.1...0.1 m");
-  }
-  tgr::HandMove move;
-  move.slice = slice;
-  move.target_m = target_m;
-  return move;
-}
-
 std::vector<tgr::HandMove> allOf(std::uint64_t slices) {
   std::vector<tgr::HandMove> moves;
   for (int slice = 0; slice < tgr::kMaxSlices; ++slice) {
     if ((slices >> static_cast<unsigned>(slice) & 1U) != 0U) {
-      moves.push_back(moveOf(slice, 0.0));
+      moves.emplace_back();
+      moves.back().slice = slice;
     }
   }
   return moves;
@@ -67,17 +54,9 @@ std::vector<tgr::HandMove> allOf(std::uint64_t slices) {
 }  // namespace
 
 std::vector<tgr::HandMove> Players::configure(const tgr::EndEffectors& end_effectors) {
-  std::vector<Tool> tools;
-  for (const tgr::EndEffectorConfig& config : end_effectors.list) {
-    Tool tool;
-    tool.config = config;
-    tool.kinematics = tgr::makeKinematics(config, end_effectors.file);
-    tool.slices.assign(static_cast<std::size_t>(tool.kinematics->slices()), 0.0);
-    tool.coordinates.assign(static_cast<std::size_t>(tool.kinematics->coordinates()), 0.0);
-    tools.push_back(std::move(tool));
-  }
+  tgr::ToolHands hands(end_effectors);
   const std::lock_guard lock(mutex_);
-  tools_ = std::move(tools);
+  hands_ = std::move(hands);
   std::uint64_t held = 0;
   for (Sender& sender : senders_) {
     held |= std::exchange(sender.slices, 0);
@@ -91,8 +70,7 @@ std::vector<tgr::HandMove> Players::configure(const tgr::EndEffectors& end_effec
 
 bool Players::has(const std::string& end_effector) {
   const std::lock_guard lock(mutex_);
-  return std::any_of(tools_.begin(), tools_.end(),
-                     [&](const Tool& tool) { return tool.config.name == end_effector; });
+  return hands_.has(end_effector);
 }
 
 std::vector<tgr::HandMove> Players::read(const HandTargets& wanted,
@@ -103,7 +81,10 @@ std::vector<tgr::HandMove> Players::read(const HandTargets& wanted,
   const std::uint8_t source = numberOf(sender);
   std::uint64_t& held = senders_[source].slices;
   std::vector<tgr::HandMove> wanted_moves =
-      wanted.release && wanted.indices.empty() ? allOf(held) : moves(wanted);
+      wanted.release && wanted.indices.empty()
+          ? allOf(held)
+          : hands_.moves(
+                {wanted.end_effector, wanted.indices, wanted.targets, wanted.release != 0U});
   const double stamp_s = wanted.header.stamp.toSec();
   for (tgr::HandMove& move : wanted_moves) {
     move.source = source;
@@ -137,59 +118,6 @@ std::uint8_t Players::numberOf(const std::string& sender) {
   }
   found->heard = ++messages_;
   return static_cast<std::uint8_t>(found - senders_.begin());
-}
-
-Players::Tool& Players::toolNamed(const std::string& name) {
-  std::string names;
-  for (Tool& tool : tools_) {
-    if (tool.config.name == name) {
-      return tool;
-    }
-    names += (names.empty() ? "" : ", ") + tool.config.name;
-  }
-  constexpr std::size_t kMostOfName = 64;
-  refuse("end_effector", "'" + name.substr(0, kMostOfName) + "'",
-         names.empty() ? "none, as none is there" : names);
-}
-
-std::vector<tgr::HandMove> Players::moves(const HandTargets& wanted) {
-  if (!wanted.end_effector.empty()) {
-    return moveTool(toolNamed(wanted.end_effector), wanted);
-  }
-  std::vector<tgr::HandMove> moves;
-  for (std::size_t i = 0; i < wanted.indices.size(); ++i) {
-    const auto slice = std::min<std::uint32_t>(wanted.indices[i], tgr::kMaxSlices);
-    moves.push_back(
-        moveOf(static_cast<int>(slice), wanted.release != 0U ? 0.0 : wanted.targets[i]));
-  }
-  return moves;
-}
-
-/// A linkage is held or let go of as a whole.
-std::vector<tgr::HandMove> Players::moveTool(Tool& tool, const HandTargets& wanted) {
-  std::vector<double> coordinates = tool.coordinates;
-  for (std::size_t i = 0; i < wanted.indices.size(); ++i) {
-    const std::uint32_t index = wanted.indices[i];
-    if (index >= coordinates.size()) {
-      refuse(("coordinate of " + tool.config.name).c_str(), index,
-             "0..." + std::to_string(coordinates.size() - 1));
-    }
-    if (wanted.release == 0U) {
-      coordinates[index] = wanted.targets[i];
-      if (!(std::abs(coordinates[index]) <= 1.0)) {
-        refuse("target", coordinates[index], "-1...1 m");
-      }
-    }
-  }
-  if (wanted.release == 0U) {
-    tool.coordinates = std::move(coordinates);
-    tgr::bringTo(*tool.kinematics, tool.coordinates.data(), tgr::kMaxTargetM, tool.slices.data());
-  }
-  std::vector<tgr::HandMove> moves;
-  for (std::size_t i = 0; i < tool.slices.size(); ++i) {
-    moves.push_back(moveOf(tool.config.slices[i], tool.slices[i]));
-  }
-  return moves;
 }
 
 }  // namespace ergotic::node

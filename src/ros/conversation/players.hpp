@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 
 #include "ergotic/tgr/driver.hpp"
 #include "ergotic/tgr/end_effector.hpp"
+#include "ergotic/tgr/players/tool_hands.hpp"
 
 namespace ergotic::node {
 
@@ -35,24 +35,15 @@ class Players {
                                   double now_s);
 
  private:
-  struct Tool {
-    tgr::EndEffectorConfig config;
-    std::unique_ptr<tgr::Kinematics> kinematics;
-    std::vector<double> slices;       // [slices] m, as wanted last
-    std::vector<double> coordinates;  // [coordinates] m, as wanted last
-  };
   struct Sender {
     std::string name;
     std::uint64_t slices = 0;  // that it holds, a bit each
     std::uint64_t heard = 0;   // number of its last message
   };
   std::uint8_t numberOf(const std::string& sender);
-  Tool& toolNamed(const std::string& name);
-  std::vector<tgr::HandMove> moves(const HandTargets& wanted);
-  static std::vector<tgr::HandMove> moveTool(Tool& tool, const HandTargets& wanted);
 
   std::mutex mutex_;  // of what follows
-  std::vector<Tool> tools_;
+  tgr::ToolHands hands_;
   std::vector<Sender> senders_;  // at most kMaxHandSources
   std::uint64_t messages_ = 0;
 };

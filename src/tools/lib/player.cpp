@@ -9,6 +9,8 @@
 #include "ergotic/tgr/replay_driver.hpp"
 #include "ergotic/tgr/virtual_driver.hpp"
 #include "replay/offline_station.hpp"
+#include "scene/limits.hpp"
+#include "tools/lib/score.hpp"
 
 namespace ergotic::tools {
 namespace {
@@ -67,12 +69,38 @@ replay::SoundSource sourceOf(SoundInputs inputs) {
   return source;
 }
 
+/// The usual virtual device, with as many slices as the scene needs.
+tgr::VirtualDriverConfig deviceFor(const std::string& csv, std::uint64_t slices_in_use) {
+  tgr::VirtualDriverConfig config;
+  for (int slice = 0; slice < tgr::kMaxSlices; ++slice) {
+    if ((slices_in_use >> static_cast<unsigned>(slice) & 1U) != 0) {
+      config.slices = std::max(config.slices, slice + 1);
+    }
+  }
+  config.gesture_file = csv;
+  return config;
+}
+
 class HandPlayer final : public Player {
  public:
   HandPlayer(std::unique_ptr<station::Performer> performer,
              SoundInputs inputs,
              const std::string& csv)
-      : outputs_(std::max(performer->instrument->outputChannels(), 1)),
+      : HandPlayer(std::move(performer), std::move(inputs), csv, {}, "", kUsualSeconds) {}
+
+  /// \param name  of what the score was made of, for messages
+  HandPlayer(std::unique_ptr<station::Performer> performer,
+             SoundInputs inputs,
+             const std::string& csv,
+             Score score,
+             std::string name,
+             double usual_s)
+      : usual_s_(usual_s),
+        score_name_(std::move(name)),
+        score_warnings_(score.warnings),
+        score_end_s_(score.end_s),
+        score_(std::move(score), performer->parameters),
+        outputs_(std::max(performer->instrument->outputChannels(), 1)),
         instrument_(*performer->instrument),
         slices_in_use_(performer->rig->slicesInUse()),
         device_(deviceFor(csv, slices_in_use_)),
@@ -90,6 +118,7 @@ class HandPlayer final : public Player {
 
   bool next(double* frames) override {
     if (!ended_) {
+      score_.bring(tick_++, instrument_, station_);
       station_.cycle(frames, [this](const station::Event& event) { hear(event); });
     }
     return !ended_;
@@ -98,8 +127,20 @@ class HandPlayer final : public Player {
   std::string trouble() const override { return trouble_; }
 
   std::vector<std::string> gestureWarnings(double seconds, double late_s) const override {
-    return tgr::gestureWarnings(device_, slices_in_use_, seconds, late_s);
+    std::vector<std::string> warnings = score_warnings_;
+    if (score_end_s_ > seconds + late_s) {
+      warnings.push_back(score_name_ + ": warning: it ends " +
+                         scene::numberText(score_end_s_ - seconds) +
+                         " s after the render does, at " + scene::numberText(score_end_s_) + " s");
+    }
+    if (!device_.gesture_file.empty()) {
+      const auto others = tgr::gestureWarnings(device_, slices_in_use_, seconds, late_s);
+      warnings.insert(warnings.end(), others.begin(), others.end());
+    }
+    return warnings;
   }
+
+  double usualSeconds() const override { return usual_s_; }
 
  private:
   void hear(const station::Event& event) {
@@ -114,20 +155,10 @@ class HandPlayer final : public Player {
     }
   }
 
-  /// The usual virtual device, with as many slices as the scene needs.
-  static tgr::VirtualDriverConfig deviceFor(const std::string& csv, std::uint64_t slices_in_use) {
-    tgr::VirtualDriverConfig config;
-    for (int slice = 0; slice < tgr::kMaxSlices; ++slice) {
-      if ((slices_in_use >> static_cast<unsigned>(slice) & 1U) != 0) {
-        config.slices = std::max(config.slices, slice + 1);
-      }
-    }
-    config.gesture_file = csv;
-    return config;
-  }
   static std::unique_ptr<tgr::Driver> makeDriver(const tgr::VirtualDriverConfig& device,
                                                  bool& ended) {
-    if (tgr::gestureKindOf(device.gesture_file) == tgr::GestureKind::kPositions) {
+    if (!device.gesture_file.empty() &&
+        tgr::gestureKindOf(device.gesture_file) == tgr::GestureKind::kPositions) {
       return tgr::makeReplayDriver(
           std::make_unique<EndingSource>(tgr::readPositionsCsv(device.gesture_file), ended));
     }
@@ -136,6 +167,12 @@ class HandPlayer final : public Player {
 
   bool ended_ = false;
   std::string trouble_;
+  std::int64_t tick_ = 0;  // that runs next
+  double usual_s_;
+  std::string score_name_;
+  std::vector<std::string> score_warnings_;
+  double score_end_s_;
+  ScoreReader score_;
   int outputs_;
   const physics::Instrument& instrument_;  // the station's: nobody swaps it
   std::uint64_t slices_in_use_;            // bit i: a port follows slice i
@@ -171,6 +208,20 @@ std::unique_ptr<Player> makeHandPlayer(std::unique_ptr<station::Performer> perfo
                                        SoundInputs inputs,
                                        const std::string& csv) {
   return std::make_unique<HandPlayer>(std::move(performer), std::move(inputs), csv);
+}
+
+std::unique_ptr<Player> makeSongPlayer(std::unique_ptr<station::Performer> performer,
+                                       SoundInputs inputs,
+                                       const tgr::EndEffectors& end_effectors,
+                                       const Song& song,
+                                       const std::string& map) {
+  constexpr double kRingsOnS = 3.0;
+  const scene::Scene& scene = performer->instrument->scene();
+  const int slices = deviceFor("", performer->rig->slicesInUse()).slices;
+  Score score = scoreOf(song, songMapFor(scene, map), scene, end_effectors, slices);
+  const double usual_s = score.end_s + kRingsOnS;
+  return std::make_unique<HandPlayer>(std::move(performer), std::move(inputs), "", std::move(score),
+                                      song.file, usual_s);
 }
 
 std::unique_ptr<Player> makeRecordedPlayer(std::unique_ptr<replay::Replay> recorded) {

@@ -8,6 +8,7 @@
 
 #include "ergotic/station/performer.hpp"
 #include "replay/replay.hpp"
+#include "tools/lib/song.hpp"
 #include "tools/lib/sound_inputs.hpp"
 
 namespace ergotic::tools {
@@ -35,6 +36,10 @@ class Player {
   /// Ticks that are left to play; -1: no end.
   virtual std::int64_t ticksLeft() const { return -1; }
 
+  /// How much is played if nobody says it, s.
+  virtual double usualSeconds() const { return kUsualSeconds; }
+  static constexpr double kUsualSeconds = 10.0;
+
   /// What of the gesture is not played as it is written, if `seconds` are played. Rows may be
   /// `late_s` later without a word.
   virtual std::vector<std::string> gestureWarnings(double /*seconds*/, double /*late_s*/) const {
@@ -54,6 +59,15 @@ std::unique_ptr<Player> makeFreePlayer(std::unique_ptr<station::Performer> perfo
 std::unique_ptr<Player> makeHandPlayer(std::unique_ptr<station::Performer> performer,
                                        SoundInputs inputs,
                                        const std::string& csv);
+
+/// The same, but a song plays: by a map of notes as at a live station, each stroke when it is due.
+/// \param end_effectors  that the performer has. \param map  file; empty: as songMapFor says
+/// \throws TextError from the map, Exception if no note of the song has a key
+std::unique_ptr<Player> makeSongPlayer(std::unique_ptr<station::Performer> performer,
+                                       SoundInputs inputs,
+                                       const tgr::EndEffectors& end_effectors,
+                                       const Song& song,
+                                       const std::string& map);
 
 /// A recorded performance. \pre `recorded` is not null
 std::unique_ptr<Player> makeRecordedPlayer(std::unique_ptr<replay::Replay> recorded);

@@ -34,8 +34,6 @@
 namespace ergotic::tools {
 namespace {
 
-constexpr double kDefaultSeconds = 10.0;
-
 void say(const std::string& line) {
   std::cerr << line << '\n';
 }
@@ -83,11 +81,12 @@ void meetTarget(const RenderOptions& options,
   compile.precision = proposal.precision;
 }
 
-/// The scene of the command line, played by nobody or by a CSV file.
+/// The scene of the command line, played by nobody, by a CSV file or by a song.
 std::unique_ptr<Player> playScene(const RenderOptions& options) {
   if (options.scene.scene.empty()) {
     throw CLI::ValidationError("SCENE", "needed without a recording");
   }
+  const Song song = options.midi.empty() ? Song() : readSong(options.midi);
   StageLine stages;
   stages.show("read " + options.scene.scene);
   scene::Scene scene = readScene(options.scene);
@@ -117,6 +116,10 @@ std::unique_ptr<Player> playScene(const RenderOptions& options) {
   if (!note.empty()) {
     say(note);
   }
+  if (!options.midi.empty()) {
+    return makeSongPlayer(std::move(performer), std::move(inputs), policy.end_effectors, song,
+                          options.map);
+  }
   return options.gesture.empty()
              ? makeFreePlayer(std::move(performer), std::move(inputs))
              : makeHandPlayer(std::move(performer), std::move(inputs), options.gesture);
@@ -124,10 +127,10 @@ std::unique_ptr<Player> playScene(const RenderOptions& options) {
 
 /// Nothing is heard, and nobody else plays.
 int feelScene(const RenderOptions& options) {
-  if (options.scene.scene.empty() || !options.gesture.empty() || !options.out.empty() ||
-      !options.inputs.empty() || !options.target.empty()) {
+  if (options.scene.scene.empty() || !options.gesture.empty() || !options.midi.empty() ||
+      !options.out.empty() || !options.inputs.empty() || !options.target.empty()) {
     throw CLI::ValidationError(
-        "--feel", "takes a scene, and no --gesture, --out, --input or --target beside it");
+        "--feel", "takes a scene, and no --gesture, --midi, --out, --input or --target beside it");
   }
   scene::Scene scene = readScene(options.scene);
   const physics::Rates rates = chosenRates(scene, options.scene);
@@ -208,7 +211,7 @@ std::int64_t framesOf(const RenderOptions& options, const Player& player) {
     const std::int64_t wanted = std::max(1LL, std::llround(options.seconds * rate));
     return player.ticksLeft() < 0 ? wanted : std::min(wanted, recorded);
   }
-  return player.ticksLeft() < 0 ? std::llround(kDefaultSeconds * rate) : recorded;
+  return player.ticksLeft() < 0 ? std::llround(player.usualSeconds() * rate) : recorded;
 }
 
 /// Who says --seconds may want the beginning of a gesture, but hardly a tenth of it: what is longer
@@ -216,7 +219,7 @@ std::int64_t framesOf(const RenderOptions& options, const Player& player) {
 void sayWhatOfTheGestureIsLost(const RenderOptions& options, const Player& player) {
   constexpr double kHardlyWanted = 9.0;
   const bool is_chosen = options.seconds > 0.0;
-  const double seconds = is_chosen ? options.seconds : kDefaultSeconds;
+  const double seconds = is_chosen ? options.seconds : player.usualSeconds();
   for (const std::string& warning :
        player.gestureWarnings(seconds, is_chosen ? kHardlyWanted * seconds : 0.0)) {
     say(warning);
@@ -300,7 +303,8 @@ void addOptions(CLI::App& app, RenderOptions& options) {
   app.add_option("scene", options.scene.scene, "scene file, .yaml or .mdl")->type_name("SCENE");
   addOptions(app, options.scene);
   addOptions(app, options.compile);
-  app.add_option("--seconds", options.seconds, "length (default: 10, or that of the recording)")
+  app.add_option("--seconds", options.seconds,
+                 "length (default: 10, that of the recording, or of the song and 3 s)")
       ->check(CLI::PositiveNumber)
       ->check(CLI::Range(0.0, 1e6));
   app.add_option("--out", options.out, "WAV file to write")->type_name("F.wav");
@@ -316,9 +320,20 @@ void addOptions(CLI::App& app, RenderOptions& options) {
   app.add_option("--input", options.inputs, "sound file for an input of the scene")
       ->type_name("NAME=F.wav")
       ->allow_extra_args(false);
-  app.add_option("--gesture", options.gesture,
-                 "who plays: targets of a hand or recorded positions (CSV), or a recording (bag)")
-      ->type_name("F.csv|F.bag");
+  CLI::Option* const gesture =
+      app.add_option(
+             "--gesture", options.gesture,
+             "who plays: targets of a hand or recorded positions (CSV), or a recording (bag)")
+          ->type_name("F.csv|F.bag");
+  CLI::Option* const midi =
+      app.add_option("--midi", options.midi, "who plays: a MIDI file, by a map of notes")
+          ->type_name("SONG.mid")
+          ->excludes(gesture);
+  app.add_option("--map", options.map,
+                 "how the notes of --midi move hands (default: maps/NAME.yaml beside the scene, "
+                 "else each slice is a key, from middle C on)")
+      ->type_name("MAP.yaml")
+      ->needs(midi);
   app.add_option("--station", options.station, "whose performance, of a bag with several stations");
   addEndEffectorsOption(app, options.end_effectors);
   addTargetOption(app, options.target,

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "ergotic/tgr/end_effector.hpp"
+#include "ergotic/tgr/players/play_map.hpp"
+#include "replay/offline_station.hpp"
+#include "tools/lib/song.hpp"
+
+namespace ergotic::tools {
+
+/// What happens at a station beside what its device does by itself. Times are in s since the first
+/// tick.
+struct Score {
+  struct Move {
+    double time_s = 0.0;  ///< what the move says of its delay counts from there
+    tgr::HandMove move;
+  };
+  struct Value {
+    double time_s = 0.0;
+    int parameter = 0;  ///< index
+    double value = 0.0;
+  };
+  std::vector<Move> moves;            ///< in order of time
+  std::vector<Value> values;          ///< in order of time
+  double end_s = 0.0;                 ///< when the last of what it was made of happens
+  std::vector<std::string> warnings;  ///< what of it is passed over
+};
+
+/// Brings a score to a station, each part at its tick: what happens during a tick is there from the
+/// beginning of that tick on, but for hands, which know the time within it.
+class ScoreReader {
+ public:
+  /// \param parameters  values that the model begins with
+  ScoreReader(Score score, std::vector<double> parameters);
+
+  /// \pre `tick` is the next one of the station, and ticks increase
+  /// \param instrument  that plays there
+  /// \throws Exception if the station does not take it
+  void bring(std::int64_t tick,
+             const physics::Instrument& instrument,
+             replay::OfflineStation& station);
+
+ private:
+  Score score_;
+  std::vector<double> parameters_;
+  std::size_t next_move_ = 0;
+  std::size_t next_value_ = 0;
+};
+
+/// The map by which notes play a scene, as at a live station.
+struct SongMap {
+  tgr::PlayMap map;
+  std::string name;  ///< for messages
+};
+/// \param file  of the map; empty: that beside the scene, or else each slice a key
+/// \throws TextError, Exception from the file
+SongMap songMapFor(const scene::Scene& scene, const std::string& file);
+
+/// What hands and parameters do when a song plays a scene.
+/// \param slices  of the device, whose hands can be moved
+/// \throws Exception if no note of the song has a key
+Score scoreOf(const Song& song,
+              SongMap map,
+              const scene::Scene& scene,
+              const tgr::EndEffectors& end_effectors,
+              int slices);
+
+}  // namespace ergotic::tools

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Strings that end on bodies, by their sound: in tune with them, and out of tune if nobody tunes
 // them together.
+#include <algorithm>
+
+#include "ergotic/physics/settling/settle.hpp"
+#include "ergotic/scene/text/read_scene.hpp"
 #include "support/places.hpp"
 #include "support/scene_builder.hpp"
 #include "tools/lib/truths.hpp"
@@ -70,6 +74,26 @@ truths:
       judgeTruths(scene::readTruths(scene, "plate.yaml"), kRates, physics::Precision::kDouble)
           .at(0)
           .holds);
+}
+
+/// It would be tuned to another mode than its first.
+TEST(CoupledStringsTest, WithAFreeEndAreLeftAsTheyWereAndSayWhy) {
+  const std::string head = R"(ergotic: 1
+sections: {a: {rate: audio}}
+mats: {end: {type: cell, section: a, mass: 1e-5, damping: 1e-6}}
+generators:
+  - {type: string, name: s, section: a, masses: 60, frequency: 110, mass: 2.2e-5, to: [0.65, 0])";
+  const auto stiffness_of = [&](const std::string& more) {
+    const physics::Settled settled =
+        physics::settle(scene::readYaml(head + more + "}\n", "free.yaml"), kRates);
+    const auto warns = std::any_of(
+        settled.scene.warnings.begin(), settled.scene.warnings.end(), [](const auto& warning) {
+          return warning.find("string 's' cannot be tuned together") != std::string::npos;
+        });
+    EXPECT_EQ(warns, !more.empty());
+    return settled.scene.lias.front().stiffness.factor;
+  };
+  EXPECT_EQ(stiffness_of(", ends: [ground, end]"), stiffness_of(""));
 }
 
 }  // namespace

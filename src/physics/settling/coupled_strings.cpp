@@ -6,6 +6,7 @@
 #include <complex>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -31,6 +32,9 @@ constexpr int kMostTrials = 20;      // of the stiffness
 constexpr int kMostSteps = 30;       // of inverse iteration
 constexpr double kLeastScale = 0.25;
 constexpr double kMostScale = 4.0;
+// How alike the mode and that of a string between grounds are, along the string: less is another
+// one, as of a string whose end is free (0.85 and 0.51).
+constexpr double kLeastLikeness = 0.93;
 
 /// k u u^T and z u u^T on what a link joins, in units of a step.
 struct Load {
@@ -129,6 +133,16 @@ class Surroundings {
     }
     algebra::normalize(shape);
     return shape;
+  }
+
+  /// How much of a shape along the string is that of its mode between grounds, 0...1.
+  double likeness(const CoupledString& string, const Eigen::VectorXcd& shape) const {
+    const Eigen::VectorXcd wanted = shapeOf(string);
+    double along = 0.0;
+    for (int i = 1; i + 1 < string.mats; ++i) {
+      along += std::norm(shape[row_of_[at(string.first_mat + i)]]);
+    }
+    return std::abs(wanted.dot(shape)) / (wanted.norm() * std::sqrt(along));
   }
 
   struct Equations {
@@ -267,7 +281,8 @@ class CoupledTuning {
         return std::nullopt;
       }
       if (std::abs(off) < kInTuneCents) {
-        return std::exp(now);
+        const bool is_same = surroundings_.likeness(string_, pole_.shape) >= kLeastLikeness;
+        return is_same ? std::optional(std::exp(now)) : std::nullopt;
       }
       const double next = now - off * (now - before) / (off - off_before);
       before = now;
@@ -331,24 +346,33 @@ void tuneCoupledStrings(scene::Scene& scene,
                         const std::vector<CoupledString>& strings,
                         const Rates& rates,
                         std::vector<std::string>& notes) {
+  // What one string is tuned by does not change the surroundings of another: each rate has one.
+  std::map<int, Surroundings> surroundings;
+  std::vector<std::pair<const CoupledString*, double>> scales;
   for (std::size_t i = 0; i < strings.size(); ++i) {
     const CoupledString& string = strings[i];
     const int divisor = divisorOf(scene.sectionOf(scene.mats[at(string.first_mat)]), rates);
-    Surroundings surroundings(scene, strings, divisor, rates);
-    CoupledTuning tuning(surroundings, string, static_cast<int>(i), rates.audio_hz / divisor);
+    Surroundings& around =
+        surroundings.try_emplace(divisor, scene, strings, divisor, rates).first->second;
+    CoupledTuning tuning(around, string, static_cast<int>(i), rates.audio_hz / divisor);
     const std::optional<double> scale = tuning.run();
-    const std::string who = noteAt(scene, string.place) + "string '" + string.name + "' ";
+    const std::string who = "string '" + string.name + "' ";
     if (scale) {
-      stiffen(scene, string, *scale);
-      notes.push_back(who +
+      scales.emplace_back(&string, *scale);
+      notes.push_back(noteAt(scene, string.place) + who +
                       "is tuned together with what it ends on, which would have changed its "
                       "pitch by " +
                       shortly(tuning.firstCents()) + " cents");
     } else {
-      notes.push_back(who +
-                      "could not be tuned together with what it ends on: no mode of both is "
-                      "near its pitch");
+      scene.warnings.push_back(scene::textOf(scene, string.place) + ": warning: " + who +
+                               "cannot be tuned together with what it ends on, which yields too "
+                               "much: it does not sound at " +
+                               shortly(string.pitch_hz) +
+                               " Hz. Make the end heavier, stiffer or less resonant at its pitch");
     }
+  }
+  for (const auto& [string, scale] : scales) {
+    stiffen(scene, *string, scale);
   }
 }
 

@@ -31,6 +31,7 @@ std::vector<CoupledString> coupledStrings(const scene::Scene& scene);
 /// partial sounds at the pitch: that of the string and everything that springs join it to at its
 /// rate, with their losses, but for other strings of this kind. By itself an ideal string of
 /// impedance Z0 on a body of mobility Y(f) would be flat by about 1200/(pi ln 2) Z0 Im Y cents.
+/// One whose end yields so much that the mode has another shape is left as it was, with a warning.
 /// \pre all strings and bodies are tuned by themselves
 void tuneCoupledStrings(scene::Scene& scene,
                         const std::vector<CoupledString>& strings,

@@ -3,6 +3,11 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <thread>
+
+#include <rosbag/bag.h>
+
+#include "bag/open_bag.hpp"
 #include "support/places.hpp"
 #include "support/test.hpp"
 
@@ -65,6 +70,25 @@ TEST_F(DriverPluginsTest, PassOnWhatADriverSaysOfItsSettings) {
 
 TEST_F(DriverPluginsTest, SayWhichBagCannotBeReplayed) {
   EXPECT_THAT(refusalOf("replay", "{bag: /nowhere/take.bag}"), HasSubstr("/nowhere/take.bag"));
+}
+
+/// The station lists its takes, each a bag, while it loads the driver of its device.
+TEST_F(DriverPluginsTest, AreLoadedWhileAnotherThreadOpensBags) {
+  constexpr int kTimes = 100;
+  std::thread bags([] {
+    for (int i = 0; i < kTimes; ++i) {
+      EXPECT_THROW(bag::openToRead("/nowhere/take.bag"), rosbag::BagException);
+    }
+  });
+  for (int i = 0; i < kTimes; ++i) {
+    DriverPlugins plugins;
+    EXPECT_NE(plugins.make("third_party_device/still", YAML::Load("{}"), "devices.yaml"), nullptr);
+    EXPECT_THAT(complaintOf([&] {
+                  plugins.make("third_party_device/missing", YAML::Load("{}"), "devices.yaml");
+                }),
+                HasSubstr("cannot be loaded"));
+  }
+  bags.join();
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 import os
 import re
 import shlex
+import struct
 import subprocess
 import sys
 import tempfile
@@ -64,12 +65,15 @@ class TypedTest(unittest.TestCase):
         rospy.wait_for_message("/station/model_state", rospy.AnyMsg, 60)
 
     def setUp(self):
-        """A folder like a user's: a clone, with a scene of one's own."""
+        """A folder like a user's: a clone, with a scene and a song of one's own."""
         self.folder = tempfile.TemporaryDirectory()
         for name in ("models", "config"):
             os.symlink(os.path.join(ROOT, name), os.path.join(self.folder.name, name))
         with open(os.path.join(self.folder.name, "my_scene.yaml"), "w", encoding="utf-8") as file:
             file.write(re.search(r"```yaml\n(.*?)```", text_of("docs/scene.md"), re.DOTALL).group(1))
+        note = bytes([0, 0x90, 60, 100, 96, 0x80, 60, 0, 0, 0xff, 0x2f, 0])  # a C of one quarter
+        with open(os.path.join(self.folder.name, "song.mid"), "wb") as file:
+            file.write(b"MThd" + struct.pack(">IHHH", 6, 0, 1, 96) + b"MTrk" + struct.pack(">I", len(note)) + note)
 
     def tearDown(self):
         self.folder.cleanup()

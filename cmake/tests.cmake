@@ -101,9 +101,9 @@ ergotic_add_gtests(golden 3)
 ergotic_add_gtests(scene 3 yaml-cpp)  # broken scenes are listed in it
 pkg_check_modules(URDFDOM REQUIRED IMPORTED_TARGET urdfdom)  # reads what pictures are made of
 ergotic_add_gtests(tgr 2 yaml-cpp PkgConfig::URDFDOM)  # places of settings are seen in their nodes
-ergotic_add_gtests(physics 8 ergotic_measuring)  # is compared with the tools' plain implementation
-ergotic_add_gtests(advice 2 ergotic_measuring)
-ergotic_add_gtests(tools 4 ergotic_measuring)
+ergotic_add_gtests(physics 8 ergotic_plain)  # is compared with the plain implementation of the laboratory
+ergotic_add_gtests(advice 2 ergotic_advice ergotic_plain)
+ergotic_add_gtests(tools 4 ergotic_tool_support)
 # The comedi driver before a stand-in for libcomedi, which takes its place when it is linked first, or
 # preloaded. The mechanics are its own copy, so that what preloads it meets no symbols of the core.
 file(GLOB standin_sources CONFIGURE_DEPENDS test/comedi/standin/*.cpp)
@@ -125,7 +125,7 @@ target_compile_definitions(ergotic_comedi_live_test PRIVATE
   COMEDI_PROBE="$<TARGET_FILE:comedi_probe>" COMEDI_STANDIN="$<TARGET_FILE:comedi_standin>")
 ergotic_add_gtests(tgr_jack 1 ergotic_jack_driver)
 ergotic_tests_need(golden render check)
-ergotic_tests_need(tools bench check expand latency render)
+ergotic_tests_need(tools check expand render)
 ergotic_tests_need(tgr_jack jack_tgr)
 if(ERGOTIC_ROS)
   include(cmake/ros_tests.cmake)
@@ -138,9 +138,9 @@ foreach(target ${ergotic_libraries} ${ergotic_tools})
 endforeach()
 add_test(NAME scripts.bound_at_load
   COMMAND ${PROJECT_SOURCE_DIR}/test/integration/bound_at_load.sh ${bound_at_load})
-# The scripts: what is built; what is asked of scripts/station; what rooms may include, and how they are drawn; what measures a demo, a soak,
-# a peer and another build; what users do in the devel and in an install space.
-foreach(script build check_includes demo_report soak_report bench_faust front_door latency play_gesture test_report)
+# The scripts: what is built; what is asked of scripts/station; what rooms may include, and how they are drawn; what measures a demo, a soak
+# and another build; what users do in the devel and in an install space.
+foreach(script build check_includes demo_report soak_report front_door play_gesture test_report)
   add_test(NAME scripts.${script}
     COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/${script}_test.py)
 endforeach()
@@ -170,6 +170,20 @@ if(ERGOTIC_ROS)
             ${PROJECT_BINARY_DIR} ${CATKIN_DEVEL_PREFIX})
   set_tests_properties(integration.spaces PROPERTIES TIMEOUT 300 LABELS integration COST 60)
 endif()
+# The laboratory: built by the target lab_tests, run by scripts/test --long.
+file(GLOB lab_tests CONFIGURE_DEPENDS lab/test/*_test.cpp)
+ergotic_batch(lab_tests ergotic_lab_test ${lab_tests})
+add_executable(ergotic_lab_test EXCLUDE_FROM_ALL ${lab_tests})
+target_link_libraries(ergotic_lab_test
+  PRIVATE ergotic_test_support GTest::gtest_main ergotic_flags ergotic_test_flags ergotic_lab)
+ergotic_compile_soon(ergotic_lab_test)
+add_custom_target(lab_tests DEPENDS ergotic_lab_test lab)
+add_test(NAME lab.programs COMMAND ergotic_lab_test --gtest_brief=1)
+set_tests_properties(lab.programs PROPERTIES TIMEOUT 1800 RUN_SERIAL ON)
+foreach(script bench_faust latency)
+  add_test(NAME lab.${script} COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/lab/test/${script}_test.py)
+endforeach()
+set_tests_properties(lab.programs lab.bench_faust lab.latency PROPERTIES LABELS long)
 # As it is preloaded into a station.
 target_sources(ergotic_rt_live_test PRIVATE src/preload/priority_inheritance.cpp)
 target_link_libraries(ergotic_rt_live_test PRIVATE ${CMAKE_DL_LIBS})

@@ -55,6 +55,8 @@ ROOMS = {
     "tools/lib": "exception files rt scene scene/laws scene/generate scene/text physics physics/engine"
                  " physics/certificate physics/settling advice tgr station audio bag replay",
     "tools": "exception files rt scene tgr audio tgr/drivers/jack tools/lib",
+    "lab": "exception rt scene scene/generate scene/text physics physics/engine physics/certificate physics/settling advice tgr"
+           " station tools/lib",
 }
 
 # Headers of others that a room may know beside those of the C++ library and the system: by the
@@ -76,6 +78,7 @@ FOREIGN = {
     "rviz": ROS + " rviz/ Q Ogre unsupported/Eigen/FFT",
     "tools/lib": CORE + " CLI/ nlohmann/ sndfile ebur128 smf.h glib.h",
     "tools": CORE + " CLI/ nlohmann/",
+    "lab": CORE + " CLI/ nlohmann/",
 }
 # Of the system: no slash, or one of these.
 SYSTEM = "sys/ linux/ netinet/ arpa/"
@@ -100,8 +103,10 @@ def room_of(path):
 def files(root):
     """All files of the program, below the root."""
     root = Path(root)
-    found = [path for part in ("src", "include") for path in sorted((root / part).rglob("*"))]
-    return [path for path in found if path.is_symlink() or not path.is_dir()]
+    found = [path for part in ("src", "include", "lab") for path in sorted((root / part).rglob("*"))]
+    tests = (root / "lab" / "test", root / "lab" / "scripts")
+    return [path for path in found
+            if (path.is_symlink() or not path.is_dir()) and path.parent not in tests and path.suffix != ".md"]
 
 
 def directives(text):
@@ -129,6 +134,6 @@ def includes(root):
                 continue
             ours, other = plain.groups()
             name = ours or other
-            found = [b + name for b in ("src/", "include/") if (root / (b + name)).is_file()]
+            found = [b + name for b in ("src/", "include/", "") if (root / (b + name)).is_file()]
             yield path.relative_to(root).as_posix(), f'"{ours}"' if ours else f"<{other}>", \
                 found[0] if found else None

@@ -24,7 +24,7 @@ class Bodies(Laws):
         """Rest length and scheme of generated springs."""
         if geometry == "scalar":
             return {}
-        scheme = self.pick("explicit", "explicit", "guarded")
+        scheme = self.pick("explicit", "explicit", "energy_stable")
         self.features["generator " + scheme] += 1
         return {"rest_length_ratio": rounded(self.within(0.01, 0.9)), "scheme": scheme}
 
@@ -38,7 +38,7 @@ class Bodies(Laws):
         string = {"type": "string", "name": name, "section": section, "masses": masses,
                   "mass": self.value(unit.mass), "damping": self.value(self.losses(unit)),
                   "from": [0, 0, 0][:size], "to": [rounded(length), 0, 0][:size], **self.ties(geometry)}
-        if self.chance(0.4) and string.get("scheme") != "guarded" or coarse:  # those may be flat
+        if self.chance(0.4) and string.get("scheme") != "energy_stable" or coarse:  # those may be flat
             string["frequency"] = rounded(
                 math.sqrt(kappa) / unit.step / math.pi * math.sin(math.pi / (2 * (masses + 1))))
         else:

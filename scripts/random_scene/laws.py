@@ -3,7 +3,7 @@
 from random_scene.dice import SPEED, Dice, rounded
 
 ELASTIC = ("spring", "spring_damper", "quadratic", "cubic", "clipped_cubic", "table")
-CONTACTS = ("contact", "power_contact", "cubic_contact")
+CONTACTS = ("contact", "power_contact", "cubic_contact", "felt")
 FRICTION = ("bow", "smooth_bow", "damper", "friction")
 ACTIVE = ("pluck", "conditional")
 LAWS = ELASTIC + CONTACTS + FRICTION + ACTIVE + ("relaxing",)
@@ -13,12 +13,12 @@ ALWAYS_EXPLICIT = ("spring", "spring_damper", "damper", "relaxing") + ACTIVE
 class Laws(Dice):
     def law(self, kind, unit, length=0.0, soft=False):
         """Keys of a link, with its scheme."""
-        scheme = "explicit" if kind in ALWAYS_EXPLICIT else self.pick("auto", "auto", "guarded",
+        scheme = "explicit" if kind in ALWAYS_EXPLICIT else self.pick("auto", "auto", "energy_stable",
                                                                       "explicit")
         if kind == "friction" and scheme == "explicit":
-            scheme = "guarded"
+            scheme = "energy_stable"
         stiff = self.between(0.01, 0.05) * unit.full
-        if scheme == "guarded" and not soft:
+        if scheme == "energy_stable" and not soft:
             stiff *= self.between(1, 30)
         damping = self.between(1e-4, 1e-2) * unit.mass / unit.step
         keys = getattr(self, "law_" + kind)(unit, stiff, damping)
@@ -50,6 +50,11 @@ class Laws(Dice):
         return {"stiffness": self.value(stiff * unit.reach ** (1 - exponent)),
                 "exponent": self.value(exponent) if exponent > 2.1 else exponent,
                 "damping": self.value(damping)}
+
+    def law_felt(self, unit, stiff, damping):
+        exponent = rounded(self.within(1, 3))
+        return {"stiffness": self.value(stiff * unit.reach ** (1 - exponent)), "exponent": exponent,
+                "damping": self.value(self.within(0.05, 0.5) / SPEED)}
 
     def law_quadratic(self, unit, stiff, damping):
         return {"stiffness": self.value(stiff), "damping": self.value(damping),

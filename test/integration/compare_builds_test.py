@@ -6,8 +6,10 @@
 """
 import importlib.machinery
 import importlib.util
+import json
 import pathlib
 import stat
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -103,6 +105,11 @@ class SceneTest(unittest.TestCase):
                       for case in cases]
         self.assertGreaterEqual(states.count("sounding"), len(SEEDS) - 2, states)
 
+    def test_knows_every_law_of_the_schema(self):
+        schema = json.loads(subprocess.run([TOOLS / "expand", "--schema"], check=True, capture_output=True).stdout)
+        words = schema["definitions"]["lia"]["properties"]["type"]["anyOf"][0]["enum"]
+        self.assertEqual(set(LAWS), set(words) - {"bend", "stretch"})
+
     def test_meets_everything_in_two_hundred(self):
         features = sum((compare_builds.Scene(seed).features for seed in range(1, 201)),
                        compare_builds.collections.Counter())
@@ -111,7 +118,7 @@ class SceneTest(unittest.TestCase):
                 "mesh scalar", "mesh plane", "mesh space", "chaplet", "filter auto", "modes all",
                 "modes auto", "modes N", "moving point", "guide", "sleep", "agent", "cell", "parameter",
                 "parameter set", "table linear", "table smooth", "force input", "position input",
-                "hear position", "hear velocity", "hear force", "rates joined", "generator guarded"]:
+                "hear position", "hear velocity", "hear force", "rates joined", "generator energy_stable"]:
             self.assertGreaterEqual(features[feature], 3, feature)
 
 

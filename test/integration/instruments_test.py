@@ -58,7 +58,7 @@ class InstrumentsTest(unittest.TestCase):
     def test_there_are_twelve_and_more(self):
         self.assertGreaterEqual(len(set(instruments()) - OLDER), 12)
 
-    def test_each_is_short_vouched_for_and_has_a_map_and_a_page(self):
+    def test_each_is_short_certified_and_has_a_map_and_a_page(self):
         for name in instruments():
             with self.subTest(name):
                 text = (MODELS / f"{name}.yaml").read_text()

@@ -100,7 +100,7 @@ class RecipesTest(unittest.TestCase):
         self.assertLess(abs(cents(heard, hz)), 1)
         self.assertAlmostEqual(sound.t60(heard, begin, end) / t60_s, 1, delta=0.05)
 
-    def test_each_is_short_and_vouched_for(self):
+    def test_each_is_short_and_certified(self):
         self.assertEqual(set(self.scenes),
                          {"first", "bar", "drum", "skin", "keys", "bridge", "bow", "gong"})
         for name, text in self.scenes.items():

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "lab/lib/plain_network.hpp"
 #include "support/scene_builder.hpp"
 #include "support/test.hpp"
-#include "tools/lib/plain_network.hpp"
 
 /// For test programs that are linked with the tools.
 namespace ergotic::test {

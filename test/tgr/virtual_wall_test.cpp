@@ -279,7 +279,7 @@ TEST(HardContactTest, IsLimitedAndNoFault) {
 }
 
 /// With ERGOTIC_WALL_CHART=FILE: the stiffest stable walls over their damping, for
-/// scripts/plot_wall_stability.
+/// lab/scripts/plot_wall_stability.
 TEST(WallChartTest, DampingOfTheWallMakesStifferWallsStable) {
   const char* path = std::getenv("ERGOTIC_WALL_CHART");
   std::ofstream chart;

@@ -22,18 +22,13 @@
 #include "physics/certificate/rounding_noise.hpp"
 #include "physics/note.hpp"
 #include "scene/laws/law.hpp"
-#include "tools/lib/check_about.hpp"
-#include "tools/lib/check_brief.hpp"
-#include "tools/lib/check_filters.hpp"
-#include "tools/lib/check_names.hpp"
-#include "tools/lib/check_points.hpp"
-#include "tools/lib/check_ports.hpp"
-#include "tools/lib/check_sections.hpp"
+#include "tools/lib/check_report.hpp"
 #include "tools/lib/cost.hpp"
 #include "tools/lib/end_effectors.hpp"
 #include "tools/lib/explain.hpp"
 #include "tools/lib/load_figures.hpp"
 #include "tools/lib/report.hpp"
+#include "tools/lib/report_names.hpp"
 #include "tools/lib/target.hpp"
 #include "tools/lib/truths.hpp"
 
@@ -57,7 +52,7 @@ Json linksOf(const Scene& scene) {
     const bool is_stretch =
         lia.tank >= 0 && scene.tanks[static_cast<std::size_t>(lia.tank)].is_mean;
     ++by_type[is_stretch ? "stretch" : scene::lawOf(lia.type).name];
-    ++by_scheme[lia.scheme == scene::Scheme::kGuarded ? "guarded" : "explicit"];
+    ++by_scheme[lia.scheme == scene::Scheme::kGuarded ? "energy_stable" : "explicit"];
     const bool across = scene.mats[at(lia.a)].section != scene.mats[at(lia.b)].section;
     between_sections += across ? 1 : 0;
   }

@@ -5,7 +5,7 @@
 
 #include "tools/lib/check_advice.hpp"
 #include "tools/lib/check_modes.hpp"
-#include "tools/lib/check_ports.hpp"
+#include "tools/lib/check_report.hpp"
 #include "tools/lib/options.hpp"
 
 namespace ergotic::tools {

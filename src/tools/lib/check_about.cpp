@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/lib/check_about.hpp"
-
 #include "ergotic/physics/settling/settle.hpp"
+#include "tools/lib/check_report.hpp"
 
 namespace ergotic::tools {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/lib/check_brief.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "tools/lib/check_report.hpp"
 
 namespace ergotic::tools {
 namespace {

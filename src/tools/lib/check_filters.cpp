@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/lib/check_filters.hpp"
-
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -8,6 +6,7 @@
 
 #include "ergotic/exception.hpp"
 #include "ergotic/physics/settling/chaplet.hpp"
+#include "tools/lib/check_report.hpp"
 
 namespace ergotic::tools {
 namespace {

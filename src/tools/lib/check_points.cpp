@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/lib/check_points.hpp"
-
 #include <utility>
 
 #include "at.hpp"
+#include "tools/lib/check_report.hpp"
 
 namespace ergotic::tools {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/lib/check_ports.hpp"
-
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -8,6 +6,7 @@
 #include "at.hpp"
 #include "scene/limits.hpp"
 #include "scene/names.hpp"
+#include "tools/lib/check_report.hpp"
 
 namespace ergotic::tools {
 namespace {

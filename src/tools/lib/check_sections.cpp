@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/lib/check_sections.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <sstream>
 #include <string>
 
-#include "tools/lib/check_names.hpp"
+#include "tools/lib/check_report.hpp"
+#include "tools/lib/report_names.hpp"
 
 namespace ergotic::tools {
 namespace {

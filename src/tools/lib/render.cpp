@@ -162,10 +162,10 @@ void compareIsa(const bag::Keyframe& keyframe, rt::Isa isa, bool asked_for) {
   }
 }
 
-void requireBooks(const RenderOptions& options, const bag::Keyframe& keyframe) {
+void requireEnergies(const RenderOptions& options, const bag::Keyframe& keyframe) {
   if (options.energies && !keyframe.metered) {
     throw Exception(options.gesture +
-                    ": recorded without books of energy (energies: false), "
+                    ": recorded without energy accounts (energies: false), "
                     "--energies has nothing to say");
   }
 }
@@ -189,7 +189,7 @@ std::unique_ptr<Player> playRecording(const RenderOptions& options) {
   };
   auto replay = std::make_unique<replay::Replay>(
       bag::readRecording(options.gesture, options.station), policyOf(options), choose);
-  requireBooks(options, replay->start());
+  requireEnergies(options, replay->start());
   compareScene(options.scene.scene, replay->start());
   compareIsa(replay->start(), replay->instrument().options().isa, !options.compile.isa.empty());
   if (!endsWith(replay->start().build, rt::buildId())) {

@@ -18,7 +18,7 @@ namespace ergotic::tools {
 namespace {
 
 using scene::Truth;
-constexpr int kBookTicks = 64;  // between looks at the books
+constexpr int kEnergyTicks = 64;  // between looks at the energy accounts
 
 /// Of its file, and only below its folder: a scene may be a stranger's.
 std::string gestureOf(const scene::Scene& scene, const Truth& truth) {
@@ -94,7 +94,7 @@ class FreePlay {
               performer_->outputs[static_cast<std::size_t>(r * outputs + c)]);
         }
       }
-      if (instrument.options().metered && tick % kBookTicks == 0) {
+      if (instrument.options().metered && tick % kEnergyTicks == 0) {
         instrument.readEnergies(energies_);
         most = std::max(most, std::abs(energies_.stored));
         residual = std::max(residual, std::abs(energies_.residual));

@@ -15,7 +15,8 @@ namespace ergotic::tools {
 struct PlayedTruth {
   std::vector<Sound> sounds;  ///< as many as were asked for
   double begin_s = 0.0;       ///< when the tap or pluck is over
-  double imbalance = 0.0;     ///< largest residual of the books, if kept, of the most stored energy
+  double imbalance =
+      0.0;  ///< largest residual of the energy accounts, if kept, of the most stored energy
 };
 
 /// True if one performance serves both.

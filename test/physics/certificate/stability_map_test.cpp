@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Methods against stresses. With ERGOTIC_STABILITY_MAP=FILE each cell also becomes a line of FILE:
-// scripts/plot_stability_map draws it.
+// lab/scripts/plot_stability_map draws it.
 #include <optional>
 
 #include "ergotic/physics/certificate/certify.hpp"
@@ -33,7 +33,7 @@ constexpr double kFar = 1e6;             // of growth: nobody need go on
 constexpr double kMass = 1e-3;
 constexpr double kUnit = kMass * kRate * kRate;  // stiffness of kappa = 1
 
-/// What of the energy must not change, besides the balance of the books.
+/// What of the energy must not change, besides the balance of the energy accounts.
 enum class Closed {
   kNo,   ///< loses energy, or a step apart from it is no measure (couplings, steep friction)
   kYes,  ///< no more may ever be stored than at the start
@@ -317,7 +317,7 @@ void addLimits(Cases& cases) {
       {thrown, "explicit", false, "unproven", "a line that turns", [=](Precision precision) {
          return play(net(9, 0.4, 0.9), {kRate, 1}, 20000, precision, Closed::kNo);
        }});
-  cases.push_back({thrown, "guarded", true, "passive", "", [=](Precision precision) {
+  cases.push_back({thrown, "energy_stable", true, "passive", "", [=](Precision precision) {
                      return play(net(9, 0.4, 0.9, Scheme::kGuarded), {kRate, 1}, 20000, precision);
                    }});
 }
@@ -344,7 +344,7 @@ void addNonlinear(Cases& cases) {
     cases.push_back({stress, "explicit", false, verdict, finding, [=](Precision precision) {
                        return play(make(Scheme::kExplicit), {kRate, 1}, 40000, precision);
                      }});
-    cases.push_back({stress, "guarded", true, "passive", "", [=](Precision precision) {
+    cases.push_back({stress, "energy_stable", true, "passive", "", [=](Precision precision) {
                        return play(make(Scheme::kAuto), {kRate, 1}, 40000, precision);
                      }});
   };
@@ -359,7 +359,7 @@ void addNonlinear(Cases& cases) {
 void addFriction(Cases& cases) {
   const auto both = [&](const std::string& stress, LiaType type, double steepness) {
     for (const bool is_safe : {false, true}) {
-      cases.push_back({stress, is_safe ? "guarded" : "explicit", is_safe,
+      cases.push_back({stress, is_safe ? "energy_stable" : "explicit", is_safe,
                        is_safe ? "bounded" : "unproven", is_safe ? "" : "steep for the step",
                        [=](Precision precision) {
                          const Scheme scheme = is_safe ? Scheme::kAuto : Scheme::kExplicit;

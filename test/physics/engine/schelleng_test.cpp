@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The map of Schelleng: which forces of a bow make a string sound as bowed ones do. With
 // ERGOTIC_SCHELLENG=FILE each force that was played also becomes a line of FILE:
-// scripts/plot_schelleng draws it.
+// lab/scripts/plot_schelleng draws it.
 #include <fstream>
 #include <sstream>
 

@@ -1,8 +1,0 @@
-// SPDX-License-Identifier: BSD-3-Clause
-#include "tools/lib/bench.hpp"
-
-int main(int argc, char** argv) {
-  return ergotic::tools::runTool(
-      "bench", "Measures what scenes cost on this machine, beside a plain implementation.", argc,
-      argv, ergotic::tools::bench);
-}

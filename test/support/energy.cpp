@@ -59,12 +59,12 @@ double energyBetweenSteps(const Player& player,
 
 namespace {
 
-double potentialOf(const physics::Energies& books) {
+double potentialOf(const physics::Energies& energies) {
   double energy = 0.0;
-  for (const physics::SectionEnergy& section : books.sections) {
+  for (const physics::SectionEnergy& section : energies.sections) {
     energy += section.potential;
   }
-  for (const physics::CouplingEnergy& coupling : books.couplings) {
+  for (const physics::CouplingEnergy& coupling : energies.couplings) {
     energy += coupling.stored;
   }
   return energy;
@@ -86,10 +86,10 @@ Swing::Swing(const physics::Instrument& instrument)
       at_rest_(energyAtRest(instrument)) {}
 
 double Swing::energyOf(const physics::Instrument& instrument,
-                       const physics::Energies& books) const {
+                       const physics::Energies& energies) const {
   const scene::Scene& scene = instrument.scene();
   const std::vector<double> d = numbersOf<double>(instrument, "d");
-  double energy = potentialOf(books) - at_rest_;
+  double energy = potentialOf(energies) - at_rest_;
   for (std::size_t m = 0; m < scene.mats.size(); ++m) {
     const scene::Mat& mat = scene.mats[m];
     const physics::SectionRange& range = layout_.sections[at(mat.section)];

@@ -7,19 +7,20 @@
 
 namespace ergotic::test {
 
-/// The books of what has been played so far.
+/// The energy accounts of what has been played so far.
 physics::Energies energiesOf(const Player& player);
-/// J, of all sections, without their signs: that of the books is below 0 where steps are opposite.
+/// J, of all sections, without their signs: that of the energy accounts is below 0 where steps are
+/// opposite.
 double kineticEnergy(const Player& player);
 
 /// The kinetic energy M v^2/2 of all that forces move, each with the velocity of its last step, and
 /// the potential energy, beyond what springs hold that rest stretched. The kinetic energy of the
-/// books, from one step and the next, is below 0 where these are opposite.
+/// energies, from one step and the next, is below 0 where these are opposite.
 class Swing {
  public:
   explicit Swing(const physics::Instrument& instrument);
-  /// J. \pre the same instrument, in double precision \param books  as they are now
-  double energyOf(const physics::Instrument& instrument, const physics::Energies& books) const;
+  /// J. \pre the same instrument, in double precision \param energies  as they are now
+  double energyOf(const physics::Instrument& instrument, const physics::Energies& energies) const;
 
  private:
   physics::Layout layout_;
@@ -33,14 +34,13 @@ Eigen::Vector3d momentumOf(const Player& player, std::size_t n);
 std::vector<physics::GuardedState<double>> guardsOf(const Player& player);
 /// What they have lost so far, J.
 double heatOf(const std::vector<physics::GuardedState<double>>& guards);
-/// Energy between two steps, of nothing but masses, heard as above, and guarded links, J. The books
-/// hold half of a step's work back.
-/// \param guards  before the last tick
+/// Energy between two steps, of nothing but masses, heard as above, and guarded links, J. The
+/// energy accounts hold half of a step's work back. \param guards  before the last tick
 double energyBetweenSteps(const Player& player,
                           const std::vector<physics::GuardedState<double>>& guards);
 
-/// Plays with hands that move at random and noise in the inputs, and reads the books after every
-/// `every` ticks. \return the largest residual, of the largest energy stored; infinite
+/// Plays with hands that move at random and noise in the inputs, and reads the energy accounts
+/// after every `every` ticks. \return the largest residual, of the largest energy stored; infinite
 /// if the model blew up
 double imbalanceOf(Player& player, int ticks, int every = 1);
 

@@ -29,7 +29,7 @@ constexpr double kRate = 44100.0;  // Hz
 constexpr double kStep = 1.0 / kRate;
 constexpr double kTick = 14.0 / kRate;  // at kRates
 constexpr Rates kEveryFrame{kRate, 1};
-constexpr double kUnbalanced = 1e-10;  // what books may miss, of the largest energy stored
+constexpr double kUnbalanced = 1e-10;  // what energies may miss, of the largest energy stored
 
 /// Reads back as the same number.
 inline std::string number(double value) {

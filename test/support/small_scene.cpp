@@ -84,7 +84,7 @@ class Maker : SmallSceneDice {
     section("all", kRate);
     scalarMasses(any(1, 3));
     for (int i = any(1, chance(0.3) ? 60 : 5); i > 0; --i) {
-      contact(anyMass(), decades(1e-3, 1.0), scheme({"explicit", "guarded", "auto"}));
+      contact(anyMass(), decades(1e-3, 1.0), scheme({"explicit", "energy_stable", "auto"}));
     }
     springs(any(0, 3), 1.0);
     inTimeWithTheSteps();
@@ -128,13 +128,13 @@ class Maker : SmallSceneDice {
       const Mass& m = anyMass();
       const std::string rest = chance(0.5) ? ""
                                            : ", rest_length: " + number(decades(1e-5, 2e-2)) +
-                                                 scheme({"explicit", "guarded"});
+                                                 scheme({"explicit", "energy_stable"});
       link("spring_damper", m.name, otherThan(m, 0.4),
            ", stiffness: " + full(m, decades(1e-3, 2.0)) +
                ", damping: " + number(anyLoss() * m.kg * m.rate) + rest);
     }
     if (chance(0.4)) {
-      contact(anyMass(), decades(1e-3, 1.0), scheme({"explicit", "guarded", "auto"}));
+      contact(anyMass(), decades(1e-3, 1.0), scheme({"explicit", "energy_stable", "auto"}));
       if (chance(0.5)) {
         rubAcross(std::string(made_.lias.back()));
       }
@@ -157,7 +157,7 @@ class Maker : SmallSceneDice {
         keys += ", viscous: " + table(3.0, decades(1e-4, 1.0) * m.kg * m.rate);
       }
       link("table", m.name, otherThan(m, 0.7),
-           keys + ((parts & 2) != 0 ? "" : scheme({"explicit", "guarded", "auto"})));
+           keys + ((parts & 2) != 0 ? "" : scheme({"explicit", "energy_stable", "auto"})));
     }
     springs(any(0, 3), 0.1);
     inTimeWithTheSteps();
@@ -173,12 +173,12 @@ class Maker : SmallSceneDice {
       if (chance(0.5)) {
         link("pluck", m.name, otherThan(m, 0.7),
              ", stiffness: " + full(m, decades(1e-3, 3.0)) + ", width: " + number(width) +
-                 damping(m, 0.1) + scheme({"explicit", "guarded", "auto"}));
+                 damping(m, 0.1) + scheme({"explicit", "energy_stable", "auto"}));
       } else {
         link("conditional", m.name, otherThan(m, 0.7),
              ", stiffness: " + full(m, decades(1e-3, 3.0)) + ", engage: " + number(width) +
                  ", release: " + number(width * decades(1.0, 10.0)) + damping(m, 0.1) +
-                 scheme({"explicit", "guarded", "auto"}));
+                 scheme({"explicit", "energy_stable", "auto"}));
       }
     }
     springs(any(1, 3), 0.1);
@@ -222,7 +222,7 @@ class Maker : SmallSceneDice {
       keys += ", nonlinearity: " + number(type == "quadratic" ? k * 1e3 : k * 1e6);
       keys += type == "clipped_cubic" ? ", stiffness_limit: " + number(k) : "";
       link(type, m.name, otherThan(m, 0.5),
-           keys + damping(m, 0.1) + scheme({"explicit", "guarded", "guarded", "auto"}));
+           keys + damping(m, 0.1) + scheme({"explicit", "energy_stable", "energy_stable", "auto"}));
     }
     springs(any(0, 2), 1.0);
     inTimeWithTheSteps();
@@ -239,11 +239,11 @@ class Maker : SmallSceneDice {
         continue;
       }
       link(pick({"bow", "smooth_bow"}), m.name, otherThan(m, 0.5),
-           ", damping: " + number(decades(1e-3, 10.0) * m.kg * m.rate) +
-               ", width: " + number(decades(1e-2, 3.0)) + scheme({"explicit", "guarded", "auto"}));
+           ", damping: " + number(decades(1e-3, 10.0) * m.kg * m.rate) + ", width: " +
+               number(decades(1e-2, 3.0)) + scheme({"explicit", "energy_stable", "auto"}));
     }
     if (chance(0.3)) {
-      contact(anyMass(), decades(1e-3, 1.0), ", scheme: guarded");
+      contact(anyMass(), decades(1e-3, 1.0), ", scheme: energy_stable");
       const Mass& m = anyMass();
       rub(m.name, otherThan(m, 0.5), nameOf(made_.lias.back()));
     }
@@ -270,7 +270,7 @@ class Maker : SmallSceneDice {
                             : ", branches: [" + branches + "]"));
     }
     if (chance(0.3)) {
-      contact(anyMass(), decades(1e-3, 1.0), scheme({"explicit", "guarded", "auto"}));
+      contact(anyMass(), decades(1e-3, 1.0), scheme({"explicit", "energy_stable", "auto"}));
     }
     springs(any(0, 2), 1.0);
     inTimeWithTheSteps();
@@ -287,7 +287,7 @@ class Maker : SmallSceneDice {
       hardenTogether(any(1, 5));
     }
     if (chance(0.3)) {
-      contact(anyMass(), decades(1e-3, 1.0), scheme({"guarded", "auto"}));
+      contact(anyMass(), decades(1e-3, 1.0), scheme({"energy_stable", "auto"}));
     }
     if (chance(0.3)) {
       const Mass& m = anyMass();

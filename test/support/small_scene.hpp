@@ -8,7 +8,7 @@
 
 namespace ergotic::test {
 
-/// A small scene as text, thrown near the limits of what the certificate vouches for.
+/// A small scene as text, thrown near the limits of what the certificate allows.
 struct SmallScene {
   std::string family;  ///< what is searched
   physics::Rates rates;

@@ -169,7 +169,7 @@ class SmallSceneDice {
       keys += ", steady: " + number(within(0.0, 0.5)) + ", parts: [[" + number(within(0.1, 1.0)) +
               ", " + number(decades(1e-3, 3.0)) + "]]";
     }
-    link("friction", a, b, keys + scheme({"guarded", "auto"}));
+    link("friction", a, b, keys + scheme({"energy_stable", "auto"}));
   }
 
   /// Across a contact, which presses it.

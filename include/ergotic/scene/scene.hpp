@@ -44,7 +44,8 @@ int dimensionsOf(Geometry geometry);
 /// Section::modes: how many modes of vibration may stand in for the linear part of a section.
 constexpr int kNoModes = 0;
 constexpr int kAllModes = std::numeric_limits<int>::max();
-constexpr int kAutomaticModes = -1;  ///< all, where `compile` predicts that they cost less
+constexpr int kAutomaticModes =
+    -1;  ///< all, where they take fewer products per step than the network has modules
 
 /// Modules that are stepped together, at one rate, in one frame.
 struct Section {
@@ -171,7 +172,7 @@ struct LiaLaw {
 
 /// (LIA) An interaction: takes two positions, gives one force, -f to `a` and +f to `b`,
 /// with e = x_a - x_b - rest_length and v = v_a - v_b.
-/// The laws are written out in docs/physics.md.
+/// The laws are written out in docs/physics/elements.md.
 struct Lia {
   Name name;
   int a = 0;  ///< index in Scene::mats
@@ -284,8 +285,9 @@ struct Port {
   int axis = 0;  ///< the coordinate: 0 x, 1 y, 2 z; one that moves
   int slice =
       -1;  ///< of the device, from 0, that moves it by itself; -1: an end-effector or nothing
-  int agent = -1;       ///< index in Scene::agents, -1: none
-  int filter = -1;      ///< the mass that all links of `mat` hang on against sensor noise, -1: none
+  int agent = -1;  ///< index in Scene::agents, -1: none
+  int filter =
+      -1;  ///< the mass that all links of `mat` are attached to against sensor noise, -1: none
   double offset = 0.0;  ///< m
   double position_scale = 1.0;
   double force_scale = 1.0;

@@ -4,63 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <cstdlib>
-#include <map>
+#include <string>
 
+#include "algebra/decompositions.hpp"
 #include "at.hpp"
 #include "constants.hpp"
+#include "ergotic/exception.hpp"
 
 namespace ergotic::physics {
 namespace {
-
-// ns per step: of a mass or link; of a mode, a mode at a touched place, a touched place. Float,
-// AVX-512.
-constexpr double kEqual = 0.08;
-constexpr double kRegular = 0.14;
-constexpr double kIrregular = 0.3;
-constexpr double kMode = 0.19;
-constexpr double kModePlace = 0.085;
-constexpr double kPlace = 25.0;
-constexpr std::size_t kOffsets = 12;   // of a lattice with bending, at most
-constexpr double kRegularShare = 0.9;  // of the links, along these offsets
-constexpr double kEqualShare = 1e-9;
-
-/// True if most links join modules that lie equally far apart in the list.
-bool isRegular(const Network& network, const LinearPart& part) {
-  std::map<int, std::size_t> links_at;
-  for (const int l : part.lias) {
-    ++links_at[std::abs(network.links[at(l)].a - network.links[at(l)].b)];
-  }
-  std::vector<std::size_t> counts;
-  for (const auto& [offset, count] : links_at) {
-    counts.push_back(count);
-  }
-  std::sort(counts.rbegin(), counts.rend());
-  std::size_t covered = 0;
-  for (std::size_t k = 0; k < std::min(kOffsets, counts.size()); ++k) {
-    covered += counts[k];
-  }
-  return static_cast<double>(covered) >= kRegularShare * static_cast<double>(part.lias.size());
-}
-
-bool isEqual(const Network& network, const LinearPart& part) {
-  const double mass = network.nodes[at(part.mats.front())].mass.now;
-  const auto isMass = [&](int m) {
-    return std::abs(network.nodes[at(m)].mass.now - mass) <= kEqualShare * mass;
-  };
-  std::map<double, std::size_t> stiffnesses;
-  for (const int l : part.lias) {
-    ++stiffnesses[network.links[at(l)].at_rest];
-  }
-  return stiffnesses.size() <= kOffsets && std::all_of(part.mats.begin(), part.mats.end(), isMass);
-}
-
-double networkNs(const Network& network, const LinearPart& part) {
-  if (!isRegular(network, part)) {
-    return kIrregular;
-  }
-  return isEqual(network, part) ? kEqual : kRegular;
-}
 
 /// Largest |x| after a start at x = 1 with d = 0, at most.
 double peakFromRest(double pull, double loss) {
@@ -174,17 +126,28 @@ ModalError errorOf(const ModalPart& part, const std::vector<int>& dropped, doubl
 
 }  // namespace
 
-ModalCost predictCost(const Network& network,
-                      const std::vector<LinearPart>& parts,
-                      const std::vector<int>& points) {
+std::shared_ptr<const Modes> modesOf(const ModalMatrix& matrix) {
+  Eigen::MatrixXd lower = Eigen::MatrixXd::Zero(matrix.size, matrix.size);
+  for (const ModalMatrix::Entry& entry : matrix.entries) {
+    lower(entry.row, entry.column) = entry.value;
+  }
+  const algebra::SymmetricModes found = algebra::symmetricModes(lower);
+  if (!found.converged) {
+    throw Exception("the modes of " + std::to_string(matrix.size) + " modules do not converge");
+  }
+  auto modes = std::make_shared<Modes>();
+  modes->values = found.values;
+  modes->vectors = found.vectors;
+  return modes;
+}
+
+ModalCost costOf(const std::vector<LinearPart>& parts, const std::vector<int>& points) {
   ModalCost cost;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto modes = static_cast<int>(parts[p].mats.size());
-    const int modules = modes + static_cast<int>(parts[p].lias.size());
-    cost.modules += modules;
+    cost.modules += modes + static_cast<int>(parts[p].lias.size());
     cost.modes += modes;
-    cost.network_ns += modules * networkNs(network, parts[p]);
-    cost.modal_ns += modes * kMode + points[p] * (modes * kModePlace + kPlace);
+    cost.products += modes * (1 + points[p]);
   }
   return cost;
 }

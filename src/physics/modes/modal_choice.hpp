@@ -6,22 +6,28 @@
 
 #include <Eigen/Core>
 
-#include "physics/modes/modal_cache.hpp"
 #include "physics/modes/modal_parts.hpp"
 
 namespace ergotic::physics {
 
-/// Time of one step on one core in float, ns, as the kernels were measured to take.
+/// Eigenvectors of a symmetric matrix, by ascending eigenvalue.
+struct Modes {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;  ///< orthonormal columns
+};
+
+/// Realtime: no. Cost: O(size^3)
+/// \throws Exception if the eigenvalues do not converge
+std::shared_ptr<const Modes> modesOf(const ModalMatrix& matrix);
+
+/// What one step works out, by the network or by all of its modes.
 struct ModalCost {
-  int modules = 0;  ///< masses and links that modes stand in for
-  int modes = 0;
-  double network_ns = 0.0;
-  double modal_ns = 0.0;
+  int modules = 0;   ///< masses and links that modes stand in for
+  int modes = 0;     ///< all that there are
+  int products = 0;  ///< modes, each by itself and once more for every touched place of its part
 };
 /// \param points  [parts] places of the part that are touched
-ModalCost predictCost(const Network& network,
-                      const std::vector<LinearPart>& parts,
-                      const std::vector<int>& points);
+ModalCost costOf(const std::vector<LinearPart>& parts, const std::vector<int>& points);
 
 /// A part with its modes as the places that are touched see them. Modal coordinates are in
 /// m kg^1/2, so that every mode has the mass 1 kg.

@@ -79,12 +79,12 @@ class Planner {
     return counts;
   }
 
-  std::optional<Offence> findModes(std::vector<std::string>& notes) {
+  std::optional<Offence> findModes() {
     for (std::size_t p = 0; p < plan_.linear.parts.size(); ++p) {
       const LinearPart& part = plan_.linear.parts[p];
       ModalPart to;
       const PartMatrices matrices = matricesOf(network_, rates_, plan_.linear.row_of, part);
-      to.modes = modesOf(mixtureOf(matrices), notes);
+      to.modes = modesOf(mixtureOf(matrices));
       const Eigen::MatrixXd& vectors = to.modes->vectors;
       to.pull = vectors.cwiseProduct(matrices.pull * vectors).colwise().sum();
       to.loss = vectors.cwiseProduct(matrices.loss * vectors).colwise().sum();
@@ -244,8 +244,8 @@ class Planner {
 };
 
 std::string costText(const ModalCost& cost) {
-  return shortly(cost.modal_ns / 1000.0) + " us per step predicted, as a network of " +
-         std::to_string(cost.modules) + " modules " + shortly(cost.network_ns / 1000.0) + " us";
+  return std::to_string(cost.products) + " products per step, as a network " +
+         std::to_string(cost.modules) + " modules";
 }
 
 std::string errorText(const ModalPlan& plan, int kept, int all) {
@@ -292,20 +292,20 @@ bool planModes(const Network& network,
   if (const std::optional<Offence> offence = planner.findParts()) {
     return refuse(*offence);
   }
-  ModalCost cost = predictCost(network, plan.linear.parts, planner.touchesOfParts());
-  if (is_free_to_choose && !(cost.modal_ns < cost.network_ns)) {
+  ModalCost cost = costOf(plan.linear.parts, planner.touchesOfParts());
+  if (is_free_to_choose && cost.products >= cost.modules) {
     notes.push_back(noteAt(scene, section.place) + who + "stays a network: by " +
                     std::to_string(cost.modes) + " modes, touched at " +
                     std::to_string(plan.touches.size()) + " places, " + costText(cost));
     return false;
   }
-  if (const std::optional<Offence> offence = planner.findModes(notes)) {
+  if (const std::optional<Offence> offence = planner.findModes()) {
     return refuse(*offence);
   }
   const double step = StepUnits(scene, rates, divisorOf(section, rates)).step;
   const int kept = is_free_to_choose ? cost.modes : std::min(section.modes, cost.modes);
   plan.error = keepModes(plan.parts, kept, step);
-  cost.modal_ns *= static_cast<double>(kept) / cost.modes;
+  cost.products = cost.products / cost.modes * kept;
   notes.push_back(noteAt(scene, section.place) + who + "is played by " + std::to_string(kept) +
                   " modes, touched at " + std::to_string(plan.touches.size()) +
                   " places: " + costText(cost) + "; " + errorText(plan, kept, cost.modes) +

@@ -18,7 +18,7 @@ namespace ergotic::physics {
 /// \throws TextError if a section cannot have the modes it asks for, with the place of what is in
 ///         the way
 /// Realtime: no. Cost: that of `modesOf` for each part
-/// Source: docs/physics.md, "Modes instead of modules".
+/// Source: docs/physics/bodies.md, "Modes instead of modules".
 std::optional<scene::Scene> withModes(const scene::Scene& scene,
                                       const Rates& rates,
                                       std::vector<std::string>& notes);

@@ -2,23 +2,13 @@
 
 #include "physics/modes/modal_choice.hpp"
 
-#include <iterator>
-
-#include "physics/modes/modal_cache.hpp"
 #include "physics/modes/modal_plan.hpp"
 #include "physics/modes/modal_scenes.hpp"
 #include "physics/note.hpp"
-#include "support/mode_cache.hpp"
-#include "support/places.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::physics {
 namespace {
-
-class ModalChoiceTest : public ::testing::Test {
- private:
-  test::ModeCache cache_;
-};
 
 ModalPlan planOf(const scene::Scene& scene) {
   ModalPlan plan;
@@ -48,7 +38,7 @@ double largestError(const Player& a, const Player& b) {
   return largest;
 }
 
-TEST_F(ModalChoiceTest, KickOfAModeGoesNoFurtherThanItsBound) {
+TEST(ModalChoiceTest, KickOfAModeGoesNoFurtherThanItsBound) {
   for (const double pull : {0.0, 1e-4, 0.02, 0.5, 1.9, 3.5}) {
     for (const double loss : {0.0, 1e-4, 0.01, 0.2}) {
       double x = 0.0;
@@ -68,7 +58,7 @@ TEST_F(ModalChoiceTest, KickOfAModeGoesNoFurtherThanItsBound) {
   }
 }
 
-TEST_F(ModalChoiceTest, ErrorAfterImpulsesStaysBelowTheBoundThatIsPrinted) {
+TEST(ModalChoiceTest, ErrorAfterImpulsesStaysBelowTheBoundThatIsPrinted) {
   const scene::Scene scene = pushedPlate().scene;
   for (const int modes : {20, 60, 110}) {
     const scene::Scene reduced = withModes(scene, modes);
@@ -91,7 +81,7 @@ TEST_F(ModalChoiceTest, ErrorAfterImpulsesStaysBelowTheBoundThatIsPrinted) {
   }
 }
 
-TEST_F(ModalChoiceTest, GiveUnderAConstantForceIsShortByTheShareThatIsPrinted) {
+TEST(ModalChoiceTest, GiveUnderAConstantForceIsShortByTheShareThatIsPrinted) {
   const scene::Scene scene = pushedPlate().scene;
   const scene::Scene reduced = withModes(scene, 40);
   Player network(scene, kModalRates);
@@ -107,7 +97,7 @@ TEST_F(ModalChoiceTest, GiveUnderAConstantForceIsShortByTheShareThatIsPrinted) {
   EXPECT_LE(share, planOf(reduced).error.static_share * (1.0 + 1e-6));
 }
 
-TEST_F(ModalChoiceTest, MotionAtTheStartIsOffByNoMoreThanTheBound) {
+TEST(ModalChoiceTest, MotionAtTheStartIsOffByNoMoreThanTheBound) {
   Plate b = pushedPlate();
   for (int i = 0; i < Plate::kColumns * Plate::kRows; ++i) {
     b.scene.mats[at(i)].position.x() = 1e-4 * std::cos(0.9 * i);
@@ -124,7 +114,7 @@ TEST_F(ModalChoiceTest, MotionAtTheStartIsOffByNoMoreThanTheBound) {
   EXPECT_GT(largestError(network, modal), 0.01 * bound);
 }
 
-TEST_F(ModalChoiceTest, MoreModesAreNeverWorse) {
+TEST(ModalChoiceTest, MoreModesAreNeverWorse) {
   const scene::Scene scene = pushedPlate().scene;
   double before = planOf(withModes(scene, 1)).error.per_impulse;
   for (int modes = 10; modes <= 120; modes += 10) {
@@ -135,7 +125,7 @@ TEST_F(ModalChoiceTest, MoreModesAreNeverWorse) {
   EXPECT_EQ(before, 0.0);
 }
 
-TEST_F(ModalChoiceTest, AutomaticModesArePlayedWhereTheyCostLessAndCanBe) {
+TEST(ModalChoiceTest, AutomaticModesArePlayedWhereTheyCostLessAndCanBe) {
   SceneBuilder random;
   for (int i = 0; i < 200; ++i) {
     random.mass(1e-3);
@@ -206,7 +196,7 @@ const Refused kRefused[] = {
      }},
 };
 
-TEST_F(ModalChoiceTest, WhatCannotBePlayedIsRefusedWithItsPlace) {
+TEST(ModalChoiceTest, WhatCannotBePlayedIsRefusedWithItsPlace) {
   for (const Refused& refused : kRefused) {
     SceneBuilder b;
     const int first = b.chain(200, 1e-3, 1e5, 0.1);
@@ -217,7 +207,7 @@ TEST_F(ModalChoiceTest, WhatCannotBePlayedIsRefusedWithItsPlace) {
 }
 
 /// Two masses at 7 Hz, of which one is damped, beside something stiff that is damped more.
-TEST_F(ModalChoiceTest, WhatIsSoftBesideTheRestSharesModesOrIsRefused) {
+TEST(ModalChoiceTest, WhatIsSoftBesideTheRestSharesModesOrIsRefused) {
   SceneBuilder b;
   const int ground = b.ground();
   const int damped = b.cell(1.0, 0.0, 4.41);
@@ -232,79 +222,6 @@ TEST_F(ModalChoiceTest, WhatIsSoftBesideTheRestSharesModesOrIsRefused) {
   EXPECT_THAT(
       errorOf(withModes(b.scene, scene::kAllModes)),
       HasSubstr("cannot be played by its modes: module 'm2' loses 0 of its speed per step"));
-}
-
-namespace fs = std::filesystem;
-
-class ModalCacheTest : public ::testing::Test {
- protected:
-  std::shared_ptr<const Modes> modes() {
-    notes_.clear();
-    return modesOf(matrix_, notes_);
-  }
-  std::string bytes() const { return textOf(modeCacheFile(matrix_)); }
-  void replace(const std::string& bytes) const {
-    std::ofstream(modeCacheFile(matrix_), std::ios::binary | std::ios::trunc) << bytes;
-  }
-  static std::size_t filesIn(const fs::path& folder) {
-    return fs::exists(folder) ? static_cast<std::size_t>(std::distance(
-                                    fs::directory_iterator(folder), fs::directory_iterator()))
-                              : 0;
-  }
-
-  test::ModeCache cache_;
-  std::vector<std::string> notes_;
-  ModalMatrix matrix_{3, {{0, 0, 2.0}, {1, 0, -1.0}, {1, 1, 2.0}, {2, 1, -1.0}, {2, 2, 2.0}}};
-};
-
-TEST_F(ModalCacheTest, SecondTimeTheyComeFromTheFileBitForBit) {
-  const auto first = modes();
-  std::string changed = bytes();
-  ASSERT_EQ(filesIn(cache_.folder()), 1U);
-  const auto second = modes();
-  EXPECT_EQ(first->values, second->values);
-  EXPECT_EQ(first->vectors, second->vectors);
-  EXPECT_EQ(bytes(), changed);
-  EXPECT_TRUE(notes_.empty());
-}
-
-TEST_F(ModalCacheTest, OtherNumbersHaveAnotherFile) {
-  const fs::path file = modeCacheFile(matrix_);
-  matrix_.entries[3].value = -1.0000000000000002;
-  EXPECT_NE(modeCacheFile(matrix_), file);
-}
-
-TEST_F(ModalCacheTest, DamagedFilesAreReportedAndReplaced) {
-  const auto first = modes();
-  const std::string good = bytes();
-  std::string flipped = good;
-  flipped[good.size() - 5] ^= 1;
-  std::string of_another_version = good;
-  of_another_version[8] ^= 1;
-  for (const std::string& bad : {std::string(), good.substr(0, good.size() - 1), good + "x",
-                                 flipped, of_another_version, std::string("no modes at all")}) {
-    replace(bad);
-    const auto again = modes();
-    EXPECT_EQ(again->vectors, first->vectors);
-    ASSERT_EQ(notes_.size(), 1U);
-    EXPECT_THAT(notes_[0], HasSubstr("warning: damaged"));
-    EXPECT_EQ(bytes(), good);
-  }
-}
-
-TEST_F(ModalCacheTest, FolderThatCannotBeMadeIsReported) {
-  fs::create_directories(cache_.folder().parent_path());
-  std::ofstream(cache_.folder()) << "a file where the folder should be";
-  EXPECT_EQ(modes()->values.size(), 3);
-  ASSERT_EQ(notes_.size(), 1U);
-  EXPECT_THAT(notes_[0], HasSubstr("cannot be written"));
-}
-
-TEST_F(ModalCacheTest, NothingIsWrittenWhenTurnedOff) {
-  setenv("ERGOTIC_MODE_CACHE", "off", 1);
-  EXPECT_EQ(modes()->values.size(), 3);
-  EXPECT_EQ(filesIn(cache_.folder()), 0U);
-  EXPECT_TRUE(notes_.empty());
 }
 
 }  // namespace

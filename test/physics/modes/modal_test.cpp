@@ -3,16 +3,10 @@
 
 #include "ergotic/physics/certificate/certify.hpp"
 #include "physics/modes/modal_scenes.hpp"
-#include "support/mode_cache.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::physics {
 namespace {
-
-class ModalTest : public ::testing::Test {
- private:
-  test::ModeCache cache_;
-};
 
 double largestResidual(const Player& player) {
   const Energies energies = energiesOf(player);
@@ -75,15 +69,15 @@ void expectExact(const scene::Scene& scene) {
   expectSameGuards(network, modal);
 }
 
-TEST_F(ModalTest, StringWithAllModesMovesAsItsNetwork) {
+TEST(ModalTest, StringWithAllModesMovesAsItsNetwork) {
   expectExact(dampedString().scene);
 }
 
-TEST_F(ModalTest, PlateWithAllModesMovesAsItsNetworkUnderContactsAndASlice) {
+TEST(ModalTest, PlateWithAllModesMovesAsItsNetworkUnderContactsAndASlice) {
   expectExact(playedPlate().scene);
 }
 
-TEST_F(ModalTest, EveryInstructionSetGivesTheSameBits) {
+TEST(ModalTest, EveryInstructionSetGivesTheSameBits) {
   const scene::Scene scene =
       settle(withModes(playedPlate().scene, scene::kAllModes), kModalRates).scene;
   for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
@@ -99,7 +93,7 @@ TEST_F(ModalTest, EveryInstructionSetGivesTheSameBits) {
   }
 }
 
-TEST_F(ModalTest, EvenNetsHaveModesThoughDampingIsNotInProportion) {
+TEST(ModalTest, EvenNetsHaveModesThoughDampingIsNotInProportion) {
   SceneBuilder b;
   constexpr int kSide = 9;
   const double k = 0.1 * 1e-3 * kRate * kRate;
@@ -133,7 +127,7 @@ TEST_F(ModalTest, EvenNetsHaveModesThoughDampingIsNotInProportion) {
             std::string::npos);
 }
 
-TEST_F(ModalTest, SlowerSectionsMoveAsTheirNetwork) {
+TEST(ModalTest, SlowerSectionsMoveAsTheirNetwork) {
   Plate b = playedPlate();
   b.scene.sections[0].divisor = 5;
   for (scene::Lia& lia : b.scene.lias) {
@@ -145,7 +139,7 @@ TEST_F(ModalTest, SlowerSectionsMoveAsTheirNetwork) {
   expectExact(b.scene);
 }
 
-TEST_F(ModalTest, WholeStringsOfOneSectionHaveModesOfTheirOwn) {
+TEST(ModalTest, WholeStringsOfOneSectionHaveModesOfTheirOwn) {
   SceneBuilder b = dampedString();
   const double k = 0.3 * 2e-3 * kRate * kRate;
   const int other = b.chain(20, 2e-3, k, 1e-7 * k);
@@ -156,7 +150,7 @@ TEST_F(ModalTest, WholeStringsOfOneSectionHaveModesOfTheirOwn) {
   EXPECT_THAT(described(withModes(b.scene, scene::kAllModes)), HasSubstr("is played by 50 modes"));
 }
 
-TEST_F(ModalTest, SectionsFallAsleepAndWakeAsTheirNetwork) {
+TEST(ModalTest, SectionsFallAsleepAndWakeAsTheirNetwork) {
   SceneBuilder b;
   const double k = 0.3 * 1e-3 * kRate * kRate;
   const int first = b.chain(20, 1e-3, k, 1e-6 * k);
@@ -179,7 +173,7 @@ TEST_F(ModalTest, SectionsFallAsleepAndWakeAsTheirNetwork) {
 }
 
 /// What is linked to others stops where it is, and is seen there.
-TEST_F(ModalTest, SectionsFallAsleepWhereTheyAre) {
+TEST(ModalTest, SectionsFallAsleepWhereTheyAre) {
   SceneBuilder b;
   const double k = 0.3 * 1e-3 * kRate * kRate;
   const int first = b.chain(20, 1e-3, k, 1e-6 * k);
@@ -198,7 +192,7 @@ TEST_F(ModalTest, SectionsFallAsleepWhereTheyAre) {
             modal.heard[0][at(static_cast<int>(modal.heard[0].size()) - 99)]);
 }
 
-TEST_F(ModalTest, PictureShowsModulesThatNothingTouches) {
+TEST(ModalTest, PictureShowsModulesThatNothingTouches) {
   const Plate b = playedPlate();
   Player network(b.scene, kModalRates);
   Player modal(withModes(b.scene, scene::kAllModes), kModalRates);
@@ -223,7 +217,7 @@ TEST_F(ModalTest, PictureShowsModulesThatNothingTouches) {
   EXPECT_NEAR(seen[at(b.of(3, 4))], exact[at(b.of(3, 4))], 1e-6F * largest);
 }
 
-TEST_F(ModalTest, FewLinksThatAreDampedDifferentlyStayLinks) {
+TEST(ModalTest, FewLinksThatAreDampedDifferentlyStayLinks) {
   SceneBuilder b = dampedString();
   b.scene.lias[5].damping.factor *= 3.0;
   b.scene.mats[21].mass.parameter = 0;
@@ -233,7 +227,7 @@ TEST_F(ModalTest, FewLinksThatAreDampedDifferentlyStayLinks) {
               HasSubstr("some stay modules: module 'm21'"));
 }
 
-TEST_F(ModalTest, PlacesBetweenModulesAndGroundsAreFollowed) {
+TEST(ModalTest, PlacesBetweenModulesAndGroundsAreFollowed) {
   SceneBuilder b = dampedString();
   b.scene.outputs.pop_back();  // the force on the ground that the place leans on
   const int place = b.point(b.grid(0, 32), 0.4 / 31.0);
@@ -243,7 +237,7 @@ TEST_F(ModalTest, PlacesBetweenModulesAndGroundsAreFollowed) {
   expectExact(b.scene);
 }
 
-TEST_F(ModalTest, ForcesOnTheirModulesAreThoseOfOtherGeometriesToo) {
+TEST(ModalTest, ForcesOnTheirModulesAreThoseOfOtherGeometriesToo) {
   SceneBuilder b = dampedString();
   scene::Section plane;
   plane.name = "plane";
@@ -256,7 +250,7 @@ TEST_F(ModalTest, ForcesOnTheirModulesAreThoseOfOtherGeometriesToo) {
   expectExact(b.scene);
 }
 
-TEST_F(ModalTest, EigenvaluesAcrossRatesProveNothingOfFewerModes) {
+TEST(ModalTest, EigenvaluesAcrossRatesProveNothingOfFewerModes) {
   SceneBuilder b;
   const double k = 0.9 * 1e-3 * kRate * kRate;
   const int first = b.chain(20, 1e-3, k, 1e-7 * k);
@@ -272,7 +266,7 @@ TEST_F(ModalTest, EigenvaluesAcrossRatesProveNothingOfFewerModes) {
 }
 
 /// With modes left out a force at one place moves the others within the step.
-TEST_F(ModalTest, GuardedLinksOnPlacesThatMoveEachOtherMakeNothing) {
+TEST(ModalTest, GuardedLinksOnPlacesThatMoveEachOtherMakeNothing) {
   Plate b(0.1 * Plate::kMass * kRate * kRate, 1e-3);
   for (const int m : {b.of(2, 3), b.of(3, 3), b.of(7, 7)}) {
     const int hammer = b.mass(2e-3, 1e-4, -2.0);
@@ -296,7 +290,7 @@ TEST_F(ModalTest, GuardedLinksOnPlacesThatMoveEachOtherMakeNothing) {
   }
 }
 
-TEST_F(ModalTest, PlacesThatAModuleLeadsAreLedByItsModes) {
+TEST(ModalTest, PlacesThatAModuleLeadsAreLedByItsModes) {
   SceneBuilder b = dampedString();
   scene::Section other = b.scene.sections[0];
   other.name = "other";
@@ -312,7 +306,7 @@ TEST_F(ModalTest, PlacesThatAModuleLeadsAreLedByItsModes) {
   expectExact(b.scene);
 }
 
-TEST_F(ModalTest, TapsOnAStringAreTapsOnItsModes) {
+TEST(ModalTest, TapsOnAStringAreTapsOnItsModes) {
   SceneBuilder b = dampedString();
   const int tap = b.tap({{3, 0.7}, {8, -1.4}, {21, 2.0}, {0, 0.3}});
   b.scene.outputs.pop_back();  // the force on the ground under it
@@ -324,7 +318,7 @@ TEST_F(ModalTest, TapsOnAStringAreTapsOnItsModes) {
   expectExact(b.scene);
 }
 
-TEST_F(ModalTest, CertificateIsThatOfTheNetwork) {
+TEST(ModalTest, CertificateIsThatOfTheNetwork) {
   const Plate b = playedPlate();
   const Certificate network = certify(b.scene, kModalRates);
   const Certificate modal = certify(withModes(b.scene, scene::kAllModes), kModalRates);

@@ -9,7 +9,7 @@
 #include "constants.hpp"
 #include "ergotic/scene/coarse_string.hpp"
 #include "ergotic/scene/generate/pitch.hpp"
-#include "physics/glide.hpp"
+#include "physics/interpolation.hpp"
 #include "physics/settling/coarse_string.hpp"
 
 namespace ergotic::physics {

@@ -253,7 +253,7 @@ class Collector {
 
   void addNotes() {
     note(held_, "to modules of another rate: these are held there, and their own modes told apart");
-    note(guarded_, "with a linear part guarded: its frequency is that of the explicit step");
+    note(guarded_, "with an energy-stable linear part: its frequency is that of the explicit step");
     note(relaxing_, "that remember: the memory is left out");
     for (int s = 0; s < static_cast<int>(scene_.sections.size()); ++s) {
       if (leavesModesOut(network_, s)) {

@@ -9,19 +9,19 @@
 
 #include "at.hpp"
 #include "physics/certificate/port_links.hpp"
-#include "physics/glide.hpp"
+#include "physics/interpolation.hpp"
 
 namespace ergotic::physics {
 namespace {
 
-/// A slice that moves by itself in each tick, the mass that hangs on it, and what holds that.
-struct Hanging {
+/// A slice that moves by itself in each tick, the mass that is attached to it, and what holds that.
+struct Attached {
   PortLinks::Resistance link;
   PortLinks::Resistance behind;
   double mass = 0.0;
   double step = 0.0;  // of the mass
   int steps = 1;      // in a tick
-  bool glides = false;
+  bool interpolated = false;
 };
 
 /// Of white positions of rms 1.
@@ -32,20 +32,20 @@ struct Response {
 
 /// How the mass sees the slice in a step, and what the slice gets of the force.
 struct Sight {
-  GlideStep seen;
+  InterpolationStep seen;
   double now = 0.0;  // of its force, in this tick
 };
 
-std::vector<Sight> sightsOf(const Hanging& hanging) {
+std::vector<Sight> sightsOf(const Attached& attached) {
   std::vector<Sight> sights;
-  if (hanging.glides) {
-    for (const GlideStep& step : glideSteps(hanging.steps)) {
+  if (attached.interpolated) {
+    for (const InterpolationStep& step : interpolationSteps(attached.steps)) {
       sights.push_back({step, step.share_last});
     }
     return sights;
   }
-  for (int k = 0; k < hanging.steps; ++k) {
-    sights.push_back({{0.0, 0.0, k == 0 ? 1.0 : 0.0, 0.0}, 1.0 / hanging.steps});
+  for (int k = 0; k < attached.steps; ++k) {
+    sights.push_back({{0.0, 0.0, k == 0 ? 1.0 : 0.0, 0.0}, 1.0 / attached.steps});
   }
   return sights;
 }
@@ -53,7 +53,7 @@ std::vector<Sight> sightsOf(const Hanging& hanging) {
 /// One tick is linear in the mass's position, step and force, the last two positions, the last
 /// force of the link and what of it the slice has yet to get, and the present position; the
 /// covariance of these is what it makes of itself (a Lyapunov equation, by doubling).
-Response responseOf(const Hanging& hanging) {
+Response responseOf(const Attached& attached) {
   using Row = Eigen::Matrix<double, 1, 8>;
   constexpr int kDoublings = 60;
   Row y = Row::Unit(0);
@@ -64,17 +64,17 @@ Response responseOf(const Hanging& hanging) {
   const Row change_last = Row::Unit(3) - Row::Unit(4);
   Row force = Row::Unit(6);
   Row next = Row::Zero();
-  for (const auto& [seen, now] : sightsOf(hanging)) {
-    d += hanging.step * hanging.step / hanging.mass * f;
+  for (const auto& [seen, now] : sightsOf(attached)) {
+    d += attached.step * attached.step / attached.mass * f;
     y += d;
     const Row slice = Row::Unit(7) - seen.behind * change - seen.behind_last * change_last;
     const Row moved = seen.share * change + seen.share_last * change_last - d;
     const Row pull =
-        hanging.link.stiffness * (slice - y) + hanging.link.damping / hanging.step * moved;
-    f = pull - hanging.behind.stiffness * y - hanging.behind.damping / hanging.step * d;
-    const Row mean = hanging.glides ? Row(0.5 * (last + pull)) : pull;
+        attached.link.stiffness * (slice - y) + attached.link.damping / attached.step * moved;
+    f = pull - attached.behind.stiffness * y - attached.behind.damping / attached.step * d;
+    const Row mean = attached.interpolated ? Row(0.5 * (last + pull)) : pull;
     force -= now * mean;
-    next -= (hanging.glides ? seen.share : 0.0) * mean;
+    next -= (attached.interpolated ? seen.share : 0.0) * mean;
     last = pull;
   }
   Eigen::Matrix<double, 7, 8> tick;
@@ -95,14 +95,14 @@ Response responseOf(const Hanging& hanging) {
 
 /// Without a filter: F[n] = (K + Z/T) x[n] - Z/T x[n-1], where it does not glide.
 double forceOf(const PortLinks::Resistance& held,
-               const PortLinks::Resistance& gliding,
+               const PortLinks::Resistance& interpolated,
                int steps,
                double tick) {
-  const GlideAnswer answer = glideAnswer(steps);
+  const InterpolationResponse answer = interpolationResponse(steps);
   double square = 0.0;
   for (std::size_t i = 0; i < answer.spring.size(); ++i) {
     double response =
-        gliding.stiffness * answer.spring[i] + gliding.damping / tick * answer.damper[i];
+        interpolated.stiffness * answer.spring[i] + interpolated.damping / tick * answer.damper[i];
     response += i == 0 ? held.stiffness + held.damping / tick : i == 1 ? -held.damping / tick : 0.0;
     square += response * response;
   }
@@ -134,18 +134,19 @@ std::vector<NoiseFloor> noiseFloors(const scene::Scene& scene,
     floor.position = floor.behind = noise.total();
     const int frames = std::max(2, rates.ratio);
     floor.force = floor.unfiltered =
-        at_device * forceOf(links.heldAtSlice(port), links.glidingAtSlice(port), frames, tick);
+        at_device * forceOf(links.heldAtSlice(port), links.interpolatedAtSlice(port), frames, tick);
     if (port.filter >= 0) {
       const scene::Mat& mass = scene.mats[at(port.filter)];
-      Hanging hanging{links.atSlice(port), links.behindFilter(port), scene.valueOf(mass.mass)};
-      hanging.steps = std::max(1, rates.ratio / divisorOf(scene.sectionOf(mass), rates));
-      hanging.step = tick / hanging.steps;
-      hanging.glides = glides(scene, rates, port.mat, mass.section);
-      const Response response = responseOf(hanging);
+      Attached attached{links.atSlice(port), links.behindFilter(port), scene.valueOf(mass.mass)};
+      attached.steps = std::max(1, rates.ratio / divisorOf(scene.sectionOf(mass), rates));
+      attached.step = tick / attached.steps;
+      attached.interpolated = isInterpolated(scene, rates, port.mat, mass.section);
+      const Response response = responseOf(attached);
       floor.force = at_device * response.force;
       floor.behind = noise.total() * response.behind;
-      floor.unfiltered = at_device * (hanging.glides ? forceOf({}, hanging.behind, frames, tick)
-                                                     : forceOf(hanging.behind, {}, frames, tick));
+      floor.unfiltered =
+          at_device * (attached.interpolated ? forceOf({}, attached.behind, frames, tick)
+                                             : forceOf(attached.behind, {}, frames, tick));
     }
     floors.push_back(floor);
   }

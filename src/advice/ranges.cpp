@@ -34,14 +34,14 @@ class RangeJudge {
     judged.decides = decidingEnd(index);
     double low = parameter.minimum;
     double high = parameter.maximum;
-    if (!isVouchedFor(index, low, high)) {
+    if (!isCertified(index, low, high)) {
       low = high = parameter.value;
     }
-    judged.holds = isVouchedFor(index, low, high);
+    judged.holds = isCertified(index, low, high);
     if (judged.holds) {
       const double size = std::max({std::abs(low), std::abs(high), high - low, 1e-300});
-      judged.highest = farthest(high, size, [&](double x) { return isVouchedFor(index, low, x); });
-      judged.lowest = farthest(low, -size, [&](double x) { return isVouchedFor(index, x, high); });
+      judged.highest = farthest(high, size, [&](double x) { return isCertified(index, low, x); });
+      judged.lowest = farthest(low, -size, [&](double x) { return isCertified(index, x, high); });
     }
     return judged;
   }
@@ -66,7 +66,7 @@ class RangeJudge {
     return judge(scene);
   }
 
-  bool isVouchedFor(std::size_t index, double minimum, double maximum) const {
+  bool isCertified(std::size_t index, double minimum, double maximum) const {
     return judge(index, minimum, maximum).verdict <= wanted_;
   }
 

@@ -116,7 +116,7 @@ class SchemePart : public TargetPart {
       return present;
     }
     PartOption guarded = option(Scheme::kGuarded, rates);
-    guarded.change = "explicit -> guarded";
+    guarded.change = "explicit -> energy_stable";
     return guarded.error < present.error ? guarded : present;
   }
 

@@ -130,7 +130,7 @@ std::vector<std::string> guardWarnings(const scene::Scene& scene,
   }
   if (cut.size() > kMostWarnings) {
     warnings.push_back(scene.file + ": warning: and " + std::to_string(cut.size() - kMostWarnings) +
-                       " more guarded links were cut as often");
+                       " more energy-stable links were cut as often");
   }
   return warnings;
 }

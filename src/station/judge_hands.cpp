@@ -86,18 +86,21 @@ HandFindings judgeHands(const scene::Scene& scene,
   };
   const std::vector<tgr::Rendered> stiffness = rendered(&PortCertificate::stiffness);
   const std::vector<tgr::Rendered> damping = rendered(&PortCertificate::damping);
-  const std::vector<tgr::Rendered> glided = rendered(&PortCertificate::glided_stiffness);
-  const std::vector<tgr::Rendered> glided_damping = rendered(&PortCertificate::glided_damping);
+  const std::vector<tgr::Rendered> interpolated =
+      rendered(&PortCertificate::interpolated_stiffness);
+  const std::vector<tgr::Rendered> interpolated_damping =
+      rendered(&PortCertificate::interpolated_damping);
   const physics::HandLoop loop(device, 1.0 / rates.gesturalHz(), std::max(2, rates.ratio));
   HandFindings findings;
   for (std::size_t i = 0; i < stiffness.size(); ++i) {
     const physics::HandLoad load{stiffness[i].together, damping[i].together,
-                                 std::min(glided[i].together, stiffness[i].together),
-                                 std::min(glided_damping[i].together, damping[i].together)};
+                                 std::min(interpolated[i].together, stiffness[i].together),
+                                 std::min(interpolated_damping[i].together, damping[i].together)};
     findings.slices.push_back(
         {stiffness[i].slice, stiffness[i].alone, load.stiffness, load.damping,
-         loop.stiffnessLimit(physics::partOf(load.glided_stiffness, load.stiffness)),
-         loop.dampingLimit(physics::partOf(load.glided_damping, load.damping)), loop.judge(load)});
+         loop.stiffnessLimit(physics::partOf(load.interpolated_stiffness, load.stiffness)),
+         loop.dampingLimit(physics::partOf(load.interpolated_damping, load.damping)),
+         loop.judge(load)});
   }
   judgeEndEffectors(end_effectors, findings);
   judgeFreedPorts(scene, certificate, end_effectors, findings);

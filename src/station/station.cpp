@@ -17,7 +17,7 @@ constexpr double kMostOfModel = 1e9;  // N, or full scales: a model that gives m
 constexpr std::size_t kMaxKeyframeParameters = 1U << 12U;
 
 /// False for what is not a number, too.
-bool isOfThisWorld(double value) noexcept {
+bool isWithinSanityLimit(double value) noexcept {
   return std::abs(value) <= kMostOfModel;
 }
 
@@ -366,7 +366,7 @@ void Station::tickInstrument() noexcept {
   for (std::size_t i = 0; i < touches_.size(); ++i) {
     holds_[i].at = touches_[i].to;
     holds_[i].takes_hold = touches_[i].takes_hold;
-    if (!std::all_of(holds_[i].at.begin(), holds_[i].at.end(), isOfThisWorld)) {
+    if (!std::all_of(holds_[i].at.begin(), holds_[i].at.end(), isWithinSanityLimit)) {
       holds_[i] = Hold();  // what it took hold of has blown up
     }
   }
@@ -374,7 +374,7 @@ void Station::tickInstrument() noexcept {
     kick(0.0);
   }
   const bool look_inside = tick_ % kLookInsideTicks == 0;
-  if (!std::all_of(p.forces.begin(), p.forces.end(), isOfThisWorld) ||
+  if (!std::all_of(p.forces.begin(), p.forces.end(), isWithinSanityLimit) ||
       (look_inside && !p.instrument->isFinite())) {
     blowUp();
   }
@@ -391,7 +391,7 @@ void Station::pushFrames() noexcept {
     float* to = frames_out_.data() + samples(r, config_.output_channels);
     for (int c = 0; c < shared; ++c) {
       to[c] = static_cast<float>(gain * from[c]);
-      sane = sane && isOfThisWorld(from[c]);
+      sane = sane && isWithinSanityLimit(from[c]);
     }
   }
   if (!sane) {

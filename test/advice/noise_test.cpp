@@ -147,11 +147,11 @@ TEST(NoiseTest, InAPlaneAFilterDoesNotGoOnCircling) {
 TEST(NoiseTest, AHandMeetsTheFilterAndWhatIsBehindInSeries) {
   const double omega = 2.0 * 3.14159265358979323846 * 150.0;
   scene::Scene scene = wall(", filter: {mass: 0.002, frequency: 150}");
-  const double hanging = 0.002 * omega * omega;
-  EXPECT_NEAR(certify(scene, kRates).ports.at(0).stiffness, 1.0 / (1.0 / hanging + 1.0 / 800.0),
+  const double attached = 0.002 * omega * omega;
+  EXPECT_NEAR(certify(scene, kRates).ports.at(0).stiffness, 1.0 / (1.0 / attached + 1.0 / 800.0),
               1e-9);
   scene.lias.push_back(scene.lias[0]);  // two links behind it side by side
-  EXPECT_NEAR(certify(scene, kRates).ports.at(0).stiffness, 1.0 / (1.0 / hanging + 1.0 / 1600.0),
+  EXPECT_NEAR(certify(scene, kRates).ports.at(0).stiffness, 1.0 / (1.0 / attached + 1.0 / 1600.0),
               1e-9);
   EXPECT_EQ(certify(scene, kRates).verdict, Verdict::kPassive);
 }

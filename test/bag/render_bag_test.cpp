@@ -58,7 +58,7 @@ lias:
   tension: {type: stretch, of: skin, spacing: 0.02, hardening: 30}
   hard: {type: cubic, between: [one, two], stiffness: 0, nonlinearity: 1e8, tank: net}
   touch:
-    with: {type: contact, stiffness: 100, threshold: -0.001, scheme: guarded}
+    with: {type: contact, stiffness: 100, threshold: -0.001, scheme: energy_stable}
     columns: [name, between]
     rows: [)" +
          touches + R"(]
@@ -264,12 +264,12 @@ TEST_F(RenderBagTest, SaysThatItLacksTheKernelsOfTheRecording) {
   EXPECT_THAT(render("--isa baseline").text, Not(HasSubstr("lacks")));
 }
 
-TEST_F(RenderBagTest, HasNoEnergiesToTellWhereNoBooksWereKept) {
+TEST_F(RenderBagTest, HasNoEnergiesToTellWhereNoEnergiesWereKept) {
   record();
   EXPECT_THAT(render("--energies").text, HasSubstr("balance_residual"));
-  physics::CompileOptions without_books;
-  without_books.metered = false;
-  LiveRun unmetered(kScene, without_books);
+  physics::CompileOptions without_energies;
+  without_energies.metered = false;
+  LiveRun unmetered(kScene, without_energies);
   perform(unmetered);
   record(unmetered.recording(), std::nullopt);
   EXPECT_EQ(render().code, 0);
@@ -277,7 +277,7 @@ TEST_F(RenderBagTest, HasNoEnergiesToTellWhereNoBooksWereKept) {
   std::remove(sound_path_.c_str());
   const Outcome refused = render("--energies");
   EXPECT_EQ(refused.code, 1);
-  EXPECT_THAT(refused.text, HasSubstr("without books of energy"));
+  EXPECT_THAT(refused.text, HasSubstr("without energy accounts"));
   EXPECT_FALSE(test::exists(sound_path_));
 }
 

@@ -31,7 +31,7 @@ std::vector<double> playString(const std::string& options) {
   return audio::WavReader(sound.path()).readAll();
 }
 
-TEST(ToolOptionsTest, AScenePlaysTheSameSamplesWithAnyKernelsThreadsAndBooks) {
+TEST(ToolOptionsTest, AScenePlaysTheSameSamplesWithAnyKernelsThreadsAndEnergies) {
   const std::vector<double> wanted = playString("");
   EXPECT_TRUE(std::any_of(wanted.begin(), wanted.end(), [](double s) { return s > 0.01; }));
   for (const rt::Isa isa : rt::isas()) {

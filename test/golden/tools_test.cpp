@@ -326,9 +326,9 @@ double likenessAt(const std::vector<double>& sound, std::size_t first, std::size
 
 TEST_F(RenderTest, PlaysTheFrettedStringOpenAndOnAFret) {
   const std::string model = repository("models/fretted_string");
-  EXPECT_THAT(
-      run("check", model + ".yaml --verbose").text,
-      AllOf(HasSubstr("verdict: bounded"), HasSubstr("geometry: 3D"), HasSubstr("guarded: 5")));
+  EXPECT_THAT(run("check", model + ".yaml --verbose").text,
+              AllOf(HasSubstr("verdict: bounded"), HasSubstr("geometry: 3D"),
+                    HasSubstr("energy_stable: 5")));
   const std::string out = path("out.wav");
   const Outcome outcome =
       run("render", model + ".yaml --gesture " + model +
@@ -359,7 +359,7 @@ TEST_F(CheckTest, SaysWhatASceneIsMadeOf) {
       outcome.text,
       AllOf(HasSubstr("modules: 2\n"), HasSubstr("gestural_rate_hz: 3150\n"),
             HasSubstr("modules: {slice: 1}\n"),
-            HasSubstr("types: {contact: 1}, schemes: {guarded: 1}"),
+            HasSubstr("types: {contact: 1}, schemes: {energy_stable: 1}"),
             HasSubstr("value: 2500\n    unit: not said\n    minimum: 1000\n    maximum: 8000\n"),
             HasSubstr("verdict: passive\n"), HasSubstr("passive_up_to_n_per_m: 4200\n"),
             HasSubstr("whatever the hands do, as long as its parameters stand still\n"),

@@ -251,7 +251,7 @@ bag::Recording recordingOf(LiveRun& live) {
   return live.recording();
 }
 
-TEST(ReplayTest, TakesPrecisionKernelsThreadsAndBooksFromTheRecording) {
+TEST(ReplayTest, TakesPrecisionKernelsThreadsAndEnergiesFromTheRecording) {
   physics::CompileOptions options(physics::Precision::kDouble);
   options.isa = rt::Isa::kBaseline;
   options.threads = 2;

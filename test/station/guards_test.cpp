@@ -56,7 +56,7 @@ TEST(CalibrationGuardTest, ForceNeedsEverySliceInUseToBeCalibrated) {
             static_cast<int>(Refusal::kUncalibrated));
   bench.driver->uncalibrated_slices = 0b10;  // one that moves nothing
   EXPECT_EQ(stateOf(bench), ForceState::kReady);
-  bench.run(kRampTicks);  // the port glides to where the hand is
+  bench.run(kRampTicks);  // the port interpolated to where the hand is
   bench.engage();
   EXPECT_EQ(bench.log.forces[0], -1.0);
 }

@@ -53,7 +53,7 @@ std::vector<std::string> warningsOfABall(double share) {
           "        rest_length: 0.0015}\n";
   for (int i = 0; i < 3; ++i) {
     text << "  c" << i << ": {type: contact, between: [ground, ball], stiffness: " << share * kMost
-         << ", damping: 0.05, scheme: guarded}\n";
+         << ", damping: 0.05, scheme: energy_stable}\n";
   }
   const physics::Rates rates{44100.0, 14};
   const auto performer =

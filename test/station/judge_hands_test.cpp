@@ -7,7 +7,7 @@
 #include <functional>
 #include <memory>
 
-#include "physics/glide.hpp"
+#include "physics/interpolation.hpp"
 #include "support/scene_builder.hpp"
 #include "support/test.hpp"
 #include "tgr/rig_scenes.hpp"
@@ -123,15 +123,15 @@ struct Loop {
   double stiffness = 0.0;
   double damping = 0.0;
   int extra = 0;
-  bool glides = false;  // coupling: smooth
+  bool interpolated = false;  // coupling: smooth
 };
 
 /// What answers the positions of a slice, tick by tick.
 std::function<double(double, double)> answerOf(const Loop& loop) {
-  if (!loop.glides) {
+  if (!loop.interpolated) {
     return [loop](double x, double v) { return -loop.stiffness * x - loop.damping * v; };
   }
-  const physics::GlideAnswer answer = physics::glideAnswer(kHandRates.ratio);
+  const physics::InterpolationResponse answer = physics::interpolationResponse(kHandRates.ratio);
   const auto last = std::make_shared<std::vector<double>>(answer.spring.size());  // of all copies
   return [loop, answer, last](double x, double) {
     std::vector<double>& late = *last;

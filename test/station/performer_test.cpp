@@ -75,7 +75,7 @@ TEST(PerformerTest, PlaysTheSettledSceneAndTellsWhatWasChosen) {
   const auto performer = make(scene);
   EXPECT_EQ(performer->instrument->scene().lias[1].scheme, scene::Scheme::kGuarded);
   EXPECT_EQ(performer->warnings.front(), "read");
-  EXPECT_THAT(performer->warnings.back(), HasSubstr("note: link 'l1': guarded"));
+  EXPECT_THAT(performer->warnings.back(), HasSubstr("note: link 'l1': energy-stable"));
 }
 
 TEST(PerformerTest, ShowsTheModelBeforeItsFirstTick) {

@@ -136,7 +136,7 @@ generators:
   - {type: string, name: s, section: string, masses: 30, mass: 1.0e-4, stiffness: 2000,
      rest_length_ratio: 0.5, from: [0, 0, 0], to: [0.6, 0, 0]}
 lias:
-  touch: {type: contact, between: [key, led], stiffness: 500, threshold: 0.3, scheme: guarded}
+  touch: {type: contact, between: [key, led], stiffness: 500, threshold: 0.3, scheme: energy_stable}
   hold: {type: spring, between: [finger, damper], stiffness: 100}
 ports:
   a: {mat: key, slice: 0}

@@ -8,7 +8,7 @@
 
 /// How wrong is what is played, foretold: closed forms where there are any, else what `accuracy`
 /// measures, as a power of the step. All errors are relative: 1 is as much as the right value.
-/// Realtime: no. Thread: any. Source: docs/physics.md, "Speed against accuracy".
+/// Realtime: no. Thread: any. Source: docs/physics/accuracy.md, "Speed against accuracy".
 namespace ergotic::physics {
 
 constexpr int kJudgedPartials = 10;

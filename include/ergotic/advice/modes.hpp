@@ -86,7 +86,7 @@ struct SceneModes {
 /// \throws Exception if an eigenvalue problem is not solved
 /// Realtime: no. Cost: parts of up to some hundred coordinates O(n^3), larger ones some
 /// factorizations of their matrix and 2 `most` solutions
-/// Source: docs/physics.md, "One step"; Ericsson and Ruhe 1980 (shift and invert)
+/// Source: docs/physics/elements.md, "One step"; Ericsson and Ruhe 1980 (shift and invert)
 SceneModes modesOf(const scene::Scene& scene,
                    const Rates& rates,
                    const ModeWindow& window,

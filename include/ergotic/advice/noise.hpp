@@ -28,7 +28,7 @@ struct NoiseFloor {
 
 /// Ports of agents have none.
 /// \param scene  settled
-/// Realtime: no. Source: docs/physics.md, "Noise of the sensors".
+/// Realtime: no. Source: docs/physics/stability.md, "Noise of the sensors".
 std::vector<NoiseFloor> noiseFloors(const scene::Scene& scene,
                                     const Rates& rates,
                                     const SensorNoise& noise = {});

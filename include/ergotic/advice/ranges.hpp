@@ -15,7 +15,7 @@ struct JudgedRange {
   enum class End { kNone, kMinimum, kMaximum };
   std::string name;
   End decides = End::kNone;
-  /// True if some range around its present value is vouched for.
+  /// True if some range around its present value is certified.
   bool holds = false;
   /// The largest such range, each end by itself and to a thousandth; infinite where nothing ends
   /// it. What may stand there at all (a mass above 0) ends it, too.
@@ -23,7 +23,7 @@ struct JudgedRange {
   double highest = 0.0;
 };
 
-/// For every parameter of a scene. Vouched for is what is no worse than the scene as it is, or, if
+/// For every parameter of a scene. Certified is what is no worse than the scene as it is, or, if
 /// that is unproven, than *bounded*.
 /// \param scene  not settled: its schemes and rates follow its ranges
 /// Realtime: no. Cost: some hundred times `settle` and `certify` for each parameter.

@@ -23,7 +23,7 @@ struct Keyframe {
   physics::Precision precision = physics::Precision::kFloat;
   std::string isa;      ///< name of the kernels' level (rt/isa.hpp); this processor may lack it
   int threads = 1;      ///< 1...physics::kMaxThreads
-  bool metered = true;  ///< the state holds books of energy
+  bool metered = true;  ///< the state holds energy accounts
   int slices = 0;       ///< of the device
   std::vector<std::uint8_t> state;
   std::vector<double> parameters;

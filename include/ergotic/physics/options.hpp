@@ -24,7 +24,7 @@ struct CompileOptions {
   /// Longest wait in a tick for a thread that has begun its share; beyond it the tick stalls
   /// (Instrument::stalledTicks). Where a hand waits: kOneTick (liveOptions).
   std::int64_t wait_limit_ns = 1'000'000'000;
-  /// Keeps the books of energy; else readEnergies knows only what positions tell (energy.hpp), the
+  /// Keeps the energy accounts; else readEnergies knows only what positions tell (energy.hpp), the
   /// state is smaller, and the instrument plays the same bits in less time.
   bool metered = true;
 

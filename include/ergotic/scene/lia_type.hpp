@@ -6,7 +6,8 @@
 
 /// The table of laws of force, one row each. What a row stands for (its name, numbers and ranges,
 /// force, slopes, how it may be worked out) is told in one place: `kFeltLaw` of src/scene/laws for
-/// `Felt`. Laws written out: docs/physics.md, "Links". New ones come last: recordings number them.
+/// `Felt`. Laws written out: docs/physics/elements.md, "Links". New ones come last: recordings
+/// number them.
 #define ERGOTIC_LAWS(ROW)                                                                    \
   ROW(SpringDamper) /* (RES, FRO, REF) f = K e + Z v */                                      \
   ROW(Contact)      /* (BUT) f = K e + Z v while e > 0, e = x_a - x_b + threshold */         \

@@ -24,7 +24,7 @@ double clippedShare(const physics::GuardReport& guard);
 
 /// How steep the force of a guarded link may be where it pushes, for its tank to hold what its law
 /// asks for, kg/time_unit^2: q K <= 1, with all guarded links of a module at once; infinite between
-/// modules that no force moves. Source: docs/physics.md, "Guarded links".
+/// modules that no force moves. Source: docs/physics/schemes.md, "Energy-stable links".
 double mostStiffness(const scene::Scene& scene, const scene::Lia& lia, const physics::Rates& rates);
 
 /// One line for each guarded link that is cut too often, worst first: which, how often, and what to

@@ -79,12 +79,13 @@ class LinkJudge {
     for (const auto& [place, turning] : turning_) {
       const std::string more =
           turning.links > 1 ? " and " + std::to_string(turning.links - 1) + " more" : "";
-      findings_.add(Verdict::kUnproven, turning.first->place,
-                    "link '" + turning.first->name + "'" + more +
-                        " has a rest length, or a damper, along a line that turns: stable while "
-                        "it moves little against its length, but large motion may feed energy in. "
-                        "Use scheme: guarded, rest length 0 and a medium or loss, or a scalar "
-                        "section");
+      findings_.add(
+          Verdict::kUnproven, turning.first->place,
+          "link '" + turning.first->name + "'" + more +
+              " has a rest length, or a damper, along a line that turns: stable while "
+              "it moves little against its length, but large motion may feed energy in. "
+              "Use scheme: energy_stable, rest length 0 and a medium or loss, or a scalar "
+              "section");
     }
   }
 
@@ -131,13 +132,14 @@ class LinkJudge {
     const double give = networks_.inverseMassStep2(lia);
     if (const double load = give * std::max(slopes.stiffness.highest, 1.0); !(load < kMostLoad)) {
       findings_.add(Verdict::kUnproven, lia.place,
-                    "guarded link '" + lia.name + "': h^2 K (1/Ma + 1/Mb) = " + describe(load) +
+                    "energy-stable link '" + lia.name +
+                        "': h^2 K (1/Ma + 1/Mb) = " + describe(load) +
                         " is more than single precision can count with, up to 1e30");
     } else if (const double curved = slopes.is_unbounded ? largestLoad(lia) : 0.0;
                !(curved < kMostCurved)) {
       findings_.add(
           Verdict::kUnproven, lia.place,
-          "guarded link '" + lia.name +
+          "energy-stable link '" + lia.name +
               "' may come to h^2 K (1/Ma + 1/Mb) or h Z (1/Ma + "
               "1/Mb) of " +
               describe(curved) +
@@ -150,10 +152,11 @@ class LinkJudge {
       findings_.worsen(Verdict::kBounded);  // though no more than its tank holds
     }
     if (networks_.crossesRates(lia) && networks_.inverseMass(networks_.slowEnd(lia)) > 0.0) {
-      findings_.add(Verdict::kUnproven, lia.place,
-                    "guarded link '" + lia.name +
-                        "' acts on a slower module, which its guard cannot follow. Move that "
-                        "module to the faster section, or put a module of that section between");
+      findings_.add(
+          Verdict::kUnproven, lia.place,
+          "energy-stable link '" + lia.name +
+              "' acts on a slower module, whose next step the scheme cannot know. Move that "
+              "module to the faster section, or put a module of that section between");
     }
   }
 
@@ -249,8 +252,9 @@ class LinkJudge {
   }
 
   const char* cureOf(const Lia& lia) const {
-    return scene::isGuardable(networks_.scene(), lia) ? "Use scheme: guarded, or raise the rate"
-                                                      : "Raise the rate";
+    return scene::isGuardable(networks_.scene(), lia)
+               ? "Use scheme: energy_stable, or raise the rate"
+               : "Raise the rate";
   }
 
   /// Never a matter of the verdict: whether it is stable, the network has told.
@@ -290,14 +294,14 @@ class LinkJudge {
                       (std::isfinite(reach) ? "; no motion can be stable beyond an elongation of " +
                                                   describe(reach) + " m"
                                             : "") +
-                      ". Use scheme: guarded");
+                      ". Use scheme: energy_stable");
   }
 
   /// A step gives a little at some hits and takes a little at others. What swings with the step,
   /// three or four of them a period, meets the same ones again and again.
   void judgeSwitching(const Lia& lia, const scene::Law& law, double stiffness) {
     const std::string cure =
-        law.is_held ? "Damp every mass that it reaches" : "Use scheme: guarded";
+        law.is_held ? "Damp every mass that it reaches" : "Use scheme: energy_stable";
     findings_.add(Verdict::kUnproven, lia.place,
                   "link '" + lia.name + "' comes and goes, h^2 K (1/Ma + 1/Mb) = " +
                       describe(networks_.inverseMassStep2(lia) * stiffness) +
@@ -314,7 +318,7 @@ class LinkJudge {
             "' falls where it slips faster, and something that it reaches loses no "
             "energy: what swings in time with the steps may be driven. Damp every mass "
             "that it reaches" +
-            (scene::isGuardable(networks_.scene(), lia) ? ", or use scheme: guarded" : ""));
+            (scene::isGuardable(networks_.scene(), lia) ? ", or use scheme: energy_stable" : ""));
   }
 
   const RatedNetwork& networks_;

@@ -6,13 +6,13 @@
 #include "physics/certificate/certify_parts.hpp"
 #include "physics/certificate/free_slices.hpp"
 #include "physics/certificate/port_links.hpp"
-#include "physics/glide.hpp"
+#include "physics/interpolation.hpp"
 #include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
 namespace {
 
-// Growth of what hangs on a slice, 1/s: slower is less than any hand and any loss takes.
+// Growth of what is attached to a slice, 1/s: slower is less than any hand and any loss takes.
 constexpr double kWarnedGrowth = 0.01;
 constexpr double kRefusedGrowth = 1.0;  // with twice the damping
 
@@ -39,11 +39,12 @@ class PortJudge {
     PortCertificate met;
     met.port = p;
     met.stiffness = links_.stiffness(port) * at_device / scene_.time_unit_s;
-    met.glided_stiffness = links_.glidedStiffness(port) * at_device / scene_.time_unit_s;
+    met.interpolated_stiffness =
+        links_.interpolatedStiffness(port) * at_device / scene_.time_unit_s;
     met.damping = std::max(links_.damping(port), 0.0) * at_device;
-    met.glided_damping = std::max(links_.glidedDamping(port), 0.0) * at_device;
-    met.stiffness_limit = loop_.stiffnessLimit(partOf(met.glided_stiffness, met.stiffness));
-    met.damping_limit = loop_.dampingLimit(partOf(met.glided_damping, met.damping));
+    met.interpolated_damping = std::max(links_.interpolatedDamping(port), 0.0) * at_device;
+    met.stiffness_limit = loop_.stiffnessLimit(partOf(met.interpolated_stiffness, met.stiffness));
+    met.damping_limit = loop_.dampingLimit(partOf(met.interpolated_damping, met.damping));
     met.level = std::max(loop_.judge(loadOf(met)), free_levels_[at(port.mat)]);
     if (free_slices_.leftOut(port.mat) != nullptr) {
       met.level = std::max(met.level, HandLevel::kWarned);
@@ -80,7 +81,7 @@ class PortJudge {
   }
 
  private:
-  /// What hangs on a slice may set it off at less than its links alone. [mats]
+  /// What is attached to a slice may set it off at less than its links alone. [mats]
   std::vector<HandLevel> levelsOfFreeSlices() const {
     std::vector<HandLevel> levels(scene_.mats.size(), HandLevel::kSilent);
     if (!(device_.mass > 0.0) || !free_slices_.areJudged()) {
@@ -119,24 +120,26 @@ class PortJudge {
            (isSlice(lia.a) && isSlice(lia.b));
   }
 
-  std::string ofHanging(const scene::Port& port) const {
+  std::string ofAttached(const scene::Port& port) const {
     const std::vector<int>& links = links_.ofNodes()[at(port.mat)];
     const auto first = std::find_if(links.begin(), links.end(),
                                     [this](int l) { return leadsOn(scene_.lias[at(l)]); });
-    return "what hangs on link '" +
+    return "what is attached to link '" +
            scene_.lias[at(first == links.end() ? links.front() : *first)].name + "'";
   }
 
   std::string describeFree(const scene::Port& port, HandLevel level) const {
-    return "when nobody holds it, " + ofSlice() + "begins to swing with " + ofHanging(port) +
+    return "when nobody holds it, " + ofSlice() + "begins to swing with " + ofAttached(port) +
            (level == HandLevel::kRefused ? ": it will buzz" : "") +
-           ". Damp what hangs there, soften the link, scale the force down, or raise the gestural "
+           ". Damp what is attached there, soften the link, scale the force down, or raise the "
+           "gestural "
            "rate";
   }
 
   std::string describeLeftOut(const scene::Port& port) const {
     return "it is not known whether a slice that nobody holds begins to swing with " +
-           ofHanging(port) + ", because the analysis leaves out " + free_slices_.leftOut(port.mat) +
+           ofAttached(port) + ", because the analysis leaves out " +
+           free_slices_.leftOut(port.mat) +
            ". Try it without a hand first, or scale the force down";
   }
 
@@ -157,8 +160,9 @@ class PortJudge {
         physics::describe(is_damper ? met.damping_limit : met.stiffness_limit) +
         (is_damper ? " N s/m at " : " N/m at ") + wholeHz(rate_hz_) + " Hz";
     text += level == HandLevel::kRefused ? ": it will buzz or jump" : " (silent below half of it)";
-    text += met.glided_stiffness + met.glided_damping > 0.0
-                ? ". As it is seen to glide it is answered " + physics::describe(kGlideDelay) +
+    text += met.interpolated_stiffness + met.interpolated_damping > 0.0
+                ? ". As it is interpolated it is answered " +
+                      physics::describe(kInterpolationDelay) +
                       " ticks later (coupling: hold is not)"
                 : "";
     return text + (is_damper ? ". Lower the damping" : ". Soften the link") +

@@ -6,22 +6,22 @@
 
 #include "at.hpp"
 #include "ergotic/physics/certificate/monodromy.hpp"
+#include "physics/certificate/attached_cases.hpp"
 #include "physics/certificate/hand_slopes.hpp"
-#include "physics/certificate/hanging_cases.hpp"
 #include "physics/certificate/linear_stepper.hpp"
-#include "physics/glide.hpp"
+#include "physics/interpolation.hpp"
 #include "physics/step_units.hpp"
 #include "scene/laws/law.hpp"
 #include "scene/laws/range.hpp"
 
 namespace ergotic::physics {
-/// Of what more than always holds links can be: of slices, and of what hangs there, with its
+/// Of what more than always holds links can be: of slices, and of what is attached there, with its
 /// contacts or without.
 struct FreeSlices::Parts {
   double of_slices = 0.0;
   double of_others = 0.0;
   bool closes = false;
-  bool are_fine = false;  ///< left out where much hangs
+  bool are_fine = false;  ///< left out where much is attached
   bool areNone() const { return of_slices == 0.0 && of_others == 0.0; }
   /// There are few of the first cases and many others.
   int mostMasses() const { return areNone() ? 100 : 50; }
@@ -33,8 +33,8 @@ namespace {
 using Parts = FreeSlices::Parts;
 using scene::MatType;
 
-// What hangs on a link is worst where it answers about a quarter of a period late: with 0.08 kg a
-// factor of 1.2 beside that it grows by 2 % a second less.
+// What is attached to a link is worst where it answers about a quarter of a period late: with 0.08
+// kg a factor of 1.2 beside that it grows by 2 % a second less.
 constexpr double kFineness = 1.4142135623730951;
 constexpr double kLeastPart = 0.0625;
 constexpr int kFineMasses = 30;  // of more only every fourth, a factor of 4
@@ -93,7 +93,7 @@ void makeLinear(scene::Lia& lia,
   const double damping = law.has_linear_part ? now.valueOf(lia.damping) : 0.0;
   const double k = stiffness + part * (steepest.stiffness.highest - stiffness);
   const bool is_unforeseen = !networks.isExplicit(lia) && networks.crossesRates(lia) &&
-                             !glides(now, networks.rates(), lia);
+                             !isInterpolated(now, networks.rates(), lia);
   const double z = (is_unforeseen ? 0.5 : 1.0) *  // of the steps of an end that seems to stay
                    (damping + part * (steepest.damping.highest - damping));
   const double load = networks.inverseMassStep2(lia) * k + 2.0 * networks.inverseMassStep(lia) * z;
@@ -173,9 +173,9 @@ double gainOf(const scene::Scene& scene, int slice) {
 }
 
 /// True if that is something else than what always holds: of links that move with it.
-bool bends(const scene::Scene& scene, const Hanging& hanging, const Parts& parts) {
-  const Hands hands = handsOn(scene, hanging.slices);
-  const auto isIn = [&](int node) { return hanging.nodes.count(node) != 0; };
+bool bends(const scene::Scene& scene, const Attached& attached, const Parts& parts) {
+  const Hands hands = handsOn(scene, attached.slices);
+  const auto isIn = [&](int node) { return attached.nodes.count(node) != 0; };
   const auto has = [&](bool at_slices) {
     return std::any_of(scene.lias.begin(), scene.lias.end(), [&](const scene::Lia& lia) {
       return isBent(lia) && (isIn(lia.a) || isIn(lia.b)) && isAt(hands, lia) == at_slices &&
@@ -185,7 +185,7 @@ bool bends(const scene::Scene& scene, const Hanging& hanging, const Parts& parts
   return (parts.of_slices == 0.0 || has(true)) && (parts.of_others == 0.0 || has(false));
 }
 
-/// True if that hangs there only by links that may open, or snap out.
+/// True if that is attached there only by links that may open, or snap out.
 bool mayLetGo(const scene::Scene& scene, int slice, const Parts& parts) {
   return !parts.areNone() &&
          std::none_of(scene.lias.begin(), scene.lias.end(), [&](const scene::Lia& lia) {
@@ -193,10 +193,10 @@ bool mayLetGo(const scene::Scene& scene, int slice, const Parts& parts) {
          });
 }
 
-bool hasGuards(const scene::Scene& scene, const Hanging& hanging) {
+bool hasGuards(const scene::Scene& scene, const Attached& attached) {
   return std::any_of(scene.lias.begin(), scene.lias.end(), [&](const scene::Lia& lia) {
     return lia.scheme == scene::Scheme::kGuarded &&
-           (hanging.nodes.count(lia.a) != 0 || hanging.nodes.count(lia.b) != 0);
+           (attached.nodes.count(lia.a) != 0 || attached.nodes.count(lia.b) != 0);
   });
 }
 
@@ -211,14 +211,14 @@ FreeSlices::FreeSlices(const RatedNetwork& networks)
   std::set<int> known;
   for (const int slice : slices) {
     if (known.count(slice) == 0) {
-      const Hanging body = bodyOn(slice, network, handsOn(networks.scene(), slices));
+      const Attached body = bodyOn(slice, network, handsOn(networks.scene(), slices));
       known.insert(body.slices.begin(), body.slices.end());
       addBody(body);
     }
   }
 }
 
-void FreeSlices::addBody(const Hanging& body) {
+void FreeSlices::addBody(const Attached& body) {
   if (const char* const reason = notTold(body, networks_.network())) {
     for (const int slice : body.slices) {
       left_out_[at(slice)] = reason;
@@ -237,7 +237,7 @@ void FreeSlices::addBody(const Hanging& body) {
   }
 }
 
-/// \param slices  of one body, which need not hang together in this case
+/// \param slices  of one body, which need not are joined in this case
 void FreeSlices::addAll(const std::vector<int>& slices,
                         const scene::Scene& now,
                         const Parts& parts) {
@@ -246,9 +246,9 @@ void FreeSlices::addAll(const std::vector<int>& slices,
   const Network network(joined);
   std::set<int> known;
   for (const int slice : slices) {
-    add(joined, hangingOn(slice, network, handsOn(now, {slice}), parts.mostMasses()), parts);
+    add(joined, attachedTo(slice, network, handsOn(now, {slice}), parts.mostMasses()), parts);
     if (known.count(slice) == 0) {
-      const Hanging together = hangingOn(slice, network, all, parts.mostMasses());
+      const Attached together = attachedTo(slice, network, all, parts.mostMasses());
       known.insert(together.slices.begin(), together.slices.end());
       if (together.slices.size() > 1) {
         add(joined, together, parts);
@@ -257,26 +257,26 @@ void FreeSlices::addAll(const std::vector<int>& slices,
   }
 }
 
-void FreeSlices::add(const scene::Scene& joined, const Hanging& hanging, const Parts& parts) {
-  if (hanging.masses == 0 || (parts.are_fine && hanging.masses > kFineMasses) ||
-      !bends(networks_.scene(), hanging, parts)) {
+void FreeSlices::add(const scene::Scene& joined, const Attached& attached, const Parts& parts) {
+  if (attached.masses == 0 || (parts.are_fine && attached.masses > kFineMasses) ||
+      !bends(networks_.scene(), attached, parts)) {
     return;
   }
-  const char* const reason = notWorkedOut(hanging, joined, networks_.rates());
-  for (const int slice : hanging.slices) {
-    if (reason != nullptr || (hanging.is_cut && !mayLetGo(networks_.scene(), slice, parts))) {
+  const char* const reason = notWorkedOut(attached, joined, networks_.rates());
+  for (const int slice : attached.slices) {
+    if (reason != nullptr || (attached.is_cut && !mayLetGo(networks_.scene(), slice, parts))) {
       left_out_[at(slice)] = reason == nullptr ? "so many masses" : reason;
     }
   }
   if (reason != nullptr) {
     return;
   }
-  cases_.push_back(caseOf(onlyOf(hanging, linearPart(joined, hanging.slices))));
-  cases_.back().slices = hanging.slices;
-  if (!parts.closes && hasGuards(networks_.scene(), hanging) &&
+  cases_.push_back(caseOf(onlyOf(attached, linearPart(joined, attached.slices))));
+  cases_.back().slices = attached.slices;
+  if (!parts.closes && hasGuards(networks_.scene(), attached) &&
       heldRadius(cases_.back()) > kGrows) {
-    for (const int slice : hanging.slices) {
-      left_out_[at(slice)] = "guarded links that are stiff for a step";
+    for (const int slice : attached.slices) {
+      left_out_[at(slice)] = "energy-stable links that are stiff for a step";
     }
   }
 }

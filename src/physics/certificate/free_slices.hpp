@@ -6,15 +6,16 @@
 #include <Eigen/Core>
 
 #include "ergotic/physics/certificate/hand_loop.hpp"
-#include "physics/certificate/hanging.hpp"
+#include "physics/certificate/attached.hpp"
 
 namespace ergotic::physics {
 
-/// Slices that nobody holds, and the masses that hang on their links: each with the others held,
-/// and all free that links join, Euclidean sections as scalar ones. A link of a slice that is not
-/// linear counts as the springs and dampers that it can be, from what always holds to its steepest
-/// slope (1 mm from the start, if that grows); others count with what always holds, contacts open,
-/// and at their steepest, closed. Realtime: no. Source: docs/physics.md, "At the device".
+/// Slices that nobody holds, and the masses that are attached to their links: each with the others
+/// held, and all free that links join, Euclidean sections as scalar ones. A link of a slice that is
+/// not linear counts as the springs and dampers that it can be, from what always holds to its
+/// steepest slope (1 mm from the start, if that grows); others count with what always holds,
+/// contacts open, and at their steepest, closed. Realtime: no. Source: docs/physics/stability.md,
+/// "Passivity at the device".
 class FreeSlices {
  public:
   struct Parts;
@@ -22,9 +23,9 @@ class FreeSlices {
   /// \param networks  must outlive it
   explicit FreeSlices(const RatedNetwork& networks);
 
-  /// Something hangs on a slice that moves by itself, and is worked out.
+  /// Something is attached to a slice that moves by itself, and is worked out.
   bool areJudged() const { return !cases_.empty(); }
-  /// What of all that hangs on a slice is not worked out, nullptr: nothing.
+  /// What of all that is attached to a slice is not worked out, nullptr: nothing.
   const char* leftOut(int slice) const { return left_out_[static_cast<std::size_t>(slice)]; }
 
   /// Largest absolute eigenvalue of a tick of what each slice is part of, at least 1, the worst of
@@ -40,9 +41,9 @@ class FreeSlices {
     Eigen::MatrixXd state;   // [numbers][numbers + slices]
     Eigen::MatrixXd forces;  // [slices][numbers + slices] at the device, N
   };
-  void addBody(const Hanging& body);
+  void addBody(const Attached& body);
   void addAll(const std::vector<int>& slices, const scene::Scene& now, const Parts& parts);
-  void add(const scene::Scene& joined, const Hanging& hanging, const Parts& parts);
+  void add(const scene::Scene& joined, const Attached& attached, const Parts& parts);
   Case caseOf(const scene::Scene& linear) const;
   double radius(const Case& one, const DeviceTraits& device) const;
   static double heldRadius(const Case& one);

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "constants.hpp"
-#include "physics/glide.hpp"
+#include "physics/interpolation.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -116,22 +116,22 @@ HandLoop::HandLoop(const DeviceTraits& device, double tick_s, int steps)
       mass_(device.mass),
       tick_s_(tick_s),
       steps_(steps) {
-  GlideAnswer answer = glideAnswer(steps);
+  InterpolationResponse answer = interpolationResponse(steps);
   of_spring_ = std::move(answer.spring);
   of_damper_ = std::move(answer.damper);
 }
 
-double HandLoop::stiffnessLimit(double glided) const {
-  return 2.0 * damping_ / ((1.0 + 2.0 * (delay_ + glided * kGlideDelay)) * tick_s_);
+double HandLoop::stiffnessLimit(double interpolated) const {
+  return 2.0 * damping_ / ((1.0 + 2.0 * (delay_ + interpolated * kInterpolationDelay)) * tick_s_);
 }
 
-double HandLoop::dampingLimit(double glided) const {
-  return 1.0 / worstShare({0.0, 1.0, 0.0, glided});
+double HandLoop::dampingLimit(double interpolated) const {
+  return 1.0 / worstShare({0.0, 1.0, 0.0, interpolated});
 }
 
 double HandLoop::share(const HandLoad& load) const {
   const double of_spring =
-      load.stiffness / stiffnessLimit(partOf(load.glided_stiffness, load.stiffness));
+      load.stiffness / stiffnessLimit(partOf(load.interpolated_stiffness, load.stiffness));
   return load.damping > 0.0 ? std::max(of_spring, worstShare(load)) : of_spring;
 }
 
@@ -157,8 +157,9 @@ Complex HandLoop::answerAt(double angle, const HandLoad& load) const {
     spring += of_spring_[i] * late;
     damper += of_damper_[i] * late;
   }
-  return load.stiffness - load.glided_stiffness + load.glided_stiffness * spring +
-         (load.damping - load.glided_damping) * change + load.glided_damping / tick_s_ * damper;
+  return load.stiffness - load.interpolated_stiffness + load.interpolated_stiffness * spring +
+         (load.damping - load.interpolated_damping) * change +
+         load.interpolated_damping / tick_s_ * damper;
 }
 
 /// The slice swings by S when the answer pushes it by A, and nothing more happens as long as A S

@@ -119,7 +119,7 @@ LinearStepper::LinearStepper(const scene::Scene& linear, const Rates& rates)
     for (int which = 0; which < 4; ++which) {
       if (entry.name == names[which]) {
         offsets_[which] = entry.offset;
-        glide_forces_ += which == 3 ? entry.size / sizeof(double) : 0;
+        interpolated_forces_ += which == 3 ? entry.size / sizeof(double) : 0;
       }
     }
   }
@@ -137,7 +137,7 @@ void LinearStepper::visitNumbers(const Visit& visit) {
       visit(i++, number(which, moving.slot));
     }
   }
-  for (std::size_t k = 0; k < glide_forces_; ++k) {
+  for (std::size_t k = 0; k < interpolated_forces_; ++k) {
     visit(i++, number(3, k));
   }
 }

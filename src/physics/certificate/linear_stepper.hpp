@@ -33,8 +33,8 @@ class LinearStepper {
   /// Numbers of each of the three parts of a state: positions, differences, forces.
   int slots() const { return static_cast<int>(slots_.size()); }
   /// Numbers of a state: behind these three parts, the forces that slices have yet to get which
-  /// are seen to glide.
-  int numbers() const { return 3 * slots() + static_cast<int>(glide_forces_); }
+  /// are interpolated.
+  int numbers() const { return 3 * slots() + static_cast<int>(interpolated_forces_); }
   /// The module that a slot is of, -1: none.
   int moduleOf(int slot) const { return slots_[static_cast<std::size_t>(slot)].module; }
   double periodSeconds() const { return period_s_; }
@@ -60,7 +60,7 @@ class LinearStepper {
   std::vector<std::byte> rest_;  // the state at time 0
   std::vector<std::byte> state_;
   std::size_t offsets_[4] = {0, 0, 0, 0};
-  std::size_t glide_forces_ = 0;
+  std::size_t interpolated_forces_ = 0;
   int ticks_;
   double period_s_;
   std::vector<double> positions_;

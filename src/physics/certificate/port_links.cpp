@@ -7,7 +7,7 @@
 
 #include "at.hpp"
 #include "physics/certificate/hand_slopes.hpp"
-#include "physics/glide.hpp"
+#include "physics/interpolation.hpp"
 #include "scene/laws/law.hpp"
 #include "scene/laws/range.hpp"
 
@@ -58,15 +58,16 @@ double PortLinks::stiffness(const scene::Port& port) const {
 }
 
 /// What is behind a filter reaches the slice by the filter's link alone.
-double PortLinks::glidedStiffness(const scene::Port& port) const {
+double PortLinks::interpolatedStiffness(const scene::Port& port) const {
   const std::vector<int>& own = links_of_[at(port.mat)];
   if (port.filter >= 0) {
-    return std::any_of(own.begin(), own.end(), [&](int l) { return glides(l); }) ? stiffness(port)
-                                                                                 : 0.0;
+    return std::any_of(own.begin(), own.end(), [&](int l) { return isInterpolated(l); })
+               ? stiffness(port)
+               : 0.0;
   }
   double sum = 0.0;
   for (const int l : own) {
-    sum += glides(l) ? along(port, l) : 0.0;
+    sum += isInterpolated(l) ? along(port, l) : 0.0;
   }
   return sum;
 }
@@ -87,16 +88,16 @@ double PortLinks::damping(const scene::Port& port) const {
   return sum;
 }
 
-double PortLinks::glidedDamping(const scene::Port& port) const {
+double PortLinks::interpolatedDamping(const scene::Port& port) const {
   double sum = 0.0;
   for (const int l : links_of_[at(port.mat)]) {
-    sum += glides(l) ? dampingAt(port, l) : 0.0;
+    sum += isInterpolated(l) ? dampingAt(port, l) : 0.0;
   }
   return sum;
 }
 
-bool PortLinks::glides(int l) const {
-  return physics::glides(scene_, rates_, scene_.lias[at(l)]);
+bool PortLinks::isInterpolated(int l) const {
+  return physics::isInterpolated(scene_, rates_, scene_.lias[at(l)]);
 }
 
 int PortLinks::driving(const scene::Port& port) const {
@@ -128,15 +129,15 @@ PortLinks::Resistance PortLinks::heldAtSlice(const scene::Port& port) const {
   return sum(port, port.mat, ownLinks(port, false));
 }
 
-PortLinks::Resistance PortLinks::glidingAtSlice(const scene::Port& port) const {
+PortLinks::Resistance PortLinks::interpolatedAtSlice(const scene::Port& port) const {
   return sum(port, port.mat, ownLinks(port, true));
 }
 
-std::vector<int> PortLinks::ownLinks(const scene::Port& port, bool gliding) const {
+std::vector<int> PortLinks::ownLinks(const scene::Port& port, bool interpolated) const {
   std::vector<int> links;
   const std::vector<int>& all = links_of_[at(port.mat)];
   std::copy_if(all.begin(), all.end(), std::back_inserter(links),
-               [&](int l) { return glides(l) == gliding; });
+               [&](int l) { return isInterpolated(l) == interpolated; });
   return links;
 }
 
@@ -144,7 +145,7 @@ PortLinks::Resistance PortLinks::behindFilter(const scene::Port& port) const {
   return sum(port, port.filter, linksOf(port));
 }
 
-bool PortLinks::isHanging(const scene::Port& port, int l) const {
+bool PortLinks::isAttached(const scene::Port& port, int l) const {
   return otherEnd(l, port.filter) == port.mat;
 }
 
@@ -155,7 +156,7 @@ std::vector<int> PortLinks::linksOf(const scene::Port& port) const {
   std::vector<int> links;
   const std::vector<int>& all = links_of_[at(port.filter)];
   std::copy_if(all.begin(), all.end(), std::back_inserter(links),
-               [&](int l) { return !isHanging(port, l); });
+               [&](int l) { return !isAttached(port, l); });
   return links;
 }
 

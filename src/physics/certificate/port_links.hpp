@@ -19,13 +19,13 @@ class PortLinks {
 
   /// What everything resists the slow motion of a port with, at most, other hands in the worst way.
   double stiffness(const scene::Port& port) const;
-  /// How much of it is of links that see the slice glide.
-  double glidedStiffness(const scene::Port& port) const;
+  /// How much of it is of links that see the slice interpolated.
+  double interpolatedStiffness(const scene::Port& port) const;
   /// The link that gives most of it, -1: none.
   int stiffest(const scene::Port& port) const;
   /// What the links of its slice resist a step of it with, other hands in the worst way.
   double damping(const scene::Port& port) const;
-  double glidedDamping(const scene::Port& port) const;
+  double interpolatedDamping(const scene::Port& port) const;
   /// The link of the slice with most damping, -1: none.
   int mostDamped(const scene::Port& port) const;
   /// A link of the slice that is below 0 somewhere and drives a hand, -1: none. Not one that a
@@ -37,19 +37,19 @@ class PortLinks {
     double stiffness = 0.0;
     double damping = 0.0;
   };
-  /// Of the slice itself, and of its links that see it held, or glide.
+  /// Of the slice itself, and of its links that see it held, or interpolated.
   Resistance atSlice(const scene::Port& port) const;
   Resistance heldAtSlice(const scene::Port& port) const;
-  Resistance glidingAtSlice(const scene::Port& port) const;
-  /// Of the mass of its filter, but for what it hangs on. \pre port.filter >= 0
+  Resistance interpolatedAtSlice(const scene::Port& port) const;
+  /// Of the mass of its filter, but for what it is attached to. \pre port.filter >= 0
   Resistance behindFilter(const scene::Port& port) const;
 
  private:
   const Network::Link& link(int l) const { return network_.links[static_cast<std::size_t>(l)]; }
   int otherEnd(int l, int mat) const { return link(l).a == mat ? link(l).b : link(l).a; }
-  bool isHanging(const scene::Port& port, int l) const;
-  bool glides(int l) const;
-  std::vector<int> ownLinks(const scene::Port& port, bool gliding) const;
+  bool isAttached(const scene::Port& port, int l) const;
+  bool isInterpolated(int l) const;
+  std::vector<int> ownLinks(const scene::Port& port, bool interpolated) const;
   /// Links behind the filter, or of the slice if it has none.
   std::vector<int> linksOf(const scene::Port& port) const;
   bool isHeldBack(int l) const;

@@ -100,7 +100,7 @@ class Bodies {
     bodies_ = std::move(bodies);
   }
 
-  /// Positive springs that hang together hold one another.
+  /// Positive springs that are joined hold one another.
   bool isHeld(const Body& body) {
     return body.is_plain ? body.is_anchored : isHeldByItsMatrix(body);
   }

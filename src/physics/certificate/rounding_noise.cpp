@@ -20,7 +20,7 @@ constexpr double kMinute = 60.0;  // s
 constexpr double kTold = 0.05;    // m/s
 constexpr double kApart = 1e-9;   // of weights
 
-/// Modules that hang together.
+/// Modules that are joined.
 struct Part {
   double mass = 0.0;   // kg
   double power = 0.0;  // W that rounding gives
@@ -161,7 +161,7 @@ std::vector<std::string> notesOnRounding(const scene::Scene& scene, const Rates&
     if (part.power > 0.0 && part.speed() > kTold) {
       const scene::Mat& mat = scene.mats[at(part.first)];
       notes.push_back(noteAt(scene, mat.place) + "single precision rounds distances of up to " +
-                      shortly(part.farthest) + " m, which moves all that hangs together with '" +
+                      shortly(part.farthest) + " m, which moves all that is joined with '" +
                       mat.name.str() + "' by up to about " + shortly(part.speed()) +
                       " m/s after a minute; double precision or more loss keeps it quiet");
     }

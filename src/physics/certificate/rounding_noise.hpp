@@ -14,7 +14,7 @@ namespace ergotic::physics {
 /// all modules of such a part come to in a minute, by the law of large numbers; those below 5 cm/s
 /// are left out, as is what a body adds by flying away from where it was built.
 ///
-/// Realtime: no. Source: docs/physics.md, "Stability".
+/// Realtime: no. Source: docs/physics/stability.md, "How a scene is certified".
 std::vector<std::string> notesOnRounding(const scene::Scene& scene, const Rates& rates);
 
 }  // namespace ergotic::physics

@@ -64,11 +64,11 @@ EnergyMeter<Real>::EnergyMeter(const scene::Scene& scene, const Layout& layout, 
     return;
   }
   Arena& arena = state.arena();
-  books_at_ = arena.add<SectionBooks>("section_energy", layout.sections.size());
+  accounts_at_ = arena.add<SectionAccount>("section_energy", layout.sections.size());
   forced_at_ = arena.add<Feeding>("slice_forces", forced_.size());
   feeds_at_ = arena.add<Feeding>("input_forces", layout.feeds.size());
   places_at_ = arena.add<Feeding>("place_forces", coordinatesOf(layout.places));
-  glides_at_ = arena.add<double>("glide_work", coordinatesOf(layout.glides));
+  interpolated_work_at_ = arena.add<double>("glide_work", coordinatesOf(layout.interpolated));
   totals_at_ = arena.add<Totals>("energy_totals", 1);
 }
 
@@ -77,15 +77,15 @@ void EnergyMeter<Real>::addDissipated(int section,
                                       double energy,
                                       State<Real>& state) const noexcept {
   if (state.isMetered()) {
-    state.arena().template at<SectionBooks>(books_at_)[section].dissipated += energy;
+    state.arena().template at<SectionAccount>(accounts_at_)[section].dissipated += energy;
   }
 }
 
 template <class Real>
-template <class StateType, class Book>
+template <class StateType, class Add>
 void EnergyMeter<Real>::forEachSource(const Group& group,
                                       StateType& state,
-                                      const Book& book) const noexcept {
+                                      const Add& add) const noexcept {
   auto& arena = state.arena();
   const Real* d = state.d();
   const Real* moved = state.moved();
@@ -94,22 +94,22 @@ void EnergyMeter<Real>::forEachSource(const Group& group,
   for (const int section : group.sections) {
     for (const std::size_t i : forced_of_section_[at(section)]) {
       const int slot = forced_[i].slot;
-      book(section, forced_[i].device ? Source::kDevice : Source::kInputs, -d[slot], -d[slot],
-           feedings[i], f[slot]);
+      add(section, forced_[i].device ? Source::kDevice : Source::kInputs, -d[slot], -d[slot],
+          feedings[i], f[slot]);
     }
   }
   feedings = arena.template at<Feeding>(feeds_at_);
   for (const std::size_t k : group.feeds) {
     const Feed& feed = layout_.feeds[k];
-    book(feed.section, Source::kInputs, d[feed.slot], d[feed.slot], feedings[k], feedings[k].mean);
+    add(feed.section, Source::kInputs, d[feed.slot], d[feed.slot], feedings[k], feedings[k].mean);
   }
   for (const std::size_t p : group.places) {
     const PlacePoint& point = layout_.places[p];
     const Real* place_d = state.placeD() + point.coordinate;
     auto* feeding = arena.template at<Feeding>(places_at_) + point.coordinate;
     for (int k = point.slot; k < point.slot + point.dimensions; ++k, ++feeding, ++place_d) {
-      book(point.section, Source::kInputs, d[k] - moved[k], *place_d - moved[k], *feeding,
-           feeding->mean);
+      add(point.section, Source::kInputs, d[k] - moved[k], *place_d - moved[k], *feeding,
+          feeding->mean);
     }
   }
 }
@@ -121,7 +121,7 @@ void EnergyMeter<Real>::endFrame(const Group& group,
   if (!state.isMetered()) {
     return;
   }
-  auto* books = state.arena().template at<SectionBooks>(books_at_);
+  auto* accounts = state.arena().template at<SectionAccount>(accounts_at_);
   collectPointForces(group, state);
   forEachSource(group, state,
                 [&](int section, Source source, Real moved, Real moved_last, Feeding& feeding,
@@ -129,28 +129,28 @@ void EnergyMeter<Real>::endFrame(const Group& group,
                   if (!endsStep(section, now)) {
                     return;
                   }
-                  double& book = source == Source::kDevice ? books[section].from_device
-                                                           : books[section].from_inputs;
-                  book += 0.5 * static_cast<double>(moved * force + moved_last * feeding.last);
+                  double& account = source == Source::kDevice ? accounts[section].from_device
+                                                              : accounts[section].from_inputs;
+                  account += 0.5 * static_cast<double>(moved * force + moved_last * feeding.last);
                   feeding = {Real(0), force};
                 });
-  bookGlides(group, now, state);
+  addWorkOfInterpolatedSlices(group, now, state);
 }
 
-/// A slice that is seen to glide works as it is seen to.
+/// An interpolated slice works by its positions as the faster section sees them.
 template <class Real>
-void EnergyMeter<Real>::bookGlides(const Group& group,
-                                   std::int64_t now,
-                                   State<Real>& state) const noexcept {
-  for (const std::size_t g : group.glides) {
-    const Glide& glide = layout_.glides[g];
-    if (!endsStep(glide.section, now)) {
+void EnergyMeter<Real>::addWorkOfInterpolatedSlices(const Group& group,
+                                                    std::int64_t now,
+                                                    State<Real>& state) const noexcept {
+  for (const std::size_t g : group.interpolated) {
+    const InterpolatedSlice& slice = layout_.interpolated[g];
+    if (!endsStep(slice.section, now)) {
       continue;
     }
-    auto* work = state.arena().template at<double>(glides_at_) + glide.coordinate;
-    const GlideForce<Real>* force = state.glideForces() + glide.coordinate;
-    for (int k = 0; k < glide.dimensions; ++k) {
-      const int slot = glide.slot + k;
+    auto* work = state.arena().template at<double>(interpolated_work_at_) + slice.coordinate;
+    const InterpolatedForce<Real>* force = state.interpolatedForces() + slice.coordinate;
+    for (int k = 0; k < slice.dimensions; ++k) {
+      const int slot = slice.slot + k;
       work[k] -= 0.5 * static_cast<double>(state.d()[slot] * (force[k].last + state.f()[slot]));
     }
   }
@@ -218,21 +218,21 @@ void EnergyMeter<Real>::addSections(const CoefficientsOf<Real>& c,
                                     Energies& to) const noexcept {
   for (std::size_t s = 0; s < layout_.sections.size(); ++s) {
     const SectionRange& range = layout_.sections[s];
-    SectionBooks books{};
+    SectionAccount account{};
     if (state.isMetered()) {
-      books = state.arena().template at<SectionBooks>(books_at_)[s];
+      account = state.arena().template at<SectionAccount>(accounts_at_)[s];
     }
     to.sections[s] = {kineticOf(range, c.masses, state),
                       potentialOf(range, c.masses, state),
-                      books.dissipated,
-                      books.from_device,
-                      books.from_inputs,
+                      account.dissipated,
+                      account.from_device,
+                      account.from_inputs,
                       0.0};
   }
-  for (const Glide& glide : layout_.glides) {
-    for (int k = 0; k < glide.dimensions && state.isMetered(); ++k) {
-      to.sections[at(glide.of.section)].from_device +=
-          state.arena().template at<double>(glides_at_)[glide.coordinate + k];
+  for (const InterpolatedSlice& slice : layout_.interpolated) {
+    for (int k = 0; k < slice.dimensions && state.isMetered(); ++k) {
+      to.sections[at(slice.of.section)].from_device +=
+          state.arena().template at<double>(interpolated_work_at_)[slice.coordinate + k];
     }
   }
 }
@@ -292,7 +292,7 @@ LinkWork EnergyMeter<Real>::workOf(std::size_t r, const State<Real>& state) cons
   return work;
 }
 
-/// What moves modules: the books, and the steps under way.
+/// What moves modules: the energy accounts, and the steps under way.
 template <class Real>
 void EnergyMeter<Real>::addSources(const State<Real>& state, Energies& to) const noexcept {
   if (!state.isMetered()) {

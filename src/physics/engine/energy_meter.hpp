@@ -12,30 +12,30 @@
 
 namespace ergotic::physics {
 
-/// Keeps the books of energy. Links book their own work while they step (link_kernels.hpp); this
+/// Keeps the energy accounts. Links count their own work while they step (link_kernels.hpp); this
 /// adds what comes in through slices, driven modules, force inputs and moving places, and works the
-/// balance out from positions. Unmetered it books nothing, and knows what positions alone say.
-/// Source: docs/physics.md, "Energy".
+/// balance out from positions. Unmetered it counts nothing, and knows what positions alone say.
+/// Source: docs/physics/accuracy.md, "Energy accounting".
 template <class Real>
 class EnergyMeter {
  public:
   /// Adds its entries to the arena. \pre the arena is not allocated
   EnergyMeter(const scene::Scene& scene, const Layout& layout, State<Real>& state);
 
-  /// Books what a section's own modules dissipated in a step, or lost by falling asleep.
+  /// Counts what a section's own modules dissipated in a step, or lost by falling asleep.
   void addDissipated(int section, double energy, State<Real>& state) const noexcept;
 
-  /// Books the force of an input in this frame. `k`: index in Layout::feeds
+  /// Counts the force of an input in this frame. `k`: index in Layout::feeds
   void addFeed(std::size_t k, Real force, State<Real>& state) const noexcept {
     if (state.isMetered()) {
       state.arena().template at<Feeding>(feeds_at_)[k].mean += force;
     }
   }
 
-  /// Books the work of a hand that holds a module, in the scene's unit.
+  /// Counts the work of a hand that holds a module, in the scene's unit.
   void addTouch(int section, double work, State<Real>& state) const noexcept {
     if (state.isMetered()) {
-      state.arena().template at<SectionBooks>(books_at_)[section].from_inputs += work;
+      state.arena().template at<SectionAccount>(accounts_at_)[section].from_inputs += work;
     }
   }
 
@@ -46,7 +46,7 @@ class EnergyMeter {
   }
   void forgetAhead() noexcept { std::fill(ahead_.begin(), ahead_.end(), 0.0); }
 
-  /// Closes the books of the sections of a group whose steps end with this frame.
+  /// Closes the energy accounts of the sections of a group whose steps end with this frame.
   void endFrame(const Group& group, std::int64_t now, State<Real>& state) const noexcept;
 
   /// The balance is counted from here on.
@@ -67,7 +67,7 @@ class EnergyMeter {
                   const State<Real>& state) const noexcept;
 
  private:
-  struct SectionBooks {
+  struct SectionAccount {
     double dissipated;
     double from_device;
     double from_inputs;
@@ -103,11 +103,13 @@ class EnergyMeter {
   Totals& totals(State<Real>& state) const noexcept {
     return *state.arena().template at<Totals>(totals_at_);
   }
-  /// Calls `book(section, source, moved under the force of this step, moved under that of the
+  /// Calls `add(section, source, moved under the force of this step, moved under that of the
   /// last, feeding, force of this step)` for all that moves modules of a group.
-  template <class StateType, class Book>
-  void forEachSource(const Group& group, StateType& state, const Book& book) const noexcept;
-  void bookGlides(const Group& group, std::int64_t now, State<Real>& state) const noexcept;
+  template <class StateType, class Add>
+  void forEachSource(const Group& group, StateType& state, const Add& add) const noexcept;
+  void addWorkOfInterpolatedSlices(const Group& group,
+                                   std::int64_t now,
+                                   State<Real>& state) const noexcept;
   void collectPointForces(const Group& group, State<Real>& state) const noexcept;
 
   double storedIn(std::size_t run,
@@ -134,12 +136,13 @@ class EnergyMeter {
   std::vector<std::size_t> coupling_of_run_;  // [runs] kInside: inside a section
   std::vector<bool> follows_positions_;       // [runs] what they store
   Energies scratch_;
-  std::vector<double> ahead_;  // [sections] booked, but yet to be done
-  std::size_t books_at_ = 0;
+  std::vector<double> ahead_;  // [sections] counted, but yet to be done
+  std::size_t accounts_at_ = 0;
   std::size_t forced_at_ = 0;  // Feeding [forced]
   std::size_t feeds_at_ = 0;   // Feeding [feeds]
   std::size_t places_at_ = 0;  // Feeding [coordinates of places]
-  std::size_t glides_at_ = 0;  // work of their slices, double [coordinates of glides]
+  std::size_t interpolated_work_at_ =
+      0;  // work of their slices, double [coordinates of interpolated slices]
   std::size_t totals_at_ = 0;
 };
 

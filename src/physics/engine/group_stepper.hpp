@@ -89,7 +89,7 @@ class GroupStepper {
     }
   }
 
-  /// Inputs, hands and guarded links give theirs, forces are heard and booked.
+  /// Inputs, hands and guarded links give theirs, forces are heard and counted.
   /// \pre those of all other groups on this one are there
   void end(const Group& group, const Frames& frames) noexcept {
     State<Real>& state = mechanism_.state;
@@ -102,8 +102,8 @@ class GroupStepper {
     mechanism_.guarded.step(group, frames.first, last, *mechanism_.coefficients, mechanism_.stepper,
                             state);
     mechanism_.meter.endFrame(group, last, state);
-    mechanism_.glides.collect(group, last, state);
-    mechanism_.glides.answer(group, last, state);
+    mechanism_.interpolation.collect(group, last, state);
+    mechanism_.interpolation.answer(group, last, state);
     mechanism_.points.endFrame(group, *mechanism_.coefficients, last, state);
     for (int k = 0; k < frames.count; ++k) {
       mechanism_.pickups.takeForces(group, *mechanism_.coefficients, frames.first + k, state,
@@ -206,7 +206,7 @@ class GroupStepper {
         }
       }
     }
-    mechanism_.glides.gather(group, now, state);
+    mechanism_.interpolation.gather(group, now, state);
     mechanism_.points.gather(group, *mechanism_.coefficients, now, state);
     mechanism_.points.clearForces(group, state.f());
   }

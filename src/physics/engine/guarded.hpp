@@ -74,7 +74,7 @@ struct GuardedModule {
 /// little ahead (fourth order in contact time and rebound), cut to what the tank can pay for.
 /// Friction has no tank, so it can only slow the slip down, at most to rest. That which sticks
 /// comes after all others, one after the other: each knows what those before it have done. Source:
-/// docs/physics.md, "Guarded links".
+/// docs/physics/schemes.md, "Energy-stable links".
 template <class Real>
 class GuardedLinks {
  public:

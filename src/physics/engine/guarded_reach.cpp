@@ -156,7 +156,7 @@ void GuardedReach::find(const GuardedRef& ref, const double* places, Terms& to) 
   const LinkRun& run = layout_.runs[ref.run];
   const int divisor = layout_.sections[at(run.section)].divisor;
   const auto slowOf = [&](int section) {
-    return layout_.sections[at(section)].divisor > divisor && !run.glides ? section : -1;
+    return layout_.sections[at(section)].divisor > divisor && !run.interpolated ? section : -1;
   };
   const int dimensions = std::max(1, run.dimensions);
   const LinkEnds& ends = run.ends[ref.link];

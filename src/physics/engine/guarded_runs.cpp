@@ -201,7 +201,7 @@ void GuardedRuns<Real>::exchange(std::size_t g,
   }
 }
 
-/// True if a force of a link has still to be booked, or to be felt by a slower end.
+/// True if a force of a link has still to be counted, or to be felt by a slower end.
 template <class Real>
 bool GuardedRuns<Real>::remembersForce(const GuardedRef& ref,
                                        const State<Real>& state) const noexcept {
@@ -233,7 +233,9 @@ void GuardedRuns<Real>::rememberGaps(std::size_t g, State<Real>& state) noexcept
 
 /// What its tanks hold is what a run stores; the rest of what it took is gone.
 template <class Real>
-void GuardedRuns<Real>::closeBooks(std::size_t g, bool starts, State<Real>& state) const noexcept {
+void GuardedRuns<Real>::closeAccounts(std::size_t g,
+                                      bool starts,
+                                      State<Real>& state) const noexcept {
   if (!state.isMetered()) {
     return;
   }
@@ -268,7 +270,7 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::step(const Group& group,
     if (first == 0) {
       followPlaces(g, state);
       links_[g].links.start(view, c.guarded[g].data(), states(g, state));
-      closeBooks(g, true, state);
+      closeAccounts(g, true, state);
       tanks_.start(g, c, state);
     }
     if (!endsStep(g, last)) {
@@ -286,7 +288,7 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::step(const Group& group,
     links_[g].links.step(links_[g].near, view, c.guarded[g].data(), states(g, state));
     exchange(g, began, stepper, state);
     rememberGaps(g, state);
-    closeBooks(g, false, state);
+    closeAccounts(g, false, state);
   }
   if (any) {
     points_.scatterPlaces(group, forces_.data(), state.places());
@@ -309,16 +311,16 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::retune(const CoefficientsOf<Real>& from
                                                 State<Real>& state) noexcept {
   for (std::size_t g = 0; g < links_.size(); ++g) {
     const GuardedView<Real> view = viewOf(links_[g], from, state);
-    const auto book = [&](double sign) {
+    const auto add = [&](double sign) {
       for (std::size_t l = 0; state.isMetered() && l < members_[g].links.size(); ++l) {
         state.work()[members_[g].links[l].run].stored +=
             sign * static_cast<double>(states(g, state)[l].tank);
       }
     };
-    book(-1.0);
+    add(-1.0);
     links_[g].links.retune(view, from.guarded[g].data(), to.guarded[g].data(), states(g, state));
     std::fill_n(clearances(g, state), links_[g].near.waiting(), Real(0));
-    book(1.0);
+    add(1.0);
   }
   tanks_.retune(from, to, state);
 }

@@ -20,7 +20,7 @@
 namespace ergotic::physics {
 
 /// The guarded links of an instrument: finds the modules behind their ends, steps those of one rate
-/// together, and keeps their books of energy.
+/// together, and keeps their energy accounts.
 template <class Real>
 class GuardedRuns {
  public:
@@ -88,7 +88,7 @@ class GuardedRuns {
                 State<Real>& state) noexcept;
   bool remembersForce(const GuardedRef& ref, const State<Real>& state) const noexcept;
   void rememberGaps(std::size_t g, State<Real>& state) noexcept;
-  void closeBooks(std::size_t g, bool starts, State<Real>& state) const noexcept;
+  void closeAccounts(std::size_t g, bool starts, State<Real>& state) const noexcept;
   GuardedState<Real>* states(std::size_t g, State<Real>& state) const noexcept {
     return state.arena().template at<GuardedState<Real>>(links_[g].states_at);
   }

@@ -34,7 +34,7 @@ void placeInitialState(const Rates& rates, Mechanism<Real>& mechanism) {
       }
     }
   }
-  mechanism.glides.placeAtStart(mechanism.state.x());
+  mechanism.interpolation.placeAtStart(mechanism.state.x());
   mechanism.points.placeAtStart(*mechanism.coefficients, mechanism.state.x(), mechanism.state.d(),
                                 mechanism.state.places());
   for (const Group& group : mechanism.groups.running) {

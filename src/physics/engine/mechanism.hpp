@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "physics/engine/energy_meter.hpp"
-#include "physics/engine/glides.hpp"
 #include "physics/engine/guarded_runs.hpp"
 #include "physics/engine/pickups.hpp"
 #include "physics/engine/points.hpp"
 #include "physics/engine/sleeper.hpp"
+#include "physics/engine/slice_interpolation.hpp"
 #include "physics/engine/stepper.hpp"
 #include "physics/engine/touches.hpp"
 #include "physics/layout/groups.hpp"
@@ -39,7 +39,7 @@ struct Mechanism {
         state(std::move(made_state)),
         meter(*scene, layout, state),
         stepper(layout, options),
-        glides(layout),
+        interpolation(layout),
         points(*scene, layout, options.isa),
         guarded(*scene, layout, groups, points, state),
         pickups(layout),
@@ -57,7 +57,7 @@ struct Mechanism {
   State<Real> state;
   EnergyMeter<Real> meter;
   Stepper<Real> stepper;
-  Glides<Real> glides;
+  SliceInterpolation<Real> interpolation;
   Points<Real> points;
   GuardedRuns<Real> guarded;
   Pickups<Real> pickups;

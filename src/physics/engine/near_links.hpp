@@ -14,7 +14,7 @@ namespace ergotic::physics {
 /// Which of the guarded links have to be looked at. Contacts of one body with all of another come
 /// in tiles, and a tile whose narrowest gap cannot have closed yet is passed over: a step changes
 /// the gap of a link by at most W max |d|, W the sum of the weights of its modules. What is played
-/// is the same, bit for bit. Source: docs/physics.md, "Contacts that are far".
+/// is the same, bit for bit. Source: docs/physics/schemes.md, "Energy-stable links".
 template <class Real>
 class NearLinks {
  public:

@@ -18,9 +18,9 @@ namespace ergotic::physics {
 
 /// Puts quiet sections to rest: one whose energy has fallen below its limit, and on which no link
 /// of another section pulls, is stepped no more until a force comes. By itself it rests at 0;
-/// linked to others it stops where it is, for a jump would stretch what it hangs on, with the
+/// linked to others it stops where it is, for a jump would stretch what it is attached to, with the
 /// forces of its springs, so that the step in which it wakes is one like any other. The error is
-/// bounded (docs/physics.md, "Model no more than a scene needs").
+/// bounded (docs/physics/schemes.md, "Defaults that are resolved").
 template <class Real>
 class Sleeper {
  public:

@@ -105,7 +105,7 @@ class Stepper {
   /// What is stepped how, some lines for each section. Realtime: no
   std::vector<std::string> describe(const scene::Scene& scene) const;
 
-  /// Books what remembering links hold before anything moves. Realtime: no.
+  /// Counts what remembering links hold before anything moves. Realtime: no.
   void storeAtStart(std::size_t r, const RunCoefficients<Real>& c, State<Real>& state) const {
     const LinkRun& run = layout_.runs[r];
     const scene::Law& law = scene::lawOf(run.law);

@@ -29,7 +29,8 @@ inline std::int64_t wholeOf(double steps) noexcept {
 /// Hardening links with one energy tank for all of a body: its potential is V = psi^2/2, its force
 /// -psi grad psi, with the mean of psi over the steps before and after. That is one equation, and
 /// linear, as psi changes by grad psi times the way of the modules. So the tank never gives more
-/// than it took, at the cost of explicit links. Source: docs/physics.md, "One tank for a body".
+/// than it took, at the cost of explicit links. Source: docs/physics/bodies.md, "One energy tank
+/// for a body".
 template <class Real>
 class Tanks {
  public:

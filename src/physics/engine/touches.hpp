@@ -21,8 +21,8 @@ namespace ergotic::physics {
 /// Hands that hold modules (Touch). The force of one is worked out from where its module will be
 /// when the force has moved it: by the mean of that and of where it was a step before, and the
 /// velocity between the two. So spring and damper give out no energy but what the hand puts in,
-/// whatever their values are and however light the module is (docs/physics.md, "Hands that hold
-/// modules"). All is real-time but the constructor.
+/// whatever their values are and however light the module is (docs/physics/schemes.md, "Hands that
+/// hold modules"). All is real-time but the constructor.
 template <class Real>
 class Touches {
  public:
@@ -119,10 +119,10 @@ class Touches {
         for (int k = 0; k < hand.held.dimensions; ++k) {
           const Motion motion = motionOf(hand.held, k, c.masses, state);
           const Real step = motion.next - (motion.last + motion.step);
-          work += 0.5 * static_cast<double>(step * hand.booked[static_cast<std::size_t>(k)]);
+          work += 0.5 * static_cast<double>(step * hand.counted[static_cast<std::size_t>(k)]);
         }
         meter.addAhead(hand.held.section, work, state);
-        hand.booked = {};
+        hand.counted = {};
       }
     }
   }
@@ -149,8 +149,9 @@ class Touches {
     Real stiffness = Real(0);   // in the scene's units
     Real damping = Real(0);     // per step
     Real most_force = Real(0);
-    std::array<Real, 3> force{};   // of the last step
-    std::array<Real, 3> booked{};  // the same, of whose work half is not yet in the books
+    std::array<Real, 3> force{};  // of the last step
+    std::array<Real, 3>
+        counted{};  // the same, of whose work half is not yet in the energy accounts
   };
   /// A coordinate of what is held: a step ago, as no hand would move it, and how a force does.
   struct Motion {
@@ -367,11 +368,11 @@ class Touches {
     for (int k = 0; k < held.dimensions; ++k) {
       const auto i = static_cast<std::size_t>(k);
       force[i] *= share;
-      work += 0.5 * static_cast<double>(motions[i].step * (force[i] + hand.booked[i]));
+      work += 0.5 * static_cast<double>(motions[i].step * (force[i] + hand.counted[i]));
       forEachShareOf(held, k, [&](int slot, Real weight) { state.f()[slot] += weight * force[i]; });
     }
     hand.force = force;
-    hand.booked = force;
+    hand.counted = force;
     meter.addTouch(held.section, work, state);
   }
 

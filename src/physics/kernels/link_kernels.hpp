@@ -11,7 +11,7 @@
 
 /// What links do in one step: forces from positions, and the work they take and lose.
 /// Work over a step is d[n] (F[n-1] + F[n]) / 2, with F[n-1] remembered where it cannot be worked
-/// out from positions. Source: docs/physics.md, "Energy".
+/// out from positions. Source: docs/physics/accuracy.md, "Energy accounting".
 namespace ergotic::physics::kernels {
 
 using scene::Force;
@@ -174,7 +174,7 @@ void stepSpatial(const LinkRun& run,
 }
 
 /// What a link holds after the first step: the integral of its elastic force from where it is none,
-/// less the half of the work of that step which the books begin with.
+/// less the half of the work of that step which the energy accounts begin with.
 /// \param moved  by how much the step has changed u
 template <class Real>
 double storedAtStart(

@@ -9,7 +9,7 @@
 
 /// How the ends of a link feel its force. Between sections of different rates the slower end is
 /// held between its own steps and feels the mean of the force over each of them.
-/// Source: docs/physics.md, "Two rates".
+/// Source: docs/physics/multirate.md, "Coupling of two rates".
 namespace ergotic::physics::kernels {
 
 using scene::Force;
@@ -31,7 +31,7 @@ struct RunStep {
   LinkWork* work;  ///< null: nobody asks
 };
 
-/// Half of the work of a force over the step in which the ends moved so far: each step is booked
+/// Half of the work of a force over the step in which the ends moved so far: each step is counted
 /// with half of the force before it and half of that after it. Across rates a damper takes what
 /// both sides do against it: the jumps of a held end are no motion of anything. What they do to a
 /// spring nobody does; against what the slower end does in the same step, it is made.
@@ -64,7 +64,7 @@ void addToMean(const LinkRun& run,
   at.memory.mean_viscous[index] += share * force.viscous;
 }
 
-/// Books one coordinate of one link, if anybody asks, and hands its force out.
+/// Counts one coordinate of one link, if anybody asks, and hands its force out.
 template <class Real>
 void exchangeForce(const LinkRun& run,
                    const RunStep<Real>& at,
@@ -106,7 +106,7 @@ void addWorkOfMean(const LinkRun& run,
   work.made += 0.5 * signed_moved * (mean - viscous);
 }
 
-/// The slower end has moved by d under the mean force: its side of the books closes.
+/// The slower end has moved by d under the mean force: its side of the energy accounts closes.
 template <class Real>
 void closeMean(
     const LinkRun& run, const RunStep<Real>& at, std::size_t index, int a, int b) noexcept {

@@ -3,7 +3,7 @@
 
 #include "physics/laws/guarded_force.hpp"
 
-/// Friction that sticks. Source: docs/physics.md, "Friction that sticks".
+/// Friction that sticks. Source: docs/physics/schemes.md, "Friction with stiction".
 namespace ergotic::physics {
 
 /// One step of what rubs, along the slip as it would be without this friction, m per step.

@@ -14,7 +14,7 @@ using scene::GuardedForce;
 using scene::GuardedLaw;
 
 /// What a guarded link remembers; all 0 before it starts. Energies in force unit times m. Letters
-/// are those of docs/physics.md, "Guarded links".
+/// are those of docs/physics/schemes.md, "Energy-stable links".
 template <class Real>
 struct GuardedState {
   double stored = 0.0;      ///< at this step: the tank, with the first half of the step's work
@@ -72,7 +72,7 @@ template <class Real>
 bool holdsAt(Real p, const GuardedLaw<Real>& law, GuardedState<Real>& state) noexcept;
 
 /// Works out force and damper. \pre all that is above them in `m` is known
-/// Realtime: yes. Source: docs/physics.md, "Guarded links".
+/// Realtime: yes. Source: docs/physics/schemes.md, "Energy-stable links".
 template <class Real>
 void exertForce(GuardedMotion<Real>& m,
                 const GuardedLaw<Real>& law,

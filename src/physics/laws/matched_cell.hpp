@@ -10,7 +10,7 @@ using scene::Range;
 /// Upper bound of M (kappa + 2 zeta) of a module with matched coefficients, kg, over all that its
 /// stiffness, damping and mass can be; exact if they are constant. With links attached it
 /// enters the network with it; alone it is stable at any step.
-/// Source: docs/physics.md, "Stability".
+/// Source: docs/physics/stability.md, "How a scene is certified".
 double matchedLoad(Range stiffness, Range damping, Range mass, double step);
 
 }  // namespace ergotic::physics

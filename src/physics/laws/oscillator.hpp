@@ -14,8 +14,8 @@ struct OscillatorCoefficients {
 
 /// Plain: lose = h Z/M, pull = h^2 K/M (first order). Matched: the samples of the continuous
 /// oscillator, lose = 1 - e^(-2sh), pull = 2 - lose - 2 e^(-sh) cos(wd h), with s = Z/2M,
-/// wd^2 = K/M - s^2. Masses in a medium are matched. Realtime: yes. Source: docs/physics.md,
-/// "Cells"
+/// wd^2 = K/M - s^2. Masses in a medium are matched. Realtime: yes. Source:
+/// docs/physics/elements.md, "Cells"
 OscillatorCoefficients oscillatorOf(
     double stiffness, double damping, double mass, double step, bool matched) noexcept;
 

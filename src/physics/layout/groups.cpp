@@ -35,8 +35,10 @@ class Dealer {
     dealRuns();
     dealBySection(layout_.taps, &Group::taps, [](const auto& t) { return t.section; });
     dealBySection(layout_.places, &Group::places, [](const auto& p) { return p.section; });
-    dealBySection(layout_.glides, &Group::glides, [](const auto& g) { return g.section; });
-    dealBySection(layout_.glides, &Group::answered, [](const auto& g) { return g.of.section; });
+    dealBySection(layout_.interpolated, &Group::interpolated,
+                  [](const auto& g) { return g.section; });
+    dealBySection(layout_.interpolated, &Group::answered,
+                  [](const auto& g) { return g.of.section; });
     dealBySection(layout_.projections, &Group::projections,
                   [](const auto& p) { return p.of.section; });
     dealBySection(layout_.feeds, &Group::feeds, [](const auto& f) { return f.section; });
@@ -72,7 +74,7 @@ class Dealer {
     }
     return !has_modules && blocks == group.lone.size() && group.runs.empty() &&
            group.guarded.empty() && group.taps.empty() && group.places.empty() &&
-           group.glides.empty() && group.projections.empty() && group.feeds.empty() &&
+           group.interpolated.empty() && group.projections.empty() && group.feeds.empty() &&
            group.followers.empty() && group.pickups.empty() && group.proxies.empty();
   }
 

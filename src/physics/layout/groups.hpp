@@ -25,8 +25,8 @@ struct Group {
   std::vector<std::size_t> guarded;         ///< guardedGroupsOf
   std::vector<std::size_t> taps;            ///< Layout::taps
   std::vector<std::size_t> places;          ///< Layout::places
-  std::vector<std::size_t> glides;          ///< Layout::glides, seen by its sections
-  std::vector<std::size_t> answered;        ///< Layout::glides, of slices of its sections
+  std::vector<std::size_t> interpolated;    ///< Layout::interpolated, seen by its sections
+  std::vector<std::size_t> answered;        ///< Layout::interpolated, of slices of its sections
   std::vector<std::size_t> projections;     ///< Layout::projections
   std::vector<std::size_t> feeds;           ///< Layout::feeds
   std::vector<std::size_t> followers;       ///< Layout::followers

@@ -10,7 +10,7 @@
 
 #include "ergotic/physics/rates.hpp"
 #include "ergotic/scene/scene.hpp"
-#include "physics/glide.hpp"
+#include "physics/interpolation.hpp"
 #include "physics/layout/blocks/blocks.hpp"
 #include "physics/layout/blocks/link_ends.hpp"
 
@@ -52,10 +52,10 @@ struct LinkRun {
   int slow_section = -1;
   bool slow_is_a = false;
   double share = 1.0;
-  bool glides = false;   ///< one end is a slice that is seen to glide: then none is slow
-  bool presses = false;  ///< what its forces are is asked for by frictions
-  int tank = -1;         ///< index in Scene::tanks: its links are guarded by this one
-  bool is_mean = false;  ///< Tank::is_mean
+  bool interpolated = false;  ///< one end is a slice that is interpolated: then none is slow
+  bool presses = false;       ///< what its forces are is asked for by frictions
+  int tank = -1;              ///< index in Scene::tanks: its links are guarded by this one
+  bool is_mean = false;       ///< Tank::is_mean
   static constexpr int kHeldGroup = -1;
   int group = kHeldGroup;  ///< that steps it, as of Layout::group_of_section
   int block = -1;          ///< index in Layout::blocks: its sweep works these links out
@@ -125,14 +125,14 @@ struct ProjectedPoint {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 };
 
-/// A slice as a faster section sees it glide: its slots follow one another.
-struct Glide {
+/// A slice as a faster section sees it interpolated: its slots follow one another.
+struct InterpolatedSlice {
   int slot = 0;
   int dimensions = 1;
-  int coordinate = 0;            ///< first of its own among those of all glides
-  int section = 0;               ///< whose steps it follows
-  End of;                        ///< the slice
-  std::vector<GlideStep> steps;  ///< of a tick
+  int coordinate = 0;  ///< first of its own among those of all interpolated slices
+  int section = 0;     ///< whose steps it follows
+  End of;              ///< the slice
+  std::vector<InterpolationStep> steps;  ///< of a tick
 };
 
 /// Coordinates of all of these points.
@@ -190,7 +190,7 @@ struct Layout {
   std::vector<TapPoint> taps;       ///< those that anything acts on or hears
   std::vector<TapPoint> seen_taps;  ///< the others, by module: they have no slots
   std::vector<PlacePoint> places;
-  std::vector<Glide> glides;
+  std::vector<InterpolatedSlice> interpolated;
   std::vector<ProjectedPoint> projections;
   std::vector<LinkRun> runs;
   std::vector<Pressing> pressings;

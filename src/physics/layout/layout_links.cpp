@@ -28,26 +28,27 @@ int addSlots(Layout& layout, int dimensions, int mat) {
   return first;
 }
 
-/// Index of the glide of a slice as a section sees it, which is made where there is none.
-std::size_t glideOf(
+/// Index of a slice as a section sees it interpolated, which is made where there is none.
+std::size_t interpolatedSlice(
     const scene::Scene& scene, const Rates& rates, int mat, int section, Layout& layout) {
   const int slot = layout.slot_of_mat[at(mat)];
-  const auto known = std::find_if(
-      layout.glides.begin(), layout.glides.end(),
-      [&](const Glide& glide) { return glide.of.slot == slot && glide.section == section; });
-  if (known != layout.glides.end()) {
-    return static_cast<std::size_t>(known - layout.glides.begin());
+  const auto known = std::find_if(layout.interpolated.begin(), layout.interpolated.end(),
+                                  [&](const InterpolatedSlice& slice) {
+                                    return slice.of.slot == slot && slice.section == section;
+                                  });
+  if (known != layout.interpolated.end()) {
+    return static_cast<std::size_t>(known - layout.interpolated.begin());
   }
   const scene::Mat& slice = scene.mats[at(mat)];
-  Glide glide;
-  glide.dimensions = layout.sections[at(slice.section)].dimensions;
-  glide.coordinate = static_cast<int>(coordinatesOf(layout.glides));
-  glide.slot = addSlots(layout, glide.dimensions, -1);
-  glide.section = section;
-  glide.of = {slot, layout.strideOf(scene, mat), slice.section, slice.rest};
-  glide.steps = glideSteps(rates.ratio / layout.sections[at(section)].divisor);
-  layout.glides.push_back(std::move(glide));
-  return layout.glides.size() - 1;
+  InterpolatedSlice seen;
+  seen.dimensions = layout.sections[at(slice.section)].dimensions;
+  seen.coordinate = static_cast<int>(coordinatesOf(layout.interpolated));
+  seen.slot = addSlots(layout, seen.dimensions, -1);
+  seen.section = section;
+  seen.of = {slot, layout.strideOf(scene, mat), slice.section, slice.rest};
+  seen.steps = interpolationSteps(rates.ratio / layout.sections[at(section)].divisor);
+  layout.interpolated.push_back(std::move(seen));
+  return layout.interpolated.size() - 1;
 }
 
 /// Where a link's end moves, and in which frame.
@@ -64,26 +65,32 @@ class Ends {
   /// The module as another one sees it, in the frame of this section.
   End seen(int mat, int by, bool projects, int frame) {
     const int section = scene_.mats[at(by)].section;
-    const bool glides = physics::glides(scene_, rates_, mat, section);
+    const bool interpolated = physics::isInterpolated(scene_, rates_, mat, section);
     End end =
-        glides ? endOf(layout_.glides[glideOf(scene_, rates_, mat, section, layout_)]) : of(mat);
+        interpolated
+            ? endOf(layout_.interpolated[interpolatedSlice(scene_, rates_, mat, section, layout_)])
+            : of(mat);
     if (!projects) {
       return end;
     }
     const auto [known, is_new] = projections_.try_emplace({end.slot, frame});
     if (is_new) {
-      known->second = project(mat, end, glides ? section : end.section, frame);
+      known->second = project(mat, end, interpolated ? section : end.section, frame);
     }
     return known->second;
   }
-  bool glides(const scene::Lia& lia) const { return physics::glides(scene_, rates_, lia); }
+  bool isInterpolated(const scene::Lia& lia) const {
+    return physics::isInterpolated(scene_, rates_, lia);
+  }
 
   const std::string& file() const { return scene_.file; }
   int divisor(int section) const { return layout_.sections[at(section)].divisor; }
 
  private:
   /// It belongs to the section of what it is an end of, whoever steps it.
-  static End endOf(const Glide& glide) { return {glide.slot, 1, glide.of.section, glide.of.rest}; }
+  static End endOf(const InterpolatedSlice& slice) {
+    return {slice.slot, 1, slice.of.section, slice.of.rest};
+  }
 
   /// \param steps  the section whose steps it follows
   End project(int mat, const End& end, int steps, int frame) {
@@ -141,8 +148,8 @@ void setRates(const scene::Lia& lia, const End& a, const End& b, const Ends& end
                         " audio frames: one must be a multiple of the other");
   }
   run.section = da <= db ? a.section : b.section;
-  run.glides = ends.glides(lia);
-  if (da != db && !run.glides) {
+  run.interpolated = ends.isInterpolated(lia);
+  if (da != db && !run.interpolated) {
     run.slow_is_a = da > db;
     run.slow_section = run.slow_is_a ? a.section : b.section;
     run.share = static_cast<double>(fast) / slow;
@@ -266,8 +273,9 @@ int guideOf(const scene::Scene& scene,
   if (way.guide < 0) {
     return -1;
   }
-  if (glides(scene, rates, way.guide, section)) {
-    return layout.glides[glideOf(scene, rates, way.guide, section, layout)].slot + way.axis;
+  if (isInterpolated(scene, rates, way.guide, section)) {
+    return layout.interpolated[interpolatedSlice(scene, rates, way.guide, section, layout)].slot +
+           way.axis;
   }
   return layout.slot_of_mat[at(way.guide)] + way.axis * layout.strideOf(scene, way.guide);
 }

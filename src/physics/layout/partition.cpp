@@ -57,7 +57,7 @@ class Split {
       }
     }
     for (const LinkRun& run : layout_.runs) {
-      if (!run.guarded || run.glides || isHeld(run.section_a) == isHeld(run.section_b)) {
+      if (!run.guarded || run.interpolated || isHeld(run.section_a) == isHeld(run.section_b)) {
         continue;
       }
       // A guarded link foresees the step of both of its ends, but that of a slower one.
@@ -201,7 +201,7 @@ void placeProxies(Layout& layout) {
     const int a = layout.group_of_section[at(run.section_a)];
     const int b = layout.group_of_section[at(run.section_b)];
     run.group = std::max(a, b);  // running before held
-    if (a != b && !run.glides) {
+    if (a != b && !run.interpolated) {
       to_held[at(run.group)].push_back(&run);
     }
   }

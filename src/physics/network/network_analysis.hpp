@@ -31,7 +31,7 @@ struct NetworkAnalysis {
 NetworkAnalysis analyse(const NetworkBound& network);
 
 /// Where all of this supposes that the softest case of stiffness and of damping is positive
-/// semidefinite: the modules that hang together with something negative, whose sum is definite by
+/// semidefinite: the modules that are joined with something negative, whose sum is definite by
 /// 1e-6 of its norm all the same; none if it is not. Costs nothing unless something is negative.
 std::optional<std::vector<int>> semidefiniteBesideNegative(const NetworkBound& network);
 

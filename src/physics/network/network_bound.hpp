@@ -15,7 +15,7 @@ namespace ergotic::physics {
 ///
 /// A negative k or z only ever lowers the eigenvalue, so the bounds leave it out; whether K and Z
 /// are semidefinite all the same is a question for NetworkSpectrum.
-/// Source: docs/physics.md, "Stability".
+/// Source: docs/physics/stability.md, "How a scene is certified".
 class NetworkBound {
  public:
   static constexpr double kLimit = 4.0;

@@ -63,7 +63,7 @@ bool isAbove(Matrix lower, double margin) {
   return allPivotsPositive(Eigen::SimplicialLDLT<Matrix>(lower));
 }
 
-/// All that hangs together with some nodes.
+/// All that is joined with some nodes.
 template <class CoefficientOf>
 std::vector<int> nodesBeside(const NetworkBound& network,
                              const std::vector<int>& some,
@@ -112,7 +112,7 @@ Matrix assemblePart(const NetworkBound& network,
   return Matrix(select.transpose() * whole * select).triangularView<Eigen::Lower>();
 }
 
-/// What is negative lets all that hangs together with it grow unless the whole is definite: how
+/// What is negative lets all that is joined with it grow unless the whole is definite: how
 /// slowly is a matter of the norm, but however little is missing it grows.
 template <class CoefficientOf>
 std::optional<std::vector<int>> definiteBesideNegative(const NetworkBound& network,

@@ -36,7 +36,7 @@ class NetworkSpectrum {
   int worstLink() const { return worst_link_; }
   int worstOwner() const { return worst_owner_; }
 
-  /// Modules that hang together with something negative, if the softest case of K (of Z) is
+  /// Modules that are joined with something negative, if the softest case of K (of Z) is
   /// positive semidefinite there all the same, by 1e-6 of its norm; none if not. \pre something is
   /// negative
   static std::optional<std::vector<int>> semidefiniteStiffness(const NetworkBound& network);
@@ -45,7 +45,7 @@ class NetworkSpectrum {
   static bool hasDefiniteDamping(const NetworkBound& network);
 
   /// u' K^-1 u for the weights u at some nodes, K in its softest case, rounded up: K less a load of
-  /// k u u^T is definite for every k below its inverse. Infinite if all that hangs together with
+  /// k u u^T is definite for every k below its inverse. Infinite if all that is joined with
   /// them is not held, by 4e-9 of the norm.
   static double softness(const NetworkBound& network, const Shares& u);
   /// The same of Z.

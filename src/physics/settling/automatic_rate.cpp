@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/settling/automatic_rate.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,6 +12,7 @@
 #include "physics/network/network_analysis.hpp"
 #include "physics/network/rated_network.hpp"
 #include "physics/note.hpp"
+#include "physics/settling/steps.hpp"
 
 namespace ergotic::physics {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/settling/body_tuning.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -10,6 +8,7 @@
 #include "ergotic/scene/generate/pitch.hpp"
 #include "ergotic/scene/origin.hpp"
 #include "physics/note.hpp"
+#include "physics/settling/steps.hpp"
 #include "physics/step_units.hpp"
 #include "scene/generate/bar.hpp"
 #include "scene/generate/body.hpp"

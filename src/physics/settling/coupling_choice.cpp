@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/settling/coupling_choice.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -8,8 +6,10 @@
 #include "at.hpp"
 #include "ergotic/exception.hpp"
 #include "physics/certificate/certify_parts.hpp"
-#include "physics/glide.hpp"
+#include "physics/interpolation.hpp"
 #include "physics/note.hpp"
+#include "physics/settling/steps.hpp"
+#include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -26,7 +26,7 @@ struct Option {
   double stiffness = 0.0;  // at the device, N/m
   double limit = 0.0;
   double steps = 0.0;  // that are heard, rms of the movement of a hand
-  bool damps = false;  // what hangs there for good
+  bool damps = false;  // what is attached there for good
   double error = 0.0;  // steps, what is softer than the links say, and what is lost
 
   /// What is quiet in the hand goes before what is not; of that the most quiet is best.
@@ -57,15 +57,6 @@ bool isSeen(const Scene& scene, const Rates& rates, int slice) {
          std::any_of(scene.connections.begin(), scene.connections.end(), guides);
 }
 
-/// True of links that never let go. What rings on one of them rings into the chaplet, too, which
-/// swallows it: a string by some ten dB in a second.
-bool holdsForGood(const scene::Lia& lia) {
-  using scene::LiaType;
-  return lia.type == LiaType::kSpringDamper || lia.type == LiaType::kQuadratic ||
-         lia.type == LiaType::kCubic || lia.type == LiaType::kClippedCubic ||
-         lia.type == LiaType::kRelaxing;
-}
-
 class CouplingChooser {
  public:
   CouplingChooser(const Scene& scene, const Rates& rates, const Complete& complete)
@@ -78,7 +69,7 @@ class CouplingChooser {
     try {
       options.push_back(optionOf(slice, Coupling::kChaplet));
     } catch (const TextError&) {
-      // None can hang there: there is nothing to choose.
+      // None can stand there: there is nothing to choose.
     }
     const double stiffness = options.front().stiffness;
     for (Option& option : options) {
@@ -92,7 +83,9 @@ class CouplingChooser {
  private:
   bool isHeld(int slice) const {
     return std::any_of(scene_.lias.begin(), scene_.lias.end(), [&](const scene::Lia& lia) {
-      return holdsForGood(lia) && fasterEnd(scene_, rates_, lia, slice) >= 0;
+      // What rings on a link that never lets go rings into the chaplet, too, which swallows it: a
+      // string by some ten dB in a second.
+      return scene::lawOf(lia.type).has_linear_part && fasterEnd(scene_, rates_, lia, slice) >= 0;
     });
   }
 
@@ -132,7 +125,7 @@ std::string describe(const Option& option, double stiffness) {
     text += ", " + shortly(option.stiffness) + " N/m";
   }
   text += option.limit > 0.0 ? ", passive up to " + shortly(option.limit) + " N/m" : "";
-  text += option.damps ? ", it damps what hangs there" : "";
+  text += option.damps ? ", it damps what is attached there" : "";
   return text + (option.level == HandLevel::kRefused  ? ", it will buzz"
                  : option.level == HandLevel::kWarned ? ", it may buzz"
                                                       : "");

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/settling/filters.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -11,6 +9,7 @@
 #include "ergotic/scene/grid.hpp"
 #include "physics/note.hpp"
 #include "physics/settling/chaplet_load.hpp"
+#include "physics/settling/steps.hpp"
 
 namespace ergotic::physics {
 namespace {

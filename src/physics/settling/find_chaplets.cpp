@@ -22,7 +22,7 @@ bool areClose(double a, double b) {
   return std::abs(a - b) <= kRounding * std::abs(b);
 }
 
-/// Finds the C2 that hang on slower modules.
+/// Finds the C2 that are attached to slower modules.
 class Finder {
  public:
   Finder(const Network& network, const Rates& rates)
@@ -52,17 +52,17 @@ class Finder {
       return std::nullopt;
     }
     const bool ordered = divisor(farEnd(lias[0], first)) > divisor(first);
-    const int hanging = ordered ? lias[0] : lias[1];
+    const int attached = ordered ? lias[0] : lias[1];
     const int between = ordered ? lias[1] : lias[0];
     const int last = farEnd(between, first);
-    const int slow_divisor = divisor(farEnd(hanging, first));
+    const int slow_divisor = divisor(farEnd(attached, first));
     if (scene_.mats[at(last)].type != MatType::kMass ||
         scene_.mats[at(last)].section != scene_.mats[at(first)].section ||
         slow_divisor <= divisor(first) || slow_divisor % divisor(first) != 0) {
       return std::nullopt;
     }
-    std::vector<scene::ChapletStage> stages{stageOf(hanging, first), stageOf(between, last)};
-    if (!hasProportions(stages, hanging, between)) {
+    std::vector<scene::ChapletStage> stages{stageOf(attached, first), stageOf(between, last)};
+    if (!hasProportions(stages, attached, between)) {
       return std::nullopt;
     }
     const Chaplet chaplet(std::move(stages), divisor(first) / rates_.audio_hz,
@@ -78,10 +78,10 @@ class Finder {
   }
 
   bool hasProportions(const std::vector<scene::ChapletStage>& stages,
-                      int hanging,
+                      int attached,
                       int between) const {
     const auto& table = scene::kChapletC2;
-    return scene_.lias[at(hanging)].type == LiaType::kSpringDamper &&
+    return scene_.lias[at(attached)].type == LiaType::kSpringDamper &&
            scene_.lias[at(between)].type == LiaType::kSpringDamper && stages[1].damping == 0.0 &&
            areClose(stages[0].mass * table[1].mass, stages[1].mass * table[0].mass) &&
            areClose(stages[0].stiffness * table[1].stiffness,

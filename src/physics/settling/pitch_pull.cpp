@@ -52,7 +52,8 @@ double pitchPullCents(double slack, double amplitude) {
 
 std::string flatness(const scene::Scene& scene, const scene::StringInfo& string, double rate_hz) {
   const double kappa = scene::stringKappa(scene, string, rate_hz) * string.rest_length_ratio;
-  return "it moves lengthwise, where its guarded links keep their stiffness up to r h^2 K/M = " +
+  return "it moves lengthwise, where its energy-stable links keep their stiffness up to r h^2 K/M "
+         "= " +
          shortly(scene::kStiffestInTune) + ", and it is " + shortly(kappa) +
          ". Take scheme: explicit where that is stable, a higher rate, fewer masses or a smaller "
          "rest_length_ratio";

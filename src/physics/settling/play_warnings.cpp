@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/settling/play_warnings.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +6,7 @@
 #include "ergotic/scene/grid.hpp"
 #include "ergotic/scene/origin.hpp"
 #include "physics/note.hpp"
+#include "physics/settling/steps.hpp"
 
 namespace ergotic::physics {
 namespace {

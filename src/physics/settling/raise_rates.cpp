@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/settling/raise_rates.hpp"
-
 #include <algorithm>
 #include <utility>
 
@@ -9,6 +7,7 @@
 #include "physics/certificate/findings.hpp"
 #include "physics/network/couplings.hpp"
 #include "physics/note.hpp"
+#include "physics/settling/steps.hpp"
 
 namespace ergotic::physics {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/settling/scheme_choice.hpp"
-
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -11,6 +9,7 @@
 #include "physics/network/network_analysis.hpp"
 #include "physics/network/rated_network.hpp"
 #include "physics/note.hpp"
+#include "physics/settling/steps.hpp"
 #include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
@@ -41,7 +40,7 @@ class SchemeChooser {
       }
     }
     for (const auto& [key, alike] : alike_) {
-      notes_.push_back(noteOn(alike));
+      notes_.push_back(noteAbout(alike));
     }
   }
 
@@ -117,7 +116,7 @@ class SchemeChooser {
     return guarded ? Scheme::kGuarded : Scheme::kExplicit;
   }
 
-  std::string noteOn(const AlikeLinks& alike) const {
+  std::string noteAbout(const AlikeLinks& alike) const {
     std::string who = "link '" + alike.first->name + "'";
     if (alike.links > 1) {
       who += " and " + std::to_string(alike.links - 1) + " more";
@@ -125,7 +124,7 @@ class SchemeChooser {
     const std::string why = std::string(alike.worst.figure) + " = " + shortly(alike.worst.value) +
                             "; the explicit scheme is stable up to " + shortly(alike.worst.allowed);
     return noteAt(scene_, alike.first->place) + who +
-           (alike.guarded ? ": guarded, so that it cannot gain energy (" + why + ")"
+           (alike.guarded ? ": energy-stable, so that it cannot gain energy (" + why + ")"
                           : ": explicit, because one end is a slower mass (" + why + ")");
   }
 
@@ -204,7 +203,7 @@ class StableChooser {
     lia.scheme = Scheme::kGuarded;
     notes_.push_back(
         noteAt(scene_, lia.place) + "link '" + lia.name.str() +
-        "': guarded (h^2 K (1/Ma + 1/Mb) + 2 h Z (1/Ma + 1/Mb) = " + shortly(loads_[l]) +
+        "': energy-stable (h^2 K (1/Ma + 1/Mb) + 2 h Z (1/Ma + 1/Mb) = " + shortly(loads_[l]) +
         ", and with what is around it the explicit scheme is stable below 4): "
         "it never gives more energy than it took, and does not sound as programs do that play it "
         "explicitly");

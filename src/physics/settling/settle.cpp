@@ -5,21 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "physics/settling/automatic_rate.hpp"
-#include "physics/settling/body_tuning.hpp"
 #include "physics/settling/coupled_strings.hpp"
-#include "physics/settling/coupling_choice.hpp"
-#include "physics/settling/filters.hpp"
 #include "physics/settling/pitch_pull.hpp"
-#include "physics/settling/play_warnings.hpp"
-#include "physics/settling/raise_rates.hpp"
-#include "physics/settling/scheme_choice.hpp"
-#include "physics/settling/share_tanks.hpp"
 #include "physics/settling/sleep_bound.hpp"
-#include "physics/settling/split_springs.hpp"
-#include "physics/settling/split_tables.hpp"
-#include "physics/settling/stops.hpp"
-#include "physics/settling/string_tuning.hpp"
+#include "physics/settling/steps.hpp"
 #include "scene/generate/stretch.hpp"
 
 namespace ergotic::physics {
@@ -47,13 +36,13 @@ scene::Scene complete(scene::Scene scene, const Rates& rates, std::vector<std::s
 
 Settled settle(scene::Scene scene, const Rates& rates) {
   Settled settled;
-  const Complete unsaid = [&](scene::Scene candidate) {
+  const Complete completed = [&](scene::Scene candidate) {
     std::vector<std::string> notes;
     return complete(std::move(candidate), rates, notes);
   };
-  chooseAutomaticRates(scene, rates, unsaid, settled.notes);
-  chooseCouplings(scene, rates, unsaid, settled.notes);
-  raiseRates(scene, rates, unsaid, settled.notes);
+  chooseAutomaticRates(scene, rates, completed, settled.notes);
+  chooseCouplings(scene, rates, completed, settled.notes);
+  raiseRates(scene, rates, completed, settled.notes);
   settled.scene = complete(std::move(scene), rates, settled.notes);
   noteSleep(settled.scene, settled.notes);
   notePitchPull(settled.scene, settled.notes);

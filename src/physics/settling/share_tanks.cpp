@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/settling/share_tanks.hpp"
-
 #include <cstddef>
 #include <utility>
 
@@ -8,6 +6,7 @@
 #include "physics/disjoint_sets.hpp"
 #include "physics/network/network.hpp"
 #include "physics/note.hpp"
+#include "physics/settling/steps.hpp"
 #include "scene/laws/range.hpp"
 
 namespace ergotic::physics {
@@ -131,7 +130,7 @@ void share(Scene& scene, const std::vector<std::size_t>& links, std::vector<std:
   }
   notes.push_back(noteAt(scene, first.place) + "link '" + first.name + "' and " +
                   std::to_string(links.size() - 1) +
-                  " more harden one body and share one tank of energy (scheme: guarded keeps "
+                  " more harden one body and share one tank of energy (scheme: energy_stable keeps "
                   "them apart)");
 }
 

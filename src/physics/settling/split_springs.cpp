@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/settling/split_springs.hpp"
-
 #include <utility>
 
 #include "at.hpp"
+#include "physics/settling/steps.hpp"
 
 namespace ergotic::physics {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/settling/split_tables.hpp"
-
 #include <optional>
 #include <utility>
 
@@ -8,6 +6,7 @@
 #include "ergotic/scene/table.hpp"
 #include "physics/network/network_spectrum.hpp"
 #include "physics/network/rated_network.hpp"
+#include "physics/settling/steps.hpp"
 #include "scene/laws/slopes.hpp"
 #include "scene/laws/table_ends.hpp"
 

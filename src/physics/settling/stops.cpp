@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/settling/stops.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -8,6 +6,7 @@
 #include "at.hpp"
 #include "ergotic/scene/grid.hpp"
 #include "physics/note.hpp"
+#include "physics/settling/steps.hpp"
 #include "physics/step_units.hpp"
 
 namespace ergotic::physics {
@@ -118,7 +117,7 @@ class StopSettler {
     }
     const scene::Section& section = scene_.sectionOf(scene_.mats[at(lia.b)]);
     const double step = StepUnits(scene_, rates_, divisorOf(section, rates_)).step;
-    // By rows no eigenvalue of the string is above twice what hangs on one of its masses.
+    // By rows no eigenvalue of the string is above twice what is attached to one of its masses.
     const double left = std::max(0.0, 4.0 - 2.0 * step * step * load);
     const double stiffness = std::min(kMostShare, kSafe * left) / (inverse * step * step);
     lia.stiffness = (stiffness / scene_.valueOf(mass)) * mass;

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/settling/string_tuning.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +9,7 @@
 #include "physics/note.hpp"
 #include "physics/settling/coarse_string.hpp"
 #include "physics/settling/pitch_pull.hpp"
+#include "physics/settling/steps.hpp"
 #include "scene/limits.hpp"
 
 namespace ergotic::physics {
@@ -142,7 +141,7 @@ class Tuning {
     }
     requireFit();
     const CoarseFit fit = fitted(masses_);
-    notes.push_back(noteOn(fit));
+    notes.push_back(noteAbout(fit));
     setSprings(fit);
   }
 
@@ -171,7 +170,7 @@ class Tuning {
     }
   }
 
-  std::string noteOn(const CoarseFit& fit) const {
+  std::string noteAbout(const CoarseFit& fit) const {
     const int partials = static_cast<int>(fit.cents.size());
     const int half = (partials + 1) / 2;
     return note() + "is tuned to the partials of an ideal string of " + pitch() +

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kCreditSeconds = 0.1;  // of what a place may bring, in advance
 
-/// What guides a place moves it in its own step, or as it is seen to glide; an audio input in the
+/// What guides a place moves it in its own step, or as it is interpolated; an audio input in the
 /// step of the place, parameters between two ticks.
 PlaceCoefficients::Way wayOf(const scene::Scene& scene,
                              const Rates& rates,
@@ -25,7 +25,7 @@ PlaceCoefficients::Way wayOf(const scene::Scene& scene,
                              int section) {
   int glide = way.at.audio >= 0 ? divisorOf(scene.sections[at(section)], rates) : rates.ratio;
   if (way.guide >= 0) {
-    const bool is_seen = glides(scene, rates, way.guide, section);
+    const bool is_seen = isInterpolated(scene, rates, way.guide, section);
     const int steps = is_seen ? section : scene.mats[at(way.guide)].section;
     glide = divisorOf(scene.sections[at(steps)], rates);
   }

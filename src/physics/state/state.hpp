@@ -28,9 +28,9 @@ struct PlaceForce {
   Real last;
 };
 
-/// What a slice that is seen to glide feels along a coordinate.
+/// What a slice that is interpolated feels along a coordinate.
 template <class Real>
-struct GlideForce {
+struct InterpolatedForce {
   static constexpr std::size_t kDoubles =
       sizeof(Real) == sizeof(double) ? 3 : 0;  ///< see numbersOf
   Real last;                                   ///< the force of the last step
@@ -39,7 +39,7 @@ struct GlideForce {
 };
 
 /// Everything mutable of an instrument, in one arena. Unmetered, nothing is kept that only the
-/// books of energy need: of links, what those between sections remember.
+/// energy accounts need: of links, what those between sections remember.
 template <class Real>
 class State {
  public:
@@ -55,7 +55,8 @@ class State {
     place_d_at_ = arena_.add<Real>("place_d", coordinatesOf(layout.places));
     place_forces_at_ = arena_.add<PlaceForce<Real>>("place_forces", coordinatesOf(layout.places));
     places_owe_at_ = arena_.add<double>("places_owe", layout.places.size());
-    glide_forces_at_ = arena_.add<GlideForce<Real>>("glide_forces", coordinatesOf(layout.glides));
+    interpolated_forces_at_ =
+        arena_.add<InterpolatedForce<Real>>("glide_forces", coordinatesOf(layout.interpolated));
     last_forces_at_ = arena_.add<Real>("last_force_outputs", layout.pickups.size());
     asleep_at_ = arena_.add<unsigned char>("asleep", layout.sections.size());
     work_at_ = arena_.add<LinkWork>("link_work", metered ? layout.runs.size() : 0);
@@ -88,8 +89,10 @@ class State {
   const PlaceForce<Real>* placeForces() const noexcept {
     return arena_.at<PlaceForce<Real>>(place_forces_at_);
   }
-  /// [coordinates of glides]
-  GlideForce<Real>* glideForces() noexcept { return arena_.at<GlideForce<Real>>(glide_forces_at_); }
+  /// [coordinates of interpolated slices]
+  InterpolatedForce<Real>* interpolatedForces() noexcept {
+    return arena_.at<InterpolatedForce<Real>>(interpolated_forces_at_);
+  }
   /// [places] energy that moving it has brought beyond what it may bring, so far
   double* placesOwe() noexcept { return arena_.at<double>(places_owe_at_); }
   double* places() noexcept { return arena_.at<double>(places_at_); }
@@ -159,7 +162,7 @@ class State {
   std::size_t place_d_at_ = 0;
   std::size_t place_forces_at_ = 0;
   std::size_t places_owe_at_ = 0;
-  std::size_t glide_forces_at_ = 0;
+  std::size_t interpolated_forces_at_ = 0;
   std::size_t last_forces_at_ = 0;
   std::size_t asleep_at_ = 0;
   std::size_t work_at_ = 0;

@@ -105,7 +105,7 @@ class Feed {
   ::ros::Publisher levels_;
   ::ros::Publisher scope_;
   double display_zoom_ = 1.0;
-  ::ros::Publisher model_energy_;  // only if the books are kept
+  ::ros::Publisher model_energy_;  // only if the energy accounts are kept
   ::ros::Publisher gesture_;
   ::ros::Publisher keyframe_;
   ::ros::Publisher events_;

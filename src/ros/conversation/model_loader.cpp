@@ -49,7 +49,7 @@ scene::Scene readModel(const std::string& model) {
   return scene;
 }
 
-std::string noteOn(const station::Performer& performer) {
+std::string noteAbout(const station::Performer& performer) {
   const physics::Instrument& instrument = *performer.instrument;
   const scene::Scene& scene = instrument.scene();
   const double audio_hz = instrument.rates().audio_hz;

@@ -15,7 +15,7 @@ scene::Scene readModel(const std::string& model);
 
 /// What a player should know of a model that is about to play: warnings of the scene and of its
 /// certificate, changed rates. Empty if there is nothing, else one thing a line.
-std::string noteOn(const station::Performer& performer);
+std::string noteAbout(const station::Performer& performer);
 
 /// What who loads a model is answered: what plays, what is needed for force, and the warnings of
 /// `note`, a line each. Notes on how the model is stepped stay in `status.message`.

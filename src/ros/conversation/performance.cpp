@@ -387,7 +387,7 @@ void Performance::play(station::Performer* performer, std::shared_ptr<Picture> p
   }
   takes_.halt();
   picture_ = std::move(picture);
-  feed_.showModel(*performer, picture_, noteOn(*performer), values);
+  feed_.showModel(*performer, picture_, noteAbout(*performer), values);
   const scene::Scene& scene = performer->instrument->scene();
   holders_.play(performer, modulesToHold(), performer->instrument->rates().gesturalHz());
   showHandles();

@@ -38,8 +38,8 @@ int addOwn(SceneBuilder& builder, const BridgeSpec& spec, const Eigen::Vector3d&
   return on;
 }
 
-/// Takes what hangs on a ground over to the bridge.
-void hang(SceneBuilder& builder, const BridgeSpec& spec, const Grid& grid, int end, int on) {
+/// Takes what is attached to a ground over to the bridge.
+void attach(SceneBuilder& builder, const BridgeSpec& spec, const Grid& grid, int end, int on) {
   Scene& scene = builder.scene();
   bool is_bent = false;
   int links = 0;
@@ -59,7 +59,8 @@ void hang(SceneBuilder& builder, const BridgeSpec& spec, const Grid& grid, int e
   }
   const std::string what = "string " + quoted(grid.name) + " of bridge " + quoted(spec.name);
   if (links == 0) {
-    builder.fail(spec.place, what + " hangs on nothing there, allowed: one that no bridge has yet");
+    builder.fail(spec.place,
+                 what + " is attached to nothing there, allowed: one that no bridge has yet");
   }
   if (is_bent && scene.mats[at(on)].type == MatType::kPoint) {
     builder.fail(spec.place, what +
@@ -105,7 +106,7 @@ void addBridge(SceneBuilder& builder, const BridgeSpec& spec) {
   const int on = spec.on >= 0 ? spec.on : addOwn(builder, spec, rest);
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const Grid grid = builder.scene().grids[at(spec.grids[i])];
-    hang(builder, spec, grid, ends[i], on);
+    attach(builder, spec, grid, ends[i], on);
     if (spec.keeps_pitch) {
       keepPitch(builder, spec, grid);
     }

@@ -24,7 +24,7 @@ struct BridgeSpec {
   Place place;
 };
 
-/// Appends the bridge and hangs the strings on it.
+/// Appends the bridge and attaches the strings to it.
 /// \throws TextError if a name is taken, a string does not end on a ground there, or its bends
 ///         would end on a point, or if its pitch is to be kept and it has none
 void addBridge(SceneBuilder& builder, const BridgeSpec& spec);

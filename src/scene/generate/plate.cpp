@@ -12,7 +12,7 @@
 namespace ergotic::scene {
 namespace {
 
-/// Elements and losses as docs/physics.md has them, Bars and plates.
+/// Elements and losses as docs/physics/bodies.md has them, Bars and plates.
 class Plate {
  public:
   Plate(SceneBuilder& builder, const PlateSpec& spec)

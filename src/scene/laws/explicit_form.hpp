@@ -11,7 +11,7 @@
 /// Force laws f(e, v) of explicit links: e elongation in m, v its difference over one step in m, f
 /// in the scene's force unit; module a receives -f, module b +f. Damping is per step (Z / step).
 /// `u` is x_a - x_b, or in Euclidean geometries the distance, negative for laws that act when it is
-/// short (kGap). Source: docs/physics.md, "Links".
+/// short (kGap). Source: docs/physics/elements.md, "Links".
 namespace ergotic::scene {
 
 /// The elastic part of a force depends on positions, the viscous part on velocities too.

@@ -80,7 +80,7 @@ struct LawText {
 /// One law. Every entry is given by every law or by its family (families.hpp): none has a default
 /// that could be wrong for it.
 struct Law : LawText {
-  /// What the force acts on, for geometries and books of energy.
+  /// What the force acts on, for geometries and energy accounts.
   enum class Kind {
     kLinear,    ///< elongation and velocity, linear
     kRelaxing,  ///< the same, and what it remembers of them
@@ -92,7 +92,8 @@ struct Law : LawText {
   Kind kind;
   ExplicitForm explicit_form;
   const GuardedForms& (*guarded)(const Lia& lia);
-  const char* (*unguarded)(const Lia& lia);  ///< what `scheme: guarded` is refused for, or nullptr
+  const char* (*unguarded)(
+      const Lia& lia);  ///< what `scheme: energy_stable` is refused for, or nullptr
 
   // Stability
   bool has_linear_part;             ///< K e + Z v is there at rest

@@ -8,8 +8,8 @@
 #include "scene/limits.hpp"
 
 /// Springs that remember: f = K e + Z v + sum K_r q_r, where each q_r follows e and fades in its
-/// time tau_r: a spring in series with a damper (Maxwell). Source: docs/physics.md, "Links that
-/// remember".
+/// time tau_r: a spring in series with a damper (Maxwell). Source: docs/physics/elements.md,
+/// "Relaxing springs".
 namespace ergotic::scene {
 
 constexpr Limits kRelaxationTimeLimits{"s", 1e-6, 1e3};

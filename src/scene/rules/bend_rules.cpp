@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/rules/bend_rules.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "scene/laws/range.hpp"
 #include "scene/limits.hpp"
 #include "scene/names.hpp"
+#include "scene/rules/rules.hpp"
 
 namespace ergotic::scene {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/rules/lia_rules.hpp"
-
 #include <vector>
 
 #include "scene/laws/friction.hpp"
@@ -8,6 +6,7 @@
 #include "scene/laws/relaxing.hpp"
 #include "scene/names.hpp"
 #include "scene/pressers.hpp"
+#include "scene/rules/rules.hpp"
 
 namespace ergotic::scene {
 namespace {
@@ -16,7 +15,7 @@ const Section& sectionAt(const Scene& scene, int mat) {
   return scene.sectionOf(scene.mats[static_cast<std::size_t>(mat)]);
 }
 
-/// What `scheme: guarded` is refused for, or nullptr.
+/// What `scheme: energy_stable` is refused for, or nullptr.
 const char* unguarded(const Scene& scene, const Lia& lia) {
   const Geometry a = sectionAt(scene, lia.a).geometry;
   const Geometry b = sectionAt(scene, lia.b).geometry;
@@ -49,13 +48,14 @@ Limits releaseLimits(const Scene& scene, const Lia& lia) {
 
 std::string schemeFault(const Scene& scene, const Lia& lia) {
   if (lia.scheme == Scheme::kExplicit && sticks(lia.type)) {
-    return "link " + quoted(lia.name) + " cannot be explicit, it sticks, allowed: auto, guarded";
+    return "link " + quoted(lia.name) +
+           " cannot be explicit, it sticks, allowed: auto, energy_stable";
   }
   const char* kind = unguarded(scene, lia);
   if (lia.scheme != Scheme::kGuarded || kind == nullptr) {
     return "";
   }
-  return "link " + quoted(lia.name) + " cannot be guarded, it is " + kind +
+  return "link " + quoted(lia.name) + " cannot be energy-stable, it is " + kind +
          ", allowed: auto, explicit";
 }
 
@@ -103,7 +103,8 @@ std::string frictionFault(const Scene& scene, const Lia& lia) {
   };
   if (isSlice(lia.a) || isSlice(lia.b)) {
     return "link " + quoted(lia.name) +
-           " is friction on a slice, which moves in leaps, allowed: a mass that hangs on it (of a "
+           " is friction on a slice, which moves in leaps, allowed: a mass that is attached to it "
+           "(of a "
            "chaplet, or of the filter of its port)";
   }
   if (!lia.law->table.empty()) {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/rules/mover_rules.hpp"
-
 #include <map>
 #include <unordered_map>
 #include <utility>
 
 #include "scene/names.hpp"
+#include "scene/rules/rules.hpp"
 
 namespace ergotic::scene {
 namespace {

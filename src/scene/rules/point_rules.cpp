@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/rules/point_rules.hpp"
-
 #include <algorithm>
 #include <unordered_set>
 #include <vector>
@@ -8,6 +6,7 @@
 #include "at.hpp"
 #include "scene/limits.hpp"
 #include "scene/names.hpp"
+#include "scene/rules/rules.hpp"
 
 namespace ergotic::scene {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/rules/tank_rules.hpp"
-
 #include <algorithm>
 #include <set>
 #include <string>
@@ -10,6 +8,7 @@
 #include "scene/laws/range.hpp"
 #include "scene/limits.hpp"
 #include "scene/names.hpp"
+#include "scene/rules/rules.hpp"
 
 namespace ergotic::scene {
 namespace {

@@ -12,10 +12,7 @@
 #include "scene/laws/law.hpp"
 #include "scene/limits.hpp"
 #include "scene/names.hpp"
-#include "scene/rules/bend_rules.hpp"
-#include "scene/rules/lia_rules.hpp"
-#include "scene/rules/point_rules.hpp"
-#include "scene/rules/tank_rules.hpp"
+#include "scene/rules/rules.hpp"
 
 namespace ergotic::scene {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "scene/generate/points.hpp"
 #include "scene/limits.hpp"
-#include "scene/rules/point_rules.hpp"
+#include "scene/rules/rules.hpp"
 #include "scene/text/glob.hpp"
 #include "scene/text/number.hpp"
 #include "scene/tree/yaml_map.hpp"

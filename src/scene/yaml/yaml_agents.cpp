@@ -4,8 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/rules/lia_rules.hpp"
-#include "scene/rules/mover_rules.hpp"
+#include "scene/rules/rules.hpp"
 #include "scene/text/gesture_csv.hpp"
 #include "scene/yaml/point_files.hpp"
 #include "scene/yaml/points.hpp"

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "scene/generate/bend.hpp"
-#include "scene/rules/bend_rules.hpp"
+#include "scene/rules/rules.hpp"
 #include "scene/yaml/yaml_elements.hpp"
 #include "scene/yaml/yaml_keys.hpp"
 

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "scene/laws/clipped_cubic.hpp"
-#include "scene/rules/lia_rules.hpp"
+#include "scene/rules/rules.hpp"
+#include "scene/yaml/generators/generator_keys.hpp"
 #include "scene/yaml/selections.hpp"
 #include "scene/yaml/yaml_elements.hpp"
 #include "scene/yaml/yaml_friction.hpp"
@@ -171,11 +172,10 @@ void refuse(const YamlMap& map, const std::string& key, const std::string& fault
 }
 
 /// How the link is worked out. Where there is nothing to choose, nothing is left to be chosen.
-void readTreatment(const Scene& scene, const YamlMap& map, Lia& lia) {
-  constexpr Scheme kSchemes[] = {Scheme::kAuto, Scheme::kExplicit, Scheme::kGuarded};
-  lia.scheme = Scheme::kAuto;
+void readTreatment(SceneBuilder& builder, const YamlMap& map, Lia& lia) {
+  const Scene& scene = builder.scene();
+  lia.scheme = schemeAskedFor(builder, map);
   if (map.has("scheme")) {
-    lia.scheme = kSchemes[map.choice("scheme", {"auto", "explicit", "guarded"})];
     refuse(map, "scheme", schemeFault(scene, lia));
   }
   // A table may be split into parts that are.
@@ -240,7 +240,7 @@ Lia readLia(SceneBuilder& builder,
   lia.rest_length = map.number("rest_length", restLengthLimits(builder.scene(), lia), 0.0);
   readTables(builder, tables, map, lia);
   readCoefficients(builder, map, kind.required, lia);
-  readTreatment(builder.scene(), map, lia);
+  readTreatment(builder, map, lia);
   if (map.has("tank")) {
     readTank(builder, map, lia);
   }

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "scene/generate/points.hpp"
-#include "scene/rules/point_rules.hpp"
+#include "scene/rules/rules.hpp"
 #include "scene/yaml/points.hpp"
 #include "scene/yaml/yaml_elements.hpp"
 #include "scene/yaml/yaml_keys.hpp"

@@ -32,7 +32,7 @@ Port readPort(const SceneBuilder& builder, const std::string& name, const YamlMa
   return port;
 }
 
-/// What hangs on the slice of a port, and everything else on it.
+/// What is attached to the slice of a port, and everything else on it.
 struct NoiseFilter {
   double mass = 0.0;  // kg
   double stiffness = 0.0;
@@ -73,10 +73,10 @@ Lia damperOf(const NoiseFilter& filter) {
   return damper;
 }
 
-void hang(SceneBuilder& builder,
-          const Port& port,
-          const NoiseFilter& filter,
-          const std::string& name) {
+void attach(SceneBuilder& builder,
+            const Port& port,
+            const NoiseFilter& filter,
+            const std::string& name) {
   Scene& scene = builder.scene();
   const Mat slice = scene.mats[static_cast<std::size_t>(port.mat)];
   Mat mass = slice;
@@ -144,7 +144,7 @@ void readPortFilters(SceneBuilder& builder, const YamlMap& top) {
                                                  "of its module, allowed: one for each module");
     }
     const Mat& slice = builder.scene().mats[static_cast<std::size_t>(port.mat)];
-    hang(builder, port, readFilter(builder, map.map("filter"), slice), name + ".filter");
+    attach(builder, port, readFilter(builder, map.map("filter"), slice), name + ".filter");
   });
 }
 

@@ -74,7 +74,8 @@ void readTank(SceneBuilder& builder, const YamlMap& map, Lia& lia) {
   const std::string name = map.word("tank");
   checkName(builder, name, map.placeAt("tank"));
   if (lia.scheme == Scheme::kExplicit) {
-    map.fail("scheme", map.what() + " is explicit and has a tank, allowed with one: guarded, auto");
+    map.fail("scheme",
+             map.what() + " is explicit and has a tank, allowed with one: energy_stable, auto");
   }
   std::vector<Tank>& tanks = builder.scene().tanks;
   const auto found =

@@ -59,7 +59,7 @@ TEST(CertifyLinksTest, NoForceThatSwitchesWithoutBoundIsProven) {
   };
   for (const LiaType type : {LiaType::kContact, LiaType::kCubicContact, LiaType::kClippedCubic}) {
     EXPECT_EQ(verdict(type, 0.004).verdict, Verdict::kUnproven);
-    EXPECT_THAT(verdict(type, 0.004).findings, Contains(HasSubstr("Use scheme: guarded")));
+    EXPECT_THAT(verdict(type, 0.004).findings, Contains(HasSubstr("Use scheme: energy_stable")));
     const bool is_linear_at_rest = type == LiaType::kClippedCubic;
     EXPECT_EQ(verdict(type, 4.1).verdict,
               is_linear_at_rest ? Verdict::kUnstable : Verdict::kUnproven);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "physics/certificate/vouched_scene.hpp"
+#include "physics/certificate/certified_scene.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -36,10 +36,10 @@ std::string bend(int first, double stiffness) {
 /// A straight bar takes no force, wherever it lies: what its springs rest at, each rounded by
 /// itself, pulled it out to 182 m within a minute.
 TEST(RoundingTest, ABarThatNothingHoldsInAPlaneStaysWhereItIs) {
-  const Vouched bar(row(
+  const Certified bar(row(
       4, "plane", [](int m) { return "mass: 0.001, at: [" + std::to_string(0.01 * m) + ", 0.37]"; },
       {bend(0, 380411.501), bend(1, 378815.438)}));
-  EXPECT_TRUE(bar.isVouchedFor());
+  EXPECT_TRUE(bar.isCertified());
   EXPECT_EQ(bar.fastestOf(10.0, Precision::kFloat), 0.0);
   EXPECT_EQ(bar.fastestOf(10.0, Precision::kDouble), 0.0);
 }
@@ -57,10 +57,10 @@ TEST(RoundingTest, AChainThatNothingHoldsIsNotPushedByItsRestLengths) {
                         "], rest_length: 0.01, stiffness: " + std::to_string(stiffness[s]) +
                         ", damping: " + std::to_string(damping) + "}");
     }
-    const Vouched chain(row(
+    const Certified chain(row(
         12, "scalar", [](int m) { return "mass: 0.001, x: " + std::to_string(0.01 * m); },
         springs));
-    EXPECT_TRUE(chain.isVouchedFor());
+    EXPECT_TRUE(chain.isCertified());
     EXPECT_LT(chain.fastestOf(20.0, Precision::kFloat), 0.3);
   }
 }
@@ -71,10 +71,10 @@ TEST(RoundingTest, ABarOfUnlikePartsThatNothingHoldsTurnsEvenly) {
   for (int b = 0; b < 10; ++b) {
     bends.push_back(bend(b, b % 2 == 0 ? 388923103.8 : 48015.1940628));
   }
-  const Vouched bar(row(
+  const Certified bar(row(
       12, "scalar", [](int m) { return "mass: 1, v: " + std::to_string((m - 5.5) / 12000.0); },
       bends));
-  EXPECT_TRUE(bar.isVouchedFor());
+  EXPECT_TRUE(bar.isCertified());
   EXPECT_LT(bar.fastestOf(10.0, Precision::kFloat), 1e-3);  // 4.6e-4 at the start
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A slice in nobody's hand, with masses that hang on it: its loop against itself, played.
+// A slice in nobody's hand, with masses that are attached to it: its loop against itself, played.
 
 #include "physics/certificate/free_slices.hpp"
 
@@ -10,7 +10,7 @@ namespace ergotic::physics {
 namespace {
 
 /// A slice, a link, a mass, and what damps that to the ground.
-struct HangingMass {
+struct AttachedMass {
   double stiffness = 2000.0;
   double damping = 0.0;
   double mass = 0.1;
@@ -70,10 +70,10 @@ double playedGrowth(const scene::Scene& scene, const DeviceTraits& device, int s
 
 TEST(FreeSlicesTest, GrowsAsItIsForetold) {
   for (const bool is_fast : {false, true}) {
-    for (const HangingMass& hanging :
-         {HangingMass{2000.0, 0.0, 0.1, 0.0}, HangingMass{3000.0, 0.0, 0.02, 0.0},
-          HangingMass{3000.0, 0.2, 0.1, 0.05}, HangingMass{1500.0, 0.0, 0.05, 0.0}}) {
-      HangingMass one = hanging;
+    for (const AttachedMass& attached :
+         {AttachedMass{2000.0, 0.0, 0.1, 0.0}, AttachedMass{3000.0, 0.0, 0.02, 0.0},
+          AttachedMass{3000.0, 0.2, 0.1, 0.05}, AttachedMass{1500.0, 0.0, 0.05, 0.0}}) {
+      AttachedMass one = attached;
       one.is_fast = is_fast;
       EXPECT_NEAR(radiusOf(one.scene()), playedGrowth(one.scene(), {}), 2e-5)
           << one.stiffness << ", " << one.mass;
@@ -84,22 +84,22 @@ TEST(FreeSlicesTest, GrowsAsItIsForetold) {
 TEST(FreeSlicesTest, APartOfATickOfDelayIsAWholeOne) {
   DeviceTraits late;
   late.delay_ticks = 1.0;
-  const double whole = radiusOf(HangingMass{}.scene(), late);
+  const double whole = radiusOf(AttachedMass{}.scene(), late);
   late.delay_ticks = 0.5;
-  EXPECT_EQ(radiusOf(HangingMass{}.scene(), late), whole);
+  EXPECT_EQ(radiusOf(AttachedMass{}.scene(), late), whole);
   late.delay_ticks = 0.0;
-  EXPECT_LT(radiusOf(HangingMass{}.scene(), late), whole);
+  EXPECT_LT(radiusOf(AttachedMass{}.scene(), late), whole);
 }
 
 TEST(FreeSlicesTest, EndsOfTheRangesOfParametersCount) {
-  scene::Scene scene = HangingMass{}.scene();
+  scene::Scene scene = AttachedMass{}.scene();
   scene.parameters.push_back({"k", 500.0, 500.0, 2000.0, {}});
   scene.lias[0].stiffness = {1.0, 0};
-  EXPECT_EQ(radiusOf(scene), radiusOf(HangingMass{}.scene()));
+  EXPECT_EQ(radiusOf(scene), radiusOf(AttachedMass{}.scene()));
 }
 
 TEST(FreeSlicesTest, ALosslessMassOnASpringSetsOffASliceAtLessThanTheSpringAlone) {
-  const scene::Scene scene = HangingMass{}.scene();
+  const scene::Scene scene = AttachedMass{}.scene();
   EXPECT_GT(playedGrowth(scene, {}), 1.0 + 1e-5);
   const Certificate certificate = certify(scene, kRates);
   EXPECT_LT(certificate.ports.at(0).stiffness, 0.5 * certificate.ports[0].stiffness_limit);
@@ -109,16 +109,16 @@ TEST(FreeSlicesTest, ALosslessMassOnASpringSetsOffASliceAtLessThanTheSpringAlone
 }
 
 TEST(FreeSlicesTest, ALossKeepsItSilent) {
-  EXPECT_TRUE(certify(HangingMass{2000.0, 0.0, 0.1, 0.5}.scene(), kRates).findings.empty());
-  EXPECT_TRUE(certify(HangingMass{500.0, 0.0, 0.1, 0.0}.scene(), kRates).findings.empty());
+  EXPECT_TRUE(certify(AttachedMass{2000.0, 0.0, 0.1, 0.5}.scene(), kRates).findings.empty());
+  EXPECT_TRUE(certify(AttachedMass{500.0, 0.0, 0.1, 0.0}.scene(), kRates).findings.empty());
 }
 
 TEST(FreeSlicesTest, IsRefusedWhereItGrowsFastWithTwiceTheDamping) {
-  const HangingMass hanging{3500.0, 0.0, 0.05, 0.0};
+  const AttachedMass attached{3500.0, 0.0, 0.05, 0.0};
   DeviceTraits twice;
   twice.damping *= 2.0;
-  ASSERT_GT(playedGrowth(hanging.scene(), twice), 1.0 + kTick);
-  EXPECT_EQ(certify(hanging.scene(), kRates).verdict, Verdict::kUnproven);
+  ASSERT_GT(playedGrowth(attached.scene(), twice), 1.0 + kTick);
+  EXPECT_EQ(certify(attached.scene(), kRates).verdict, Verdict::kUnproven);
 }
 
 /// A string of so many masses at the audio rate, on a spring at a mass or between two.
@@ -151,7 +151,7 @@ TEST(FreeSlicesTest, AStringBehindASpringGrowsAsItIsForetold) {
   }
 }
 
-TEST(FreeSlicesTest, NothingIsWorkedOutWhereNothingHangs) {
+TEST(FreeSlicesTest, NothingIsWorkedOutWhereNothingIsAttached) {
   SceneBuilder wall;
   wall.link(LiaType::kContact, wall.slice(0), wall.ground(), 2000.0);
   const Network network(wall.scene);
@@ -160,22 +160,22 @@ TEST(FreeSlicesTest, NothingIsWorkedOutWhereNothingHangs) {
 }
 
 TEST(FreeSlicesTest, ScalesOfThePortCount) {
-  scene::Scene scene = HangingMass{500.0, 0.0, 0.025, 0.0}.scene();
+  scene::Scene scene = AttachedMass{500.0, 0.0, 0.025, 0.0}.scene();
   scene.ports[0].force_scale = 2.0;
   scene.ports[0].position_scale = 0.5;  // felt as four times the mass and the stiffness
-  EXPECT_NEAR(radiusOf(scene), radiusOf(HangingMass{}.scene()), 1e-9);
+  EXPECT_NEAR(radiusOf(scene), radiusOf(AttachedMass{}.scene()), 1e-9);
 }
 
 TEST(FreeSlicesTest, UnitsOfTimeCount) {
   scene::Scene in_samples =
-      HangingMass{2000.0 / (kRate * kRate), 0.2 / kRate, 0.1, 0.1 / kRate}.scene();
+      AttachedMass{2000.0 / (kRate * kRate), 0.2 / kRate, 0.1, 0.1 / kRate}.scene();
   in_samples.time_unit_s = 1.0 / kRate;
-  EXPECT_NEAR(radiusOf(in_samples), radiusOf(HangingMass{2000.0, 0.2, 0.1, 0.1}.scene()), 1e-9);
+  EXPECT_NEAR(radiusOf(in_samples), radiusOf(AttachedMass{2000.0, 0.2, 0.1, 0.1}.scene()), 1e-9);
 }
 
 /// The same mass on another link.
-scene::Scene withLaw(const HangingMass& hanging, LiaType type, Scheme scheme) {
-  scene::Scene scene = hanging.scene();
+scene::Scene withLaw(const AttachedMass& attached, LiaType type, Scheme scheme) {
+  scene::Scene scene = attached.scene();
   scene::Lia& lia = scene.lias.front();
   lia.type = type;
   lia.scheme = scheme;
@@ -183,16 +183,16 @@ scene::Scene withLaw(const HangingMass& hanging, LiaType type, Scheme scheme) {
   lia.law.edit().width = {1.0};
   lia.law.edit().release = 2.0;
   lia.law.edit().exponent = {1.5};
-  const double force = hanging.stiffness * 0.1;
+  const double force = attached.stiffness * 0.1;
   lia.law.edit().table.points = {{-0.1, -force}, {0.1, force}};
   return scene;
 }
 
 TEST(FreeSlicesTest, AGuardedSpringGrowsAsItIsForetold) {
   for (const bool is_fast : {false, true}) {
-    HangingMass hanging;
-    hanging.is_fast = is_fast;
-    const scene::Scene scene = withLaw(hanging, LiaType::kCubic, Scheme::kGuarded);
+    AttachedMass attached;
+    attached.is_fast = is_fast;
+    const scene::Scene scene = withLaw(attached, LiaType::kCubic, Scheme::kGuarded);
     EXPECT_GT(playedGrowth(scene, {}), 1.0 + 1e-5);
     EXPECT_NEAR(radiusOf(scene), playedGrowth(scene, {}), 2e-5);
   }
@@ -200,8 +200,8 @@ TEST(FreeSlicesTest, AGuardedSpringGrowsAsItIsForetold) {
 
 /// Nearly linear and soft for a step, it does not look ahead.
 TEST(FreeSlicesTest, ASoftGuardedSpringIsTheExplicitOne) {
-  const HangingMass hanging{2090.0, 0.0, 0.00330378479, 0.0103722453};
-  scene::Scene scene = withLaw(hanging, LiaType::kCubic, Scheme::kGuarded);
+  const AttachedMass attached{2090.0, 0.0, 0.00330378479, 0.0103722453};
+  scene::Scene scene = withLaw(attached, LiaType::kCubic, Scheme::kGuarded);
   scene.lias.at(0).law.edit().nonlinearity = {1e-6};
   const double growth = playedGrowth(scene, {}, 20000);
   EXPECT_GT(growth, 1.0 + 0.01 * kTick);
@@ -210,9 +210,9 @@ TEST(FreeSlicesTest, ASoftGuardedSpringIsTheExplicitOne) {
 
 /// Its damper sees half of the steps of a slice whose next place it does not know.
 TEST(FreeSlicesTest, AGuardedDamperBrakesASliceLess) {
-  const HangingMass hanging{6500.0, 1.6, 0.7, 0.05, true};
-  const scene::Scene scene = withLaw(hanging, LiaType::kCubic, Scheme::kGuarded);
-  EXPECT_EQ(radiusOf(hanging.scene()), 1.0);
+  const AttachedMass attached{6500.0, 1.6, 0.7, 0.05, true};
+  const scene::Scene scene = withLaw(attached, LiaType::kCubic, Scheme::kGuarded);
+  EXPECT_EQ(radiusOf(attached.scene()), 1.0);
   EXPECT_GT(playedGrowth(scene, {}, 20000), 1.0 + 1e-5);
   EXPECT_GT(radiusOf(scene), playedGrowth(scene, {}, 20000));
 }
@@ -225,8 +225,8 @@ TEST(FreeSlicesTest, LinksThatAreNotLinearAreSeenAsTheSpringsThatTheyMayBe) {
               {LiaType::kTable, Scheme::kGuarded},  {LiaType::kContact, Scheme::kGuarded},
               {LiaType::kPluck, Scheme::kExplicit}, {LiaType::kConditional, Scheme::kExplicit}};
   for (const auto& law : laws) {
-    const auto level = [&](const HangingMass& hanging) {
-      return certify(withLaw(hanging, law.type, law.scheme), kRates).ports.at(0).level;
+    const auto level = [&](const AttachedMass& attached) {
+      return certify(withLaw(attached, law.type, law.scheme), kRates).ports.at(0).level;
     };
     const int type = static_cast<int>(law.type);
     EXPECT_EQ(level({2000.0, 0.0, 0.1, 0.0}), HandLevel::kWarned) << type;
@@ -237,20 +237,20 @@ TEST(FreeSlicesTest, LinksThatAreNotLinearAreSeenAsTheSpringsThatTheyMayBe) {
 
 /// Where they grow without an end, at a millimetre from the start.
 TEST(FreeSlicesTest, ALawThatGrowsIsSeenAsItIsAtAMillimetre) {
-  HangingMass hanging;
+  AttachedMass attached;
   for (const double pressed : {0.0, 3e-3}) {
-    hanging.stiffness = 2000.0 / (1.5 * std::sqrt(pressed + 1e-3));
-    scene::Scene scene = withLaw(hanging, LiaType::kPowerContact, Scheme::kGuarded);
+    attached.stiffness = 2000.0 / (1.5 * std::sqrt(pressed + 1e-3));
+    scene::Scene scene = withLaw(attached, LiaType::kPowerContact, Scheme::kGuarded);
     scene.lias.at(0).law.edit().width = {0.01 + pressed};
     scene.mats.at(0).position.x() = -0.01;
-    EXPECT_NEAR(radiusOf(scene), radiusOf(HangingMass{}.scene()), 1e-6);
+    EXPECT_NEAR(radiusOf(scene), radiusOf(AttachedMass{}.scene()), 1e-6);
     scene.mats[0].position.x() = -0.02;  // open
-    EXPECT_LE(radiusOf(scene), radiusOf(HangingMass{}.scene()));
+    EXPECT_LE(radiusOf(scene), radiusOf(AttachedMass{}.scene()));
   }
 }
 
 TEST(FreeSlicesTest, ASpringThatIsStretchedIsSeenAsItIsThere) {
-  scene::Scene scene = withLaw(HangingMass{45.0, 0.0, 8.0}, LiaType::kCubic, Scheme::kGuarded);
+  scene::Scene scene = withLaw(AttachedMass{45.0, 0.0, 8.0}, LiaType::kCubic, Scheme::kGuarded);
   scene.lias.at(0).law.edit().nonlinearity = {6e6};
   scene.lias.pop_back();
   EXPECT_LT(certify(scene, kRates).ports.at(0).stiffness, 100.0);
@@ -262,7 +262,7 @@ TEST(FreeSlicesTest, ASpringThatIsStretchedIsSeenAsItIsThere) {
 
 /// A millimetre of the hand is ten of the model.
 TEST(FreeSlicesTest, ALawThatGrowsIsSeenAsFarAsHandsMove) {
-  scene::Scene scene = withLaw(HangingMass{0.0, 0.0, 100.0}, LiaType::kCubic, Scheme::kGuarded);
+  scene::Scene scene = withLaw(AttachedMass{0.0, 0.0, 100.0}, LiaType::kCubic, Scheme::kGuarded);
   scene.lias.at(0).law.edit().nonlinearity = {1e6};
   scene.lias.pop_back();
   scene.ports.at(0).position_scale = 0.1;
@@ -272,9 +272,9 @@ TEST(FreeSlicesTest, ALawThatGrowsIsSeenAsFarAsHandsMove) {
 
 /// Those that close would hold what the table lets swing.
 TEST(FreeSlicesTest, ContactsBehindAMassHideNothing) {
-  HangingMass hanging{1900.0, 0.0, 1e-4, 0.02, true};
+  AttachedMass attached{1900.0, 0.0, 1e-4, 0.02, true};
   SceneBuilder b;
-  b.scene = hanging.scene();
+  b.scene = attached.scene();
   const int far = b.mass(0.1, 0.0);
   b.link(LiaType::kTable, 0, far, 0.0);
   b.scene.lias.back().scheme = Scheme::kGuarded;
@@ -304,8 +304,8 @@ TEST(FreeSlicesTest, LinksBehindAMassAreSeenOpenAndClosed) {
 
 /// The worst is not where it is steepest: there the mass answers too late to be driven.
 TEST(FreeSlicesTest, AStiffContactIsSeenAsTheSoftOneThatItIsOnTheWay) {
-  HangingMass steep{4000.0, 0.0, 1e-4, 0.0, true};
-  HangingMass soft = steep;
+  AttachedMass steep{4000.0, 0.0, 1e-4, 0.0, true};
+  AttachedMass soft = steep;
   soft.stiffness *= 0.25;
   ASSERT_GT(radiusOf(soft.scene()), radiusOf(steep.scene()) + 1e-6);
   EXPECT_NEAR(radiusOf(withLaw(steep, LiaType::kContact, Scheme::kGuarded)), radiusOf(soft.scene()),
@@ -368,8 +368,8 @@ TEST(FreeSlicesTest, SlicesOnOneMassSetItOffTogether) {
   EXPECT_EQ(certify(scene, kRates).verdict, Verdict::kUnproven);
 }
 
-TEST(FreeSlicesTest, ASliceIsToldOfAMassThatHangsOnAnother) {
-  scene::Scene scene = HangingMass{}.scene();
+TEST(FreeSlicesTest, ASliceIsToldOfAMassThatIsAttachedToAnother) {
+  scene::Scene scene = AttachedMass{}.scene();
   SceneBuilder b;
   b.scene = scene;
   const int far = b.slice(1);
@@ -378,12 +378,12 @@ TEST(FreeSlicesTest, ASliceIsToldOfAMassThatHangsOnAnother) {
   const Certificate certificate = certify(b.scene, kRates);
   EXPECT_THAT(certificate.findings, ElementsAre(HasSubstr("(1 more like it)")));
   ASSERT_EQ(certificate.ports.size(), 2U);
-  EXPECT_THAT(certificate.ports[1].finding, HasSubstr("what hangs on link 'l3'"));
+  EXPECT_THAT(certificate.ports[1].finding, HasSubstr("what is attached to link 'l3'"));
 }
 
 /// In space a damper does nothing to what swings across its line, so it makes no hand safe.
 TEST(FreeSlicesTest, DampersInSpaceMayTakeNothing) {
-  HangingMass light{975.0, 12.5, 1.75e-3, 0.0, true};
+  AttachedMass light{975.0, 12.5, 1.75e-3, 0.0, true};
   scene::Scene scene = light.scene();
   EXPECT_LT(radiusOf(scene), 1.0 + 1e-9);
   for (scene::Section& section : scene.sections) {

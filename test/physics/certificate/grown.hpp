@@ -24,7 +24,7 @@ inline Grown grown(const SceneBuilder& b, int ratio, double seconds, Precision p
   return {most / start, certify(b.scene, {kRate, ratio})};
 }
 
-/// Played in both precisions it grows by so much, and is not vouched for.
+/// Played in both precisions it grows by so much, and is not certified.
 inline void expectRefused(const SceneBuilder& b, int ratio, double seconds, double times) {
   for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
     const Grown scene = grown(b, ratio, seconds, precision);

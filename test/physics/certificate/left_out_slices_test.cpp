@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What hangs on a slice and is not worked out, or not all: that is said.
+// What is attached to a slice and is not worked out, or not all: that is said.
 
 #include "ergotic/physics/certificate/certify.hpp"
 #include "support/physics.hpp"
@@ -28,7 +28,7 @@ scene::Scene bodyOn(int masses, LiaType type, double loss = 0.0) {
 
 TEST(LeftOutSlicesTest, MoreThanAHundredMasses) {
   EXPECT_THAT(judged(bodyOn(100, LiaType::kSpringDamper)).findings,
-              ElementsAre(HasSubstr("begins to swing with what hangs on link 'l100'")));
+              ElementsAre(HasSubstr("begins to swing with what is attached to link 'l100'")));
   const Certificate certificate = judged(bodyOn(101, LiaType::kSpringDamper));
   EXPECT_THAT(certificate.findings,
               ElementsAre(HasSubstr("the analysis leaves out so many masses")));

@@ -38,7 +38,7 @@ TEST(ParameterCasesTest, AreThePresentBothEndsAndAsManyCombinationsAsAsked) {
 }
 
 /// The worst is at one end of the one and the other of the other, or at neither.
-TEST(ParameterCasesTest, WhatHangsOnASliceIsSeenBetweenTheEndsOfRanges) {
+TEST(ParameterCasesTest, WhatIsAttachedToASliceIsSeenBetweenTheEndsOfRanges) {
   const auto isWarned = [](const scene::Scene& scene) {
     return certify(scene, kRates).ports.at(0).level != HandLevel::kSilent;
   };
@@ -56,7 +56,7 @@ TEST(ParameterCasesTest, WhatHangsOnASliceIsSeenBetweenTheEndsOfRanges) {
 }
 
 /// What hangs elsewhere takes none of the values, with parameters of its own or many masses.
-TEST(ParameterCasesTest, WhatHangsElsewhereHidesNothing) {
+TEST(ParameterCasesTest, WhatIsAttachedElsewhereHidesNothing) {
   SceneBuilder b;
   const int hung = b.mass(1e-5, 0.0);
   b.spring(hung, b.slice(0), 2000.0);

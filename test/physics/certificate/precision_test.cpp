@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "constants.hpp"
-#include "physics/certificate/vouched_scene.hpp"
+#include "physics/certificate/certified_scene.hpp"
 #include "support/bars.hpp"
 
 namespace ergotic::physics {
@@ -17,7 +17,7 @@ namespace {
 using Edge = test::Bars::Edge;
 
 std::size_t freeBodiesOf(const std::string& text) {
-  return bodiesThatMoveFreely(Vouched(text).scene).size();
+  return bodiesThatMoveFreely(Certified(text).scene).size();
 }
 
 /// Four masses on one another; `links` beside.
@@ -83,19 +83,19 @@ TEST(PrecisionTest, ContactsDoNotHoldAndSingleMassesAreNoBodies) {
 }
 
 TEST(PrecisionTest, TheUserIsToldWhichBodyAskedForDoublePrecision) {
-  const Vouched turning(fourMasses(kTwoBends));
+  const Certified turning(fourMasses(kTwoBends));
   EXPECT_EQ(withPrecision(Precision::kAuto, turning.scene).precision, Precision::kDouble);
   EXPECT_EQ(withPrecision(Precision::kFloat, turning.scene).precision, Precision::kFloat);
   EXPECT_THAT(notesOnPrecision(turning.scene),
               testing::ElementsAre(HasSubstr("rounding.yaml:5:3: note: nothing holds the body of "
                                              "'m0' in its place")));
-  const Vouched held(fourMasses(kThreeSprings + springToGround("m1", "1")));
+  const Certified held(fourMasses(kThreeSprings + springToGround("m1", "1")));
   EXPECT_EQ(withPrecision(Precision::kAuto, held.scene).precision, Precision::kFloat);
   EXPECT_TRUE(notesOnPrecision(held.scene).empty());
 }
 
 TEST(PrecisionTest, InSinglePrecisionABodyThatMovesFreelyIsUnproven) {
-  const Vouched turning(fourMasses(kTwoBends));
+  const Certified turning(fourMasses(kTwoBends));
   const Certificate certificate = certify(turning.scene, turning.rates);
   EXPECT_EQ(certificate.verdict, Verdict::kPassive);
   const Certificate in_float = inPrecision(certificate, turning.scene, Precision::kFloat);
@@ -105,26 +105,26 @@ TEST(PrecisionTest, InSinglePrecisionABodyThatMovesFreelyIsUnproven) {
 }
 
 /// m/s, as kAuto plays it.
-double fastestOf(const Vouched& scene, double seconds) {
+double fastestOf(const Certified& scene, double seconds) {
   return scene.fastestOf(seconds, withPrecision(Precision::kAuto, scene.scene).precision);
 }
 
 /// A minute of turning: single precision made 4,276 J of 1e-4 J.
 TEST(PrecisionTest, ATurningBarTurnsOnEvenly) {
-  const Vouched bar(fourMasses(kTwoBends));
+  const Certified bar(fourMasses(kTwoBends));
   EXPECT_NEAR(fastestOf(bar, 60.0), 0.3, 1e-3);
 }
 
 /// The stiffest that the rate bears, turning away: 8e10 m/s in single precision.
 TEST(PrecisionTest, ABendNearItsLimitDoesNotGrow) {
-  const Vouched bend(
+  const Certified bend(
       kOfAudio +
       "  m0: {type: mass, mass: 0.00281, v: -0.247}\n  m1: {type: mass, mass: 0.00968, v: -0.587}\n"
       "  m2: {type: mass, mass: 0.00325, v: -0.392}\n  m3: {type: mass, mass: 0.0164, v: -0.037}\n"
       "lias:\n  l: {type: bend, between: [m0, m1, m2, m3], weights: [1, -1, -1, 1], "
       "stiffness: 9390000, rest_length: 0.000386}\n"
       "outputs: {o: {at: m0, quantity: velocity, channel: 1}}\n");
-  EXPECT_TRUE(bend.isVouchedFor());
+  EXPECT_TRUE(bend.isCertified());
   const double soon = fastestOf(bend, 1.0);
   EXPECT_LT(fastestOf(bend, 60.0), 1.01 * soon);
 }
@@ -188,7 +188,7 @@ class FlyingBar {
     return 10.0 * std::log10(re * re + im * im);
   }
 
-  Vouched scene_;
+  Certified scene_;
   std::vector<double> sound_;
 };
 

@@ -5,8 +5,8 @@
 
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
+#include "physics/certificate/certified_scene.hpp"
 #include "physics/certificate/rounding_noise.hpp"
-#include "physics/certificate/vouched_scene.hpp"
 #include "support/physics.hpp"
 
 namespace ergotic::physics {
@@ -41,13 +41,13 @@ struct TwoRates {
 TEST(RoundingTest, ModesOfTwoRatesMayMeet) {
   TwoRates masses{14700.0, 0.95104052612866596, 176471579.09136432, 622786170.55229306,
                   6446979860.1201553};
-  const Vouched near(masses.text());
+  const Certified near(masses.text());
   EXPECT_GT(near.fastestOf(1.0, Precision::kFloat), 1e4);
   EXPECT_LT(near.fastestOf(1.0, Precision::kDouble), 1e3);
   EXPECT_THAT(certify(near.scene, near.rates).findings,
               Contains(HasSubstr("so near to one another that rounding")));
   masses.between = 5e8;
-  EXPECT_TRUE(Vouched(masses.text()).isVouchedFor());
+  EXPECT_TRUE(Certified(masses.text()).isCertified());
 }
 
 /// A mode meets itself at half the slower rate, or comes back to where it was; and a weak link
@@ -59,7 +59,7 @@ TEST(RoundingTest, ModesMayMeetWhereTheySeemToLieApart) {
                                           22891920.351789311, -17776877.658830639},
                                  TwoRates{14700.0, 0.54114155065623715, 634963618.00678289,
                                           48753.639355702573, 1763486273.5239983}}) {
-    EXPECT_FALSE(Vouched(masses.text()).isVouchedFor()) << masses.mass;
+    EXPECT_FALSE(Certified(masses.text()).isCertified()) << masses.mass;
   }
 }
 
@@ -76,16 +76,16 @@ TEST(RoundingTest, WholeTurnsInATickLeaveADifferenceOfLargeForces) {
         "  c: {type: spring, between: [s, m], stiffness: %.17g}\n"
         "outputs: {o: {at: m, quantity: velocity, channel: 1}}\n",
         gestural_hz, slow, mass, stiffness);
-    return Vouched(text);
+    return Certified(text);
   };
-  const Vouched turning =
+  const Certified turning =
       freePair(4009.090909090909, 0.0016446230878211844, 1.0, 10586076.054260574);
   EXPECT_GT(turning.fastestOf(10.0, Precision::kFloat),
             100.0 * turning.fastestOf(10.0, Precision::kDouble));
-  EXPECT_FALSE(turning.isVouchedFor());
-  EXPECT_TRUE(freePair(4009.090909090909, 0.0016446230878211844, 1.0, 1.0e7).isVouchedFor());
+  EXPECT_FALSE(turning.isCertified());
+  EXPECT_TRUE(freePair(4009.090909090909, 0.0016446230878211844, 1.0, 1.0e7).isCertified());
   EXPECT_FALSE(freePair(11025.0, 0.017862855732460367, 0.25428376636417033, 69479721.879332632)
-                   .isVouchedFor());
+                   .isCertified());
 }
 
 /// The same among modules that do nothing: whichever numbers are there, none are rounded alike in
@@ -100,18 +100,19 @@ TEST(RoundingTest, NoNumbersAreRoundedAlike) {
             : i == 23 ? "  m: {type: mass, section: a, mass: 0.0016446230878211844}\n"
                       : idle;
   }
-  const Vouched scene(text +
-                      "lias: {c: {type: spring, between: [s, m], stiffness: 10586076.054260574}}\n"
-                      "outputs: {o: {at: m, quantity: velocity, channel: 1}}\n");
+  const Certified scene(
+      text +
+      "lias: {c: {type: spring, between: [s, m], stiffness: 10586076.054260574}}\n"
+      "outputs: {o: {at: m, quantity: velocity, channel: 1}}\n");
   EXPECT_GT(scene.fastestOf(10.0, Precision::kFloat),
             100.0 * scene.fastestOf(10.0, Precision::kDouble));
-  EXPECT_FALSE(scene.isVouchedFor());
+  EXPECT_FALSE(scene.isCertified());
 }
 
 /// Fast masses make nearly whole turns in a tick: 0.05 m/s become 60, in double, too, and come
 /// back after seconds.
-TEST(RoundingTest, WhatBecomesAThousandTimesAsLargeIsNotVouchedFor) {
-  const Vouched scene(
+TEST(RoundingTest, WhatBecomesAThousandTimesAsLargeIsNotCertified) {
+  const Certified scene(
       "ergotic: 1\ngestural_rate: 1470\nsections: {a: {rate: audio}, c: {rate: gestural}}\nmats:\n"
       "  m0: {type: mass, section: a, mass: 3.8037751663184009e-05, v: 0.05}\n"
       "  m1: {type: mass, section: a, mass: 5.6824164402537729e-05, v: 0.06}\n"
@@ -122,7 +123,7 @@ TEST(RoundingTest, WhatBecomesAThousandTimesAsLargeIsNotVouchedFor) {
       "  l2: {type: spring, between: [m3, m1], stiffness: 75868.358480854266}\n"
       "outputs: {o: {at: m0, quantity: velocity, channel: 1}}\n");
   EXPECT_GT(scene.fastestOf(10.0, Precision::kDouble), 50.0);
-  EXPECT_FALSE(scene.isVouchedFor());
+  EXPECT_FALSE(scene.isCertified());
 }
 
 TEST(RoundingTest, WhatANegativeSpringLeavesMayBeLess) {
@@ -137,13 +138,13 @@ TEST(RoundingTest, WhatANegativeSpringLeavesMayBeLess) {
                   "  n: {type: spring, between: [g, m], stiffness: %.17g}\n"
                   "outputs: {o: {at: m, quantity: velocity, channel: 1}}\n",
                   a, b, -(a + b) * (1.0 - left));
-    return Vouched(kOfAudio + text);
+    return Certified(kOfAudio + text);
   };
-  const Vouched less = held(3e-9);
+  const Certified less = held(3e-9);
   EXPECT_GT(less.fastestOf(2.0, Precision::kFloat), 1e3);
   EXPECT_LT(less.fastestOf(2.0, Precision::kDouble), 1.0);
-  EXPECT_FALSE(less.isVouchedFor());
-  EXPECT_TRUE(held(1e-5).isVouchedFor());
+  EXPECT_FALSE(less.isCertified());
+  EXPECT_TRUE(held(1e-5).isCertified());
 }
 
 /// Its pole becomes a double one.
@@ -154,11 +155,11 @@ TEST(RoundingTest, ACellAtHalfTheRateIsNone) {
                   "  m: {type: cell, mass: 0.01, stiffness: %.17g, matched: true, v: 1}\n"
                   "outputs: {o: {at: m, quantity: velocity, channel: 1}}\n",
                   0.01 * std::pow(2.0 * kPi * frequency, 2));
-    return Vouched(kOfAudio + text);
+    return Certified(kOfAudio + text);
   };
-  EXPECT_FALSE(cell(22049.5).isVouchedFor());
-  EXPECT_FALSE(cell(22050.0).isVouchedFor());
-  EXPECT_TRUE(cell(22000.0).isVouchedFor());
+  EXPECT_FALSE(cell(22049.5).isCertified());
+  EXPECT_FALSE(cell(22050.0).isCertified());
+  EXPECT_TRUE(cell(22000.0).isCertified());
 }
 
 /// It has 12 binary digits of the stiffness of a bend, here 2048.51, half a digit less than it
@@ -174,12 +175,12 @@ TEST(RoundingTest, ABendAtTheLimitIsNoneEither) {
                   "weights: [1, -2, 1], stiffness: %.17g}\n"
                   "outputs: {o: {at: b, quantity: velocity, channel: 1}}\n",
                   mass, mass, mass, stiffness);
-    return Vouched(kOfAudio + text);
+    return Certified(kOfAudio + text);
   };
   EXPECT_GT(bar(0.9999).fastestOf(1.0, Precision::kFloat), 1e3);
   EXPECT_LT(bar(0.9999).fastestOf(1.0, Precision::kDouble), 10.0);
-  EXPECT_FALSE(bar(0.9999).isVouchedFor());
-  EXPECT_TRUE(bar(0.9997).isVouchedFor());
+  EXPECT_FALSE(bar(0.9999).isCertified());
+  EXPECT_TRUE(bar(0.9997).isCertified());
   EXPECT_LT(bar(0.9997).fastestOf(1.0, Precision::kFloat), 10.0);
 }
 
@@ -202,8 +203,8 @@ std::string prestressed(double between, double damping) {
 }
 
 /// The speed that a note on rounding tells, m/s; 0 without one.
-double toldOf(const Vouched& vouched) {
-  const std::vector<std::string> notes = notesOnRounding(vouched.scene, vouched.rates);
+double toldOf(const Certified& certified) {
+  const std::vector<std::string> notes = notesOnRounding(certified.scene, certified.rates);
   if (notes.empty()) {
     return 0.0;
   }
@@ -213,14 +214,14 @@ double toldOf(const Vouched& vouched) {
 }
 
 TEST(RoundingTest, TellsHowFarNoiseHeatsWhatLosesNothing) {
-  const Vouched lossless(prestressed(1.0, 0.0));
-  EXPECT_TRUE(lossless.isVouchedFor());
+  const Certified lossless(prestressed(1.0, 0.0));
+  EXPECT_TRUE(lossless.isCertified());
   const double told = toldOf(lossless);
   const double played = lossless.fastestOf(60.0, Precision::kFloat);  // the rms times 3, about
   EXPECT_GT(told, 0.25 * played);
   EXPECT_LT(told, 2.0 * played);
   EXPECT_LT(lossless.fastestOf(10.0, Precision::kDouble), 3e-4);
-  EXPECT_LT(toldOf(Vouched(prestressed(0.1, 0.0))), 0.11 * told + 0.05);
+  EXPECT_LT(toldOf(Certified(prestressed(0.1, 0.0))), 0.11 * told + 0.05);
 }
 
 /// Three masses that are thrown, or fall: positions grow, and with them what they are rounded by.
@@ -235,9 +236,9 @@ TEST(RoundingTest, TellsOfWhatNothingHolds) {
                   "  bc: {type: spring, between: [b, c], stiffness: 6e6}\n"
                   "outputs: {o: {at: a, quantity: velocity, channel: 1}}\n",
                   gravity, v, v, v + 0.001);
-    return Vouched(text);
+    return Certified(text);
   };
-  const Vouched falling = thrown(-9.81, 0.0);
+  const Certified falling = thrown(-9.81, 0.0);
   EXPECT_LT(falling.fastestOf(10.0, Precision::kDouble), 98.2);
   EXPECT_GT(falling.fastestOf(10.0, Precision::kFloat), 110.0);
   EXPECT_GT(toldOf(falling), 100.0);
@@ -246,10 +247,10 @@ TEST(RoundingTest, TellsOfWhatNothingHolds) {
 }
 
 TEST(RoundingTest, TellsNoneWhereALossOrShortDistancesKeepItSmall) {
-  const Vouched lossy(prestressed(1.0, 1.0));
+  const Certified lossy(prestressed(1.0, 1.0));
   EXPECT_EQ(toldOf(lossy), 0.0);
   EXPECT_LT(lossy.fastestOf(10.0, Precision::kFloat), 0.15);
-  EXPECT_EQ(toldOf(Vouched(prestressed(0.01, 0.0))), 0.0);
+  EXPECT_EQ(toldOf(Certified(prestressed(0.01, 0.0))), 0.0);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A search for scenes that the certificate vouches for and that grow all the same.
+// A search for scenes that the certificate calls passive and that grow all the same.
 #include <algorithm>
 #include <cstdlib>
 #include <map>
@@ -98,17 +98,17 @@ bool grows(const scene::Scene& scene,
                                                   : !isLent(longer, longest, certificate.margin());
 }
 
-bool isVouched(Verdict verdict) {
+bool isCertified(Verdict verdict) {
   return verdict == Verdict::kPassive || verdict == Verdict::kBounded;
 }
 
 struct Judged {
-  bool is_vouched = false;
+  bool is_certified = false;
   bool grows = false;
   Verdict verdict = Verdict::kPassive;
 };
 
-enum class Plays { kVouched, kOthers };
+enum class Plays { kCertified, kOthers };
 
 /// Of every family, which come in turn, half of the scenes in each.
 Precision precisionOf(unsigned seed) {
@@ -116,14 +116,14 @@ Precision precisionOf(unsigned seed) {
 }
 
 /// \param precision  kAuto: as a station chooses it
-Judged judge(const SmallScene& small, Precision precision, Plays plays = Plays::kVouched) {
+Judged judge(const SmallScene& small, Precision precision, Plays plays = Plays::kCertified) {
   Judged judged;
   const scene::Scene scene = settle(scene::readYaml(small.text(), "small.yaml"), small.rates).scene;
   const CompileOptions options = withPrecision(precision, scene);
   const Certificate certificate = inPrecision(certify(scene, small.rates), scene, options);
   judged.verdict = certificate.verdict;
-  judged.is_vouched = isVouched(judged.verdict);
-  judged.grows = judged.is_vouched == (plays == Plays::kVouched) &&
+  judged.is_certified = isCertified(judged.verdict);
+  judged.grows = judged.is_certified == (plays == Plays::kCertified) &&
                  grows(scene, small.rates, options.precision, certificate);
   return judged;
 }
@@ -146,7 +146,7 @@ SmallScene shrunk(SmallScene liar, unsigned seed) {
     SmallScene smaller = liar;
     smaller.lias.erase(smaller.lias.begin() + static_cast<std::ptrdiff_t>(i));
     const Judged judged = judge(smaller, precisionOf(seed));
-    if (judged.is_vouched && judged.grows) {
+    if (judged.is_certified && judged.grows) {
       liar = smaller;
     }
   }
@@ -173,7 +173,7 @@ TEST(SmallScenesTest, WhatStepsNearTheirLimitLendIsNoGrowth) {
 }
 
 /// The largest kinetic energy in the last quarter of a long performance over that in the first;
-/// 0 of what is not vouched for.
+/// 0 of what is not certified.
 double lateGrowthOf(const SmallScene& small, Precision precision) {
   const scene::Scene scene = settle(scene::readYaml(small.text(), "small.yaml"), small.rates).scene;
   const Certificate certificate = inPrecision(certify(scene, small.rates), scene, precision);
@@ -186,26 +186,26 @@ class SearchTest : public testing::TestWithParam<unsigned> {};
 
 void expectNotToGrow(const SmallScene& small, unsigned seed) {
   const Judged judged = judge(small, precisionOf(seed));
-  EXPECT_FALSE(judged.is_vouched && judged.grows)
+  EXPECT_FALSE(judged.is_certified && judged.grows)
       << "seed " << seed << ", " << small.family << ", " << toString(judged.verdict) << ":\n"
       << shrunk(small, seed).text();
 }
 
-TEST_P(SearchTest, WhatIsVouchedForDoesNotGrow) {
+TEST_P(SearchTest, WhatIsCertifiedDoesNotGrow) {
   for (unsigned seed = GetParam(); seed < GetParam() + scenes() / kParts; ++seed) {
     expectNotToGrow(test::smallScene(seed), seed);
   }
 }
 
-TEST_P(SearchTest, WhatIsVouchedForOnTapsDoesNotGrow) {
+TEST_P(SearchTest, WhatIsCertifiedOnTapsDoesNotGrow) {
   for (unsigned seed = GetParam(); seed < GetParam() + scenes() / kParts; ++seed) {
     expectNotToGrow(test::withTaps(test::smallScene(seed), seed), seed);
   }
 }
 
 /// What grows slowly, or only once it has flown far: twenty seconds in both precisions, as far as
-/// they are vouched for. scripts/search asks for more and goes on where it stopped.
-TEST(SmallScenesTest, WhatIsVouchedForDoesNotGrowInTwentySeconds) {
+/// they are certified. scripts/search asks for more and goes on where it stopped.
+TEST(SmallScenesTest, WhatIsCertifiedDoesNotGrowInTwentySeconds) {
   const unsigned from = numberOr(0, "ERGOTIC_SEARCH_FROM");
   for (unsigned seed = from; seed < from + numberOr(kFamilies, "ERGOTIC_SEARCH_COUNT"); ++seed) {
     const SmallScene small = test::smallScene(seed);
@@ -221,20 +221,20 @@ INSTANTIATE_TEST_SUITE_P(Seeds,
                          SearchTest,
                          testing::Range(0u, scenes() / kParts * kParts, scenes() / kParts));
 
-/// The search proves nothing of what is never vouched for.
-TEST(SmallScenesTest, SomeOfEveryFamilyAreVouchedFor) {
-  std::map<std::string, int> vouched;
+/// The search proves nothing of what is never certified.
+TEST(SmallScenesTest, SomeOfEveryFamilyAreCertified) {
+  std::map<std::string, int> certified;
   for (unsigned seed = 0; seed < 200 * kFamilies; ++seed) {
     const SmallScene plain = test::smallScene(seed);
     for (const SmallScene& small : {plain, test::withTaps(plain, seed)}) {
       const scene::Scene scene =
           settle(scene::readYaml(small.text(), "small.yaml"), small.rates).scene;
       const std::string family = small.family + (scene.taps.empty() ? "" : " on taps");
-      vouched[family] += isVouched(certify(scene, small.rates).verdict) ? 1 : 0;
+      certified[family] += isCertified(certify(scene, small.rates).verdict) ? 1 : 0;
     }
   }
-  EXPECT_EQ(vouched.size(), 2 * kFamilies);
-  for (const auto& [family, scenes] : vouched) {
+  EXPECT_EQ(certified.size(), 2 * kFamilies);
+  for (const auto& [family, scenes] : certified) {
     EXPECT_GE(scenes, 2) << family;
   }
 }
@@ -254,12 +254,12 @@ bool isHeldByHardening(SmallScene small) {
 }
 
 /// Where schemes and precision are left to the station. Of tables fewer are: many drive, for ever
-/// or up to a speed, and nothing around them brakes as much. What is vouched for counts as holding:
+/// or up to a speed, and nothing around them brakes as much. What is certified counts as holding:
 /// that is the search above.
-TEST(SmallScenesTest, NearlyAllThatHoldsIsVouchedFor) {
+TEST(SmallScenesTest, NearlyAllThatHoldsIsCertified) {
   struct Share {
     int holding = 0;
-    int vouched = 0;
+    int certified = 0;
   };
   std::map<std::string, Share> shares;
   Share of_one_rate;
@@ -268,18 +268,19 @@ TEST(SmallScenesTest, NearlyAllThatHoldsIsVouchedFor) {
     const Judged judged = judge(small, Precision::kAuto, Plays::kOthers);
     Share& share = shares[small.family];
     share.holding += judged.grows || isHeldByHardening(small) ? 0 : 1;
-    share.vouched += judged.is_vouched ? 1 : 0;
+    share.certified += judged.is_certified ? 1 : 0;
   }
   for (const auto& [family, share] : shares) {
-    EXPECT_GE(share.vouched, (family == "tables" ? 0.6 : 0.95) * share.holding)
-        << family << ": " << share.vouched << " of " << share.holding;
-    RecordProperty(family, std::to_string(share.vouched) + " of " + std::to_string(share.holding));
+    EXPECT_GE(share.certified, (family == "tables" ? 0.6 : 0.95) * share.holding)
+        << family << ": " << share.certified << " of " << share.holding;
+    RecordProperty(family,
+                   std::to_string(share.certified) + " of " + std::to_string(share.holding));
     if (family != "two rates" && family != "hammer on a string") {
       of_one_rate.holding += share.holding;
-      of_one_rate.vouched += share.vouched;
+      of_one_rate.certified += share.certified;
     }
   }
-  EXPECT_GE(of_one_rate.vouched, 0.95 * of_one_rate.holding);
+  EXPECT_GE(of_one_rate.certified, 0.95 * of_one_rate.holding);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <tuple>
 #include <utility>
 
-#include "physics/certificate/vouched_scene.hpp"
+#include "physics/certificate/certified_scene.hpp"
 #include "support/physics.hpp"
 
 namespace ergotic::physics {
@@ -18,33 +18,33 @@ TEST(SinglePrecisionTest, NumbersThatSinglePrecisionDoesNotHoldAreRefused) {
            "outputs: {o: {at: m, quantity: velocity, channel: 1}}\n";
   };
   EXPECT_THAT(
-      complaintOf([&] { const Vouched none(contact("1e39", "0.01")); }),
+      complaintOf([&] { const Certified none(contact("1e39", "0.01")); }),
       HasSubstr("'stiffness' of link 'c' = 1e+39 N/m is out of range, allowed: >= 0 N/m, up "
                 "to 1e30 in size"));
-  EXPECT_FALSE(Vouched(contact("1e30", "1e-12")).isVouchedFor());
+  EXPECT_FALSE(Certified(contact("1e30", "1e-12")).isCertified());
   EXPECT_THAT(
-      complaintOf([&] { const Vouched none(contact("1", "1e-48")); }),
+      complaintOf([&] { const Certified none(contact("1", "1e-48")); }),
       HasSubstr(
           "'mass' of module 'm' = 1e-48 kg is out of range, allowed: > 0 kg, at least 1e-30"));
-  const Vouched largest(contact("1e30", "0.01"));
-  EXPECT_TRUE(largest.isVouchedFor());
+  const Certified largest(contact("1e30", "0.01"));
+  EXPECT_TRUE(largest.isCertified());
   EXPECT_LT(largest.fastestOf(1.0, Precision::kFloat), 10.0);
 }
 
-TEST(SinglePrecisionTest, ForcesThatSinglePrecisionDoesNotHoldAreNotVouchedFor) {
+TEST(SinglePrecisionTest, ForcesThatSinglePrecisionDoesNotHoldAreNotCertified) {
   const auto far = [](const char* x) {
-    return Vouched(kOfAudio + "  m: {type: mass, mass: 1e29, x: " + x +
-                   "}\nlias:\n  k: {type: spring, between: [g, m], stiffness: 1e30}\n"
-                   "outputs: {o: {at: m, quantity: position, channel: 1}}\n");
+    return Certified(kOfAudio + "  m: {type: mass, mass: 1e29, x: " + x +
+                     "}\nlias:\n  k: {type: spring, between: [g, m], stiffness: 1e30}\n"
+                     "outputs: {o: {at: m, quantity: position, channel: 1}}\n");
   };
-  EXPECT_FALSE(far("1e10").isVouchedFor());
-  EXPECT_TRUE(far("1e5").isVouchedFor());
+  EXPECT_FALSE(far("1e10").isCertified());
+  EXPECT_TRUE(far("1e5").isCertified());
   EXPECT_LT(far("1e5").fastestOf(2.0, Precision::kFloat), 1.1e5);
 }
 
 TEST(SinglePrecisionTest, NorAreNumbersOfLawsThatComeToSuchForces) {
   const auto link = [](const std::string& law) {
-    return Vouched(
+    return Certified(
         "ergotic: 1\nsections: {a: {rate: audio}}\nmats:\n  g: {type: ground}\n"
         "  m: {type: mass, mass: 0.01, x: 1e-3, v: 1}\nlias:\n"
         "  k: {type: spring_damper, between: [m, g], stiffness: 1000, damping: 0.01}\n"
@@ -62,17 +62,17 @@ TEST(SinglePrecisionTest, NorAreNumbersOfLawsThatComeToSuchForces) {
                   "type: felt, stiffness: 1e6, exponent: 2.5, damping: 1e27, threshold: 1e-3"),
         std::pair("type: pluck, stiffness: 1000, width: 1e3",
                   "type: pluck, stiffness: 1000, width: 1e20")}) {
-    EXPECT_TRUE(link(usual).isVouchedFor()) << usual;
+    EXPECT_TRUE(link(usual).isCertified()) << usual;
     EXPECT_TRUE(std::isfinite(link(usual).fastestOf(0.1, Precision::kFloat))) << usual;
-    EXPECT_FALSE(link(far).isVouchedFor()) << far;
+    EXPECT_FALSE(link(far).isCertified()) << far;
   }
 }
 
 /// What comes to numbers that single precision does not hold, though it begins at 0.
 TEST(SinglePrecisionTest, NorDoesItHelpToBeginWhereALawIsFlat) {
   const auto scene = [](const std::string& mass, const std::string& link) {
-    return Vouched(kOfAudio + "  m: {type: mass, " + mass + "}\nlias:\n" + link +
-                   "outputs: {o: {at: m, quantity: velocity, channel: 1}}\n");
+    return Certified(kOfAudio + "  m: {type: mass, " + mass + "}\nlias:\n" + link +
+                     "outputs: {o: {at: m, quantity: velocity, channel: 1}}\n");
   };
   const std::string held =
       "  k: {type: spring_damper, between: [m, g], stiffness: 1000, damping: 0.01}\n";
@@ -100,15 +100,15 @@ TEST(SinglePrecisionTest, NorDoesItHelpToBeginWhereALawIsFlat) {
         std::tuple("mass: 1e-3, v: -1e10",
                    std::string("  l: {type: contact, between: [g, m], stiffness: 1e4}\n"),
                    std::string("  l: {type: contact, between: [g, m], stiffness: 1e30}\n"))}) {
-    EXPECT_TRUE(scene(mass, usual).isVouchedFor()) << usual;
+    EXPECT_TRUE(scene(mass, usual).isCertified()) << usual;
     EXPECT_TRUE(std::isfinite(scene(mass, usual).fastestOf(0.1, Precision::kFloat))) << usual;
-    EXPECT_FALSE(scene(mass, far).isVouchedFor()) << far;
+    EXPECT_FALSE(scene(mass, far).isCertified()) << far;
   }
 }
 
 TEST(SinglePrecisionTest, NorWhereASectionIsFarAway) {
   const auto apart = [](const std::string& metres) {
-    return Vouched(
+    return Certified(
         "ergotic: 1\nsections:\n  a: {rate: audio, geometry: space}\n"
         "  b: {rate: audio, geometry: space, pose: {position: [" +
         metres +
@@ -116,13 +116,13 @@ TEST(SinglePrecisionTest, NorWhereASectionIsFarAway) {
         "  g: {type: ground, section: b}\nlias: {l: {type: spring, between: [m, g], stiffness: 1, "
         "rest_length: 0.01}}\noutputs: {o: {at: m, quantity: velocity, channel: 1}}\n");
   };
-  EXPECT_TRUE(apart("1").isVouchedFor());
-  EXPECT_FALSE(apart("1e20").isVouchedFor());
+  EXPECT_TRUE(apart("1").isCertified());
+  EXPECT_FALSE(apart("1e20").isCertified());
 }
 
 TEST(SinglePrecisionTest, ACurveOfFrictionMayBeAsNarrowAsNumbersGo) {
   for (const char* const width : {"1e-6", "1e-21", "1e-30"}) {
-    const Vouched narrow(
+    const Certified narrow(
         std::string("ergotic: 1\nsections: {a: {geometry: plane}}\nmats:\n  g: {type: ground}\n"
                     "  m: {type: mass, mass: 0.01, at: [1e-3, 2e-3], v: [1, -1]}\nlias:\n"
                     "  k: {type: spring_damper, between: [m, g], stiffness: 1000, damping: 0}\n"
@@ -135,47 +135,47 @@ TEST(SinglePrecisionTest, ACurveOfFrictionMayBeAsNarrowAsNumbersGo) {
 TEST(SinglePrecisionTest, NorIsWhatMovesTooFast) {
   const auto moving = [](const std::string& geometry, const std::string& mass,
                          const std::string& link) {
-    return Vouched("ergotic: 1\nsections: {a: {geometry: " + geometry +
-                   "}}\nmats:\n  g: {type: ground}\n  m: {type: mass, mass: " + mass +
-                   "}\nlias:\n  k: {between: [g, m], " + link +
-                   "}\noutputs: {o: {at: m, quantity: position, channel: 1}}\n");
+    return Certified("ergotic: 1\nsections: {a: {geometry: " + geometry +
+                     "}}\nmats:\n  g: {type: ground}\n  m: {type: mass, mass: " + mass +
+                     "}\nlias:\n  k: {between: [g, m], " + link +
+                     "}\noutputs: {o: {at: m, quantity: position, channel: 1}}\n");
   };
   const std::string spring = "type: spring, stiffness: 1e30";
-  const Vouched fast = moving("scalar", "1e24, v: 1e17", spring);
+  const Certified fast = moving("scalar", "1e24, v: 1e17", spring);
   Player player(compile(fast.scene, fast.rates, Precision::kFloat));
   player.tick();
   EXPECT_FALSE(std::isfinite(player.heard.at(0).back()));
-  EXPECT_FALSE(fast.isVouchedFor());
-  EXPECT_TRUE(moving("scalar", "1e24, v: 1e7", spring).isVouchedFor());
-  EXPECT_FALSE(moving("scalar", "1e22, v: 1e20", "type: damper, damping: 1e20").isVouchedFor());
-  EXPECT_FALSE(moving("line", "1, v: 1e24", "type: spring, stiffness: 1e4").isVouchedFor());
-  EXPECT_TRUE(moving("line", "1, v: 1e6", "type: spring, stiffness: 1e4").isVouchedFor());
+  EXPECT_FALSE(fast.isCertified());
+  EXPECT_TRUE(moving("scalar", "1e24, v: 1e7", spring).isCertified());
+  EXPECT_FALSE(moving("scalar", "1e22, v: 1e20", "type: damper, damping: 1e20").isCertified());
+  EXPECT_FALSE(moving("line", "1, v: 1e24", "type: spring, stiffness: 1e4").isCertified());
+  EXPECT_TRUE(moving("line", "1, v: 1e6", "type: spring, stiffness: 1e4").isCertified());
   const std::string contact = "type: contact, stiffness: ";
-  EXPECT_FALSE(moving("scalar", "1, v: 1e24", contact + "1e4").isVouchedFor());
-  EXPECT_FALSE(moving("scalar", "1e20, x: 1e9", contact + "1e30").isVouchedFor());
-  EXPECT_TRUE(moving("scalar", "1, v: 1e6", contact + "1e4").isVouchedFor());
+  EXPECT_FALSE(moving("scalar", "1, v: 1e24", contact + "1e4").isCertified());
+  EXPECT_FALSE(moving("scalar", "1e20, x: 1e9", contact + "1e30").isCertified());
+  EXPECT_TRUE(moving("scalar", "1, v: 1e6", contact + "1e4").isCertified());
 }
 
 TEST(SinglePrecisionTest, NorIsWhatFallsTooFarOrIsPushedTooHard) {
   const auto pulled = [](const std::string& section, const std::string& link,
                          const std::string& gain) {
-    return Vouched("ergotic: 1\nsections: {a: {" + section +
-                   "}}\nmats:\n  g: {type: ground}\n  m: {type: mass, mass: 0.01}\nlias:\n"
-                   "  k: {between: [g, m], " +
-                   link + "}\ninputs: {i: {mat: m, quantity: force, channel: 1, gain: " + gain +
-                   "}}\noutputs: {o: {at: m, quantity: position, channel: 1}}\n");
+    return Certified("ergotic: 1\nsections: {a: {" + section +
+                     "}}\nmats:\n  g: {type: ground}\n  m: {type: mass, mass: 0.01}\nlias:\n"
+                     "  k: {between: [g, m], " +
+                     link + "}\ninputs: {i: {mat: m, quantity: force, channel: 1, gain: " + gain +
+                     "}}\noutputs: {o: {at: m, quantity: position, channel: 1}}\n");
   };
   const std::string cubic = "type: cubic, stiffness: 1000, nonlinearity: 1e6";
-  const Vouched falling = pulled("gravity: -1e29", cubic, "1");
+  const Certified falling = pulled("gravity: -1e29", cubic, "1");
   Player player(compile(falling.scene, falling.rates, Precision::kFloat));
   player.ticks(2);
   EXPECT_FALSE(std::isfinite(player.heard.at(0).back()));
-  EXPECT_FALSE(falling.isVouchedFor());
-  EXPECT_FALSE(pulled("gravity: 0", cubic, "1e28").isVouchedFor());
-  EXPECT_TRUE(pulled("gravity: -9.81", cubic, "1000").isVouchedFor());
+  EXPECT_FALSE(falling.isCertified());
+  EXPECT_FALSE(pulled("gravity: 0", cubic, "1e28").isCertified());
+  EXPECT_TRUE(pulled("gravity: -9.81", cubic, "1000").isCertified());
   const std::string held = "type: contact, stiffness: 1000";
-  EXPECT_FALSE(pulled("geometry: line, gravity: -1e20", held, "1").isVouchedFor());
-  EXPECT_TRUE(pulled("geometry: line, gravity: -9.81", held, "1000").isVouchedFor());
+  EXPECT_FALSE(pulled("geometry: line, gravity: -1e20", held, "1").isCertified());
+  EXPECT_TRUE(pulled("geometry: line, gravity: -9.81", held, "1000").isCertified());
 }
 
 }  // namespace

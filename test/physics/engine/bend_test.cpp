@@ -242,14 +242,14 @@ TEST(BendTest, ALargePlateHasConstantCoefficientsInside) {
   EXPECT_THAT(describeBlock(blocks[0]), testing::HasSubstr("6 diagonals"));
 }
 
-TEST(BendTest, TheBooksBalanceAndLossesAreTold) {
+TEST(BendTest, TheEnergyBalancesAndLossesAreTold) {
   for (const char* keys : {"", ", damping: 0.02", ", damping: 0.02*$p, rest_length: 1e-3"}) {
     Bars bars(0.1, keys);
     bars.displacements = bentAt(20);
     Player player(settledSceneOf(bars.bar(20, Edge::kClamped, Edge::kFree)), kRates);
     EXPECT_LT(imbalanceOf(player, 8000, 97), 1e-10) << keys;
-    const Energies books = energiesOf(player);
-    EXPECT_EQ(books.sections[0].dissipated > 0.0, *keys != '\0') << keys;
+    const Energies energies = energiesOf(player);
+    EXPECT_EQ(energies.sections[0].dissipated > 0.0, *keys != '\0') << keys;
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The books across rates: what hold and mean make has an entry of its own, and the balance fails
-// where a coupling does not hold what its positions say.
+// The energy accounts across rates: what hold and mean make has an entry of its own, and the
+// balance fails where a coupling does not hold what its positions say.
 #include <numeric>
 
 #include "support/physics.hpp"

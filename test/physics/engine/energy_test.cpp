@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The books balance to rounding, whatever moves.
+// The energy accounts balance to rounding, whatever moves.
 
 #include "support/physics.hpp"
 

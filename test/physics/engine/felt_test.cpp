@@ -239,7 +239,8 @@ TEST(FeltTest, MomentumIsKeptInEveryGeometryAndBetweenThem) {
   }
 }
 
-/// A ball that bounces while all that the felt is turns: the books know whose work that was.
+/// A ball that bounces while all that the felt is turns: the energy accounts know whose work that
+/// was.
 TEST(FeltTest, ItsNumbersMayMoveWhileItPlays) {
   SceneBuilder b;
   for (const char* name : {"k", "a", "c"}) {

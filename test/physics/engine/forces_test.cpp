@@ -198,7 +198,7 @@ TEST(LiveParameterTest, MassMediumAndGainsFollow) {
   EXPECT_NEAR(player.heard[1].back(), 8.0 * once * once, 1e-15);
 }
 
-TEST(LiveParameterTest, WorkOfAChangeIsBookedInJoules) {
+TEST(LiveParameterTest, WorkOfAChangeIsCountedInJoules) {
   for (const double unit : {1.0, 1.0 / kRate}) {
     Live b;
     b.scene.time_unit_s = unit;

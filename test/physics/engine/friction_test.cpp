@@ -221,7 +221,7 @@ lias:
   brake: {type: friction, between: [n.5, pole], normal: 0.5*$p, steady: 0.2}
   again: {type: friction, between: [n.5, n.6], normal: 0.2, table: [[0, 1], [0.1, 0.4], [2, 0.5]]}
   turn: {type: friction, between: [wheel, n.3], normal: $p, steady: 0.3, parts: [[0.5, 0.1]]}
-  hang: {type: friction, between: [n.9, slow], normal: 0.3, steady: 0.3, scheme: guarded}
+  hang: {type: friction, between: [n.9, slow], normal: 0.3, steady: 0.3, scheme: energy_stable}
 inputs: {wheel: {mat: wheel, quantity: position, channel: 1, gain: 1e-4}}
 outputs: {v: {at: n.4, quantity: velocity, channel: 1}}
 )";
@@ -259,7 +259,7 @@ TEST(FrictionTest, BalancesInEveryGeometryAndAcrossRates) {
   }
 }
 
-TEST(FrictionTest, ChangesNoBitWithoutBooksAndGoesOnFromWhereItWasSaved) {
+TEST(FrictionTest, ChangesNoBitWithoutEnergiesAndGoesOnFromWhereItWasSaved) {
   for (const char* geometry : {"scalar", "space"}) {
     const scene::Scene settled = settle(rubbedNet(geometry), kRates).scene;
     CompileOptions plain(Precision::kDouble);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Membranes and plates that harden: how far the pitch of mode 1 rises, and what is vouched for.
+// Membranes and plates that harden: how far the pitch of mode 1 rises, and what is certified.
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
 #include "support/physics.hpp"

@@ -183,7 +183,7 @@ TEST(InstrumentThreadsTest, RandomScenesSideBySidePlayTheSameBits) {
   }
 }
 
-TEST(InstrumentThreadsTest, BooksOfEnergyCloseAcrossGroups) {
+TEST(InstrumentThreadsTest, EnergyBalancesAcrossGroups) {
   const scene::Scene scene = Orchestra(6).scene();
   for (const int ratio : {1, 4, 14}) {
     SCOPED_TRACE(ratio);
@@ -204,7 +204,7 @@ TEST(InstrumentThreadsTest, BooksOfEnergyCloseAcrossGroups) {
   }
 }
 
-/// Free sections that nothing outside moves, with a slow mass that all of them hang on.
+/// Free sections that nothing outside moves, with a slow mass that all of them are attached to.
 scene::Scene heavyPair() {
   SceneBuilder b;
   const int slow = b.mass(0.5, 0.0, 0.1, SceneBuilder::kGestural);

@@ -99,9 +99,9 @@ lias:
   bow: {type: bow, between: [key, cell], table: [[-1, 0], [-0.1, -1], [0.1, 1], [1, 0]],
         scheme: explicit}
   guarded_pluck: {type: pluck, between: [key, cell], table: [[-1e-3, 0], [0, 1], [1e-3, 0]],
-                  scheme: guarded}
+                  scheme: energy_stable}
   guarded_bow: {type: bow, between: [key, cell], table: [[-1, 0], [-0.1, -1], [0.1, 1], [1, 0]],
-                scheme: guarded}
+                scheme: energy_stable}
 ports: {key: {mat: key, slice: 0}}
 )";
 

@@ -78,7 +78,7 @@ Played play(const SceneBuilder& b, double seconds, Precision precision) {
   return played;
 }
 
-/// Plays what is vouched for: it holds what it was given and what moving may bring, no more.
+/// Plays what is certified: it holds what it was given and what moving may bring, no more.
 void expectHeld(const SceneBuilder& b, double seconds) {
   ASSERT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
   for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
@@ -108,7 +108,7 @@ TEST(MovingPointsTest, WithoutLossItGrowsByWhatItMay) {
 TEST(MovingPointsTest, OscillatorThatLeadsAPlacePumpsNoMoreThanItMay) {
   expectHeld(shaken(1e-3), 2.0);
   expectHeld(shaken(1.0), 2.0);
-  // With all the power in the world it would, and is not vouched for.
+  // With all the power in the world it would, and is not certified.
   const Plucked unlimited = shaken(1e30);
   const Played played = play(unlimited, 2.0, Precision::kDouble);
   EXPECT_GT(played.most, 1e12 * played.start);

@@ -216,15 +216,15 @@ TEST_P(NotFiniteLawTest, IsSeenInEveryLaw) {
     expectSafe(sceneOfLink(GetParam().fields, "explicit", geometry),
                std::string(geometry) + " explicit");
     if (GetParam().guardable) {
-      expectSafe(sceneOfLink(GetParam().fields, "guarded", geometry),
-                 std::string(geometry) + " guarded");
+      expectSafe(sceneOfLink(GetParam().fields, "energy_stable", geometry),
+                 std::string(geometry) + " energy_stable");
     }
   }
 }
 INSTANTIATE_TEST_SUITE_P(Laws, NotFiniteLawTest, testing::ValuesIn(kLaws));
 
 TEST(NotFiniteTest, IsSeenInPointsThatAreGuided) {
-  for (const char* scheme : {"explicit", "guarded"}) {
+  for (const char* scheme : {"explicit", "energy_stable"}) {
     expectSafe(scene::readYaml(
                    sceneText("scalar",
                              "generators:\n"

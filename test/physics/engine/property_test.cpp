@@ -163,25 +163,25 @@ TEST(RandomSceneTest, ScenesAreOfAllKinds) {
   unsigned two_rates = 0;
   unsigned nonlinear = 0;
   unsigned near_limit = 0;
-  unsigned vouched = 0;
-  unsigned vouched_near = 0;
+  unsigned certified = 0;
+  unsigned certified_near = 0;
   for (unsigned seed = 0; seed < kCounted; ++seed) {
     const RandomScene random = test::randomScene(seed);
     EXPECT_GE(random.scene.mats.size(), 20u) << "seed " << seed;
     const Settled settled = settle(random.scene, random.rates);
     const Verdict verdict = certify(settled.scene, random.rates).verdict;
-    const bool is_vouched = verdict == Verdict::kPassive || verdict == Verdict::kBounded;
+    const bool is_certified = verdict == Verdict::kPassive || verdict == Verdict::kBounded;
     two_rates += random.has_two_rates ? 1 : 0;
     nonlinear += random.is_nonlinear ? 1 : 0;
     near_limit += random.is_near_limit ? 1 : 0;
-    vouched += is_vouched ? 1 : 0;
-    vouched_near += is_vouched && random.is_near_limit ? 1 : 0;
+    certified += is_certified ? 1 : 0;
+    certified_near += is_certified && random.is_near_limit ? 1 : 0;
   }
   EXPECT_GT(two_rates, kCounted / 2);
   EXPECT_GT(nonlinear, 9 * kCounted / 20);
   EXPECT_GT(near_limit, 3 * kCounted / 10);
-  EXPECT_GT(vouched, 2 * kCounted / 5);
-  EXPECT_GT(vouched_near, kCounted / 10);
+  EXPECT_GT(certified, 2 * kCounted / 5);
+  EXPECT_GT(certified_near, kCounted / 10);
 }
 
 }  // namespace

@@ -134,8 +134,8 @@ TEST(RelaxingTest, EachCycleLosesPiEtaKOfTheAmplitudeSquared) {
   }
 }
 
-/// The equations by themselves; then what they store, to rounding, is what the books say.
-TEST(RelaxingTest, ItsMemoryIsThatOfTheEquationsAndTheBooksKnowWhatIsInIt) {
+/// The equations by themselves; then what they store, to rounding, is what the energy accounts say.
+TEST(RelaxingTest, ItsMemoryIsThatOfTheEquationsAndTheEnergyAccountsKnowWhatIsInIt) {
   constexpr double kMass = 0.01;
   const std::vector<Relaxation> branches{{{300.0}, 2e-3}, {{900.0}, 1e-4}, {{4000.0}, 1e-5}};
   SceneBuilder b;
@@ -169,9 +169,9 @@ TEST(RelaxingTest, ItsMemoryIsThatOfTheEquationsAndTheBooksKnowWhatIsInIt) {
     lost += 0.5 * d * 0.05 * (d + v_last) / kStep;
     v_last = d;
     player.tick();
-    const Energies books = energiesOf(player);
-    ASSERT_NEAR(books.sections[0].potential, stored, 1e-12 * 2e-3) << n;
-    ASSERT_NEAR(books.sections[0].dissipated, lost, 1e-12 * 2e-3) << n;
+    const Energies energies = energiesOf(player);
+    ASSERT_NEAR(energies.sections[0].potential, stored, 1e-12 * 2e-3) << n;
+    ASSERT_NEAR(energies.sections[0].dissipated, lost, 1e-12 * 2e-3) << n;
   }
   EXPECT_GT(lost, 1e-4);
 }
@@ -217,22 +217,22 @@ unsigned nets() {
   return asked == nullptr ? 2000 : static_cast<unsigned>(std::strtoul(asked, nullptr, 10));
 }
 
-/// The books count no energy in dampers, which by these sums store some.
+/// The energy accounts count no energy in dampers, which by these sums store some.
 TEST(RelaxingTest, NoRandomNetBelowTheLimitEverHasMoreEnergyThanBefore) {
   for (unsigned seed = 0; seed < nets(); ++seed) {
     const scene::Scene scene = atTheLimit(randomNet(seed, 0.0), 0.999);
     ASSERT_EQ(certify(scene, kEveryFrame).verdict, Verdict::kPassive) << seed;
     Player player(scene, kEveryFrame);
     player.tick();
-    Energies books = energiesOf(player);
-    const double start = books.stored;
+    Energies energies = energiesOf(player);
+    const double start = energies.stored;
     double stored = start;
     for (int n = 0; n < 300; ++n) {
       player.tick();
-      player.instrument->readEnergies(books);
-      ASSERT_LE(books.stored, stored + 1e-11 * start) << seed << ", frame " << n;
-      ASSERT_LT(std::abs(books.residual), 1e-10 * start) << seed << ", frame " << n;
-      stored = books.stored;
+      player.instrument->readEnergies(energies);
+      ASSERT_LE(energies.stored, stored + 1e-11 * start) << seed << ", frame " << n;
+      ASSERT_LT(std::abs(energies.residual), 1e-10 * start) << seed << ", frame " << n;
+      stored = energies.stored;
     }
   }
 }

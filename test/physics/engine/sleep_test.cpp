@@ -57,7 +57,7 @@ TEST(SleeperTest, RestsBelowItsLimitAndWakesWhenStruck) {
   }
 }
 
-TEST(SleeperTest, BooksWhatItForgetsAsDissipated) {
+TEST(SleeperTest, CountsWhatItForgetsAsDissipated) {
   Player player(struckTwice(1e-8), {44100.0, 14});
   player.ticks(1000);
   const Energies e = energiesOf(player);

@@ -162,8 +162,8 @@ TEST(StringTest, PitchThatIsToldIsWhatTheInstrumentPlaysInEveryGeometry) {
       {"geometry: plane", "frequency: 880, rest_length_ratio: 0.7, loss: 0.01", "[1, 0]", "y"},
       {"geometry: plane, medium: 0.02", "stiffness: 1e4, rest_length_ratio: 0.5", "[1, 0]", "y"},
       {"geometry: space", "frequency: 880, rest_length_ratio: 0.7", "[1, 0, 0]", "z"},
-      {"geometry: plane", "frequency: 870, rest_length_ratio: 0.35, scheme: guarded", "[1, 0]",
-       "y"},
+      {"geometry: plane", "frequency: 870, rest_length_ratio: 0.35, scheme: energy_stable",
+       "[1, 0]", "y"},
   };
   for (const auto& each : kCases) {
     const Rates rates;
@@ -188,7 +188,7 @@ TEST(StringTest, GuardedStringsAreInTune) {
     const Settled settled =
         settle(scene::readYaml(
                    "ergotic: 1\nsections: {a: {geometry: plane}}\ngenerators: [{type: string, "
-                   "name: s, masses: 20, mass: 1e-4, scheme: guarded, to: [0.65, 0], "
+                   "name: s, masses: 20, mass: 1e-4, scheme: energy_stable, to: [0.65, 0], "
                    "rest_length_ratio: 0.9, frequency: " +
                        std::string(frequency) +
                        "}]\noutputs: {o: {at: s.10, quantity: position, channel: 1, axis: y}}\n",

@@ -153,7 +153,7 @@ TEST(TanksTest, KeepEnergyHoweverHardTheyAre) {
 /// Guarded links on the same modules are worked out as if the tank did not answer.
 TEST(TanksTest, NeitherTheyNorTheGuardedLinksOnTheirModulesMakeEnergy) {
   const std::string more =
-      "  hit: {type: contact, between: [m3, g], stiffness: 3e5, scheme: guarded}\n"
+      "  hit: {type: contact, between: [m3, g], stiffness: 3e5, scheme: energy_stable}\n"
       "  felt: {type: felt, between: [m7, m2], stiffness: 1e7, exponent: 2, damping: 0.3}\n"
       "  rub: {type: friction, between: [m5, m4], normal: 20, steady: 0.2, parts: [[0.6, 0.1]]}\n"
       "  own: {type: cubic, between: [m1, g], stiffness: 0, nonlinearity: 1e10}\n";
@@ -185,7 +185,7 @@ TEST(TanksTest, AreCubicSpringsWhereStepsAreShort) {
   EXPECT_NEAR(coarse / fine, 4.0, 0.5);  // of second order
 }
 
-TEST(TanksTest, ChangeNoBitWithoutBooksOrWithThreadsAndGoOnFromWhereTheyWereSaved) {
+TEST(TanksTest, ChangeNoBitWithoutEnergiesOrWithThreadsAndGoOnFromWhereTheyWereSaved) {
   for (const char* keys : {", tank: net", ", tank: net, rest_length: 1e-4"}) {
     scene::Scene scene = net(3.0, 1e11, keys);
     scene.outputs.push_back({});
@@ -211,7 +211,7 @@ TEST(TanksTest, ChangeNoBitWithoutBooksOrWithThreadsAndGoOnFromWhereTheyWereSave
   }
 }
 
-TEST(TanksTest, KnobsThatTurnThemAreInTheBooks) {
+TEST(TanksTest, KnobsThatTurnThemAreInTheEnergyAccounts) {
   scene::Scene scene = sceneOf(R"(
 parameters: {hard: {value: 10, range: [0, 1000]}}
 sections: {a: {}}

@@ -141,7 +141,7 @@ scene::Scene tangle(Geometry geometry, unsigned seed) {
 }
 
 /// What a tap gives and takes is given and taken by its modules.
-TEST(TapTest, BooksBalanceAndGuardedLinksThatShareModulesMakeNothing) {
+TEST(TapTest, EnergyBalancesAndGuardedLinksThatShareModulesMakeNothing) {
   for (const Geometry geometry :
        {Geometry::kScalar, Geometry::kLine, Geometry::kPlane, Geometry::kSpace}) {
     for (unsigned seed = 0; seed < 6; ++seed) {
@@ -179,7 +179,7 @@ TEST(TapTest, ComesBackToWhereItsStateWasSaved) {
 }
 
 /// Forces on taps cross rates, geometries and frames as those on modules do.
-TEST(TapTest, BooksBalanceAcrossRatesAndGeometries) {
+TEST(TapTest, EnergyBalancesAcrossRatesAndGeometries) {
   SceneBuilder b;
   b.scene.sections[0].geometry = Geometry::kPlane;
   b.scene.sections[0].pose.rotate(Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ()));

@@ -22,7 +22,7 @@ scene::Scene sceneIncluding(const std::string& files, const std::string& text) {
                          test::repository("models/techniques_test.yaml"));
 }
 
-bool isVouchedFor(const scene::Scene& open) {
+bool isCertified(const scene::Scene& open) {
   const Verdict verdict = certify(settle(open, kRates).scene, kRates).verdict;
   return verdict == Verdict::kPassive || verdict == Verdict::kBounded;
 }
@@ -49,7 +49,7 @@ TEST(TechniquesTest, AHammerIsInContactAsLongAsItsFeltSays) {
                                   "mm, return: 0, hysteresis: 0, speed: " +
                                   std::to_string(speed) + ", exponent: " + std::to_string(p) +
                                   ", stiffness: " + std::to_string(stiffness) + "}}]\n");
-      EXPECT_TRUE(isVouchedFor(scene));
+      EXPECT_TRUE(isCertified(scene));
       Player player(scene, kRates);
       player.ticks(150);
       const std::vector<double>& heard = player.heard[0];
@@ -90,7 +90,7 @@ TEST(TechniquesTest, APlectrumLetsGoAtItsForce) {
                                 "use: [{is: plectrum, as: p, in: {keys: k}, with: {on: wall, rest: "
                                 "-5 mm, force: " +
                                 std::to_string(force) + "}}]\n");
-    EXPECT_TRUE(isVouchedFor(scene));
+    EXPECT_TRUE(isCertified(scene));
     const std::vector<double> felt = feltOver(scene, 0.03, 6000);
     const auto least = *std::min_element(felt.begin(), felt.end());
     const auto most = *std::max_element(felt.begin(), felt.end());
@@ -116,7 +116,7 @@ TEST(TechniquesTest, ADamperTakesEachPartialAsItsPlaceSays) {
         "impedance: 0.3}]\nuse: [{is: damper, as: d, in: {s: a}, with: {string: s, t60: 1 s, "
         "mass: " +
             std::to_string(mass) + ", " + one.keys + "}}]\n");
-    EXPECT_TRUE(isVouchedFor(open));
+    EXPECT_TRUE(isCertified(open));
     const scene::Scene scene = settle(open, kRates).scene;
     const int tuned = std::string(one.keys).find("partial") == std::string::npos ? 1 : 2;
     const auto share = [&](int j) {
@@ -140,7 +140,7 @@ TEST(TechniquesTest, AClockPlucksOnTheRootsOfItsSwing) {
       "lib/clocks.yaml", std::string(kWall) + kPush +
                              "use: [{is: clock, as: c, in: {s: a}, with: {on: wall, period: "
                              "0.3 s}}]\n");
-  EXPECT_TRUE(isVouchedFor(scene));
+  EXPECT_TRUE(isCertified(scene));
   Player player(scene, kRates);
   player.ticks(9500);  // 3 s
   const std::vector<double>& heard = player.heard[0];
@@ -162,7 +162,7 @@ TEST(TechniquesTest, AKeyWeighsWhatItSays) {
   const scene::Scene scene =
       sceneIncluding("lib/keys.yaml, lib/mallets.yaml",
                      "use: [{is: weighted_key, as: key, in: {s: a, keys: k}}]\n");
-  EXPECT_TRUE(isVouchedFor(scene));
+  EXPECT_TRUE(isCertified(scene));
   constexpr double kWay = 0.0115;
   constexpr int kTicks = 30000;
   const std::vector<double> felt = feltOver(scene, kWay, kTicks);
@@ -181,7 +181,7 @@ TEST(TechniquesTest, AKeyThrowsItsHammerWhichComesBack) {
       "lib/mallets.yaml, lib/keys.yaml",
       std::string(kWall) + kPush +
           "use: [{is: hammer_key, as: key, in: {s: a, keys: k}, with: {on: wall}}]\n");
-  EXPECT_TRUE(isVouchedFor(scene));
+  EXPECT_TRUE(isCertified(scene));
   Player player(scene, kRates);
   const auto blows = [&](double ticks_down) {
     const std::size_t begin = player.heard[0].size();
@@ -206,7 +206,7 @@ TEST(TechniquesTest, RainFallsFromItsHeights) {
       "generators: [{type: membrane, name: skin, section: a, cells: 8, mass: 0.05, pitch: 100}]\n"
       "outputs: {o: {at: 'skin@0.5:0.5', quantity: velocity, channel: 1}}\n"
       "use: [{is: rain, as: r, in: {air: air}, with: {on: skin, n: 1, height: 0.2 m, seed: 3}}]\n");
-  EXPECT_TRUE(isVouchedFor(scene));
+  EXPECT_TRUE(isCertified(scene));
   double height = 0.0;
   for (const scene::Mat& mat : scene.mats) {
     height = mat.name == "r.ball_0" ? mat.position.x() : height;
@@ -236,7 +236,7 @@ TEST(TechniquesTest, BowsBringAStringToItsPitch) {
              "width: 0.02}}",
              0.0033}}) {
     const scene::Scene scene = sceneIncluding("lib/bows.yaml", string + "use: [" + one.use + "]\n");
-    EXPECT_TRUE(isVouchedFor(scene)) << one.use;
+    EXPECT_TRUE(isCertified(scene)) << one.use;
     Player player(scene, kRates);
     for (int n = 0; n < 6000; ++n) {
       // 0.1 m/s of the bow, 0.02 m/s of the hand.
@@ -259,8 +259,8 @@ TEST(TechniquesTest, TheRestCanBePlayedToo) {
                                 "{is: touch_key, as: b, in: {keys: k}, with: {on: s@0.3}}",
                                 "{is: finger, as: b, in: {s: a, keys: k}, with: {on: s@0.3}}",
                                 "{is: mallet, as: b, in: {s: a, keys: k}}"}) {
-    EXPECT_TRUE(isVouchedFor(sceneIncluding("lib/mallets.yaml, lib/plectra.yaml, lib/keys.yaml",
-                                            string + "use: [" + use + "]\n")))
+    EXPECT_TRUE(isCertified(sceneIncluding("lib/mallets.yaml, lib/plectra.yaml, lib/keys.yaml",
+                                           string + "use: [" + use + "]\n")))
         << use;
   }
 }

@@ -126,7 +126,7 @@ class Temptation : public SceneBuilder {
   double mass_ = logarithmic(random_, 1e-5, 1e-2);
 };
 
-/// The most that was stored over what may be, J/J; 0 if it is not vouched for.
+/// The most that was stored over what may be, J/J; 0 if it is not certified.
 double tempt(unsigned seed, bool of_nets) {
   std::mt19937 random(seed);
   const double power = logarithmic(random, 1e-5, 1.0);
@@ -157,16 +157,16 @@ double tempt(unsigned seed, bool of_nets) {
   return worst;
 }
 
-TEST(MovingPointsTest, NothingThatIsVouchedForIsPumpedUp) {
+TEST(MovingPointsTest, NothingThatIsCertifiedIsPumpedUp) {
   for (const bool of_nets : {false, true}) {
     const unsigned scenes = of_nets ? 300 : 1000;
-    int vouched = 0;
+    int certified = 0;
     for (unsigned seed = 0; seed < scenes; ++seed) {
       const double worst = tempt(seed, of_nets);
-      vouched += worst > 0.0 ? 1 : 0;
+      certified += worst > 0.0 ? 1 : 0;
       EXPECT_LT(worst, kBeyond) << "seed " << seed << (of_nets ? " of nets" : "");
     }
-    EXPECT_GT(vouched, 0.9 * scenes);
+    EXPECT_GT(certified, 0.9 * scenes);
   }
 }
 

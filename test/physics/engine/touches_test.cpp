@@ -202,7 +202,7 @@ scene::Scene strings() {
   return b.scene;
 }
 
-TEST(TouchesTest, BooksWhatTheHandsDo) {
+TEST(TouchesTest, CountsWhatTheHandsDo) {
   SceneBuilder b;
   const int first = b.chain(24, 1e-3, 900.0, 1e-2);
   const int second = b.chain(24, 1e-3, 900.0, 1e-2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Without books of energy an instrument plays the same, and knows what positions alone tell.
+// Without energy accounts an instrument plays the same, and knows what positions alone tell.
 #include <cstring>
 
 #include "support/physics.hpp"
@@ -56,7 +56,7 @@ void expectSameMotion(Player& one, Player& other, int ticks) {
 
 /// A net that hangs in the plane or in space, on rows of its own and on links across them, over
 /// stops that some of it lies on, with gravity.
-SceneBuilder hangingNet(Geometry geometry) {
+SceneBuilder attachedNet(Geometry geometry) {
   constexpr int kRows = 7;
   constexpr int kColumns = 21;
   SceneBuilder b;
@@ -85,7 +85,7 @@ SceneBuilder hangingNet(Geometry geometry) {
 
 class UnmeteredTest : public testing::TestWithParam<Precision> {};
 
-TEST_P(UnmeteredTest, RandomScenesMoveBitForBitAsWithBooks) {
+TEST_P(UnmeteredTest, RandomScenesMoveBitForBitAsWithEnergies) {
   for (unsigned seed = 0; seed < kComparedScenes; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const test::RandomScene random = test::randomScene(seed);
@@ -96,9 +96,9 @@ TEST_P(UnmeteredTest, RandomScenesMoveBitForBitAsWithBooks) {
   }
 }
 
-TEST_P(UnmeteredTest, NetsMoveBitForBitAsWithBooksAndOnEveryLevel) {
+TEST_P(UnmeteredTest, NetsMoveBitForBitAsWithEnergiesAndOnEveryLevel) {
   for (const Geometry geometry : {Geometry::kLine, Geometry::kPlane, Geometry::kSpace}) {
-    SceneBuilder b = hangingNet(geometry);
+    SceneBuilder b = attachedNet(geometry);
     const Rates rates{kRate, 7};
     for (const rt::Isa isa : {rt::Isa::kBaseline, rt::Isa::kAvx2, rt::Isa::kAvx512}) {
       if (isa > rt::bestIsa()) {
@@ -129,13 +129,13 @@ TEST(UnmeteredEnergyTest, PositionsTellKineticEnergyGravityAndSprings) {
     Player without = playerOf(b.scene, Rates{kRate, 4}, false, Precision::kDouble);
     with.ticks(20);
     without.ticks(20);
-    const Energies booked = energiesOf(with);
+    const Energies counted = energiesOf(with);
     const Energies told = energiesOf(without);
-    EXPECT_EQ(told.sections[0].kinetic, booked.sections[0].kinetic);
-    // In space the books begin with half the work of the first step.
-    EXPECT_NEAR(told.sections[0].potential, booked.sections[0].potential,
-                geometry == Geometry::kScalar ? 0.0 : 1e-3 * booked.sections[0].potential);
-    EXPECT_GT(booked.sections[0].dissipated, 0.0);
+    EXPECT_EQ(told.sections[0].kinetic, counted.sections[0].kinetic);
+    // In space the energy accounts begin with half the work of the first step.
+    EXPECT_NEAR(told.sections[0].potential, counted.sections[0].potential,
+                geometry == Geometry::kScalar ? 0.0 : 1e-3 * counted.sections[0].potential);
+    EXPECT_GT(counted.sections[0].dissipated, 0.0);
     EXPECT_EQ(told.sections[0].dissipated, 0.0);
     EXPECT_EQ(told.stored, told.sections[0].kinetic + told.sections[0].potential);
     EXPECT_EQ(told.residual, 0.0);

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Strings and bars that ask for a pitch and decays: against closed forms, the poles of the settled
 // equations, and what is heard.
-#include "physics/settling/body_tuning.hpp"
-
 #include <functional>
 
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/physics/settling/settle.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
+#include "physics/settling/steps.hpp"
 #include "scene/generate/bar.hpp"
 #include "support/body_poles.hpp"
 #include "support/measure.hpp"
@@ -85,7 +84,7 @@ TEST(BodyTuningTest, PartialsOfStiffStringsLieWhereTheirInharmonicityPutsThem) {
 }
 
 /// The places where a bar of equal masses swings, lambda = kappa chainEigenvalue(t)^2: roots of the
-/// equations of docs/physics.md, Bars and plates, with its lengths a and b.
+/// equations of docs/physics/bodies.md, Bars and plates, with its lengths a and b.
 std::vector<double> rootsOfBar(double a, double b, int count) {
   std::vector<double> roots;
   for (int j = 0; j < count; ++j) {
@@ -175,7 +174,7 @@ Played play(scene::Scene scene, int index, double guess_hz, double rate_hz, Prec
 TEST(BodyTuningTest, StringsAndBarsSoundAndDecayAsAskedFromA0ToC8) {
   for (const double rate_hz : {44100.0, 48000.0, 96000.0}) {
     for (const double hz : {27.5, 110.0, 440.0, 1760.0, 4186.0}) {
-      // The most masses that have room there, see docs/physics.md.
+      // The most masses that have room there, see docs/physics/bodies.md.
       const int bar = std::min(30, static_cast<int>(std::sqrt(5.0 / std::sin(kPi * hz / rate_hz))));
       const int hinged =
           std::min(30, static_cast<int>(std::sqrt(2.4 / std::sin(kPi * hz / rate_hz))) - 1);

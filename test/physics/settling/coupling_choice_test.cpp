@@ -37,7 +37,7 @@ Chosen chosenFor(const SceneBuilder& b, const Rates& rates = kRates) {
   return chosen;
 }
 
-TEST(CouplingChoiceTest, WhatAHandBearsGlides) {
+TEST(CouplingChoiceTest, WhatAHandBearsIsInterpolated) {
   const Chosen chosen = chosenFor(touched(60.0, Coupling::kAuto));
   EXPECT_EQ(chosen.coupling, Coupling::kSmooth);
   EXPECT_EQ(chosen.chaplets, 0U);
@@ -60,12 +60,12 @@ TEST(CouplingChoiceTest, WhatItBearsOnlyHeldIsHeld) {
                                            HasSubstr("it may buzz"))));
 }
 
-TEST(CouplingChoiceTest, WhatHangsOnAHandForGoodIsNotDampedByAChaplet) {
+TEST(CouplingChoiceTest, WhatIsAttachedToAHandForGoodIsNotDampedByAChaplet) {
   const Chosen chosen = chosenFor(touched(300.0, Coupling::kAuto));
   EXPECT_EQ(chosen.chaplets, 0U);
   EXPECT_THAT(chosen.notes,
               Contains(AllOf(HasSubstr("gets coupling "), HasSubstr("; chaplet: steps of 0.0288 %"),
-                             HasSubstr("it damps what hangs there"))));
+                             HasSubstr("it damps what is attached there"))));
   SceneBuilder b = touched(300.0, Coupling::kAuto);
   b.scene.lias.back().type = scene::LiaType::kContact;
   EXPECT_THAT(chosenFor(b).notes, Not(Contains(HasSubstr("it damps"))));

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/settling/filters.hpp"
-
 #include "ergotic/physics/settling/chaplet.hpp"
 #include "physics/settling/chaplet_load.hpp"
+#include "physics/settling/steps.hpp"
 #include "support/physics.hpp"
 
 namespace ergotic::physics {
@@ -45,7 +44,7 @@ TEST(LinearNetworkTest, InsideOfAStringIsTwiceItsWaveImpedance) {
   EXPECT_FALSE(network.moves(string));
 }
 
-TEST(LinearNetworkTest, EndOfAHangingChainIsItsWaveImpedance) {
+TEST(LinearNetworkTest, EndOfAFreeChainIsItsWaveImpedance) {
   SceneBuilder b;
   const int end = b.mass(1e-4);
   const int next = b.mass(1e-4);
@@ -121,7 +120,7 @@ TEST(LinearNetworkTest, HighestModeIsBoundedTightly) {
   EXPECT_EQ(LinearNetwork(Network(b.scene), SceneBuilder::kAudio).highestModeAt(lone), 0.0);
 }
 
-TEST(FiltersTest, ChapletHangsBetweenTheHandAndTheLink) {
+TEST(FiltersTest, ChapletStandsBetweenTheHandAndTheLink) {
   FilteredString b;
   b.scene.mats[at(b.hand)].rest.x() = -0.01;
   b.scene.mats[at(b.hand)].position.x() = -0.02;

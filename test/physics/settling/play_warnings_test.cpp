@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/settling/play_warnings.hpp"
-
 #include "ergotic/physics/settling/settle.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
+#include "physics/settling/steps.hpp"
 #include "support/documents.hpp"
 #include "support/test.hpp"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/settling/scheme_choice.hpp"
-
 #include "ergotic/physics/settling/settle.hpp"
+#include "physics/settling/steps.hpp"
 #include "support/physics.hpp"
 
 namespace ergotic::physics {
@@ -43,7 +42,7 @@ TEST(SchemeChoiceTest, ContactsAreGuarded) {
   EXPECT_EQ(pair.scheme(), Scheme::kGuarded);
   ASSERT_EQ(pair.settled().notes.size(), 1U);
   EXPECT_EQ(pair.settled().notes[0],
-            "built.yaml:100:1: note: link 'l0': guarded, so that it cannot gain energy "
+            "built.yaml:100:1: note: link 'l0': energy-stable, so that it cannot gain energy "
             "(h^2 K (1/Ma + 1/Mb) = 0.0501; the explicit scheme is stable up to 0)");
 }
 
@@ -216,7 +215,7 @@ TEST(SchemeChoiceTest, LinksOfOnePlaceAreSaidOnce) {
   }
   const Settled settled = settle(b.scene, kRates);
   ASSERT_EQ(settled.notes.size(), 1U);
-  EXPECT_THAT(settled.notes[0], HasSubstr(":7:3: note: link 'l0' and 19 more: guarded"));
+  EXPECT_THAT(settled.notes[0], HasSubstr(":7:3: note: link 'l0' and 19 more: energy-stable"));
   EXPECT_THAT(settled.notes[0], HasSubstr("= 0.29;"));
 }
 
@@ -249,7 +248,7 @@ TEST(SchemeChoiceTest, LinksThatAreExplicitIfStableAreGuardedOnlyIfTheyAreTooSti
   pair.lia().stiffness = stiff(40.0);
   EXPECT_EQ(pair.scheme(), Scheme::kGuarded);
   EXPECT_THAT(pair.settled().notes.at(0),
-              AllOf(HasSubstr("link 'l0': guarded (h^2 K"), HasSubstr(" = 40, "),
+              AllOf(HasSubstr("link 'l0': energy-stable (h^2 K"), HasSubstr(" = 40, "),
                     HasSubstr("does not sound as programs do that play it explicitly")));
   EXPECT_EQ(certify(pair.settled().scene, kRates).verdict, Verdict::kPassive);
 }

@@ -2,8 +2,8 @@
 #include "ergotic/physics/settling/settle.hpp"
 
 #include "ergotic/physics/certificate/certify.hpp"
-#include "physics/settling/automatic_rate.hpp"
 #include "physics/settling/pitch_pull.hpp"
+#include "physics/settling/steps.hpp"
 #include "support/measure.hpp"
 #include "support/physics.hpp"
 

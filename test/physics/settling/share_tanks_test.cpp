@@ -97,7 +97,7 @@ TEST(ShareTanksTest, HardeningLinksOfOneBodyShareATank) {
 }
 
 TEST(ShareTanksTest, WhatTheUserChoseStaysAsItIs) {
-  EXPECT_EQ(tanksIn(hardString(", stiffness: 0, scheme: guarded")), 0);
+  EXPECT_EQ(tanksIn(hardString(", stiffness: 0, scheme: energy_stable")), 0);
   EXPECT_EQ(tanksIn(hardString(", stiffness: 0, scheme: explicit")), 0);
   EXPECT_EQ(tanksIn(hardString(", stiffness: 0, tank: mine")), 1);
 }
@@ -136,7 +136,7 @@ TEST(ShareTanksTest, AHammerInAHandGivesAsMuchAsAtFourTimesTheRate) {
   const Blow right =
       blow(hardString(", stiffness: 0, scheme: explicit", ", scheme: explicit"), 4.0 * kRate);
   const Blow shared = blow(hardString(", stiffness: 0"), kRate);
-  const Blow one_by_one = blow(hardString(", stiffness: 0, scheme: guarded"), kRate);
+  const Blow one_by_one = blow(hardString(", stiffness: 0, scheme: energy_stable"), kRate);
   EXPECT_LT(std::abs(centsAbove(shared.hz, right.hz)), 3.0);
   EXPECT_GT(centsAbove(one_by_one.hz, right.hz), 4.0);
   EXPECT_NEAR(shared.loud / right.loud, 1.0, 0.06);

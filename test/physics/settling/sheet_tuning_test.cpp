@@ -126,7 +126,7 @@ TEST(SheetTuningTest, ClampedPlatesAreALittleLow) {
   expectRatios(found, {1.0, 73.41 / 35.99, 73.41 / 35.99, 108.27 / 35.99, 131.64 / 35.99}, 32.0);
 }
 
-TEST(SheetTuningTest, SheetsDecayAsAskedAndAreVouchedFor) {
+TEST(SheetTuningTest, SheetsDecayAsAskedAndAreCertified) {
   for (const std::string keys :
        {"type: membrane, cells: 8, pitch: 200, t60: [[1, 2], [6, 1.2]]",
         "type: membrane, shape: round, cells: 5, pitch: 200, t60: [[1, 2], [6, 1.2]]",

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/settling/split_springs.hpp"
-
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/physics/settling/settle.hpp"
+#include "physics/settling/steps.hpp"
 #include "support/physics.hpp"
 
 namespace ergotic::physics {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tables that push outwards or drive, and what holds them.
-#include "physics/settling/split_tables.hpp"
-
 #include <cmath>
 
 #include "ergotic/physics/certificate/certify.hpp"
+#include "physics/settling/steps.hpp"
 #include "support/physics.hpp"
 
 namespace ergotic::physics {
@@ -66,8 +65,8 @@ TEST(SplitTablesTest, WhatHasAFloorStaysWhole) {
   }
 }
 
-/// A mass that a constant force takes away is nothing to vouch for, and nothing to hold back.
-TEST(SplitTablesTest, WhatNothingHoldsIsNotVouchedFor) {
+/// A mass that a constant force takes away cannot be certified, and nothing holds it back.
+TEST(SplitTablesTest, WhatNothingHoldsIsNotCertified) {
   for (const double stiffness : {0.0, -1e-3, 1e-3}) {
     SceneBuilder b = held({}, kConstant);
     b.scene.lias[0].b = b.mass(1.0);
@@ -146,7 +145,7 @@ TEST(SplitTablesTest, WhatDrivesGrowsUnlessItIsBraked) {
   EXPECT_GT(speedWith(45.0), 10.0);
 }
 
-/// Not all that hangs together is braked.
+/// Not all that is joined is braked.
 TEST(SplitTablesTest, DamperOfANeighbourBrakesNothing) {
   SceneBuilder b = held({}, kDrive, 0.0, 0.0);
   b.spring(b.mass(1.0), 0, kHoldingStiffness);

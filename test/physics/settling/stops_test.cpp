@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Frets, barriers and bridges: pitches and decays against closed forms.
-#include "physics/settling/stops.hpp"
-
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/scene/generate/cut_string.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
+#include "physics/settling/steps.hpp"
 #include "support/body_poles.hpp"
 #include "support/measure.hpp"
 #include "support/physics.hpp"
@@ -52,7 +51,7 @@ TEST(StopsTest, FretsSoundTheirSemitones) {
   }
 }
 
-TEST(StopsTest, AreAsStiffAsTheRateBearsAndVouchedFor) {
+TEST(StopsTest, AreAsStiffAsTheRateBearsAndCertified) {
   const std::string text =
       "generators:\n"
       "  - {type: string, name: s, masses: 99, pitch: 98, impedance: 0.3, to: [0.65, 0]}\n"

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A string that asks for a frequency sounds there: at every rate, damped or not.
-#include "physics/settling/string_tuning.hpp"
-
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/scene/generate/pitch.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
+#include "physics/settling/steps.hpp"
 #include "support/measure.hpp"
 #include "support/physics.hpp"
 
@@ -95,7 +94,7 @@ std::vector<Wish> wishes() {
   for (const char* geometry : {"geometry: plane", "geometry: plane, medium: 0.01"}) {
     for (const char* stretched :
          {"", ", rest_length_ratio: 0.5", ", rest_length_ratio: 0.9, loss: 1e-2",
-          ", rest_length_ratio: 0.5, scheme: guarded"}) {
+          ", rest_length_ratio: 0.5, scheme: energy_stable"}) {
       all.push_back({1760.0, 3, "mass: 1e-4" + std::string(stretched), geometry});
     }
   }
@@ -161,8 +160,9 @@ void expectMost(const Wish& wish, int most) {
 TEST(StringTuningTest, RefusalsAdviseHowManyMassesWouldDo) {
   expectMost({4186.0, 20, "coarse: true, mass: 1e-4", ""}, 4);
   expectMost({1500.0, 20, "coarse: true, mass: 1e-4", ""}, 13);
-  expectMost({1760.0, 20, "mass: 1e-4, rest_length_ratio: 0.9, scheme: guarded", "geometry: line"},
-             5);
+  expectMost(
+      {1760.0, 20, "mass: 1e-4, rest_length_ratio: 0.9, scheme: energy_stable", "geometry: line"},
+      5);
   EXPECT_THAT(wishRefusal({9000.0, 20, "coarse: true, mass: 1e-4", ""}),
               HasSubstr("Use a higher rate or a lower frequency"));
   EXPECT_THAT(wishRefusal({23000.0, 1, "mass: 1e-4", ""}),

@@ -8,7 +8,7 @@ namespace {
 
 TEST(ModelLoaderTest, AnswersWhatPlaysWithWarningsAndWithoutNotes) {
   const std::string note =
-      "a.yaml:3:1: note: link 'pluck': guarded\na.yaml:5:1: warning: group 'a' begins twice";
+      "a.yaml:3:1: note: link 'pluck': energy-stable\na.yaml:5:1: warning: group 'a' begins twice";
   EXPECT_EQ(answerOn("a string", note, true),
             "plays 'a string'; call engage for force\n"
             "a.yaml:5:1: warning: group 'a' begins twice");

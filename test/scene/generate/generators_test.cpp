@@ -69,9 +69,9 @@ TEST(StringGeneratorTest, LinksWithARestLengthMayBeGuarded) {
   const Scene s = readYaml(
       "ergotic: 1\nsections: {a: {geometry: plane}}\ngenerators:\n"
       "  - {type: string, name: s, masses: 2, mass: 1, stiffness: 1, to: [1, 0],\n"
-      "     rest_length_ratio: 0.5, scheme: guarded}\n"
+      "     rest_length_ratio: 0.5, scheme: energy_stable}\n"
       "  - {type: mesh, name: m, rows: 3, columns: 3, spacing: 1, mass: 1, stiffness: 1,\n"
-      "     rest_length_ratio: 0.5, scheme: guarded}\n",
+      "     rest_length_ratio: 0.5, scheme: energy_stable}\n",
       "s.yaml");
   for (const Lia& lia : s.lias) {
     EXPECT_EQ(lia.scheme, Scheme::kGuarded) << lia.name;
@@ -114,7 +114,7 @@ TEST(StringGeneratorTest, TwoHundredThousandMassesComeOutWholeAndInOrder) {
   EXPECT_EQ(s.mats.back().name, "s.200001");
 }
 
-TEST(ChapletGeneratorTest, HangsTwoTunedMassesOntoItsCarrier) {
+TEST(ChapletGeneratorTest, AttachesTwoTunedMassesToItsCarrier) {
   const Scene s = generate("  - {type: chaplet, name: c, section: a, from: key, mass: 0.002}\n");
   ASSERT_EQ(s.mats.size(), 3U);
   ASSERT_EQ(s.lias.size(), 2U);

@@ -19,7 +19,7 @@ GuardedLaw<Real> lawOf(LiaType type) {
   return GuardedLaw<Real>::make(Scene{}, lia, Units{});
 }
 
-/// A guard that lets a damper drive would vouch for what grows.
+/// A guard that lets a damper drive would certify what grows.
 TEST(GuardedFormTest, DampingIsNeverNegative) {
   for (const LiaType type : {LiaType::kSpringDamper, LiaType::kQuadratic, LiaType::kCubic,
                              LiaType::kClippedCubic, LiaType::kContact, LiaType::kPowerContact,

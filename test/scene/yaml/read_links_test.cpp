@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
 #include "ergotic/scene/text/read_scene.hpp"
 #include "scene/bad_text.hpp"
 #include "support/test.hpp"
@@ -152,12 +154,29 @@ TEST(ReadLinksTest, SchemeOfADamperIsOpenInAPlane) {
   }
 }
 
-TEST(ReadLinksTest, GuardIsGivenOrRefusedAsTheTypeAllows) {
+TEST(ReadLinksTest, TheOldWordGuardedIsReadWithOneWarning) {
+  const Scene scene =
+      readYaml(LINK
+               "between: [m, n], type: contact, stiffness: 1, scheme: guarded}, "
+               "y: {between: [m, n], type: contact, stiffness: 2, scheme: guarded}}\n",
+               "old.yaml");
+  const std::size_t links = scene.lias.size();
+  EXPECT_EQ(scene.lias[links - 2].scheme, Scheme::kGuarded);
+  EXPECT_EQ(scene.lias[links - 1].scheme, Scheme::kGuarded);
+  EXPECT_EQ(std::count_if(scene.warnings.begin(), scene.warnings.end(),
+                          [](const std::string& warning) {
+                            return warning.find("is the old word for 'scheme: energy_stable'") !=
+                                   std::string::npos;
+                          }),
+            1);
+}
+
+TEST(ReadLinksTest, SchemeIsTakenOrRefusedAsTheTypeAllows) {
   for (const Kind& kind : kKinds) {
     const std::string text =
-        std::string(LINK "between: [m, n], ") + kind.fields + ", scheme: <!>guarded}}\n";
+        std::string(LINK "between: [m, n], ") + kind.fields + ", scheme: <!>energy_stable}}\n";
     if (!kind.guardable) {
-      expectRefused({text.c_str(), "link 'x' cannot be guarded, it is "}, "bad.yaml");
+      expectRefused({text.c_str(), "link 'x' cannot be energy-stable, it is "}, "bad.yaml");
       continue;
     }
     std::string whole = text;
@@ -237,7 +256,7 @@ const Damage kDamages[] = {
        l.type = LiaType::kConditional;
        l.law.edit().width = {0.0};
      }},
-    {"link 'x' cannot be guarded",
+    {"link 'x' cannot be energy-stable",
      [](Scene&, Lia& l) {
        l.type = LiaType::kSpringDamper;
        l.scheme = Scheme::kGuarded;

@@ -214,7 +214,7 @@ TEST_F(GestureFileTest, WhatIsWrongIsToldWithItsLine) {
 
 constexpr double kOmega = 2.0 * 3.14159265358979323846 * 100.0;
 
-TEST(YamlPortFilterTest, AMassTakesOverTheLinksOfTheSliceAndHangsOnIt) {
+TEST(YamlPortFilterTest, AMassTakesOverTheLinksOfTheSliceAndIsAttachedToIt) {
   const Scene s = readYaml(
       "ergotic: 1\nsections: {h: {rate: gestural}}\n"
       "mats: {k: {type: slice, at: [1, 2], rest: -0.5}, g: {type: ground}, m: {type: mass, mass: "

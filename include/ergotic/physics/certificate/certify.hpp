@@ -34,20 +34,21 @@ struct SectionCertificate {
 /// device. Ports of agents have none. Judged are ports with a slice that no end-effector takes;
 /// those are for station::judgeHands.
 struct PortCertificate {
-  int port = 0;                          ///< index in Scene::ports
-  double stiffness = 0.0;                ///< the largest, N/m
-  double stiffness_limit = 0;            ///< no hand sets off less by itself, N/m
-  double damping = 0.0;                  ///< the largest, N s/m
-  double damping_limit = 0.0;            ///< no hand sets off less by itself, N s/m
-  double glided_stiffness = 0.0;         ///< of the largest, of what sees the slice glide, N/m
-  double glided_damping = 0.0;           ///< the same, N s/m
-  bool is_judged = false;                ///< the verdict and the findings count it
+  int port = 0;                ///< index in Scene::ports
+  double stiffness = 0.0;      ///< the largest, N/m
+  double stiffness_limit = 0;  ///< no hand sets off less by itself, N/m
+  double damping = 0.0;        ///< the largest, N s/m
+  double damping_limit = 0.0;  ///< no hand sets off less by itself, N s/m
+  double interpolated_stiffness =
+      0.0;                            ///< of the largest, of what sees the slice interpolated, N/m
+  double interpolated_damping = 0.0;  ///< the same, N s/m
+  bool is_judged = false;             ///< the verdict and the findings count it
   HandLevel level = HandLevel::kSilent;  ///< of a slice that moves it, judged or not
   std::string finding;  ///< in words, `file:line:col: error|warning: ...`; empty: nothing to say
 };
 
 inline HandLoad loadOf(const PortCertificate& met) {
-  return {met.stiffness, met.damping, met.glided_stiffness, met.glided_damping};
+  return {met.stiffness, met.damping, met.interpolated_stiffness, met.interpolated_damping};
 }
 
 struct Certificate {
@@ -69,7 +70,8 @@ struct Certificate {
 /// \param device  that it will be played on
 /// Realtime: no. Cost: some tens of sparse factorisations, below 1 s for 7,000 masses; coupled
 /// rates: the eigenvalues of twice as many numbers as there are masses, 0.5 s for 280. \throws
-/// std::logic_error if `settle` has left something to choose Source: docs/physics.md, "Stability".
+/// std::logic_error if `settle` has left something to choose Source: docs/physics/stability.md,
+/// "How a scene is certified".
 Certificate certify(const scene::Scene& scene, const Rates& rates, const DeviceTraits& device = {});
 
 }  // namespace ergotic::physics

@@ -27,10 +27,11 @@ enum class HandLevel {
 
 /// What a slice meets, at the device.
 struct HandLoad {
-  double stiffness = 0.0;         ///< N/m, >= 0
-  double damping = 0.0;           ///< N s/m, >= 0
-  double glided_stiffness = 0.0;  ///< of these, of what sees the slice glide (coupling: smooth)
-  double glided_damping = 0.0;
+  double stiffness = 0.0;  ///< N/m, >= 0
+  double damping = 0.0;    ///< N s/m, >= 0
+  double interpolated_stiffness =
+      0.0;  ///< of these, of what sees the slice interpolated (coupling: smooth)
+  double interpolated_damping = 0.0;
 };
 
 /// The share of a part, 0 of nothing.
@@ -39,24 +40,24 @@ inline double partOf(double part, double all) {
 }
 
 /// A slice with a mass m and a damping b in a hand, and a spring K and a damper B that answer its
-/// sampled position d ticks late, with a force that is held for a tick. What sees the slice glide
-/// answers with the response of the interpolation and its adjoint.
+/// sampled position d ticks late, with a force that is held for a tick. What sees the slice
+/// interpolated answers with the response of the interpolation and its adjoint.
 ///
 /// The hand is anything passive, of any mass, that is not stiffer than kStiffestHand. Without m
 /// that is the condition of Colgate and Schenkel (1997), exact by Fardad and Bamieh (2009):
 /// `b > max K T/2 sin((d + 1/2) w T)/sin(w T/2) - B cos((d + 1) w T)`.
-/// Realtime: no. Source: docs/physics.md, "At the device".
+/// Realtime: no. Source: docs/physics/stability.md, "Passivity at the device".
 class HandLoop {
  public:
-  /// \param steps  of the faster section in a tick, where slices are seen to glide
+  /// \param steps  of the faster section in a tick, where slices are interpolated
   HandLoop(const DeviceTraits& device, double tick_s, int steps = 2);
 
   /// The stiffest spring that by itself no hand sets off, N/m: 2 b/((1 + 2 d) T), d by 3/2 more
-  /// for the part that sees the slice glide.
-  double stiffnessLimit(double glided = 0.0) const;
+  /// for the part that sees the slice interpolated.
+  double stiffnessLimit(double interpolated = 0.0) const;
   /// The strongest damper that by itself no hand sets off, N s/m, to 1 %. Cost: 1 ms, as of what
   /// follows
-  double dampingLimit(double glided = 0.0) const;
+  double dampingLimit(double interpolated = 0.0) const;
 
   /// By what all of it must be divided that no hand sets it off; 1: at the limit. The worse of
   /// the spring with the damper and without, for a damper does not brake wherever the spring acts.
@@ -79,7 +80,8 @@ class HandLoop {
   double mass_;
   double tick_s_;
   int steps_;
-  std::vector<double> of_spring_;  // [ticks] what sees the slice glide answers, see glideAnswer
+  std::vector<double>
+      of_spring_;  // [ticks] what sees the slice interpolated answers, see interpolationResponse
   std::vector<double> of_damper_;  // [ticks]
 };
 

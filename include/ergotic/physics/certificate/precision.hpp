@@ -18,7 +18,7 @@ namespace ergotic::physics {
 /// \param scene  settled
 /// \return       a module of each, index in Scene::mats
 /// Realtime: no. Cost: one sparse LDL^T of each body that has bends, springs of negative stiffness,
-/// or links to points. Source: docs/physics.md, "Bodies that move freely".
+/// or links to points. Source: docs/physics/stability.md, "Bodies that move freely".
 std::vector<int> bodiesThatMoveFreely(const scene::Scene& scene);
 
 /// Lowest frequency of a body that counts as held, Hz.

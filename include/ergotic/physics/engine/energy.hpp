@@ -28,10 +28,10 @@ struct CouplingEnergy {
 };
 
 /// The balance: all that is stored, less what it was at the start, plus what was dissipated, less
-/// what came in and what couplings made. Only rounding may remain. Of an instrument without books
-/// of energy (CompileOptions::metered) only what positions tell is known: kinetic energy, and the
-/// potential energy of gravity, constant forces, cells and the explicit spring-dampers inside each
-/// section; all else, the residual too, is 0.
+/// what came in and what couplings made. Only rounding may remain. Of an instrument without energy
+/// accounts of energy (CompileOptions::metered) only what positions tell is known: kinetic energy,
+/// and the potential energy of gravity, constant forces, cells and the explicit spring-dampers
+/// inside each section; all else, the residual too, is 0.
 struct Energies {
   std::vector<SectionEnergy> sections;    ///< [Scene::sections]
   std::vector<CouplingEnergy> couplings;  ///< pairs of sections that links join

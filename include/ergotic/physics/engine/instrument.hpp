@@ -55,10 +55,10 @@ struct TickIo {
 ///   3. explicit links of the sections due give forces from the new positions, points hand theirs
 ///      on, then hands that hold modules, then guarded links, which need to know all other forces.
 /// What does not need each other at the same instant goes through all R frames by itself
-/// (docs/physics.md, "Groups and threads").
+/// (docs/performance.md, "Groups and threads").
 /// The forces on the slices after the last frame are F[n], a function of x[n]: they wait for the
 /// next exchange with the device. Links across two rates run at the faster one, the slower end is
-/// held and receives the mean force (docs/physics.md, "Two rates").
+/// held and receives the mean force (docs/physics/multirate.md, "Coupling of two rates").
 class Instrument {
  public:
   virtual ~Instrument() = default;
@@ -84,7 +84,7 @@ class Instrument {
   virtual std::unique_ptr<Coefficients> prepare(const std::vector<double>& values) const = 0;
 
   /// Takes other coefficients from the next tick on, gives back those used so far. What the change
-  /// does to the stored energy is booked as work of the parameters.
+  /// does to the stored energy is counted as work of the parameters.
   /// Realtime: yes. Cost: O(modules + links). \pre made by `prepare` of this instrument
   virtual std::unique_ptr<Coefficients> exchange(std::unique_ptr<Coefficients> next) noexcept = 0;
 

@@ -21,7 +21,7 @@ struct ChapletLoad {
 /// the explicit scheme, in closed form.
 ///
 /// Realtime: no. Thread: any. Cost of each figure: O(stages).
-/// Source: docs/physics.md, "Chaplets".
+/// Source: docs/physics/multirate.md, "Chaplets: mechanical low-passes".
 class Chaplet {
  public:
   /// \param stages  SI: N/m, N s/m, kg; from the slower end on; at least one
@@ -77,13 +77,14 @@ double decibels(double gain);
 /// A chaplet in a scene, with the load that the structure at its last mass is taken for.
 struct FoundChaplet {
   std::string name;  ///< of its masses, without the number
-  int first = 0;     ///< index in Scene::mats of its first mass, which hangs on the slower module
+  int first =
+      0;  ///< index in Scene::mats of its first mass, which is attached to the slower module
   Chaplet chaplet;
   ChapletLoad load;
 };
 
 /// Every C2 of a settled scene, whoever put it there: two masses of its proportions, the first one
-/// hanging on a module of a slower section.
+/// attached to a module of a slower section.
 std::vector<FoundChaplet> findChaplets(const scene::Scene& scene, const Rates& rates);
 
 }  // namespace ergotic::physics

@@ -6,12 +6,12 @@
 namespace ergotic::scene {
 
 /// One stage of a low-pass chaplet: a spring and a damper, then a mass behind them. The first stage
-/// hangs on the slower end, the mass of the last one touches the structure.
+/// is attached to the slower end, the mass of the last one touches the structure.
 ///
 /// Here in units of the total mass m and of wN = pi times the slower rate: stiffness in m wN^2,
 /// damping in m wN, mass in m. Both tables were found by bounded optimisation of the discrete
 /// response over the loads {free, Z/3, Z} with Z = 0.05 m wN, under the limit of the explicit
-/// scheme; what they do is in docs/physics.md, "Chaplets".
+/// scheme; what they do is in docs/physics/multirate.md, "Chaplets: mechanical low-passes".
 struct ChapletStage {
   double stiffness = 0.0;
   double damping = 0.0;

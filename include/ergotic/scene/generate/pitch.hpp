@@ -43,7 +43,7 @@ constexpr double kStiffestInTune = 0.25;  ///< r h^2 K/M of guarded links
 
 /// False if the string moves lengthwise and is flat, by up to some hundred cents: above
 /// r h^2 K/M = 1/4 guarded links look ahead to stay stable, which takes from what they hold
-/// (docs/physics.md, "Guarded links").
+/// (docs/physics/schemes.md, "Energy-stable links").
 bool holdsPitch(const Scene& scene, const StringInfo& string, double rate_hz);
 
 /// Fundamental of a generated string as it sounds, closed form, with the parameters at their

@@ -46,7 +46,7 @@ class Neighbours {
   std::vector<int> node_;
 };
 
-/// Steps from some nodes to every other that they hang together with.
+/// Steps from some nodes to every other that they are joined with.
 class Distances {
  public:
   explicit Distances(int nodes) : steps_(at(nodes), -1) {}
@@ -98,7 +98,7 @@ class Sweeper {
         other_(nodes),
         across_(at(nodes)) {}
 
-  /// Appends what hangs together with `node`.
+  /// Appends what is joined with `node`.
   void append(int node, std::vector<int>& order) {
     walkFromEnd(node);
     to_end_.walk(neighbours_, {from_end_.farthest()});

@@ -30,8 +30,8 @@ void readMesh(SceneBuilder& builder, const std::string& name, const YamlMap& map
   spec.stiffness = map.value("stiffness", kStiffnessLimits);
   spec.damping = map.value("damping", kDampingLimits, {});
   spec.rest_length_ratio = readRestLengthRatio(builder, map, spec.section);
-  spec.scheme =
-      readScheme(map, sectionAt(builder, spec.section), spec.damping, spec.rest_length_ratio);
+  spec.scheme = readScheme(builder, map, sectionAt(builder, spec.section), spec.damping,
+                           spec.rest_length_ratio);
   if (map.has("neighbours") && map.choice("neighbours", {"4", "8"}) == 1) {
     spec.diagonal_stiffness =
         map.value("diagonal_stiffness", kStiffnessLimits, kIsotropic * spec.stiffness);

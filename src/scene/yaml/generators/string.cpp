@@ -165,8 +165,8 @@ void readString(SceneBuilder& builder, const std::string& name, const YamlMap& m
   spec.stiffness = readStringStiffness(builder, map, spec);
   spec.coarse = readCoarse(builder, map, spec);
   spec.damping = map.value("damping", kDampingLimits, {});
-  spec.scheme =
-      readScheme(map, sectionAt(builder, spec.section), spec.damping, spec.rest_length_ratio);
+  spec.scheme = readScheme(builder, map, sectionAt(builder, spec.section), spec.damping,
+                           spec.rest_length_ratio);
   if (map.has("loss")) {
     spec.loss = map.value("loss", kDampingLimits);
   }

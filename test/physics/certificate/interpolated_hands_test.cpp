@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The loop of a hand with a slice that is seen to glide: what `check` names, played.
+// The loop of a hand with a slice that is interpolated: what `check` names, played.
 
 #include <limits>
 #include <random>
@@ -7,14 +7,14 @@
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/physics/certificate/monodromy.hpp"
 #include "physics/certificate/free_slices.hpp"
-#include "physics/glide.hpp"
+#include "physics/interpolation.hpp"
 #include "support/physics.hpp"
 
 namespace ergotic::physics {
 namespace {
 
 /// A slice before a spring and a damper to the ground, or to a mass.
-scene::Scene glided(double stiffness, double damping, double kg = 0.0, double loss = 0.0) {
+scene::Scene interpolated(double stiffness, double damping, double kg = 0.0, double loss = 0.0) {
   SceneBuilder b;
   const int far = kg > 0.0 ? b.mass(kg) : b.ground();
   b.spring(far, b.slice(0), stiffness, damping);
@@ -26,7 +26,7 @@ scene::Scene glided(double stiffness, double damping, double kg = 0.0, double lo
 }
 
 /// What is held of a slice, and the delay of its device.
-struct GlidedSlice {
+struct HeldSlice {
   double mass = 0.3;
   double damping = 2.0;
   int delay = 1;
@@ -34,7 +34,7 @@ struct GlidedSlice {
 
 /// By which factor its speed has grown after so many ticks, from those before them; it is knocked
 /// at the start and moved exactly between two ticks.
-double growthOf(const scene::Scene& scene, const Rates& rates, const GlidedSlice& held, int ticks) {
+double growthOf(const scene::Scene& scene, const Rates& rates, const HeldSlice& held, int ticks) {
   const double tick = 1.0 / rates.gesturalHz();
   const double decay = std::exp(-held.damping / held.mass * tick);
   const double glide = held.mass / held.damping * (1.0 - decay);
@@ -61,13 +61,13 @@ double growthOf(const scene::Scene& scene, const Rates& rates, const GlidedSlice
   return std::abs(v) < 1e9 ? late / early : std::numeric_limits<double>::infinity();
 }
 
-TEST(GlidedHandsTest, ASpringIsAnsweredOneAndAHalfTicksLater) {
+TEST(InterpolatedHandsTest, ASpringIsAnsweredOneAndAHalfTicksLater) {
   const double tick = 14.0 / kRate;
-  const Certificate c = certify(glided(1000.0, 0.0), {kRate, 14});
+  const Certificate c = certify(interpolated(1000.0, 0.0), {kRate, 14});
   EXPECT_NEAR(c.ports.at(0).stiffness_limit, 2.0 * 2.0 / ((1.0 + 2.0 * 2.5) * tick), 1e-9);
-  EXPECT_DOUBLE_EQ(c.ports[0].glided_stiffness, c.ports[0].stiffness);
+  EXPECT_DOUBLE_EQ(c.ports[0].interpolated_stiffness, c.ports[0].stiffness);
   for (const int steps : {2, 3, 4, 14, 44}) {
-    const GlideAnswer answer = glideAnswer(steps);
+    const InterpolationResponse answer = interpolationResponse(steps);
     double sum = 0.0;
     double late = 0.0;
     for (std::size_t i = 0; i < answer.spring.size(); ++i) {
@@ -75,42 +75,45 @@ TEST(GlidedHandsTest, ASpringIsAnsweredOneAndAHalfTicksLater) {
       late += static_cast<double>(i) * answer.spring[i];
     }
     EXPECT_NEAR(sum, 1.0, 1e-12);
-    EXPECT_NEAR(late, kGlideDelay, 1e-12) << steps;
+    EXPECT_NEAR(late, kInterpolationDelay, 1e-12) << steps;
   }
 }
 
-TEST(GlidedHandsTest, ASliceIsQuietBelowTheStiffnessThatIsNamedAndTremblesAbove) {
+TEST(InterpolatedHandsTest, ASliceIsQuietBelowTheStiffnessThatIsNamedAndTremblesAbove) {
   for (const int ratio : {4, 14, 44}) {
     const Rates rates{kRate, ratio};
     for (const int delay : {0, 1, 2}) {
       DeviceTraits device;
       device.delay_ticks = delay;
-      const double named = certify(glided(1000.0, 0.0), rates, device).ports.at(0).stiffness_limit;
-      const GlidedSlice held{0.3, 2.0, delay};
-      EXPECT_LT(growthOf(glided(0.9 * named, 0.0), rates, held, 4000), 0.9) << ratio << delay;
-      EXPECT_GT(growthOf(glided(1.1 * named, 0.0), rates, held, 4000), 1.1) << ratio << delay;
+      const double named =
+          certify(interpolated(1000.0, 0.0), rates, device).ports.at(0).stiffness_limit;
+      const HeldSlice held{0.3, 2.0, delay};
+      EXPECT_LT(growthOf(interpolated(0.9 * named, 0.0), rates, held, 4000), 0.9) << ratio << delay;
+      EXPECT_GT(growthOf(interpolated(1.1 * named, 0.0), rates, held, 4000), 1.1) << ratio << delay;
     }
   }
 }
 
-TEST(GlidedHandsTest, ADamperIsQuietBelowWhatIsNamedAndSetsASliceOffShortlyAbove) {
+TEST(InterpolatedHandsTest, ADamperIsQuietBelowWhatIsNamedAndSetsASliceOffShortlyAbove) {
   for (const int ratio : {4, 14, 44}) {
     const Rates rates{kRate, ratio};
     for (const int delay : {0, 1, 2}) {
       DeviceTraits device;
       device.delay_ticks = delay;
-      const double named = certify(glided(0.0, 1.0), rates, device).ports.at(0).damping_limit;
-      const GlidedSlice held{0.3, 2.0, delay};
-      EXPECT_LT(growthOf(glided(0.0, 0.98 * named), rates, held, 4000), 1.0) << ratio << delay;
+      const double named = certify(interpolated(0.0, 1.0), rates, device).ports.at(0).damping_limit;
+      const HeldSlice held{0.3, 2.0, delay};
+      EXPECT_LT(growthOf(interpolated(0.0, 0.98 * named), rates, held, 4000), 1.0)
+          << ratio << delay;
       // At 1 kHz a stiff hand takes away so much of the mass that others bear more.
       const double above = ratio == 44 ? 1.8 : 1.2;
-      EXPECT_GT(growthOf(glided(0.0, above * named), rates, held, 4000), 1.0) << ratio << delay;
+      EXPECT_GT(growthOf(interpolated(0.0, above * named), rates, held, 4000), 1.0)
+          << ratio << delay;
     }
   }
 }
 
 /// Of hands that are a mass and a damper beside those of the slice.
-TEST(GlidedHandsTest, NoHandSetsOffSpringsAndDampersTogetherBelowTheLimit) {
+TEST(InterpolatedHandsTest, NoHandSetsOffSpringsAndDampersTogetherBelowTheLimit) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> number(0.0, 1.0);
   const auto scattered = [&](double low, double high) {
@@ -127,20 +130,20 @@ TEST(GlidedHandsTest, NoHandSetsOffSpringsAndDampersTogetherBelowTheLimit) {
     const double k = i % 4 == 0 ? 1e-3 : scattered(10.0, 1e5);
     const double z = scattered(0.1, 5000.0);
     const double share = loop.share({k, z, k, z}) / 0.98;
-    const GlidedSlice held{slice.mass + (i % 3 == 0 ? 0.0 : scattered(1e-3, 1.0)),
-                           slice.damping + (i % 2 == 0 ? 0.0 : scattered(1e-2, 20.0)), delay};
-    EXPECT_LT(growthOf(glided(k / share, z / share), rates, held, 3000), 1.0 + 1e-6)
+    const HeldSlice held{slice.mass + (i % 3 == 0 ? 0.0 : scattered(1e-3, 1.0)),
+                         slice.damping + (i % 2 == 0 ? 0.0 : scattered(1e-2, 20.0)), delay};
+    EXPECT_LT(growthOf(interpolated(k / share, z / share), rates, held, 3000), 1.0 + 1e-6)
         << i << ": " << k / share << ", " << z / share;
   }
 }
 
-TEST(GlidedHandsTest, WhatHangsThereGrowsAsItIsForetold) {
+TEST(InterpolatedHandsTest, WhatIsAttachedGrowsAsItIsForetold) {
   const Rates rates{kRate, 14};
   for (const auto& [stiffness, damping, kg, loss] : {std::array{2000.0, 0.0, 0.1, 0.0},
                                                      {3000.0, 0.0, 0.02, 0.0},
                                                      {3000.0, 0.2, 0.1, 0.05},
                                                      {1500.0, 0.0, 0.05, 0.0}}) {
-    const scene::Scene scene = glided(stiffness, damping, kg, loss);
+    const scene::Scene scene = interpolated(stiffness, damping, kg, loss);
     const Network network(scene);
     const RatedNetwork networks(network, rates);
     const double radius = FreeSlices(networks).radii({}).at(at(scene.ports.at(0).mat));
@@ -149,8 +152,8 @@ TEST(GlidedHandsTest, WhatHangsThereGrowsAsItIsForetold) {
   }
 }
 
-TEST(GlidedHandsTest, TheFindingNamesWhatGlidingCosts) {
-  const Certificate c = certify(glided(3000.0, 0.0), {kRate, 14});
+TEST(InterpolatedHandsTest, TheFindingNamesWhatInterpolationCosts) {
+  const Certificate c = certify(interpolated(3000.0, 0.0), {kRate, 14});
   ASSERT_EQ(c.findings.size(), 1U);
   EXPECT_THAT(c.findings[0], HasSubstr("is passive up to 2100 N/m at 3150 Hz"));
   EXPECT_THAT(c.findings[0], HasSubstr("answered 1.5 ticks later (coupling: hold is not)"));

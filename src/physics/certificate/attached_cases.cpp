@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/certificate/hanging_cases.hpp"
+#include "physics/certificate/attached_cases.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +57,7 @@ int mostCases(int masses) {
 
 }  // namespace
 
-std::vector<scene::Scene> casesOf(const Hanging& body, const RatedNetwork& networks) {
+std::vector<scene::Scene> casesOf(const Attached& body, const RatedNetwork& networks) {
   const scene::Scene scene = onlyOf(body, networks.scene());
   std::vector<scene::Scene> cases = parameterCases(scene, body.nodes, mostCases(body.masses));
   addPlaces(scene, cases);

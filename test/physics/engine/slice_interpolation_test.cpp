@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Slices that faster sections see glide: where they are seen, what they feel, whose work it is.
+// Slices that faster sections see interpolated: where they are seen, what they feel, whose work it
+// is.
 
 #include <complex>
 #include <random>
 
 #include "physics/engine/orchestra.hpp"
-#include "physics/glide.hpp"
+#include "physics/interpolation.hpp"
 #include "support/physics.hpp"
 #include "support/realtime_scope.hpp"
 
@@ -61,13 +62,13 @@ struct Wall : SceneBuilder {
   }
 };
 
-class GlidesTest : public testing::TestWithParam<int> {
+class SliceInterpolationTest : public testing::TestWithParam<int> {
  protected:
   Rates rates() const { return {kRate, GetParam()}; }
 };
-INSTANTIATE_TEST_SUITE_P(, GlidesTest, testing::Values(4, 14, 44));
+INSTANTIATE_TEST_SUITE_P(, SliceInterpolationTest, testing::Values(4, 14, 44));
 
-TEST_P(GlidesTest, AreSeenOnTheQuadraticSplineOfTheirPositions) {
+TEST_P(SliceInterpolationTest, AreSeenOnTheQuadraticSplineOfTheirPositions) {
   for (const int divisor : {1, GetParam() / 2}) {
     const std::vector<double> positions = walk(60, 3);
     const std::vector<double> spline = splineOf(positions, GetParam() / divisor);
@@ -83,8 +84,8 @@ TEST_P(GlidesTest, AreSeenOnTheQuadraticSplineOfTheirPositions) {
   }
 }
 
-TEST_P(GlidesTest, WhatASliceFeelsIsTheResponseThatItsLoopIsJudgedBy) {
-  const GlideAnswer answer = glideAnswer(GetParam());
+TEST_P(SliceInterpolationTest, WhatASliceFeelsIsTheResponseThatItsLoopIsJudgedBy) {
+  const InterpolationResponse answer = interpolationResponse(GetParam());
   const double tick = 1.0 / rates().gesturalHz();
   const std::vector<double> positions = walk(80, 5);
   Player player(Wall(1000.0, 3.0).scene, rates());
@@ -128,7 +129,7 @@ SceneBuilder everything() {
 }
 
 /// A tick of D is paid by the force of the next one, so it must rest for two at the end.
-TEST_P(GlidesTest, TheWorkOfTheHandIsThatOnTheFasterSideToRounding) {
+TEST_P(SliceInterpolationTest, TheWorkOfTheHandIsThatOnTheFasterSideToRounding) {
   std::vector<double> positions = walk(400, 7);
   positions.insert(positions.end(), 2, positions.back());
   Player player(everything().scene, rates());
@@ -151,12 +152,12 @@ TEST_P(GlidesTest, TheWorkOfTheHandIsThatOnTheFasterSideToRounding) {
   }
 }
 
-TEST_P(GlidesTest, BooksCloseAfterEveryTick) {
+TEST_P(SliceInterpolationTest, EnergyBalancesAfterEveryTick) {
   Player player(everything().scene, rates());
   EXPECT_LT(imbalanceOf(player, 2000), 1e-11);
 }
 
-TEST_P(GlidesTest, APointThatTheyLeadGlidesWithThem) {
+TEST_P(SliceInterpolationTest, APointThatTheyLeadGlidesWithThem) {
   SceneBuilder b;
   const int first = b.chain(20, 1e-3, 2e4);
   const int grid = b.grid(first, 22);
@@ -181,7 +182,7 @@ TEST_P(GlidesTest, APointThatTheyLeadGlidesWithThem) {
   }
 }
 
-TEST_P(GlidesTest, GoOnBitByBitFromASavedState) {
+TEST_P(SliceInterpolationTest, GoOnBitByBitFromASavedState) {
   for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
     const scene::Scene scene = everything().scene;
     const std::vector<double> positions = walk(200, 11);
@@ -202,7 +203,7 @@ TEST_P(GlidesTest, GoOnBitByBitFromASavedState) {
   }
 }
 
-TEST(GlidesSceneTest, SinglePrecisionPlaysTheSame) {
+TEST(SliceInterpolationSceneTest, SinglePrecisionPlaysTheSame) {
   const std::vector<double> positions = walk(500, 13);
   Player wide(everything().scene, {kRate, 14}, Precision::kDouble);
   Player narrow(everything().scene, {kRate, 14}, Precision::kFloat);
@@ -214,7 +215,7 @@ TEST(GlidesSceneTest, SinglePrecisionPlaysTheSame) {
   }
 }
 
-TEST(GlidesSceneTest, ThreadsPlayTheSameBits) {
+TEST(SliceInterpolationSceneTest, ThreadsPlayTheSameBits) {
   const scene::Scene scene = settle(smooth(Orchestra(9).scene()), {kRate, 14}).scene;
   CompileOptions options(Precision::kFloat);
   options.wait_limit_ns = 60'000'000'000;
@@ -233,7 +234,7 @@ TEST(GlidesSceneTest, ThreadsPlayTheSameBits) {
   EXPECT_EQ(alone.heard, together.heard);
 }
 
-TEST(GlidesSceneTest, ALoadThatTheySeeInSpaceIsBookedAlongEveryAxis) {
+TEST(SliceInterpolationSceneTest, ALoadThatTheySeeInSpaceIsCountedAlongEveryAxis) {
   SceneBuilder b;
   const int hand = b.slice(0);
   b.scene.sections[0].geometry = b.scene.sections[1].geometry = Geometry::kSpace;
@@ -270,7 +271,7 @@ TEST(GlidesSceneTest, ALoadThatTheySeeInSpaceIsBookedAlongEveryAxis) {
   EXPECT_NEAR(energiesOf(player).sections[1].from_device, work, 1e-12 * size);
 }
 
-TEST(GlidesSceneTest, TicksInRealTime) {
+TEST(SliceInterpolationSceneTest, TicksInRealTime) {
   for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
     Player player(everything().scene, {kRate, 14}, precision);
     std::vector<double> outputs(at(14 * player.instrument->outputChannels()));
@@ -284,7 +285,7 @@ TEST(GlidesSceneTest, TicksInRealTime) {
   }
 }
 
-TEST(GlidesSceneTest, ASleepingSectionWakesByThem) {
+TEST(SliceInterpolationSceneTest, ASleepingSectionWakesByThem) {
   SceneBuilder b;
   const int first = b.chain(10, 1e-3, 2e4);
   b.scene.sections[0].sleep_energy = 1e-12;
@@ -335,7 +336,7 @@ double imagesOf(scene::Scene scene, int ratio, double hz) {
   return 10.0 * std::log10(images / levelAt(hz));
 }
 
-TEST(GlidesSceneTest, HaveNoImagesThatAreHeard) {
+TEST(SliceInterpolationSceneTest, HaveNoImagesThatAreHeard) {
   struct Expected {
     int ratio;
     double hz;

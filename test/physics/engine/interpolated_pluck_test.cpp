@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A stiff plectrum in a hand that faster sections see glide, against one that moves in every frame.
+// A stiff plectrum in a hand that faster sections see interpolated, against one that moves in every
+// frame.
 #include <array>
 #include <complex>
 
@@ -88,7 +89,7 @@ Difference differenceOf(const Levels& a, const Levels& b) {
 }
 
 /// At R = 44 the hand is known once a millisecond, and half of the partials lie above that.
-TEST(GlidePluckTest, SoundsAsIfTheHandMovedInEveryFrame) {
+TEST(InterpolatedPluckTest, SoundsAsIfTheHandMovedInEveryFrame) {
   struct Expected {
     int ratio;
     double held_rms;  // at least
@@ -100,9 +101,10 @@ TEST(GlidePluckTest, SoundsAsIfTheHandMovedInEveryFrame) {
       SCOPED_TRACE(testing::Message() << "R = " << e.ratio << ", " << late << " ticks late");
       const Difference held = differenceOf(partialsOf(e.ratio, Coupling::kHold, late), wanted);
       EXPECT_GT(held.rms, e.held_rms);
-      const Difference glides = differenceOf(partialsOf(e.ratio, Coupling::kSmooth, late), wanted);
-      EXPECT_LT(glides.rms, 0.1);
-      EXPECT_LT(glides.most, e.most);
+      const Difference interpolated =
+          differenceOf(partialsOf(e.ratio, Coupling::kSmooth, late), wanted);
+      EXPECT_LT(interpolated.rms, 0.1);
+      EXPECT_LT(interpolated.most, e.most);
     }
   }
 }

@@ -19,7 +19,7 @@ SceneBuilder twoMasses(double slow, double coupling, double z, double fast, doub
   return b;
 }
 
-TEST(VouchedRatesTest, SoftCouplingsOfLowModesGrowAllTheSame) {
+TEST(CertifiedRatesTest, SoftCouplingsOfLowModesGrowAllTheSame) {
   expectRefused(twoMasses(24703385.68, 7521536.778, 0.0, 32707988.93, 0.4417203012), 14, 1.0, 1e6);
   expectRefused(twoMasses(18522197.78, 23580390.53, 232.5266722, 8992567.081, 0.4100447551), 8, 3.0,
                 1e6);
@@ -27,7 +27,7 @@ TEST(VouchedRatesTest, SoftCouplingsOfLowModesGrowAllTheSame) {
 
 /// Nothing holds them, and their fast mode makes nearly a whole turn in a tick: it meets the motion
 /// of both together.
-TEST(VouchedRatesTest, AFreePairThatNearlyTurnsRoundInATickGrows) {
+TEST(CertifiedRatesTest, AFreePairThatNearlyTurnsRoundInATickGrows) {
   SceneBuilder b;
   const int light = b.mass(0.0182940937, 0.0, 2.77576185);
   const int heavy = b.mass(0.0842841903, 0.0, -1.94045476, SceneBuilder::kGestural);
@@ -38,7 +38,7 @@ TEST(VouchedRatesTest, AFreePairThatNearlyTurnsRoundInATickGrows) {
 
 /// Modes of which neither grows, and which hide in what heavy masses hardly do: what light ones
 /// begin becomes a million times as much energy before it comes back.
-TEST(VouchedRatesTest, WhatBeatsBetweenHeavyAndLightMassesGrows) {
+TEST(CertifiedRatesTest, WhatBeatsBetweenHeavyAndLightMassesGrows) {
   SceneBuilder b;
   for (const int divisor : {28, 56}) {
     scene::Section section = b.scene.sections[0];
@@ -53,7 +53,7 @@ TEST(VouchedRatesTest, WhatBeatsBetweenHeavyAndLightMassesGrows) {
 }
 
 /// The same of two modes that turn by nearly half in a tick, and fade in the end.
-TEST(VouchedRatesTest, WhatBeatsNearHalfTheRateGrows) {
+TEST(CertifiedRatesTest, WhatBeatsNearHalfTheRateGrows) {
   SceneBuilder b;
   constexpr int kSlow = SceneBuilder::kGestural;
   const int light = b.mass(0.224076434747274, -3.33654154496943e-05, -0.0702246600549671);
@@ -69,7 +69,7 @@ TEST(VouchedRatesTest, WhatBeatsNearHalfTheRateGrows) {
 
 /// A damper takes nearly all that the coupling gives: 1e-7 of each period is left, or less than
 /// nothing, by more than rounding or not.
-TEST(VouchedRatesTest, SlowGrowthOfTwoRatesIsGrowth) {
+TEST(CertifiedRatesTest, SlowGrowthOfTwoRatesIsGrowth) {
   const auto certified = [](double z, double growth) {
     SceneBuilder b = twoMasses(24703385.68, 6434440.0, 0.0, 32707988.93, 0.4417203012);
     b.scene.lias[2].damping = {z};
@@ -84,8 +84,8 @@ TEST(VouchedRatesTest, SlowGrowthOfTwoRatesIsGrowth) {
 }
 
 // Its steps are within 2e-5 of the limit, and 2 J come to a million. One rate lends a million, too,
-// at the limit that is vouched for.
-TEST(VouchedRatesTest, WhatLendsMoreThanOneRateMayIsNotVouchedFor) {
+// at the limit that is certified.
+TEST(CertifiedRatesTest, WhatLendsMoreThanOneRateMayIsNotCertified) {
   SceneBuilder b;
   const int light =
       b.mass(0.0102795860132335, 0.000553507186320735, 6.97434537201312, SceneBuilder::kGestural);
@@ -94,7 +94,7 @@ TEST(VouchedRatesTest, WhatLendsMoreThanOneRateMayIsNotVouchedFor) {
   expectRefused(b, 14, 2.0, 1e5);
 }
 
-TEST(VouchedRatesTest, DampersThatComeAndGoDrive) {
+TEST(CertifiedRatesTest, DampersThatComeAndGoDrive) {
   SceneBuilder b;
   const int mass = b.mass(1.0, 1e-4, 1.0);
   b.spring(mass, b.ground(), 2.6032897528950336 * kRate * kRate);
@@ -118,7 +118,7 @@ std::string twoAxes(const std::string& rotation) {
          "  to_b: {type: spring, between: [b, f], stiffness: 3e6}\n";
 }
 
-TEST(VouchedRatesTest, WhatMovesAcrossMovesByItself) {
+TEST(CertifiedRatesTest, WhatMovesAcrossMovesByItself) {
   const scene::Scene across = scene::readYaml(twoAxes("1.5707963267948966"), "axes.yaml");
   const scene::Scene along = scene::readYaml(twoAxes("0"), "axes.yaml");
   Player player(compile(across, {kRate, 14}, Precision::kDouble));

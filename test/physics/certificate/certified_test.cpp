@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scenes that grow, and of which it was once said that they cannot. Each is played, to see that it
-// does grow, and must not be vouched for.
+// does grow, and must not be certified.
 #include "ergotic/physics/certificate/certify.hpp"
 #include "ergotic/physics/certificate/monodromy.hpp"
 #include "ergotic/physics/settling/settle.hpp"
@@ -10,7 +10,7 @@
 namespace ergotic::physics {
 namespace {
 
-TEST(VouchedTest, ContactsOnOneMassAddUp) {
+TEST(CertifiedTest, ContactsOnOneMassAddUp) {
   SceneBuilder b;
   const int mass = b.mass(1.0, 0.0, 0.44);
   const double k = 0.049 * kRate * kRate;
@@ -36,7 +36,7 @@ SceneBuilder swinging(double kappa, double x, double v) {
   return b;
 }
 
-TEST(VouchedTest, DampedContactPumpsWhatSwingsInTimeWithTheSteps) {
+TEST(CertifiedTest, DampedContactPumpsWhatSwingsInTimeWithTheSteps) {
   SceneBuilder b = swinging(2.975, 1e-4, 1.0);
   b.link(LiaType::kContact, 1, 0, 0.0499 * kRate * kRate, 0.0024 * kRate);
   expectRefused(b, 14, 0.5, 1e12);
@@ -44,7 +44,7 @@ TEST(VouchedTest, DampedContactPumpsWhatSwingsInTimeWithTheSteps) {
   EXPECT_EQ(certify(settle(b.scene, {kRate, 14}).scene, {kRate, 14}).verdict, Verdict::kPassive);
 }
 
-TEST(VouchedTest, SoftPluckPumpsWhatSwingsInTimeWithTheSteps) {
+TEST(CertifiedTest, SoftPluckPumpsWhatSwingsInTimeWithTheSteps) {
   SceneBuilder b = swinging(3.0, 3e-4, 20.0);
   b.link(LiaType::kPluck, 1, 0, 0.2 * kRate * kRate);
   b.scene.lias[1].law.edit().width = {5e-4};
@@ -54,7 +54,7 @@ TEST(VouchedTest, SoftPluckPumpsWhatSwingsInTimeWithTheSteps) {
 }
 
 /// A pluck is a hill of potential, so its guard has nothing to cut.
-TEST(VouchedTest, GuardedPluckPlaysAsTheExplicitOne) {
+TEST(CertifiedTest, GuardedPluckPlaysAsTheExplicitOne) {
   for (const double speed : {0.4, 0.9, 1.1}) {  // of what takes it over the hill
     double after[2];
     for (const Scheme scheme : {Scheme::kExplicit, Scheme::kGuarded}) {
@@ -76,7 +76,7 @@ TEST(VouchedTest, GuardedPluckPlaysAsTheExplicitOne) {
   }
 }
 
-TEST(VouchedTest, BowPumpsWhatSwingsInTimeWithTheSteps) {
+TEST(CertifiedTest, BowPumpsWhatSwingsInTimeWithTheSteps) {
   double most = 0.0;
   for (int phase = 0; phase < 24; ++phase) {
     const double angle = 2.0 * kPi * phase / 24.0;
@@ -103,7 +103,7 @@ SceneBuilder onATable(scene::Table elastic, scene::Table viscous) {
   return b;
 }
 
-TEST(VouchedTest, TablesWhoseEndsDriveGiveForEver) {
+TEST(CertifiedTest, TablesWhoseEndsDriveGiveForEver) {
   const scene::Table outwards{{{-1.0, 1.0}, {1.0, -1.0}}};
   const scene::Table inwards{{{-1.0, -1.0}, {1.0, 1.0}}};
   expectRefused(onATable({}, outwards), 14, 2.0, 1e3);
@@ -114,7 +114,7 @@ TEST(VouchedTest, TablesWhoseEndsDriveGiveForEver) {
 }
 
 /// A guard gives what its tank holds, and no more: down the slope of a table, half a joule.
-TEST(VouchedTest, GuardedTablesGiveWhatTheyHadAtTheStart) {
+TEST(CertifiedTest, GuardedTablesGiveWhatTheyHadAtTheStart) {
   SceneBuilder b = onATable({{{-1.0, 1.0}, {1.0, -1.0}}}, {});
   b.scene.lias[0].scheme = Scheme::kGuarded;
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded) << "it falls";
@@ -130,7 +130,7 @@ TEST(VouchedTest, GuardedTablesGiveWhatTheyHadAtTheStart) {
   EXPECT_GT(energies.sections[0].kinetic, 0.4);
 }
 
-TEST(VouchedTest, WhatSnapsFeedsEnergyIn) {
+TEST(CertifiedTest, WhatSnapsFeedsEnergyIn) {
   struct Snap {
     LiaType type;
     double width;
@@ -160,7 +160,7 @@ TEST(VouchedTest, WhatSnapsFeedsEnergyIn) {
   }
 }
 
-TEST(VouchedTest, FloatRoundsCoefficientsAtTheLimitToo) {
+TEST(CertifiedTest, FloatRoundsCoefficientsAtTheLimitToo) {
   const auto oscillator = [](double below) {
     SceneBuilder b;
     const int mass = b.mass(0.7, 0.0, 1e-3);
@@ -173,7 +173,7 @@ TEST(VouchedTest, FloatRoundsCoefficientsAtTheLimitToo) {
   EXPECT_LT(near.times, 1e7) << "it breathes by 4/(4 - lambda)";
 }
 
-TEST(VouchedTest, SlowGrowthIsNoRigidMotion) {
+TEST(CertifiedTest, SlowGrowthIsNoRigidMotion) {
   const double angle = 5e-7;
   Eigen::Matrix2d turn;
   turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
@@ -185,7 +185,7 @@ TEST(VouchedTest, SlowGrowthIsNoRigidMotion) {
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kPassive);
 }
 
-TEST(VouchedTest, EigenvaluesThatCannotBeWorkedOutAreNone) {
+TEST(CertifiedTest, EigenvaluesThatCannotBeWorkedOutAreNone) {
   Eigen::Matrix3d matrix = 0.5 * Eigen::Matrix3d::Identity();
   for (const double value : {std::numeric_limits<double>::infinity(), std::nan("")}) {
     matrix(1, 2) = value;
@@ -195,7 +195,7 @@ TEST(VouchedTest, EigenvaluesThatCannotBeWorkedOutAreNone) {
 
 /// What loses energy, by a damper to the ground, and snaps: bounded. Not so if a guarded contact
 /// hands what it is given on to a mass that loses nothing.
-TEST(VouchedTest, GuardedLinksHandOnWhatSnapsGive) {
+TEST(CertifiedTest, GuardedLinksHandOnWhatSnapsGive) {
   SceneBuilder b;
   const int mass = b.mass(1.0);
   b.spring(mass, b.ground(), 1e-5 * kRate * kRate, 10.0);
@@ -215,7 +215,7 @@ TEST(VouchedTest, GuardedLinksHandOnWhatSnapsGive) {
 }
 
 /// However little is missing beside what is stiff elsewhere, what is negative grows.
-TEST(VouchedTest, NegativeStiffnessIsNotHiddenByWhatIsStiffElsewhere) {
+TEST(CertifiedTest, NegativeStiffnessIsNotHiddenByWhatIsStiffElsewhere) {
   SceneBuilder b;
   b.spring(b.mass(1.0), b.ground(), 7.5e9);
   const int light = b.mass(1.0, 1e-6);
@@ -238,7 +238,7 @@ double energyGrowthOf(const scene::Scene& scene, double seconds) {
 }
 
 /// A mass in a plane that something pushes away, and that a scalar spring holds along one axis.
-TEST(VouchedTest, OneAxisDoesNotMakeUpForAnother) {
+TEST(CertifiedTest, OneAxisDoesNotMakeUpForAnother) {
   for (const char* const geometry : {"plane", "scalar"}) {
     const scene::Scene scene = scene::readYaml(
         "ergotic: 1\nsections: {s: {}, p: {geometry: " + std::string(geometry) +
@@ -256,7 +256,7 @@ TEST(VouchedTest, OneAxisDoesNotMakeUpForAnother) {
 }
 
 /// A damper does nothing to what moves across the axis of its other end.
-TEST(VouchedTest, DampersAcrossTakeNothing) {
+TEST(CertifiedTest, DampersAcrossTakeNothing) {
   for (const char* const angle : {"0", "1.5707963267948966"}) {
     scene::Scene scene = scene::readYaml(
         "ergotic: 1\nsections:\n  s: {}\n  l: {geometry: line, pose: {rotation: [0, 0, " +
@@ -280,7 +280,7 @@ TEST(VouchedTest, DampersAcrossTakeNothing) {
 }
 
 /// A table that has no elastic part switches no stiffness, whatever else acts on its mass.
-TEST(VouchedTest, WhatSwitchesIsNamed) {
+TEST(CertifiedTest, WhatSwitchesIsNamed) {
   SceneBuilder b;
   const int mass = b.mass(1.0);
   b.link(LiaType::kTable, mass, b.ground(), 0.0);

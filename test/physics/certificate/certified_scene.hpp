@@ -15,14 +15,14 @@ namespace ergotic::physics {
 inline const std::string kOfAudio = "ergotic: 1\nsections: {a: {}}\nmats:\n  g: {type: ground}\n";
 
 /// A scene that is judged and played; output 1 is heard.
-struct Vouched {
+struct Certified {
   scene::Scene scene;
   Rates rates;
-  explicit Vouched(const std::string& text)
+  explicit Certified(const std::string& text)
       : scene(scene::readYaml(text, "rounding.yaml")), rates(chooseRates(scene, kRate)) {
     scene = settle(scene, rates).scene;
   }
-  bool isVouchedFor() const { return certify(scene, rates).verdict <= Verdict::kBounded; }
+  bool isCertified() const { return certify(scene, rates).verdict <= Verdict::kBounded; }
   /// m/s
   double fastestOf(double seconds, Precision precision) const {
     Player player(compile(scene, rates, precision));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/certificate/hanging.hpp"
+#include "physics/certificate/attached.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -80,30 +80,30 @@ std::vector<std::set<int>> joinedByPoints(const Network& network, bool anywhere)
 }
 
 /// Up to so many masses, the nearest.
-Hanging reachedFrom(int slice,
-                    const Network& network,
-                    const std::vector<std::set<int>>& joined,
-                    const Hands& hands,
-                    int most) {
+Attached reachedFrom(int slice,
+                     const Network& network,
+                     const std::vector<std::set<int>>& joined,
+                     const Hands& hands,
+                     int most) {
   const std::vector<std::vector<int>> links_of = linksOfNodes(network);
-  Hanging hanging{{slice}, {slice}};
+  Attached attached{{slice}, {slice}};
   std::vector<int> reached{slice};
   const auto reach = [&](int node) {
     const bool is_slice = hands[at(node)] != 0;
     const bool is_free = network.nodes[at(node)].is_free;
     if ((!is_slice && !is_free && network.point_of[at(node)] < 0) ||
-        hanging.nodes.count(node) != 0) {
+        attached.nodes.count(node) != 0) {
       return;
     }
-    if (is_free && hanging.masses == most) {
-      hanging.is_cut = true;
+    if (is_free && attached.masses == most) {
+      attached.is_cut = true;
       return;
     }
-    hanging.nodes.insert(node);
+    attached.nodes.insert(node);
     reached.push_back(node);
-    hanging.masses += is_free ? 1 : 0;
+    attached.masses += is_free ? 1 : 0;
     if (is_slice) {
-      hanging.slices.push_back(node);
+      attached.slices.push_back(node);
     }
   };
   for (std::size_t i = 0; i < reached.size(); ++i) {
@@ -116,12 +116,12 @@ Hanging reachedFrom(int slice,
       reach(network.links[at(l)].b);
     }
   }
-  return hanging;
+  return attached;
 }
 
-/// True if what hangs there moves a point that it pulls at: far along what is not straight, or at
-/// all by way of other bodies that it moves points of.
-bool leadsBack(const Hanging& body, const Network& network) {
+/// True if what is attached there moves a point that it pulls at: far along what is not straight,
+/// or at all by way of other bodies that it moves points of.
+bool leadsBack(const Attached& body, const Network& network) {
   const scene::Scene& scene = network.scene;
   const Hands hands = handsOn(scene, slicesInHands(scene));
   const auto isOfBody = [&](int mat) { return body.nodes.count(mat) != 0; };
@@ -138,7 +138,7 @@ bool leadsBack(const Hanging& body, const Network& network) {
           return true;
         }
         if (moved.count(connection.mat) == 0) {
-          const Hanging other = bodyOn(connection.mat, network, hands);
+          const Attached other = bodyOn(connection.mat, network, hands);
           moved.insert(other.nodes.begin(), other.nodes.end());
           grows = true;
         }
@@ -172,19 +172,19 @@ Hands handsOn(const scene::Scene& scene, const std::vector<int>& slices) {
   return hands;
 }
 
-Hanging hangingOn(int slice, const Network& network, const Hands& hands, int most) {
+Attached attachedTo(int slice, const Network& network, const Hands& hands, int most) {
   const std::vector<std::set<int>> joined = joinedByPoints(network, false);
-  const Hanging all = reachedFrom(slice, network, joined, hands, most);
+  const Attached all = reachedFrom(slice, network, joined, hands, most);
   return all.is_cut ? reachedFrom(slice, network, joined, hands, kNearest) : all;
 }
 
-Hanging bodyOn(int slice, const Network& network, const Hands& hands) {
+Attached bodyOn(int slice, const Network& network, const Hands& hands) {
   return reachedFrom(slice, network, joinedByPoints(network, true), hands,
                      std::numeric_limits<int>::max());
 }
 
-scene::Scene onlyOf(const Hanging& hanging, scene::Scene scene) {
-  const auto isIn = [&](int node) { return hanging.nodes.count(node) != 0; };
+scene::Scene onlyOf(const Attached& attached, scene::Scene scene) {
+  const auto isIn = [&](int node) { return attached.nodes.count(node) != 0; };
   scene.lias.erase(
       std::remove_if(scene.lias.begin(), scene.lias.end(),
                      [&](const scene::Lia& lia) { return !isIn(lia.a) && !isIn(lia.b); }),
@@ -197,7 +197,7 @@ scene::Scene onlyOf(const Hanging& hanging, scene::Scene scene) {
   return scene;
 }
 
-const char* notTold(const Hanging& body, const Network& network) {
+const char* notTold(const Attached& body, const Network& network) {
   for (const int node : body.nodes) {
     if (network.nodes[at(node)].is_free &&
         leavesModesOut(network, network.nodes[at(node)].section)) {
@@ -207,14 +207,14 @@ const char* notTold(const Hanging& body, const Network& network) {
   return leadsBack(body, network) ? "a point that it moves and pulls at" : nullptr;
 }
 
-const char* notWorkedOut(const Hanging& hanging, const scene::Scene& scene, const Rates& rates) {
-  for (const int node : hanging.nodes) {
+const char* notWorkedOut(const Attached& attached, const scene::Scene& scene, const Rates& rates) {
+  for (const int node : attached.nodes) {
     const scene::Mat& mat = scene.mats[at(node)];
     if (isFree(mat) && divisorOf(scene.sectionOf(mat), rates) > rates.ratio) {
       return "a section that is slower than the slice";
     }
   }
-  const auto isIn = [&](int node) { return hanging.nodes.count(node) != 0; };
+  const auto isIn = [&](int node) { return attached.nodes.count(node) != 0; };
   const bool is_hidden = std::any_of(scene.lias.begin(), scene.lias.end(), [&](const auto& lia) {
     return isIn(lia.a) && isIn(lia.b) && hidesAMass(scene, lia);
   });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/glide.hpp"
+#include "physics/interpolation.hpp"
 
 #include <cmath>
 
@@ -7,9 +7,9 @@
 
 namespace ergotic::physics {
 
-std::vector<GlideStep> glideSteps(int steps) {
+std::vector<InterpolationStep> interpolationSteps(int steps) {
   const double n = steps;
-  std::vector<GlideStep> all;
+  std::vector<InterpolationStep> all;
   for (int r = 0; r < steps; ++r) {
     const double gone = (r + 1.0) * (r + 2.0) / (2.0 * n * n);
     const double gone_last =
@@ -19,17 +19,17 @@ std::vector<GlideStep> glideSteps(int steps) {
   return all;
 }
 
-GlideAnswer glideAnswer(int steps) {
+InterpolationResponse interpolationResponse(int steps) {
   constexpr std::size_t kTicks = 6;
-  const std::vector<GlideStep> glide = glideSteps(steps);
+  const std::vector<InterpolationStep> step_weights = interpolationSteps(steps);
   const double position[kTicks] = {1.0};
   const double change[kTicks] = {1.0, -1.0};
-  GlideAnswer answer{std::vector<double>(kTicks), std::vector<double>(kTicks)};
+  InterpolationResponse answer{std::vector<double>(kTicks), std::vector<double>(kTicks)};
   double spring = 0.0;  // forces of the step before
   double damper = 0.0;
   for (std::size_t tick = 0; tick < kTicks; ++tick) {
     const double last = tick == 0 ? 0.0 : change[tick - 1];
-    for (const GlideStep& step : glide) {
+    for (const InterpolationStep& step : step_weights) {
       const double x = position[tick] - step.behind * change[tick] - step.behind_last * last;
       const double d = steps * (step.share * change[tick] + step.share_last * last);
       const auto give = [&](std::vector<double>& to, double force) {
@@ -60,7 +60,7 @@ double heardSteps(scene::Coupling coupling, double turn) {
   }
 }
 
-bool glides(const scene::Scene& scene, const Rates& rates, int mat, int section) {
+bool isInterpolated(const scene::Scene& scene, const Rates& rates, int mat, int section) {
   const scene::Mat& m = scene.mats[at(mat)];
   return m.type == scene::MatType::kSlice && m.coupling == scene::Coupling::kSmooth &&
          divisorOf(scene.sections[at(section)], rates) < divisorOf(scene.sectionOf(m), rates);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/certificate/hanging.hpp"
+#include "physics/certificate/attached.hpp"
 
 #include "support/physics.hpp"
 
@@ -9,7 +9,7 @@ namespace {
 using testing::UnorderedElementsAre;
 
 /// A string on a slice, and what is joined to a place on it.
-TEST(HangingTest, WhatIsJoinedToPointsHangsThereToo) {
+TEST(AttachedTest, WhatIsJoinedToPointsIsAttachedThereToo) {
   SceneBuilder b;
   const int slice = b.slice(0);
   const int first = b.mass(1.0);
@@ -25,10 +25,10 @@ TEST(HangingTest, WhatIsJoinedToPointsHangsThereToo) {
   b.spring(apart, ground, 1.0);
   const Network network(b.scene);
   const Hands hands = handsOn(b.scene, {slice});
-  const Hanging hanging = hangingOn(slice, network, hands, 100);
-  EXPECT_THAT(hanging.nodes, UnorderedElementsAre(slice, first, second, point, behind));
-  EXPECT_EQ(hanging.masses, 3);
-  const scene::Scene alone = onlyOf(hanging, b.scene);
+  const Attached attached = attachedTo(slice, network, hands, 100);
+  EXPECT_THAT(attached.nodes, UnorderedElementsAre(slice, first, second, point, behind));
+  EXPECT_EQ(attached.masses, 3);
+  const scene::Scene alone = onlyOf(attached, b.scene);
   EXPECT_EQ(alone.lias.size(), 4U) << "all but that of the mass apart";
   EXPECT_EQ(alone.mats.at(at(apart)).type, scene::MatType::kGround);
 }

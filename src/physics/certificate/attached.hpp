@@ -18,7 +18,7 @@ Hands handsOn(const scene::Scene& scene, const std::vector<int>& slices);
 
 /// What links join to a slice: modules that move, of too many the 16 nearest; points; and the
 /// slices among them.
-struct Hanging {
+struct Attached {
   std::set<int> nodes;
   std::vector<int> slices;
   int masses = 0;
@@ -26,20 +26,20 @@ struct Hanging {
 };
 /// \param hands  that let go; what the others move is held
 /// \param most   modules that are not too many
-Hanging hangingOn(int slice, const Network& network, const Hands& hands, int most);
+Attached attachedTo(int slice, const Network& network, const Hands& hands, int most);
 
 /// All of it, and wherever points may be led.
-Hanging bodyOn(int slice, const Network& network, const Hands& hands);
+Attached bodyOn(int slice, const Network& network, const Hands& hands);
 
-/// What hangs there by itself: everything else becomes ground, and is left alone.
-scene::Scene onlyOf(const Hanging& hanging, scene::Scene scene);
+/// What is attached there by itself: everything else becomes ground, and is left alone.
+scene::Scene onlyOf(const Attached& attached, scene::Scene scene);
 
-/// Why what a slice meets cannot be told from it, whatever hangs there: fewer modes than modules,
-/// or a point that it moves, far along what is not straight or by way of what else its points move,
-/// and pulls at. nullptr: it can be.
-const char* notTold(const Hanging& body, const Network& network);
+/// Why what a slice meets cannot be told from it, whatever is attached there: fewer modes than
+/// modules, or a point that it moves, far along what is not straight or by way of what else its
+/// points move, and pulls at. nullptr: it can be.
+const char* notTold(const Attached& body, const Network& network);
 
 /// Why it cannot be worked out as a scalar network at the rate of the slice; nullptr: it can be.
-const char* notWorkedOut(const Hanging& hanging, const scene::Scene& scene, const Rates& rates);
+const char* notWorkedOut(const Attached& attached, const scene::Scene& scene, const Rates& rates);
 
 }  // namespace ergotic::physics

@@ -134,6 +134,7 @@ def includes(root):
                 continue
             ours, other = plain.groups()
             name = ours or other
-            found = [b + name for b in ("src/", "include/", "") if (root / (b + name)).is_file()]
+            bases = ("src/", "include/") if not name.startswith("lab/") else ("",)
+            found = [b + name for b in bases if (root / (b + name)).is_file()]
             yield path.relative_to(root).as_posix(), f'"{ours}"' if ours else f"<{other}>", \
                 found[0] if found else None

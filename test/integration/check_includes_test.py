@@ -54,7 +54,7 @@ class CheckIncludesTest(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.copy = pathlib.Path(folder.name)
-        for part in ("src", "include"):
+        for part in ("src", "include", "lab"):
             shutil.copytree(ROOT / part, self.copy / part)
 
     def planted(self, file, line):

@@ -48,7 +48,7 @@ void measureStrings(const Sink& sink);
 void measureBarriers(const Sink& sink);
 
 /// Stick and slip of a bowed oscillator and of a bowed string, cents, against the same played
-/// guarded at 16 times 88.2 kHz.
+/// energy-stable at 16 times 88.2 kHz.
 void measureBows(const Sink& sink);
 
 /// A hammer at the gestural rate on a string, bare and through a chaplet, against R = 1: the whole

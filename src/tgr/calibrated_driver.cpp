@@ -83,6 +83,8 @@ class CalibratedDriverOverRaw final : public CalibratedDriver {
   double declaredDamping() const noexcept override { return raw_->declaredDamping(); }
   DeviceClock* clock() noexcept override { return raw_->clock(); }
   std::vector<Guard> guards() const override { return raw_->guards(); }
+  std::vector<GestureValue> gestureValues() const override { return raw_->gestureValues(); }
+  double gestureTime() const noexcept override { return raw_->gestureTime(); }
   bool hasHand(int slice) const noexcept override { return raw_->hasHand(slice); }
   bool move(const HandMove& move) noexcept override { return raw_->move(move); }
 

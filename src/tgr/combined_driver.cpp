@@ -142,6 +142,26 @@ class CombinedDriver final : public Driver {
     return nullptr;
   }
 
+  std::vector<GestureValue> gestureValues() const override {
+    std::vector<GestureValue> all;
+    for (const auto& driver : drivers_) {
+      for (GestureValue& value : driver->gestureValues()) {
+        all.push_back(std::move(value));
+      }
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+    return all;
+  }
+  /// All that have a gesture are in step.
+  double gestureTime() const noexcept override {
+    double longest_s = 0.0;
+    for (const auto& driver : drivers_) {
+      longest_s = std::max(longest_s, driver->gestureTime());
+    }
+    return longest_s;
+  }
+
   bool hasHand(int slice) const noexcept override {
     Driver* const driver = ownerOf(slice);
     return driver != nullptr && driver->hasHand(slice);

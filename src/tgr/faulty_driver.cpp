@@ -89,6 +89,8 @@ class FaultyDriverOverAnother final : public FaultyDriver {
   double damping() const noexcept override { return inside_->damping(); }
   double declaredDamping() const noexcept override { return inside_->declaredDamping(); }
   DeviceClock* clock() noexcept override { return inside_->clock(); }
+  std::vector<GestureValue> gestureValues() const override { return inside_->gestureValues(); }
+  double gestureTime() const noexcept override { return inside_->gestureTime(); }
   bool hasHand(int slice) const noexcept override { return inside_->hasHand(slice); }
   bool move(const HandMove& move) noexcept override { return inside_->move(move); }
 

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <vector>
 
+#include "ergotic/exception.hpp"
 #include "ergotic/tgr/driver.hpp"
 #include "ergotic/tgr/gesture.hpp"
 #include "files/read_file.hpp"
+#include "scene/names.hpp"
 
 namespace ergotic::tgr {
 namespace {
@@ -62,6 +64,47 @@ GestureKind gestureKindOf(const std::string& path) {
   std::ifstream in = files::openFile(path, files::kMaxRecordingBytes);
   const scene::GestureReader rows(in, path, kMaxSlices, scene::kMetreLimits);
   return rows.isInTicks() ? GestureKind::kPositions : GestureKind::kTargets;
+}
+
+std::vector<GestureValue> readGestureValues(const std::string& path) {
+  std::vector<GestureValue> values;
+  if (path.empty()) {
+    return values;
+  }
+  std::ifstream in = files::openFile(path, files::kMaxRecordingBytes);
+  scene::GestureReader rows(in, path, kMaxSlices, scene::kMetreLimits);
+  while (!rows.isInTicks() && rows.next()) {
+    if (rows.isParameter()) {
+      values.push_back(
+          {rows.time(), rows.parameter(), rows.value(), path, rows.place(1), rows.place(2)});
+    }
+  }
+  std::stable_sort(values.begin(), values.end(),
+                   [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+  return values;
+}
+
+std::size_t parameterOf(const GestureValue& value,
+                        const std::vector<scene::Parameter>& parameters) {
+  const auto found =
+      std::find_if(parameters.begin(), parameters.end(),
+                   [&value](const auto& parameter) { return parameter.name == value.parameter; });
+  if (found == parameters.end()) {
+    std::vector<std::string> known;
+    for (const scene::Parameter& parameter : parameters) {
+      known.push_back(parameter.name);
+    }
+    throw TextError(
+        value.file, value.name_at.line, value.name_at.column,
+        "the scene has no parameter " + scene::quoted(value.parameter) +
+            (known.empty() ? ", and no other" : scene::suggestion(value.parameter, known)));
+  }
+  const scene::Limits range{found->unit.c_str(), found->minimum, found->maximum};
+  if (!range.hold(value.value)) {
+    throw TextError(value.file, value.value_at.line, value.value_at.column,
+                    scene::outOfRange(value.parameter, value.value, range));
+  }
+  return static_cast<std::size_t>(found - parameters.begin());
 }
 
 }  // namespace ergotic::tgr

@@ -91,6 +91,7 @@ class Teller {
 int play(const Options& options, const tools::Signals& signals) {
   tools::ForceLog log(options.log);
   tgr::JackDevice device(options.device);
+  tools::warnOfValues("jack_tgr", options.device.bank.gesture_file);
   {
     audio::JackHost host(device.jackConfig(options.client, options.server), device);
     Teller teller(host);

@@ -85,7 +85,9 @@ tgr::VirtualDeviceConfig deviceOf(const Options& options) {
 int run(const Options& options) {
   const tools::Signals signals;
   tools::ForceLog log(options.log);
-  tgr::VirtualDevice device(deviceOf(options));
+  const tgr::VirtualDeviceConfig config = deviceOf(options);
+  tgr::VirtualDevice device(config);
+  tools::warnOfValues("virtual_tgr", config.bank.gesture_file);
   std::atomic<bool> stop{false};
   std::thread mechanics([&] {
     if (options.priority > 0) {

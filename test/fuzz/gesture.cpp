@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gestures of both kinds, as a virtual hand follows them.
+// Gestures of both kinds, as a virtual hand follows them, and what they ask of a scene.
+#include "ergotic/tgr/gesture.hpp"
+
 #include <cmath>
 
 #include "ergotic/tgr/driver.hpp"
@@ -30,6 +32,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const fuzz::MemoryFile file(data, size);
   try {
     fuzz::follow(tgr::readTargetGesture(file.path(), tgr::kMaxSlices));
+    for (const tgr::GestureValue& value : tgr::readGestureValues(file.path())) {
+      if (!std::isfinite(value.value) || value.parameter.empty()) {
+        fuzz::fail("a parameter without a name, or a value that is not finite");
+      }
+    }
   } catch (const Exception&) {
   }
   return 0;

@@ -55,6 +55,29 @@ class PlayGestureTest(unittest.TestCase):
         self.assertEqual(gesture.at(0.0), [(0, 0.0), (1, 0.01)])
         self.assertAlmostEqual(gesture.at(0.005)[0][1], 0.01)
 
+    def test_reads_values_of_parameters(self):
+        path = self.write("0,1,0\n2,$loss,1e-5\n1.5,\"$tension\",80\n")
+        gesture = play_gesture.read_csv(path, None)
+        self.assertEqual(gesture.length, 2.0)
+        self.assertEqual(gesture.at(1.0), [(1, 0.0)])
+        tension, loss = (1.5, "tension", 80.0, 3), (2.0, "loss", 1e-5, 2)
+        self.assertEqual(gesture.changes_between(-1.0, 1.4), [])
+        self.assertEqual(gesture.changes_between(1.4, 1.5), [tension])
+        self.assertEqual(gesture.changes_between(1.5, 9.0), [loss])
+        self.assertEqual(gesture.changes_between(1.8, 1.6), [loss, tension], "it began again")
+        known = types.SimpleNamespace(names=["tension", "loss"], lows=[10.0, 0.0], highs=[90.0, 1e-3], units=["N", ""])
+        play_gesture.check_changes(gesture, "g.csv", known)
+        known.highs[0] = 70.0
+        with self.assertRaises(SystemExit) as refused:
+            play_gesture.check_changes(gesture, "g.csv", known)
+        self.assertEqual(str(refused.exception), "g.csv:3: error: tension = 80, allowed: 10...70 N")
+        known.names[1] = "damping"
+        known.highs[0] = 90.0
+        with self.assertRaises(SystemExit) as refused:
+            play_gesture.check_changes(gesture, "g.csv", known)
+        self.assertEqual(str(refused.exception),
+                         "g.csv:2: error: the scene has no parameter 'loss', allowed: tension, damping")
+
     def test_says_what_is_wrong(self):
         for text, rate, expected in [
                 ("tick,x0\n0,0\n", None, "--rate"),
@@ -64,6 +87,9 @@ class PlayGestureTest(unittest.TestCase):
                 ("time_s,slice,target_m\n0,1,inf\n", None, "g.csv:2: error: expected time_s"),
                 ("0;0;0\n0,5;0;0,02\n", None, "g.csv:1: error: a semicolon separates the fields"),
                 ("0,0,0\n".encode("utf-16"), None, "g.csv:1: error: the text is UTF-16, allowed: UTF-8"),
+                ("1,$a,2\n1,$b,2\n1,$a,3\n", None, "g.csv:3: error: time_s = 1 s is not after the parameter's"),
+                ("1,$,2\n", None, "g.csv:1: error: the name of a parameter is missing"),
+                ("1,$a\n", None, "g.csv:1: error: expected time_s,slice,target_m, or time_s,$parameter,value"),
                 ("# nothing\n", None, "no targets")]:
             with self.assertRaises(SystemExit) as refused:
                 play_gesture.read_csv(self.write(text), rate)
@@ -81,11 +107,11 @@ class PlayGestureTest(unittest.TestCase):
                 mock.patch.object(play_gesture, "play", lambda *_: done.append("play")):
             options = types.SimpleNamespace(station="/station", engage=True, seconds=1.0, repeat=1.0)
             rospy.Publisher.return_value.get_num_connections.return_value = 1
-            play_gesture.perform(mock.MagicMock(), options)
+            play_gesture.perform(mock.MagicMock(changes=[]), options)
             self.assertEqual(done, ["engage", "wait", "play", "stop"])
             done.clear()
             options.engage = False
-            play_gesture.perform(mock.MagicMock(), options)
+            play_gesture.perform(mock.MagicMock(changes=[]), options)
             self.assertEqual(done, ["play"])
 
     def test_refuses_positions_that_are_no_numbers(self):

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/tgr/combined_driver.hpp"
 
+#include "support/scratch_file.hpp"
 #include "support/test.hpp"
 #include "tgr/driver_rigs.hpp"
 #include "tgr/scripted_driver.hpp"
@@ -166,6 +167,28 @@ TEST_F(CombinedDriverTest, RefusesWhatDoesNotGoTogether) {
   scripts_[2].is_raw = true;
   EXPECT_EQ(complaintOf([this] { combined(); }),
             "a device that speaks volts cannot be combined without its calibration");
+}
+
+TEST_F(CombinedDriverTest, PutsTheValuesOfAllGesturesInOrderOfTime) {
+  const test::ScratchFile files[] = {test::ScratchFile("1,$a,1\n3,$a,2\n"),
+                                     test::ScratchFile("2,$b,3\n")};
+  std::vector<std::unique_ptr<Driver>> drivers;
+  for (const test::ScratchFile& file : files) {
+    VirtualDriverConfig config;
+    config.slices = 1;
+    config.gesture_file = file.path();
+    drivers.push_back(makeVirtualDriver(config));
+  }
+  drivers.push_back(std::make_unique<test::ScriptedDevice>(scripts_[0]));
+  const auto driver = combine(std::move(drivers));
+  std::string order;
+  for (const GestureValue& value : driver->gestureValues()) {
+    order += value.parameter;
+  }
+  EXPECT_EQ(order, "aba");
+  driver->open(1000.0);
+  driver->exchange(forces_.data(), positions_.data());
+  EXPECT_DOUBLE_EQ(driver->gestureTime(), 1e-3);
 }
 
 }  // namespace

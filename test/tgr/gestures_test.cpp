@@ -170,9 +170,11 @@ TEST(TargetGestureTest, SaysWhereARowIsWrong) {
   EXPECT_EQ(targetsError(ok + "inf,0,0\n"),
             "g.csv:2:1: error: time_s = 'inf' is not a finite number, allowed: 0...1000000 s");
   EXPECT_EQ(targetsError(ok + "1,0\n"),
-            "g.csv:2:4: error: target_m is missing, allowed: time_s,slice,target_m");
+            "g.csv:2:4: error: target_m is missing, allowed: time_s,slice,target_m, or "
+            "time_s,$parameter,value");
   EXPECT_EQ(targetsError(ok + "1,0,0,7\n"),
-            "g.csv:2:7: error: more than 3 fields in a line, allowed: time_s,slice,target_m");
+            "g.csv:2:7: error: more than 3 fields in a line, allowed: time_s,slice,target_m, or "
+            "time_s,$parameter,value");
   EXPECT_THAT(targetsError(ok + "1,0,0.01x\n"),
               StartsWith("g.csv:2:5: error: target_m = '0.01x' is not a finite number"));
   EXPECT_EQ(targetsError("time_s,slice\n"),
@@ -220,6 +222,73 @@ TEST(TargetGestureTest, SaysHowToSaveWhatItCannotRead) {
                          "letter, allowed: UTF-8"));
 }
 
+TEST(TargetGestureTest, PassesRowsOverThatSetParameters) {
+  const TargetGesture gesture = parse("0,0,0.01\n1,$tension,80\n2,0,0.03\n0.5,$loss,1e9\n");
+  EXPECT_DOUBLE_EQ(gesture.at(0, 1.0).position, 0.02);
+  EXPECT_TRUE(gesture.rangeOf(1).is_empty);
+}
+
+std::string valuesError(const std::string& rows) {
+  const ScratchFile file(rows);
+  const std::string complaint = complaintOf<TextError>([&] { readGestureValues(file.path()); });
+  return complaint.substr(std::min(complaint.size(), file.path().size()));
+}
+
+TEST(GestureValuesTest, AreRowsThatNameAParameterInOrderOfTime) {
+  const ScratchFile file(
+      "time_s,slice,target_m\n0,0,0\n2,$loss,1e-5\n1.5, \"$tension\", 80\n1.5,$volume,-2\n");
+  const std::vector<GestureValue> values = readGestureValues(file.path());
+  ASSERT_EQ(values.size(), 3U);
+  EXPECT_EQ(values[0].parameter, "tension");
+  EXPECT_EQ(values[0].time_s, 1.5);
+  EXPECT_EQ(values[0].value, 80.0);
+  EXPECT_EQ(values[0].file, file.path());
+  EXPECT_EQ(values[0].name_at.line, 4);
+  EXPECT_EQ(values[0].name_at.column, 6);
+  EXPECT_EQ(values[0].value_at.column, 18);
+  EXPECT_EQ(values[1].value, -2.0);
+  EXPECT_EQ(values[2].time_s, 2.0);
+  EXPECT_THAT(readGestureValues(""), IsEmpty());
+  EXPECT_THAT(readGestureValues(ScratchFile("tick,x0\n0,0\n").path()), IsEmpty());
+  EXPECT_THROW(readGestureValues("/nowhere/g.csv"), Exception);
+}
+
+TEST(GestureValuesTest, SayWhereARowIsWrong) {
+  EXPECT_EQ(valuesError("1,$loss,2\n1,$tension,2\n1,$loss,3\n"),
+            ":3:1: error: time_s = 1 s is not after the parameter's row before it, by 1e-9 s at "
+            "least");
+  EXPECT_EQ(valuesError("1,$loss,nan\n"),
+            ":1:9: error: value = 'nan' is not a finite number, allowed: any finite number");
+  EXPECT_EQ(valuesError("1,$,2\n"),
+            ":1:3: error: the name of a parameter is missing, allowed: time_s,slice,target_m, or "
+            "time_s,$parameter,value");
+  EXPECT_THAT(valuesError("1,$loss\n"), StartsWith(":1:8: error: value is missing, allowed: time"));
+  EXPECT_THAT(valuesError("1,$loss,2,3\n"), StartsWith(":1:11: error: more than 3 fields"));
+  EXPECT_THAT(valuesError("-1,$loss,2\n"),
+              StartsWith(":1:1: error: time_s = -1 s is out of range"));
+}
+
+TEST(GestureValuesTest, FitAScene) {
+  scene::Parameter loss;
+  loss.name = "loss";
+  scene::Parameter tension;
+  tension.name = "tension";
+  tension.minimum = 10.0;
+  tension.maximum = 90.0;
+  tension.unit = "N";
+  const std::vector<scene::Parameter> parameters{loss, tension};
+  GestureValue value{1.5, "tension", 90.0, "g.csv", {4, 6}, {4, 15}};
+  EXPECT_EQ(parameterOf(value, parameters), 1U);
+  value.value = 90.5;
+  EXPECT_EQ(complaintOf<TextError>([&] { parameterOf(value, parameters); }),
+            "g.csv:4:15: error: tension = 90.5 N is out of range, allowed: 10...90 N");
+  value.parameter = "tensio";
+  EXPECT_EQ(complaintOf<TextError>([&] { parameterOf(value, parameters); }),
+            "g.csv:4:6: error: the scene has no parameter 'tensio'; did you mean 'tension'?");
+  EXPECT_EQ(complaintOf<TextError>([&] { parameterOf(value, {}); }),
+            "g.csv:4:6: error: the scene has no parameter 'tensio', and no other");
+}
+
 TEST(TargetGestureTest, RefusesAFileThatIsNotThere) {
   EXPECT_THROW(readTargetGesture("/nowhere/g.csv", 1), Exception);
 }
@@ -250,6 +319,9 @@ TEST(GestureWarningsTest, SayWhatIsNotPlayedAsItIsWritten) {
   EXPECT_THAT(gestureWarningsOf("0,0,0\n9,0,0.01\n", 1.0, 9.0), testing::IsEmpty());
   EXPECT_THAT(gestureWarningsOf("0,0,0\n1000,0,0.01\n", 1.0, 9.0), testing::SizeIs(1));
   EXPECT_THAT(gestureWarningsOf(""), testing::ElementsAre(HasSubstr("has no rows")));
+  EXPECT_THAT(gestureWarningsOf("0,$loss,1\n"), testing::IsEmpty());
+  EXPECT_THAT(gestureWarningsOf("0,0,0\n7,$loss,1\n"),
+              testing::ElementsAre(HasSubstr("the gesture ends 3 s after the render does")));
 }
 
 }  // namespace

@@ -290,5 +290,24 @@ TEST(InProcessDriverTest, RefusesSettingsOutsideTheirRange) {
   refuses([](VirtualDriverConfig& c) { c.gesture_file = "/nowhere/g.csv"; });
 }
 
+TEST(InProcessDriverTest, TellsHowLongItsGestureHasBeenPlayedAndWhatThatAsksOfTheScene) {
+  const test::ScratchFile file("0,0,0.01\n0.002,$tension,80\n");
+  VirtualDriverConfig config = idealConfig();
+  config.gesture_file = file.path();
+  const auto driver = makeFaultyDriver(makeVirtualDriver(config));
+  ASSERT_EQ(driver->gestureValues().size(), 1U);
+  EXPECT_EQ(driver->gestureValues().front().parameter, "tension");
+  for (int session = 0; session < 2; ++session) {
+    driver->open(1000.0);
+    for (int n = 0; n < 3; ++n) {
+      EXPECT_DOUBLE_EQ(driver->gestureTime(), 1e-3 * n);
+      const double force = 0.0;
+      double x = 0.0;
+      driver->exchange(&force, &x);
+    }
+    driver->close();
+  }
+}
+
 }  // namespace
 }  // namespace ergotic::tgr

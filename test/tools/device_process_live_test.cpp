@@ -54,6 +54,18 @@ TEST(ForceLogTest, ForgetsWhatNobodyAskedFor) {
   EXPECT_TRUE(device.waiting.empty()) << "or its ring would run full";
 }
 
+TEST(WarnOfValuesTest, SaysThatADeviceProcessSetsNoParameters) {
+  const test::ScratchFile file("0,0,0\n1,$loss,2\n2,$loss,3\n");
+  testing::internal::CaptureStderr();
+  warnOfValues("virtual_tgr", file.path());
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              StartsWith("virtual_tgr: warning: " + file.path() +
+                         ": 2 rows set parameters of a scene, the first in line 2. "));
+  testing::internal::CaptureStderr();
+  warnOfValues("virtual_tgr", "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 /// In a thread of its own: signals are blocked thread by thread.
 template <class Action>
 void inAThread(const Action& action) {

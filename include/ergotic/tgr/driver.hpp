@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ergotic/tgr/device_clock.hpp"
+#include "ergotic/tgr/gesture.hpp"
 
 namespace YAML {
 class Node;
@@ -142,6 +143,12 @@ class Driver {
 
   /// Not null if the device says when ticks are due. Constant after open.
   virtual DeviceClock* clock() noexcept { return nullptr; }
+
+  /// What the gesture of a simulated device asks of the scene, in order of time: whoever plays the
+  /// scene sets it, each when `gestureTime` has come to it. Constant. Realtime: no. Thread: any
+  virtual std::vector<GestureValue> gestureValues() const { return {}; }
+  /// How long that gesture has been played, s. Realtime: yes. Thread: any
+  virtual double gestureTime() const noexcept { return 0.0; }
 
   /// Whether the slice is simulated, with a hand that `move` moves. Constant while open.
   /// Realtime: yes. Thread: any

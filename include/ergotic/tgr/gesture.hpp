@@ -5,6 +5,9 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
+
+#include "ergotic/scene/value.hpp"
 
 namespace ergotic::tgr {
 
@@ -43,5 +46,24 @@ enum class GestureKind {
 /// is taken for targets.
 /// \throws Exception if the file cannot be read
 GestureKind gestureKindOf(const std::string& path);
+
+/// A row `time_s,$name,value` of a gesture file. Whoever plays the scene sets its parameter: the
+/// device, which knows no scene, has no part in it.
+struct GestureValue {
+  double time_s = 0.0;  ///< since the gesture began
+  std::string parameter;
+  double value = 0.0;
+  std::string file;  ///< that it is from
+  scene::Place name_at;
+  scene::Place value_at;
+};
+
+/// Those of a gesture file, in order of time; none of a file of positions, and if no file is named.
+/// \throws TextError; Exception if the file cannot be read
+std::vector<GestureValue> readGestureValues(const std::string& path);
+
+/// \return index of the parameter that it sets
+/// \throws TextError if there is none of this name, or the value is outside its range
+std::size_t parameterOf(const GestureValue& value, const std::vector<scene::Parameter>& parameters);
 
 }  // namespace ergotic::tgr

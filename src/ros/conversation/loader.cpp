@@ -158,6 +158,7 @@ Answer Loader::start(scene::Scene scene, bool allow_unproven, std::string& verdi
   const physics::Rates rates =
       physics::chooseRates(scene, audioRateFor(given), given.gestural_rate);
   hands->probe(rates.gesturalHz(), given.safety.slice_mass_kg);
+  hands->checkGestures(scene.parameters);
   const Parameters parameters = withStallLimits(given, hands->canHurt());
   station::PerformerPolicy policy;
   policy.on_stage = logStage;

@@ -47,6 +47,8 @@ void Performance::begin(std::unique_ptr<Engine> engine,
   gestures_.resize(kGestureBatch);
   submitted_ = performer;
   parameters_ = performer->parameters;
+  gesture_values_ = engine_->station().driver().gestureValues();
+  next_value_ = 0;
   feed_.configure(engine_->parameters(), engine_->hands());
   show(endEffectors());
   play(performer, std::move(picture));
@@ -128,16 +130,9 @@ void Performance::setParameter(const std::string& name, double value, const Prom
   }
   const auto index = static_cast<std::size_t>(found - known.begin());
   try {
-    const double before = parameters_[index];
-    const std::vector<double> values = parameters_;
-    if (!change(index, value, {name + " is set", promise})) {
-      return answer(promise, false, kTooMany);
+    if (!set(index, value, {name + " is set", promise})) {
+      answer(promise, false, kTooMany);
     }
-    if (value != before) {
-      history_.note(values, rt::monotonicNs());
-    }
-    morph_.leave(index);
-    endMorph();
   } catch (const Exception& refusal) {
     answer(promise, false, refusal.what());
   }
@@ -193,6 +188,7 @@ void Performance::poll() {
     feed_.showStandstill();
   }
   takes_.poll(picture_);
+  pollGestureValues();
   pollMorph();
   if (playing_->motion.refresh() && !takes_.isShown()) {
     feed_.show(playing_->motion.latest(), playing_->instrument->scene());

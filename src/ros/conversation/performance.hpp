@@ -197,6 +197,8 @@ class Performance {
   };
 
   bool change(std::size_t index, double value, Change change);
+  bool set(std::size_t index, double value, Change change);
+  void pollGestureValues();
   void moveTo(const std::map<std::size_t, double>& values, double seconds, Change change);
   void pollMorph();
   void endMorph();
@@ -248,10 +250,12 @@ class Performance {
   std::vector<double> parameters_;           // of submitted_, as submitted
   std::deque<Incoming> incoming_;
   Takes takes_;
-  Morph morph_;              // of submitted_
-  Change morphed_;           // what is answered when it is over
-  bool is_undoing_ = false;  // morph_ is
-  ValueHistory history_;     // of submitted_
+  Morph morph_;                                    // of submitted_
+  Change morphed_;                                 // what is answered when it is over
+  bool is_undoing_ = false;                        // morph_ is
+  ValueHistory history_;                           // of submitted_
+  std::vector<tgr::GestureValue> gesture_values_;  // of the devices, in order of time
+  std::size_t next_value_ = 0;                     // of them
   PresetTopic preset_topic_;
   std::shared_ptr<Picture> picture_;  // of playing_
   Disturbances disturbances_;

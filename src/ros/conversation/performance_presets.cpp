@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What changes parameters: presets, morphs to them, and the way back.
+// What changes parameters: presets, morphs to them, gestures, and the way back.
 #include <algorithm>
 #include <utility>
 
@@ -36,6 +36,42 @@ bool Performance::change(std::size_t index, double value, Change change) {
   parameters_ = std::move(values);
   changes_.push_back(std::move(change));
   return true;
+}
+
+/// As `change`, and what was there before can be undone; a morph leaves it alone from now on.
+bool Performance::set(std::size_t index, double value, Change change) {
+  const std::vector<double> before = parameters_;
+  if (!this->change(index, value, std::move(change))) {
+    return false;
+  }
+  if (value != before[index]) {
+    history_.note(before, rt::monotonicNs());
+  }
+  morph_.leave(index);
+  endMorph();
+  return true;
+}
+
+/// Sets what the gestures of simulated devices ask for by now. What was meant for another scene is
+/// passed over.
+void Performance::pollGestureValues() {
+  const std::int64_t end_ns = rt::monotonicNs() + kMorphNs;
+  const double now_s = engine_->station().driver().gestureTime();
+  while (next_value_ < gesture_values_.size() && gesture_values_[next_value_].time_s <= now_s &&
+         rt::monotonicNs() < end_ns) {
+    const tgr::GestureValue& next = gesture_values_[next_value_];
+    try {
+      const auto& known = submitted_->instrument->scene().parameters;
+      if (!set(tgr::parameterOf(next, known), next.value, {})) {
+        return;
+      }
+    } catch (const Exception& refusal) {
+      const std::string warning = std::string(refusal.what()) + "; the row is passed over";
+      ROS_WARN_STREAM(warning);
+      feed_.addMessage(warning);
+    }
+    ++next_value_;
+  }
 }
 
 std::optional<ParametersNow> Performance::parametersNow() const {

@@ -40,10 +40,17 @@ void Hands::probe(double tick_rate_hz, double slice_mass_kg) {
   driver.open(tick_rate_hz);
   slices_ = driver.slices();
   can_hurt_ = driver.canHurt();
+  gesture_values_ = driver.gestureValues();
   traits_.damping = driver.damping();
   traits_.mass = slice_mass_kg;
   traits_.delay_ticks = 1.0 + driver.extraDelayTicks();
   driver.close();
+}
+
+void Hands::checkGestures(const std::vector<scene::Parameter>& parameters) const {
+  for (const tgr::GestureValue& value : gesture_values_) {
+    static_cast<void>(tgr::parameterOf(value, parameters));
+  }
 }
 
 std::optional<int> Hands::uncheckedSlice() const {

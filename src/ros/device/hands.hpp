@@ -35,6 +35,9 @@ class Hands {
   int slices() const { return slices_; }
   const physics::DeviceTraits& traits() const { return traits_; }
   bool canHurt() const { return can_hurt_; }  ///< tgr::Driver::canHurt of any of them
+  /// \throws TextError if a gesture of a device sets parameters that a scene does not have, or not
+  ///         with such a value
+  void checkGestures(const std::vector<scene::Parameter>& parameters) const;
 
   /// The drivers, for the station that is about to be made. Once
   std::unique_ptr<tgr::Driver> takeDriver() { return std::move(drivers_.driver); }
@@ -60,6 +63,7 @@ class Hands {
   tgr::DriverStack drivers_;  // of which the station has the driver, once it is taken
   int slices_ = 0;
   bool can_hurt_ = true;
+  std::vector<tgr::GestureValue> gesture_values_;
   physics::DeviceTraits traits_;
 };
 

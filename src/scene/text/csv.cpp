@@ -244,7 +244,8 @@ void CsvReader::expectEnd(std::size_t fields) const {
 }
 
 void CsvReader::fail(std::size_t field, const std::string& what) const {
-  throw TextError(file_, line_number_, field < size() ? fields_[field].column : end_column_, what);
+  const Place at = place(field);
+  throw TextError(file_, at.line, at.column, what);
 }
 
 void CsvReader::failAtLine(const std::string& what) const {

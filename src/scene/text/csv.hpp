@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ergotic/scene/value.hpp"
 #include "scene/limits.hpp"
 
 namespace ergotic::scene {
@@ -49,6 +50,10 @@ class CsvReader {
   /// \throws TextError if the row has more fields
   void expectEnd(std::size_t fields) const;
 
+  /// Of a field of the row, or where it is missing.
+  Place place(std::size_t field) const {
+    return {line_number_, field < size() ? fields_[field].column : end_column_};
+  }
   /// At a field of the row, or where it is missing. \throws TextError
   [[noreturn]] void fail(std::size_t field, const std::string& what) const;
   /// At the line that was read last. \throws TextError

@@ -9,6 +9,9 @@ namespace ergotic::scene {
 namespace {
 
 constexpr const char* kTargetColumns = "time_s,slice,target_m";
+constexpr const char* kRows = "time_s,slice,target_m, or time_s,$parameter,value";
+constexpr char kMark = '$';       // of parameters
+constexpr double kBefore = -1.0;  // all times
 constexpr Limits kTimeLimits{"s", 0.0, 1e6};
 constexpr double kLastTick = 1e15;      // a double counts that far
 constexpr double kShortestGapS = 1e-9;  // a hand moves at finite speed
@@ -19,11 +22,11 @@ GestureReader::GestureReader(std::istream& in,
                              const std::string& file,
                              int slices,
                              const Limits& metres)
-    : csv_(in, file, kTargetColumns),
+    : csv_(in, file, kRows),
       metres_(metres),
       slices_(slices),
       x_(1),
-      last_s_(static_cast<std::size_t>(slices), -1.0) {
+      last_s_(static_cast<std::size_t>(slices), kBefore) {
   has_row_ = csv_.next();
   if (has_row_ && csv_.isHeader()) {
     readHeader();
@@ -84,14 +87,30 @@ void GestureReader::readPositions() {
 
 void GestureReader::readTarget() {
   time_ = csv_.number(0, "time_s", kTimeLimits);
+  if (!csv_.text(1).empty() && csv_.text(1).front() == kMark) {
+    return readValue();
+  }
   slice_ = static_cast<int>(csv_.whole(1, "slice", {"", 0.0, slices_ - 1.0}));
   x_[0] = csv_.number(2, "target_m", metres_);
   csv_.expectEnd(3);
-  double& last_s = last_s_[static_cast<std::size_t>(slice_)];
+  requireLater(last_s_[static_cast<std::size_t>(slice_)], "slice's");
+}
+
+void GestureReader::readValue() {
+  slice_ = kNoSlice;
+  parameter_ = csv_.text(1).substr(1);
+  if (parameter_.empty()) {
+    csv_.fail(1, std::string("the name of a parameter is missing, allowed: ") + kRows);
+  }
+  x_[0] = csv_.number(2, "value", Limits{});
+  csv_.expectEnd(3);
+  requireLater(last_value_s_.emplace(parameter_, kBefore).first->second, "parameter's");
+}
+
+void GestureReader::requireLater(double& last_s, const std::string& whose) const {
   if (last_s >= 0.0 && time_ - last_s < kShortestGapS) {
-    csv_.fail(0, "time_s = " + numberText(time_) +
-                     " s is not after the slice's row before it, by "
-                     "1e-9 s at least");
+    csv_.fail(0, "time_s = " + numberText(time_) + " s is not after the " + whose +
+                     " row before it, by 1e-9 s at least");
   }
   last_s = time_;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <istream>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace ergotic::scene {
 /// Reads a gesture file row by row. There are two kinds:
 ///
 /// - `time_s,slice,target_m`, a line that may stand on top: where one slice wants to be at a time.
-///   The rows of a slice come in increasing time; slices may interleave.
+///   The rows of a slice come in increasing time; slices may interleave. A row `time_s,$name,value`
+///   sets the parameter `name` of a scene instead, as if that were a slice.
 /// - `tick,x0,x1,...`, a line that must stand on top: where all slices were at a tick. Ticks
 ///   increase.
 class GestureReader {
@@ -29,8 +31,12 @@ class GestureReader {
   /// Goes to the next row. \return false at the end \throws TextError
   bool next();
   double time() const { return time_; }  ///< s, or a tick
-  int slice() const { return slice_; }   ///< of a target
+  int slice() const { return slice_; }   ///< of a target; kNoSlice: the row sets a parameter
   double target() const { return x_.front(); }
+  bool isParameter() const { return slice_ == kNoSlice; }
+  const std::string& parameter() const { return parameter_; }  ///< its name, without the `$`
+  double value() const { return x_.front(); }                  ///< of the parameter, finite
+  Place place(std::size_t field) const { return csv_.place(field); }
   const std::vector<double>& positions() const { return x_; }  ///< [slices]
 
   /// At the first field of the row. \throws TextError
@@ -43,7 +49,10 @@ class GestureReader {
   void readColumns();
   void readPositions();
   void readTarget();
+  void readValue();
+  void requireLater(double& last_s, const std::string& whose) const;
 
+  static constexpr int kNoSlice = -1;
   CsvReader csv_;
   Limits metres_;
   int slices_;
@@ -52,7 +61,9 @@ class GestureReader {
   double time_ = -1.0;
   int slice_ = 0;
   std::vector<double> x_;
-  std::vector<double> last_s_;  ///< of targets, [slices]
+  std::string parameter_;
+  std::vector<double> last_s_;                  ///< of targets, [slices]
+  std::map<std::string, double> last_value_s_;  ///< of parameters
 };
 
 }  // namespace ergotic::scene

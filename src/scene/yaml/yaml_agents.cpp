@@ -116,6 +116,7 @@ PointList knotsIn(const SceneBuilder& builder,
 struct GestureOfSlice {
   bool in_ticks = false;
   PointList points;
+  int value_line = 0;  ///< of the first row that sets a parameter; 0: there is none
 };
 
 void addPoint(const GestureReader& rows, int slice, double first_tick, PointList& points) {
@@ -135,9 +136,13 @@ GestureOfSlice readGesture(const PointFiles::File& file, int slice) {
     rows.failAtLine("no column of slice " + std::to_string(slice) + ", there are " +
                     std::to_string(rows.slices()) + " slices");
   }
-  GestureOfSlice gesture{rows.isInTicks(), {}};
+  GestureOfSlice gesture{rows.isInTicks(), {}, 0};
   double first_tick = -1.0;
   while (rows.next()) {
+    if (rows.isParameter()) {
+      gesture.value_line = gesture.value_line > 0 ? gesture.value_line : rows.place(1).line;
+      continue;
+    }
     first_tick = first_tick < 0.0 ? rows.time() : first_tick;
     addPoint(rows, slice, first_tick, gesture.points);
     if (gesture.points.size() > kMaxSceneTablePoints) {
@@ -151,7 +156,7 @@ GestureOfSlice readGesture(const PointFiles::File& file, int slice) {
 }
 
 /// `gesture: {file: ..., slice: ..., tick_rate: ...}`
-PointList knotsOfFile(const SceneBuilder& builder,
+PointList knotsOfFile(SceneBuilder& builder,
                       PointFiles& files,
                       const std::string& name,
                       const YamlMap& spec) {
@@ -173,6 +178,12 @@ PointList knotsOfFile(const SceneBuilder& builder,
     builder.fail(spec.place(),
                  quoted(file_name) + (gesture.in_ticks ? " counts ticks" : " is in seconds") +
                      ", allowed: " + (gesture.in_ticks ? "with" : "without") + " 'tick_rate'");
+  }
+  if (gesture.value_line > 0) {
+    builder.warn(spec.place(), "line " + std::to_string(gesture.value_line) + " of " +
+                                   quoted(file_name) +
+                                   " sets a parameter, which an agent does not: it moves one "
+                                   "module, and passes such lines over");
   }
   for (auto& knot : gesture.points) {
     knot.first /= gesture.in_ticks ? rate_hz : 1.0;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/lib/device_process.hpp"
 
+#include <iostream>
 #include <utility>
 
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/clock.hpp"
+#include "ergotic/tgr/gesture.hpp"
 
 namespace ergotic::tools {
 
@@ -23,6 +25,17 @@ void Signals::attend(double seconds, const std::function<bool()>& each) const {
     return seconds > 0.0 && static_cast<double>(rt::monotonicNs() - start_ns) > seconds * kNsPerS;
   };
   while (sigtimedwait(&set_, nullptr, &kPause) < 0 && each() && !isOver()) {
+  }
+}
+
+void warnOfValues(const std::string& process, const std::string& gesture_file) {
+  const auto values = tgr::readGestureValues(gesture_file);
+  if (!values.empty()) {
+    std::cerr << process << ": warning: " << gesture_file << ": " << values.size()
+              << (values.size() == 1 ? " row sets a parameter" : " rows set parameters")
+              << " of a scene, the first in line " << values.front().name_at.line
+              << ". A device process knows no scene, so they have no effect: let the station play "
+                 "the file (gesture:=), or scripts/play_gesture\n";
   }
 }
 

@@ -25,6 +25,10 @@ class Signals {
   sigset_t set_{};
 };
 
+/// Says of a gesture file that its rows that set parameters have no effect in a device process.
+/// \param process  its name \throws TextError, Exception from the file
+void warnOfValues(const std::string& process, const std::string& gesture_file);
+
 /// CSV `time_ns,slice,force_n`: every change of force that a virtual device felt.
 class ForceLog {
  public:

@@ -83,11 +83,6 @@ tgr::VirtualDriverConfig deviceFor(const std::string& csv, std::uint64_t slices_
 
 class HandPlayer final : public Player {
  public:
-  HandPlayer(std::unique_ptr<station::Performer> performer,
-             SoundInputs inputs,
-             const std::string& csv)
-      : HandPlayer(std::move(performer), std::move(inputs), csv, {}, "", kUsualSeconds) {}
-
   /// \param name  of what the score was made of, for messages
   HandPlayer(std::unique_ptr<station::Performer> performer,
              SoundInputs inputs,
@@ -207,7 +202,9 @@ std::unique_ptr<Player> makeFreePlayer(std::unique_ptr<station::Performer> perfo
 std::unique_ptr<Player> makeHandPlayer(std::unique_ptr<station::Performer> performer,
                                        SoundInputs inputs,
                                        const std::string& csv) {
-  return std::make_unique<HandPlayer>(std::move(performer), std::move(inputs), csv);
+  Score score = scoreOfGesture(csv, performer->instrument->scene());
+  return std::make_unique<HandPlayer>(std::move(performer), std::move(inputs), csv,
+                                      std::move(score), "", Player::kUsualSeconds);
 }
 
 std::unique_ptr<Player> makeSongPlayer(std::unique_ptr<station::Performer> performer,

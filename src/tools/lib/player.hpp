@@ -54,7 +54,8 @@ std::unique_ptr<Player> makeFreePlayer(std::unique_ptr<station::Performer> perfo
 
 /// The instrument in a station that is engaged from the first tick on: safety, the tick of delay
 /// and single-precision sound as when played live.
-/// \param csv  targets for the hand of a virtual device, or recorded positions
+/// \param csv  targets for the hand of a virtual device and values of parameters, or recorded
+/// positions
 /// \throws TextError from the file
 std::unique_ptr<Player> makeHandPlayer(std::unique_ptr<station::Performer> performer,
                                        SoundInputs inputs,

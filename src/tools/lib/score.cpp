@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ergotic/exception.hpp"
+#include "ergotic/tgr/gesture.hpp"
 #include "ergotic/tgr/keyboard.hpp"
 #include "ergotic/tgr/players/scene_map.hpp"
 #include "ergotic/tgr/players/tool_hands.hpp"
@@ -192,6 +193,15 @@ void ScoreReader::bring(std::int64_t tick,
     parameters_[static_cast<std::size_t>(parameter)] = value;
     station.setParameter(instrument, parameters_, parameter);
   }
+}
+
+Score scoreOfGesture(const std::string& file, const scene::Scene& scene) {
+  Score score;
+  for (const tgr::GestureValue& value : tgr::readGestureValues(file)) {
+    const std::size_t index = tgr::parameterOf(value, scene.parameters);
+    score.values.push_back({value.time_s, static_cast<int>(index), value.value});
+  }
+  return score;
 }
 
 SongMap songMapFor(const scene::Scene& scene, const std::string& file) {

@@ -52,6 +52,10 @@ class ScoreReader {
   std::size_t next_value_ = 0;
 };
 
+/// The rows of a gesture file that set parameters; the hands are moved by a virtual device.
+/// \throws TextError also of parameters that the scene does not have, or not with such a value
+Score scoreOfGesture(const std::string& file, const scene::Scene& scene);
+
 /// The map by which notes play a scene, as at a live station.
 struct SongMap {
   tgr::PlayMap map;

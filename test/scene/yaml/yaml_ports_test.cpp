@@ -163,6 +163,13 @@ TEST_F(GestureFileTest, PositionsOfOneSliceCountFromTheFirstTick) {
   EXPECT_EQ(s.agents[0].knots, (Knots{{0.0, 4.0}, {0.001, 5.0}, {0.003, 6.0}}));
 }
 
+TEST_F(GestureFileTest, AnAgentSetsNoParametersAndSaysSo) {
+  const Scene s = read("0,0,0.1\n0.5,$loss,1\n0.6,$loss,2\n1,0,0.2\n", "slice: 0");
+  EXPECT_EQ(s.agents[0].knots, (Knots{{0.0, 0.1}, {1.0, 0.2}}));
+  EXPECT_THAT(s.warnings, ElementsAre(StartsWith(folder_ + "scene.yaml:5:36: warning: line 2 of "
+                                                           "'g.csv' sets a parameter")));
+}
+
 TEST_F(GestureFileTest, TextAloneGivesTheSameSceneAgain) {
   const Scene first = read("0,0,0.1\n0.3333333333333333,0,1e-300\n", "slice: 0");
   EXPECT_THAT(first.text, HasSubstr("\n---\ngestures: {\"a\": [[0, 0.1], [0.3333333333333333, "

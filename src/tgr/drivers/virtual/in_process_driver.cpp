@@ -10,12 +10,15 @@
 namespace ergotic::tgr {
 
 InProcessDriver::InProcessDriver(const VirtualDriverConfig& config)
-    : bank_(config), queue_ticks_(config.extra_delay_ticks) {
+    : bank_(config),
+      values_(readGestureValues(config.gesture_file)),
+      queue_ticks_(config.extra_delay_ticks) {
   requireWithin("extra_delay_ticks", queue_ticks_, 0, kMaxExtraDelayTicks, "ticks");
 }
 
 void InProcessDriver::open(double tick_rate_hz) {
   bank_.start(1.0 / tick_rate_hz, tick_rate_hz);
+  gesture_s_ = 0.0;
   actuator_ticks_ = static_cast<int>(std::ceil(bank_.delay() * tick_rate_hz));
   for (Forces& forces : queue_) {
     forces.fill(0.0);
@@ -41,6 +44,7 @@ ERGOTIC_REALTIME std::uint32_t InProcessDriver::exchange(const double* forces,
   takeMoves();
   Forces& oldest = queue_[head_];
   bank_.step(oldest.data());
+  gesture_s_.store(bank_.gestureTime(), std::memory_order_relaxed);
   bank_.read(last_positions_.data());
   for (int i = 0; i < slices(); ++i) {
     oldest[static_cast<std::size_t>(i)] = bank_.newtons(i, safe ? 0.0 : forces[i]);

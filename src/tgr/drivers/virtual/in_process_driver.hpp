@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <vector>
 
 #include "ergotic/rt/ring.hpp"
 #include "ergotic/tgr/virtual_driver.hpp"
@@ -31,6 +32,8 @@ class InProcessDriver final : public Driver {
   bool canHurt() const noexcept override { return false; }
   double damping() const noexcept override { return bank_.damping(); }
   double declaredDamping() const noexcept override { return damping(); }
+  std::vector<GestureValue> gestureValues() const override { return values_; }
+  double gestureTime() const noexcept override { return gesture_s_; }
   bool hasHand(int slice) const noexcept override { return slice >= 0 && slice < slices(); }
   bool move(const HandMove& move) noexcept override;
 
@@ -41,6 +44,8 @@ class InProcessDriver final : public Driver {
   void takeMoves() noexcept;
 
   SliceBank bank_;
+  std::vector<GestureValue> values_;
+  std::atomic<double> gesture_s_{0.0};
   int queue_ticks_;
   int actuator_ticks_ = 0;                               // of its delay, rounded up
   std::array<Forces, kMaxExtraDelayTicks + 1> queue_{};  // forces under way, oldest at head_

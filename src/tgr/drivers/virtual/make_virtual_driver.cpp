@@ -52,10 +52,11 @@ std::vector<std::string> gestureWarnings(const VirtualDriverConfig& config,
     return {};
   }
   const TargetGesture gesture = readTargetGesture(config.gesture_file, config.slices);
+  const std::vector<GestureValue> values = readGestureValues(config.gesture_file);
   std::vector<std::string> warnings;
   std::vector<int> idle;
-  double last_s = 0.0;
-  bool is_empty = true;
+  double last_s = values.empty() ? 0.0 : values.back().time_s;
+  bool is_empty = values.empty();
   for (int i = 0; i < config.slices; ++i) {
     const TargetGesture::Range range = gesture.rangeOf(i);
     if (range.is_empty) {

@@ -88,7 +88,7 @@ ERGOTIC_REALTIME void SliceBank::step(const double* forces) noexcept {
 
 ERGOTIC_REALTIME HandTarget SliceBank::handAt(int slice) noexcept {
   if (!players_.owns(slice)) {
-    return gesture_.at(slice, static_cast<double>(steps_ - gesture_begins_) * step_s_);
+    return gesture_.at(slice, gestureTime());
   }
   VirtualSlice& held = slices_[static_cast<std::size_t>(slice)];
   const PlayerHands::Holding hand =

@@ -25,6 +25,11 @@ class SliceBank {
   /// \param tick_rate_hz  of a gesture of positions that has no rate of its own
   void start(double step_s, double tick_rate_hz);
 
+  /// How long the gesture has been played, s.
+  double gestureTime() const noexcept {
+    return static_cast<double>(steps_ - gesture_begins_) * step_s_;
+  }
+
   /// The gesture begins anew with the next step, and has all slices again.
   void restartGesture() noexcept;
 

@@ -15,6 +15,9 @@ TargetGesture::TargetGesture(std::istream& in, const std::string& name, int slic
   is_in_ticks_ = rows.isInTicks();
   double first_tick = -1.0;
   while (rows.next()) {
+    if (rows.isParameter()) {
+      continue;
+    }
     if (!is_in_ticks_) {
       knots_[static_cast<std::size_t>(rows.slice())].push_back({rows.time(), rows.target()});
       continue;

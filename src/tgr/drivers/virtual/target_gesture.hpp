@@ -10,7 +10,8 @@
 namespace ergotic::tgr {
 
 /// Where the virtual hands want to be over time, from a gesture file of either kind
-/// (scene/text/gesture_csv.hpp). The first row of one that counts ticks is time 0.
+/// (scene/text/gesture_csv.hpp). The first row of one that counts ticks is time 0. Rows that set
+/// parameters are passed over, see readGestureValues.
 ///
 /// Between the rows of a slice the target moves on a straight line; before its first row it is the
 /// first row's, after its last row the last one's; a slice without rows rests at 0.

@@ -1,0 +1,95 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What changes while a station plays: a gesture file sets parameters of the scene."""
+import os
+import subprocess
+import time
+
+import rospy
+import rostest
+
+from desk import ROOT, DeskTest, Newest, until
+from ergotic.msg import Event, GestureBlock, Parameters, Status
+from ergotic.srv import LoadModel, Take, TakeRequest
+
+TOOLS = os.path.join(ROOT, "devel/lib/ergotic")
+MODEL = os.path.join(ROOT, "models/string.yaml")
+CHANGES = ((3.0, 0.3), (3.5, 0.1))  # of the volume, s
+LAST_S = 6.0
+OTHER = "ergotic: 1\nname: other\nsections: {s: {rate: audio}}\nmats: {m: {type: mass, section: s, mass: 1}}\n"
+
+
+class ChangesTest(DeskTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        os.environ["ROS_HOME"] = os.path.join(cls.folder.name, "ros")
+        cls.gesture = os.path.join(cls.folder.name, "gesture.csv")
+        cls.status = Newest("/station/status", Status)
+        cls.parameters = Newest("/station/model_parameters", Parameters)
+        cls.changes = []
+        rospy.Subscriber("/station/events", Event, lambda event: cls.changes.append(event))
+        cls.write_gesture("1,$volume,0.5\n")
+        cls.start_station(model=MODEL, jack="none", gesture=cls.gesture, autoengage=True, ramp=0.1)
+
+    @classmethod
+    def write_gesture(cls, rows):
+        with open(cls.gesture, "w", encoding="utf-8") as file:
+            file.write("time_s,slice,target_m\n" + rows)
+
+    def message(self):
+        return self.status.message.message if self.status.message else ""
+
+    def load(self, model):
+        return rospy.ServiceProxy("/station/load_model", LoadModel)(model=model)
+
+    def take(self, action, name=""):
+        answer = rospy.ServiceProxy("/station/take", Take)(action=action, name=name)
+        self.assertTrue(answer.success, answer.message)
+        return answer.path
+
+    def finish_and_replay(self):
+        bag = self.take(TakeRequest.FINISH)
+        again = subprocess.run([os.path.join(TOOLS, "render"), "--gesture", bag], timeout=60, capture_output=True,
+                               text=True, check=False)
+        self.assertEqual(again.returncode, 0, again.stderr)
+
+    def values(self):
+        return dict(zip(self.parameters.message.names, self.parameters.message.values))
+
+    def test_1_a_gesture_that_sets_what_the_scene_does_not_allow_is_refused(self):
+        self.assertTrue(until(lambda: self.message(), 60), "no status")
+        place = f"{self.gesture}:2:11: error: volume = 0.5 is out of range, allowed: 0...0.4"
+        self.assertIn(place, self.message())
+        self.write_gesture("1,$volum,0.3\n")
+        self.assertIn(f"{self.gesture}:2:3: error: the scene has no parameter 'volum'", self.load(MODEL).message)
+
+    def test_2_a_gesture_sets_parameters_and_the_take_is_replayed_bit_for_bit(self):
+        rows = "0,0,0\n1.5,0,0\n2,0,0.02\n" + "".join(f"{at},$volume,{value}\n" for at, value in CHANGES)
+        self.write_gesture(rows + f"{LAST_S},$brightness,0.005\n")
+        answer = self.load(MODEL)
+        self.assertTrue(answer.success, answer.message)
+        self.take(TakeRequest.RECORD, "gesture")
+        for _, value in CHANGES:
+            self.assertTrue(until(lambda wanted=value: self.values()["volume"] == wanted, 10), self.values())
+        blocks = Newest("/station/gesture", GestureBlock)  # a new listener, for whom there is a keyframe
+        self.assertTrue(until(lambda: blocks.message, 5), "no gesture")
+        time.sleep(0.5)
+        self.finish_and_replay()
+        rate = blocks.message.tick_rate_hz
+        told = [(event.tick / rate, event.value) for event in self.changes if event.type == Event.PARAMETER]
+        print(f"asked for {CHANGES}, set {told}")
+        self.assertEqual([value for _, value in told], [value for _, value in CHANGES])
+        for (wanted_s, _), (at_s, _) in zip(CHANGES, told):
+            self.assertTrue(0.0 <= at_s - wanted_s < 0.2, f"{wanted_s} s came at {at_s} s")
+
+    def test_3_what_another_scene_does_not_have_is_passed_over_with_a_warning(self):
+        self.assertTrue(self.load(OTHER).success)
+        self.assertTrue(until(lambda: f"{self.gesture}:7:5: error: the scene has no parameter 'brightness'" in
+                              self.message(), LAST_S), self.message())
+        self.assertEqual(self.status.message.model, "other")
+
+
+if __name__ == "__main__":
+    rospy.init_node("changes")
+    rostest.rosrun("ergotic", "changes", ChangesTest)

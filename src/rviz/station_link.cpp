@@ -456,6 +456,16 @@ void StationLink::load(const std::string& model, const std::string& title) {
   loading_->ask<LoadModel>("Load", shared_->station + "/load_model", request, kLoadingPatienceS);
 }
 
+void StationLink::reload() {
+  {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->show({true, "Reading the scene again ..."});
+  }
+  loading_->forgetWaiting();
+  loading_->ask<std_srvs::Trigger>("Read again", shared_->station + "/reload", {},
+                                   kLoadingPatienceS);
+}
+
 void StationLink::ask(const char* what, const Take::Request& request) {
   {
     const std::lock_guard lock(shared_->mutex);

@@ -71,6 +71,8 @@ class StationLink {
   void recover();
   /// \param model  path, path#variant
   void load(const std::string& model, const std::string& title);
+  /// The scene that plays, from its file.
+  void reload();
   /// By the topic: of several values that come at once, the station takes the newest.
   void setParameter(const std::string& name, double value);
   /// The next MIDI controller that moves shall move this parameter.

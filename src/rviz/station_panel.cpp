@@ -182,9 +182,16 @@ void StationPanel::addInstruments(QVBoxLayout* column) {
   verdict_ = adopted<QLabel>();
   verdict_->setAlignment(Qt::AlignRight);
   verdict_->setToolTip("Whether what plays is proven to be stable: passive, bounded, unproven");
+  reload_ = adopted<QPushButton>("↻");
+  reload_->setAutoDefault(false);
+  reload_->setFixedSize(26, 22);
+  reload_->setAccessibleName("read the scene again");
+  reload_->setToolTip("Reads the scene's file again, with the parameters as they are (Shift+F5)");
+  QObject::connect(reload_, &QPushButton::clicked, this, press(&StationLink::reload));
   auto* line = adopted<QHBoxLayout>();
   line->addWidget(title("Instrument (F3)"));
   line->addWidget(verdict_, 1);
+  line->addWidget(reload_);
   column->addLayout(line);
   column->addWidget(instruments_);
   column->addWidget(about_);
@@ -359,6 +366,7 @@ void StationPanel::addKeys() {
   bind(Qt::Key_F5, [this] { engage_->click(); });
   bind(
       Qt::Key_F6, [on_all] { on_all(&StationLink::stop); }, true);
+  bind(Qt::SHIFT + Qt::Key_F5, [this] { reload_->click(); });
   bind(Qt::Key_F7, [this] { recover_->click(); });
   bind(Qt::Key_F8, [this] { mute_->toggle(); });
   bind(
@@ -437,6 +445,7 @@ void StationPanel::showInstruments() {
           found == news_.scenes.end() ? -1 : static_cast<int>(found - news_.scenes.begin()));
     }
   }
+  reload_->setEnabled(!isStale());
   const int row = instruments_->currentIndex();
   about_->show(row < 0 ? "" : news_.scenes[static_cast<std::size_t>(row)].about);
   const std::string& verdict = news_.status.verdict;

@@ -84,6 +84,7 @@ class StationPanel : public rviz::Panel {
   QPushButton* emergency_ = nullptr;
   Paragraph* answer_ = nullptr;
   QComboBox* instruments_ = nullptr;
+  QPushButton* reload_ = nullptr;
   Paragraph* about_ = nullptr;
   QLabel* verdict_ = nullptr;
   ParameterList* parameters_ = nullptr;

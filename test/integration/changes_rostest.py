@@ -1,16 +1,17 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What changes while a station plays: a gesture file sets parameters of the scene."""
+"""What changes while a station plays: a gesture file sets parameters of the scene, the scene is edited and read again."""
 import os
 import subprocess
 import time
 
 import rospy
 import rostest
+from std_srvs.srv import Trigger
 
 from desk import ROOT, DeskTest, Newest, until
 from ergotic.msg import Event, GestureBlock, Parameters, Status
-from ergotic.srv import LoadModel, Take, TakeRequest
+from ergotic.srv import LoadModel, SetParameter, Take, TakeRequest
 
 TOOLS = os.path.join(ROOT, "devel/lib/ergotic")
 MODEL = os.path.join(ROOT, "models/string.yaml")
@@ -42,6 +43,9 @@ class ChangesTest(DeskTest):
 
     def load(self, model):
         return rospy.ServiceProxy("/station/load_model", LoadModel)(model=model)
+
+    def reload(self):
+        return rospy.ServiceProxy("/station/reload", Trigger)()
 
     def take(self, action, name=""):
         answer = rospy.ServiceProxy("/station/take", Take)(action=action, name=name)
@@ -88,6 +92,44 @@ class ChangesTest(DeskTest):
         self.assertTrue(until(lambda: f"{self.gesture}:7:5: error: the scene has no parameter 'brightness'" in
                               self.message(), LAST_S), self.message())
         self.assertEqual(self.status.message.model, "other")
+        self.assertIn("came as a text", self.reload().message)
+
+    def edit(self, *changes):
+        """Changes the file of the scene, and reads it again."""
+        for old, new in changes:
+            self.assertIn(old, self.text)
+            self.text = self.text.replace(old, new)
+        with open(self.scene, "w", encoding="utf-8") as file:
+            file.write(self.text)
+        return self.reload()
+
+    def test_4_an_edited_scene_is_read_again_with_the_parameters_that_were_changed(self):
+        self.scene = os.path.join(self.folder.name, "scene.yaml")
+        with open(MODEL, encoding="utf-8") as file:
+            self.text = file.read()
+        self.assertIn("came as a text", self.edit().message)
+        self.assertTrue(self.load(self.scene).success)
+        for name, value in (("loss", 3e-5), ("brightness", 5e-3)):
+            self.assertTrue(rospy.ServiceProxy("/station/set_parameter", SetParameter)(name=name, value=value).success)
+        self.take(TakeRequest.RECORD, "edited")
+        answer = self.edit(("name: plucked and struck string", "name: edited"), ("{value: 0.15,", "{value: 0.2,"),
+                           ("range: [2.0e-4, 1.0e-2]", "range: [2.0e-4, 4.0e-3]"))
+        self.assertTrue(answer.success, answer.message)
+        self.assertIn("plays 'edited'", answer.message)
+        self.assertIn("not as they were: 'brightness' is 0.005, allowed: 0.0002...0.004", answer.message)
+        values = {"loss": 3e-5, "brightness": 1e-3, "volume": 0.2}
+        self.assertTrue(until(lambda: self.status.message.model == "edited" and self.values() == values), self.values())
+        time.sleep(0.5)
+        self.finish_and_replay()
+
+        line = self.text[:self.text.index("masses: 160")].count("\n") + 1
+        answer = self.edit(("name: edited", "name: broken"), ("masses: 160", "masses: many"))
+        self.assertFalse(answer.success)
+        self.assertTrue(answer.message.startswith(f"{self.scene}:{line}:"), answer.message)
+        self.assertEqual((self.status.message.model, self.values()), ("edited", values))
+        answer = self.edit(("masses: many", "masses: 80"), ("name: broken", "name: mended"))
+        self.assertTrue(answer.success, answer.message)
+        self.assertTrue(until(lambda: self.status.message.model == "mended" and self.values() == values), self.values())
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ import rospy
 import rostest
 
 from desk import ROOT, DeskTest, Newest, until
-from ergotic.msg import Parameters, Status
+from ergotic.msg import ModelStructure, Parameters, Status
 
 FORCE = (Status.ENGAGING, Status.PLAYING)
 
@@ -20,6 +20,7 @@ class PanelTest(DeskTest):
         cls.start_screen()
         cls.status = Newest("/station/status", Status)
         cls.parameters = Newest("/station/model_parameters", Parameters)
+        cls.structure = Newest("/station/model_structure", ModelStructure)
         cls.start_station(model=os.path.join(ROOT, "models/string.yaml"), jack="none", ramp=0.1)
         cls.rviz = cls.start_rviz()
 
@@ -49,6 +50,7 @@ class PanelTest(DeskTest):
         self.expect(*FORCE, key="F5")
         self.expect(Status.PLAYING)
         self.check_sliders()
+        self.check_reload()
 
         self.expect(Status.READY, key="F6")
         self.expect(*FORCE, key="F5")
@@ -74,6 +76,14 @@ class PanelTest(DeskTest):
         self.press("Home")
         self.assertTrue(until(lambda: self.values()[0] == self.parameters.message.lows[0]), self.values())
         self.assertEqual(self.values()[1:], at_first[1:])
+
+    def check_reload(self):
+        """With the value that a slider was moved to."""
+        before, values = self.structure.message, self.values()
+        self.press("shift+F5")
+        self.assertTrue(until(lambda: self.structure.message is not before), "the scene is not read again")
+        self.assertTrue(until(lambda: self.values() == values), self.values())
+        self.expect(Status.PLAYING)
 
 
 if __name__ == "__main__":

@@ -58,16 +58,36 @@ double audioRateFor(const Parameters& parameters) {
 LoadModel::Response Loader::load(const std::string& model,
                                  bool allow_unproven,
                                  const std::string& loader) {
+  return load({model, allow_unproven, loader, false});
+}
+
+Answer Loader::reload(const std::string& loader) {
+  if (last_.model.empty()) {
+    return {false, kNothingPlays};
+  }
+  if (isText(last_.model)) {
+    return {false, "the scene came as a text: there is no file that could be read again"};
+  }
+  const LoadModel::Response response =
+      load({last_.model, last_.allow_unproven, loader, has_played_});
+  return {response.success != 0U, response.message};
+}
+
+LoadModel::Response Loader::load(const Wish& wish) {
   LoadModel::Response response;
   Answer answer;
   is_device_missing_ = false;
   try {
-    answer = play(readModel(model), allow_unproven, loader, response.verdict);
+    answer = play(readModel(wish.model), wish, response.verdict);
   } catch (const DeviceError& missing) {
     is_device_missing_ = true;
     answer = {false, missing.what()};
   } catch (const std::exception& refusal) {
     answer = {false, refusal.what()};
+  }
+  if (answer.ok || !has_played_) {
+    last_ = wish;
+    has_played_ = answer.ok;
   }
   if (answer.ok) {
     ROS_INFO_STREAM(answer.message);
@@ -129,17 +149,14 @@ void Loader::loadProgram(int program) {
   }
 }
 
-Answer Loader::play(scene::Scene scene,
-                    bool allow_unproven,
-                    const std::string& loader,
-                    std::string& verdict) {
+Answer Loader::play(scene::Scene scene, const Wish& wish, std::string& verdict) {
   const auto terms = operator_.terms();
   if (!terms) {
-    return start(std::move(scene), allow_unproven, verdict);
+    return start(std::move(scene), wish.allow_unproven, verdict);
   }
   station::PerformerPolicy policy;
   policy.on_stage = logStage;
-  policy.allow_unproven = allow_unproven && terms->parameters.allow_unproven;
+  policy.allow_unproven = wish.allow_unproven && terms->parameters.allow_unproven;
   policy.max_load = terms->parameters.max_load;
   policy.slices = terms->slices;
   policy.device = terms->device;
@@ -149,7 +166,7 @@ Answer Loader::play(scene::Scene scene,
   auto performer =
       makePerformer(std::move(scene), rates, terms->parameters.compile, policy, verdict);
   const auto picture = toPicture(*performer->instrument, terms->parameters.display_zoom);
-  return operator_.swap(std::move(performer), picture, loader);
+  return operator_.swap(std::move(performer), picture, wish.loader, wish.is_again);
 }
 
 Answer Loader::start(scene::Scene scene, bool allow_unproven, std::string& verdict) {

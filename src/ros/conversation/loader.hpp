@@ -31,6 +31,12 @@ class Loader {
                            bool allow_unproven,
                            const std::string& loader);
 
+  /// Reads the file of the model that plays again, or while none has played yet of the last one
+  /// that was asked for, and plays it with the parameters as they were changed. The one that plays
+  /// keeps playing if this fails.
+  /// \param loader  as of `load`
+  Answer reload(const std::string& loader);
+
   /// Plays the scene that a MIDI program change means, if the station allows it, as if the station
   /// itself had asked for it.
   /// \param program  0...127
@@ -43,15 +49,22 @@ class Loader {
   void giveUp() { gives_up_ = true; }
 
  private:
+  /// A model that somebody wants to be played.
+  struct Wish {
+    std::string model;  ///< path or YAML text
+    bool allow_unproven = false;
+    std::string loader;
+    bool is_again = false;  ///< it plays already
+  };
+  LoadModel::Response load(const Wish& wish);
   bool waitUntilNextTry(std::int64_t end_ns) const;
-  Answer play(scene::Scene scene,
-              bool allow_unproven,
-              const std::string& loader,
-              std::string& verdict);
+  Answer play(scene::Scene scene, const Wish& wish, std::string& verdict);
   Answer start(scene::Scene scene, bool allow_unproven, std::string& verdict);
 
   ::ros::NodeHandle node_;
   Operator& operator_;
+  Wish last_;  // that was fulfilled; until one is, that was asked for
+  bool has_played_ = false;
   bool is_device_missing_ = false;  // because of that the last load failed
   std::atomic<bool> gives_up_{false};
 };

@@ -38,13 +38,16 @@ const scene::Choice kTextAlone = {"", false};
 
 }  // namespace
 
+bool isText(const std::string& model) {
+  return model.find('\n') != std::string::npos;
+}
+
 scene::Scene readModel(const std::string& model) {
   if (model.empty()) {
     throw Exception("no model is named, allowed: a path, or YAML of more than one line");
   }
-  scene::Scene scene = model.find('\n') == std::string::npos
-                           ? readFile(model)
-                           : scene::readYaml(model, "inline.yaml", {}, kTextAlone);
+  scene::Scene scene =
+      isText(model) ? scene::readYaml(model, "inline.yaml", {}, kTextAlone) : readFile(model);
   scene::validate(scene);
   return scene;
 }

@@ -8,8 +8,11 @@
 
 namespace ergotic::node {
 
-/// Reads and validates a model; text of more than one line is YAML, anything else a path, with
-/// `#variant` behind it if a variant of the scene is meant.
+/// Whether a model is the YAML text of a scene: it has more than one line then.
+bool isText(const std::string& model);
+
+/// Reads and validates a model; what is no text is a path, with `#variant` behind it if a variant
+/// of the scene is meant.
 /// \throws TextError with file:line:col; Exception if the file cannot be read
 scene::Scene readModel(const std::string& model);
 

@@ -51,7 +51,7 @@ void Performance::begin(std::unique_ptr<Engine> engine,
   next_value_ = 0;
   feed_.configure(engine_->parameters(), engine_->hands());
   show(endEffectors());
-  play(performer, std::move(picture));
+  play(performer, std::move(picture), false);
   if (engine_->parameters().autoengage) {
     engage({{rt::monotonicNs(), began_}, ::ros::this_node::getName()},
            std::make_shared<std::promise<Answer>>());
@@ -61,6 +61,7 @@ void Performance::begin(std::unique_ptr<Engine> engine,
 void Performance::swap(std::unique_ptr<station::Performer> performer,
                        std::shared_ptr<Picture> picture,
                        const std::string& loader,
+                       bool is_again,
                        const Promise& promise) {
   if (!engine_) {
     return answer(promise, false, kNothingPlays);
@@ -81,10 +82,11 @@ void Performance::swap(std::unique_ptr<station::Performer> performer,
   } catch (const Exception& refusal) {
     return answer(promise, false, refusal.what());
   }
+  const PresetValues kept = is_again ? changedValues() : PresetValues();
   submitted_ = performer.release();
   parameters_ = parameters;
   forgetChanges();
-  incoming_.push_back({submitted_, std::move(picture), promise});
+  incoming_.push_back({submitted_, std::move(picture), promise, is_again, bringBack(kept)});
 }
 
 void Performance::engage(const ForceRequest& request, const Promise& promise) {
@@ -347,8 +349,10 @@ void Performance::takeSwapped(const station::Event& event) {
   }
   Incoming next = std::move(incoming_.front());
   incoming_.pop_front();
-  play(next.performer, std::move(next.picture));
-  answer(next.promise, true, whatPlays(!interlock_->read().isOpen()));
+  play(next.performer, std::move(next.picture), next.is_again);
+  answer(next.promise, true,
+         whatPlays(!interlock_->read().isOpen()) +
+             (next.left_out.empty() ? "" : "\nnot as they were: " + next.left_out));
 }
 
 void Performance::takeKeyframe(const station::Event& event) {
@@ -372,7 +376,9 @@ void Performance::giveUp() {
   }
 }
 
-void Performance::play(station::Performer* performer, std::shared_ptr<Picture> picture) {
+void Performance::play(station::Performer* performer,
+                       std::shared_ptr<Picture> picture,
+                       bool is_again) {
   playing_ = performer;
   std::vector<double> values = parameters_;
   if (performer != submitted_) {  // nobody could change it before it is replaced
@@ -388,7 +394,7 @@ void Performance::play(station::Performer* performer, std::shared_ptr<Picture> p
   holders_.play(performer, modulesToHold(), performer->instrument->rates().gesturalHz());
   showHandles();
   showPresets();
-  findPlayMap(scene, false);
+  findPlayMap(scene, is_again);
   command(CommandType::kKeyframe);
 }
 

@@ -88,6 +88,7 @@ class Performance {
   void swap(std::unique_ptr<station::Performer> performer,
             std::shared_ptr<Picture> picture,
             const std::string& loader,
+            bool is_again,
             const Promise& promise);
   void engage(const ForceRequest& request, const Promise& promise);
   void recover(const ForceRequest& request, const Promise& promise);
@@ -170,6 +171,8 @@ class Performance {
     station::Performer* performer = nullptr;
     std::shared_ptr<Picture> picture;
     Promise promise;
+    bool is_again = false;  ///< the one before it, read again
+    std::string left_out;   ///< of the values that its players had set, in words
   };
   /// A parameter on its way to the tick, and who waits for it to take effect.
   struct Change {
@@ -198,6 +201,8 @@ class Performance {
 
   bool change(std::size_t index, double value, Change change);
   bool set(std::size_t index, double value, Change change);
+  PresetValues changedValues() const;
+  std::string bringBack(const PresetValues& values);
   void pollGestureValues();
   void moveTo(const std::map<std::size_t, double>& values, double seconds, Change change);
   void pollMorph();
@@ -226,7 +231,7 @@ class Performance {
   void pollLevels();
   void pollScope();
   std::set<int> usedChannels() const;
-  void play(station::Performer* performer, std::shared_ptr<Picture> picture);
+  void play(station::Performer* performer, std::shared_ptr<Picture> picture, bool is_again);
   void reportWarnings();
   void findPlayMap(const scene::Scene& scene, bool keeps_the_players);
   void showHandles();

@@ -52,6 +52,31 @@ bool Performance::set(std::size_t index, double value, Change change) {
   return true;
 }
 
+/// Of the parameters that are not as their scene begins.
+PresetValues Performance::changedValues() const {
+  PresetValues values;
+  const auto& known = submitted_->instrument->scene().parameters;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (parameters_[i] != known[i].value) {
+      values[known[i].name] = parameters_[i];
+    }
+  }
+  return values;
+}
+
+/// For a model that is about to play. \return what of them it does not get, in words
+std::string Performance::bringBack(const PresetValues& values) {
+  const auto& known = submitted_->instrument->scene().parameters;
+  FittingValues fitting = fittingValues(values, known);
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const auto found = fitting.values.find(known[i].name);
+    if (found != fitting.values.end() && !change(i, found->second, {})) {
+      fitting.left_out += (fitting.left_out.empty() ? "" : "; ") + known[i].name;
+    }
+  }
+  return fitting.left_out;
+}
+
 /// Sets what the gestures of simulated devices ask for by now. What was meant for another scene is
 /// passed over.
 void Performance::pollGestureValues() {

@@ -102,6 +102,7 @@ Services::Services(const ::ros::NodeHandle& node, Operator& operator_thread)
   safety_node_.setCallbackQueue(&safety_queue_);
   servers_ = {
       loading_node_.advertiseService("load_model", &Services::onLoadModel, this),
+      loading_node_.advertiseService("reload", &Services::onReload, this),
       node_.advertiseService("engage", &Services::onEngage, this),
       node_.advertiseService("set_parameter", &Services::onSetParameter, this),
       node_.advertiseService("recover", &Services::onRecover, this),
@@ -151,6 +152,10 @@ bool Services::onLoadModel(Call<LoadModel>& call) {
   call.getResponse() =
       loader_.load(request.model, request.allow_unproven != 0U, call.getCallerName());
   return true;
+}
+
+bool Services::onReload(Call<Trigger>& call) {
+  return fill(call.getResponse(), loader_.reload(call.getCallerName()));
 }
 
 void Services::onModel(const ::ros::MessageEvent<const std_msgs::String>& model) {

@@ -57,6 +57,7 @@ class Services {
   using Call = ::ros::ServiceEvent<typename Service::Request, typename Service::Response>;
 
   bool onLoadModel(Call<LoadModel>& call);
+  bool onReload(Call<Trigger>& call);
   void onModel(const ::ros::MessageEvent<const std_msgs::String>& model);
   bool onEngage(Call<Trigger>& call);
   bool onStop(Trigger::Request& request, Trigger::Response& response);

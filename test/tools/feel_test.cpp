@@ -81,6 +81,22 @@ TEST(FeelTest, OfAPluckIsWhatItLetsGoAt) {
   EXPECT_NEAR(figures.stiffest, 0.1 * 8000.0, 1e-6);
 }
 
+TEST(FeelTest, OfAPluckByItsReleaseForceIsThatForce) {
+  for (const char* numbers :
+       {"release_force: 2", "release_force: 2 N, stiffness: 8000", "release_force: $force",
+        "release_force: 0.5*$force, stiffness: 700"}) {
+    const StrokeFigures figures = felt(
+        std::string("ergotic: 1\nsections: {k: {rate: gestural}}\n"
+                    "parameters: {force: {value: 2, range: [1, 4]}}\n"
+                    "mats: {key: {type: slice, section: k, rest: -0.04}, string: {type: ground, "
+                    "section: k}}\nlias: {l: {type: pluck, between: [key, string], ") +
+            numbers + "}}\nports: {p: {mat: key, slice: 3}}\n",
+        0.06, 0.01);
+    const double expected = numbers[15] == '0' ? 1.0 : 2.0;
+    EXPECT_NEAR(figures.release_n, expected, 0.02 * expected) << numbers;
+  }
+}
+
 /// A spring that lets go does so within a tick.
 TEST(FeelTest, TellsTheForceAtWhichSomethingLetsGo) {
   const StrokeFigures figures =

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "scene/laws/pluck.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -6,9 +8,6 @@
 
 namespace ergotic::scene {
 namespace {
-
-constexpr double kSlope = 0.9;  // of K, while it holds
-constexpr double kTip = 0.1;    // of the width, up to where it does
 
 /// Pushes away, then slips.
 struct Pluck {
@@ -41,21 +40,21 @@ struct PluckCurve {
 
   ERGOTIC_REALTIME static GuardedForce<Real> push(const Numbers& n, Real p) noexcept {
     const Real distance = std::abs(p);
-    const Real fall = Real(kTip) * n.stiffness;
+    const Real fall = Real(kPluckTip) * n.stiffness;
     if (distance >= n.width) {
       return {Real(0), Real(0)};
     }
-    return distance < Real(kTip) * n.width
+    return distance < Real(kPluckTip) * n.width
                ? GuardedForce<Real>{(fall - n.stiffness) * p, fall - n.stiffness}
                : GuardedForce<Real>{fall * (p - std::copysign(n.width, p)), fall};
   }
   ERGOTIC_REALTIME static Real potential(const Numbers& n, Real p) noexcept {
-    const Real tip = Real(kTip) * n.width;
+    const Real tip = Real(kPluckTip) * n.width;
     const Real distance = std::abs(p);
     const Real slipping = std::max(Real(0), n.width - std::max(distance, tip));
     const Real holding = distance < tip ? (tip - distance) * (tip + distance) : Real(0);
-    return Real(kTip / 2.0) * n.stiffness * slipping * slipping +
-           Real(kSlope / 2.0) * n.stiffness * holding;
+    return Real(kPluckTip / 2.0) * n.stiffness * slipping * slipping +
+           Real(kPluckSlope / 2.0) * n.stiffness * holding;
   }
   ERGOTIC_REALTIME static Real damping(const Numbers& n, Real p, Real) noexcept {
     return std::abs(p) < n.width ? std::max(Real(0), n.damping) : Real(0);
@@ -63,10 +62,11 @@ struct PluckCurve {
 };
 
 Slopes slopes(const Scene& scene, const Lia& lia) {
-  return slopesUpTo(kSlope * largest(scene, lia.stiffness), largest(scene, lia.damping));
+  return slopesUpTo(kPluckSlope * largest(scene, lia.stiffness), largest(scene, lia.damping));
 }
 
-constexpr LawWord kWords[] = {{"pluck", "stiffness width", "damping rest_length"}};
+constexpr LawWord kWords[] = {{"pluck", "stiffness width", "damping rest_length"},
+                              {"pluck", "release_force", "stiffness damping rest_length"}};
 constexpr LiaField kFields[] = {stiffnessField(), dampingField(), widthField("width", "m")};
 
 }  // namespace

@@ -117,6 +117,7 @@ const std::map<std::string, const char*>& values() {
       {"rate", kMapOrWord},
       {"ratios", kListOrNumber},
       {"release", kNumber},
+      {"release_force", kNumber},
       {"rest", kNumber},
       {"rest_length", kNumber},
       {"rest_length_ratio", kNumber},

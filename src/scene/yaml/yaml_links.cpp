@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/laws/clipped_cubic.hpp"
+#include "scene/laws/pluck.hpp"
 #include "scene/rules/rules.hpp"
 #include "scene/yaml/generators/generator_keys.hpp"
 #include "scene/yaml/selections.hpp"
@@ -23,6 +24,7 @@ using Keys = std::vector<std::string>;
 
 constexpr const char* kBend = "bend";        // of many ends
 constexpr const char* kStretch = "stretch";  // of many springs
+constexpr const char* kReleaseForce = "release_force";
 
 /// A word of a scene for a law.
 struct LiaKind {
@@ -126,6 +128,27 @@ void readRelease(const SceneBuilder& builder, const YamlMap& map, Lia& lia) {
       map.number("release", releaseLimits(builder.scene(), lia), lia.law->width.factor);
 }
 
+/// The force at which a pluck lets go, in place of its width. Without a stiffness it is bent by 1
+/// mm then.
+void readReleaseForce(const YamlMap& map, Lia& lia) {
+  constexpr double kUsualTipM = 1e-3;
+  const Value force = map.value(kReleaseForce, {"N", 0.0, kInfinity, true});
+  if (lia.stiffness.parameter >= 0) {
+    map.fail("stiffness", "'stiffness' of " + map.what() +
+                              " is a parameter, allowed beside 'release_force': a number");
+  }
+  Value& width = lia.law.edit().width;
+  if (map.has("stiffness")) {
+    const double stiffness = map.number("stiffness", {"N/m", 0.0, kInfinity, true});
+    width = force;
+    width.factor /= kPluckSlope * kPluckTip * stiffness;
+  } else {
+    lia.stiffness = force;
+    lia.stiffness.factor /= kPluckSlope * kUsualTipM;
+    width.factor = kUsualTipM / kPluckTip;
+  }
+}
+
 void readCoefficients(const SceneBuilder& builder,
                       const YamlMap& map,
                       const Keys& required,
@@ -141,6 +164,9 @@ void readCoefficients(const SceneBuilder& builder,
   }
   refuseParameters(map, lia);
   completeClippedLaw(lia, ClippedLaw::kContinuous);
+  if (map.has(kReleaseForce)) {
+    readReleaseForce(map, lia);
+  }
   if (law.has_release) {
     readRelease(builder, map, lia);
   }
@@ -202,11 +228,12 @@ const std::string& wordOf(const YamlMap& map) {
   return kWords[map.choice("type", kWords)];
 }
 
-/// Some words mean one law with a table and another without.
+/// Some words mean one law with a table and another without, or need other keys with a force.
 const LiaKind& kindOf(const YamlMap& map, const std::string& word) {
   const LiaKind* found = nullptr;
   for (const LiaKind& each : liaKinds()) {
-    const bool fits = (lawOf(each.type).tables == Law::Tables::kOne) == map.has("table");
+    const bool fits = (lawOf(each.type).tables == Law::Tables::kOne) == map.has("table") &&
+                      contains(each.required, kReleaseForce) == map.has(kReleaseForce);
     if (word == each.word && (found == nullptr || fits)) {
       found = &each;
     }

@@ -48,6 +48,41 @@ TEST(ReadLinksTest, ExponentMayFollowAParameter) {
   EXPECT_EQ(l.law->exponent.factor, 1.0);
 }
 
+TEST(ReadLinksTest, APluckMayHaveAReleaseForceInPlaceOfItsWidth) {
+  const Lia usual = last(LINK "type: pluck, between: [m, n], release_force: 1.8 N}}\n");
+  EXPECT_EQ(usual.type, LiaType::kPluck);
+  EXPECT_NEAR(usual.stiffness.factor, 2000.0, 1e-9);
+  EXPECT_NEAR(usual.law->width.factor, 0.01, 1e-15);
+  const Lia stiff = last(LINK
+                         "type: pluck, between: [m, n], release_force: 1.8, stiffness: 5000, "
+                         "damping: 0.1}}\n");
+  EXPECT_EQ(stiff.stiffness.factor, 5000.0);
+  EXPECT_NEAR(stiff.law->width.factor, 1.8 / (0.09 * 5000.0), 1e-15);
+  EXPECT_EQ(stiff.damping.factor, 0.1);
+  const Lia live =
+      last(LINK "type: pluck, between: [m, n], release_force: 0.9*$p, stiffness: 5000}}\n");
+  EXPECT_EQ(live.law->width.parameter, 0);
+  EXPECT_NEAR(live.law->width.factor, 0.9 / (0.09 * 5000.0), 1e-15);
+  const Lia live_usual = last(LINK "type: pluck, between: [m, n], release_force: $p}}\n");
+  EXPECT_EQ(live_usual.stiffness.parameter, 0);
+  EXPECT_EQ(live_usual.law->width.parameter, -1);
+}
+
+TEST(ReadLinksTest, SaysWhatDoesNotGoWithAReleaseForce) {
+  const auto refusal = [](const std::string& keys) {
+    return complaintOf<TextError>(
+        [&] { last(std::string(LINK "type: pluck, between: [m, n], ") + keys + "}}\n"); });
+  };
+  EXPECT_THAT(refusal("release_force: 0"), HasSubstr("= 0 N is out of range, allowed: > 0 N"));
+  EXPECT_THAT(refusal("release_force: $n"), HasSubstr("allowed: > 0 N"));
+  EXPECT_THAT(refusal("release_force: 1, stiffness: 0"), HasSubstr("allowed: > 0 N/m"));
+  EXPECT_THAT(refusal("release_force: 1, stiffness: $p"),
+              HasSubstr("'stiffness' of link 'x' is a parameter, allowed beside 'release_force': a "
+                        "number"));
+  EXPECT_THAT(refusal("release_force: 1, width: 0.01"), HasSubstr("'width'"));
+  EXPECT_THAT(refusal("stiffness: 1"), HasSubstr("'width'"));
+}
+
 TEST(ReadLinksTest, TableLinkHasAnElasticAndAViscousLaw) {
   const Lia both = last(LINK
                         "type: table, between: [m, n], elastic: [[-1, -2], [1, 3]], "

@@ -38,11 +38,11 @@ class StationNodelet : public nodelet::Nodelet {
       shared.setCallbackQueue(&calls_);
       node.setCallbackQueue(&calls_);
       diagnostics_ = std::make_unique<Diagnostics>(shared, node, getName());
-      feed_ = std::make_unique<Feed>(node);
       const EarlyParameters early = readEarlyParameters(node);
       for (const std::string& refusal : early.refusals) {
         NODELET_ERROR_STREAM(refusal << "; until it is put right, what is usual counts");
       }
+      feed_ = std::make_unique<Feed>(node, early.tf_prefix);
       own_host_ = std::make_unique<OwnHost>(early.allow_remote);
       operator_ = std::make_unique<Operator>(node, *feed_, *diagnostics_, *own_host_);
       guard_ = std::make_unique<SignalGuard>(

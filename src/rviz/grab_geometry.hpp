@@ -70,6 +70,8 @@ class HandleSet {
       }
     }
   }
+  /// Name of the frame `model` of its station.
+  const std::string& frame() const { return structure_.header.frame_id; }
   /// Where all modules are drawn at rest, frame `model`, m; empty until it is known of what. Modes
   /// whose body has an outline are not drawn.
   std::vector<Eigen::Vector3d> places() const;

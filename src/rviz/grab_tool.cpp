@@ -226,7 +226,8 @@ void GrabTool::update(float /*wall_dt*/, float /*ros_dt*/) {
   }
   Ogre::Vector3 position;
   Ogre::Quaternion orientation;
-  if (context_->getFrameManager()->getTransform("model", ros::Time(), position, orientation)) {
+  if (!set_.frame().empty() &&
+      context_->getFrameManager()->getTransform(set_.frame(), ros::Time(), position, orientation)) {
     model_.translation() = toEigen(position);
     model_.linear() = toEigen(orientation).toRotationMatrix();
     picture_->setFrame(position, orientation);

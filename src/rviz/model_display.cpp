@@ -199,13 +199,14 @@ void ModelDisplay::update(float /*wall_dt*/, float /*ros_dt*/) {
 bool ModelDisplay::findFrame() {
   Ogre::Vector3 position;
   Ogre::Quaternion orientation;
+  const std::string& frame = structure_->header.frame_id;
   const bool is_known =
-      context_->getFrameManager()->getTransform("model", ros::Time(), position, orientation);
+      context_->getFrameManager()->getTransform(frame, ros::Time(), position, orientation);
   scene_node_->setVisible(is_known);
   if (!is_known) {
     if (std::exchange(has_frame_, false)) {
-      setStatus(rviz::StatusProperty::Error, "Frame",
-                "Where frame model is in the fixed frame is not known.");
+      setStatusStd(rviz::StatusProperty::Error, "Frame",
+                   "Where frame " + frame + " is in the fixed frame is not known.");
     }
     return false;
   }

@@ -28,8 +28,7 @@ const char* const kHead = R"(<?xml version="1.0"?>
   <material name="wood"><color rgba="0.45 0.27 0.13 1"/></material>
 )";
 
-/// The instrument stands behind the keyboard; its x (along which strings vibrate) is up, its y runs
-/// along the keyboard.
+/// As `modelPose`.
 const char* const kModel = R"(  <link name="model"/>
   <joint name="model_mount" type="fixed">
     <parent link="tgr_base"/>
@@ -109,14 +108,13 @@ std::string pianoKey(int slice) {
 
 std::string slice(int index, int slices, bool is_free) {
   const std::string number = std::to_string(index);
-  const double y = kPitch * (0.5 * (slices - 1) - index);
   return "  <link name=\"tgr_slice_" + number + "\">\n" + (is_free ? pianoKey(index) : "") +
          visual(box({0.14, 0.009, 0.03}), {0.07, 0.0, 0.02}, "steel") +
          "    <inertial>\n      <mass value=\"0.3\"/>\n      <inertia ixx=\"1e-4\" ixy=\"0\" "
          "ixz=\"0\" iyy=\"1e-4\" iyz=\"0\" izz=\"1e-4\"/>\n    </inertial>\n  </link>\n"
          "  <joint name=\"slice_" +
          number + "\" type=\"prismatic\">\n    <parent link=\"tgr_base\"/>\n    <child link=\"" +
-         "tgr_slice_" + number + "\"/>\n    <origin xyz=\"" + numbers({0.0, y, 0.01}) +
+         "tgr_slice_" + number + "\"/>\n    <origin xyz=\"" + numbers(slicePlace(index, slices)) +
          "\"/>\n    <axis xyz=\"0 0 1\"/>\n    <limit lower=\"-0.03\" upper=\"0.03\" "
          "effort=\"200\" velocity=\"2\"/>\n  </joint>\n";
 }
@@ -175,6 +173,21 @@ std::string urdfOf(const EndEffectors& end_effectors, int slices) {
     text += endEffector(config);
   }
   return text + "</robot>\n";
+}
+
+Vector3d slicePlace(int index, int slices) {
+  return {0.0, kPitch * (0.5 * (slices - 1) - index), 0.01};
+}
+
+/// The instrument stands behind the keyboard; its x (along which strings vibrate) is up, its y runs
+/// along the keyboard.
+Eigen::Isometry3d modelPose() {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() << 0.0, 0.0, 1.0,  //
+      0.0, -1.0, 0.0,              //
+      1.0, 0.0, 0.0;
+  pose.translation() = Vector3d(0.16, 0.325, 0.17);
+  return pose;
 }
 
 }  // namespace ergotic::tgr

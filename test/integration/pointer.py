@@ -6,7 +6,6 @@ import re
 import subprocess
 
 import numpy
-import rospy
 
 from desk import ROOT, Newest, until
 from ergotic.msg import Handles, ModelState, ModelStructure, Status
@@ -76,8 +75,6 @@ class Pointer:
         cls.state = Newest("/station/model_state", ModelState)
         with open(os.path.join(ROOT, "urdf/tgr.urdf"), encoding="utf-8") as file:
             cls.urdf = file.read()
-        rospy.set_param("/robot_description", cls.urdf)
-        cls.start("/usr/lib/robot_state_publisher/robot_state_publisher", "joint_states:=/station/joint_states")
         cls.start_station(model=os.path.join(ROOT, "models/string.yaml"), autoengage=True, **parameters)
         cls.rviz = cls.start_rviz()
         assert until(lambda: cls.status.message and cls.status.message.state == Status.PLAYING, 60), "no force"

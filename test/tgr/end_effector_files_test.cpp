@@ -241,8 +241,12 @@ TEST(UrdfTest, DrawsAnyNumberOfSlicesSideBySide) {
     for (int i = 0; i < slices; ++i) {
       const auto joint = model->getJoint("slice_" + std::to_string(i));
       ASSERT_NE(joint, nullptr);
-      sum += joint->parent_to_joint_origin_transform.position.y;
+      const urdf::Pose& pose = joint->parent_to_joint_origin_transform;
+      EXPECT_TRUE(poseOf(pose).translation().isApprox(slicePlace(i, slices), 1e-12)) << i;
+      sum += pose.position.y;
     }
+    const auto mount = model->getJoint("model_mount");
+    EXPECT_TRUE(poseOf(mount->parent_to_joint_origin_transform).isApprox(modelPose(), 1e-9));
     EXPECT_NEAR(sum, 0.0, 1e-12) << slices;
   }
 }

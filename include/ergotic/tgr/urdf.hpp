@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include <Eigen/Geometry>
+
 #include "ergotic/tgr/end_effector.hpp"
 
 namespace ergotic::tgr {
@@ -14,5 +16,12 @@ namespace ergotic::tgr {
 /// keyboard; slice 0 is its lowest C.
 /// \param slices  of the device, 1...kMaxSlices
 std::string urdfOf(const EndEffectors& end_effectors, int slices);
+
+/// Where that picture has a slice at position 0, in `tgr_base`, m; it moves along z.
+/// \param index  of the slice, 0...slices - 1
+Eigen::Vector3d slicePlace(int index, int slices);
+
+/// Where that picture has the frame `model`, in `tgr_base`, m.
+Eigen::Isometry3d modelPose();
 
 }  // namespace ergotic::tgr

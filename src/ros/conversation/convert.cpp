@@ -165,7 +165,6 @@ geometry_msgs::Point toPoint(const Eigen::Vector3d& place) {
 
 ModelStructure toModelStructure(const scene::Scene& scene, const physics::Rates& rates) {
   ModelStructure message;
-  message.header.frame_id = "model";
   message.name = scene.name;
   message.scene_hash = textHash(scene.text);
   addSections(scene, rates, message);
@@ -266,7 +265,6 @@ Hold toHold(const station::Event& event, const scene::Scene& scene) {
 
 sensor_msgs::JointState toJointState(const station::Snapshot& snapshot) {
   sensor_msgs::JointState message;
-  message.header.frame_id = "tgr_base";
   for (std::size_t i = 0; i < static_cast<std::size_t>(snapshot.slices); ++i) {
     message.name.push_back("slice_" + std::to_string(i));
     message.position.push_back(snapshot.slice_position[i]);

@@ -20,7 +20,8 @@ constexpr bool kLatched = true;
 
 }  // namespace
 
-Feed::Feed(const ::ros::NodeHandle& node) : node_(node), display_(node) {
+Feed::Feed(const ::ros::NodeHandle& node, const std::string& tf_prefix)
+    : node_(node), names_(tf_prefix), display_(node, names_) {
   joint_states_ = node_.advertise<sensor_msgs::JointState>("joint_states", kQueue);
   levels_ = node_.advertise<Levels>("levels", 1);
   scope_ = node_.advertise<Scope>("scope", 1);
@@ -33,6 +34,7 @@ Feed::Feed(const ::ros::NodeHandle& node) : node_(node), display_(node) {
   gesture_ = node_.advertise<GestureBlock>(
       "gesture", kGestureQueue,
       [this](const ::ros::SingleSubscriberPublisher& /*peer*/) { new_listener_ = true; });
+  static_transforms_.sendTransform(modelFrame(names_, ::ros::Time::now()));
   showSilence("no model yet");
 }
 
@@ -61,6 +63,7 @@ void Feed::configure(const Parameters& parameters, const Hands& hands) {
     status_.devices.push_back(device.driver);
   }
   status_.slices = static_cast<std::uint32_t>(hands.slices());
+  slice_frames_ = SliceFrames(hands.slices(), names_);
   status_.delay_ticks = hands.traits().delay_ticks;
   if (parameters.compile.metered) {
     model_energy_ = node_.advertise<ModelEnergy>("model_energy", kQueue);
@@ -69,7 +72,7 @@ void Feed::configure(const Parameters& parameters, const Hands& hands) {
 }
 
 void Feed::show(const tgr::EndEffectors& end_effectors) {
-  frames_ = EndEffectorFrames(end_effectors);
+  frames_ = EndEffectorFrames(end_effectors, names_);
   status_.end_effectors = toMessages(end_effectors);
   display_.show(end_effectors);
   sendStatus();
@@ -97,7 +100,7 @@ void Feed::showModel(const station::Performer& performer,
 
 void Feed::showHandles(Handles handles) {
   handles.header.stamp = ::ros::Time::now();
-  handles.header.frame_id = "model";
+  handles.header.frame_id = names_("model");
   handles.display_zoom = display_zoom_;
   handles_.publish(handles);
 }
@@ -153,6 +156,7 @@ void Feed::show(const station::GestureTick* ticks, std::size_t count) {
       const auto age = static_cast<double>(newest - block->first_tick);
       const ::ros::Duration ago(age / block->tick_rate_hz);
       // A clock that is simulated may stand at its beginning.
+      block->header.frame_id = names_("tgr_base");
       block->header.stamp = now.toSec() > ago.toSec() ? now - ago : ::ros::Time();
       tell(gesture_, *block);
     }
@@ -162,8 +166,10 @@ void Feed::show(const station::GestureTick* ticks, std::size_t count) {
 void Feed::show(const station::Snapshot& snapshot, std::uint64_t uncalibrated) {
   const ::ros::Time now = ::ros::Time::now();
   sensor_msgs::JointState joints = toJointState(snapshot);
+  joints.header.frame_id = names_("tgr_base");
   joints.header.stamp = now;
   joint_states_.publish(joints);
+  transforms_.sendTransform(slice_frames_.at(snapshot, now));
   if (const auto& transforms = frames_.at(snapshot, now); !transforms.empty()) {
     transforms_.sendTransform(transforms);
   }

@@ -13,6 +13,7 @@
 #include <ergotic/Scope.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
+#include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
 #include "ergotic/station/station.hpp"
@@ -30,7 +31,8 @@ namespace ergotic::node {
 /// Thread: operator, all but the constructor
 class Feed {
  public:
-  explicit Feed(const ::ros::NodeHandle& node);
+  /// \param tf_prefix  of all frames; empty: none
+  Feed(const ::ros::NodeHandle& node, const std::string& tf_prefix);
 
   /// A station with these parameters and devices begins to play.
   void configure(const Parameters& parameters, const Hands& hands);
@@ -95,6 +97,7 @@ class Feed {
   void watch(const station::MotionFrame& motion, const scene::Scene& scene);
 
   ::ros::NodeHandle node_;
+  FrameNames names_;
   std::shared_ptr<TakeWriter> take_;  // null: none is recorded
   std::atomic<bool> new_listener_{false};
   std::string station_config_;
@@ -113,6 +116,7 @@ class Feed {
   ::ros::Publisher model_parameters_;
 
   tf2_ros::TransformBroadcaster transforms_;
+  tf2_ros::StaticTransformBroadcaster static_transforms_;
 
   Status status_;
   ParametersMessage parameters_;
@@ -120,6 +124,7 @@ class Feed {
   std::int64_t parameters_due_ns_ = 0;
   std::string note_;  // of the model that plays; status_.message adds the latest news
   std::optional<GestureBlocks> blocks_;
+  SliceFrames slice_frames_;
   EndEffectorFrames frames_;
   std::int64_t motion_due_ns_ = 0;
   std::int64_t status_due_ns_ = 0;

@@ -42,7 +42,6 @@ std::optional<GestureBlock> GestureBlocks::add(const station::GestureTick& tick)
 }
 
 GestureBlock GestureBlocks::take() {
-  block_.header.frame_id = "tgr_base";
   block_.tick_rate_hz = tick_rate_hz_;
   return std::exchange(block_, GestureBlock());
 }

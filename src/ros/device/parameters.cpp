@@ -378,6 +378,7 @@ void visitParameters(Visitor& on, P& p) {
   on.flag("autoengage", p.autoengage);
   on.choice("force_after_swap", p.force_after_swap, kForceAfterSwap);
   on.flag("allow_remote", p.allow_remote);
+  on.text("tf_prefix", p.tf_prefix);
   on.number("display_rate", p.display_rate, 1.0, 60.0);
   on.number("display_zoom", p.display_zoom, 0.0, 1e6);
 }
@@ -393,6 +394,14 @@ void requireMidiConnect(const std::string& wish, const std::string& node) {
     const std::regex checked(wish, std::regex::extended);
   } catch (const std::regex_error&) {
     throw Exception(text + wish + allowed);
+  }
+}
+
+void requireTfPrefix(const std::string& prefix, const std::string& node) {
+  static const std::regex kNames("(\\w+(/\\w+)*)?");
+  if (!std::regex_match(prefix, kNames)) {
+    throw Exception("parameter " + node + "/tf_prefix is " + prefix +
+                    ", allowed: letters, digits and _, with a / between names");
   }
 }
 
@@ -459,6 +468,7 @@ Parameters readParameters(const Value& values, const std::string& node) {
   visitParameters(read, p);
   read.refuseUnread();
   requireMidiConnect(p.midi_connect, node);
+  requireTfPrefix(p.tf_prefix, node);
   return p;
 }
 
@@ -482,6 +492,12 @@ EarlyParameters readEarlyParameters(const Value& values, const std::string& node
   attempt([&] { read.choice("realtime", early.realtime, kRealtime); });
   attempt([&] { read.integer("priority", early.priority, kLeastPriority, kMostPriority); });
   attempt([&] { read.flag("gamepads", early.gamepads); });
+  attempt([&] {
+    std::string prefix;
+    read.text("tf_prefix", prefix);
+    requireTfPrefix(prefix, node);
+    early.tf_prefix = prefix;
+  });
   return early;
 }
 

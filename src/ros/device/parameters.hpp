@@ -67,6 +67,7 @@ struct Parameters {
   bool autoengage = false;      ///< engage once the first model plays
   station::SwapForce force_after_swap = station::SwapForce::kCaller;
   bool allow_remote = false;   ///< other hosts may call; heard when the node starts
+  std::string tf_prefix;       ///< of all frames, empty: none; heard when the node starts
   double display_rate = 30.0;  ///< Hz, of model_state and markers
   double display_zoom = 5.0;   ///< of x in markers, about x = 0
 };
@@ -85,6 +86,7 @@ struct EarlyParameters {
   Realtime realtime = Realtime::kTry;
   int priority = 75;
   bool gamepads = true;
+  std::string tf_prefix;
   std::vector<std::string> refusals;  ///< of those that cannot be used and are as above
 };
 EarlyParameters readEarlyParameters(const ::ros::NodeHandle& node);

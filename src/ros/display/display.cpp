@@ -12,8 +12,9 @@ constexpr bool kLatched = true;
 
 }  // namespace
 
-Display::Display(const ::ros::NodeHandle& node)
+Display::Display(const ::ros::NodeHandle& node, const FrameNames& names)
     : node_(node),
+      names_(names),
       model_structure_(node_.advertise<ModelStructure>("model_structure", 1, kLatched)),
       model_state_(node_.advertise<ModelState>("model_state", kQueue)),
       markers_(node_.advertise<visualization_msgs::MarkerArray>("markers", kMarkersQueue)),
@@ -40,7 +41,7 @@ void Display::show(const station::MotionFrame& motion) {
   news_.tell([&](News& news) {
     news.has_moved = true;
     news.motion.header.stamp = ::ros::Time::now();
-    news.motion.header.frame_id = "model";
+    news.motion.header.frame_id = names_("model");
     news.motion.tick = motion.tick;
     news.motion.displacement = motion.displacement;
   });
@@ -51,7 +52,7 @@ void Display::draw(News& news) {
     begin(std::move(*news.picture));
   }
   if (news.end_effectors) {
-    frames_ = EndEffectorFrames(*news.end_effectors);
+    frames_ = EndEffectorFrames(*news.end_effectors, names_);
     erases_ = erases_shapes_ = true;  // those that are gone
   }
   if (news.has_moved && picture_) {
@@ -65,6 +66,8 @@ void Display::draw(News& news) {
 void Display::begin(std::shared_ptr<Picture> picture) {
   picture_ = std::move(picture);
   if (picture_) {
+    picture_->markers.setFrame(names_("model"));
+    picture_->structure.header.frame_id = names_("model");
     picture_->structure.header.stamp = ::ros::Time::now();
     model_structure_.publish(picture_->structure);
   }
@@ -89,7 +92,7 @@ void Display::drawShapes(const ::ros::Time& stamp) {
   if (!std::exchange(erases_shapes_, false)) {
     return shapes.markers.empty() ? void() : end_effector_shapes_.publish(shapes);
   }
-  visualization_msgs::MarkerArray all = Markers::eraseAll();
+  visualization_msgs::MarkerArray all = Markers::eraseAll(names_("model"));
   all.markers.insert(all.markers.end(), shapes.markers.begin(), shapes.markers.end());
   end_effector_shapes_.publish(all);
 }
@@ -101,7 +104,7 @@ void Display::drawMarkers(const ModelState& motion) {
   const auto& model = picture_->markers.draw(motion.displacement, stamp);
   const auto& shapes = frames_.shapes(stamp);
   if (std::exchange(erases_, false)) {
-    visualization_msgs::MarkerArray all = Markers::eraseAll();
+    visualization_msgs::MarkerArray all = Markers::eraseAll(names_("model"));
     for (const auto* part : {&model, &shapes}) {
       all.markers.insert(all.markers.end(), part->markers.begin(), part->markers.end());
     }

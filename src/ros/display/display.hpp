@@ -30,7 +30,7 @@ struct Picture {
 /// Thread: operator, all but the constructor. None of these waits for a picture
 class Display {
  public:
-  explicit Display(const ::ros::NodeHandle& node);
+  Display(const ::ros::NodeHandle& node, const FrameNames& names);
 
   /// Another model plays from now on; null: none.
   void show(std::shared_ptr<Picture> picture);
@@ -55,6 +55,7 @@ class Display {
   void drawShapes(const ::ros::Time& stamp);
 
   ::ros::NodeHandle node_;
+  FrameNames names_;
   ::ros::Publisher model_structure_;
   ::ros::Publisher model_state_;
   ::ros::Publisher markers_;

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "ros/device/end_effectors.hpp"
 #include "ros/display/markers.hpp"
 
 namespace ergotic::node {
@@ -50,56 +49,48 @@ Marker sphereAt(const std::string& frame, int id, const Eigen::Vector3d& centre,
   return sphere;
 }
 
-void addShape(const tgr::EndEffectorConfig& config, std::vector<Marker>& markers) {
+void addShape(const tgr::EndEffectorConfig& config,
+              const std::string& frame,
+              std::vector<Marker>& markers) {
   switch (config.type) {
     case tgr::EndEffectorType::kKey:
-      markers.push_back(shapeMarker(config.name, 0, Marker::CUBE, kKeySize));
+      markers.push_back(shapeMarker(frame, 0, Marker::CUBE, kKeySize));
       break;
     case tgr::EndEffectorType::kBow:
-      markers.push_back(shapeMarker(config.name, 0, Marker::CUBE, kBowSize));
+      markers.push_back(shapeMarker(frame, 0, Marker::CUBE, kBowSize));
       break;
     case tgr::EndEffectorType::kStick:  // from its pivot to its tip
-      markers.push_back(shapeMarker(config.name, 0, Marker::CYLINDER,
-                                    {kStickWidthM, kStickWidthM, config.length}));
+      markers.push_back(
+          shapeMarker(frame, 0, Marker::CYLINDER, {kStickWidthM, kStickWidthM, config.length}));
       markers.back().pose.position.z = 0.5 * config.length;
       break;
     case tgr::EndEffectorType::kBall:
-      markers.push_back(sphereAt(config.name, 0, Eigen::Vector3d::Zero(), kBallWidthM));
+      markers.push_back(sphereAt(frame, 0, Eigen::Vector3d::Zero(), kBallWidthM));
       break;
     case tgr::EndEffectorType::kHandle: {
       const double width = 2.0 * config.platform_radius;
-      markers.push_back(
-          shapeMarker(config.name, 0, Marker::CYLINDER, {width, width, kContactWidthM}));
+      markers.push_back(shapeMarker(frame, 0, Marker::CYLINDER, {width, width, kContactWidthM}));
       for (const Eigen::Vector3d& point : config.points) {
         const int id = static_cast<int>(markers.size());
-        markers.push_back(sphereAt(config.name, id, point, kContactWidthM));
+        markers.push_back(sphereAt(frame, id, point, kContactWidthM));
       }
       break;
     }
   }
 }
 
-geometry_msgs::Transform toTransform(const Eigen::Isometry3d& pose) {
-  const geometry_msgs::Pose from = toPose(pose);
-  geometry_msgs::Transform transform;
-  transform.translation.x = from.position.x;
-  transform.translation.y = from.position.y;
-  transform.translation.z = from.position.z;
-  transform.rotation = from.orientation;
-  return transform;
-}
-
 }  // namespace
 
-EndEffectorFrames::EndEffectorFrames(const tgr::EndEffectors& end_effectors) {
+EndEffectorFrames::EndEffectorFrames(const tgr::EndEffectors& end_effectors,
+                                     const FrameNames& names) {
   for (const tgr::EndEffectorConfig& config : end_effectors.list) {
     Part part{config, tgr::makeKinematics(config, end_effectors.file)};
     geometry_msgs::TransformStamped transform;
-    transform.header.frame_id = "tgr_base";
-    transform.child_frame_id = config.name;
+    transform.header.frame_id = names("tgr_base");
+    transform.child_frame_id = names(config.name);
     transform.transform = toTransform(config.pose);
     transforms_.push_back(transform);
-    addShape(config, shapes_.markers);
+    addShape(config, transform.child_frame_id, shapes_.markers);
     parts_.push_back(std::move(part));
   }
 }

@@ -9,16 +9,18 @@
 
 #include "ergotic/station/messages.hpp"
 #include "ergotic/tgr/end_effector.hpp"
+#include "ros/display/frames.hpp"
 
 namespace ergotic::node {
 
 /// Where end-effectors are, for tf, and what they look like in their own frames, for rviz.
-/// The frame of each has its name and `tgr_base` as its parent.
+/// The frame of each has its name, behind the prefix of all frames, and `tgr_base` as its parent.
 class EndEffectorFrames {
  public:
   EndEffectorFrames() = default;
   /// \throws TextError if one of them cannot be put together
-  explicit EndEffectorFrames(const tgr::EndEffectors& end_effectors);
+  explicit EndEffectorFrames(const tgr::EndEffectors& end_effectors,
+                             const FrameNames& names = FrameNames());
 
   /// Beyond its workspace an end-effector stays where it was last.
   const std::vector<geometry_msgs::TransformStamped>& at(const station::Snapshot& snapshot,

@@ -97,6 +97,12 @@ void Markers::addMarkers(const scene::Scene& scene,
   }
 }
 
+void Markers::setFrame(const std::string& frame) {
+  for (Marker& marker : array_.markers) {
+    marker.header.frame_id = frame;
+  }
+}
+
 const visualization_msgs::MarkerArray& Markers::draw(const std::vector<float>& displacements,
                                                      const ::ros::Time& stamp) {
   for (std::size_t m = 0; m < array_.markers.size(); ++m) {
@@ -124,10 +130,10 @@ geometry_msgs::Point Markers::place(const Module& module,
   return point;
 }
 
-visualization_msgs::MarkerArray Markers::eraseAll() {
+visualization_msgs::MarkerArray Markers::eraseAll(const std::string& frame) {
   visualization_msgs::MarkerArray array;
   array.markers.emplace_back();
-  array.markers.back().header.frame_id = "model";
+  array.markers.back().header.frame_id = frame;
   array.markers.back().action = Marker::DELETEALL;
   return array;
 }

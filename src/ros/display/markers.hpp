@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -16,7 +17,7 @@ namespace ergotic::node {
 bool isModeOfOutline(const scene::Scene& scene, int mat);
 
 /// Draws a scene for rviz: per section one POINTS and one LINE_LIST, in chunks of at most
-/// `kChunkPoints` points (rviz slows down beyond), in frame `model`.
+/// `kChunkPoints` points (rviz slows down beyond), in frame `model` unless it is told another.
 class Markers {
  public:
   static constexpr std::size_t kChunkPoints = 16000;
@@ -28,6 +29,8 @@ class Markers {
   ///              Planes and spaces are true to scale
   Markers(const scene::Scene& scene, double zoom);
 
+  void setFrame(const std::string& frame);
+
   /// The picture at these displacements.
   /// \param displacements  [Scene::coordinates] m from rest; a module of which one is not finite is
   ///                       drawn at rest
@@ -35,7 +38,7 @@ class Markers {
                                               const ::ros::Time& stamp);
 
   /// Wipes what an earlier model left.
-  static visualization_msgs::MarkerArray eraseAll();
+  static visualization_msgs::MarkerArray eraseAll(const std::string& frame);
 
  private:
   using Indices = std::vector<std::size_t>;

@@ -222,6 +222,17 @@ TEST(EndEffectorFramesTest, FollowTheirSlicesInTheFrameOfTheDevice) {
   EXPECT_EQ(transforms[0].transform.rotation.w, 1.0);
 }
 
+TEST(EndEffectorFramesTest, StandBehindThePrefixOfTheStation) {
+  EndEffectorFrames frames(fromMessages({handle()}), FrameNames("left"));
+  const auto transforms = frames.at(station::Snapshot(), ::ros::Time(1.0));
+  ASSERT_EQ(transforms.size(), 1U);
+  EXPECT_EQ(transforms[0].header.frame_id, "left/tgr_base");
+  EXPECT_EQ(transforms[0].child_frame_id, "left/handle");
+  for (const auto& shape : frames.shapes(::ros::Time(1.0)).markers) {
+    EXPECT_EQ(shape.header.frame_id, "left/handle");
+  }
+}
+
 TEST(EndEffectorFramesTest, DrawEachPointOfAHandleInItsOwnFrame) {
   EndEffectorFrames frames(fromMessages({handle()}));
   const auto& shapes = frames.shapes(::ros::Time(1.0)).markers;

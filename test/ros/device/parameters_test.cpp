@@ -243,15 +243,30 @@ TEST(ParametersTest, ThatAreHeardFirstAreNotReplacedWithoutAWord) {
   values["realtime"] = 3;
   values["priority"] = "high";
   values["allow_remote"] = "perhaps";
+  values["tf_prefix"] = "/left";
   const EarlyParameters early = readEarlyParameters(values, "/station");
   EXPECT_EQ(early.realtime, Realtime::kTry);
   EXPECT_EQ(early.priority, readParameters(XmlRpcValue(), "/station").priority);
   EXPECT_FALSE(early.allow_remote);
   EXPECT_TRUE(early.gamepads);
+  EXPECT_EQ(early.tf_prefix, "");
   EXPECT_THAT(early.refusals,
               testing::ElementsAre(HasSubstr("/station/allow_remote is the text 'perhaps'"),
                                    HasSubstr("/station/realtime is the number 3, allowed: off"),
-                                   HasSubstr("/station/priority is the text 'high'")));
+                                   HasSubstr("/station/priority is the text 'high'"),
+                                   HasSubstr("/station/tf_prefix is /left, allowed: letters")));
+}
+
+TEST(ParametersTest, HaveAPrefixOfFrames) {
+  for (const char* const prefix : {"left", "hall/left_2"}) {
+    EXPECT_EQ(readParameters(with("tf_prefix", prefix), "/station").tf_prefix, prefix);
+    EXPECT_EQ(readEarlyParameters(with("tf_prefix", prefix), "/station").tf_prefix, prefix);
+  }
+  for (const char* const prefix : {"left/", "/left", "a//b", "a b"}) {
+    EXPECT_THAT(complaintOf([&] { readParameters(with("tf_prefix", prefix), "/station"); }),
+                HasSubstr("/station/tf_prefix is "))
+        << prefix;
+  }
 }
 
 }  // namespace

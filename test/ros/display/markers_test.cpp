@@ -50,6 +50,15 @@ TEST(MarkersTest, DrawMotionAlongTheAxisOfTheSection) {
   EXPECT_NEAR(lines.points[1].y, points.points[1].y, 1e-12);
 }
 
+TEST(MarkersTest, StandInTheFrameThatTheyAreTold) {
+  Markers markers(rowOf(2), 5.0);
+  markers.setFrame("left/model");
+  for (const Marker& marker : markers.draw({0.0F, 0.0F}, ::ros::Time(1.0)).markers) {
+    EXPECT_EQ(marker.header.frame_id, "left/model");
+  }
+  EXPECT_EQ(Markers::eraseAll("left/model").markers.front().header.frame_id, "left/model");
+}
+
 TEST(MarkersTest, DrawModulesOfAPlaneWhereTheyAre) {
   scene::Scene scene = rowOf(3);
   scene.sections[0].geometry = scene::Geometry::kPlane;

@@ -3,7 +3,7 @@
 """What the words behind `scripts/station` mean. It needs no ROS, and nothing that has to be built.
 
   front_door.py list               the shipped instruments, one line each
-  front_door.py arguments WORD...  assignments for bash: `arguments`, for roslaunch, and `is_simulated`
+  front_door.py arguments WORD...  assignments for bash: `arguments`, for roslaunch, `is_simulated` and `name`
 """
 import difflib
 import os
@@ -22,6 +22,7 @@ PATHS = ("model", "device", "gesture", "end_effectors")  # arguments that name a
 PATHS_IN_SETTINGS = ("file", "bag", "gesture")  # keys of driver_settings that do
 OPTIONS = ("--list", "--tune", "--demo", "--help")
 MOST_BYTES = 1 << 24
+USUAL_NAME = "station"
 HOW_TO_LIST = "`scripts/station --list` shows all instruments"
 
 
@@ -29,16 +30,17 @@ class Refusal(Exception):
     """A word that means nothing; the text says what to write."""
 
 
-def greeting(instrument, has_window, is_simulated, has_force):
-    """The one line at the end of a start: what a player can do now."""
+def greeting(instrument, has_window, is_simulated, has_force, name=USUAL_NAME):
+    """The one line at the end of a start: what a player can do now, at the station of this name."""
+    midi_in = "ergotic:midi_in" if name == USUAL_NAME else f"ergotic_{name}:midi_in"
     if not has_force:
-        act = " Force stays off until you run `rosservice call /station/engage`;"
+        act = f" Force stays off until you run `rosservice call /{name}/engage`;"
     elif not is_simulated:
         act = " Its force is on;"
     elif has_window:
         act = " Drag what lights up under the mouse, or play the keys Z to / and Q to P in the picture;"
     else:
-        act = " There is no window; a MIDI keyboard at ergotic:midi_in plays it, or gesture:=FILE.csv;"
+        act = f" There is no window; a MIDI keyboard at {midi_in} plays it, or gesture:=FILE.csv;"
     return f"Instrument {instrument} plays.{act} Ctrl-C ends."
 
 
@@ -251,6 +253,8 @@ def arguments_of(words, folder, environment, shipped, known):
         if "model" in given:
             raise Refusal(f"the instrument {instrument} and model:= name a scene twice, allowed: one of them")
         given["model"] = instrument
+    if not re.fullmatch(r"[A-Za-z]\w*", given.get("name", USUAL_NAME), re.ASCII):
+        raise Refusal(f"name is {given['name']}, allowed: letters, digits and _, a letter first")
     given = with_paths(given, folder, shipped)
     simulated = is_simulated(given)
     if simulated:
@@ -265,7 +269,7 @@ def arguments_of(words, folder, environment, shipped, known):
 
 def in_shell(given, simulated):
     words = " ".join(shlex.quote(f"{name}:={value}") for name, value in given.items())
-    return f"arguments=({words}) is_simulated={str(simulated).lower()}"
+    return f"arguments=({words}) is_simulated={str(simulated).lower()} name={given.get('name', USUAL_NAME)}"
 
 
 def main(words):

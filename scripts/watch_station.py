@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Waits for a station that starts, and says how it does. Needs a devel or install space.
 
-  watch_station.py greet WINDOW SIMULATED FORCE   prints what a player can do as soon as something plays; true
-                                                  or false: there is a window, the device is simulated,
-                                                  force comes in by itself
-  watch_station.py sound SECONDS                  prints "UNDERRUNS XRUNS LATE_TICKS" of so long
+  watch_station.py greet NAME WINDOW SIMULATED FORCE   prints what a player can do as soon as something plays;
+                                                       true or false: there is a window, the device is
+                                                       simulated, force comes in by itself
+  watch_station.py sound SECONDS                       prints "UNDERRUNS XRUNS LATE_TICKS" of so long
 """
 import sys
 import time
@@ -21,14 +21,14 @@ SETTLE_S = 1.5  # after the start, which needs the processor for itself
 
 
 class Station:
-    """What /station/status says, as it comes."""
+    """What the status of a station says, as it comes."""
 
-    def __init__(self):
+    def __init__(self, name=front_door.USUAL_NAME):
         while not rosgraph.is_master_online():  # roslaunch starts one, if none runs
             time.sleep(0.2)
         rospy.init_node("watch_station", anonymous=True, disable_signals=True)
         self.status = None
-        rospy.Subscriber("/station/status", Status, self.hear)
+        rospy.Subscriber(f"/{name}/status", Status, self.hear)
 
     def hear(self, status):
         self.status = status
@@ -44,23 +44,23 @@ class Station:
         return None
 
 
-def wait_for_window():
+def wait_for_window(name):
     end = time.monotonic() + PATIENCE_S
     master = rosgraph.Master("/watch_station")
     while time.monotonic() < end:
-        readers = dict(master.getSystemState()[1]).get("/station/model_state", [])
+        readers = dict(master.getSystemState()[1]).get(f"/{name}/model_state", [])
         if any("rviz" in reader for reader in readers):
             return
         time.sleep(0.3)
 
 
-def greet(*true_or_false):
+def greet(name, *true_or_false):
     window, simulated, force = (word == "true" for word in true_or_false)
-    station = Station()
+    station = Station(name)
     station.wait(lambda status: status.model)
     if window:
-        wait_for_window()
-    print(front_door.greeting(station.status.model, window, simulated, force), flush=True)
+        wait_for_window(name)
+    print(front_door.greeting(station.status.model, window, simulated, force, name), flush=True)
 
 
 def lost(status):

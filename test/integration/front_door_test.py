@@ -135,7 +135,9 @@ class ArgumentsTest(WithFolder):
                             (["--lst"], "did you mean --list?"), (["drum", "--tune"], "--tune stands first"),
                             (["drum", "string"], "two instruments, drum and string"),
                             (["drum", "model:=string"], "allowed: one of them"),
-                            (["xyzzyxyzzy:=1"], "it has: model, device")):
+                            (["xyzzyxyzzy:=1"], "it has: model, device"),
+                            (["name:=2nd"], "name is 2nd, allowed: letters, digits and _, a letter first"),
+                            (["name:=a/b"], "name is a/b"), (["name:="], "name is ")):
             self.assertIn(told, self.refusal(*words))
 
     def test_a_shell_reads_them_as_they_are(self):
@@ -145,6 +147,8 @@ class ArgumentsTest(WithFolder):
             read = subprocess.run(["bash", "-c", script, "-", line], stdout=subprocess.PIPE, text=True,
                                   check=True).stdout.split("\0")[:-1]
             self.assertEqual(read, [f"record:={text}", "jack:=none", "true"])
+        self.assertTrue(front_door.in_shell({}, True).endswith(" name=station"))
+        self.assertTrue(front_door.in_shell({"name": "left"}, True).endswith(" name=left"))
 
     def test_force_comes_by_itself_only_where_no_hand_is(self):
         virtual = self.write("virtual.yaml", "devices: [{driver: virtual}, {driver: virtual}]")
@@ -182,6 +186,8 @@ class ArgumentsTest(WithFolder):
         self.assertIn("gesture:=", front_door.greeting("drum", False, True, True))
         for simulated in (True, False):
             self.assertIn("/station/engage", front_door.greeting("drum", True, simulated, False))
+        self.assertIn("/left/engage", front_door.greeting("drum", True, True, False, "left"))
+        self.assertIn("ergotic_left:midi_in", front_door.greeting("drum", False, True, True, "left"))
 
 
 class SoundSettingTest(WithFolder):

@@ -128,7 +128,7 @@ class TypedTest(unittest.TestCase):
         self.assertEqual(used - known, set())
 
     def test_parameters_win_over_the_arguments_of_the_launch_file(self):
-        names = {param.get("name") for node in self.launch().iter("node") if node.get("name") == "station"
+        names = {param.get("name") for node in self.launch().iter("node") if node.get("name") == "$(arg name)"
                  for param in node.iter("param")}
         self.assertGreaterEqual(len(names), 25)
         given = ", ".join(f"{name}: of_the_map" for name in sorted(names))

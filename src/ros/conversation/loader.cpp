@@ -53,12 +53,21 @@ double audioRateFor(const Parameters& parameters) {
   return parameters.audio_rate;
 }
 
+/// \return none: those that are there stay
+std::optional<tgr::EndEffectors> otherEndEffectors(const std::string& wanted) {
+  if (wanted.empty()) {
+    return std::nullopt;
+  }
+  return wanted == "none" ? tgr::EndEffectors() : readEndEffectors(wanted);
+}
+
 }  // namespace
 
 LoadModel::Response Loader::load(const std::string& model,
                                  bool allow_unproven,
-                                 const std::string& loader) {
-  return load({model, allow_unproven, loader, false});
+                                 const std::string& loader,
+                                 const std::string& end_effectors) {
+  return load({model, allow_unproven, loader, end_effectors, false});
 }
 
 Answer Loader::reload(const std::string& loader) {
@@ -69,7 +78,7 @@ Answer Loader::reload(const std::string& loader) {
     return {false, "the scene came as a text: there is no file that could be read again"};
   }
   const LoadModel::Response response =
-      load({last_.model, last_.allow_unproven, loader, has_played_});
+      load({last_.model, last_.allow_unproven, loader, "", has_played_});
   return {response.success != 0U, response.message};
 }
 
@@ -78,7 +87,8 @@ LoadModel::Response Loader::load(const Wish& wish) {
   Answer answer;
   is_device_missing_ = false;
   try {
-    answer = play(readModel(wish.model), wish, response.verdict);
+    const std::optional<tgr::EndEffectors> end_effectors = otherEndEffectors(wish.end_effectors);
+    answer = play(readModel(wish.model), wish, end_effectors, response.verdict);
   } catch (const DeviceError& missing) {
     is_device_missing_ = true;
     answer = {false, missing.what()};
@@ -149,10 +159,13 @@ void Loader::loadProgram(int program) {
   }
 }
 
-Answer Loader::play(scene::Scene scene, const Wish& wish, std::string& verdict) {
+Answer Loader::play(scene::Scene scene,
+                    const Wish& wish,
+                    const std::optional<tgr::EndEffectors>& end_effectors,
+                    std::string& verdict) {
   const auto terms = operator_.terms();
   if (!terms) {
-    return start(std::move(scene), wish.allow_unproven, verdict);
+    return start(std::move(scene), wish.allow_unproven, end_effectors, verdict);
   }
   station::PerformerPolicy policy;
   policy.on_stage = logStage;
@@ -160,18 +173,28 @@ Answer Loader::play(scene::Scene scene, const Wish& wish, std::string& verdict) 
   policy.max_load = terms->parameters.max_load;
   policy.slices = terms->slices;
   policy.device = terms->device;
-  policy.end_effectors = terms->end_effectors;
+  policy.end_effectors = end_effectors.value_or(terms->end_effectors);
   const physics::Rates rates =
       physics::chooseRates(scene, terms->rates.audio_hz, terms->rates.gesturalHz());
   auto performer =
       makePerformer(std::move(scene), rates, terms->parameters.compile, policy, verdict);
   const auto picture = toPicture(*performer->instrument, terms->parameters.display_zoom);
-  return operator_.swap(std::move(performer), picture, wish.loader, wish.is_again);
+  Answer answer =
+      operator_.swap(std::move(performer), {picture, wish.loader, end_effectors, wish.is_again});
+  if (answer.ok && end_effectors) {
+    setDescription(node_, operator_);
+  }
+  return answer;
 }
 
-Answer Loader::start(scene::Scene scene, bool allow_unproven, std::string& verdict) {
+Answer Loader::start(scene::Scene scene,
+                     bool allow_unproven,
+                     const std::optional<tgr::EndEffectors>& end_effectors,
+                     std::string& verdict) {
   const Parameters given = readParameters(node_);
-  auto hands = std::make_unique<Hands>(readDevices(given), given.allow_fault_injection);
+  tgr::StationDevices devices = readDevices(given);
+  devices.end_effectors = end_effectors.value_or(devices.end_effectors);
+  auto hands = std::make_unique<Hands>(std::move(devices), given.allow_fault_injection);
   const physics::Rates rates =
       physics::chooseRates(scene, audioRateFor(given), given.gestural_rate);
   hands->probe(rates.gesturalHz(), given.safety.slice_mass_kg);
@@ -179,7 +202,7 @@ Answer Loader::start(scene::Scene scene, bool allow_unproven, std::string& verdi
   const Parameters parameters = withStallLimits(given, hands->canHurt());
   station::PerformerPolicy policy;
   policy.on_stage = logStage;
-  policy.allow_unproven = allow_unproven && parameters.allow_unproven;
+  policy.allow_unproven = wish.allow_unproven && parameters.allow_unproven;
   policy.max_load = parameters.max_load;
   policy.slices = hands->slices();
   policy.device = hands->traits();

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <ergotic/LoadModel.h>
@@ -27,9 +28,11 @@ class Loader {
   /// \param model           path or YAML text
   /// \param allow_unproven  no more than the station itself allows
   /// \param loader          node that asks, by what it says itself
+  /// \param end_effectors   that come with it: path or YAML text, `none`; empty: no others
   LoadModel::Response load(const std::string& model,
                            bool allow_unproven,
-                           const std::string& loader);
+                           const std::string& loader,
+                           const std::string& end_effectors = "");
 
   /// Reads the file of the model that plays again, or while none has played yet of the last one
   /// that was asked for, and plays it with the parameters as they were changed. The one that plays
@@ -54,12 +57,19 @@ class Loader {
     std::string model;  ///< path or YAML text
     bool allow_unproven = false;
     std::string loader;
-    bool is_again = false;  ///< it plays already
+    std::string end_effectors;  ///< that come with it: path or YAML text, `none`; empty: no others
+    bool is_again = false;      ///< it plays already
   };
   LoadModel::Response load(const Wish& wish);
   bool waitUntilNextTry(std::int64_t end_ns) const;
-  Answer play(scene::Scene scene, const Wish& wish, std::string& verdict);
-  Answer start(scene::Scene scene, bool allow_unproven, std::string& verdict);
+  Answer play(scene::Scene scene,
+              const Wish& wish,
+              const std::optional<tgr::EndEffectors>& end_effectors,
+              std::string& verdict);
+  Answer start(scene::Scene scene,
+               bool allow_unproven,
+               const std::optional<tgr::EndEffectors>& end_effectors,
+               std::string& verdict);
 
   ::ros::NodeHandle node_;
   Operator& operator_;

@@ -120,13 +120,9 @@ Answer Operator::begin(std::unique_ptr<Engine> engine,
 }
 
 Answer Operator::swap(std::unique_ptr<station::Performer> performer,
-                      const std::shared_ptr<Picture>& picture,
-                      const std::string& loader,
-                      bool is_again) {
+                      const Performance::Swap& with) {
   const auto shared = std::make_shared<std::unique_ptr<station::Performer>>(std::move(performer));
-  return ask([=](const Promise& promise) {
-    performance_.swap(std::move(*shared), picture, loader, is_again, promise);
-  });
+  return ask([=](const Promise& promise) { performance_.swap(std::move(*shared), with, promise); });
 }
 
 Answer Operator::engage(const ForceRequest& request) {

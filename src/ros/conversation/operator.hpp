@@ -43,12 +43,7 @@ class Operator {
                station::Performer* performer,
                const std::shared_ptr<Picture>& picture);
   /// Plays another model; answers when it plays.
-  /// \param loader    who asked for it
-  /// \param is_again  it is the one that plays, read again, and keeps what its players changed
-  Answer swap(std::unique_ptr<station::Performer> performer,
-              const std::shared_ptr<Picture>& picture,
-              const std::string& loader,
-              bool is_again);
+  Answer swap(std::unique_ptr<station::Performer> performer, const Performance::Swap& with);
   /// Lets force ramp in; answers when it does, or why it may not. An answer that does not come
   /// withdraws the request, as `stop` would.
   Answer engage(const ForceRequest& request);

@@ -50,7 +50,7 @@ void Performance::begin(std::unique_ptr<Engine> engine,
   gesture_values_ = engine_->station().driver().gestureValues();
   next_value_ = 0;
   feed_.configure(engine_->parameters(), engine_->hands());
-  show(endEffectors());
+  place(endEffectors());
   play(performer, std::move(picture), false);
   if (engine_->parameters().autoengage) {
     engage({{rt::monotonicNs(), began_}, ::ros::this_node::getName()},
@@ -59,9 +59,7 @@ void Performance::begin(std::unique_ptr<Engine> engine,
 }
 
 void Performance::swap(std::unique_ptr<station::Performer> performer,
-                       std::shared_ptr<Picture> picture,
-                       const std::string& loader,
-                       bool is_again,
+                       const Swap& with,
                        const Promise& promise) {
   if (!engine_) {
     return answer(promise, false, kNothingPlays);
@@ -69,24 +67,27 @@ void Performance::swap(std::unique_ptr<station::Performer> performer,
   station::Command swap;
   swap.type = CommandType::kSwap;
   swap.performer = performer.get();
-  swap.index = static_cast<int>(engine_->parameters().force_after_swap);
-  swap.caller = numberOf(loader);
+  swap.index = static_cast<int>(with.end_effectors ? station::SwapForce::kNever
+                                                   : engine_->parameters().force_after_swap);
+  swap.caller = numberOf(with.loader);
   const std::vector<double> parameters = performer->parameters;  // the tick's from now on
   try {
+    requireNoneComing();
     // End-effectors may have changed while the model was made.
     const Hands& hands = engine_->hands();
-    station::giveHands(*performer, endEffectors(), hands.slices(), hands.traits());
+    station::giveHands(*performer, with.end_effectors.value_or(endEffectors()), hands.slices(),
+                       hands.traits());
     if (!engine_->station().submit(swap)) {
       return answer(promise, false, kTooMany);
     }
   } catch (const Exception& refusal) {
     return answer(promise, false, refusal.what());
   }
-  const PresetValues kept = is_again ? changedValues() : PresetValues();
+  const PresetValues kept = with.is_again ? changedValues() : PresetValues();
   submitted_ = performer.release();
   parameters_ = parameters;
   forgetChanges();
-  incoming_.push_back({submitted_, std::move(picture), promise, is_again, bringBack(kept)});
+  incoming_.push_back({submitted_, with, promise, bringBack(kept)});
 }
 
 void Performance::engage(const ForceRequest& request, const Promise& promise) {
@@ -349,7 +350,10 @@ void Performance::takeSwapped(const station::Event& event) {
   }
   Incoming next = std::move(incoming_.front());
   incoming_.pop_front();
-  play(next.performer, std::move(next.picture), next.is_again);
+  if (next.with.end_effectors) {
+    place(*next.with.end_effectors);
+  }
+  play(next.performer, std::move(next.with.picture), next.with.is_again);
   answer(next.promise, true,
          whatPlays(!interlock_->read().isOpen()) +
              (next.left_out.empty() ? "" : "\nnot as they were: " + next.left_out));

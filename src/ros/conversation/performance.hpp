@@ -85,10 +85,15 @@ class Performance {
   void begin(std::unique_ptr<Engine> engine,
              station::Performer* performer,
              std::shared_ptr<Picture> picture);
+  /// What comes with another model.
+  struct Swap {
+    std::shared_ptr<Picture> picture;
+    std::string loader;                              ///< who asked for it
+    std::optional<tgr::EndEffectors> end_effectors;  ///< that take force away; none: no others
+    bool is_again = false;  ///< it is the one that plays, read again, and keeps what was changed
+  };
   void swap(std::unique_ptr<station::Performer> performer,
-            std::shared_ptr<Picture> picture,
-            const std::string& loader,
-            bool is_again,
+            const Swap& with,
             const Promise& promise);
   void engage(const ForceRequest& request, const Promise& promise);
   void recover(const ForceRequest& request, const Promise& promise);
@@ -169,10 +174,9 @@ class Performance {
   /// A model on its way into the station, which owns it.
   struct Incoming {
     station::Performer* performer = nullptr;
-    std::shared_ptr<Picture> picture;
+    Swap with;
     Promise promise;
-    bool is_again = false;  ///< the one before it, read again
-    std::string left_out;   ///< of the values that its players had set, in words
+    std::string left_out;  ///< of the values that its players had set, in words
   };
   /// A parameter on its way to the tick, and who waits for it to take effect.
   struct Change {
@@ -213,7 +217,8 @@ class Performance {
   bool submit(const station::Command& command);
   void request(station::Command::Type type, const ForceRequest& request, const Promise& promise);
   const tgr::EndEffectors& endEffectors() const;
-  void show(const tgr::EndEffectors& end_effectors);
+  void requireNoneComing() const;
+  void place(const tgr::EndEffectors& end_effectors);
   void begin(int slice);
   void check(const Calibrate::Request& request, const Arrival& arrival, const Promise& promise);
   void pollCheck();

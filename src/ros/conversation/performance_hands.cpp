@@ -66,7 +66,17 @@ const tgr::EndEffectors& Performance::endEffectors() const {
                                  : configurations_.back().end_effectors;
 }
 
-void Performance::show(const tgr::EndEffectors& end_effectors) {
+/// Which end-effectors are the newest cannot be told until those have come that come with a model.
+void Performance::requireNoneComing() const {
+  const auto brings = [](const Incoming& incoming) {
+    return incoming.with.end_effectors.has_value();
+  };
+  if (std::any_of(incoming_.begin(), incoming_.end(), brings)) {
+    throw Exception("another model is coming with other end-effectors: ask again after that");
+  }
+}
+
+void Performance::place(const tgr::EndEffectors& end_effectors) {
   engine_->hands().setEndEffectors(end_effectors);
   {
     const std::lock_guard lock(keyboard_mutex_);
@@ -74,10 +84,6 @@ void Performance::show(const tgr::EndEffectors& end_effectors) {
   }
   move(players_.configure(end_effectors));
   feed_.show(end_effectors);
-  if (playing_ != nullptr) {
-    showHandles();
-    findPlayMap(playing_->instrument->scene(), true);
-  }
 }
 
 void Performance::configure(const tgr::EndEffectors& end_effectors, const Promise& promise) {
@@ -85,6 +91,7 @@ void Performance::configure(const tgr::EndEffectors& end_effectors, const Promis
     return answer(promise, false, kNothingPlays);
   }
   try {
+    requireNoneComing();
     const Hands& hands = engine_->hands();
     auto fitted = station::fitHands(*submitted_, end_effectors, hands.slices(), hands.traits());
     station::Command configure;
@@ -104,7 +111,9 @@ void Performance::takeConfigured(const station::Event& event) {
   const std::unique_ptr<tgr::Rig> old(event.rig);
   const Configuration done = configurations_.front();
   configurations_.pop_front();
-  show(done.end_effectors);
+  place(done.end_effectors);
+  showHandles();
+  findPlayMap(playing_->instrument->scene(), true);
   std::string message = std::to_string(done.end_effectors.list.size()) + " end-effectors in place";
   for (const std::string& warning : done.warnings) {
     ROS_WARN_STREAM(warning);

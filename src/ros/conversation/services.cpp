@@ -150,7 +150,8 @@ Services::~Services() {
 bool Services::onLoadModel(Call<LoadModel>& call) {
   const LoadModel::Request& request = call.getRequest();
   call.getResponse() =
-      loader_.load(request.model, request.allow_unproven != 0U, call.getCallerName());
+      loader_.load(request.model, request.allow_unproven != 0U, call.getCallerName(),
+                   request.end_effectors);
   return true;
 }
 

@@ -517,10 +517,14 @@ tgr::StationDevices readDevices(const Parameters& p) {
     devices = tgr::readDevices(device.text, device.name);
   }
   if (!p.end_effectors.empty()) {
-    const Text text = textOrFile(p.end_effectors, "end_effectors");
-    devices.end_effectors = tgr::readEndEffectors(text.text, text.name);
+    devices.end_effectors = readEndEffectors(p.end_effectors);
   }
   return devices;
+}
+
+tgr::EndEffectors readEndEffectors(const std::string& path_or_text) {
+  const Text text = textOrFile(path_or_text, "end_effectors");
+  return tgr::readEndEffectors(text.text, text.name);
 }
 
 std::string toYaml(const Parameters& p, const tgr::StationDevices& devices) {

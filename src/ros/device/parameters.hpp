@@ -102,7 +102,11 @@ Parameters withStallLimits(Parameters parameters, bool can_hurt);
 /// \throws TextError with file:line:col, Exception if a file cannot be read
 tgr::StationDevices readDevices(const Parameters& parameters);
 
-/// The same as YAML, for recordings; `device` is the text of `devices`, whatever it came from.
+/// \param path_or_text  of more than one line: YAML; else a path
+/// \throws TextError with file:line:col, Exception if the file cannot be read
+tgr::EndEffectors readEndEffectors(const std::string& path_or_text);
+
+/// Parameters as YAML, for recordings; `device` is the text of `devices`, whatever it came from.
 std::string toYaml(const Parameters& parameters, const tgr::StationDevices& devices);
 
 /// Those that are not what they are by default, `name: value` each, with commas between; "" if

@@ -20,6 +20,7 @@
 #include <sensor_msgs/JointState.h>
 #include <std_msgs/Empty.h>
 #include <std_msgs/Float64.h>
+#include <std_msgs/String.h>
 
 #include "rviz/message_log.hpp"
 #include "rviz/peak_hold.hpp"
@@ -139,6 +140,7 @@ class Listener {
                     node.subscribe("model_parameters", 1, &Listener::onParameters, this),
                     node.subscribe("takes", 1, &Listener::onTakes, this),
                     node.subscribe("presets", 1, &Listener::onPresets, this),
+                    node.subscribe("robot_description", 1, &Listener::onDevice, this),
                     node.subscribe("events", kEvents, &Listener::onEvent, this)};
     constexpr std::uint32_t kParameters = 100;
     ::ros::Publisher parameter = node.advertise<ParameterValue>("parameters", kParameters);
@@ -240,6 +242,13 @@ class Listener {
     shared_->news.presets = presets;
   }
 
+  void onDevice(const std_msgs::String& device) {
+    if (std::exchange(device_, device.data) != device.data) {
+      const std::lock_guard lock(shared_->mutex);
+      ++shared_->news.device_version;
+    }
+  }
+
   void onEvent(const Event& event) {
     if (isWorthALine(event)) {
       const std::lock_guard lock(shared_->mutex);
@@ -325,6 +334,7 @@ class Listener {
   ::ros::Subscriber sound_;  // void while it is not watched
   PeakHold peaks_;
   PeakHold level_peaks_;
+  std::string device_;       // its URDF
   std::string master_;       // run id of the one that knows us
   bool is_another_ = false;  // station or model since its limits were asked for
   Clock::time_point next_look_;
@@ -395,6 +405,7 @@ void StationLink::refresh(News& news) const {
   news.answer = newest.answer;
   news.answers = newest.answers;
   news.presets = newest.presets;
+  news.device_version = newest.device_version;
   if (news.parameters_version != newest.parameters_version) {
     news.parameters_version = newest.parameters_version;
     news.parameters = newest.parameters;

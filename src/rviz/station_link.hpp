@@ -37,6 +37,7 @@ struct News {
   Takes takes;
   std::size_t takes_version = 0;
   Presets presets;
+  std::size_t device_version = 0;  ///< of its URDF; 0: none came
   std::vector<SceneEntry> scenes;
   std::size_t scenes_version = 0;
   std::string log;

@@ -14,7 +14,9 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <ros/package.h>
 #include <rviz/config.h>
+#include <rviz/visualization_manager.h>
 
+#include "rviz/robot_models.hpp"
 #include "rviz/volume_scale.hpp"
 
 namespace ergotic::panel {
@@ -389,7 +391,7 @@ void StationPanel::connect() {
   link_.reset();
   link_ = std::make_unique<StationLink>(wanted_, models_);
   news_ = {};
-  scenes_shown_ = log_shown_ = takes_shown_ = 0;
+  scenes_shown_ = log_shown_ = takes_shown_ = device_shown_ = 0;
   takes_->show({});
   model_shown_.clear();
   instruments_->clear();  // they are no longer in the news
@@ -413,6 +415,14 @@ void StationPanel::refresh() {
   showSound();
   showTakes();
   showMessages();
+  showDevice();
+}
+
+/// Models of robots that the window has: rviz reads a URDF once.
+void StationPanel::showDevice() {
+  if (std::exchange(device_shown_, news_.device_version) != news_.device_version) {
+    reloadRobotModels(*vis_manager_);
+  }
 }
 
 void StationPanel::showForce() {

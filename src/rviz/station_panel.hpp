@@ -63,6 +63,7 @@ class StationPanel : public rviz::Panel {
   void showSound();
   void showTakes();
   void showMessages();
+  void showDevice();
   bool isStale() const { return lampOf(news_.status.state, news_.age_s) == Lamp::kStale; }
 
   std::string models_;                 // folder of the package's scenes
@@ -74,6 +75,7 @@ class StationPanel : public rviz::Panel {
   std::size_t scenes_shown_ = 0;
   std::size_t log_shown_ = 0;
   std::size_t takes_shown_ = 0;
+  std::size_t device_shown_ = 0;
   std::string model_shown_;
 
   QScrollArea* scroll_ = nullptr;  // all below the buttons of force

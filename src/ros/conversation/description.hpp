@@ -1,15 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <mutex>
+#include <string>
+
 #include <ros/node_handle.h>
+#include <ros/publisher.h>
 
 #include "ros/conversation/operator.hpp"
 
 namespace ergotic::node {
 
-/// Sets `robot_description`, beside the node, to a picture of its device and end-effectors, for
-/// whoever starts to look or looks anew. Asks the master, who may take his time or be gone.
-/// Thread: any, but never the operator's
-void setDescription(const ::ros::NodeHandle& private_node, Operator& operator_thread);
+/// A picture of the device and its end-effectors, as URDF: the parameter `robot_description`,
+/// beside the node, for whoever starts to look, and then the topic of that name, for whoever looks
+/// already. Thread: any, but never the operator's
+class Description {
+ public:
+  Description(const ::ros::NodeHandle& private_node, Operator& operator_thread);
+
+  /// What stands there now. Asks the master, who may take his time or be gone.
+  void update();
+
+ private:
+  Operator& operator_;
+  std::string parameter_;
+  ::ros::Publisher topic_;
+  std::mutex mutex_;  // the newest comes last
+};
 
 }  // namespace ergotic::node

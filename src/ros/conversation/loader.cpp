@@ -12,7 +12,6 @@
 #include "ergotic/rt/thread.hpp"
 #include "ergotic/station/judge_hands.hpp"
 #include "ros/conversation/convert.hpp"
-#include "ros/conversation/description.hpp"
 #include "ros/conversation/model_loader.hpp"
 #include "ros/conversation/programs.hpp"
 
@@ -182,7 +181,7 @@ Answer Loader::play(scene::Scene scene,
   Answer answer =
       operator_.swap(std::move(performer), {picture, wish.loader, end_effectors, wish.is_again});
   if (answer.ok && end_effectors) {
-    setDescription(node_, operator_);
+    description_.update();
   }
   return answer;
 }
@@ -222,7 +221,7 @@ Answer Loader::start(scene::Scene scene,
     ROS_INFO_STREAM("parameters that are not the default: " << list);
   }
   Answer answer = operator_.begin(std::move(engine), first, picture);
-  setDescription(node_, operator_);
+  description_.update();
   return answer;
 }
 

@@ -9,7 +9,7 @@
 #include <ergotic/LoadModel.h>
 #include <ros/node_handle.h>
 
-#include "ros/conversation/operator.hpp"
+#include "ros/conversation/description.hpp"
 
 namespace ergotic::node {
 
@@ -21,8 +21,8 @@ namespace ergotic::node {
 /// Thread: one, which may take its time
 class Loader {
  public:
-  Loader(const ::ros::NodeHandle& private_node, Operator& operator_thread)
-      : node_(private_node), operator_(operator_thread) {}
+  Loader(const ::ros::NodeHandle& private_node, Operator& operator_thread, Description& description)
+      : node_(private_node), operator_(operator_thread), description_(description) {}
 
   /// Plays a model. The one that plays keeps playing if this fails.
   /// \param model           path or YAML text
@@ -73,6 +73,7 @@ class Loader {
 
   ::ros::NodeHandle node_;
   Operator& operator_;
+  Description& description_;
   Wish last_;  // that was fulfilled; until one is, that was asked for
   bool has_played_ = false;
   bool is_device_missing_ = false;  // because of that the last load failed

@@ -10,7 +10,6 @@
 #include "ergotic/exception.hpp"
 #include "ergotic/rt/clock.hpp"
 #include "files/printable.hpp"
-#include "ros/conversation/description.hpp"
 #include "ros/device/end_effectors.hpp"
 #include "ros/device/parameters.hpp"
 
@@ -78,7 +77,8 @@ int urgencyOf(const ::ros::NodeHandle& node) {
 
 Services::Services(const ::ros::NodeHandle& node, Operator& operator_thread)
     : operator_(operator_thread),
-      loader_(node, operator_thread),
+      description_(node, operator_thread),
+      loader_(node, operator_thread, description_),
       presets_(operator_thread),
       queue_(*node.getCallbackQueue(), operator_thread.interlock()),
       node_(node),
@@ -149,9 +149,8 @@ Services::~Services() {
 
 bool Services::onLoadModel(Call<LoadModel>& call) {
   const LoadModel::Request& request = call.getRequest();
-  call.getResponse() =
-      loader_.load(request.model, request.allow_unproven != 0U, call.getCallerName(),
-                   request.end_effectors);
+  call.getResponse() = loader_.load(request.model, request.allow_unproven != 0U,
+                                    call.getCallerName(), request.end_effectors);
   return true;
 }
 
@@ -311,7 +310,7 @@ Answer Services::configure(const std::vector<EndEffector>& end_effectors) {
   try {
     Answer answer = operator_.configure(fromMessages(end_effectors));
     if (answer.ok) {
-      setDescription(node_, operator_);
+      description_.update();
     }
     return answer;
   } catch (const Exception& refusal) {

@@ -31,6 +31,7 @@
 
 #include "gamepads/gamepad_watch.hpp"
 #include "ros/conversation/arrivals.hpp"
+#include "ros/conversation/description.hpp"
 #include "ros/conversation/loader.hpp"
 #include "ros/conversation/operator.hpp"
 #include "ros/conversation/presence_owner.hpp"
@@ -92,6 +93,7 @@ class Services {
 
   Operator& operator_;
   PresenceOwner presence_owner_;
+  Description description_;
   Loader loader_;
   PresetKeeper presets_;
   ArrivalQueue queue_;  // in front of the usual one

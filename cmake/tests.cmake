@@ -140,7 +140,7 @@ add_test(NAME scripts.bound_at_load
   COMMAND ${PROJECT_SOURCE_DIR}/test/integration/bound_at_load.sh ${bound_at_load})
 # The scripts: what is built; what is asked of scripts/station; what rooms may include, and how they are drawn; what measures a demo, a soak
 # and another build; what users do in the devel and in an install space.
-foreach(script build check_includes demo_report soak_report front_door play_gesture test_report window)
+foreach(script build check_includes demo_report soak_report front_door play_gesture test_report window calibrate)
   add_test(NAME scripts.${script}
     COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/${script}_test.py)
 endforeach()

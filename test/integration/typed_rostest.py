@@ -84,6 +84,8 @@ class TypedTest(unittest.TestCase):
         for line in shown(document):
             if re.match("scripts/station --(demo|tune)", line):
                 continue  # the demo runs as a whole before every change, and front_door_long_test.py tunes
+            if line.startswith("rosrun ergotic calibrate"):
+                continue  # device_rostest.py does, at a device that speaks volts
             done = subprocess.run(["bash", "-c", tried(line)], cwd=self.folder.name, timeout=60, text=True,
                                   stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                   stderr=subprocess.STDOUT, check=False)

@@ -95,9 +95,11 @@ void Performance::engage(const ForceRequest& request, const Promise& promise) {
     return answer(promise, false, "a slice is being calibrated: finish or abort first");
   }
   if (const auto slice = engine_ ? engine_->hands().uncheckedSlice() : std::nullopt) {
-    return answer(promise, false,
-                  "slice " + std::to_string(*slice) +
-                      " was not checked since it was calibrated: calibrate with CHECK, hands off");
+    return answer(
+        promise, false,
+        "slice " + std::to_string(*slice) +
+            " was not checked since it was calibrated: rosrun ergotic calibrate check --slice " +
+            std::to_string(*slice) + ", hands off");
   }
   if (const auto breach = own_host_.breach()) {
     ROS_ERROR_STREAM("engage: " << *breach);

@@ -100,12 +100,13 @@ add_test(NAME integration.front_door
           ${CATKIN_DEVEL_PREFIX}/setup.bash)
 set_tests_properties(integration.front_door PROPERTIES RUN_SERIAL ON TIMEOUT 240 LABELS long)
 
-# roslaunch reads the file, finds every package and every substitution, and names the nodes.
-file(GLOB launch_files CONFIGURE_DEPENDS launch/*.launch)
-foreach(launch ${launch_files})
-  get_filename_component(name ${launch} NAME_WE)
-  add_test(NAME integration.launch_${name}
-    COMMAND ${in_devel_space} /usr/bin/roslaunch --nodes ${launch} record:=x rviz:=true)
+# roslaunch reads the files, finds every package and every substitution, and names the nodes:
+# ergotic_add_launch_test(NAME NODES ARGUMENTS...)
+function(ergotic_add_launch_test name nodes)
+  add_test(NAME integration.launch_${name} COMMAND ${in_devel_space}
+    /usr/bin/roslaunch --nodes ${PROJECT_SOURCE_DIR}/launch/${name}.launch ${ARGN})
   set_tests_properties(integration.launch_${name} PROPERTIES
-    PASS_REGULAR_EXPRESSION "/station.*/rviz.*/record" LABELS integration)
-endforeach()
+    PASS_REGULAR_EXPRESSION "${nodes}" LABELS integration)
+endfunction()
+ergotic_add_launch_test(station "/station.*/rviz.*/record" record:=x rviz:=true)
+ergotic_add_launch_test(show_bag "/station.*/rviz" bag:=x)

@@ -128,6 +128,7 @@ Keyframe fromMessage(const ergotic::Keyframe& message, const std::string& path) 
   keyframe.scene_name = message.scene_name;
   keyframe.scene_text = message.scene;
   keyframe.build = message.build;
+  keyframe.station_config = message.station_config;
   keyframe.rates = {message.audio_rate, static_cast<int>(message.ratio)};
   keyframe.precision = physics::precisionNamed(message.precision);
   keyframe.isa = message.isa;

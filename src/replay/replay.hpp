@@ -49,6 +49,9 @@ class Replay {
   /// \return null if that was not taken since the last call
   const station::MotionFrame* motion();
 
+  /// Where the slices of the device were at the last tick, m.
+  const std::vector<double>& slices() const { return position_; }
+
   /// Ticks that are left to play.
   std::int64_t ticksLeft() const;
 

@@ -44,7 +44,7 @@ def tried(line):
     if line.startswith("scripts/station"):
         return line.replace("scripts/station", f"meant=$({ROOT}/scripts/front_door.py arguments", 1) + (
             ') && eval "$meant" && roslaunch --nodes ergotic station.launch "${arguments[@]}"')
-    if line.startswith("roslaunch ergotic station.launch"):
+    if line.startswith("roslaunch ergotic "):
         return line.replace("roslaunch", "roslaunch --nodes", 1)
     if line == "rosbag record -a":
         return ("set -m; rosbag record -a & until ls *.active; do sleep 0.1; done; sleep 2; kill -INT %1; wait; "
@@ -124,7 +124,8 @@ class TypedTest(unittest.TestCase):
         self.assertEqual(shlex.split(record.args)[-1], os.path.join(self.folder.name, "it's a take"))
 
     def test_arguments_of_the_launch_file_are_its_own(self):
-        known = {argument.get("name") for argument in self.launch().iter("arg")}
+        known = {argument.get("name") for name in ("station.launch", "show_bag.launch")
+                 for argument in self.launch(name).iter("arg")}
         used = {name for document in ("README.md", "docs/ros.md", "docs/safety.md", "docs/tgr.md")
                 for name in re.findall(r"(?<![\w:])([a-z_]+):=", text_of(document))}
         self.assertEqual(used - known, set())
@@ -142,8 +143,8 @@ class TypedTest(unittest.TestCase):
         self.assertIn("/station/", loaded().clear_params)
 
     @staticmethod
-    def launch():
-        return xml.etree.ElementTree.fromstring(text_of("launch", "station.launch"))
+    def launch(name="station.launch"):
+        return xml.etree.ElementTree.fromstring(text_of("launch", name))
 
 
 if __name__ == "__main__":

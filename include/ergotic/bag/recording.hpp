@@ -27,6 +27,7 @@ struct Keyframe {
   int slices = 0;       ///< of the device
   std::vector<std::uint8_t> state;
   std::vector<double> parameters;
+  std::string station_config;  ///< YAML: how the station was started
 };
 
 /// Consecutive ticks.

@@ -11,30 +11,37 @@
 namespace ergotic::node {
 namespace {
 
-const char kName[] = "robot_description";
-constexpr bool kLatched = true;
+const char kDescriptionName[] = "robot_description";
+constexpr bool kDescriptionIsLatched = true;
 
 /// As the node remaps it.
 std::string parameterBeside(const ::ros::NodeHandle& private_node) {
   const std::string beside = ::ros::names::parentNamespace(private_node.getNamespace());
-  return private_node.resolveName(::ros::names::append(beside, kName));
+  return private_node.resolveName(::ros::names::append(beside, kDescriptionName));
 }
 
 }  // namespace
 
-Description::Description(const ::ros::NodeHandle& private_node, Operator& operator_thread)
-    : operator_(operator_thread),
-      parameter_(parameterBeside(private_node)),
-      topic_(::ros::NodeHandle(private_node).advertise<std_msgs::String>(kName, 1, kLatched)) {}
+Description::Description(const ::ros::NodeHandle& private_node)
+    : parameter_(parameterBeside(private_node)),
+      topic_(::ros::NodeHandle(private_node)
+                 .advertise<std_msgs::String>(kDescriptionName, 1, kDescriptionIsLatched)) {}
 
-void Description::update() {
+void Description::update(Operator& operator_thread) {
   const std::lock_guard lock(mutex_);
-  const auto terms = operator_.terms();
-  if (!terms) {
-    return;
+  if (const auto terms = operator_thread.terms()) {
+    tell(terms->end_effectors, terms->slices);
   }
+}
+
+void Description::show(const tgr::EndEffectors& end_effectors, int slices) {
+  const std::lock_guard lock(mutex_);
+  tell(end_effectors, slices);
+}
+
+void Description::tell(const tgr::EndEffectors& end_effectors, int slices) {
   std_msgs::String urdf;
-  urdf.data = tgr::urdfOf(terms->end_effectors, terms->slices);
+  urdf.data = tgr::urdfOf(end_effectors, slices);
   if (::ros::master::check()) {  // a parameter waits for a master for ever
     ::ros::param::set(parameter_, urdf.data);
   }

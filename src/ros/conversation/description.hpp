@@ -16,13 +16,18 @@ namespace ergotic::node {
 /// already. Thread: any, but never the operator's
 class Description {
  public:
-  Description(const ::ros::NodeHandle& private_node, Operator& operator_thread);
+  explicit Description(const ::ros::NodeHandle& private_node);
 
-  /// What stands there now. Asks the master, who may take his time or be gone.
-  void update();
+  // Both ask the master, who may take his time or be gone.
+
+  /// What stands there now, if anything plays.
+  void update(Operator& operator_thread);
+  /// \param slices  of the device
+  void show(const tgr::EndEffectors& end_effectors, int slices);
 
  private:
-  Operator& operator_;
+  void tell(const tgr::EndEffectors& end_effectors, int slices);
+
   std::string parameter_;
   ::ros::Publisher topic_;
   std::mutex mutex_;  // the newest comes last

@@ -181,7 +181,7 @@ Answer Loader::play(scene::Scene scene,
   Answer answer =
       operator_.swap(std::move(performer), {picture, wish.loader, end_effectors, wish.is_again});
   if (answer.ok && end_effectors) {
-    description_.update();
+    description_.update(operator_);
   }
   return answer;
 }
@@ -221,7 +221,7 @@ Answer Loader::start(scene::Scene scene,
     ROS_INFO_STREAM("parameters that are not the default: " << list);
   }
   Answer answer = operator_.begin(std::move(engine), first, picture);
-  description_.update();
+  description_.update(operator_);
   return answer;
 }
 

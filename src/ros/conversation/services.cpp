@@ -77,7 +77,7 @@ int urgencyOf(const ::ros::NodeHandle& node) {
 
 Services::Services(const ::ros::NodeHandle& node, Operator& operator_thread)
     : operator_(operator_thread),
-      description_(node, operator_thread),
+      description_(node),
       loader_(node, operator_thread, description_),
       presets_(operator_thread),
       queue_(*node.getCallbackQueue(), operator_thread.interlock()),
@@ -310,7 +310,7 @@ Answer Services::configure(const std::vector<EndEffector>& end_effectors) {
   try {
     Answer answer = operator_.configure(fromMessages(end_effectors));
     if (answer.ok) {
-      description_.update();
+      description_.update(operator_);
     }
     return answer;
   } catch (const Exception& refusal) {

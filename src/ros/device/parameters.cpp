@@ -533,6 +533,17 @@ std::string toYaml(const Parameters& p, const tgr::StationDevices& devices) {
   return write.finish();
 }
 
+tgr::EndEffectors recordedEndEffectors(const std::string& yaml) {
+  try {
+    const auto device = YAML::Load(yaml)["device"].as<std::string>("");
+    return device.empty() ? tgr::EndEffectors() : tgr::readDevices(device, "device").end_effectors;
+  } catch (const YAML::Exception&) {
+    return {};
+  } catch (const Exception&) {
+    return {};
+  }
+}
+
 std::string unusual(const Parameters& p) {
   const YAML::Node usual = YAML::Load(toYaml(readParameters(Value(), ""), {}));
   std::ostringstream list;

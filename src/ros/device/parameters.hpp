@@ -109,6 +109,10 @@ tgr::EndEffectors readEndEffectors(const std::string& path_or_text);
 /// Parameters as YAML, for recordings; `device` is the text of `devices`, whatever it came from.
 std::string toYaml(const Parameters& parameters, const tgr::StationDevices& devices);
 
+/// What stood on the slices when the station was started that toYaml tells of; none where that
+/// cannot be read.
+tgr::EndEffectors recordedEndEffectors(const std::string& yaml);
+
 /// Those that are not what they are by default, `name: value` each, with commas between; "" if
 /// none. Without the model and what makes the devices.
 std::string unusual(const Parameters& parameters);

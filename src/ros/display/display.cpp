@@ -33,9 +33,13 @@ void Display::show(const tgr::EndEffectors& end_effectors) {
   news_.tell([&](News& news) { news.end_effectors = end_effectors; });
 }
 
+bool Display::isWatched() const {
+  return model_state_.getNumSubscribers() > 0 || markers_.getNumSubscribers() > 0 ||
+         end_effector_shapes_.getNumSubscribers() > 0;
+}
+
 void Display::show(const station::MotionFrame& motion) {
-  if (model_state_.getNumSubscribers() == 0 && markers_.getNumSubscribers() == 0 &&
-      end_effector_shapes_.getNumSubscribers() == 0) {
+  if (!isWatched()) {
     return;
   }
   news_.tell([&](News& news) {

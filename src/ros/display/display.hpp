@@ -36,6 +36,8 @@ class Display {
   void show(std::shared_ptr<Picture> picture);
   /// These end-effectors stand on the slices from now on.
   void show(const tgr::EndEffectors& end_effectors);
+  /// Whether anybody looks.
+  bool isWatched() const;
   /// How the model that was shown last stands. It is copied if anybody looks.
   void show(const station::MotionFrame& motion);
 

@@ -18,6 +18,9 @@ endif()
 install(DIRECTORY include/ergotic DESTINATION include FILES_MATCHING PATTERN "*.hpp")
 install(DIRECTORY models config DESTINATION share/ergotic)
 if(ERGOTIC_ROS)
+  # The contract of drivers, for those of others: cmake/ergotic-extras.cmake.in
+  install(FILES test/support/alloc_count.cpp test/support/alloc_count.hpp test/support/driver_contract.hpp
+    DESTINATION share/ergotic/testing/support)
   install(DIRECTORY launch rviz urdf DESTINATION share/ergotic)
   install(FILES nodelet_plugins.xml rviz_plugins.xml tgr_driver_plugins.xml DESTINATION share/ergotic)
   install(PROGRAMS scripts/calibrate scripts/play_gesture scripts/window DESTINATION lib/ergotic)

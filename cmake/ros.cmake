@@ -21,7 +21,8 @@ catkin_package(
   INCLUDE_DIRS include
   LIBRARIES ergotic_core ergotic_audio
   CATKIN_DEPENDS geometry_msgs message_runtime nodelet roscpp sensor_msgs std_msgs std_srvs
-                 visualization_msgs)
+                 visualization_msgs
+  CFG_EXTRAS ergotic-extras.cmake)
 
 # These were made before catkin said where its devel space is.
 set_target_properties(ergotic_core ergotic_audio PROPERTIES

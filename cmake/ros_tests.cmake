@@ -94,6 +94,11 @@ add_test(NAME integration.remote
   COMMAND ${in_devel_space} ${PROJECT_SOURCE_DIR}/test/integration/remote_test.py)
 set_tests_properties(integration.remote PROPERTIES RUN_SERIAL ON TIMEOUT 300 LABELS long)
 
+# The package that docs/driver.md shows, built out of an install space.
+add_test(NAME integration.driver_page
+  COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/driver_page_long_test.py ${PROJECT_BINARY_DIR})
+set_tests_properties(integration.driver_page PROPERTIES RUN_SERIAL ON TIMEOUT 600 LABELS long)
+
 # scripts/station, with a master and a JACK server of its own.
 add_test(NAME integration.front_door
   COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/front_door_long_test.py

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <thread>
 
+#include <gtest/gtest.h>
+
+#include "ergotic/exception.hpp"
 #include "ergotic/tgr/driver.hpp"
 #include "support/alloc_count.hpp"
-#include "support/test.hpp"
 
 /// What every tgr::Driver must do. A driver takes part with a Rig, default constructible:
 ///
@@ -14,7 +20,8 @@
 ///   tgr::Driver& driver();              // the same one, not yet open at first
 ///   void elapse();                      // lets the device live through one tick
 ///
-/// and `INSTANTIATE_TYPED_TEST_SUITE_P(MyDriver, DriverContractTest, MyRig)`.
+/// and `INSTANTIATE_TYPED_TEST_SUITE_P(MyDriver, DriverContractTest, MyRig)` in this namespace. It
+/// is installed, for drivers of others (docs/driver.md).
 
 namespace ergotic::test {
 

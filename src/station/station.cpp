@@ -237,6 +237,9 @@ void Station::makeSafe(FaultReason reason) noexcept {
 std::uint32_t Station::accept(Slices& positions,
                               std::uint32_t exchange_flags,
                               std::int64_t host_missed) noexcept {
+  if (driver_->uncalibrated() != uncalibrated_) {
+    followCalibration();  // what is away while another calibration comes has not jumped
+  }
   const std::uint64_t held = chain_.validate(positions.data(), exchange_flags, host_missed);
   followInterlock();
   if ((exchange_flags & tgr::kMadeSafe) != 0) {

@@ -80,6 +80,24 @@ TEST(CalibrationGuardTest, AFirstCalibrationLetsThePortGlideToWhereTheHandIs) {
   EXPECT_EQ(test::count(bench.events(), Event::Type::kFault), 0);
 }
 
+// Its driver says for one tick that it has none (tgr::CalibratedDriver).
+TEST(CalibrationGuardTest, AnotherCalibrationOfASliceFarFromItsRestIsNoJump) {
+  StationConfig config = Bench::quickConfig();
+  config.safety.max_speed_m_per_s = tgr::SafetyConfig().max_speed_m_per_s;
+  bool is_away = false;
+  Bench bench(
+      {}, [&](std::int64_t, int) { return is_away ? 0.0 : 0.02; }, config);
+  bench.run(10);
+  is_away = true;
+  bench.driver->uncalibrated_slices = 0b01;
+  bench.run(1);
+  is_away = false;
+  bench.driver->uncalibrated_slices = 0;
+  bench.run(400);
+  EXPECT_EQ(test::count(bench.events(), Event::Type::kFault), 0);
+  EXPECT_EQ(bench.recorded().back().port[0], 0.02);
+}
+
 TEST(CalibrationGuardTest, LosingACalibrationTakesTheForceAtOnceAndForGood) {
   Bench bench;
   bench.engage();

@@ -144,6 +144,25 @@ class TakesTest(DeskTest):
         self.assertTrue(until(lambda: self.values()["loss"] == 7e-5, 5), self.values())
         self.assertTrue(until(lambda: self.presets.message.scene == "worn" and not self.presets.message.can_undo))
 
+    def test_4_a_take_goes_on_to_another_model(self):
+        load = rospy.ServiceProxy("/station/load_model", LoadModel)
+        other = os.path.join(ROOT, "models/marimba12.yaml")
+        self.assertTrue(load(model=MODEL).success)
+        self.assertTrue(self.take(TakeRequest.RECORD, "two_models").success)
+        time.sleep(0.3)
+        self.assertTrue(load(model=other).success)
+        self.assertTrue(until(lambda: "Marimba" in self.structure.message.name))
+        time.sleep(0.5)
+        self.assertTrue(self.take(TakeRequest.FINISH).success)
+        self.assertTrue(load(model=MODEL).success)
+        self.assertTrue(until(lambda: "Marimba" not in self.structure.message.name))
+        markers = rospy.Subscriber("/station/markers", rospy.AnyMsg, lambda _: None)  # which are drawn for who looks
+        answer = self.take(TakeRequest.REPLAY, "two_models")
+        self.assertTrue(answer.success, answer.message)
+        self.assertTrue(until(lambda: "Marimba" in self.structure.message.name, 20), "its second model is not shown")
+        self.assertTrue(until(lambda: "Marimba" not in self.structure.message.name, 20), "nor the one that plays")
+        markers.unregister()
+
     def test_1b_what_of_a_preset_cannot_be_had_is_said(self):
         self.assertTrue(rospy.ServiceProxy("/station/load_model", LoadModel)(model=MODEL).success)
         with open(os.path.join(os.environ["ROS_HOME"], "ergotic/presets/string.yaml"), "a", encoding="utf-8") as file:

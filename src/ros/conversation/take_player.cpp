@@ -30,8 +30,11 @@ TakePlayer::TakePlayer(const std::string& path,
                        std::shared_ptr<station::TakePort> port,
                        double rate_hz,
                        double display_zoom)
-    : port_(std::move(port)), rate_hz_(rate_hz), first_frame_(port_->sounded()) {
-  thread_ = std::thread([=] { run(path, display_zoom); });
+    : port_(std::move(port)),
+      rate_hz_(rate_hz),
+      display_zoom_(display_zoom),
+      first_frame_(port_->sounded()) {
+  thread_ = std::thread([=] { run(path); });
 }
 
 TakePlayer::~TakePlayer() {
@@ -53,17 +56,21 @@ TakePlayer::News TakePlayer::news() {
   return now;
 }
 
-std::optional<station::MotionFrame> TakePlayer::motion() {
-  std::optional<station::MotionFrame> newest;
+std::optional<TakePlayer::Seen> TakePlayer::motion() {
+  std::optional<Seen> newest;
   const std::lock_guard lock(mutex_);
   while (!motion_.empty() && motion_.front().first <= played()) {
-    newest = std::move(motion_.front().second);
+    Seen next = std::move(motion_.front().second);
+    if (newest && !next.picture) {
+      next.picture = std::move(newest->picture);
+    }
+    newest = std::move(next);
     motion_.pop_front();
   }
   return newest;
 }
 
-void TakePlayer::run(const std::string& path, double display_zoom) {
+void TakePlayer::run(const std::string& path) {
   std::string message;
   bool failed = true;
   try {
@@ -76,7 +83,8 @@ void TakePlayer::run(const std::string& path, double display_zoom) {
       throw Exception(text.str());
     }
     {
-      std::shared_ptr<Picture> picture = toPicture(replay.instrument(), display_zoom);
+      std::shared_ptr<Picture> picture = toPicture(replay.instrument(), display_zoom_);
+      pictured_ = &replay.instrument();
       const std::lock_guard lock(mutex_);
       news_.picture = std::move(picture);
       news_.length_s = static_cast<double>(replay.ticksLeft() * replay.rates().ratio) / rate_hz_;
@@ -112,14 +120,25 @@ void TakePlayer::play(replay::Replay& replay) {
         frames[r * heard + c] = static_cast<float>(made[r * channels + c]);
       }
     }
-    if (const station::MotionFrame* motion = replay.motion()) {
-      const std::lock_guard lock(mutex_);
-      motion_.emplace_back(frame, *motion);
-    }
+    keepMotion(replay, frame);
     if (!push(frames, ratio)) {
       return;
     }
   }
+}
+
+/// A take may go from one model to the next.
+void TakePlayer::keepMotion(replay::Replay& replay, std::int64_t frame) {
+  const station::MotionFrame* const motion = replay.motion();
+  if (motion == nullptr) {
+    return;
+  }
+  Seen seen{*motion, nullptr};
+  if (std::exchange(pictured_, &replay.instrument()) != &replay.instrument()) {
+    seen.picture = toPicture(replay.instrument(), display_zoom_);
+  }
+  const std::lock_guard lock(mutex_);
+  motion_.emplace_back(frame, std::move(seen));
 }
 
 /// \return false if it shall end

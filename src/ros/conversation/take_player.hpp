@@ -49,24 +49,31 @@ class TakePlayer {
     std::shared_ptr<Picture> picture;  ///< of its model, once; else null
   };
   News news();
+  struct Seen {
+    station::MotionFrame motion;
+    std::shared_ptr<Picture> picture;  ///< of another model that plays from now on; null: the same
+  };
   /// How the model of the take stands at what sounds now, if that is another way than at the last
   /// call.
-  std::optional<station::MotionFrame> motion();
+  std::optional<Seen> motion();
 
  private:
-  void run(const std::string& path, double display_zoom);
+  void run(const std::string& path);
   void play(replay::Replay& replay);
+  void keepMotion(replay::Replay& replay, std::int64_t frame);
   bool push(const std::vector<float>& frames, int nframes);
   void waitUntilSilent();
   std::int64_t played() const { return port_->sounded() - first_frame_; }
 
   std::shared_ptr<station::TakePort> port_;
   double rate_hz_;
-  std::int64_t first_frame_;  // of the port
+  double display_zoom_;
+  const physics::Instrument* pictured_ = nullptr;  // of the thread
+  std::int64_t first_frame_;                       // of the port
   std::atomic<bool> halts_{false};
   std::mutex mutex_;  // of what follows
   News news_;
-  std::deque<std::pair<std::int64_t, station::MotionFrame>> motion_;  // by frames of the take
+  std::deque<std::pair<std::int64_t, Seen>> motion_;  // by frames of the take
   std::thread thread_;
 };
 

@@ -195,8 +195,11 @@ void Takes::pollPlayer(const std::shared_ptr<Picture>& picture) {
   if (news.picture) {
     begin(news);
   }
-  if (const auto motion = player_->motion(); motion && shows_) {
-    feed_.showTake(*motion);
+  if (const auto seen = player_->motion(); seen && shows_) {
+    if (seen->picture) {
+      feed_.showPicture(seen->picture);
+    }
+    feed_.showTake(seen->motion);
   }
   if (news.state == TakePlayer::State::kOver) {
     end(news, picture);

@@ -67,8 +67,8 @@ class DocumentedTest(unittest.TestCase):
         came = {}
         done = threading.Event()
         expected = {full(name): "latched" in told for name, told, *_ in rows("Topics out")}
-        # Nothing happens, nobody holds anything, no end-effector is there, and no sound.
-        quiet = {"/station/events", "/station/holds", "/station/levels", "/station/scope", "/tf"}
+        # Nothing happens, nobody holds anything, and no sound.
+        quiet = {"/station/events", "/station/holds", "/station/levels", "/station/scope"}
 
         def hear(name):
             def heard(message):

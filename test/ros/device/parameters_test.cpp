@@ -257,6 +257,21 @@ TEST(ParametersTest, ThatAreHeardFirstAreNotReplacedWithoutAWord) {
                                    HasSubstr("/station/tf_prefix is /left, allowed: letters")));
 }
 
+TEST(ParametersTest, TellARecordingWhatStoodOnTheSlices) {
+  const tgr::EndEffectors hands = readEndEffectors(
+      "end_effectors:\n  bow: {type: bow, slices: [3, 4], ports: ['', ''], lever: 2}\n");
+  tgr::StationDevices devices = readDevices(readParameters(XmlRpcValue(), "/station"));
+  devices.end_effectors = hands;
+  const auto read =
+      recordedEndEffectors(toYaml(readParameters(XmlRpcValue(), "/station"), devices));
+  ASSERT_EQ(read.list.size(), 1U);
+  EXPECT_EQ(read.list[0].name, "bow");
+  EXPECT_EQ(read.list[0].slices, (std::vector<int>{3, 4}));
+  for (const char* const broken : {"", "device: 7", "device: 'devices: ['", "[", "{device: }"}) {
+    EXPECT_THAT(recordedEndEffectors(broken).list, testing::IsEmpty()) << broken;
+  }
+}
+
 TEST(ParametersTest, HaveAPrefixOfFrames) {
   for (const char* const prefix : {"left", "hall/left_2"}) {
     EXPECT_EQ(readParameters(with("tf_prefix", prefix), "/station").tf_prefix, prefix);

@@ -48,9 +48,9 @@ ROOMS = {
     "replay": "exception scene/text physics tgr station bag",
     "ros/device": "exception files rt scene scene/text physics/engine physics/certificate tgr station bag",
     "ros/display": "scene tgr station ros/device",
-    "ros/conversation": "exception files rt scene scene/laws scene/text physics/engine tgr station audio gamepads bag replay"
+    "ros/interface": "exception files rt scene scene/laws scene/text physics/engine tgr station audio gamepads bag replay"
                         " ros/device ros/display",
-    "ros": "ros/device ros/conversation",
+    "ros": "ros/device ros/interface",
     "rviz": "",
     "tools/lib": "exception files rt scene scene/laws scene/generate scene/text physics physics/engine"
                  " physics/certificate physics/settling advice tgr station audio bag replay",
@@ -74,7 +74,7 @@ FOREIGN = {
     "ros": ROS,
     "ros/device": ROS,
     "ros/display": ROS,
-    "ros/conversation": ROS,
+    "ros/interface": ROS,
     "rviz": ROS + " rviz/ Q Ogre unsupported/Eigen/FFT",
     "tools/lib": CORE + " CLI/ nlohmann/ sndfile ebur128 smf.h glib.h",
     "tools": CORE + " CLI/ nlohmann/",

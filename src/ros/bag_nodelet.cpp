@@ -4,7 +4,7 @@
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "ros/conversation/bag_show.hpp"
+#include "ros/interface/bag_show.hpp"
 
 namespace ergotic::node {
 

@@ -6,15 +6,15 @@
 #include <ros/callback_queue.h>
 #include <ros/spinner.h>
 
-#include "ros/conversation/console.hpp"
-#include "ros/conversation/diagnostics.hpp"
-#include "ros/conversation/feed.hpp"
-#include "ros/conversation/operator.hpp"
-#include "ros/conversation/parameter_watch.hpp"
-#include "ros/conversation/services.hpp"
 #include "ros/device/own_host.hpp"
 #include "ros/device/parameters.hpp"
 #include "ros/device/signal_guard.hpp"
+#include "ros/interface/command_thread.hpp"
+#include "ros/interface/console.hpp"
+#include "ros/interface/diagnostics.hpp"
+#include "ros/interface/parameter_watch.hpp"
+#include "ros/interface/publishers.hpp"
+#include "ros/interface/services.hpp"
 
 namespace ergotic::node {
 
@@ -23,8 +23,8 @@ namespace ergotic::node {
 class StationNodelet : public nodelet::Nodelet {
  public:
   ~StationNodelet() override {
-    if (operator_) {
-      operator_->close();  // before anything that may take its time
+    if (command_thread_) {
+      command_thread_->close();  // before anything that may take its time
     }
   }
 
@@ -42,13 +42,14 @@ class StationNodelet : public nodelet::Nodelet {
       for (const std::string& refusal : early.refusals) {
         NODELET_ERROR_STREAM(refusal << "; until it is put right, what is usual counts");
       }
-      feed_ = std::make_unique<Feed>(node, early.tf_prefix);
+      publishers_ = std::make_unique<Publishers>(node, early.tf_prefix);
       own_host_ = std::make_unique<OwnHost>(early.allow_remote);
-      operator_ = std::make_unique<Operator>(node, *feed_, *diagnostics_, *own_host_);
+      command_thread_ =
+          std::make_unique<CommandThread>(node, *publishers_, *diagnostics_, *own_host_);
       guard_ = std::make_unique<SignalGuard>(
-          [this] { operator_->makeSafe(tgr::FaultReason::kMadeSafe); },
-          [this] { operator_->close(); });
-      services_ = std::make_unique<Services>(node, *operator_);
+          [this] { command_thread_->makeSafe(tgr::FaultReason::kMadeSafe); },
+          [this] { command_thread_->close(); });
+      services_ = std::make_unique<Services>(node, *command_thread_);
       parameter_watch_ = std::make_unique<ParameterWatch>(node);
       spinner_.start();
     } catch (const std::exception& failure) {
@@ -61,9 +62,9 @@ class StationNodelet : public nodelet::Nodelet {
   ::ros::CallbackQueue calls_;
   ::ros::AsyncSpinner spinner_{0, &calls_};  // a thread per processor
   std::unique_ptr<Diagnostics> diagnostics_;
-  std::unique_ptr<Feed> feed_;
+  std::unique_ptr<Publishers> publishers_;
   std::unique_ptr<OwnHost> own_host_;
-  std::unique_ptr<Operator> operator_;
+  std::unique_ptr<CommandThread> command_thread_;
   std::unique_ptr<Services> services_;
   std::unique_ptr<ParameterWatch> parameter_watch_;
   std::unique_ptr<SignalGuard> guard_;

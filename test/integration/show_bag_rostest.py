@@ -99,7 +99,7 @@ class ShowBagTest(DeskTest):
         self.assertTrue(until(lambda: structure.message and structure.message.name == MARIMBA, 30), "the second model is not shown")
         self.assertTrue(until(lambda: self.warm() > before + 3000, 30), "the bars are not seen")
         self.assertTrue(until(lambda: states.seen and max(states.seen) >= max(self.played), 30), "it does not come to its end")
-        again = self.played.keys() & states.seen.keys()
+        again = (self.played.keys() & states.seen.keys()) - {0}  # which each model has before it plays
         for size, least in ((len(self.played[min(self.played)]), 1e-4), (len(self.played[max(self.played)]), 1e-6)):
             ticks = [tick for tick in again if len(self.played[tick]) == size]
             self.assertGreater(len(ticks), 15)

@@ -28,7 +28,7 @@ const char* toString(ForceState state);
 using Ticket = std::uint64_t;
 constexpr Ticket kAskedNow = ~Ticket{0};  ///< it is asked for when it is submitted
 
-/// Who asks, as the operator tells them apart. Of a swap it is compared with that of the last
+/// Who asks, as the command thread tells them apart. Of a swap it is compared with that of the last
 /// kEngage when the new model plays, for force may have been let out by another in between.
 using Caller = std::uint64_t;
 

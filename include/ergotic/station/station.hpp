@@ -51,7 +51,7 @@ struct Keyframe {
 };
 
 /// The room around the instrument. One thread, the tick's, calls `cycle` and `catchUp`; one other
-/// thread, the operator's, calls everything below "operator".
+/// thread, the command thread, calls everything below "Command thread".
 ///
 /// Tick n: driver.exchange(F[n-1]) -> x[n]; validate; commands; rig: slices to ports;
 /// instrument.tick -> R frames; rig: forces of ports to slices, F[n]; safety chain; records. F[n]
@@ -147,28 +147,29 @@ class Station {
   ///         let be. Realtime: yes. Thread: as `move`
   bool hold(std::size_t hand, const Hold& hold, const Performer* model) noexcept;
 
-  // Operator:
+  // Command thread:
   /// Hands a command over. A recovery also re-arms the driver. What a command points to belongs to
   /// the station from here on, and comes back through exactly one event.
   /// \return false if the ring is full, or too many swaps, parameters and rigs wait for `poll`;
   ///         nothing is taken then
   /// \throws Exception if a performer does not fit this station (nothing is taken)
-  /// Realtime: no. Thread: operator
+  /// Realtime: no. Thread: command thread
   bool submit(const Command& command);
-  /// \return false if there is no event. Realtime: yes. Thread: operator
+  /// \return false if there is no event. Realtime: yes. Thread: command thread
   bool poll(Event& event) noexcept;
-  /// \return number of gesture ticks given out. Realtime: yes. Thread: operator
+  /// \return number of gesture ticks given out. Realtime: yes. Thread: command thread
   std::size_t pollGestures(GestureTick* to, std::size_t count) noexcept {
     return gestures_.pop(to, count);
   }
-  /// Newest snapshot, if there is one not yet seen, else null. Realtime: yes. Thread: operator
+  /// Newest snapshot, if there is one not yet seen, else null. Realtime: yes. Thread: command
+  /// thread
   const Snapshot* snapshot() noexcept {
     return snapshots_.refresh() ? &snapshots_.latest() : nullptr;
   }
   /// Valid from when `poll` gave an Event::kKeyframe to the next Command::kKeyframe. Commands that
-  /// come before that event ask for the same keyframe. Thread: operator
+  /// come before that event ask for the same keyframe. Thread: command thread
   const Keyframe& keyframe() const noexcept { return keyframe_; }
-  /// Thread: operator
+  /// Thread: command thread
   tgr::Driver& driver() noexcept { return *driver_; }
   /// Can this be swapped in? Realtime: no. Thread: any
   /// \throws Exception saying what does not fit
@@ -302,7 +303,7 @@ class Station {
   rt::Mailbox<Snapshot> snapshots_;
   Keyframe keyframe_;
 
-  // The operator's own.
+  // Of the command thread.
   std::size_t owed_ = 0;         // what was submitted with a pointer and did not yet come back
   bool keyframe_asked_ = false;  // and not yet come, or not yet seen
 };

@@ -87,19 +87,19 @@ SliceCalibration fit(const std::vector<CalibrationPoint>& points,
 class CalibratedDriver : public Driver {
  public:
   /// Takes effect with a later exchange, which `uncalibrated` then tells of: a slice that had
-  /// another calibration is without one for that exchange. Thread: operator
+  /// another calibration is without one for that exchange. Thread: command thread
   /// \throws Exception if a slice does not exist or a number is out of range
   virtual void set(int slice, const SliceCalibration& calibration) = 0;
-  /// Thread: operator
+  /// Thread: command thread
   virtual const Calibration& calibration() const noexcept = 0;
-  /// Pushes a calibrated slice, soon. Forces of the model end it, and stay. Thread: operator
+  /// Pushes a calibrated slice, soon. Forces of the model end it, and stay. Thread: command thread
   /// \throws Exception if it has no calibration, does not exist, or `newtons` is out of range
   virtual void push(int slice, double newtons) = 0;
-  /// No push any more. Idempotent. Thread: operator
+  /// No push any more. Idempotent. Thread: command thread
   virtual void endPush() noexcept = 0;
-  /// What became of the last push, once. Thread: operator
+  /// What became of the last push, once. Thread: command thread
   virtual std::optional<Push> takePush() noexcept = 0;
-  /// Newest sensor values. \param[out] volts  [slices]. Realtime: yes. Thread: operator
+  /// Newest sensor values. \param[out] volts  [slices]. Realtime: yes. Thread: command thread
   virtual void readVolts(double* volts) noexcept = 0;
 };
 

@@ -36,11 +36,11 @@ struct FaultOrder {
 /// device inside.
 class FaultyDriver : public Driver {
  public:
-  /// What `inject` would refuse. Thread: operator, after `open`
+  /// What `inject` would refuse. Thread: command thread, after `open`
   /// \throws Exception if a number is out of its range
   virtual void check(const FaultOrder& order) const = 0;
   /// Takes effect with the next exchange, in place of an earlier order; but what is unplugged stays
-  /// so until `reconnect` or `open`. Thread: operator
+  /// so until `reconnect` or `open`. Thread: command thread
   /// \throws Exception as `check`
   virtual void inject(const FaultOrder& order) = 0;
 };

@@ -12,7 +12,7 @@ namespace ergotic::node {
 
 /// Takes the operator of a device through the calibration of one slice: where it stands, told by
 /// the operator, against what its sensor says, read here.
-/// Thread: operator. Realtime: no
+/// Thread: command thread. Realtime: no
 class CalibrationGuide {
  public:
   static constexpr int kReadings = 100;  ///< of a sample, one per `poll`

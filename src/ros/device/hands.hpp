@@ -19,7 +19,7 @@ std::string homeFolder();
 
 /// The devices of a station and what stands on their slices. The drivers go to the station, which
 /// this has to outlive: it holds their code.
-/// Thread: loader while it is made, then operator. Realtime: no
+/// Thread: loader while it is made, then command thread. Realtime: no
 class Hands {
  public:
   /// Makes the drivers; opens none.

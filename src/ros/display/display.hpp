@@ -27,7 +27,7 @@ struct Picture {
 
 /// Draws what plays, in a thread of its own: however long a picture takes, nothing else waits for
 /// it. Frames that come meanwhile are left out, but for the newest.
-/// Thread: operator, all but the constructor. None of these waits for a picture
+/// Thread: command thread, all but the constructor. None of these waits for a picture
 class Display {
  public:
   Display(const ::ros::NodeHandle& node, const FrameNames& names);

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/interface/disturbances.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+
+namespace ergotic::node {
+namespace {
+
+constexpr std::int64_t kMinuteNs = 60'000'000'000;
+
+struct DisturbanceKind {
+  std::uint8_t type;
+  const char* words;
+};
+constexpr DisturbanceKind kDisturbances[] = {{Event::LATE_TICK, "late ticks"},
+                                             {Event::STALL, "stalls"},
+                                             {Event::UNDERRUN, "underruns of the sound"},
+                                             {Event::AUDIO_SKIPPED, "periods left out by JACK"}};
+
+/// As many as there are: none.
+std::size_t kindOfDisturbance(const Event& event) {
+  const auto* const found =
+      std::find_if(std::begin(kDisturbances), std::end(kDisturbances),
+                   [&event](const DisturbanceKind& kind) { return kind.type == event.type; });
+  return static_cast<std::size_t>(found - std::begin(kDisturbances));
+}
+
+}  // namespace
+
+bool Disturbances::isOne(const Event& event) {
+  return kindOfDisturbance(event) < std::size(kDisturbances);
+}
+
+bool Disturbances::isFirst(const Event& event) {
+  Count& count = counts_[kindOfDisturbance(event)];
+  ++count.all;
+  if (count.all > 1) {
+    return false;
+  }
+  count.told = 1;
+  return true;
+}
+
+std::string Disturbances::ofLastMinute(std::int64_t now_ns) {
+  static_assert(std::size(kDisturbances) == kKinds);
+  minute_ns_ = minute_ns_ == 0 ? now_ns : minute_ns_;
+  if (now_ns - minute_ns_ < kMinuteNs) {
+    return "";
+  }
+  minute_ns_ = now_ns;
+  std::string text;
+  for (std::size_t kind = 0; kind < kKinds; ++kind) {
+    Count& count = counts_[kind];
+    if (count.all > count.told) {
+      text += (text.empty() ? "in the last minute: " : ", ") +
+              std::to_string(count.all - count.told) + " " + kDisturbances[kind].words;
+    }
+    count.told = count.all;
+  }
+  return text;
+}
+
+}  // namespace ergotic::node

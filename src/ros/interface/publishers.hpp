@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <ergotic/Handles.h>
+#include <ergotic/Levels.h>
+#include <ergotic/Scope.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include "ergotic/station/station.hpp"
+#include "ros/device/hands.hpp"
+#include "ros/device/parameters.hpp"
+#include "ros/display/display.hpp"
+#include "ros/display/end_effector_frames.hpp"
+#include "ros/interface/convert.hpp"
+#include "ros/interface/gesture_blocks.hpp"
+#include "ros/interface/take_writer.hpp"
+
+namespace ergotic::node {
+
+/// Everything the station tells ROS, pictures through the thread of a `Display`.
+/// Thread: command thread, all but the constructor
+class Publishers {
+ public:
+  /// \param tf_prefix  of all frames; empty: none
+  Publishers(const ::ros::NodeHandle& node, const std::string& tf_prefix);
+
+  /// A station with these parameters and devices begins to play.
+  void configure(const Parameters& parameters, const Hands& hands);
+  /// These end-effectors stand on the slices from now on.
+  void show(const tgr::EndEffectors& end_effectors);
+  /// Another model plays from now on.
+  /// \param picture     of it, not null
+  /// \param parameters  its values, one for each
+  void showModel(const station::Performer& performer,
+                 std::shared_ptr<Picture> picture,
+                 const std::string& note,
+                 const std::vector<double>& parameters);
+  /// What of the model hands move from now on.
+  void showHandles(Handles handles);
+  /// \return whether anybody wants to know how loud it is
+  bool wantsLevels() const { return levels_.getNumSubscribers() > 0; }
+  void show(Levels levels);
+  /// \return whether anybody wants to see the sound
+  bool wantsScope() const { return scope_.getNumSubscribers() > 0; }
+  void show(Scope scope);
+  /// A parameter of the model that plays has another value.
+  void showParameter(std::int64_t index, double value);
+  /// Nothing plays any more, or nothing yet; `message` says why.
+  void showSilence(const std::string& message);
+
+  /// Adds a line to the message of the status.
+  void addMessage(const std::string& line);
+
+  /// \return what was sent
+  Event show(const station::Event& event, const scene::Scene* scene);
+  void showHold(const station::Event& event, const scene::Scene& scene);
+  void show(const station::GestureTick* ticks, std::size_t count);
+  /// \param uncalibrated  slices, a bit each
+  void show(const station::Snapshot& snapshot, std::uint64_t uncalibrated);
+  /// No ticks come, so no snapshot will say that force is latched at zero.
+  void showStandstill();
+  void show(const station::MotionFrame& motion, const scene::Scene& scene);
+  void show(const station::Keyframe& keyframe, const physics::Instrument& instrument);
+
+  /// Another picture than that of the model that plays, which moves on unseen, until the next
+  /// `showPicture` or `showModel`.
+  void showPicture(std::shared_ptr<Picture> picture) { display_.show(std::move(picture)); }
+  /// How the model of that picture stands.
+  void showTake(const station::MotionFrame& motion) { display_.show(motion); }
+
+  /// What a performance is made of goes into `take` as well, from now on; null: no more.
+  void record(std::shared_ptr<TakeWriter> take);
+
+  /// True once for everybody who starts to listen to `gesture`, most likely to record it.
+  bool takeNewListener() { return new_listener_.exchange(false); }
+
+  /// Sends the status if it is a second old, and parameters that have changed.
+  void refresh();
+
+  const Status& status() const { return status_; }
+
+ private:
+  template <class Message>
+  void tell(::ros::Publisher& topic, const Message& message);
+  void sendStatus();
+  void sendParameters();
+  void watch(const station::MotionFrame& motion, const scene::Scene& scene);
+
+  ::ros::NodeHandle node_;
+  FrameNames names_;
+  std::shared_ptr<TakeWriter> take_;  // null: none is recorded
+  std::atomic<bool> new_listener_{false};
+  std::string station_config_;
+  std::int64_t motion_period_ns_ = 0;
+  ::ros::Publisher joint_states_;
+  ::ros::Publisher handles_;
+  ::ros::Publisher holds_;
+  ::ros::Publisher levels_;
+  ::ros::Publisher scope_;
+  double display_zoom_ = 1.0;
+  ::ros::Publisher model_energy_;  // only if the energy accounts are kept
+  ::ros::Publisher gesture_;
+  ::ros::Publisher keyframe_;
+  ::ros::Publisher events_;
+  ::ros::Publisher status_topic_;
+  ::ros::Publisher model_parameters_;
+
+  tf2_ros::TransformBroadcaster transforms_;
+  tf2_ros::StaticTransformBroadcaster static_transforms_;
+
+  Status status_;
+  ParametersMessage parameters_;
+  bool parameters_changed_ = false;  // since they were sent
+  std::int64_t parameters_due_ns_ = 0;
+  std::string note_;  // of the model that plays; status_.message adds the latest news
+  std::optional<GestureBlocks> blocks_;
+  SliceFrames slice_frames_;
+  EndEffectorFrames frames_;
+  std::int64_t motion_due_ns_ = 0;
+  std::int64_t status_due_ns_ = 0;
+  Display display_;
+};
+
+}  // namespace ergotic::node

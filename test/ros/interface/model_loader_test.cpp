@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/interface/model_loader.hpp"
+
+#include "support/test.hpp"
+
+namespace ergotic::node {
+namespace {
+
+TEST(ModelLoaderTest, AnswersWhatPlaysWithWarningsAndWithoutNotes) {
+  const std::string note =
+      "a.yaml:3:1: note: link 'pluck': energy-stable\na.yaml:5:1: warning: group 'a' begins twice";
+  EXPECT_EQ(answerOn("a string", note, true),
+            "plays 'a string'; call engage for force\n"
+            "a.yaml:5:1: warning: group 'a' begins twice");
+  EXPECT_EQ(answerOn("a string", "", false), "plays 'a string'");
+}
+
+TEST(ModelLoaderTest, ListsTheParametersThatThereAre) {
+  scene::Scene scene;
+  EXPECT_EQ(unknownParameter("x", scene), "the model has no parameter 'x', and no other");
+  scene.parameters.resize(2);
+  scene.parameters[0] = {"loss", 0.1, 0.0, 0.5, "N s/m"};
+  scene.parameters[1] = {"gain", 1.0, 0.25, 4.0, ""};
+  EXPECT_EQ(unknownParameter("los\n", scene),
+            "the model has no parameter 'los\\x0A', it has: loss = 0...0.5 N s/m, gain = 0.25...4");
+  scene.parameters.resize(30, scene.parameters[1]);
+  EXPECT_THAT(unknownParameter("x", scene), testing::EndsWith(", ..."));
+}
+
+}  // namespace
+}  // namespace ergotic::node

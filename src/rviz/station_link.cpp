@@ -463,6 +463,7 @@ void StationLink::load(const std::string& model, const std::string& title) {
   }
   LoadModel::Request request;
   request.model = model;
+  request.end_effectors = "auto";  // an instrument brings what it is played with
   loading_->forgetWaiting();
   loading_->ask<LoadModel>("Load", shared_->station + "/load_model", request, kLoadingPatienceS);
 }

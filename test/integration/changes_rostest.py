@@ -131,6 +131,28 @@ class ChangesTest(DeskTest):
         self.assertTrue(answer.success, answer.message)
         self.assertTrue(until(lambda: self.status.message.model == "mended" and self.values() == values), self.values())
 
+    def test_5_a_scene_brings_its_own_end_effectors_and_takes_them_away(self):
+        os.mkdir(os.path.join(self.folder.name, "hands"))
+        scene, hands = (os.path.join(self.folder.name, name) for name in ("ball.yaml", "hands/ball.yaml"))
+        with open(scene, "w", encoding="utf-8") as file:
+            file.write("ergotic: 1\nname: ball\nsections: {s: {rate: gestural, geometry: space}}\n"
+                       "mats: {m: {type: slice, section: s}}\n"
+                       "ports: {'m_{a}': {for: {a: [x, y, z]}, mat: m, axis: =a}}\n")
+        with open(hands, "w", encoding="utf-8") as file:
+            file.write("end_effectors: {ball: {type: ball, slices: [0, 1, 2], ports: [m_x, m_y, m_z]}}\n")
+        load = rospy.ServiceProxy("/station/load_model", LoadModel)
+
+        def names():
+            return [each.name for each in self.status.message.end_effectors]
+        answer = load(model=scene, end_effectors="auto")
+        self.assertTrue(answer.success, answer.message)
+        self.assertTrue(until(lambda: (self.status.message.model, names()) == ("ball", ["ball"])), names())
+        answer = load(model=MODEL)
+        self.assertFalse(answer.success, "the ball stands on ports that this scene does not have")
+        answer = load(model=MODEL, end_effectors="auto")
+        self.assertTrue(answer.success, answer.message)
+        self.assertTrue(until(lambda: names() == []), names())
+
 
 if __name__ == "__main__":
     rospy.init_node("changes")

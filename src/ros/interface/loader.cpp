@@ -52,15 +52,22 @@ double audioRateFor(const Parameters& parameters) {
   return parameters.audio_rate;
 }
 
+}  // namespace
+
 /// \return none: those that are there stay
-std::optional<tgr::EndEffectors> otherEndEffectors(const std::string& wanted) {
+std::optional<tgr::EndEffectors> Loader::endEffectorsFor(const Wish& wish) const {
+  std::string wanted = wish.end_effectors;
+  if (wanted == kOwnEndEffectors) {
+    const auto terms = command_thread_.terms();
+    const std::string own = handsBeside(wish.model);
+    const std::string present = terms ? handsBeside(terms->scene_file) : "";
+    wanted = own == present ? "" : own.empty() ? "none" : own;
+  }
   if (wanted.empty()) {
     return std::nullopt;
   }
   return wanted == "none" ? tgr::EndEffectors() : readEndEffectors(wanted);
 }
-
-}  // namespace
 
 LoadModel::Response Loader::load(const std::string& model,
                                  bool allow_unproven,
@@ -86,7 +93,7 @@ LoadModel::Response Loader::load(const Wish& wish) {
   Answer answer;
   is_device_missing_ = false;
   try {
-    const std::optional<tgr::EndEffectors> end_effectors = otherEndEffectors(wish.end_effectors);
+    const std::optional<tgr::EndEffectors> end_effectors = endEffectorsFor(wish);
     answer = play(readModel(wish.model), wish, end_effectors, response.verdict);
   } catch (const DeviceError& missing) {
     is_device_missing_ = true;
@@ -151,7 +158,8 @@ void Loader::loadProgram(int program) {
         (allowed == MidiPrograms::kSimulated && terms->can_hurt)) {
       return;
     }
-    load(sceneOfProgram(program, terms->scene_file), false, ::ros::this_node::getName());
+    load(sceneOfProgram(program, terms->scene_file), false, ::ros::this_node::getName(),
+         kOwnEndEffectors);
   } catch (const Exception& refusal) {
     ROS_WARN_STREAM(refusal.what());
     command_thread_.tell(refusal.what());

@@ -30,7 +30,7 @@ class Loader {
   /// \param model           path or YAML text
   /// \param allow_unproven  no more than the station itself allows
   /// \param loader          node that asks, by what it says itself
-  /// \param end_effectors   that come with it: path or YAML text, `none`; empty: no others
+  /// \param end_effectors   that come with it: path or YAML text, `none`, `auto`; empty: no others
   LoadModel::Response load(const std::string& model,
                            bool allow_unproven,
                            const std::string& loader,
@@ -63,6 +63,7 @@ class Loader {
     bool is_again = false;      ///< it plays already
   };
   LoadModel::Response load(const Wish& wish);
+  std::optional<tgr::EndEffectors> endEffectorsFor(const Wish& wish) const;
   bool waitUntilNextTry(std::int64_t end_ns) const;
   Answer play(scene::Scene scene,
               const Wish& wish,

@@ -52,6 +52,18 @@ scene::Scene readModel(const std::string& model) {
   return scene;
 }
 
+std::string handsBeside(const std::string& model) {
+  if (isText(model)) {
+    return "";
+  }
+  std::error_code unknown;
+  const std::size_t hash = model.rfind('#');
+  const bool is_variant = hash != std::string::npos && !std::filesystem::exists(model, unknown);
+  const std::filesystem::path scene = is_variant ? model.substr(0, hash) : model;
+  const std::filesystem::path hands = scene.parent_path() / "hands" / scene.stem().concat(".yaml");
+  return std::filesystem::is_regular_file(hands, unknown) ? hands.string() : "";
+}
+
 std::string noteAbout(const station::Performer& performer) {
   const physics::Instrument& instrument = *performer.instrument;
   const scene::Scene& scene = instrument.scene();

@@ -16,6 +16,14 @@ bool isText(const std::string& model);
 /// \throws TextError with file:line:col; Exception if the file cannot be read
 scene::Scene readModel(const std::string& model);
 
+/// `end_effectors` of a request: those of the scene itself, see handsBeside.
+constexpr const char* kOwnEndEffectors = "auto";
+
+/// The file of what shall stand on the slices for a scene `folder/NAME.yaml`:
+/// `folder/hands/NAME.yaml`. \param model  path, path#variant, or a text, which has none \return
+/// its path; empty if it is not there
+std::string handsBeside(const std::string& model);
+
 /// What a player should know of a model that is about to play: warnings of the scene and of its
 /// certificate, changed rates. Empty if there is nothing, else one thing a line.
 std::string noteAbout(const station::Performer& performer);

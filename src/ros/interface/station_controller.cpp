@@ -67,8 +67,9 @@ void StationController::swap(std::unique_ptr<station::Performer> performer,
   station::Command swap;
   swap.type = CommandType::kSwap;
   swap.performer = performer.get();
-  swap.index = static_cast<int>(with.end_effectors ? station::SwapForce::kNever
-                                                   : engine_->parameters().force_after_swap);
+  const bool waits = with.end_effectors && engine_->hands().canHurt();
+  swap.index =
+      static_cast<int>(waits ? station::SwapForce::kNever : engine_->parameters().force_after_swap);
   swap.caller = numberOf(with.loader);
   const std::vector<double> parameters = performer->parameters;  // the tick's from now on
   try {

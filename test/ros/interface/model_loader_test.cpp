@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/interface/model_loader.hpp"
 
+#include "support/places.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::node {
@@ -13,6 +14,14 @@ TEST(ModelLoaderTest, AnswersWhatPlaysWithWarningsAndWithoutNotes) {
             "plays 'a string'; call engage for force\n"
             "a.yaml:5:1: warning: group 'a' begins twice");
   EXPECT_EQ(answerOn("a string", "", false), "plays 'a string'");
+}
+
+TEST(ModelLoaderTest, FindsWhatStandsOnTheSlicesBesideAScene) {
+  const std::string drum = test::repository("models/drum.yaml");
+  EXPECT_EQ(handsBeside(drum), test::repository("models/hands/drum.yaml"));
+  EXPECT_EQ(handsBeside(drum + "#variant"), test::repository("models/hands/drum.yaml"));
+  EXPECT_EQ(handsBeside(test::repository("models/string.yaml")), "");
+  EXPECT_EQ(handsBeside("ergotic: 1\nname: drum\n"), "");
 }
 
 TEST(ModelLoaderTest, ListsTheParametersThatThereAre) {

@@ -59,9 +59,7 @@ std::optional<tgr::EndEffectors> Loader::endEffectorsFor(const Wish& wish) const
   std::string wanted = wish.end_effectors;
   if (wanted == kOwnEndEffectors) {
     const auto terms = command_thread_.terms();
-    const std::string own = handsBeside(wish.model);
-    const std::string present = terms ? handsBeside(terms->scene_file) : "";
-    wanted = own == present ? "" : own.empty() ? "none" : own;
+    wanted = terms ? endEffectorsWith(wish.model, terms->scene_file, terms->can_hurt) : "";
   }
   if (wanted.empty()) {
     return std::nullopt;

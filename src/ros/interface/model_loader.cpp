@@ -64,6 +64,14 @@ std::string handsBeside(const std::string& model) {
   return std::filesystem::is_regular_file(hands, unknown) ? hands.string() : "";
 }
 
+std::string endEffectorsWith(const std::string& model, const std::string& playing, bool can_hurt) {
+  const std::string own = handsBeside(model);
+  if (can_hurt || own == handsBeside(playing)) {
+    return "";
+  }
+  return own.empty() ? "none" : own;
+}
+
 std::string noteAbout(const station::Performer& performer) {
   const physics::Instrument& instrument = *performer.instrument;
   const scene::Scene& scene = instrument.scene();

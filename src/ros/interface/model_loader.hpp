@@ -24,6 +24,13 @@ constexpr const char* kOwnEndEffectors = "auto";
 /// its path; empty if it is not there
 std::string handsBeside(const std::string& model);
 
+/// What kOwnEndEffectors means for a model. What stands on a device that can hurt somebody is not
+/// changed by who chooses an instrument.
+/// \param playing  file of the scene that plays
+/// \return the file of handsBeside; `none` where only the scene that plays has one; empty: what
+///         stands there now
+std::string endEffectorsWith(const std::string& model, const std::string& playing, bool can_hurt);
+
 /// What a player should know of a model that is about to play: warnings of the scene and of its
 /// certificate, changed rates. Empty if there is nothing, else one thing a line.
 std::string noteAbout(const station::Performer& performer);

@@ -101,7 +101,7 @@ struct GuardedForms {
 };
 
 /// The law of one guarded link: numbers of one step, and its tables. Damping is force per m per
-/// step. Source: docs/physics/elements.md, "Links" and "Guarded links".
+/// step. Source: docs/physics/elements.md, "Links" and schemes.md, "Energy-stable links".
 template <class Real>
 struct GuardedLaw {
   const GuardedForm<Real>* form = nullptr;

@@ -24,6 +24,17 @@ TEST(ModelLoaderTest, FindsWhatStandsOnTheSlicesBesideAScene) {
   EXPECT_EQ(handsBeside("ergotic: 1\nname: drum\n"), "");
 }
 
+TEST(ModelLoaderTest, OnlySimulatedDevicesGetTheEndEffectorsOfAnInstrument) {
+  const std::string drum = test::repository("models/drum.yaml");
+  const std::string string = test::repository("models/string.yaml");
+  EXPECT_EQ(endEffectorsWith(drum, string, false), handsBeside(drum));
+  EXPECT_EQ(endEffectorsWith(string, drum, false), "none");
+  EXPECT_EQ(endEffectorsWith(drum, drum, false), "");
+  EXPECT_EQ(endEffectorsWith(string, string, false), "");
+  EXPECT_EQ(endEffectorsWith(drum, string, true), "");
+  EXPECT_EQ(endEffectorsWith(string, drum, true), "");
+}
+
 TEST(ModelLoaderTest, ListsTheParametersThatThereAre) {
   scene::Scene scene;
   EXPECT_EQ(unknownParameter("x", scene), "the model has no parameter 'x', and no other");

@@ -279,7 +279,7 @@ void Replay::submitSwaps() {
     swap.type = station::Command::Type::kSwap;
     swap.performer = performer.get();
     station_->submit(swap);
-    performer.release();
+    static_cast<void>(performer.release());  // the station has it now
   }
 }
 

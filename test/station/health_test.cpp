@@ -68,7 +68,7 @@ std::vector<std::string> warningsOfABall(double share) {
 }
 
 TEST(HealthTest, TheStiffnessThatItTellsIsCutNoMore) {
-  EXPECT_THAT(warningsOfABall(2.9), Contains(HasSubstr("and from about 6.5e+05 down")));
+  EXPECT_THAT(warningsOfABall(9.0), Contains(HasSubstr("and from about 6.5e+05 down")));
   EXPECT_THAT(warningsOfABall(1.0), IsEmpty());
   EXPECT_THAT(warningsOfABall(0.3), IsEmpty());
 }

@@ -26,7 +26,7 @@ Real direct(const Real (&u)[3], Real sense, GuardedMotion<Real>& m) noexcept {
 template <class Real>
 GuardedLinks<Real>::GuardedLinks(const std::vector<GuardedLink>& links,
                                  std::vector<GuardedModule<Real>>& modules)
-    : motions_(links.size()), modules_(modules) {
+    : motions_(links.size()), clusters_(links.size()), modules_(modules) {
   for (const GuardedLink& link : links) {
     const bool euclidean = link.dimensions > 0;
     if (link.sticks) {
@@ -187,22 +187,27 @@ GuardedMotion<Real> GuardedLinks<Real>::measure(const GuardedView<Real>& view,
   return m;
 }
 
-template <class Real>
-void GuardedLinks<Real>::countActive(const GuardedView<Real>& view,
-                                     const Link& link,
-                                     const Motion& m) noexcept {
-  for (std::size_t t = link.first; t < link.first + link.count; ++t) {
-    if (m.is_active && terms_[t].opens_module && isFree(view, terms_[t])) {
-      modules_[at(terms_[t].module)].links += Real(1);
-    }
-  }
-}
-
 /// Force on a coordinate per force of the link.
 template <class Real>
 Real GuardedLinks<Real>::leverOf(const Term& term, const Motion& m) noexcept {
   return -(term.weight[0] * m.gradient[0] + term.weight[1] * m.gradient[1] +
            term.weight[2] * m.gradient[2]);
+}
+
+/// Counts it, with its force of the last step, on each module.
+template <class Real>
+void GuardedLinks<Real>::countActive(const GuardedView<Real>& view,
+                                     const Link& link,
+                                     const Motion& m,
+                                     Real last) noexcept {
+  for (std::size_t t = link.first; t < link.first + link.count; ++t) {
+    const Term& term = terms_[t];
+    if (m.is_active && isFree(view, term)) {
+      Module& module = modules_[at(term.module)];
+      module.links += term.opens_module ? Real(1) : Real(0);
+      module.last[term.component] += leverOf(term, m) * last;
+    }
+  }
 }
 
 /// How far a force opens the link, alone and if all links of its modules act as it does.
@@ -229,65 +234,47 @@ void GuardedLinks<Real>::load(const Link& link, const Motion& m) noexcept {
   }
 }
 
-/// Visits each module that the link shares, with how far less than the link was charged for it
-/// really opens there: h^2 (c F - sum F) / M. Times F/2 and over all links of the module that adds
-/// up to h^2 (c sum F^2 - |sum F|^2) / (2M), which is never negative.
+/// The others on its masses are expected to do what they did in the last step, and as much more as
+/// this one does: at rest that is exact, and on an impact each of c links stops its part.
 template <class Real>
-template <class Visit>
-void GuardedLinks<Real>::visitShared(const GuardedView<Real>& view,
-                                     const Link& link,
-                                     const Motion& m,
-                                     const Visit& visit) noexcept {
-  const std::size_t end = link.first + link.count;
-  for (std::size_t t = link.first; t < end;) {
-    const int slot = terms_[t].module;
-    Module& module = modules_[at(slot)];
-    const bool is_shared = module.links > Real(1) && isFree(view, terms_[t]);
-    Real swing = Real(0);
-    for (; t < end && terms_[t].module == slot; ++t) {
-      const Real lever = leverOf(terms_[t], m);
-      swing += lever * (module.links * lever * m.total() - module.load[terms_[t].component]);
-    }
-    if (is_shared) {
-      visit(module, swing * view.inverse_mass[slot]);
+void GuardedLinks<Real>::expectOthers(const GuardedView<Real>& view,
+                                      const Link& link,
+                                      bool is_contact,
+                                      Real last,
+                                      Motion& m) const noexcept {
+  for (std::size_t t = link.first; t < link.first + link.count; ++t) {
+    const Term& term = terms_[t];
+    const Module& module = modules_[at(term.module)];
+    if (module.links > Real(1) && isFree(view, term)) {
+      const Real lever = leverOf(term, m);
+      const Real others = module.last[term.component] - module.links * lever * last;
+      m.expected += is_contact ? lever * view.inverse_mass[term.module] * others : Real(0);
+      m.is_shared = true;
     }
   }
+  m.opening += m.expected;
 }
 
-/// Links that were charged too little pay the rest, as far as they can.
+/// Now that all forces are known it pays for what they really do, not for what was expected.
 template <class Real>
-void GuardedLinks<Real>::collect(const GuardedView<Real>& view,
-                                 const Link& link,
-                                 Motion& m,
-                                 GuardedState<Real>& state) noexcept {
-  visitShared(view, link, m, [&](Module& module, Real swing) {
-    const Real excess = m.total() * swing / Real(2);
-    if (excess < Real(0)) {
-      const Real can_pay = std::max(Real(0), state.tank + m.heat);
-      const Real part = std::min(Real(1), can_pay / -excess);
-      takeBack(part * swing, m, state);
-      module.arrears -= (Real(1) - part) * excess;
-    } else {
-      module.refunds += excess;
+void GuardedLinks<Real>::correctCharge(const GuardedView<Real>& view,
+                                       const Link& link,
+                                       Motion& m,
+                                       GuardedState<Real>& state) const noexcept {
+  Real real = Real(0);
+  for (std::size_t t = link.first; t < link.first + link.count; ++t) {
+    const Term& term = terms_[t];
+    const Module& module = modules_[at(term.module)];
+    if (module.links > Real(1) && isFree(view, term)) {
+      const Real lever = leverOf(term, m);
+      const Real others = module.load[term.component] - module.links * lever * m.total();
+      real += lever * view.inverse_mass[term.module] * others;
     }
-  });
+  }
+  takeBack(m.expected - real, m, state);
 }
 
-/// The others get back what they were charged too much, less their part of what is missing.
-template <class Real>
-void GuardedLinks<Real>::refund(const GuardedView<Real>& view,
-                                const Link& link,
-                                Motion& m,
-                                GuardedState<Real>& state) noexcept {
-  visitShared(view, link, m, [&](const Module& module, Real swing) {
-    if (m.total() * swing > Real(0)) {
-      const Real missing = std::min(Real(1), module.arrears / module.refunds);
-      takeBack((Real(1) - missing) * swing, m, state);
-    }
-  });
-}
-
-/// All but what sticks: the forces depend on one another only by how many there are.
+/// All but what sticks.
 template <class Real>
 void GuardedLinks<Real>::exertOthers(const NearLinks<Real>& near,
                                      const GuardedView<Real>& view,
@@ -300,29 +287,31 @@ void GuardedLinks<Real>::exertOthers(const NearLinks<Real>& near,
       }
     }
   };
+  const auto lastOf = [states](std::size_t l) { return states[l].force + states[l].damper; };
   forEachOther([&](std::size_t l) {
     motions_[l] = isIdle(view, l) ? Motion{} : measure(view, laws[l], links_[l], states[l]);
-    countActive(view, links_[l], motions_[l]);
+    countActive(view, links_[l], motions_[l], lastOf(l));
   });
   forEachOther([&](std::size_t l) {
     if (motions_[l].is_active) {
       yieldOf(view, links_[l], motions_[l]);
+      expectOthers(view, links_[l], laws[l].isContact(), lastOf(l), motions_[l]);
       exertForce(motions_[l], laws[l], states[l]);
       load(links_[l], motions_[l]);
     }
     payWork(motions_[l], states[l]);
   });
+  bool is_any_in_debt = false;
   forEachOther([&](std::size_t l) {
-    if (motions_[l].is_active) {
-      collect(view, links_[l], motions_[l], states[l]);
+    if (motions_[l].is_shared) {
+      correctCharge(view, links_[l], motions_[l], states[l]);
+      is_any_in_debt = is_any_in_debt || states[l].tank + motions_[l].heat < Real(0);
     }
   });
-  forEachOther([&](std::size_t l) {
-    if (motions_[l].is_active) {
-      refund(view, links_[l], motions_[l], states[l]);
-    }
-    closeStep(motions_[l], states[l]);
-  });
+  if (is_any_in_debt) {
+    settleDebts(near, view, states);
+  }
+  forEachOther([&](std::size_t l) { closeStep(motions_[l], states[l]); });
 }
 
 template <class Real>

@@ -59,9 +59,9 @@ struct GuardedView {
 template <class Real>
 struct GuardedModule {
   Real links = Real(0);                        // c, those that are active
-  Real load[3] = {Real(0), Real(0), Real(0)};  // sum F, of their forces
-  Real refunds = Real(0);                      // sum of h^2 F (c F - sum F)/2M where > 0
-  Real arrears = Real(0);                      // sum of the same where < 0 that tanks cannot pay
+  Real last[3] = {Real(0), Real(0), Real(0)};  // sum of their forces in the last step
+  Real load[3] = {Real(0), Real(0), Real(0)};  // and in this one
+  std::size_t first_link = 0;                  // 1 + one of them, while debts are settled
   // Of frictions that stick, in this step:
   Real heat = Real(0);   // what they took
   Real spent = Real(0);  // what others of them gave of that
@@ -142,6 +142,14 @@ class GuardedLinks {
   };
   using Motion = GuardedMotion<Real>;
   using Module = GuardedModule<Real>;
+  /// Links that share masses, kept where one of them, the root, stands.
+  struct Cluster {
+    std::size_t parent = 0;  // towards the root
+    Real before = Real(0);   // what the tanks of all held before this step
+    Real left = Real(0);     // what they hold after it, with its heat
+    Real credit = Real(0);   // of that, those that have something left
+    Real alone = Real(0);    // work that the forces do by the motion without them
+  };
 
   bool isFree(const GuardedView<Real>& view, const Term& term) const noexcept;
   Motion measure(const GuardedView<Real>& view,
@@ -161,8 +169,16 @@ class GuardedLinks {
     Real fixed_next[3] = {Real(0), Real(0), Real(0)};
   };
   Course courseOf(const GuardedView<Real>& view, const Link& link) const noexcept;
-  void countActive(const GuardedView<Real>& view, const Link& link, const Motion& m) noexcept;
+  void countActive(const GuardedView<Real>& view,
+                   const Link& link,
+                   const Motion& m,
+                   Real last) noexcept;
   void yieldOf(const GuardedView<Real>& view, const Link& link, Motion& m) const noexcept;
+  void expectOthers(const GuardedView<Real>& view,
+                    const Link& link,
+                    bool is_contact,
+                    Real last,
+                    Motion& m) const noexcept;
   void load(const Link& link, const Motion& m) noexcept;
   void exertOthers(const NearLinks<Real>& near,
                    const GuardedView<Real>& view,
@@ -189,24 +205,25 @@ class GuardedLinks {
                 const Motion& m,
                 GuardedState<Real>& state) noexcept;
   static Real leverOf(const Term& term, const Motion& m) noexcept;
-  template <class Visit>
-  void visitShared(const GuardedView<Real>& view,
-                   const Link& link,
-                   const Motion& m,
-                   const Visit& visit) noexcept;
-  void collect(const GuardedView<Real>& view,
-               const Link& link,
-               Motion& m,
-               GuardedState<Real>& state) noexcept;
-  void refund(const GuardedView<Real>& view,
-              const Link& link,
-              Motion& m,
-              GuardedState<Real>& state) noexcept;
+  void correctCharge(const GuardedView<Real>& view,
+                     const Link& link,
+                     Motion& m,
+                     GuardedState<Real>& state) const noexcept;
+  std::size_t rootOf(std::size_t link) noexcept;
+  void joinThoseThatShare(const NearLinks<Real>& near, const GuardedView<Real>& view) noexcept;
+  void settleDebts(const NearLinks<Real>& near,
+                   const GuardedView<Real>& view,
+                   GuardedState<Real>* states) noexcept;
+  void weaken(const NearLinks<Real>& near,
+              std::size_t root,
+              Real part,
+              GuardedState<Real>* states) noexcept;
 
   std::vector<Link> links_;
   std::vector<std::size_t> sticking_;
   std::vector<Term> terms_;
   std::vector<Motion> motions_;
+  std::vector<Cluster> clusters_;  // [links]
   std::vector<Module>& modules_;
 };
 

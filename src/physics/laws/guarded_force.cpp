@@ -64,6 +64,19 @@ Real rebound(GuardedMotion<Real>& m,
   return high;
 }
 
+/// True if what presses the link holds it so deep at rest that it will not let go while it swings.
+template <class Real>
+bool isHeld(const GuardedMotion<Real>& m, Real slope) noexcept {
+  const Real load = m.coasting - m.opening;
+  return load > m.give * slope * std::abs(m.coasting);
+}
+
+/// The force that lets the link move no further.
+template <class Real>
+Real stoppingForce(const GuardedMotion<Real>& m) noexcept {
+  return std::max(Real(0), (m.coasting / Real(2) - m.opening) / m.give);
+}
+
 /// The force of the law a little ahead.
 template <class Real>
 Real wantedForce(const GuardedMotion<Real>& m,
@@ -176,7 +189,9 @@ void exertElastic(GuardedMotion<Real>& m,
     return;
   }
   Real z = is_open ? Real(0) : law.dampingAt(m.p, -m.coasting / Real(2));
-  const bool is_impact = is_contact && z > Real(0) && kt > Real(1);
+  const bool is_stiff = is_contact && z > Real(0) && m.own_give * at.slope > Real(1);
+  const bool is_held = is_stiff && isHeld(m, at.slope);
+  const bool is_impact = is_stiff && !is_held;
   const bool is_lossy = law.form->is_lossy && is_long && !is_impact;
   Real wanted = Real(0);
   if (is_lossy) {
@@ -197,10 +212,12 @@ void exertElastic(GuardedMotion<Real>& m,
       is_impact ? rebound(m, e, wanted, state) : largestForce(budget, m.opening, m.give);
   const Real low = is_contact ? Real(0) : -largestForce(budget, -m.opening, m.give);
   m.force = std::clamp(wanted, low, high);
+  if (is_held && wanted > high) {
+    m.force = std::min(high, stoppingForce(m));  // or what is left would swing for ever
+  }
   brake(damping, m);
-  const bool is_clipped = wanted > high || (!is_contact && wanted < low);
+  m.is_cut = wanted > high || (!is_contact && wanted < low);
   state.active += 1.0;
-  state.clipped += is_clipped ? 1.0 : 0.0;
   if (law.form->is_lossy) {
     keepFromPulling(m, state);
   }
@@ -217,7 +234,6 @@ void exertFriction(GuardedMotion<Real>& m,
   const Real low = std::min(Real(0), stop);
   const Real high = std::max(Real(0), stop);
   Real slip = -m.coasting / Real(2);
-  bool is_clipped = false;
   for (int pass = 0; pass < 2; ++pass) {
     const GuardedForce<Real> at = law.slip(slip);
     // Below that slope a centred step has more than one solution.
@@ -225,11 +241,10 @@ void exertFriction(GuardedMotion<Real>& m,
     const Real wanted =
         (at.force - slope * (m.opening / Real(2) + slip)) / (Real(1) + slope * m.give / Real(2));
     m.damper = std::clamp(wanted, low, high);
-    is_clipped = std::abs(wanted) > std::abs(m.damper);
+    m.is_cut = std::abs(wanted) > std::abs(m.damper);
     slip = -m.swing() / Real(2);
   }
   state.active += m.damper != Real(0) ? 1.0 : 0.0;
-  state.clipped += is_clipped ? 1.0 : 0.0;
 }
 
 }  // namespace
@@ -260,6 +275,7 @@ void exertForce(GuardedMotion<Real>& m,
 
 template <class Real>
 void payWork(GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept {
+  m.budget = state.tank;
   const Real swing = m.swing();
   const Real work = m.force * swing / Real(2);
   state.stored = static_cast<double>(state.tank - m.force * m.coasting / Real(4));

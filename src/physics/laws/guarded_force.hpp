@@ -38,22 +38,25 @@ struct GuardedMotion {
   Real p = Real(0);                                ///< p, compression or elongation, m
   Real gradient[3] = {Real(0), Real(0), Real(0)};  ///< of p over end a less end b
   Real coasting = Real(0);  ///< sk, how far it would open over two steps at its present velocity, m
-  Real opening = Real(0);   ///< s0, the same with all forces but those of guarded links
+  Real opening = Real(0);   ///< s0, the same with the forces of all others
+  Real expected = Real(0);  ///< part of that: what the other guarded links on its masses will do
   Real foreseen = Real(0);  ///< part of that in the step to come, by what forces do not move
-  Real give = Real(0);      ///< q, opening per force, inflated by the links that share its masses
+  Real give = Real(0);      ///< q, opening per force if all on its masses change theirs alike
   Real own_give = Real(0);  ///< q with c = 1: if it were alone
   Real force = Real(0);     ///< F, elastic, closed links push: > 0
   Real damper = Real(0);    ///< -z (s0 + q F)/d, or friction
+  Real budget = Real(0);    ///< what the tank held before the work of this step
   Real heat = Real(0);      ///< work of the damper in this step, turned into heat
   bool is_friction = false;
   bool is_pushing = false;  ///< in contact, or two-sided
   bool is_active = false;   ///< may have a force
+  bool is_shared = false;   ///< others are active on its masses
+  bool is_cut = false;      ///< has less force than its law asks for
   bool empties = false;     ///< its tank is void after this step
   bool forfeits = false;    ///< what it absorbs in this step is lost
 
   Real total() const noexcept { return force + damper; }
-  /// s0 + q (F + damper), how far it opens over two steps. With shared masses that is the most its
-  /// force is charged for.
+  /// s0 + q (F + damper), how far it opens over two steps, as far as is expected.
   Real swing() const noexcept { return opening + give * total(); }
 };
 
@@ -78,7 +81,7 @@ void exertForce(GuardedMotion<Real>& m,
                 const GuardedLaw<Real>& law,
                 GuardedState<Real>& state) noexcept;
 
-/// Pays the work of this step from the tank, as if no other link were on its masses. Realtime: yes
+/// Pays the work of this step from the tank, as the motion is expected. Realtime: yes
 template <class Real>
 void payWork(GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept;
 
@@ -93,6 +96,7 @@ void takeBack(Real swing, GuardedMotion<Real>& m, GuardedState<Real>& state) noe
 /// Ends the step: neither tank nor heat stays below 0, each pays for the other. Realtime: yes
 template <class Real>
 void closeStep(const GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept {
+  state.clipped += m.is_cut ? 1.0 : 0.0;
   const Real both = state.tank + m.heat;
   state.tank = std::clamp(state.tank, Real(0), std::max(Real(0), both));
   state.lost += static_cast<double>(both - state.tank);

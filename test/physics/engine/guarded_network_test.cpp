@@ -94,7 +94,8 @@ SceneBuilder cubicChain(double amplitude) {
   return b;
 }
 
-/// Without refunds it would lose nearly all, without counting shared masses gain 10^4 times.
+/// Were each link charged for what it expects of its neighbours, it would lose nearly all; were it
+/// charged for its own motion alone, it would gain 10^4 times.
 TEST(GuardedNetworkTest, CubicChainKeepsItsEnergyAtAnyAmplitude) {
   for (const double amplitude : {0.1, 2.0, 30.0}) {
     Closed chain(cubicChain(amplitude));

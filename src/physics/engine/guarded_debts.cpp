@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What links owe whose masses went otherwise than they expected.
+#include <algorithm>
+
+#include "at.hpp"
+#include "physics/engine/guarded.hpp"
+#include "physics/engine/near_links.hpp"
+
+namespace ergotic::physics {
+namespace {
+
+/// Gives up the rest of what a link has: a part of it goes to others.
+template <class Real>
+void keep(Real part, GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept {
+  const Real both = std::max(Real(0), state.tank + m.heat);
+  const Real tank = std::clamp(state.tank, Real(0), both);
+  state.tank = part * tank;
+  m.heat = part * (both - tank);
+}
+
+}  // namespace
+
+template <class Real>
+std::size_t GuardedLinks<Real>::rootOf(std::size_t link) noexcept {
+  while (clusters_[link].parent != link) {
+    clusters_[link].parent = clusters_[clusters_[link].parent].parent;
+    link = clusters_[link].parent;
+  }
+  return link;
+}
+
+template <class Real>
+void GuardedLinks<Real>::joinThoseThatShare(const NearLinks<Real>& near,
+                                            const GuardedView<Real>& view) noexcept {
+  for (const std::size_t l : near) {
+    clusters_[l] = Cluster{};
+    clusters_[l].parent = l;
+  }
+  for (const std::size_t l : near) {
+    const Link& link = links_[l];
+    for (std::size_t t = link.first; t < link.first + link.count; ++t) {
+      if (!motions_[l].is_shared || !isFree(view, terms_[t])) {
+        continue;
+      }
+      std::size_t& first = modules_[at(terms_[t].module)].first_link;
+      if (first == 0) {
+        first = l + 1;
+      }
+      clusters_[rootOf(l)].parent = rootOf(first - 1);
+    }
+  }
+}
+
+/// Less force of all that share masses with the root, so that their tanks can pay for it: they are
+/// empty then.
+template <class Real>
+void GuardedLinks<Real>::weaken(const NearLinks<Real>& near,
+                                std::size_t root,
+                                Real part,
+                                GuardedState<Real>* states) noexcept {
+  for (const std::size_t l : near) {
+    if (!motions_[l].is_shared || rootOf(l) != root) {
+      continue;
+    }
+    Motion& m = motions_[l];
+    Motion less = m;
+    less.force *= part - Real(1);
+    less.damper *= part - Real(1);
+    load(links_[l], less);
+    m.force *= part;
+    m.damper *= part;
+    m.heat = Real(0);
+    m.is_cut = m.is_pushing || m.is_friction;
+    states[l].force = m.force;
+    states[l].damper = m.damper;
+    states[l].tank = Real(0);
+    states[l].stored = static_cast<double>(m.budget - m.force * m.coasting / Real(4));
+  }
+}
+
+/// Of links that share masses those that have something left pay for those that owe. Where all
+/// together cannot, all push less: with a part y of all forces they do the work y a + y^2 b, b the
+/// work of the forces on one another, which is never negative.
+template <class Real>
+void GuardedLinks<Real>::settleDebts(const NearLinks<Real>& near,
+                                     const GuardedView<Real>& view,
+                                     GuardedState<Real>* states) noexcept {
+  joinThoseThatShare(near, view);
+  for (const std::size_t l : near) {
+    if (motions_[l].is_shared) {
+      const Motion& m = motions_[l];
+      Cluster& cluster = clusters_[rootOf(l)];
+      const Real left = states[l].tank + m.heat;
+      cluster.before += m.budget;
+      cluster.left += left;
+      cluster.credit += std::max(Real(0), left);
+      cluster.alone += m.total() * (m.opening - m.expected) / Real(2);
+    }
+  }
+  for (const std::size_t l : near) {
+    const Cluster& cluster = clusters_[l];
+    if (motions_[l].is_shared && cluster.parent == l && cluster.left < Real(0)) {
+      const Real together = cluster.before - cluster.left - cluster.alone;
+      const Real part = largestForce(cluster.before, Real(2) * cluster.alone,
+                                     Real(2) * std::max(Real(0), together));
+      weaken(near, l, std::min(part, Real(1)), states);
+    }
+  }
+  for (const std::size_t l : near) {
+    const Cluster& cluster = clusters_[rootOf(l)];
+    if (motions_[l].is_shared && cluster.left >= Real(0) && cluster.left < cluster.credit) {
+      keep(cluster.left / cluster.credit, motions_[l], states[l]);
+    }
+  }
+}
+
+template std::size_t GuardedLinks<float>::rootOf(std::size_t) noexcept;
+template std::size_t GuardedLinks<double>::rootOf(std::size_t) noexcept;
+template void GuardedLinks<float>::settleDebts(const NearLinks<float>&,
+                                               const GuardedView<float>&,
+                                               GuardedState<float>*) noexcept;
+template void GuardedLinks<double>::settleDebts(const NearLinks<double>&,
+                                                const GuardedView<double>&,
+                                                GuardedState<double>*) noexcept;
+
+}  // namespace ergotic::physics

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Strings that end on bodies, by their sound: in tune with them, and out of tune if nobody tunes
-// them together.
+// them together; and two on one bridge.
 #include <algorithm>
+#include <cmath>
+#include <complex>
 
 #include "ergotic/physics/settling/settle.hpp"
 #include "ergotic/scene/text/read_scene.hpp"
@@ -94,6 +96,49 @@ generators:
     return settled.scene.lias.front().stiffness.factor;
   };
   EXPECT_EQ(stiffness_of(", ends: [ground, end]"), stiffness_of(""));
+}
+
+/// Two strings that share a bridge: what moves it dies soon, what does not goes on (Weinreich 1977,
+/// Journal of the Acoustical Society of America 62). Each by itself loses `own`, 1/s; both in step
+/// lose mu more, by what a bridge of this impedance reflects of their waves; and they are `apart`,
+/// rad/s: lambda = -own - mu/2 +- sqrt(mu^2 - apart^2)/2.
+TEST(CoupledStringsTest, OfAPairDecayTwiceAsWeinreichSays) {
+  constexpr double kHz = 110.0;
+  constexpr double kImpedance = 0.3;    // N s/m
+  constexpr double kResistance = 60.0;  // N s/m, of the bridge
+  constexpr double kMass = 1e-3;
+  constexpr double kStiffness = 2000.0;
+  constexpr double kOwnT60 = 30.0;
+  const double omega = 2.0 * M_PI * kHz;
+  const std::complex<double> bridge(kResistance, omega * kMass - kStiffness / omega);
+  const std::complex<double> mu =
+      kHz * std::log((bridge + 2.0 * kImpedance) / (bridge - 2.0 * kImpedance));
+  for (const double apart_hz : {0.0, 0.1, 0.2}) {
+    const std::string string =
+        "  - {type: string, section: a, masses: 60, impedance: 0.3, t60: 30 s, "
+        "to: [0.65, 0], ";
+    const std::string text =
+        "ergotic: 1\nsections: {a: {rate: audio}}\ngenerators:\n" + string +
+        "name: low, pitch: 110 Hz}\n" + string +
+        "name: high, pitch: " + std::to_string(kHz + apart_hz) +
+        "}\n  - {type: bridge, name: b, of: [low, high], section: a, end: last, mass: 1 g, "
+        "stiffness: 2000, resistance: 60}\n"
+        "outputs: {out: {at: low@0.2, quantity: velocity, channel: 1}}\ntruths:\n"
+        "  - {what: double_decay, of: out, play: {pluck: 0.2 N, at: low@0.15}, near: A2, "
+        "after: 0.3 s, seconds: 15 s, expect: [1, 10], within: 1 s}\n";
+    const JudgedTruth judged =
+        judgeTruths(scene::readTruths(text, "pair.yaml"), kRates, physics::Precision::kDouble)
+            .at(0);
+    ASSERT_EQ(judged.measured.size(), 2U) << judged.trouble;
+    const double own = 3.0 * std::log(10.0) / kOwnT60;
+    const double apart = 2.0 * M_PI * apart_hz;
+    const std::complex<double> split = 0.5 * std::sqrt(mu * mu - apart * apart);
+    const double fast = 3.0 * std::log(10.0) / (own + (0.5 * mu + split).real());
+    const double slow = 3.0 * std::log(10.0) / (own + (0.5 * mu - split).real());
+    EXPECT_NEAR(judged.measured[0], fast, 0.005 * fast) << apart_hz;
+    EXPECT_NEAR(judged.measured[1], slow, 0.005 * slow) << apart_hz;
+    EXPECT_GT(judged.measured[1], 4.0 * judged.measured[0]);
+  }
 }
 
 }  // namespace

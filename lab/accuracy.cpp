@@ -33,15 +33,16 @@ int main(int argc, char** argv) {
       {"string", tools::measureStrings}, {"barrier", tools::measureBarriers},
       {"bow", tools::measureBows},       {"hammer", tools::measureHammers},
       {"hand", tools::measureHands},     {"wall", tools::measureWalls}};
-  CLI::App app(
-      "Measures how wrong problems with a known answer are played and what that costs, setting by "
-      "setting, as CSV.",
-      "accuracy");
   std::vector<std::string> chosen;
-  app.add_option("--problem", chosen, "only this one; repeatable (default: all)")
-      ->check(CLI::IsMember(problems))
-      ->allow_extra_args(false);
-  return tools::runTool(app, argc, argv, [&] {
+  const auto add_options = [&](CLI::App& app) {
+    app.add_option("--problem", chosen, "only this one; repeatable (default: all)")
+        ->check(CLI::IsMember(problems))
+        ->allow_extra_args(false);
+  };
+  const std::string what_it_does =
+      "Measures how wrong problems with a known answer are played and what that costs, setting by "
+      "setting, as CSV.";
+  return tools::runTool("accuracy", what_it_does, add_options, argc, argv, [&] {
     std::cout << "problem,measure,family,precision,audio_hz,ratio,masses,exponent,error,unit,"
                  "cpu_s_per_s,steps_per_s,machine\n";
     for (const auto& [name, measure] : problems) {

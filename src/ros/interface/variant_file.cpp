@@ -70,7 +70,7 @@ std::string checkedVariant(const std::string& text,
                            const std::string& path,
                            const std::string& name,
                            const PresetValues& values) {
-  const std::string with = withVariant(text, path, name, values);
+  std::string with = withVariant(text, path, name, values);
   const scene::Scene read = scene::readYaml(with, path, {}, {name});
   for (const scene::Parameter& parameter : read.parameters) {
     const auto wanted = values.find(parameter.name);

@@ -49,6 +49,10 @@ class SceneBuilder {
   int lia(const std::string& name, Place place) const;
   /// \return -1 if there is no such module
   int findMat(const std::string& name) const { return mats_.find(name); }
+  /// \return -1 if there is no such string or mesh
+  int findGrid(const std::string& name) const { return grids_.find(name); }
+  /// \return -1 if there is no such link
+  int findLia(const std::string& name) const { return lias_.find(name); }
 
   /// Counts what selections look at, and what they mean. \throws TextError if that is too much
   void expectToLookAt(std::size_t mats, Place place);

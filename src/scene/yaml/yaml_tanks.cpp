@@ -12,18 +12,18 @@ namespace {
 
 void readSprings(const SceneBuilder& builder, const YamlMap& map, StretchKeys& to) {
   const Node& of = map.at("of");
-  to.is_of_links = of.isList();
-  if (!to.is_of_links) {
+  to.is_list = of.isList();
+  if (!to.is_list) {
     to.names.emplace_back(map.word("of"), map.placeAt("of"));
     return;
   }
-  for (const Node& spring : of) {
-    const Place place = placeOf(spring, map.placeAt("of"));
-    to.names.emplace_back(wordOf(builder, spring, "a spring of " + map.what(), place), place);
+  for (const Node& part : of) {
+    const Place place = placeOf(part, map.placeAt("of"));
+    to.names.emplace_back(wordOf(builder, part, "a part of " + map.what(), place), place);
   }
 }
 
-/// Those that a generator has made.
+/// Those that a generator has made. \throws TextError if it is no string or mesh
 std::vector<int> springsOf(const SceneBuilder& builder, const std::string& grid, Place place) {
   builder.grid(grid, place);
   const std::string stem = grid + ".link.";
@@ -55,12 +55,14 @@ StretchKeys readStretch(const SceneBuilder& builder, const std::string& name, co
 }
 
 void addStretch(SceneBuilder& builder, StretchKeys stretch) {
-  if (!stretch.is_of_links) {
-    const auto& [grid, place] = stretch.names.front();
-    stretch.tank.springs = springsOf(builder, grid, place);
-  } else {
-    for (const auto& [name, place] : stretch.names) {
-      stretch.tank.springs.push_back(builder.lia(name, place));
+  std::vector<int>& springs = stretch.tank.springs;
+  for (const auto& [name, place] : stretch.names) {
+    const bool is_link = builder.findLia(name) >= 0 || builder.findGrid(name) < 0;
+    if (stretch.is_list && is_link) {
+      springs.push_back(builder.lia(name, place));
+    } else {
+      const std::vector<int> of_grid = springsOf(builder, name, place);
+      springs.insert(springs.end(), of_grid.begin(), of_grid.end());
     }
   }
   if (stretch.tank.springs.empty()) {

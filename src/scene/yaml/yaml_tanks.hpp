@@ -11,11 +11,11 @@
 /// Links that share an energy tank: `tank: NAME` of cubic ones, and `type: stretch`.
 namespace ergotic::scene {
 
-/// A stretch, and what it is of: the generated string or mesh, or links. They are looked for when
+/// A stretch, and what it is of: generated strings and meshes, or links. They are looked for when
 /// all links are there.
 struct StretchKeys {
   Tank tank;
-  bool is_of_links = false;
+  bool is_list = false;  ///< only in one are links meant
   std::vector<std::pair<std::string, Place>> names;
 };
 

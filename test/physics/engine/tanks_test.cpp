@@ -253,6 +253,27 @@ TEST(TanksTest, AStretchIsOfItsOwnSpringsWhateverOthersAreCalled) {
   EXPECT_EQ(scene.tanks.at(0).springs, (std::vector<int>{0, 1, 2, 3, 4}));
 }
 
+TEST(TanksTest, AStretchIsOfWholeBodiesAndSingleLinksAlike) {
+  const scene::Scene scene = sceneOf(R"(
+sections: {a: {}}
+mats: {hook: {type: mass, mass: 1e-3}}
+generators:
+  - {type: string, name: s, section: a, masses: 4, mass: 1e-3, stiffness: 1e4, to: [1, 0]}
+  - {type: mesh, name: skin, rows: 3, columns: 4, spacing: 0.1, mass: 1e-3, stiffness: 100}
+lias:
+  pull: {type: spring, between: [hook, skin.1.1], stiffness: 100}
+  h: {type: stretch, of: [skin, pull, s], spacing: 0.2, hardening: 9}
+)");
+  const std::vector<int>& springs = scene.tanks.at(0).springs;
+  std::vector<std::string> names;
+  for (const int l : springs) {
+    names.push_back(scene.lias[at(l)].name.str());
+  }
+  EXPECT_EQ(std::count(names.begin(), names.end(), "pull"), 1);
+  EXPECT_THAT(names, testing::IsSupersetOf({"s.link.0", "s.link.4", "skin.link.0", "skin.link.6"}));
+  EXPECT_EQ(names.size(), 5U + 7U + 1U);
+}
+
 /// In a section that makes its first step later than the first tick, too.
 TEST(TanksTest, AreFilledBeforeTheFirstStep) {
   for (const char* const hard :

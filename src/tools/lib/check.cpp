@@ -325,6 +325,7 @@ void addOptions(CLI::App& app, CheckOptions& options) {
                  "say where this module, link or other part comes from, and nothing else")
       ->type_name("NAME");
   addOptions(app, options.modes);
+  addOptions(app, options.reach);
   addOptions(app, options.advice);
   app.add_flag("--truths", options.truths,
                "play and measure what the scene claims of itself, and nothing else");
@@ -354,6 +355,10 @@ int check(const CheckOptions& options) {
     checkModes(scene, settled.scene, rates, options.modes, options.json);
     return kSuccess;
   }
+  if (options.reach.is_wanted) {
+    checkReach(settled.scene, end_effectors, options.reach, options.json);
+    return kSuccess;
+  }
   load.begin("certify_s", "certify " + sizeText(settled.scene));
   physics::DeviceTraits device = options.device.traits;
   device.taken_ports = tgr::takenPorts(settled.scene, end_effectors);
@@ -364,6 +369,9 @@ int check(const CheckOptions& options) {
   const double cpu_s = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
   Json report = reportOn(scene, settled, rates, certificate, compile, options.device,
                          loadOf(settled.scene, rates, compile, load));
+  for (std::string& line : reachFindings(settled.scene, device.taken_ports, options.reach)) {
+    report["warnings"].push_back(std::move(line));
+  }
   const bool is_brief = !options.json && !options.verbose && !options.ranges;
   const bool is_quick = static_cast<double>(scene.parameters.size()) * cpu_s <= kQuicklyJudgedS;
   if (options.ranges || (!is_brief && is_quick)) {

@@ -5,6 +5,7 @@
 
 #include "tools/lib/check_advice.hpp"
 #include "tools/lib/check_modes.hpp"
+#include "tools/lib/check_reach.hpp"
 #include "tools/lib/check_report.hpp"
 #include "tools/lib/options.hpp"
 
@@ -24,6 +25,7 @@ struct CheckOptions {
   std::string explain;          ///< a name; empty: all of the scene is checked
   ModesChoice modes;
   AdviceChoice advice;
+  ReachChoice reach;
   bool truths = false;  ///< measure what the scene claims, and nothing else
 };
 

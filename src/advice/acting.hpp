@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "ergotic/scene/scene.hpp"
+
+namespace ergotic::physics {
+
+/// Open, of positions or distances; ends may be infinite.
+struct Span {
+  double from = 0.0;
+  double to = 0.0;
+};
+
+/// The ends of a link over the position of a hand.
+struct Separation {
+  bool is_scalar = true;  ///< x counts alone, signed; else the distance
+  Eigen::Vector3d apart;  ///< of end a from end b with the hand at 0, m
+  Eigen::Vector3d way;    ///< what a metre of the hand adds to it
+};
+
+/// Where a link acts, by what is between its ends (signed or as a distance, without its rest
+/// length): ascending, apart from each other. Of friction everywhere, whatever presses it.
+std::vector<Span> actingSpans(const scene::Scene& scene, const scene::Lia& lia, bool is_scalar);
+
+/// Positions of the hand for which a link acts, ascending.
+std::vector<Span> handSpans(const std::vector<Span>& acting, const Separation& ends);
+
+/// The nearest that its ends come to each other, m. \pre they are not scalar, and something moves
+double nearestOf(const Separation& ends);
+
+}  // namespace ergotic::physics

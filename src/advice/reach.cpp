@@ -49,10 +49,15 @@ const Span* nextOf(const std::vector<Span>& spans, double direction) {
 
 class Finder {
  public:
-  explicit Finder(const Scene& scene)
-      : scene_(scene), network_(scene), statics_(network_), links_of_(linksOfNodes(network_)) {
+  Finder(const Scene& scene, bool pushes)
+      : scene_(scene), network_(scene), statics_(network_), pushes_(pushes) {
     for (int l = 0; l < static_cast<int>(scene.lias.size()); ++l) {
-      const scene::Name& presser = scene.lias[at(l)].law->pressed_by;
+      const scene::Lia& lia = scene.lias[at(l)];
+      const Law& law = scene::lawOf(lia.type);
+      if (!law.has_linear_part && law.kind != Law::Kind::kFriction) {
+        letting_go_.push_back(l);
+      }
+      const scene::Name& presser = lia.law->pressed_by;
       if (!presser.empty()) {
         pressed_[presser.str()].push_back(l);
       }
@@ -150,7 +155,8 @@ class Finder {
     meeting.link = lia.name.str();
     meeting.law = law.name;
     for (const int other : pressedBy(lia)) {
-      meeting.presses.push_back(scene_.lias[at(other)].name.str());
+      const scene::Lia& rub = scene_.lias[at(other)];
+      meeting.presses.push_back({rub.name.str(), nameOf(rub.a), nameOf(rub.b)});
     }
     const std::vector<Span> spans = spansOf(port, lia, ends.both, meeting);
     if (!ends.both.is_scalar && spans.empty() && law.kind == Law::Kind::kGap) {
@@ -230,34 +236,36 @@ class Finder {
     }
   }
 
-  /// Of a mass by itself, which from there on goes ahead of what pushes it.
+  /// By what goes ahead of the hand from there on.
   std::vector<PushedMeeting> pushedOn(
       const Port& port, int l, bool a_leads, double from, double direction) {
     const scene::Lia& pushing = scene_.lias[at(l)];
     const int thing = a_leads ? pushing.b : pushing.a;
     const int by = a_leads ? pushing.a : pushing.b;
     std::vector<PushedMeeting> met;
-    const bool is_scalar = sectionOf(thing).geometry == Geometry::kScalar &&
-                           sectionOf(by).geometry == Geometry::kScalar;
-    if (scene::lawOf(pushing.type).kind != Law::Kind::kGap || !is_scalar ||
-        !statics_.isByItself(thing) || !statics_.wayOf(thing, port).isZero(0.0)) {
+    if (!pushes_ || scene::lawOf(pushing.type).kind != Law::Kind::kGap ||
+        !statics_.wayOf(thing, port).isZero(0.0) || sectionOf(by).geometry != Geometry::kScalar) {
       return met;
     }
-    const Eigen::Vector3d way = statics_.wayOf(by, port);
-    for (const int other : links_of_[at(thing)]) {
+    const double stiffness = scene_.valueOf(pushing.stiffness);
+    const double softness =
+        pushing.type == LiaType::kContact && stiffness > 0.0 ? 1.0 / stiffness : 0.0;
+    const std::vector<double> ways = statics_.pushedWays(thing, by, port, softness);
+    const int body = statics_.bodyOf(thing);
+    for (const int other : ways.empty() ? std::vector<int>{} : letting_go_) {
       const scene::Lia& lia = scene_.lias[at(other)];
-      const Law& law = scene::lawOf(lia.type);
-      const int end = lia.a == thing ? lia.b : lia.a;
-      if (other == l || end == by || law.has_linear_part || law.kind == Law::Kind::kFriction ||
-          sectionOf(end).geometry != Geometry::kScalar) {
+      const double a = statics_.among(body, ways, lia.a);
+      const double b = statics_.among(body, ways, lia.b);
+      Separation both = endsOf(lia, port).both;
+      if (other == l || lia.a == by || lia.b == by || a == b || !both.is_scalar) {
         continue;
       }
-      Separation both = endsOf(lia, port).both;
-      both.way = lia.a == thing ? way : -way;
+      both.way = (a - b) * Eigen::Vector3d::UnitX();
       const std::vector<Span> spans = handSpans(actingSpans(scene_, lia, true), both);
       const Span* const next = nextOf(spans, direction);
       if (std::none_of(spans.begin(), spans.end(), touches) && next != nullptr) {
-        met.push_back({nameOf(end), lia.name.str(), law.name,
+        met.push_back({nameOf(std::abs(a) > std::abs(b) ? lia.b : lia.a), lia.name.str(),
+                       scene::lawOf(lia.type).name,
                        from + (direction > 0.0 ? next->from : next->to)});
       }
     }
@@ -308,7 +316,8 @@ class Finder {
   const Scene& scene_;
   Network network_;
   Statics statics_;
-  std::vector<std::vector<int>> links_of_;
+  bool pushes_;
+  std::vector<int> letting_go_;                      // links, friction apart
   std::map<std::string, std::vector<int>> pressed_;  // by contacts: frictions
 };
 
@@ -332,12 +341,13 @@ bool PortReach::isIdle(double stroke_m) const {
 
 std::vector<PortReach> reachOf(const Scene& scene,
                                const std::vector<int>& ports,
+                               bool pushes,
                                std::vector<std::string>& notes) {
   std::vector<PortReach> found;
   if (ports.empty()) {
     return found;
   }
-  Finder finder(scene);
+  Finder finder(scene, pushes);
   std::transform(ports.begin(), ports.end(), std::back_inserter(found),
                  [&finder](int port) { return finder.of(port); });
   if (finder.untold() > 0) {

@@ -139,10 +139,6 @@ int Statics::bodyOf(int mat) {
   return shares.empty() ? -1 : sets_.setOf(shares.front().node);
 }
 
-bool Statics::isByItself(int mat) {
-  return network_.nodes[at(mat)].is_free && bodies_.at(bodyOf(mat)).mats.size() == 1;
-}
-
 std::vector<unsigned char> Statics::movedBy(const scene::Port& port) {
   std::vector<unsigned char> moved(scene_.mats.size(), 0);
   moved[at(port.mat)] = 1;
@@ -343,6 +339,57 @@ Eigen::Vector3d Statics::wayOf(int mat, const scene::Port& port) {
   }
   sum.x() = waysOf(name, port)[placeIn(body, mat)];
   return sum;
+}
+
+double Statics::among(int body, const std::vector<double>& ways, int mat) {
+  double way = 0.0;
+  for (const Share& share : sharesNow(network_, mat)) {
+    if (sets_.setOf(share.node) == body) {
+      way += share.weight * ways[placeIn(bodies_.at(body), share.node)];
+    }
+  }
+  return way;
+}
+
+/// [mats] of its body, m for 1 N on it; empty where that is not known.
+std::vector<double> Statics::yieldOf(int mat) {
+  const int name = bodyOf(mat);
+  const Body& body = bodies_.at(name);
+  std::vector<double> ways(body.mats.size(), 0.0);
+  for (const Share& share : sharesNow(network_, mat)) {
+    ways[placeIn(body, share.node)] += share.weight;
+  }
+  return solve(body, ways) ? ways : std::vector<double>{};
+}
+
+std::vector<double> Statics::pushedWays(int thing,
+                                        int by,
+                                        const scene::Port& port,
+                                        double softness) {
+  const int name = bodyOf(thing);
+  if (name < 0 || !bodies_.at(name).is_scalar || name == bodyOf(by)) {
+    return {};
+  }
+  const Body& body = bodies_.at(name);
+  const double way = wayOf(by, port).x();
+  if (body.holders.empty() && !body.is_held_by_cells) {  // it goes as a whole, if it cannot turn
+    return body.mats.size() == 1 && body.mats[0] == thing ? std::vector<double>{way}
+                                                          : std::vector<double>{};
+  }
+  std::vector<double> ways = yieldOf(thing);
+  double yields = softness;
+  if (bodyOf(by) >= 0) {
+    const std::vector<double> pusher = yieldOf(by);
+    if (pusher.empty()) {
+      return {};
+    }
+    yields += among(bodyOf(by), pusher, by);
+  }
+  if (!ways.empty()) {
+    yields += among(name, ways, thing);
+    std::for_each(ways.begin(), ways.end(), [&](double& one) { one *= way / yields; });
+  }
+  return ways;
 }
 
 std::vector<int> Statics::followersOf(const scene::Port& port) {

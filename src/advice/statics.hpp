@@ -29,11 +29,15 @@ class Statics {
   Eigen::Vector3d wayOf(int mat, const scene::Port& port);
   /// [mats] not 0: what the slice is, what springs hang on it, and points on those.
   std::vector<unsigned char> movedBy(const scene::Port& port);
+  /// Modules of the body of `thing`, for a metre of the hand once something pushes at that: all are
+  /// drawn along by springs, and both give way by theirs. Empty: nothing says how far.
+  /// \param by        what pushes, in another body or the slice \param softness  between both, m/N
+  std::vector<double> pushedWays(int thing, int by, const scene::Port& port, double softness);
+  /// Of a module or point among these; 0 elsewhere.
+  double among(int body, const std::vector<double>& ways, int mat);
   /// Names the body of a free module, or of the first under a point: what springs join, but for
   /// what is held. -1: held.
   int bodyOf(int mat);
-  /// True of a free module that no spring joins to another one.
-  bool isByItself(int mat);
   /// Modules that go as far as the slice, as nothing else holds them, in the order of the scene.
   std::vector<int> followersOf(const scene::Port& port);
   /// Bodies on a slice of which it is not known how they follow it: they are taken as held.
@@ -67,6 +71,7 @@ class Statics {
   bool followsAlone(const Body& body, int slice) const;
   const std::vector<double>& offsetsOf(Body& body);
   const std::vector<double>& waysOf(int name, const scene::Port& port);
+  std::vector<double> yieldOf(int mat);
   bool solve(const Body& body, std::vector<double>& pushed) const;
   Eigen::Vector3d wayOfSlice(const scene::Port& port, const scene::Section& seen_from) const;
 

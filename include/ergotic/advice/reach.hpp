@@ -13,16 +13,24 @@
 /// swings: what springs hold is where they hold it, by the linear part of their laws at the present
 /// values of the parameters, what hangs on the slice alone goes as far as it does, what may let go
 /// pulls at nothing, and what is not held stays where it starts. In planes and in space what is
-/// held by more than the slice stays, too.
-/// Realtime: no. Source: docs/tools.md, "Reach"
+/// held by more than the slice stays, too. What it meets in a scalar section it may push on to
+/// other things: both give way by their springs and by a linear contact between them, other laws
+/// count as hard there. Realtime: no. Source: docs/tools.md, "Reach"
 namespace ergotic::physics {
 
-/// What is met by something that the hand pushes ahead.
+/// What is met by something that the hand pushes ahead, or by what springs join to that.
 struct PushedMeeting {
   std::string thing;
   std::string link;
   const char* law = "";
   double at_m = 0.0;
+};
+
+/// A friction whose normal force a contact is.
+struct Rubbing {
+  std::string link;
+  std::string thing;  ///< what is rubbed,
+  std::string on;     ///< and by what
 };
 
 /// A link that may let go or that begins somewhere, on one side of the hand.
@@ -37,8 +45,8 @@ struct Meeting {
   std::vector<double> ends_m;  ///< where it ends again: ahead, or on either side if it touches
   double missed_by_m = 0.0;    ///< m of the model
   std::string waits_for;       ///< the contact that would have to press, and that other hands move
-  std::vector<std::string> presses;  ///< frictions whose normal force it is
-  std::vector<PushedMeeting> then;   ///< nearest first; of a mass that it pushes by itself
+  std::vector<Rubbing> presses;
+  std::vector<PushedMeeting> then;  ///< nearest first
 };
 
 /// A spring from the slice to what other things hold as well: it is felt from the start.
@@ -73,9 +81,11 @@ struct PortReach {
 
 /// \param scene  settled
 /// \param ports  indices in Scene::ports
+/// \param pushes  look for what is met by what is pushed, too
 /// \param[out] notes  what was not worked out, in full sentences
 std::vector<PortReach> reachOf(const scene::Scene& scene,
                                const std::vector<int>& ports,
+                               bool pushes,
                                std::vector<std::string>& notes);
 
 /// Ports that a slice moves by itself.

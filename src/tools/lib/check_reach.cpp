@@ -25,6 +25,7 @@ using physics::PortReach;
 using physics::shortly;
 
 constexpr double kSamePlace = 1e-9;      // m of the hand: met together
+constexpr std::size_t kMostPushed = 4;   // the nearest of what is pushed on to
 constexpr std::size_t kMostCarried = 8;  // of names; a slice may carry hundreds
 
 /// Metres of the port's own hand as those of an end-effector's coordinate.
@@ -58,17 +59,25 @@ std::string listed(const std::vector<std::string>& names) {
 }
 
 /// All that is met where the first is.
-std::string firstText(const PortReach& reach, const Meeting& first) {
+std::string firstText(const PortReach& reach, const Meeting& first, double stroke_m) {
   std::vector<std::string> things;
   const physics::PushedMeeting* then = nullptr;
+  std::string pressed;
   for (const Meeting& meeting : reach.meetings) {
     if (!meeting.touches && !meeting.is_missed &&
         std::abs(meeting.at_m - first.at_m) <= kSamePlace) {
       things.push_back(meeting.thing + " (" + meeting.law + ")");
-      then = then == nullptr && !meeting.then.empty() ? &meeting.then.front() : then;
+      if (then == nullptr && !meeting.then.empty() &&
+          std::abs(meeting.then.front().at_m) <= stroke_m) {
+        then = &meeting.then.front();
+      }
+      if (!meeting.presses.empty()) {
+        const physics::Rubbing& rub = meeting.presses.front();
+        pressed = ", which presses " + rub.thing + " on " + rub.on;
+      }
     }
   }
-  std::string text = listed(things) + " at " + millimetres(first.at_m);
+  std::string text = listed(things) + " at " + millimetres(first.at_m) + pressed;
   if (then != nullptr) {
     text += ", pushed on to " + then->thing + " (" + then->law + ") at " + millimetres(then->at_m);
   }
@@ -78,7 +87,7 @@ std::string firstText(const PortReach& reach, const Meeting& first) {
 /// Where nothing is met by distance: what the slice does instead.
 std::string otherwiseText(const PortReach& reach, double stroke_m) {
   if (!reach.guides.empty()) {
-    return "nothing: it leads " + reach.guides.front().point + " along " +
+    return "nothing, it leads " + reach.guides.front().point + " along " +
            reach.guides.front().along;
   }
   for (const Meeting& meeting : reach.meetings) {
@@ -90,14 +99,18 @@ std::string otherwiseText(const PortReach& reach, double stroke_m) {
     }
   }
   if (!reach.holds.empty()) {
-    return "nothing: it holds " + reach.holds.front().thing + " by a spring";
+    return "nothing, it holds " + reach.holds.front().thing + " by a spring";
   }
-  return reach.meetings.empty() ? "nothing: no link leads to anything"
-                                : "nothing within its stroke of +-" + millimetres(stroke_m);
+  if (reach.meetings.empty()) {
+    return "nothing, as no link leads to anything";
+  }
+  return reach.meetings.front().is_missed
+             ? "nothing on its way"
+             : "nothing within its stroke of +-" + millimetres(stroke_m);
 }
 
-void addPlace(const char* name, double m, double stroke_m, Json& entry) {
-  entry[name] = m;
+void addPlace(double m, double stroke_m, Json& entry) {
+  entry["at_m"] = m;
   if (std::isfinite(stroke_m)) {
     entry["of_stroke"] = std::abs(m) / stroke_m;
   }
@@ -116,21 +129,26 @@ Json meetingReport(const Meeting& meeting, const std::string& module, double str
     entry["never"] = "passes by";
     entry["missed_by_m"] = meeting.missed_by_m;
   } else {
-    addPlace("at_m", meeting.at_m, stroke_m, entry);
+    addPlace(meeting.at_m, stroke_m, entry);
   }
   if (!meeting.ends_m.empty()) {
     entry["until_m"] = meeting.ends_m.size() == 1 ? Json(meeting.ends_m[0]) : Json(meeting.ends_m);
   }
   if (!meeting.presses.empty()) {
-    entry["presses"] = listed(meeting.presses);
-  }
-  if (!meeting.then.empty()) {
-    Json then = Json::array();
-    for (const physics::PushedMeeting& one : meeting.then) {
-      Json pushed = {{"thing", one.thing}, {"law", one.law}, {"link", one.link}};
-      addPlace("at_m", one.at_m, stroke_m, pushed);
-      then.push_back(std::move(pushed));
+    std::vector<std::string> pressed;
+    for (const physics::Rubbing& one : meeting.presses) {
+      pressed.push_back(one.link);
     }
+    entry["presses"] = listed(pressed);
+  }
+  Json then = Json::array();
+  for (const physics::PushedMeeting& one : meeting.then) {
+    if (then.size() < kMostPushed && std::abs(one.at_m) <= stroke_m) {
+      then.push_back({{"thing", one.thing}, {"law", one.law}, {"link", one.link}});
+      addPlace(one.at_m, stroke_m, then.back());
+    }
+  }
+  if (!then.empty()) {
     entry["pushed_on"] = std::move(then);
   }
   return entry;
@@ -201,7 +219,7 @@ std::map<int, std::set<double>> movedByNotes(const scene::Scene& scene) {
 bool fallShort(const std::set<double>& notes, const PortReach& reach) {
   const auto isMet = [&](double to_m) {
     return std::any_of(reach.meetings.begin(), reach.meetings.end(), [to_m](const Meeting& m) {
-      return m.touches ||
+      return m.touches || !m.waits_for.empty() ||
              (!m.is_missed && m.at_m * to_m >= 0.0 && std::abs(m.at_m) <= std::abs(to_m));
     });
   };
@@ -215,7 +233,7 @@ Json portReport(const scene::Scene& scene, const PortReach& reach, double stroke
   Json entry = {{"port", port.name}, {"module", module}};
   const Meeting* const first = reach.first(stroke_m);
   entry["meets_first"] =
-      first != nullptr ? firstText(reach, *first) : otherwiseText(reach, stroke_m);
+      first != nullptr ? firstText(reach, *first, stroke_m) : otherwiseText(reach, stroke_m);
   addMeetings(reach, module, stroke_m, entry);
   addOthers(reach, entry);
   return entry;
@@ -232,7 +250,7 @@ Json slicesOf(const scene::Scene& scene, const std::vector<PortReach>& found, do
     if (moved != notes.end()) {
       entry["notes_move_it_to_m"] = std::vector<double>(moved->second.begin(), moved->second.end());
       if (fallShort(moved->second, reach)) {
-        entry["notes_move_it"] = "not far enough to meet anything";
+        entry["notes_meet"] = "nothing";
       }
     }
     report.push_back(std::move(entry));
@@ -252,7 +270,7 @@ Json coordinatesOf(const scene::Scene& scene,
         ports.push_back(p);
       }
     }
-    for (PortReach& reach : physics::reachOf(scene, ports, notes)) {
+    for (PortReach& reach : physics::reachOf(scene, ports, true, notes)) {
       scaleBy(config.position_scale, reach);
       Json entry = {{"end_effector", config.name}};
       entry.update(portReport(scene, reach, INFINITY));
@@ -269,6 +287,8 @@ std::vector<int> portsBut(const scene::Scene& scene, const std::vector<int>& tak
                                return std::find(taken.begin(), taken.end(), port) != taken.end();
                              }),
               ports.end());
+  std::sort(ports.begin(), ports.end(),
+            [&scene](int a, int b) { return scene.ports[at(a)].slice < scene.ports[at(b)].slice; });
   return ports;
 }
 
@@ -290,7 +310,7 @@ void checkReach(const scene::Scene& scene,
                 bool json) {
   std::vector<std::string> notes;
   const std::vector<int> ports = portsBut(scene, tgr::takenPorts(scene, end_effectors));
-  const std::vector<PortReach> found = physics::reachOf(scene, ports, notes);
+  const std::vector<PortReach> found = physics::reachOf(scene, ports, true, notes);
   Json report = {{"scene", scene.name},
                  {"stroke_m", {-choice.stroke_m, choice.stroke_m}},
                  {"slices", slicesOf(scene, found, choice.stroke_m)}};
@@ -306,7 +326,8 @@ std::vector<std::string> reachFindings(const scene::Scene& scene,
                                        const std::vector<int>& taken_ports,
                                        const ReachChoice& choice) {
   std::vector<std::string> notes;
-  const std::vector<PortReach> found = physics::reachOf(scene, portsBut(scene, taken_ports), notes);
+  const std::vector<PortReach> found =
+      physics::reachOf(scene, portsBut(scene, taken_ports), false, notes);
   return physics::reachWarnings(scene, found, choice.stroke_m);
 }
 

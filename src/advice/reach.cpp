@@ -50,7 +50,17 @@ const Span* nextOf(const std::vector<Span>& spans, double direction) {
 class Finder {
  public:
   Finder(const Scene& scene, bool pushes)
-      : scene_(scene), network_(scene), statics_(network_), pushes_(pushes) {
+      : scene_(scene),
+        network_(scene),
+        statics_(network_),
+        pushes_(pushes),
+        is_in_hands_(scene.mats.size(), 0) {
+    for (const Port& port : scene.ports) {
+      const std::vector<unsigned char> moved = statics_.movedBy(port);
+      for (std::size_t m = 0; m < moved.size(); ++m) {
+        is_in_hands_[m] |= moved[m];
+      }
+    }
     for (int l = 0; l < static_cast<int>(scene.lias.size()); ++l) {
       const scene::Lia& lia = scene.lias[at(l)];
       const Law& law = scene::lawOf(lia.type);
@@ -236,7 +246,7 @@ class Finder {
     }
   }
 
-  /// By what goes ahead of the hand from there on.
+  /// By what goes ahead of the hand from there on; not what hands carry, which may go away.
   std::vector<PushedMeeting> pushedOn(
       const Port& port, int l, bool a_leads, double from, double direction) {
     const scene::Lia& pushing = scene_.lias[at(l)];
@@ -257,7 +267,8 @@ class Finder {
       const double a = statics_.among(body, ways, lia.a);
       const double b = statics_.among(body, ways, lia.b);
       Separation both = endsOf(lia, port).both;
-      if (other == l || lia.a == by || lia.b == by || a == b || !both.is_scalar) {
+      const bool is_hand = is_in_hands_[at(lia.a)] != 0 || is_in_hands_[at(lia.b)] != 0;
+      if (other == l || is_hand || a == b || !both.is_scalar) {
         continue;
       }
       both.way = (a - b) * Eigen::Vector3d::UnitX();
@@ -317,6 +328,7 @@ class Finder {
   Network network_;
   Statics statics_;
   bool pushes_;
+  std::vector<unsigned char> is_in_hands_;           // [mats] what any port moves
   std::vector<int> letting_go_;                      // links, friction apart
   std::map<std::string, std::vector<int>> pressed_;  // by contacts: frictions
 };

@@ -46,10 +46,11 @@ class ToolsTest(unittest.TestCase):
             self.assertEqual(known, told, tool)
 
     def test_a_shown_report_is_what_check_says(self):
-        shown = re.search(r"`check (\S+) --verbose` says.*?```yaml\n(.*?)```", sections()["check"], re.DOTALL)
-        lines = says("check", shown.group(1), "--verbose").splitlines()
-        for line in shown.group(2).splitlines():
-            self.assertTrue(any(is_same(said, line) for said in lines), line)
+        for option in ("--verbose", "--reach"):
+            shown = re.search(rf"`check (\S+) {option}` says.*?```yaml\n(.*?)```", sections()["check"], re.DOTALL)
+            lines = says("check", shown.group(1), option).splitlines()
+            for line in shown.group(2).splitlines():
+                self.assertTrue(any(is_same(said, line) for said in lines), line)
 
     def test_every_tool_is_told(self):
         built = {path.name for path in TOOLS.iterdir() if path.is_file() and "test" not in path.name}

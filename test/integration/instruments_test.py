@@ -3,6 +3,8 @@
 """The instruments that come along: judged, played by the virtual hand, and measured. With ERGOTIC_LONG their whole
 demos, else their beginnings.
 usage: instruments_test.py FOLDER_OF_TOOLS"""
+import importlib.machinery
+import importlib.util
 import json
 import os
 import pathlib
@@ -24,6 +26,19 @@ MOST_LINES = 60
 BEGINNING_S = 1.5
 LEVEL = re.compile(r": (-?[0-9.]+) LUFS, true peak (-?[0-9.]+) dBTP")
 OLDER = {"string", "fretted_string", "duet", "drum"}  # shipped before levels were asked for
+
+
+def read_script():
+    """scripts/instrument, with the tools that are tested."""
+    sys.dont_write_bytecode = True
+    loader = importlib.machinery.SourceFileLoader("instrument", str(ROOT / "scripts/instrument"))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("instrument", loader))
+    loader.exec_module(module)
+    module.TOOLS = TOOLS
+    return module
+
+
+script = read_script()
 
 
 def instruments():
@@ -69,6 +84,17 @@ class InstrumentsTest(unittest.TestCase):
                 if name not in OLDER:
                     self.assertNotEqual(report["about"], {})
                     self.assertTrue((ROOT / "docs" / "instruments" / f"{name}.md").exists())
+
+    def test_pages_tell_what_slices_meet(self):
+        told = 0
+        for path in (ROOT / "docs" / "instruments").glob("*.md"):
+            text = path.read_text()
+            if script.SLICES in text:
+                told += 1
+                ports = json.loads(run("check", MODELS / f"{path.stem}.yaml", "--json").stdout)["ports"]
+                with self.subTest(path.stem):
+                    self.assertIn("\n" + "\n".join(script.slices_of(path.stem, ports)) + "\n\n", text)
+        self.assertGreaterEqual(told, 11)
 
     def test_what_the_library_plucks_with_begins_out_of_reach(self):
         shutil.copytree(MODELS / "lib", self.out.parent / "lib")

@@ -113,6 +113,11 @@ class RecipesTest(unittest.TestCase):
         self.expect(left, A2, 5, 0.8, 3)
         self.expect(right, A2, 5, 0.8, 3)
 
+    def test_the_first_key_reaches_its_string(self):
+        told = (ROOT / "docs/first_instrument.md").read_text()
+        first = re.search(r"`(meets_first: .*?)`", told).group(1)
+        self.assertIn(first, self.run_tool("check", "first.yaml", "--reach"))
+
     def test_a_bar(self):
         self.expect(self.play("bar", 2.5, self.gestures["bar"])[0], C3, 2.2 / (0.008 * C3), 0.5, 2.5)
 

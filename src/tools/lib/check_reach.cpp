@@ -87,8 +87,8 @@ std::string firstText(const PortReach& reach, const Meeting& first, double strok
 /// Where nothing is met by distance: what the slice does instead.
 std::string otherwiseText(const PortReach& reach, double stroke_m) {
   if (!reach.guides.empty()) {
-    return "nothing, it leads " + reach.guides.front().point + " along " +
-           reach.guides.front().along;
+    return "nothing (it leads " + reach.guides.front().point + " along " +
+           reach.guides.front().along + ")";
   }
   for (const Meeting& meeting : reach.meetings) {
     if (!meeting.waits_for.empty()) {
@@ -99,10 +99,10 @@ std::string otherwiseText(const PortReach& reach, double stroke_m) {
     }
   }
   if (!reach.holds.empty()) {
-    return "nothing, it holds " + reach.holds.front().thing + " by a spring";
+    return "nothing (it holds " + reach.holds.front().thing + " by a spring)";
   }
   if (reach.meetings.empty()) {
-    return "nothing, as no link leads to anything";
+    return "nothing (no link leads to anything)";
   }
   return reach.meetings.front().is_missed
              ? "nothing on its way"

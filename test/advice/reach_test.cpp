@@ -244,6 +244,35 @@ TEST(ReachTest, InAPlaneIsWhereTheCirclesMeet) {
   EXPECT_NEAR(missed.missed_by_m, 0.001, kExact);
 }
 
+TEST(ReachTest, WhatHangsBetweenThingsInAPlaneIsHeldAndANoteSaysSo) {
+  const auto reach = [](const std::string& tie, std::vector<std::string>& notes) {
+    const scene::Scene scene =
+        settle(read("ergotic: 1\nsections: {a: {rate: audio, geometry: plane}, k: {rate: gestural, "
+                    "geometry: plane}}\nmats:\n"
+                    "  key: {type: slice, section: k, at: [0, 0]}\n"
+                    "  ball: {type: mass, section: a, mass: 0.02, at: [10 mm, 0]}\n"
+                    "  nail: {type: ground, section: a, at: [0, 10 mm]}\n"
+                    "  post: {type: ground, section: a, at: [25 mm, 3 mm]}\n"
+                    "lias:\n"
+                    "  arm: {type: spring, between: [key, ball], stiffness: 600}\n" +
+                    tie +
+                    "  c: {type: contact, between: [ball, post], stiffness: 10, threshold: 5 mm}\n"
+                    "ports: {hand: {mat: key, axis: x, slice: 0}}\n"),
+               kRates)
+            .scene;
+    return reachOf(scene, {0}, true, notes).at(0);
+  };
+  std::vector<std::string> notes;
+  PortReach found = reach("", notes);
+  EXPECT_NEAR(found.meetings.at(0).at_m, 0.015 - 0.004, kExact);
+  EXPECT_THAT(notes, IsEmpty());
+  found = reach("  tie: {type: spring, between: [ball, nail], stiffness: 600}\n", notes);
+  EXPECT_THAT(found.meetings, IsEmpty());
+  ASSERT_EQ(found.holds.size(), 1U);
+  EXPECT_EQ(found.holds[0].follows, 0.0);
+  EXPECT_THAT(notes, ElementsAre(HasSubstr("1 body hangs on slices in a way that is not worked")));
+}
+
 TEST(ReachTest, AFrictionWaitsForWhatPresses) {
   const std::string mats =
       "  wrist: {type: slice, section: k, rest: -3 mm}\n  pad: {type: ground, section: k}\n"

@@ -3,6 +3,7 @@
 """The instruments that come along: judged, played by the virtual hand, and measured. With ERGOTIC_LONG their whole
 demos, else their beginnings.
 usage: instruments_test.py FOLDER_OF_TOOLS"""
+import functools
 import importlib.machinery
 import importlib.util
 import json
@@ -55,6 +56,11 @@ def run(tool, *arguments):
     return subprocess.run([TOOLS / tool, *map(str, arguments)], cwd=ROOT, check=True, capture_output=True, text=True)
 
 
+@functools.lru_cache(maxsize=None)
+def report_of(name):
+    return json.loads(run("check", MODELS / f"{name}.yaml", "--json").stdout)
+
+
 class InstrumentsTest(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -78,7 +84,7 @@ class InstrumentsTest(unittest.TestCase):
             with self.subTest(name):
                 text = (MODELS / f"{name}.yaml").read_text()
                 self.assertLessEqual(len(text.splitlines()), MOST_LINES)
-                report = json.loads(run("check", MODELS / f"{name}.yaml", "--json").stdout)
+                report = report_of(name)
                 self.assertIn(report["stability"]["verdict"], ("passive", "bounded"))
                 self.assertTrue((MODELS / "maps" / f"{name}.yaml").exists())
                 if name not in OLDER:
@@ -91,9 +97,9 @@ class InstrumentsTest(unittest.TestCase):
             text = path.read_text()
             if script.SLICES in text:
                 told += 1
-                ports = json.loads(run("check", MODELS / f"{path.stem}.yaml", "--json").stdout)["ports"]
                 with self.subTest(path.stem):
-                    self.assertIn("\n" + "\n".join(script.slices_of(path.stem, ports)) + "\n\n", text)
+                    rows = script.slices_of(path.stem, report_of(path.stem)["ports"])
+                    self.assertIn("\n" + "\n".join(rows) + "\n\n", text)
         self.assertGreaterEqual(told, 11)
 
     def test_what_the_library_plucks_with_begins_out_of_reach(self):

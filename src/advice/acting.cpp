@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "scene/laws/law.hpp"
 
@@ -11,8 +10,6 @@ namespace ergotic::physics {
 namespace {
 
 using scene::LiaType;
-
-constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 /// Where a table is not 0. Between two points that are 0 it is, straight or smooth.
 std::vector<Span> spansOf(const scene::Table& table, bool holds_its_ends) {

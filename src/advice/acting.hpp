@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -8,6 +9,8 @@
 #include "ergotic/scene/scene.hpp"
 
 namespace ergotic::physics {
+
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 /// Open, of positions or distances; ends may be infinite.
 struct Span {

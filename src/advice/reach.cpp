@@ -201,7 +201,7 @@ class Finder {
     const double apart =
         pressing.both.is_scalar ? pressing.both.apart.x() : pressing.both.apart.norm();
     if (apart > acting[0].from && apart < acting[0].to) {
-      return handSpans({{-INFINITY, INFINITY}}, both);
+      return handSpans({{-kEndless, kEndless}}, both);
     }
     meeting.waits_for = presser;
     return {};

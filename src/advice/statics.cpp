@@ -271,7 +271,7 @@ Eigen::Vector3d Statics::placeOf(int mat) {
 /// Of its port, as another section sees it.
 Eigen::Vector3d Statics::wayOfSlice(const scene::Port& port,
                                     const scene::Section& seen_from) const {
-  const Eigen::Vector3d way = Eigen::Vector3d::Unit(port.axis) / port.position_scale;
+  Eigen::Vector3d way = Eigen::Vector3d::Unit(port.axis) / port.position_scale;
   const scene::Section& own = scene_.sectionOf(scene_.mats[at(port.mat)]);
   if (&own == &seen_from || own.geometry == Geometry::kScalar) {
     return way;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -273,7 +274,7 @@ Json coordinatesOf(const scene::Scene& scene,
     for (PortReach& reach : physics::reachOf(scene, ports, true, notes)) {
       scaleBy(config.position_scale, reach);
       Json entry = {{"end_effector", config.name}};
-      entry.update(portReport(scene, reach, INFINITY));
+      entry.update(portReport(scene, reach, std::numeric_limits<double>::infinity()));
       report.push_back(std::move(entry));
     }
   }

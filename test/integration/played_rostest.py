@@ -67,11 +67,11 @@ class PlayedTest(Pointer, DeskTest):
         self.load("guitar")
 
         def play():
-            strings = [name for name in self.handles.message.names if "pick" in name or "quill" in name or "key" in name]
+            strings = [name for name in self.handles.message.names if "pick" in name]
             for name in strings[:4]:
-                x, y = self.handle(name)
+                x, y = self.touched(name)
                 xdotool("mousemove", x, y, "sleep", 0.2, "click", 1, "sleep", 0.4)
-            x, y = self.handle(strings[0])
+            x, y = self.touched(strings[0])
             xdotool("mousemove", x, y, "sleep", 0.3, "mousedown", 1, "sleep", 0.3)
             for _ in range(20):
                 xdotool("mousemove_relative", "--", 0, -3, "sleep", 0.01)

@@ -12,21 +12,28 @@ from ergotic.msg import Handles, ModelState, ModelStructure, Status
 
 
 class Camera:
-    """That of rviz/station.rviz, which looks at a model from a place on a sphere, so that all of it is in the picture."""
+    """That of rviz/station.rviz, which looks at a model from a place on a sphere, so that all of it is in the picture;
+    or from where the scene wants it: `shot`, the camera and what it looks at."""
 
-    def __init__(self, points, width, height):
+    def __init__(self, points, width, height, shot=()):
         with open(os.path.join(ROOT, "rviz/station.rviz"), encoding="utf-8") as file:
             view = file.read().split("Views:")[1]
 
         def number(name):
             return float(re.search(rf"\b{name}: ([-\d.e]+)", view).group(1))
         pitch, yaw = number("Pitch"), number("Yaw")
+        if shot:
+            away = shot[0] - shot[1]
+            pitch, yaw = math.asin(away[2] / numpy.linalg.norm(away)), math.atan2(away[1], away[0])
         out = numpy.array([math.cos(yaw) * math.cos(pitch), math.sin(yaw) * math.cos(pitch), math.sin(pitch)])
         self.right = numpy.array([-math.sin(yaw), math.cos(yaw), 0.0])
         self.up = numpy.cross(out, self.right)
         self.half_height = math.tan(0.5 * number("Field of View"))
         self.forward = -out
         self.size = width, height
+        if shot:
+            self.eye = shot[0]
+            return
         focus = 0.5 * (numpy.min(points, axis=0) + numpy.max(points, axis=0))
         margin = 1.15
         half = numpy.array([self.half_height * width / height, self.half_height]) / margin
@@ -98,13 +105,24 @@ class Pointer:
         axis = rotate(section.orientation, numpy.array([1.0, 0.0, 0.0]))
         along = (at - origin) @ axis
         drawn = at + (self.handles.message.display_zoom * (along + moved) - along) * axis
+        return self.mounted(drawn)
+
+    def mounted(self, point):
+        """Where a point of the frame of the model is in the fixed frame."""
         mount = re.search(r'<child link="model"/>\s*<origin xyz="([^"]*)" rpy="([^"]*)"', self.urdf)
         place, turn = (numpy.array(list(map(float, numbers.split()))) for numbers in mount.groups())
-        return place + turned(turn) @ drawn
+        return place + turned(turn) @ point
 
     def handle(self, name):
         """Where a handle of one axis is on the screen."""
         return self.module(self.handles.message.modules[self.handles.message.names.index(name)])
+
+    def touched(self, name):
+        """Where on the screen the first thing is that a handle acts on; rviz draws beside it what lies nowhere else."""
+        module = self.handles.message.modules[self.handles.message.names.index(name)]
+        links = numpy.reshape(self.structure.message.links, (-1, 2))
+        first = next(link for link in links if module in link)
+        return self.module(int(first[0] if first[1] == module else first[1]), at_rest=True)
 
     def seen(self):
         """Modules that are in the picture: all but the modes of bodies whose outlines are."""
@@ -117,6 +135,7 @@ class Pointer:
         """Where a module is on the screen."""
         left, top, width, height = self.picture()
         modules = self.seen()
-        camera = Camera(numpy.array([self.place(i, 0.0) for i in modules]), width, height)
+        shot = [self.mounted(numpy.array([p.x, p.y, p.z])) for p in self.structure.message.camera]
+        camera = Camera(numpy.array([self.place(i, 0.0) for i in modules]), width, height, shot)
         x, y = camera.pixel(self.place(module, 0.0 if at_rest else self.state.message.displacement[module]))
         return round(left + x), round(top + y)

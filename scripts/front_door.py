@@ -4,6 +4,7 @@
 
   front_door.py list               the shipped instruments, one line each
   front_door.py arguments WORD...  assignments for bash: `arguments`, for roslaunch, `is_simulated` and `name`
+  front_door.py free NAME          fails if a station of that name runs at the ROS master of $ROS_MASTER_URI
 """
 import difflib
 import os
@@ -11,9 +12,11 @@ import pathlib
 import re
 import shlex
 import shutil
+import socket
 import sys
 import textwrap
 import xml.etree.ElementTree
+import xmlrpc.client
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SUFFIXES = (".yaml", ".mdl")
@@ -24,6 +27,7 @@ OPTIONS = ("--list", "--tune", "--demo", "--help")
 MOST_BYTES = 1 << 24
 USUAL_NAME = "station"
 HOW_TO_LIST = "`scripts/station --list` shows all instruments"
+PATIENCE_S = 2.0  # with a master or a station that does not answer
 
 
 class Refusal(Exception):
@@ -264,6 +268,8 @@ def arguments_of(words, folder, environment, shipped, known):
         if hands and not given.get("device"):
             given.setdefault("end_effectors", hands)
     given.setdefault("rviz", "true" if environment.get("DISPLAY") else "false")
+    if simulated and given["rviz"] == "true":
+        given.setdefault("window_required", "true")  # who closes it does not want to go on
     return given, simulated
 
 
@@ -272,11 +278,27 @@ def in_shell(given, simulated):
     return f"arguments=({words}) is_simulated={str(simulated).lower()} name={given.get('name', USUAL_NAME)}"
 
 
+def expect_free(name, environment):
+    """Refuses the name of a station that runs: ROS would end that one for a second of its name."""
+    node = "/" + "/".join(part for part in (environment.get("ROS_NAMESPACE", "") + "/" + name).split("/") if part)
+    socket.setdefaulttimeout(PATIENCE_S)
+    try:
+        code, _, address = xmlrpc.client.ServerProxy(environment["ROS_MASTER_URI"]).lookupNode("/front_door", node)
+        if code == 1:
+            xmlrpc.client.ServerProxy(address).getPid("/front_door")  # or it died, and nobody told the master
+            raise Refusal(f"a station called {name} runs already. Choose another instrument in its window, end it by "
+                          "Ctrl-C where it was started, or start one beside it with name:=second")
+    except (OSError, xmlrpc.client.Error):
+        return
+
+
 def main(words):
     if words[:1] == ["list"]:
         print(listing(instruments(), shutil.get_terminal_size((100, 0)).columns))
     elif words[:1] == ["arguments"]:
         print(in_shell(*arguments_of(words[1:], os.getcwd(), os.environ, instruments(), known_arguments())))
+    elif words[:1] == ["free"] and len(words) == 2:
+        expect_free(words[1], os.environ)
     else:
         raise SystemExit(__doc__)
 

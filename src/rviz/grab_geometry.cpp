@@ -8,6 +8,7 @@
 #include "rviz/model_drawing.hpp"
 #include "rviz/model_graph.hpp"
 #include "rviz/model_hands.hpp"
+#include "rviz/model_players.hpp"
 
 namespace ergotic::panel {
 namespace {
@@ -44,6 +45,10 @@ bool fits(const Handles& handles, const ModelStructure& structure) {
 int Handle::axes() const {
   return static_cast<int>(
       std::count_if(indices.begin(), indices.end(), [](int index) { return index >= 0; }));
+}
+
+bool Handle::plays(const std::string& module_name) const {
+  return std::binary_search(played.begin(), played.end(), bodyOf(module_name));
 }
 
 std::string Handle::label() const {
@@ -101,6 +106,13 @@ Eigen::Vector3d HandleSet::placeOf(std::size_t module) const {
   const std::size_t section = structure_.module_sections[module];
   return drawings_[section].drawing *
          (restOf(module) + displacementOf(first_[module], structure_.section_dimensions[section]));
+}
+
+bool HandleSet::isPlayed(std::size_t module) const {
+  return module < structure_.module_names.size() &&
+         std::any_of(handles_.begin(), handles_.end(), [&](const Handle& handle) {
+           return handle.plays(structure_.module_names[module]);
+         });
 }
 
 Eigen::Vector3d HandleSet::restPlaceOf(std::size_t module) const {
@@ -178,8 +190,12 @@ void HandleSet::build() {
   if (drawings_.empty() || !fits(message_, structure_)) {
     return;
   }
+  const auto played = isConsistent(structure_)
+                          ? playedBy(structure_, message_.modules)
+                          : std::vector<std::vector<std::string>>(message_.modules.size());
   for (std::size_t i = 0; i < message_.modules.size(); ++i) {
     Handle handle = handleOf(message_.modules[i]);
+    handle.played = played[i];
     handle.name = message_.names[i];
     handle.end_effector = message_.end_effectors[i];
     handle.first = first[message_.modules[i]];

@@ -36,6 +36,7 @@ struct Handle {
   Eigen::Vector3d rest = Eigen::Vector3d::Zero();          ///< m, in its section
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< m, of now
   std::size_t first = 0;                                   ///< of its displacements in ModelState
+  std::vector<std::string> played;  ///< strings, bars and surfaces that it plays, see playedBy
   int dimensions = 1;
 
   /// Where it is drawn at a displacement, m.
@@ -44,6 +45,8 @@ struct Handle {
   }
   Eigen::Vector3d place() const { return placeAt(displacement); }
   int axes() const;  ///< along which it can be moved
+  /// Whether it plays the string, bar or surface that a module of this name is of.
+  bool plays(const std::string& module_name) const;
   /// Its name, and how far it is from rest, mm: with a sign where it moves along x alone.
   std::string label() const;
 };
@@ -70,6 +73,8 @@ class HandleSet {
       }
     }
   }
+  /// Whether a hand plays the string, bar or surface that this module is of.
+  bool isPlayed(std::size_t module) const;
   /// Name of the frame `model` of its station.
   const std::string& frame() const { return structure_.header.frame_id; }
   /// Where all modules are drawn at rest, frame `model`, m; empty until it is known of what. Modes

@@ -32,8 +32,9 @@ namespace {
 
 constexpr double kNearPixels = 16.0;    // from the pointer to a handle that it takes
 constexpr double kModulePixels = 10.0;  // to a module, where no handle is
-constexpr double kTapPixels = 90.0;     // from a click to a handle that it strikes
-constexpr double kClickPixels = 4.0;    // that the pointer may move in a click
+constexpr double kHandlePixels = 4.0;   // by which a module has to be nearer than a handle
+constexpr double kTapPixels = 90.0;   // from a click beside everything to a handle that it strikes
+constexpr double kClickPixels = 4.0;  // that the pointer may move in a click
 constexpr std::int64_t kClickNs = 400'000'000;
 constexpr double kMarkPixels = 14.0;     // diameter of a handle's mark
 constexpr double kFine = 0.1;            // of the way of the mouse, with Shift
@@ -46,6 +47,10 @@ constexpr std::int64_t kRepeatNs = 100'000'000;  // a hand that stands still is 
 constexpr std::uint32_t kQueue = 100;
 
 constexpr std::size_t kFirm = 1;  // of kGrips
+
+constexpr const char* kHelp =
+    "Click what lights up under the mouse, or drag it. Wheel: nearer, farther. Shift: finer. Right "
+    "button: let go. Keys Z to / and Q to P play notes.";
 
 std::int64_t wallNs() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -147,10 +152,7 @@ void GrabTool::activate() {
   panel_ = context_->getViewManager()->getRenderPanel();
   panel_->installEventFilter(this);
   panel_->installEventFilter(&pen_);
-  setStatus(
-      "Click what lights up under the mouse, or drag it. Wheel: nearer, farther. Shift: finer. "
-      "Right "
-      "button: let go. Keys Z to / and Q to P play notes.");
+  setStatus(kHelp);
 }
 
 void GrabTool::deactivate() {
@@ -323,22 +325,32 @@ std::optional<GrabTool::View> GrabTool::viewOf(const rviz::ViewportMouseEvent& e
               to_model.linear() * toEigen(camera->getDerivedDirection())};
 }
 
-std::optional<Handle> GrabTool::handleNear(const rviz::ViewportMouseEvent& event,
-                                           double pixels) const {
+/// The nearest of the handles that count.
+template <class Counts>
+std::optional<GrabTool::Near> GrabTool::nearest(const rviz::ViewportMouseEvent& event,
+                                                double pixels,
+                                                const Counts& counts) const {
   const Screen screen(event, model_);
-  std::optional<Handle> nearest;
+  std::optional<Near> nearest;
   for (const Handle& handle : set_.handles()) {
-    if (const double distance = screen.distanceTo(handle.place()); distance < pixels) {
+    const double distance = counts(handle) ? screen.distanceTo(handle.place()) : pixels;
+    if (distance < pixels) {
       pixels = distance;
-      nearest = handle;
+      nearest = {handle, distance};
     }
   }
   return nearest;
 }
 
-std::optional<Handle> GrabTool::moduleNear(const rviz::ViewportMouseEvent& event) const {
+std::optional<GrabTool::Near> GrabTool::handleNear(const rviz::ViewportMouseEvent& event,
+                                                   double pixels) const {
+  return nearest(event, pixels, [](const Handle& /*any*/) { return true; });
+}
+
+std::optional<GrabTool::Near> GrabTool::moduleNear(const rviz::ViewportMouseEvent& event,
+                                                   double pixels) const {
   const Screen screen(event, model_);
-  double least = kModulePixels;
+  double least = pixels;
   std::optional<std::size_t> nearest;
   // What swings is caught where it is at rest, too.
   set_.forEachModule([&](std::size_t module, const Eigen::Vector3d& now, const auto& at_rest) {
@@ -348,7 +360,46 @@ std::optional<Handle> GrabTool::moduleNear(const rviz::ViewportMouseEvent& event
       nearest = module;
     }
   });
-  return nearest ? std::optional<Handle>(set_.moduleAt(*nearest)) : std::nullopt;
+  return nearest ? std::optional<Near>({set_.moduleAt(*nearest), least}) : std::nullopt;
+}
+
+/// What a press of the button takes. Between two that are about as near it is the handle.
+std::optional<Handle> GrabTool::under(const rviz::ViewportMouseEvent& event) const {
+  const auto handle = handleNear(event, kNearPixels);
+  const auto module = moduleNear(event, kModulePixels);
+  if (handle && (!module || handle->pixels < module->pixels + kHandlePixels)) {
+    return handle->handle;
+  }
+  return module ? std::optional<Handle>(module->handle) : std::nullopt;
+}
+
+/// A hand that plays what is nearest to the pointer of all that hands play.
+std::optional<GrabTool::Near> GrabTool::playerNear(const rviz::ViewportMouseEvent& event) const {
+  const Screen screen(event, model_);
+  double least = kTapPixels;
+  std::string nearest_name;
+  set_.forEachModule([&](std::size_t module, const Eigen::Vector3d& now, const auto& /*at_rest*/) {
+    const double distance = screen.distanceTo(now);
+    if (distance < least && set_.isPlayed(module)) {
+      least = distance;
+      nearest_name = set_.moduleAt(module).name;
+    }
+  });
+  return nearest(event, std::numeric_limits<double>::infinity(),
+                 [&](const Handle& handle) { return handle.plays(nearest_name); });
+}
+
+/// By a click: the hand that was clicked on, or one that plays the string, bar or skin there, which
+/// has no places of its own in its middle; beside all of them the nearest hand.
+void GrabTool::strike(rviz::ViewportMouseEvent& event) {
+  const auto clicked = under(event);
+  if (clicked && clicked->module < 0) {
+    return tap(*clicked, event.shift());
+  }
+  const std::optional<Near> player = playerNear(event);
+  if (const auto hand = player ? player : handleNear(event, kTapPixels)) {
+    tap(hand->handle, event.shift());
+  }
 }
 
 /// The left button comes up where and soon after it went down.
@@ -380,21 +431,21 @@ int GrabTool::processMouseEvent(rviz::ViewportMouseEvent& event) {
 
 int GrabTool::hover(rviz::ViewportMouseEvent& event) {
   const bool drags_camera = event.type == QEvent::MouseMove && event.buttons_down != Qt::NoButton;
-  hovered_ = drags_camera ? std::nullopt : handleNear(event, kNearPixels);
-  if (!hovered_ && !drags_camera) {
-    hovered_ = moduleNear(event);
-  }
+  hovered_ = drags_camera ? std::nullopt : under(event);
   const auto view = viewOf(event);
   if (hovered_ && event.leftDown() && view) {
     take(*hovered_, *view);
     return Render;
   }
-  if (const auto near = isClick(event) ? handleNear(event, kTapPixels) : std::nullopt) {
-    tap(*near, event.shift());
+  if (isClick(event)) {
+    strike(event);
   }
   if (rviz::ViewController* const camera = event.panel->getViewController()) {
     camera->handleMouseEvent(event);
     setCursor(camera->getCursor());
+  }
+  if (hovered_) {
+    setStatus(kHelp);  // the camera says what the mouse does where nothing lights up
   }
   return Render;
 }
@@ -427,10 +478,10 @@ int GrabTool::hold(rviz::ViewportMouseEvent& event) {
   }
   const Handle handle = grab_->handle();
   drop();
-  if (isClick(event)) {
-    if (const auto near = handle.module < 0 ? handle : handleNear(event, kTapPixels)) {
-      tap(*near, event.shift());
-    }
+  if (isClick(event) && handle.module < 0) {
+    tap(handle, event.shift());
+  } else if (isClick(event)) {
+    strike(event);
   }
   return Render;
 }

@@ -63,8 +63,20 @@ class GrabTool : public rviz::Tool {
   void tap(const Handle& handle, bool is_hard);
 
   std::optional<View> viewOf(const rviz::ViewportMouseEvent& event);
-  std::optional<Handle> handleNear(const rviz::ViewportMouseEvent& event, double pixels) const;
-  std::optional<Handle> moduleNear(const rviz::ViewportMouseEvent& event) const;
+  /// What is near the pointer, and how near.
+  struct Near {
+    Handle handle;
+    double pixels;
+  };
+  template <class Counts>
+  std::optional<Near> nearest(const rviz::ViewportMouseEvent& event,
+                              double pixels,
+                              const Counts& counts) const;
+  std::optional<Near> handleNear(const rviz::ViewportMouseEvent& event, double pixels) const;
+  std::optional<Near> moduleNear(const rviz::ViewportMouseEvent& event, double pixels) const;
+  std::optional<Near> playerNear(const rviz::ViewportMouseEvent& event) const;
+  std::optional<Handle> under(const rviz::ViewportMouseEvent& event) const;
+  void strike(rviz::ViewportMouseEvent& event);
   bool isClick(rviz::ViewportMouseEvent& event) const;
   int hover(rviz::ViewportMouseEvent& event);
   int hold(rviz::ViewportMouseEvent& event);

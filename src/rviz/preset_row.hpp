@@ -11,6 +11,8 @@
 
 #include <ergotic/Presets.h>
 
+#include "rviz/words.hpp"
+
 namespace ergotic::panel {
 
 /// The presets of the scene that plays: one is chosen or named, kept, or recalled within some
@@ -33,7 +35,7 @@ class PresetRow : public QWidget {
 
  private:
   QPushButton* addButton(const QString& text, const QString& tip);
-  std::string name() const { return names_->currentText().toStdString(); }
+  std::string name() const { return nameText(names_->currentText().toStdString()); }
 
   Acts acts_;
   std::string scene_;               // as it is shown

@@ -12,7 +12,8 @@
 namespace ergotic::panel {
 namespace {
 
-constexpr std::uintmax_t kLargest = 1U << 20U;  // of a scene whose words are read, bytes
+constexpr std::uintmax_t kLargest = 1U << 20U;    // of a scene whose words are read, bytes
+constexpr const char* kNoInstrument = "_truths";  // ends the names of scenes for measurements
 
 bool isForMachines(const std::string& comment) {
   return comment.rfind("SPDX-", 0) == 0 || comment.rfind("yaml-language-server:", 0) == 0;
@@ -53,6 +54,21 @@ std::string readWhole(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
+/// What notes do, by the comment on top of the map beside a scene.
+std::string notesOf(const std::filesystem::path& scene) {
+  const std::filesystem::path map = scene.parent_path() / "maps" / scene.stem().concat(".yaml");
+  const std::string comment = leadingComment(readWhole(map));
+  const std::size_t colon = comment.find(": ");
+  return colon == std::string::npos ? ""
+                                    : " Notes (key Z is C3, Q is C4): " + comment.substr(colon + 2);
+}
+
+bool isInstrument(const std::filesystem::path& scene) {
+  const std::string stem = scene.stem().string();
+  const std::string end = kNoInstrument;
+  return stem.size() < end.size() || stem.compare(stem.size() - end.size(), end.size(), end) != 0;
+}
+
 }  // namespace
 
 std::string leadingComment(const std::string& text) {
@@ -81,6 +97,7 @@ std::vector<SceneEntry> scenesOf(const std::string& path, const std::string& tex
     whole.name = firstOf({word(scene, "name"), title, stem});
     whole.title = firstOf({title, whole.name});
     whole.about = firstOf({tells ? word(about, "description") : "", whole.about});
+    whole.about += notesOf(path);
     addVariants(scene.IsMap() ? scene["variants"] : YAML::Node(), scenes);
   } catch (const YAML::Exception& /*no_yaml*/) {
     return scenes;
@@ -93,8 +110,8 @@ std::vector<SceneEntry> scenesIn(const std::vector<std::string>& folders) {
   for (const std::string& folder : folders) {
     std::error_code failure;
     for (const auto& file : std::filesystem::directory_iterator(folder, failure)) {
-      if (file.path().extension() != ".yaml" || !file.is_regular_file(failure) ||
-          file.file_size(failure) > kLargest) {
+      if (file.path().extension() != ".yaml" || !isInstrument(file.path()) ||
+          !file.is_regular_file(failure) || file.file_size(failure) > kLargest) {
         continue;
       }
       std::vector<SceneEntry> found = scenesOf(file.path().string(), readWhole(file.path()));

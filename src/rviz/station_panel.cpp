@@ -238,7 +238,6 @@ void StationPanel::addMeters(QVBoxLayout* column) {
   load_ = adopted<QProgressBar>();
   load_->setRange(0, 100);
   load_->setFixedHeight(18);
-  load_->setToolTip("Computing time of a tick over the time there is; the peak is since the start");
   rates_ = adopted<Paragraph>(1, this);
   column->addWidget(force_title_);
   column->addWidget(forces_);
@@ -481,10 +480,11 @@ void StationPanel::showMeters() {
   const Status& status = news_.status;
   load_->setEnabled(!stale);
   load_->setValue(stale ? 0 : std::clamp(percent(status.load_mean), 0, 100));
-  load_->setFormat(stale ? QString("load")
-                         : QString("load %1 %, peak %2 %")
-                               .arg(percent(status.load_mean))
-                               .arg(percent(status.load_peak)));
+  load_->setFormat(stale ? QString("load") : QString("load %1 %").arg(percent(status.load_mean)));
+  load_->setToolTip(
+      QString("Computing time of a tick over the time there is. The largest since the "
+              "start was %1 %, of a moment in which the machine was held up, too.")
+          .arg(percent(status.load_peak)));
   rates_->show(stale ? "" : ratesText(status));
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "rviz/widgets.hpp"
+#include "rviz/words.hpp"
 
 namespace ergotic::panel {
 namespace {
@@ -47,7 +48,7 @@ TakeList::TakeList(Acts acts, QWidget* parent) : QTreeWidget(parent), acts_(std:
       return;
     }
     const std::string name = shown_.names[row];
-    const std::string new_name = item->text(kNameColumn).toStdString();
+    const std::string new_name = nameText(item->text(kNameColumn).toStdString());
     fills_ = true;  // it has its old name until the station says otherwise
     item->setText(kNameColumn, QString::fromStdString(name));
     fills_ = false;

@@ -141,7 +141,9 @@ void Paragraph::show(const std::string& text, bool warns) {
 void Paragraph::paintEvent(QPaintEvent* /*event*/) {
   QPainter painter(this);
   painter.setPen(warns_ ? kWarning : palette().color(QPalette::WindowText));
-  drawWords(painter, rect().adjusted(0, 1, 0, 0), text_);
+  const int line = text_.indexOf('\n');
+  const QString more = " (the rest appears under the mouse)";
+  drawWords(painter, rect().adjusted(0, 1, 0, 0), line < 0 ? text_ : text_.left(line) + more);
 }
 
 LampWidget::LampWidget(QWidget* parent) : QWidget(parent) {

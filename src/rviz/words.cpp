@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rviz/words.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace ergotic::panel {
@@ -163,6 +164,16 @@ std::string ratesText(const Status& status) {
     text += printed(", force after %.2g ms", 1e3 * status.delay_ticks / status.gestural_rate);
   }
   return text + printed(", sound %.4g kHz", 1e-3 * status.audio_rate);
+}
+
+std::string nameText(const std::string& written) {
+  const std::size_t first = written.find_first_not_of(' ');
+  if (first == std::string::npos) {
+    return "";
+  }
+  std::string name = written.substr(first, written.find_last_not_of(' ') + 1 - first);
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
 }
 
 }  // namespace ergotic::panel

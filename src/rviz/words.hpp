@@ -47,6 +47,10 @@ std::string kindOf(const Event& event);
 /// "440".
 std::string numberText(double value);
 
+/// What a player has written as the name of a take or a preset, with `_` for blanks, as such names
+/// have none.
+std::string nameText(const std::string& written);
+
 /// "3150 ticks/s, force after 0.32 ms, sound 44.1 kHz", as far as it is known.
 std::string ratesText(const Status& status);
 

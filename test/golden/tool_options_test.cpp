@@ -42,6 +42,13 @@ TEST(ToolOptionsTest, AScenePlaysTheSameSamplesWithAnyKernelsThreadsAndEnergies)
   EXPECT_NE(playString("--precision double"), wanted);
 }
 
+TEST(ToolOptionsTest, AShippedInstrumentIsAskedForByItsName) {
+  EXPECT_EQ(run("expand", "string").text, run("expand", kString).text);
+  const Outcome none = run("render", "strings --seconds 0.1");
+  EXPECT_NE(none.code, 0);
+  EXPECT_THAT(none.text, HasSubstr("strings: cannot be read"));
+}
+
 TEST(ToolOptionsTest, RenderSaysWhatPlayed) {
   EXPECT_THAT(run("render", kString + " --seconds 0.1").text,
               HasSubstr(std::string("(float, ") + nameOf(rt::bestIsa()) + ", 1 thread)"));

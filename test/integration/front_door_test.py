@@ -8,7 +8,9 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
+import xmlrpc.server
 
 sys.dont_write_bytecode = True
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -35,6 +37,39 @@ class WithFolder(unittest.TestCase):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
         return str(path)
+
+
+class NameTest(unittest.TestCase):
+    """A master that knows one node, and that node, which may be gone."""
+
+    def serve(self, **calls):
+        server = xmlrpc.server.SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False)
+        self.addCleanup(server.server_close)
+        for name, call in calls.items():
+            server.register_function(call, name)
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        self.addCleanup(server.shutdown)
+        return f"http://127.0.0.1:{server.server_address[1]}"
+
+    def master(self, node, address):
+        return self.serve(lookupNode=lambda _, name: (1, "", address) if name == node else (-1, "unknown", ""))
+
+    def test_of_a_station_that_runs_is_refused(self):
+        node = self.serve(getPid=lambda _: (1, "", 42))
+        environment = {"ROS_MASTER_URI": self.master("/station", node)}
+        with self.assertRaises(front_door.Refusal) as refused:
+            front_door.expect_free("station", environment)
+        self.assertIn("a station called station runs already", str(refused.exception))
+        self.assertIn("name:=second", str(refused.exception))
+        front_door.expect_free("second", environment)
+        front_door.expect_free("station", {**environment, "ROS_NAMESPACE": "hall"})
+        self.assertRaises(front_door.Refusal, front_door.expect_free, "station",
+                          {"ROS_MASTER_URI": self.master("/hall/station", node), "ROS_NAMESPACE": "/hall/"})
+
+    def test_is_free_where_the_node_or_the_master_is_gone(self):
+        gone = "http://127.0.0.1:9"  # nobody listens there
+        front_door.expect_free("station", {"ROS_MASTER_URI": self.master("/station", gone)})
+        front_door.expect_free("station", {"ROS_MASTER_URI": gone})
 
 
 class InstrumentsTest(WithFolder):

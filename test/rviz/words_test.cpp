@@ -135,5 +135,12 @@ TEST(WordsTest, OnlyDisturbancesAreSummedUp) {
   EXPECT_FALSE(isWorthALine(event));
 }
 
+TEST(WordsTest, NamesOfTakesAndPresetsHaveNoBlanks) {
+  EXPECT_EQ(nameText("my first roll"), "my_first_roll");
+  EXPECT_EQ(nameText("  hard mallets "), "hard_mallets");
+  EXPECT_EQ(nameText("soft"), "soft");
+  EXPECT_EQ(nameText("   "), "");
+}
+
 }  // namespace
 }  // namespace ergotic::panel

@@ -29,6 +29,7 @@
 #include "tools/lib/load_figures.hpp"
 #include "tools/lib/report.hpp"
 #include "tools/lib/report_names.hpp"
+#include "tools/lib/shipped.hpp"
 #include "tools/lib/target.hpp"
 #include "tools/lib/truths.hpp"
 
@@ -303,9 +304,7 @@ void addOptions(CLI::App& app, DeviceChoice& choice) {
 }  // namespace
 
 void addOptions(CLI::App& app, CheckOptions& options) {
-  app.add_option("scene", options.scene.scene, "scene file, .yaml or .mdl")
-      ->type_name("SCENE")
-      ->required();
+  addScene(app, options.scene.scene)->required();
   addOptions(app, options.scene);
   addOptions(app, options.compile);
   addTargetOption(app, options.target, "propose the cheapest setting that plays this accurately");

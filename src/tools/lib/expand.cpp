@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/lib/expand.hpp"
+#include "tools/lib/shipped.hpp"
 
 #include <iostream>
 
@@ -10,7 +11,7 @@
 namespace ergotic::tools {
 
 void addOptions(CLI::App& app, ExpandOptions& options) {
-  app.add_option("scene", options.scene, "scene file, .yaml or .mdl")->type_name("SCENE");
+  addScene(app, options.scene);
   app.add_option("--variant", options.variant, "of the scene, one of its 'variants'")
       ->type_name("NAME");
   app.add_flag("--schema", options.schema,

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cerrno>
-#include <climits>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -14,6 +13,7 @@
 #include <sys/wait.h>
 
 #include "ergotic/exception.hpp"
+#include "tools/lib/shipped.hpp"
 
 extern char** environ;  // NOLINT(readability-redundant-declaration)
 
@@ -22,18 +22,13 @@ namespace {
 
 /// Install space: lib/ergotic; devel space: devel/lib/ergotic of the source tree.
 std::string pathOf(const std::string& script) {
-  std::array<char, PATH_MAX> self{};
-  if (readlink("/proc/self/exe", self.data(), self.size() - 1) <= 0) {
-    throw Exception(std::string("/proc/self/exe: ") + std::strerror(errno));
-  }
-  const std::string program = self.data();
-  const std::string folder = program.substr(0, program.rfind('/'));
+  const std::string folder = programFolder();
   for (const std::string& path : {folder + "/" + script, folder + "/../../../scripts/" + script}) {
     if (access(path.c_str(), X_OK) == 0) {
       return path;
     }
   }
-  throw Exception("--plot: there is no program " + script + " beside " + program +
+  throw Exception("--plot: there is no program " + script + " in " + folder +
                   ", nor in the source tree around it");
 }
 

@@ -29,6 +29,7 @@
 #include "tools/lib/progress.hpp"
 #include "tools/lib/render_energies.hpp"
 #include "tools/lib/report.hpp"
+#include "tools/lib/shipped.hpp"
 #include "tools/lib/target.hpp"
 
 namespace ergotic::tools {
@@ -300,7 +301,7 @@ void sayHowLinksFared(const physics::Instrument& instrument) {
 }  // namespace
 
 void addOptions(CLI::App& app, RenderOptions& options) {
-  app.add_option("scene", options.scene.scene, "scene file, .yaml or .mdl")->type_name("SCENE");
+  addScene(app, options.scene.scene);
   addOptions(app, options.scene);
   addOptions(app, options.compile);
   app.add_option("--seconds", options.seconds,

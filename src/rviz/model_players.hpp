@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <ergotic/ModelStructure.h>
+
+namespace ergotic::panel {
+
+/// Of what body a module is, by its name: "string_4.body" of `string_4.body.25`, of the place
+/// `string_4.body@0.83` on it, and of `string_4.body.outline.3` and `string_4.body.end`.
+std::string bodyOf(const std::string& module);
+
+/// The strings, bars and surfaces that hands play: those that each touches or holds, itself or by
+/// what it moves, such as the hammer behind a key.
+/// \param hands  indices of their modules
+/// \return [hands] names as of bodyOf, sorted. \pre isConsistent(structure)
+std::vector<std::vector<std::string>> playedBy(const ModelStructure& structure,
+                                               const std::vector<std::uint32_t>& hands);
+
+}  // namespace ergotic::panel

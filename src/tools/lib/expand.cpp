@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/lib/expand.hpp"
-#include "tools/lib/shipped.hpp"
 
 #include <iostream>
 
 #include <CLI/CLI.hpp>
 
 #include "ergotic/scene/text/schema.hpp"
+#include "tools/lib/shipped.hpp"
 
 namespace ergotic::tools {
 

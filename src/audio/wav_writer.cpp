@@ -108,6 +108,9 @@ void WavWriter::File::write(const Sample* samples, std::int64_t nframes) {
   }
   requireFinite(samples, nframes * shape.channels);
   const auto count = static_cast<std::size_t>(nframes * shape.channels);
+  if (count == 0) {
+    return;
+  }
   if (format == WavFormat::kFloat) {
     appendAs<float>(samples, count, bytes);
   } else if (format == WavFormat::kDouble) {

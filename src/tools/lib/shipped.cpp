@@ -14,6 +14,12 @@
 #include "ergotic/exception.hpp"
 
 namespace ergotic::tools {
+namespace {
+
+constexpr int kMostFoldersUp =
+    3;  // lib/ergotic of an install space, devel/lib/ergotic of the sources
+
+}  // namespace
 
 std::string programFolder() {
   std::array<char, PATH_MAX> self{};
@@ -30,11 +36,13 @@ std::string sceneFile(const std::string& asked) {
   if (!is_name || std::filesystem::exists(asked, failure)) {
     return asked;
   }
-  const std::filesystem::path folder = programFolder();
-  for (const char* const models : {"../../share/ergotic/models", "../../../models"}) {
-    const std::filesystem::path scene = folder / models / (asked + ".yaml");
-    if (std::filesystem::is_regular_file(scene, failure)) {
-      return scene.lexically_normal().string();
+  std::filesystem::path folder = programFolder();
+  for (int up = 0; up <= kMostFoldersUp; ++up, folder = folder.parent_path()) {
+    for (const char* const models : {"share/ergotic/models", "models"}) {
+      const std::filesystem::path scene = folder / models / (asked + ".yaml");
+      if (std::filesystem::is_regular_file(scene, failure)) {
+        return scene.string();
+      }
     }
   }
   return asked;

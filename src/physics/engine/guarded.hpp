@@ -149,6 +149,7 @@ class GuardedLinks {
     Real left = Real(0);     // what they hold after it, with its heat
     Real credit = Real(0);   // of that, those that have something left
     Real alone = Real(0);    // work that the forces do by the motion without them
+    Real part = Real(1);     // of all forces that the tanks can pay for
   };
 
   bool isFree(const GuardedView<Real>& view, const Term& term) const noexcept;
@@ -214,10 +215,7 @@ class GuardedLinks {
   void settleDebts(const NearLinks<Real>& near,
                    const GuardedView<Real>& view,
                    GuardedState<Real>* states) noexcept;
-  void weaken(const NearLinks<Real>& near,
-              std::size_t root,
-              Real part,
-              GuardedState<Real>* states) noexcept;
+  void weaken(const Link& link, Real part, Motion& m, GuardedState<Real>& state) noexcept;
 
   std::vector<Link> links_;
   std::vector<std::size_t> sticking_;

@@ -51,31 +51,24 @@ void GuardedLinks<Real>::joinThoseThatShare(const NearLinks<Real>& near,
   }
 }
 
-/// Less force of all that share masses with the root, so that their tanks can pay for it: they are
-/// empty then.
+/// Leaves a link that part of its force, and an empty tank.
 template <class Real>
-void GuardedLinks<Real>::weaken(const NearLinks<Real>& near,
-                                std::size_t root,
+void GuardedLinks<Real>::weaken(const Link& link,
                                 Real part,
-                                GuardedState<Real>* states) noexcept {
-  for (const std::size_t l : near) {
-    if (!motions_[l].is_shared || rootOf(l) != root) {
-      continue;
-    }
-    Motion& m = motions_[l];
-    Motion less = m;
-    less.force *= part - Real(1);
-    less.damper *= part - Real(1);
-    load(links_[l], less);
-    m.force *= part;
-    m.damper *= part;
-    m.heat = Real(0);
-    m.is_cut = m.is_pushing || m.is_friction;
-    states[l].force = m.force;
-    states[l].damper = m.damper;
-    states[l].tank = Real(0);
-    states[l].stored = static_cast<double>(m.budget - m.force * m.coasting / Real(4));
-  }
+                                Motion& m,
+                                GuardedState<Real>& state) noexcept {
+  Motion less = m;
+  less.force *= part - Real(1);
+  less.damper *= part - Real(1);
+  load(link, less);
+  m.force *= part;
+  m.damper *= part;
+  m.heat = Real(0);
+  m.is_cut = m.is_pushing || m.is_friction;
+  state.force = m.force;
+  state.damper = m.damper;
+  state.tank = Real(0);
+  state.stored = static_cast<double>(m.budget - m.force * m.coasting / Real(4));
 }
 
 /// Of links that share masses those that have something left pay for those that owe. Where all
@@ -98,18 +91,19 @@ void GuardedLinks<Real>::settleDebts(const NearLinks<Real>& near,
     }
   }
   for (const std::size_t l : near) {
-    const Cluster& cluster = clusters_[l];
-    if (motions_[l].is_shared && cluster.parent == l && cluster.left < Real(0)) {
-      const Real together = cluster.before - cluster.left - cluster.alone;
-      const Real part = largestForce(cluster.before, Real(2) * cluster.alone,
-                                     Real(2) * std::max(Real(0), together));
-      weaken(near, l, std::min(part, Real(1)), states);
-    }
+    Cluster& cluster = clusters_[l];  // of which those count where roots stand
+    const Real together = cluster.before - cluster.left - cluster.alone;
+    cluster.part = std::min(Real(1), largestForce(cluster.before, Real(2) * cluster.alone,
+                                                  Real(2) * std::max(Real(0), together)));
   }
   for (const std::size_t l : near) {
-    const Cluster& cluster = clusters_[rootOf(l)];
-    if (motions_[l].is_shared && cluster.left >= Real(0) && cluster.left < cluster.credit) {
-      keep(cluster.left / cluster.credit, motions_[l], states[l]);
+    if (motions_[l].is_shared) {
+      const Cluster& cluster = clusters_[rootOf(l)];
+      if (cluster.left < Real(0)) {
+        weaken(links_[l], cluster.part, motions_[l], states[l]);
+      } else if (cluster.left < cluster.credit) {
+        keep(cluster.left / cluster.credit, motions_[l], states[l]);
+      }
     }
   }
 }

@@ -129,6 +129,66 @@ TEST(GuardedNetworkTest, PointsThatShareMassesKeepTheEnergy) {
   Closed(b).expectKept(20000, "");
 }
 
+/// Eight masses, between which and walls stiff links of all kinds act, several at each mass: what
+/// each expects of the others is mostly wrong.
+SceneBuilder crowd(std::uint32_t seed, bool is_lossy) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> anywhere(-1.0, 1.0);
+  std::uniform_int_distribution<int> any_mass(1, 8);
+  const LiaType types[] = {LiaType::kContact,
+                           LiaType::kPowerContact,
+                           is_lossy ? LiaType::kFelt : LiaType::kContact,
+                           LiaType::kCubic,
+                           is_lossy ? LiaType::kBow : LiaType::kCubic,
+                           LiaType::kContact};
+  SceneBuilder b;
+  const int ground = b.ground();
+  for (int m = 1; m <= 8; ++m) {
+    const double mass = std::pow(10.0, anywhere(random));
+    const double place = anywhere(random);
+    b.mass(mass, place, 0.3 * kRate * anywhere(random));
+    b.spring(m - 1, m, 0.05 * kRate * kRate);
+  }
+  for (int l = 0; l < 16; ++l) {
+    const LiaType type = types[l % 6];
+    const int from = any_mass(random);
+    const int other = l % 3 == 0 ? ground : any_mass(random);
+    const double kappa = std::pow(10.0, 2.0 * anywhere(random));
+    const bool is_friction = type == LiaType::kBow;
+    const double damping = is_friction || (is_lossy && l % 2 == 0) ? 0.3 * kappa : 0.0;
+    Lia& lia = guardScaled(b, type, from, other == from ? ground : other, is_friction ? 0.0 : kappa,
+                           damping);
+    lia.law.edit().exponent = {type == LiaType::kContact ? 1.0 : 2.0};
+    lia.law.edit().width = {is_friction ? kRate : 0.5 * anywhere(random)};
+    lia.law.edit().nonlinearity = {type == LiaType::kCubic ? kappa * kRate * kRate : 0.0};
+  }
+  return b;
+}
+
+TEST(GuardedNetworkTest, ManyThatShareMassesKeepTheirEnergyWhereNothingIsLossy) {
+  for (std::uint32_t seed = 0; seed < 200; ++seed) {
+    Closed(crowd(seed, false)).expectKept(2000, std::to_string(seed));
+  }
+}
+
+/// In the first steps what is stored, told halfway between two of them, may rise by what dampers
+/// take in the other half.
+TEST(GuardedNetworkTest, ManyThatShareMassesGiveNoMoreThanTheyHad) {
+  for (std::uint32_t seed = 0; seed < 200; ++seed) {
+    Player player(crowd(seed, true).scene, {kRate, 1});
+    player.tick();
+    Energies energies = energiesOf(player);
+    const double before = energies.stored;
+    player.ticks(100);
+    for (int n = 100; n < 2000; ++n) {
+      player.tick();
+      player.instrument->readEnergies(energies);
+      ASSERT_LT(energies.stored, before) << "seed " << seed << ", step " << n;
+    }
+    EXPECT_LT(std::abs(energies.residual), 1e-11 * before) << seed;
+  }
+}
+
 TEST(GuardedNetworkTest, NegativeDampersGiveNothing) {
   SceneBuilder b;
   const int mass = b.mass(1.0, 0.01);

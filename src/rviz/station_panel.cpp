@@ -482,8 +482,8 @@ void StationPanel::showMeters() {
   load_->setValue(stale ? 0 : std::clamp(percent(status.load_mean), 0, 100));
   load_->setFormat(stale ? QString("load") : QString("load %1 %").arg(percent(status.load_mean)));
   load_->setToolTip(
-      QString("Computing time of a tick over the time there is. The largest since the "
-              "start was %1 %, of a moment in which the machine was held up, too.")
+      QString("Computing time of a tick over the time there is. The largest since the start was %1 "
+              "%; moments in which the machine was held up count, too.")
           .arg(percent(status.load_peak)));
   rates_->show(stale ? "" : ratesText(status));
 }

@@ -16,8 +16,8 @@
 namespace ergotic::tools {
 namespace {
 
-constexpr int kMostFoldersUp =
-    3;  // lib/ergotic of an install space, devel/lib/ergotic of the sources
+/// From lib/ergotic of an install space, or devel/lib/ergotic of the sources, to where models lie.
+constexpr int kMostFoldersUp = 3;
 
 }  // namespace
 

@@ -102,9 +102,9 @@ void insertFilters(scene::Scene& scene, const Rates& rates, std::vector<std::str
 /// Realtime: no. Source: docs/physics/schemes.md, "Energy-stable links".
 void splitTables(scene::Scene& scene, const Rates& rates);
 
-/// Cubic links with Scheme::kAuto that harden one body share one tank of energy, which costs about as
-/// much as explicit links; energy-stable one by one they cost as much as so many contacts. What of
-/// them is linear becomes a spring and damper beside, `<name>.linear`, which stays explicit. Not
+/// Cubic links with Scheme::kAuto that harden one body share one tank of energy, which costs about
+/// as much as explicit links; energy-stable one by one they cost as much as so many contacts. What
+/// of them is linear becomes a spring and damper beside, `<name>.linear`, which stays explicit. Not
 /// where the rules of a tank forbid it, nor a single link.
 void shareTanks(scene::Scene& scene, std::vector<std::string>& notes);
 

@@ -5,7 +5,7 @@ from random_scene.dice import SPEED, Dice, rounded
 ELASTIC = ("spring", "spring_damper", "quadratic", "cubic", "clipped_cubic", "table")
 CONTACTS = ("contact", "power_contact", "cubic_contact", "felt")
 FRICTION = ("bow", "smooth_bow", "damper", "friction")
-ACTIVE = ("pluck", "conditional")
+ACTIVE = ("pluck", "conditional", "one_way_pluck")
 LAWS = ELASTIC + CONTACTS + FRICTION + ACTIVE + ("relaxing",)
 ALWAYS_EXPLICIT = ("spring", "spring_damper", "damper", "relaxing") + ACTIVE
 
@@ -104,6 +104,12 @@ class Laws(Dice):
         if self.chance(0.5):
             keys.pop(self.pick("elastic", "viscous", "viscous"))
         return keys
+
+    def law_one_way_pluck(self, unit, stiff, damping):
+        if self.chance(0.3):
+            return {"release_force": self.value(stiff * unit.reach), "stiffness": rounded(stiff)}
+        return {"stiffness": self.value(stiff), "width": self.value(2 * unit.reach),
+                "damping": self.value(damping)}
 
     def law_conditional(self, unit, stiff, damping):
         engage = rounded(2 * unit.reach)

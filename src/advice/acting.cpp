@@ -85,6 +85,9 @@ std::vector<Span> actingSpans(const scene::Scene& scene, const scene::Lia& lia, 
     const double width = scene.valueOf(lia.law->width);
     return {{rest - width, rest + width}};
   }
+  if (lia.type == LiaType::kOneWayPluck) {
+    return {{rest, rest + scene.valueOf(lia.law->width)}};
+  }
   const bool is_elastic = lia.type == LiaType::kTable && lia.law->viscous_table.empty();
   if (lia.type != LiaType::kPluckTable && !is_elastic) {
     return {{-kEndless, kEndless}};

@@ -14,7 +14,7 @@ Touch touchOf(const std::string& law) {
   if (law == "contact") {
     return Touch::kPress;
   }
-  if (law == "pluck") {
+  if (law == "pluck" || law == "one-way pluck") {
     return Touch::kPluck;
   }
   const bool rubs = law == "bow" || law == "smooth bow" || law == "friction";

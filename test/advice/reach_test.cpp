@@ -70,6 +70,11 @@ TEST(ReachTest, WhatLetsGoAgainSaysWhere) {
   EXPECT_NEAR(met.at_m, 0.006, kExact);
   ASSERT_EQ(met.ends_m.size(), 1U);
   EXPECT_NEAR(met.ends_m[0], 0.014, kExact);
+  met = meetingIn(sceneOf(
+      kWall, "  p: {type: one_way_pluck, between: [key, wall], stiffness: 10, width: 4 mm}\n"));
+  EXPECT_NEAR(met.at_m, 0.010, kExact);
+  ASSERT_EQ(met.ends_m.size(), 1U);
+  EXPECT_NEAR(met.ends_m[0], 0.014, kExact);
   // A damper that is lifted: it touches at rest, and no more from 2 mm on.
   met = meetingIn(sceneOf("  wall: {type: ground, section: a, x: -8 mm}\n",
                           "  c: {type: contact, between: [wall, key], stiffness: 0, damping: 1, "

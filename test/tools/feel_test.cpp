@@ -97,6 +97,17 @@ TEST(FeelTest, OfAPluckByItsReleaseForceIsThatForce) {
   }
 }
 
+/// On its way back it is not felt at all.
+TEST(FeelTest, OfAOneWayPluckIsItsReleaseForceOnTheWayOut) {
+  const StrokeFigures figures =
+      felt(sceneOf("type: one_way_pluck, between: [key, wall], release_force: 2, stiffness: 1000"),
+           0.02, 0.01);
+  EXPECT_NEAR(figures.release_n, 2.0, 1000.0 * 0.01 / kRates.gesturalHz());
+  EXPECT_NEAR(figures.stiffest, 1000.0, 1e-6);
+  EXPECT_NEAR(figures.press_j, 0.5 * 2.0 * 2e-3, 2.0 * 0.01 / kRates.gesturalHz());
+  EXPECT_NEAR(figures.release_j, 0.0, 1e-12);
+}
+
 /// A spring that lets go does so within a tick.
 TEST(FeelTest, TellsTheForceAtWhichSomethingLetsGo) {
   const StrokeFigures figures =

@@ -25,7 +25,8 @@
   ROW(BowTable)     /* friction f = table(v), 0 outside */                                   \
   ROW(Felt)         /* f = K e^exponent (1 + damping v) while e > 0, never pulls */          \
   ROW(Relaxing)     /* f = K e + Z v + sum K_r q_r, each q_r follows e and fades */          \
-  ROW(Friction)     /* f = N mu(|v|) against the slip, or as much as it takes to stick */
+  ROW(Friction)     /* f = N mu(|v|) against the slip, or as much as it takes to stick */    \
+  ROW(OneWayPluck)  /* f = K e + Z v while 0 < e <= width, on the way out only */
 
 namespace ergotic::scene {
 

@@ -152,7 +152,7 @@ bool pushes(const GuardedMotion<Real>& m,
   if (law.isContact()) {
     return m.p - std::min(Real(0), m.coasting / Real(2)) > Real(0);
   }
-  return law.form->holds == nullptr || holdsAt(m.p, law, state);
+  return law.form->phase == nullptr || holdsAt(m.p, law, state);
 }
 
 /// Where the link is, how it opens if left alone, and whether it has a say.

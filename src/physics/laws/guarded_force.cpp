@@ -251,13 +251,12 @@ void exertFriction(GuardedMotion<Real>& m,
 
 template <class Real>
 bool holdsAt(Real p, const GuardedLaw<Real>& law, GuardedState<Real>& state) noexcept {
-  const bool held = state.phase != Real(0);
-  const bool holds = law.form->holds(law, p, held);
-  if (held && !holds) {
+  const Real last = state.phase;
+  state.phase = law.form->phase(law, p, last);
+  if (last > Real(0) && state.phase == Real(0)) {
     lose(std::min(state.tank, law.form->snap(law)), state);
   }
-  state.phase = holds ? Real(1) : Real(0);
-  return holds;
+  return state.phase > Real(0);
 }
 
 template <class Real>

@@ -26,7 +26,8 @@ struct GuardedState {
   Real damper = Real(0);    ///< of the last step, damping or friction
   Real foreseen = Real(0);  ///< how far what forces do not move was to open it
   Real gradient[3] = {Real(0), Real(0), Real(0)};  ///< of the last step
-  /// 1 once an impact has turned around, while what lets go holds, or while what may stick slips.
+  /// 1 once an impact has turned around, or while what may stick slips; of what lets go as its law
+  /// says.
   Real phase = Real(0);
 
   static constexpr std::size_t kDoubles = sizeof(Real) == sizeof(double) ? 12 : 4;

@@ -42,26 +42,14 @@ struct ConditionalCurve : PlainDamping<Real> {
     const Real distance = std::min(std::abs(p), n.width);
     return n.stiffness * distance * distance / Real(2);
   }
-  ERGOTIC_REALTIME static bool holds(const Numbers& n, Real p, bool held) noexcept {
-    return held ? std::abs(p) <= n.release : std::abs(p) < n.width;
+  ERGOTIC_REALTIME static Real phase(const Numbers& n, Real p, Real last) noexcept {
+    const bool holds = last > Real(0) ? std::abs(p) <= n.release : std::abs(p) < n.width;
+    return holds ? Real(1) : Real(0);
   }
   ERGOTIC_REALTIME static Real snap(const Numbers& n) noexcept {
     return n.stiffness * (n.release - n.width) * (n.release + n.width) / Real(2);
   }
 };
-
-template <class Real>
-constexpr GuardedForm<Real> form() {
-  GuardedForm<Real> form = springForm<ConditionalCurve<Real>, Real>();
-  form.holds = ConditionalCurve<Real>::holds;
-  form.snap = ConditionalCurve<Real>::snap;
-  return form;
-}
-
-const GuardedForms& forms(const Lia& /*lia*/) {
-  static constexpr GuardedForms kForms = {form<float>(), form<double>()};
-  return kForms;
-}
 
 constexpr LawWord kWords[] = {{"conditional", "stiffness engage", "damping release rest_length"}};
 constexpr LiaField kFields[] = {stiffnessField(), dampingField(), widthField("engage", "m")};
@@ -72,7 +60,7 @@ constexpr Law kConditionalLaw = {
     {"conditional spring-damper", kWords, kFields, Law::Tables::kNone, true},
     Law::Kind::kElastic,
     explicitForm<Conditional>(1),
-    forms,
+    snappingForms<ConditionalCurve>,
     guardable,
     false,   // has_linear_part
     true,    // switches

@@ -30,10 +30,10 @@ struct ContactCurve : PlainDamping<Real> {
   ERGOTIC_REALTIME static Real potential(const Numbers& n, Real p) noexcept {
     return n.stiffness * p * p / Real(2);
   }
-  ERGOTIC_REALTIME static Real impulse(const Numbers& n, Real p) noexcept {
+  ERGOTIC_REALTIME static Real potentialIntegral(const Numbers& n, Real p) noexcept {
     return n.stiffness * p * p * p / Real(6);
   }
-  ERGOTIC_REALTIME static Real bend(const Numbers&, Real) noexcept { return Real(0); }
+  ERGOTIC_REALTIME static Real curvature(const Numbers&, Real) noexcept { return Real(0); }
 };
 
 constexpr LawWord kWords[] = {{"contact", "stiffness", "damping threshold"}};

@@ -29,7 +29,7 @@ template <class Real>
 struct CubicContactCurve : ClippedCurve<Real> {
   using Numbers = GuardedLaw<Real>;
 
-  ERGOTIC_REALTIME static Real impulse(const Numbers& n, Real p) noexcept {
+  ERGOTIC_REALTIME static Real potentialIntegral(const Numbers& n, Real p) noexcept {
     const Real inside = std::min(p, n.tip);
     const Real cube = inside * inside * inside;
     const Real beyond = p - inside;
@@ -37,7 +37,7 @@ struct CubicContactCurve : ClippedCurve<Real> {
            beyond * ClippedCurve<Real>::potential(n, inside) +
            n.stiffness_limit * beyond * beyond * (p + Real(2) * inside) / Real(6);
   }
-  ERGOTIC_REALTIME static Real bend(const Numbers& n, Real p) noexcept {
+  ERGOTIC_REALTIME static Real curvature(const Numbers& n, Real p) noexcept {
     return p < n.tip ? Real(6) * n.nonlinearity * p : Real(0);
   }
 };

@@ -186,8 +186,8 @@ ERGOTIC_REALTIME void GuardedLaw<Real>::update(const Scene& scene,
 namespace {
 
 template <class Real>
-ERGOTIC_REALTIME Real impulseOf(const GuardedLaw<Real>& law, Real p) noexcept {
-  return p > Real(0) ? law.form->impulse(law, p) : Real(0);
+ERGOTIC_REALTIME Real potentialIntegralOf(const GuardedLaw<Real>& law, Real p) noexcept {
+  return p > Real(0) ? law.form->potential_integral(law, p) : Real(0);
 }
 
 }  // namespace
@@ -203,10 +203,11 @@ ERGOTIC_REALTIME Real GuardedLaw<Real>::meanPush(Real p, Real w) const noexcept 
   }
   if (p > Real(4) * step) {
     // The rest is below 1e-5 of it.
-    return here + step * step * form->bend(*this, p) / Real(12);
+    return here + step * step * form->curvature(*this, p) / Real(12);
   }
   const Real mean =
-      (impulseOf(*this, p + step) - Real(2) * impulseOf(*this, p) + impulseOf(*this, p - step)) /
+      (potentialIntegralOf(*this, p + step) - Real(2) * potentialIntegralOf(*this, p) +
+       potentialIntegralOf(*this, p - step)) /
       (step * step);
   return std::isfinite(mean) ? mean : here;  // cubes overflow long before forces do
 }

@@ -70,15 +70,16 @@ struct GuardedForm {
   using ForceAt = GuardedForce<Real> (*)(const GuardedLaw<Real>&, Real) noexcept;
 
   Sort sort;
-  ForceAt push;      ///< f(p) and f'(p)
-  Number potential;  ///< integral of f from 0 to p; springs with a well: from its bottom
-  Number impulse;    ///< contacts: integral of the potential from 0 to p > 0
-  Number bend;       ///< contacts: f''(p)
+  ForceAt push;               ///< f(p) and f'(p)
+  Number potential;           ///< integral of f from 0 to p; springs with a well: from its bottom
+  Number potential_integral;  ///< contacts: integral of the potential from 0 to p > 0
+  Number curvature;           ///< contacts: f''(p)
   /// Z >= 0 at p; v is the velocity of p per step.
   Real (*damping)(const GuardedLaw<Real>&, Real p, Real v) noexcept;
   ForceAt slip;  ///< F(v) and F'(v) of friction; dry: mu(v) and mu'(v), v >= 0
-  /// Springs that let go: whether they hold at p, as they did or did not; null: always.
-  bool (*holds)(const GuardedLaw<Real>&, Real p, bool held) noexcept;
+  /// Springs that let go: what they remember at p, of what they did; above 0 they hold, from there
+  /// to 0 they let go. Null: they always hold.
+  Real (*phase)(const GuardedLaw<Real>&, Real p, Real last) noexcept;
   Real (*snap)(const GuardedLaw<Real>&) noexcept;  ///< what they lose where they let go
   /// Contacts: ratio of the speeds after and before an impact at `speed` per step with the damping
   /// z and the slope of the moment. `give`: opening per force.
@@ -154,8 +155,8 @@ constexpr GuardedForm<Real> contactForm() {
   form.sort = GuardedForm<Real>::Sort::kContact;
   form.push = Curve::push;
   form.potential = Curve::potential;
-  form.impulse = Curve::impulse;
-  form.bend = Curve::bend;
+  form.potential_integral = Curve::potentialIntegral;
+  form.curvature = Curve::curvature;
   form.damping = Curve::damping;
   form.restitution = Curve::restitution;
   form.is_lossy = Curve::kIsLossy;
@@ -169,6 +170,14 @@ constexpr GuardedForm<Real> springForm() {
   form.push = Curve::push;
   form.potential = Curve::potential;
   form.damping = Curve::damping;
+  return form;
+}
+/// Of one that lets go.
+template <class Curve, class Real>
+constexpr GuardedForm<Real> snappingForm() {
+  GuardedForm<Real> form = springForm<Curve, Real>();
+  form.phase = Curve::phase;
+  form.snap = Curve::snap;
   return form;
 }
 /// Of friction.
@@ -190,6 +199,12 @@ template <template <class> class Curve>
 const GuardedForms& springForms(const Lia& /*lia*/) {
   static constexpr GuardedForms kForms = {springForm<Curve<float>, float>(),
                                           springForm<Curve<double>, double>()};
+  return kForms;
+}
+template <template <class> class Curve>
+const GuardedForms& snappingForms(const Lia& /*lia*/) {
+  static constexpr GuardedForms kForms = {snappingForm<Curve<float>, float>(),
+                                          snappingForm<Curve<double>, double>()};
   return kForms;
 }
 template <template <class> class Curve>

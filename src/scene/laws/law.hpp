@@ -44,6 +44,9 @@ struct LawWord {
   const char* word;
   const char* required;
   const char* optional;
+  // With `release_force`: where it is largest
+  double release_slope = 1.0;  ///< force per elongation, of K
+  double release_share = 1.0;  ///< elongation, of the width
 };
 
 /// Of a law whose slopes grow with amplitude: no bound holds for all motions.

@@ -65,8 +65,9 @@ Slopes slopes(const Scene& scene, const Lia& lia) {
   return slopesUpTo(kPluckSlope * largest(scene, lia.stiffness), largest(scene, lia.damping));
 }
 
-constexpr LawWord kWords[] = {{"pluck", "stiffness width", "damping rest_length"},
-                              {"pluck", "release_force", "stiffness damping rest_length"}};
+constexpr LawWord kWords[] = {
+    {"pluck", "stiffness width", "damping rest_length"},
+    {"pluck", "release_force", "stiffness damping rest_length", kPluckSlope, kPluckTip}};
 constexpr LiaField kFields[] = {stiffnessField(), dampingField(), widthField("width", "m")};
 
 }  // namespace

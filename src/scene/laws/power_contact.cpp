@@ -59,12 +59,12 @@ ERGOTIC_REALTIME Real PowerCurve<Real>::potential(const Numbers& n, Real p) noex
 }
 
 template <class Real>
-ERGOTIC_REALTIME Real PowerCurve<Real>::impulse(const Numbers& n, Real p) noexcept {
+ERGOTIC_REALTIME Real PowerCurve<Real>::potentialIntegral(const Numbers& n, Real p) noexcept {
   return push(n, p).force * p * p / ((n.exponent + Real(1)) * (n.exponent + Real(2)));
 }
 
 template <class Real>
-ERGOTIC_REALTIME Real PowerCurve<Real>::bend(const Numbers& n, Real p) noexcept {
+ERGOTIC_REALTIME Real PowerCurve<Real>::curvature(const Numbers& n, Real p) noexcept {
   return n.exponent * (n.exponent - Real(1)) * push(n, p).force / (p * p);
 }
 

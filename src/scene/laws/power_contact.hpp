@@ -11,8 +11,8 @@ struct PowerCurve : PlainDamping<Real> {
   using Numbers = GuardedLaw<Real>;
   static GuardedForce<Real> push(const Numbers& n, Real p) noexcept;
   static Real potential(const Numbers& n, Real p) noexcept;
-  static Real impulse(const Numbers& n, Real p) noexcept;
-  static Real bend(const Numbers& n, Real p) noexcept;
+  static Real potentialIntegral(const Numbers& n, Real p) noexcept;
+  static Real curvature(const Numbers& n, Real p) noexcept;
 };
 extern template struct PowerCurve<float>;
 extern template struct PowerCurve<double>;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "scene/laws/clipped_cubic.hpp"
-#include "scene/laws/pluck.hpp"
 #include "scene/rules/rules.hpp"
 #include "scene/yaml/generators/generator_keys.hpp"
 #include "scene/yaml/selections.hpp"
@@ -32,6 +31,8 @@ struct LiaKind {
   std::string word;
   Keys required;
   Keys optional;
+  double release_slope;
+  double release_share;
 };
 
 Keys keysIn(const char* text) {
@@ -45,7 +46,8 @@ const std::vector<LiaKind>& liaKinds() {
     for (std::size_t i = 0; i < kLiaTypes; ++i) {
       const auto type = static_cast<LiaType>(i);
       for (const LawWord& word : lawOf(type).words) {
-        kinds.push_back({type, word.word, keysIn(word.required), keysIn(word.optional)});
+        kinds.push_back({type, word.word, keysIn(word.required), keysIn(word.optional),
+                         word.release_slope, word.release_share});
       }
     }
     return kinds;
@@ -130,7 +132,7 @@ void readRelease(const SceneBuilder& builder, const YamlMap& map, Lia& lia) {
 
 /// The force at which a pluck lets go, in place of its width. Without a stiffness it is bent by 1
 /// mm then.
-void readReleaseForce(const YamlMap& map, Lia& lia) {
+void readReleaseForce(const YamlMap& map, const LiaKind& kind, Lia& lia) {
   constexpr double kUsualTipM = 1e-3;
   const Value force = map.value(kReleaseForce, {"N", 0.0, kInfinity, true});
   if (lia.stiffness.parameter >= 0) {
@@ -141,31 +143,31 @@ void readReleaseForce(const YamlMap& map, Lia& lia) {
   if (map.has("stiffness")) {
     const double stiffness = map.number("stiffness", {"N/m", 0.0, kInfinity, true});
     width = force;
-    width.factor /= kPluckSlope * kPluckTip * stiffness;
+    width.factor /= kind.release_slope * kind.release_share * stiffness;
   } else {
     lia.stiffness = force;
-    lia.stiffness.factor /= kPluckSlope * kUsualTipM;
-    width.factor = kUsualTipM / kPluckTip;
+    lia.stiffness.factor /= kind.release_slope * kUsualTipM;
+    width.factor = kUsualTipM / kind.release_share;
   }
 }
 
 void readCoefficients(const SceneBuilder& builder,
                       const YamlMap& map,
-                      const Keys& required,
+                      const LiaKind& kind,
                       Lia& lia) {
   const Law& law = lawOf(lia.type);
   if (law.tables == Law::Tables::kCoefficient) {
     return;  // it has read its own
   }
   for (const LiaField& field : law.fields) {
-    if (contains(required, field.key) || map.has(field.key)) {
+    if (contains(kind.required, field.key) || map.has(field.key)) {
       setMember(lia, field.member, map.value(field.key, field.limits));
     }
   }
   refuseParameters(map, lia);
   completeClippedLaw(lia, ClippedLaw::kContinuous);
   if (map.has(kReleaseForce)) {
-    readReleaseForce(map, lia);
+    readReleaseForce(map, kind, lia);
   }
   if (law.has_release) {
     readRelease(builder, map, lia);
@@ -266,7 +268,7 @@ Lia readLia(SceneBuilder& builder,
   lia.b = ends.second;
   lia.rest_length = map.number("rest_length", restLengthLimits(builder.scene(), lia), 0.0);
   readTables(builder, tables, map, lia);
-  readCoefficients(builder, map, kind.required, lia);
+  readCoefficients(builder, map, kind, lia);
   readTreatment(builder, map, lia);
   if (map.has("tank")) {
     readTank(builder, map, lia);

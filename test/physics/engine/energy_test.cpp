@@ -7,10 +7,10 @@ namespace ergotic::physics {
 namespace {
 
 constexpr LiaType kAllTypes[] = {
-    LiaType::kSpringDamper, LiaType::kContact,      LiaType::kQuadratic, LiaType::kCubic,
-    LiaType::kClippedCubic, LiaType::kCubicContact, LiaType::kPluck,     LiaType::kBow,
-    LiaType::kSmoothBow,    LiaType::kPowerContact, LiaType::kTable,     LiaType::kConditional,
-    LiaType::kFelt,         LiaType::kRelaxing};
+    LiaType::kSpringDamper, LiaType::kContact,      LiaType::kQuadratic,  LiaType::kCubic,
+    LiaType::kClippedCubic, LiaType::kCubicContact, LiaType::kPluck,      LiaType::kBow,
+    LiaType::kSmoothBow,    LiaType::kPowerContact, LiaType::kTable,      LiaType::kConditional,
+    LiaType::kFelt,         LiaType::kRelaxing,     LiaType::kOneWayPluck};
 
 double imbalance(const scene::Scene& scene, const Rates& rates, int ticks) {
   Player player(scene, rates);

@@ -15,7 +15,8 @@ scene::Lia& guard(SceneBuilder& b, LiaType type, int from, int to, double k, dou
   lia.law.edit().tipping_point = std::sqrt(k / 1e4);
   lia.law.edit().exponent = {1.5};
   const bool is_bow = type == LiaType::kBow || type == LiaType::kSmoothBow;
-  lia.law.edit().width = {is_bow ? 0.1 : type == LiaType::kConditional ? 2e-4 : 0.0};
+  const bool snaps = type == LiaType::kConditional || type == LiaType::kOneWayPluck;
+  lia.law.edit().width = {is_bow ? 0.1 : snaps ? 2e-4 : 0.0};
   lia.law.edit().release = 3e-4;
   if (type == LiaType::kTable) {
     lia.law.edit().table = {{{-1.0, -2.0 * k}, {0.0, 0.0}, {1.0, k}}, true};
@@ -43,7 +44,8 @@ TEST(GuardedLinksTest, BallLeavesAGuardedWallAsFastAsItCame) {
 constexpr LiaType kGuardable[] = {
     LiaType::kSpringDamper, LiaType::kContact,      LiaType::kQuadratic,    LiaType::kCubic,
     LiaType::kClippedCubic, LiaType::kCubicContact, LiaType::kPowerContact, LiaType::kTable,
-    LiaType::kBow,          LiaType::kSmoothBow,    LiaType::kFelt,         LiaType::kConditional};
+    LiaType::kBow,          LiaType::kSmoothBow,    LiaType::kFelt,         LiaType::kConditional,
+    LiaType::kOneWayPluck};
 
 TEST(GuardedLinksTest, EveryLawBalancesInEveryGeometryAndAcrossRates) {
   for (const LiaType type : kGuardable) {

@@ -42,6 +42,29 @@ TEST(GuardedSnapsTest, WhatIsTornOffHasLostWhatTheLinkHeldBeyond) {
   }
 }
 
+/// A ball that is thrown through a one-way pluck, and back again, loses K width^2/2 on its way out
+/// and nothing on its way back. If it is too slow it is thrown back without loss.
+TEST(GuardedSnapsTest, OneWayPluckTakesOnTheWayOutOnly) {
+  const double kappa = 1e-6;
+  const double k = kappa * kRate * kRate;
+  const double slowest = kEngage * std::sqrt(k);
+  for (const Scheme scheme : {Scheme::kExplicit, Scheme::kGuarded}) {
+    for (const double v : {0.9 * slowest, 1.1 * slowest, 2.0 * slowest, -2.0 * slowest}) {
+      SceneBuilder b;
+      const int mass = b.mass(1.0, v > 0.0 ? -1.5 * kEngage : 1.5 * kEngage, v);
+      scene::Lia& lia = b.scene.lias[at(b.link(LiaType::kOneWayPluck, mass, b.ground(), k))];
+      lia.law.edit().width = {kEngage};
+      lia.scheme = scheme;
+      b.hear(mass, 0, Quantity::kVelocity);
+      Player player(compile(b.scene, kEveryFrame, Precision::kDouble));
+      player.ticks(70000);
+      const double left = v * v - slowest * slowest;
+      const double expected = v < 0.0 ? v : left > 0.0 ? std::sqrt(left) : -v;
+      EXPECT_NEAR(player.heard[0].back(), expected, 2e-3 * slowest) << v / slowest;
+    }
+  }
+}
+
 TEST(GuardedSnapsTest, PlaysAsTheExplicitOneWhereThatIsFine) {
   for (const double damping : {0.0, 3.0}) {
     const double plain = speedAfter(1e-7, 2.0 * kEngage, 1.0, damping, Scheme::kExplicit);
@@ -109,6 +132,29 @@ TEST(GuardedSnapsTest, EnergyOnlyFallsWhereItLetsGoLater) {
       last = now;
     }
     EXPECT_GT(test::heatOf(test::guardsOf(player)), 0.1);
+  }
+}
+
+TEST(GuardedSnapsTest, EnergyOnlyFallsByAOneWayPluck) {
+  for (const double kappa : {1e-7, 1e-5, 0.1, 3.0}) {
+    for (const double damping : {0.0, 5.0}) {
+      SceneBuilder b = swinging(kappa, kEngage);
+      scene::Lia& pluck = b.scene.lias.front();
+      pluck.type = LiaType::kOneWayPluck;
+      pluck.damping = {damping};
+      Player player(compile(b.scene, kEveryFrame, Precision::kDouble));
+      player.ticks(2);
+      const double start = test::energyBetweenSteps(player, test::guardsOf(player));
+      double last = std::numeric_limits<double>::infinity();
+      for (int n = 0; n < 20000; ++n) {
+        const auto guards = test::guardsOf(player);
+        player.tick();
+        const double now = test::energyBetweenSteps(player, guards);
+        ASSERT_LE(now, last + 1e-12 * start) << n;
+        last = now;
+      }
+      EXPECT_GT(test::heatOf(test::guardsOf(player)), 0.0) << kappa;
+    }
   }
 }
 

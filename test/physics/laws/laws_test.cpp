@@ -159,6 +159,24 @@ TEST(LawsTest, ConditionalLinkHoldsFromWhereItEngagesToWhereItLetsGo) {
   }
 }
 
+/// It begins beyond what it plucks, comes back, pulls, lets go, and passes it on its way back.
+TEST(LawsTest, OneWayPluckPullsOnItsWayOutOnly) {
+  SceneBuilder b;
+  const int driven = b.driven(0);
+  const int ground = b.ground();
+  Lia& lia = b.scene.lias[at(b.link(LiaType::kOneWayPluck, driven, ground, 100.0))];
+  lia.rest_length = 1.0;
+  lia.law.edit().width = {0.1};
+  b.hear(ground, 0, scene::Quantity::kForce);
+  Player player(b.scene, {kRate, 13});
+  player.inputs = {1.05, 0.95, 1.05, 1.02, 1.09, 1.11, 1.09, 1.05, 0.99, 1.02, 0.8, 1.2, 1.05};
+  const std::vector<double> forces{0.0, 0.0, 5.0, 2.0, 9.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0};
+  player.tick();
+  for (std::size_t n = 0; n < forces.size(); ++n) {
+    EXPECT_NEAR(player.heard[0][n], forces[n], 1e-10) << n;
+  }
+}
+
 TEST(LawsTest, ConditionalLinkIsAsHeldAsItWasWhenItsStateIsLoaded) {
   for (const scene::Scheme scheme : {scene::Scheme::kExplicit, scene::Scheme::kGuarded}) {
     SceneBuilder b;
@@ -179,6 +197,28 @@ TEST(LawsTest, ConditionalLinkIsAsHeldAsItWasWhenItsStateIsLoaded) {
     other.inputs = {0.2, 0.2};
     other.tick();
     EXPECT_NEAR(other.heard[0].back(), 20.0, 1e-10);
+  }
+}
+
+/// Whether it pulls or has let go is no matter of where it is, but of where it comes from.
+TEST(LawsTest, OneWayPluckGoesOnAsItWasWhenItsStateIsLoaded) {
+  for (const bool has_let_go : {false, true}) {
+    SceneBuilder b;
+    const int driven = b.driven(0);
+    const int ground = b.ground();
+    b.link(LiaType::kOneWayPluck, driven, ground, 100.0);
+    b.scene.lias[0].law.edit().width = {0.1};
+    b.hear(ground, 0, scene::Quantity::kForce);
+    Player first(b.scene, {kRate, 3});
+    first.inputs = {-0.05, has_let_go ? 0.15 : 0.05, 0.05};
+    first.tick();
+    std::vector<unsigned char> state(first.instrument->stateSize());
+    first.instrument->saveState(state.data());
+    Player other(b.scene, {kRate, 3});
+    other.instrument->loadState(state.data());
+    other.inputs = {0.05, 0.05, 0.05};
+    other.tick();
+    EXPECT_NEAR(other.heard[0].back(), has_let_go ? 0.0 : 5.0, 1e-10);
   }
 }
 

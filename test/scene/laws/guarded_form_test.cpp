@@ -21,9 +21,10 @@ GuardedLaw<Real> lawOf(LiaType type) {
 
 /// A guard that lets a damper drive would certify what grows.
 TEST(GuardedFormTest, DampingIsNeverNegative) {
-  for (const LiaType type : {LiaType::kSpringDamper, LiaType::kQuadratic, LiaType::kCubic,
-                             LiaType::kClippedCubic, LiaType::kContact, LiaType::kPowerContact,
-                             LiaType::kCubicContact, LiaType::kPluck, LiaType::kTable}) {
+  for (const LiaType type :
+       {LiaType::kSpringDamper, LiaType::kQuadratic, LiaType::kCubic, LiaType::kClippedCubic,
+        LiaType::kContact, LiaType::kPowerContact, LiaType::kCubicContact, LiaType::kPluck,
+        LiaType::kTable, LiaType::kOneWayPluck}) {
     Lia lia;
     lia.type = type;
     lia.damping = {-1.0};

@@ -68,6 +68,22 @@ TEST(ReadLinksTest, APluckMayHaveAReleaseForceInPlaceOfItsWidth) {
   EXPECT_EQ(live_usual.law->width.parameter, -1);
 }
 
+TEST(ReadLinksTest, AOneWayPluckLetsGoWhereItsSpringHasItsReleaseForce) {
+  const Lia usual = last(LINK "type: one_way_pluck, between: [m, n], release_force: 1.8 N}}\n");
+  EXPECT_EQ(usual.type, LiaType::kOneWayPluck);
+  EXPECT_NEAR(usual.stiffness.factor, 1800.0, 1e-9);
+  EXPECT_NEAR(usual.law->width.factor, 1e-3, 1e-15);
+  const Lia stiff = last(LINK
+                         "type: one_way_pluck, between: [m, n], release_force: 2*$p, "
+                         "stiffness: 5000, rest_length: 3 mm}}\n");
+  EXPECT_EQ(stiff.law->width.parameter, 0);
+  EXPECT_NEAR(stiff.law->width.factor, 2.0 / 5000.0, 1e-15);
+  EXPECT_EQ(stiff.rest_length, 3e-3);
+  const Lia wide = last(LINK "type: one_way_pluck, between: [m, n], stiffness: 9, width: 2 mm}}\n");
+  EXPECT_EQ(wide.stiffness.factor, 9.0);
+  EXPECT_EQ(wide.law->width.factor, 2e-3);
+}
+
 TEST(ReadLinksTest, SaysWhatDoesNotGoWithAReleaseForce) {
   const auto refusal = [](const std::string& keys) {
     return complaintOf<TextError>(

@@ -19,6 +19,7 @@ Mat meshMat(
     const SceneBuilder& builder, const MeshSpec& spec, const Name& stem, int row, int column) {
   const bool scalar = builder.scene().sections[static_cast<std::size_t>(spec.section)].geometry ==
                       Geometry::kScalar;
+  // In scalar sections component 0 is what moves, so that the mesh lies in the other two.
   Eigen::Vector3d rest = spec.at;
   rest[scalar ? 1 : 0] += column * spec.spacing;
   rest[scalar ? 2 : 1] += row * spec.spacing;

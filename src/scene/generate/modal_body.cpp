@@ -55,72 +55,148 @@ double t60At(const std::vector<double>& hz, const BodyWish& wish, double frequen
   return 1.0 / ((1.0 - share) / low_s + share / high_s);
 }
 
-class Modes {
+/// The highest partial that a decay is asked for.
+int highestWanted(const BodyWish& wish) {
+  return wish.t60.empty() ? 1 : wish.t60.back().first;
+}
+
+/// The modes of a network of its own, which is thrown away.
+class NetworkVibrations : public Vibrations {
  public:
-  Modes(const SceneBuilder& builder,
-        const std::string& name,
-        int section,
-        const BodyWish& wish,
-        const BodyForm& form,
-        Place place,
-        const AddNetwork& network)
-      : builder_(builder),
-        wish_(wish),
-        form_(form),
-        place_(place),
-        network_(builder.scene().file, "") {
-    spec_.name = name;
-    spec_.section = section;
-    spec_.place = place;
-    // A scene of its own, which is thrown away.
+  NetworkVibrations(const SceneBuilder& builder,
+                    int section,
+                    const BodyWish& wish,
+                    int wanted,
+                    const AddNetwork& network)
+      : network_(builder.scene().file, "") {
     network_.scene().origins = builder.scene().origins;
     network_.scene().sections = {builder.scene().sections[at(section)]};
     BodyWish lossless = wish;
     lossless.t60.clear();
     network(network_, 0, lossless);
-  }
-
-  ModalSpec found() {
     const Tuning& body = network_.scene().tunings.back();
-    const int wanted = form_.partials > 0 ? form_.partials : kMostPartials;
-    const BodyModes modes = lowestModes(network_.scene(), body, std::max(wanted, highest()));
-    setFrequencies(modes.modes);
-    spec_.at = network_.scene().mats[at(body.first_mat)].rest;
-    double whole = 0.0;
+    modes_ = lowestModes(network_.scene(), body, wanted);
     for (int m = body.first_mat; m < body.first_mat + body.mats; ++m) {
       const Mat& mat = network_.scene().mats[at(m)];
-      whole += mat.type == MatType::kGround ? 0.0 : mat.mass.factor;
+      mass_ += mat.type == MatType::kGround ? 0.0 : mat.mass.factor;
     }
+  }
+
+  int count() const override { return static_cast<int>(modes_.modes.size()); }
+  double stiffness(int mode) const override {
+    return modes_.modes[at(mode)].springs + modes_.modes[at(mode)].bends;
+  }
+  double mass() const override { return mass_; }
+  Eigen::Vector3d begin() const override {
+    return network_.scene().mats[at(network_.scene().tunings.back().first_mat)].rest;
+  }
+
+  double shape(int mode, double along, double across) const override {
+    const GridPlace there = placeOn(grid(), along, across);
+    double shape = 0.0;
+    for (std::size_t i = 0; i < at(there.count); ++i) {
+      shape += there.weights[i] * modes_.shapes(there.mats[i] - grid().first, mode);
+    }
+    return shape * std::sqrt(mass_);
+  }
+  Eigen::Vector3d rest(double along, double across) const override {
+    const GridPlace there = placeOn(grid(), along, across);
+    Eigen::Vector3d rest = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < at(there.count); ++i) {
+      rest += there.weights[i] * network_.scene().mats[at(there.mats[i])].rest;
+    }
+    return rest;
+  }
+
+  /// What moves, and the rim around it: the corners beyond a round edge are left out.
+  Drawn drawn(int modes) const override {
+    const int columns = std::min(grid().columns, kOutlineColumns);
+    const int rows = std::min(grid().rows, kOutlineRows);
+    const auto placeAt = [&](int row, int column) {
+      return Eigen::Vector2d(column / std::max(columns - 1.0, 1.0),
+                             row / std::max(rows - 1.0, 1.0));
+    };
+    std::vector<unsigned char> moving(at(rows * columns));
+    for (int place = 0; place < rows * columns; ++place) {
+      const Eigen::Vector2d there = placeAt(place / columns, place % columns);
+      for (int j = 0; j < modes; ++j) {
+        moving[at(place)] |= shape(j, there.x(), there.y()) != 0.0 ? 1 : 0;
+      }
+    }
+    const auto moves = [&](int row, int column) {
+      return row >= 0 && row < rows && column >= 0 && column < columns &&
+             moving[at(row * columns + column)] != 0;
+    };
+    Drawn drawn;
+    std::vector<int> numbers(at(rows * columns), -1);  // of those that are drawn
+    for (int place = 0; place < rows * columns; ++place) {
+      const int row = place / columns;
+      const int column = place % columns;
+      if (!moves(row, column) && !moves(row - 1, column) && !moves(row + 1, column) &&
+          !moves(row, column - 1) && !moves(row, column + 1)) {
+        continue;
+      }
+      const int number = numbers[at(place)] = static_cast<int>(drawn.places.size());
+      drawn.places.push_back(placeAt(row, column));
+      for (const int other : {column > 0 ? numbers[at(place - 1)] : -1,
+                              row > 0 ? numbers[at(place - columns)] : -1}) {
+        if (other >= 0) {
+          drawn.lines.emplace_back(other, number);
+        }
+      }
+    }
+    return drawn;
+  }
+
+ private:
+  const Grid& grid() const { return network_.scene().grids.back(); }
+
+  SceneBuilder network_;
+  BodyModes modes_;
+  double mass_ = 0.0;
+};
+
+/// Makes cells of the vibrations of a body.
+class Modes {
+ public:
+  Modes(const SceneBuilder& builder,
+        const BodyWish& wish,
+        const BodyForm& form,
+        Place place,
+        const Vibrations& body)
+      : builder_(builder), wish_(wish), form_(form), place_(place), body_(body) {}
+
+  ModalSpec found(const std::string& name, int section) {
+    spec_.name = name;
+    spec_.section = section;
+    spec_.place = place_;
+    spec_.at = body_.begin();
+    setFrequencies();
     for (const BodyPlace& each : form_.places) {
       spec_.places.push_back(each.name);
+      spec_.seen_at.push_back(body_.rest(each.along, each.across));
     }
+    const int wanted = form_.partials > 0 ? form_.partials : kMostPartials;
     for (int j = 0; j < std::min(wanted, static_cast<int>(hz_.size())); ++j) {
-      if (!addPartial(modes, j, whole)) {
+      if (!addPartial(j)) {
         break;
       }
     }
-    setOutline(modes, std::sqrt(whole));
+    setOutline();
     return std::move(spec_);
   }
 
  private:
-  int highest() const { return wish_.t60.empty() ? 1 : wish_.t60.back().first; }
-
-  void setFrequencies(const std::vector<Tuning::Mode>& modes) {
-    if (static_cast<int>(modes.size()) < std::max({highest(), wish_.pitch_of, form_.partials})) {
+  void setFrequencies() {
+    if (body_.count() < std::max({highestWanted(wish_), wish_.pitch_of, form_.partials})) {
       builder_.fail(place_, "the network of body " + quoted(spec_.name) + " has " +
-                                std::to_string(modes.size()) +
+                                std::to_string(body_.count()) +
                                 " partials, allowed: no more. Give it more masses");
     }
-    const auto lambda = [&](std::size_t j) { return modes[j].springs + modes[j].bends; };
-    const double unit = lambda(at(wish_.pitch_of - 1));
-    for (std::size_t j = 0; j < modes.size(); ++j) {
-      hz_.push_back(wish_.pitch_hz * std::sqrt(lambda(j) / unit));
-    }
-    if (wish_.is_string) {
-      for (std::size_t j = 0; j < hz_.size(); ++j) {
-        hz_[j] = wish_.pitch_hz * stretched(static_cast<int>(j) + 1) / stretched(wish_.pitch_of);
-      }
+    const double unit = body_.stiffness(wish_.pitch_of - 1);
+    for (int j = 0; j < body_.count(); ++j) {
+      hz_.push_back(wish_.is_string ? wish_.pitch_hz * stretched(j + 1) / stretched(wish_.pitch_of)
+                                    : wish_.pitch_hz * std::sqrt(body_.stiffness(j) / unit));
     }
   }
   double stretched(int partial) const {
@@ -128,7 +204,7 @@ class Modes {
   }
 
   /// \return false if it and those above are too high, and nobody counted them
-  bool addPartial(const BodyModes& modes, int j, double whole) {
+  bool addPartial(int j) {
     const double hz = hz_[at(j)];
     if (form_.partials == 0 && j > 0 && hz > kHighestByItselfHz) {
       return false;
@@ -141,87 +217,33 @@ class Modes {
     Partial partial;
     partial.frequency_hz = hz;
     partial.t60_s = t60At(hz_, wish_, hz);
-    partial.mass = whole;
+    partial.mass = body_.mass();
     for (const BodyPlace& wanted : form_.places) {
-      const GridPlace there = placeOn(grid(), wanted.along, wanted.across);
-      partial.weights.push_back(shapeAt(modes, there, j) * std::sqrt(whole));
+      partial.weights.push_back(body_.shape(j, wanted.along, wanted.across));
     }
     spec_.partials.push_back(std::move(partial));
     return true;
   }
 
-  const Grid& grid() const { return network_.scene().grids.back(); }
-  double shapeAt(const BodyModes& modes, const GridPlace& there, int j) const {
-    double shape = 0.0;
-    for (std::size_t i = 0; i < at(there.count); ++i) {
-      shape += there.weights[i] * modes.shapes(there.mats[i] - grid().first, j);
-    }
-    return shape;
-  }
-  Eigen::Vector3d restAt(const GridPlace& there) const {
-    Eigen::Vector3d rest = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < at(there.count); ++i) {
-      rest += there.weights[i] * network_.scene().mats[at(there.mats[i])].rest;
-    }
-    return rest;
-  }
-
-  void setOutline(const BodyModes& modes, double root_of_mass) {
-    for (const BodyPlace& wanted : form_.places) {
-      spec_.seen_at.push_back(restAt(placeOn(grid(), wanted.along, wanted.across)));
-    }
+  void setOutline() {
     Outline& outline = spec_.outline;
     outline.name = spec_.name;
     outline.modes = static_cast<int>(spec_.partials.size());
-    const int columns = std::min(grid().columns, kOutlineColumns);
-    const int rows = std::min(grid().rows, kOutlineRows);
-    Eigen::MatrixXd weights(rows * columns, outline.modes);
-    for (int place = 0; place < rows * columns; ++place) {
+    Vibrations::Drawn drawn = body_.drawn(outline.modes);
+    outline.lines = std::move(drawn.lines);
+    for (const Eigen::Vector2d& there : drawn.places) {
+      outline.rest.push_back(body_.rest(there.x(), there.y()));
       for (int j = 0; j < outline.modes; ++j) {
-        weights(place, j) = shapeAt(modes, outlinePlace(place, rows, columns), j) * root_of_mass;
+        outline.weights.push_back(body_.shape(j, there.x(), there.y()));
       }
     }
-    addOutlinePlaces(weights, rows, columns);
-  }
-
-  /// What moves, and the rim around it: the corners beyond a round edge are left out.
-  void addOutlinePlaces(const Eigen::MatrixXd& weights, int rows, int columns) {
-    const auto moves = [&](int row, int column) {
-      return row >= 0 && row < rows && column >= 0 && column < columns &&
-             !weights.row(row * columns + column).isZero(0.0);
-    };
-    std::vector<int> numbers(at(rows * columns), -1);  // of those that are drawn
-    for (int place = 0; place < rows * columns; ++place) {
-      const int row = place / columns;
-      const int column = place % columns;
-      if (!moves(row, column) && !moves(row - 1, column) && !moves(row + 1, column) &&
-          !moves(row, column - 1) && !moves(row, column + 1)) {
-        continue;
-      }
-      Outline& outline = spec_.outline;
-      const int number = numbers[at(place)] = static_cast<int>(outline.rest.size());
-      outline.rest.push_back(restAt(outlinePlace(place, rows, columns)));
-      for (int j = 0; j < outline.modes; ++j) {
-        outline.weights.push_back(weights(place, j));
-      }
-      for (const int other : {column > 0 ? numbers[at(place - 1)] : -1,
-                              row > 0 ? numbers[at(place - columns)] : -1}) {
-        if (other >= 0) {
-          outline.lines.emplace_back(other, number);
-        }
-      }
-    }
-  }
-  GridPlace outlinePlace(int place, int rows, int columns) const {
-    return placeOn(grid(), place % columns / std::max(columns - 1.0, 1.0),
-                   place / columns / std::max(rows - 1.0, 1.0));
   }
 
   const SceneBuilder& builder_;
   const BodyWish& wish_;
   const BodyForm& form_;
   Place place_;
-  SceneBuilder network_;
+  const Vibrations& body_;
   ModalSpec spec_;
   std::vector<double> hz_;
 };
@@ -272,6 +294,20 @@ void addModalBody(SceneBuilder& builder, const ModalSpec& spec) {
   }
 }
 
+int partialsOf(const BodyWish& wish, const BodyForm& form) {
+  return std::max(form.partials > 0 ? form.partials : kMostPartials, highestWanted(wish));
+}
+
+void addVibratingBody(SceneBuilder& builder,
+                      const std::string& name,
+                      int section,
+                      const BodyWish& wish,
+                      const BodyForm& form,
+                      Place place,
+                      const Vibrations& body) {
+  addModalBody(builder, Modes(builder, wish, form, place, body).found(name, section));
+}
+
 void addBody(SceneBuilder& builder,
              const std::string& name,
              int section,
@@ -280,7 +316,8 @@ void addBody(SceneBuilder& builder,
              Place place,
              const AddNetwork& network) {
   if (form.is_modal) {
-    addModalBody(builder, Modes(builder, name, section, wish, form, place, network).found());
+    const NetworkVibrations body(builder, section, wish, partialsOf(wish, form), network);
+    addVibratingBody(builder, name, section, wish, form, place, body);
   } else {
     network(builder, section, wish);
     addPlaces(builder, name, form, place);

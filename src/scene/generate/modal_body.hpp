@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -51,6 +52,40 @@ struct BodyForm {
   int partials = 0;  ///< of modal ones; 0: all below 18 kHz, kMostPartials at most
   std::vector<BodyPlace> places;
 };
+
+/// The vibrations of a body by itself, without its losses, by frequency. Places are fractions of
+/// its length and width, as those of BodyPlace.
+class Vibrations {
+ public:
+  /// What a picture shows of it: places, and lines between them.
+  struct Drawn {
+    std::vector<Eigen::Vector2d> places;
+    std::vector<std::pair<int, int>> lines;
+  };
+
+  virtual ~Vibrations() = default;
+  virtual int count() const = 0;
+  virtual double stiffness(int mode) const = 0;  ///< as the square of its frequency, in any unit
+  virtual double mass() const = 0;               ///< of the whole, kg
+  virtual Eigen::Vector3d begin() const = 0;     ///< where it begins at rest, m
+  /// Displacement at a place, if the mean square of that over the mass is 1.
+  virtual double shape(int mode, double along, double across) const = 0;
+  virtual Eigen::Vector3d rest(double along, double across) const = 0;  ///< of a place, m
+  virtual Drawn drawn(int modes) const = 0;
+};
+
+/// How many vibrations of a body are needed.
+int partialsOf(const BodyWish& wish, const BodyForm& form);
+
+/// Adds a body as modes from its vibrations.
+/// \throws TextError if these are too few, or a partial is above kHighestPartialHz
+void addVibratingBody(SceneBuilder& builder,
+                      const std::string& name,
+                      int section,
+                      const BodyWish& wish,
+                      const BodyForm& form,
+                      Place place,
+                      const Vibrations& body);
 
 /// Adds a network of a body with a pitch to a scene, in a section.
 using AddNetwork = std::function<void(SceneBuilder& builder, int section, const BodyWish& wish)>;

@@ -62,7 +62,7 @@ constexpr Generator kGenerators[] = {
     {"mesh", alone<readMesh>, [] { return meshKeys(); }},
     {"bar", alone<readBar>, barKeys},
     {"membrane", alone<readMembrane>, membraneKeys},
-    {"plate", alone<readPlate>, plateKeys},
+    {"plate", alone<readPlate>, [] { return joined(plateKeys(), roundPlateKeys()); }},
     {"resonator", withFiles, [] { return resonatorKeys(); }},
     {"chaplet", alone<readChaplet>, [] { return chapletKeys(); }},
     {"frets", alone<readFrets>, [] { return fretsKeys(); }, true},

@@ -130,7 +130,10 @@ KeyNames membraneKeys() {
 
 KeyNames plateKeys() {
   return withBodyKeys(
-      {"edges", "cells", "mass", "poisson", "spacing", "at", "hardening", "thickness"});
+      {"edges", "cells", "mass", "poisson", "spacing", "at", "hardening", "thickness", "shape"});
+}
+KeyNames roundPlateKeys() {
+  return withBodyKeys({"edges", "mass", "poisson", "radius", "at", "shape"});
 }
 
 const KeyNames& fretsKeys() {

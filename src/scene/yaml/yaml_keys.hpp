@@ -35,7 +35,8 @@ const KeyNames& bridgeKeys();
 KeyNames tunedStringKeys();
 KeyNames barKeys();
 KeyNames membraneKeys();
-KeyNames plateKeys();
+KeyNames plateKeys();  ///< of rectangular ones
+KeyNames roundPlateKeys();
 
 KeysOfTypes keysOfMats();
 KeysOfTypes keysOfLias();

@@ -66,8 +66,8 @@ constexpr Definition kDefinitions[] = {
     {"bars", "metal_bar", 1046.5023, 1, 0},   {"bars", "tine", 261.6256, 1, 0},
     {"skins", "round_skin", 110.0, 1, 0},     {"skins", "kettledrum", 146.8324, 2, 0},
     {"skins", "tabla_skin", 261.6256, 1, 0},  {"plates", "free_plate", 90.0, 1, 3},
-    {"plates", "held_plate", 150.0, 1, 0},    {"bells", "church_bell", 440.0, 2, 0},
-    {"boards", "board", 110.0, 1, 0},
+    {"plates", "held_plate", 150.0, 1, 0},    {"plates", "disc", 1046.5023, 1, 0},
+    {"bells", "church_bell", 440.0, 2, 0},    {"boards", "board", 110.0, 1, 0},
 };
 INSTANTIATE_TEST_SUITE_P(Definitions,
                          LibraryTest,

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "scene/generate/plate.hpp"
+#include "scene/generate/round_plate.hpp"
 #include "scene/generate/skin.hpp"
 #include "scene/yaml/generators/body_keys.hpp"
 #include "scene/yaml/generators/readers.hpp"
@@ -17,20 +18,27 @@ constexpr Limits kPoissonLimits{"", 0.0, 0.5};
 constexpr Limits kLoadRatio{"", 0.01, 100.0};
 constexpr Limits kLoadPower{"", 0.1, 100.0};
 constexpr Limits kThicknessLimits{"m", 1e-6, 1.0};
+constexpr Limits kRoundRadiusLimits{"m", 1e-3, 10.0};
 constexpr Limits kStrainLimits{"", 1e-6, 1.0};
 
-/// What all flat bodies are: `[columns, rows]` of masses, or one number for both.
+/// What all flat bodies have.
 template <class Spec>
-void readSheet(SceneBuilder& builder, const std::string& name, const YamlMap& map, Spec& spec) {
+void readFlatBody(SceneBuilder& builder, const std::string& name, const YamlMap& map, Spec& spec) {
   spec.name = name;
   spec.place = map.placeAt("name");
   spec.section = bodySection(builder, map);
   spec.mass = map.number("mass", kMassLimits);
   spec.wish = readBodyWish(builder, map);
-  spec.spacing = map.number("spacing", kSpacingLimits, spec.spacing);
   spec.at = readRest(builder.scene().sections[static_cast<std::size_t>(spec.section)], map, "at");
 }
 
+template <class Spec>
+void readSheet(SceneBuilder& builder, const std::string& name, const YamlMap& map, Spec& spec) {
+  readFlatBody(builder, name, map, spec);
+  spec.spacing = map.number("spacing", kSpacingLimits, spec.spacing);
+}
+
+/// `[columns, rows]` of masses, or one number for both.
 template <class Spec>
 void readCells(const YamlMap& map, const BodyForm& form, Spec& spec, int grounds) {
   const std::vector<int> cells = form.is_modal && !map.has("cells")
@@ -95,6 +103,36 @@ SkinLoad readLoad(const YamlMap& map) {
   return load;
 }
 
+bool isRound(const YamlMap& map) {
+  return map.has("shape") && map.choice("shape", {"rectangular", "round"}) == 1;
+}
+
+PlateEdges readEdges(const YamlMap& map) {
+  return map.has("edges")
+             ? static_cast<PlateEdges>(map.choice("edges", {"supported", "clamped", "free"}))
+             : PlateEdges::kFree;
+}
+
+void readRoundPlate(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
+  RoundPlateSpec spec;
+  spec.form = readBodyForm(builder, map, true);
+  if (!spec.form.is_modal) {
+    builder.fail(map.keyPlaceAt("shape"),
+                 map.what() + " is round, and a network, allowed with as: modes");
+  }
+  map.allow(roundPlateKeys());
+  readFlatBody(builder, name, map, spec);
+  spec.edges = readEdges(map);
+  if (map.has("poisson") && spec.edges == PlateEdges::kClamped) {
+    builder.fail(map.keyPlaceAt("poisson"), "'poisson' of " + map.what() +
+                                                ", whose edge is clamped: it changes nothing, "
+                                                "allowed with edges: free or supported");
+  }
+  spec.poisson = map.number("poisson", kPoissonLimits, spec.poisson);
+  spec.radius = map.number("radius", kRoundRadiusLimits, spec.radius);
+  addRoundPlate(builder, spec);
+}
+
 }  // namespace
 
 void readMembrane(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
@@ -102,7 +140,7 @@ void readMembrane(SceneBuilder& builder, const std::string& name, const YamlMap&
   MembraneSpec spec;
   readSheet(builder, name, map, spec);
   const BodyForm form = readBodyForm(builder, map, true);
-  spec.is_round = map.has("shape") && map.choice("shape", {"rectangular", "round"}) == 1;
+  spec.is_round = isRound(map);
   spec.has_diagonals = !map.has("neighbours") || map.choice("neighbours", {"4", "8"}) == 1;
   if (spec.is_round) {
     spec.rows = spec.columns = 2 * readCount(map, "cells", kRadiusLimits, form, kCellsOfModes) + 1;
@@ -127,13 +165,15 @@ void readMembrane(SceneBuilder& builder, const std::string& name, const YamlMap&
 }
 
 void readPlate(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
+  if (isRound(map)) {
+    readRoundPlate(builder, name, map);
+    return;
+  }
   map.allow(plateKeys());
   PlateSpec spec;
   readSheet(builder, name, map, spec);
   const BodyForm form = readBodyForm(builder, map, true);
-  if (map.has("edges")) {
-    spec.edges = static_cast<PlateEdges>(map.choice("edges", {"supported", "clamped", "free"}));
-  }
+  spec.edges = readEdges(map);
   const bool is_free = spec.edges == PlateEdges::kFree;
   if (map.has("poisson") && !is_free) {
     builder.fail(map.keyPlaceAt("poisson"), "'poisson' of " + map.what() +

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "rviz/model_bodies.hpp"
 #include "rviz/model_drawing.hpp"
 #include "rviz/model_graph.hpp"
 #include "rviz/model_hands.hpp"
@@ -204,8 +205,30 @@ void HandleSet::build() {
     std::copy_n(&message_.offsets[kAxes * i], kAxes, handle.offsets.begin());
     handles_.push_back(std::move(handle));
   }
+  findAxes();
   if (message_.can_be_held.size() == first.size()) {
     first_ = std::move(first);
+  }
+}
+
+/// A hand is taken wherever its key, hammer or bow is drawn.
+void HandleSet::findAxes() {
+  if (handles_.empty() || !isConsistent(structure_)) {
+    return;
+  }
+  Eigen::AlignedBox3d filled;
+  for (const Eigen::Vector3d& place : places()) {
+    filled.extend(place);
+  }
+  const ModelShape shape = shapeOf(structure_);
+  const auto size = static_cast<float>(filled.isEmpty() ? 0.0 : filled.diagonal().norm());
+  for (const DrawnBody& body : bodiesOf(structure_, shape, size)) {
+    for (std::size_t i = 0; i < handles_.size(); ++i) {
+      if (message_.modules[i] == body.module) {
+        const auto ends = axisOf(body);
+        handles_[i].axis = {ends[0].cast<double>(), ends[1].cast<double>()};
+      }
+    }
   }
 }
 
@@ -311,6 +334,15 @@ void Drag::add(const Eigen::Vector3d& way) {
       displacement_[k] += in_section[k];
     }
   }
+}
+
+double distanceToLine(const Eigen::Vector2d& from,
+                      const Eigen::Vector2d& begin,
+                      const Eigen::Vector2d& end) {
+  const Eigen::Vector2d way = end - begin;
+  const double square = way.squaredNorm();
+  const double share = square > 0.0 ? std::clamp((from - begin).dot(way) / square, 0.0, 1.0) : 0.0;
+  return (begin + share * way - from).norm();
 }
 
 }  // namespace ergotic::panel

@@ -36,6 +36,8 @@ struct Handle {
   Eigen::Vector3d rest = Eigen::Vector3d::Zero();          ///< m, in its section
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< m, of now
   std::size_t first = 0;                                   ///< of its displacements in ModelState
+  /// Both ends of what is drawn of it, m from its place, frame `model`; 0 if it is a point.
+  std::array<Eigen::Vector3d, 2> axis{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   std::vector<std::string> played;  ///< strings, bars and surfaces that it plays, see playedBy
   int dimensions = 1;
 
@@ -95,6 +97,7 @@ class HandleSet {
   };
   void build();
   Handle handleOf(std::size_t module) const;
+  void findAxes();
   Eigen::Vector3d restOf(std::size_t module) const;
   Eigen::Vector3d displacementOf(std::size_t first, int dimensions) const;
   Eigen::Vector3d placeOf(std::size_t module) const;
@@ -158,6 +161,11 @@ class Grab {
   std::vector<Handle> moved_;  // as they were when it was taken
   Drag drag_;
 };
+
+/// From a point to the nearest one of a line between two, all in one unit.
+double distanceToLine(const Eigen::Vector2d& from,
+                      const Eigen::Vector2d& begin,
+                      const Eigen::Vector2d& end);
 
 /// What a hand with that stiffness and most force gives over a distance, N.
 inline double pullOf(double stiffness, double most_n, double distance_m) {

@@ -79,16 +79,28 @@ class Screen {
 
   /// From the pointer; infinite for what is behind the camera.
   double distanceTo(const Eigen::Vector3d& place) const {
-    const Ogre::Vector4 at = to_screen_ * Ogre::Vector4(toOgre(model_ * place));
-    if (!(at.w > 0.0F)) {
-      return std::numeric_limits<double>::infinity();
-    }
-    const Eigen::Vector2d seen(0.5 * (1.0 + static_cast<double>(at.x / at.w)) * width_,
-                               0.5 * (1.0 - static_cast<double>(at.y / at.w)) * height_);
-    return (seen - pointer_).norm();
+    const auto seen = pixelOf(place);
+    return seen ? (*seen - pointer_).norm() : std::numeric_limits<double>::infinity();
+  }
+  /// To the nearest of what is drawn of a handle.
+  double distanceTo(const Handle& handle) const {
+    const double to_place = distanceTo(handle.place());
+    const auto begin = pixelOf(handle.place() + handle.axis[0]);
+    const auto end = pixelOf(handle.place() + handle.axis[1]);
+    return begin && end ? std::min(to_place, distanceToLine(pointer_, *begin, *end)) : to_place;
   }
 
  private:
+  /// None for what is behind the camera.
+  std::optional<Eigen::Vector2d> pixelOf(const Eigen::Vector3d& place) const {
+    const Ogre::Vector4 at = to_screen_ * Ogre::Vector4(toOgre(model_ * place));
+    if (!(at.w > 0.0F)) {
+      return std::nullopt;
+    }
+    return Eigen::Vector2d(0.5 * (1.0 + static_cast<double>(at.x / at.w)) * width_,
+                           0.5 * (1.0 - static_cast<double>(at.y / at.w)) * height_);
+  }
+
   Eigen::Isometry3d model_;
   Ogre::Matrix4 to_screen_;
   double width_;
@@ -333,7 +345,7 @@ std::optional<GrabTool::Near> GrabTool::nearest(const rviz::ViewportMouseEvent& 
   const Screen screen(event, model_);
   std::optional<Near> nearest;
   for (const Handle& handle : set_.handles()) {
-    const double distance = counts(handle) ? screen.distanceTo(handle.place()) : pixels;
+    const double distance = counts(handle) ? screen.distanceTo(handle) : pixels;
     if (distance < pixels) {
       pixels = distance;
       nearest = {handle, distance};
@@ -429,9 +441,26 @@ int GrabTool::processMouseEvent(rviz::ViewportMouseEvent& event) {
   return grab_ ? hold(event) : hover(event);
 }
 
+/// Finds what a press would take. Among very many modules that takes a while, so while the mouse
+/// only moves it is done for at most a fifth of the time.
+void GrabTool::lookUnder(const rviz::ViewportMouseEvent& event) {
+  constexpr int kPauses = 4;
+  const bool moves = event.type == QEvent::MouseMove;
+  if (moves && event.buttons_down != Qt::NoButton) {  // it turns the camera
+    hovered_.reset();
+    return;
+  }
+  const std::int64_t begun_ns = wallNs();
+  if (moves && begun_ns < look_again_ns_) {
+    return;
+  }
+  hovered_ = under(event);
+  const std::int64_t ended_ns = wallNs();
+  look_again_ns_ = ended_ns + kPauses * (ended_ns - begun_ns);
+}
+
 int GrabTool::hover(rviz::ViewportMouseEvent& event) {
-  const bool drags_camera = event.type == QEvent::MouseMove && event.buttons_down != Qt::NoButton;
-  hovered_ = drags_camera ? std::nullopt : under(event);
+  lookUnder(event);
   const auto view = viewOf(event);
   if (hovered_ && event.leftDown() && view) {
     take(*hovered_, *view);

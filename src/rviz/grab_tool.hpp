@@ -78,6 +78,7 @@ class GrabTool : public rviz::Tool {
   std::optional<Handle> under(const rviz::ViewportMouseEvent& event) const;
   void strike(rviz::ViewportMouseEvent& event);
   bool isClick(rviz::ViewportMouseEvent& event) const;
+  void lookUnder(const rviz::ViewportMouseEvent& event);
   int hover(rviz::ViewportMouseEvent& event);
   int hold(rviz::ViewportMouseEvent& event);
   void push(double depth_m);
@@ -125,6 +126,7 @@ class GrabTool : public rviz::Tool {
 
   int pressed_x_ = 0;  // where the left button went down, and when
   int pressed_y_ = 0;
+  std::int64_t look_again_ns_ = 0;  // when the mouse moves
   std::int64_t pressed_ns_ = 0;
   std::int64_t event_ms_ = 0;       // of the latest mouse event, by the window system's clock
   std::int64_t event_wall_ns_ = 0;  // when it came

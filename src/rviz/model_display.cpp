@@ -266,12 +266,12 @@ void ModelDisplay::draw() {
 void ModelDisplay::tellStation() {
   using rviz::StatusProperty;
   if (state_topic_.getNumPublishers() == 0) {
-    setStatus(StatusProperty::Warn, "Station", "No station of that name is there.");
+    setStatus(StatusProperty::Warn, "Station", "There is no station of that name.");
   } else if (!structure_) {
-    setStatus(StatusProperty::Warn, "Station", "It plays no model.");
+    setStatus(StatusProperty::Warn, "Station", "It has loaded no model.");
   } else if (is_stale_) {
     setStatus(StatusProperty::Warn, "Station",
-              "It is silent: the picture is grey and stands still.");
+              "It sends nothing: the picture is frozen, and grey.");
   } else {
     setStatus(StatusProperty::Ok, "Station", "It plays.");
   }

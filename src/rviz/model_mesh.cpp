@@ -17,51 +17,11 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 // Shares of the size of the model.
 constexpr float kTubeRadius = 0.0022F;
-constexpr float kBodyRadius = 0.008F;
 constexpr float kLeastSizeM = 0.01F;
 
 constexpr float kBarWidthOfLength = 0.14F;
 constexpr float kBarWidthOfDistance = 0.7F;  // to the next bar
 constexpr float kBarThickness = 0.18F;       // of its width
-
-// Of a body by its look, as share of kBodyRadius.
-float radiusOf(ModuleLook look) {
-  switch (look) {
-    case ModuleLook::kHand:
-      return 1.3F;
-    case ModuleLook::kPoint:
-      return 0.5F;
-    default:
-      return 1.0F;
-  }
-}
-
-const Solid& solidOf(ModuleLook look, HandForm form) {
-  switch (form) {
-    case HandForm::kKey:
-      return key();
-    case HandForm::kHammer:
-      return hammer();
-    case HandForm::kFinger:
-      return finger();
-    case HandForm::kPlectrum:
-      return plectrum();
-    case HandForm::kBow:
-      return bow();
-    default:
-      return look == ModuleLook::kGround ? box() : ball();
-  }
-}
-
-/// What holds it comes from the player, who sits at the lower end of z.
-Eigen::Matrix3f turnOf(const HandBody& hand) {
-  Eigen::Matrix3f turn;
-  turn.col(0) = hand.towards;
-  turn.col(2) = hand.towards.cross(hand.along);
-  turn.col(2) *= turn(2, 2) < 0.0F ? -1.0F : 1.0F;
-  turn.col(1) = turn.col(2).cross(turn.col(0));
-  return turn;
-}
 
 /// Directions across a row of modules, which turn as little as they can from each to the next.
 class AcrossRow {
@@ -177,7 +137,7 @@ class ModelMesh::Filling {
     }
   }
 
-  void body(const Body& body) {
+  void body(const DrawnBody& body) {
     const Solid& solid = *body.solid;
     const Eigen::Matrix3f turn = body.radius * body.turn;
     const std::vector<float>& lights = lightsOf(body);
@@ -193,7 +153,7 @@ class ModelMesh::Filling {
 
   /// Those that have one solid, and are turned alike, are lit alike: all are about as far from the
   /// camera. Bodies of one kind follow each other mostly.
-  const std::vector<float>& lightsOf(const Body& body) {
+  const std::vector<float>& lightsOf(const DrawnBody& body) {
     if (body.solid != lit_ || body.turn != lit_turn_) {
       lit_ = body.solid;
       lit_turn_ = body.turn;
@@ -353,20 +313,11 @@ void ModelMesh::addBars(const ModelShape& shape, const ModelMotion& motion) {
 void ModelMesh::addBodies(const ModelStructure& structure,
                           const ModelShape& shape,
                           float thickness) {
-  if (shape.bodies.size() > kMostBodies) {
-    return;  // they are points
-  }
-  const std::vector<HandBody> hands = handsOf(structure, shape);
-  for (std::size_t b = 0; b < hands.size(); ++b) {
-    const std::uint32_t module = shape.bodies[b];
-    const ModuleLook look = shape.looks[module];
-    const Solid& solid = solidOf(look, hands[b].form);
-    addTriangles(static_cast<std::uint32_t>(vertices_), solid.triangles);
-    bodies_.push_back({module, &solid, radiusOf(look) * thickness * kBodyRadius * size_});
-    if (hands[b].form != HandForm::kNone) {
-      bodies_.back().turn = turnOf(hands[b]);
-    }
-    vertices_ += solid.corners.size();
+  bodies_ = bodiesOf(structure, shape, size_);
+  for (DrawnBody& body : bodies_) {
+    body.radius *= thickness;
+    addTriangles(static_cast<std::uint32_t>(vertices_), body.solid->triangles);
+    vertices_ += body.solid->corners.size();
   }
 }
 
@@ -432,7 +383,7 @@ void ModelMesh::fill(const ModelMotion& motion, const MeshView& view, MeshVertex
     filling.bar(row);
     filling.barEnds(row);
   }
-  for (const Body& body : bodies_) {
+  for (const DrawnBody& body : bodies_) {
     filling.body(body);
   }
   for (const std::uint32_t module : dots_) {

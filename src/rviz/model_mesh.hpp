@@ -8,11 +8,10 @@
 
 #include <Eigen/Core>
 
-#include "rviz/model_hands.hpp"
+#include "rviz/model_bodies.hpp"
 #include "rviz/model_light.hpp"
 #include "rviz/model_motion.hpp"
 #include "rviz/model_shape.hpp"
-#include "rviz/model_solids.hpp"
 
 namespace ergotic::panel {
 
@@ -34,9 +33,8 @@ struct MeshView {
 /// vertices are made anew for each picture. Thread: one
 class ModelMesh {
  public:
-  /// Above it strings are lines, and bodies are points: each vertex has its price.
+  /// Above it strings are lines: each vertex has its price.
   static constexpr std::size_t kMostTubeModules = 2000;
-  static constexpr std::size_t kMostBodies = 600;
 
   ModelMesh() = default;
   /// \param motion  where the modules rest \param thickness  of strings and bodies, 1: as usual
@@ -60,12 +58,6 @@ class ModelMesh {
   struct Row {
     ModuleIndices modules;
     float radius = 0.0F;  // m, half the width of a bar
-  };
-  struct Body {
-    std::uint32_t module = 0;
-    const Solid* solid = nullptr;
-    float radius = 0.0F;                                 // m
-    Eigen::Matrix3f turn = Eigen::Matrix3f::Identity();  // from the solid to frame `model`
   };
   class Filling;
 
@@ -92,7 +84,7 @@ class ModelMesh {
   ModuleIndices surface_corners_;  // [][3] indices into it
   std::vector<Row> tubes_;
   std::vector<Row> bars_;
-  std::vector<Body> bodies_;
+  std::vector<DrawnBody> bodies_;
   ModuleIndices dots_;    // modules
   ModuleIndices dot_of_;  // [modules] their vertices
   std::size_t first_dot_ = 0;

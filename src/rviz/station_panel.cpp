@@ -347,8 +347,10 @@ void StationPanel::addMessages(QVBoxLayout* column) {
   column->addWidget(messages_, 2);
 }
 
-void StationPanel::bind(int key, const std::function<void()>& act, bool also_ambiguous) {
-  auto* shortcut = adopted<QShortcut>(QKeySequence(key), this);
+void StationPanel::bind(const QKeySequence& keys,
+                        const std::function<void()>& act,
+                        bool also_ambiguous) {
+  auto* shortcut = adopted<QShortcut>(keys, this);
   shortcut->setContext(Qt::ApplicationShortcut);
   shortcut->setAutoRepeat(false);
   QObject::connect(shortcut, &QShortcut::activated, this, act);
@@ -367,7 +369,7 @@ void StationPanel::addKeys() {
   bind(Qt::Key_F5, [this] { engage_->click(); });
   bind(
       Qt::Key_F6, [on_all] { on_all(&StationLink::stop); }, true);
-  bind(Qt::SHIFT + Qt::Key_F5, [this] { reload_->click(); });
+  bind(QKeySequence("Shift+F5"), [this] { reload_->click(); });
   bind(Qt::Key_F7, [this] { recover_->click(); });
   bind(Qt::Key_F8, [this] { mute_->toggle(); });
   bind(
@@ -376,8 +378,8 @@ void StationPanel::addKeys() {
   bind(Qt::Key_F10, [this] { replay_->click(); });
   bind(Qt::Key_F3, [this] { instruments_->setFocus(Qt::ShortcutFocusReason); });
   bind(Qt::Key_F4, [this] { parameters_->takeFocus(); });
-  bind(Qt::SHIFT + Qt::Key_F4, [this] { presets_->takeFocus(); });
-  bind(Qt::SHIFT + Qt::Key_F10, [this] {
+  bind(QKeySequence("Shift+F4"), [this] { presets_->takeFocus(); });
+  bind(QKeySequence("Shift+F10"), [this] {
     takes_->setFocus(Qt::ShortcutFocusReason);
     scroll_->ensureWidgetVisible(takes_);
   });

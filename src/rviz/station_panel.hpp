@@ -3,6 +3,7 @@
 
 #include <QComboBox>
 #include <QElapsedTimer>
+#include <QKeySequence>
 #include <QLineEdit>
 #include <QPlainTextEdit>
 #include <QProgressBar>
@@ -52,7 +53,9 @@ class StationPanel : public rviz::Panel {
   QPushButton* addButton(const QString& text, const QString& tip);
   std::function<void()> press(void (StationLink::*act)());
   void addKeys();
-  void bind(int key, const std::function<void()>& act, bool also_ambiguous = false);
+  void bind(const QKeySequence& keys,
+            const std::function<void()>& act,
+            bool also_ambiguous = false);
 
   void connect();
   void refresh();

@@ -4,10 +4,10 @@
 namespace ergotic::scene {
 namespace {
 
-/// Beyond a word of letters, or of a power or a divisor.
+/// Beyond a word of letters, a power, a divisor, or a factor behind a blank as in `N s/m`.
 std::size_t endOfUnit(std::string_view text, std::size_t from) {
-  const char sign = from < text.size() ? text[from] : ' ';
-  const std::size_t first = from + (sign == '^' || sign == '/' ? 1 : 0);
+  const char sign = from < text.size() ? text[from] : '\0';
+  const std::size_t first = from + (sign == '^' || sign == '/' || sign == ' ' ? 1 : 0);
   std::size_t end = first;
   const auto belongs = [&](char c) {
     return sign == '^' ? isDigit(c)

@@ -65,6 +65,8 @@ TEST_F(ExpressionTest, KnowsUnitsNotesAndLists) {
   EXPECT_EQ(valueOf("3 kN/m"), 3000.0);
   EXPECT_EQ(valueOf("9.81 m/s^2*2"), 19.62);
   EXPECT_EQ(valueOf("4 mm/n"), 0.004 / 3.0) << "no unit";
+  EXPECT_EQ(valueOf("n*1 N s/m"), 3.0);
+  EXPECT_EQ(valueOf("2 mN s/m + 1 N s/m"), 1.002);
   EXPECT_EQ(valueOf("-6 dB"), std::pow(10.0, -6.0 / 20.0)) << "as the plain number";
   EXPECT_EQ(valueOf("2*-20 dB"), 0.2);
   EXPECT_EQ(valueOf("-1200 cents"), 0.5);

@@ -14,7 +14,7 @@ def outrank(priority):
     try:
         os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(priority))
     except PermissionError:
-        print("no real-time priority: what other programs do is taken for a pause, or for late", file=sys.stderr)
+        print("no real-time priority: load from other programs may be counted as a pause of the machine or as late", file=sys.stderr)
 
 
 def note(cpu, path, end):

@@ -139,7 +139,7 @@ class Collector {
     setLinks(part, damped, mode.told);
     const Weights weights(network, part, damped);
     for (const scene::Output& output : scene_.outputs) {
-      mode.told.at_outputs.push_back(weightAt(network, weights, output));
+      mode.told.at_outputs.push_back(amplitudeAt(network, weights, output));
     }
     for (const int point : points_) {
       mode.told.at_points.push_back(realOf(displacementAt(weights, network, point, 0)));
@@ -168,17 +168,17 @@ class Collector {
     std::map<std::pair<int, int>, LinkShare> shares;
     LinkShare whole;
     for (const ModeLoad& load : part.loads) {
-      std::complex<double> stretched = 0.0;
+      std::complex<double> elongation = 0.0;
       for (const Share& end : load.ends) {
-        stretched += end.weight * damped.shape[static_cast<Eigen::Index>(end.node)];
+        elongation += end.weight * damped.shape[static_cast<Eigen::Index>(end.node)];
       }
       LinkShare& share = shares[{load.lia, load.bend}];
       share.lia = load.lia;
       share.bend = load.bend;
-      share.of_pull += load.pull * std::norm(stretched);
-      share.of_loss += load.loss * std::norm(stretched);
-      whole.of_pull += load.pull * std::norm(stretched);
-      whole.of_loss += load.loss * std::norm(stretched);
+      share.of_pull += load.pull * std::norm(elongation);
+      share.of_loss += load.loss * std::norm(elongation);
+      whole.of_pull += load.pull * std::norm(elongation);
+      whole.of_loss += load.loss * std::norm(elongation);
     }
     for (auto& [link, share] : shares) {
       share.of_pull /= whole.of_pull > 0.0 ? whole.of_pull : 1.0;
@@ -204,7 +204,8 @@ class Collector {
     }
   };
 
-  /// Where parts of a shape do not swing together: how far, with the sign of most of it.
+  /// The magnitude of a complex amplitude, with the sign of its real part: with damping the parts
+  /// of a mode swing out of phase.
   static double realOf(std::complex<double> weight) {
     return weight.real() < 0.0 ? -std::abs(weight) : std::abs(weight);
   }
@@ -221,17 +222,18 @@ class Collector {
     return sum;
   }
 
-  double weightAt(const ModeNetwork& network,
-                  const Weights& weights,
-                  const scene::Output& output) const {
+  /// Amplitude of a mode at an output: its displacement, or the force of its links.
+  double amplitudeAt(const ModeNetwork& network,
+                     const Weights& weights,
+                     const scene::Output& output) const {
     if (output.quantity == scene::Quantity::kForce) {
       std::complex<double> force = 0.0;
       for (const HeardForce& heard : network.forces) {
-        std::complex<double> stretched = 0.0;
+        std::complex<double> elongation = 0.0;
         for (const Share& end : network.loads[at(heard.load)].ends) {
-          stretched += end.weight * network.root_mass[at(end.node)] * weights.of(end.node);
+          elongation += end.weight * network.root_mass[at(end.node)] * weights.of(end.node);
         }
-        force += heard.mat == output.point.mat ? heard.along[output.axis] * stretched : 0.0;
+        force += heard.mat == output.point.mat ? heard.along[output.axis] * elongation : 0.0;
       }
       const double unit = scene_.time_unit_s;
       return realOf(force / (unit * unit));

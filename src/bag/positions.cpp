@@ -78,7 +78,7 @@ std::unique_ptr<tgr::GestureSource> positionsOf(Recording recording, const std::
                                  [](const Stretch& stretch) { return stretch.flags.empty(); }),
                   stretches.end());
   if (stretches.empty()) {
-    throw Exception(path + ": no gesture of a station in this bag");
+    throw Exception(path + ": this bag has no gesture blocks (recorded positions) of a station");
   }
   for (const Stretch& stretch : stretches) {
     if (stretch.slices != stretches.front().slices || stretch.slices < 1 ||

@@ -153,7 +153,8 @@ std::unique_ptr<station::Performer> Replay::resume(const bag::Keyframe& keyframe
       performer->parameters.size() != keyframe.parameters.size()) {
     throw Exception("the recorded state has " + std::to_string(keyframe.state.size()) +
                     " bytes, this build needs " + std::to_string(instrument.stateSize()) +
-                    ": it was recorded by another build, " + keyframe.build);
+                    ": it was recorded by another build, " + keyframe.build +
+                    ". Replay it with that one");
   }
   checkState(keyframe, instrument);
   instrument.exchange(instrument.prepare(keyframe.parameters));
@@ -358,7 +359,8 @@ bool Replay::wasAtFault() const {
 }
 
 void Replay::addFlaw(std::int64_t tick, const std::string& what) {
-  flaws_.push_back("recording is inexact: " + what + " at tick " + std::to_string(tick));
+  flaws_.push_back("the replay may differ from what was played: " + what + " at tick " +
+                   std::to_string(tick));
 }
 
 }  // namespace ergotic::replay

@@ -140,8 +140,8 @@ Answer Caller::answerTo(const Job& job, Shared& shared) {
       if (!client.isValid()) {
         return {false, job.what + (::ros::master::check()
                                        ? ": there is no " + job.service + ". Does the station run?"
-                                       : ": the ROS master does not answer, which knows where the "
-                                         "station is.")};
+                                       : ": the ROS master does not answer, so that the station "
+                                         "cannot be found.")};
       }
       if (call(job, shared, client, answer)) {
         return {answer.ok, job.what + ": " + answer.text};

@@ -22,7 +22,7 @@ void require(const std::string& what, double value, const Limits& limits) {
 void requirePlaces(const std::vector<CalibrationPoint>& points, const SliceCalibration& from) {
   if (points.size() < 2) {
     throw Exception(std::to_string(points.size()) +
-                    " places to calibrate from, allowed: two or more, as far apart as can be");
+                    " positions to calibrate from, allowed: two or more, as far apart as can be");
   }
   for (const CalibrationPoint& point : points) {
     require("position of a place", point.position_m, {"m", -1.0, 1.0});
@@ -203,8 +203,10 @@ SliceCalibration fit(const std::vector<CalibrationPoint>& points,
   result.residual_m = std::sqrt(squares / static_cast<double>(points.size()));
   result.noise_m = std::sqrt(meanSquareNoise(points)) * std::abs(result.metres_per_volt);
   if (!(result.residual_m <= max_residual_m)) {
-    throw Exception("the places are not on a line: residual " + numberText(result.residual_m) +
-                    " m rms, allowed: at most " + numberText(max_residual_m) + " m");
+    throw Exception(
+        "the readings of the sensor do not lie on a straight line over the positions: residual " +
+        numberText(result.residual_m) + " m rms, allowed: at most " + numberText(max_residual_m) +
+        " m");
   }
   checkCalibration(result, "");
   return result;

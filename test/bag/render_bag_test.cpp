@@ -196,7 +196,9 @@ TEST_F(RenderBagTest, RefusesGapsUnlessTheyAreAllowed) {
   record(3);
   const Outcome refused = render();
   EXPECT_EQ(refused.code, 3);
-  EXPECT_THAT(refused.text, HasSubstr("recording is inexact: gap of 64 ticks at tick 192\n"));
+  EXPECT_THAT(
+      refused.text,
+      HasSubstr("the replay may differ from what was played: gap of 64 ticks at tick 192\n"));
   EXPECT_FALSE(test::exists(sound_path_));
   EXPECT_EQ(render("--allow-gaps").code, 0);
   EXPECT_GT(differences(), 0U);

@@ -304,8 +304,9 @@ TEST(ReplayTest, SaysWhereTicksAreMissing) {
   bag::Recording recording = live.recording();
   ASSERT_EQ(recording.stretches.at(5).first_tick, 320);
   recording.stretches.erase(recording.stretches.begin() + 5);
-  EXPECT_THAT(replay(recording).flaws,
-              ElementsAre("recording is inexact: gap of 64 ticks at tick 320"));
+  EXPECT_THAT(
+      replay(recording).flaws,
+      ElementsAre("the replay may differ from what was played: gap of 64 ticks at tick 320"));
 }
 
 TEST(ReplayTest, ChecksItselfAgainstLaterKeyframes) {
@@ -316,9 +317,9 @@ TEST(ReplayTest, ChecksItselfAgainstLaterKeyframes) {
   live.play(10);
   bag::Recording recording = live.recording();
   recording.keyframes.at(1).state.at(0) ^= 1U;
-  EXPECT_THAT(
-      replay(recording).flaws,
-      ElementsAre("recording is inexact: the model is not in the recorded state at tick 900"));
+  EXPECT_THAT(replay(recording).flaws,
+              ElementsAre("the replay may differ from what was played: the model is not in the "
+                          "recorded state at tick 900"));
 }
 
 TEST(ReplayTest, SaysWhenLiveSoundWasHeard) {

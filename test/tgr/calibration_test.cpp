@@ -51,7 +51,8 @@ TEST(CalibrationFitTest, GivesTheResidualOfPlacesOffTheLine) {
   EXPECT_NEAR(found.metres_per_volt, 0.005 / spread, 1e-15);
   EXPECT_NEAR(found.residual_m, 0.005 * off / std::sqrt(spread), 1e-15);
   EXPECT_EQ(complaintOf([&] { fit(points, truth, 5e-5); }).substr(0, 46),
-            "the places are not on a line: residual 9.99980");
+            "the readings of the sensor do not lie on a straight line over the positions: residual "
+            "9.99980");
 }
 
 TEST(CalibrationFitTest, RefusesNonsense) {
@@ -60,7 +61,7 @@ TEST(CalibrationFitTest, RefusesNonsense) {
     return complaintOf([&] { fit(points, from, 1e-3); });
   };
   EXPECT_EQ(complaint({{0.0, 1.0, 0.0}}),
-            "1 places to calibrate from, allowed: two or more, as far apart as can be");
+            "1 positions to calibrate from, allowed: two or more, as far apart as can be");
   EXPECT_EQ(complaint({{0.0, 1.0, 0.0}, {0.0005, 2.0, 0.0}}),
             "the places are within 0.0005 m, allowed: at least 0.001 m apart");
   EXPECT_EQ(complaint({{-0.02, 1.0, 1e-5}, {0.02, 1.0005, 1e-5}}),

@@ -82,10 +82,10 @@ class LinkJudge {
       findings_.add(
           Verdict::kUnproven, turning.first->place,
           "link '" + turning.first->name + "'" + more +
-              " has a rest length, or a damper, along a line that turns: stable while "
-              "it moves little against its length, but large motion may feed energy in. "
-              "Use scheme: energy_stable, rest length 0 and a medium or loss, or a scalar "
-              "section");
+              " has a rest length, or a damper, in a plane or in space, where its direction turns: "
+              "stable while it moves little against its length, but large motion may create "
+              "energy. Use scheme: energy_stable, or rest length 0 and a medium or loss, or a "
+              "scalar section");
     }
   }
 
@@ -212,8 +212,9 @@ class LinkJudge {
   void judgeSize(const Lia& lia) {
     const auto tell = [&](const char* of, double what, double most) {
       findings_.add(Verdict::kUnproven, lia.place,
-                    "link '" + lia.name + "' may come to " + of + " of " + describe(what) +
-                        ", more than single precision can count with, up to " + describe(most));
+                    "link '" + lia.name + "' may reach " + of + " of " + describe(what) +
+                        ", beyond the range of single precision, " + describe(most) +
+                        ". Use precision: double, or smaller values");
     };
     const bool is_guarded = lia.scheme == scene::Scheme::kGuarded;
     const double length = largest_.reach(isAlongALine(lia) ? kDay : is_guarded ? kSecond : 0.0);

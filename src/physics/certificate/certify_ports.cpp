@@ -154,16 +154,16 @@ class PortJudge {
         (is_damper ? " N s/m" : " N/m") + (is_growing ? " within a millimetre" : "") +
         ", mostly by link '" + scene_.lias[at(link)].name + "'; a slice " +
         (is_damper ? "of " + physics::describe(device_.mass) + " kg " : "") + "with " +
-        physics::describe(device_.damping) + " N s/m of its own, answered " +
-        physics::describe(device_.delay_ticks) + " ticks late, " +
+        physics::describe(device_.damping) + " N s/m of its own and a delay of " +
+        physics::describe(device_.delay_ticks) + " ticks " +
         (is_damper ? "bears up to " : "is passive up to ") +
         physics::describe(is_damper ? met.damping_limit : met.stiffness_limit) +
         (is_damper ? " N s/m at " : " N/m at ") + wholeHz(rate_hz_) + " Hz";
-    text += level == HandLevel::kRefused ? ": it will buzz or jump" : " (silent below half of it)";
+    text += level == HandLevel::kRefused ? ": it will buzz or jump"
+                                         : " (and does not buzz below half of it)";
     text += met.interpolated_stiffness + met.interpolated_damping > 0.0
-                ? ". As it is interpolated it is answered " +
-                      physics::describe(kInterpolationDelay) +
-                      " ticks later (coupling: hold is not)"
+                ? ". Interpolation adds a delay of " + physics::describe(kInterpolationDelay) +
+                      " ticks (coupling: hold has none)"
                 : "";
     return text + (is_damper ? ". Lower the damping" : ". Soften the link") +
            ", scale the force down, or raise the gestural rate";

@@ -6,16 +6,17 @@
 namespace ergotic::physics {
 namespace {
 
-/// 2 - lose - 2 once cos = (1 - once)^2 + 2 once (1 - cos), without the cancellation.
-double swinging(double decay, double turn) noexcept {
+/// Underdamped, r = e^-decay: 1 - 2 r cos(w) + r^2 = (1 - r)^2 + 2 r (1 - cos(w)), without
+/// cancellation. \param turn  w^2
+double underdampedPull(double decay, double turn) noexcept {
   const double half = std::sin(std::sqrt(turn) / 2.0);
   const double lost = -std::expm1(-decay);
   return lost * lost + 2.0 * std::exp(-decay) * (2.0 * half * half);
 }
 
-/// (1 - p)(1 - q) of the real poles p = e^(-kappa/fast), q = e^(-fast): of a cell so damped that it
-/// fades within a step a cosh would be beyond all numbers.
-double creeping(double decay, double kappa) noexcept {
+/// Overdamped: (1 - p)(1 - q) of the real poles p = e^(-kappa/fast), q = e^(-fast). By a cosh it
+/// would overflow for a cell that fades within a step.
+double overdampedPull(double decay, double kappa) noexcept {
   const double fast = decay + std::sqrt(decay * decay - kappa);
   return std::expm1(-kappa / fast) * std::expm1(-fast);
 }
@@ -32,8 +33,8 @@ OscillatorCoefficients oscillatorOf(
   const double kappa = stiffness / mass * step * step;
   const double turn = kappa - decay * decay;
   return {-std::expm1(-2.0 * decay), stiffness == 0.0 ? 0.0
-                                     : turn >= 0.0    ? swinging(decay, turn)
-                                                      : creeping(decay, kappa)};
+                                     : turn >= 0.0    ? underdampedPull(decay, turn)
+                                                      : overdampedPull(decay, kappa)};
 }
 
 OscillatorCoefficients oscillatorOf(const scene::Scene& scene,

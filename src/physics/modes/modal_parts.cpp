@@ -156,8 +156,9 @@ class Finder {
       if (isConstant(lia(l).stiffness) && isConstant(lia(l).damping)) {
         found.push_back(l);
       } else {
-        offend(lia(l).place,
-               "link '" + lia(l).name + "' follows a parameter: modes need constants");
+        offend(lia(l).place, "link '" + lia(l).name +
+                                 "' follows a parameter, and modes need constants. Give it a "
+                                 "number, or leave out 'modes'");
       }
     }
     return found;

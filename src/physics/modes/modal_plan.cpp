@@ -126,7 +126,7 @@ class Planner {
     for (int c = 0; c < static_cast<int>(scene_.connections.size()); ++c) {
       if (isOnParts(scene_.connections[at(c)])) {
         plan_.connections.push_back(c);
-        if (std::optional<Offence> offence = touchPlace(scene_.connections[at(c)])) {
+        if (std::optional<Offence> offence = addGridPoint(scene_.connections[at(c)])) {
           return offence;
         }
       }
@@ -136,7 +136,7 @@ class Planner {
       if (std::any_of(tap.shares.begin(), tap.shares.end(),
                       [this](const auto& share) { return isOfPart(share.mat); })) {
         plan_.taps.push_back(t);
-        if (std::optional<Offence> offence = touchPoint(tap)) {
+        if (std::optional<Offence> offence = addPoint(tap)) {
           return offence;
         }
       }
@@ -164,7 +164,7 @@ class Planner {
     return std::any_of(first, first + grid.columns * grid.rows, [](int part) { return part >= 0; });
   }
 
-  std::optional<Offence> touchPlace(const scene::Connection& place) {
+  std::optional<Offence> addGridPoint(const scene::Connection& place) {
     if (moves(scene_, place)) {
       return Offence{place.place, "point '" + scene_.mats[at(place.mat)].name +
                                       "' can move, allowed on modes: points that stay"};
@@ -175,10 +175,10 @@ class Planner {
       tap.shares.push_back({around.mats[i], around.weights[i]});
       tap.offset += around.weights[i] * scene_.mats[at(around.mats[i])].rest.x();
     }
-    return touchPoint(tap);
+    return addPoint(tap);
   }
 
-  std::optional<Offence> touchPoint(const scene::Tap& tap) {
+  std::optional<Offence> addPoint(const scene::Tap& tap) {
     ModalTouch touch{tap.mat, -1, {}, tap.offset};
     for (const scene::Tap::Share& share : tap.shares) {
       if (share.weight == 0.0) {

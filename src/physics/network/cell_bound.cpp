@@ -65,8 +65,8 @@ class CellBound {
     }
   }
 
-  /// A link to a fixed point most likely lies where a cell has corners that do not move; any
-  /// weights make a bound.
+  /// How a link is divided among the cells that hold its ends. Any division gives a bound; it is
+  /// tight if a link to a fixed point goes to cells by how many of their corners are fixed.
   double weightOf(int cell, const NetworkBound::Link& link) const {
     const auto& nodes = network_.cells()[at(cell)];
     return link.ends.size() == 1 ? static_cast<double>(std::count(nodes.begin(), nodes.end(), -1))

@@ -243,7 +243,7 @@ class Surroundings {
   std::vector<int> row_of_;  // [nodes] in the equations
 };
 
-/// Where the mode that is nearest to a guess comes to rest; none if it does not.
+/// The pole that Newton's iteration from a guess converges to; none if it does not.
 std::optional<DampedPole> poleFrom(const Surroundings::Equations& equations, DampedPole guess) {
   for (int i = 0; i < kMostSteps; ++i) {
     std::optional<DampedPole> next = algebra::refinedPole(equations.both, equations.pull, guess);
@@ -265,6 +265,7 @@ class CoupledTuning {
   CoupledTuning(Surroundings& surroundings, const CoupledString& string, int index, double rate_hz)
       : surroundings_(surroundings), string_(string), rate_hz_(rate_hz) {
     surroundings_.gather(string, index);
+    // w = z - 1 of the pole; the first guess has the pitch and no damping.
     pole_.w = std::polar(1.0, 2.0 * kPi * string.pitch_hz / rate_hz) - 1.0;
     pole_.shape = surroundings_.shapeOf(string);
   }
@@ -365,10 +366,9 @@ void tuneCoupledStrings(scene::Scene& scene,
                       shortly(tuning.firstCents()) + " cents");
     } else {
       scene.warnings.push_back(scene::textOf(scene, string.place) + ": warning: " + who +
-                               "cannot be tuned together with what it ends on, which yields too "
-                               "much: it does not sound at " +
-                               shortly(string.pitch_hz) +
-                               " Hz. Make the end heavier, stiffer or less resonant at its pitch");
+                               "cannot be tuned to " + shortly(string.pitch_hz) +
+                               " Hz: the bridge or body at its end yields too much at that pitch. "
+                               "Make it heavier, stiffer or less resonant there");
     }
   }
   for (const auto& [string, scale] : scales) {

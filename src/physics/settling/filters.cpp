@@ -238,7 +238,7 @@ std::string responseNote(const Plan& plan) {
   const auto level = [&](double share, const ChapletLoad& load) {
     return shortly(decibels(plan.chaplet.gain(share * nyquist, load)));
   };
-  std::string text = "gain (free, loaded) ";
+  std::string text = "its gain (without load, loaded): ";
   for (const double share : {0.25, 0.5, 1.0, 1.5}) {
     text += level(share, {}) + ", " + level(share, plan.load) + " dB at " +
             shortly(share * nyquist) + (share < 1.5 ? " Hz; " : " Hz");
@@ -251,16 +251,17 @@ std::string noteOnFilter(const Scene& scene, const Plan& plan) {
   const Chaplet& chaplet = plan.chaplet;
   const double low = kLowFrequency * chaplet.nyquistHz();
   std::string text = noteAt(scene, lia.place) + "link '" + lia.name +
-                     "' is filtered by a chaplet of " + shortly(chaplet.mass()) + " kg, tuned to " +
-                     shortly(chaplet.nyquistHz()) + " Hz: the structure at " +
-                     quotedMat(scene, plan.fast) + " is a load of " + shortly(plan.load.damping) +
-                     " N s/m and " + shortly(plan.load.stiffness) +
-                     " N/m, the chaplet gives way with " + shortly(chaplet.seriesStiffness()) +
-                     " N/m, " + quotedMat(scene, plan.slow) + " feels it free as " +
-                     shortly(chaplet.apparentMass(low, {})) + " kg; " + responseNote(plan);
+                     "' is filtered by a chaplet (a mechanical low-pass) of " +
+                     shortly(chaplet.mass()) + " kg, tuned to " + shortly(chaplet.nyquistHz()) +
+                     " Hz; what it is loaded with at " + quotedMat(scene, plan.fast) + ": " +
+                     shortly(plan.load.damping) + " N s/m and " + shortly(plan.load.stiffness) +
+                     " N/m; its stiffness in series: " + shortly(chaplet.seriesStiffness()) +
+                     " N/m; its mass as felt at " + quotedMat(scene, plan.slow) +
+                     " without load: " + shortly(chaplet.apparentMass(low, {})) + " kg; " +
+                     responseNote(plan);
   if (plan.dashpot > 0.0) {
     text += "; " + quotedMat(scene, plan.slow) + " gets a dashpot of " + shortly(plan.dashpot) +
-            " N s/m to the ground, which keeps the two rates from feeding its modes";
+            " N s/m to the ground, for stability between the two rates";
   }
   if (plan.slow_mass > 0.0 && chaplet.mass() > kNoticedShare * plan.slow_mass) {
     text += "; it weighs more than 1/50 of " + quotedMat(scene, plan.slow) + " (" +

@@ -96,7 +96,8 @@ class Finder {
     return dot == std::string::npos ? name : name.substr(0, dot);
   }
 
-  /// Everything that its last mass can touch.
+  /// Stiffness and damping of all that is linked to the last mass of a chaplet, at the Nyquist
+  /// frequency of its slow side.
   ChapletLoad loadOn(int last, int first, const Chaplet& chaplet) const {
     ChapletLoad load;
     for (const int lia : lias_of_[at(last)]) {

@@ -98,7 +98,9 @@ void StationController::configure(const tgr::EndEffectors& end_effectors, const 
     configure.type = CommandType::kConfigure;
     configure.rig = fitted.rig.get();
     if (!engine_->station().submit(configure)) {
-      return answer(promise, false, "too many configurations wait for the real-time thread");
+      return answer(promise, false,
+                    "too many changes of end-effectors are still waiting for the real-time thread: "
+                    "try again");
     }
     static_cast<void>(fitted.rig.release());  // the old one comes back with its event
     configurations_.push_back({end_effectors, std::move(fitted.warnings), promise});

@@ -79,7 +79,8 @@ std::string textOf(const station::Event& event, const scene::Scene* scene) {
       text << "force is zero";
       break;
     case EventType::kSwapped:
-      text << (event.index != 0 ? "another model plays" : "a model was overtaken by a newer one")
+      text << (event.index != 0 ? "another model plays"
+                                : "a model was discarded, as a newer one was loaded")
            << (event.value != 0.0 ? ", force is zero until engage" : "");
       break;
     case EventType::kParameter: {
@@ -117,7 +118,7 @@ std::string textOf(const station::Event& event, const scene::Scene* scene) {
       text << "underrun: " << event.index << " frames of silence from frame " << event.frame;
       break;
     case EventType::kAudioSkipped:
-      text << "JACK left out " << event.index << " frames from frame " << event.frame;
+      text << "JACK skipped " << event.index << " frames from frame " << event.frame;
       break;
     case EventType::kAudioStarted:
       text << "sound from frame " << event.frame;

@@ -75,7 +75,9 @@ void Diagnostics::reportForce(Report& report) {
   }
   report.add("peak force (N)", status_.peak_force);
   report.add("peak force that the model asked for (N)", status_.peak_raw_force);
-  report.add("least energy of a slice (J)", status_.port_energy_min);
+  report.add(
+      "least energy left at the port of a slice (J; below 0: the hand got more than it gave)",
+      status_.port_energy_min);
   report.add("ticks in which the energy clamp acted", status_.clamped_ticks);
   report.add("ticks in which a still sensor muted its slice", status_.muted_ticks);
 }
@@ -87,7 +89,9 @@ void Diagnostics::reportRealtime(Report& report) {
   } else if (late(status_) > late(last_)) {
     report.summary(Level::WARN, "late ticks in the last second");
   } else if (status_.load_mean > kHighLoad) {
-    report.summary(Level::WARN, "the model needs more than 80 % of the time there is");
+    report.summary(Level::WARN,
+                   "the model needs more than 80 % of each tick: make it smaller, use more threads "
+                   "or lower its rates");
   } else {
     report.summary(Level::OK, "on time");
   }

@@ -22,11 +22,12 @@ constexpr std::size_t kMostWaiting = 10'000;  // blocks of gestures: some minute
 }  // namespace
 
 TakeWriter::TakeWriter(std::string path) : path_(std::move(path)), active_(path_ + ".active") {
-  std::error_code unknown;  // opening it says what is wrong
-  if (std::filesystem::exists(active_, unknown)) {
-    throw Exception(active_ +
-                    " is there, of a station that was killed: `rosbag reindex` it and give it a "
-                    "name that ends in .bag, or remove it, or choose another name");
+  std::error_code ignored;  // opening it says what is wrong
+  if (std::filesystem::exists(active_, ignored)) {
+    throw Exception(
+        active_ +
+        " was left by a station that was killed: run `rosbag reindex` on it and give it a "
+        "name that ends in .bag, or remove it, or choose another name");
   }
   try {
     bag_ = bag::openToWrite(active_);

@@ -34,10 +34,10 @@ std::string nameNow(const std::string& instrument) {
 
 }  // namespace
 
-Takes::Takes(const ::ros::NodeHandle& node, Publishers& feed)
-    : publishers_(feed), folder_(homeFolder() + "/takes") {
-  ::ros::NodeHandle own(node);
-  publisher_ = own.advertise<ergotic::Takes>("takes", kQueue, kLatched);
+Takes::Takes(const ::ros::NodeHandle& node, Publishers& publishers)
+    : publishers_(publishers), folder_(homeFolder() + "/takes") {
+  ::ros::NodeHandle handle(node);
+  publisher_ = handle.advertise<ergotic::Takes>("takes", kQueue, kLatched);
   message_.folder = folder_.path();
   list();
   send();

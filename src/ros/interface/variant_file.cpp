@@ -132,8 +132,10 @@ SavedVariant saveVariant(const std::string& folder,
                          const PresetValues& values) {
   namespace fs = std::filesystem;
   if (fs::path(scene.file).extension() == ".mdl") {
-    throw Exception(scene.file +
-                    ": an .mdl file has no variants, allowed: scenes in YAML. KEEP keeps a preset");
+    throw Exception(
+        scene.file +
+        ": an .mdl file has no variants, allowed: scenes in YAML. Keep the values as a preset "
+        "instead (KEEP)");
   }
   if (scene.parameters.empty()) {
     throw Exception(scene.file + ": the scene has no parameters that a variant could set");

@@ -46,16 +46,16 @@ void Writer::fail(const Node& node, const Frame& frame, const std::string& what)
 void Writer::count(const Node& node, const Frame& frame, std::size_t nodes) {
   if ((written_ += nodes) > kMostWritten) {
     fail(node, frame,
-         "written out the scene has more than " + std::to_string(kMostWritten) +
-             " scalars, lists and maps");
+         "with all its loops and definitions expanded the scene has more than " +
+             std::to_string(kMostWritten) + " scalars, lists and maps");
   }
 }
 
 void Writer::countText(std::size_t bytes, const Node& node, const Frame& frame) {
   if ((text_ += bytes) > kMostText) {
     fail(node, frame,
-         "written out the scene has more than " + std::to_string(kMostText) +
-             " bytes of words and expressions");
+         "with all its loops and definitions expanded the scene has more than " +
+             std::to_string(kMostText) + " bytes of words and expressions");
   }
 }
 

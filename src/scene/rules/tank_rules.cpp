@@ -112,9 +112,9 @@ class TankRules {
     }
     int& tank = tank_of_[static_cast<std::size_t>(end)];
     if (mat.type != MatType::kGround && tank >= 0 && tank != lia.tank) {
-      return "ends on module " + quoted(mat.name) + ", which tank " +
+      return "ends on module " + quoted(mat.name) + ", which belongs to tank " +
              quoted(scene_.tanks[static_cast<std::size_t>(tank)].name) +
-             " has, too, allowed: one tank for each module";
+             " too, allowed: one tank for each module";
     }
     tank = lia.tank;
     return {};

@@ -83,10 +83,11 @@ Speakers speakersIn(const SceneBuilder& builder, const Node& list, const std::st
   return {std::move(channels), Panner(std::move(directions))};
 }
 
-std::string textOf(const Node& node) {
+/// The node with all that is in it: equal ones have equal texts.
+std::string keyOf(const Node& node) {
   std::string text = node.text() + " ";
   for (const Node& part : node) {
-    text += textOf(part);
+    text += keyOf(part);
   }
   return text + ";";
 }
@@ -95,20 +96,20 @@ std::string textOf(const Node& node) {
 
 const Speakers& Layouts::read(const YamlMap& map, const std::string& key) {
   const Node& node = map.at(key);
-  const std::string said = textOf(node);
-  const auto known = known_.find(said);
+  const std::string layout = keyOf(node);
+  const auto known = known_.find(layout);
   if (known != known_.end()) {
     return known->second;
   }
   if (node.isList()) {
-    return known_.emplace(said, speakersIn(builder_, node, "'speakers' of " + map.what()))
+    return known_.emplace(layout, speakersIn(builder_, node, "'speakers' of " + map.what()))
         .first->second;
   }
   std::vector<std::string> words;
   for (const Layout& layout : layouts()) {
     words.emplace_back(layout.name);
   }
-  return known_.emplace(said, speakersOf(layouts()[map.choice(key, words)])).first->second;
+  return known_.emplace(layout, speakersOf(layouts()[map.choice(key, words)])).first->second;
 }
 
 }  // namespace ergotic::scene

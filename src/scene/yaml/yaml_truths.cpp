@@ -149,7 +149,8 @@ class TruthReader {
     };
     if (lawOf(lia.type).kind != Law::Kind::kGap || !isScalar(lia.a) || !isScalar(lia.b)) {
       map_.fail("of", "link " + quoted(lia.name.str()) +
-                          " is no contact of scalar sections: how long it touches is not measured");
+                          " is not a contact between modules of scalar sections: only of those "
+                          "duration and force of a contact are measured");
     }
     const auto linksOn = [&](int mat) {
       return std::count_if(scene.lias.begin(), scene.lias.end(),

@@ -26,7 +26,7 @@
 #include "tools/lib/cost.hpp"
 #include "tools/lib/end_effectors.hpp"
 #include "tools/lib/explain.hpp"
-#include "tools/lib/load_figures.hpp"
+#include "tools/lib/load_times.hpp"
 #include "tools/lib/report.hpp"
 #include "tools/lib/report_names.hpp"
 #include "tools/lib/shipped.hpp"
@@ -139,7 +139,7 @@ void addRanges(const Scene& scene,
 Json loadOf(const Scene& scene,
             const physics::Rates& rates,
             const physics::CompileOptions& options,
-            LoadFigures& load) {
+            LoadTimes& load) {
   load.begin("compile_s", "compile " + sizeText(scene));
   const auto instrument = physics::compile(shared(scene), rates, options);
   return load.finish(scene.mats.size() + scene.lias.size());
@@ -335,7 +335,7 @@ int check(const CheckOptions& options) {
     return checkTruths(options);
   }
   const tgr::EndEffectors end_effectors = readEndEffectors(options.end_effectors);
-  LoadFigures load;
+  LoadTimes load;
   load.begin("read_s", "read " + options.scene.scene);
   const Scene scene = readScene(options.scene);
   if (!options.explain.empty()) {

@@ -150,7 +150,7 @@ TEST(PortDampingTest, IsSilentBelowHalfAndWarnsAbove) {
   EXPECT_TRUE(certified(1000.0, 300.0).findings.empty());
   const Certificate warned = certified(1000.0, 500.0);
   EXPECT_EQ(warned.verdict, Verdict::kPassive);
-  EXPECT_THAT(warned.findings, ElementsAre(HasSubstr("silent below half of it")));
+  EXPECT_THAT(warned.findings, ElementsAre(HasSubstr("does not buzz below half of it")));
 }
 
 TEST(PortDampingTest, GrowsWithTheMassOfTheSliceAndFallsWithDelay) {

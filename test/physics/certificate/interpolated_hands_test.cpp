@@ -156,7 +156,7 @@ TEST(InterpolatedHandsTest, TheFindingNamesWhatInterpolationCosts) {
   const Certificate c = certify(interpolated(3000.0, 0.0), {kRate, 14});
   ASSERT_EQ(c.findings.size(), 1U);
   EXPECT_THAT(c.findings[0], HasSubstr("is passive up to 2100 N/m at 3150 Hz"));
-  EXPECT_THAT(c.findings[0], HasSubstr("answered 1.5 ticks later (coupling: hold is not)"));
+  EXPECT_THAT(c.findings[0], HasSubstr("adds a delay of 1.5 ticks (coupling: hold has none)"));
 }
 
 }  // namespace

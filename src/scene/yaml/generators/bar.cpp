@@ -52,12 +52,13 @@ void readRatios(const SceneBuilder& builder, const YamlMap& map, BarSpec& spec) 
   }
   if (map.has("pitch_of")) {
     builder.fail(map.keyPlaceAt("pitch_of"),
-                 "'pitch_of' of " + map.what() + " beside 'ratios', which are to partial 1");
+                 "'pitch_of' of " + map.what() +
+                     " cannot be combined with 'ratios', which are relative to partial 1");
   }
 }
 
-/// One that lies nowhere is shown across its place, as long as a wooden bar of a marimba: C3 has
-/// 38 cm, and lengths go as the square root of the period.
+/// A bar without `from` and `to` gets a length for the picture, that of the wooden bar of a
+/// marimba: 38 cm at C3, and as the square root of the period.
 void spread(BarSpec& spec) {
   constexpr double kLengthM = 0.38;
   constexpr double kPitchHz = 130.8;

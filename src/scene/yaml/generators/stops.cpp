@@ -96,8 +96,9 @@ void readBridge(SceneBuilder& builder, const std::string& name, const YamlMap& m
     spec.grids.push_back(readRow(builder, map, word, place));
   }
   if (map.has("mat") == map.has("mass")) {
-    builder.fail(map.place(), map.what() + " has " + (map.has("mat") ? "both" : "neither") +
-                                  " 'mat' and 'mass', allowed: exactly one of them");
+    builder.fail(map.place(), map.what() + " has " +
+                                  (map.has("mat") ? "both 'mat' and" : "neither 'mat' nor") +
+                                  " 'mass', allowed: exactly one of them");
   }
   if (map.has("mat")) {
     for (const char* const key : {"section", "stiffness", "resistance"}) {

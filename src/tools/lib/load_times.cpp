@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/lib/load_figures.hpp"
+#include "tools/lib/load_times.hpp"
 
 #include <malloc.h>
 
@@ -15,22 +15,22 @@ std::size_t heapInUse() {
 
 }  // namespace
 
-LoadFigures::LoadFigures() : heap_(heapInUse()) {}
+LoadTimes::LoadTimes() : heap_(heapInUse()) {}
 
-void LoadFigures::begin(const std::string& key, const std::string& what) {
+void LoadTimes::begin(const std::string& key, const std::string& what) {
   end();
   key_ = key;
   line_.show(what);
   begun_ = Clock::now();
 }
 
-void LoadFigures::end() {
+void LoadTimes::end() {
   if (!key_.empty()) {
     report_[key_] = std::chrono::duration<double>(Clock::now() - begun_).count();
   }
 }
 
-Json LoadFigures::finish(std::size_t parts) {
+Json LoadTimes::finish(std::size_t parts) {
   end();
   line_.clear();
   const std::size_t heap = heapInUse();

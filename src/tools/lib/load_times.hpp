@@ -12,11 +12,13 @@ namespace ergotic::tools {
 
 /// What it takes to load a scene: the time of every stage and what stays in memory. Says on the
 /// terminal what is being done.
-class LoadFigures {
+class LoadTimes {
  public:
-  LoadFigures();
+  LoadTimes();
 
-  /// Ends the stage before. \param key  of its time in the report, as in `certify_s`
+  /// Begins a stage, and ends the one before.
+  /// \param key   of its duration in the report, such as `certify_s`
+  /// \param what  is being done, for the terminal
   void begin(const std::string& key, const std::string& what);
   /// Ends the last stage.
   /// \param parts  modules and links that the memory is for

@@ -11,7 +11,7 @@ namespace {
 
 using scene::LiaType;
 
-/// Where a table is not 0. Between two points that are 0 it is, straight or smooth.
+/// Spans in which a table is not 0. Between two points that are 0 it is 0, straight or smooth.
 std::vector<Span> spansOf(const scene::Table& table, bool holds_its_ends) {
   std::vector<Span> spans;
   const auto add = [&spans](double from, double to) {
@@ -36,7 +36,7 @@ std::vector<Span> spansOf(const scene::Table& table, bool holds_its_ends) {
   return spans;
 }
 
-/// Where the distance is less than `most`.
+/// Spans of the hand in which the distance is less than `most`.
 std::vector<Span> within(const Separation& ends, double most) {
   if (most == kEndless) {
     return {{-kEndless, kEndless}};

@@ -21,12 +21,12 @@ struct Span {
 /// The ends of a link over the position of a hand.
 struct Separation {
   bool is_scalar = true;  ///< x counts alone, signed; else the distance
-  Eigen::Vector3d apart;  ///< of end a from end b with the hand at 0, m
-  Eigen::Vector3d way;    ///< what a metre of the hand adds to it
+  Eigen::Vector3d apart;  ///< end a less end b with the hand at 0, m
+  Eigen::Vector3d way;    ///< change of that per metre of the hand
 };
 
-/// Where a link acts, by what is between its ends (signed or as a distance, without its rest
-/// length): ascending, apart from each other. Of friction everywhere, whatever presses it.
+/// Spans in which a link acts, over what is between its ends (signed or as a distance, without its
+/// rest length): ascending, apart from each other. Friction acts everywhere, whatever presses it.
 std::vector<Span> actingSpans(const scene::Scene& scene, const scene::Lia& lia, bool is_scalar);
 
 /// Positions of the hand for which a link acts, ascending.

@@ -36,7 +36,7 @@ bool isAtHome(const SceneMode& mode, int asked) {
   return mode.kind != SceneMode::Kind::kCreeps && mode.in_asked[at(asked)] >= kAtHome;
 }
 
-/// That many modes at home in the body are below, this one counted.
+/// Rank of a mode among the modes at home in the body, from 1.
 int rankOf(const SceneModes& found, std::size_t mode, int asked) {
   const auto end = found.modes.begin() + static_cast<std::ptrdiff_t>(mode) + 1;
   return static_cast<int>(std::count_if(
@@ -48,8 +48,8 @@ bool isOf(const std::string& name, const std::string& body) {
          (name[body.size()] == '.' || name[body.size()] == '@');
 }
 
-/// Whether a pitch is the first that is told of its body. Partials that are cells of a body have
-/// names below its own.
+/// Whether a pitch is the first that is reported of its body. Partials that are cells of a body
+/// have names below its own.
 bool isFirst(const std::vector<AskedPitch>& asked, std::size_t index) {
   for (std::size_t i = 0; i < asked.size(); ++i) {
     if ((i < index && asked[i].body == asked[index].body) ||
@@ -153,7 +153,7 @@ class Figure {
   double highest_hz_ = 0.0;
 };
 
-/// Of one parameter, which is moved alone.
+/// Search over one parameter, which is moved alone.
 class ParameterSearch {
  public:
   ParameterSearch(const Figure& figure, const Scene& scene, std::size_t index, double wanted)
@@ -193,7 +193,7 @@ class ParameterSearch {
     double figure = 0.0;
   };
 
-  /// Over the range, evenly in what its sign allows.
+  /// Value at a share of the parameter's range: on a logarithmic scale if all of it is positive.
   double valueAt(double share) const {
     const scene::Parameter& parameter = scene_.parameters[index_];
     const double low = parameter.minimum;

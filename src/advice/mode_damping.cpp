@@ -58,7 +58,7 @@ class Damping {
   }
 
  private:
-  /// Among modes of one frequency, those that losses tell apart.
+  /// Turns modes of one frequency to those that the losses decouple.
   void shareTurns() {
     for (Eigen::Index first = 0; first < kappa_.size();) {
       Eigen::Index next = first + 1;
@@ -84,7 +84,7 @@ class Damping {
     return rest.norm() * mode.shape.norm() / (std::abs(slope) * std::abs(w));
   }
 
-  /// What is left is rounding.
+  /// True if the remaining error is rounding.
   bool isExact(const DampedMode& mode) const {
     const double rounding =
         16.0 * std::numeric_limits<double>::epsilon() * scale_ / std::norm(mode.w);

@@ -19,13 +19,13 @@ namespace {
 using scene::Geometry;
 using scene::Scene;
 
-/// Seen from the section in which a link acts.
+/// The end of a link, seen from the section in which the link acts.
 struct View {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();   // rows: its axes; columns: those of the end
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  // where the end rests
 };
 
-/// What a link does in one direction.
+/// Stiffness and damping of a link in one direction.
 struct Direction {
   Eigen::Vector3d along;
   double stiffness = 0.0;
@@ -99,7 +99,8 @@ class Assembler {
     return view;
   }
 
-  /// Along the line between its ends, and across it as far as it is stretched.
+  /// Directions of a link: along the line between its ends, and across it as far as it is
+  /// stretched.
   static std::vector<Direction> directionsOf(const Eigen::Vector3d& line,
                                              int dimensions,
                                              double rest_length,

@@ -17,8 +17,8 @@ struct ModeLoad {
   Shares ends;        ///< node: a row; weight: over the root of its mass
   double pull = 0.0;  ///< h^2 K
   double loss = 0.0;  ///< h Z
-  int lia = -1;       ///< whose it is; or
-  int bend = -1;      ///< both -1: of the module itself
+  int lia = -1;       ///< link that it belongs to; or
+  int bend = -1;      ///< bend; both -1: it is of the module itself
 };
 
 /// Force of a load on a module that is heard, along one of its axes, for an elongation of 1 m.
@@ -28,7 +28,7 @@ struct HeardForce {
   Eigen::Vector3d along = Eigen::Vector3d::Zero();  ///< times K
 };
 
-/// All sections of one rate as a network that is linear about the places where its modules rest.
+/// All sections of one rate as a network, linearised about the rest positions of its modules.
 struct ModeNetwork {
   int divisor = 1;
   double step_s = 0.0;
@@ -53,7 +53,7 @@ ModeNetwork modeNetworkOf(const Network& network,
 /// Rows that loads join, and their matrices.
 struct ModePart {
   std::vector<int> rows;        ///< ascending
-  std::vector<ModeLoad> loads;  ///< by their place in `rows`
+  std::vector<ModeLoad> loads;  ///< ends by their place in `rows`
   Eigen::SparseMatrix<double> pull;
   Eigen::SparseMatrix<double> loss;
 };

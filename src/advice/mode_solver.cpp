@@ -89,7 +89,7 @@ class ModeFinder {
   /// True if motions as a whole, and what is as soft, are worked out.
   bool takesSoft() const { return fromBottom() && soft_ <= kMostRigidVectors; }
 
-  /// Nothing pulls at it.
+  /// The eigenpairs of a part on which no load acts.
   EigenPairs loose() {
     const int count = std::min(size_, kMostRigidVectors);
     found_.values = Eigen::VectorXd::Zero(fromBottom() ? count : 0);
@@ -186,7 +186,7 @@ class ModeFinder {
     }
   }
 
-  /// As far above the soft ones as none lies below.
+  /// A shift above the soft modes, as high as no other mode lies below it.
   double aboveSoft() {
     double shift = 2.0 * kSoft * scale_;
     while (shift < scale_ && countWithin(2.0 * shift, 4.0 * shift) == soft_) {
@@ -282,7 +282,7 @@ class ModeFinder {
     found_.vectors.col(count) = vector.normalized();
   }
 
-  /// By size, motions as a whole before all others.
+  /// Sorts the modes by eigenvalue, motions as a whole before all others.
   void sort() {
     const auto key = [this](Eigen::Index i) {
       const double value = found_.values[i];
@@ -310,8 +310,8 @@ class ModeFinder {
     return e;
   }
 
-  /// What rounding makes of eigenvalues near 0 is larger than they are: in their own coordinates,
-  /// and load by load, they are what they are.
+  /// Recomputes eigenvalues near 0, whose rounding errors are larger than they are: in coordinates
+  /// of their own, and load by load, they are accurate.
   void polish() {
     turn(found_.values.size(), found_.vectors.transpose() * (part_.pull * found_.vectors));
     Eigen::Index soft = 0;

@@ -12,15 +12,15 @@ namespace ergotic::physics {
 struct EigenWindow {
   double from = 0.0;  ///< 0: from the lowest on, negative ones as well
   double to = 0.0;
-  int most = 1;  ///< of those that do not move as a whole
+  int most = 1;  ///< most modes, of those that do not move as a whole
 };
 
 struct EigenPairs {
   Eigen::VectorXd values;   ///< ascending; with those of `rigid` first, and some beyond `most`
   Eigen::MatrixXd vectors;  ///< a unit one in each column
   int rigid = 0;            ///< among `values`: no energy in any load
-  int rigid_in_all = 0;     ///< of the matrix; more than `rigid` where they are not worked out
-  int counted = 0;          ///< in the window, rigid ones left out
+  int rigid_in_all = 0;     ///< in the matrix; more than `rigid` where they are not worked out
+  int counted = 0;          ///< modes in the window, rigid ones left out
   bool is_certain = true;   ///< the counts are beyond the rounding of their factors
 };
 

@@ -8,7 +8,7 @@
 
 namespace ergotic::physics {
 
-/// What bodies in tune, strings and resonators of a scene that is not settled ask for.
+/// Pitches that bodies in tune, strings and resonators of a scene that is not settled ask for.
 std::vector<AskedPitch> askedPitchesOf(const scene::Scene& asked);
 
 struct PlacedMode {
@@ -21,8 +21,8 @@ struct PitchMatch {
   double cents = 0.0;
 };
 
-/// For each mode which pitch it is: of those that have a third of their energy in the body, the
-/// nearest within a semitone. Marks what is found. \param scene  settled
+/// [modes] The pitch that each mode is: each pitch takes the nearest mode within a semitone of
+/// those with a third of their energy in its body. Marks what is found. \param scene  settled
 std::vector<PitchMatch> matchPitches(const scene::Scene& scene,
                                      const scene::Scene& asked,
                                      std::vector<AskedPitch>& pitches,

@@ -31,7 +31,7 @@ double lambdaOf(double hz, double step_s) {
   return 4.0 * half * half;
 }
 
-/// What is known of one mode before it is told.
+/// A mode that was found, before it is reported.
 struct FoundMode {
   SceneMode told;
   std::vector<std::pair<int, double>> shares;  ///< kinetic energy by module

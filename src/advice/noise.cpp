@@ -24,7 +24,7 @@ struct Attached {
   bool interpolated = false;
 };
 
-/// Of white positions of rms 1.
+/// Response to white positions of rms 1.
 struct Response {
   double force = std::numeric_limits<double>::infinity();   // on the slice, rms
   double behind = std::numeric_limits<double>::infinity();  // of the mass, rms
@@ -50,9 +50,9 @@ std::vector<Sight> sightsOf(const Attached& attached) {
   return sights;
 }
 
-/// One tick is linear in the mass's position, step and force, the last two positions, the last
-/// force of the link and what of it the slice has yet to get, and the present position; the
-/// covariance of these is what it makes of itself (a Lyapunov equation, by doubling).
+/// Computes that response. One tick is linear in the mass's position, step and force, the last two
+/// positions, the last force of the link and what of it the slice has yet to get, and the present
+/// position; the covariance of these reproduces itself (a Lyapunov equation, by doubling).
 Response responseOf(const Attached& attached) {
   using Row = Eigen::Matrix<double, 1, 8>;
   constexpr int kDoublings = 60;
@@ -93,7 +93,7 @@ Response responseOf(const Attached& attached) {
           std::sqrt(covariance(0, 0))};
 }
 
-/// Without a filter: F[n] = (K + Z/T) x[n] - Z/T x[n-1], where it does not glide.
+/// Rms force without a filter: F[n] = (K + Z/T) x[n] - Z/T x[n-1], where it is not interpolated.
 double forceOf(const PortLinks::Resistance& held,
                const PortLinks::Resistance& interpolated,
                int steps,

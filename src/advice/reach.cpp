@@ -35,7 +35,7 @@ bool touches(const Span& span) {
   return span.from < 0.0 && span.to > 0.0;
 }
 
-/// Once out of reach, the first that is reached that way; nullptr: none.
+/// The span that is reached first in this direction, from outside of all; nullptr: none.
 const Span* nextOf(const std::vector<Span>& spans, double direction) {
   if (direction > 0.0) {
     const auto found =
@@ -117,12 +117,12 @@ class Finder {
     return end;
   }
 
-  /// Both ends, then how they are apart.
+  /// Separations over the position of the hand: of each end, then between both.
   struct Ends {
     Separation a;
     Separation b;
     Separation both;
-    /// Nothing that the hand does draws the link.
+    /// True if the link is not drawn by any motion of the hand.
     bool areStill() const {
       return !(both.way.norm() > kStill * std::max(a.way.norm(), b.way.norm()));
     }
@@ -181,7 +181,7 @@ class Finder {
     return pressed == pressed_.end() ? kNone : pressed->second;
   }
 
-  /// Of a friction those where its contact presses.
+  /// Spans of the hand in which a link acts; those of a friction where its contact presses.
   std::vector<Span> spansOf(const Port& port,
                             const scene::Lia& lia,
                             const Separation& both,
@@ -246,7 +246,8 @@ class Finder {
     }
   }
 
-  /// By what goes ahead of the hand from there on; not what hands carry, which may go away.
+  /// Contacts made by what the hand pushes ahead of it from there on; not by what hands carry,
+  /// which may go away.
   std::vector<PushedMeeting> pushedOn(
       const Port& port, int l, bool a_leads, double from, double direction) {
     const scene::Lia& pushing = scene_.lias[at(l)];

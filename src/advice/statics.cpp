@@ -20,7 +20,7 @@ using scene::MatType;
 constexpr double kLeastPivot = 1e-13;  // of the largest: what is less is a motion left open
 constexpr double kRounding = 1e-12;
 
-/// Moved by hands and agents, from where it rests, m.
+/// Displacement from rest by a hand or an agent at the start, m.
 double placeOfHand(const scene::Scene& scene, const scene::Port& port) {
   const double hand = port.agent >= 0 ? scene.agents[at(port.agent)].at(0.0) : 0.0;
   return (hand - port.offset) / port.position_scale;
@@ -33,7 +33,7 @@ Statics::Statics(const Network& network)
   addSprings();
 }
 
-/// All modules under a point, those that nothing moves too.
+/// All modules under a point with their weights, also those that nothing moves.
 Shares Statics::sharesOf(int mat) const {
   const int point = network_.point_of[at(mat)];
   if (point < 0) {
@@ -54,7 +54,7 @@ Shares Statics::sharesOf(int mat) const {
   return shares;
 }
 
-/// Of modules; a point has no start of its own.
+/// Position of a module at the start; a point has no start of its own.
 Eigen::Vector3d Statics::startOf(int mat) const {
   const scene::Mat& module = scene_.mats[at(mat)];
   if (module.type != MatType::kSlice) {
@@ -164,7 +164,7 @@ std::size_t Statics::placeIn(const Body& body, int mat) {
                                   body.mats.begin());
 }
 
-/// From forces on its modules to how far they go by them; false where they could go any way.
+/// Solves for the displacements of modules by forces on them; false if they are not held.
 bool Statics::solve(const Body& body, std::vector<double>& pushed) const {
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t i = 0; i < body.mats.size(); ++i) {
@@ -231,7 +231,7 @@ const std::vector<double>& Statics::offsetsOf(Body& body) {
   return body.offsets;
 }
 
-/// Of a module or point, by where modules are.
+/// Position of a module or point, by the positions of modules.
 template <class Places>
 Eigen::Vector3d Statics::placeBy(int mat, const Places& place_of_module) const {
   const int point = network_.point_of[at(mat)];
@@ -268,7 +268,7 @@ Eigen::Vector3d Statics::placeOf(int mat) {
   });
 }
 
-/// Of its port, as another section sees it.
+/// Displacement of the slice of a port per metre of the hand, as another section sees it.
 Eigen::Vector3d Statics::wayOfSlice(const scene::Port& port,
                                     const scene::Section& seen_from) const {
   Eigen::Vector3d way = Eigen::Vector3d::Unit(port.axis) / port.position_scale;

@@ -13,17 +13,18 @@
 
 namespace ergotic::physics {
 
-/// Where the modules of a scene rest while hands are still, and how far they go with a hand that
-/// moves so slowly that nothing swings. Springs hold, by the linear part of their laws; what may
-/// let go is open. In scalar sections what hangs between several things is worked out; in the
-/// others a module follows if it hangs on the slice alone, and is else held where it starts.
-/// All in the model's units. Thread: one. Realtime: no
+/// Rest positions of the modules of a scene while hands are still, and their quasi-static
+/// displacements with a hand that moves slowly. Springs hold, by the linear part of their laws;
+/// what may let go is open. In scalar sections what hangs between several things is worked out; in
+/// the others a module follows if it hangs on the slice alone, and is else held where it starts.
+/// All lengths are in the model's units. Thread: one. Realtime: no
 class Statics {
  public:
   /// \param network  must outlive it
   explicit Statics(const Network& network);
 
-  /// Where a module or point is, m, in its section, with all hands at 0 and agents as they begin.
+  /// Position of a module or point, m, in its section, with all hands at 0 and agents as they
+  /// begin.
   Eigen::Vector3d placeOf(int mat);
   /// How far it goes for a metre of the hand, in its section.
   Eigen::Vector3d wayOf(int mat, const scene::Port& port);
@@ -33,7 +34,7 @@ class Statics {
   /// drawn along by springs, and both give way by theirs. Empty: nothing says how far.
   /// \param by        what pushes, in another body or the slice \param softness  between both, m/N
   std::vector<double> pushedWays(int thing, int by, const scene::Port& port, double softness);
-  /// Of a module or point among these; 0 elsewhere.
+  /// Displacement of a module or point among these; 0 elsewhere.
   double among(int body, const std::vector<double>& ways, int mat);
   /// Names the body of a free module, or of the first under a point: what springs join, but for
   /// what is held. -1: held.
@@ -45,7 +46,7 @@ class Statics {
 
  private:
   struct Spring {
-    Shares ends;  ///< of modules, held ones too
+    Shares ends;  ///< ends on modules, held ones too
     double stiffness = 0.0;
     double elongation = 0.0;  ///< at the start, m; of scalar ones
   };
@@ -54,7 +55,7 @@ class Statics {
     std::vector<Spring> springs;
     std::set<int> holders;          ///< held modules at its springs
     bool is_scalar = true;          ///< with its holders
-    bool is_levered = false;        ///< by a tap: it does not go with what it hangs on as a whole
+    bool is_levered = false;        ///< by a tap: it does not move as a whole with what it hangs on
     bool is_held_by_cells = false;  ///< each by its own spring
     bool is_settled = false;        ///< `offsets` are known
     std::vector<double> offsets;    ///< [mats] m, from where they start to where they rest

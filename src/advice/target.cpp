@@ -47,7 +47,8 @@ std::string allowedTargets() {
   return text;
 }
 
-/// Everything that is no part of its own, by the sections of both ends: steps of modules and links.
+/// Cost of everything that is not a part of its own, by the sections of both ends: steps of modules
+/// and links.
 class RestCost {
  public:
   /// \param with_strings  strings count here
@@ -86,7 +87,7 @@ class RestCost {
   std::map<std::pair<int, int>, double> elements_;
 };
 
-/// All parts at some rates.
+/// Options for all parts at some rates.
 struct Candidate {
   Rates rates;
   Precision precision = Precision::kFloat;
@@ -95,7 +96,7 @@ struct Candidate {
   double cost = 0.0;
 };
 
-/// The worst of those that are treated alike.
+/// Merges advice on parts that are treated alike; the worst counts.
 void merge(Advice& to, const Advice& more) {
   to.part = more.present > to.present ? more.part : to.part;
   to.present = std::max(to.present, more.present);
@@ -252,7 +253,8 @@ class SettingSearch {
     return candidate;
   }
 
-  /// None if it cannot be settled at these rates or is less safe than before.
+  /// The scene with a candidate applied; nullopt if it cannot be settled at these rates or is less
+  /// safe than before.
   std::optional<scene::Scene> applied(const Candidate& candidate) const {
     try {
       scene::Scene scene = scene_;

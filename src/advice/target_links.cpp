@@ -39,7 +39,7 @@ class Networks {
   std::map<int, LinearNetwork> networks_;
 };
 
-/// One end of a link: what it weighs, and the waves that leave from there.
+/// One end of a link: its mass, and the impedance of waves that leave from there.
 struct End {
   double mass = std::numeric_limits<double>::infinity();  // kg
   double impedance = 0.0;                                 // kg/s
@@ -63,7 +63,7 @@ double reduced(double a, double b) {
   return 1.0 / (1.0 / a + 1.0 / b);
 }
 
-/// What a link has at stake, whatever is judged of it.
+/// Data of a link on which every judgement of it depends.
 struct Touch {
   int lia = 0;
   std::string name;
@@ -132,7 +132,7 @@ class SchemePart : public TargetPart {
   virtual double errorOf(Scheme scheme, const Rates& rates) const = 0;
 
  private:
-  /// Not onto a slower mass: there the guard is not proven.
+  /// True if it may be guarded: not on a slower mass, where the guard is not proven.
   bool canBeGuarded(const Rates& rates) const {
     const bool onto_slow_mass = touch_.crosses(rates) && std::isfinite(touch_.slowEnd(rates).mass);
     return touch_.is_guardable && !onto_slow_mass;
@@ -268,7 +268,7 @@ double pitchAt(const scene::Scene& scene, int mat) {
   return 0.0;
 }
 
-/// What a bow makes sound: its string, else the lowest mode of what it rubs.
+/// Pitch of what a bow excites: its string, else the lowest mode of what it rubs.
 double bowedPitchHz(const scene::Scene& scene, Networks& networks, const scene::Lia& lia) {
   for (const int mat : {lia.a, lia.b}) {
     const double pitch_hz = pitchAt(scene, mat);

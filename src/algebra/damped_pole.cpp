@@ -11,12 +11,12 @@ namespace {
 using Complex = std::complex<double>;
 using ComplexMatrix = Eigen::SparseMatrix<Complex>;
 
-/// Without conjugation.
+/// Product of two vectors without conjugation.
 Complex product(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
   return (a.transpose() * b)(0, 0);
 }
 
-/// That of a w^2 + b w + c = 0 that is nearer.
+/// The root of a w^2 + b w + c = 0 that is nearer to a guess.
 Complex nearerRoot(Complex a, Complex b, Complex c, Complex guess) {
   const Complex root = std::sqrt(b * b - 4.0 * a * c);
   const Complex sum = std::abs(b + root) > std::abs(b - root) ? b + root : b - root;

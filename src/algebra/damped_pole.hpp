@@ -19,7 +19,7 @@ struct DampedPole {
 void normalize(Eigen::VectorXcd& shape);
 
 /// One step of inverse iteration towards the pole that is nearest to a guess; for symmetric
-/// matrices the error is cubed. None if the equations at the guess cannot be solved. Thread: any
+/// matrices the error is cubed. nullopt if the equations at the guess cannot be solved. Thread: any
 /// \param both  B [n][n], \param pull  P [n][n]
 std::optional<DampedPole> refinedPole(const Eigen::SparseMatrix<double>& both,
                                       const Eigen::SparseMatrix<double>& pull,

@@ -17,7 +17,7 @@ struct SymmetricModes {
   Eigen::MatrixXd vectors;  ///< [n][n], a column each, orthonormal
   bool converged = false;
 };
-/// Of a symmetric matrix [n][n], of which the lower triangle is read.
+/// Eigenvalues and eigenvectors of a symmetric matrix [n][n], of which the lower triangle is read.
 SymmetricModes symmetricModes(const Eigen::MatrixXd& matrix);
 
 struct GeneralModes {
@@ -26,17 +26,17 @@ struct GeneralModes {
   bool converged = false;
 };
 GeneralModes generalModes(const Eigen::MatrixXd& matrix);
-/// Of a matrix [n][n]; none if they do not converge.
+/// Eigenvalues of a matrix [n][n]; nullopt if they do not converge.
 std::optional<Eigen::VectorXcd> generalEigenvalues(const Eigen::MatrixXd& matrix);
 
 struct Kernel {
   Eigen::Index rank = 0;
   Eigen::MatrixXd basis;  ///< [n][n - rank]; one column of 0 if the rank is n
 };
-/// What a matrix [n][n] takes to 0. \param threshold  of pivots, over the largest of them
+/// Kernel of a matrix [n][n]. \param threshold  of pivots, over the largest of them
 Kernel kernelOf(const Eigen::MatrixXd& matrix, double threshold);
 
-/// An orthonormal basis [n][n - k] of what is at right angles to k columns of length n.
+/// An orthonormal basis [n][n - k] of the complement of k columns of length n.
 Eigen::MatrixXd orthogonalComplement(const Eigen::MatrixXd& columns);
 
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix);

@@ -24,8 +24,8 @@ struct InterpolationStep {
 /// \param steps  N >= 2
 std::vector<InterpolationStep> interpolationSteps(int steps);
 
-/// What a slice feels of a spring of 1 N/m (a damper of 1 N s per tick) to the ground, of a
-/// displacement by 1 m in tick 0 alone. [ticks]
+/// Force on a slice by a spring of 1 N/m (a damper of 1 N s per tick) to the ground, after a
+/// displacement of 1 m in tick 0 alone. [ticks]
 struct InterpolationResponse {
   std::vector<double> spring;
   std::vector<double> damper;
@@ -33,12 +33,12 @@ struct InterpolationResponse {
 /// \param steps  N >= 2
 InterpolationResponse interpolationResponse(int steps);
 
-/// By how much the force comes later than that of a slice that is held, in ticks, for slow motion.
+/// Delay of the force against that of a held slice, in ticks, for slow motion.
 constexpr double kInterpolationDelay = 1.5;
 
-/// What faster sections hear beside the movement of a hand that swings by so much of a turn in a
-/// tick: images on both sides of every multiple of the rate, rms of that movement. Behind k means
-/// over a tick these are `turn^k sqrt(2 zeta(2 k))`.
+/// Images that faster sections get beside the movement of a hand that swings by so much of a turn
+/// in a tick: on both sides of every multiple of the rate, rms relative to that movement. After k
+/// means over a tick they are `turn^k sqrt(2 zeta(2 k))`.
 double heardSteps(scene::Coupling coupling, double turn);
 
 /// Whether modules of a section see this one interpolated: a smooth slice that is slower than they.

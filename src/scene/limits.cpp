@@ -12,7 +12,7 @@ bool isTooLarge(double value) {
   return std::abs(value) > kLargestNumber;
 }
 
-/// Of what is measured and must not be 0: its inverse is needed.
+/// True if a quantity with a unit that must not be 0 is too small: its inverse is needed.
 bool isTooSmall(double value, const Limits& limits) {
   return *limits.unit != '\0' && limits.above && limits.minimum == 0.0 && value > 0.0 &&
          value < kSmallestNumber;

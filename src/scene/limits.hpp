@@ -14,7 +14,7 @@ constexpr double kLargestNumber = 1e30;
 constexpr double kSmallestNumber = 1e-30;
 
 struct Limits {
-  const char* unit = "";  ///< of scenes in SI units
+  const char* unit = "";  ///< unit in scenes in SI units
   double minimum = -kInfinity;
   double maximum = kInfinity;
   bool above = false;  ///< the minimum itself is not allowed
@@ -22,7 +22,8 @@ struct Limits {
   /// True if within, not beyond kLargestNumber and, of what has a unit and must not be 0, not below
   /// kSmallestNumber.
   bool hold(double value) const;
-  /// As in `> 0 kg`, `0...1`, `a finite number of m`; without unit if `with_unit` is false.
+  /// Text for messages, as in `> 0 kg`, `0...1`, `a finite number of m`; without unit if
+  /// `with_unit` is false.
   std::string text(bool with_unit = true) const;
 };
 
@@ -43,9 +44,9 @@ constexpr Limits kFractionLimits{"", 0.0, 1.0};
 constexpr Limits kGuideScaleLimits{"1/m"};
 constexpr Limits kPointSpeedLimits{"1/s", 0.0, kInfinity, true};
 constexpr Limits kPointPowerLimits{"W", 0.0, kInfinity, true};
-constexpr Limits kWeightLimits{"", -1e6, 1e6};  ///< of a tap
+constexpr Limits kWeightLimits{"", -1e6, 1e6};  ///< weight of a tap
 constexpr Limits kSpacingLimits{"m", 0.0, kInfinity, true};
-constexpr Limits kHardeningLimits{"", 0.0, 1e6};  ///< of a stretch
+constexpr Limits kHardeningLimits{"", 0.0, 1e6};  ///< hardening of a stretch
 constexpr Limits kInnerFractionLimits{"", 0.001, 0.999};
 constexpr Limits kFrequencyLimits{"Hz", 0.0, 24000.0, true};
 constexpr Limits kExponentLimits{"", 1.0, 5.0};
@@ -60,8 +61,8 @@ constexpr Limits kDampingRatioLimits{"", 0.0, 2.0};
 constexpr int kMaxMats = 2'000'000;
 constexpr std::size_t kMaxTextBytes = std::size_t{64} << 20U;
 constexpr std::size_t kMaxNameBytes = 64;
-constexpr std::size_t kMaxTablePoints = 4096;            ///< of one force law
-constexpr std::size_t kMaxSceneTablePoints = 1U << 20U;  ///< of all force laws together
+constexpr std::size_t kMaxTablePoints = 4096;            ///< points of one force law
+constexpr std::size_t kMaxSceneTablePoints = 1U << 20U;  ///< points of all force laws together
 
 /// `mass = -1 kg is out of range, allowed: > 0 kg`
 std::string outOfRange(const std::string& what,

@@ -7,7 +7,7 @@
 
 namespace ergotic::scene {
 
-/// Of every link that another one presses the index of that, else -1; empty if none is pressed.
+/// [lias] Index of the link that presses each link, -1: none; empty if no link is pressed.
 /// Realtime: no. Cost: O(links)
 std::vector<int> pressersOf(const Scene& scene);
 

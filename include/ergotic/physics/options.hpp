@@ -8,7 +8,7 @@
 
 namespace ergotic::physics {
 
-/// kAuto is what the scene needs (withPrecision, certificate/precision.hpp).
+/// kAuto chooses the precision that the scene needs (withPrecision, certificate/precision.hpp).
 enum class Precision { kFloat, kDouble, kAuto };
 
 /// "float", "double", "auto".
@@ -33,10 +33,10 @@ struct CompileOptions {
 };
 
 constexpr int kMaxThreads = 8;
-constexpr std::int64_t kOneTick = -1;  ///< of the instrument's own rates
+constexpr std::int64_t kOneTick = -1;  ///< one tick of the instrument's own rates
 
-/// As a station plays, where a hand waits: no tick waits longer for a thread than a tick. The
-/// precision is what the scene needs.
+/// Options as a station plays, where a hand waits: no tick waits longer for a thread than a tick.
+/// The precision is what the scene needs.
 inline CompileOptions liveOptions() {
   CompileOptions options(Precision::kAuto);
   options.wait_limit_ns = kOneTick;

@@ -10,7 +10,7 @@
 
 namespace ergotic::scene {
 
-/// What readers and players are told of a scene; nothing that sounds depends on it.
+/// Description of a scene for readers and players; the sound does not depend on it.
 struct About {
   std::string title;
   std::string author;
@@ -19,7 +19,8 @@ struct About {
   std::vector<std::pair<std::string, std::string>> hands;  ///< `0..5`, and what these slices are
   std::string play;                                        ///< a gesture file beside the scene
   std::vector<std::string> sources;
-  /// From where and whereto the picture is taken, m, in the frame `model`.
+  /// Position of the camera for the picture, and the point that it looks at, m, in the frame
+  /// `model`.
   struct Camera {
     Eigen::Vector3d from = Eigen::Vector3d::Zero();
     Eigen::Vector3d at = Eigen::Vector3d::Zero();

@@ -23,8 +23,8 @@ constexpr int coarseLinks(int masses) {
   return 3 * masses + 6;
 }
 
-/// One link of a coarse string: its ends, counted from the first fixed one, and what its stiffness
-/// is: sum of weights[i] k(i+1).
+/// One link of a coarse string: its ends, counted from the first fixed one, and the weights of its
+/// stiffness, sum of weights[i] k(i+1).
 struct CoarseLink {
   int a = 0;
   int b = 0;

@@ -48,7 +48,7 @@ inline GridPlace placeOn(const Grid& grid, double along, double across) noexcept
   return place;
 }
 
-/// Where a point is while nothing leads it.
+/// Position of a point on its grid while nothing leads it.
 inline GridPlace placeOf(const Scene& scene, const Connection& point) {
   const auto fraction = [&](const Connection::Way& way) {
     return std::clamp(scene.valueOf(way.at), way.minimum, way.maximum);

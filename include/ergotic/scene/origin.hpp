@@ -16,7 +16,7 @@ const std::string& fileOf(const Scene& scene, Place place);
 std::string textOf(const Scene& scene, Place place);
 /// The instances that the place is in, a line each, the innermost first; empty if it is in none.
 std::string chainOf(const Scene& scene, Place place);
-/// With the instances that the place is in.
+/// An error at a place, with the instances that the place is in.
 TextError errorAt(const Scene& scene, Place place, const std::string& what);
 
 }  // namespace ergotic::scene

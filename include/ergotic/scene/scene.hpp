@@ -76,17 +76,17 @@ enum class MatType : std::uint8_t {
 
 /// How faster sections see a slice. `settle` turns the last two into the others.
 enum class Coupling : std::uint8_t {
-  kHold,     ///< where it was at the start of the tick, all of it
+  kHold,     ///< zero-order hold: its position at the start of the tick
   kSmooth,   ///< gliding: its positions interpolated, two ticks late
   kChaplet,  ///< held, with a chaplet before each of its links to them
-  kAuto,     ///< whatever is predicted to err least of what the hand bears
+  kAuto,     ///< the one of these with the least predicted error that the hand bears
 };
 
-/// What drives a module beside its links. Of the coordinates that move; the others are ignored.
+/// Initial velocity and forces of a module beside its links. Only the coordinates that move count.
 struct Push {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();     ///< m/time_unit, at the start
   Eigen::Vector3d force = Eigen::Vector3d::Zero();        ///< constant, kg m/time_unit^2
-  Eigen::Vector3d first_force = Eigen::Vector3d::Zero();  ///< only in the very first step
+  Eigen::Vector3d first_force = Eigen::Vector3d::Zero();  ///< force in the very first step only
 };
 
 /// (MAT) A material point: takes a force, gives a position.
@@ -132,14 +132,14 @@ struct Table {
   bool empty() const { return points.empty(); }
 };
 
-/// Of a link that remembers: a spring that follows the elongation and fades.
+/// Memory of a relaxing link: a spring that follows the elongation and decays.
 struct Relaxation {
   Value stiffness{};  ///< K_r >= 0, kg/time_unit^2
-  double time = 1.0;  ///< in which it fades, time units
+  double time = 1.0;  ///< time in which it decays, time units
 };
 constexpr std::size_t kMostRelaxations = 3;
 
-/// What only some laws of links need.
+/// Coefficients that only some laws of links need.
 struct LiaLaw {
   Value nonlinearity{};     ///< Q, kg/(m time_unit^2) or kg/(m^2 time_unit^2)
   Value stiffness_limit{};  ///< K_limit, kg/time_unit^2
@@ -147,7 +147,7 @@ struct LiaLaw {
   /// Contacts: threshold, m. Pluck: width of the plectrum, m. Bow: width of the friction curve,
   /// m/time_unit.
   Value width{};
-  Value exponent{1.0};  ///< of the power contact, 1...5
+  Value exponent{1.0};  ///< exponent of the power contact, 1...5
   /// Clipped cubic laws: |e| at which the slope K_limit takes over, m. It is
   /// sqrt((K_limit - K) / Q), where the force is continuous, or as Faust has it, which `.mdl` files
   /// may ask for, sqrt(K_limit - K) / Q.
@@ -202,7 +202,7 @@ struct Bend {
   Value stiffness{};         ///< K >= 0, kg/time_unit^2
   Value damping{};           ///< Z >= 0, kg/time_unit; 0 in a plane and in space
   double rest_length = 0.0;  ///< m; scalar sections only
-  int first_lia = 0;         ///< of its springs
+  int first_lia = 0;         ///< first of its springs, index in Scene::lias
   Place place;
 };
 
@@ -227,23 +227,23 @@ struct Grid {
   Place place{};
 };
 
-/// Where a kPoint on a grid lies. Its position is the weighted mean of the modules around it, and
-/// these receive its force with the same weights: a finger, the place of a bow, a fret, a bridge.
+/// Position of a kPoint on a grid. It is the weighted mean of the modules around it, and these
+/// receive its force with the same weights: a finger, the place of a bow, a fret, a bridge.
 /// along = 0 is the first column, 1 the last; across = 0 the first row, 1 the last.
 struct Connection {
   /// A fraction: that asked for, plus scale times the displacement of a module.
   struct Way {
     Value at{};
     int guide = -1;        ///< module, no point; -1: none
-    int axis = 0;          ///< along which its displacement counts; 0: x
+    int axis = 0;          ///< axis along which its displacement counts; 0: x
     double scale = 0.0;    ///< 1/m
-    double minimum = 0.0;  ///< it never leaves this range, whatever asks for it
+    double minimum = 0.0;  ///< the fraction never leaves this range, whatever asks for it
     double maximum = 1.0;
   };
   int mat = 0;   ///< a kPoint, in the section of the grid
   int grid = 0;  ///< index in Scene::grids
   Way along{};
-  Way across{};        ///< of one row it does not matter
+  Way across{};        ///< without effect on a grid of one row
   double speed = 0.0;  ///< largest change of along and across per time_unit; 0: at once
   double power = 1.0;  ///< W, the most that moving it may bring; it waits where it owes more
   Place place;
@@ -263,21 +263,21 @@ struct Tap {
   double offset = 0.0;  ///< where its modules are at rest, along x from its own rest, m
 };
 
-/// A hand inside the scene that is not the player's: where it wants to be over time. Its stiffness
+/// A hand inside the scene that is not the player's: its target position over time. Its stiffness
 /// and damping are links of the scene.
 struct Agent {
   std::string name;
   /// (s since the model began to play, m), in increasing time, at least one: straight lines
   /// between, the first and the last value outside.
   std::vector<std::pair<double, double>> knots;
-  double period_s = 0.0;  ///< after which it begins anew; 0: once
+  double period_s = 0.0;  ///< period after which it repeats; 0: once
   Place place;
-  /// Where it wants to be. Realtime: yes (binary search)
+  /// Target position. Realtime: yes (binary search)
   double at(double time_s) const noexcept;
 };
 
-/// One coordinate of a module that something outside moves, and feels: a slice of the device by
-/// itself, an end-effector of several, or an agent. Model and hand may be scaled:
+/// One coordinate of a module that is moved from outside, where its force is felt: a slice of the
+/// device by itself, an end-effector of several, or an agent. Model and hand may be scaled:
 /// x_model = (x_hand - offset) / position_scale, F_hand = force_scale * F_model.
 struct Port {
   std::string name;
@@ -407,8 +407,8 @@ struct Scene {
   std::vector<Selected> selections;  ///< each once, in the order of the text
   About about;
   std::vector<std::string> variants;  ///< names of all that the text has
-  std::vector<Origin> origins;        ///< of places, see Place::origin
-  std::vector<std::string> warnings;  ///< from reading, `file:line:col: warning: ...`
+  std::vector<Origin> origins;        ///< origins of places, see Place::origin
+  std::vector<std::string> warnings;  ///< warnings of the readers, `file:line:col: warning: ...`
 
   double valueOf(const Value& v) const {
     if (v.audio >= 0) {

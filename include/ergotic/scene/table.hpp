@@ -19,10 +19,10 @@ struct CurvePiece {
 
 /// A table between its first and its last point, in pieces sorted by `begin`.
 struct Curve {
-  std::vector<CurvePiece> pieces;  ///< one less than the table has points
+  std::vector<CurvePiece> pieces;  ///< pieces, one fewer than the table has points
   double end = 0.0;                ///< x of the last point
   double end_value = 0.0;          ///< y of the last point
-  double smallest_slope = 0.0;     ///< of dy/dx between the first and the last point
+  double smallest_slope = 0.0;     ///< smallest dy/dx between the first and the last point
   double largest_slope = 0.0;
 };
 

@@ -11,7 +11,7 @@ namespace ergotic::scene {
 /// A generated body that asks for a pitch: `settle` scales its links and losses to what it asks for
 /// at the rate at which it is stepped, and leaves none of these.
 struct Tuning {
-  /// A mode of unit modal mass, and what it takes of the links as they are written.
+  /// A mode of unit modal mass: its stiffness and damping by the links as they are written.
   struct Mode {
     double springs = 0.0;  ///< 1/time_unit^2, of the stiffness of two-ended links
     double bends = 0.0;    ///< 1/time_unit^2, of bends
@@ -19,7 +19,7 @@ struct Tuning {
   };
   struct Decay {
     int mode = 0;      ///< index in `modes`
-    double t60_s = 0;  ///< in which it falls by 60 dB
+    double t60_s = 0;  ///< time in which it falls by 60 dB
   };
   std::string name;
   int first_mat = 0;
@@ -37,9 +37,10 @@ struct Tuning {
   /// B of strings, f_j = j f_1 sqrt((1 + B j^2)/(1 + B)): springs and bends are scaled apart;
   /// negative: alike.
   double inharmonicity = -1.0;
-  /// Of partials 2 and 3 of a free bar to the first, by its thickness from place to place; or none.
+  /// Ratios of partials 2 and 3 of a free bar to the first, set by its thickness along it; or none.
   std::vector<double> ratios;
-  /// None: no loss; one: of all modes alike; two: by dampers of its links, too.
+  /// Decays that are asked for. None: no loss; one: of all modes alike; two: by dampers of links,
+  /// too.
   std::vector<Decay> decays;
   Place place;
 };

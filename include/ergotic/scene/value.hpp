@@ -8,7 +8,7 @@
 /// Numbers of a scene, what may change them, and where they stand in its text.
 namespace ergotic::scene {
 
-/// Where in a text something was said, for messages; line and column count from 1.
+/// Position in a text, for messages; line and column count from 1.
 struct Place {
   int line = 0;
   int column = 0;
@@ -47,11 +47,11 @@ struct Parameter {
 struct AudioParameter {
   std::string name;
   int channel = 0;     ///< audio channel, from 0
-  double value = 0.0;  ///< of the present sample
+  double value = 0.0;  ///< value at the present sample
   Place place;
-  double scale = 1.0;  ///< of the sample
+  double scale = 1.0;  ///< factor of the sample
   double offset = 0.0;
-  double minimum = -std::numeric_limits<double>::infinity();  ///< it never leaves this range
+  double minimum = -std::numeric_limits<double>::infinity();  ///< range of the value
   double maximum = std::numeric_limits<double>::infinity();
   double at(double sample) const noexcept {
     return std::clamp(offset + scale * sample, minimum, maximum);

@@ -79,7 +79,7 @@ std::vector<std::set<int>> joinedByPoints(const Network& network, bool anywhere)
   return joined;
 }
 
-/// Up to so many masses, the nearest.
+/// Collects what links join to a slice, up to so many masses, the nearest first.
 Attached reachedFrom(int slice,
                      const Network& network,
                      const std::vector<std::set<int>>& joined,

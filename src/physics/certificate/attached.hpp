@@ -8,16 +8,16 @@
 
 namespace ergotic::physics {
 
-/// True of what forces move.
+/// True if forces move the module.
 bool isFree(const scene::Mat& mat);
 
-/// [mats] that hands move and let go.
+/// [mats] 1 if a hand moves the module and lets it go.
 using Hands = std::vector<unsigned char>;
 std::vector<int> slicesInHands(const scene::Scene& scene);
 Hands handsOn(const scene::Scene& scene, const std::vector<int>& slices);
 
-/// What links join to a slice: modules that move, of too many the 16 nearest; points; and the
-/// slices among them.
+/// Nodes that links join to a slice: modules that forces move, the 16 nearest if there are too
+/// many; points; and the slices among them.
 struct Attached {
   std::set<int> nodes;
   std::vector<int> slices;
@@ -28,10 +28,11 @@ struct Attached {
 /// \param most   modules that are not too many
 Attached attachedTo(int slice, const Network& network, const Hands& hands, int most);
 
-/// All of it, and wherever points may be led.
+/// The whole body that is attached to a slice, at whatever positions its points may be led to.
 Attached bodyOn(int slice, const Network& network, const Hands& hands);
 
-/// What is attached there by itself: everything else becomes ground, and is left alone.
+/// The scene reduced to what is attached: other modules become grounds, links among them are
+/// removed.
 scene::Scene onlyOf(const Attached& attached, scene::Scene scene);
 
 /// Why what a slice meets cannot be told from it, whatever is attached there: fewer modes than

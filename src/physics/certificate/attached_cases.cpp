@@ -14,7 +14,7 @@ constexpr int kPlaces = 5;
 constexpr double kMostWork = 2e7;  // cubes of numbers of a state
 constexpr double kMostCases = 27.0;
 
-/// Without dampers along lines that turn: what moves across them they leave alone.
+/// The scene without dampers along lines that turn: these do not damp motion across the lines.
 scene::Scene withoutTurning(scene::Scene scene, const RatedNetwork& networks) {
   for (scene::Lia& lia : scene.lias) {
     if (networks.hasLineThatTurns(lia)) {
@@ -29,14 +29,14 @@ bool areLed(const scene::Scene& scene, scene::Connection::Way scene::Connection:
                      [&](const scene::Connection& c) { return (c.*way).guide >= 0; });
 }
 
-/// To one of so many places of its range, if it is led. \param i  of kPlaces
+/// Sets a way that is led to position i of its range. \param i  of kPlaces
 void putAt(int i, scene::Connection::Way& way) {
   if (way.guide >= 0) {
     way.at = {way.minimum + (way.maximum - way.minimum) * i / (kPlaces - 1)};
   }
 }
 
-/// Points that are led, at places of their ranges.
+/// Adds cases with the led points at positions of their ranges.
 void addPlaces(const scene::Scene& scene, std::vector<scene::Scene>& cases) {
   const int along = areLed(scene, &scene::Connection::along) ? kPlaces : 1;
   const int across = areLed(scene, &scene::Connection::across) ? kPlaces : 1;
@@ -49,7 +49,7 @@ void addPlaces(const scene::Scene& scene, std::vector<scene::Scene>& cases) {
   }
 }
 
-/// So many that what takes longest, the eigenvalues, stays below about a second.
+/// Number of cases for which the slowest part, the eigenvalues, takes less than about a second.
 int mostCases(int masses) {
   const double numbers = 3.0 * std::clamp(masses, 1, 100);
   return static_cast<int>(std::clamp(kMostWork / std::pow(numbers, 3), 3.0, kMostCases));

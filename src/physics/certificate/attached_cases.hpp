@@ -8,9 +8,9 @@
 
 namespace ergotic::physics {
 
-/// What slices in hands join, with the present values of the parameters, and others; at places of
-/// points that are led; with all dampers, and without those that may do nothing. What else is in
-/// the scene has lost its links. \see parameterCases()
+/// Scenes of the body that slices in hands join: with the present values of the parameters, and
+/// with others; with led points at positions of their ranges; with all dampers, and without those
+/// that may have no effect. Links elsewhere in the scene are removed. \see parameterCases()
 std::vector<scene::Scene> casesOf(const Attached& body, const RatedNetwork& networks);
 
 }  // namespace ergotic::physics

@@ -67,7 +67,7 @@ class Certifier {
   }
 
  private:
-  /// All sections of one rate are one network; slower ends are held, so fixed.
+  /// Certifies all sections of one rate as one network; ends in slower sections are held, so fixed.
   SectionCertificate certifyRate(int s, int divisor) {
     const NetworkBound network = networks_.atOwnRate(divisor);
     judgeSigns(networks_, network, findings_);
@@ -93,7 +93,7 @@ class Certifier {
     return result;
   }
 
-  /// Of the generated body that is to blame by itself, if one is.
+  /// The limit of the generated body that holds the worst link or module; nullptr: none.
   const scene::BodyLimit* limitOf(const SectionCertificate& section) const {
     const auto is_within = [](int index, int first, int count) {
       return index >= first && index < first + count;
@@ -106,7 +106,7 @@ class Certifier {
     return found == scene_.body_limits.end() ? nullptr : &*found;
   }
 
-  /// What is too stiff, and what to do about it.
+  /// Error text: which link or module is too stiff, and what to do about it.
   std::string faultOf(const SectionCertificate& section) const {
     const bool is_link = section.worst_lia >= 0;
     return "section '" + scene_.sections[at(section.section)].name + "' at " +
@@ -148,8 +148,8 @@ class Certifier {
     return !analysis.is_too_large && !analysis.is_bound && analysis.lambda >= NetworkBound::kLimit;
   }
 
-  /// Of a network that is not proven. Only what is linear is shown to grow: the others may leave
-  /// the slope that is too steep, or have a force that is bounded.
+  /// The verdict on a network that is not proven stable. Only a linear network is shown to grow:
+  /// other links may leave the range where their slope is too steep, or have a bounded force.
   Verdict verdictOn(const SectionCertificate& section, const NetworkAnalysis& analysis) const {
     if (!isRefuted(analysis)) {
       return Verdict::kUnproven;
@@ -168,8 +168,8 @@ class Certifier {
   Findings findings_;
 };
 
-/// Between scalar sections all links act along one axis. In others one that makes up for what is
-/// negative may act along another.
+/// True if all links act along one axis: those between scalar sections do. In others, a link that
+/// makes up for a negative one may act along another axis.
 bool isAlongOneAxis(const scene::Scene& scene, const std::vector<int>& modules) {
   return std::all_of(modules.begin(), modules.end(), [&](int mat) {
     return scene.sectionOf(scene.mats[at(mat)]).geometry == scene::Geometry::kScalar;

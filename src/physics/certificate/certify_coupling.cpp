@@ -23,7 +23,7 @@ constexpr double kRadiusRounding = 1e-9;  // of a radius of 1
 constexpr double kCertainGrowth = 1e-2;   // per period
 constexpr double kRoundingOfFloat = 2.5e-7;
 
-/// What the linear model does over one period of its slowest section.
+/// Spectral radius of the linear model over one period of its slowest section.
 struct Trial {
   double radius = 0.0;
   double period_s = 0.0;

@@ -71,7 +71,7 @@ class LinkJudge {
     }
   }
 
-  /// What concerns many links at once.
+  /// Adds the findings that concern several links at once.
   void finish() {
     for (const scene::Connection* place : moving_) {
       judgePlace(*place);
@@ -160,7 +160,7 @@ class LinkJudge {
     }
   }
 
-  /// Where it holds all energy.
+  /// The load h max(h K, Z) (1/Ma + 1/Mb) of a link that holds all the energy alone.
   double largestLoad(const Lia& lia) const {
     const LargestNumbers::Steepest most = largest_.steepestOf(lia);
     const double give = networks_.inverseMass(lia.a) + networks_.inverseMass(lia.b);
@@ -180,7 +180,7 @@ class LinkJudge {
     }
   }
 
-  /// Between its ends, whose distance is a root of squares.
+  /// True if a link acts along the line between its ends, whose distance is a root of squares.
   bool isAlongALine(const Lia& lia) const {
     const auto isScalar = [this](int mat) {
       const scene::Scene& scene = networks_.scene();
@@ -241,7 +241,7 @@ class LinkJudge {
     }
   }
 
-  /// What it remembers is of one axis, between the same places.
+  /// A link with memory is only proven along one fixed axis, with ends that do not move on a grid.
   void judgeMemory(const Lia& lia) {
     if (networks_.turns(lia) || networks_.isMoving(lia)) {
       findings_.add(Verdict::kUnproven, lia.place,
@@ -258,7 +258,8 @@ class LinkJudge {
                : "Raise the rate";
   }
 
-  /// Never a matter of the verdict: whether it is stable, the network has told.
+  /// Warns of friction that is steep for the step. The verdict does not depend on it: the network
+  /// decides whether the link is stable.
   void judgeFriction(const Lia& lia, const scene::FrictionSlopes& slopes) {
     const double unit = networks_.inverseMassStep(lia);
     const double rise = unit * slopes.rise;

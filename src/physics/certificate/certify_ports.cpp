@@ -54,7 +54,7 @@ class PortJudge {
     return met;
   }
 
-  /// What drives the hand instead of resisting it; empty: nothing.
+  /// Error text for a link that drives the hand instead of resisting it; empty: there is none.
   std::string describeDriving(const scene::Port& port) const {
     const int link = links_.driving(port);
     return link < 0 ? ""
@@ -81,7 +81,8 @@ class PortJudge {
   }
 
  private:
-  /// What is attached to a slice may set it off at less than its links alone. [mats]
+  /// Levels of slices that nobody holds: with what is attached to it, a slice may oscillate
+  /// although its links alone do not make it do so. [mats]
   std::vector<HandLevel> levelsOfFreeSlices() const {
     std::vector<HandLevel> levels(scene_.mats.size(), HandLevel::kSilent);
     if (!(device_.mass > 0.0) || !free_slices_.areJudged()) {
@@ -111,7 +112,7 @@ class PortJudge {
            physics::describe(device_.delay_ticks) + " ticks late, ";
   }
 
-  /// From a slice to what forces move, or to another slice.
+  /// True if a link joins a slice to a module that forces move, or to another slice.
   bool leadsOn(const scene::Lia& lia) const {
     const auto isSlice = [this](int mat) {
       return scene_.mats[at(mat)].type == scene::MatType::kSlice;

@@ -10,10 +10,10 @@
 
 namespace ergotic::physics {
 
-/// Where energy is lost whatever moves: the softest damping of the explicit links is positive
-/// definite there. A force that is bounded keeps what it acts on bounded only if all of that loses,
-/// and all that guarded links hand energy on to; what loses nothing collects the least that a step
-/// gives (docs/physics/stability.md, "How a scene is certified").
+/// Finds where energy is lost in every motion: where the damping matrix of the explicit links, at
+/// their softest, is positive definite. A bounded force keeps its modules bounded only if all of
+/// them lose energy, and all to which guarded links pass energy on; a part without loss accumulates
+/// the least energy that a step gives (docs/physics/stability.md, "How a scene is certified").
 class EnergyLoss {
  public:
   /// \param networks  must outlive this; links of which the scheme is open count as guarded

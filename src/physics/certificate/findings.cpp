@@ -9,7 +9,7 @@
 namespace ergotic::physics {
 namespace {
 
-/// Without the names in it: what many links of a net have in common.
+/// The text without the names in it, which is the same for many links of a net.
 std::string unnamed(const std::string& text) {
   std::string rest;
   bool is_name = false;

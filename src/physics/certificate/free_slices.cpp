@@ -15,8 +15,8 @@
 #include "scene/laws/range.hpp"
 
 namespace ergotic::physics {
-/// Of what more than always holds links can be: of slices, and of what is attached there, with its
-/// contacts or without.
+/// Nonlinear links are judged at slopes between what always holds and their steepest: the part (0
+/// to 1) of that range at slices and elsewhere, and whether contacts are closed.
 struct FreeSlices::Parts {
   double of_slices = 0.0;
   double of_others = 0.0;
@@ -319,7 +319,7 @@ std::vector<double> FreeSlices::radii(const DeviceTraits& device) const {
   return worst;
 }
 
-/// While the slices are held.
+/// Spectral radius while the slices are held.
 double FreeSlices::heldRadius(const Case& one) {
   return spectralRadius(one.state.leftCols(one.state.rows()));
 }

@@ -23,19 +23,20 @@ class FreeSlices {
   /// \param networks  must outlive it
   explicit FreeSlices(const RatedNetwork& networks);
 
-  /// Something is attached to a slice that moves by itself, and is worked out.
+  /// True if a module that moves by itself is attached to a slice, and is worked out.
   bool areJudged() const { return !cases_.empty(); }
-  /// What of all that is attached to a slice is not worked out, nullptr: nothing.
+  /// Names what is attached to a slice but is not worked out; nullptr: nothing.
   const char* leftOut(int slice) const { return left_out_[static_cast<std::size_t>(slice)]; }
 
-  /// Largest absolute eigenvalue of a tick of what each slice is part of, at least 1, the worst of
-  /// some places of the ranges of parameters and led points, see parameterCases(). [mats]
+  /// Spectral radius, over a tick, of the network that each slice is part of, at least 1; the
+  /// largest at some positions in the ranges of parameters and led points, see parameterCases().
+  /// [mats]
   /// Cost: some 20 ms for 50 masses and each slice, six times that if its links are not linear
   std::vector<double> radii(const DeviceTraits& device) const;
 
  private:
-  /// What a tick makes of the state of the masses, the last positions of the slices and the present
-  /// ones, all of them lengths.
+  /// One tick as a linear map of the state of the masses, the last positions of the slices and the
+  /// present ones, all of them lengths.
   struct Case {
     std::vector<int> slices;
     Eigen::MatrixXd state;   // [numbers][numbers + slices]

@@ -23,7 +23,7 @@ double along(const Complex& direction, const Complex& place) {
   return std::real(std::conj(direction) * place);
 }
 
-/// Of a function that falls, then rises, by golden section.
+/// The minimum of a function that falls, then rises, by golden-section search.
 template <class Function>
 double leastBetween(double low, double high, const Function& function) {
   const auto inner = [&](double from, double to) { return to - kGolden * (to - from); };

@@ -15,7 +15,7 @@ using scene::Geometry;
 
 constexpr double kRigidDamping = 1e30;  // N s/m, of what sticks together
 
-/// In its section.
+/// Position of a module or point at the start, in the coordinates of its section, m.
 Eigen::Vector3d startOf(const scene::Scene& scene, int mat) {
   for (const scene::Connection& connection : scene.connections) {
     if (connection.mat == mat) {
@@ -30,7 +30,7 @@ Eigen::Vector3d startOf(const scene::Scene& scene, int mat) {
   return scene.mats[at(mat)].position;
 }
 
-/// From b to a, in the section that a link acts in; its axis alone if that is scalar.
+/// Vector from b to a at the start, in the section that a link acts in; only x if that is scalar.
 Eigen::Vector3d lineOf(const scene::Scene& scene, const scene::Lia& lia) {
   const scene::Section& a = scene.sectionOf(scene.mats[at(lia.a)]);
   const scene::Section& b = scene.sectionOf(scene.mats[at(lia.b)]);

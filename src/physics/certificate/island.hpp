@@ -15,9 +15,9 @@ class Island {
 
   int masses() const { return masses_; }
 
-  /// With everything outside held: contacts open and, if there are any, closed at their steepest;
-  /// each with the present values of the parameters that it follows and with both ends of their
-  /// ranges.
+  /// Scenes of the island with everything outside held: contacts open and, if there are any, closed
+  /// at their steepest slope; each with the present values of the parameters that it follows and
+  /// with both ends of their ranges.
   std::vector<scene::Scene> cases() const;
 
   /// Why eigenvalues of these cases are no proof; empty: they are one.

@@ -37,7 +37,7 @@ double farthestMoved(const scene::Scene& scene) {
   return farthest;
 }
 
-/// Of what holds its ends up to a width alone, m.
+/// Elongation up to which a link that lets go holds its ends, m; 0 for all other links.
 double lengthOfHill(const scene::Scene& scene, const scene::Lia& lia) {
   const bool is_hill = scene::lawOf(lia.type).kind == scene::Law::Kind::kElastic;
   return is_hill ? std::max(scene::largest(scene, lia.law->width), lia.law->release) : 0.0;

@@ -14,18 +14,18 @@ class LargestNumbers {
   /// \param networks  must outlive this
   explicit LargestNumbers(const RatedNetwork& networks);
 
-  /// Of a link where it alone holds all energy.
+  /// Largest distance and slopes of a link if it alone holds all the energy.
   struct Steepest {
-    double apart = 0.0;      ///< its ends, m
+    double apart = 0.0;      ///< distance of its ends, m
     double stiffness = 0.0;  ///< kg/time_unit^2
     double damping = 0.0;    ///< kg/time_unit
   };
   Steepest steepestOf(const scene::Lia& lia) const;
-  /// Of a link, kg m/time_unit^2.
+  /// Largest force of a link, kg m/time_unit^2.
   double forceOf(const scene::Lia& lia) const;
-  /// Of what guarded links hold, kg m^2/time_unit^2.
+  /// Largest energy that guarded links hold, kg m^2/time_unit^2.
   double energy() const;
-  /// From the origin, m.
+  /// Largest distance of a module from the origin after so many seconds, m.
   double reach(double seconds) const;
 
  private:

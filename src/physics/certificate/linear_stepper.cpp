@@ -22,7 +22,7 @@ constexpr int kPeriods = 2000;
 constexpr double kMostSteps = 3e8;  // modules times audio frames
 constexpr double kScatter = 5e-6;   // of slopes, per period
 
-/// Until all that moves is stepped together again.
+/// Ticks until all sections that move are stepped together again.
 int ticksOfAPeriod(const scene::Scene& scene, const Rates& rates) {
   int frames = rates.ratio;
   for (const scene::Mat& mat : scene.mats) {

@@ -69,8 +69,9 @@ class LinearStepper {
   std::vector<double> outputs_;
 };
 
-/// What 2000 periods show of a linear scene that is too large for its eigenvalues: the slope of the
-/// logarithm of its size over the second half. Shows growth, never proves that there is none.
+/// Growth of a linear scene that is too large for its eigenvalues, measured over 2000 periods: the
+/// slope of the logarithm of its size over the second half. It may show growth, but never proves
+/// that there is none.
 struct GrowthSeen {
   double per_second = 0.0;
   bool is_visible = false;  ///< larger, of either sign, than what the method scatters by

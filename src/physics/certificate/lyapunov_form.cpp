@@ -36,7 +36,7 @@ struct Form {
   MatrixXd turn;
 };
 
-/// What a period does not change, and the first module of each body.
+/// The subspace that a period leaves unchanged, and the first module of each body in it.
 struct Staying {
   MatrixXd beside;  // at right angles to it
   std::vector<Index> bodies;
@@ -59,7 +59,8 @@ std::vector<Index> bodiesOf(const MatrixXd& stays) {
   return bodies;
 }
 
-/// None if what stays is not only where bodies lie, however it is rounded.
+/// Splits the unchanged subspace off. nullopt if it holds more than bodies at rest, or if rounding
+/// changes it.
 std::optional<Staying> besideWhatStays(const MatrixXd& matrix,
                                        const std::vector<MatrixXd>& rounded) {
   const MatrixXd unit = MatrixXd::Identity(matrix.rows(), matrix.cols());
@@ -246,7 +247,7 @@ double breathingOf(const MatrixXd& form,
                              : std::max(in_kept / kBreathing, in_plain / kLending);
 }
 
-/// What rounding does to the modes of a period: in their eigenvectors, one matrix for each case.
+/// Perturbation of the modes of a period by rounding: in their eigenvectors, one matrix per case.
 class RoundedModes {
  public:
   RoundedModes(const algebra::GeneralModes& modes, const std::vector<MatrixXd>& roundings) {
@@ -261,7 +262,7 @@ class RoundedModes {
     }
   }
 
-  /// True if one of them, or two that feed one another, grow by more than nothing.
+  /// True if a mode, or two modes that feed each other, may grow under rounding.
   bool mayGrow() const {
     for (Index i = 0; i < values_.size(); ++i) {
       if (lasts(values_[i]) && !(std::log(std::abs(values_[i])) + changeOf(i) <= kSlow)) {
@@ -283,7 +284,7 @@ class RoundedModes {
     return std::abs(a - b) <= kNear;
   }
 
-  /// Those that hardly fade, and those that rounding might bring to them.
+  /// Modes that hardly decay, and those whose eigenvalues rounding may bring close to them.
   static std::vector<Index> judgedOf(const Eigen::VectorXcd& values) {
     std::vector<Index> judged;
     for (Index i = 0; i < values.size(); ++i) {
@@ -298,15 +299,15 @@ class RoundedModes {
     return judged;
   }
 
-  /// By how much more or less one grows. Exact in what only turns it.
+  /// Largest change of the growth of mode i by rounding. Exact where rounding only rotates it.
   double changeOf(Index i) const {
     return largest([&](const Eigen::MatrixXcd& shift) {
       return std::abs(std::log(std::abs(1.0 + shift(i, i) / values_[i])));
     });
   }
 
-  /// By how much two grow at most while rounding grows from -1 to 1, to first order: those of
-  /// [[x, 0], [0, y]] + t [[a, b], [c, d]], as near as any case brings them.
+  /// Largest growth of two modes while rounding goes from -1 to 1, to first order: that of the
+  /// eigenvalues of [[x, 0], [0, y]] + t [[a, b], [c, d]], as near as any case brings them.
   double growthOf(Index i, Index j) const {
     const std::complex<double> x = values_[i];
     const std::complex<double> y = values_[j];

@@ -18,11 +18,12 @@ struct LyapunovForm {
   Eigen::MatrixXd turn;  ///< B, shape (rows, rows)
 };
 
-/// None if what rounding leaves of it shows nothing, and where modes are so near to meeting that
-/// rounding of the scene's numbers may take them there.
+/// Finds such a form. nullopt if rounding makes it useless, or if eigenvalues lie so close together
+/// that rounding of the scene's numbers may make them coincide.
 ///
-/// Modes that hardly fade: their left eigenvectors. The others lose so much that the form follows
-/// from a Lyapunov equation. Realtime: no. Cost: some four times that of the eigenvalues.
+/// For modes that hardly decay, the rows are their left eigenvectors. The others lose so much that
+/// the form follows from a Lyapunov equation. Realtime: no. Cost: some four times that of the
+/// eigenvalues.
 /// \param rounded  the same period with the scene's numbers off by what rounding may do to them
 std::optional<LyapunovForm> lyapunovFormOf(const Period& period,
                                            const std::vector<Eigen::MatrixXd>& rounded);

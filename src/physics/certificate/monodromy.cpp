@@ -21,7 +21,7 @@ namespace {
 constexpr double kNearOne = 1e-6;
 constexpr double kFixed = 1e-12;  // of the largest pivot
 
-/// One module that forces move: what a unit of its position and of its force make of everything.
+/// Response of the whole state, over one period, to a unit of one module's position or force.
 struct Column {
   int slot = 0;
   Eigen::VectorXd of_position;

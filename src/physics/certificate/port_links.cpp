@@ -57,7 +57,7 @@ double PortLinks::stiffness(const scene::Port& port) const {
   return 1.0 / (1.0 / sum + 1.0 / atSlice(port).stiffness);
 }
 
-/// What is behind a filter reaches the slice by the filter's link alone.
+/// Modules behind a filter reach the slice by the filter's link alone.
 double PortLinks::interpolatedStiffness(const scene::Port& port) const {
   const std::vector<int>& own = links_of_[at(port.mat)];
   if (port.filter >= 0) {
@@ -112,7 +112,7 @@ int PortLinks::driving(const scene::Port& port) const {
   return found == links.end() ? -1 : *found;
 }
 
-/// Where forces move neither end a guard has nothing to hold back.
+/// A guard has an effect only if forces move at least one end of the link.
 bool PortLinks::isHeldBack(int l) const {
   const auto moves = [this](int mat) {
     return network_.nodes[at(mat)].is_free || network_.point_of[at(mat)] >= 0;
@@ -160,13 +160,13 @@ std::vector<int> PortLinks::linksOf(const scene::Port& port) const {
   return links;
 }
 
-/// Where a link acts in a frame with fewer coordinates than the module has, these are seen along
-/// its axes; else its line may lie along any of them.
+/// If a link acts in a frame with fewer coordinates than the module has, the module's axes are
+/// projected onto it; otherwise its line may lie along any of them.
 double PortLinks::share(const scene::Port& port, int mat, int l) const {
   return share(port, port, mat, l);
 }
 
-/// What pulls along one axis what moves along the other.
+/// Share of a link's force along the axis of `port` per motion along the axis of `moved`.
 double PortLinks::share(const scene::Port& port, const scene::Port& moved, int mat, int l) const {
   const scene::Section& from = scene_.sectionOf(scene_.mats[at(mat)]);
   const scene::Section& to = scene_.sectionOf(scene_.mats[at(otherEnd(l, mat))]);
@@ -216,7 +216,7 @@ double PortLinks::damping(int l) const {
   return slopesInHand(scene_, scene_.lias[at(l)]).damping.highest;
 }
 
-/// One link after the other through masses that nothing else holds; what comes then is held.
+/// Adds up links in series through masses that nothing else holds; the module after them is held.
 PortLinks::Series PortLinks::series(int from, int l) const {
   Series all{slope(l), otherEnd(l, from)};
   for (int links = 1; links < kLongestSeries && all.stiffness > 0.0; ++links) {

@@ -17,13 +17,13 @@ class PortLinks {
   /// [nodes] of the network.
   const std::vector<std::vector<int>>& ofNodes() const { return links_of_; }
 
-  /// What everything resists the slow motion of a port with, at most, other hands in the worst way.
+  /// Largest stiffness against slow motion of a port, with other hands at their worst.
   double stiffness(const scene::Port& port) const;
-  /// How much of it is of links that see the slice interpolated.
+  /// Part of it by links that see the slice interpolated.
   double interpolatedStiffness(const scene::Port& port) const;
   /// The link that gives most of it, -1: none.
   int stiffest(const scene::Port& port) const;
-  /// What the links of its slice resist a step of it with, other hands in the worst way.
+  /// Largest damping of one step of a port by the links of its slice, other hands at their worst.
   double damping(const scene::Port& port) const;
   double interpolatedDamping(const scene::Port& port) const;
   /// The link of the slice with most damping, -1: none.
@@ -32,16 +32,17 @@ class PortLinks {
   /// guard holds back.
   int driving(const scene::Port& port) const;
 
-  /// What the links of a module resist a step of it with, everything else held.
+  /// Resistance of the links of a module to one step of it, with everything else held.
   struct Resistance {
     double stiffness = 0.0;
     double damping = 0.0;
   };
-  /// Of the slice itself, and of its links that see it held, or interpolated.
+  /// Resistance at the slice itself, and by those of its links that see it held, or interpolated.
   Resistance atSlice(const scene::Port& port) const;
   Resistance heldAtSlice(const scene::Port& port) const;
   Resistance interpolatedAtSlice(const scene::Port& port) const;
-  /// Of the mass of its filter, but for what it is attached to. \pre port.filter >= 0
+  /// Resistance at the mass of the port's filter, without its link to the slice.
+  /// \pre port.filter >= 0
   Resistance behindFilter(const scene::Port& port) const;
 
  private:

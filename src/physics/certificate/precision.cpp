@@ -105,7 +105,7 @@ class Bodies {
     return body.is_plain ? body.is_anchored : isHeldByItsMatrix(body);
   }
 
-  /// All its motions are faster than kHeldHz: K - w^2 M is positive definite, for unit masses.
+  /// True if all motions are faster than kHeldHz: K - w^2 M is positive definite, for unit masses.
   bool isHeldByItsMatrix(const Body& body) {
     for (std::size_t row = 0; row < body.modules.size(); ++row) {
       row_of_[at(body.modules[row])] = static_cast<int>(row);

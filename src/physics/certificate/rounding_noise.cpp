@@ -47,9 +47,8 @@ struct Part {
   }
 };
 
-/// What a spring adds up before it takes a difference, where what it joins goes nowhere: in
-/// Euclidean sections how far its ends lie apart, in scalar ones only by how much it is stretched
-/// there, m.
+/// Length that a spring computes before it takes a difference, at rest, m: in Euclidean sections
+/// the distance of its ends, in scalar ones only its elongation there.
 double distanceOf(const scene::Scene& scene, const scene::Lia& lia) {
   const Eigen::Vector3d apart = scene::restApart(scene, lia);
   const scene::Geometry geometry = scene.sectionOf(scene.mats[at(lia.a)]).geometry;
@@ -111,7 +110,7 @@ class RoundingNoise {
     }
   }
 
-  /// What a link joins to something that no force moves goes nowhere.
+  /// Marks a part as held if a link joins it to something that no force moves.
   void hold(const Network::Link& link) {
     const Shares ends = endsOf(link);
     double sum = 0.0;

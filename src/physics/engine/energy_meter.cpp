@@ -292,7 +292,7 @@ LinkWork EnergyMeter<Real>::workOf(std::size_t r, const State<Real>& state) cons
   return work;
 }
 
-/// What moves modules: the energy accounts, and the steps under way.
+/// Adds the work of the device and of inputs in the steps under way; takes off work counted ahead.
 template <class Real>
 void EnergyMeter<Real>::addSources(const State<Real>& state, Energies& to) const noexcept {
   if (!state.isMetered()) {
@@ -314,7 +314,7 @@ void EnergyMeter<Real>::addSources(const State<Real>& state, Energies& to) const
                 });
 }
 
-/// Everything but the residual, in the scene's unit of energy. \return the balance
+/// Collects all energies except the residual, in the scene's unit. \return the balance
 template <class Real>
 double EnergyMeter<Real>::collect(const CoefficientsOf<Real>& c,
                                   const State<Real>& state,

@@ -39,7 +39,7 @@ class EnergyMeter {
     }
   }
 
-  /// The same of a step to come: balances before that step leave it out.
+  /// Counts such work of a step to come: balances before that step leave it out.
   void addAhead(int section, double work, State<Real>& state) noexcept {
     addTouch(section, work, state);
     ahead_[static_cast<std::size_t>(section)] += work;
@@ -52,8 +52,9 @@ class EnergyMeter {
   /// The balance is counted from here on.
   void start(const CoefficientsOf<Real>& c, State<Real>& state) noexcept;
 
-  /// What changed in between is work of the parameters. Call before the first and after the last
-  /// frame that mixes forces of old and new coefficients.
+  /// Counts the change of energy between the two calls as work of the parameters. Call beginChange
+  /// before the first and endChange after the last frame that mixes forces of old and new
+  /// coefficients.
   void beginChange(const CoefficientsOf<Real>& c, State<Real>& state) noexcept;
   void endChange(const CoefficientsOf<Real>& c, State<Real>& state) noexcept;
 

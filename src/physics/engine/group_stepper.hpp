@@ -19,7 +19,7 @@ struct Frames {
   double* outputs = nullptr;       ///< [count][channels of the group], added to
 };
 
-/// What a group sees of held modules. Realtime: yes
+/// Copies the motion of held modules into the group's proxies of them. Realtime: yes
 template <class Real>
 void fillProxies(const Group& group, State<Real>& state) noexcept {
   for (const Proxy& proxy : group.proxies) {
@@ -29,7 +29,7 @@ void fillProxies(const Group& group, State<Real>& state) noexcept {
   }
 }
 
-/// What these get back. Realtime: yes
+/// Adds the forces on proxies to the held modules that they stand for. Realtime: yes
 template <class Real>
 void emptyProxies(const Group& group, State<Real>& state) noexcept {
   Real* f = state.f();
@@ -50,7 +50,7 @@ class GroupStepper {
         channels_in_(static_cast<std::size_t>(mechanism.scene->inputChannels())),
         followed_(mechanism.layout.followers.empty() ? scene::Scene{} : *mechanism.scene) {}
 
-  /// All of a tick for the blocks that nothing else acts on meanwhile.
+  /// Steps the blocks on which nothing else acts meanwhile through a whole tick.
   void advanceLoneBlocks(const Group& group, const Frames& tick) noexcept {
     for (const LoneBlock& lone : group.lone) {
       const int section = mechanism_.layout.blocks[lone.block].section;
@@ -147,7 +147,7 @@ class GroupStepper {
     return run.section_a == run.section_b && mechanism_.state.asleep()[run.section_a] != 0;
   }
 
-  /// What follows an audio input gets its coefficients of this frame.
+  /// Updates, for this frame, the coefficients that follow an audio input.
   void followAudio(const Group& group, const double* in) noexcept {
     if (group.followers.empty()) {
       return;

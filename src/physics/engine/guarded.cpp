@@ -155,7 +155,7 @@ bool pushes(const GuardedMotion<Real>& m,
   return law.form->phase == nullptr || holdsAt(m.p, law, state);
 }
 
-/// Where the link is, how it opens if left alone, and whether it has a say.
+/// Measures the position of the link, its opening without its own force, and whether it is active.
 template <class Real>
 GuardedMotion<Real> GuardedLinks<Real>::measure(const GuardedView<Real>& view,
                                                 const GuardedLaw<Real>& law,
@@ -274,7 +274,7 @@ void GuardedLinks<Real>::correctCharge(const GuardedView<Real>& view,
   takeBack(m.expected - real, m, state);
 }
 
-/// All but what sticks.
+/// Exerts the forces of all links except frictions that stick.
 template <class Real>
 void GuardedLinks<Real>::exertOthers(const NearLinks<Real>& near,
                                      const GuardedView<Real>& view,

@@ -9,13 +9,13 @@
 
 namespace ergotic::physics {
 
-/// One coordinate of a module that a guarded link reaches: at its end itself, or through points.
+/// One coordinate of a module on which a guarded link acts, directly or through points.
 struct GuardedTerm {
-  int slot = 0;                  ///< of the coordinate
+  int slot = 0;                  ///< slot of the coordinate
   int module = 0;                ///< slot of the module's first coordinate
   int component = 0;             ///< 0 x, 1 y, 2 z
-  double weight[3] = {1, 0, 0};  ///< in each coordinate of end a less end b
-  int slow_section = -1;         ///< where the module is stepped, if more slowly than the link
+  double weight[3] = {1, 0, 0};  ///< weight in each coordinate of end a less end b
+  int slow_section = -1;         ///< section of the module, if it is slower than the link
   bool is_tap = false;           ///< its next step is in GuardedView::ahead
 };
 
@@ -24,14 +24,14 @@ struct GuardedLink {
   std::vector<GuardedTerm> terms;
   double offset[3] = {0, 0, 0};  ///< end a less end b while all displacements are 0, m
   bool sticks = false;           ///< friction that comes after all others
-  double share = 1.0;            ///< of the step of a slower end in one of the link's own
+  double share = 1.0;            ///< part of the step of a slower end in one step of the link
   bool may_wait = false;         ///< a contact that nothing but the motion of its terms closes
 };
 
 template <class Real>
 class NearLinks;
 
-/// What presses a friction that sticks.
+/// Normal force of a dry friction, and its direction.
 template <class Real>
 struct Pressure {
   Real force = Real(0);                        ///< >= 0

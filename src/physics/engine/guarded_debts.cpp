@@ -71,8 +71,8 @@ void GuardedLinks<Real>::weaken(const Link& link,
   state.stored = static_cast<double>(m.budget - m.force * m.coasting / Real(4));
 }
 
-/// Of links that share masses those that have something left pay for those that owe. Where all
-/// together cannot, all push less: with a part y of all forces they do the work y a + y^2 b, b the
+/// Among links that share masses, those with energy left pay for those that owe. If all together
+/// cannot pay, all forces are scaled down: a part y of them does the work y a + y^2 b, with b the
 /// work of the forces on one another, which is never negative.
 template <class Real>
 void GuardedLinks<Real>::settleDebts(const NearLinks<Real>& near,

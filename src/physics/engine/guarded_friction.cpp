@@ -24,8 +24,8 @@ void removeAlong(const Real (&line)[3], Real (&from)[3]) noexcept {
 
 }  // namespace
 
-/// How it would slip in the step to come: with all others, and those that stick before it, whose
-/// doings are in the loads of its modules.
+/// Computes the slip of the step to come, with the forces of all other links and of the frictions
+/// that stick before this one, which are in the loads of its modules.
 template <class Real>
 Slide<Real> GuardedLinks<Real>::slideOf(const GuardedView<Real>& view,
                                         const Pressure<Real>& pressed,
@@ -87,8 +87,8 @@ void GuardedLinks<Real>::visitShares(const GuardedView<Real>& view,
   }
 }
 
-/// One friction that sticks. What it gives it pays from its tank, then from what those before it
-/// have taken from the same modules in this step.
+/// Exerts the force of one friction that sticks. Energy that it gives comes from its tank, then
+/// from what earlier frictions have taken from the same modules in this step.
 template <class Real>
 void GuardedLinks<Real>::rub(const GuardedView<Real>& view,
                              const GuardedLaw<Real>& law,
@@ -118,7 +118,7 @@ void GuardedLinks<Real>::rub(const GuardedView<Real>& view,
   std::copy_n(m.gradient, 3, state.gradient);
 }
 
-/// Its tank takes what is left of what it took; of one that sticks that is lost.
+/// Its tank keeps the rest of the energy that it took; if the friction sticks, the rest is lost.
 template <class Real>
 void GuardedLinks<Real>::closeRub(const GuardedView<Real>& view,
                                   const Link& link,

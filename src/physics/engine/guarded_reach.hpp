@@ -25,7 +25,8 @@ class GuardedReach {
                const Layout& layout,
                const std::vector<GuardedGroup>& groups);
 
-  /// As many terms wherever places lie, which `to` has room for when it was found before.
+  /// Finds the terms of a link. Their number does not depend on the positions of points; `to` has
+  /// room for them if they were found before.
   /// Realtime: then
   void find(const GuardedRef& ref, const double* places, Terms& to) const noexcept;
 
@@ -37,7 +38,7 @@ class GuardedReach {
   std::vector<int> slotsUnder(std::size_t place) const;
 
  private:
-  /// What an end is behind other frames.
+  /// Slot of the module or point that an end represents behind all projections.
   int behind(int slot) const noexcept;
   void findWholeTaps(const scene::Scene& scene, const std::vector<GuardedGroup>& groups);
   void reachEnd(int slot,

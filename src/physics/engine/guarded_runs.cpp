@@ -231,7 +231,7 @@ void GuardedRuns<Real>::rememberGaps(std::size_t g, State<Real>& state) noexcept
   links_[g].near.remember(gapOf, clearances(g, state));
 }
 
-/// What its tanks hold is what a run stores; the rest of what it took is gone.
+/// Closes the energy accounts: a run stores what its tanks hold, the rest counts as dissipated.
 template <class Real>
 void GuardedRuns<Real>::closeAccounts(std::size_t g,
                                       bool starts,

@@ -47,7 +47,7 @@ void placeInitialState(const Rates& rates, Mechanism<Real>& mechanism) {
   }
 }
 
-/// From the scene to what ticks: every value is made once, from those before it.
+/// Compiles a scene into an instrument: every value is made once, from those before it.
 template <class Real>
 std::unique_ptr<Instrument> compileFor(std::shared_ptr<const scene::Scene> written,
                                        const Rates& rates,

@@ -22,7 +22,7 @@ namespace ergotic::physics {
 /// \throws Exception if there are not as many, or if one is outside its range
 scene::Scene withParameters(scene::Scene scene, const std::vector<double>& values);
 
-/// Of each link that is played, its index in the scene as it was written, of which it has some.
+/// Indices of the links that are played in the scene as written, which contains all of them.
 inline std::vector<int> liasAsWritten(const scene::Scene& written, const scene::Scene& played) {
   std::vector<int> indices;
   int next = 0;
@@ -193,7 +193,7 @@ class InstrumentOf final : public Instrument {
     }
   }
 
-  /// All frames of the tick.
+  /// All frames of the present tick, with `heard` as their outputs, set to 0.
   Frames tickOf(std::vector<double>& heard) noexcept {
     std::fill(heard.begin(), heard.end(), 0.0);
     return {mechanism_->state.frame(), rates().ratio, inputs_.data(), heard.data()};
@@ -208,7 +208,7 @@ class InstrumentOf final : public Instrument {
     }
   }
 
-  /// All frames, one after the other. Thread: any
+  /// Steps a group through all frames of the tick, one after the other. Thread: any
   void stepGroup(std::size_t g) noexcept {
     const Group& group = mechanism_->groups.running[g];
     const Frames tick = tickOf(heard_[g]);

@@ -20,7 +20,7 @@
 
 namespace ergotic::physics {
 
-/// What ticks, in the order in which it is made: each part refers to those before it.
+/// The parts that make up a tick, in the order of construction: each refers to those before it.
 template <class Real>
 struct Mechanism {
   /// \param written  modules of the scene as it was written, the first of those that are played

@@ -20,7 +20,7 @@ double weightOf(const GuardedLink& link) {
   return sum;
 }
 
-/// Also of what is no number: then everything is looked at.
+/// The larger value; NaN if either is NaN: then all links are worked out.
 template <class Real>
 Real largerOf(Real a, Real b) noexcept {
   return a > b || std::isnan(a) ? a : b;
@@ -62,7 +62,7 @@ NearLinks<Real>::NearLinks(const std::vector<GuardedLink>& links) : found_(links
   findSpans(links);
 }
 
-/// Of all slots whose motion can close a gap.
+/// Finds the ranges of all slots whose motion can close a gap.
 template <class Real>
 void NearLinks<Real>::findSpans(const std::vector<GuardedLink>& links) {
   std::vector<int> slots;

@@ -11,10 +11,10 @@
 
 namespace ergotic::physics {
 
-/// Which of the guarded links have to be looked at. Contacts of one body with all of another come
-/// in tiles, and a tile whose narrowest gap cannot have closed yet is passed over: a step changes
-/// the gap of a link by at most W max |d|, W the sum of the weights of its modules. What is played
-/// is the same, bit for bit. Source: docs/physics/schemes.md, "Energy-stable links".
+/// The guarded links that a step has to work out. Contacts of one body with all of another come in
+/// tiles, and a tile whose narrowest gap cannot have closed yet is skipped: a step changes the gap
+/// of a link by at most W max |d|, W the sum of the weights of its modules. The result is the same,
+/// bit for bit. Source: docs/physics/schemes.md, "Energy-stable links".
 template <class Real>
 class NearLinks {
  public:

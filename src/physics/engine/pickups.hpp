@@ -8,7 +8,7 @@
 
 namespace ergotic::physics {
 
-/// What is heard.
+/// Pickups: outputs that read positions, velocities or forces.
 template <class Real>
 class Pickups {
  public:
@@ -34,7 +34,7 @@ class Pickups {
     }
   }
 
-  /// What is heard of a position or velocity; 0 at pickups of forces.
+  /// Output of a pickup of a position or velocity; 0 for pickups of forces.
   double position(std::size_t k,
                   const CoefficientsOf<Real>& c,
                   const State<Real>& state) const noexcept {
@@ -50,8 +50,8 @@ class Pickups {
     }
   }
 
-  /// What is heard of a force; 0 at other pickups. That on a slow module is whole only at the end
-  /// of its step: it is held until the next.
+  /// Output of a pickup of a force; 0 for other pickups. The force on a slow module is complete
+  /// only at the end of its step: it is held until the next.
   double force(std::size_t k,
                const CoefficientsOf<Real>& c,
                std::int64_t now,

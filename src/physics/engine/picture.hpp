@@ -8,8 +8,8 @@
 
 namespace ergotic::physics {
 
-/// Where the modules of the scene as it was written are: the first ones of the scene that is
-/// played.
+/// Reads the positions of the modules of the scene as written, which come first in the scene that
+/// is played.
 class Picture {
  public:
   /// \param shown  modules as written

@@ -34,7 +34,7 @@ class Points {
     }
   }
 
-  /// Where a place is at the start.
+  /// Sets all points and taps to their positions at the start.
   void placeAtStart(const CoefficientsOf<Real>& c, Real* x, Real* d, double* places) const {
     for (std::size_t t = 0; t < layout_.taps.size(); ++t) {
       taps_.gather(t, x, d);
@@ -118,7 +118,7 @@ class Points {
       }
     }
   }
-  /// As far as taps.
+  /// Passes the forces on points and projections on, down to modules and taps.
   void scatterPlaces(const Group& group, Real* f, const double* places) const noexcept {
     for (const std::size_t p : group.projections) {
       const ProjectedPoint& point = layout_.projections[p];
@@ -155,7 +155,7 @@ class Points {
     }
   }
 
-  /// What taps have received goes on to their modules. \param f  added to
+  /// Passes the forces on taps on to their modules. \param f  added to
   void scatterTaps(const Group& group, const Real* forces, Real* f) const noexcept {
     for (const std::size_t t : group.taps) {
       taps_.scatter(t, forces, f);
@@ -243,8 +243,8 @@ class Points {
     }
   }
 
-  /// What it may cost at most to have moved a point from `before`: the last force, what the string
-  /// has added since, and what the way adds, with springs as stiff as they get.
+  /// Upper bound of the energy that moving a point from `before` has cost: by the last force, by
+  /// what the string has added since, and by the displacement, with springs at their stiffest.
   double costOf(const PlacePoint& point,
                 const PlaceCoefficients& wanted,
                 const Real* before,

@@ -11,20 +11,22 @@
 
 namespace ergotic::physics {
 
-/// What presses the frictions of an instrument: numbers, or contacts by the last force they gave.
-/// Contacts are of the group of the friction, or of held sections, which stand still while it runs.
+/// Normal forces of the dry frictions of an instrument: numbers, or the last forces of contacts. A
+/// contact belongs to the group of the friction, or to held sections, which do not move while it
+/// runs.
 template <class Real>
 class Pressures {
  public:
   Pressures(const Layout& layout, const std::vector<GuardedGroup>& groups);
 
-  /// Of the guarded links of a group. \param laws  [links] of it. Realtime: yes
+  /// Reads the normal forces of the guarded links of a group.
+  /// \param laws  [links] of it. Realtime: yes
   const Pressure<Real>* read(std::size_t group,
                              const GuardedLaw<Real>* laws,
                              State<Real>& state) noexcept;
 
  private:
-  /// By index in its group.
+  /// A dry friction, by its index in its group.
   struct Friction {
     std::size_t link = 0;
     int pressing = -1;  ///< index in Layout::pressings, -1: a number presses it

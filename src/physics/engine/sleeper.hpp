@@ -48,7 +48,7 @@ class Sleeper {
     }
   }
 
-  /// After all forces of the frames from `first` on are known.
+  /// Ends the frames from `first` on, once all their forces are known.
   /// \param is_held  whether a hand holds something in a section. Realtime: yes
   template <class IsHeld>
   void endFrames(const Group& group,
@@ -195,8 +195,8 @@ class Sleeper {
     });
   }
 
-  /// What stops keeps what its springs hold. Where steps are nearly opposite, motion counts below
-  /// 0, and that is more than the energy was.
+  /// True if stopping adds no energy: springs keep what they hold. If successive steps are nearly
+  /// opposite, kinetic energy counts below 0, and a stop would leave more than there was.
   bool restsWithNoMore(int section,
                        const CoefficientsOf<Real>& c,
                        const State<Real>& state) const noexcept {
@@ -246,7 +246,7 @@ class Sleeper {
     }
   }
 
-  /// What springs do to modules at rest.
+  /// Adds the forces of springs on modules at rest.
   void pull(std::size_t run, const CoefficientsOf<Real>& c, State<Real>& state) const noexcept {
     forEachSpring(run, c, [&](const BlockLink& link, int a, int b) {
       const Real force = stiffness(run, link, c) * (state.x()[a] - state.x()[b]);

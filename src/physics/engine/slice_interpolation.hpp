@@ -19,7 +19,7 @@ class SliceInterpolation {
  public:
   explicit SliceInterpolation(const Layout& layout) : layout_(layout) {}
 
-  /// Where they are seen before anything moves.
+  /// Sets interpolated slices to their positions at the start.
   void placeAtStart(Real* x) const noexcept {
     for (const InterpolatedSlice& slice : layout_.interpolated) {
       for (int k = 0; k < slice.dimensions; ++k) {

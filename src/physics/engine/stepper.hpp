@@ -34,9 +34,9 @@ class Stepper {
     blocks_end_.resize(layout.sections.size(), blocks());
   }
 
-  /// One step of the modules of a section, and of the links that blocks hold; blocks that go
-  /// through a tick alone are left out.
-  /// \return what cells, medium and the dampers of blocks dissipated in it
+  /// Steps the modules of a section, and the links in its blocks, once; blocks that go through a
+  /// tick alone are left out.
+  /// \return energy that cells, medium and the dampers of blocks dissipated in it
   double moveMasses(int section, const CoefficientsOf<Real>& c, State<Real>& state) const noexcept {
     const SectionRange& range = layout_.sections[static_cast<std::size_t>(section)];
     double lost = 0.0;
@@ -102,7 +102,7 @@ class Stepper {
     return at;
   }
 
-  /// What is stepped how, some lines for each section. Realtime: no
+  /// Describes how each section is stepped, some lines for each. Realtime: no
   std::vector<std::string> describe(const scene::Scene& scene) const;
 
   /// Counts what remembering links hold before anything moves. Realtime: no.

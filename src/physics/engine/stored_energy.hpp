@@ -10,7 +10,7 @@
 #include "physics/state/coefficients.hpp"
 #include "physics/state/state.hpp"
 
-/// What follows from positions, steps and forces alone, in the scene's unit of energy.
+/// Energies that follow from positions, steps and forces alone, in the scene's unit.
 namespace ergotic::physics {
 
 /// Calls `visit(slot)` for the modules that forces move, and for grounds in blocks.
@@ -91,11 +91,11 @@ double springsOf(const LinkRun& run,
   return 0.5 * energy;
 }
 
-/// Where the coefficients of a link of a block are.
+/// Indices of the coefficients of a link of a block.
 struct BlockLink {
   std::size_t place = 0;     ///< sparse: the link; else as k lies, element by element
-  std::size_t diagonal = 0;  ///< not sparse
-  int element = 0;           ///< not sparse
+  std::size_t diagonal = 0;  ///< unless sparse: index of the diagonal
+  int element = 0;           ///< unless sparse: index of the element
 };
 
 /// Calls `visit(link, slot of a, slot of b)` for the links of a block. \param run those links
@@ -134,7 +134,7 @@ Real stiffnessOf(const Block& block,
                                             : c.k[link.place];
 }
 
-/// The same of the links of a block. \param run those links
+/// Energy of the springs of a block. \param run  its links
 template <class Real>
 double springsOf(const Block& block,
                  const LinkRun& run,

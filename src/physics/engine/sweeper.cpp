@@ -131,7 +131,7 @@ double Sweeper<Real>::lattice(const Block& block,
   return twice;
 }
 
-/// Where its numbers do not fit into the second-level cache.
+/// True for a lattice whose numbers do not fit into the second-level cache.
 template <class Real>
 bool Sweeper<Real>::goesInWaves(const Block& block) noexcept {
   const auto different = [](const Block::Segment& segment) { return !segment.uniform; };

@@ -20,7 +20,7 @@ class Sweeper {
  public:
   Sweeper(const Layout& layout, const CompileOptions& options);
 
-  /// One step of a block; f is overwritten. Realtime: yes
+  /// Steps a block once; f is overwritten. Realtime: yes
   /// \return energy that cells, medium and dampers took in it; 0 if nobody asks (unmetered)
   double sweep(std::size_t block, const CoefficientsOf<Real>& c, State<Real>& state) const noexcept;
 

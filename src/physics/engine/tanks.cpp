@@ -43,8 +43,8 @@ Tanks<Real>::Tanks(const Layout& layout,
   }
 }
 
-/// Where psi and its gradient are. Both kinds of energy are psi^2/2: of the mean
-/// psi = (sum Q e^2)/sqrt(2 sum Q), else psi = sqrt(sum Q e^4/2).
+/// Computes psi and its gradient. The potential is psi^2/2 for both kinds of links: psi = (sum Q
+/// e^2)/sqrt(2 sum Q) by the mean, otherwise psi = sqrt(sum Q e^4/2).
 template <class Real>
 void Tanks<Real>::measure(Body& body,
                           const RunCoefficients<Real>& c,
@@ -96,8 +96,8 @@ ERGOTIC_REALTIME void Tanks<Real>::start(std::size_t group,
   }
 }
 
-/// With psi_ = psi - grad psi d/2 half a step ago and psi+ half a step ahead, the force is
-/// -(psi_ + psi+)/2 grad psi, and by it the tank changes by (psi+^2 - psi_^2)/2, exactly.
+/// Exerts the force -(psi_ + psi+)/2 grad psi, with psi_ = psi - grad psi d/2 half a step ago and
+/// psi+ half a step ahead; it changes the tank by (psi+^2 - psi_^2)/2, exactly.
 template <class Real>
 ERGOTIC_REALTIME void Tanks<Real>::exert(std::size_t group,
                                          const CoefficientsOf<Real>& c,

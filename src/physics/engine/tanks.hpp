@@ -12,11 +12,11 @@
 
 namespace ergotic::physics {
 
-/// Of all links that share a tank, between two steps. Energies in force unit times m.
+/// State of all links that share a tank, between two steps. Energies in force unit times m.
 struct TankState {
   double stored = 0.0;   ///< at this step: what the tank holds, with the first half of its work
   double active = 0.0;   ///< steps in which it pushed
-  double clipped = 0.0;  ///< of these, with less force than its potential asks for
+  double clipped = 0.0;  ///< of these, steps with less force than its potential asks for
 
   static constexpr std::size_t kDoubles = 3;  ///< see numbersOf
 };
@@ -54,7 +54,7 @@ class Tanks {
 
   /// True if what all of them hold is a finite number. Realtime: yes
   bool areFinite(const State<Real>& state) const noexcept;
-  /// One for each tank, by its first link. Realtime: no
+  /// Adds one report for each tank, which names its first link. Realtime: no
   void addReports(std::vector<GuardReport>& to) const;
   /// \param to  the first of these. Realtime: yes
   void read(const State<Real>& state, GuardReport* to) const noexcept;
@@ -69,10 +69,10 @@ class Tanks {
     std::size_t force_at = 0;  ///< [count] of the last step, opposite to what modules feel
     std::vector<Real> slope;   ///< [count] of the sum of the links over the modules
     double per_slope = 0.0;    ///< grad psi = per_slope slope
-    double half = 0.0;         ///< of the change of psi in the step just made
-    double mean = 0.0;         ///< of psi over that and the step to come
+    double half = 0.0;         ///< half the change of psi in the step just made
+    double mean = 0.0;         ///< mean of psi over that step and the step to come
     double give = 0.0;         ///< h^2 (grad psi)' M^-1 (grad psi)/4
-    double push = 0.0;         ///< what the other forces do to `slope` in the step to come
+    double push = 0.0;         ///< slope times the step to come by the other forces
   };
 
   void measure(Body& body, const RunCoefficients<Real>& c, const Real* x, double& psi) noexcept;

@@ -51,7 +51,7 @@ class Touches {
   /// \pre 0 <= mat < Instrument::touchables
   bool canTouch(int mat) const noexcept { return can_touch_[static_cast<std::size_t>(mat)]; }
 
-  /// At the start of a tick. \param touches  [kMaxTouches], or null
+  /// Takes the touches at the start of a tick. \param touches  [kMaxTouches], or null
   void begin(Touch* touches, EnergyMeter<Real>& meter, State<Real>& state) noexcept {
     meter.forgetAhead();
     any_ = false;
@@ -89,7 +89,7 @@ class Touches {
     });
   }
 
-  /// The same for slots of such a block.
+  /// Presses the hands whose slots lie in such a block.
   void pressLone(int first,
                  int end,
                  std::int64_t last,
@@ -101,7 +101,7 @@ class Touches {
     });
   }
 
-  /// At the end of a tick, when all forces are known: the other half of the work of those that move
+  /// Ends a tick, once all forces are known: counts the other half of the work of hands that move
   /// something with the step to come, so that nothing of it is left to remember.
   /// \param touches  as of `begin`
   void end(Touch* touches,
@@ -195,7 +195,7 @@ class Touches {
     return held;
   }
 
-  /// Of all outlines, counted one after the other.
+  /// Finds a place by its index in all outlines, counted one after the other.
   Held placeOfOutline(std::size_t place) const noexcept {
     Held held;
     for (const scene::Outline& outline : scene_.outlines) {
@@ -301,8 +301,9 @@ class Touches {
     return (last + 1) % layout_.sections[static_cast<std::size_t>(section)].divisor == 0;
   }
 
-  /// What a force on one hand's place may move at most at that of another, by Cauchy and Schwarz:
-  /// they are of one body, or one module.
+  /// True if a force of one hand may move the place of the other: both are on one body or module.
+  /// By the Cauchy-Schwarz inequality, the motion is at most sqrt(q_a q_b), q the motions per
+  /// force.
   static bool mayMeet(const Held& a, const Held& b) noexcept {
     return a.section == b.section && (!a.isModule() || !b.isModule() || a.slot == b.slot);
   }

@@ -49,7 +49,7 @@ bool spinUntil(std::int64_t deadline_ns, const Done& done) noexcept {
 
 }  // namespace
 
-/// When the next block is to be expected, by when the last ones came.
+/// Predicts when the next block comes, from the times of the last ones.
 class Workers::Rest {
  public:
   void blockCame() noexcept {
@@ -60,7 +60,7 @@ class Workers::Rest {
     missed_ = 0;
   }
 
-  /// Until when to look for the next block before sleeping again.
+  /// Time until which to look for the next block before sleeping again.
   std::int64_t awakeUntilNs() const noexcept {
     const std::int64_t now = rt::monotonicNs();
     const bool is_soon = expected_ns_ > now && expected_ns_ - now <= kEarlyNs;

@@ -35,7 +35,7 @@ class Workers {
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
-  /// As many of these threads as there are items and processors for.
+  /// Number of these threads for which there are items and processors.
   static int useful(int threads, std::size_t items);
 
   int threads() const noexcept { return static_cast<int>(threads_.size()) + 1; }

@@ -42,7 +42,7 @@ ERGOTIC_INLINE void store(Real* to, Index at, Vector<Real> value) noexcept {
   *reinterpret_cast<Vector<Real>*>(to + at) = value;
 }
 
-/// One sum for each lane, whatever the width of vectors.
+/// A sum kept in one part for each lane, whatever the width of vectors.
 template <class Real>
 struct LaneSums {
   Vector<Real> parts[kParts<Real>] = {};
@@ -122,7 +122,7 @@ double move(const MoveArguments<Real>& a, Index first, Index last) noexcept {
                             : moveMixed<false, false>(a, first, last);
 }
 
-/// Both neighbours on one diagonal, as differences: precise where positions are large.
+/// Sum over both neighbours on one diagonal, as differences: precise where positions are large.
 template <bool kUniform, class Real>
 ERGOTIC_INLINE Vector<Real> neighbours(
     const Real* u, Index s, Index offset, Vector<Real> here, Real k, const Real* ks) noexcept {
@@ -319,7 +319,7 @@ void plate(const PlateArguments<Real>& a, Index first, Index last) noexcept {
                         : plateLoop<false, false>(a, first, last);
 }
 
-/// One row of chains, and what the next one needs of it.
+/// One row of chains, with the values that the next row needs.
 template <class Real>
 struct ChainRow {
   Vector<Real> x[kParts<Real>];

@@ -5,9 +5,9 @@
 
 #include "physics/layout/blocks/lanes.hpp"
 
-/// What sweeps do to blocks of consecutive slots. One translation unit per level of vector
-/// instructions compiles the same source (block_kernels.cpp); all give the same bits, as
-/// nothing is contracted and every sum keeps `kLanes` lanes.
+/// Kernels of sweeps over blocks of consecutive slots. One translation unit per level of vector
+/// instructions compiles the same source (block_kernels.cpp); all give the same bits, as nothing is
+/// contracted and every sum keeps `kLanes` lanes.
 namespace ergotic::physics::kernels {
 
 /// Modules move: d <- d + inverse_mass f, or of cells d <- d - (lose d + pull x) + inverse_mass f +

@@ -9,7 +9,7 @@
 #include "physics/layout/layout.hpp"
 #include "scene/laws/law.hpp"
 
-/// What links do in one step: forces from positions, and the work they take and lose.
+/// Kernels of links: in one step, their forces from positions, and the work they store and lose.
 /// Work over a step is d[n] (F[n-1] + F[n]) / 2, with F[n-1] remembered where it cannot be worked
 /// out from positions. Source: docs/physics/accuracy.md, "Energy accounting".
 namespace ergotic::physics::kernels {
@@ -173,8 +173,8 @@ void stepSpatial(const LinkRun& run,
   });
 }
 
-/// What a link holds after the first step: the integral of its elastic force from where it is none,
-/// less the half of the work of that step which the energy accounts begin with.
+/// Energy that a link stores after the first step: the integral of its elastic force from where
+/// that is 0, less the half of that step's work with which the energy accounts begin.
 /// \param moved  by how much the step has changed u
 template <class Real>
 double storedAtStart(

@@ -39,7 +39,8 @@ struct CellArguments {
 /// The kernels of one level. All are real-time.
 template <class Real>
 struct ModalKernels {
-  /// One step. \return twice what they dissipated in it, 0 if there is no `loss`
+  /// Moves the cells by one step. \return twice the energy dissipated in it, 0 if there is no
+  /// `loss`
   double (*step)(const CellArguments<Real>&) noexcept;
   /// sums[0] = weights . x, sums[1] = weights . d
   void (*gather)(const ModalArguments<Real>&, Real* sums) noexcept;

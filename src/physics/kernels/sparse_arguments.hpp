@@ -6,7 +6,7 @@
 
 namespace ergotic::physics::kernels {
 
-/// What the kernel reads of a program; coefficients and arrays of nodes are still to be set.
+/// Kernel arguments that a program gives; coefficients and node arrays are still to be set.
 template <class Real>
 SparseArguments<Real> sparseArguments(const SparseProgram& program) {
   SparseArguments<Real> to{};

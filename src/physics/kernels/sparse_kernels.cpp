@@ -11,7 +11,7 @@
 namespace ergotic::physics::kernels::ERGOTIC_LEVEL {
 namespace {
 
-/// Where a pass stands in the program.
+/// Position of a pass in the program.
 template <class Real>
 struct Cursor {
   const std::uint32_t* window;
@@ -94,7 +94,7 @@ ERGOTIC_INLINE Lanes<Real> sumNeighbours(const SparseArguments<Real>& a,
   return sums;
 }
 
-/// One sum for each lane, whatever the width of vectors.
+/// A sum kept in one part for each lane, whatever the width of vectors.
 template <class Real>
 struct LaneSums {
   Vector<Real> parts[kSparseLanes / kWidth<Real>] = {};

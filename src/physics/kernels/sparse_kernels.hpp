@@ -6,8 +6,8 @@
 
 #include "ergotic/rt/isa.hpp"
 
-/// What sweeps do to irregular networks (sparse_program.hpp). One translation unit per level of
-/// vector instructions compiles the same source (sparse_kernels.cpp); all give the same bits.
+/// Kernels of sweeps over irregular networks (sparse_program.hpp). One translation unit per level
+/// of vector instructions compiles the same source (sparse_kernels.cpp); all give the same bits.
 namespace ergotic::physics::kernels {
 
 /// Forces of links as assignment: f = sum K (x' - x) + Z (d' - d) over the neighbours of each node.

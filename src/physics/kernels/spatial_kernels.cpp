@@ -55,7 +55,7 @@ ERGOTIC_INLINE Vector<Real> roots(Vector<Real> squares) noexcept {
   return load(root);
 }
 
-/// Everything of a row of links, in the arrays themselves, or where a copy of it lies.
+/// Pointers to all numbers of a row of links, in the arrays themselves or in a copy of the row.
 template <class Real, int D>
 struct Row {
   const Real* k;
@@ -81,7 +81,7 @@ struct Copy {
   Real memory[2][D][kRow];
 };
 
-/// One sum of work for each lane of a row, whatever the width of vectors.
+/// A sum of work kept in one part for each lane of a row, whatever the width of vectors.
 struct LaneSums {
   double lane[kRow] = {};
   template <class Real>
@@ -197,7 +197,7 @@ ERGOTIC_INLINE Row<Real, D> rowOf(Copy<Real, D>& copy) noexcept {
   return row;
 }
 
-/// Where the ends of the links of a span are.
+/// Slots of the ends of the links of a span.
 struct EndsOf {
   LinkSpan span;
   const LinkEnds* ends;
@@ -241,7 +241,7 @@ ERGOTIC_INLINE void copyIn(const SpatialArguments<Real>& a,
   }
 }
 
-/// What a row remembers goes back.
+/// Copies the memory of a row back to the arrays.
 template <class Real, int D>
 ERGOTIC_INLINE void copyOut(const SpatialArguments<Real>& a,
                             Index link,
@@ -255,7 +255,7 @@ ERGOTIC_INLINE void copyOut(const SpatialArguments<Real>& a,
   }
 }
 
-/// One end after the other: a force that has just been written is read again only much later.
+/// Adds the forces to one end after the other: a force just written is read again only much later.
 template <class Real, int D>
 ERGOTIC_INLINE void handOut(const SpatialArguments<Real>& a,
                             const EndsOf& ends,

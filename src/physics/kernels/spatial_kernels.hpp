@@ -5,8 +5,8 @@
 
 #include "physics/layout/blocks/link_ends.hpp"
 
-/// What links between points in the plane or in space do, inside one section. One translation unit
-/// per level of vector instructions compiles the same source (spatial_kernels.cpp); all give
+/// Kernels of links between points in the plane or in space, inside one section. One translation
+/// unit per level of vector instructions compiles the same source (spatial_kernels.cpp); all give
 /// the same bits, as nothing is contracted and sums of work keep one part for each of 16 lanes.
 namespace ergotic::physics::kernels {
 

@@ -14,7 +14,7 @@ namespace ergotic::physics::kernels {
 constexpr std::size_t kSums = 8;
 constexpr std::size_t kChunk = 64;  // links, a multiple of kSums
 
-/// One sum, added to in turns.
+/// A sum in kSums parts, which are added to in turns.
 class Sum {
  public:
   void add(std::size_t turn, double value) noexcept { lanes_[turn % kSums] += value; }
@@ -100,14 +100,14 @@ TankSums addSlopes(const TankLinks<Real>& links,
   return {energy.total(), weight.total()};
 }
 
-/// Of sum Q e^2: Q e, half of its slope. Realtime: yes
+/// Adds up sum Q e^2, and for each module Q e, half of its slope. Realtime: yes
 template <class Real>
 TankSums addMeanSlopes(const TankLinks<Real>& links, const Real* x, Real* slope) noexcept {
   return addSlopes(
       links, x, slope, [](Real q, Real e) { return q * e; }, [](Real e) { return e; });
 }
 
-/// Of sum Q e^4: Q e^3, a quarter of its slope. Realtime: yes
+/// Adds up sum Q e^4, and for each module Q e^3, a quarter of its slope. Realtime: yes
 template <class Real>
 TankSums addCubicSlopes(const TankLinks<Real>& links, const Real* x, Real* slope) noexcept {
   return addSlopes(

@@ -6,14 +6,14 @@
 /// Friction that sticks. Source: docs/physics/schemes.md, "Friction with stiction".
 namespace ergotic::physics {
 
-/// One step of what rubs, along the slip as it would be without this friction, m per step.
+/// One step of a dry-friction link, along the slip that there would be without it, m per step.
 template <class Real>
 struct Slide {
   Real free = Real(0);    ///< g_free >= 0, the slip of the step to come
   Real before = Real(0);  ///< d + p, that of the step just made, and by what it was changed since
   Real give = Real(0);    ///< q, how much less it slips per force
   Real normal = Real(0);  ///< N >= 0
-  bool goes_on = false;   ///< to the side to which it slipped
+  bool goes_on = false;   ///< whether it slips on in the direction of the last step
 };
 
 /// The force against the slip, >= 0; the link then slips or sticks.
@@ -25,7 +25,7 @@ Real exertDry(const Slide<Real>& slide,
               const GuardedLaw<Real>& law,
               GuardedState<Real>& state) noexcept;
 
-/// What this force takes from the motion; below 0 it gives. Realtime: yes
+/// Work that the friction force takes from the motion; below 0 it gives. Realtime: yes
 template <class Real>
 Real workOf(const Slide<Real>& slide, Real force) noexcept {
   return force * (slide.before + slide.free - slide.give * force) / Real(2);

@@ -87,9 +87,9 @@ Real wantedForce(const GuardedMotion<Real>& m,
   return (at.force - ahead * at.slope * (m.opening - m.coasting)) / (Real(1) + ahead * kt);
 }
 
-/// The same of a contact that lasts for several steps. Its slope changes at the first touch, at a
-/// time that no sample knows; the mean of the law over the steps on both sides, which is what the
-/// motion feels, does. It depends on the velocity, hence the passes.
+/// The wanted force of a contact that lasts for several steps. Its slope changes when the contact
+/// closes, at a time between two samples; the mean of the law over the steps before and after,
+/// which is what the motion feels, accounts for that. It depends on the velocity, hence the passes.
 template <class Real>
 Real wantedMean(const GuardedMotion<Real>& m,
                 const GuardedLaw<Real>& law,
@@ -151,7 +151,8 @@ void brake(Real z, GuardedMotion<Real>& m) noexcept {
   m.damper = -z * (m.opening + m.give * m.force) / (Real(2) * drag);
 }
 
-/// Nothing that is lost pulls: where the damper would, it takes what the elastic force gives.
+/// A contact with loss never pulls: where the damper would, it takes away what the elastic force
+/// gives.
 template <class Real>
 void keepFromPulling(GuardedMotion<Real>& m, const GuardedState<Real>& state) noexcept {
   if (m.total() < Real(0)) {

@@ -13,14 +13,14 @@ namespace ergotic::physics {
 using scene::GuardedForce;
 using scene::GuardedLaw;
 
-/// What a guarded link remembers; all 0 before it starts. Energies in force unit times m. Letters
-/// are those of docs/physics/schemes.md, "Energy-stable links".
+/// State that a guarded link keeps between steps; all 0 before it starts. Energies in force unit
+/// times m. Letters are those of docs/physics/schemes.md, "Energy-stable links".
 template <class Real>
 struct GuardedState {
   double stored = 0.0;      ///< at this step: the tank, with the first half of the step's work
   double lost = 0.0;        ///< energy dissipated since the start
-  double active = 0.0;      ///< steps in which it pushed
-  double clipped = 0.0;     ///< of these, with less force than its law asks for
+  double active = 0.0;      ///< number of steps in which it pushed
+  double clipped = 0.0;     ///< number of active steps with less force than its law asks for
   Real tank = Real(0);      ///< E, energy it may still give
   Real force = Real(0);     ///< F of the last step, elastic
   Real damper = Real(0);    ///< of the last step, damping or friction
@@ -33,7 +33,8 @@ struct GuardedState {
   static constexpr std::size_t kDoubles = sizeof(Real) == sizeof(double) ? 12 : 4;
 };
 
-/// What a guarded link sees and does in one step. It opens while p falls. Letters as above.
+/// Inputs and results of a guarded link in one step. The link opens while p falls. Letters as
+/// above.
 template <class Real>
 struct GuardedMotion {
   Real p = Real(0);                                ///< p, compression or elongation, m
@@ -46,15 +47,15 @@ struct GuardedMotion {
   Real own_give = Real(0);  ///< q with c = 1: if it were alone
   Real force = Real(0);     ///< F, elastic, closed links push: > 0
   Real damper = Real(0);    ///< -z (s0 + q F)/d, or friction
-  Real budget = Real(0);    ///< what the tank held before the work of this step
+  Real budget = Real(0);    ///< energy that the tank held before the work of this step
   Real heat = Real(0);      ///< work of the damper in this step, turned into heat
   bool is_friction = false;
-  bool is_pushing = false;  ///< in contact, or two-sided
+  bool is_pushing = false;  ///< contact is closed, or the link is two-sided
   bool is_active = false;   ///< may have a force
   bool is_shared = false;   ///< others are active on its masses
   bool is_cut = false;      ///< has less force than its law asks for
   bool empties = false;     ///< its tank is void after this step
-  bool forfeits = false;    ///< what it absorbs in this step is lost
+  bool forfeits = false;    ///< energy that it absorbs in this step is lost
 
   Real total() const noexcept { return force + damper; }
   /// s0 + q (F + damper), how far it opens over two steps, as far as is expected.

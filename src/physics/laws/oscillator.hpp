@@ -6,7 +6,7 @@
 
 namespace ergotic::physics {
 
-/// What a module does by itself in one step: d <- d - (lose d + pull x).
+/// Coefficients by which a module moves in one step without forces: d <- d - (lose d + pull x).
 struct OscillatorCoefficients {
   double lose = 0.0;
   double pull = 0.0;
@@ -19,7 +19,7 @@ struct OscillatorCoefficients {
 OscillatorCoefficients oscillatorOf(
     double stiffness, double damping, double mass, double step, bool matched) noexcept;
 
-/// The same for a mass or a cell of a scene, its section's medium included. Realtime: yes
+/// Coefficients of a mass or a cell of a scene, its section's medium included. Realtime: yes
 OscillatorCoefficients oscillatorOf(const scene::Scene& scene,
                                     const scene::Mat& mat,
                                     const StepUnits& units) noexcept;

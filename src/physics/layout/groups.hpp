@@ -18,7 +18,7 @@ struct LoneBlock {
   std::vector<std::size_t> pickup_columns;  ///< [pickups] index in Group::channels
 };
 
-/// What needs each other at the same instant, as indices: it is stepped by one thread.
+/// Parts that need each other at the same instant, as indices: one thread steps them.
 struct Group {
   std::vector<int> sections;                ///< Layout::sections
   std::vector<std::size_t> runs;            ///< Layout::runs, explicit ones
@@ -31,7 +31,7 @@ struct Group {
   std::vector<std::size_t> feeds;           ///< Layout::feeds
   std::vector<std::size_t> followers;       ///< Layout::followers
   std::vector<std::size_t> pickups;         ///< Layout::pickups
-  std::vector<int> channels;                ///< of outputs that the pickups are heard on, each once
+  std::vector<int> channels;                ///< output channels that the pickups feed, each once
   std::vector<std::size_t> pickup_columns;  ///< [pickups] index in `channels`
   std::vector<LoneBlock> lone;
   bool has_only_lone = false;  ///< there is nothing to do frame by frame
@@ -47,10 +47,10 @@ struct Groups {
   std::vector<Group> running;  ///< the expensive ones first
 };
 
-/// One group of all sections, feeds and points. Realtime: no
+/// Makes one group of all sections, feeds and points. Realtime: no
 Group everythingOf(const Layout& layout);
 
-/// What is stepped together, a line each. Realtime: no
+/// Describes what is stepped together, one line per group. Realtime: no
 std::vector<std::string> describeGroups(const scene::Scene& scene,
                                         const Groups& groups,
                                         int threads);

@@ -22,7 +22,7 @@ struct GuardedGroup {
   std::vector<std::size_t> tanks;   // runs of these
 };
 
-/// All guarded links of a layout, by group and rate. Realtime: no.
+/// Lists all guarded links of a layout, by group and rate. Realtime: no.
 inline std::vector<GuardedGroup> guardedGroupsOf(const Layout& layout) {
   std::vector<GuardedGroup> groups;
   for (std::size_t r = 0; r < layout.runs.size(); ++r) {

@@ -46,18 +46,18 @@ struct LinkRun {
   scene::LiaType law = scene::LiaType::kSpringDamper;
   bool guarded = false;
   int dimensions = 0;  ///< 0: scalar, else the coordinates a distance is taken over
-  int section = 0;     ///< whose steps it follows
-  int section_a = 0;   ///< of the modules
+  int section = 0;     ///< section whose steps it follows
+  int section_a = 0;   ///< section of the modules at end a
   int section_b = 0;
   int slow_section = -1;
   bool slow_is_a = false;
   double share = 1.0;
   bool interpolated = false;  ///< one end is a slice that is interpolated: then none is slow
-  bool presses = false;       ///< what its forces are is asked for by frictions
+  bool presses = false;       ///< frictions read its forces
   int tank = -1;              ///< index in Scene::tanks: its links are guarded by this one
   bool is_mean = false;       ///< Tank::is_mean
   static constexpr int kHeldGroup = -1;
-  int group = kHeldGroup;  ///< that steps it, as of Layout::group_of_section
+  int group = kHeldGroup;  ///< group that steps it, as in Layout::group_of_section
   int block = -1;          ///< index in Layout::blocks: its sweep works these links out
   int stride_a = 0;
   int stride_b = 0;
@@ -74,7 +74,7 @@ struct Pressing {
   std::size_t link = 0;
   std::size_t by_run = 0;
   std::size_t by_link = 0;
-  bool is_tangent = false;  ///< in one plane or space: what slips is across the contact
+  bool is_tangent = false;  ///< both in one plane or space: slip is across the contact
 };
 
 /// A connection: its slots follow one another.
@@ -100,7 +100,7 @@ struct TapPoint {
   int dimensions = 1;
   int section = 0;
   int stride = 0;       ///< of the modules
-  double offset = 0.0;  ///< of x, where its modules are at rest
+  double offset = 0.0;  ///< offset of x, where its modules are at rest
   std::vector<Span> spans;
   std::vector<double> weights;  ///< of all spans, one after the other
 };
@@ -119,8 +119,8 @@ void forEachShare(const TapPoint& tap, const Visit& visit) {
 /// A module seen in the frame of a section with fewer coordinates: y = axes x.
 struct ProjectedPoint {
   int slot = 0;
-  int dimensions = 1;         ///< of what is seen
-  End of;                     ///< what is seen
+  int dimensions = 1;         ///< coordinates of the projection
+  End of;                     ///< the module that is projected
   int source_dimensions = 1;  ///< coordinates of `of`
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 };
@@ -130,7 +130,7 @@ struct InterpolatedSlice {
   int slot = 0;
   int dimensions = 1;
   int coordinate = 0;  ///< first of its own among those of all interpolated slices
-  int section = 0;     ///< whose steps it follows
+  int section = 0;     ///< section whose steps it follows
   End of;              ///< the slice
   std::vector<InterpolationStep> steps;  ///< of a tick
 };
@@ -168,7 +168,7 @@ struct Follower {
   static constexpr int kModule = -1;
   static constexpr int kPlace = -2;
   int run = 0;    ///< index in Layout::runs, kModule or kPlace
-  int index = 0;  ///< of the link in its run, slot of the module, or index in Layout::places
+  int index = 0;  ///< index of the link in its run, slot of the module, or index in Layout::places
   int section = 0;
 };
 
@@ -180,21 +180,21 @@ struct Proxy {
   int of = 0;  ///< slot of the module or point
 };
 
-/// Where everything of a scene lies in the arrays of an instrument.
+/// Slots and indices of all parts of a scene in the arrays of an instrument.
 struct Layout {
-  std::vector<int> slot_of_mat;  ///< of the x coordinate; -1: a tap that is only seen
+  std::vector<int> slot_of_mat;  ///< slot of the x coordinate; -1: a tap that is only displayed
   std::vector<int> mat_of_slot;  ///< -1: internal point
   std::vector<int> component;    ///< [slots] 0 x, 1 y, 2 z
   std::vector<SectionRange> sections;
   std::vector<Block> blocks;        ///< by section, then by slot
-  std::vector<TapPoint> taps;       ///< those that anything acts on or hears
+  std::vector<TapPoint> taps;       ///< taps that something acts on or that outputs read
   std::vector<TapPoint> seen_taps;  ///< the others, by module: they have no slots
   std::vector<PlacePoint> places;
   std::vector<InterpolatedSlice> interpolated;
   std::vector<ProjectedPoint> projections;
   std::vector<LinkRun> runs;
   std::vector<Pressing> pressings;
-  std::vector<int> port_slots;  ///< [ports] of the coordinate that it moves
+  std::vector<int> port_slots;  ///< [ports] slot of the coordinate that it moves
   std::vector<Pickup> pickups;
   std::vector<Feed> feeds;
   std::vector<Follower> followers;

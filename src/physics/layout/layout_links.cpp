@@ -51,7 +51,7 @@ std::size_t interpolatedSlice(
   return layout.interpolated.size() - 1;
 }
 
-/// Where a link's end moves, and in which frame.
+/// Slots and frames of the ends of links.
 class Ends {
  public:
   Ends(const scene::Scene& scene, const Rates& rates, Layout& layout)
@@ -87,7 +87,7 @@ class Ends {
   int divisor(int section) const { return layout_.sections[at(section)].divisor; }
 
  private:
-  /// It belongs to the section of what it is an end of, whoever steps it.
+  /// The end that an interpolated slice makes: of the section of the slice, whoever steps it.
   static End endOf(const InterpolatedSlice& slice) {
     return {slice.slot, 1, slice.of.section, slice.of.rest};
   }
@@ -135,7 +135,7 @@ LinkFrame frameOf(const scene::Scene& scene, const scene::Lia& lia) {
   return a.geometry < b.geometry ? LinkFrame{sa, false, true} : LinkFrame{sb, true, false};
 }
 
-/// Whose steps a link follows: the faster of its two sections.
+/// Sets the section whose steps a link follows: the faster one of its two.
 void setRates(const scene::Lia& lia, const End& a, const End& b, const Ends& ends, LinkRun& run) {
   const int da = ends.divisor(a.section);
   const int db = ends.divisor(b.section);

@@ -27,11 +27,11 @@ class Split {
   }
 
   bool isHeld(int section) const { return held_[at(section)]; }
-  /// One section that stands for all of its group.
+  /// The section that represents all sections of its group.
   int leaderOf(int section) { return sets_.setOf(section); }
 
  private:
-  /// Of those that it has.
+  /// Sections of the guides that a point has.
   std::vector<int> sectionsOfGuides(const PlacePoint& point) const {
     const scene::Connection& connection = scene_.connections[at(point.connection)];
     std::vector<int> sections;

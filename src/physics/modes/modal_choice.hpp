@@ -20,10 +20,10 @@ struct Modes {
 /// \throws Exception if the eigenvalues do not converge
 std::shared_ptr<const Modes> modesOf(const ModalMatrix& matrix);
 
-/// What one step works out, by the network or by all of its modes.
+/// Cost of one step, by the network or by all of its modes.
 struct ModalCost {
   int modules = 0;   ///< masses and links that modes stand in for
-  int modes = 0;     ///< all that there are
+  int modes = 0;     ///< modes that there are in all
   int products = 0;  ///< modes, each by itself and once more for every touched place of its part
 };
 /// \param points  [parts] places of the part that are touched
@@ -39,11 +39,11 @@ struct ModalPart {
   Eigen::VectorXd x;            ///< [modes] at the start
   Eigen::VectorXd d;            ///< per step
   Eigen::VectorXd constant;     ///< force
-  Eigen::VectorXd first_force;  ///< only in the first step: takes back what springs would do in it
+  Eigen::VectorXd first_force;  ///< in the first step only: cancels what springs would do in it
   std::vector<int> kept;        ///< modes that are played, ascending
 };
 
-/// What leaving modes out changes, where forces and first motion are what they are.
+/// Error of leaving modes out, with forces and initial motion unchanged.
 struct ModalError {
   /// Largest part of the static give of a touched place that is missing; between two places it is
   /// no more of the geometric mean of theirs. Exact.

@@ -46,7 +46,7 @@ StepUnits unitsOf(const scene::Scene& scene, const Rates& rates, int section) {
   return {scene, rates, divisorOf(scene.sections[at(section)], rates)};
 }
 
-/// Of a link whose coefficients are constant.
+/// Damping of a link whose coefficients are constant.
 double dampingOf(const Network::Link& link) {
   return link.slopes.damping.highest;
 }
@@ -246,7 +246,7 @@ class Finder {
     }
   }
 
-  /// What a module loses by itself per step, beyond alpha times its own spring.
+  /// Loss of a module by itself per step, beyond alpha times its own spring.
   double ownDecay(int m, double alpha) const {
     const OscillatorCoefficients own = oscillatorOf(scene_, mat(m), units_);
     return own.lose - alpha * own.pull;
@@ -275,7 +275,7 @@ int sectionOf(const scene::Scene& scene, const LinearPart& part) {
   return scene.mats[at(part.mats.front())].section;
 }
 
-/// From rest, where it is at the start.
+/// Displacement from rest at the start, m.
 double displacementOf(const scene::Mat& mat) {
   return mat.position.x() - mat.rest.x();
 }

@@ -35,7 +35,8 @@ struct LinearParts {
   int offences = 0;                  ///< how many there are
 };
 
-/// Everything in a scalar section that modes can stand in for. Realtime: no. Cost: O(modules)
+/// Finds all modules and links of a scalar section that modes can replace. Realtime: no.
+/// Cost: O(modules)
 LinearParts linearPartsOf(const Network& network, const Rates& rates, int section);
 
 /// A part in coordinates in which all masses are equal: a step without forces is
@@ -69,7 +70,7 @@ struct PartStart {
   Eigen::VectorXd mass;        ///< kg
   Eigen::VectorXd x;           ///< m, from rest
   Eigen::VectorXd velocity;    ///< m/time_unit
-  Eigen::VectorXd constant;    ///< all forces where x = 0 and nothing moves
+  Eigen::VectorXd constant;    ///< sum of all forces where x = 0 and nothing moves
   Eigen::VectorXd of_springs;  ///< forces of the links of the part at the start
 };
 PartStart startOf(const Network& network,

@@ -11,23 +11,23 @@
 
 namespace ergotic::physics {
 
-/// A place of a part that something touches: a module, or one between modules.
+/// An attachment to a part: a module, or a position between modules.
 struct ModalTouch {
   int mat = 0;
   int part = -1;                          ///< -1: it does not move
-  std::vector<scene::Tap::Share> shares;  ///< of modules of the part, and of grounds
+  std::vector<scene::Tap::Share> shares;  ///< weights of modules of the part, and of grounds
   double offset = 0.0;                    ///< where these are at rest, m from its own
 };
 
-/// What modes stand in for in one section, and where it is touched.
+/// The part of one section that modes replace, and the attachments to it.
 struct ModalPlan {
   int section = 0;
   LinearParts linear;
   std::vector<ModalTouch> touches;
-  std::vector<int> connections;  ///< in Scene::connections, those among the touches
+  std::vector<int> connections;  ///< indices in Scene::connections, of those among the touches
   std::vector<int> taps;         ///< the same in Scene::taps
   std::vector<ModalPart> parts;  ///< [linear.parts]
-  ModalError error;              ///< of leaving modes out
+  ModalError error;              ///< error of leaving modes out
 };
 
 constexpr int kMostModalModules =

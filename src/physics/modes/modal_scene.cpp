@@ -123,7 +123,8 @@ class Rewriter {
     return cell;
   }
 
-  /// What nothing touches is only seen: as the sum of the lowest modes.
+  /// Adds taps for modules to which nothing is attached: they are only displayed, as the sum of the
+  /// lowest modes.
   void addPictures(const LinearPart& linear,
                    const ModalPart& part,
                    int first,

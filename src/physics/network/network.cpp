@@ -19,8 +19,8 @@ Varying varying(const scene::Scene& scene, const scene::Value& v) {
   return {scene.valueOf(v), rangeOf(scene, v)};
 }
 
-/// Of one that follows an audio input nothing is proven; so that it is not said to be unstable,
-/// either, it is taken as too heavy to move.
+/// Mass of a module. Nothing is proven of a mass that follows an audio input: it counts as too
+/// heavy to move, so that the module is not reported as unstable, either.
 Varying massOf(const scene::Scene& scene, const scene::Mat& mat) {
   constexpr double kHeavy = 1e6;  // kg
   return mat.mass.audio < 0 ? varying(scene, mat.mass) : Varying{kHeavy, {kHeavy, kHeavy}};

@@ -34,10 +34,10 @@ struct Network {
     bool is_free = false;     ///< a mass or a cell; only these have what follows
     bool is_matched = false;  ///< its coefficients are those of the continuous oscillator
     Varying mass;
-    Varying stiffness;  ///< to the ground
-    Varying damping;    ///< to the ground, its section's medium included
+    Varying stiffness;  ///< stiffness to the ground
+    Varying damping;    ///< damping to the ground, its section's medium included
   };
-  /// What a point can lie between, or is the weighted sum of.
+  /// Modules on which a point or a tap depends, with their weights.
   struct Point {
     Shares now;                  ///< at the present values of the parameters
     std::vector<Shares> places;  ///< on all grid lines that it can reach: the worst is among them

@@ -14,10 +14,10 @@ struct NetworkAnalysis {
   double stable_step = 0.0;  ///< known to be stable up to here, time units
   int worst_link = -1;       ///< label
   int worst_owner = -1;
-  bool is_exact = false;      ///< lambda is the eigenvalue
-  bool is_bound = false;      ///< it may hold although lambda >= 4: moving points at their worst
+  bool is_exact = false;  ///< lambda is the eigenvalue
+  bool is_bound = false;  ///< it may be stable although lambda >= 4: moving points at their worst
   bool is_too_large = false;  ///< the same, because the exact test was left out
-  /// As float rounds the coefficients, too.
+  /// True if it is stable, also with its coefficients rounded to float.
   bool isProven() const { return lambda < kProven; }
 
   static constexpr double kRoundingOfFloat = 1e-6;  ///< of h^2 K/M and h Z/M, with some to spare
@@ -30,9 +30,9 @@ struct NetworkAnalysis {
 /// nodes. Realtime: no.
 NetworkAnalysis analyse(const NetworkBound& network);
 
-/// Where all of this supposes that the softest case of stiffness and of damping is positive
-/// semidefinite: the modules that are joined with something negative, whose sum is definite by
-/// 1e-6 of its norm all the same; none if it is not. Costs nothing unless something is negative.
+/// Modules that are joined with a negative load, if the softest case of stiffness and of damping is
+/// all the same positive definite there by 1e-6 of its norm; nullopt if not. The bounds above
+/// suppose it to be positive semidefinite. Costs nothing unless something is negative.
 std::optional<std::vector<int>> semidefiniteBesideNegative(const NetworkBound& network);
 
 /// True if the softest case of damping takes energy from every motion: Z is positive definite.

@@ -50,8 +50,8 @@ class NetworkBound {
                      double damping,
                      int label);
 
-  /// The same network in which every moving link loads all its places at once. Since
-  /// (u - v)(u - v)^T <= (1 + t) u u^T + (1 + 1/t) v v^T for any t > 0, that is a bound.
+  /// A network in which every moving link loads all its positions at once. It bounds this one from
+  /// above, since (u - v)(u - v)^T <= (1 + t) u u^T + (1 + 1/t) v v^T for any t > 0.
   NetworkBound withMovingEverywhere() const;
 
   /// max over links of sum_i |u_i| S_i / M_i, S_i the sum of (h^2 k + 2 h z) |u_i| at node i, which

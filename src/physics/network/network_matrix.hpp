@@ -13,7 +13,7 @@ namespace ergotic::physics {
 
 using Matrix = Eigen::SparseMatrix<double>;
 
-constexpr double kPivotMargin = 1e-9;  ///< of a norm, for rounding
+constexpr double kPivotMargin = 1e-9;  ///< part of a norm, for rounding
 
 /// M^-1/2 of every node.
 Eigen::VectorXd scaleOf(const NetworkBound& network);
@@ -42,7 +42,7 @@ Matrix assemble(const NetworkBound& network,
   return matrix.sum();
 }
 
-/// Of a lower triangle.
+/// True if all entries of a lower triangle are finite.
 bool isFinite(const Matrix& lower);
 
 bool allPivotsPositive(const Eigen::SimplicialLDLT<Matrix>& solver);

@@ -27,8 +27,8 @@ double dampingOf(const NetworkBound::Link& link) {
   return link.damping.lowest;
 }
 
-/// Of the matrix of some nodes, as if nothing in it was taken from something else: what its numbers
-/// round by is a part of that.
+/// Norm of the matrix of some nodes with all terms taken as positive: rounding errors are relative
+/// to it.
 template <class CoefficientOf>
 double normOfParts(const NetworkBound& network,
                    const std::vector<int>& nodes,
@@ -63,7 +63,7 @@ bool isAbove(Matrix lower, double margin) {
   return allPivotsPositive(Eigen::SimplicialLDLT<Matrix>(lower));
 }
 
-/// All that is joined with some nodes.
+/// All nodes of the bodies that some nodes belong to.
 template <class CoefficientOf>
 std::vector<int> nodesBeside(const NetworkBound& network,
                              const std::vector<int>& some,
@@ -98,7 +98,7 @@ std::vector<int> negativeNodes(const NetworkBound& network, CoefficientOf coeffi
   return nodes;
 }
 
-/// As assemble(), of some nodes.
+/// The matrix of assemble() for some nodes alone.
 template <class CoefficientOf>
 Matrix assemblePart(const NetworkBound& network,
                     const std::vector<int>& nodes,
@@ -112,8 +112,9 @@ Matrix assemblePart(const NetworkBound& network,
   return Matrix(select.transpose() * whole * select).triangularView<Eigen::Lower>();
 }
 
-/// What is negative lets all that is joined with it grow unless the whole is definite: how
-/// slowly is a matter of the norm, but however little is missing it grows.
+/// Modules that are joined with a negative coefficient; nullopt if their matrix is not positive
+/// definite. Motion then grows: how slowly depends on the norm, but it grows however little is
+/// missing.
 template <class CoefficientOf>
 std::optional<std::vector<int>> definiteBesideNegative(const NetworkBound& network,
                                                        CoefficientOf coefficient) {

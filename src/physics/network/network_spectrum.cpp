@@ -105,8 +105,8 @@ double NetworkSpectrum::reach(const Pencil& pencil) const {
   return root >= 0.0 && below > 0.0 ? pencil.limit / below : kInfinity;
 }
 
-/// From below by factorisation, from above by Rayleigh quotients; inverse iteration turns the mode
-/// towards the one that is first to fail.
+/// Finds the longest stable step from below by factorisation, from above by Rayleigh quotients;
+/// inverse iteration turns the mode towards the one that is first to fail.
 double NetworkSpectrum::longestAtRest(const Pencil& pencil, double proven) {
   double refuted = kInfinity;
   double part = 0.1;  // of what is undecided, from above

@@ -48,7 +48,7 @@ class NetworkSpectrum {
   /// k u u^T is definite for every k below its inverse. Infinite if all that is joined with
   /// them is not held, by 4e-9 of the norm.
   static double softness(const NetworkBound& network, const Shares& u);
-  /// The same of Z.
+  /// The same for the damping: u' Z^-1 u.
   static double mobility(const NetworkBound& network, const Shares& u);
 
  private:

@@ -185,7 +185,7 @@ bool RatedNetwork::hasLinkedMatched(int divisor) const {
   return false;
 }
 
-/// What modules of one rate do by themselves.
+/// Adds the springs and dampers to the ground of the modules of one rate.
 void RatedNetwork::addModules(Builder& to, bool plain) const {
   for (int m = 0; m < static_cast<int>(scene_.mats.size()); ++m) {
     const Network::Node& node = nodeOf(m);
@@ -266,7 +266,7 @@ void RatedNetwork::addLink(Builder& to, int l, bool hold_a, bool hold_b) const {
   }
 }
 
-/// As single precision may round it.
+/// The range, widened by the rounding of single precision.
 Range roundedBend(const Range& range) {
   return {range.lowest * (1.0 - scene::kRoundingOfBends),
           range.highest * (1.0 + scene::kRoundingOfBends)};
@@ -288,7 +288,7 @@ void RatedNetwork::addBends(Builder& to) const {
   }
 }
 
-/// Of the meshes that are in the network.
+/// Adds the cells of the meshes whose modules are in the network.
 void RatedNetwork::addCells(Builder& to) const {
   const auto nodeOf = [&](int mat) {
     const auto known = to.nodes.find(mat);

@@ -32,7 +32,7 @@ class RatedNetwork {
   /// h^2 (1/Ma + 1/Mb) and h (1/Ma + 1/Mb) of a link at the rate it is computed at.
   double inverseMassStep2(const scene::Lia& lia) const;
   double inverseMassStep(const scene::Lia& lia) const;
-  /// Of the rate that a link is computed at, time units.
+  /// Step of the rate that a link is computed at, time units.
   double stepOf(const scene::Lia& lia) const;
   bool crossesRates(const scene::Lia& lia) const;
   /// The end of a link across rates that is stepped less often, and the other.
@@ -56,18 +56,18 @@ class RatedNetwork {
 
   /// Modules that explicit links join, at whatever rates, are one island, named by one of them.
   int islandOf(int mat) const { return island_[static_cast<std::size_t>(mat)]; }
-  /// Those of the modules at both ends of a link that forces move: one, if it is explicit.
+  /// Islands of the modules at both ends of a link that forces move: one island if it is explicit.
   std::set<int> islandsAt(const scene::Lia& lia) const;
-  /// That of an explicit link's modules; -1 if no force moves any.
+  /// Island of the modules of an explicit link; -1 if no force moves any of them.
   int islandOf(const scene::Lia& lia) const;
 
-  /// Everything that is computed at one rate, slower ends held.
+  /// The network of everything that is computed at one rate, slower ends held.
   /// \param plain  matched modules as if they were not: a bound of them, at any step
   NetworkBound atOwnRate(int divisor, int island = kAll, bool plain = false) const {
     return ofOwnRate(divisor, island, plain, Part::kSteepest);
   }
-  /// The same, of links that are not linear only their linear part; and the same without links
-  /// whose force is bounded however far or fast their ends move.
+  /// The same network with only the linear part of nonlinear links; and without links whose force
+  /// is bounded however far or fast their ends move.
   NetworkBound atRest(int divisor) const { return ofOwnRate(divisor, kAll, false, Part::kAtRest); }
   NetworkBound withoutBounded(int divisor) const {
     return ofOwnRate(divisor, kAll, false, Part::kUnbounded);

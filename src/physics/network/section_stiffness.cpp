@@ -12,7 +12,7 @@ namespace {
 using scene::Geometry;
 using scene::MatType;
 
-/// What a spring of stiffness 1 does between its two ends.
+/// Stiffness matrix of a spring of stiffness 1 between its two ends.
 Eigen::Matrix3d tangent(const scene::Scene& scene, const scene::Lia& lia, Geometry geometry) {
   if (geometry == Geometry::kScalar || geometry == Geometry::kLine) {
     return Eigen::Matrix3d::Identity();

@@ -83,7 +83,7 @@ class RateChooser {
   }
 
  private:
-  /// What a rate would mean for a section; none if something in the scene cannot be at this rate.
+  /// The settled scene with a section at this rate; nullopt if a part of it cannot be at this rate.
   std::optional<scene::Scene> atDivisor(int s, int d) const {
     scene::Scene candidate = scene_;
     candidate.sections[at(s)].divisor = d;

@@ -19,11 +19,12 @@ namespace {
 
 using Mode = scene::Tuning::Mode;
 
-/// Of the 8th the dispersion of the springs shows, and it is low enough to be heard.
+/// Number of the higher partial to tune: high enough to show the dispersion of the springs, low
+/// enough to be heard.
 constexpr int kSecondPartial = 8;
 constexpr double kHighestCycles = 0.4;  // of a partial in a step, to be tuned to
 
-/// As a musician reads it: 1046.5 rather than 1.05e+03.
+/// The value with five digits, as musicians write it: 1046.5 rather than 1.05e+03.
 std::string digits(double value) {
   std::ostringstream text;
   text.precision(5);
@@ -75,7 +76,7 @@ class BodyTuning {
   /// zeta of a mode.
   double lossOf(const Mode& mode) const { return ground_ + step_ * links_ * mode.dampers; }
 
-  /// As thick as its partials want when they are stepped.
+  /// Shapes a bar: its thickness gives the ratios of its partials at this rate.
   void shape() {
     if (!(body_.pitch_hz * body_.ratios.back() < kHighestCycles * rate_hz_)) {
       fail("cannot have a partial at " + hertz(body_.pitch_hz * body_.ratios.back()) +
@@ -87,7 +88,7 @@ class BodyTuning {
     scene::findModes(scene_, body_);
   }
 
-  /// What of the loss is to the ground, and what in the links.
+  /// Splits the loss into one to the ground and one in the links.
   void findLoss() {
     if (body_.decays.empty()) {
       return;
@@ -157,7 +158,7 @@ class BodyTuning {
     }
   }
 
-  /// As it sounds; NaN if it does not.
+  /// Frequency at which a mode sounds, Hz; NaN if it does not.
   double frequency(const Mode& mode) const {
     const double kappa = step_ * step_ * (mode.springs + mode.bends);
     return scene::modeAngle(kappa, lossOf(mode)) / (2.0 * M_PI) * rate_hz_;
@@ -191,7 +192,7 @@ class BodyTuning {
     return "; " + std::to_string(moving) + " masses, " + shortly(mass) + " kg together";
   }
 
-  /// What to do about too many masses.
+  /// Adds an error text if there are too many masses for the rate, with remedies.
   void findLimit() const {
     const Mode& top = body_.top;
     const double bound =

@@ -13,7 +13,7 @@ namespace ergotic::physics {
 namespace {
 constexpr int kSprings = 3;
 
-/// What the spring to the k-th neighbour does to mode j of N masses.
+/// Eigenvalue that the spring to the k-th neighbour adds to mode j of N masses.
 double shareOf(int spring, int mode, int masses) {
   return scene::stringEigenvalue(masses, spring * mode);
 }

@@ -77,7 +77,7 @@ CoupledString coupledOf(const scene::Scene& scene, std::size_t index) {
   return string;
 }
 
-/// All that always holds at one rate, with the strings that are tuned told apart.
+/// The network of everything that always holds at one rate, with the tuned strings kept apart.
 class Surroundings {
  public:
   Surroundings(const scene::Scene& scene,
@@ -259,7 +259,7 @@ std::optional<DampedPole> poleFrom(const Surroundings::Equations& equations, Dam
   return std::nullopt;
 }
 
-/// One string among its surroundings.
+/// Tunes one string with its surroundings.
 class CoupledTuning {
  public:
   CoupledTuning(Surroundings& surroundings, const CoupledString& string, int index, double rate_hz)
@@ -270,7 +270,7 @@ class CoupledTuning {
     pole_.shape = surroundings_.shapeOf(string);
   }
 
-  /// By what its springs are to be multiplied; none if no mode can be brought to the pitch.
+  /// Finds the factor of its stiffness; nullopt if no mode can be brought to the pitch.
   std::optional<double> run() {
     double before = 0.0;  // ln of the scale
     double off_before = offBy(before);

@@ -19,7 +19,7 @@ using scene::Scene;
 
 constexpr double kHandHz = 20.0;
 
-/// What a coupling makes of a slice.
+/// Predicted properties of one coupling of a slice.
 struct Option {
   Coupling coupling = Coupling::kHold;
   HandLevel level = HandLevel::kSilent;
@@ -29,7 +29,8 @@ struct Option {
   bool damps = false;  // what is attached there for good
   double error = 0.0;  // steps, what is softer than the links say, and what is lost
 
-  /// What is quiet in the hand goes before what is not; of that the most quiet is best.
+  /// Order of preference: couplings that are silent in the hand first, by their error; then the
+  /// others, by how close they come to the limit.
   std::pair<HandLevel, double> rank() const {
     return {level, level == HandLevel::kSilent ? error : partOf(stiffness, limit)};
   }
@@ -62,7 +63,7 @@ class CouplingChooser {
   CouplingChooser(const Scene& scene, const Rates& rates, const Complete& complete)
       : scene_(scene), rates_(rates), complete_(complete) {}
 
-  /// All that can be played, hold first.
+  /// All couplings that can be played, hold first.
   std::vector<Option> optionsOf(int slice) const {
     std::vector<Option> options{optionOf(slice, Coupling::kHold),
                                 optionOf(slice, Coupling::kSmooth)};

@@ -63,8 +63,8 @@ int filterRatio(const Scene& scene, const scene::Lia& lia, int slow_divisor, int
            "section), raise the faster one, or leave the filter out");
 }
 
-/// What the chaplet loads at the slower end: its mass and the dashpot that keeps hold and mean from
-/// feeding the modes of its section.
+/// Computes the chaplet's load on the slower end: its mass, and the dashpot that keeps hold and
+/// mean from feeding energy into the modes of its section.
 void planSlowEnd(const Network& network, const Rates& rates, Plan& plan) {
   const Scene& scene = network.scene;
   const LinearNetwork around(network, scene.mats[at(plan.slow)].section);
@@ -175,8 +175,8 @@ class Inserter {
   }
 
  private:
-  /// That of the faster end if a chaplet moves there as at the slower one: along the same axis, and
-  /// with nothing that pulls or brakes it. Otherwise one of its own.
+  /// Chooses the section of the chaplet: that of the faster end if the chaplet moves there as at
+  /// the slower end, along the same axis and without gravity or medium; otherwise a new one.
   int chooseSection() {
     const scene::Section slow = scene_.sectionOf(scene_.mats[at(plan_.slow)]);
     const int fast_index = scene_.mats[at(plan_.fast)].section;

@@ -44,8 +44,8 @@ class Finder {
     return scene_.lias[at(lia)].a == mat ? scene_.lias[at(lia)].b : scene_.lias[at(lia)].a;
   }
 
-  /// One whose first mass this is: between the two links of a chaplet, the first one to a module
-  /// that is slower.
+  /// Finds the chaplet whose first mass this is: it is between the two links of the chaplet, of
+  /// which the first leads to a slower module.
   std::optional<FoundChaplet> chapletFrom(int first) const {
     const std::vector<int>& lias = lias_of_[at(first)];
     if (scene_.mats[at(first)].type != MatType::kMass || lias.size() != 2) {

@@ -9,8 +9,8 @@
 
 namespace ergotic::physics {
 
-/// By how much a string that moves in a plane or in space sounds higher when it moves widely, cents
-/// above its pitch at rest; a scalar one keeps its pitch.
+/// Rise in pitch of a string in a plane or in space at large amplitude, cents above its pitch at
+/// rest; a scalar string keeps its pitch.
 /// \param slack      rest length of a link over its length in the string, 0...1
 /// \param amplitude  of the fundamental over the length of the string
 double pitchPullCents(double slack, double amplitude);

@@ -11,7 +11,7 @@
 namespace ergotic::physics {
 namespace {
 
-/// Where the end of a link begins, in a scalar section, m.
+/// Position of a link's end at the start, in a scalar section, m.
 double beginningOf(const scene::Scene& scene, int mat) {
   const auto point =
       std::find_if(scene.connections.begin(), scene.connections.end(),

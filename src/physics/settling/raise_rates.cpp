@@ -72,7 +72,8 @@ class Raiser {
     return text;
   }
 
-  /// Its own, or where something stays slow a new one for what does not.
+  /// The section whose rate is raised: this one, or, where something has to stay slow, a new one
+  /// for everything else.
   int sectionToRaise(int section) {
     const auto isHere = [&](const scene::Mat& mat) { return mat.section == section; };
     const bool stays =

@@ -171,7 +171,7 @@ class StableChooser {
     }
   }
 
-  /// Of each link by itself: h^2 K (1/Ma + 1/Mb) + 2 h Z (1/Ma + 1/Mb).
+  /// Sorts the open links by their own load, h^2 K (1/Ma + 1/Mb) + 2 h Z (1/Ma + 1/Mb).
   void sortByLoad() {
     const Network network(scene_);
     const RatedNetwork networks(network, rates_);

@@ -14,8 +14,8 @@
 namespace ergotic::physics {
 namespace {
 
-/// Everything but the rates. A chaplet is tuned to the springs of what it touches; schemes depend
-/// on the masses that a link ends on.
+/// Settles everything but the rates. A chaplet is tuned to the springs that it is attached to;
+/// schemes depend on the masses at the ends of a link.
 scene::Scene complete(scene::Scene scene, const Rates& rates, std::vector<std::string>& notes) {
   const std::vector<CoupledString> coupled = coupledStrings(scene);
   tuneStrings(scene, rates, notes);

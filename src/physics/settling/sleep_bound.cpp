@@ -79,14 +79,14 @@ double springEnergy(const scene::Scene& scene,
   return 0.5 * stiffness * e * e;
 }
 
-/// Of the spring of a cell at the start: to x = 0, or in Euclidean sections to its rest.
+/// Elongation of a cell's spring at the start: from x = 0, or in Euclidean sections from its rest.
 Eigen::Vector3d stretchOf(const scene::Scene& scene, const scene::Mat& cell) {
   const Geometry geometry = scene.sectionOf(cell).geometry;
   return geometry == Geometry::kScalar ? Eigen::Vector3d(cell.position.x(), 0.0, 0.0)
                                        : movingPart(cell.position - cell.rest, geometry);
 }
 
-/// What a section has at the start more than at rest, in the springs of its own and in motion.
+/// Energy of a section at the start, in motion and in its own springs, beyond that at rest.
 double startEnergy(const Network& network, int section) {
   const scene::Scene& scene = network.scene;
   const auto isInside = [&](int m) { return scene.mats[at(m)].section == section; };

@@ -19,7 +19,7 @@ double largestCompliance(const Eigen::SparseMatrix<double>& stiffness);
 /// section, |x_i| <= sqrt(2 E (K^-1)_ii). Infinite if a module is free to go.
 double sleepingDistance(const Network& network, int section);
 
-/// What sleeping may hide, for every section that may sleep.
+/// Adds notes on the motion that sleep may hide, for every section that may sleep.
 void noteSleep(const scene::Scene& scene, std::vector<std::string>& notes);
 
 }  // namespace ergotic::physics

@@ -18,7 +18,7 @@ bool isPartlyLinear(const Lia& lia, double length) {
   return lia.rest_length == 0.0 ? lia.stiffness.factor != 0.0 : lia.rest_length < length;
 }
 
-/// Its length where its ends rest; 0 if it may be stretched otherwise than along their line.
+/// Length of a link at rest, m; 0 if it may be stretched otherwise than along the line of its ends.
 double lengthOf(const Scene& scene, const Lia& lia) {
   const Mat& a = scene.mats[at(lia.a)];
   const Mat& b = scene.mats[at(lia.b)];

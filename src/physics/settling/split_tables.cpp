@@ -19,20 +19,20 @@ using scene::MatType;
 using scene::Scene;
 using scene::Scheme;
 
-/// Of what holds a table that pushes one way, that it takes away. What the two parts store apart,
-/// and could make motion of, is more than what they store together, by about this share.
+/// Part of the stiffness around a one-sided table that the spring split off takes. By about this
+/// share, the two parts store more energy apart, which could become motion, than together.
 constexpr double kShare = 1e-3;
-/// Of what holds or brakes a table, the most that may be taken away.
+/// Largest part of the stiffness or damping around a table that may be taken.
 constexpr double kMost = 0.9;
 
-/// What is split off: -k (e - e0) - z v.
+/// Force that is split off: -k (e - e0) - z v.
 struct Push {
   double k = 0.0;
   double e0 = 0.0;
   double z = 0.0;
 };
 
-/// While nothing moves.
+/// Elastic force at the ends of a table while nothing moves.
 scene::TableEnds elasticEndsOf(const Lia& lia) {
   return endsOf(lia.law->table) + forceAtRest(lia);
 }
@@ -42,7 +42,7 @@ bool isPlain(const Scene& scene, int mat) {
   return type == MatType::kMass || type == MatType::kCell || type == MatType::kGround;
 }
 
-/// Along one axis, at one rate, between modules that stay what they are.
+/// True for a link along one axis, at one rate, between modules that stay what they are.
 bool mayBeSplit(const RatedNetwork& networks, const Lia& lia) {
   const Scene& scene = networks.scene();
   const auto isScalar = [&](int mat) {
@@ -105,7 +105,7 @@ double heldBy(const RatedNetwork& networks, const Lia& lia, Give giveOf) {
   return give > 0.0 ? 1.0 / give : 0.0;
 }
 
-/// With which what is left has a floor.
+/// Finds a spring that leaves the rest of the table a potential with a lower bound.
 bool findSpring(const RatedNetwork& networks, const Lia& lia, Push& push) {
   const scene::TableEnds ends = elasticEndsOf(lia);
   if (!ends.push()) {
@@ -128,7 +128,7 @@ bool findSpring(const RatedNetwork& networks, const Lia& lia, Push& push) {
   return push.k <= kMost * held;
 }
 
-/// With which what is left only brakes.
+/// Finds a damper that leaves the rest of the table purely dissipative.
 bool findDamper(const RatedNetwork& networks, const Lia& lia, Push& push) {
   push.z = scene::drive(lia.law->viscous_table);
   return push.z == 0.0 || push.z <= kMost * heldBy(networks, lia, NetworkSpectrum::mobility);

@@ -16,8 +16,8 @@ namespace ergotic::physics {
 /// lambda = (w h)^2 of the highest mode that a section with `rate: auto` may have: 2.9 cents.
 constexpr double kSlowEnough = 0.04;
 
-/// By how much the explicit scheme raises a mode with h^2 K/M = lambda < 4, cents; 72.1 lambda to
-/// first order.
+/// Rise of a mode with h^2 K/M = lambda < 4 by the explicit scheme, cents; 72.1 lambda to first
+/// order.
 double raisedCents(double lambda);
 
 /// Makes the other choices for a scene whose rates are known.

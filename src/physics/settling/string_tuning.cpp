@@ -29,13 +29,13 @@ int mostMasses(int fewest, int masses, const IsGood& is_good) {
   return good;
 }
 
-/// What to do about too many masses.
+/// Remedies for too many masses.
 std::string remedy(int most) {
   const std::string fewer = most > 0 ? "at most " + std::to_string(most) + " masses, " : "";
   return fewer + "a higher rate or a lower frequency";
 }
 
-/// One string that asks for a frequency.
+/// Tunes one string that asks for a frequency.
 class Tuning {
  public:
   Tuning(scene::Scene& scene, scene::StringInfo& string, const Rates& rates)
@@ -111,7 +111,7 @@ class Tuning {
     string.stiffness = scene::tunedStiffness(scene_, string, rate_hz);
     return string;
   }
-  /// By itself, along its links, which are stiffest there.
+  /// True if the string by itself is stable in motion along its links, where it is stiffest.
   bool isStable(int masses, double rate_hz) const {
     const double kappa = scene::stringKappa(scene_, tunedInto(masses, rate_hz), rate_hz);
     const double zeta = scene::stringZeta(scene_, string_, rate_hz);

@@ -11,7 +11,7 @@
 
 namespace ergotic::physics {
 
-/// What an element of the state is made of: structures begin with `kDoubles` doubles, floats
+/// Doubles and floats in an element of the state: structures begin with `kDoubles` doubles, floats
 /// follow.
 template <class T>
 constexpr StateNumbers numbersOf() {
@@ -24,8 +24,8 @@ constexpr StateNumbers numbersOf() {
   }
 }
 
-/// One block of memory for everything mutable, with a table of what lies where.
-/// Entries are cache-line aligned; the gaps are zero, so that equal states are equal bytes.
+/// One block of memory for all mutable state, with a table of its entries. Entries are cache-line
+/// aligned; the gaps are zero, so that equal states are equal bytes.
 class Arena {
  public:
   /// Adds an entry of `count` values of T. \return its offset. \pre before allocate()

@@ -19,7 +19,7 @@ bool hasDifferent(const Block& block) {
                      [](const Block::Segment& segment) { return !segment.uniform; });
 }
 
-/// Of the link between elements a and b of a lattice or of chains.
+/// Index of the coefficients of the link between elements a and b of a lattice or of chains.
 std::size_t placeOf(const Block& block, int a, int b) {
   if (block.kind == Block::Kind::kChains) {
     return at(std::min(a, b));
@@ -103,8 +103,8 @@ void CoefficientsOf<Real>::fillBlocks(const scene::Scene& scene,
   }
 }
 
-/// Where the coefficients of a link lie. Links of a lattice that lie side by side are one spring,
-/// which rests where their forces cancel.
+/// Adds the coefficients of a run to its block. Parallel links of a lattice are one spring, which
+/// rests where their forces cancel.
 template <class Real>
 void CoefficientsOf<Real>::fillBlock(const scene::Scene& scene,
                                      const StepUnits& units,

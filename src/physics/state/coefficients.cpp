@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kCreditSeconds = 0.1;  // of what a place may bring, in advance
 
-/// What guides a place moves it in its own step, or as it is interpolated; an audio input in the
-/// step of the place, parameters between two ticks.
+/// Motion of a grid point along one way. A guide moves it in the guide's own step, or as the guide
+/// is interpolated; an audio input in the step of the point, parameters between two ticks.
 PlaceCoefficients::Way wayOf(const scene::Scene& scene,
                              const Rates& rates,
                              const scene::Connection::Way& way,

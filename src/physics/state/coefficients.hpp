@@ -58,8 +58,8 @@ struct RunCoefficients {
   TableCoefficients<Real> viscous_table;
 };
 
-/// Where a point of a grid is asked to be, and what it may bring there. `speed` and `allowance` are
-/// per step of its section; energies in units of the scene.
+/// The position that a point of a grid is to take, and the energy that moving it may bring. `speed`
+/// and `allowance` are per step of its section; energies in units of the scene.
 struct PlaceCoefficients {
   struct Way {
     double at = 0.0;
@@ -72,8 +72,8 @@ struct PlaceCoefficients {
   double speed = 0.0;
   double allowance = 0.0;   ///< energy that moving it may bring
   double credit = 0.0;      ///< the most that it may owe and go on
-  double stiffness = 0.0;   ///< of the explicit links that end there, at their steepest
-  double resistance = 0.0;  ///< Z/h of the same
+  double stiffness = 0.0;   ///< stiffness of the explicit links that end there, at their steepest
+  double resistance = 0.0;  ///< Z/h of these links
 };
 
 template <class Real>

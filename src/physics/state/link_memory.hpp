@@ -5,11 +5,11 @@
 
 namespace ergotic::physics {
 
-/// What a run has taken and given since the start, in the scene's unit of energy.
+/// Energy that the links of a run have taken and given since the start, in the scene's unit.
 struct LinkWork {
   double initial = 0.0;     ///< stored at the start
   double stored = 0.0;      ///< since then, by elastic forces; of springs it follows from positions
-  double dissipated = 0.0;  ///< by viscous forces
+  double dissipated = 0.0;  ///< energy lost by viscous forces
   double on_a = 0.0;        ///< done on the modules of side a; links between sections only
   double on_b = 0.0;
   double made = 0.0;  ///< by holding the slower end and averaging its force; across rates only
@@ -17,8 +17,8 @@ struct LinkWork {
   static constexpr std::size_t kDoubles = 6;  ///< see numbersOf
 };
 
-/// What a run that remembers keeps for each link and coordinate: [coordinates][links]. Unmetered,
-/// runs inside one section do not.
+/// Forces that a run with memory keeps for each link and coordinate: [coordinates][links].
+/// Unmetered, runs inside one section have no memory.
 template <class Real>
 struct LinkMemory {
   Real* elastic = nullptr;  ///< force of the last step

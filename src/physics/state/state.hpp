@@ -18,8 +18,8 @@ inline bool remembers(const LinkRun& run) {
          run.dimensions > 0 || run.section_a != run.section_b || run.slow_section >= 0;
 }
 
-/// What explicit links exert on a coordinate of a place: of the step under way so far, and of the
-/// last one.
+/// Force of explicit links on a coordinate of a grid point: mean over the step under way so far,
+/// and over the last one.
 template <class Real>
 struct PlaceForce {
   static constexpr std::size_t kDoubles =
@@ -28,18 +28,18 @@ struct PlaceForce {
   Real last;
 };
 
-/// What a slice that is interpolated feels along a coordinate.
+/// Force on an interpolated slice along a coordinate.
 template <class Real>
 struct InterpolatedForce {
   static constexpr std::size_t kDoubles =
       sizeof(Real) == sizeof(double) ? 3 : 0;  ///< see numbersOf
   Real last;                                   ///< the force of the last step
-  Real answer;  ///< to what it did in the tick before: what the tick under way ends with
-  Real next;    ///< to what it does in this one, so far
+  Real answer;  ///< answer to its motion in the tick before: the tick under way ends with it
+  Real next;    ///< answer to its motion in this tick, so far
 };
 
-/// Everything mutable of an instrument, in one arena. Unmetered, nothing is kept that only the
-/// energy accounts need: of links, what those between sections remember.
+/// All mutable state of an instrument, in one arena. Unmetered, it holds nothing that only the
+/// energy accounts need: of links, only the memory of those between sections.
 template <class Real>
 class State {
  public:
@@ -108,7 +108,7 @@ class State {
   LinkMemory<const Real> memory(std::size_t run) const noexcept {
     return split<const Real>(runs_[run], arena_.at<Real>(runs_[run].memory));
   }
-  /// Of laws that have one, see scene::ExplicitForm.
+  /// State of the law of a run, if the law has one, see scene::ExplicitForm.
   Real* lawState(std::size_t run) noexcept { return arena_.at<Real>(runs_[run].law_state); }
   /// Numbers in each array of the memory of a run; 0: it remembers nothing.
   std::size_t remembered(std::size_t run) const noexcept { return runs_[run].links; }

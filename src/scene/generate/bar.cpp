@@ -85,7 +85,7 @@ void addBarBends(SceneBuilder& builder, const BarSpec& spec, int first, int mats
   }
 }
 
-/// From each module to the next.
+/// Adds the dampers, from each module to the next.
 void addBarDampers(SceneBuilder& builder, const BarSpec& spec, int first, int mats) {
   const Name stem = linkStem(spec.name);
   int next = 0;

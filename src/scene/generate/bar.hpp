@@ -18,7 +18,7 @@ enum class BarEnd { kFree, kHinged, kClamped };
 struct BarProfile {
   double a = 0.0;
   double b = 0.0;
-  /// At the place of one of the masses.
+  /// Thickness at the position of one of the masses, relative to the ends.
   double at(int index, int masses) const;
 };
 

@@ -8,17 +8,17 @@
 
 namespace ergotic::scene {
 
-/// What all bodies may be asked for.
+/// Pitch, inharmonicity and decay that a body may be asked for.
 struct BodyWish {
   double pitch_hz = 0.0;
   int pitch_of = 1;             ///< the partial that sounds at it, from 1
-  double inharmonicity = -1.0;  ///< of strings with bends, see Tuning
-  bool is_string = false;       ///< whose modes have f_j = j f_1 sqrt((1 + B j^2)/(1 + B))
+  double inharmonicity = -1.0;  ///< inharmonicity of strings with bends, see Tuning
+  bool is_string = false;  ///< a string, whose modes have f_j = j f_1 sqrt((1 + B j^2)/(1 + B))
   /// (partial from 1, s): none, one, or two of different partials.
   std::vector<std::pair<int, double>> t60;
 };
 
-constexpr int kMostPartials = 40;  ///< of a network that can be asked for
+constexpr int kMostPartials = 40;  ///< most partials that a network can be asked for
 
 /// Type of a mass that may lose: a matched cell if a decay is wanted.
 inline MatType massTypeOf(const BodyWish& wish) {
@@ -45,7 +45,7 @@ struct BodyScale {
   double springs = 1.0;
   double bends = 1.0;
   double dampers = 1.0;
-  double loss = 0.0;  ///< of every cell to the ground, over its mass, 1/time_unit
+  double loss = 0.0;  ///< loss of every cell to the ground, over its mass, 1/time_unit
 };
 
 /// Multiplies the links, and gives the cells their loss; the modes of the body follow.

@@ -93,7 +93,7 @@ Vectors sparseVectors(const Eigen::SparseMatrix<double>& matrix, int count) {
   return {low.eigenvectors(), high.eigenvectors()};
 }
 
-/// What a mode takes of the links of a body.
+/// Energy of a mode in the springs, dampers and bends of a body.
 Tuning::Mode energyOf(const Scene& scene, const Tuning& body, const Eigen::VectorXd& shape) {
   const auto x = [&](int mat) { return shape(mat - body.first_mat); };
   Tuning::Mode mode;

@@ -17,8 +17,8 @@ struct BodyModes {
   Eigen::MatrixXd shapes;
 };
 
-/// Of its masses, springs and bends as they are written, parameters at 1. What holds a mode is
-/// summed over the links, K e^2 each, so that low modes are as exact as high ones.
+/// The modes of its masses, springs and bends as written, with parameters at 1. The stiffness of a
+/// mode is summed over the links, K e^2 each, so that low modes are as exact as high ones.
 /// \param body   its ranges; scalar; `rigid` modes, the lowest, are left out
 /// \param count  how many are wanted; fewer if there are fewer
 /// Realtime: no. Cost: some hundred masses: O(n^3), more: a sparse factorisation

@@ -71,7 +71,7 @@ class Cutter {
   }
   static double halfSine(int masses) { return std::sin(M_PI / (2.0 * (masses + 1))); }
 
-  /// Between two of the old modules, `place` counted in their spacings.
+  /// Interpolates between two of the old modules, `place` counted in their spacings.
   template <class What>
   Eigen::Vector3d between(const What& what, double place) const {
     const int lower = std::min(static_cast<int>(place), string_.count - 2);
@@ -175,7 +175,7 @@ class Cutter {
     }
   }
 
-  /// The same place on the string, whatever is there now.
+  /// The module or point at the same position on the string, whatever is there now.
   int endAt(int mat, Place place) {
     if (!isInner(string_, mat)) {
       return moved(mat);

@@ -13,7 +13,7 @@ namespace ergotic::scene {
 Mat generatedMat(
     const SceneBuilder& builder, int section, Name name, const Eigen::Vector3d& rest, Place place);
 
-/// Of all links of a generator.
+/// Stem of the names of all links of a generator.
 Name linkStem(const std::string& generator);
 
 /// \param stem  of all links of the generator

@@ -10,14 +10,14 @@ namespace ergotic::scene {
 enum class Hardening {
   kNone,
   kLocal,   ///< each place by itself: sound climbs to higher modes
-  kGlobal,  ///< all of it by the mean: the pitch glides
+  kGlobal,  ///< all of it by the mean elongation: the pitch glides
 };
 
 /// The links by which a body that asks for a pitch grows stiffer where it is drawn far: cubic ones,
 /// `name.hard.0` ..., in one tank `name.hard`. Its tuning scales them as it does its springs.
 class HardLinks {
  public:
-  /// Nothing is made of Hardening::kNone.
+  /// Makes nothing if `hardening` is Hardening::kNone.
   HardLinks(SceneBuilder& builder, const std::string& name, Hardening hardening, Place place);
 
   /// \param nonlinearity  Q as the body is written, N/m^3. \pre not kNone

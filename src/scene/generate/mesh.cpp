@@ -8,7 +8,7 @@
 namespace ergotic::scene {
 namespace {
 
-/// From a module of a mesh to a neighbour.
+/// Step from a module of a mesh to a neighbour.
 struct MeshStep {
   int row;
   int column;

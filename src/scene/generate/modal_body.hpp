@@ -27,7 +27,7 @@ struct Partial {
   double frequency_hz = 0.0;
   double t60_s = 0.0;           ///< 0: no loss
   double mass = 1.0;            ///< kg
-  std::vector<double> weights;  ///< of each place
+  std::vector<double> weights;  ///< weight at each place
 };
 
 /// A body that is its modes: cells `name.0` ..., and at each place a tap `name.<place>` with the
@@ -49,7 +49,7 @@ void addModalBody(SceneBuilder& builder, const ModalSpec& spec);
 /// How a body is played.
 struct BodyForm {
   bool is_modal = false;
-  int partials = 0;  ///< of modal ones; 0: all below 18 kHz, kMostPartials at most
+  int partials = 0;  ///< partials of modal ones; 0: all below 18 kHz, kMostPartials at most
   std::vector<BodyPlace> places;
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// In the scene's time unit.
+/// Length of a step, in the scene's time unit.
 double stepOf(const Scene& scene, double rate_hz) {
   return 1.0 / (rate_hz * scene.time_unit_s);
 }
@@ -29,7 +29,7 @@ double groundLoss(const Scene& scene, const StringInfo& string, double step) {
   return first_order ? zeta : -std::expm1(-zeta);
 }
 
-/// What the tension leaves of a link's stiffness across the string; 1 along it.
+/// Part of a link's stiffness that the tension leaves across the string; 1 along it.
 double tensionShare(const Scene& scene, const StringInfo& string) {
   return movesAlong(scene, string) ? 1.0 : 1.0 - string.rest_length_ratio;
 }

@@ -104,7 +104,8 @@ class Plate {
     }
   }
 
-  /// In each cell, more in those at an edge, whose outer half has none.
+  /// Adds a bend against twist in each cell; stiffer in those at an edge, whose outer half has
+  /// none.
   void addTwists() {
     for (int row = 0; row + 1 < spec_.rows; ++row) {
       for (int column = 0; column + 1 < spec_.columns; ++column) {
@@ -136,9 +137,9 @@ class Plate {
     }
   }
 
-  /// What stretches beside what bends, with D = K a^2 = E t^3/(12 (1 - nu^2)): a link that is drawn
-  /// by e across a is longer by e^2/2a, which stores 6 K/t^2 e^4/4. By the mean over all places
-  /// (Berger 1955) it is (3 K/(2 n t^2)) (sum e^2)^2, n the number of cells.
+  /// Adds the links that stretch, beside those that bend, with D = K a^2 = E t^3/(12 (1 - nu^2)): a
+  /// link that is drawn by e across a is longer by e^2/2a, which stores 6 K/t^2 e^4/4. By the mean
+  /// over all places (Berger 1955) it is (3 K/(2 n t^2)) (sum e^2)^2, n the number of cells.
   void addHardLinks() {
     HardLinks links(builder_, spec_.name, spec_.hardening, spec_.place);
     if (spec_.hardening == Hardening::kNone) {
@@ -156,8 +157,8 @@ class Plate {
     });
   }
 
-  /// To the next column and row: dampers, and at a clamped edge, beyond which the plate is its own
-  /// mirror image, a spring of twice the stiffness of a bend.
+  /// Adds links to the next column and row: dampers, and at a clamped edge, beyond which the plate
+  /// is its own mirror image, a spring of twice the stiffness of a bend.
   void addLinks() {
     const bool is_damped = spec_.wish.t60.size() > 1;
     const Name stem = linkStem(spec_.name);

@@ -22,8 +22,8 @@ struct PlateSpec {
   int rows = 3;  ///< with the grounds
   int columns = 3;
   PlateEdges edges = PlateEdges::kFree;
-  double poisson = 0.3;                          ///< of free ones
-  double mass = 1.0;                             ///< of the whole, kg
+  double poisson = 0.3;                          ///< Poisson's ratio, for free edges
+  double mass = 1.0;                             ///< mass of the whole, kg
   double spacing = 0.01;                         ///< m
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< rest of the first module, m
   BodyWish wish;

@@ -7,7 +7,7 @@
 
 namespace ergotic::scene {
 
-/// What a bell, a glass or a ring looks like: its rim, and from there a cone.
+/// Shape of a bell, a glass or a ring: its rim, and from there a cone.
 struct RingShape {
   double radius = 0.1;     ///< m, of the rim
   double height = 0.0;     ///< m along x, from the rim to where it does not move; 0: a rim alone

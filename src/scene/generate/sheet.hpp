@@ -10,7 +10,7 @@
 
 namespace ergotic::scene {
 
-/// Where the modules of a flat body are, row by row.
+/// Positions of the modules of a flat body, row by row.
 struct Sheet {
   std::string name;
   int section = 0;

@@ -39,7 +39,7 @@ class Membrane {
   double middleColumn() const { return 0.5 * (spec_.columns - 1); }
   double radius() const { return middleColumn(); }
 
-  /// From the middle, in cells.
+  /// Distance from the middle, in cells.
   double distance(int row, int column) const {
     return std::hypot(row - middleRow(), column - middleColumn());
   }

@@ -13,7 +13,7 @@ namespace ergotic::scene {
 
 /// How much heavier a skin is from place to place; r is the distance from its middle, 1 at the rim.
 struct SkinLoad {
-  double ratio = 1.0;  ///< in the middle, to what it is at the rim
+  double ratio = 1.0;  ///< load in the middle over that at the rim
   /// Within this r, a patch whose edge is as wide as one cell; none: ratio falls towards the rim as
   /// 1 + (ratio - 1) (1 - r^2)^power, as air does beside a kettledrum.
   std::optional<double> radius;
@@ -40,7 +40,7 @@ struct MembraneSpec {
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< rest of the first module, m
   BodyWish wish;
   Hardening hardening = Hardening::kNone;
-  double strain = 1e-3;  ///< by which its tension has drawn it out
+  double strain = 1e-3;  ///< strain by its tension
   Place place;
 };
 

@@ -8,13 +8,13 @@
 
 namespace ergotic::scene {
 
-/// What a string comes down onto: grounds `name.0` ... below places of it, each with a contact
-/// `name.stop.0` ..., whose stiffness `settle` finds: a Tuning without modes. Where a place falls
-/// between two masses, or if it may be moved, the contact is with a point `name.at.<n>`.
+/// Stops below a string: grounds `name.0` ... below places of it, each with a contact `name.stop.0`
+/// ..., whose stiffness `settle` finds: a Tuning without modes. Where a place falls between two
+/// masses, or if it may be moved, the contact is with a point `name.at.<n>`.
 struct StopsSpec {
   struct Stop {
     double along = 0.0;   ///< 0...1, of the grid
-    double height = 0.0;  ///< of the ground, m, from where the string rests
+    double height = 0.0;  ///< height of the ground, m, from where the string rests
   };
   std::string name;
   int grid = 0;  ///< index in Scene::grids, of one row in a scalar section

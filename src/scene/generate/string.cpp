@@ -52,7 +52,7 @@ StringInfo infoOf(const SceneBuilder& builder, const StringSpec& spec) {
   return info;
 }
 
-/// Around each mass: K s^2 of a mode, where the springs give K s.
+/// Adds a bend around each mass: K s^2 of a mode, where the springs give K s.
 void addStringBends(SceneBuilder& builder, const StringSpec& spec, int first) {
   const Name stem(spec.name + ".bend.");
   for (int i = 0; i < spec.masses; ++i) {
@@ -89,7 +89,7 @@ void addStringLinks(SceneBuilder& builder,
   }
 }
 
-/// One that is tuned as a body: springs and dampers of equal weight, and bends.
+/// Adds a string that is tuned as a body: springs and dampers of equal weight, and bends.
 void addStringBody(SceneBuilder& builder, const StringSpec& spec, Tuning body) {
   const Value damping = spec.wish->t60.size() > 1 ? spec.mass : Value{};
   addStringLinks(builder, spec, body.first_mat, spec.mass, damping);

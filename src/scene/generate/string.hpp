@@ -27,7 +27,8 @@ struct StringSpec {
   Scheme scheme = Scheme::kExplicit;  ///< of links with a rest length
   Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< rest of the first ground, m
   Eigen::Vector3d to = Eigen::Vector3d::Zero();    ///< rest of the last ground, m
-  /// Where (0...1) and how high (m) it is held at start: along x, in a plane or in space along y.
+  /// Position (0...1) and height (m) at which it is held at the start: along x, in a plane or in
+  /// space along y.
   std::optional<Eigen::Vector2d> pluck;
   /// A body of a pitch, decay and inharmonicity, the stiffness and damping of which do not count; a
   /// scalar one. Its bends, around each mass, are `name.bend.0` ...

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kRounding = 1e-9;  // of unit vectors
 
-/// Of the plane through the listener that all are in; 0 if there is none.
+/// Normal of the plane that holds the listener and all speakers; 0 if there is none.
 Eigen::Vector3d commonNormal(const std::vector<Eigen::Vector3d>& speakers) {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& speaker : speakers) {
@@ -29,7 +29,7 @@ Eigen::Vector3d commonNormal(const std::vector<Eigen::Vector3d>& speakers) {
   return are_in_it ? normal : Eigen::Vector3d::Zero();
 }
 
-/// Those next to one another all around, if there is less than half a turn between them.
+/// Pairs of speakers next to one another around the listener, less than half a turn apart.
 std::vector<std::vector<std::size_t>> pairsOf(const std::vector<Eigen::Vector3d>& speakers,
                                               const Eigen::Vector3d& normal) {
   const Eigen::Vector3d ahead = speakers.front();
@@ -69,7 +69,8 @@ Panner::Panner(std::vector<Eigen::Vector3d> speakers)
   }
 }
 
-/// Of the convex hull: no speaker lies beyond the plane of these three, nor the listener in it.
+/// True for a face of the convex hull: no speaker lies beyond the plane of these three, nor the
+/// listener in it.
 bool Panner::isFace(std::size_t a, std::size_t b, std::size_t c) const {
   Eigen::Matrix3d base;
   base << speakers_[a], speakers_[b], speakers_[c];

@@ -17,11 +17,11 @@ namespace ergotic::scene {
 /// nothing.
 using Part = std::shared_ptr<const Node>;
 
-/// What a name of the language stands for: a number in SI units of a kind, words (a note, a name,
-/// `$name` of a parameter) or a part of the text, as a list.
+/// Value of a name of the language: a number in SI units of a kind, words (a note, a name, `$name`
+/// of a parameter) or a part of the text, as a list.
 using Constant = std::variant<Amount, std::string, Part>;
 
-/// What a value of a text stands for. \param node  of `owner`
+/// Value of a node of a text. \param node  of `owner`
 Constant constantOf(const Node& node, const Part& owner);
 Constant constantOf(Node node);
 
@@ -41,7 +41,7 @@ class Scope {
     }
     return outer_ == nullptr ? nullptr : outer_->find(name);
   }
-  /// Of this scope alone.
+  /// True if this scope itself has the name.
   bool has(const std::string& name) const { return names_.count(name) > 0; }
   std::vector<std::string> names() const {
     std::vector<std::string> all = outer_ == nullptr ? std::vector<std::string>() : outer_->names();

@@ -52,7 +52,7 @@ void Expander::writeElement(const std::string& part,
   to.add(std::move(result));
 }
 
-/// What a variant gives an element.
+/// Applies the settings of a variant to an element.
 void Expander::set(const std::string& name, Node& element) {
   for (const auto& [key, value] : variant_.settingsOf(name)) {
     Node given = writer_.write(*value, frame_, frame_.scope, Writer::isReference(key));
@@ -95,7 +95,7 @@ void Expander::addKey(
                                     : std::move(given));
 }
 
-/// Without what is for the language alone, and with its defaults.
+/// Writes an element without the keys of the language alone, and with its defaults.
 Node Expander::written(const Node& element, const Frame& frame, const Scope& scope) {
   if (!element.isMap()) {
     return writer_.write(element, frame, scope);

@@ -8,7 +8,7 @@
 namespace ergotic::scene {
 namespace {
 
-/// What needs no quotes anywhere: no sign of YAML, nothing that is read as nothing.
+/// True for a text that needs no quotes anywhere: no sign of YAML, and no word for null.
 bool isPlain(const std::string& text) {
   constexpr std::string_view kFirst = "_.$+/=";
   constexpr std::string_view kOthers = "_.$+-/=@ ^*";

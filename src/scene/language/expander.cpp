@@ -60,7 +60,7 @@ Node Expander::run(const Node& scene, const std::string& variant) {
   return result;
 }
 
-/// What a variant gives them.
+/// Applies the settings of a variant to the parameters.
 void Expander::setParameters(Node& parameters) {
   for (std::size_t i = 0; parameters.isMap() && i < parameters.parts().size(); i += 2) {
     Node& parameter = parameters.parts()[i + 1];
@@ -102,7 +102,8 @@ void Expander::writeElements(const std::string& part, const Node& elements, cons
   }
 }
 
-/// What the names begin with that a definition gives, so that words that mean these are known.
+/// Finds the heads of all names that a definition gives, so that words that refer to them are
+/// known.
 void Expander::findHeads(const Node& body, Frame& frame) {
   const auto add = [&](const Node& element, const Node* name) {
     if (name != nullptr) {

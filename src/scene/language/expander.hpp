@@ -37,7 +37,7 @@ class Expander {
   void writeInstances(const Node& body, const Frame& frame);
   void writeInstance(const Node& use, const Frame& frame, const Scope& scope);
   Pose poseOf(const Node& use, const Frame& frame, const Scope& scope);
-  /// What an instance is given, by name, and where that is looked up.
+  /// A value that an instance is given, and where it is looked up.
   struct GivenValue {
     Place place;
     const Node* value = nullptr;

@@ -81,7 +81,7 @@ class Parser {
     const auto* const found = std::get_if<double>(&hz);
     return found == nullptr ? std::nullopt : std::optional(*found);
   }
-  /// Without a unit.
+  /// Value of a number without a unit.
   double bare(const Constant& value, const char* what) const {
     const Amount given = number(value);
     if (unused_ == 0 && !isPlainNumber(given.kind)) {
@@ -129,7 +129,7 @@ class Parser {
     return value;
   }
 
-  /// What is not chosen need have no value, as in `n > 0 ? 1/n : 0`.
+  /// Evaluates one branch; one that is not chosen need have no value, as in `n > 0 ? 1/n : 0`.
   Constant branch(bool is_used) {
     unused_ += is_used ? 0 : 1;
     Constant value = choice();

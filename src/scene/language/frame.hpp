@@ -10,17 +10,18 @@
 
 namespace ergotic::scene {
 
-/// Where names are looked up while a scene or an instance of a definition is written out.
+/// Context in which names are looked up while a scene or an instance of a definition is written
+/// out.
 struct Frame {
   Scope scope;
-  std::string prefix;                           ///< of its names, as `left.`; the scene: nothing
-  std::set<std::string> heads;                  ///< what its own names begin with, up to a dot
-  std::map<std::string, std::string> sections;  ///< by their roles
+  std::string prefix;                           ///< prefix of its names, as `left.`; scene: empty
+  std::set<std::string> heads;                  ///< heads of its own names, up to a dot
+  std::map<std::string, std::string> sections;  ///< sections by their roles
   int text = 0;                                 ///< Place::origin of the text it is written in
-  int origin = 0;                               ///< and of what is written out of that, if not 0
+  int origin = 0;                               ///< origin of what it writes, if not 0
   std::size_t definitions = 0;                  ///< so many may be used in it
-  Pose pose{};                                  ///< of what it makes
-  int depth = 0;                                ///< of instances in instances
+  Pose pose{};                                  ///< pose of what it makes
+  int depth = 0;                                ///< depth of instances in instances
 };
 
 }  // namespace ergotic::scene

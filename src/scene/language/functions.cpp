@@ -9,7 +9,8 @@
 namespace ergotic::scene {
 namespace {
 
-/// Of integers alone, so that it is the same on all machines (splitmix64: Steele, Lea, Flood 2014).
+/// A random number made of integers alone, so that it is the same on all machines (splitmix64:
+/// Steele, Lea, Flood 2014).
 double randomOf(double seed, double index) {
   auto z = static_cast<std::uint64_t>(static_cast<std::int64_t>(seed)) * 0x9E3779B97F4A7C15U +
            static_cast<std::uint64_t>(static_cast<std::int64_t>(index)) * 0xD1B54A32D192ED03U;

@@ -8,7 +8,7 @@ namespace ergotic::scene {
 
 /// A function of expressions, of one or two numbers.
 struct Function {
-  /// What it takes, and of what kind its result is.
+  /// Kinds of the arguments, and of the result.
   enum class Kinds {
     kBare,   ///< numbers without units (angles too), and gives one
     kSame,   ///< all of one kind, and gives that

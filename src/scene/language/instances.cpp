@@ -18,7 +18,7 @@ namespace {
 constexpr int kDeepestInstance = 16;
 constexpr std::size_t kNodesOfInstance = 8;  // that take as long
 
-/// Whose number it is, as in `[30, 5000]`, `[1 mm, 1 m]`.
+/// Limits of the number of a parameter, as in `[30, 5000]`, `[1 mm, 1 m]`.
 Limits limitsOf(const SceneBuilder& builder, const YamlMap& spec, const std::string& unit) {
   Limits limits{unit.c_str()};
   if (spec.has("range")) {

@@ -5,11 +5,11 @@
 
 #include "scene/text/quantity.hpp"
 
-/// Of what kind the result of a calculation is.
+/// Kinds of the results of calculations.
 namespace ergotic::scene {
 
-/// Of numbers that are added or compared; a bare one is of the kind of the other. Nothing: they are
-/// of different kinds.
+/// Common kind of numbers that are added or compared; a bare one is of the kind of the other.
+/// Nothing: they are of different kinds.
 std::optional<Kind> commonKind(const Kind& one, const Kind& other);
 
 /// \param power  of `by`: -1 divides. Nothing: no unit has such a power
@@ -21,7 +21,7 @@ std::optional<Kind> powerKind(const Kind& kind, double power);
 /// A number or an angle.
 bool isPlainNumber(const Kind& kind);
 
-/// As in `m` or `a number`, for messages.
+/// Describes a kind for messages, as in `m` or `a number`.
 std::string nameOf(const Kind& kind);
 
 }  // namespace ergotic::scene

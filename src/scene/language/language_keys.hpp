@@ -9,13 +9,13 @@
 /// The keys of what only the language has.
 namespace ergotic::scene {
 
-/// Of a scene, beside those of a plain one.
+/// Keys of a scene, beside those of a plain one.
 const std::vector<std::string>& languageKeys();
-/// Of every element.
+/// Keys of every element.
 const std::vector<std::string>& elementKeys();
 const std::vector<std::string>& definitionKeys();
 const std::vector<std::string>& instanceKeys();
-/// Of what a definition takes.
+/// Keys of a parameter of a definition.
 const std::vector<std::string>& parameterSpecKeys();
 const std::vector<std::string>& variantKeys();
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kDeepestInclude = 16;
 
-/// The same tree, of another text.
+/// Marks a tree as a part of another text.
 void setOrigin(Node& node, int origin) {
   node.setOrigin(origin);
   for (Node& part : node.parts()) {
@@ -69,7 +69,7 @@ void Library::include(const Node& files, Frame& frame) {
   }
 }
 
-/// Each file once, from below the folder of the scene.
+/// Reads a file to include, each once, from the folder of the scene or below it.
 void Library::readFile(const Node& name, Frame& frame) {
   const Place place = writer_.placeIn(name, frame);
   const std::string path =

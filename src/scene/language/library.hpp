@@ -20,7 +20,7 @@ struct Definition {
   std::size_t above = 0;  ///< so many definitions stand above it
 };
 
-/// What a scene and the files that it includes define: constants, keys by default, definitions.
+/// Contents of a scene and of the files that it includes: constants, default keys, definitions.
 class Library {
  public:
   Library(SceneBuilder& builder, Writer& writer, Variant& variant)

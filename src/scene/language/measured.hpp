@@ -24,8 +24,8 @@ struct Measured {
   std::size_t end = 0;  ///< beyond the unit
 };
 
-/// What follows a number, as far as it is a unit: `mm`, `%`, `mm^2`, `kN/m`, without blanks in it,
-/// as beside a plain number. \param from  beyond the number
+/// A number with the unit that follows it: `mm`, `%`, `mm^2`, `kN/m`, without blanks in it, as
+/// beside a plain number. \param from  beyond the number
 std::optional<Measured> measuredAt(std::string_view text,
                                    std::size_t from,
                                    std::string_view number);

@@ -92,7 +92,7 @@ class Mover {
     put(key, node,
         listOf(to, is_scalar_ ? 2 : 3, node == nullptr ? element_.place() : node->place()));
   }
-  /// Of the coordinates that move.
+  /// Moves a vector of the coordinates that move.
   void moving(const std::string& key, bool is_place) {
     Node* const node = find(key);
     if (node == nullptr || is_scalar_) {

@@ -10,14 +10,15 @@
 
 namespace ergotic::scene {
 
-/// Where an instance stands: `at` and `rotate`.
+/// Position and orientation of an instance: `at` and `rotate`.
 struct Pose {
   bool is_moved = false;
   bool is_turned = false;
-  Eigen::Isometry2d bench = Eigen::Isometry2d::Identity();  ///< of scalar sections: y, z
-  Eigen::Isometry3d space = Eigen::Isometry3d::Identity();  ///< of the others
+  Eigen::Isometry2d bench = Eigen::Isometry2d::Identity();  ///< pose in scalar sections: y, z
+  Eigen::Isometry3d space = Eigen::Isometry3d::Identity();  ///< pose in the others
 
-  /// Of an instance in an instance. \pre `inner` is of a use in a definition that stands here
+  /// Pose of an instance in an instance. \pre `inner` is of a use in a definition that has this
+  /// pose
   Pose operator*(const Pose& inner) const;
 };
 

@@ -11,7 +11,7 @@
 
 namespace ergotic::scene {
 
-/// What a variant of a scene has otherwise: `{let: {constant: value}, set: {NAME.key: value}}`.
+/// Changes that a variant makes to a scene: `{let: {constant: value}, set: {NAME.key: value}}`.
 class Variant {
  public:
   explicit Variant(const SceneBuilder& builder) : builder_(builder) {}
@@ -20,7 +20,7 @@ class Variant {
   /// \throws TextError; Exception that lists those there are if there is none of that name
   void read(const Node& scene, const std::string& wanted);
 
-  /// What a constant is in place of `otherwise`.
+  /// Value of a constant; `otherwise` if the variant does not change it.
   const Node& constant(const std::string& name, const Node& otherwise);
 
   /// Keys of the element or instance of that name, with their values.
@@ -33,7 +33,7 @@ class Variant {
   /// \throws TextError at what nothing of the scene has asked for
   void expectUsed() const;
 
-  /// Of all variants of the scene.
+  /// Names of all variants of the scene.
   const std::vector<std::string>& known() const noexcept { return known_; }
 
  private:

@@ -59,7 +59,7 @@ void Writer::countText(std::size_t bytes, const Node& node, const Frame& frame) 
   }
 }
 
-/// Of a list that stands in the place of its name, before it takes room.
+/// Counts a list that is written in place of its name, before it takes room.
 void Writer::countAll(const Node& list, const Node& asked, const Frame& frame) {
   count(asked, frame);
   countText(list.text().size(), asked, frame);
@@ -163,7 +163,7 @@ Node Writer::writeScalar(const Node& node,
   return {Node::Kind::kScalar, place, is_reference ? renamed(text, frame) : text};
 }
 
-/// What plays the role of a section.
+/// The section that plays a role.
 Node Writer::sectionOf(Node role, const Frame& frame) {
   const auto found = frame.sections.find(role.text());
   return found == frame.sections.end() ? std::move(role)

@@ -20,7 +20,7 @@ class Writer {
   Node write(const Node& node, const Frame& frame, const Scope& scope, bool is_reference = false);
   /// A name or a word with `{...}` in it.
   std::string word(const Node& node, const Frame& frame, const Scope& scope);
-  /// What `= ...`, a quantity or words stand for.
+  /// Value of `= ...`, of a quantity or of words.
   Constant constant(const Node& node, const Frame& frame, const Scope& scope);
 
   /// Calls `each` for every combination that the `for` of an element asks for, with its variables,

@@ -42,11 +42,11 @@ Real inPrecision(const Scene& scene, const Lia& lia, double value) {
   return static_cast<Real>(multiple * (std::rint(value / multiple / unit) * unit));
 }
 
-/// How far apart the ends of a link rest, less which its spring is not stretched, m.
+/// Difference of the rest positions of a link's ends, as it counts for the elongation, m.
 ///
-/// Of the springs of a bend only `c = sum u x` at rest, less its rest length, matters: where each
-/// of them rests for itself, rounded by itself, would push a body that nothing holds. So they rest
-/// at (u_i - u_j) c / sum u^2 from one another, which is the same force and energy, and nothing
+/// For the springs of a bend only `c = sum u x` at rest, less its rest length, matters: rest
+/// positions of each spring, rounded by themselves, would push a body that nothing holds. So they
+/// rest at (u_i - u_j) c / sum u^2 from one another, which is the same force and energy, and 0
 /// where the bend is at rest.
 inline Eigen::Vector3d restApart(const Scene& scene, const Lia& lia) {
   constexpr double kRounded = 1e-12;  // of what c is the sum of

@@ -7,7 +7,7 @@
 
 namespace ergotic::scene {
 
-/// What a format means by a clipped cubic law: f = K e + Q e^3 up to the tipping point, K_limit e
+/// Meaning of a clipped cubic law in a format: f = K e + Q e^3 up to the tipping point, K_limit e
 /// beyond.
 enum class ClippedLaw {
   kContinuous,  ///< tipping point sqrt((K_limit - K) / Q), where the two meet

@@ -33,7 +33,7 @@ struct Tables {
   ERGOTIC_REALTIME bool holds(std::size_t link, Real value) const noexcept {
     return value >= x[first[link]] && value <= x[first[link] + count[link] - 1];
   }
-  /// Its value, held beyond its ends. Bounded by log2 of the table's length.
+  /// Value of the table, held beyond its ends. Bounded by log2 of the table's length.
   ERGOTIC_REALTIME Real at(std::size_t link, Real value) const noexcept {
     const Real* tx = x + first[link];
     int low = 0;
@@ -63,14 +63,14 @@ struct RunNumbers {
   Tables<Real> table{};  ///< elastic; friction: its only one
   Tables<Real> viscous{};
   Real* state = nullptr;   ///< [links][states] of laws that have one
-  double* lost = nullptr;  ///< where these add what their elastic forces lose; null: nobody asks
+  double* lost = nullptr;  ///< sum of what their elastic forces lose; null: not asked for
 
   Real operator()(std::size_t number, std::size_t link) const noexcept {
     return base[number * links + link];
   }
 };
 
-/// What the numbers of a link are worked out from.
+/// Data from which the numbers of a link are computed.
 struct LinkInSteps {
   const Scene& scene;
   const Lia& lia;
@@ -78,7 +78,7 @@ struct LinkInSteps {
   double rest;  ///< distance of the ends at rest, if it is not part of u already
 };
 
-/// One number of a link, in steps.
+/// Computes one number of a link, in steps.
 using Number = double (*)(const LinkInSteps& link);
 
 namespace number {
@@ -93,7 +93,7 @@ inline double damping(const LinkInSteps& of) {
 inline double offset(const LinkInSteps& of) {
   return of.rest - of.lia.rest_length;
 }
-/// Of a contact, with its threshold.
+/// Offset of the elongation of a contact, with its threshold.
 inline double gapOffset(const LinkInSteps& of) {
   return offset(of) + of.scene.valueOf(of.lia.law->width);
 }
@@ -163,7 +163,7 @@ void convertNumbers(const LinkInSteps& link, double* to) {
   }
 }
 
-/// Of a law that says kNumbers, kOffset and force().
+/// Explicit form of a law that defines kNumbers, kOffset and force().
 template <class Law>
 constexpr ExplicitForm explicitForm(std::size_t states = 0) {
   static_assert(std::size(Law::kNumbers) <= ExplicitForm::kMostNumbers);

@@ -59,13 +59,13 @@ constexpr Law springLaw(LawText text,
           least_stiffness};
 }
 
-/// Of a friction that falls somewhere: as steep as it rises.
+/// Slopes of a friction law that falls somewhere: at most as steep as it rises.
 template <FrictionSlopes (*kFriction)(const Scene&, const Lia&)>
 Slopes frictionRise(const Scene& scene, const Lia& lia) {
   return slopesUpTo(0.0, kFriction(scene, lia).rise);
 }
 
-/// Over velocity alone.
+/// A friction law: its force depends on velocity alone.
 template <class Explicit,
           template <class>
           class Curve,

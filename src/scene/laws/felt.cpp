@@ -37,7 +37,7 @@ Growth::Figure figure(const Scene& scene, const Lia& lia) {
                         : Growth::Figure{"damping", largest(scene, lia.damping), 0.0};
 }
 
-/// Both of an overlap that is at rest.
+/// Largest stiffness and damping of a contact at rest at this overlap.
 Slopes slopesTo(const Scene& scene, const Lia& lia, double elongation) {
   const double force =
       largest(scene, lia.stiffness) * std::pow(elongation, largest(scene, lia.law->exponent));

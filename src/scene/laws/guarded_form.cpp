@@ -143,7 +143,7 @@ GuardedLaw<Real> GuardedLaw<Real>::make(const Scene& scene, const Lia& lia, cons
   return law;
 }
 
-/// What the viscous table gives at rest is a constant force, which is elastic; the rest brakes.
+/// Splits the viscous table: its force at rest is constant, so elastic; the rest is a brake.
 template <class Real>
 void GuardedLaw<Real>::takeParts(const Scene& scene, const Lia& lia) {
   const auto curveOf = [](const Table& of) { return of.empty() ? Curve{} : interpolate(of); };

@@ -64,7 +64,7 @@ struct GuardedForm {
     kContact,   ///< pushes while p > 0 and lets go beyond
     kSpring,    ///< two-sided
     kFriction,  ///< over velocity alone
-    kDry,       ///< the same per normal force, and it sticks
+    kDry,       ///< friction per normal force, which sticks
   };
   using Number = Real (*)(const GuardedLaw<Real>&, Real) noexcept;
   using ForceAt = GuardedForce<Real> (*)(const GuardedLaw<Real>&, Real) noexcept;
@@ -113,19 +113,19 @@ struct GuardedLaw {
   Real limit_damping = Real(0);  ///< instead of `damping` beyond `tip`
   Real tip = Real(0);
   Real exponent = Real(1);
-  Real width = Real(0);     ///< of the friction curve, m per step; of springs that let go, m
-  Real release = Real(0);   ///< where they do, m
+  Real width = Real(0);     ///< width of the friction curve, m per step; of springs that let go, m
+  Real release = Real(0);   ///< elongation at which these let go, m
   Real per_step = Real(1);  ///< velocity of the tables per m per step
   Real length = Real(0);    ///< threshold of contacts, rest length of the others, m
   Real normal = Real(0);    ///< force of dry friction, unless a contact gives it
   Real steady = Real(0);    ///< mu far from rest
-  Real share[2] = {Real(0), Real(0)};      ///< of mu that falls
-  Real per_width[2] = {Real(0), Real(0)};  ///< by e for so much slip, per m per step
+  Real share[2] = {Real(0), Real(0)};      ///< parts of mu that fall
+  Real per_width[2] = {Real(0), Real(0)};  ///< 1 over the slip in which they fall by e
   GuardedCurve<Real> table;                ///< elastic
   GuardedCurve<Real> viscous;              ///< over velocity
 
   static GuardedLaw make(const Scene& scene, const Lia& lia, const Units& units);
-  /// Of a table with parts, beside which a spring K (e - width) may lie.
+  /// Takes the tables of a law in parts, beside which a spring K (e - width) may act.
   void takeParts(const Scene& scene, const Lia& lia);
   /// Takes all numbers again from the present values in `scene`; tables stay. Realtime: yes
   void update(const Scene& scene, const Lia& lia, const Units& units) noexcept;
@@ -162,7 +162,7 @@ constexpr GuardedForm<Real> contactForm() {
   form.is_lossy = Curve::kIsLossy;
   return form;
 }
-/// Of a two-sided spring.
+/// The form of a two-sided spring.
 template <class Curve, class Real>
 constexpr GuardedForm<Real> springForm() {
   GuardedForm<Real> form{};

@@ -9,7 +9,7 @@
 #include "scene/laws/slopes.hpp"
 #include "scene/limits.hpp"
 
-/// What a law of force is, told once for all who read it: readers of scenes, `validate`, schemes,
+/// Laws of force, each defined once for all who use it: readers of scenes, `validate`, schemes,
 /// certificate. A new law is a row of lia_type.hpp and a file of its own here.
 namespace ergotic::scene {
 
@@ -33,7 +33,7 @@ void setMember(Lia& lia, LiaMember member, const Value& value);
 
 /// One coefficient of a link.
 struct LiaField {
-  const char* key;  ///< in YAML
+  const char* key;  ///< key in YAML
   LiaMember member;
   Limits limits;
   bool is_fixed = false;  ///< worked out once: no parameter
@@ -49,7 +49,7 @@ struct LawWord {
   double release_share = 1.0;  ///< elongation, of the width
 };
 
-/// Of a law whose slopes grow with amplitude: no bound holds for all motions.
+/// Slopes of a law that grow with amplitude: no bound holds for all motions.
 struct Growth {
   /// Why the explicit scheme does not bear it, nullptr where its parameters leave it linear.
   struct Figure {
@@ -64,7 +64,7 @@ struct Growth {
   double (*elongation)(const Scene& scene, const Lia& lia, double limit);
 };
 
-/// What scenes say of a law.
+/// Name, words and keys of a law in scenes.
 struct LawText {
   enum class Tables {
     kNone,
@@ -73,7 +73,7 @@ struct LawText {
     kCoefficient,  ///< `table` of mu over |v|, held beyond its ends, or `steady` and `parts`
   };
 
-  const char* name;  ///< in reports
+  const char* name;  ///< name in reports
   List<LawWord> words;
   List<LiaField> fields;
   Tables tables;
@@ -83,10 +83,10 @@ struct LawText {
 /// One law. Every entry is given by every law or by its family (families.hpp): none has a default
 /// that could be wrong for it.
 struct Law : LawText {
-  /// What the force acts on, for geometries and energy accounts.
+  /// Quantities on which the force depends, for geometries and energy accounts.
   enum class Kind {
     kLinear,    ///< elongation and velocity, linear
-    kRelaxing,  ///< the same, and what it remembers of them
+    kRelaxing,  ///< the same, and their past, which it remembers
     kElastic,   ///< elongation and velocity
     kGap,       ///< a distance that is too short
     kFriction,  ///< velocity alone
@@ -96,21 +96,22 @@ struct Law : LawText {
   ExplicitForm explicit_form;
   const GuardedForms& (*guarded)(const Lia& lia);
   const char* (*unguarded)(
-      const Lia& lia);  ///< what `scheme: energy_stable` is refused for, or nullptr
+      const Lia& lia);  ///< reason why `scheme: energy_stable` is refused, or nullptr
 
   // Stability
   bool has_linear_part;             ///< K e + Z v is there at rest
   bool switches;                    ///< its stiffness comes and goes
   bool is_held;                     ///< it switches, but its force has an upper bound
   bool (*canGive)(const Lia& lia);  ///< energy, though no more than a bounded amount at a time
-  /// However far or fast its ends are: it is bounded by nothing but what takes that energy.
+  /// True if it gives energy however far or fast its ends move: only what takes that energy bounds
+  /// it.
   bool (*givesForEver)(const Lia& lia);
   Slopes (*slopes)(const Scene& scene, const Lia& lia);
   const Growth* growth;                                            ///< nullptr: slopes are bounded
   FrictionSlopes (*friction)(const Scene& scene, const Lia& lia);  ///< nullptr: no friction
-  /// Its friction is odd and nowhere falls: any motion loses energy by it, step by step.
+  /// True if its friction is odd and never falls: any motion loses energy by it, step by step.
   bool (*onlyBrakes)(const Lia& lia);
-  /// Of the spring that it is at least; 0 if it may let go.
+  /// Stiffness of the spring that it is at least; 0 if it may let go.
   double (*leastStiffness)(const Scene& scene, const Lia& lia);
 };
 
@@ -125,7 +126,7 @@ inline bool sticks(LiaType type) {
 inline Slopes slopesOf(const Scene& scene, const Lia& lia) {
   return lawOf(lia.type).slopes(scene, lia);
 }
-/// Those of an explicit link in steps of that length, time units.
+/// Slopes of an explicit link in steps of that length, time units.
 Slopes slopesInSteps(const Scene& scene, const Lia& lia, double step);
 /// The steepest up to an elongation, m.
 Slopes slopesAt(const Scene& scene, const Lia& lia, double elongation);

@@ -27,7 +27,7 @@ constexpr LiaField exponentField() {
 
 /// a K e^(a - 1), at the worst ends of K and a.
 double powerSlope(const Scene& scene, const Lia& lia, double elongation);
-/// Where that is a limit. \pre a > 1
+/// Elongation at which that slope reaches a limit. \pre a > 1
 double powerElongation(const Scene& scene, const Lia& lia, double limit);
 
 }  // namespace ergotic::scene

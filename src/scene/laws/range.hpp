@@ -5,7 +5,7 @@
 
 namespace ergotic::scene {
 
-/// What a number can be: parameters move within a range.
+/// Range of a number: parameters move within it.
 struct Range {
   double lowest = 0.0;
   double highest = 0.0;

@@ -22,13 +22,13 @@ double branchStiffness(const LinkInSteps& of) {
   const Relaxation* const branch = relaxation(of, r);
   return branch == nullptr ? 0.0 : of.scene.valueOf(branch->stiffness);
 }
-/// Of q in a step.
+/// Part by which q decays in a step.
 template <std::size_t r>
 double fading(const LinkInSteps& of) {
   const Relaxation* const branch = relaxation(of, r);
   return branch == nullptr ? 0.0 : -std::expm1(-of.units.step / branch->time);
 }
-/// Of q for the elongation in a step.
+/// Factor by which q follows the elongation in a step.
 template <std::size_t r>
 double following(const LinkInSteps& of) {
   const Relaxation* const branch = relaxation(of, r);

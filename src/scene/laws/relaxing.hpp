@@ -22,12 +22,12 @@ struct Material {
 };
 constexpr Material kMaterials[] = {{"felt", 0.3}, {"nylon", 0.03}, {"gut", 0.02}, {"wood", 0.01}};
 
-/// Three that together with a stiffness have the loss factor Im/Re within 2.7 % from 100 Hz to
-/// 8 kHz. \param loss_factor  within its limits
+/// Three relaxations that together with a stiffness have the loss factor Im/Re within 2.7 % from
+/// 100 Hz to 8 kHz. \param loss_factor  within its limits
 std::vector<Relaxation> relaxationsOf(double loss_factor, const Value& stiffness);
 
-/// Of its force at most, in steps of that length: what swings in two steps stretches q by
-/// (tau/h) (1 - e^(-h/tau)) only.
+/// Largest slopes of its force, in steps of that length: a motion with a period of two steps
+/// stretches q by (tau/h) (1 - e^(-h/tau)) only.
 Slopes relaxingSlopes(const Scene& scene, const Lia& lia, double step);
 
 }  // namespace ergotic::scene

@@ -16,7 +16,8 @@ struct SpringDamper {
   }
 };
 
-/// With a rest length it is linear along its line only, and so is every damper.
+/// Only a linear spring is refused: with a rest length a link is linear along its line only, and so
+/// is every damper.
 const char* unguarded(const Lia& lia) {
   return lia.rest_length > 0.0 || lia.damping.factor > 0.0 ? nullptr : "a linear spring";
 }

@@ -7,21 +7,21 @@
 
 namespace ergotic::scene {
 
-/// What a table gives beyond its ends where it holds its last values, 0 without one.
+/// Values of a table beyond its ends, where it holds its last values; 0 without a table.
 struct TableEnds {
   double low = 0.0;
   double high = 0.0;
 
   TableEnds operator+(double force) const { return {low + force, high + force}; }
-  /// One of them outwards: over elongation, its potential has no floor.
+  /// True if one of them pushes outwards: over elongation, the potential has no lower bound.
   bool push() const { return low > 0.0 || high < 0.0; }
-  /// What is left without it pushes outwards on no side. \pre low <= high
+  /// Constant part without which no side of the rest pushes outwards. \pre low <= high
   double constant() const { return std::clamp(0.0, low, high); }
 };
 
 TableEnds endsOf(const Table& table);
 
-/// What a viscous table gives at rest, 0 without one.
+/// Force of a viscous table at rest; 0 without a table.
 double forceAtRest(const Lia& lia);
 
 }  // namespace ergotic::scene

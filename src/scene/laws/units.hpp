@@ -3,9 +3,9 @@
 
 namespace ergotic::scene {
 
-/// From the units of a scene to those of a step. Velocities inside an instrument are differences
-/// of positions over one step; forces stay in the scene's unit (kg m/time_unit^2). At 44.1 kHz an
-/// `.mdl` scene has step = 1 exactly, so its coefficients are used as written.
+/// Converts the units of a scene to those of a step. Velocities inside an instrument are
+/// differences of positions over one step; forces stay in the scene's unit (kg m/time_unit^2). At
+/// 44.1 kHz an `.mdl` scene has step = 1 exactly, so its coefficients are used as written.
 struct Units {
   double step = 1.0;  ///< one step of the section, in time units of the scene
 

@@ -32,7 +32,7 @@ bool hasBuffer(const MdlLine& line) {
   return !name.empty() && std::isalpha(static_cast<unsigned char>(name.front())) != 0;
 }
 
-/// What only the older language says; empty: nothing.
+/// Names what only the older language has in a line; empty: nothing.
 std::string olderSign(const MdlLine& line) {
   const std::string& keyword = line.keyword.text;
   const std::size_t count = line.arguments.size();
@@ -50,7 +50,7 @@ std::string olderSign(const MdlLine& line) {
                                                            : "";
 }
 
-/// What only the newer language says; empty: nothing.
+/// Names what only the newer language has in a line; empty: nothing.
 std::string newerSign(const MdlLine& line) {
   const std::string& keyword = line.keyword.text;
   const std::size_t count = line.arguments.size();

@@ -10,21 +10,21 @@
 
 namespace ergotic::scene {
 
-/// Which generation of the language a text is of. The older one has no brackets; its masses end
-/// with the position of a sample before, where the newer ones end with a velocity per second.
+/// Generation of the language of a text. The older one has no brackets; its masses end with the
+/// position of a sample before, where the newer ones end with a velocity per second.
 struct MdlDialect {
   enum class Age { kUnknown, kOlder, kNewer };
   Age age = Age::kUnknown;
-  Place place;       ///< of what tells
-  std::string sign;  ///< what tells, as in `'massG'`
+  Place place;       ///< place of the construct that shows it
+  std::string sign;  ///< that construct, as in `'massG'`
 
   bool isOld() const { return age == Age::kOlder; }
 };
 
-/// The newer language if anything is said that only it has, else the older one if anything is.
+/// The newer language if a construct of it alone is used, else the older one if one of its own is.
 MdlDialect dialectOf(const std::vector<MdlLine>& lines);
 
-/// What follows a message about a line that only the older language has; empty: it has no more.
+/// Note after a message about a line of the older language in a text of the newer; else empty.
 std::string olderNote(const MdlLine& line, const MdlDialect& dialect);
 
 /// \param usage  the arguments that are allowed

@@ -16,8 +16,8 @@ struct MdlToken {
   enum class Kind { kBare, kBracket, kQuoted };
   Kind kind = Kind::kBare;
   std::string text;  ///< without brackets or quotes
-  Place place;       ///< of the first character of `text`
-  /// Of a point of a macro: its coordinates; `text` is then the macro's `@name`.
+  Place place;       ///< place of the first character of `text`
+  /// Coordinates of a point of a macro; `text` is then the macro's `@name`.
   std::vector<MdlToken> at{};
 };
 
@@ -26,7 +26,7 @@ struct MdlLine {
   std::string name;  ///< without the `@`
   MdlToken keyword;
   std::vector<MdlToken> arguments;
-  Place place;  ///< of the `@`
+  Place place;  ///< place of the `@`
 };
 
 /// Cuts `.mdl` text into elements. Comments (`#` to the end of the line) and other lines that do

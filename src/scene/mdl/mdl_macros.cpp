@@ -137,8 +137,8 @@ class Expansion {
     }
   }
 
-  /// As published: a stiff string has its second springs from module to second neighbour, and at
-  /// either end one more to the next.
+  /// Adds the links as published: a stiff string has its second springs from module to second
+  /// neighbour, and at either end one more to the next.
   void addLinks() {
     const Name stem = linkStem(line_.name);
     const int count = rows_ * columns_;
@@ -210,7 +210,7 @@ struct Fraction {
   std::string name;
 };
 
-/// One that follows an audio input is cut to 0...1 while it plays.
+/// A coordinate from 0 to 1; one that follows an audio input is clamped while it plays.
 Fraction fraction(SceneBuilder& builder, MdlNumbers& numbers, const MdlToken& token) {
   const Value value = numbers.value(token, "coordinate", {});
   if (value.audio >= 0) {

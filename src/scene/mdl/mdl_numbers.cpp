@@ -212,7 +212,7 @@ Value MdlNumbers::positiveValue(const MdlToken& token,
   return followed(token, *line);
 }
 
-/// What an expression is of the audioParam in it; nothing if none is.
+/// The straight line that an expression is over its audioParam; nullopt if there is none in it.
 std::optional<AudioParameter> MdlNumbers::straightLine(const MdlToken& token,
                                                        const std::string& what) {
   followed_ = -1;

@@ -12,7 +12,7 @@
 
 namespace ergotic::scene {
 
-constexpr double kMdlRateHz = 44100.0;  ///< that the plain coefficients are meant for
+constexpr double kMdlRateHz = 44100.0;  ///< rate that the plain coefficients are meant for
 /// A param, or an override of a text without it: 1 if clipped laws are those of Faust's library, 0
 /// if they are those of mi-gen.
 constexpr const char* kFaustClipName = "faust_clip";

@@ -174,7 +174,7 @@ class MdlReader {
     builder_.add(std::move(mat));
   }
 
-  /// In m/sample, of a module that starts at `position`.
+  /// Initial velocity of a module that starts at `position`, m/sample.
   double velocity(const MdlLine& line, double position) {
     const MdlToken& last = line.arguments.back();
     const double value = numbers_.vector(last).z;

@@ -15,7 +15,7 @@ const Section& sectionAt(const Scene& scene, int mat) {
   return scene.sectionOf(scene.mats[static_cast<std::size_t>(mat)]);
 }
 
-/// What `scheme: energy_stable` is refused for, or nullptr.
+/// Reason why `scheme: energy_stable` is refused, or nullptr.
 const char* unguarded(const Scene& scene, const Lia& lia) {
   const Geometry a = sectionAt(scene, lia.a).geometry;
   const Geometry b = sectionAt(scene, lia.b).geometry;

@@ -7,11 +7,11 @@
 #include "ergotic/scene/scene.hpp"
 #include "scene/limits.hpp"
 
-/// What the parts of a scene may be, said once for the YAML reader and for `validate`, each in the
+/// Rules for the parts of a scene, defined once for the YAML reader and for `validate`, each in the
 /// source of its name.
 namespace ergotic::scene {
 
-/// What is wrong, and where.
+/// A fault of a scene, and its position in the text.
 struct Fault {
   Place place;
   std::string text;
@@ -22,13 +22,14 @@ inline bool isModule(const Mat& mat) {
   return mat.type == MatType::kMass || mat.type == MatType::kCell || mat.type == MatType::kGround;
 }
 
-constexpr Limits kTargetLimits{"m", -1e6, 1e6};  ///< of agents: differences stay finite
+constexpr Limits kTargetLimits{"m", -1e6, 1e6};  ///< target of agents: differences stay finite
 
-/// One port for a slice, one port for a coordinate of a module, one position input for a driven
-/// module.
+/// The first part that is moved twice. Allowed: one port for a slice, one port for a coordinate of
+/// a module, one position input for a driven module.
 std::optional<Fault> movedTwice(const Scene& scene);
 
-/// Every point has one connection, or is one tap; what a tap lies on.
+/// The first point with a wrong place: every point has one connection, or is one tap. Also checks
+/// what a tap lies on.
 /// \pre the connections are legal
 std::optional<Fault> misplacedPoint(const Scene& scene);
 
@@ -41,16 +42,16 @@ Limits restLengthLimits(const Scene& scene, const Lia& lia);
 /// |e| at which a conditional link lets go: not before it acts, whatever its parameters are.
 Limits releaseLimits(const Scene& scene, const Lia& lia);
 
-/// What is wrong with the scheme or filter of a link; empty if nothing is.
+/// Fault of the scheme or filter of a link; empty if there is none.
 /// \pre the ends of the link exist
 std::string schemeFault(const Scene& scene, const Lia& lia);
 std::string filterFault(const Scene& scene, const Lia& lia);
-/// The same of the numbers and the ends of friction.
+/// Fault of the numbers or the ends of friction; empty if there is none.
 std::string frictionFault(const Scene& scene, const Lia& lia);
-/// The first link that is to be pressed by a contact that is not there.
+/// The first link that is to be pressed by a contact that does not exist.
 std::optional<Fault> unpressed(const Scene& scene);
 
-/// Of what a relaxing link remembers: how many there are, and their numbers.
+/// Fault of the relaxations of a link, in their count or their numbers; empty if there is none.
 std::string relaxationFault(const Scene& scene, const Lia& lia);
 
 /// The first of these faults.

@@ -32,7 +32,7 @@ std::string_view trimmedView(std::string_view text) {
   return text.substr(0, text.find_last_not_of(kBlanks) + 1);
 }
 
-/// Not `nan`, which is a number that is not allowed.
+/// True for a word, but not for `nan`, which is a number that is not allowed.
 bool isWord(std::string_view text) {
   const std::string small = inSmallLetters(text);
   const bool has_letter = std::any_of(small.begin(), small.end(), [](char c) {
@@ -186,7 +186,8 @@ std::size_t CsvReader::takeQuoted(std::size_t at) {
   return end;
 }
 
-/// Where blanks separate the fields, a comma between two digits is in a number.
+/// Refuses decimal commas: where blanks separate the fields, a comma between two digits is in a
+/// number.
 void CsvReader::refuseDecimalCommas(std::size_t end) const {
   for (std::size_t i = 1; i + 1 < end; ++i) {
     if (line_[i] == ',' && isDigit(line_[i - 1]) && isDigit(line_[i + 1])) {

@@ -16,15 +16,15 @@ namespace ergotic::scene {
 /// mark, a line `sep=,` on top. `#` begins a comment; lines without fields are skipped, and so are
 /// empty fields at the end of a line.
 ///
-/// What cannot be understood for sure is refused, with how to save it: semicolons between the
-/// fields, commas in numbers, UTF-16.
+/// Text that cannot be understood for sure is refused, with advice on how to save it: semicolons
+/// between the fields, commas in numbers, UTF-16.
 class CsvReader {
  public:
   /// \param file     for messages
   /// \param columns  what a line has, for messages
   CsvReader(std::istream& in, std::string file, std::string columns);
 
-  /// From now on. \param columns  as in the constructor
+  /// Sets the columns for messages from now on. \param columns  as in the constructor
   void setColumns(std::string columns) { columns_ = std::move(columns); }
 
   /// Goes to the next row.
@@ -32,7 +32,7 @@ class CsvReader {
   /// \throws TextError if a line cannot be understood, or the text cannot be read to its end
   bool next();
 
-  /// Of the row; empty fields at its end do not count.
+  /// Number of fields in the row; empty fields at its end do not count.
   std::size_t size() const { return fields_.size(); }
   /// Empty if there is no such field.
   std::string_view text(std::size_t field) const {
@@ -50,18 +50,18 @@ class CsvReader {
   /// \throws TextError if the row has more fields
   void expectEnd(std::size_t fields) const;
 
-  /// Of a field of the row, or where it is missing.
+  /// Position of a field of the row, or where it is missing.
   Place place(std::size_t field) const {
     return {line_number_, field < size() ? fields_[field].column : end_column_};
   }
-  /// At a field of the row, or where it is missing. \throws TextError
+  /// Fails at a field of the row, or where it is missing. \throws TextError
   [[noreturn]] void fail(std::size_t field, const std::string& what) const;
-  /// At the line that was read last. \throws TextError
+  /// Fails at the line that was read last. \throws TextError
   [[noreturn]] void failAtLine(const std::string& what) const;
 
  private:
   struct Field {
-    std::string_view text;  ///< of the line
+    std::string_view text;  ///< text of the field, within the line
     int column;
   };
   bool nextLine();
@@ -79,13 +79,13 @@ class CsvReader {
   std::istream& in_;
   std::string file_;
   std::string columns_;
-  std::string block_;  ///< what ends with a line feed: several lines of old Macintosh files
-  std::size_t next_ = std::string::npos;  ///< of the block: where its next line begins
+  std::string block_;  ///< text up to a line feed: several lines of old Macintosh files
+  std::size_t next_ = std::string::npos;  ///< index in the block at which its next line begins
   std::string line_;
   int line_number_ = 0;
   int rows_ = 0;
   std::vector<Field> fields_;
-  int end_column_ = 1;  ///< where a further field would be
+  int end_column_ = 1;  ///< column that a further field would have
 };
 
 }  // namespace ergotic::scene

@@ -49,7 +49,7 @@ void GestureReader::readHeader() {
   }
 }
 
-/// Of `tick,x0,x1,...`
+/// Reads the columns of a header `tick,x0,x1,...`.
 void GestureReader::readColumns() {
   for (std::size_t i = 1; i < std::max<std::size_t>(csv_.size(), 2); ++i) {
     const std::string expected = "x" + std::to_string(i - 1);

@@ -26,22 +26,22 @@ class GestureReader {
   GestureReader(std::istream& in, const std::string& file, int slices, const Limits& metres);
 
   bool isInTicks() const { return in_ticks_; }  ///< the second kind
-  int slices() const { return slices_; }        ///< that have columns; of the first kind: most
+  int slices() const { return slices_; }  ///< slices that have columns; of the first kind: most
 
   /// Goes to the next row. \return false at the end \throws TextError
   bool next();
   double time() const { return time_; }  ///< s, or a tick
-  int slice() const { return slice_; }   ///< of a target; kNoSlice: the row sets a parameter
+  int slice() const { return slice_; }   ///< slice of a target; kNoSlice: the row sets a parameter
   double target() const { return x_.front(); }
   bool isParameter() const { return slice_ == kNoSlice; }
   const std::string& parameter() const { return parameter_; }  ///< its name, without the `$`
-  double value() const { return x_.front(); }                  ///< of the parameter, finite
+  double value() const { return x_.front(); }                  ///< value of the parameter, finite
   Place place(std::size_t field) const { return csv_.place(field); }
   const std::vector<double>& positions() const { return x_; }  ///< [slices]
 
-  /// At the first field of the row. \throws TextError
+  /// Fails at the first field of the row. \throws TextError
   [[noreturn]] void fail(const std::string& what) const { csv_.fail(0, what); }
-  /// At the line that was read last. \throws TextError
+  /// Fails at the line that was read last. \throws TextError
   [[noreturn]] void failAtLine(const std::string& what) const { csv_.failAtLine(what); }
 
  private:
@@ -62,8 +62,8 @@ class GestureReader {
   int slice_ = 0;
   std::vector<double> x_;
   std::string parameter_;
-  std::vector<double> last_s_;                  ///< of targets, [slices]
-  std::map<std::string, double> last_value_s_;  ///< of parameters
+  std::vector<double> last_s_;                  ///< last times of targets, [slices]
+  std::map<std::string, double> last_value_s_;  ///< last times of parameters
 };
 
 }  // namespace ergotic::scene

@@ -15,15 +15,15 @@ std::optional<double> parseNumber(std::string_view text);
 /// A decimal whole number, the whole text.
 std::optional<int> parseInteger(std::string_view text);
 
-/// What YAML 1.1 takes for true or false: `true`, `yes`, `on`, `false`, `no`, `off`, in small or
-/// capital letters. Nothing for any other text.
+/// A truth value of YAML 1.1: `true`, `yes`, `on`, `false`, `no`, `off`, in small or capital
+/// letters. Nothing for any other text.
 std::optional<bool> parseSwitch(std::string_view text);
 
 /// The shortest text that reads back as the very same number.
 std::string shortest(double value);
-/// With small letters of ASCII in place of capital ones.
+/// The text with small letters in place of the capital letters of ASCII.
 std::string inSmallLetters(std::string_view text);
-/// Without blanks at either end.
+/// The text without blanks at either end.
 std::string trimmed(std::string_view text);
 
 }  // namespace ergotic::scene

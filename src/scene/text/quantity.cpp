@@ -57,7 +57,7 @@ std::optional<Unit> knownUnit(std::string_view name) {
   return found == std::end(kUnits) ? std::nullopt : std::optional(found->unit);
 }
 
-/// As in `m`, `mm`, `kN`.
+/// Parses a unit without powers, as `m`, `mm`, `kN`.
 std::optional<Unit> simpleUnit(std::string_view name) {
   if (const std::optional<Unit> known = knownUnit(name)) {
     return known;
@@ -74,7 +74,7 @@ std::optional<Unit> simpleUnit(std::string_view name) {
   return std::nullopt;
 }
 
-/// As in `m`, `m^2`; `1` is nothing.
+/// Multiplies a product by a factor, as `m`, `m^2`; `1` is nothing.
 bool multiply(Unit& product, std::string_view factor, int sign) {
   const std::size_t hat = factor.find('^');
   const std::optional<int> power =
@@ -88,7 +88,8 @@ bool multiply(Unit& product, std::string_view factor, int sign) {
   return true;
 }
 
-/// As in `N s/m`, `m/s^2`, `1/s`: what follows a slash divides, up to the next blank or slash.
+/// Parses a unit, as `N s/m`, `m/s^2`, `1/s`: what follows a slash divides, up to the next blank or
+/// slash.
 std::optional<Unit> parseUnit(std::string_view text) {
   Unit product;
   int sign = 1;
@@ -118,7 +119,7 @@ std::optional<double> scaled(std::string_view number, const Unit& unit) {
   return value ? std::optional(*value * unit.factor) : std::nullopt;
 }
 
-/// As in `A4`, `C#3`, `Eb-1`, Hz.
+/// Frequency of a note, as `A4`, `C#3`, `Eb-1`, Hz.
 std::optional<double> parseNote(std::string_view text) {
   constexpr std::string_view kLetters = "C D EF G A B";
   const std::size_t letter =
@@ -140,7 +141,7 @@ std::optional<double> parseNote(std::string_view text) {
   return 440.0 * std::exp2((12 * *octave + semitone - kA4) / 12.0);
 }
 
-/// What is a ratio.
+/// Value of a ratio in %, dB or cents; nullopt for other units.
 std::optional<double> parseRatio(double number, std::string_view unit) {
   if (unit == "%") {
     return number / 100.0;

@@ -22,8 +22,8 @@ struct NoQuantity {
 /// \param unit  of what is asked for, as in Limits
 std::variant<double, NoQuantity> parseQuantity(std::string_view text, std::string_view unit);
 
-/// Of what kind a number is: powers of m, kg, s, V and rad, each in twelfths, so that a root has
-/// one too. All 0: bare, or a ratio.
+/// Dimension of a number: powers of m, kg, s, V and rad, each in twelfths, so that a root has one
+/// too. All 0: bare, or a ratio.
 struct Kind {
   std::array<int, 5> twelfths{};
 
@@ -43,10 +43,10 @@ struct Amount {
 /// As parseQuantity(), of whatever kind; of notes nothing.
 std::optional<Amount> parseAnyQuantity(std::string_view text);
 
-/// Of a unit as in Limits; bare if it is none.
+/// Dimension of a unit as in Limits; bare if it is empty.
 Kind kindOfUnit(std::string_view unit);
 
-/// As `N/m`, `kg`, `Hz`: a unit whose numbers are written as they are.
+/// True for a unit whose numbers are written as they are, as `N/m`, `kg`, `Hz`.
 bool isSiUnit(std::string_view unit);
 
 /// False if one is a unit and the other a unit of another kind, or none. \pre `unit` is an SI unit,

@@ -7,7 +7,7 @@
 
 namespace ergotic::scene {
 
-/// Which bytes a text may hold.
+/// Bytes that a text may contain.
 enum class Bytes {
   kUtf8,  ///< UTF-8 everywhere
   kAny,   ///< anything but control characters: old files have Latin-1 comments

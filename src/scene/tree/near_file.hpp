@@ -9,7 +9,7 @@
 /// they are in the scene's folder or below it.
 namespace ergotic::scene {
 
-/// Where a file is, links not followed.
+/// Path of a file, links not followed.
 /// \param name  relative to the scene's folder
 /// \param of    what names it, for messages; "" where the place says enough
 /// \throws TextError if it is elsewhere, or if the scene is a text without a folder
@@ -18,7 +18,7 @@ std::string pathOfNear(const SceneBuilder& builder,
                        const std::string& of,
                        Place place);
 
-/// Its text, up to `most` bytes. \throws TextError if it cannot be read
+/// Text of such a file, up to `most` bytes. \throws TextError if it cannot be read
 std::string readNear(const SceneBuilder& builder,
                      const std::string& path,
                      std::size_t most,

@@ -30,7 +30,8 @@ class Node {
   bool isMap() const noexcept { return kind_ == Kind::kMap; }
 
   Place place() const noexcept { return place_; }  ///< line 0: not known
-  /// Of a byte of the text of a scalar, if it stands there as it is; else of the scalar.
+  /// Position of a byte in the text of a scalar, if the source has it unchanged; else of the
+  /// scalar.
   Place placeOf(std::size_t byte) const noexcept {
     Place place = place_;
     place.column += lead_ < 0 ? 0 : lead_ + static_cast<int>(byte);
@@ -38,7 +39,7 @@ class Node {
   }
   /// \param lead  columns before the text, a quote; < 0: the source says it in other words
   void setLead(int lead) noexcept { lead_ = static_cast<signed char>(lead); }
-  /// Of a scalar; of others empty.
+  /// Text of a scalar; empty for other nodes.
   const std::string& text() const noexcept { return text_; }
   /// Items of a list, entries of a map.
   std::size_t size() const noexcept { return isMap() ? parts_.size() / 2 : parts_.size(); }

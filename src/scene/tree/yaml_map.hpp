@@ -15,10 +15,10 @@
 
 namespace ergotic::scene {
 
-/// Where a node begins; `fallback` if it is empty or that is not known.
+/// Position at which a node begins; `fallback` if it is empty or its position is not known.
 Place placeOf(const Node& node, Place fallback);
 
-/// What a node is, for messages, as in `a list of 3`.
+/// Describes a node for messages, as in `a list of 3`.
 std::string kindOf(const Node& node);
 
 /// Text of a scalar. \throws TextError if it is not one
@@ -77,15 +77,15 @@ class YamlMap {
   /// \param place  of the element
   YamlMap(const SceneBuilder& builder, const Node& node, std::string what, Place place);
 
-  /// Of entries that were read elsewhere. \pre no key comes twice
+  /// A map of entries that were read elsewhere. \pre no key comes twice
   YamlMap(const SceneBuilder& builder, std::vector<Entry> entries, std::string what, Place place);
 
   /// \throws TextError at the first key that is not among these
   void allow(const std::vector<std::string>& keys) const;
   bool has(const std::string& key) const { return find(key) != nullptr; }
   const Node& at(const std::string& key) const;
-  Place placeAt(const std::string& key) const;  ///< of the value
-  /// Of an item of a list, or of the number that stands in place of a list.
+  Place placeAt(const std::string& key) const;  ///< position of the value
+  /// Position of an item of a list, or of the number in place of a list.
   Place placeAt(const std::string& key, std::size_t index) const;
   Place keyPlaceAt(const std::string& key) const;
   Place place() const { return place_; }

@@ -15,7 +15,7 @@
 namespace ergotic::scene {
 namespace {
 constexpr Limits kRingLimits{"", 1.0, 1000.0};
-constexpr double kRounding = 1e-9;  ///< of a spacing: what lies on an edge is within
+constexpr double kRounding = 1e-9;  ///< part of a spacing: what lies on an edge is within
 
 struct Word {
   const char* word;
@@ -171,7 +171,7 @@ class Selector {
     return found;
   }
 
-  /// About the middle, from along on, 0...2 pi.
+  /// Angle of a module about the middle, from the direction along on, 0...2 pi.
   double angleOf(int mat) const {
     const int index = mat - grid_.first;
     const double y = index / grid_.columns - 0.5 * (rows_[0] + rows_[1]);
@@ -179,7 +179,7 @@ class Selector {
     const double angle = std::atan2(y, x);
     return angle < 0.0 ? angle + 2.0 * kPi : angle;
   }
-  /// What moves beside what does not, or beside nothing.
+  /// Modules that move next to ones that do not, or next to none.
   std::vector<int> rim() const {
     const bool is_row = grid_.rows == 1;
     std::vector<int> mats = within([&](int c, int r) {
@@ -192,7 +192,7 @@ class Selector {
     }
     return mats;
   }
-  /// Evenly round: on the rim, or at a fraction of the way from the middle to it.
+  /// Modules evenly spaced on the rim, or at a fraction of the way from the middle to it.
   std::vector<int> ring() const {
     const int count = whole(0, kRingLimits);
     const std::vector<int> outer = rim();
@@ -222,7 +222,7 @@ class Selector {
     return nearest([=](int c, int r) { return std::hypot(c - column, r - row); });
   }
 
-  /// To a place in m, as `at` of modules says it, or to a module.
+  /// The module nearest to a position in m, given as in `at` of modules, or to another module.
   int near() const {
     const Section& section = scene_.sectionOf(mat(0, 0));
     const bool is_scalar = section.geometry == Geometry::kScalar;

@@ -15,7 +15,7 @@ using Part = PointFiles::Part;
 
 constexpr std::size_t kMaxFileNameBytes = 255;
 
-/// In the order of Part.
+/// Words for each Part, in the order of Part.
 struct PartWords {
   const char* key;
   const char* one;
@@ -35,7 +35,7 @@ const PartWords* findPart(const std::string& key) {
   return found == std::end(kParts) ? nullptr : found;
 }
 
-/// A map of parts, of one at least.
+/// True for a map of parts, with at least one.
 bool isDocument(const Node& node) {
   bool is_document = node.isMap() && node.size() > 0;
   for (std::size_t i = 0; is_document && i < node.parts().size(); i += 2) {

@@ -49,7 +49,7 @@ class PointFiles {
   /// The file under the key `file`. \throws TextError as `nameOf`, or if it cannot be read
   File open(const YamlMap& spec) const;
 
-  /// What `finish` has to append.
+  /// Keeps points that `finish` has to append.
   void keep(Part part, const std::string& key, const PointList& points);
   void keep(Part part, const std::string& key, const RowList& rows);
 

@@ -10,7 +10,7 @@
 namespace ergotic::scene {
 namespace {
 
-constexpr double kOnModule = 1e-9;  ///< of the spacing
+constexpr double kOnModule = 1e-9;  ///< part of the spacing
 
 }  // namespace
 

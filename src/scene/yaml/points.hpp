@@ -9,7 +9,7 @@
 /// Connection points: massless modules on strings and meshes.
 namespace ergotic::scene {
 
-/// Where on which grid a text such as `s@0.3` or `p@0.3:0.7` is.
+/// Grid and position that a text such as `s@0.3` or `p@0.3:0.7` names.
 struct NamedPlace {
   int grid = 0;
   double along = 0.0;

@@ -32,7 +32,7 @@ std::vector<Node> parse(const SceneBuilder& builder, const std::string& text) {
   return documents;
 }
 
-/// What is kept of a scene that uses the language is its plain text.
+/// Writes out a scene that uses the language; its plain text is what is kept.
 void writeOut(SceneBuilder& builder, std::vector<Node>& documents, const Choice& choice) {
   if (!usesLanguage(documents.front()) && choice.variant.empty()) {
     return;
@@ -50,7 +50,7 @@ void writeOut(SceneBuilder& builder, std::vector<Node>& documents, const Choice&
   }
 }
 
-/// It goes into every status.
+/// Reads the title, which is a part of every status.
 std::string readTitle(const YamlMap& top) {
   std::string title = top.word("name");
   if (title.size() > kMaxTitleBytes) {
@@ -126,7 +126,7 @@ void overrideParameters(SceneBuilder& builder, const Overrides& overrides) {
   }
 }
 
-/// What is legal but hardly meant.
+/// Warns of what is legal but hardly intended.
 void warnOfLooseEnds(SceneBuilder& builder) {
   Scene& scene = builder.scene();
   std::vector<bool> used(scene.mats.size(), false);

@@ -22,7 +22,7 @@ constexpr const char* kListOrNumber = R"({"type": ["array", "number", "string"]}
 constexpr const char* kMapOrWord = R"({"type": ["object", "string"]})";
 constexpr const char* kAny = R"({})";
 
-/// By key, whatever it is a key of.
+/// Schema of the value of each key, whichever element has the key.
 const std::map<std::string, const char*>& values() {
   static const std::map<std::string, const char*> kValues = {
       {"along", kWord},
@@ -228,7 +228,7 @@ std::string byType(const std::string& part, const KeysOfTypes& kinds) {
          R"(]}, {"type": "string", "pattern": "[={]"}]}}, "allOf": [)" + cases + "]}";
 }
 
-/// Of one word all the keys that it has with a table or without.
+/// Merges, for each word, the keys that it has with a table and without.
 KeysOfTypes merged(const KeysOfTypes& kinds) {
   KeysOfTypes all;
   for (const auto& [word, keys] : kinds) {

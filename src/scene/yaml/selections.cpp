@@ -23,7 +23,7 @@ bool isMean(const std::string& text) {
   return text.compare(0, 5, kMean) == 0;
 }
 
-/// What is before a place on a grid or a selection on it: a name.
+/// Length of the name before a place on a grid, or before a selection on it.
 std::size_t endOfName(const std::string& text) {
   return std::min(text.find_first_of("@/"), text.size());
 }
@@ -47,7 +47,7 @@ std::vector<std::string> namesMeantBy(const List& list, const std::string& patte
   return names;
 }
 
-/// One text without `*`.
+/// Modules that one text without `*` selects.
 Selection selectionIn(SceneBuilder& builder, const std::string& text, Place place) {
   const std::size_t slash = text.find('/');
   if (slash == std::string::npos || isMean(text)) {
@@ -63,7 +63,7 @@ Selection selectionIn(SceneBuilder& builder, const std::string& text, Place plac
   return selection;
 }
 
-/// All that a name with `*` means, by the order of names.
+/// Modules that a name with `*` selects, in the order of their names.
 Selection selectionByPattern(SceneBuilder& builder, const std::string& text, Place place) {
   const std::size_t end = endOfName(text);
   const std::string pattern = text.substr(0, end);

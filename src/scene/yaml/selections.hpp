@@ -15,8 +15,8 @@ struct Selection {
   bool is_set = false;  ///< it stands for any number of modules, even where that is one
 };
 
-/// What a value names where many may be: a module, a place on a grid, a selection, a name with `*`,
-/// or a list of such, in which each module counts once.
+/// Modules that a value names where several are allowed: a module, a place on a grid, a selection,
+/// a name with `*`, or a list of such, in which each module counts once.
 /// \param what  for messages, as in `an end of link 'l'`
 /// \throws TextError where there is nothing of that name, or nothing is selected
 Selection selectionOf(SceneBuilder& builder,

@@ -12,9 +12,9 @@
 
 namespace ergotic::scene {
 
-/// Speakers around the listener, and what is heard of a direction from each.
+/// Speakers around the listener, and the gains that pan a direction to them.
 struct Speakers {
-  std::vector<int> channels;  ///< from 0, of each speaker
+  std::vector<int> channels;  ///< output channel of each speaker, from 0
   Panner panner;
 };
 
@@ -24,12 +24,12 @@ class Layouts {
  public:
   explicit Layouts(const SceneBuilder& builder) : builder_(builder) {}
 
-  /// What is under a key. \throws TextError
+  /// The speakers that the value of a key asks for. \throws TextError
   const Speakers& read(const YamlMap& map, const std::string& key);
 
  private:
   const SceneBuilder& builder_;
-  std::map<std::string, Speakers> known_;  ///< by what was said
+  std::map<std::string, Speakers> known_;  ///< by the text that asks for them
 };
 
 }  // namespace ergotic::scene

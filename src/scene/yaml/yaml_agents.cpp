@@ -112,11 +112,11 @@ PointList knotsIn(const SceneBuilder& builder,
   return knots;
 }
 
-/// Where one slice of a gesture file goes: its times, or its ticks from the first one on, and m.
+/// Trajectory of one slice in a gesture file: times, or ticks from the first one on, and m.
 struct GestureOfSlice {
   bool in_ticks = false;
   PointList points;
-  int value_line = 0;  ///< of the first row that sets a parameter; 0: there is none
+  int value_line = 0;  ///< line of the first row that sets a parameter; 0: there is none
 };
 
 void addPoint(const GestureReader& rows, int slice, double first_tick, PointList& points) {

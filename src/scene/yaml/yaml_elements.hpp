@@ -19,7 +19,7 @@ class YamlTables;
 /// `about`: title, author, licence, ... \throws TextError
 About readAbout(const SceneBuilder& builder, const YamlMap& top);
 void readSections(SceneBuilder& builder, const YamlMap& top);
-void readMats(SceneBuilder& builder, const YamlMap& top);  ///< all but the points
+void readMats(SceneBuilder& builder, const YamlMap& top);  ///< reads all modules but the points
 void readGenerators(SceneBuilder& builder,
                     const YamlMap& top,
                     YamlTables& tables,
@@ -30,7 +30,7 @@ void readLias(SceneBuilder& builder, const YamlMap& top, YamlTables& tables);
 void readPoint(SceneBuilder& builder, const std::string& name, const YamlMap& map);
 /// A link of many ends, `type: bend`.
 void readBend(SceneBuilder& builder, const std::string& name, const YamlMap& map);
-/// What a relaxing link remembers. \pre its stiffness is read
+/// Reads the relaxations of a link. \pre its stiffness is read
 void readRelaxations(const SceneBuilder& builder, const YamlMap& map, Lia& lia);
 void readPorts(SceneBuilder& builder, const YamlMap& top);
 void readAgents(SceneBuilder& builder, const YamlMap& top, PointFiles& files);
@@ -38,7 +38,7 @@ void readPortFilters(SceneBuilder& builder, const YamlMap& top);  ///< when all 
 void readInputs(SceneBuilder& builder, const YamlMap& top);
 void readOutputs(SceneBuilder& builder, const YamlMap& top);
 
-/// One of these words, of position, force, velocity, in this order.
+/// Reads one of these words, for position, force, velocity, in this order.
 Quantity readQuantity(const YamlMap& map, const std::vector<std::string>& words);
 
 /// Calls `element` with the map under every name of a part, or with every row of the table there;
@@ -58,7 +58,7 @@ int sectionOf(const SceneBuilder& builder, const YamlMap& map);
 /// others: the coordinates that move, and those of the workbench after them if they are given.
 Eigen::Vector3d readRest(const Section& section, const YamlMap& map, const std::string& key);
 
-/// As many numbers as the section has coordinates that move (one need not be a list).
+/// Reads as many numbers as the section has coordinates that move (one need not be a list).
 Eigen::Vector3d readMoving(const Section& section,
                            const YamlMap& map,
                            const std::string& key,

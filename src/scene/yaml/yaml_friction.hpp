@@ -8,7 +8,7 @@
 #include "scene/tree/yaml_map.hpp"
 #include "scene/yaml/yaml_tables.hpp"
 
-/// What friction asks for beside its ends.
+/// Keys that friction has beside its ends.
 namespace ergotic::scene {
 
 /// `normal`: a number or the name of a contact; `table`, or `steady` and `parts`.

@@ -20,7 +20,7 @@ KeyNames joined(KeyNames keys, const KeyNames& others) {
   return keys;
 }
 
-/// What generators may read from beside the scene.
+/// Readers of data beside the scene that generators may use.
 struct Beside {
   YamlTables& tables;
   PointFiles& files;
@@ -31,7 +31,7 @@ using GeneratorReader = void (*)(SceneBuilder& builder,
                                  const YamlMap& map,
                                  Beside& beside);
 
-/// Of one that reads nothing else.
+/// Reads a generator that needs nothing else.
 template <void (*read)(SceneBuilder& builder, const std::string& name, const YamlMap& map)>
 void alone(SceneBuilder& builder, const std::string& name, const YamlMap& map, Beside& /*beside*/) {
   read(builder, name, map);
@@ -48,13 +48,13 @@ void withFiles(SceneBuilder& builder, const std::string& name, const YamlMap& ma
   readResonator(builder, name, map, beside.files);
 }
 
-/// All generators, a row each.
+/// One generator, a row of the list of all.
 struct Generator {
   const char* type;
   GeneratorReader read;
-  KeyNames (*keys)();                ///< for the schema
+  KeyNames (*keys)();                ///< keys for the schema
   bool is_late = false;              ///< read when all bodies are there, those of instances, too
-  GeneratorReader finish = nullptr;  ///< what is left of it then
+  GeneratorReader finish = nullptr;  ///< reads the rest of it then
 };
 constexpr Generator kGenerators[] = {
     {"string", alone<readString>, [] { return joined(limpStringKeys(), tunedStringKeys()); }, false,

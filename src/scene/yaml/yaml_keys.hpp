@@ -9,7 +9,7 @@
 namespace ergotic::scene {
 
 using KeyNames = std::vector<std::string>;
-/// Of each word for a type, the keys of such an element.
+/// Words for types, each with the keys of such an element.
 using KeysOfTypes = std::vector<std::pair<std::string, KeyNames>>;
 
 const KeyNames& sceneKeys();
@@ -18,9 +18,9 @@ const KeyNames& cameraKeys();  ///< `picture` of `about`
 const KeyNames& parameterKeys();
 const KeyNames& sectionKeys();
 const KeyNames& portKeys();
-const KeyNames& filterKeys();  ///< of a port
+const KeyNames& filterKeys();  ///< keys of the filter of a port
 const KeyNames& agentKeys();
-const KeyNames& gestureKeys();  ///< of an agent
+const KeyNames& gestureKeys();  ///< keys of the gesture of an agent
 const KeyNames& inputKeys();
 const KeyNames& outputKeys();
 const KeyNames& bendKeys();
@@ -28,7 +28,7 @@ const KeyNames& stretchKeys();
 const KeyNames& meshKeys();
 const KeyNames& chapletKeys();
 const KeyNames& resonatorKeys();
-const KeyNames& limpStringKeys();  ///< by masses and springs
+const KeyNames& limpStringKeys();  ///< keys of strings made of masses and springs
 const KeyNames& fretsKeys();
 const KeyNames& barrierKeys();
 const KeyNames& bridgeKeys();
@@ -40,7 +40,7 @@ KeyNames roundPlateKeys();
 
 KeysOfTypes keysOfMats();
 KeysOfTypes keysOfLias();
-/// Of a generator whose keys only its reader knows: none.
+/// Keys of generators; none for one whose keys only its reader knows.
 KeysOfTypes keysOfGenerators();
 
 }  // namespace ergotic::scene

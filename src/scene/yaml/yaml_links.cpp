@@ -59,7 +59,8 @@ bool contains(const Keys& list, const std::string& word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-/// One link for each pair: from one to each of a set, or from each to its like in another set.
+/// Ends of one link for each pair: from one module to each of a set, or from each module to its
+/// counterpart in another set.
 struct Ends {
   std::vector<std::pair<int, int>> pairs;
   bool are_many = false;
@@ -96,7 +97,7 @@ Ends readEnds(SceneBuilder& builder, const YamlMap& map) {
   return result;
 }
 
-/// What is computed once from such numbers would not follow.
+/// Refuses parameters in numbers from which others are computed once: these would not follow.
 void refuseParameters(const YamlMap& map, const Lia& lia) {
   for (const LiaField& field : lawOf(lia.type).fields) {
     if (field.is_fixed && memberOf(lia, field.member).parameter >= 0) {
@@ -216,7 +217,7 @@ void readTreatment(SceneBuilder& builder, const YamlMap& map, Lia& lia) {
   }
 }
 
-/// One of the words for laws, or for a link of many ends or springs.
+/// Reads the type of a link: one of the words for laws, or for a link of many ends or springs.
 const std::string& wordOf(const YamlMap& map) {
   static const Keys kWords = [] {
     Keys words{kBend, kStretch};

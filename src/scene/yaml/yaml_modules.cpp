@@ -16,7 +16,7 @@ struct MatKind {
   const char* name;
   MatType type;
   std::vector<std::string> keys;
-  std::vector<std::string> scalar_keys;  ///< in scalar sections only
+  std::vector<std::string> scalar_keys;  ///< keys in scalar sections only
 };
 
 const std::vector<MatKind>& matKinds() {

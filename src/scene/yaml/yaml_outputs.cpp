@@ -230,7 +230,7 @@ class OutputReader {
     return layouts_.read(map.has("speakers") ? map : top_, "speakers");
   }
 
-  /// One module to each channel, round and round; one module to all channels.
+  /// Deals out the modules: one to each channel, in turn; or one module to all channels.
   void deal(const YamlMap& map, const Heard& heard, Output& output) {
     const bool is_named = map.has("channels");
     const std::vector<int> channels =

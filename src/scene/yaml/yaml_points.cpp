@@ -16,8 +16,8 @@ using Way = Connection::Way;
 
 constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
 
-/// What is said of one way under a key: an item of `[along, across]`, or, of the first way, the
-/// whole, if it is no such list. Empty: nothing is said.
+/// The entry for one way under a key: an item of `[along, across]`, or, for the first way, the
+/// whole value, if it is no such list. nullopt: there is none.
 std::optional<YamlMap> saidOf(const SceneBuilder& builder,
                               const YamlMap& map,
                               const std::string& key,

@@ -32,7 +32,7 @@ Port readPort(const SceneBuilder& builder, const std::string& name, const YamlMa
   return port;
 }
 
-/// What is attached to the slice of a port, and everything else on it.
+/// The mass that is attached to the slice of a port, and that everything else is attached to.
 struct NoiseFilter {
   double mass = 0.0;  // kg
   double stiffness = 0.0;
@@ -40,7 +40,7 @@ struct NoiseFilter {
   int section = 0;
 };
 
-/// Stable by itself at the wanted gestural rate: (wh)^2 + 4 z wh < 4.
+/// Reads a filter that is stable by itself at the wanted gestural rate: (wh)^2 + 4 z wh < 4.
 NoiseFilter readFilter(const SceneBuilder& builder, const YamlMap& map, const Mat& slice) {
   map.allow(filterKeys());
   NoiseFilter filter;
@@ -62,8 +62,8 @@ NoiseFilter readFilter(const SceneBuilder& builder, const YamlMap& map, const Ma
   return filter;
 }
 
-/// Where distances count, a damper acts along the line of its link alone; friction that is
-/// proportional to the speed acts along every axis.
+/// The damper of a filter in a Euclidean section: friction that is proportional to the speed acts
+/// along every axis, a damper along the line of its link alone.
 Lia damperOf(const NoiseFilter& filter) {
   constexpr double kFastest = 1000.0;  // m/s
   Lia damper;

@@ -10,7 +10,7 @@
 
 namespace ergotic::scene {
 
-/// Of the numbers of a point.
+/// Units of the two numbers of a point.
 struct TableUnits {
   const char* first = "";
   const char* second = "N";
@@ -36,8 +36,8 @@ class YamlTables {
 
   SceneBuilder& builder_;
   PointFiles& files_;
-  std::map<std::string, Table> known_;  ///< by file
-  std::size_t points_ = 0;              ///< of all tables so far
+  std::map<std::string, Table> known_;  ///< tables by their files
+  std::size_t points_ = 0;              ///< points of all tables so far
 };
 
 }  // namespace ergotic::scene

@@ -23,7 +23,7 @@ void readSprings(const SceneBuilder& builder, const YamlMap& map, StretchKeys& t
   }
 }
 
-/// Those that a generator has made. \throws TextError if it is no string or mesh
+/// Springs that a generator has made. \throws TextError if it is no string or mesh
 std::vector<int> springsOf(const SceneBuilder& builder, const std::string& grid, Place place) {
   builder.grid(grid, place);
   const std::string stem = grid + ".link.";

@@ -15,7 +15,7 @@ namespace ergotic::scene {
 /// all links are there.
 struct StretchKeys {
   Tank tank;
-  bool is_list = false;  ///< only in one are links meant
+  bool is_list = false;  ///< only a list can name links
   std::vector<std::pair<std::string, Place>> names;
 };
 

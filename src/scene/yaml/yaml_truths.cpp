@@ -140,7 +140,7 @@ class TruthReader {
     truth_.output = named(map_, scene.outputs, "output");
   }
 
-  /// What its duration and force can be told of.
+  /// Requires a contact of which duration and force can be measured.
   void requireContact(const Lia& lia) const {
     const Scene& scene = builder_.scene();
     const auto isScalar = [&](int mat) {

@@ -9,7 +9,7 @@
 
 namespace ergotic::scene {
 
-/// What a scene claims of itself; none without the key `truths`.
+/// Claims of a scene about itself; none without the key `truths`.
 /// \pre all other parts are read \throws TextError
 std::vector<Truth> truthsOf(const SceneBuilder& builder, const YamlMap& top);
 

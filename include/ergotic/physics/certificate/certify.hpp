@@ -18,7 +18,7 @@ enum class Verdict {
 };
 const char* toString(Verdict verdict);
 
-/// One section under the explicit scheme: stable if `lambda` < 4.
+/// One section under the explicit scheme, which is stable if `lambda` < 4.
 struct SectionCertificate {
   int section = 0;
   double rate_hz = 0.0;
@@ -30,20 +30,20 @@ struct SectionCertificate {
   double stable_rate_hz = 0;  ///< lowest section rate known to be stable; exact as `lambda` is
 };
 
-/// What a hand meets at a port, along its coordinate, if a slice moves it by itself; all at the
-/// device. Ports of agents have none. Judged are ports with a slice that no end-effector takes;
-/// those are for station::judgeHands.
+/// Loads that a hand meets at a port, along its coordinate, if a slice moves it by itself; all at
+/// the device. Ports of agents have none. Ports with a slice that no end-effector takes are judged;
+/// the others are left to station::judgeHands.
 struct PortCertificate {
   int port = 0;                ///< index in Scene::ports
   double stiffness = 0.0;      ///< the largest, N/m
-  double stiffness_limit = 0;  ///< no hand sets off less by itself, N/m
+  double stiffness_limit = 0;  ///< largest that no hand makes unstable by itself, N/m
   double damping = 0.0;        ///< the largest, N s/m
-  double damping_limit = 0.0;  ///< no hand sets off less by itself, N s/m
+  double damping_limit = 0.0;  ///< largest that no hand makes unstable by itself, N s/m
   double interpolated_stiffness =
       0.0;                            ///< of the largest, of what sees the slice interpolated, N/m
   double interpolated_damping = 0.0;  ///< the same, N s/m
   bool is_judged = false;             ///< the verdict and the findings count it
-  HandLevel level = HandLevel::kSilent;  ///< of a slice that moves it, judged or not
+  HandLevel level = HandLevel::kSilent;  ///< judgement on a slice that moves it, judged or not
   std::string finding;  ///< in words, `file:line:col: error|warning: ...`; empty: nothing to say
 };
 
@@ -55,7 +55,7 @@ struct Certificate {
   Verdict verdict = Verdict::kPassive;
   std::vector<SectionCertificate> sections;
   std::vector<PortCertificate> ports;
-  /// In plain words, worst first: what was found, where (`file:line:col`), what to change.
+  /// Findings in plain words, worst first: what was found, where (`file:line:col`), what to change.
   std::vector<std::string> findings;
   double margin() const;  ///< 1 - max(lambda)/4, dimensionless; negative if unstable
 };

@@ -6,26 +6,26 @@
 
 namespace ergotic::physics {
 
-/// What passivity at the ports depends on.
+/// Properties of a device on which passivity at the ports depends.
 struct DeviceTraits {
-  double damping = 2.0;      ///< of each slice by itself, N s/m, > 0
-  double delay_ticks = 1.0;  ///< from a position to the force that answers it, >= 0
+  double damping = 2.0;      ///< damping of each slice by itself, N s/m, > 0
+  double delay_ticks = 1.0;  ///< delay from a position to the force that answers it, >= 0
   /// Indices in Scene::ports: their slice does not move them by itself, whatever the scene says.
   std::vector<int> taken_ports = {};
-  double mass = 0.3;  ///< of what moves of each slice, kg, >= 0
+  double mass = 0.3;  ///< moving mass of each slice, kg, >= 0
 };
 
 /// N/m: no hand resists more at any frequency by its position.
 constexpr double kStiffestHand = 2e4;
 
-/// What to think of what a slice meets.
+/// Judgement on the load that a slice meets.
 enum class HandLevel {
-  kSilent,   ///< at most half of what no hand sets off
-  kWarned,   ///< more
+  kSilent,   ///< at most half of the limit at which a hand may oscillate
+  kWarned,   ///< more than that
   kRefused,  ///< more than a slice of twice the damping bears: it will buzz or jump
 };
 
-/// What a slice meets, at the device.
+/// Load that a slice meets, at the device.
 struct HandLoad {
   double stiffness = 0.0;  ///< N/m, >= 0
   double damping = 0.0;    ///< N s/m, >= 0
@@ -59,8 +59,9 @@ class HandLoop {
   /// follows
   double dampingLimit(double interpolated = 0.0) const;
 
-  /// By what all of it must be divided that no hand sets it off; 1: at the limit. The worse of
-  /// the spring with the damper and without, for a damper does not brake wherever the spring acts.
+  /// Factor by which the whole load must be divided so that no hand makes it unstable; 1: at the
+  /// limit. The worse of the spring with the damper and without, as a damper does not act wherever
+  /// the spring does.
   double share(const HandLoad& load) const;
   double share(double stiffness, double damping) const { return share({stiffness, damping}); }
 
@@ -68,7 +69,7 @@ class HandLoop {
   HandLevel judge(double stiffness, double damping) const { return judge({stiffness, damping}); }
 
  private:
-  /// All that the slice and its hand may do to a force at one frequency of the samples.
+  /// Mobilities that the slice and its hand may have at one frequency of the samples.
   class Mobilities;
 
   std::complex<double> answerAt(double angle, const HandLoad& load) const;

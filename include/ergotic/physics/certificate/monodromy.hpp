@@ -31,7 +31,7 @@ struct Period {
 /// Realtime: no. Cost: 3n periods.
 /// \throws Exception if the scene cannot be compiled at these rates
 Period periodOf(const scene::Scene& scene, const Rates& rates);
-/// The same without words.
+/// The matrix of periodOf() alone.
 inline Eigen::MatrixXd monodromy(const scene::Scene& scene, const Rates& rates) {
   return periodOf(scene, rates).matrix;
 }

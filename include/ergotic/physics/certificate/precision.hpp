@@ -31,7 +31,7 @@ CompileOptions withPrecision(CompileOptions options, const scene::Scene& scene);
 /// Why double precision was chosen, a sentence for each body: `file:line:col: note: ...`.
 std::vector<std::string> notesOnPrecision(const scene::Scene& scene);
 
-/// What a certificate is worth in single precision: bodies that move freely make it *unproven*.
+/// Lowers a certificate to single precision: bodies that move freely make it *unproven*.
 /// \param options  that the scene is compiled with
 Certificate inPrecision(Certificate certificate,
                         const scene::Scene& scene,

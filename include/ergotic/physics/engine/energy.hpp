@@ -9,7 +9,7 @@ namespace ergotic::physics {
 /// Energies of one section, J. Those that are "since the start" add up over time.
 struct SectionEnergy {
   double kinetic = 0.0;
-  double potential = 0.0;    ///< of its links, cells, gravity and constant forces
+  double potential = 0.0;    ///< potential energy of its links, cells, gravity and constant forces
   double dissipated = 0.0;   ///< since the start
   double from_device = 0.0;  ///< work of the hands on its slices, since the start
   double from_inputs = 0.0;  ///< work of audio inputs and moving places, since the start
@@ -22,8 +22,8 @@ struct CouplingEnergy {
   int section_b = 0;
   double stored = 0.0;
   double dissipated = 0.0;  ///< since the start
-  /// What hold and mean have made, since the start: the work of the held end's jumps on the springs
-  /// less that of the slower end against its mean force. Below 0 they took it. 0 at one rate.
+  /// Energy made by hold and mean, since the start: the work of the held end's jumps on the springs
+  /// less that of the slower end against its mean force. Below 0 it was lost. 0 at one rate.
   double made = 0.0;
 };
 
@@ -35,7 +35,7 @@ struct CouplingEnergy {
 struct Energies {
   std::vector<SectionEnergy> sections;    ///< [Scene::sections]
   std::vector<CouplingEnergy> couplings;  ///< pairs of sections that links join
-  double stored = 0.0;                    ///< in all sections and couplings
+  double stored = 0.0;                    ///< energy in all sections and couplings
   double from_parameters = 0.0;           ///< work of parameter changes, since the start
   double residual = 0.0;
 };
@@ -44,7 +44,7 @@ struct Energies {
 struct GuardReport {
   int lia = 0;               ///< index in Scene::lias
   std::int64_t active = 0;   ///< steps in which it pushed
-  std::int64_t clipped = 0;  ///< of these, with less force than its law asks for
+  std::int64_t clipped = 0;  ///< of these, steps with less force than its law asks for
 };
 
 }  // namespace ergotic::physics

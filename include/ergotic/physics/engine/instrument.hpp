@@ -36,7 +36,7 @@ struct Touch {
 };
 constexpr std::size_t kMaxTouches = 4;
 
-/// What one tick takes and gives. All arrays belong to the caller; R frames, frame-major.
+/// Inputs and outputs of one tick. All arrays belong to the caller; R frames, frame-major.
 struct TickIo {
   const double* positions = nullptr;  ///< [ports] slice positions, m, in the model
   double* forces = nullptr;           ///< [ports] force on each slice, N, overwritten
@@ -54,7 +54,7 @@ struct TickIo {
 ///   2. outputs are taken,
 ///   3. explicit links of the sections due give forces from the new positions, points hand theirs
 ///      on, then hands that hold modules, then guarded links, which need to know all other forces.
-/// What does not need each other at the same instant goes through all R frames by itself
+/// Parts that do not need each other at the same instant go through all R frames by themselves
 /// (docs/performance.md, "Groups and threads").
 /// The forces on the slices after the last frame are F[n], a function of x[n]: they wait for the
 /// next exchange with the device. Links across two rates run at the faster one, the slower end is
@@ -116,9 +116,9 @@ class Instrument {
   virtual void readEnergies(Energies& to) const noexcept = 0;
   virtual void readGuards(std::vector<GuardReport>& to) const noexcept = 0;
 
-  /// What compile() chose for each part of the scene and why, one line each. Realtime: no.
+  /// Choices of compile() for each part of the scene, with reasons, one line each. Realtime: no.
   virtual std::vector<std::string> describe() const = 0;
-  /// Of these lines what a player should be told, as Settled::notes: choices that the scene left
+  /// Those of these lines that a player should see, as Settled::notes: choices that the scene left
   /// open, with the error they are predicted to make. Realtime: no.
   virtual std::vector<std::string> notes() const { return {}; }
 

@@ -11,7 +11,7 @@
 
 namespace ergotic::physics {
 
-/// What a chaplet works against at its last mass, a spring and a dashpot to the ground; none: free.
+/// Load of a chaplet at its last mass, a spring and a dashpot to the ground; none: free.
 struct ChapletLoad {
   double stiffness = 0.0;  ///< N/m
   double damping = 0.0;    ///< N s/m
@@ -31,18 +31,19 @@ class Chaplet {
 
   const std::vector<scene::ChapletStage>& stages() const { return stages_; }
   int ratio() const { return ratio_; }
-  double mass() const;             ///< of all, kg
-  double seriesStiffness() const;  ///< of all springs, N/m
+  double mass() const;             ///< sum of all masses, kg
+  double seriesStiffness() const;  ///< stiffness of all springs in series, N/m
   double nyquistHz() const;        ///< fN, half the slower rate, Hz: what is above it is an image
 
   /// Position of the last mass over that of the slower end if that moved in every step.
   double gain(double frequency_hz, const ChapletLoad& load) const;
-  /// What it is multiplied by as the slower end is held between its steps.
+  /// Factor of the zero-order hold: that gain times this holds if the slower end is held between
+  /// its steps.
   double holdGain(double frequency_hz) const;
 
-  /// Force that moves the slower end against the chaplet, as if of a mass, kg.
+  /// Mass that the slower end feels when it moves the chaplet, kg.
   double apparentMass(double frequency_hz, const ChapletLoad& load) const;
-  /// The same as if of a dashpot, N s/m.
+  /// Dashpot that the slower end feels when it moves the chaplet, N s/m.
   double apparentDamping(double frequency_hz, const ChapletLoad& load) const;
 
  private:

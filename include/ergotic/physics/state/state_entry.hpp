@@ -18,7 +18,7 @@ struct StateEntry {
   std::string name;
   std::size_t offset = 0;  ///< bytes
   std::size_t size = 0;    ///< bytes
-  StateNumbers numbers{};  ///< of each element
+  StateNumbers numbers{};  ///< numbers in each element
 };
 
 /// \param state  of the instrument that has these entries

@@ -27,10 +27,10 @@ bool canBeCoarse(const Scene& scene, int string);
 /// is wanted, if one is. Parameters have their present values.
 double idealPitchHz(const Scene& scene, const StringInfo& string);
 
-/// The same string cut into another number of masses: mass, tension, losses, pitch and shape at the
-/// start stay those of the whole. What was linked to, pushed or heard at one of its modules now is
-/// at the point `<string>@<fraction>` of the same place, unless it falls onto a module. Modules and
-/// links that come after the string get other indices; new points come last.
+/// A scene with the same string cut into another number of masses: mass, tension, losses, pitch and
+/// shape at the start stay those of the whole. Links, inputs and outputs at one of its modules now
+/// are at the point `<string>@<fraction>` of the same position, unless it falls onto a module.
+/// Modules and links that come after the string get other indices; new points come last.
 /// \param string  index in Scene::strings
 /// \pre not settled; nothing is against it; cut.masses >= 1, coarse ones >= kFewestCoarseMasses
 /// Realtime: no. Cost: O(modules + links)

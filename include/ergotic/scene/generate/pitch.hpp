@@ -19,9 +19,9 @@ double modeKappa(double angle, double zeta);
 /// of a link.
 double stringEigenvalue(int masses, int mode);
 
-/// What a generated string loses of its velocity in a step.
+/// Part of its velocity that a generated string loses in a step.
 struct StringLoss {
-  double ground = 0.0;  ///< of each mass, by its loss and by the medium
+  double ground = 0.0;  ///< loss of each mass, by its own and by the medium
   double link = 0.0;    ///< h Z/M of each link; 0 for the motion across a stretched string
 
   /// zeta of mode j = 1...N of N masses.

@@ -11,9 +11,9 @@ namespace ergotic::scene {
 /// Values given from outside in place of those in the text (`--set NAME=V`).
 using Overrides = std::map<std::string, double>;
 
-/// Which of what a text tells is read.
+/// Choice of what is read of a text.
 struct Choice {
-  std::string variant;     ///< of `variants`; "": none
+  std::string variant;     ///< one of `variants`; "": none
   bool has_folder = true;  ///< in which it is, and in which files are that it names; else it may
                            ///< name none
 };

@@ -23,7 +23,7 @@ ClaimingScene readTruths(const std::string& text,
                          const Overrides& overrides = {},
                          const Choice& choice = {});
 
-/// The same of a file; `.mdl` files claim nothing. \throws Exception if it cannot be read
+/// The same for a file; `.mdl` files claim nothing. \throws Exception if it cannot be read
 ClaimingScene readTruthsFile(const std::string& path,
                              const Overrides& overrides = {},
                              const Choice& choice = {});

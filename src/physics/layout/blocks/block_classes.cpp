@@ -73,7 +73,7 @@ class Links {
     }
   }
 
-  /// Those that begin at an element; none outside.
+  /// Links of a diagonal that begin at an element; none outside.
   Beside of(std::size_t diagonal, int element) const {
     if (element < 0) {
       return {};
@@ -82,7 +82,7 @@ class Links {
     return {links_.data() + first_[place], links_.data() + first_[place + 1]};
   }
 
-  /// For each diagonal the links whose coefficients are most frequent among its first.
+  /// Finds, for each diagonal, the links whose coefficients are most frequent among its first.
   std::vector<std::vector<int>> reference() const {
     std::vector<std::vector<int>> best;
     for (std::size_t k = 0; k < block_.offsets.size(); ++k) {
@@ -118,7 +118,7 @@ class Links {
   std::vector<int> links_;
 };
 
-/// Of a diagonal, what uniform segments share.
+/// Links of a diagonal whose coefficients uniform segments share.
 Beside referenceOf(const Block& block, std::size_t diagonal) {
   const std::vector<int>& links = block.reference[diagonal];
   return {links.data(), links.data() + links.size()};

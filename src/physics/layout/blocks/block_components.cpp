@@ -31,7 +31,8 @@ bool isFree(const Mat& mat) {
          !(is_cell && (follows(mat.stiffness) || follows(mat.damping)));
 }
 
-/// Of a bend that rests bent: beside others, such springs may add up to a force without stiffness.
+/// True for a part of a bend with a curvature at rest: beside others, such springs may add up to a
+/// force without stiffness.
 bool isOffsetPart(const scene::Lia& lia) {
   return lia.bend >= 0 && lia.rest_length != 0.0;
 }
@@ -102,7 +103,7 @@ bool isLinear(const scene::Scene& scene, const scene::Lia& lia) {
          (b_free || b.type == MatType::kGround);
 }
 
-/// Which set each ground belongs to: kNone, or kShared if there are several.
+/// The set of modules that each ground belongs to: kNone, or kShared if there are several.
 class Grounds {
  public:
   static constexpr int kNone = -1;

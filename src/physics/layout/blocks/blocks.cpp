@@ -150,7 +150,7 @@ class Finder {
     return true;
   }
 
-  /// What is regular nowhere, in an order of its own.
+  /// Adds a component without any regularity, in an order of its own.
   void addSparse(const Component& component) {
     const int nodes = static_cast<int>(component.mats.size());
     if (nodes < kSmallestSparse) {
@@ -223,7 +223,7 @@ class Finder {
     blocks_.push_back(std::move(block));
   }
 
-  /// What has no like: chains in one row, every other net as a block of its own.
+  /// Adds components that have no equal: chains in one row, every other net as a block of its own.
   void layInARow(int section, std::vector<Ordered>& singles) {
     Block row;
     row.section = section;

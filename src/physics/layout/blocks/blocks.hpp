@@ -49,7 +49,7 @@ struct Block {
   std::string shape;                             ///< for people: what it is and why
 };
 
-/// What a block is and which kernels step it, for people.
+/// Describes what a block is and which kernels step it, for people.
 std::string describeBlock(const Block& block);
 
 /// The blocks of a scene: what is linear, scalar, inside one section, and regular enough. `first`

@@ -9,8 +9,8 @@ struct LinkEnds {
   int b = 0;
 };
 
-/// Links that follow one another, as do their ends: those of link `first + i` are a + i and b + i.
-/// Where the ends do not, all are in `ends`, and a is -1.
+/// Consecutive links whose ends are consecutive, too: link `first + i` joins a + i and b + i. If
+/// the ends are not consecutive, a is -1, and `ends` has them.
 struct LinkSpan {
   int first = 0;
   int count = 0;

@@ -122,7 +122,7 @@ class Sweeper {
   }
 
  private:
-  /// From a node that is about as far as can be from the farthest one.
+  /// Walks from a peripheral node: one about as far from the farthest one as any node can be.
   void walkFromEnd(int node) {
     constexpr int kTurns = 4;
     int depth = -1;
@@ -191,7 +191,7 @@ class Sweeper {
   Distances from_end_;
   Distances to_end_;
   Distances from_corner_;
-  Distances other_;             ///< from a side, or from the corner opposite
+  Distances other_;             ///< distances from a side, or from the corner opposite
   std::vector<double> across_;  ///< [nodes]
 };
 

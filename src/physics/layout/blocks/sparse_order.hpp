@@ -7,7 +7,7 @@
 
 namespace ergotic::physics {
 
-/// Where the levels of an order begin.
+/// Start of the levels of an order.
 enum class SparseSweep {
   kFromEnd,   ///< at a node at one end: best for nets in space and for ragged ones
   kFromSide,  ///< along a way from one corner to another: rows of membranes

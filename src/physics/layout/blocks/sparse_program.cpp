@@ -25,8 +25,8 @@ constexpr double kPickStart = 5.0;
 struct Side {
   int lane = 0;
   int node = 0;
-  std::size_t* where = nullptr;  ///< of its coefficients
-  int window = -1;               ///< that serves it, index in windows of the group
+  std::size_t* where = nullptr;  ///< where to store the index of its coefficients
+  int window = -1;               ///< window that serves it, index in windows of the group
   int block() const { return node / kLanes; }
 };
 

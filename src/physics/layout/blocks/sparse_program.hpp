@@ -11,11 +11,11 @@
 
 namespace ergotic::physics {
 
-/// What an irregular network does at every step, for 16 nodes at a time: a list of slots, each one
+/// One step of an irregular network, for 16 nodes at a time: a list of slots, each of which has one
 /// neighbour for each of the 16. Neighbours that lie close together are picked from a window of 32
 /// nodes, the others one by one.
 struct SparseProgram {
-  /// Where the coefficients of a link lie: index in the [slots][kLanes] of either end.
+  /// Position of the coefficients of a link: index in the [slots][kLanes] of either end.
   struct Sides {
     std::size_t a = 0;
     std::size_t b = 0;
@@ -46,7 +46,7 @@ SparseProgram makeSparseProgram(int nodes, const std::vector<LinkEnds>& links);
 
 struct SparsePlan {
   std::vector<int> order;  ///< [nodes] the node at each place
-  SparseProgram program;   ///< of places
+  SparseProgram program;   ///< program for the nodes in that order
 };
 
 /// The order that costs least, of the given one, which may be that of a generator, and those of

@@ -16,7 +16,7 @@ constexpr Limits kTunedMasses{"", 8.0, 200.0};
 constexpr Limits kRatioLimits{"", 1.5, 15.0};
 const std::vector<std::string> kEnds{"free", "hinged", "clamped"};
 
-/// One word for both ends, or one for each.
+/// Reads the ends of a bar: one word for both, or one for each.
 std::array<BarEnd, 2> readEnds(const SceneBuilder& builder, const YamlMap& map) {
   const Node& node = map.at("ends");
   if (node.isScalar()) {

@@ -11,7 +11,7 @@
 namespace ergotic::scene {
 
 constexpr Limits kT60Limits{"s", 1e-4, 1e4};
-constexpr int kMassesOfModes = 150;  ///< of a body that is stepped as its modes
+constexpr int kMassesOfModes = 150;  ///< masses of a body that is stepped as its modes
 
 /// `keys`, and those of every body.
 std::vector<std::string> withBodyKeys(std::vector<std::string> keys);

@@ -11,11 +11,12 @@ const Section& sectionAt(const SceneBuilder& builder, int index);
 /// 0 in scalar sections, where the key is refused.
 double readRestLengthRatio(const SceneBuilder& builder, const YamlMap& map, int section);
 
-/// What the key `scheme` asks for, kAuto without it. Scenes of earlier versions say `guarded` for
-/// `energy_stable`; that is read, with one warning for the whole scene.
+/// The scheme that the key `scheme` asks for, kAuto without it. Scenes of earlier versions say
+/// `guarded` for `energy_stable`; that is read, with one warning for the whole scene.
 Scheme schemeAskedFor(SceneBuilder& builder, const YamlMap& map);
 
-/// Of links with a rest length, or with a damper in a plane or space; others are linear.
+/// Reads the scheme of links with a rest length, or with a damper in a plane or space; other links
+/// are linear.
 Scheme readScheme(SceneBuilder& builder,
                   const YamlMap& map,
                   const Section& section,

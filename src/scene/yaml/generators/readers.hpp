@@ -26,7 +26,7 @@ void readBarrier(SceneBuilder& builder,
                  const std::string& name,
                  const YamlMap& map,
                  YamlTables& tables);
-/// What a string ends on, of its `ends`. \pre all bodies are there
+/// Reads what a string ends on, its key `ends`. \pre all bodies are there
 void readEnds(SceneBuilder& builder, const std::string& name, const YamlMap& map);
 void readBridge(SceneBuilder& builder, const std::string& name, const YamlMap& map);
 

@@ -98,7 +98,7 @@ std::vector<double> readRow(const CsvReader& csv, double pitch_hz, std::size_t p
   return row;
 }
 
-/// As many numbers in each line as a row has.
+/// Reads the rows of a file, with as many numbers in each line as a row has.
 RowList readRows(const PointFiles::File& file, double pitch_hz, std::size_t places) {
   const std::string columns =
       "frequency, t60, mass" +
@@ -121,7 +121,7 @@ RowList readRows(const PointFiles::File& file, double pitch_hz, std::size_t plac
   return rows;
 }
 
-/// Of the rows of a list, in the scene or in its second document.
+/// Reads partials from the rows of a list, in the scene or in its second document.
 std::vector<Partial> readList(const SceneBuilder& builder,
                               const YamlMap& map,
                               const Node& rows,

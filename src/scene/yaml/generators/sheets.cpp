@@ -48,7 +48,7 @@ void readCells(const YamlMap& map, const BodyForm& form, Spec& spec, int grounds
   spec.rows = cells.back() + grounds;
 }
 
-/// As a network, or as its modes.
+/// Adds a flat body as a network, or as its modes.
 template <class Spec>
 void addSheetBody(SceneBuilder& builder,
                   const Spec& spec,
@@ -63,7 +63,7 @@ void addSheetBody(SceneBuilder& builder,
           });
 }
 
-/// Both or neither of `hardening` and what says how much.
+/// Reads `hardening` and the key that says how much it is: both or neither.
 template <class Spec>
 void readHardening(const SceneBuilder& builder,
                    const YamlMap& map,

@@ -19,7 +19,7 @@ constexpr Limits kImpedanceLimits{"N s/m", 0.0, kInfinity, true};
 constexpr Limits kTensionLimits{"N", 0.0, kInfinity, true};
 constexpr Limits kInharmonicityLimits{"", 0.0, 0.1};
 
-/// What a string's own tension leaves of a link's stiffness across the string.
+/// Part of a link's stiffness that the string's tension leaves across the string.
 double transverseShare(const SceneBuilder& builder, const YamlMap& map, const StringSpec& spec) {
   if (dimensionsOf(sectionAt(builder, spec.section).geometry) == 1) {
     return 1.0;
@@ -86,8 +86,9 @@ void readPluck(const YamlMap& map, StringSpec& spec) {
   }
 }
 
-/// Of each moving mass: said, or what the impedance or the tension of the whole comes to. A string
-/// of mass m per metre and length L has Z = T/c = m c and f = c/(2 L): m L = Z/(2 f) = T/(4 L f^2).
+/// Reads the mass of each moving mass: given, or by the impedance or the tension of the whole. A
+/// string of mass m per metre and length L has Z = T/c = m c and f = c/(2 L), so that
+/// m L = Z/(2 f) = T/(4 L f^2).
 double readStringMass(const SceneBuilder& builder,
                       const YamlMap& map,
                       double pitch_hz,
@@ -113,7 +114,7 @@ double readStringMass(const SceneBuilder& builder,
   return whole / (masses + 1);
 }
 
-/// One that is tuned with its bending and its losses.
+/// Reads a string that is tuned with its bending and its losses.
 void readStringBody(SceneBuilder& builder, const std::string& name, const YamlMap& map) {
   map.allow(tunedStringKeys());
   StringSpec spec;

@@ -60,8 +60,9 @@ struct Section {
   /// Damping of every mass and cell to the ground, kg/time_unit. It adds to the cells' own before
   /// these are matched; that of masses always is.
   Value medium{};
-  double sleep_energy = 0.0;  ///< kg m^2/time_unit^2, below which it may rest at 0; 0: never
-  int modes = kNoModes;       ///< most modes that it is played by; scalar sections only
+  double sleep_energy = 0.0;       ///< kg m^2/time_unit^2, below which it may rest at 0; 0: never
+  bool starts_in_balance = false;  ///< `settle` moves what forces move to where it is at rest
+  int modes = kNoModes;            ///< most modes that it is played by; scalar sections only
   Place place;
 };
 

@@ -44,6 +44,7 @@ Settled settle(scene::Scene scene, const Rates& rates) {
   chooseCouplings(scene, rates, completed, settled.notes);
   raiseRates(scene, rates, completed, settled.notes);
   settled.scene = complete(std::move(scene), rates, settled.notes);
+  startInEquilibrium(settled.scene, rates, settled.notes);
   noteSleep(settled.scene, settled.notes);
   notePitchPull(settled.scene, settled.notes);
   warnAboutPlaying(settled.scene, settled.scene.warnings);

@@ -125,6 +125,13 @@ void chooseSchemes(scene::Scene& scene, const Rates& rates, std::vector<std::str
 /// Realtime: no. Source: docs/physics/schemes.md, "Energy-stable links".
 void splitSprings(scene::Scene& scene);
 
+/// Moves the masses and cells of sections that are to start in equilibrium to where springs,
+/// contacts, gravity and constant forces balance, to 1e-11 of the largest force on a module, with
+/// hands at 0 and agents as they begin. What plucks or snaps in is taken as open, and the common
+/// tension of stretches as 0. Newton's method on the energy; no change at all of other sections.
+/// \throws TextError if nothing holds a module, or if one is linked to a plane or to space
+void startInEquilibrium(scene::Scene& scene, const Rates& rates, std::vector<std::string>& notes);
+
 /// Warns of what surprises who plays a scene: of every pluck that already holds what it plucks when
 /// the scene starts, so that it sounds in the first millisecond, before anybody plays; and of a
 /// scene that nothing can set into motion.

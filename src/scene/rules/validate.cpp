@@ -125,6 +125,11 @@ class Validator {
     if (s.modes != kNoModes && s.geometry != Geometry::kScalar) {
       fail(s.place, "modes" + of + " are of no use there, allowed: in sections of geometry scalar");
     }
+    if (s.starts_in_balance && s.geometry != Geometry::kScalar) {
+      fail(s.place, "section " + quoted(s.name) +
+                        " starts in equilibrium in a line, plane or space, allowed: in sections of "
+                        "geometry scalar");
+    }
     if (s.gestural && s.automatic_rate) {
       fail(s.place, "rate" + of + " is both gestural and auto, allowed: one of them");
     }

@@ -134,6 +134,7 @@ const std::map<std::string, const char*>& values() {
       {"spacing", kNumber},
       {"speakers", R"({"type": ["string", "array", "object"]})"},
       {"speed", kNumber},
+      {"start", kWord},
       {"steady", kNumber},
       {"stiffness", kNumber},
       {"stiffness_limit", kNumber},

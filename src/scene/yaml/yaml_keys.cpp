@@ -29,7 +29,8 @@ const KeyNames& parameterKeys() {
 }
 
 const KeyNames& sectionKeys() {
-  static const KeyNames kKeys = {"rate", "geometry", "pose", "gravity", "medium", "sleep", "modes"};
+  static const KeyNames kKeys = {"rate",   "geometry", "pose",  "gravity",
+                                 "medium", "sleep",    "modes", "start"};
   return kKeys;
 }
 

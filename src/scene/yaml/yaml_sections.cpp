@@ -58,6 +58,8 @@ Section readSection(const std::string& name, const YamlMap& map) {
   section.gravity = readMoving(section, map, "gravity", kGravityLimits, Eigen::Vector3d::Zero());
   section.medium = map.value("medium", kDampingLimits, {});
   section.sleep_energy = map.number("sleep", kSleepLimits, 0.0);
+  section.starts_in_balance =
+      map.has("start") && map.choice("start", {"as_written", "equilibrium"}) == 1;
   if (map.has("modes")) {
     section.modes = readModes(map);
   }

@@ -64,7 +64,7 @@ class ChangesTest(DeskTest):
     def test_1_a_gesture_that_sets_what_the_scene_does_not_allow_is_refused(self):
         self.assertTrue(until(lambda: self.message(), 60), "no status")
         place = f"{self.gesture}:2:11: error: volume = 0.5 is out of range, allowed: 0...0.4"
-        self.assertIn(place, self.message())
+        self.assertTrue(until(lambda: place in self.message(), 20), self.message())
         self.write_gesture("1,$volum,0.3\n")
         self.assertIn(f"{self.gesture}:2:3: error: the scene has no parameter 'volum'", self.load(MODEL).message)
 

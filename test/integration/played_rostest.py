@@ -17,6 +17,7 @@ from pointer import Pointer, xdotool
 
 TOOLS = os.path.join(ROOT, "devel/lib/ergotic")
 SECONDS = 16
+PARTS = 12       # of a take, the loudest frame of each says where it begins in what was heard
 
 
 class PlayedTest(Pointer, DeskTest):
@@ -51,8 +52,12 @@ class PlayedTest(Pointer, DeskTest):
         heard, again = samples(captured)[0], samples(rendered)[0]
         loudest = int(numpy.argmax(numpy.abs(again)))
         self.assertGreater(abs(again[loudest]), 3e-3, "it does not sound")
+        # One of these frames may be just what JACK left out.
+        parts = numpy.array_split(numpy.arange(len(again)), PARTS)
+        known = [int(part[numpy.argmax(numpy.abs(again[part]))]) for part in parts]
         best = (0.0, -1)
-        for at in numpy.flatnonzero(heard == again[loudest]) - loudest:
+        for at in {int(at) for frame in known if again[frame] != 0.0
+                   for at in numpy.flatnonzero(heard == again[frame]) - frame}:
             low, high = max(0, -at), min(len(again), len(heard) - at)
             both = heard[at + low:at + high], again[low:high]
             # What JACK left out on a busy machine is silence, and nothing else may differ.
